@@ -1,0 +1,57 @@
+//! Target `csv`: timed setpoints, a row a period.
+//!
+//! `t_s,x_mm,y_mm,c_deg,knife,drill,event,block`: x, y the C axis, c unwrapped, block the number of the source block
+//! being cut. Six decimals: with four, a jerk limit could not be judged (a jerk of 2e5 mm/s3 moves 2e-4 mm in a
+//! millisecond).
+
+use std::io;
+
+use super::{Emit, Output, Parts, Proof, Target};
+use crate::ir::Motion;
+use crate::machine::Job;
+use crate::units::{deg, number};
+
+pub(super) const TARGET: Target = Target {
+    name: "csv",
+    about: "timed setpoints of X, Y and C, a row a period",
+    extension: "csv",
+    emit: Emit::Motion(Parts { head, body, tail }),
+    proof: Proof::Setpoints,
+};
+
+/// Decimals of positions, in mm and degrees.
+const POSITION_DECIMALS: u32 = 6;
+/// Decimals of the time, in s: a microsecond, or a thousandth of the shortest legal period.
+const TIME_DECIMALS: u32 = 6;
+
+fn head(_: &Job, out: &mut dyn Output) -> io::Result<()> {
+    out.write_all(b"t_s,x_mm,y_mm,c_deg,knife,drill,event,block\n")
+}
+
+fn body(motion: &Motion, job: &Job, out: &mut dyn Output) -> io::Result<()> {
+    let period = job.profile.time.period();
+    let mut rows = Vec::with_capacity(80 * motion.ticks() as usize);
+    let mut tick = motion.first_tick;
+    for phase in &motion.phases {
+        for i in 0..phase.ticks {
+            let pose = phase.pose(i);
+            number::push_fixed(&mut rows, tick as f64 * period, TIME_DECIMALS);
+            for value in [pose.centre.x, pose.centre.y, deg(pose.c.0)] {
+                rows.push(b',');
+                number::push_fixed(&mut rows, value, POSITION_DECIMALS);
+            }
+            let outputs = [phase.kind.knife_down().into(), phase.kind.drill(), phase.kind.event()];
+            for output in outputs.map(u64::from).into_iter().chain([u64::from(phase.block(i))]) {
+                rows.push(b',');
+                number::push_integer(&mut rows, output);
+            }
+            rows.push(b'\n');
+            tick += 1;
+        }
+    }
+    out.write_all(&rows)
+}
+
+fn tail(_: &Job, _: &mut dyn Output) -> io::Result<()> {
+    Ok(())
+}

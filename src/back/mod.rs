@@ -1,0 +1,69 @@
+//! Writing: one of the three forms to the bytes of a target.
+//!
+//! Receives sound forms, promises bytes that depend on nothing else, and refuses what a target cannot express before
+//! the first byte. Never decides anything about the cut.
+
+use std::io::{self, Seek, Write};
+
+use crate::ir::{Marker, Motion, Toolpath};
+use crate::machine::Job;
+
+mod csv;
+
+/// Where a target writes: a file or a buffer; it may go back to fill in a header.
+pub trait Output: Write + Seek {}
+
+impl<T: Write + Seek> Output for T {}
+
+/// An output format: a row of [`TARGETS`].
+#[derive(Debug)]
+pub struct Target {
+    /// Name, as `-t` takes it.
+    pub name: &'static str,
+    /// What it is, in a line.
+    pub about: &'static str,
+    /// Extension of its files, without the dot.
+    pub extension: &'static str,
+    /// The form that it needs, and how it writes it.
+    pub emit: Emit,
+    /// How its bytes are judged.
+    pub proof: Proof,
+}
+
+/// The form that a target needs; the pipeline goes no further.
+#[derive(Debug)]
+pub enum Emit {
+    /// From what the file says.
+    Marker(fn(&Marker, &Job, &mut dyn Output) -> io::Result<()>),
+    /// From what the knife does, one toolpath at a time.
+    Toolpath(Parts<Toolpath>),
+    /// From the timed motion, one at a time.
+    Motion(Parts<Motion>),
+}
+
+/// A target that is written in parts: a head, a body for each form that comes, a tail.
+#[derive(Debug)]
+pub struct Parts<T> {
+    /// Written first.
+    pub head: fn(&Job, &mut dyn Output) -> io::Result<()>,
+    /// Written for each form, in order.
+    pub body: fn(&T, &Job, &mut dyn Output) -> io::Result<()>,
+    /// Written last; may go back to the head.
+    pub tail: fn(&Job, &mut dyn Output) -> io::Result<()>,
+}
+
+/// How the verifier judges a target's bytes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Proof {
+    /// As timed setpoints.
+    Setpoints,
+    /// As positions without time.
+    Positions,
+    /// As a cutter file that must say the same.
+    Marker,
+    /// Not at all: a picture or a summary; the verdict is that on the setpoints.
+    None,
+}
+
+/// Every target; the first is the default.
+pub const TARGETS: &[Target] = &[csv::TARGET];

@@ -1,0 +1,180 @@
+//! Every code that a diagnostic can carry: a stable name, its severity, and what it means.
+//!
+//! The first word is the stage. Names never change once released: scripts filter by them.
+
+use serde::Serialize;
+
+/// Whether a finding forbids a program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Severity {
+    /// No program is written.
+    Error,
+    /// A program is written; somebody should look.
+    Warning,
+}
+
+/// One kind of finding.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Code {
+    /// Stable name, `stage/kebab-case`.
+    pub name: &'static str,
+    /// Its severity, the same wherever it is found.
+    pub severity: Severity,
+    /// What it means and what to do, in a sentence or two.
+    pub about: &'static str,
+}
+
+const fn error(name: &'static str, about: &'static str) -> Code {
+    Code { name, severity: Severity::Error, about }
+}
+
+const fn warning(name: &'static str, about: &'static str) -> Code {
+    Code { name, severity: Severity::Warning, about }
+}
+
+// The source as a whole.
+#[rustfmt::skip] // a table: one row a code
+mod table {
+    use super::{Code, error, warning};
+
+    /// Nothing in the file.
+    pub static SOURCE_EMPTY: Code = error("source/empty", "The file holds no bytes, or only blanks.");
+    /// More bytes than spans can address.
+    pub static SOURCE_TOO_LARGE: Code = error("source/too-large", "The file has 4 GiB or more; split the marker.");
+    /// No dialect recognises the content.
+    pub static SOURCE_UNKNOWN: Code = error("source/unknown-format", "The content is none of the dialects that cutc reads; the message names what it looks like.");
+
+    // ISO cut files.
+    /// A block that is not words.
+    pub static ISO_SYNTAX: Code = error("iso/syntax", "A block does not follow the grammar: a word is a letter and, mostly, a number.");
+    /// X or Y without a number.
+    pub static ISO_NO_VALUE: Code = error("iso/no-value", "X, Y, I or J stands without its number.");
+    /// A number too large to be a place on a table.
+    pub static ISO_OVERFLOW: Code = error("iso/number-overflow", "A number has more digits than a coordinate can have.");
+    /// M19 that never ends.
+    pub static ISO_OPEN_SLIT: Code = error("iso/open-slit", "A slit that M19 begins must end with M15 before the next piece, knife-down or end.");
+    /// M14 while the knife is down.
+    pub static ISO_KNIFE_DOWN_TWICE: Code = warning("iso/knife-down-twice", "M14 stands where the knife is down already; the second one is ignored.");
+    /// The file ends with the knife in the cloth.
+    pub static ISO_ENDS_KNIFE_DOWN: Code = error("iso/ends-knife-down", "The file ends while the knife is down: it is most likely cut short.");
+    /// Last block without its asterisk.
+    pub static ISO_NO_FINAL_ASTERISK: Code = warning("iso/no-final-asterisk", "The last block has no `*`; it is read all the same.");
+    /// No M0.
+    pub static ISO_NO_END: Code = warning("iso/no-end", "The file has no M0 at its end; check that it is complete.");
+    /// A code that has no meaning here.
+    pub static ISO_UNKNOWN_CODE: Code = warning("iso/unknown-code", "A code that cutc does not know is ignored, as the standard says; the message gives its count and first block.");
+    /// A code that is known but has no effect.
+    pub static ISO_IGNORED_CODE: Code = warning("iso/ignored-code", "A code that would change how the piece is cut is not obeyed; the message gives its count and first block.");
+    /// Units given twice, differently.
+    pub static ISO_UNITS_CHANGED: Code = error("iso/units-changed", "G70, G71 or G91 change the unit after coordinates were read; two jobs may stand in one file.");
+    /// The drawing does not fit its own title or any table.
+    pub static ISO_UNIT_DOUBTFUL: Code = warning("iso/unit-doubtful", "The extent suggests that another unit is meant; set `units` if it is.");
+    /// No contour, slit or drill.
+    pub static ISO_NOTHING_TO_CUT: Code = error("iso/nothing-to-cut", "The file was read to its end and holds no contour, slit or drill.");
+
+    // CSV polylines.
+    /// The header is missing.
+    pub static CSV_HEADER: Code = error("csv/header", "The first row must be `x_mm,y_mm`.");
+    /// A row that is not two numbers.
+    pub static CSV_ROW: Code = error("csv/row", "A row must hold two finite decimal numbers, separated by a comma.");
+
+    // The marker, whatever the dialect.
+    /// A contour that does not close.
+    pub static MARKER_OPEN: Code = warning("marker/open-contour", "A contour does not end where it starts; it is cut as it stands.");
+    /// The same contour twice.
+    pub static MARKER_TWICE: Code = warning("marker/contour-twice", "The same contour stands twice in the file and would be cut twice.");
+    /// Equal points in a row.
+    pub static MARKER_EQUAL_POINTS: Code = warning("marker/equal-points", "Points that repeat the one before them were dropped; the message gives their count.");
+
+    // The knife's way.
+    /// A smooth closed contour too small for the blade.
+    pub static PATH_TIGHT: Code = warning("path/tight-contour", "A smooth closed contour is narrower than the blade; it is cut all the same.");
+    /// A run that winds C past its range.
+    pub static PATH_C_RANGE: Code = error("path/c-range", "A run winds the C axis past `c.range_deg` however it is entered.");
+    /// Off the table.
+    pub static PATH_OFF_TABLE: Code = warning("path/off-table", "The knife, its swing included, leaves the table of the profile.");
+    /// Off the table, and the profile is strict.
+    pub static PATH_OFF_TABLE_STRICT: Code = error("path/off-table-strict", "The knife, its swing included, leaves the table of the profile, which is strict.");
+
+    // Motion.
+    /// No curve inside the tube.
+    pub static PLAN_SMOOTH: Code = error("plan/smooth", "No smooth curve was found inside the tolerance of a run; a larger `path.tolerance_mm` or a smaller `corner.angle_deg` helps.");
+    /// No motion within the limits.
+    pub static PLAN_PROFILE: Code = error("plan/profile", "No motion within the limits was found for a run.");
+    /// The samples break a limit.
+    pub static PLAN_CERTIFY: Code = error("plan/certify", "The samples of a run break a limit of the profile however far it is slowed down.");
+
+    // Machine profile.
+    /// The TOML is broken.
+    pub static PROFILE_SYNTAX: Code = error("profile/syntax", "The profile is not valid TOML.");
+    /// A key that does not exist.
+    pub static PROFILE_UNKNOWN_KEY: Code = error("profile/unknown-key", "The profile has a key that does not exist; the message names the nearest one.");
+    /// A value of the wrong type.
+    pub static PROFILE_TYPE: Code = error("profile/type", "A value of the profile has the wrong type.");
+    /// A value out of its range.
+    pub static PROFILE_RANGE: Code = error("profile/range", "A value of the profile is out of its range.");
+    /// A value that this version cannot obey.
+    pub static PROFILE_UNSUPPORTED: Code = error("profile/unsupported", "A value of the profile is legal but this version of cutc cannot obey it.");
+}
+
+pub use table::*;
+
+/// Every code, in the order of the README.
+pub static ALL: &[&Code] = &[
+    &SOURCE_EMPTY,
+    &SOURCE_TOO_LARGE,
+    &SOURCE_UNKNOWN,
+    &ISO_SYNTAX,
+    &ISO_NO_VALUE,
+    &ISO_OVERFLOW,
+    &ISO_OPEN_SLIT,
+    &ISO_KNIFE_DOWN_TWICE,
+    &ISO_ENDS_KNIFE_DOWN,
+    &ISO_NO_FINAL_ASTERISK,
+    &ISO_NO_END,
+    &ISO_UNKNOWN_CODE,
+    &ISO_IGNORED_CODE,
+    &ISO_UNITS_CHANGED,
+    &ISO_UNIT_DOUBTFUL,
+    &ISO_NOTHING_TO_CUT,
+    &CSV_HEADER,
+    &CSV_ROW,
+    &MARKER_OPEN,
+    &MARKER_TWICE,
+    &MARKER_EQUAL_POINTS,
+    &PATH_TIGHT,
+    &PATH_C_RANGE,
+    &PATH_OFF_TABLE,
+    &PATH_OFF_TABLE_STRICT,
+    &PLAN_SMOOTH,
+    &PLAN_PROFILE,
+    &PLAN_CERTIFY,
+    &PROFILE_SYNTAX,
+    &PROFILE_UNKNOWN_KEY,
+    &PROFILE_TYPE,
+    &PROFILE_RANGE,
+    &PROFILE_UNSUPPORTED,
+];
+
+/// The code of that name.
+pub fn find(name: &str) -> Option<&'static Code> {
+    ALL.iter().copied().find(|code| code.name == name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_code_is_listed_once() {
+        let declared = include_str!("code.rs").matches("pub static").count() - 2; // ALL, and this very line
+        assert_eq!(declared, ALL.len());
+        for (i, code) in ALL.iter().enumerate() {
+            assert!(ALL[..i].iter().all(|other| other.name != code.name), "{} stands twice", code.name);
+            let kebab = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == '/';
+            assert!(code.name.chars().all(kebab) && code.name.matches('/').count() == 1, "{}", code.name);
+            assert!(code.about.ends_with('.'), "{}", code.name);
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! Two kinds of angle that must never be mixed: a direction, and the position of a rotary axis.
+
+use std::f64::consts::{PI, TAU};
+
+use super::Vector;
+
+/// A direction in the plane: an angle modulo one turn, kept in `[0, 2 pi)` rad, 0 along +X, counter-clockwise.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Heading(f64);
+
+/// The position of an axis that turns: an unwrapped angle, rad. 0 and 2 pi are different positions.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
+pub struct Rotation(pub f64);
+
+impl Heading {
+    /// The heading at `radians` from +X, whatever the number of turns in it.
+    pub fn new(radians: f64) -> Self {
+        let wrapped = radians.rem_euclid(TAU);
+        // `rem_euclid` of a tiny negative number rounds up to a full turn.
+        Self(if wrapped >= TAU { 0.0 } else { wrapped })
+    }
+
+    /// The heading of a vector; that of the zero vector is 0.
+    pub fn of(vector: Vector) -> Self {
+        Self::new(vector.y.atan2(vector.x))
+    }
+
+    /// The angle in `[0, 2 pi)`, rad.
+    pub fn radians(self) -> f64 {
+        self.0
+    }
+
+    /// The unit vector.
+    pub fn unit(self) -> Vector {
+        Vector::new(self.0.cos(), self.0.sin())
+    }
+
+    /// The signed turn from `self` to `other`, rad, in `(-pi, pi]`.
+    pub fn turn_to(self, other: Self) -> f64 {
+        wrap(other.0 - self.0)
+    }
+}
+
+impl Rotation {
+    /// The direction that the axis shows at this position.
+    pub fn heading(self) -> Heading {
+        Heading::new(self.0)
+    }
+
+    /// The unit vector of that direction.
+    pub fn unit(self) -> Vector {
+        Vector::new(self.0.cos(), self.0.sin())
+    }
+
+    /// The position nearest to `self` at which the axis shows `heading`.
+    #[must_use]
+    pub fn nearest(self, heading: Heading) -> Self {
+        Self(self.0 + self.heading().turn_to(heading))
+    }
+}
+
+/// An angle brought into `(-pi, pi]`, rad.
+pub fn wrap(radians: f64) -> f64 {
+    let wrapped = radians - TAU * (radians / TAU).round();
+    if wrapped <= -PI { wrapped + TAU } else { wrapped }
+}
+
+/// The signed turn from the direction of `a` to that of `b`, rad, in `(-pi, pi]`.
+pub fn turn(a: Vector, b: Vector) -> f64 {
+    super::cross(a, b).atan2(a.dot(&b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_heading_stays_below_one_turn() {
+        assert_eq!(Heading::new(-1e-30).radians(), 0.0);
+        assert_eq!(Heading::new(TAU).radians(), 0.0);
+        assert!((Heading::new(-PI / 2.0).radians() - 1.5 * PI).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_nearest_rotation_is_at_most_half_a_turn_away() {
+        let mut c = Rotation(7.0 * TAU + 0.3);
+        for step in 0..50 {
+            let heading = Heading::new(f64::from(step) * 2.1);
+            let next = c.nearest(heading);
+            assert!((next.0 - c.0).abs() <= PI + 1e-9);
+            assert!(next.heading().turn_to(heading).abs() < 1e-9);
+            c = next;
+        }
+    }
+}

@@ -1,0 +1,55 @@
+//! Points, angles, polylines and splines of the plane, in mm and rad. Home of nalgebra.
+//!
+//! Receives plain numbers, promises exact conventions (which angle is wrapped, which end of a segment is included),
+//! never knows what the geometry is for.
+
+pub mod angle;
+pub mod polyline;
+
+pub use angle::{Heading, Rotation};
+
+/// A point of the plane, mm.
+pub type Point = nalgebra::Point2<f64>;
+/// A displacement in the plane, mm, or a unit vector.
+pub type Vector = nalgebra::Vector2<f64>;
+
+/// z component of the cross product: positive when `b` lies to the left of `a`.
+pub fn cross(a: Vector, b: Vector) -> f64 {
+    a.x * b.y - a.y * b.x
+}
+
+/// The vector turned a quarter to the left.
+pub fn left(v: Vector) -> Vector {
+    Vector::new(-v.y, v.x)
+}
+
+/// An axis-parallel box, mm. The empty box has `min > max`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extent {
+    /// Lower left corner.
+    pub min: Point,
+    /// Upper right corner.
+    pub max: Point,
+}
+
+impl Extent {
+    /// The box that holds nothing.
+    pub const EMPTY: Self =
+        Self { min: Point::new(f64::INFINITY, f64::INFINITY), max: Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY) };
+
+    /// Grows the box to hold `point`.
+    pub fn add(&mut self, point: Point) {
+        self.min = Point::new(self.min.x.min(point.x), self.min.y.min(point.y));
+        self.max = Point::new(self.max.x.max(point.x), self.max.y.max(point.y));
+    }
+
+    /// Whether nothing was added yet.
+    pub fn is_empty(&self) -> bool {
+        self.min.x > self.max.x
+    }
+
+    /// Width and height, mm; zero when empty.
+    pub fn size(&self) -> (f64, f64) {
+        if self.is_empty() { (0.0, 0.0) } else { (self.max.x - self.min.x, self.max.y - self.min.y) }
+    }
+}

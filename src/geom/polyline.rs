@@ -1,0 +1,71 @@
+//! Polylines: lengths, turns, distances.
+
+use super::{Point, Vector, angle};
+
+/// Length of a polyline, mm.
+pub fn length(points: &[Point]) -> f64 {
+    points.windows(2).map(|w| (w[1] - w[0]).norm()).sum()
+}
+
+/// Chord length from the first point to each point, mm.
+pub fn stations(points: &[Point]) -> Vec<f64> {
+    let mut at = 0.0;
+    let mut stations = Vec::with_capacity(points.len());
+    for (i, point) in points.iter().enumerate() {
+        if i > 0 {
+            at += (point - points[i - 1]).norm();
+        }
+        stations.push(at);
+    }
+    stations
+}
+
+/// Signed turn at an inner vertex, rad, left positive.
+pub fn turn_at(before: Point, vertex: Point, after: Point) -> f64 {
+    angle::turn(vertex - before, after - vertex)
+}
+
+/// The foot of `point` on the segment from `a` to `b`, as a fraction of the segment in `[0, 1]`.
+pub fn foot(point: Point, a: Point, b: Point) -> f64 {
+    let along = b - a;
+    let square = along.norm_squared();
+    if square == 0.0 { 0.0 } else { ((point - a).dot(&along) / square).clamp(0.0, 1.0) }
+}
+
+/// Distance from `point` to the segment from `a` to `b`, mm.
+pub fn distance_to_segment(point: Point, a: Point, b: Point) -> f64 {
+    (point - (a + (b - a) * foot(point, a, b))).norm()
+}
+
+/// Unit vector along a segment; `None` when it has no length.
+pub fn direction(a: Point, b: Point) -> Option<Vector> {
+    (b - a).try_normalize(0.0)
+}
+
+/// Whether the polyline is straight: every vertex within `tolerance` of the chord between its ends, and none going back.
+pub fn is_straight(points: &[Point], tolerance: f64) -> bool {
+    let (Some(&first), Some(&last)) = (points.first(), points.last()) else { return true };
+    let Some(along) = direction(first, last) else { return points.len() < 2 };
+    let within = points.iter().all(|p| super::cross(along, p - first).abs() <= tolerance);
+    within && points.windows(2).all(|w| (w[1] - w[0]).dot(&along) > 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_foot_stays_on_the_segment() {
+        let (a, b) = (Point::new(0.0, 0.0), Point::new(10.0, 0.0));
+        assert_eq!(distance_to_segment(Point::new(5.0, 2.0), a, b), 2.0);
+        assert_eq!(distance_to_segment(Point::new(13.0, 4.0), a, b), 5.0);
+        assert_eq!(distance_to_segment(Point::new(3.0, 4.0), a, a), 5.0);
+    }
+
+    #[test]
+    fn a_hairpin_is_not_straight() {
+        let there_and_back = [Point::new(0.0, 0.0), Point::new(10.0, 0.0), Point::new(5.0, 0.01)];
+        assert!(!is_straight(&there_and_back, 0.05));
+        assert!(is_straight(&there_and_back[..2], 0.05));
+    }
+}

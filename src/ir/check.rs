@@ -1,0 +1,131 @@
+//! Every invariant of the three forms; collects all that is broken, never stops at the first.
+
+use super::marker::Marker;
+use super::motion::Motion;
+use super::toolpath::{Pose, Run, Step, Toolpath};
+use crate::geom::Point;
+
+/// What is broken, a sentence each; empty when the form is sound.
+pub type Faults = Vec<String>;
+
+/// Checks a marker as it stands after the pass `weld`.
+pub fn marker(marker: &Marker) -> Faults {
+    let mut faults = Faults::new();
+    let mut owners = std::collections::HashSet::new();
+    for (i, piece) in marker.pieces.iter().enumerate() {
+        for (k, contour) in piece.contours.iter().enumerate() {
+            let name = format!("piece {} contour {}", i + 1, k + 1);
+            if !marker.list.is_linked(contour.range) {
+                faults.push(format!("{name}: its links do not agree"));
+                continue;
+            }
+            let segments: Vec<_> = marker.list.walk(contour.range).collect();
+            for (id, segment) in &segments {
+                if !owners.insert(*id) {
+                    faults.push(format!("{name}: a segment belongs to two contours"));
+                }
+                if !(finite(segment.from) && finite(segment.to)) {
+                    faults.push(format!("{name}: a point is not finite"));
+                }
+                if segment.from == segment.to {
+                    faults.push(format!("{name}: a segment has no length"));
+                }
+            }
+            if segments.windows(2).any(|w| w[0].1.to != w[1].1.from) {
+                faults.push(format!("{name}: two segments do not join"));
+            }
+            let meets = segments.first().map(|s| s.1.from) == segments.last().map(|s| s.1.to);
+            if meets != contour.closed {
+                faults.push(format!(
+                    "{name}: closed is {} but its ends {}",
+                    contour.closed,
+                    if meets { "meet" } else { "do not meet" }
+                ));
+            }
+        }
+        if piece.notches.iter().any(|n| !finite(n.root) || !finite(n.tip)) || piece.drills.iter().any(|d| !finite(d.at))
+        {
+            faults.push(format!("piece {}: a notch or drill is not finite", i + 1));
+        }
+    }
+    faults
+}
+
+/// Checks a toolpath as it stands after every toolpath pass.
+pub fn toolpath(toolpath: &Toolpath) -> Faults {
+    let mut faults = Faults::new();
+    for (i, step) in toolpath.steps.iter().enumerate() {
+        let wrong = |what: &str| format!("step {}: {what}", i + 1);
+        match step {
+            Step::Run(run) => faults.extend(run_faults(run).into_iter().map(wrong)),
+            Step::Stab(stab) => {
+                if stab.points.len() < 2 || stab.spans.len() + 1 != stab.points.len() {
+                    faults.push(wrong("a stab needs a span a chord"));
+                }
+                if (stab.along.norm() - 1.0).abs() > UNIT_EPSILON || !pose_finite(stab.pose) {
+                    faults.push(wrong("a stab needs a unit direction and a finite pose"));
+                }
+            }
+            Step::Turn(air) | Step::Travel(air) => {
+                if !pose_finite(air.from) || !pose_finite(air.to) {
+                    faults.push(wrong("an end is not finite"));
+                }
+            }
+            Step::Drill(drill) => {
+                if !finite(drill.at) || !(1..=4).contains(&drill.tool) {
+                    faults.push(wrong("a drill needs a finite place and a tool of 1 to 4"));
+                }
+            }
+            Step::Event(_) => {}
+        }
+    }
+    faults
+}
+
+/// How far a unit vector may be from length 1: a few roundings.
+const UNIT_EPSILON: f64 = 1e-9;
+
+fn run_faults(run: &Run) -> Vec<&'static str> {
+    let mut faults = Vec::new();
+    if run.points.len() < 2 || run.spans.len() + 1 != run.points.len() {
+        faults.push("a run needs a span a chord");
+    }
+    if run.points.iter().any(|&p| !finite(p)) || !pose_finite(run.start) || !pose_finite(run.end) {
+        faults.push("a number is not finite");
+    }
+    if run.points.windows(2).any(|w| w[0] == w[1]) {
+        faults.push("a chord has no length");
+    }
+    if !(run.front >= 0.0 && run.heel >= 0.0) {
+        faults.push("an overlap is negative");
+    }
+    if run.feed.is_nan() || run.feed <= 0.0 {
+        faults.push("the speed cap is not positive");
+    }
+    faults
+}
+
+/// Checks a motion.
+pub fn motion(motion: &Motion) -> Faults {
+    let mut faults = Faults::new();
+    for (i, phase) in motion.phases.iter().enumerate() {
+        if phase.ticks == 0 {
+            faults.push(format!("phase {}: it has no ticks", i + 1));
+        }
+        if phase.poses.is_empty() || (phase.poses.len() != 1 && phase.poses.len() != phase.ticks as usize) {
+            faults.push(format!("phase {}: it has {} poses for {} ticks", i + 1, phase.poses.len(), phase.ticks));
+        }
+        if !phase.poses.iter().all(|&pose| pose_finite(pose)) {
+            faults.push(format!("phase {}: a pose is not finite", i + 1));
+        }
+    }
+    faults
+}
+
+fn finite(point: Point) -> bool {
+    point.x.is_finite() && point.y.is_finite()
+}
+
+fn pose_finite(pose: Pose) -> bool {
+    finite(pose.centre) && pose.c.0.is_finite()
+}

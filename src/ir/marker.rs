@@ -1,0 +1,138 @@
+//! What the file says, in mm: pieces in cut order, with their contours, notches, drills and labels.
+
+use super::list::{Range, SegmentList};
+use crate::geom::{Extent, Heading, Point};
+use crate::source::Span;
+
+/// The whole of a cutter file.
+#[derive(Debug, Clone, Default)]
+pub struct Marker {
+    /// Segments of all contours.
+    pub list: SegmentList,
+    /// Pieces in cut order.
+    pub pieces: Vec<Piece>,
+    /// What the numbers of the file are multiples of, mm; 0 when they are not rounded to a grid.
+    pub unit: f64,
+}
+
+/// A piece of the garment, or what the file calls one.
+#[derive(Debug, Clone, Default)]
+pub struct Piece {
+    /// Its number in the file (N), or its place in the order, from 1.
+    pub number: u32,
+    /// Where it starts in the source.
+    pub span: Span,
+    /// Holes, in cut order.
+    pub drills: Vec<Drill>,
+    /// Notches, in cut order; they are cut before the contours.
+    pub notches: Vec<Notch>,
+    /// Contours, in cut order.
+    pub contours: Vec<Contour>,
+    /// Texts.
+    pub labels: Vec<Label>,
+}
+
+/// A line that the knife cuts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contour {
+    /// Its segments.
+    pub range: Range,
+    /// Whether it ends where it starts.
+    pub closed: bool,
+}
+
+/// A short cut that marks a place on the seam.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Notch {
+    /// Its shape.
+    pub kind: NotchKind,
+    /// Where it meets the outline.
+    pub root: Point,
+    /// Its innermost point.
+    pub tip: Point,
+    /// Where it stands in the source.
+    pub span: Span,
+}
+
+/// Shape of a notch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NotchKind {
+    /// One straight cut from the edge into the part.
+    Slit,
+}
+
+impl Notch {
+    /// Length of the cut, mm.
+    pub fn depth(&self) -> f64 {
+        (self.tip - self.root).norm()
+    }
+}
+
+/// A hole.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Drill {
+    /// Its place.
+    pub at: Point,
+    /// Which drill, 1 to 4.
+    pub tool: u8,
+    /// Where it stands in the source.
+    pub span: Span,
+}
+
+/// A text that belongs to a piece; never cut.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Label {
+    /// Where it stands; `None` when the file gives no place.
+    pub at: Option<Point>,
+    /// Its direction, when the file gives a second point.
+    pub heading: Option<Heading>,
+    /// The bytes of the text in the source.
+    pub span: Span,
+}
+
+impl Marker {
+    /// All contours in cut order, with the index of their piece.
+    pub fn contours(&self) -> impl Iterator<Item = (usize, &Contour)> {
+        self.pieces.iter().enumerate().flat_map(|(i, piece)| piece.contours.iter().map(move |c| (i, c)))
+    }
+
+    /// The points of a contour: one more than its segments; a closed one ends with its first point.
+    pub fn points(&self, contour: &Contour) -> Vec<Point> {
+        let mut points = Vec::new();
+        for (_, segment) in self.list.walk(contour.range) {
+            if points.is_empty() {
+                points.push(segment.from);
+            }
+            points.push(segment.to);
+        }
+        points
+    }
+
+    /// Length of all contours and slits, mm, without overlaps.
+    pub fn cut_length(&self) -> f64 {
+        let contours: f64 = self.contours().flat_map(|(_, c)| self.list.walk(c.range)).map(|(_, s)| s.length()).sum();
+        let notches: f64 = self.pieces.iter().flat_map(|p| &p.notches).map(Notch::depth).sum();
+        contours + notches
+    }
+
+    /// The box around everything that is cut or drilled.
+    pub fn extent(&self) -> Extent {
+        let mut extent = Extent::EMPTY;
+        for piece in &self.pieces {
+            for contour in &piece.contours {
+                for (_, segment) in self.list.walk(contour.range) {
+                    extent.add(segment.from);
+                    extent.add(segment.to);
+                }
+            }
+            for notch in &piece.notches {
+                extent.add(notch.root);
+                extent.add(notch.tip);
+            }
+            for drill in &piece.drills {
+                extent.add(drill.at);
+            }
+        }
+        extent
+    }
+}

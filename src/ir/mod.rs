@@ -1,0 +1,23 @@
+//! The three forms in which stages meet: [`marker`] (what the file says), [`toolpath`] (what the knife does, untimed)
+//! and [`motion`] (when the axes are where).
+//!
+//! Invariants, checked by [`check`] after every pass in tests and debug builds:
+//!
+//! - every number is finite; every contour has a segment at least; no segment has length zero
+//! - the segments of a contour join: each starts where the one before it ends, to the bit
+//! - a closed contour ends where it starts, to the bit; an open one does not
+//! - links of the list agree in both directions; no segment belongs to two contours
+//! - steps of a toolpath come in an order that a machine can run: the knife is down in runs and stabs alone
+//! - every run has one span a chord, overlaps that are not negative and a positive speed cap
+
+pub mod check;
+pub mod list;
+pub mod marker;
+pub mod motion;
+pub mod text;
+pub mod toolpath;
+
+pub use list::{Range, Segment, SegmentId, SegmentList};
+pub use marker::Marker;
+pub use motion::Motion;
+pub use toolpath::Toolpath;

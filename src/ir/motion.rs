@@ -1,0 +1,98 @@
+//! When the axes are where: the timed form.
+//!
+//! A motion holds the phases of one toolpath. A phase lasts a whole number of periods and says what the outputs are
+//! from its first tick until the next phase begins; the pose at tick `i` is that at time `i * period`.
+
+use super::toolpath::{Event, Pose};
+
+/// The phases of one toolpath, in order.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Motion {
+    /// The number of the piece that it belongs to.
+    pub piece: u32,
+    /// Tick at which its first phase begins, counted from the start of the program.
+    pub first_tick: u64,
+    /// The phases.
+    pub phases: Vec<Phase>,
+}
+
+/// A stretch of time in which the outputs do not change.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Phase {
+    /// What happens.
+    pub kind: Kind,
+    /// Number of periods; at least 1.
+    pub ticks: u32,
+    /// The poses at its ticks; one pose alone when the axes rest.
+    pub poses: Vec<Pose>,
+    /// The source block being cut at its ticks; one alone when it does not change, 0 when the knife is up.
+    pub blocks: Vec<u32>,
+    /// Time before it was stretched to whole periods, s.
+    pub duration: f64,
+    /// Way of the tip in a cut, of the C axis in the air, mm.
+    pub length: f64,
+}
+
+/// What happens in a phase.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Knife up, axes at rest: the start and the end of a program.
+    Rest,
+    /// Knife up, from anywhere to anywhere.
+    Travel,
+    /// Knife up, at a corner of a contour.
+    Turn,
+    /// Knife commanded down, axes at rest.
+    Plunge,
+    /// Knife down, axes along the path.
+    Cut,
+    /// Knife commanded up, axes at rest.
+    Lift,
+    /// Drill 1 to 4 commanded, axes at rest.
+    Drill(u8),
+    /// An event, axes at rest.
+    Event(Event),
+}
+
+impl Kind {
+    /// Whether the knife is commanded down.
+    pub fn knife_down(self) -> bool {
+        match self {
+            Self::Plunge | Self::Cut => true,
+            Self::Rest | Self::Travel | Self::Turn | Self::Lift | Self::Drill(_) | Self::Event(_) => false,
+        }
+    }
+
+    /// The drill that is commanded, 1 to 4; 0 = none.
+    pub fn drill(self) -> u8 {
+        if let Self::Drill(tool) = self { tool } else { 0 }
+    }
+
+    /// The event as the setpoint formats number it: 0 none, 1 stop, 2 advance.
+    pub fn event(self) -> u8 {
+        match self {
+            Self::Event(Event::Stop) => 1,
+            Self::Event(Event::Advance) => 2,
+            Self::Rest | Self::Travel | Self::Turn | Self::Plunge | Self::Cut | Self::Lift | Self::Drill(_) => 0,
+        }
+    }
+}
+
+impl Phase {
+    /// The pose at the phase's tick `i`.
+    pub fn pose(&self, i: u32) -> Pose {
+        self.poses[(i as usize).min(self.poses.len() - 1)]
+    }
+
+    /// The block being cut at the phase's tick `i`; 0 = none.
+    pub fn block(&self, i: u32) -> u32 {
+        self.blocks.get((i as usize).min(self.blocks.len().max(1) - 1)).copied().unwrap_or(0)
+    }
+}
+
+impl Motion {
+    /// Number of periods of all phases.
+    pub fn ticks(&self) -> u64 {
+        self.phases.iter().map(|phase| u64::from(phase.ticks)).sum()
+    }
+}

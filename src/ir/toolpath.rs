@@ -1,0 +1,156 @@
+//! What the knife does, untimed: a sequence of steps.
+//!
+//! A toolpath holds the steps of one contour, notch or drill: the pipeline makes, plans and emits them one after the
+//! other, so that a program of any length needs little memory. It holds polylines; smooth curves belong to `plan`.
+
+use crate::geom::{Point, Rotation, Vector};
+use crate::machine::Follow;
+use crate::source::Span;
+
+/// Where the axes stand: the C axis over the table, and its position.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pose {
+    /// The C axis, mm.
+    pub centre: Point,
+    /// Position of C.
+    pub c: Rotation,
+}
+
+impl Pose {
+    /// The pose at x, y (mm) and c (rad).
+    pub fn new(x: f64, y: f64, c: f64) -> Self {
+        Self { centre: Point::new(x, y), c: Rotation(c) }
+    }
+
+    /// The point `reach` mm in front of the C axis along the blade: the tip at `radius`, the tail at `-back`.
+    pub fn ahead(&self, reach: f64) -> Point {
+        self.centre + self.c.unit() * reach
+    }
+}
+
+impl Default for Pose {
+    fn default() -> Self {
+        Self::new(0.0, 0.0, 0.0)
+    }
+}
+
+/// The steps of one contour, notch or drill, in order.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Toolpath {
+    /// The number of the piece that it belongs to.
+    pub piece: u32,
+    /// Permitted deviation of the tip, mm.
+    pub tolerance: f64,
+    /// Where the axes stand before the first step, as far as it is known before planning.
+    pub entry: Pose,
+    /// The steps.
+    pub steps: Vec<Step>,
+}
+
+/// One thing that the machine does.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Step {
+    /// Plunge, follow a path with the knife down, lift.
+    Run(Run),
+    /// One plunge without motion.
+    Stab(Stab),
+    /// Knife up, C to the next heading and the centre to the next start, at a corner inside a contour.
+    Turn(Air),
+    /// Knife up, from anywhere to anywhere.
+    Travel(Air),
+    /// A hole.
+    Drill(Drill),
+    /// Something for the controller or the operator.
+    Event(Event),
+}
+
+/// A move with the knife up. Its ends are nominal: `plan` goes between the states that the runs really have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Air {
+    /// Where it starts.
+    pub from: Pose,
+    /// Where it ends.
+    pub to: Pose,
+}
+
+/// A path between two corners, cut without lifting.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Run {
+    /// The polyline as the file has it, mm: no overlaps. A closed run ends with its first point.
+    pub points: Vec<Point>,
+    /// The block of each chord: one less than points.
+    pub spans: Vec<Span>,
+    /// How it begins and ends.
+    pub shape: Shape,
+    /// How the blade lies on curves.
+    pub law: Follow,
+    /// How far the tip goes past the end, mm.
+    pub front: f64,
+    /// How far the tail starts before the start, mm; without meaning on a closed run.
+    pub heel: f64,
+    /// Greatest speed of the tip, mm/s; infinite when nothing caps it.
+    pub feed: f64,
+    /// What its two ends are.
+    pub ends: [End; 2],
+    /// Where the axes stand at the plunge, as the polyline has it; smoothing moves it a little.
+    pub start: Pose,
+    /// Where they stand at the lift.
+    pub end: Pose,
+}
+
+/// Whether a run closes on itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shape {
+    /// From one point to another, or around a contour that has a corner where it starts.
+    Open,
+    /// Around a smooth closed contour: no end has a corner.
+    Ring,
+}
+
+/// What the end of a run is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct End {
+    /// A corner inside a contour; otherwise the contour begins or ends here.
+    pub corner: bool,
+    /// The file forbids the overlap here (M17, M18, M19, a slit).
+    pub bare: bool,
+}
+
+/// One plunge without motion: the blade is as long as what it has to cut, or longer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stab {
+    /// What it cuts, as the file has it, mm.
+    pub points: Vec<Point>,
+    /// The block of each chord.
+    pub spans: Vec<Span>,
+    /// Direction of the blade, unit vector from tail to tip.
+    pub along: Vector,
+    /// How far the tip stands past the end, mm.
+    pub front: f64,
+    /// How far the tail stands before the start, mm.
+    pub heel: f64,
+    /// What the two ends of the cut are.
+    pub ends: [End; 2],
+    /// Where the axes stand at the plunge.
+    pub pose: Pose,
+}
+
+/// A hole.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Drill {
+    /// Its place, mm.
+    pub at: Point,
+    /// Which drill, 1 to 4.
+    pub tool: u8,
+    /// Its block.
+    pub span: Span,
+}
+
+/// Something for the controller or the operator.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Event {
+    /// Wait for the operator.
+    Stop,
+    /// Advance the cloth.
+    Advance,
+}

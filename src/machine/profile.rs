@@ -1,0 +1,429 @@
+//! The machine profile as typed: the TOML keys, their defaults, and what they mean in base units.
+//!
+//! Fields carry the names of their keys, so also their units; a method of the plain name gives mm, s and rad. The
+//! defaults follow a real cutter's parameter table with a worn 6.6 mm knife.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use super::kinematics::Limits;
+use super::word;
+use crate::units::{MM_PER_INCH, MS_PER_S, rad};
+
+/// Version of the profile's format that this program reads and writes.
+pub const PROFILE_VERSION: u32 = 1;
+
+/// Everything about the machine and the cutting room that a program depends on.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct MachineProfile {
+    /// Version of the format, [`PROFILE_VERSION`].
+    pub version: u32,
+    /// Unit of cut files that overrides what they say.
+    pub units: FileUnit,
+    /// Pose of the C axis at the start of a program: x mm, y mm, c degrees.
+    pub home: [f64; 3],
+    /// Where the machine ends.
+    #[serde(with = "word::stay")]
+    pub park: Option<[f64; 3]>,
+    /// The blade and how it is used.
+    pub knife: Knife,
+    /// The drill.
+    pub drill: Drill,
+    /// Corners.
+    pub corner: Corner,
+    /// How closely the path is followed.
+    pub path: Path,
+    /// Limits of the axes.
+    pub axes: Axes,
+    /// The rotary axis.
+    pub c: CAxis,
+    /// The table.
+    pub table: Table,
+    /// The clock of the controller.
+    pub time: Time,
+    /// Codes of the cutter file to ignore, by name (`M19`).
+    pub codes: BTreeMap<String, CodeUse>,
+}
+
+/// Unit of the integers in a cut file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum FileUnit {
+    /// As the file says.
+    #[default]
+    #[serde(rename = "auto")]
+    Auto,
+    /// A tenth of a millimetre (G71).
+    #[serde(rename = "mm/10")]
+    TenthMm,
+    /// A hundredth of an inch (no code, G91).
+    #[serde(rename = "in/100")]
+    HundredthInch,
+    /// A thousandth of an inch (G70).
+    #[serde(rename = "in/1000")]
+    ThousandthInch,
+}
+
+impl FileUnit {
+    /// Length of the unit, mm; `None` when the file decides.
+    pub fn mm(self) -> Option<f64> {
+        match self {
+            Self::Auto => None,
+            Self::TenthMm => Some(0.1),
+            Self::HundredthInch => Some(MM_PER_INCH / 100.0),
+            Self::ThousandthInch => Some(MM_PER_INCH / 1000.0),
+        }
+    }
+}
+
+/// Whether a code of the cutter file is obeyed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum CodeUse {
+    /// Obeyed.
+    Use,
+    /// Skipped, without a warning.
+    Ignore,
+}
+
+/// The blade: a segment from tail to tip in the plane; the C axis passes through its centre, `radius` behind the tip.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Knife {
+    /// Tail to tip, mm; 0 = a point.
+    pub width_mm: f64,
+    /// Tail to centre, mm; what is left of the width is the radius.
+    pub back_mm: Option<f64>,
+    /// Centre to tip, mm; may be given instead of `back_mm`.
+    pub radius_mm: Option<f64>,
+    /// How far the tip goes past the end of a path, mm.
+    pub front_overlap_mm: f64,
+    /// The same at a corner inside a path, mm.
+    pub corner_front_overlap_mm: f64,
+    /// How far the tail starts before the start of a path, mm.
+    pub heel_overlap_mm: f64,
+    /// The same at a corner inside a path, mm.
+    pub corner_heel_overlap_mm: f64,
+    /// Front overlap at corners whose extension lies inside the part, mm.
+    pub reflex_front_overlap_mm: f64,
+    /// Heel overlap at corners whose extension lies inside the part, mm.
+    pub reflex_heel_overlap_mm: f64,
+    /// Greatest speed of the tip while cutting, mm/s.
+    #[serde(with = "word::off")]
+    pub feed_mm_s: Option<f64>,
+    /// Speed after L or M25, percent of the feed.
+    pub slow_percent: f64,
+    /// From the plunge command until the blade is through, ms; the axes rest.
+    pub plunge_ms: f64,
+    /// From the lift command until the blade is up, ms; the axes rest.
+    pub lift_ms: f64,
+    /// From the lift command until the blade is clear of the cloth and C may turn, ms.
+    #[serde(with = "word::off")]
+    pub clear_ms: Option<f64>,
+    /// Longest run with the knife down, mm; a longer one is lifted there and rejoined with overlap.
+    #[serde(with = "word::off")]
+    pub max_down_mm: Option<f64>,
+    /// How the blade lies on curves.
+    pub follow: Follow,
+    /// Number of cutting edges: a blade with two may run either way round.
+    pub edges: u32,
+    /// Constant correction added to the blade's angle, degrees.
+    pub yaw_deg: f64,
+}
+
+/// How the blade lies on a curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Follow {
+    /// Tip on the path, blade along the tangent.
+    Tangent,
+    /// Tip and tail on the path: the blade is a chord of it.
+    Chord,
+}
+
+/// Width of the default blade, mm, and its back: a 6.6 mm knife, worn from 8.89 mm.
+const DEFAULT_WIDTH_MM: f64 = 6.6;
+const DEFAULT_BACK_MM: f64 = 6.35;
+
+impl Knife {
+    /// Centre to tip, mm.
+    pub fn radius(&self) -> f64 {
+        match (self.radius_mm, self.back_mm) {
+            (Some(radius), _) => radius,
+            (None, Some(back)) => self.width_mm - back,
+            (None, None) => (self.width_mm - DEFAULT_BACK_MM).max(0.0),
+        }
+    }
+
+    /// Tail to centre, mm.
+    pub fn back(&self) -> f64 {
+        self.width_mm - self.radius()
+    }
+
+    /// Length of the rest between the plunge command and the first motion, s.
+    pub fn plunge(&self) -> f64 {
+        self.plunge_ms / MS_PER_S
+    }
+
+    /// Length of the rest after the lift command, s.
+    pub fn lift(&self) -> f64 {
+        self.lift_ms / MS_PER_S
+    }
+}
+
+impl Default for Knife {
+    fn default() -> Self {
+        Self {
+            width_mm: DEFAULT_WIDTH_MM,
+            back_mm: None,
+            radius_mm: None,
+            front_overlap_mm: 0.8,
+            corner_front_overlap_mm: 0.8,
+            heel_overlap_mm: 0.5,
+            corner_heel_overlap_mm: 0.5,
+            reflex_front_overlap_mm: 0.0,
+            reflex_heel_overlap_mm: 0.0,
+            feed_mm_s: Some(760.0),
+            slow_percent: 75.0,
+            plunge_ms: 80.0,
+            lift_ms: 60.0,
+            clear_ms: None,
+            max_down_mm: None,
+            follow: Follow::Tangent,
+            edges: 1,
+            yaw_deg: 0.0,
+        }
+    }
+}
+
+/// The drill beside the knife.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Drill {
+    /// Time of one hole, ms; the axes rest.
+    pub dwell_ms: f64,
+    /// Where the drill stands, seen from the C axis, mm.
+    pub offset_mm: [f64; 2],
+}
+
+impl Drill {
+    /// Time of one hole, s.
+    pub fn dwell(&self) -> f64 {
+        self.dwell_ms / MS_PER_S
+    }
+}
+
+impl Default for Drill {
+    fn default() -> Self {
+        Self { dwell_ms: 300.0, offset_mm: [0.0, 0.0] }
+    }
+}
+
+/// What counts as a corner.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Corner {
+    /// A vertex that turns by more than this is a corner: the knife is lifted and turned in the air, degrees.
+    pub angle_deg: f64,
+}
+
+impl Corner {
+    /// The least turn of a corner, rad.
+    pub fn angle(&self) -> f64 {
+        rad(self.angle_deg)
+    }
+}
+
+impl Default for Corner {
+    fn default() -> Self {
+        Self { angle_deg: 45.0 }
+    }
+}
+
+/// How closely the path is followed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Path {
+    /// Permitted deviation of the tip from the path, mm; automatic from the file's unit.
+    #[serde(with = "word::auto")]
+    pub tolerance_mm: Option<f64>,
+    /// What the polyline of the file stands for.
+    pub fit: Fit,
+    /// Greatest bulge beyond a chord that is taken for the curve which the file flattened, mm.
+    pub chord_sag_max_mm: f64,
+}
+
+/// What a polyline of the file stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Fit {
+    /// A curve that was flattened: chords cut its corners, so the tube is wider on the outside.
+    Curve,
+    /// Exactly the polygon.
+    Polygon,
+}
+
+impl Default for Path {
+    fn default() -> Self {
+        Self { tolerance_mm: None, fit: Fit::Curve, chord_sag_max_mm: 0.15 }
+    }
+}
+
+/// Limits of a linear axis.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct LinearAxis {
+    /// Greatest speed, mm/s.
+    pub speed_mm_s: f64,
+    /// Greatest acceleration, mm/s2.
+    pub acceleration_mm_s2: f64,
+    /// Greatest jerk, mm/s3.
+    pub jerk_mm_s3: f64,
+}
+
+impl Default for LinearAxis {
+    fn default() -> Self {
+        Self { speed_mm_s: 1200.0, acceleration_mm_s2: 8000.0, jerk_mm_s3: 2.0e5 }
+    }
+}
+
+/// Limits of a rotary axis.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct RotaryAxis {
+    /// Greatest speed, degrees/s.
+    pub speed_deg_s: f64,
+    /// Greatest acceleration, degrees/s2.
+    pub acceleration_deg_s2: f64,
+    /// Greatest jerk, degrees/s3.
+    pub jerk_deg_s3: f64,
+}
+
+impl Default for RotaryAxis {
+    fn default() -> Self {
+        Self { speed_deg_s: 1080.0, acceleration_deg_s2: 2.0e4, jerk_deg_s3: 1.0e6 }
+    }
+}
+
+/// Limits of the axes.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Axes {
+    /// Along the table.
+    pub x: LinearAxis,
+    /// Across the table.
+    pub y: LinearAxis,
+    /// The blade's turn.
+    pub c: RotaryAxis,
+}
+
+impl Axes {
+    /// Limits of x, y, c in mm, rad and s.
+    pub fn limits(&self) -> [Limits; 3] {
+        let linear = |axis: &LinearAxis| Limits {
+            speed: axis.speed_mm_s,
+            acceleration: axis.acceleration_mm_s2,
+            jerk: axis.jerk_mm_s3,
+        };
+        let c = Limits {
+            speed: rad(self.c.speed_deg_s),
+            acceleration: rad(self.c.acceleration_deg_s2),
+            jerk: rad(self.c.jerk_deg_s3),
+        };
+        [linear(&self.x), linear(&self.y), c]
+    }
+}
+
+/// The rotary axis as the controller counts it.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct CAxis {
+    /// Least and greatest position, degrees.
+    #[serde(with = "word::unbounded")]
+    pub range_deg: Option<[f64; 2]>,
+    /// Angle between machine zero and +X, degrees; for targets that address a controller.
+    pub offset_deg: f64,
+    /// Whether the controller counts clockwise; for targets that address a controller.
+    pub reverse: bool,
+}
+
+impl CAxis {
+    /// Least and greatest position, rad.
+    pub fn range(&self) -> Option<[f64; 2]> {
+        self.range_deg.map(|range| range.map(rad))
+    }
+}
+
+/// The table.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Table {
+    /// Reach along X, mm.
+    #[serde(with = "word::unlimited")]
+    pub x_mm: Option<[f64; 2]>,
+    /// Reach along Y, mm.
+    #[serde(with = "word::unlimited")]
+    pub y_mm: Option<[f64; 2]>,
+    /// Whether leaving the table is an error.
+    pub strict: bool,
+}
+
+/// The clock of the controller.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Time {
+    /// Time between two setpoints, ms.
+    pub period_ms: f64,
+}
+
+impl Time {
+    /// Time between two setpoints, s.
+    pub fn period(&self) -> f64 {
+        self.period_ms / MS_PER_S
+    }
+}
+
+impl Default for Time {
+    fn default() -> Self {
+        Self { period_ms: 1.0 }
+    }
+}
+
+impl Default for MachineProfile {
+    fn default() -> Self {
+        Self {
+            version: PROFILE_VERSION,
+            units: FileUnit::Auto,
+            home: [0.0; 3],
+            park: None,
+            knife: Knife::default(),
+            drill: Drill::default(),
+            corner: Corner::default(),
+            path: Path::default(),
+            axes: Axes::default(),
+            c: CAxis::default(),
+            table: Table::default(),
+            time: Time::default(),
+            codes: BTreeMap::new(),
+        }
+    }
+}
+
+/// Least tolerance of the automatic rule, mm.
+const AUTO_TOLERANCE: f64 = 0.05;
+/// Largest distance of a point from its rounded place, in units of the grid: half the diagonal of a cell.
+const ROUNDING_REACH: f64 = 0.71;
+
+impl MachineProfile {
+    /// Permitted deviation of the tip from the path, mm, for a file whose numbers are multiples of `unit` mm:
+    /// not smaller than what the file resolves, because its vertices carry that much noise.
+    pub fn tolerance(&self, unit: f64) -> f64 {
+        self.path.tolerance_mm.unwrap_or_else(|| AUTO_TOLERANCE.max(ROUNDING_REACH * unit))
+    }
+
+    /// Whether a code of the cutter file, such as `M19`, is obeyed.
+    pub fn obeys(&self, code: &str) -> bool {
+        self.codes.get(code) != Some(&CodeUse::Ignore)
+    }
+}

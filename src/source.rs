@@ -1,0 +1,97 @@
+//! The bytes of one input file, and places in them.
+//!
+//! Input is read once into memory and never changed. A [`Span`] travels with everything that is made from the bytes,
+//! down to the emitted program; a [`Place`] is the same thing as people say it.
+
+use thiserror::Error;
+
+/// The whole of one input: its name as the user gave it, and its bytes.
+#[derive(Debug)]
+pub struct Source {
+    name: String,
+    bytes: Vec<u8>,
+}
+
+/// The input is larger than spans can address.
+#[derive(Debug, Error, PartialEq, Eq)]
+#[error("the input has {0} bytes; the most is 4 GiB less one")]
+pub struct TooLarge(pub usize);
+
+impl Source {
+    /// Takes over the bytes of a file called `name`.
+    pub fn new(name: impl Into<String>, bytes: Vec<u8>) -> Result<Self, TooLarge> {
+        if u32::try_from(bytes.len()).is_err() {
+            return Err(TooLarge(bytes.len()));
+        }
+        Ok(Self { name: name.into(), bytes })
+    }
+
+    /// The name to show.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// All bytes.
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// The bytes of a span; a span that reaches past the end is cut there.
+    pub fn slice(&self, span: Span) -> &[u8] {
+        let end = (span.end as usize).min(self.bytes.len());
+        &self.bytes[(span.start as usize).min(end)..end]
+    }
+
+    /// Where a span starts, counted as people count: block and line from 1, byte from 0.
+    pub fn place(&self, span: Span) -> Place {
+        let before = &self.bytes[..(span.start as usize).min(self.bytes.len())];
+        let line = 1 + memchr::memchr_iter(b'\n', before).count() as u32;
+        Place { block: span.block, line, byte: span.start }
+    }
+}
+
+/// A half-open range of bytes of a [`Source`], and the number of the block that it lies in.
+///
+/// A block is the unit of the dialect: what ends in `*` in a cut file, a row in a CSV file. Blocks count from 1;
+/// 0 means that the thing comes from no block.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash, PartialOrd, Ord)]
+pub struct Span {
+    /// First byte.
+    pub start: u32,
+    /// One past the last byte.
+    pub end: u32,
+    /// Number of the block, from 1; 0 = none.
+    pub block: u32,
+}
+
+impl Span {
+    /// The span from the start of `self` to the end of `other`, in the block of `self`.
+    #[must_use]
+    pub fn to(self, other: Self) -> Self {
+        Self { end: other.end.max(self.end), ..self }
+    }
+}
+
+/// A position in a source, as a message names it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Place {
+    /// Number of the block, from 1; 0 = none.
+    pub block: u32,
+    /// Number of the line, from 1.
+    pub line: u32,
+    /// Offset of the byte, from 0.
+    pub byte: u32,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_counts_lines_from_one() {
+        let source = Source::new("a", b"H1*\nX0Y0*\nM0*".to_vec()).expect("small");
+        let place = source.place(Span { start: 4, end: 8, block: 2 });
+        assert_eq!(place, Place { block: 2, line: 2, byte: 4 });
+        assert_eq!(source.slice(Span { start: 10, end: 99, block: 3 }), b"M0*");
+    }
+}

@@ -1,0 +1,20 @@
+//! Units. Inside, lengths are mm, times s, angles rad; every conversion factor stands here.
+
+pub mod number;
+
+/// Millimetres in an inch (exact).
+pub const MM_PER_INCH: f64 = 25.4;
+/// Milliseconds in a second.
+pub const MS_PER_S: f64 = 1000.0;
+/// Millimetres in a metre.
+pub const MM_PER_M: f64 = 1000.0;
+
+/// Degrees to radians.
+pub fn rad(degrees: f64) -> f64 {
+    degrees.to_radians()
+}
+
+/// Radians to degrees.
+pub fn deg(radians: f64) -> f64 {
+    radians.to_degrees()
+}

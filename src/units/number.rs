@@ -1,0 +1,82 @@
+//! The one place that prints numbers: no locale, no `-0.000`, the same bytes for the same value.
+
+/// Largest scaled magnitude that the integer path prints: below 2^53, so that every integer there is exact in `f64`.
+const INTEGER_PATH_MAX: f64 = 9.0e15;
+
+/// Appends `value` with exactly `decimals` decimals (at most 9), rounded half away from zero, never as `-0.0`.
+///
+/// Values beyond the integer path (and the non-finite, which no program holds) are printed by the standard library.
+pub fn push_fixed(out: &mut Vec<u8>, value: f64, decimals: u32) {
+    debug_assert!(decimals <= 9, "more decimals than any format here prints");
+    let scale = 10_u64.pow(decimals);
+    let scaled = (value * scale as f64).round();
+    if scaled.is_nan() || scaled.abs() > INTEGER_PATH_MAX {
+        out.extend_from_slice(format!("{value:.*}", decimals as usize).as_bytes());
+        return;
+    }
+    let magnitude = scaled.abs() as u64;
+    if scaled < 0.0 {
+        out.push(b'-');
+    }
+    push_integer(out, magnitude / scale);
+    if decimals > 0 {
+        out.push(b'.');
+        let mut rest = magnitude % scale;
+        let mut digit = scale / 10;
+        while digit > 0 {
+            out.push(b'0' + (rest / digit) as u8);
+            rest %= digit;
+            digit /= 10;
+        }
+    }
+}
+
+/// Appends a whole number.
+pub fn push_integer(out: &mut Vec<u8>, mut value: u64) {
+    let mut digits = [0_u8; 20];
+    let mut at = digits.len();
+    loop {
+        at -= 1;
+        digits[at] = b'0' + (value % 10) as u8;
+        value /= 10;
+        if value == 0 {
+            break;
+        }
+    }
+    out.extend_from_slice(&digits[at..]);
+}
+
+/// `value` with exactly `decimals` decimals, as [`push_fixed`] prints it.
+pub fn fixed(value: f64, decimals: u32) -> String {
+    let mut out = Vec::with_capacity(24);
+    push_fixed(&mut out, value, decimals);
+    String::from_utf8(out).expect("digits are ASCII")
+}
+
+/// The shortest text that reads back as the same `f64`; zero has no sign.
+pub fn exact(value: f64) -> String {
+    format!("{}", if value == 0.0 { 0.0 } else { value })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fixed_numbers_have_no_negative_zero() {
+        assert_eq!(fixed(-0.000_000_4, 6), "0.000000");
+        assert_eq!(fixed(-0.000_000_6, 6), "-0.000001");
+        assert_eq!(fixed(1.5, 0), "2");
+        assert_eq!(fixed(-12.345_678_9, 3), "-12.346");
+        assert_eq!(fixed(0.05, 6), "0.050000");
+        assert_eq!(fixed(1e20, 2), "100000000000000000000.00");
+    }
+
+    #[test]
+    fn exact_numbers_read_back() {
+        for value in [0.1, -1.0 / 3.0, 1e-12, 123_456_789.125] {
+            assert_eq!(exact(value).parse::<f64>(), Ok(value));
+        }
+        assert_eq!(exact(-0.0), "0");
+    }
+}
