@@ -8,5 +8,6 @@ pub mod ir;
 pub mod machine;
 pub mod pass;
 pub mod pipeline;
+pub mod plan;
 pub mod source;
 pub mod units;

@@ -5,6 +5,7 @@
 
 pub mod angle;
 pub mod polyline;
+pub mod spline;
 
 pub use angle::{Heading, Rotation};
 

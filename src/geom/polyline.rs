@@ -42,6 +42,23 @@ pub fn direction(a: Point, b: Point) -> Option<Vector> {
     (b - a).try_normalize(0.0)
 }
 
+/// Where a polyline first comes to `distance` from its first point: the point, and the index of its chord. `None` when
+/// it stays nearer.
+pub fn first_at_distance(points: &[Point], distance: f64) -> Option<(Point, usize)> {
+    let from = *points.first()?;
+    for (i, ends) in points.windows(2).enumerate() {
+        if (ends[1] - from).norm() < distance {
+            continue;
+        }
+        // |a + x d - from| = distance, the root that lies ahead: the chord starts nearer and ends farther.
+        let (a, d) = (ends[0] - from, ends[1] - ends[0]);
+        let (square, half, rest) = (d.norm_squared(), a.dot(&d), a.norm_squared() - distance * distance);
+        let x = (-half + (half * half - square * rest).max(0.0).sqrt()) / square;
+        return Some((ends[0] + d * x.clamp(0.0, 1.0), i));
+    }
+    None
+}
+
 /// Whether the polyline is straight: every vertex within `tolerance` of the chord between its ends, and none going back.
 pub fn is_straight(points: &[Point], tolerance: f64) -> bool {
     let (Some(&first), Some(&last)) = (points.first(), points.last()) else { return true };
@@ -60,6 +77,14 @@ mod tests {
         assert_eq!(distance_to_segment(Point::new(5.0, 2.0), a, b), 2.0);
         assert_eq!(distance_to_segment(Point::new(13.0, 4.0), a, b), 5.0);
         assert_eq!(distance_to_segment(Point::new(3.0, 4.0), a, a), 5.0);
+    }
+
+    #[test]
+    fn the_first_point_at_a_distance_is_found_on_its_chord() {
+        let corner = [Point::new(0.0, 0.0), Point::new(3.0, 0.0), Point::new(3.0, 9.0)];
+        assert_eq!(first_at_distance(&corner, 2.0), Some((Point::new(2.0, 0.0), 0)));
+        assert_eq!(first_at_distance(&corner, 5.0), Some((Point::new(3.0, 4.0), 1)));
+        assert_eq!(first_at_distance(&corner, 10.0), None);
     }
 
     #[test]

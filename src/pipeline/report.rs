@@ -4,7 +4,8 @@ use serde::Serialize;
 
 use crate::ir::Marker;
 use crate::ir::marker::NotchKind;
-use crate::units::MM_PER_M;
+use crate::machine::Limits;
+use crate::units::{MM_PER_M, deg};
 
 /// The figures of one file; `None` is what only planning knows.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -89,6 +90,21 @@ pub struct Peak {
     pub worst: f64,
     /// What the profile allows.
     pub limit: f64,
+}
+
+impl Axes {
+    /// Peaks (mm, rad) beside limits (mm, rad), in mm and degrees.
+    pub fn new(peaks: &crate::plan::Peaks, limits: &[Limits; 3]) -> Self {
+        let axis = |i: usize, unit: fn(f64) -> f64| {
+            let [speed, acceleration, jerk] = peaks[i].map(unit);
+            Peaks {
+                speed: Peak { worst: speed, limit: unit(limits[i].speed) },
+                acceleration: Peak { worst: acceleration, limit: unit(limits[i].acceleration) },
+                jerk: Peak { worst: jerk, limit: unit(limits[i].jerk) },
+            }
+        };
+        Self { x: axis(0, |v| v), y: axis(1, |v| v), c: axis(2, deg) }
+    }
 }
 
 impl Report {

@@ -1,4 +1,15 @@
 //! Passes over the toolpath of one contour, notch or drill.
+//!
+//! [`trace`] makes it: one run as the file has it. The passes split it at corners, give it overlaps, and place it.
+
+mod corner;
+mod down;
+mod overlap;
+mod place;
+mod table;
+mod trace;
+
+pub use trace::trace;
 
 use crate::diagnostic::Diagnostics;
 use crate::ir::Toolpath;
@@ -16,4 +27,4 @@ pub struct ToolpathPass {
 }
 
 /// Every pass over a toolpath, in order.
-pub const TOOLPATH_PASSES: &[ToolpathPass] = &[];
+pub const TOOLPATH_PASSES: &[ToolpathPass] = &[corner::PASS, down::PASS, overlap::PASS, place::PASS, table::PASS];

@@ -1,0 +1,144 @@
+//! Pass `place`: where the axes stand at the ends of each step, and the moves through the air between them.
+//!
+//! Needs runs with overlaps and stabs. Leaves every step with its nominal poses: C unwrapped, each plunge at the
+//! equivalent of its heading that is nearest to where C stands, inside `c.range_deg`; a turn or a travel before each step
+//! that starts elsewhere. Smoothing moves the headings of runs a little; `plan` goes by what the runs really have.
+
+use super::ToolpathPass;
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::{Heading, Point, Rotation, Vector, angle, polyline};
+use crate::ir::toolpath::{Air, Pose, Run, Shape, Stab, Step, Toolpath};
+use crate::machine::{Job, Knife};
+use crate::units::{deg, number::fixed};
+
+pub(super) const PASS: ToolpathPass =
+    ToolpathPass { name: "place", about: "gives steps their poses and joins them through the air", run };
+
+fn run(toolpath: &mut Toolpath, job: &Job, diagnostics: &mut Diagnostics) {
+    let mut pose = toolpath.entry;
+    let mut at_corner = false;
+    let mut placed = Vec::with_capacity(2 * toolpath.steps.len());
+    for mut step in std::mem::take(&mut toolpath.steps) {
+        let (start, end, corner) = match &mut step {
+            Step::Run(run) => {
+                place_run(run, pose.c, job, diagnostics);
+                (run.start, run.end, run.ends[1].corner)
+            }
+            Step::Stab(stab) => {
+                place_stab(stab, pose.c, job, diagnostics);
+                (stab.pose, stab.pose, stab.ends[1].corner)
+            }
+            Step::Drill(drill) => {
+                let [x, y] = job.profile.drill.offset_mm;
+                let there = Pose::new(drill.at.x - x, drill.at.y - y, pose.c.0);
+                (there, there, false)
+            }
+            Step::Turn(_) | Step::Travel(_) => continue,
+            Step::Event(_) => (pose, pose, false),
+        };
+        if start != pose {
+            let air = Air { from: pose, to: start };
+            placed.push(if at_corner { Step::Turn(air) } else { Step::Travel(air) });
+        }
+        placed.push(step);
+        (pose, at_corner) = (end, corner);
+    }
+    toolpath.steps = placed;
+}
+
+/// The pose with the tip at a point and the blade along a unit vector.
+fn pose_at(tip: Point, along: Vector, c: Rotation, knife: &Knife) -> Pose {
+    Pose { centre: tip - along * knife.radius(), c }
+}
+
+fn place_stab(stab: &mut Stab, before: Rotation, job: &Job, diagnostics: &mut Diagnostics) {
+    let last = stab.points[stab.points.len() - 1];
+    let along = stab.along;
+    let end = if stab.points.len() == 2 { last } else { last_on(stab, last) };
+    let c = equivalent(before, Heading::of(along), [0.0, 0.0], job).unwrap_or_else(|| {
+        diagnostics.push(out_of_range(stab.spans[0]));
+        before.nearest(Heading::of(along))
+    });
+    stab.pose = pose_at(end + along * stab.front, along, c, &job.profile.knife);
+}
+
+/// Where the front overlap of a bent stab starts, so that its tip stands at the end of the extended path.
+fn last_on(stab: &Stab, last: Point) -> Point {
+    let before = stab.points[stab.points.len() - 2];
+    let direction = polyline::direction(before, last).expect("no chord of a run has length zero");
+    last + (direction - stab.along) * stab.front
+}
+
+fn place_run(run: &mut Run, before: Rotation, job: &Job, diagnostics: &mut Diagnostics) {
+    let knife = &job.profile.knife;
+    let n = run.points.len();
+    let first = direction(run.points[0], run.points[1]);
+    let last = direction(run.points[n - 2], run.points[n - 1]);
+    // How far C is from the first chord's direction: at the plunge, least, greatest and at the lift.
+    let (plunge, mut turned) = match run.shape {
+        Shape::Ring => (-angle::turn(last, first) / 2.0, 0.0),
+        Shape::Open => (chord_lag(run, knife, first), 0.0),
+    };
+    let mut range = [plunge.min(0.0), plunge.max(0.0)];
+    for w in run.points.windows(3) {
+        turned += polyline::turn_at(w[0], w[1], w[2]);
+        range = [range[0].min(turned), range[1].max(turned)];
+    }
+    if run.shape == Shape::Ring {
+        turned += angle::turn(last, first);
+        range = [range[0].min(turned), range[1].max(turned)];
+    }
+    let heading = Heading::new(Heading::of(first).radians() + plunge);
+    let c = equivalent(before, heading, range.map(|r| r - plunge), job).unwrap_or_else(|| {
+        let wound = fixed(deg(range[1] - range[0]), 1);
+        diagnostics.push(out_of_range(run.spans[0]).hint(format!("the run turns C through {wound} degrees")));
+        before.nearest(heading)
+    });
+    let end_c = Rotation(c.0 - plunge + turned);
+    let (tip, end) = match run.shape {
+        Shape::Ring => (run.points[0], run.points[0] + first * run.front),
+        Shape::Open => {
+            let extended = run.extended();
+            let tip = polyline::first_at_distance(&extended, knife.width_mm)
+                .map_or(extended[extended.len() - 1], |(point, _)| point);
+            (tip, run.points[n - 1] + last * run.front)
+        }
+    };
+    run.start = pose_at(tip, heading.unit(), c, knife);
+    run.end = pose_at(end, end_c.unit(), end_c, knife);
+}
+
+fn direction(a: Point, b: Point) -> Vector {
+    polyline::direction(a, b).expect("no chord of a run has length zero")
+}
+
+/// How far the chord of the plunge is turned from the first chord of the path, rad, without jumps.
+fn chord_lag(run: &Run, knife: &Knife, first: Vector) -> f64 {
+    let extended = run.extended();
+    let Some((tip, chord)) = polyline::first_at_distance(&extended, knife.width_mm) else { return 0.0 };
+    let mut lag = 0.0;
+    for &point in extended[1..=chord].iter().chain(std::iter::once(&tip)) {
+        if let Some(along) = polyline::direction(extended[0], point) {
+            lag += angle::wrap(angle::turn(first, along) - lag);
+        }
+    }
+    lag
+}
+
+/// The position of C nearest to `before` that shows `heading` and from which C may move through `range` (rad) without
+/// leaving `c.range_deg`; `None` when there is none.
+fn equivalent(before: Rotation, heading: Heading, range: [f64; 2], job: &Job) -> Option<Rotation> {
+    let nearest = before.nearest(heading);
+    let Some([least, greatest]) = job.profile.c.range() else { return Some(nearest) };
+    let turn = std::f64::consts::TAU;
+    let up = ((least - range[0] - nearest.0) / turn - RANGE_EPSILON).ceil();
+    let down = ((greatest - range[1] - nearest.0) / turn + RANGE_EPSILON).floor();
+    (up <= down).then(|| Rotation(nearest.0 + turn * 0.0_f64.clamp(up, down)))
+}
+
+/// Part of a turn by which C may seem to leave its range: rounding.
+const RANGE_EPSILON: f64 = 1e-9;
+
+fn out_of_range(span: crate::source::Span) -> Diagnostic {
+    Diagnostic::new(&code::PATH_C_RANGE, "no position of C inside c.range_deg lets the blade follow this run").at(span)
+}

@@ -1,0 +1,201 @@
+//! Symmetric positive definite band matrices: what both solvers of this stage spend their time on.
+//!
+//! Cholesky, row by row (Golub & Van Loan, *Matrix Computations*, 4th ed., section 4.3.5), after scaling to a unit
+//! diagonal, because spline bases over graded knots differ by many orders of magnitude.
+
+/// A symmetric matrix whose entries vanish farther than `W - 1` from the diagonal: the lower half, row by row.
+///
+/// `rows[i][W - 1 - k]` is the entry in row `i`, column `i - k`.
+#[derive(Debug, Clone)]
+pub(super) struct Band<const W: usize> {
+    rows: Vec<[f64; W]>,
+}
+
+/// The matrix is not positive definite, in floating point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Indefinite;
+
+/// Added to the unit diagonal: far above the rounding of a factorisation, far below what moves a Newton step.
+const DIAGONAL_EPSILON: f64 = 1e-13;
+
+impl<const W: usize> Band<W> {
+    /// The zero matrix of `n` rows.
+    pub(super) fn zero(n: usize) -> Self {
+        Self { rows: vec![[0.0; W]; n] }
+    }
+
+    /// Sets every entry to zero.
+    pub(super) fn clear(&mut self) {
+        self.rows.fill([0.0; W]);
+    }
+
+    /// Adds `weight * v v^T` at the rows `first ..`.
+    pub(super) fn add_square<const K: usize>(&mut self, first: usize, v: &[f64; K], weight: f64) {
+        for (i, &vi) in v.iter().enumerate() {
+            let scaled = weight * vi;
+            let row = &mut self.rows[first + i];
+            for (entry, vj) in row[W - 1 - i..].iter_mut().zip(v) {
+                *entry += scaled * vj;
+            }
+        }
+    }
+
+    /// Adds `weight` times the entries of `other`.
+    pub(super) fn add(&mut self, other: &Self, weight: f64) {
+        for (row, add) in self.rows.iter_mut().zip(&other.rows) {
+            for (entry, value) in row.iter_mut().zip(add) {
+                *entry += weight * value;
+            }
+        }
+    }
+
+    /// Adds to one entry at `row`, `column <= row`.
+    pub(super) fn add_entry(&mut self, row: usize, column: usize, value: f64) {
+        self.rows[row][W - 1 - (row - column)] += value;
+    }
+
+    /// The entry at `row`, `column <= row`, inside the band.
+    pub(super) fn entry(&self, row: usize, column: usize) -> f64 {
+        self.rows[row][W - 1 - (row - column)]
+    }
+
+    /// Number of rows.
+    pub(super) fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Makes row and column `i` those of the unit matrix, so that unknown `i` keeps its value; its couplings are handed
+    /// to `dropped(row, entry)` first.
+    pub(super) fn fix(&mut self, i: usize, mut dropped: impl FnMut(usize, f64)) {
+        for k in 1..W.min(i + 1) {
+            dropped(i - k, self.rows[i][W - 1 - k]);
+        }
+        for k in 1..W.min(self.rows.len() - i) {
+            dropped(i + k, self.rows[i + k][W - 1 - k]);
+            self.rows[i + k][W - 1 - k] = 0.0;
+        }
+        self.rows[i] = [0.0; W];
+        self.rows[i][W - 1] = 1.0;
+    }
+
+    /// The product with a vector of points.
+    pub(super) fn times<const N: usize>(&self, x: &[[f64; N]]) -> Vec<[f64; N]> {
+        let mut out = vec![[0.0; N]; x.len()];
+        for (i, row) in self.rows.iter().enumerate() {
+            for k in 0..W.min(i + 1) {
+                let entry = row[W - 1 - k];
+                let mut add = |row: usize, column: usize| {
+                    for (sum, value) in out[row].iter_mut().zip(&x[column]) {
+                        *sum += entry * value;
+                    }
+                };
+                add(i, i - k);
+                if k > 0 {
+                    add(i - k, i);
+                }
+            }
+        }
+        out
+    }
+
+    /// Scales to a unit diagonal and factors; the matrix is used up.
+    pub(super) fn factor(mut self) -> Result<Factor<W>, Indefinite> {
+        let scale: Vec<f64> = self.rows.iter().map(|row| 1.0 / row[W - 1].sqrt()).collect();
+        if scale.iter().any(|s| !s.is_finite()) {
+            return Err(Indefinite);
+        }
+        for i in 0..self.rows.len() {
+            for k in 1..W.min(i + 1) {
+                self.rows[i][W - 1 - k] *= scale[i] * scale[i - k];
+            }
+            self.rows[i][W - 1] = 1.0 + DIAGONAL_EPSILON;
+            self.eliminate(i)?;
+        }
+        Ok(Factor { rows: self.rows, scale })
+    }
+
+    /// Turns row `i` into that of the factor; the diagonal is kept as its inverse.
+    fn eliminate(&mut self, i: usize) -> Result<(), Indefinite> {
+        let mut row = self.rows[i];
+        for k in (1..W.min(i + 1)).rev() {
+            let column = W - 1 - k;
+            let other = &self.rows[i - k];
+            // Columns to the left of i - k that lie in both bands.
+            let dot: f64 = row[..column].iter().zip(&other[k..W - 1]).map(|(a, b)| a * b).sum();
+            row[column] = (row[column] - dot) * other[W - 1];
+        }
+        let square = row[W - 1] - row[..W - 1].iter().map(|v| v * v).sum::<f64>();
+        if square.is_nan() || square <= 0.0 {
+            return Err(Indefinite);
+        }
+        row[W - 1] = 1.0 / square.sqrt();
+        self.rows[i] = row;
+        Ok(())
+    }
+}
+
+/// The Cholesky factor of a scaled band matrix.
+#[derive(Debug)]
+pub(super) struct Factor<const W: usize> {
+    rows: Vec<[f64; W]>,
+    scale: Vec<f64>,
+}
+
+impl<const W: usize> Factor<W> {
+    /// Solves for the right-hand side in place, column by column of the points.
+    pub(super) fn solve<const N: usize>(&self, x: &mut [[f64; N]]) {
+        for i in 0..x.len() {
+            let mut value = x[i].map(|v| v * self.scale[i]);
+            let row = &self.rows[i];
+            for k in 1..W.min(i + 1) {
+                for n in 0..N {
+                    value[n] -= row[W - 1 - k] * x[i - k][n];
+                }
+            }
+            x[i] = value.map(|v| v * row[W - 1]);
+        }
+        for i in (0..x.len()).rev() {
+            let row = &self.rows[i];
+            let value = x[i].map(|v| v * row[W - 1]);
+            for k in 1..W.min(i + 1) {
+                for n in 0..N {
+                    x[i - k][n] -= row[W - 1 - k] * value[n];
+                }
+            }
+            x[i] = value.map(|v| v * self.scale[i]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_factor_solves_what_the_matrix_multiplies() {
+        let n = 20;
+        let mut matrix = Band::<4>::zero(n);
+        for first in 0..n - 3 {
+            let v: [f64; 4] = std::array::from_fn(|j| ((first * 7 + j * j * 3) as f64).sin());
+            matrix.add_square(first, &v, 1.0 + first as f64 * 1e3);
+        }
+        for i in 0..n {
+            matrix.add_entry(i, i, 1e-3);
+        }
+        let x: Vec<[f64; 2]> = (0..n).map(|i| [i as f64, 1.0 - i as f64]).collect();
+        let mut rhs = matrix.times(&x);
+        matrix.factor().expect("positive definite").solve(&mut rhs);
+        for (got, expected) in rhs.iter().zip(&x) {
+            assert!((got[0] - expected[0]).abs() < 1e-4 && (got[1] - expected[1]).abs() < 1e-4, "{got:?} {expected:?}");
+        }
+    }
+
+    #[test]
+    fn an_indefinite_matrix_is_refused() {
+        let mut matrix = Band::<4>::zero(2);
+        matrix.add_entry(0, 0, 1.0);
+        matrix.add_entry(1, 1, 1.0);
+        matrix.add_entry(1, 0, 2.0);
+        assert!(matrix.factor().is_err());
+    }
+}

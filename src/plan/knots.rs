@@ -1,0 +1,133 @@
+//! Where the knots of the path spline stand: they follow the shape, not the length.
+//!
+//! At a vertex with turn `th` the rounding inside a tube of `tol` is about `4 tol / th` long, so the spacing there is a
+//! part of that; away from vertices it grows in proportion to the distance. Long straight chords cost next to nothing.
+
+use super::tube::Tube;
+
+/// Knot spacing at a vertex, as a part of the length of its rounding.
+const SHARE_OF_ROUNDING: f64 = 0.5;
+/// Growth of the spacing with the distance from a vertex.
+const GROWTH: f64 = 0.5;
+/// Least spacing, mm: far below any tolerance.
+const SPACING_MIN: f64 = 0.02;
+/// Least turn that is told from none, rad.
+const TURN_EPSILON: f64 = 1e-4;
+/// Spacing at the ends of a run, mm, and as a part of its length.
+const END_SPACING: f64 = 2.0;
+const END_SHARE: f64 = 1.0 / 6.0;
+/// Fewest spans of a spline.
+const SPANS_MIN: usize = 5;
+
+/// The breaks of a spline over the tube's stations; `finer` multiplies the spacing at each vertex.
+pub(super) fn breaks(tube: &Tube, finer: &[f64]) -> Vec<f64> {
+    let length = tube.length();
+    let spacing = spacing_at_vertices(tube, finer);
+    let steps: Vec<Step> = spacing.windows(2).zip(tube.stations.windows(2)).map(|(f, s)| Step::new(f, s)).collect();
+    let total: f64 = steps.iter().map(Step::count).sum();
+    let spans = (total.ceil() as usize).max(SPANS_MIN);
+    let mut breaks = Vec::with_capacity(spans + 1);
+    breaks.push(0.0);
+    let (mut step, mut before) = (0, 0.0);
+    for i in 1..spans {
+        let wanted = total * i as f64 / spans as f64;
+        while step + 1 < steps.len() && before + steps[step].count() < wanted {
+            before += steps[step].count();
+            step += 1;
+        }
+        breaks.push(steps[step].place(wanted - before));
+    }
+    breaks.push(length);
+    breaks
+}
+
+/// Spacing at each vertex, mm, such that it nowhere grows faster than [`GROWTH`].
+fn spacing_at_vertices(tube: &Tube, finer: &[f64]) -> Vec<f64> {
+    let last = tube.points.len() - 1;
+    let end = END_SPACING.min(tube.length() * END_SHARE);
+    let mut spacing: Vec<f64> = tube
+        .turns
+        .iter()
+        .zip(finer)
+        .map(|(turn, factor)| {
+            let rounding = 4.0 * tube.tolerance / turn.abs().max(TURN_EPSILON);
+            (SHARE_OF_ROUNDING * rounding).max(SPACING_MIN) * factor
+        })
+        .collect();
+    spacing[0] = end * finer[0];
+    spacing[last] = end * finer[last];
+    for i in 1..=last {
+        spacing[i] = spacing[i].min(spacing[i - 1] + GROWTH * (tube.stations[i] - tube.stations[i - 1]));
+    }
+    for i in (0..last).rev() {
+        spacing[i] = spacing[i].min(spacing[i + 1] + GROWTH * (tube.stations[i + 1] - tube.stations[i]));
+    }
+    spacing
+}
+
+/// One chord: the spacing grows from both ends and is greatest at `top`; the number of spans up to a place is the
+/// integral of 1 / spacing.
+struct Step {
+    start: f64,
+    top: f64,
+    length: f64,
+    from: f64,
+    to: f64,
+}
+
+impl Step {
+    fn new(spacing: &[f64], stations: &[f64]) -> Self {
+        let length = stations[1] - stations[0];
+        let top = ((spacing[1] - spacing[0] + GROWTH * length) / (2.0 * GROWTH)).clamp(0.0, length);
+        Self { start: stations[0], top, length, from: spacing[0], to: spacing[1] }
+    }
+
+    fn rising(&self) -> f64 {
+        (1.0 + GROWTH * self.top / self.from).ln() / GROWTH
+    }
+
+    fn count(&self) -> f64 {
+        self.rising() + (1.0 + GROWTH * (self.length - self.top) / self.to).ln() / GROWTH
+    }
+
+    /// The station at which `count` spans lie behind, seen from the chord's start.
+    fn place(&self, count: f64) -> f64 {
+        let rising = self.rising();
+        let x = if count <= rising {
+            self.from * ((GROWTH * count).exp() - 1.0) / GROWTH
+        } else {
+            let left = self.count() - count;
+            self.length - self.to * ((GROWTH * left).exp() - 1.0) / GROWTH
+        };
+        self.start + x.clamp(0.0, self.length)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Point;
+    use crate::machine::MachineProfile;
+
+    fn tube(points: &[(f64, f64)]) -> Tube {
+        Tube::new(points.iter().map(|&(x, y)| Point::new(x, y)).collect(), 0.05, &MachineProfile::default())
+    }
+
+    #[test]
+    fn breaks_rise_and_stand_close_at_a_kink() {
+        let tube = tube(&[(0.0, 0.0), (500.0, 0.0), (1000.0, 300.0)]);
+        let breaks = breaks(&tube, &[1.0; 3]);
+        assert!(breaks.windows(2).all(|w| w[1] > w[0]));
+        let nearest = breaks.iter().map(|b| (b - 500.0).abs()).fold(f64::INFINITY, f64::min);
+        assert!(nearest < 0.2, "{nearest}");
+        assert!(breaks.len() < 80, "a long chord costs next to nothing: {}", breaks.len());
+    }
+
+    #[test]
+    fn the_number_of_breaks_does_not_depend_on_how_a_straight_is_divided() {
+        let whole = tube(&[(0.0, 0.0), (100.0, 0.0), (200.0, 10.0)]);
+        let divided = tube(&[(0.0, 0.0), (30.0, 0.0), (60.0, 0.0), (100.0, 0.0), (200.0, 10.0)]);
+        let (a, b) = (breaks(&whole, &[1.0; 3]).len(), breaks(&divided, &[1.0; 5]).len());
+        assert!(a.abs_diff(b) <= 1, "{a} {b}");
+    }
+}

@@ -1,0 +1,241 @@
+//! The machine's own coordinates along a path: with an eccentric knife the axes do not follow the tip.
+//!
+//! Centre q(u) = p(u) - r (cos c, sin c), c the blade's angle. Under the tangent law c is the path's tangent; after a
+//! plunge as a chord it blends from the chord to the tangent over the next blade width. Derivatives to third order are
+//! closed forms: with X = x' y'' - y' x'' and n = x'^2 + y'^2,
+//! c' = X / n, c'' = X' / n - X n' / n^2, c''' = X'' / n - 2 X' n' / n^2 - X n'' / n^2 + 2 X n'^2 / n^3.
+
+use super::smooth::Curve;
+use crate::geom::{Point, Vector};
+use crate::geom::{Rotation, angle, cross, spline};
+use crate::ir::toolpath::Pose;
+
+/// Samples a span when a place or an angle is searched along the curve.
+const SEARCH_A_SPAN: usize = 8;
+/// Halvings that place the plunge: down to rounding from any span.
+const BISECTIONS: usize = 60;
+
+/// The axes x, y (mm) and c (rad) and their derivatives by the path parameter, up to the third.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Axes {
+    /// Row k holds the k-th derivatives of x, y, c.
+    pub(super) q: [[f64; 3]; 4],
+    /// |p'|, the tip's way a unit of the parameter.
+    pub(super) pace: f64,
+}
+
+/// The way of the axes along a curve, from the plunge to the lift.
+#[derive(Debug)]
+pub(super) struct Way<'a> {
+    curve: &'a Curve,
+    /// Parameter at the plunge and at the lift.
+    pub(super) from: f64,
+    pub(super) to: f64,
+    radius: f64,
+    /// Unwrapped tangent angle where each span starts, rad.
+    tangents: Vec<f64>,
+    /// How far the tangent is ahead of the blade at the plunge, rad, and the length over which that fades, mm.
+    lead: f64,
+    fade: f64,
+}
+
+/// How the blade enters the path.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Entry {
+    /// As a chord of this length, mm, whose tail stands at the start of the curve.
+    Chord(f64),
+    /// Along the tangent, with the tip at this parameter.
+    Tangent(f64),
+}
+
+impl<'a> Way<'a> {
+    /// The way of a knife with its centre `radius` behind the tip, up to parameter `to`. C starts at the equivalent of
+    /// its heading nearest to `near`.
+    pub(super) fn new(curve: &'a Curve, entry: Entry, to: f64, radius: f64, near: Rotation) -> Self {
+        let mut way = Self { curve, from: 0.0, to, radius, tangents: tangents(curve), lead: 0.0, fade: 0.0 };
+        match entry {
+            Entry::Tangent(from) => way.from = from,
+            Entry::Chord(width) => way.enter_as_chord(width),
+        }
+        let start = way.at(way.from).q[0][2];
+        let turns = near.nearest(Rotation(start).heading()).0 - start;
+        for tangent in &mut way.tangents {
+            *tangent += turns;
+        }
+        way
+    }
+
+    /// Moves the start to the first point at distance `width` from the curve's own start, and remembers how far the
+    /// tangent there is ahead of the chord.
+    fn enter_as_chord(&mut self, width: f64) {
+        if width <= 0.0 {
+            return;
+        }
+        let start = self.point(0.0);
+        let mut chord = self.tangents[0];
+        let mut before = 0.0;
+        self.from = self.to;
+        'search: for ends in self.curve.breaks().windows(2) {
+            for i in 1..=SEARCH_A_SPAN {
+                let u = (ends[0] + (ends[1] - ends[0]) * i as f64 / SEARCH_A_SPAN as f64).min(self.to);
+                let there = self.point(u) - start;
+                if there.norm() >= width {
+                    self.from = self.crossing(start, width, before, u);
+                    break 'search;
+                }
+                chord += angle::wrap(there.y.atan2(there.x) - chord);
+                before = u;
+            }
+        }
+        let there = self.point(self.from) - start;
+        chord += angle::wrap(there.y.atan2(there.x) - chord);
+        self.lead = self.tangent(self.from) - chord;
+        self.fade = width.min(self.to - self.from);
+    }
+
+    /// Where the distance from `start` passes `width` between two parameters.
+    fn crossing(&self, start: Point, width: f64, mut low: f64, mut high: f64) -> f64 {
+        for _ in 0..BISECTIONS {
+            let middle = f64::midpoint(low, high);
+            if (self.point(middle) - start).norm() < width {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        high
+    }
+
+    /// The tip at a parameter.
+    pub(super) fn point(&self, u: f64) -> Point {
+        let [[x, y]] = self.curve.derivatives::<1>(u);
+        Point::new(x, y)
+    }
+
+    /// Unwrapped tangent angle, rad.
+    fn tangent(&self, u: f64) -> f64 {
+        let span = spline::span(self.curve.breaks(), u);
+        let [_, d] = self.curve.derivatives_on::<2>(span, u);
+        self.tangents[span] + angle::wrap(d[1].atan2(d[0]) - self.tangents[span])
+    }
+
+    /// The axes at a parameter.
+    pub(super) fn at(&self, u: f64) -> Axes {
+        let span = spline::span(self.curve.breaks(), u);
+        let [p, p1, p2, p3, p4] = self.curve.derivatives_on::<5>(span, u).map(|d| Vector::new(d[0], d[1]));
+        let n = p1.norm_squared();
+        let (n1, n2) = (2.0 * p1.dot(&p2), 2.0 * (p2.norm_squared() + p1.dot(&p3)));
+        let (x, x1, x2) = (cross(p1, p2), cross(p1, p3), cross(p2, p3) + cross(p1, p4));
+        let tangent = self.tangents[span] + angle::wrap(p1.y.atan2(p1.x) - self.tangents[span]);
+        let mut c = [
+            tangent,
+            x / n,
+            x1 / n - x * n1 / (n * n),
+            x2 / n - 2.0 * x1 * n1 / (n * n) - x * n2 / (n * n) + 2.0 * x * n1 * n1 / (n * n * n),
+        ];
+        if self.lead != 0.0 && u < self.from + self.fade {
+            for (value, fading) in c.iter_mut().zip(fading((u - self.from) / self.fade, self.fade)) {
+                *value -= self.lead * fading;
+            }
+        }
+        let pace = n.sqrt();
+        if self.radius == 0.0 {
+            return Axes { q: [[p.x, p.y, c[0]], [p1.x, p1.y, c[1]], [p2.x, p2.y, c[2]], [p3.x, p3.y, c[3]]], pace };
+        }
+        let e = Rotation(c[0]).unit();
+        let normal = crate::geom::left(e);
+        let r = self.radius;
+        let q = p - e * r;
+        let q1 = p1 - normal * (r * c[1]);
+        let q2 = p2 - (normal * c[2] - e * (c[1] * c[1])) * r;
+        let q3 = p3 - (normal * (c[3] - c[1].powi(3)) - e * (3.0 * c[1] * c[2])) * r;
+        Axes { q: [[q.x, q.y, c[0]], [q1.x, q1.y, c[1]], [q2.x, q2.y, c[2]], [q3.x, q3.y, c[3]]], pace }
+    }
+
+    /// The pose at a parameter.
+    pub(super) fn pose(&self, u: f64) -> Pose {
+        let [x, y, c] = self.at(u).q[0];
+        Pose::new(x, y, c)
+    }
+
+    /// Where the path's own polynomials meet, between the plunge and the lift, those two included.
+    pub(super) fn breaks(&self) -> Vec<f64> {
+        let inner = self.curve.breaks().iter().copied().filter(|&b| b > self.from && b < self.to);
+        std::iter::once(self.from).chain(inner).chain(std::iter::once(self.to)).collect()
+    }
+}
+
+/// 1 - S(x) and its derivatives by length, S the step of degree 7 with three vanishing derivatives at both ends.
+fn fading(x: f64, length: f64) -> [f64; 4] {
+    let x = x.clamp(0.0, 1.0);
+    let y = x * (1.0 - x);
+    [
+        1.0 - x.powi(4) * (35.0 - 84.0 * x + 70.0 * x * x - 20.0 * x.powi(3)),
+        -140.0 * y.powi(3) / length,
+        -420.0 * y * y * (1.0 - 2.0 * x) / (length * length),
+        -840.0 * y * (1.0 - 5.0 * y) / length.powi(3),
+    ]
+}
+
+/// Tangent angle where each span starts, without jumps, rad.
+fn tangents(curve: &Curve) -> Vec<f64> {
+    let mut angles = Vec::with_capacity(curve.breaks().len() - 1);
+    let mut angle = f64::NAN;
+    for (span, ends) in curve.breaks().windows(2).enumerate() {
+        for i in 0..SEARCH_A_SPAN {
+            let u = ends[0] + (ends[1] - ends[0]) * i as f64 / SEARCH_A_SPAN as f64;
+            let [_, d] = curve.derivatives_on::<2>(span, u);
+            let here = d[1].atan2(d[0]);
+            angle = if angle.is_nan() { here } else { angle + angle::wrap(here - angle) };
+            if i == 0 {
+                angles.push(angle);
+            }
+        }
+    }
+    angles
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::smooth::smooth;
+    use super::super::tube::Tube;
+    use super::*;
+    use crate::machine::MachineProfile;
+
+    fn arc() -> Curve {
+        let points =
+            (0..=60).map(|i| f64::from(i) / 20.0).map(|a| Point::new(20.0 * a.cos(), 20.0 * a.sin())).collect();
+        smooth(&Tube::new(points, 0.05, &MachineProfile::default())).expect("an arc").curve
+    }
+
+    #[test]
+    fn derivatives_are_those_of_the_positions() {
+        let curve = arc();
+        for entry in [Entry::Chord(6.6), Entry::Tangent(3.0)] {
+            let way = Way::new(&curve, entry, 59.0, 4.4, Rotation(9.0));
+            assert!((way.at(way.from).q[0][2] - 9.0).abs() <= std::f64::consts::PI);
+            let h = 1e-4;
+            for i in 1..40 {
+                let u = way.from + (way.to - way.from) * f64::from(i) / 40.0;
+                let [before, here, after] = [u - h, u, u + h].map(|u| way.at(u).q);
+                for k in 0..3 {
+                    for axis in 0..3 {
+                        let numeric = (after[k][axis] - before[k][axis]) / (2.0 * h);
+                        assert!((numeric - here[k + 1][axis]).abs() < 1e-3 * (1.0 + numeric.abs()), "{k} {axis} {u}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_chord_plunge_has_its_tail_at_the_start_and_ends_tangent() {
+        let curve = arc();
+        let way = Way::new(&curve, Entry::Chord(6.6), 59.0, 4.4, Rotation(0.0));
+        let pose = way.pose(way.from);
+        assert!((pose.ahead(4.4) - way.point(way.from)).norm() < 1e-9);
+        assert!((pose.ahead(4.4 - 6.6) - way.point(0.0)).norm() < 1e-6);
+        let later = way.from + 6.7;
+        assert!((way.pose(later).c.0 - way.tangent(later)).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,174 @@
+//! Planning: from what the knife does to when the axes are where.
+//!
+//! Receives the toolpath of one contour, promises a motion whose every setpoint keeps the limits of the axes, with the
+//! tip inside the tube of the path. Runs are solved first, each alone and in any order ([`solve`]); then a [`Planner`]
+//! joins them in order by turns and travels between the states that they really have. Never changes what is cut.
+
+mod air;
+mod banded;
+mod certify;
+mod knots;
+mod law;
+mod pace;
+mod profile;
+mod run;
+mod smooth;
+mod timing;
+mod tube;
+
+pub use certify::Peaks;
+pub use run::Cut;
+
+use self::air::Air;
+use self::certify::{Differences, EXCESS_EPSILON};
+use self::run::whole_periods;
+use crate::diagnostic::{Diagnostic, code};
+use crate::ir::motion::{Kind, Motion, Phase};
+use crate::ir::toolpath::{Pose, Step, Toolpath};
+use crate::machine::{Job, Limits};
+use crate::units::number::fixed;
+
+/// The runs of a toolpath as they will be cut, in order; a diagnostic for each that cannot be.
+pub fn solve(toolpath: &Toolpath, job: &Job) -> Result<Vec<Cut>, Vec<Diagnostic>> {
+    let (mut cuts, mut refused) = (Vec::new(), Vec::new());
+    for step in &toolpath.steps {
+        match step {
+            Step::Run(run) => match run::solve(run, toolpath.tolerance, job) {
+                Ok(cut) => cuts.push(cut),
+                Err(diagnostic) => refused.push(diagnostic),
+            },
+            Step::Stab(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {}
+        }
+    }
+    if refused.is_empty() { Ok(cuts) } else { Err(refused) }
+}
+
+/// Joins solved runs to a program: knows where the axes stand and what time it is.
+#[derive(Debug)]
+pub struct Planner<'a> {
+    job: &'a Job,
+    limits: [Limits; 3],
+    pose: Pose,
+    tick: u64,
+    differences: Differences,
+}
+
+impl<'a> Planner<'a> {
+    /// A program that starts at rest at home.
+    pub fn new(job: &'a Job) -> Self {
+        let pose = home(job);
+        let mut differences = Differences::new(job.profile.time.period());
+        differences.push(pose);
+        Self { job, limits: job.profile.axes.limits(), pose, tick: 0, differences }
+    }
+
+    /// The timed motion of a toolpath whose runs were solved.
+    pub fn join(&mut self, toolpath: &Toolpath, cuts: Vec<Cut>) -> Motion {
+        let profile = &self.job.profile;
+        let mut motion = Motion { piece: toolpath.piece, first_tick: self.tick, phases: Vec::new() };
+        let mut cuts = cuts.into_iter();
+        let mut kind = Kind::Travel;
+        for step in &toolpath.steps {
+            match step {
+                Step::Turn(_) => kind = Kind::Turn,
+                Step::Travel(_) => kind = Kind::Travel,
+                Step::Run(_) => {
+                    let cut = cuts.next().expect("solve gives a cut for each run");
+                    self.go(kind, cut.poses[0], &mut motion);
+                    self.hold(Kind::Plunge, profile.knife.plunge(), cut.blocks[0], &mut motion);
+                    self.cut(cut, &mut motion);
+                    self.hold(Kind::Lift, profile.knife.lift(), 0, &mut motion);
+                }
+                Step::Stab(stab) => {
+                    self.go(kind, stab.pose, &mut motion);
+                    let block = stab.spans.last().map_or(0, |span| span.block);
+                    self.hold(Kind::Plunge, profile.knife.plunge(), block, &mut motion);
+                    self.hold(Kind::Lift, profile.knife.lift(), 0, &mut motion);
+                }
+                Step::Drill(drill) => {
+                    let [x, y] = profile.drill.offset_mm;
+                    self.go(kind, Pose::new(drill.at.x - x, drill.at.y - y, self.pose.c.0), &mut motion);
+                    self.hold(Kind::Drill(drill.tool), profile.drill.dwell(), 0, &mut motion);
+                }
+                Step::Event(event) => self.hold(Kind::Event(*event), 0.0, 0, &mut motion),
+            }
+        }
+        motion
+    }
+
+    /// The end of the program: to the park pose if there is one, and a last setpoint at rest.
+    pub fn finish(&mut self) -> Motion {
+        let mut motion = Motion { piece: 0, first_tick: self.tick, phases: Vec::new() };
+        if let Some([x, y, c]) = self.job.profile.park {
+            self.go(Kind::Travel, Pose::new(x, y, crate::units::rad(c)), &mut motion);
+        }
+        self.hold(Kind::Rest, 0.0, 0, &mut motion);
+        self.differences.rest(self.pose);
+        motion
+    }
+
+    /// The greatest speed, acceleration and jerk of the program so far.
+    pub fn peaks(&self) -> Peaks {
+        self.differences.peaks()
+    }
+
+    /// Whether the whole program keeps the limits: the last word, over every setpoint in order.
+    pub fn certify(&self) -> Result<(), Diagnostic> {
+        let rho = certify::excess(&self.peaks(), &self.limits);
+        if rho <= 1.0 + EXCESS_EPSILON {
+            return Ok(());
+        }
+        let percent = fixed((rho - 1.0) * 100.0, 3);
+        Err(Diagnostic::new(
+            &code::PLAN_CERTIFY,
+            format!("the program as a whole exceeds a limit by {percent} % of time"),
+        ))
+    }
+
+    /// Through the air to a pose, when it is another one.
+    fn go(&mut self, kind: Kind, to: Pose, motion: &mut Motion) {
+        if to == self.pose {
+            return;
+        }
+        let air = Air::new(self.pose, to, &self.limits);
+        let ticks = whole_periods(air.duration(), self.job.profile.time.period());
+        let poses = (0..ticks).map(|i| air.at(i as f64, ticks as f64)).collect();
+        let phase =
+            Phase { kind, ticks: ticks as u32, poses, blocks: vec![0], duration: air.duration(), length: air.length() };
+        self.emit(phase, to, motion);
+    }
+
+    /// At rest for a time, at least one period.
+    fn hold(&mut self, kind: Kind, duration: f64, block: u32, motion: &mut Motion) {
+        let ticks = whole_periods(duration, self.job.profile.time.period()) as u32;
+        let phase = Phase { kind, ticks, poses: vec![self.pose], blocks: vec![block], duration, length: 0.0 };
+        self.emit(phase, self.pose, motion);
+    }
+
+    /// Along a run, when it has a way.
+    fn cut(&mut self, cut: Cut, motion: &mut Motion) {
+        let Cut { mut poses, mut blocks, duration, length, .. } = cut;
+        if poses.len() < 2 {
+            return;
+        }
+        let end = poses.pop().expect("it has two poses or more");
+        blocks.pop();
+        let phase = Phase { kind: Kind::Cut, ticks: poses.len() as u32, poses, blocks, duration, length };
+        self.emit(phase, end, motion);
+    }
+
+    fn emit(&mut self, phase: Phase, end: Pose, motion: &mut Motion) {
+        for i in 0..phase.ticks {
+            self.differences.push(phase.pose(i));
+        }
+        self.tick += u64::from(phase.ticks);
+        self.pose = end;
+        motion.phases.push(phase);
+    }
+}
+
+/// The pose at which programs start.
+pub fn home(job: &Job) -> Pose {
+    let [x, y, c] = job.profile.home;
+    Pose::new(x, y, crate::units::rad(c))
+}

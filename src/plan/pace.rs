@@ -1,0 +1,155 @@
+//! Where the motion along a way is resolved: knots, collocation places and quadrature cells in the path parameter,
+//! counted from the start of the run.
+
+use super::law::Way;
+
+/// Turn of C between two knots, rad (4 degrees).
+const TURN_A_KNOT: f64 = 0.069_813_170_079_773_18;
+/// Change of C's slope between two knots, rad (8 degrees).
+const BEND_A_KNOT: f64 = 0.139_626_340_159_546_36;
+/// Most knots a mm that a change of slope asks for, and most in all.
+const BEND_KNOTS_MAX: f64 = 20.0;
+const KNOTS_MAX: f64 = 200.0;
+/// Knots a unit of log distance towards the ends.
+const END_KNOTS: f64 = 1.2;
+/// Nearest that end grading goes, in parts of the reach of an end.
+const END_NEAREST: f64 = 1e-3;
+/// Greatest spacing: a part of the length, but no finer than 0.5 mm.
+const SPACING_SHARE: f64 = 1.0 / 60.0;
+const SPACING: f64 = 0.5;
+/// Fewest knots.
+const KNOTS_MIN: usize = 24;
+/// Places at which the density of knots is taken, a span of the path, over all, and towards each end.
+const DENSITY_A_SPAN: usize = 8;
+const DENSITY_OVERALL: usize = 200;
+const DENSITY_AT_END: usize = 80;
+/// Parts of a knot span at which limits hold, besides the knots themselves, and nearest to the ends.
+const PLACES_A_SPAN: [f64; 3] = [0.0, 1.0 / 3.0, 2.0 / 3.0];
+const PLACES_AT_END: [f64; 2] = [1e-3, 0.1];
+
+/// The knots of a motion: dense where C turns or its turn changes, and in proportion to the distance from the ends.
+pub(super) fn breaks(way: &Way, path_breaks: &[f64], reach: f64) -> Vec<f64> {
+    let length = way.to - way.from;
+    let mut places: Vec<f64> = Vec::with_capacity(DENSITY_A_SPAN * path_breaks.len() + 400);
+    for ends in path_breaks.windows(2) {
+        let step = (ends[1] - ends[0]) / DENSITY_A_SPAN as f64;
+        places.extend((0..DENSITY_A_SPAN).map(|i| ends[0] + step * i as f64));
+    }
+    places.extend((0..=DENSITY_OVERALL).map(|i| length * i as f64 / DENSITY_OVERALL as f64));
+    let nearest = END_NEAREST * reach;
+    for i in 0..=DENSITY_AT_END {
+        let share = i as f64 / DENSITY_AT_END as f64;
+        let from_end = nearest * ((1.0 + length / nearest).ln() * share).exp_m1();
+        places.extend([from_end.min(length), (length - from_end).max(0.0)]);
+    }
+    places.sort_by(f64::total_cmp);
+    places.dedup();
+    let spacing = (length * SPACING_SHARE).max(SPACING);
+    let density = |s: f64| {
+        let [_, q1, q2, _] = way.at(way.from + s).q;
+        let turn = q1[2].abs() / TURN_A_KNOT + (q2[2].abs() / BEND_A_KNOT).sqrt().min(BEND_KNOTS_MAX);
+        let end = s.min(length - s).max(nearest);
+        (1.0 / spacing + turn + END_KNOTS / end).min(KNOTS_MAX.max(END_KNOTS / end))
+    };
+    let mut count = Vec::with_capacity(places.len());
+    let (mut total, mut before) = (0.0, (places[0], density(places[0])));
+    count.push(0.0);
+    for &s in &places[1..] {
+        let here = density(s);
+        total += f64::midpoint(before.1, here) * (s - before.0);
+        count.push(total);
+        before = (s, here);
+    }
+    let knots = (total as usize + 1).max(KNOTS_MIN);
+    let mut breaks = Vec::with_capacity(knots);
+    let mut at = 0;
+    for i in 0..knots {
+        let wanted = total * i as f64 / (knots - 1) as f64;
+        while at + 2 < count.len() && count[at + 1] < wanted {
+            at += 1;
+        }
+        let share = ((wanted - count[at]) / (count[at + 1] - count[at])).clamp(0.0, 1.0);
+        breaks.push(places[at] + (places[at + 1] - places[at]) * share);
+    }
+    breaks[0] = 0.0;
+    breaks[knots - 1] = length;
+    breaks
+}
+
+/// The places at which the limits hold: three a span, near the ends, and where the path's own polynomials meet, because
+/// the slope of the curvature bends there.
+pub(super) fn places(breaks: &[f64], path_breaks: &[f64], nearest: f64) -> Vec<f64> {
+    let last = breaks.len() - 1;
+    let length = breaks[last];
+    let (first_span, last_span) = (breaks[1], length - breaks[last - 1]);
+    let mut places: Vec<f64> = breaks
+        .windows(2)
+        .flat_map(|ends| PLACES_A_SPAN.map(|share| ends[0] + (ends[1] - ends[0]) * share))
+        .skip(1)
+        .collect();
+    for share in PLACES_AT_END {
+        places.extend([first_span * share, length - last_span * share]);
+    }
+    let inner: Vec<f64> = path_breaks.iter().copied().filter(|&b| b > breaks[1] && b < breaks[last - 1]).collect();
+    places.extend(inner.windows(2).map(|w| f64::midpoint(w[0], w[1])));
+    places.extend(inner);
+    places.sort_by(f64::total_cmp);
+    places.dedup_by(|next, kept| *next - *kept <= nearest);
+    places
+}
+
+/// A span of the knots as an interval of z, the cube root of the distance to the nearer end: there the integrand of the
+/// duration, du / sqrt(b) = 3 z^2 dz / sqrt(b), is smooth, since b ~ u^(4/3).
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cell {
+    z: [f64; 2],
+    /// The end that z counts from: the run's length when it counts backward.
+    from_end: Option<f64>,
+}
+
+/// The cells of the knots, in order.
+pub(super) fn cells(breaks: &[f64], length: f64) -> impl Iterator<Item = Cell> + '_ {
+    let middle = breaks.len() / 2;
+    breaks.windows(2).enumerate().map(move |(i, ends)| {
+        if i < middle {
+            Cell { z: [ends[0].cbrt(), ends[1].cbrt()], from_end: None }
+        } else {
+            Cell { z: [(length - ends[0]).cbrt(), (length - ends[1]).max(0.0).cbrt()], from_end: Some(length) }
+        }
+    })
+}
+
+/// Positive nodes and weights of Gauss-Legendre quadrature with four points.
+const GAUSS_4: [(f64, f64); 2] =
+    [(0.339_981_043_584_856_3, 0.652_145_154_862_546_1), (0.861_136_311_594_052_6, 0.347_854_845_137_453_85)];
+
+impl Cell {
+    /// The part of the cell from fraction `a` to fraction `b`.
+    pub(super) fn part(&self, a: f64, b: f64) -> Self {
+        let [z0, z1] = self.z;
+        Self { z: [z0 + (z1 - z0) * a, z0 + (z1 - z0) * b], ..*self }
+    }
+
+    /// The parameter at z.
+    fn place(&self, z: f64) -> f64 {
+        let distance = z * z * z;
+        self.from_end.map_or(distance, |end| end - distance)
+    }
+
+    /// The parameter at the cell's end.
+    pub(super) fn end(&self) -> f64 {
+        self.place(self.z[1])
+    }
+
+    /// Places and weights for an integral over the parameter.
+    pub(super) fn gauss_4(&self) -> [(f64, f64); 4] {
+        let [z0, z1] = self.z;
+        let (middle, half) = (f64::midpoint(z0, z1), (z1 - z0) / 2.0);
+        let node = |x: f64, weight: f64| {
+            let z = middle + half * x;
+            (self.place(z), 3.0 * z * z * weight * half.abs())
+        };
+        let [(a, wa), (b, wb)] = GAUSS_4;
+        [node(-b, wb), node(-a, wa), node(a, wa), node(b, wb)]
+    }
+}

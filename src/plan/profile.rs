@@ -1,0 +1,331 @@
+//! The near time-optimal jerk-limited motion along a way: u(t) from rest to rest.
+//!
+//! The unknown is b(u) = (du/dt)^2, so that u'' = b'/2 and u''' = sqrt(b) b''/2, and on each axis
+//!
+//! - velocity: q'^2 b <= V^2
+//! - acceleration: |q' b'/2 + q'' b| <= A
+//! - jerk: sqrt(b) |q' b''/2 + 3/2 q'' b' + q''' b| <= J
+//!
+//! and |p'|^2 b <= feed^2 for the tip. From rest b ~ u^(4/3), so b = w(u) beta(u) with w carrying that singularity and
+//! beta a cubic B-spline. The duration, the integral of du / sqrt(b), is minimised by a logarithmic barrier with Newton
+//! steps from a strictly feasible start (Boyd & Vandenberghe, *Convex Optimization*, chapter 11; the change of variable
+//! after Verscheure et al., *Time-Optimal Path Tracking for Robots: A Convex Optimization Approach*, 2009). A constant
+//! beta, small enough, is always feasible, so there is no run without a motion.
+
+use super::banded::Band;
+use super::law::Way;
+use super::timing::Timing;
+use crate::geom::spline::{self, Piecewise};
+use crate::machine::Limits;
+
+/// Order of beta: cubic.
+const ORDER: usize = 4;
+/// Constraints at a place: the speed, and both signs of acceleration and jerk of three axes.
+const BOUNDS_A_PLACE: f64 = 13.0;
+/// The barrier stops when its duality gap is below this part of the duration.
+const GAP: f64 = 1e-3;
+/// Growth of the barrier's weight from round to round.
+const ROUND: f64 = 8.0;
+/// Bounds on Newton steps, in a round and in all: a guard, far above what is seen (41 to 63).
+const STEPS_A_ROUND: usize = 12;
+const STEPS_MAX: usize = 150;
+/// A round ends when the Newton decrement squared falls below this.
+const DECREMENT: f64 = 1.0;
+/// How far inside the limits the start lies.
+const START_SHARE: f64 = 0.7;
+/// Sufficient decrease of a line search, as a part of what the slope promises, and its least factor.
+const ARMIJO: f64 = 1e-4;
+const STEP_EPSILON: f64 = 1e-10;
+/// Least difference of two collocation places, mm: nearer ones say the same.
+const PLACE_EPSILON: f64 = 1e-7;
+/// Least derivative of an axis that bounds its speed: smaller ones allow any.
+const SLOPE_EPSILON: f64 = 1e-12;
+
+/// No motion was found: a fault of the numbers, since a slow enough motion always exists.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct NoMotion;
+
+/// What bounds a motion: the axes' limits (x, y, c) and the greatest speed of the tip, mm/s.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Bounds {
+    /// Limits of x, y, c in mm, rad, s.
+    pub(super) axes: [Limits; 3],
+    /// Greatest speed of the tip, mm/s; infinite when nothing caps it.
+    pub(super) feed: f64,
+}
+
+/// The motion along `way` within `bounds`, from rest to rest.
+pub(super) fn profile(way: &Way, bounds: &Bounds) -> Result<Timing, NoMotion> {
+    let problem = Problem::new(way, bounds);
+    let control = problem.solve().ok_or(NoMotion)?;
+    Ok(problem.timing(&control))
+}
+
+/// The weight w(u) = (g(u) g(L - u))^(4/3), g = u / (u + u0): the behaviour of b near both ends.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ends {
+    /// Length of the way in the parameter, mm.
+    pub(super) length: f64,
+    /// Length over which an end is felt, mm.
+    pub(super) reach: f64,
+}
+
+impl Ends {
+    /// w and its first two derivatives at `s` from the start, inside the run.
+    fn weight(&self, s: f64) -> [f64; 3] {
+        let Self { length, reach } = *self;
+        let (a, b) = (s, length - s);
+        let product = a * b / ((a + reach) * (b + reach));
+        let w = product * product.cbrt();
+        let log1 = |s: f64| reach / (s * (s + reach));
+        let log2 = |s: f64| -reach * (2.0 * s + reach) / (s * (s + reach)).powi(2);
+        let l1 = 4.0 / 3.0 * (log1(a) - log1(b));
+        let l2 = 4.0 / 3.0 * (log2(a) + log2(b));
+        [w, w * l1, w * (l1 * l1 + l2)]
+    }
+}
+
+/// What holds at one place of the run, as rows over the four control values that matter there.
+struct Place {
+    first: usize,
+    /// b.
+    square: [f64; ORDER],
+    /// 1 / (greatest b that the speeds allow).
+    speed: f64,
+    /// Acceleration of each axis in parts of its limit.
+    acceleration: [[f64; ORDER]; 3],
+    /// Jerk of each axis in parts of its limit, without the factor sqrt(b).
+    jerk: [[f64; ORDER]; 3],
+}
+
+/// A node of the integral for the duration.
+struct Node {
+    first: usize,
+    square: [f64; ORDER],
+    weight: f64,
+}
+
+struct Problem {
+    breaks: Vec<f64>,
+    start: f64,
+    ends: Ends,
+    places: Vec<Place>,
+    nodes: Vec<Node>,
+}
+
+fn dot(a: &[f64; ORDER], control: &[f64]) -> f64 {
+    a[0] * control[0] + a[1] * control[1] + a[2] * control[2] + a[3] * control[3]
+}
+
+impl Problem {
+    fn new(way: &Way, bounds: &Bounds) -> Self {
+        let length = way.to - way.from;
+        let ends = Ends { length, reach: END_REACH.min(length / 8.0) };
+        let path_breaks: Vec<f64> = way.breaks().iter().map(|b| b - way.from).collect();
+        let breaks = super::pace::breaks(way, &path_breaks, ends.reach);
+        let knots = spline::clamped_knots::<ORDER>(&breaks);
+        let mut span = 0;
+        let mut span_of = |s: f64| {
+            while span + 2 < breaks.len() && breaks[span + 1] <= s {
+                span += 1;
+            }
+            span
+        };
+        let places = super::pace::places(&breaks, &path_breaks, PLACE_EPSILON)
+            .into_iter()
+            .map(|s| Place::new(way, bounds, &ends, &knots, span_of(s), s))
+            .collect();
+        let mut nodes = Vec::with_capacity(4 * breaks.len());
+        for (span, cell) in super::pace::cells(&breaks, length).enumerate() {
+            for (s, weight) in cell.gauss_4() {
+                let [beta] = spline::basis::<ORDER, 1>(&knots, span, s);
+                let w = ends.weight(s)[0];
+                nodes.push(Node { first: span, square: beta.map(|v| w * v), weight });
+            }
+        }
+        Self { breaks, start: way.from, ends, places, nodes }
+    }
+
+    fn duration(&self, control: &[f64]) -> f64 {
+        self.nodes.iter().map(|n| n.weight / dot(&n.square, &control[n.first..]).sqrt()).sum()
+    }
+
+    /// Barrier function; infinite outside the limits.
+    fn value(&self, control: &[f64], weight: f64) -> f64 {
+        let mut duration = 0.0;
+        for node in &self.nodes {
+            let b = dot(&node.square, &control[node.first..]);
+            if b <= 0.0 || b.is_nan() {
+                return f64::INFINITY;
+            }
+            duration += node.weight / b.sqrt();
+        }
+        let mut logs = 0.0;
+        for place in &self.places {
+            let near = &control[place.first..];
+            let b = dot(&place.square, near);
+            let speed = 1.0 - b * place.speed;
+            if b <= 0.0 || speed <= 0.0 || b.is_nan() {
+                return f64::INFINITY;
+            }
+            let mut slack = speed;
+            for row in &place.acceleration {
+                let a = dot(row, near);
+                if a.abs() >= 1.0 {
+                    return f64::INFINITY;
+                }
+                slack *= 1.0 - a * a;
+            }
+            for row in &place.jerk {
+                let square = b * dot(row, near).powi(2);
+                if square >= 1.0 {
+                    return f64::INFINITY;
+                }
+                slack *= 1.0 - square;
+            }
+            logs += slack.ln();
+        }
+        weight * duration - logs
+    }
+
+    /// A constant beta well inside every limit.
+    fn feasible_start(&self) -> Vec<f64> {
+        let ones = [1.0; ORDER];
+        let mut scale = f64::INFINITY;
+        for place in &self.places {
+            let b = dot(&place.square, &ones);
+            scale = scale.min(1.0 / (b * place.speed));
+            for (a, j) in place.acceleration.iter().zip(&place.jerk) {
+                scale = scale.min(1.0 / dot(a, &ones).abs());
+                scale = scale.min((dot(j, &ones).abs() * b.sqrt()).powf(-2.0 / 3.0));
+            }
+        }
+        vec![START_SHARE * scale; spline::control_count::<ORDER>(&self.breaks)]
+    }
+
+    /// Minimises the duration; `None` when the numbers break down before anything is found.
+    fn solve(&self) -> Option<Vec<f64>> {
+        let mut control = self.feasible_start();
+        let bounds = BOUNDS_A_PLACE * self.places.len() as f64;
+        let mut weight = 0.3 * bounds / self.duration(&control);
+        if !weight.is_finite() || !self.value(&control, weight).is_finite() {
+            return None;
+        }
+        let mut hessian = Band::<ORDER>::zero(control.len());
+        let mut steps = 0;
+        loop {
+            for _ in 0..STEPS_A_ROUND {
+                steps += 1;
+                let Some((direction, decrement)) = self.newton(&control, weight, &mut hessian) else { break };
+                let Some(next) = self.line_search(&control, &direction, weight, decrement) else { break };
+                control = next;
+                if decrement < DECREMENT {
+                    break;
+                }
+            }
+            if bounds / weight < GAP * self.duration(&control) || steps > STEPS_MAX {
+                return Some(control);
+            }
+            weight *= ROUND;
+        }
+    }
+
+    /// The Newton direction and the square of its decrement. The Hessian is exact for the duration and takes g g^T terms
+    /// for the bounds, so it is positive definite everywhere.
+    fn newton(&self, control: &[f64], weight: f64, hessian: &mut Band<ORDER>) -> Option<(Vec<f64>, f64)> {
+        hessian.clear();
+        let mut gradient = vec![0.0; control.len()];
+        let mut add = |hessian: &mut Band<ORDER>, first: usize, row: &[f64; ORDER], slope: f64, bend: f64| {
+            for (g, r) in gradient[first..].iter_mut().zip(row) {
+                *g += slope * r;
+            }
+            hessian.add_square(first, row, bend);
+        };
+        for node in &self.nodes {
+            let b = dot(&node.square, &control[node.first..]);
+            let slope = -0.5 * weight * node.weight / (b * b.sqrt());
+            add(hessian, node.first, &node.square, slope, -1.5 * slope / b);
+        }
+        for place in &self.places {
+            let near = &control[place.first..];
+            let b = dot(&place.square, near);
+            let root = b.sqrt();
+            let speed = place.speed / (1.0 - b * place.speed);
+            add(hessian, place.first, &place.square, speed, speed * speed);
+            for row in &place.acceleration {
+                let (slope, bend) = two_sided(dot(row, near));
+                add(hessian, place.first, row, slope, bend);
+            }
+            for row in &place.jerk {
+                let half = dot(row, near);
+                let (slope, bend) = two_sided(root * half);
+                // Gradient of sqrt(b) * (row . control).
+                let share = 0.5 * half / root;
+                let full: [f64; ORDER] = std::array::from_fn(|i| root * row[i] + share * place.square[i]);
+                add(hessian, place.first, &full, slope, bend);
+            }
+        }
+        let mut step: Vec<[f64; 1]> = gradient.iter().map(|g| [-g]).collect();
+        hessian.clone().factor().ok()?.solve(&mut step);
+        let decrement = -step.iter().zip(&gradient).map(|(s, g)| s[0] * g).sum::<f64>();
+        decrement.is_finite().then(|| (step.iter().map(|s| s[0]).collect(), decrement))
+    }
+
+    fn line_search(&self, control: &[f64], direction: &[f64], weight: f64, decrement: f64) -> Option<Vec<f64>> {
+        let before = self.value(control, weight);
+        let mut step = 1.0;
+        while step > STEP_EPSILON {
+            let next: Vec<f64> = control.iter().zip(direction).map(|(c, d)| c + step * d).collect();
+            if self.value(&next, weight) <= before - ARMIJO * step * decrement {
+                return Some(next);
+            }
+            step *= 0.5;
+        }
+        None
+    }
+
+    /// The motion as time over the parameter.
+    fn timing(&self, control: &[f64]) -> Timing {
+        let control: Vec<[f64; 1]> = control.iter().map(|&c| [c]).collect();
+        let beta = Piecewise::<ORDER, 1>::from_control(self.breaks.clone(), &control);
+        let pace = |span: usize, s: f64| {
+            let [w, w1, _] = self.ends.weight(s);
+            let [[v], [v1]] = beta.derivatives_on::<2>(span, s);
+            (w * v, w1 * v + w * v1)
+        };
+        Timing::new(self.start, &self.breaks, pace)
+    }
+}
+
+/// Slope and bend of -log(1 - a^2).
+fn two_sided(a: f64) -> (f64, f64) {
+    let slack = 1.0 - a * a;
+    (2.0 * a / slack, 2.0 * (1.0 + a * a) / (slack * slack))
+}
+
+/// Length over which an end of a run is felt at most, mm.
+const END_REACH: f64 = 2.0;
+
+impl Place {
+    fn new(way: &Way, bounds: &Bounds, ends: &Ends, knots: &[f64], span: usize, s: f64) -> Self {
+        let [w, w1, w2] = ends.weight(s);
+        let [n0, n1, n2] = spline::basis::<ORDER, 3>(knots, span, s);
+        let b0: [f64; ORDER] = std::array::from_fn(|i| w * n0[i]);
+        let b1: [f64; ORDER] = std::array::from_fn(|i| w1 * n0[i] + w * n1[i]);
+        let b2: [f64; ORDER] = std::array::from_fn(|i| w2 * n0[i] + 2.0 * w1 * n1[i] + w * n2[i]);
+        let axes = way.at(way.from + s);
+        let [_, q1, q2, q3] = axes.q;
+        let mut speed = (axes.pace / bounds.feed).powi(2);
+        for (q1, limits) in q1.iter().zip(&bounds.axes) {
+            speed = speed.max((q1.abs().max(SLOPE_EPSILON) / limits.speed).powi(2));
+        }
+        let sum = |limit: f64, terms: [(f64, &[f64; ORDER]); 3]| -> [f64; ORDER] {
+            std::array::from_fn(|i| terms.iter().map(|(factor, b)| factor * b[i]).sum::<f64>() / limit)
+        };
+        let acceleration =
+            std::array::from_fn(|k| sum(bounds.axes[k].acceleration, [(0.5 * q1[k], &b1), (q2[k], &b0), (0.0, &b2)]));
+        let jerk =
+            std::array::from_fn(|k| sum(bounds.axes[k].jerk, [(0.5 * q1[k], &b2), (1.5 * q2[k], &b1), (q3[k], &b0)]));
+        Self { first: span, square: b0, speed, acceleration, jerk }
+    }
+}

@@ -1,0 +1,219 @@
+//! One run, from the plunge to the lift: overlaps join the polyline, the polyline becomes a curve, the curve a motion,
+//! the motion samples, and the samples are certified.
+
+use super::certify::{self, EXCESS_EPSILON, Peaks};
+use super::law::{Entry, Way};
+use super::profile::{Bounds, profile};
+use super::smooth::smooth;
+use super::tube::Tube;
+use crate::diagnostic::{Diagnostic, code};
+use crate::geom::{Point, polyline};
+use crate::ir::toolpath::{Pose, Run, Shape};
+use crate::machine::kinematics::Move;
+use crate::machine::{Follow, Job, Limits};
+use crate::source::Span;
+use crate::units::number::fixed;
+
+/// A run as it will be cut.
+#[derive(Debug)]
+pub struct Cut {
+    /// The poses at its ticks, the one at its end included; one alone when the blade plunges and lifts without a way.
+    pub(super) poses: Vec<Pose>,
+    /// The source block being cut at each of them.
+    pub(super) blocks: Vec<u32>,
+    /// Time from rest to rest before it was stretched to whole periods, s.
+    pub duration: f64,
+    /// Way of the tip, mm.
+    pub length: f64,
+    /// Greatest bulge of the tube that the curve uses, mm.
+    pub bulge: f64,
+}
+
+/// Shorter ways are none, mm: below what a machine resolves and a tolerance notices.
+const WAY_EPSILON: f64 = 1e-3;
+/// Part of the tolerance within which a polyline counts as straight.
+const STRAIGHT_SHARE: f64 = 0.9;
+/// Rounds of stretching before a run is refused; measured need is 1, by less than 1 %.
+const ROUNDS: usize = 12;
+/// Part of a period by which a duration may exceed a whole number of them without taking one more: rounding.
+const PERIOD_EPSILON: f64 = 1e-9;
+
+/// The polyline that the tip and, in the plunge, the tail follow: the run with its overlaps.
+struct Extended {
+    points: Vec<Point>,
+    /// The block of each chord.
+    blocks: Vec<u32>,
+    /// Station at which the run proper starts.
+    start: f64,
+    /// Station at which the tip is lifted.
+    end: f64,
+}
+
+/// Solves one run.
+pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnostic> {
+    let knife = &job.profile.knife;
+    match run.law {
+        Follow::Tangent => {}
+        Follow::Chord => return Err(refuse(run, &code::PROFILE_UNSUPPORTED, "the chord law has no motion yet")),
+    }
+    let bounds = Bounds { axes: job.profile.axes.limits(), feed: run.feed };
+    let extended = extend(run);
+    let blocks = Blocks::new(&extended);
+    let period = job.profile.time.period();
+    if run.shape == Shape::Open && polyline::is_straight(&extended.points, STRAIGHT_SHARE * tolerance) {
+        return straight(run, &extended, &blocks, &bounds, job);
+    }
+    let tube = Tube::new(extended.points, tolerance, &job.profile);
+    let smooth = smooth(&tube).map_err(|e| {
+        let least = fixed(e.deviation, 4);
+        refuse(
+            run,
+            &code::PLAN_SMOOTH,
+            &format!("no smooth curve inside {} mm (least deviation {least} mm)", fixed(tolerance, 4)),
+        )
+    })?;
+    let entry = match run.shape {
+        Shape::Open => Entry::Chord(knife.width_mm),
+        Shape::Ring => Entry::Tangent(extended.start),
+    };
+    let way = Way::new(&smooth.curve, entry, extended.end, knife.radius(), run.start.c);
+    if way.to - way.from < WAY_EPSILON {
+        return Ok(plunge_only(way.pose(way.to), blocks.at(way.to)));
+    }
+    let timing = profile(&way, &bounds)
+        .map_err(|_| refuse(run, &code::PLAN_PROFILE, "no motion within the limits was found"))?;
+    let mut length = 0.0;
+    let mut cut = certified(run, timing.duration(), period, &bounds.axes, |count| {
+        let places = timing.sample(count);
+        length = places.windows(2).map(|u| (way.point(u[1]) - way.point(u[0])).norm()).sum();
+        places.iter().map(|&u| (way.pose(u), blocks.at(u))).unzip()
+    })?;
+    (cut.length, cut.bulge) = (length, smooth.bulge);
+    Ok(cut)
+}
+
+/// A straight run in closed form: the tightest axis decides.
+fn straight(run: &Run, extended: &Extended, blocks: &Blocks, bounds: &Bounds, job: &Job) -> Result<Cut, Diagnostic> {
+    let knife = &job.profile.knife;
+    let (first, last) = (extended.points[0], extended.points[extended.points.len() - 1]);
+    let whole = (last - first).norm();
+    let u = (last - first) / whole;
+    let c = run.start.c.nearest(crate::geom::Heading::of(u));
+    let pose = |reach: f64| Pose { centre: first + u * (reach - knife.radius()), c };
+    let way = whole - knife.width_mm;
+    if way < WAY_EPSILON {
+        return Ok(plunge_only(pose(whole.max(knife.width_mm)), blocks.at(whole)));
+    }
+    let mut limits = bounds.axes[0].along(u.x).min(bounds.axes[1].along(u.y));
+    limits.speed = limits.speed.min(bounds.feed);
+    let motion = Move::new(way, limits);
+    let mut cut = certified(run, motion.duration(), job.profile.time.period(), &bounds.axes, |count| {
+        let reach = |i: usize| knife.width_mm + motion.at(i as f64, (count - 1) as f64);
+        (0..count).map(|i| (pose(reach(i)), blocks.at(reach(i)))).unzip()
+    })?;
+    cut.length = way;
+    Ok(cut)
+}
+
+fn plunge_only(pose: Pose, block: u32) -> Cut {
+    Cut { poses: vec![pose], blocks: vec![block], duration: 0.0, length: 0.0, bulge: 0.0 }
+}
+
+/// Samples a motion over a whole number of periods, stretched until every difference keeps its limit.
+fn certified(
+    run: &Run,
+    duration: f64,
+    period: f64,
+    limits: &[Limits; 3],
+    mut sample: impl FnMut(usize) -> (Vec<Pose>, Vec<u32>),
+) -> Result<Cut, Diagnostic> {
+    let mut stretch = 1.0;
+    let mut rho = 1.0;
+    for _ in 0..ROUNDS {
+        let ticks = whole_periods(duration * stretch, period);
+        let (poses, blocks) = sample(ticks + 1);
+        let peaks: Peaks = certify::peaks_of(&poses, period);
+        rho = certify::excess(&peaks, limits);
+        if rho <= 1.0 + EXCESS_EPSILON {
+            return Ok(Cut { poses, blocks, duration, length: 0.0, bulge: 0.0 });
+        }
+        stretch = ticks as f64 * period / duration * rho;
+    }
+    let percent = fixed((rho - 1.0) * 100.0, 2);
+    Err(refuse(run, &code::PLAN_CERTIFY, &format!("its samples still exceed a limit by {percent} % of time")))
+}
+
+/// The least number of periods, at least 1, that last `duration`.
+pub(super) fn whole_periods(duration: f64, period: f64) -> usize {
+    ((duration / period - PERIOD_EPSILON).ceil() as usize).max(1)
+}
+
+fn refuse(run: &Run, code: &'static code::Code, reason: &str) -> Diagnostic {
+    let (first, last) = (run.spans[0], run.spans[run.spans.len() - 1]);
+    let span = Span { end: last.end.max(first.end), ..first };
+    Diagnostic::new(code, format!("the run of blocks {} to {}: {reason}", first.block, last.block)).at(span)
+}
+
+/// The run with its overlaps, as one polyline.
+fn extend(run: &Run) -> Extended {
+    match run.shape {
+        Shape::Open => extend_open(run),
+        Shape::Ring => extend_ring(run),
+    }
+}
+
+/// Overlaps run straight on along the end chords.
+fn extend_open(run: &Run) -> Extended {
+    let points = run.extended();
+    let mut blocks: Vec<u32> = run.spans.iter().map(|s| s.block).collect();
+    if run.heel > 0.0 {
+        blocks.insert(0, blocks[0]);
+    }
+    blocks.resize(points.len() - 1, blocks[blocks.len() - 1]);
+    let end = polyline::length(&points);
+    Extended { points, blocks, start: 0.0, end }
+}
+
+/// Length of contour before the start and behind the end of a ring that joins the polyline, so that the curve there is
+/// what it is elsewhere, mm; and the fewest chords of it.
+const LEAD: f64 = 8.0;
+const LEAD_CHORDS: usize = 3;
+
+/// A ring overlaps along itself: it starts in full motion law and goes past its start by the front overlap.
+fn extend_ring(run: &Run) -> Extended {
+    let n = run.points.len() - 1;
+    let chord = |i: usize| (run.points[i % n + 1] - run.points[i % n]).norm();
+    // Chords of the contour, walked again and again, until they are as long as asked.
+    let lead = |length: f64, next: &dyn Fn(usize) -> usize| {
+        let (mut chords, mut sum) = (0, 0.0);
+        while sum < length || chords < LEAD_CHORDS {
+            sum += chord(next(chords));
+            chords += 1;
+        }
+        (chords, sum)
+    };
+    let (before, start) = lead(LEAD, &|i| n - 1 - i % n);
+    let (after, _) = lead(run.front + LEAD, &|i| i);
+    let first = n - before % n;
+    let chords = before + n + after;
+    let points = (0..=chords).map(|i| run.points[(first + i) % n]).collect();
+    let blocks = (0..chords).map(|i| run.spans[(first + i) % n].block).collect();
+    let end = start + polyline::length(&run.points) + run.front;
+    Extended { points, blocks, start, end }
+}
+
+/// The source block at each station of an extended run.
+struct Blocks {
+    stations: Vec<f64>,
+    blocks: Vec<u32>,
+}
+
+impl Blocks {
+    fn new(extended: &Extended) -> Self {
+        Self { stations: polyline::stations(&extended.points), blocks: extended.blocks.clone() }
+    }
+
+    fn at(&self, u: f64) -> u32 {
+        self.blocks[crate::geom::spline::span(&self.stations, u)]
+    }
+}

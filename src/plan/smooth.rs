@@ -1,0 +1,489 @@
+//! The smoothest curve inside a tube: a degree-5 B-spline r(u) over the chord length that minimises the integral of
+//! |r'''|^2 with its deviation below the tolerance at dense samples, end points fixed.
+//!
+//! Jerk along a path contains k'' v^3 (k = curvature), so the path must be smooth to the third derivative of its
+//! direction; arcs, lines and cubic fits are not. Two phases: penalised least squares gives a strictly feasible start,
+//! then a logarithmic barrier with Newton steps (Boyd & Vandenberghe, *Convex Optimization*, chapter 11) brings it to
+//! the optimum. All matrices are banded, so time and memory are linear in the number of knots.
+
+use super::banded::Band;
+use super::knots;
+use super::tube::{Slot, Tube};
+use crate::geom::spline::{self, Piecewise};
+use crate::geom::{Point, Vector};
+
+/// Order of the spline: degree 5, so that curvature has two continuous derivatives and a third one almost everywhere.
+const ORDER: usize = 6;
+/// Half-bandwidth + 1 of the systems in one coordinate, and in both interleaved.
+const BAND: usize = ORDER;
+const BAND_XY: usize = 2 * ORDER;
+/// The derivative whose square is minimised: order 3 beat 2 and 4 in program time.
+const PENALTY_ORDER: usize = 3;
+/// Part of the tolerance that the samples may use; the rest is for what happens between them.
+const SHARE: f64 = 0.94;
+/// Samples a span of the spline, besides the vertices.
+const SAMPLES_A_SPAN: usize = 3;
+/// Samples a span of the check between them.
+const CHECKS_A_SPAN: usize = 9;
+/// Attempts with finer and finer knots, and the factor on the spacing near what was not reached.
+const ATTEMPTS: usize = 8;
+const FINER: f64 = 0.6;
+/// The barrier stops when its duality gap is below this part of the penalty: geometry is insensitive beyond.
+const GAP: f64 = 2e-2;
+/// Growth of the barrier's weight from round to round.
+const ROUND: f64 = 10.0;
+/// Bounds on Newton steps, in a round and in all: a guard, far above what is seen.
+const STEPS_A_ROUND: usize = 10;
+const STEPS_MAX: usize = 90;
+/// A round ends when the Newton decrement squared falls below this.
+const DECREMENT: f64 = 2.0;
+/// Least distance of two samples, as a part of the length: nearer ones say the same.
+const SAMPLE_EPSILON: f64 = 1e-7;
+/// Least factor of a line search: a smaller step makes no progress in floating point.
+const STEP_EPSILON: f64 = 1e-9;
+
+/// A smooth path: position over chord length, mm.
+pub(super) type Curve = Piecewise<ORDER, 2>;
+
+/// No curve was found inside the tube.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct TooTight {
+    /// The least deviation that was reached, mm.
+    pub(super) deviation: f64,
+}
+
+/// What was found.
+#[derive(Debug)]
+pub(super) struct Smooth {
+    /// The curve; its parameter runs from 0 to the tube's length.
+    pub(super) curve: Curve,
+    /// Greatest part of a bulge that the curve uses, mm.
+    pub(super) bulge: f64,
+}
+
+/// The smoothest curve inside the tube.
+pub(super) fn smooth(tube: &Tube) -> Result<Smooth, TooTight> {
+    let mut finer = vec![1.0; tube.points.len()];
+    let mut worst = f64::INFINITY;
+    for _ in 0..ATTEMPTS {
+        let problem = Problem::new(tube, knots::breaks(tube, &finer));
+        let start = problem.feasible_start();
+        let trouble = match start {
+            Ok((control, weight)) => {
+                let curve = problem.curve(&problem.barrier(problem.relax(control, weight)));
+                let (violations, deviation, bulge) = problem.check(&curve);
+                if violations.is_empty() {
+                    return Ok(Smooth { curve, bulge });
+                }
+                worst = worst.min(deviation);
+                violations
+            }
+            Err((violations, deviation)) => {
+                worst = worst.min(deviation);
+                violations
+            }
+        };
+        refine(tube, &mut finer, &trouble, problem.median_span());
+    }
+    Err(TooTight { deviation: worst })
+}
+
+/// Makes the spacing finer at the vertices near trouble.
+fn refine(tube: &Tube, finer: &mut [f64], trouble: &[f64], median_span: f64) {
+    let reach = (2.0 * median_span).max(1.0);
+    for (factor, &station) in finer.iter_mut().zip(&tube.stations) {
+        let next = trouble.partition_point(|&u| u < station);
+        let near = |u: Option<&f64>| u.is_some_and(|u| (u - station).abs() < reach);
+        if near(trouble.get(next)) || next > 0 && near(trouble.get(next - 1)) {
+            *factor *= FINER;
+        }
+    }
+}
+
+type Control = Vec<[f64; 2]>;
+
+/// One place at which the deviation is bounded.
+struct Sample {
+    /// Chord length.
+    u: f64,
+    /// First of the control points that move it.
+    first: usize,
+    /// Their weights.
+    weights: [f64; ORDER],
+    /// What counts as on the path.
+    slot: Slot,
+}
+
+impl Sample {
+    fn point(&self, control: &[[f64; 2]]) -> Point {
+        let mut point = Point::origin();
+        for (weight, c) in self.weights.iter().zip(&control[self.first..]) {
+            point.x += weight * c[0];
+            point.y += weight * c[1];
+        }
+        point
+    }
+
+    fn deviation(&self, control: &[[f64; 2]]) -> Vector {
+        self.slot.deviation(self.point(control)).0
+    }
+}
+
+/// One attempt: a choice of knots with everything that does not change over the iterations.
+struct Problem<'a> {
+    tube: &'a Tube,
+    breaks: Vec<f64>,
+    samples: Vec<Sample>,
+    /// Length that each sample stands for in least squares.
+    shares: Vec<f64>,
+    /// Sum of squares of the samples, and the penalty, as matrices in one coordinate.
+    squares: Band<BAND>,
+    penalty: Band<BAND>,
+    /// Bound on the deviation of the samples, mm.
+    bound: f64,
+}
+
+impl<'a> Problem<'a> {
+    fn new(tube: &'a Tube, breaks: Vec<f64>) -> Self {
+        let knots = spline::clamped_knots::<ORDER>(&breaks);
+        let count = spline::control_count::<ORDER>(&breaks);
+        let stations = sample_stations(tube, &breaks);
+        let mut samples = Vec::with_capacity(stations.len());
+        let (mut span, mut chord) = (0, 0);
+        for &u in &stations {
+            while span + 2 < breaks.len() && breaks[span + 1] <= u {
+                span += 1;
+            }
+            while chord + 2 < tube.stations.len() && tube.stations[chord + 1] <= u {
+                chord += 1;
+            }
+            let [weights] = spline::basis::<ORDER, 1>(&knots, span, u);
+            samples.push(Sample { u, first: span, weights, slot: tube.slot(chord, u) });
+        }
+        let last = samples.len() - 1;
+        let shares: Vec<f64> = (0..=last)
+            .map(|i| {
+                let share = (stations[(i + 1).min(last)] - stations[i.saturating_sub(1)]) / 2.0;
+                share.max(SHARE_MIN * tube.length())
+            })
+            .collect();
+        let mut squares = Band::zero(count);
+        for (sample, &share) in samples.iter().zip(&shares) {
+            squares.add_square(sample.first, &sample.weights, share);
+        }
+        let mut penalty = Band::zero(count);
+        for (span, ends) in breaks.windows(2).enumerate() {
+            let half = (ends[1] - ends[0]) / 2.0;
+            for (node, weight) in GAUSS_3 {
+                let u = f64::midpoint(ends[0], ends[1]) + half * node;
+                let ders = spline::basis::<ORDER, { PENALTY_ORDER + 1 }>(&knots, span, u);
+                penalty.add_square(span, &ders[PENALTY_ORDER], half * weight);
+            }
+        }
+        Self { tube, breaks, samples, shares, squares, penalty, bound: SHARE * tube.tolerance }
+    }
+
+    fn median_span(&self) -> f64 {
+        let mut spans: Vec<f64> = self.breaks.windows(2).map(|w| w[1] - w[0]).collect();
+        spans.sort_by(f64::total_cmp);
+        spans[spans.len() / 2]
+    }
+
+    fn curve(&self, control: &[[f64; 2]]) -> Curve {
+        Piecewise::from_control(self.breaks.clone(), control)
+    }
+
+    /// Penalised least squares through the middle of the tube, ends fixed; `None` when the system is singular.
+    fn least_squares(&self, weight: f64) -> Option<Control> {
+        let n = self.squares.len();
+        let mut matrix = self.squares.clone();
+        matrix.add(&self.penalty, weight);
+        let mut x: Control = vec![[0.0; 2]; n];
+        for (sample, &share) in self.samples.iter().zip(&self.shares) {
+            let middle = sample.slot.middle();
+            for (w, value) in sample.weights.iter().zip(&mut x[sample.first..]) {
+                value[0] += w * share * middle.x;
+                value[1] += w * share * middle.y;
+            }
+        }
+        for (i, end) in self.ends() {
+            matrix.fix(i, |row, entry| {
+                x[row][0] -= entry * end[0];
+                x[row][1] -= entry * end[1];
+            });
+        }
+        for (i, end) in self.ends() {
+            x[i] = end;
+        }
+        matrix.factor().ok()?.solve(&mut x);
+        Some(x)
+    }
+
+    /// The fixed control points.
+    fn ends(&self) -> [(usize, [f64; 2]); 2] {
+        let points = &self.tube.points;
+        let end = |p: Point| [p.x, p.y];
+        [(0, end(points[0])), (self.squares.len() - 1, end(points[points.len() - 1]))]
+    }
+
+    fn greatest_deviation(&self, control: &[[f64; 2]]) -> f64 {
+        self.samples.iter().map(|s| s.deviation(control).norm()).fold(0.0, f64::max)
+    }
+
+    /// A curve strictly inside the tube, with the weight of the penalty that gave it; otherwise where it leaves the tube.
+    fn feasible_start(&self) -> Result<(Control, f64), (Vec<f64>, f64)> {
+        let mut weight = START_WEIGHT * self.tube.tolerance;
+        let mut best: Option<(Control, f64)> = None;
+        for _ in 0..START_ROUNDS {
+            let Some(control) = self.least_squares(weight) else { break };
+            let deviation = self.greatest_deviation(&control);
+            if deviation < START_SHARE * self.bound {
+                return Ok((control, weight));
+            }
+            if best.as_ref().is_none_or(|(_, least)| deviation < *least) {
+                best = Some((control, deviation));
+            }
+            weight *= 0.1;
+        }
+        let Some((control, deviation)) = best else { return Err((self.tube.stations.clone(), f64::INFINITY)) };
+        let out = |s: &&Sample| s.deviation(&control).norm() > SHARE * self.bound;
+        Err((self.samples.iter().filter(out).map(|s| s.u).collect(), deviation))
+    }
+
+    /// Raises the weight of the penalty while the curve stays well inside the tube: a start near the optimum.
+    fn relax(&self, mut control: Control, mut weight: f64) -> Control {
+        for _ in 0..RELAX_ROUNDS {
+            weight *= 3.0;
+            let Some(next) = self.least_squares(weight) else { break };
+            if self.greatest_deviation(&next) > RELAX_SHARE * self.bound {
+                break;
+            }
+            control = next;
+        }
+        control
+    }
+
+    fn penalty_of(&self, control: &[[f64; 2]]) -> f64 {
+        let product = self.penalty.times(control);
+        product.iter().zip(control).map(|(p, c)| p[0] * c[0] + p[1] * c[1]).sum()
+    }
+
+    /// Barrier function: weight / 2 * penalty - sum of log(bound^2 - |deviation|^2); infinite outside.
+    fn value(&self, control: &[[f64; 2]], weight: f64) -> f64 {
+        let square = self.bound * self.bound;
+        let mut logs = 0.0;
+        for sample in &self.samples {
+            let slack = square - sample.deviation(control).norm_squared();
+            if slack <= 0.0 || slack.is_nan() {
+                return f64::INFINITY;
+            }
+            logs += slack.ln();
+        }
+        0.5 * weight * self.penalty_of(control) - logs
+    }
+
+    /// From a strictly feasible start to the optimum, as far as [`GAP`] says; every iterate is feasible.
+    fn barrier(&self, mut control: Control) -> Control {
+        let count = self.samples.len() as f64;
+        let mut weight = 0.05 * count / self.penalty_of(&control).max(f64::MIN_POSITIVE);
+        let mut steps = 0;
+        loop {
+            for _ in 0..STEPS_A_ROUND {
+                steps += 1;
+                let Some((direction, decrement)) = self.newton(&control, weight) else { break };
+                let before = self.value(&control, weight);
+                let Some(next) = self.line_search(&control, &direction, weight, before, decrement) else { break };
+                control = next;
+                if decrement < DECREMENT {
+                    break;
+                }
+            }
+            if count / weight < GAP * self.penalty_of(&control) || steps > STEPS_MAX {
+                return control;
+            }
+            weight *= ROUND;
+        }
+    }
+
+    /// The Newton direction and the square of its decrement.
+    fn newton(&self, control: &[[f64; 2]], weight: f64) -> Option<(Control, f64)> {
+        let n = self.penalty.len();
+        let square = self.bound * self.bound;
+        let mut hessian = Band::<BAND_XY>::zero(2 * n);
+        for i in 0..n {
+            for k in 0..BAND.min(i + 1) {
+                let entry = weight * self.penalty.entry(i, i - k);
+                hessian.add_entry(2 * i, 2 * (i - k), entry);
+                hessian.add_entry(2 * i + 1, 2 * (i - k) + 1, entry);
+            }
+        }
+        let mut gradient: Vec<[f64; 1]> = Vec::with_capacity(2 * n);
+        for product in self.penalty.times(control) {
+            gradient.extend(product.map(|v| [weight * v]));
+        }
+        for sample in &self.samples {
+            let point = sample.point(control);
+            let e = sample.slot.deviation(point).0;
+            let slack = square - e.norm_squared();
+            // d2/dr2 of -log(slack) = 2 P / slack + 4 e e^T / slack^2, P the projection off the free direction.
+            let (a, b) = (2.0 / slack, 4.0 / (slack * slack));
+            let (mut xx, mut xy, mut yy) = (a + b * e.x * e.x, b * e.x * e.y, a + b * e.y * e.y);
+            if let Some(free) = sample.slot.free_direction(point) {
+                xx -= a * free.x * free.x;
+                xy -= a * free.x * free.y;
+                yy -= a * free.y * free.y;
+            }
+            for (i, wi) in sample.weights.iter().enumerate() {
+                let row = 2 * (sample.first + i);
+                gradient[row][0] += wi * a * e.x;
+                gradient[row + 1][0] += wi * a * e.y;
+                for (j, wj) in sample.weights[..=i].iter().enumerate() {
+                    let (column, w) = (2 * (sample.first + j), wi * wj);
+                    hessian.add_entry(row, column, w * xx);
+                    hessian.add_entry(row + 1, column, w * xy);
+                    hessian.add_entry(row + 1, column + 1, w * yy);
+                    if j < i {
+                        hessian.add_entry(row, column + 1, w * xy);
+                    }
+                }
+            }
+        }
+        for fixed in [0, 1, 2 * n - 2, 2 * n - 1] {
+            hessian.fix(fixed, |_, _| {});
+            gradient[fixed][0] = 0.0;
+        }
+        let mut step: Vec<[f64; 1]> = gradient.iter().map(|g| [-g[0]]).collect();
+        hessian.factor().ok()?.solve(&mut step);
+        let decrement = -step.iter().zip(&gradient).map(|(s, g)| s[0] * g[0]).sum::<f64>();
+        (decrement.is_finite()).then(|| (step.chunks_exact(2).map(|s| [s[0][0], s[1][0]]).collect(), decrement))
+    }
+
+    fn line_search(
+        &self,
+        control: &[[f64; 2]],
+        direction: &[[f64; 2]],
+        weight: f64,
+        before: f64,
+        decrement: f64,
+    ) -> Option<Control> {
+        let mut step = 1.0;
+        while step > STEP_EPSILON {
+            let next: Control =
+                control.iter().zip(direction).map(|(c, d)| [c[0] + step * d[0], c[1] + step * d[1]]).collect();
+            if self.value(&next, weight) <= before - ARMIJO * step * decrement {
+                return Some(next);
+            }
+            step *= 0.5;
+        }
+        None
+    }
+
+    /// Where the curve leaves the whole tolerance between the samples, its greatest deviation and greatest bulge, mm.
+    fn check(&self, curve: &Curve) -> (Vec<f64>, f64, f64) {
+        let mut violations = Vec::new();
+        let (mut deviation, mut bulge) = (0.0_f64, 0.0_f64);
+        let mut chord = 0;
+        for (span, ends) in self.breaks.windows(2).enumerate() {
+            for i in 0..CHECKS_A_SPAN {
+                let u = ends[0] + (ends[1] - ends[0]) * i as f64 / CHECKS_A_SPAN as f64;
+                while chord + 2 < self.tube.stations.len() && self.tube.stations[chord + 1] <= u {
+                    chord += 1;
+                }
+                let [[x, y]] = curve.derivatives_on::<1>(span, u);
+                let (away, used) = self.tube.slot(chord, u).deviation(Point::new(x, y));
+                deviation = deviation.max(away.norm());
+                bulge = bulge.max(used);
+                if away.norm() > CHECK_SHARE * self.tube.tolerance {
+                    violations.push(u);
+                }
+            }
+        }
+        (violations, deviation, bulge)
+    }
+}
+
+/// Nodes and weights of Gauss-Legendre quadrature with three points: exact for the square of a third derivative.
+const GAUSS_3: [(f64, f64); 3] =
+    [(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
+/// Least share of a sample in least squares, as a part of the length: no sample is without a say.
+const SHARE_MIN: f64 = 1e-6;
+/// First weight of the penalty as a part of the tolerance, the rounds that lower it tenfold, and how far inside the bound
+/// the start must lie.
+const START_WEIGHT: f64 = 1e-6;
+const START_ROUNDS: usize = 14;
+const START_SHARE: f64 = 0.999;
+/// Rounds that raise the weight threefold, and how far inside the bound they must stay.
+const RELAX_ROUNDS: usize = 80;
+const RELAX_SHARE: f64 = 0.8;
+/// Sufficient decrease of a line search, as a part of what the slope promises.
+const ARMIJO: f64 = 1e-4;
+/// Part of the tolerance that the curve may use anywhere: the rest is for rounding of the emitted numbers.
+const CHECK_SHARE: f64 = 0.995;
+
+/// The vertices and [`SAMPLES_A_SPAN`] places a span, in order, none nearer than [`SAMPLE_EPSILON`] to another.
+fn sample_stations(tube: &Tube, breaks: &[f64]) -> Vec<f64> {
+    let inner = breaks
+        .windows(2)
+        .flat_map(|ends| (0..SAMPLES_A_SPAN).map(|i| ends[0] + (ends[1] - ends[0]) * i as f64 / SAMPLES_A_SPAN as f64));
+    let mut stations: Vec<f64> = inner.chain(tube.stations.iter().copied()).collect();
+    stations.sort_by(f64::total_cmp);
+    let least = SAMPLE_EPSILON * tube.length();
+    stations.dedup_by(|next, kept| *next - *kept <= least);
+    let last = stations.len() - 1;
+    stations[last] = tube.length();
+    stations
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::MachineProfile;
+
+    fn check(points: Vec<Point>, tolerance: f64) -> Smooth {
+        let tube = Tube::new(points, tolerance, &MachineProfile::default());
+        let smooth = smooth(&tube).expect("a curve inside the tube");
+        let n = 5000;
+        for i in 0..=n {
+            let u = tube.length() * f64::from(i) / f64::from(n);
+            let [[x, y]] = smooth.curve.derivatives::<1>(u);
+            let away = tube.slot(tube.chord(u), u).deviation(Point::new(x, y)).0.norm();
+            assert!(away <= tolerance, "{away} at {u}");
+        }
+        smooth
+    }
+
+    fn points(coordinates: &[(f64, f64)]) -> Vec<Point> {
+        coordinates.iter().map(|&(x, y)| Point::new(x, y)).collect()
+    }
+
+    #[test]
+    fn a_lone_kink_is_rounded_inside_the_tolerance() {
+        for degrees in [1.0_f64, 10.0, 30.0, 44.9] {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            check(points(&[(0.0, 0.0), (300.0, 0.0), (300.0 + 200.0 * cos, 200.0 * sin)]), 0.05);
+        }
+    }
+
+    #[test]
+    fn a_staircase_of_file_units_becomes_smooth() {
+        let mut stairs = vec![(0.0, 0.0)];
+        for i in 0..40 {
+            let (x, y) = stairs[stairs.len() - 1];
+            stairs.push((x + 2.0, y + if i % 3 == 0 { 0.254 } else { 0.0 }));
+        }
+        check(points(&stairs), 0.18);
+    }
+
+    #[test]
+    fn the_flattened_circle_becomes_nearly_the_circle() {
+        let ring: Vec<Point> = (0..=40)
+            .map(|i| std::f64::consts::TAU * f64::from(i) / 15.0)
+            .map(|a| Point::new(6.4 * a.cos(), 6.4 * a.sin()))
+            .collect();
+        let smooth = check(ring, 0.071);
+        assert!(smooth.bulge > 0.1);
+        let [p, d1, d2] = smooth.curve.derivatives::<3>(50.0);
+        let curvature = (d1[0] * d2[1] - d1[1] * d2[0]) / d1[0].hypot(d1[1]).powi(3);
+        assert!((p[0].hypot(p[1]) - 6.4).abs() < 0.15 && (curvature - 1.0 / 6.4).abs() < 0.01, "{curvature}");
+    }
+}
