@@ -1,5 +1,7 @@
 //! What planning promises: certified samples, near time-optimal, inside the tube.
 
+mod support;
+
 use cutc::geom::Point;
 use cutc::ir::list::Joint;
 use cutc::ir::toolpath::{End, Pose, Run, Shape, Step, Toolpath};
@@ -14,14 +16,6 @@ fn score_job(fit: Fit) -> Job {
     job.profile.knife.feed_mm_s = None;
     job.profile.path.fit = fit;
     job
-}
-
-fn contour(name: &str) -> Vec<Point> {
-    let path = format!("{}/fixtures/motion/{name}.csv", env!("CARGO_MANIFEST_DIR"));
-    let text = std::fs::read_to_string(path).expect("the fixture exists");
-    let number = |field: &str| field.trim().parse::<f64>().expect("a number");
-    let point = |line: &str| line.split_once(',').map(|(x, y)| Point::new(number(x), number(y)));
-    text.lines().skip(1).filter_map(point).collect()
 }
 
 fn toolpath(points: Vec<Point>, feed: f64) -> Toolpath {
@@ -51,7 +45,7 @@ fn the_four_contours_come_near_their_references() {
     for (name, reference) in
         [("contour2m_flat", 2.2276), ("sleeve_flat", 0.7023), ("circle64_flat", 0.4051), ("rrect5_flat", 1.5324)]
     {
-        let time = duration(contour(name), Fit::Polygon);
+        let time = duration(support::contour(name), Fit::Polygon);
         println!("{name}: {time:.4} s, {:.4} of the reference", time / reference);
         assert!(time <= 1.01 * reference, "{name}: {time:.4} s against {reference} s");
     }

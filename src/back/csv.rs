@@ -7,7 +7,7 @@
 use std::io;
 
 use super::{Emit, Output, Parts, Proof, Target};
-use crate::ir::Motion;
+use crate::ir::{Finding, Motion};
 use crate::machine::Job;
 use crate::units::{deg, number};
 
@@ -52,6 +52,7 @@ fn body(motion: &Motion, job: &Job, out: &mut dyn Output) -> io::Result<()> {
     out.write_all(&rows)
 }
 
-fn tail(_: &Job, _: &mut dyn Output) -> io::Result<()> {
+#[allow(clippy::unnecessary_wraps, reason = "the signature is that of every target")]
+fn tail(_: &Job, _: &[Finding], _: &mut dyn Output) -> io::Result<()> {
     Ok(())
 }

@@ -5,7 +5,7 @@
 
 use std::io::{self, Seek, Write};
 
-use crate::ir::{Marker, Motion, Toolpath};
+use crate::ir::{Finding, Marker, Motion, Toolpath};
 use crate::machine::Job;
 
 mod csv;
@@ -48,8 +48,8 @@ pub struct Parts<T> {
     pub head: fn(&Job, &mut dyn Output) -> io::Result<()>,
     /// Written for each form, in order.
     pub body: fn(&T, &Job, &mut dyn Output) -> io::Result<()>,
-    /// Written last; may go back to the head.
-    pub tail: fn(&Job, &mut dyn Output) -> io::Result<()>,
+    /// Written last, with what the verifier found in the setpoints of the same compile; may go back to the head.
+    pub tail: fn(&Job, &[Finding], &mut dyn Output) -> io::Result<()>,
 }
 
 /// How the verifier judges a target's bytes.

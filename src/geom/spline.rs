@@ -102,8 +102,8 @@ impl<const K: usize, const N: usize> Piecewise<K, N> {
             for (k, row) in ders.iter().enumerate() {
                 factorial *= k.max(1) as f64;
                 for (weight, value) in row.iter().zip(&control[span..span + K]) {
-                    for n in 0..N {
-                        piece[k][n] += weight * value[n] / factorial;
+                    for (sum, v) in piece[k].iter_mut().zip(value) {
+                        *sum += weight * v / factorial;
                     }
                 }
             }
@@ -134,8 +134,8 @@ impl<const K: usize, const N: usize> Piecewise<K, N> {
                     out[d][n] = out[d][n] * x + out[d - 1][n];
                 }
             }
-            for n in 0..N {
-                out[0][n] = out[0][n] * x + coefficient[n];
+            for (value, c) in out[0].iter_mut().zip(coefficient) {
+                *value = *value * x + c;
             }
         }
         let mut factorial = 1.0;

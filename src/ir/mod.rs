@@ -11,12 +11,14 @@
 //! - every run has one span a chord, overlaps that are not negative and a positive speed cap
 
 pub mod check;
+pub mod finding;
 pub mod list;
 pub mod marker;
 pub mod motion;
 pub mod text;
 pub mod toolpath;
 
+pub use finding::Finding;
 pub use list::{Range, Segment, SegmentId, SegmentList};
 pub use marker::Marker;
 pub use motion::Motion;

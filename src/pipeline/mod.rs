@@ -73,7 +73,7 @@ pub fn compile(
             for toolpath in toolpaths(&marker, job, diagnostics) {
                 (parts.body)(&toolpath, job, out)?;
             }
-            (parts.tail)(job, out)?;
+            (parts.tail)(job, &[], out)?;
         }
         Emit::Motion(parts) => {
             (parts.head)(job, out)?;
@@ -99,7 +99,7 @@ pub fn compile(
             let end = planner.finish();
             tally.add(&end);
             (parts.body)(&end, job, out)?;
-            (parts.tail)(job, out)?;
+            (parts.tail)(job, &[], out)?;
             if let Err(diagnostic) = planner.certify() {
                 diagnostics.push(diagnostic);
             }

@@ -18,9 +18,9 @@ use crate::units::number::fixed;
 #[derive(Debug)]
 pub struct Cut {
     /// The poses at its ticks, the one at its end included; one alone when the blade plunges and lifts without a way.
-    pub(super) poses: Vec<Pose>,
+    pub poses: Vec<Pose>,
     /// The source block being cut at each of them.
-    pub(super) blocks: Vec<u32>,
+    pub blocks: Vec<u32>,
     /// Time from rest to rest before it was stretched to whole periods, s.
     pub duration: f64,
     /// Way of the tip, mm.

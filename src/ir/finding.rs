@@ -1,0 +1,36 @@
+//! What the verifier found, in a form that pictures and reports can show.
+
+use crate::geom::Point;
+
+/// The worst that was seen under one rule; reported also when it is allowed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finding {
+    /// Code of the rule, `verify/kebab-case`.
+    pub rule: &'static str,
+    /// The worst value.
+    pub worst: f64,
+    /// The greatest value allowed; `None` when the rule is only reported.
+    pub limit: Option<f64>,
+    /// Unit of both, as it is shown; empty for counts.
+    pub unit: &'static str,
+    /// Where the worst value was seen, if it has a place.
+    pub place: Option<Sighting>,
+}
+
+/// Where and when something was seen in a program.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sighting {
+    /// Time in the program, s; `None` when the thing is missing from it.
+    pub time: Option<f64>,
+    /// Place on the table, mm.
+    pub point: Point,
+    /// Number of the source block; 0 = none.
+    pub block: u32,
+}
+
+impl Finding {
+    /// Whether the worst value is allowed. A value that is not a number is not.
+    pub fn holds(&self) -> bool {
+        self.limit.is_none_or(|limit| self.worst <= limit)
+    }
+}

@@ -1,0 +1,95 @@
+//! Where the blade stands at the ends of runs: the paper's states, stabs, rings.
+
+mod support;
+
+use cutc::geom::Point;
+use cutc::ir::toolpath::{Pose, Shape, Step};
+use cutc::machine::Job;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+fn knife(width: f64, back: f64, front: f64, heel: f64) -> Job {
+    let mut job = Job::default();
+    let knife = &mut job.profile.knife;
+    (knife.width_mm, knife.back_mm) = (width, Some(back));
+    (knife.front_overlap_mm, knife.corner_front_overlap_mm) = (front, front);
+    (knife.heel_overlap_mm, knife.corner_heel_overlap_mm) = (heel, heel);
+    job
+}
+
+fn near(a: Point, b: Point, accuracy: f64) -> bool {
+    (a - b).norm() < accuracy
+}
+
+#[test]
+fn the_square_of_the_paper_has_its_eight_states() {
+    let square = [(0.0, 0.0), (100.0, 0.0), (100.0, 100.0), (0.0, 100.0), (0.0, 0.0)];
+    let points: Vec<Point> = square.iter().map(|&(x, y)| Point::new(x, y)).collect();
+    let job = knife(6.0, 2.0, 1.0, 0.5);
+    let toolpaths = support::toolpaths(&support::marker(&points), &job);
+    let states: Vec<Pose> = support::runs(&toolpaths[0]).iter().flat_map(|run| [run.start, run.end]).collect();
+    let table = support::rows("knife/square_table.csv");
+    assert_eq!(states.len(), table.len());
+    for (state, row) in states.iter().zip(table) {
+        let [_, x, y, c, tip_x, tip_y, tail_x, tail_y, ..] = row[..] else { panic!("a row has eight numbers or more") };
+        assert!(near(state.centre, Point::new(x, y), 1e-9), "{state:?} {x} {y}");
+        assert!(near(state.ahead(4.0), Point::new(tip_x, tip_y), 1e-9));
+        assert!(near(state.ahead(-2.0), Point::new(tail_x, tail_y), 1e-9));
+        assert!((state.c.heading().radians().to_degrees() - c).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn a_straight_run_starts_with_its_tail_and_ends_with_its_tip_at_the_overlaps() {
+    let mut random = ChaCha8Rng::seed_from_u64(1);
+    for _ in 0..500 {
+        let width = random.random_range(0.0..10.0);
+        let back = random.random_range(0.0..=width);
+        let (front, heel) = (random.random_range(0.0..3.0), random.random_range(0.0..3.0));
+        let job = knife(width, back, front, heel);
+        let from = Point::new(random.random_range(-1e3..1e3), random.random_range(-1e3..1e3));
+        let angle: f64 = random.random_range(-9.0..9.0);
+        let length = random.random_range(0.1..40.0);
+        let along = cutc::geom::Heading::new(angle).unit();
+        let to = from + along * length;
+        let toolpath = &support::toolpaths(&support::marker(&[from, to]), &job)[0];
+        let last = toolpath.steps.last().expect("a run or a stab");
+        match last {
+            Step::Run(run) => {
+                assert!(length + front + heel > width);
+                assert!(near(run.start.ahead(-back), from - along * heel, 1e-9));
+                assert!(near(run.end.ahead(width - back), to + along * front, 1e-9));
+            }
+            Step::Stab(stab) => {
+                assert!(length + front + heel <= width + 1e-9);
+                assert!(near(stab.pose.ahead(width - back), to + along * front, 1e-9));
+            }
+            other => panic!("neither a run nor a stab: {other:?}"),
+        }
+    }
+}
+
+#[test]
+fn a_slit_shorter_than_the_blade_is_a_stab_with_its_surplus_outside() {
+    let job = knife(6.6, 2.2, 0.0, 0.0);
+    let (edge, inside) = (Point::new(10.0, 0.0), Point::new(10.0, 5.0));
+    let toolpath = &support::toolpaths(&support::marker(&[edge, inside]), &job)[0];
+    let Some(Step::Stab(stab)) = toolpath.steps.last() else { panic!("not a stab: {toolpath:?}") };
+    assert!(near(stab.pose.ahead(4.4), inside, 1e-12));
+    assert!(near(stab.pose.ahead(-2.2), Point::new(10.0, -1.6), 1e-12));
+    assert!((stab.heel - 1.6).abs() < 1e-12 && stab.front == 0.0);
+}
+
+#[test]
+fn a_smooth_ring_has_no_heel_and_goes_past_its_start() {
+    let points: Vec<Point> = (0..=36)
+        .map(|i| std::f64::consts::TAU * f64::from(i % 36) / 36.0)
+        .map(|a| Point::new(30.0 * a.cos(), 30.0 * a.sin()))
+        .collect();
+    let job = knife(6.0, 2.0, 1.0, 0.5);
+    let toolpath = &support::toolpaths(&support::marker(&points), &job)[0];
+    let runs = support::runs(toolpath);
+    assert_eq!((runs.len(), runs[0].shape), (1, Shape::Ring));
+    assert!(near(runs[0].start.ahead(4.0), points[0], 1e-9));
+    assert!((runs[0].end.c.0 - runs[0].start.c.0 - std::f64::consts::TAU).abs() < 0.1);
+}
