@@ -46,7 +46,6 @@ fn the_four_contours_come_near_their_references() {
         [("contour2m_flat", 2.2276), ("sleeve_flat", 0.7023), ("circle64_flat", 0.4051), ("rrect5_flat", 1.5324)]
     {
         let time = duration(support::contour(name), Fit::Polygon);
-        println!("{name}: {time:.4} s, {:.4} of the reference", time / reference);
         assert!(time <= 1.01 * reference, "{name}: {time:.4} s against {reference} s");
     }
 }

@@ -6,9 +6,8 @@
 
 use std::io;
 
-use super::{Emit, Output, Parts, Proof, Target};
+use super::{Context, Emit, Output, Parts, Proof, Target};
 use crate::ir::{Finding, Motion};
-use crate::machine::Job;
 use crate::units::{deg, number};
 
 pub(super) const TARGET: Target = Target {
@@ -24,12 +23,12 @@ const POSITION_DECIMALS: u32 = 6;
 /// Decimals of the time, in s: a microsecond, or a thousandth of the shortest legal period.
 const TIME_DECIMALS: u32 = 6;
 
-fn head(_: &Job, out: &mut dyn Output) -> io::Result<()> {
+fn head(_: &Context, out: &mut dyn Output) -> io::Result<()> {
     out.write_all(b"t_s,x_mm,y_mm,c_deg,knife,drill,event,block\n")
 }
 
-fn body(motion: &Motion, job: &Job, out: &mut dyn Output) -> io::Result<()> {
-    let period = job.profile.time.period();
+fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<()> {
+    let period = context.job.profile.time.period();
     let mut rows = Vec::with_capacity(80 * motion.ticks() as usize);
     let mut tick = motion.first_tick;
     for phase in &motion.phases {
@@ -53,6 +52,6 @@ fn body(motion: &Motion, job: &Job, out: &mut dyn Output) -> io::Result<()> {
 }
 
 #[allow(clippy::unnecessary_wraps, reason = "the signature is that of every target")]
-fn tail(_: &Job, _: &[Finding], _: &mut dyn Output) -> io::Result<()> {
+fn tail(_: &Context, _: &[Finding], _: &mut dyn Output) -> io::Result<()> {
     Ok(())
 }

@@ -15,6 +15,15 @@ pub trait Output: Write + Seek {}
 
 impl<T: Write + Seek> Output for T {}
 
+/// What a program is made from.
+#[derive(Debug, Clone, Copy)]
+pub struct Context<'a> {
+    /// The machine and the options of this compile.
+    pub job: &'a Job,
+    /// What is cut, after all passes.
+    pub marker: &'a Marker,
+}
+
 /// An output format: a row of [`TARGETS`].
 #[derive(Debug)]
 pub struct Target {
@@ -34,7 +43,7 @@ pub struct Target {
 #[derive(Debug)]
 pub enum Emit {
     /// From what the file says.
-    Marker(fn(&Marker, &Job, &mut dyn Output) -> io::Result<()>),
+    Marker(fn(&Context, &mut dyn Output) -> io::Result<()>),
     /// From what the knife does, one toolpath at a time.
     Toolpath(Parts<Toolpath>),
     /// From the timed motion, one at a time.
@@ -45,11 +54,11 @@ pub enum Emit {
 #[derive(Debug)]
 pub struct Parts<T> {
     /// Written first.
-    pub head: fn(&Job, &mut dyn Output) -> io::Result<()>,
+    pub head: fn(&Context, &mut dyn Output) -> io::Result<()>,
     /// Written for each form, in order.
-    pub body: fn(&T, &Job, &mut dyn Output) -> io::Result<()>,
+    pub body: fn(&T, &Context, &mut dyn Output) -> io::Result<()>,
     /// Written last, with what the verifier found in the setpoints of the same compile; may go back to the head.
-    pub tail: fn(&Job, &[Finding], &mut dyn Output) -> io::Result<()>,
+    pub tail: fn(&Context, &[Finding], &mut dyn Output) -> io::Result<()>,
 }
 
 /// How the verifier judges a target's bytes.

@@ -130,8 +130,9 @@ impl<const K: usize, const N: usize> Piecewise<K, N> {
         let mut out = [[0.0; N]; D];
         for coefficient in piece.iter().rev() {
             for d in (1..D).rev() {
-                for n in 0..N {
-                    out[d][n] = out[d][n] * x + out[d - 1][n];
+                let lower = out[d - 1];
+                for (value, below) in out[d].iter_mut().zip(lower) {
+                    *value = *value * x + below;
                 }
             }
             for (value, c) in out[0].iter_mut().zip(coefficient) {

@@ -67,7 +67,7 @@ impl Move {
         let ramp = acceleration / jerk;
         if distance >= 2.0 * acceleration * ramp * ramp {
             // The acceleration is reached, the speed is not: a (hold + ramp)(hold + 2 ramp) = distance.
-            let hold = (-3.0 * ramp + (ramp * ramp + 4.0 * distance / acceleration).sqrt()) / 2.0;
+            let hold = f64::midpoint(-3.0 * ramp, (ramp * ramp + 4.0 * distance / acceleration).sqrt());
             return Self { distance, jerk, ramp, hold: hold.max(0.0), cruise: 0.0 };
         }
         Self { distance, jerk, ramp: (distance / (2.0 * jerk)).cbrt(), hold: 0.0, cruise: 0.0 }

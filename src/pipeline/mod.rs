@@ -8,7 +8,7 @@ use std::io;
 
 use rayon::prelude::*;
 
-use crate::back::{Emit, Output, Target};
+use crate::back::{Context, Emit, Output, Target};
 use crate::diagnostic::Diagnostics;
 use crate::front::Dialect;
 use crate::ir::motion::Kind;
@@ -66,17 +66,18 @@ pub fn compile(
     if diagnostics.has_errors() {
         return Ok(None);
     }
+    let context = Context { job, marker: &marker };
     match &target.emit {
-        Emit::Marker(emit) => emit(&marker, job, out)?,
+        Emit::Marker(emit) => emit(&context, out)?,
         Emit::Toolpath(parts) => {
-            (parts.head)(job, out)?;
+            (parts.head)(&context, out)?;
             for toolpath in toolpaths(&marker, job, diagnostics) {
-                (parts.body)(&toolpath, job, out)?;
+                (parts.body)(&toolpath, &context, out)?;
             }
-            (parts.tail)(job, &[], out)?;
+            (parts.tail)(&context, &[], out)?;
         }
         Emit::Motion(parts) => {
-            (parts.head)(job, out)?;
+            (parts.head)(&context, out)?;
             let mut tally = Tally::default();
             let mut planner = Planner::new(job);
             let steps = toolpaths(&marker, job, diagnostics);
@@ -88,7 +89,7 @@ pub fn compile(
                         Ok(cuts) => {
                             let motion = planner.join(toolpath, cuts);
                             tally.add(&motion);
-                            (parts.body)(&motion, job, out)?;
+                            (parts.body)(&motion, &context, out)?;
                         }
                     }
                 }
@@ -98,8 +99,8 @@ pub fn compile(
             }
             let end = planner.finish();
             tally.add(&end);
-            (parts.body)(&end, job, out)?;
-            (parts.tail)(job, &[], out)?;
+            (parts.body)(&end, &context, out)?;
+            (parts.tail)(&context, &[], out)?;
             if let Err(diagnostic) = planner.certify() {
                 diagnostics.push(diagnostic);
             }
