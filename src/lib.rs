@@ -11,3 +11,4 @@ pub mod pipeline;
 pub mod plan;
 pub mod source;
 pub mod units;
+pub mod verify;

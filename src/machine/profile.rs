@@ -43,6 +43,8 @@ pub struct MachineProfile {
     pub table: Table,
     /// The clock of the controller.
     pub time: Time,
+    /// What the verifier allows.
+    pub verify: Verify,
     /// Codes of the cutter file to ignore, by name (`M19`).
     pub codes: BTreeMap<String, CodeUse>,
 }
@@ -405,7 +407,43 @@ impl Default for MachineProfile {
             c: CAxis::default(),
             table: Table::default(),
             time: Time::default(),
+            verify: Verify::default(),
             codes: BTreeMap::new(),
+        }
+    }
+}
+
+/// What the verifier allows beyond the tolerance of the path.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Verify {
+    /// Longest stretch that may be left uncut, mm: what rounding of the setpoints can leave.
+    pub max_uncut_mm: f64,
+    /// Greatest angle between the blade and its law, degrees.
+    pub max_heading_deg: f64,
+    /// Farthest that the blade's body may leave the path on curves, mm.
+    #[serde(with = "word::off")]
+    pub max_body_mm: Option<f64>,
+    /// Farthest overcut into the part itself, mm.
+    #[serde(with = "word::off")]
+    pub max_overcut_part_mm: Option<f64>,
+    /// Farthest overcut into another part, mm.
+    #[serde(with = "word::off")]
+    pub max_overcut_neighbour_mm: Option<f64>,
+    /// Farthest overcut into waste, mm.
+    #[serde(with = "word::off")]
+    pub max_overcut_waste_mm: Option<f64>,
+}
+
+impl Default for Verify {
+    fn default() -> Self {
+        Self {
+            max_uncut_mm: 0.01,
+            max_heading_deg: 0.5,
+            max_body_mm: None,
+            max_overcut_part_mm: None,
+            max_overcut_neighbour_mm: None,
+            max_overcut_waste_mm: None,
         }
     }
 }

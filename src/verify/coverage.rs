@@ -1,0 +1,104 @@
+//! What has been cut of each line, and how often.
+
+use super::reference::Reference;
+use super::worst::Worst;
+use crate::geom::Point;
+use crate::ir::Finding;
+use crate::ir::finding::Sighting;
+use crate::machine::MachineProfile;
+
+/// The stretches of each line that were cut.
+#[derive(Debug)]
+pub(super) struct Coverage<'a> {
+    reference: &'a Reference<'a>,
+    /// Of each line: disjoint stretches of stations, in order.
+    cut: Vec<Vec<[f64; 2]>>,
+}
+
+impl<'a> Coverage<'a> {
+    /// Nothing is cut yet.
+    pub(super) fn new(reference: &'a Reference) -> Self {
+        Self { reference, cut: vec![Vec::new(); reference.lines.len()] }
+    }
+
+    /// How much of the stretches was not cut before, mm.
+    pub(super) fn fresh(&self, line: usize, stretches: &[[f64; 2]]) -> f64 {
+        let parts = stretches.iter().flat_map(|s| self.on_line(line, *s));
+        parts.map(|[a, b]| (b - a) - covered(&self.cut[line], a, b)).sum()
+    }
+
+    /// Marks stretches as cut.
+    pub(super) fn add(&mut self, line: usize, stretches: &[[f64; 2]]) {
+        for stretch in stretches {
+            for part in self.on_line(line, *stretch) {
+                merge(&mut self.cut[line], part);
+            }
+        }
+    }
+
+    /// A stretch inside the line; on a ring, brought back to its first lap.
+    fn on_line(&self, line: usize, [a, b]: [f64; 2]) -> Vec<[f64; 2]> {
+        let line = &self.reference.lines[line];
+        let length = line.length();
+        if !line.ring {
+            return vec![[a.max(0.0), b.min(length)]];
+        }
+        if b - a >= length {
+            return vec![[0.0, length]];
+        }
+        let lap = (a / length).floor() * length;
+        let (a, b) = (a - lap, b - lap);
+        if b <= length { vec![[a, b]] } else { vec![[a, length], [0.0, b - length]] }
+    }
+
+    /// The longest stretch that was left uncut.
+    pub(super) fn findings(self, profile: &MachineProfile) -> Vec<Finding> {
+        let mut worst = Worst::new("verify/complete", "mm", Some(profile.verify.max_uncut_mm));
+        for (line, cut) in self.reference.lines.iter().zip(&self.cut) {
+            let mut from = 0.0;
+            for &[a, b] in cut.iter().chain(std::iter::once(&[line.length(), line.length()])) {
+                worst.see(a - from, || {
+                    let middle = f64::midpoint(a, from);
+                    let chord = line.chord_at(middle);
+                    let point: Point = line.points[chord] + line.direction(chord) * (middle - line.stations[chord]);
+                    Sighting { time: None, point, block: line.blocks[chord] }
+                });
+                from = from.max(b);
+            }
+        }
+        vec![worst.finding()]
+    }
+}
+
+/// Length of `[a, b]` that the stretches cover.
+fn covered(cut: &[[f64; 2]], a: f64, b: f64) -> f64 {
+    let first = cut.partition_point(|s| s[1] < a);
+    cut[first..].iter().take_while(|s| s[0] < b).map(|s| (s[1].min(b) - s[0].max(a)).max(0.0)).sum()
+}
+
+/// Adds a stretch, joined with those that it meets.
+fn merge(cut: &mut Vec<[f64; 2]>, [a, b]: [f64; 2]) {
+    if b < a {
+        return;
+    }
+    let first = cut.partition_point(|s| s[1] < a);
+    let last = first + cut[first..].partition_point(|s| s[0] <= b);
+    let joined = cut[first..last].iter().fold([a, b], |[a, b], s| [a.min(s[0]), b.max(s[1])]);
+    cut.splice(first..last, std::iter::once(joined));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stretches_are_joined_and_measured() {
+        let mut cut = Vec::new();
+        for stretch in [[5.0, 6.0], [0.0, 1.0], [8.0, 9.0], [5.5, 7.0], [7.0, 8.0]] {
+            merge(&mut cut, stretch);
+        }
+        assert_eq!(cut, [[0.0, 1.0], [5.0, 9.0]]);
+        assert_eq!(covered(&cut, 0.5, 6.0), 1.5);
+        assert_eq!(covered(&cut, 2.0, 4.0), 0.0);
+    }
+}

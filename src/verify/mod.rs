@@ -1,0 +1,130 @@
+//! Verification: the emitted bytes are read back and judged against the marker and the profile.
+//!
+//! Receives bytes, the final marker and the profile; promises a verdict with the worst value of every rule, whether it
+//! holds or not. A checker must not share the fault that it looks for, so nothing here comes from the reader, the passes,
+//! the planner or the emitters: the rows are read, the corners found, the tube laid and the blade simulated anew.
+//!
+//! The way: [`read`] gives rows; [`limits`] and [`rest`] watch the axes; the rows between a plunge and a lift are a
+//! [`stroke`], which is followed along the lines of the [`reference`] and marks what it cut in [`coverage`].
+
+mod coverage;
+mod follow;
+mod grid;
+mod inside;
+mod limits;
+mod read;
+mod reference;
+mod rest;
+mod source_audit;
+mod stroke;
+mod worst;
+
+pub use source_audit::{Census, source_audit};
+
+use std::io::BufRead;
+
+use self::coverage::Coverage;
+use self::limits::Limits;
+use self::read::{Row, Rows};
+use self::reference::Reference;
+use self::rest::Rest;
+use self::stroke::{Judge, Stroke};
+use crate::ir::{Finding, Marker};
+use crate::machine::Job;
+
+/// Every rule: its code and what it says. The order is that of reports.
+pub const RULES: &[(&str, &str)] = &[
+    ("verify/format", "every row can be read: numbers are finite, outputs legal, no field is missing"),
+    ("verify/time", "rows follow each other at the period of the profile, without gap or repetition"),
+    ("verify/start", "the program starts at home"),
+    ("verify/end", "the program ends with the knife up and, when the profile says so, at the park pose"),
+    ("verify/speed-x", "X never is faster than its limit"),
+    ("verify/speed-y", "Y never is faster than its limit"),
+    ("verify/speed-c", "C never is faster than its limit"),
+    ("verify/acceleration-x", "X never accelerates more than its limit"),
+    ("verify/acceleration-y", "Y never accelerates more than its limit"),
+    ("verify/acceleration-c", "C never accelerates more than its limit"),
+    ("verify/jerk-x", "X never jerks more than its limit"),
+    ("verify/jerk-y", "Y never jerks more than its limit"),
+    ("verify/jerk-c", "C never jerks more than its limit"),
+    ("verify/feed", "the tip is never faster than the feed while it cuts; in parts of the feed"),
+    ("verify/rest", "the axes rest while the knife plunges or lifts and while a drill works"),
+    ("verify/dwell", "plunges, lifts and drills last as long as the profile says"),
+    ("verify/c-range", "C stays inside its range"),
+    ("verify/table", "the blade stays over the table"),
+    ("verify/on-path", "the tip stays inside the tube of the path while it cuts"),
+    ("verify/stray", "the knife cuts nothing that is not in the marker"),
+    ("verify/once", "nothing is cut twice beyond the overlaps"),
+    ("verify/complete", "no stretch of a contour or slit is left uncut"),
+    ("verify/heading", "the blade points along its law while it cuts"),
+    ("verify/body", "how far the blade's body leaves the path on curves"),
+    ("verify/overcut-part", "how far the blade cuts into its own part beyond ends and corners"),
+    ("verify/overcut-neighbour", "how far the blade cuts into another part beyond ends and corners"),
+    ("verify/overcut-waste", "how far the blade cuts into waste beyond ends and corners"),
+    ("verify/drills", "every hole is drilled once, by its drill, and no other"),
+    ("verify/drill-place", "every hole is where the marker has it"),
+    ("source/points", "the marker has the points that the file cuts"),
+    ("source/drills", "the marker has the holes of the file"),
+    ("source/length", "the marker has the cut length of the file"),
+    ("source/bounds", "the marker has the bounds of the file"),
+];
+
+/// What a program is worth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Verdict {
+    /// The worst value under each rule, in the order of [`RULES`].
+    pub findings: Vec<Finding>,
+}
+
+impl Verdict {
+    /// Whether every rule holds.
+    pub fn passes(&self) -> bool {
+        self.findings.iter().all(Finding::holds)
+    }
+
+    /// The findings that do not hold.
+    pub fn broken(&self) -> impl Iterator<Item = &Finding> {
+        self.findings.iter().filter(|finding| !finding.holds())
+    }
+}
+
+/// Judges timed setpoints, as the target `csv` writes them, against what the marker says must be cut.
+pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdict {
+    let reference = Reference::new(marker, &job.profile);
+    let mut judge = Judge::new(&reference, &job.profile);
+    let mut coverage = Coverage::new(&reference);
+    let mut limits = Limits::new(&job.profile);
+    let mut rest = Rest::new(marker, &job.profile);
+    let mut rows = Rows::new(program);
+    let mut stroke = Stroke::default();
+    let mut last: Option<Row> = None;
+    while let Some(row) = rows.next() {
+        limits.see(&row);
+        rest.see(&row);
+        if row.knife {
+            stroke.push(&row);
+        } else if !stroke.is_empty() {
+            // The row of the lift command still holds the pose at the end of the cut.
+            stroke.push(&row);
+            judge.judge(&stroke, &mut coverage);
+            stroke.clear();
+        }
+        last = Some(row);
+    }
+    if !stroke.is_empty() {
+        judge.judge(&stroke, &mut coverage);
+    }
+    let mut findings = vec![rows.finding()];
+    findings.extend(limits.findings(last.as_ref()));
+    findings.extend(rest.findings(last.as_ref()));
+    findings.extend(judge.findings());
+    findings.extend(coverage.findings(&job.profile));
+    sort(&mut findings);
+    Verdict { findings }
+}
+
+/// Brings findings into the order of [`RULES`].
+pub fn sort(findings: &mut [Finding]) {
+    let place = |finding: &Finding| RULES.iter().position(|(code, _)| *code == finding.rule);
+    findings.sort_by_key(|finding| place(finding).expect("every rule stands in the table"));
+}

@@ -1,0 +1,199 @@
+//! Reads the rows of timed setpoints: `t_s,x_mm,y_mm,c_deg,knife,drill,event,block`.
+
+use std::io::BufRead;
+
+use super::worst::Worst;
+use crate::geom::{Point, Vector};
+use crate::ir::Finding;
+use crate::ir::finding::Sighting;
+
+/// Half of the last decimal of positions, mm and degrees: by so much a value may differ from what was meant.
+pub(super) const ROUNDING: f64 = 0.5e-6;
+/// Half of the last decimal of the time, s.
+pub(super) const TIME_ROUNDING: f64 = 0.5e-6;
+
+/// One setpoint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Row {
+    /// Its place among the rows, from 0.
+    pub(super) tick: u64,
+    /// Time, s.
+    pub(super) t: f64,
+    /// The C axis over the table, mm.
+    pub(super) centre: Point,
+    /// Position of C, degrees.
+    pub(super) c_deg: f64,
+    /// Whether the knife is commanded down.
+    pub(super) knife: bool,
+    /// The drill that is commanded, 0 = none.
+    pub(super) drill: u8,
+    /// The source block, 0 = none.
+    pub(super) block: u32,
+}
+
+impl Row {
+    /// Unit vector from tail to tip.
+    pub(super) fn along(&self) -> Vector {
+        let (sin, cos) = self.c_deg.to_radians().sin_cos();
+        Vector::new(cos, sin)
+    }
+
+    /// The row as a place.
+    pub(super) fn sighting(&self) -> Sighting {
+        super::worst::at(self.t, self.centre, self.block)
+    }
+}
+
+/// The rows of a program; stops at the first that cannot be read.
+pub(super) struct Rows<'a> {
+    input: &'a mut dyn BufRead,
+    line: Vec<u8>,
+    tick: u64,
+    last: Option<Row>,
+    worst: Worst,
+    ended: bool,
+}
+
+const HEADER: &[u8] = b"t_s,x_mm,y_mm,c_deg,knife,drill,event,block";
+
+impl<'a> Rows<'a> {
+    pub(super) fn new(input: &'a mut dyn BufRead) -> Self {
+        let worst = Worst::new("verify/format", "bad rows", Some(0.0));
+        let mut rows = Self { input, line: Vec::new(), tick: 0, last: None, worst, ended: false };
+        if rows.fetch() != Some(true) || rows.line != HEADER {
+            rows.fail();
+        }
+        rows
+    }
+
+    /// The next row.
+    pub(super) fn next(&mut self) -> Option<Row> {
+        if self.ended {
+            return None;
+        }
+        match self.fetch() {
+            Some(true) => {}
+            Some(false) => {
+                self.ended = true;
+                if self.last.is_none() {
+                    self.fail();
+                }
+                return None;
+            }
+            None => {
+                self.fail();
+                return None;
+            }
+        }
+        let Some(row) = parse(&self.line, self.tick) else {
+            self.fail();
+            return None;
+        };
+        self.tick += 1;
+        self.last = Some(row);
+        Some(row)
+    }
+
+    /// What was found about the format.
+    pub(super) fn finding(self) -> Finding {
+        self.worst.finding()
+    }
+
+    /// Reads a line without its end; `Some(false)` at the end of the program, `None` when it cannot be read or its last
+    /// line has no end, which is how a program cut short looks.
+    fn fetch(&mut self) -> Option<bool> {
+        self.line.clear();
+        let read = self.input.read_until(b'\n', &mut self.line).ok()?;
+        if read == 0 {
+            return Some(false);
+        }
+        if self.line.pop() != Some(b'\n') {
+            return None;
+        }
+        if self.line.last() == Some(&b'\r') {
+            self.line.pop();
+        }
+        Some(true)
+    }
+
+    fn fail(&mut self) {
+        self.ended = true;
+        let place = self.last.map(|row| row.sighting());
+        let nowhere = Sighting { time: Some(0.0), point: Point::origin(), block: 0 };
+        self.worst.see(1.0, || place.unwrap_or(nowhere));
+    }
+}
+
+fn parse(line: &[u8], tick: u64) -> Option<Row> {
+    let mut fields = line.split(|&b| b == b',');
+    let mut field = || fields.next();
+    let (t, x, y, c_deg) = (decimal(field()?)?, decimal(field()?)?, decimal(field()?)?, decimal(field()?)?);
+    let (knife, drill, event, block) = (whole(field()?)?, whole(field()?)?, whole(field()?)?, whole(field()?)?);
+    let legal = knife <= 1 && drill <= 4 && event <= 2 && field().is_none();
+    legal.then(|| Row { tick, t, centre: Point::new(x, y), c_deg, knife: knife == 1, drill: drill as u8, block })
+}
+
+/// A whole number below 2^32.
+fn whole(field: &[u8]) -> Option<u32> {
+    if field.is_empty() || field.len() > 10 {
+        return None;
+    }
+    let value = field.iter().try_fold(0_u64, |sum, b| b.is_ascii_digit().then(|| sum * 10 + u64::from(b - b'0')))?;
+    u32::try_from(value).ok()
+}
+
+/// Largest number of digits that a whole number may have to be exact in `f64`.
+const EXACT_DIGITS: usize = 15;
+const POWERS: [f64; 16] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
+
+/// A decimal number, correctly rounded: digits and a power of ten that are both exact give one rounding.
+fn decimal(field: &[u8]) -> Option<f64> {
+    let (sign, digits) = match field {
+        [b'-', rest @ ..] => (-1.0, rest),
+        rest => (1.0, rest),
+    };
+    let (mut value, mut count, mut decimals, mut point) = (0_u64, 0, 0, false);
+    for &b in digits {
+        match b {
+            b'0'..=b'9' if count < EXACT_DIGITS => {
+                value = value * 10 + u64::from(b - b'0');
+                count += 1;
+                decimals += usize::from(point);
+            }
+            b'.' if !point => point = true,
+            // Exponents and long numbers: the standard library; it also knows words, which are no numbers here.
+            b'0'..=b'9' | b'e' | b'E' | b'+' | b'-' => {
+                let number: f64 = std::str::from_utf8(field).ok()?.parse().ok()?;
+                return number.is_finite().then_some(number);
+            }
+            _ => return None,
+        }
+    }
+    (count > 0).then(|| sign * (value as f64 / POWERS[decimals]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decimals_are_read_as_the_standard_library_reads_them() {
+        for text in ["0", "-0.000001", "12.345678", "-98765.432100", "1e-3", "123456789012345678.5"] {
+            assert_eq!(decimal(text.as_bytes()), text.parse().ok(), "{text}");
+        }
+        for text in ["", "-", ".", "nan", "inf", "1,5", "0x10", "1.2.3", " 1"] {
+            assert_eq!(decimal(text.as_bytes()), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_last_line_without_its_end_is_a_fault() {
+        let text =
+            "t_s,x_mm,y_mm,c_deg,knife,drill,event,block\n0.000000,0.0,0.0,0.0,0,0,0,0\n0.001000,0.0,0.0,0.0,0,0,0,0";
+        let mut bytes = text.as_bytes();
+        let mut rows = Rows::new(&mut bytes);
+        assert!(rows.next().is_some());
+        assert!(rows.next().is_none());
+        assert!(!rows.finding().holds());
+    }
+}

@@ -1,0 +1,176 @@
+//! What must be cut, as lines: the stretches of contours between corners, and the slits.
+//!
+//! Corners and the tube are found anew from the marker and the profile; see the module doc of the stage.
+
+use crate::geom::{Point, Vector, angle, left, polyline};
+use crate::ir::Marker;
+use crate::ir::list::Segment;
+use crate::ir::marker::{Contour, Piece};
+use crate::machine::{Fit, MachineProfile};
+
+/// Longest chord that counts as a chord of a curve, mm.
+const CURVE_CHORD: f64 = 25.0;
+
+/// A stretch that is cut from one end to the other, mm.
+#[derive(Debug)]
+pub(super) struct Line {
+    /// Index of its piece.
+    pub(super) piece: usize,
+    /// Its points; a ring ends with its first one.
+    pub(super) points: Vec<Point>,
+    /// Length from the first point to each point.
+    pub(super) stations: Vec<f64>,
+    /// Source block of each chord.
+    pub(super) blocks: Vec<u32>,
+    /// Outward bulge of each chord in its middle.
+    bulges: Vec<Vector>,
+    /// Whether it is a closed contour without a corner.
+    pub(super) ring: bool,
+}
+
+/// All lines of a marker.
+#[derive(Debug)]
+pub(super) struct Reference<'a> {
+    /// The marker that they come from.
+    pub(super) marker: &'a Marker,
+    /// The lines, in cut order.
+    pub(super) lines: Vec<Line>,
+    /// Permitted deviation of the tip, mm.
+    pub(super) tolerance: f64,
+}
+
+impl<'a> Reference<'a> {
+    /// The lines of `marker`.
+    pub(super) fn new(marker: &'a Marker, profile: &MachineProfile) -> Self {
+        let mut lines = Vec::new();
+        for (index, piece) in marker.pieces.iter().enumerate() {
+            slits(piece, index, &mut lines);
+            for contour in &piece.contours {
+                contour_lines(marker, contour, index, profile, &mut lines);
+            }
+        }
+        Self { marker, lines, tolerance: profile.tolerance(marker.unit) }
+    }
+}
+
+fn slits(piece: &Piece, index: usize, lines: &mut Vec<Line>) {
+    for notch in &piece.notches {
+        let points = vec![notch.root, notch.tip];
+        let stations = polyline::stations(&points);
+        lines.push(Line {
+            piece: index,
+            points,
+            stations,
+            blocks: vec![notch.span.block],
+            bulges: vec![Vector::zeros()],
+            ring: false,
+        });
+    }
+}
+
+/// Cuts a contour at its corners.
+fn contour_lines(marker: &Marker, contour: &Contour, piece: usize, profile: &MachineProfile, lines: &mut Vec<Line>) {
+    let mut segments: Vec<Segment> = marker.list.walk(contour.range).map(|(_, segment)| segment).collect();
+    let count = segments.len();
+    let turn = |segments: &[Segment], i: usize| {
+        let before = &segments[(i + count - 1) % count];
+        angle::turn(before.to - before.from, segments[i].to - segments[i].from)
+    };
+    let is_corner =
+        |segments: &[Segment], i: usize| segments[i].joint.lift || turn(segments, i).abs() > profile.corner.angle();
+    let mut ring = false;
+    if contour.closed {
+        match (0..count).find(|&i| is_corner(&segments, i)) {
+            Some(first) => segments.rotate_left(first),
+            None => ring = true,
+        }
+    }
+    let mut from = 0;
+    for i in 1..=count {
+        if i == count || is_corner(&segments, i) {
+            let inner = i - from;
+            let turns: Vec<f64> = (0..=inner)
+                .map(|k| match k {
+                    0 => {
+                        if ring {
+                            turn(&segments, 0)
+                        } else {
+                            0.0
+                        }
+                    }
+                    k if k == inner => {
+                        if ring {
+                            turn(&segments, 0)
+                        } else {
+                            0.0
+                        }
+                    }
+                    k => turn(&segments, from + k),
+                })
+                .collect();
+            lines.push(line(&segments[from..i], &turns, piece, ring, profile));
+            from = i;
+        }
+    }
+}
+
+fn line(segments: &[Segment], turns: &[f64], piece: usize, ring: bool, profile: &MachineProfile) -> Line {
+    let mut points = vec![segments[0].from];
+    points.extend(segments.iter().map(|s| s.to));
+    let bulges = segments.iter().zip(turns.windows(2)).map(|(s, t)| bulge(s, t, profile)).collect();
+    let blocks = segments.iter().map(|s| s.span.block).collect();
+    Line { piece, stations: polyline::stations(&points), points, blocks, bulges, ring }
+}
+
+/// On a chord between two turns to the same side the curve that was flattened lies outside, by about length * turn / 8.
+fn bulge(segment: &Segment, turns: &[f64], profile: &MachineProfile) -> Vector {
+    let along = segment.to - segment.from;
+    let length = along.norm();
+    let curved = turns[0] * turns[1] > 0.0 && turns.iter().all(|t| t.abs() < profile.corner.angle());
+    if profile.path.fit == Fit::Polygon || !curved || length > CURVE_CHORD {
+        return Vector::zeros();
+    }
+    let mean = (turns[0] + turns[1]) / 2.0;
+    let sagitta = (length * mean.abs() / 8.0).min(profile.path.chord_sag_max_mm);
+    left(along) * (-mean.signum() * sagitta / length)
+}
+
+impl Line {
+    /// Its length, mm.
+    pub(super) fn length(&self) -> f64 {
+        self.stations[self.stations.len() - 1]
+    }
+
+    /// Number of chords.
+    pub(super) fn chords(&self) -> usize {
+        self.blocks.len()
+    }
+
+    /// Unit vector along a chord.
+    pub(super) fn direction(&self, chord: usize) -> Vector {
+        (self.points[chord + 1] - self.points[chord]) / (self.stations[chord + 1] - self.stations[chord])
+    }
+
+    /// Distance of a point from the tube's core beside a chord, mm, and the station of the foot. The core at a place of
+    /// the chord is the segment from the chord to its bulge there.
+    pub(super) fn deviation(&self, chord: usize, point: Point) -> (f64, f64) {
+        let (a, b) = (self.points[chord], self.points[chord + 1]);
+        let share = polyline::foot(point, a, b);
+        let foot = a + (b - a) * share;
+        let station = self.stations[chord] + (self.stations[chord + 1] - self.stations[chord]) * share;
+        let away = point - foot;
+        let reach = self.bulges[chord] * (4.0 * share * (1.0 - share));
+        let height = reach.norm();
+        if height == 0.0 {
+            return (away.norm(), station);
+        }
+        let outward = reach / height;
+        let used = away.dot(&outward).clamp(0.0, height);
+        ((away - outward * used).norm(), station)
+    }
+
+    /// The chord of a station.
+    pub(super) fn chord_at(&self, station: f64) -> usize {
+        self.stations.partition_point(|&s| s <= station).clamp(1, self.chords()) - 1
+    }
+}

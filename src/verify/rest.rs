@@ -1,0 +1,160 @@
+//! What happens at rest: start and end of the program, plunges, lifts, and the holes that are drilled.
+
+use super::read::{ROUNDING, Row};
+use super::worst::Worst;
+use crate::geom::{Point, Vector};
+use crate::ir::finding::Sighting;
+use crate::ir::{Finding, Marker};
+use crate::machine::MachineProfile;
+
+/// Two printed numbers of the same value may differ by this, mm and degrees.
+const SAME: f64 = 2.0 * ROUNDING;
+/// Part of a period that a dwell may seem to lack: rounding of its quotient.
+const PERIOD_EPSILON: f64 = 1e-6;
+
+/// Watches the rows.
+pub(super) struct Rest<'a> {
+    marker: &'a Marker,
+    period: f64,
+    plunge: u64,
+    lift: u64,
+    drill: u64,
+    offset: Vector,
+    park: Option<[f64; 3]>,
+    home: [f64; 3],
+    before: Option<Row>,
+    /// The row at which the axes came to rest, and the tick until which they must.
+    hold: Option<(Row, u64)>,
+    drilled: Vec<(Point, u8, Row)>,
+    start: Worst,
+    end: Worst,
+    rest: Worst,
+    dwell: Worst,
+}
+
+impl<'a> Rest<'a> {
+    pub(super) fn new(marker: &'a Marker, profile: &MachineProfile) -> Self {
+        let period = profile.time.period();
+        let ticks = |time: f64| (time / period - PERIOD_EPSILON).ceil().max(0.0) as u64;
+        let [x, y] = profile.drill.offset_mm;
+        Self {
+            marker,
+            period,
+            plunge: ticks(profile.knife.plunge()),
+            lift: ticks(profile.knife.lift()),
+            drill: ticks(profile.drill.dwell()),
+            offset: Vector::new(x, y),
+            park: profile.park,
+            home: profile.home,
+            before: None,
+            hold: None,
+            drilled: Vec::new(),
+            start: Worst::new("verify/start", "mm, deg", Some(SAME)),
+            end: Worst::new("verify/end", "mm, deg", Some(SAME)),
+            rest: Worst::new("verify/rest", "mm, deg", Some(SAME)),
+            dwell: Worst::new("verify/dwell", "s missing", Some(PERIOD_EPSILON * period)),
+        }
+    }
+
+    pub(super) fn see(&mut self, row: &Row) {
+        let Some(before) = self.before.replace(*row) else {
+            self.start.see(distance(row, self.home), || row.sighting());
+            if row.knife {
+                self.begin(row, self.plunge);
+            }
+            return;
+        };
+        // The pose at the tick of a command belongs to the rest that it begins.
+        if let Some((at, until)) = self.hold {
+            if row.tick <= until {
+                self.rest.see(distance(row, [at.centre.x, at.centre.y, at.c_deg]), || row.sighting());
+            }
+        }
+        if row.knife != before.knife {
+            self.begin(row, if row.knife { self.plunge } else { self.lift });
+        }
+        if row.drill != before.drill {
+            let ticks = if row.drill == 0 { 0 } else { self.drill };
+            self.begin(row, ticks);
+            if row.drill != 0 {
+                self.drilled.push((row.centre + self.offset, row.drill, *row));
+            }
+        }
+        if row.drill != 0 {
+            let last = distance(row, [before.centre.x, before.centre.y, before.c_deg]);
+            if before.drill == row.drill {
+                self.rest.see(last, || row.sighting());
+            }
+            if row.knife {
+                self.rest.see(f64::INFINITY, || row.sighting());
+            }
+        }
+    }
+
+    /// Begins a rest of `ticks`; the one before it must be over.
+    fn begin(&mut self, row: &Row, ticks: u64) {
+        self.finish(row);
+        self.hold = (ticks > 0).then_some((*row, row.tick + ticks));
+    }
+
+    /// Sees whether the rest that was begun is over at a row.
+    fn finish(&mut self, row: &Row) {
+        if let Some((_, until)) = self.hold.take() {
+            let missing = until.saturating_sub(row.tick) as f64 * self.period;
+            self.dwell.see(missing, || row.sighting());
+        }
+    }
+
+    pub(super) fn findings(mut self, last: Option<&Row>) -> Vec<Finding> {
+        if let Some(last) = last {
+            self.finish(last);
+            if last.knife {
+                self.end.see(f64::INFINITY, || last.sighting());
+            }
+            if let Some(park) = self.park {
+                self.end.see(distance(last, park), || last.sighting());
+            }
+        }
+        let (drills, place) = self.holes();
+        vec![self.start.finding(), self.end.finding(), self.rest.finding(), self.dwell.finding(), drills, place]
+    }
+
+    /// Compares the holes of the program with those of the marker: each takes the nearest one that is left.
+    fn holes(&mut self) -> (Finding, Finding) {
+        let mut wrong = Worst::new("verify/drills", "holes", Some(0.0));
+        let mut place = Worst::new("verify/drill-place", "mm", Some(HOLE));
+        let mut left = std::mem::take(&mut self.drilled);
+        let mut count = 0.0;
+        for drill in self.marker.pieces.iter().flat_map(|p| &p.drills) {
+            let away = |(at, tool, _): &(Point, u8, Row)| {
+                if *tool == drill.tool { (at - drill.at).norm() } else { f64::INFINITY }
+            };
+            let nearest = (0..left.len()).min_by(|&a, &b| away(&left[a]).total_cmp(&away(&left[b])));
+            match nearest.filter(|&i| away(&left[i]) < HOLE_REACH) {
+                Some(i) => {
+                    let (at, _, row) = left.remove(i);
+                    place.see((at - drill.at).norm(), || row.sighting());
+                }
+                None => {
+                    count += 1.0;
+                    wrong.see(count, || Sighting { time: None, point: drill.at, block: drill.span.block });
+                }
+            }
+        }
+        for (_, _, row) in left {
+            count += 1.0;
+            wrong.see(count, || row.sighting());
+        }
+        (wrong.finding(), place.finding())
+    }
+}
+
+/// How far a hole may be from its place, mm: rounding of two numbers; and beyond which it is another hole.
+const HOLE: f64 = 2.0 * SAME;
+const HOLE_REACH: f64 = 5.0;
+
+/// Greatest difference of a row from a pose, mm and degrees.
+fn distance(row: &Row, [x, y, c_deg]: [f64; 3]) -> f64 {
+    let mm = (row.centre.x - x).abs().max((row.centre.y - y).abs());
+    mm.max((row.c_deg - c_deg).abs()) - f64::EPSILON * row.c_deg.abs()
+}
