@@ -1,1 +1,0 @@
-//! The text form of marker and toolpath: one line a segment, prints and reads.
