@@ -87,8 +87,8 @@ const UNIT_EPSILON: f64 = 1e-9;
 
 fn run_faults(run: &Run) -> Vec<&'static str> {
     let mut faults = Vec::new();
-    if run.points.len() < 2 || run.spans.len() + 1 != run.points.len() {
-        faults.push("a run needs a span a chord");
+    if run.points.len() < 2 || run.spans.len() + 1 != run.points.len() || run.joints.len() != run.points.len() {
+        faults.push("a run needs a span a chord and a joint a point");
     }
     if run.points.iter().any(|&p| !finite(p)) || !pose_finite(run.start) || !pose_finite(run.end) {
         faults.push("a number is not finite");

@@ -3,7 +3,8 @@
 //! A toolpath holds the steps of one contour, notch or drill: the pipeline makes, plans and emits them one after the
 //! other, so that a program of any length needs little memory. It holds polylines; smooth curves belong to `plan`.
 
-use crate::geom::{Point, Rotation, Vector};
+use super::list::Joint;
+use crate::geom::{Point, Rotation, Vector, polyline};
 use crate::machine::Follow;
 use crate::source::Span;
 
@@ -47,6 +48,19 @@ pub struct Toolpath {
     pub steps: Vec<Step>,
 }
 
+impl Toolpath {
+    /// Where the axes stand behind the last step, as far as it is known before planning.
+    pub fn exit(&self) -> Pose {
+        let end = |step: &Step| match step {
+            Step::Run(run) => Some(run.end),
+            Step::Stab(stab) => Some(stab.pose),
+            Step::Turn(air) | Step::Travel(air) => Some(air.to),
+            Step::Drill(_) | Step::Event(_) => None,
+        };
+        self.steps.iter().rev().find_map(end).unwrap_or(self.entry)
+    }
+}
+
 /// One thing that the machine does.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Step {
@@ -80,6 +94,8 @@ pub struct Run {
     pub points: Vec<Point>,
     /// The block of each chord: one less than points.
     pub spans: Vec<Span>,
+    /// What the file asks for at each point.
+    pub joints: Vec<Joint>,
     /// How it begins and ends.
     pub shape: Shape,
     /// How the blade lies on curves.
@@ -96,6 +112,24 @@ pub struct Run {
     pub start: Pose,
     /// Where they stand at the lift.
     pub end: Pose,
+}
+
+impl Run {
+    /// The polyline of an open run with its overlaps: the heel straight back along the first chord, the front straight on
+    /// along the last. The tail plunges at its first point, the tip is lifted at its last.
+    pub fn extended(&self) -> Vec<Point> {
+        let n = self.points.len();
+        let direction = |a: Point, b: Point| polyline::direction(a, b).expect("no chord of a run has length zero");
+        let mut points = Vec::with_capacity(n + 2);
+        if self.heel > 0.0 {
+            points.push(self.points[0] - direction(self.points[0], self.points[1]) * self.heel);
+        }
+        points.extend_from_slice(&self.points);
+        if self.front > 0.0 {
+            points.push(self.points[n - 1] + direction(self.points[n - 2], self.points[n - 1]) * self.front);
+        }
+        points
+    }
 }
 
 /// Whether a run closes on itself.

@@ -22,8 +22,9 @@
 //!   ends corner path-bare
 //!   start 3 0 c-rad 0
 //!   end 99 0 c-rad 0
-//!   point 0 0
-//!   point 100 0 @4..9#2
+//!   point 0 0 full-advance
+//!   point 60 0 @4..9#2
+//!   point 100 0 @10..19#3 lift no-overcut
 //! stab along 1 0 front 1 heel 0.5
 //!   ends corner corner
 //!   pose 3 0 c-rad 0
@@ -35,9 +36,9 @@
 //! ```
 //!
 //! `@start..end#block` is a span; one that is left out is that of no block. A segment line `to` starts where the line
-//! before it ends, so `from` stands where a contour starts or, in a broken one, jumps. The words behind a segment are what
-//! the file asks for where it starts. A contour is printed in the direction that it is walked in and read as one that
-//! is walked in list order: the same segments, the same joints.
+//! before it ends, so `from` stands where a contour starts or, in a broken one, jumps. The words behind a segment are
+//! what the file asks for where it starts, those behind a point what it asks for there. A contour is printed in the
+//! direction that it is walked in and read as one that is walked in list order: the same segments, the same joints.
 
 mod print;
 mod read;

@@ -4,7 +4,7 @@ use std::fmt::{self, Display, Formatter, Write as _};
 
 use super::{ENDS, EVENTS, JOINTS, LAWS, SHAPES};
 use crate::geom::Point;
-use crate::ir::list::Segment;
+use crate::ir::list::{Joint, Segment};
 use crate::ir::marker::{Label, Marker, NotchKind, Piece};
 use crate::ir::toolpath::{Pose, Run, Stab, Step, Toolpath};
 use crate::source::Span;
@@ -50,13 +50,7 @@ fn print_segment(out: &mut String, segment: &Segment, end: Option<Point>) {
         push(out, format_args!("from {} ", Xy(segment.from)));
     }
     push(out, format_args!("to {}{}", Xy(segment.to), At(segment.span)));
-    let mut joint = segment.joint;
-    for (word, flag) in JOINTS {
-        if *flag(&mut joint) {
-            push(out, format_args!(" {word}"));
-        }
-    }
-    out.push('\n');
+    line(out, format_args!("{}", Asked(segment.joint)));
 }
 
 fn print_label(out: &mut String, label: &Label) {
@@ -97,7 +91,7 @@ fn print_run(out: &mut String, run: &Run) {
     line(out, format_args!("  ends {} {}", word(&ENDS, run.ends[0]), word(&ENDS, run.ends[1])));
     line(out, format_args!("  start {}", Placed(run.start)));
     line(out, format_args!("  end {}", Placed(run.end)));
-    print_points(out, &run.points, &run.spans);
+    print_points(out, &run.points, &run.spans, &run.joints);
 }
 
 fn print_stab(out: &mut String, stab: &Stab) {
@@ -105,14 +99,15 @@ fn print_stab(out: &mut String, stab: &Stab) {
     line(out, format_args!("stab along {along} front {} heel {}", exact(stab.front), exact(stab.heel)));
     line(out, format_args!("  ends {} {}", word(&ENDS, stab.ends[0]), word(&ENDS, stab.ends[1])));
     line(out, format_args!("  pose {}", Placed(stab.pose)));
-    print_points(out, &stab.points, &stab.spans);
+    print_points(out, &stab.points, &stab.spans, &[]);
 }
 
-/// The first point has no chord before it, so no span.
-fn print_points(out: &mut String, points: &[Point], spans: &[Span]) {
+/// The first point has no chord before it, so no span; points of a stab have no joints.
+fn print_points(out: &mut String, points: &[Point], spans: &[Span], joints: &[Joint]) {
     for (i, &point) in points.iter().enumerate() {
         let span = i.checked_sub(1).and_then(|chord| spans.get(chord)).copied().unwrap_or_default();
-        line(out, format_args!("  point {}{}", Xy(point), At(span)));
+        let joint = joints.get(i).copied().unwrap_or_default();
+        line(out, format_args!("  point {}{}{}", Xy(point), At(span), Asked(joint)));
     }
 }
 
@@ -152,5 +147,15 @@ impl Display for At {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Span { start, end, block } = self.0;
         if self.0 == Span::default() { Ok(()) } else { write!(f, " @{start}..{end}#{block}") }
+    }
+}
+
+/// The words of a joint, each with the blank before it.
+struct Asked(Joint);
+
+impl Display for Asked {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let mut joint = self.0;
+        JOINTS.iter().filter(|(_, flag)| *flag(&mut joint)).try_for_each(|(word, _)| write!(f, " {word}"))
     }
 }

@@ -84,12 +84,8 @@ fn segments(lines: &mut Lines<'_>) -> Read<Vec<Segment>> {
         let from = if line.has("from") { Some(line.point()?) } else { before };
         let from = from.ok_or_else(|| line.error("from"))?;
         line.expect("to")?;
-        let mut segment = Segment { from, to: line.point()?, span: line.span()?, joint: Joint::default() };
-        for (word, flag) in JOINTS {
-            *flag(&mut segment.joint) = line.has(word);
-        }
+        chain.push(Segment { from, to: line.point()?, span: line.span()?, joint: line.joint() });
         line.end()?;
-        chain.push(segment);
     }
     Ok(chain)
 }
@@ -141,8 +137,8 @@ fn run(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Run> {
     let ends = ends(lines)?;
     let start = pose_line(lines, "start")?;
     let end = pose_line(lines, "end")?;
-    let (points, spans) = points(lines)?;
-    Ok(Run { points, spans, shape, law, front, heel, feed, ends, start, end })
+    let Points { points, spans, joints } = points(lines, true)?;
+    Ok(Run { points, spans, joints, shape, law, front, heel, feed, ends, start, end })
 }
 
 fn stab(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Stab> {
@@ -151,7 +147,7 @@ fn stab(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Stab> {
     let (front, heel) = overlaps(line)?;
     let ends = ends(lines)?;
     let pose = pose_line(lines, "pose")?;
-    let (points, spans) = points(lines)?;
+    let Points { points, spans, .. } = points(lines, false)?;
     Ok(Stab { points, spans, along, front, heel, ends, pose })
 }
 
@@ -178,19 +174,30 @@ fn pose_line(lines: &mut Lines<'_>, name: &str) -> Read<Pose> {
     Ok(pose)
 }
 
+/// What point lines hold.
+#[derive(Default)]
+struct Points {
+    points: Vec<Point>,
+    spans: Vec<Span>,
+    joints: Vec<Joint>,
+}
+
 /// The point lines that follow: two at least, the first without a span.
-fn points(lines: &mut Lines<'_>) -> Read<(Vec<Point>, Vec<Span>)> {
-    let (mut points, mut spans) = (Vec::new(), Vec::new());
-    while points.len() < 2 || lines.is_next("point") {
+fn points(lines: &mut Lines<'_>, with_joints: bool) -> Read<Points> {
+    let mut held = Points::default();
+    while held.points.len() < 2 || lines.is_next("point") {
         let mut line = lines.next_or("point")?;
         line.expect("point")?;
-        points.push(line.point()?);
-        if points.len() > 1 {
-            spans.push(line.span()?);
+        held.points.push(line.point()?);
+        if held.points.len() > 1 {
+            held.spans.push(line.span()?);
+        }
+        if with_joints {
+            held.joints.push(line.joint());
         }
         line.end()?;
     }
-    Ok((points, spans))
+    Ok(held)
 }
 
 /// The lines that hold something.
@@ -289,6 +296,15 @@ impl<'a> Line<'a> {
         let at = self.point()?;
         self.expect("c-rad")?;
         Ok(Pose::new(at.x, at.y, self.number()?))
+    }
+
+    /// The words of a joint, in their order; none of them where none stands.
+    fn joint(&mut self) -> Joint {
+        let mut joint = Joint::default();
+        for (word, flag) in JOINTS {
+            *flag(&mut joint) = self.has(word);
+        }
+        joint
     }
 
     /// A span, or that of no block where none stands.
