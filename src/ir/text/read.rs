@@ -137,7 +137,7 @@ fn run(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Run> {
     let ends = ends(lines)?;
     let start = pose_line(lines, "start")?;
     let end = pose_line(lines, "end")?;
-    let Points { points, spans, joints } = points(lines, true)?;
+    let Polyline { points, spans, joints } = points(lines, true)?;
     Ok(Run { points, spans, joints, shape, law, front, heel, feed, ends, start, end })
 }
 
@@ -147,7 +147,7 @@ fn stab(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Stab> {
     let (front, heel) = overlaps(line)?;
     let ends = ends(lines)?;
     let pose = pose_line(lines, "pose")?;
-    let Points { points, spans, .. } = points(lines, false)?;
+    let Polyline { points, spans, .. } = points(lines, false)?;
     Ok(Stab { points, spans, along, front, heel, ends, pose })
 }
 
@@ -176,15 +176,15 @@ fn pose_line(lines: &mut Lines<'_>, name: &str) -> Read<Pose> {
 
 /// What point lines hold.
 #[derive(Default)]
-struct Points {
+struct Polyline {
     points: Vec<Point>,
     spans: Vec<Span>,
     joints: Vec<Joint>,
 }
 
 /// The point lines that follow: two at least, the first without a span.
-fn points(lines: &mut Lines<'_>, with_joints: bool) -> Read<Points> {
-    let mut held = Points::default();
+fn points(lines: &mut Lines<'_>, with_joints: bool) -> Read<Polyline> {
+    let mut held = Polyline::default();
     while held.points.len() < 2 || lines.is_next("point") {
         let mut line = lines.next_or("point")?;
         line.expect("point")?;
