@@ -61,7 +61,10 @@ const NAMED_ONLY_IN: &[(&str, &[&str])] = &[
 const NO_GRAMMAR: &[(&str, &str)] = &[("csv", "a row is two numbers and a comma: its header says it all")];
 
 /// Source files in the folder of a table that are no entry of it, and why.
-const BESIDE_A_TABLE: &[(&str, &str)] = &[("trace", "makes the toolpaths that the passes edit")];
+const BESIDE_A_TABLE: &[(&str, &str)] = &[
+    ("foreign", "names the formats that are no dialect of ours"),
+    ("trace", "makes the toolpaths that the passes edit"),
+];
 
 /// The longest a file may be, tests included.
 const MOST_LINES: usize = 600;

@@ -11,6 +11,7 @@ use cutc::machine::Job;
 use cutc::pass::marker::{MARKER_PASSES, MarkerPass};
 use cutc::pass::toolpath::TOOLPATH_PASSES;
 use cutc::source::Span;
+use cutc::units::number::fixed;
 
 fn marker_pass(name: &str) -> Option<&'static MarkerPass> {
     MARKER_PASSES.iter().find(|pass| pass.name == name)
@@ -22,18 +23,25 @@ fn run(name: &str, marker: &mut Marker) -> Diagnostics {
     found
 }
 
+/// The job of a text: its lines that start with `;!` are keys of the profile.
+fn job(input: &str) -> Job {
+    let keys: Vec<&str> = input.lines().filter_map(|line| line.strip_prefix(";!")).collect();
+    let profile = toml::from_str(&keys.join("\n")).unwrap_or_else(|error| panic!("{error}"));
+    Job { profile, ..Job::default() }
+}
+
 /// The text that a pass makes of a text, then what it says and what `ir::check` finds.
 fn passed(name: &str, input: &str) -> String {
-    let mut found = Diagnostics::default();
+    let (job, mut found) = (job(input), Diagnostics::default());
     let (mut output, faults) = if let Some(pass) = marker_pass(name) {
         let mut marker = text::read_marker(input).unwrap_or_else(|error| panic!("{error}"));
-        (pass.run)(&mut marker, &Job::default(), &mut found);
+        (pass.run)(&mut marker, &job, &mut found);
         (text::print_marker(&marker), check::marker(&marker))
     } else {
         let pass = TOOLPATH_PASSES.iter().find(|pass| pass.name == name);
         let pass = pass.unwrap_or_else(|| panic!("fixtures/pass/{name} belongs to no pass"));
         let mut toolpath = text::read_toolpath(input).unwrap_or_else(|error| panic!("{error}"));
-        (pass.run)(&mut toolpath, &Job::default(), &mut found);
+        (pass.run)(&mut toolpath, &job, &mut found);
         (text::print_toolpath(&toolpath), check::toolpath(&toolpath))
     };
     for diagnostic in &found {
@@ -46,13 +54,23 @@ fn passed(name: &str, input: &str) -> String {
     output
 }
 
+/// The text with at most six decimals a number: the last bits of a sine are not the same on every machine.
+fn rounded(text: &str) -> String {
+    let round = |word: &str| match (word.split_once('.'), word.parse::<f64>()) {
+        (Some((_, decimals)), Ok(value)) if decimals.len() > 6 => fixed(value, 6),
+        _ => word.to_owned(),
+    };
+    let line = |line: &str| line.split(' ').map(round).collect::<Vec<_>>().join(" ");
+    text.lines().map(|text| line(text) + "\n").collect()
+}
+
 #[test]
 fn a_pass_makes_of_a_text_what_was_reviewed() {
     insta::glob!("../fixtures/pass", "*/*.path", |path| {
         let folder = path.parent().and_then(Path::file_name).expect("the folder of a pass");
         let input = std::fs::read_to_string(path).expect("a readable fixture");
         let title = input.lines().next().unwrap_or_default().to_owned();
-        let output = passed(&folder.to_string_lossy(), &input);
+        let output = rounded(&passed(&folder.to_string_lossy(), &input));
         insta::with_settings!({ description => title, omit_expression => true }, {
             insta::assert_snapshot!(output);
         });
