@@ -86,6 +86,8 @@ mod table {
     pub static MARKER_TWICE: Code = warning("marker/contour-twice", "The same contour stands twice in the file and would be cut twice.");
     /// Equal points in a row.
     pub static MARKER_EQUAL_POINTS: Code = warning("marker/equal-points", "Points that repeat the one before them were dropped; the message gives their count.");
+    /// A contour that is one place.
+    pub static MARKER_NO_LENGTH: Code = warning("marker/no-length", "All points of a contour are the same place: nothing is cut there.");
 
     // The knife's way.
     /// A smooth closed contour too small for the blade.
@@ -143,6 +145,7 @@ pub static ALL: &[&Code] = &[
     &MARKER_OPEN,
     &MARKER_TWICE,
     &MARKER_EQUAL_POINTS,
+    &MARKER_NO_LENGTH,
     &PATH_TIGHT,
     &PATH_C_RANGE,
     &PATH_OFF_TABLE,

@@ -77,8 +77,8 @@ fn visible(byte: u8) -> char {
 
 #[cfg(test)]
 mod tests {
-    use super::super::code;
     use super::*;
+    use crate::diagnostic::code;
 
     #[test]
     fn a_long_line_is_shown_as_a_window() {

@@ -102,6 +102,18 @@ impl SegmentList {
         Walk { list: self, range, at: Some(at), end }
     }
 
+    /// Makes one range of two: `first`, then `second`, in the direction that both are walked in. `None`, and nothing
+    /// changed, when their directions differ or they are the same range.
+    pub fn join(&mut self, first: Range, second: Range) -> Option<Range> {
+        if first.backward != second.backward || first.first == second.first {
+            return None;
+        }
+        let (ahead, behind) = if first.backward { (second, first) } else { (first, second) };
+        self.links[ahead.last.0 as usize].next = behind.first.0;
+        self.links[behind.first.0 as usize].prev = ahead.last.0;
+        Some(Range { first: ahead.first, last: behind.last, backward: first.backward })
+    }
+
     /// A cursor on the first segment of a range, in the order of the list.
     pub fn cursor<'a>(&'a mut self, range: &'a mut Range) -> Cursor<'a> {
         let at = range.first;
@@ -190,6 +202,11 @@ impl Cursor<'_> {
                 true
             }
         }
+    }
+
+    /// Whether the segment under the cursor is the last in list order.
+    pub fn is_last(&self) -> bool {
+        self.list.links[self.at.0 as usize].next == NONE
     }
 
     /// Puts a segment behind the one under the cursor; the cursor stays.
@@ -297,6 +314,22 @@ mod tests {
         cursor.make_first();
         assert_eq!(xs(&list, range), [1.0, 2.0, 0.0, 1.0]);
         assert!(list.is_linked(range));
+    }
+
+    #[test]
+    fn two_ranges_join_in_the_direction_that_they_are_walked_in() {
+        for backward in [false, true] {
+            let mut list = SegmentList::default();
+            let turned = |range: Range| if backward { range.reversed() } else { range };
+            let a = turned(list.append(chain(&[0.0, 1.0, 2.0])).expect("two segments"));
+            let b = turned(list.append(chain(&[7.0, 8.0])).expect("one segment"));
+            let expected: Vec<_> = list.walk(a).chain(list.walk(b)).collect();
+            assert_eq!(list.join(a, b.reversed()), None);
+            assert_eq!(list.join(a, a), None);
+            let joined = list.join(a, b).expect("the same direction");
+            assert_eq!(list.walk(joined).collect::<Vec<_>>(), expected);
+            assert!(list.is_linked(joined));
+        }
     }
 
     #[test]

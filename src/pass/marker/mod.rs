@@ -4,6 +4,9 @@ use crate::diagnostic::Diagnostics;
 use crate::ir::Marker;
 use crate::machine::Job;
 
+mod inspect;
+mod weld;
+
 /// A pass over the marker: a row of [`MARKER_PASSES`].
 #[derive(Debug)]
 pub struct MarkerPass {
@@ -16,4 +19,4 @@ pub struct MarkerPass {
 }
 
 /// Every pass over the marker, in order.
-pub const MARKER_PASSES: &[MarkerPass] = &[];
+pub const MARKER_PASSES: &[MarkerPass] = &[weld::PASS, inspect::PASS];

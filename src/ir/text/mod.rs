@@ -1,0 +1,77 @@
+//! The text form of marker and toolpath: prints and reads, so that any pass can be tested from such a text alone.
+//!
+//! One line a segment, point or step; lengths in mm, angles in rad under a name that says so; `;` starts a comment.
+//! Every number is the shortest one that reads back as the same `f64`, so a form survives the round trip to the bit.
+//!
+//! ```text
+//! marker unit-mm 0.1
+//! piece 1 @0..3#1
+//! drill 40 30 tool 1 @50..60#9
+//! slit 20 0 to 20 5 @60..70#12
+//! contour closed
+//!   from 0 0 to 100 0 @4..9#2
+//!   to 100 80 @10..19#3 lift full-advance no-overcut
+//!   to 0 0 @20..29#4
+//! label at 10 10 heading-rad 0 @30..39#5
+//! ```
+//!
+//! ```text
+//! toolpath piece 1 tolerance-mm 0.05 entry 0 0 c-rad 0
+//! travel 0 0 c-rad 0 to 3 0 c-rad 0
+//! run open tangent front 1 heel 0.5 feed off
+//!   ends corner path-bare
+//!   start 3 0 c-rad 0
+//!   end 99 0 c-rad 0
+//!   point 0 0 full-advance
+//!   point 60 0 @4..9#2
+//!   point 100 0 @10..19#3 lift no-overcut
+//! stab along 1 0 front 1 heel 0.5
+//!   ends corner corner
+//!   pose 3 0 c-rad 0
+//!   point 0 0
+//!   point 4 0 @4..9#2
+//! turn 3 0 c-rad 0 to 3 0 c-rad 1.5
+//! drill 40 30 tool 1 @50..60#9
+//! event stop
+//! ```
+//!
+//! `@start..end#block` is a span; one that is left out is that of no block. A segment line `to` starts where the line
+//! before it ends, so `from` stands where a contour starts or, in a broken one, jumps. The words behind a segment are
+//! what the file asks for where it starts, those behind a point what it asks for there. A contour is printed in the
+//! direction that it is walked in and read as one that is walked in list order: the same segments, the same joints.
+
+mod print;
+mod read;
+
+pub use print::{print_marker, print_toolpath};
+pub use read::{ReadError, read_marker, read_toolpath};
+
+use super::list::Joint;
+use super::toolpath::{End, Event, Shape};
+use crate::machine::Follow;
+
+/// Picks one flag of a joint.
+type Flag = fn(&mut Joint) -> &mut bool;
+
+/// What each word of a joint stands for.
+const JOINTS: [(&str, Flag); 3] = [
+    ("lift", |joint| &mut joint.lift),
+    ("full-advance", |joint| &mut joint.full_advance),
+    ("no-overcut", |joint| &mut joint.no_overcut),
+];
+
+const SHAPES: [(&str, Shape); 2] = [("open", Shape::Open), ("ring", Shape::Ring)];
+
+const LAWS: [(&str, Follow); 2] = [("tangent", Follow::Tangent), ("chord", Follow::Chord)];
+
+const ENDS: [(&str, End); 4] = [
+    ("path", End { corner: false, bare: false }),
+    ("path-bare", End { corner: false, bare: true }),
+    ("corner", End { corner: true, bare: false }),
+    ("corner-bare", End { corner: true, bare: true }),
+];
+
+const EVENTS: [(&str, Event); 2] = [("stop", Event::Stop), ("advance", Event::Advance)];
+
+#[cfg(test)]
+mod tests;

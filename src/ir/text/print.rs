@@ -1,0 +1,161 @@
+//! Printing.
+
+use std::fmt::{self, Display, Formatter, Write as _};
+
+use super::{ENDS, EVENTS, JOINTS, LAWS, SHAPES};
+use crate::geom::Point;
+use crate::ir::list::{Joint, Segment};
+use crate::ir::marker::{Label, Marker, NotchKind, Piece};
+use crate::ir::toolpath::{Pose, Run, Stab, Step, Toolpath};
+use crate::source::Span;
+use crate::units::number::exact;
+
+/// The text of a marker; [`read_marker`](super::read_marker) reads it back.
+pub fn print_marker(marker: &Marker) -> String {
+    let mut out = String::new();
+    line(&mut out, format_args!("marker unit-mm {}", exact(marker.unit)));
+    for piece in &marker.pieces {
+        print_piece(&mut out, marker, piece);
+    }
+    out
+}
+
+fn print_piece(out: &mut String, marker: &Marker, piece: &Piece) {
+    line(out, format_args!("piece {}{}", piece.number, At(piece.span)));
+    for drill in &piece.drills {
+        line(out, format_args!("drill {} tool {}{}", Xy(drill.at), drill.tool, At(drill.span)));
+    }
+    for notch in &piece.notches {
+        let kind = match notch.kind {
+            NotchKind::Slit => "slit",
+        };
+        line(out, format_args!("{kind} {} to {}{}", Xy(notch.root), Xy(notch.tip), At(notch.span)));
+    }
+    for contour in &piece.contours {
+        line(out, format_args!("contour {}", if contour.closed { "closed" } else { "open" }));
+        let mut end = None;
+        for (_, segment) in marker.list.walk(contour.range) {
+            print_segment(out, &segment, end);
+            end = Some(segment.to);
+        }
+    }
+    for label in &piece.labels {
+        print_label(out, label);
+    }
+}
+
+fn print_segment(out: &mut String, segment: &Segment, end: Option<Point>) {
+    out.push_str("  ");
+    if end != Some(segment.from) {
+        push(out, format_args!("from {} ", Xy(segment.from)));
+    }
+    push(out, format_args!("to {}{}", Xy(segment.to), At(segment.span)));
+    line(out, format_args!("{}", Asked(segment.joint)));
+}
+
+fn print_label(out: &mut String, label: &Label) {
+    out.push_str("label");
+    if let Some(at) = label.at {
+        push(out, format_args!(" at {}", Xy(at)));
+    }
+    if let Some(heading) = label.heading {
+        push(out, format_args!(" heading-rad {}", exact(heading.radians())));
+    }
+    line(out, format_args!("{}", At(label.span)));
+}
+
+/// The text of a sound toolpath; [`read_toolpath`](super::read_toolpath) reads it back.
+pub fn print_toolpath(toolpath: &Toolpath) -> String {
+    let mut out = String::new();
+    let Toolpath { piece, tolerance, entry, steps } = toolpath;
+    line(&mut out, format_args!("toolpath piece {piece} tolerance-mm {} entry {}", exact(*tolerance), Placed(*entry)));
+    for step in steps {
+        match step {
+            Step::Run(run) => print_run(&mut out, run),
+            Step::Stab(stab) => print_stab(&mut out, stab),
+            Step::Turn(air) => line(&mut out, format_args!("turn {} to {}", Placed(air.from), Placed(air.to))),
+            Step::Travel(air) => line(&mut out, format_args!("travel {} to {}", Placed(air.from), Placed(air.to))),
+            Step::Drill(drill) => {
+                line(&mut out, format_args!("drill {} tool {}{}", Xy(drill.at), drill.tool, At(drill.span)));
+            }
+            Step::Event(event) => line(&mut out, format_args!("event {}", word(&EVENTS, *event))),
+        }
+    }
+    out
+}
+
+fn print_run(out: &mut String, run: &Run) {
+    let feed = if run.feed == f64::INFINITY { "off".to_owned() } else { exact(run.feed) };
+    let (shape, law) = (word(&SHAPES, run.shape), word(&LAWS, run.law));
+    line(out, format_args!("run {shape} {law} front {} heel {} feed {feed}", exact(run.front), exact(run.heel)));
+    line(out, format_args!("  ends {} {}", word(&ENDS, run.ends[0]), word(&ENDS, run.ends[1])));
+    line(out, format_args!("  start {}", Placed(run.start)));
+    line(out, format_args!("  end {}", Placed(run.end)));
+    print_points(out, &run.points, &run.spans, &run.joints);
+}
+
+fn print_stab(out: &mut String, stab: &Stab) {
+    let along = Xy(Point::from(stab.along));
+    line(out, format_args!("stab along {along} front {} heel {}", exact(stab.front), exact(stab.heel)));
+    line(out, format_args!("  ends {} {}", word(&ENDS, stab.ends[0]), word(&ENDS, stab.ends[1])));
+    line(out, format_args!("  pose {}", Placed(stab.pose)));
+    print_points(out, &stab.points, &stab.spans, &[]);
+}
+
+/// The first point has no chord before it, so no span; points of a stab have no joints.
+fn print_points(out: &mut String, points: &[Point], spans: &[Span], joints: &[Joint]) {
+    for (i, &point) in points.iter().enumerate() {
+        let span = i.checked_sub(1).and_then(|chord| spans.get(chord)).copied().unwrap_or_default();
+        let joint = joints.get(i).copied().unwrap_or_default();
+        line(out, format_args!("  point {}{}{}", Xy(point), At(span), Asked(joint)));
+    }
+}
+
+fn word<T: PartialEq + Copy>(table: &[(&'static str, T)], value: T) -> &'static str {
+    table.iter().find(|row| row.1 == value).expect("the tables list every value").0
+}
+
+fn push(out: &mut String, text: fmt::Arguments<'_>) {
+    out.write_fmt(text).expect("a string takes all that is written");
+}
+
+fn line(out: &mut String, text: fmt::Arguments<'_>) {
+    push(out, text);
+    out.push('\n');
+}
+
+struct Xy(Point);
+
+impl Display for Xy {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}", exact(self.0.x), exact(self.0.y))
+    }
+}
+
+struct Placed(Pose);
+
+impl Display for Placed {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{} c-rad {}", Xy(self.0.centre), exact(self.0.c.0))
+    }
+}
+
+/// A span with the blank before it; nothing for the span of no block.
+struct At(Span);
+
+impl Display for At {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Span { start, end, block } = self.0;
+        if self.0 == Span::default() { Ok(()) } else { write!(f, " @{start}..{end}#{block}") }
+    }
+}
+
+/// The words of a joint, each with the blank before it.
+struct Asked(Joint);
+
+impl Display for Asked {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let mut joint = self.0;
+        JOINTS.iter().filter(|(_, flag)| *flag(&mut joint)).try_for_each(|(word, _)| write!(f, " {word}"))
+    }
+}

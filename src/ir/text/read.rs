@@ -1,0 +1,321 @@
+//! Reading: line by line, each line word by word.
+
+use std::str::{FromStr, SplitWhitespace};
+
+use thiserror::Error;
+
+use super::{ENDS, EVENTS, JOINTS, LAWS, SHAPES};
+use crate::geom::{Heading, Point, Vector};
+use crate::ir::list::{Joint, Segment};
+use crate::ir::marker::{Contour, Drill, Label, Marker, Notch, NotchKind, Piece};
+use crate::ir::toolpath::{self, Air, End, Pose, Run, Stab, Step, Toolpath};
+use crate::source::Span;
+
+/// A text that is not what [`print_marker`](super::print_marker) or [`print_toolpath`](super::print_toolpath) writes.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("line {line}: expected {expected}")]
+pub struct ReadError {
+    /// Number of the line, from 1.
+    pub line: usize,
+    /// What would have been right.
+    pub expected: String,
+}
+
+type Read<T> = Result<T, ReadError>;
+
+/// Reads the text of a marker.
+pub fn read_marker(text: &str) -> Read<Marker> {
+    let mut lines = lines(text);
+    let mut marker = Marker::default();
+    let mut head = lines.next_or("marker")?;
+    head.expect("marker")?;
+    head.expect("unit-mm")?;
+    marker.unit = head.number()?;
+    head.end()?;
+    while let Some(mut line) = lines.take() {
+        let word = line.word("piece, drill, slit, contour or label")?;
+        if word == "piece" {
+            let number = line.whole("a piece number")?;
+            marker.pieces.push(Piece { number, span: line.span()?, ..Piece::default() });
+            line.end()?;
+            continue;
+        }
+        let Some(piece) = marker.pieces.last_mut() else { return Err(line.error("piece")) };
+        match word {
+            "drill" => {
+                let (at, tool, span) = drill(&mut line)?;
+                piece.drills.push(Drill { at, tool, span });
+            }
+            "slit" => {
+                let root = line.point()?;
+                line.expect("to")?;
+                let tip = line.point()?;
+                piece.notches.push(Notch { kind: NotchKind::Slit, root, tip, span: line.span()? });
+            }
+            "contour" => {
+                let closed = line.choice(&[("closed", true), ("open", false)])?;
+                let chain = segments(&mut lines)?;
+                let range = marker.list.append(chain).ok_or_else(|| line.error("a segment in the next line"))?;
+                piece.contours.push(Contour { range, closed });
+            }
+            "label" => {
+                let at = if line.has("at") { Some(line.point()?) } else { None };
+                let heading = if line.has("heading-rad") { Some(Heading::new(line.number()?)) } else { None };
+                piece.labels.push(Label { at, heading, span: line.span()? });
+            }
+            _ => return Err(line.error("piece, drill, slit, contour or label")),
+        }
+        line.end()?;
+    }
+    Ok(marker)
+}
+
+fn drill(line: &mut Line<'_>) -> Read<(Point, u8, Span)> {
+    let at = line.point()?;
+    line.expect("tool")?;
+    Ok((at, line.whole("the number of a drill")?, line.span()?))
+}
+
+/// The segment lines that follow.
+fn segments(lines: &mut Lines<'_>) -> Read<Vec<Segment>> {
+    let mut chain: Vec<Segment> = Vec::new();
+    while let Some(mut line) = lines.take_if(&["from", "to"]) {
+        let before = chain.last().map(|segment| segment.to);
+        let from = if line.has("from") { Some(line.point()?) } else { before };
+        let from = from.ok_or_else(|| line.error("from"))?;
+        line.expect("to")?;
+        chain.push(Segment { from, to: line.point()?, span: line.span()?, joint: line.joint() });
+        line.end()?;
+    }
+    Ok(chain)
+}
+
+/// Reads the text of a toolpath.
+pub fn read_toolpath(text: &str) -> Read<Toolpath> {
+    let mut lines = lines(text);
+    let mut head = lines.next_or("toolpath")?;
+    head.expect("toolpath")?;
+    head.expect("piece")?;
+    let piece = head.whole("a piece number")?;
+    head.expect("tolerance-mm")?;
+    let tolerance = head.number()?;
+    head.expect("entry")?;
+    let entry = head.pose()?;
+    head.end()?;
+    let mut steps = Vec::new();
+    while let Some(mut line) = lines.take() {
+        let step = match line.word("run, stab, turn, travel, drill or event")? {
+            "run" => Step::Run(run(&mut line, &mut lines)?),
+            "stab" => Step::Stab(stab(&mut line, &mut lines)?),
+            "turn" => Step::Turn(air(&mut line)?),
+            "travel" => Step::Travel(air(&mut line)?),
+            "drill" => {
+                let (at, tool, span) = drill(&mut line)?;
+                Step::Drill(toolpath::Drill { at, tool, span })
+            }
+            "event" => Step::Event(line.choice(&EVENTS)?),
+            _ => return Err(line.error("run, stab, turn, travel, drill or event")),
+        };
+        line.end()?;
+        steps.push(step);
+    }
+    Ok(Toolpath { piece, tolerance, entry, steps })
+}
+
+fn air(line: &mut Line<'_>) -> Read<Air> {
+    let from = line.pose()?;
+    line.expect("to")?;
+    Ok(Air { from, to: line.pose()? })
+}
+
+fn run(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Run> {
+    let shape = line.choice(&SHAPES)?;
+    let law = line.choice(&LAWS)?;
+    let (front, heel) = overlaps(line)?;
+    line.expect("feed")?;
+    let feed = if line.has("off") { f64::INFINITY } else { line.number()? };
+    let ends = ends(lines)?;
+    let start = pose_line(lines, "start")?;
+    let end = pose_line(lines, "end")?;
+    let Polyline { points, spans, joints } = points(lines, true)?;
+    Ok(Run { points, spans, joints, shape, law, front, heel, feed, ends, start, end })
+}
+
+fn stab(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Stab> {
+    line.expect("along")?;
+    let along = Vector::new(line.number()?, line.number()?);
+    let (front, heel) = overlaps(line)?;
+    let ends = ends(lines)?;
+    let pose = pose_line(lines, "pose")?;
+    let Polyline { points, spans, .. } = points(lines, false)?;
+    Ok(Stab { points, spans, along, front, heel, ends, pose })
+}
+
+fn overlaps(line: &mut Line<'_>) -> Read<(f64, f64)> {
+    line.expect("front")?;
+    let front = line.number()?;
+    line.expect("heel")?;
+    Ok((front, line.number()?))
+}
+
+fn ends(lines: &mut Lines<'_>) -> Read<[End; 2]> {
+    let mut line = lines.next_or("ends")?;
+    line.expect("ends")?;
+    let ends = [line.choice(&ENDS)?, line.choice(&ENDS)?];
+    line.end()?;
+    Ok(ends)
+}
+
+fn pose_line(lines: &mut Lines<'_>, name: &str) -> Read<Pose> {
+    let mut line = lines.next_or(name)?;
+    line.expect(name)?;
+    let pose = line.pose()?;
+    line.end()?;
+    Ok(pose)
+}
+
+/// What point lines hold.
+#[derive(Default)]
+struct Polyline {
+    points: Vec<Point>,
+    spans: Vec<Span>,
+    joints: Vec<Joint>,
+}
+
+/// The point lines that follow: two at least, the first without a span.
+fn points(lines: &mut Lines<'_>, with_joints: bool) -> Read<Polyline> {
+    let mut held = Polyline::default();
+    while held.points.len() < 2 || lines.is_next("point") {
+        let mut line = lines.next_or("point")?;
+        line.expect("point")?;
+        held.points.push(line.point()?);
+        if held.points.len() > 1 {
+            held.spans.push(line.span()?);
+        }
+        if with_joints {
+            held.joints.push(line.joint());
+        }
+        line.end()?;
+    }
+    Ok(held)
+}
+
+/// The lines that hold something.
+struct Lines<'a> {
+    rest: std::iter::Peekable<std::vec::IntoIter<Line<'a>>>,
+    /// One past the last line of the text: where something is missing at its end.
+    end: usize,
+}
+
+fn lines(text: &str) -> Lines<'_> {
+    let code = |line: &'_ str| line.find(';').map_or(line.len(), |at| at);
+    let held: Vec<Line<'_>> = text
+        .lines()
+        .enumerate()
+        .map(|(i, line)| Line { number: i + 1, words: line[..code(line)].split_whitespace() })
+        .filter(|line| line.peek().is_some())
+        .collect();
+    Lines { rest: held.into_iter().peekable(), end: text.lines().count() + 1 }
+}
+
+impl<'a> Lines<'a> {
+    fn take(&mut self) -> Option<Line<'a>> {
+        self.rest.next()
+    }
+
+    /// The next line when it starts with one of some words.
+    fn take_if(&mut self, words: &[&str]) -> Option<Line<'a>> {
+        self.rest.next_if(|line| line.peek().is_some_and(|word| words.contains(&word)))
+    }
+
+    fn is_next(&mut self, word: &str) -> bool {
+        self.rest.peek().is_some_and(|line| line.peek() == Some(word))
+    }
+
+    fn next_or(&mut self, expected: &str) -> Read<Line<'a>> {
+        self.rest.next().ok_or_else(|| ReadError { line: self.end, expected: expected.to_owned() })
+    }
+}
+
+/// What is left of a line.
+struct Line<'a> {
+    number: usize,
+    words: SplitWhitespace<'a>,
+}
+
+impl<'a> Line<'a> {
+    fn peek(&self) -> Option<&'a str> {
+        self.words.clone().next()
+    }
+
+    fn error(&self, expected: &str) -> ReadError {
+        ReadError { line: self.number, expected: expected.to_owned() }
+    }
+
+    fn word(&mut self, expected: &str) -> Read<&'a str> {
+        self.words.next().ok_or_else(|| self.error(expected))
+    }
+
+    /// Takes the next word when it is `word`.
+    fn has(&mut self, word: &str) -> bool {
+        let found = self.peek() == Some(word);
+        if found {
+            self.words.next();
+        }
+        found
+    }
+
+    fn expect(&mut self, word: &str) -> Read<()> {
+        if self.has(word) { Ok(()) } else { Err(self.error(word)) }
+    }
+
+    fn end(&self) -> Read<()> {
+        if self.peek().is_none() { Ok(()) } else { Err(self.error("the end of the line")) }
+    }
+
+    fn choice<T: Copy>(&mut self, table: &[(&str, T)]) -> Read<T> {
+        let names = || table.iter().map(|row| row.0).collect::<Vec<_>>().join(" or ");
+        let word = self.words.next();
+        table.iter().find(|row| word == Some(row.0)).map(|row| row.1).ok_or_else(|| self.error(&names()))
+    }
+
+    fn number(&mut self) -> Read<f64> {
+        let number = self.words.next().and_then(|word| word.parse::<f64>().ok());
+        number.filter(|number| number.is_finite()).ok_or_else(|| self.error("a finite number"))
+    }
+
+    fn whole<T: FromStr>(&mut self, expected: &str) -> Read<T> {
+        self.words.next().and_then(|word| word.parse().ok()).ok_or_else(|| self.error(expected))
+    }
+
+    fn point(&mut self) -> Read<Point> {
+        Ok(Point::new(self.number()?, self.number()?))
+    }
+
+    fn pose(&mut self) -> Read<Pose> {
+        let at = self.point()?;
+        self.expect("c-rad")?;
+        Ok(Pose::new(at.x, at.y, self.number()?))
+    }
+
+    /// The words of a joint, in their order; none of them where none stands.
+    fn joint(&mut self) -> Joint {
+        let mut joint = Joint::default();
+        for (word, flag) in JOINTS {
+            *flag(&mut joint) = self.has(word);
+        }
+        joint
+    }
+
+    /// A span, or that of no block where none stands.
+    fn span(&mut self) -> Read<Span> {
+        let Some(text) = self.peek().and_then(|word| word.strip_prefix('@')) else { return Ok(Span::default()) };
+        self.words.next();
+        let parse = || {
+            let (bytes, block) = text.split_once('#')?;
+            let (start, end) = bytes.split_once("..")?;
+            Some(Span { start: start.parse().ok()?, end: end.parse().ok()?, block: block.parse().ok()? })
+        };
+        parse().ok_or_else(|| self.error("a span @start..end#block"))
+    }
+}

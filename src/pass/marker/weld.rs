@@ -1,0 +1,157 @@
+//! Weld: chains of segments as the file interrupts them become the contours that it means.
+//!
+//! Needs: contours as the reader left them, walked in list order, `closed` not yet meant. Leaves true: no segment of
+//! length zero; within a piece no open contour that a later open one continues to the bit; `closed` exactly when the
+//! ends meet. Contours keep the order of their first chain.
+
+use std::collections::BTreeSet;
+
+use super::MarkerPass;
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::Point;
+use crate::ir::list::{Joint, Range, SegmentList};
+use crate::ir::marker::{Contour, Marker, Piece};
+use crate::machine::Job;
+use crate::source::Span;
+
+pub(super) const PASS: MarkerPass =
+    MarkerPass { name: "weld", about: "drops equal points and joins what the file interrupts", run };
+
+fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
+    let mut dropped = Dropped::default();
+    for piece in &mut marker.pieces {
+        let number = piece.number;
+        piece.contours.retain_mut(|contour| {
+            let before = dropped.count;
+            let kept = drop_equal_points(&mut marker.list, &mut contour.range, &mut dropped);
+            // One point alone is how some files move the knife; several say that something was drawn there.
+            if !kept && dropped.count - before > 1 {
+                let (_, first) = marker.list.walk(contour.range).next().expect("a range is never empty");
+                let message = format!("a contour of piece {number} has no length: all its points are the same");
+                diagnostics.push(Diagnostic::new(&code::MARKER_NO_LENGTH, message).at(first.span));
+            }
+            kept
+        });
+        join(&mut marker.list, piece);
+    }
+    dropped.report(diagnostics);
+}
+
+/// Segments without length that were taken out.
+#[derive(Default)]
+struct Dropped {
+    count: usize,
+    first: Option<Span>,
+}
+
+impl Dropped {
+    fn add(&mut self, span: Span) {
+        self.count += 1;
+        self.first.get_or_insert(span);
+    }
+
+    fn report(&self, diagnostics: &mut Diagnostics) {
+        let Some(first) = self.first else { return };
+        let (points, verb) = if self.count == 1 { ("point", "repeats") } else { ("points", "repeat") };
+        let message = format!("{} {points} {verb} the one before; the first is in block {}", self.count, first.block);
+        diagnostics.push(Diagnostic::new(&code::MARKER_EQUAL_POINTS, message).at(first));
+    }
+}
+
+/// Takes the segments without length out of a range; `false` when there are no others, and one is left.
+///
+/// What the file asks for at a dropped segment it asks for at that point, where the next segment starts. The end of the
+/// contour has no segment of its own: its joint is the first segment's.
+fn drop_equal_points(list: &mut SegmentList, range: &mut Range, dropped: &mut Dropped) -> bool {
+    let mut cursor = list.cursor(range);
+    let mut carried = Joint::default();
+    loop {
+        let segment = cursor.segment();
+        if segment.from != segment.to {
+            carry(&mut cursor.segment_mut().joint, carried);
+            carried = Joint::default();
+            if !cursor.advance() {
+                return true;
+            }
+            continue;
+        }
+        dropped.add(segment.span);
+        carry(&mut carried, segment.joint);
+        let was_last = cursor.is_last();
+        if !cursor.remove() {
+            return false;
+        }
+        if was_last {
+            break;
+        }
+    }
+    let end = cursor.segment().to;
+    let mut first = list.cursor(range);
+    let closed = first.segment().from == end;
+    // At the end of an open contour the knife goes up anyway and does not come down again: only the overcut matters.
+    carry(
+        &mut first.segment_mut().joint,
+        if closed { carried } else { Joint { no_overcut: carried.no_overcut, ..Joint::default() } },
+    );
+    true
+}
+
+fn carry(joint: &mut Joint, carried: Joint) {
+    joint.lift |= carried.lift;
+    joint.full_advance |= carried.full_advance;
+    joint.no_overcut |= carried.no_overcut;
+}
+
+/// A chain's start, by the bits of its coordinates, and its place among the contours.
+type Start = ([u64; 2], usize);
+
+/// Joins the open chains of a piece. A chain takes the first later one that starts where it ends, until it closes or
+/// none does; a chain that runs into an earlier one stays apart, since the file wants the earlier one cut first.
+fn join(list: &mut SegmentList, piece: &mut Piece) {
+    let chains: Vec<([Point; 2], Range)> = piece.contours.iter().map(|c| (ends(list, c.range), c.range)).collect();
+    let open = |i: usize| chains[i].0[0] != chains[i].0[1];
+    let mut starts: BTreeSet<Start> =
+        (0..chains.len()).filter(|&i| open(i)).map(|i| (key(chains[i].0[0]), i)).collect();
+    let mut taken = vec![false; chains.len()];
+    piece.contours.clear();
+    for (i, &([start, mut end], mut range)) in chains.iter().enumerate() {
+        if taken[i] {
+            continue;
+        }
+        starts.remove(&(key(start), i));
+        while start != end {
+            let here = key(end);
+            let Some(&(_, next)) = starts.range((here, i)..=(here, usize::MAX)).next() else { break };
+            let Some(joined) = list.join(range, chains[next].1) else { break };
+            seam(list, range, chains[next].1);
+            starts.remove(&(here, next));
+            taken[next] = true;
+            range = joined;
+            end = chains[next].0[1];
+        }
+        piece.contours.push(Contour { range, closed: start == end });
+    }
+}
+
+/// Settles the joints of two chains of which the second now continues the first. The first segment of a chain holds
+/// the advance of its plunge and the overcut of its last lift; the seam has the plunge of the second chain and the
+/// lift of the first, the contour the other two.
+fn seam(list: &mut SegmentList, mut first: Range, mut second: Range) {
+    let no_overcut = list.cursor(&mut second).segment().joint.no_overcut;
+    let mut begin = list.cursor(&mut first);
+    let at_seam = std::mem::replace(&mut begin.segment_mut().joint.no_overcut, no_overcut);
+    let mut continued = list.cursor(&mut second);
+    let joint = &mut continued.segment_mut().joint;
+    joint.lift = true;
+    joint.no_overcut = at_seam;
+}
+
+fn ends(list: &SegmentList, range: Range) -> [Point; 2] {
+    let start = |range: Range| list.walk(range).next().expect("a range is never empty").1.from;
+    [start(range), start(range.reversed())]
+}
+
+/// The same for points that are equal: zero has one sign.
+fn key(point: Point) -> [u64; 2] {
+    [(point.x + 0.0).to_bits(), (point.y + 0.0).to_bits()]
+}

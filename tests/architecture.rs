@@ -1,0 +1,260 @@
+//! The rules of the code's layout, read from its text: who imports whom, what is named where, tables beside folders.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use cutc::back::TARGETS;
+use cutc::diagnostic::code;
+use cutc::front::DIALECTS;
+use cutc::pass::marker::MARKER_PASSES;
+use cutc::pass::toolpath::TOOLPATH_PASSES;
+
+/// Which modules each module may import. Stages never import stages: they meet in `ir`. `verify` shares nothing with
+/// what it judges. `ir` and `machine` share the word for how the blade follows a curve.
+const IMPORTS: &[(&str, &[&str])] = &[
+    ("source", &[]),
+    ("units", &[]),
+    ("geom", &["units"]),
+    ("diagnostic", &["source", "units"]),
+    ("machine", &["units", "diagnostic", "source"]),
+    ("ir", &["source", "units", "geom", "diagnostic", "machine"]),
+    ("front", FOUNDATION),
+    ("pass", FOUNDATION),
+    ("plan", FOUNDATION),
+    ("back", FOUNDATION),
+    ("verify", FOUNDATION),
+    ("pipeline", ALL_BUT_CLI),
+    // The tables of the stages, but not what they do.
+    ("cli", &["pipeline", "front", "back", "pass", "source", "machine", "diagnostic", "ir", "units"]),
+    ("main", &["cli"]),
+];
+
+const FOUNDATION: &[&str] = &["source", "diagnostic", "units", "geom", "ir", "machine"];
+
+const ALL_BUT_CLI: &[&str] =
+    &["source", "diagnostic", "units", "geom", "ir", "machine", "front", "pass", "plan", "back", "verify"];
+
+/// What is named in some modules only.
+const NAMED_ONLY_IN: &[(&str, &[&str])] = &[
+    ("nalgebra::", &["geom", "plan"]),
+    ("nom::", &["front"]),
+    ("clap::", &["cli"]),
+    ("anyhow::", &["cli", "main"]),
+    // Stages are pure: threads, files, clocks and the environment are for those who call them.
+    ("rayon::", &["cli", "pipeline"]),
+    ("tempfile::", &["cli", "pipeline"]),
+    ("std::thread", &["cli", "pipeline", "main"]),
+    ("std::fs", &["cli", "pipeline", "main"]),
+    ("std::env", &["cli", "pipeline", "main"]),
+    ("std::time", &["cli", "pipeline", "main"]),
+    ("println!", &["main"]),
+    ("eprintln!", &["main"]),
+    ("print!", &["main"]),
+    ("eprint!", &["main"]),
+    ("dbg!", &[]),
+    ("process::exit", &["main"]),
+    ("super::super", &[]),
+];
+
+/// Dialects without a grammar, and why.
+const NO_GRAMMAR: &[(&str, &str)] = &[("csv", "a row is two numbers and a comma: its header says it all")];
+
+/// Source files in the folder of a table that are no entry of it, and why.
+const BESIDE_A_TABLE: &[(&str, &str)] = &[
+    ("foreign", "names the formats that are no dialect of ours"),
+    ("trace", "makes the toolpaths that the passes edit"),
+];
+
+/// The longest a file may be, tests included.
+const MOST_LINES: usize = 600;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// A source file below `src`.
+struct File {
+    path: PathBuf,
+    /// Its top-level module: `ir` for `src/ir/list.rs`, `source` for `src/source.rs`.
+    module: String,
+    text: String,
+    /// The text without comments, blank where they were.
+    code: String,
+}
+
+fn sources(folder: &str) -> Vec<File> {
+    let mut files = Vec::new();
+    let mut folders = vec![root().join(folder)];
+    while let Some(folder) = folders.pop() {
+        for path in names(&folder).iter().map(|name| folder.join(name)) {
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
+                files.push(file(path));
+            }
+        }
+    }
+    assert!(!files.is_empty(), "{folder} holds source files");
+    files
+}
+
+fn file(path: PathBuf) -> File {
+    let text = fs::read_to_string(&path).expect("a readable source file");
+    let path = path.strip_prefix(root()).expect("a path below the root").to_owned();
+    let module = path.iter().nth(1).expect("a name below the folder").to_string_lossy();
+    let module = module.strip_suffix(".rs").unwrap_or(&module).to_owned();
+    let code: Vec<&str> = text.lines().map(|line| line.split("//").next().unwrap_or_default()).collect();
+    File { module, code: code.join("\n"), text, path }
+}
+
+/// Names in a folder, sorted; none when it does not exist.
+fn names(folder: &Path) -> BTreeSet<String> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect()
+}
+
+fn report(faults: &[String]) {
+    assert!(faults.is_empty(), "\n{}\n", faults.join("\n"));
+}
+
+/// What follows each place where `word` stands as a word of its own.
+fn after<'a>(code: &'a str, word: &'a str) -> impl Iterator<Item = &'a str> {
+    let is_name = |c: char| c.is_alphanumeric() || c == '_';
+    let places = code.match_indices(word).filter(move |&(at, _)| !code[..at].ends_with(is_name));
+    places.map(move |(at, _)| &code[at + word.len()..])
+}
+
+/// The modules that a code names behind `crate::`: one name, or those at the top of a list in braces.
+fn imports(code: &str) -> BTreeSet<String> {
+    let name = |text: &str| -> String { text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect() };
+    let mut found = BTreeSet::new();
+    for rest in after(code, "crate::").chain(after(code, "cutc::")) {
+        let Some(list) = rest.strip_prefix('{') else {
+            found.insert(name(rest));
+            continue;
+        };
+        let (mut depth, mut starts) = (1, true);
+        for (at, c) in list.char_indices() {
+            match c {
+                '{' => depth += 1,
+                '}' => depth -= 1,
+                _ if starts && depth == 1 && !c.is_whitespace() => _ = found.insert(name(&list[at..])),
+                _ => {}
+            }
+            starts = c == ',' || (starts && c.is_whitespace());
+            if depth == 0 {
+                break;
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn imports_are_found_however_they_are_written() {
+    let code = "use crate::{a, b::{c, d},\n  e::f};\ncrate::g::h(); pub(in crate::i) x; mycrate::j; cutc::k::run()";
+    assert_eq!(imports(code).into_iter().collect::<Vec<_>>(), ["a", "b", "e", "g", "i", "k"]);
+}
+
+#[test]
+fn a_module_imports_only_what_the_architecture_allows() {
+    let mut faults = Vec::new();
+    for file in sources("src").iter().filter(|file| file.module != "lib") {
+        let Some((_, allowed)) = IMPORTS.iter().find(|row| row.0 == file.module) else {
+            faults.push(format!("{}: the module has no row in IMPORTS", file.path.display()));
+            continue;
+        };
+        for import in imports(&file.code) {
+            if import != file.module && !allowed.contains(&import.as_str()) {
+                faults.push(format!("{}: `{}` must not import `{import}`", file.path.display(), file.module));
+            }
+        }
+    }
+    report(&faults);
+}
+
+#[test]
+fn packages_printing_and_side_effects_stay_where_they_belong() {
+    let mut faults = Vec::new();
+    for file in sources("src") {
+        for (word, modules) in NAMED_ONLY_IN {
+            if !modules.contains(&file.module.as_str()) && after(&file.code, word).next().is_some() {
+                faults.push(format!("{}: `{word}` belongs to {modules:?} only", file.path.display()));
+            }
+        }
+    }
+    report(&faults);
+}
+
+#[test]
+fn no_file_is_too_long_to_read_at_a_sitting() {
+    let files = sources("src").into_iter().chain(sources("tests"));
+    let long = files.map(|file| (file.text.lines().count(), file.path)).filter(|(lines, _)| *lines > MOST_LINES);
+    report(
+        &long
+            .map(|(lines, path)| format!("{}: {lines} lines, more than {MOST_LINES}", path.display()))
+            .collect::<Vec<_>>(),
+    );
+}
+
+/// Compares a table with the files and folders beside its `mod.rs`.
+fn compare(folder: &str, table: &[&str], faults: &mut Vec<String>) {
+    let modules: BTreeSet<String> =
+        names(&root().join(folder)).iter().map(|name| name.strip_suffix(".rs").unwrap_or(name).to_owned()).collect();
+    for name in table {
+        if !modules.contains(&name.replace('-', "_")) {
+            faults.push(format!("`{name}` has no source file or folder of its name in {folder}"));
+        }
+    }
+    for module in modules.iter().filter(|module| *module != "mod") {
+        let listed = table.iter().any(|name| name.replace('-', "_") == *module);
+        if !listed && !BESIDE_A_TABLE.iter().any(|row| row.0 == module) {
+            faults.push(format!("{folder}/{module} is no entry of the table in {folder}/mod.rs"));
+        }
+    }
+}
+
+#[test]
+fn tables_and_folders_agree() {
+    let mut faults = Vec::new();
+    let dialects: Vec<&str> = DIALECTS.iter().map(|dialect| dialect.name).collect();
+    compare("src/front", &dialects, &mut faults);
+    compare("src/back", &TARGETS.iter().map(|target| target.name).collect::<Vec<_>>(), &mut faults);
+    compare("src/pass/marker", &MARKER_PASSES.iter().map(|pass| pass.name).collect::<Vec<_>>(), &mut faults);
+    compare("src/pass/toolpath", &TOOLPATH_PASSES.iter().map(|pass| pass.name).collect::<Vec<_>>(), &mut faults);
+    for name in dialects {
+        if names(&root().join("fixtures").join(name)).is_empty() {
+            faults.push(format!("the dialect `{name}` needs fixtures in fixtures/{name}/"));
+        }
+        let excused = NO_GRAMMAR.iter().any(|row| row.0 == name);
+        if root().join(format!("grammar/{name}.bnf")).is_file() == excused {
+            faults.push(format!("the dialect `{name}` needs either grammar/{name}.bnf or a reason in NO_GRAMMAR"));
+        }
+    }
+    report(&faults);
+}
+
+#[test]
+fn the_readme_lists_every_dialect_target_and_code() {
+    let readme = fs::read_to_string(root().join("README.md")).unwrap_or_default();
+    let dialects = DIALECTS.iter().map(|dialect| ("dialect", dialect.name));
+    let targets = TARGETS.iter().map(|target| ("target", target.name));
+    let codes = code::ALL.iter().map(|code| ("code", code.name));
+    let missing = dialects.chain(targets).chain(codes).filter(|(_, name)| !readme.contains(&format!("`{name}`")));
+    report(&missing.map(|(what, name)| format!("README.md has no row for the {what} `{name}`")).collect::<Vec<_>>());
+}
+
+#[test]
+fn the_top_level_holds_nothing_else() {
+    let ignored = fs::read_to_string(root().join(".gitignore")).unwrap_or_default();
+    let belongs = |name: &str| {
+        ["Cargo.toml", "Cargo.lock", "src", "grammar", "fixtures", "tests", "README.md"].contains(&name)
+            || name.starts_with('.')
+            || name.starts_with("LICENSE-")
+            || ignored.lines().any(|line| line.strip_prefix('/') == Some(name))
+            || ignored.lines().any(|line| line.strip_prefix('*').is_some_and(|end| name.ends_with(end)))
+    };
+    let strange = names(root()).into_iter().filter(|name| !belongs(name));
+    report(&strange.map(|name| format!("`{name}` does not belong to the top level")).collect::<Vec<_>>());
+}
