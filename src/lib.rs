@@ -1,6 +1,7 @@
 //! `cutc` is a compiler from garment cutter files to machine programs for a tangential knife.
 
 pub mod back;
+pub mod cli;
 pub mod diagnostic;
 pub mod front;
 pub mod geom;

@@ -41,6 +41,9 @@ impl MachineProfile {
                 let _ = writeln!(out, "{gap}[{section}]");
             }
             if comments == Comments::Explained {
+                if !out.is_empty() && !out.ends_with("]\n") {
+                    out.push('\n');
+                }
                 for line in key.about.lines() {
                     let _ = writeln!(out, "# {line}");
                 }

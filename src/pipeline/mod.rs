@@ -4,6 +4,9 @@ mod report;
 
 pub use report::{Axes, Notches, Peak, Peaks, Program, Report};
 
+use std::io;
+
+use crate::back::{Output, Target};
 use crate::diagnostic::Diagnostics;
 use crate::front::Dialect;
 use crate::ir::Marker;
@@ -34,4 +37,28 @@ pub fn read(
         (pass.run)(&mut marker, job, diagnostics);
     }
     Some(Input { dialect, marker })
+}
+
+/// Compiles a source to the bytes of a target. `None`, and `out` is to be thrown away, when the diagnostics hold errors.
+pub fn compile(
+    source: &Source,
+    from: Option<&'static Dialect>,
+    job: &Job,
+    _target: &Target,
+    _out: &mut dyn Output,
+    diagnostics: &mut Diagnostics,
+) -> io::Result<Option<Report>> {
+    let input = read(source, from, job, diagnostics);
+    Ok(input.map(|input| Report::of(&input.marker, input.dialect.name)).filter(|_| !diagnostics.has_errors()))
+}
+
+/// The form that a pass leaves, as text.
+pub fn dump(
+    source: &Source,
+    from: Option<&'static Dialect>,
+    job: &Job,
+    _pass: &str,
+    diagnostics: &mut Diagnostics,
+) -> Option<String> {
+    read(source, from, job, diagnostics).map(|input| format!("{:?}\n", input.marker))
 }
