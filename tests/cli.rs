@@ -257,6 +257,10 @@ fn an_input_is_never_overwritten() {
         assert!(stderr.contains("input") && stderr.contains("-o"), "{stderr}");
     }
     assert_eq!(room.read("line.csv"), text);
+    room.write("machine.toml", b"");
+    room.expect("compile circle.cut -p machine.toml -o machine.toml", USAGE);
+    assert_eq!(room.read("machine.toml"), b"");
+    fs::remove_file(room.at("machine.toml")).expect("removable");
     assert_eq!(room.names(), ["circle.cut", "junk.cut", "line.csv"]);
 }
 

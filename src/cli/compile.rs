@@ -60,7 +60,9 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     if let Some(pass) = &arguments.dump_after {
         return dump(arguments, pass);
     }
-    let destination = Destination::find(arguments.out.as_deref(), &arguments.file, arguments.target.extension)?;
+    let profile = arguments.reading.machine.profile.as_deref();
+    let extension = arguments.target.extension;
+    let destination = Destination::find(arguments.out.as_deref(), &arguments.file, profile, extension)?;
     if destination == Destination::Stdout && arguments.format == Format::Json {
         return Err(failure(
             "`-o -` and `--format json` both want standard output",

@@ -56,8 +56,13 @@ pub(super) enum Destination {
 
 impl Destination {
     /// Finds where the program of `input` goes: `out` as typed, a directory for `<stem>.<extension>`, or without it
-    /// the current directory. Never the input itself.
-    pub(super) fn find(out: Option<&Path>, input: &Path, extension: &str) -> anyhow::Result<Self> {
+    /// the current directory. Never the input itself, nor the profile.
+    pub(super) fn find(
+        out: Option<&Path>,
+        input: &Path,
+        profile: Option<&Path>,
+        extension: &str,
+    ) -> anyhow::Result<Self> {
         let stem = input.file_stem().unwrap_or(input.as_os_str());
         let mut name = OsString::from(stem);
         name.push(format!(".{extension}"));
@@ -91,8 +96,8 @@ impl Destination {
             ));
         }
         for made in [path.clone(), meta(&path), stale(&path), stale(&meta(&path))] {
-            if same_file(&made, input) {
-                let message = format!("`{}` is the input: it is never overwritten", input.display());
+            if let Some(read) = [Some(input), profile].into_iter().flatten().find(|read| same_file(&made, read)) {
+                let message = format!("`{}` is an input: it is never overwritten", read.display());
                 return Err(failure(message, "give the program another name with -o"));
             }
         }
@@ -216,7 +221,7 @@ mod tests {
     use super::*;
 
     fn find(out: Option<&Path>, input: &Path) -> Result<Destination, String> {
-        Destination::find(out, input, "csv").map_err(|error| error.to_string())
+        Destination::find(out, input, None, "csv").map_err(|error| error.to_string())
     }
 
     #[test]
@@ -237,7 +242,7 @@ mod tests {
             let input = directory.path().join(name);
             fs::write(&input, "x_mm,y_mm\n").expect("writable");
             let program = directory.path().join(".").join(if name == "x.csv" { "x.csv" } else { "y.csv" });
-            assert!(find(Some(&program), &input).expect_err("refused").contains("is the input"), "{name}");
+            assert!(find(Some(&program), &input).expect_err("refused").contains("is an input"), "{name}");
             fs::remove_file(&input).expect("removable");
         }
         assert!(find(None, &directory.path().join("x.csv")).expect_err("refused").contains("name of its input"));

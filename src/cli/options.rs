@@ -17,7 +17,7 @@ pub(super) struct Machine {
     ///
     /// Without it the defaults hold: a real cutter's, with a worn 6.6 mm knife.
     #[arg(short, long, value_name = "PROFILE.toml")]
-    profile: Option<PathBuf>,
+    pub(super) profile: Option<PathBuf>,
 
     /// Set one key of the profile, as in `--set knife.width_mm=7.2`; may be repeated
     ///

@@ -55,10 +55,10 @@ const fn between(least: f64, greatest: f64) -> Within {
 
 /// Blades and what belongs to them, mm: longer ones are a slip of the unit.
 const BLADE: Within = from(0.0, 1000.0);
-/// Rests of the axes, ms: up to a minute.
-const REST: Within = from(0.0, 60_000.0);
+/// Rests of the axes, ms: longer ones are a slip of the unit.
+const REST: Within = from(0.0, 10_000.0);
 /// Greatest speeds, per s: slower axes would make programs of astronomic length.
-const SPEED: Within = from(0.1, 1.0e6);
+const SPEED: Within = from(1.0, 1.0e6);
 /// Greatest accelerations, per s2.
 const ACCELERATION: Within = from(1.0, 1.0e9);
 /// Greatest jerks, per s3.
@@ -327,7 +327,7 @@ mod tests {
     fn what_a_key_expects_has_its_unit() {
         let expects = |name: &str| find(name).expect("a key").expects();
         assert_eq!(expects("knife.width_mm"), "a number from 0 to 1000 mm");
-        assert_eq!(expects("knife.feed_mm_s"), "a number from 0.1 to 1000000 mm/s, or \"off\"");
+        assert_eq!(expects("knife.feed_mm_s"), "a number from 1 to 1000000 mm/s, or \"off\"");
         assert_eq!(expects("corner.angle_deg"), "a number between 0 and 180 degrees");
         assert_eq!(expects("knife.edges"), "1 or 2");
         assert_eq!(expects("knife.follow"), "\"tangent\" or \"chord\"");
