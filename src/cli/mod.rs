@@ -15,6 +15,7 @@ mod provenance;
 mod report;
 mod summary;
 
+use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::io::{self, Read as _, Seek as _, Write};
 
@@ -40,7 +41,7 @@ pub const USAGE: u8 = 2;
     max_term_width = 100,
     arg_required_else_help = true
 )]
-pub struct Arguments {
+struct Arguments {
     #[command(subcommand)]
     command: Command,
 }
@@ -122,8 +123,14 @@ fn say(said: &mut String, line: std::fmt::Arguments<'_>) {
     let _ = writeln!(said, "{line}");
 }
 
-/// Runs a command to its end.
-pub fn run(arguments: &Arguments) -> Finished {
+/// Runs a command line, the name of the program first, to its end.
+pub fn run(words: impl IntoIterator<Item = OsString>) -> Finished {
+    let arguments = match Arguments::try_parse_from(words) {
+        Ok(arguments) => arguments,
+        Err(misuse) if misuse.use_stderr() => return Finished::text(String::new(), misuse.render().to_string(), USAGE),
+        // Help and version come this way too.
+        Err(asked) => return Finished::text(asked.render().to_string(), String::new(), DONE),
+    };
     let finished = match &arguments.command {
         Command::Compile(arguments) => compile::run(arguments),
         Command::Check(arguments) => check::run(arguments),

@@ -26,8 +26,8 @@ impl MachineProfile {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Knife;
     use super::*;
+    use crate::machine::Knife;
 
     #[test]
     fn a_digest_is_that_of_the_standard() {

@@ -279,8 +279,8 @@ pub const KEYS: &[Key] = &[
 
 #[cfg(test)]
 mod tests {
-    use super::super::MachineProfile;
     use super::*;
+    use crate::machine::MachineProfile;
 
     fn leaves(prefix: &str, table: &toml::Table, out: &mut Vec<String>) {
         for (name, value) in table {

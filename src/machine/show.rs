@@ -69,8 +69,8 @@ impl MachineProfile {
 
 #[cfg(test)]
 mod tests {
-    use super::super::load;
     use super::*;
+    use crate::machine::load;
     use crate::source::Source;
 
     #[test]
