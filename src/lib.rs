@@ -64,6 +64,7 @@
 //! - **No state between two compiles**, and no configuration but the profile and the arguments.
 
 pub mod back;
+pub mod cli;
 pub mod diagnostic;
 pub mod front;
 pub mod geom;

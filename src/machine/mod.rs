@@ -1,13 +1,23 @@
 //! The machine: its profile, what one compile is asked to do with it, and the closed forms of its axes.
 //!
-//! Receives TOML, promises validated numbers in mm, s and rad, never knows what is cut.
+//! Receives TOML, promises validated numbers in mm, s and rad, never knows what is cut. [`load()`] reads a profile and
+//! reports every fault in it; [`keys::KEYS`] says what each key means, once, for the commented profile, the messages
+//! and the README.
 
+mod digest;
+pub mod keys;
 pub mod kinematics;
+mod load;
 pub mod profile;
+mod show;
+mod validate;
 mod word;
 
+pub use digest::sha256_hex;
 pub use kinematics::Limits;
+pub use load::{Faults, load};
 pub use profile::{FileUnit, Fit, Follow, Knife, MachineProfile};
+pub use show::Comments;
 
 /// What one compile is asked to do: the profile and the options of this run.
 #[derive(Debug, Clone, Default)]

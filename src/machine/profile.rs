@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::kinematics::Limits;
-use super::word;
+use super::word::{Auto, Off, OrWord, Stay, Unbounded, Unlimited};
 use crate::units::{MM_PER_INCH, MS_PER_S, rad};
 
 /// Version of the profile's format that this program reads and writes.
@@ -25,7 +25,7 @@ pub struct MachineProfile {
     /// Pose of the C axis at the start of a program: x mm, y mm, c degrees.
     pub home: [f64; 3],
     /// Where the machine ends.
-    #[serde(with = "word::stay")]
+    #[serde(with = "OrWord::<Stay>")]
     pub park: Option<[f64; 3]>,
     /// The blade and how it is used.
     pub knife: Knife,
@@ -95,9 +95,11 @@ pub enum CodeUse {
 pub struct Knife {
     /// Tail to tip, mm; 0 = a point.
     pub width_mm: f64,
-    /// Tail to centre, mm; what is left of the width is the radius.
+    /// Tail to centre, mm; what is left of the width is the radius. [`Knife::back`] is what the blade really has.
+    #[serde(with = "OrWord::<Auto>")]
     pub back_mm: Option<f64>,
-    /// Centre to tip, mm; may be given instead of `back_mm`.
+    /// Centre to tip, mm; may be given instead of `back_mm`, and then decides.
+    #[serde(with = "OrWord::<Auto>")]
     pub radius_mm: Option<f64>,
     /// How far the tip goes past the end of a path, mm.
     pub front_overlap_mm: f64,
@@ -112,7 +114,7 @@ pub struct Knife {
     /// Heel overlap at corners whose extension lies inside the part, mm.
     pub reflex_heel_overlap_mm: f64,
     /// Greatest speed of the tip while cutting, mm/s.
-    #[serde(with = "word::off")]
+    #[serde(with = "OrWord::<Off>")]
     pub feed_mm_s: Option<f64>,
     /// Speed after L or M25, percent of the feed.
     pub slow_percent: f64,
@@ -121,10 +123,10 @@ pub struct Knife {
     /// From the lift command until the blade is up, ms; the axes rest.
     pub lift_ms: f64,
     /// From the lift command until the blade is clear of the cloth and C may turn, ms.
-    #[serde(with = "word::off")]
+    #[serde(with = "OrWord::<Off>")]
     pub clear_ms: Option<f64>,
     /// Longest run with the knife down, mm; a longer one is lifted there and rejoined with overlap.
-    #[serde(with = "word::off")]
+    #[serde(with = "OrWord::<Off>")]
     pub max_down_mm: Option<f64>,
     /// How the blade lies on curves.
     pub follow: Follow,
@@ -149,13 +151,10 @@ const DEFAULT_WIDTH_MM: f64 = 6.6;
 const DEFAULT_BACK_MM: f64 = 6.35;
 
 impl Knife {
-    /// Centre to tip, mm.
+    /// Centre to tip, mm. A blade narrower than its back (the back is often left at its default) has the C axis at
+    /// its tip; that covers the point, of width 0.
     pub fn radius(&self) -> f64 {
-        match (self.radius_mm, self.back_mm) {
-            (Some(radius), _) => radius,
-            (None, Some(back)) => self.width_mm - back,
-            (None, None) => (self.width_mm - DEFAULT_BACK_MM).max(0.0),
-        }
+        self.radius_mm.unwrap_or_else(|| (self.width_mm - self.back_mm.unwrap_or(DEFAULT_BACK_MM)).max(0.0))
     }
 
     /// Tail to centre, mm.
@@ -178,7 +177,7 @@ impl Default for Knife {
     fn default() -> Self {
         Self {
             width_mm: DEFAULT_WIDTH_MM,
-            back_mm: None,
+            back_mm: Some(DEFAULT_BACK_MM),
             radius_mm: None,
             front_overlap_mm: 0.8,
             corner_front_overlap_mm: 0.8,
@@ -248,7 +247,7 @@ impl Default for Corner {
 #[serde(default, deny_unknown_fields)]
 pub struct Path {
     /// Permitted deviation of the tip from the path, mm; automatic from the file's unit.
-    #[serde(with = "word::auto")]
+    #[serde(with = "OrWord::<Auto>")]
     pub tolerance_mm: Option<f64>,
     /// What the polyline of the file stands for.
     pub fit: Fit,
@@ -342,7 +341,7 @@ impl Axes {
 #[serde(default, deny_unknown_fields)]
 pub struct CAxis {
     /// Least and greatest position, degrees.
-    #[serde(with = "word::unbounded")]
+    #[serde(with = "OrWord::<Unbounded>")]
     pub range_deg: Option<[f64; 2]>,
     /// Angle between machine zero and +X, degrees; for targets that address a controller.
     pub offset_deg: f64,
@@ -362,10 +361,10 @@ impl CAxis {
 #[serde(default, deny_unknown_fields)]
 pub struct Table {
     /// Reach along X, mm.
-    #[serde(with = "word::unlimited")]
+    #[serde(with = "OrWord::<Unlimited>")]
     pub x_mm: Option<[f64; 2]>,
     /// Reach along Y, mm.
-    #[serde(with = "word::unlimited")]
+    #[serde(with = "OrWord::<Unlimited>")]
     pub y_mm: Option<[f64; 2]>,
     /// Whether leaving the table is an error.
     pub strict: bool,
@@ -463,5 +462,28 @@ impl MachineProfile {
     /// Whether a code of the cutter file, such as `M19`, is obeyed.
     pub fn obeys(&self, code: &str) -> bool {
         self.codes.get(code) != Some(&CodeUse::Ignore)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_radius_is_what_the_back_leaves_of_the_width() {
+        let default = Knife::default();
+        assert!((default.radius() - 0.25).abs() < 1e-12 && (default.back() - 6.35).abs() < 1e-12);
+        let new = Knife { width_mm: 8.89, ..Knife::default() };
+        assert!((new.radius() - 2.54).abs() < 1e-12);
+        let eccentric = Knife { back_mm: None, radius_mm: Some(4.4), ..Knife::default() };
+        assert!((eccentric.back() - 2.2).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_narrow_blade_and_a_point_turn_about_their_tip() {
+        for width_mm in [0.0, 3.0] {
+            let knife = Knife { width_mm, ..Knife::default() };
+            assert_eq!((knife.radius(), knife.back()), (0.0, width_mm));
+        }
     }
 }

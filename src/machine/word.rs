@@ -1,6 +1,17 @@
-//! Values that are a number or a word: `"off"`, `"auto"`, `"unlimited"` stand for "no value" in the profile.
+//! Values that are something or a word: `"off"`, `"auto"`, `"unlimited"` stand for "no value" in the profile.
+
+use std::marker::PhantomData;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// A word that stands for "no value".
+pub(super) trait Word {
+    /// The word as it is typed.
+    const WORD: &'static str;
+}
+
+/// For `#[serde(with = "OrWord::<Off>")]` on an `Option`: the value, or the word.
+pub(super) struct OrWord<W>(PhantomData<W>);
 
 /// What TOML may hold where a word is allowed.
 #[derive(Deserialize)]
@@ -10,82 +21,54 @@ enum Typed<T> {
     Word(String),
 }
 
-fn read<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
-    input: D,
-    word: &str,
-    what: &str,
-) -> Result<Option<T>, D::Error> {
-    let expected = || serde::de::Error::custom(format!("expected {what} or \"{word}\""));
-    match Typed::<T>::deserialize(input).map_err(|_| expected())? {
-        Typed::Value(value) => Ok(Some(value)),
-        Typed::Word(text) if text == word => Ok(None),
-        Typed::Word(_) => Err(expected()),
+impl<W: Word> OrWord<W> {
+    /// `None` for the word; any other word is an error.
+    pub(super) fn deserialize<'de, D: Deserializer<'de>, T: Deserialize<'de>>(input: D) -> Result<Option<T>, D::Error> {
+        let expected = || serde::de::Error::custom(format!("expected a value or \"{}\"", W::WORD));
+        match Typed::<T>::deserialize(input).map_err(|_| expected())? {
+            Typed::Value(value) => Ok(Some(value)),
+            Typed::Word(text) if text == W::WORD => Ok(None),
+            Typed::Word(_) => Err(expected()),
+        }
+    }
+
+    /// The word for `None`.
+    #[allow(clippy::ref_option, reason = "serde hands the field over by reference")]
+    pub(super) fn serialize<S: Serializer, T: Serialize>(value: &Option<T>, output: S) -> Result<S::Ok, S::Error> {
+        match value {
+            Some(value) => value.serialize(output),
+            None => output.serialize_str(W::WORD),
+        }
     }
 }
 
-fn write<S: Serializer, T: Serialize>(value: &Option<T>, output: S, word: &str) -> Result<S::Ok, S::Error> {
-    match value {
-        Some(value) => value.serialize(output),
-        None => output.serialize_str(word),
-    }
+/// `"off"`: the feature is not used.
+pub(super) struct Off;
+/// `"auto"`: found from other values.
+pub(super) struct Auto;
+/// `"stay"`: no move.
+pub(super) struct Stay;
+/// `"unbounded"`: an axis without ends.
+pub(super) struct Unbounded;
+/// `"unlimited"`: a table without edges.
+pub(super) struct Unlimited;
+
+impl Word for Off {
+    const WORD: &'static str = "off";
 }
 
-pub(super) mod off {
-    use super::{Deserializer, Serializer};
-
-    pub(in crate::machine) fn deserialize<'de, D: Deserializer<'de>>(input: D) -> Result<Option<f64>, D::Error> {
-        super::read(input, "off", "a number")
-    }
-
-    pub(in crate::machine) fn serialize<S: Serializer>(value: &Option<f64>, output: S) -> Result<S::Ok, S::Error> {
-        super::write(value, output, "off")
-    }
+impl Word for Auto {
+    const WORD: &'static str = "auto";
 }
 
-pub(super) mod auto {
-    use super::{Deserializer, Serializer};
-
-    pub(in crate::machine) fn deserialize<'de, D: Deserializer<'de>>(input: D) -> Result<Option<f64>, D::Error> {
-        super::read(input, "auto", "a number")
-    }
-
-    pub(in crate::machine) fn serialize<S: Serializer>(value: &Option<f64>, output: S) -> Result<S::Ok, S::Error> {
-        super::write(value, output, "auto")
-    }
+impl Word for Stay {
+    const WORD: &'static str = "stay";
 }
 
-pub(super) mod stay {
-    use super::{Deserializer, Serializer};
-
-    pub(in crate::machine) fn deserialize<'de, D: Deserializer<'de>>(input: D) -> Result<Option<[f64; 3]>, D::Error> {
-        super::read(input, "stay", "a pose [x_mm, y_mm, c_deg]")
-    }
-
-    pub(in crate::machine) fn serialize<S: Serializer>(value: &Option<[f64; 3]>, output: S) -> Result<S::Ok, S::Error> {
-        super::write(value, output, "stay")
-    }
+impl Word for Unbounded {
+    const WORD: &'static str = "unbounded";
 }
 
-pub(super) mod unbounded {
-    use super::{Deserializer, Serializer};
-
-    pub(in crate::machine) fn deserialize<'de, D: Deserializer<'de>>(input: D) -> Result<Option<[f64; 2]>, D::Error> {
-        super::read(input, "unbounded", "a range [least, greatest]")
-    }
-
-    pub(in crate::machine) fn serialize<S: Serializer>(value: &Option<[f64; 2]>, output: S) -> Result<S::Ok, S::Error> {
-        super::write(value, output, "unbounded")
-    }
-}
-
-pub(super) mod unlimited {
-    use super::{Deserializer, Serializer};
-
-    pub(in crate::machine) fn deserialize<'de, D: Deserializer<'de>>(input: D) -> Result<Option<[f64; 2]>, D::Error> {
-        super::read(input, "unlimited", "a range [least, greatest]")
-    }
-
-    pub(in crate::machine) fn serialize<S: Serializer>(value: &Option<[f64; 2]>, output: S) -> Result<S::Ok, S::Error> {
-        super::write(value, output, "unlimited")
-    }
+impl Word for Unlimited {
+    const WORD: &'static str = "unlimited";
 }

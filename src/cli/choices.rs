@@ -1,0 +1,42 @@
+//! Flag values from the tables of the stages: clap lists them, explains them and names the nearest to a mistyped one.
+
+use clap::ValueEnum;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+
+use crate::back::{TARGETS, Target};
+use crate::front::{DIALECTS, Dialect};
+use crate::pass::marker::MARKER_PASSES;
+use crate::pass::toolpath::TOOLPATH_PASSES;
+
+/// How figures are given.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Format {
+    /// For people
+    Text,
+    /// For programs: JSON on standard output
+    Json,
+}
+
+/// Reads the name of a target.
+pub(super) fn targets() -> impl TypedValueParser<Value = &'static Target> {
+    names(TARGETS.iter().map(|target| (target.name, target.about))).map(|name| {
+        TARGETS.iter().find(|target| target.name == name).expect("clap lets only the names of the table pass")
+    })
+}
+
+/// Reads the name of a dialect.
+pub(super) fn dialects() -> impl TypedValueParser<Value = &'static Dialect> {
+    names(DIALECTS.iter().map(|dialect| (dialect.name, dialect.about))).map(|name| {
+        DIALECTS.iter().find(|dialect| dialect.name == name).expect("clap lets only the names of the table pass")
+    })
+}
+
+/// Reads the name of a pass.
+pub(super) fn passes() -> impl TypedValueParser<Value = String> {
+    let marker = MARKER_PASSES.iter().map(|pass| (pass.name, pass.about));
+    names(marker.chain(TOOLPATH_PASSES.iter().map(|pass| (pass.name, pass.about))))
+}
+
+fn names(rows: impl Iterator<Item = (&'static str, &'static str)>) -> PossibleValuesParser {
+    PossibleValuesParser::new(rows.map(|(name, about)| PossibleValue::new(name).help(about)))
+}

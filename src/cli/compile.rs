@@ -1,0 +1,176 @@
+//! `cutc compile`: a cutter file to a machine program.
+
+use std::io::{self, BufWriter, Write as _};
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use tempfile::SpooledTempFile;
+
+use super::choices::{self, Format};
+use super::files::{self, Destination, Draft};
+use super::options::{Reading, counted};
+use super::{DONE, FAULTY, Finished, Stdout, USAGE, failure, provenance, report, say, summary};
+use crate::back::{Output, TARGETS, Target};
+use crate::diagnostic::{Diagnostics, Severity, render};
+use crate::machine::Job;
+use crate::pipeline::{self, Report};
+use crate::source::Source;
+
+/// Arguments of `cutc compile`.
+#[derive(Debug, Args)]
+pub(super) struct Arguments {
+    /// Cutter file to compile
+    file: PathBuf,
+
+    /// Where the program goes: a file, a directory, or `-` for standard output
+    ///
+    /// By default `<stem of FILE>.<extension of the target>` in the current directory. The input is never overwritten.
+    /// Beside the program stands its `.meta.json`: what it was made from. When the compile fails, an older program of
+    /// the same name is moved to `<name>.stale`.
+    #[arg(short, long)]
+    out: Option<PathBuf>,
+
+    /// What to write
+    #[arg(short, long, value_parser = choices::targets(), default_value = TARGETS[0].name)]
+    target: &'static Target,
+
+    #[command(flatten)]
+    reading: Reading,
+
+    /// How to give the figures
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+
+    /// Print what a pass leaves, as text, and write no program
+    #[arg(long, value_name = "PASS", value_parser = choices::passes(), conflicts_with_all = ["out", "format"])]
+    dump_after: Option<String>,
+}
+
+/// Bytes of a program for standard output that are kept in memory; a longer one goes to a temporary file.
+const SPOOL_BYTES: usize = 64 << 20;
+
+/// One compile, ready to run.
+struct Compile<'a> {
+    arguments: &'a Arguments,
+    source: Source,
+    job: Job,
+}
+
+pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
+    if let Some(pass) = &arguments.dump_after {
+        return dump(arguments, pass);
+    }
+    let profile = arguments.reading.machine.profile.as_deref();
+    let extension = arguments.target.extension;
+    let destination = Destination::find(arguments.out.as_deref(), &arguments.file, profile, extension)?;
+    if destination == Destination::Stdout && arguments.format == Format::Json {
+        return Err(failure(
+            "`-o -` and `--format json` both want standard output",
+            "write the program to a file with -o FILE, or leave --format out",
+        ));
+    }
+    let source = files::read(&arguments.file)?;
+    let job = match arguments.reading.machine.job()? {
+        Ok(job) => job,
+        Err(mut refused) => {
+            // A slip in an argument is no verdict on the program that is there.
+            if let (FAULTY, Destination::File(path)) = (refused.code, &destination) {
+                refused.stderr.push_str(&files::move_aside(path));
+            }
+            return Ok(refused);
+        }
+    };
+    let compile = Compile { arguments, source, job };
+    match destination {
+        Destination::Stdout => compile.to_stdout(),
+        Destination::File(path) => Ok(compile.to_file(&path)),
+    }
+}
+
+/// What `--dump-after` prints.
+fn dump(arguments: &Arguments, pass: &str) -> anyhow::Result<Finished> {
+    let source = files::read(&arguments.file)?;
+    let job = match arguments.reading.machine.job()? {
+        Ok(job) => job,
+        Err(refused) => return Ok(refused),
+    };
+    let mut diagnostics = Diagnostics::default();
+    let text = pipeline::dump(&source, arguments.reading.from, &job, pass, &mut diagnostics);
+    let code = if text.is_none() || diagnostics.has_errors() { FAULTY } else { DONE };
+    Ok(Finished::text(text.unwrap_or_default(), render(&diagnostics, &source), code))
+}
+
+impl Compile<'_> {
+    fn to_stdout(&self) -> anyhow::Result<Finished> {
+        let mut spool = SpooledTempFile::new(SPOOL_BYTES);
+        let mut diagnostics = Diagnostics::default();
+        let report = self.emit(&mut spool, &mut diagnostics).map_err(|error| {
+            failure(format!("cannot spool the program: {error}"), "make room for temporary files, or write to a file")
+        })?;
+        let mut finished = self.finish(report.as_ref(), &diagnostics);
+        if report.is_some() {
+            finished.stdout = Stdout::Program(spool);
+        }
+        Ok(finished)
+    }
+
+    fn to_file(&self, path: &Path) -> Finished {
+        let mut diagnostics = Diagnostics::default();
+        let written = self.write(path, &mut diagnostics);
+        let mut finished = self.finish(written.as_ref().unwrap_or(&None).as_ref(), &diagnostics);
+        match written {
+            Ok(Some(_)) => say(&mut finished.stderr, format_args!("wrote `{}`", path.display())),
+            Ok(None) => finished.stderr.push_str(&files::move_aside(path)),
+            Err(error) => {
+                let aside = files::move_aside(path);
+                let said = format!("{}error: {error:#}\n{aside}", render(&diagnostics, &self.source));
+                return Finished::text(String::new(), said, USAGE);
+            }
+        }
+        finished
+    }
+
+    /// Writes the program and its provenance, both whole or not at all; `None` when the data has errors.
+    fn write(&self, path: &Path, diagnostics: &mut Diagnostics) -> anyhow::Result<Option<Report>> {
+        let mut program = Draft::new(path)?;
+        let Some(report) = self.emit(program.file(), diagnostics).map_err(|error| files::cannot_write(path, &error))?
+        else {
+            return Ok(None);
+        };
+        let meta_path = files::meta(path);
+        let mut meta = Draft::new(&meta_path)?;
+        let text = provenance::json(&self.source, &self.job, self.arguments.target);
+        meta.file().write_all(text.as_bytes()).map_err(|error| files::cannot_write(&meta_path, &error))?;
+        meta.publish()?;
+        program.publish()?;
+        Ok(Some(report))
+    }
+
+    /// Compiles into `out`, which is worth nothing unless a report comes back.
+    fn emit(&self, out: &mut impl Output, diagnostics: &mut Diagnostics) -> io::Result<Option<Report>> {
+        let mut out = BufWriter::new(out);
+        let Arguments { reading, target, .. } = self.arguments;
+        let report = pipeline::compile(&self.source, reading.from, &self.job, target, &mut out, diagnostics)?;
+        out.flush()?;
+        Ok(report.filter(|_| !diagnostics.has_errors()))
+    }
+
+    /// What is said about the data and the program.
+    fn finish(&self, report: Option<&Report>, diagnostics: &Diagnostics) -> Finished {
+        let mut said = render(diagnostics, &self.source);
+        let stdout = match self.arguments.format {
+            Format::Json => report::json(report, diagnostics, &self.source),
+            Format::Text => String::new(),
+        };
+        match (report, self.arguments.format) {
+            (Some(report), Format::Text) => said.push_str(&summary::text(report, self.source.name(), diagnostics)),
+            (Some(_), Format::Json) => {}
+            (None, Format::Text | Format::Json) => {
+                let errors = counted(diagnostics.count(Severity::Error), "error");
+                let warnings = counted(diagnostics.count(Severity::Warning), "warning");
+                say(&mut said, format_args!("{}: {errors}, {warnings}; no program was written", self.source.name()));
+            }
+        }
+        Finished::text(stdout, said, if report.is_some() { DONE } else { FAULTY })
+    }
+}

@@ -1,0 +1,290 @@
+//! Files: reading an input, finding where a program goes, writing it whole or not at all.
+
+use std::ffi::OsString;
+use std::fs;
+use std::io;
+use std::path::{MAIN_SEPARATOR, Path, PathBuf};
+
+use tempfile::NamedTempFile;
+
+use super::{failure, say};
+use crate::source::Source;
+
+/// Reads an input whole.
+pub(super) fn read(path: &Path) -> anyhow::Result<Source> {
+    let name = path.display().to_string();
+    if path.is_dir() {
+        return Err(failure(
+            format!("`{name}` is a directory"),
+            format!(
+                "name the file in it that you mean: `{}{MAIN_SEPARATOR}...`",
+                name.trim_end_matches(MAIN_SEPARATOR)
+            ),
+        ));
+    }
+    let bytes = fs::read(path).map_err(|error| {
+        let hint = match error.kind() {
+            io::ErrorKind::NotFound => "check the spelling and the current directory",
+            io::ErrorKind::PermissionDenied => "ask its owner for permission to read it, or copy it",
+            _ => "check the disk or the network drive that it is on",
+        };
+        failure(format!("cannot read `{name}`: {}", reason(&error)), hint)
+    })?;
+    Source::new(name.as_str(), bytes)
+        .map_err(|error| failure(format!("cannot read `{name}`: {error}"), "split the marker into several files"))
+}
+
+/// What went wrong, in plain words where the usual ones are cryptic.
+fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+        io::ErrorKind::ReadOnlyFilesystem => "the disk is read-only".to_owned(),
+        io::ErrorKind::StorageFull => "the disk is full".to_owned(),
+        _ => error.to_string(),
+    }
+}
+
+/// Where a program goes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Destination {
+    /// Standard output.
+    Stdout,
+    /// A file, with its `.meta.json` beside it.
+    File(PathBuf),
+}
+
+impl Destination {
+    /// Finds where the program of `input` goes: `out` as typed, a directory for `<stem>.<extension>`, or without it
+    /// the current directory. Never the input itself, nor the profile.
+    pub(super) fn find(
+        out: Option<&Path>,
+        input: &Path,
+        profile: Option<&Path>,
+        extension: &str,
+    ) -> anyhow::Result<Self> {
+        let stem = input.file_stem().unwrap_or(input.as_os_str());
+        let mut name = OsString::from(stem);
+        name.push(format!(".{extension}"));
+        let path = match out {
+            None if input.file_name() == Some(&name) => {
+                return Err(failure(
+                    format!("the program would have the name of its input, `{}`", name.display()),
+                    "say where it goes with -o FILE or -o DIRECTORY",
+                ));
+            }
+            None => PathBuf::from(&name),
+            Some(out) if out == Path::new("-") => return Ok(Self::Stdout),
+            Some(out) if out.is_dir() => out.join(&name),
+            Some(out) if out.as_os_str().to_string_lossy().ends_with(MAIN_SEPARATOR) => {
+                return Err(failure(
+                    format!("there is no directory `{}`", out.display()),
+                    "create it first, or name another one",
+                ));
+            }
+            Some(out) => out.to_owned(),
+        };
+        let shown = path.display();
+        if !directory(&path).is_dir() {
+            let message = format!("cannot write `{shown}`: there is no directory `{}`", directory(&path).display());
+            return Err(failure(message, "create it first, or name another one"));
+        }
+        if fs::metadata(&path).is_ok_and(|target| !target.is_file()) {
+            return Err(failure(
+                format!("`{shown}` is not a regular file"),
+                "write to a file, or to a pipe with `-o -`",
+            ));
+        }
+        for made in [path.clone(), meta(&path), stale(&path), stale(&meta(&path))] {
+            if let Some(read) = [Some(input), profile].into_iter().flatten().find(|read| same_file(&made, read)) {
+                let message = format!("`{}` is an input: it is never overwritten", read.display());
+                return Err(failure(message, "give the program another name with -o"));
+            }
+        }
+        Ok(Self::File(path))
+    }
+}
+
+/// The directory of a file.
+fn directory(path: &Path) -> &Path {
+    path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+fn same_file(a: &Path, b: &Path) -> bool {
+    a.canonicalize().is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b))
+}
+
+fn with_end(path: &Path, end: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(end);
+    PathBuf::from(name)
+}
+
+/// Where the provenance of a program stands.
+pub(super) fn meta(program: &Path) -> PathBuf {
+    with_end(program, ".meta.json")
+}
+
+/// Where an outdated program goes.
+fn stale(program: &Path) -> PathBuf {
+    with_end(program, ".stale")
+}
+
+/// A file that is not there yet: written beside its place, and moved there when it is whole.
+#[derive(Debug)]
+pub(super) struct Draft {
+    file: NamedTempFile,
+    path: PathBuf,
+}
+
+impl Draft {
+    /// Opens a draft of the file at `path`.
+    pub(super) fn new(path: &Path) -> anyhow::Result<Self> {
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".cutc-").suffix(".tmp");
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt as _;
+            // Readable to whom the umask lets it be, as any new file: a temporary one would be its owner's alone.
+            builder.permissions(fs::Permissions::from_mode(0o666));
+        }
+        let file = builder.tempfile_in(directory(path)).map_err(|error| cannot_write(path, &error))?;
+        Ok(Self { file, path: path.to_owned() })
+    }
+
+    /// The file to write to.
+    pub(super) fn file(&mut self) -> &mut fs::File {
+        self.file.as_file_mut()
+    }
+
+    /// Moves the whole file to its place, over what was there.
+    pub(super) fn publish(self) -> anyhow::Result<()> {
+        let Self { file, path } = self;
+        file.as_file().sync_all().map_err(|error| cannot_write(&path, &error))?;
+        file.persist(&path).map_err(|error| cannot_write(&path, &error.error))?;
+        Ok(())
+    }
+
+    /// Moves the whole file to its place, where nothing may be.
+    pub(super) fn publish_new(self) -> anyhow::Result<()> {
+        let Self { file, path } = self;
+        file.persist_noclobber(&path).map_err(|error| match error.error.kind() {
+            io::ErrorKind::AlreadyExists => exists(&path),
+            _ => cannot_write(&path, &error.error),
+        })?;
+        Ok(())
+    }
+}
+
+fn exists(path: &Path) -> anyhow::Error {
+    failure(format!("`{}` exists: it is not overwritten", path.display()), "give another name, or move it away first")
+}
+
+/// The error of a file that cannot be written.
+pub(super) fn cannot_write(path: &Path, error: &io::Error) -> anyhow::Error {
+    let hint = match error.kind() {
+        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
+            "name a place where you may write, with -o FILE or -o DIRECTORY"
+        }
+        io::ErrorKind::StorageFull => "make room, or name another disk with -o",
+        _ => "name another place with -o FILE or -o DIRECTORY",
+    };
+    failure(format!("cannot write `{}`: {}", path.display(), reason(error)), hint)
+}
+
+/// Moves an older program and its provenance aside, because the compile that should replace it failed. Says so.
+pub(super) fn move_aside(program: &Path) -> String {
+    let mut said = String::new();
+    for path in [program.to_owned(), meta(program)] {
+        let aside = stale(&path);
+        let moved = fs::rename(&path, &aside);
+        let (path, aside) = (path.display(), aside.display());
+        match moved {
+            Ok(()) => say(&mut said, format_args!("`{path}` is of an earlier compile: moved to `{aside}`")),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+            Err(error) => say(
+                &mut said,
+                format_args!(
+                    "`{path}` is of an earlier compile and cannot be moved aside ({}): do not use it",
+                    reason(&error)
+                ),
+            ),
+        }
+    }
+    said
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Write as _;
+
+    use super::*;
+
+    fn find(out: Option<&Path>, input: &Path) -> Result<Destination, String> {
+        Destination::find(out, input, None, "csv").map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_program_takes_the_stem_of_its_input() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let at = |name: &str| directory.path().join(name);
+        let input = at("marker.one.cut");
+        assert_eq!(find(None, &input), Ok(Destination::File("marker.one.csv".into())));
+        assert_eq!(find(Some(directory.path()), &input), Ok(Destination::File(at("marker.one.csv"))));
+        assert_eq!(find(Some(&at("x.txt")), &input), Ok(Destination::File(at("x.txt"))));
+        assert_eq!(find(Some(Path::new("-")), &input), Ok(Destination::Stdout));
+    }
+
+    #[test]
+    fn an_input_is_never_written() {
+        let directory = tempfile::tempdir().expect("a directory");
+        for name in ["x.csv", "y.csv.meta.json", "y.csv.stale", "y.csv.meta.json.stale"] {
+            let input = directory.path().join(name);
+            fs::write(&input, "x_mm,y_mm\n").expect("writable");
+            let program = directory.path().join(".").join(if name == "x.csv" { "x.csv" } else { "y.csv" });
+            assert!(find(Some(&program), &input).expect_err("refused").contains("is an input"), "{name}");
+            fs::remove_file(&input).expect("removable");
+        }
+        assert!(find(None, &directory.path().join("x.csv")).expect_err("refused").contains("name of its input"));
+    }
+
+    #[test]
+    fn places_that_cannot_be_written_are_named() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let nowhere = directory.path().join("no").join("x.csv");
+        assert!(find(Some(&nowhere), Path::new("x.cut")).expect_err("refused").contains("there is no directory"));
+        let slash = PathBuf::from(format!("{}{MAIN_SEPARATOR}", directory.path().join("no").display()));
+        assert!(find(Some(&slash), Path::new("x.cut")).expect_err("refused").contains("create it first"));
+        assert!(read(directory.path()).expect_err("refused").to_string().contains("is a directory"));
+    }
+
+    #[test]
+    fn a_draft_leaves_nothing_until_it_is_whole() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let path = directory.path().join("x.csv");
+        let mut draft = Draft::new(&path).expect("a draft");
+        draft.file().write_all(b"half").expect("writable");
+        assert!(!path.exists());
+        drop(draft);
+        assert_eq!(fs::read_dir(directory.path()).expect("readable").count(), 0);
+        let mut draft = Draft::new(&path).expect("a draft");
+        draft.file().write_all(b"whole").expect("writable");
+        draft.publish().expect("published");
+        assert_eq!(fs::read(&path).expect("readable"), b"whole");
+        let refused = Draft::new(&path).expect("a draft").publish_new().expect_err("refused");
+        assert!(refused.to_string().contains("not overwritten"));
+        assert_eq!(fs::read(&path).expect("readable"), b"whole");
+    }
+
+    #[test]
+    fn an_older_program_is_moved_aside_with_its_provenance() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let path = directory.path().join("x.csv");
+        assert_eq!(move_aside(&path), "");
+        fs::write(&path, "old").expect("writable");
+        fs::write(meta(&path), "{}").expect("writable");
+        assert_eq!(move_aside(&path).lines().count(), 2);
+        assert!(!path.exists() && !meta(&path).exists());
+        assert!(stale(&path).exists() && stale(&meta(&path)).exists());
+    }
+}

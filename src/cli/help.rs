@@ -1,0 +1,45 @@
+//! The long help: examples, dialects, targets, and where the profile is explained.
+
+use std::fmt::Write as _;
+
+use crate::back::TARGETS;
+use crate::front::DIALECTS;
+
+/// What stands below the list of commands.
+pub(super) fn overview() -> String {
+    let mut out = String::from(
+        "Examples:
+  cutc compile marker.cut                     writes marker.csv, prints a summary
+  cutc compile marker.cut -p machine.toml     for the machine that machine.toml describes
+  cutc compile marker.cut --set knife.width_mm=7.2 -o out/
+                                              with one key changed, into a directory
+  cutc compile marker.cut -o - | less         the program on standard output
+  cutc check *.cut                            says all that is wrong, writes nothing
+  cutc info marker.cut --format json          what is in a file, for a script
+  cutc profile init -o machine.toml           every key of a machine with its default
+  cutc profile show -p machine.toml           the values in effect
+
+",
+    );
+    let dialects: Vec<_> = DIALECTS.iter().map(|dialect| (dialect.name, dialect.about)).collect();
+    list(&mut out, "Dialects that are read (recognised by content; --from overrides):", &dialects);
+    let targets: Vec<_> = TARGETS.iter().map(|target| (target.name, target.about)).collect();
+    list(&mut out, "Targets that are written (-t; the first is the default):", &targets);
+    out.push_str(
+        "The machine: without -p the defaults are a real cutter's, with a worn 6.6 mm knife.
+`cutc profile init` prints every key of a profile with its meaning, range and default.
+
+Exit codes: 0 done, 1 the data has errors, 2 wrong usage, or a file that cannot be read or written.",
+    );
+    out
+}
+
+fn list(out: &mut String, title: &str, rows: &[(&str, &str)]) {
+    let width = rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
+    // Writing into a `String` cannot fail.
+    let _ = writeln!(out, "{title}");
+    for (name, about) in rows {
+        let _ = writeln!(out, "  {name:width$}  {about}");
+    }
+    out.push('\n');
+}

@@ -1,0 +1,80 @@
+//! Options that several commands share.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::{FAULTY, Finished, USAGE, choices, failure, files, say};
+use crate::diagnostic::{Severity, render};
+use crate::front::Dialect;
+use crate::machine::{Faults, Job, MachineProfile, load};
+use crate::source::Source;
+
+/// Which machine.
+#[derive(Debug, Args)]
+pub(super) struct Machine {
+    /// Machine profile to use; `cutc profile init` prints one with every key explained
+    ///
+    /// Without it the defaults hold: a real cutter's, with a worn 6.6 mm knife.
+    #[arg(short, long, value_name = "PROFILE.toml")]
+    pub(super) profile: Option<PathBuf>,
+
+    /// Set one key of the profile, as in `--set knife.width_mm=7.2`; may be repeated
+    ///
+    /// Overrides the profile. `cutc profile init` explains the keys. A bare word needs no quotes: `--set
+    /// knife.feed_mm_s=off`.
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
+}
+
+/// How an input is read.
+#[derive(Debug, Args)]
+pub(super) struct Reading {
+    /// Read the file as this dialect, whatever it looks like
+    #[arg(long, value_name = "DIALECT", value_parser = choices::dialects())]
+    pub(super) from: Option<&'static Dialect>,
+
+    #[command(flatten)]
+    pub(super) machine: Machine,
+}
+
+impl Machine {
+    /// The job on this machine, or what is wrong with its profile.
+    pub(super) fn job(&self) -> anyhow::Result<Result<Job, Finished>> {
+        Ok(self.load()?.map(|profile| Job { profile }))
+    }
+
+    /// The profile, or what is wrong with it: [`FAULTY`] when the file is, [`USAGE`] when only arguments are.
+    pub(super) fn load(&self) -> anyhow::Result<Result<MachineProfile, Finished>> {
+        let file = match &self.profile {
+            Some(path) if !path.exists() => {
+                let path = path.display();
+                return Err(failure(
+                    format!("there is no profile `{path}`"),
+                    format!("check the spelling, or begin one with `cutc profile init -o {path}`"),
+                ));
+            }
+            Some(path) => Some(files::read(path)?),
+            None => None,
+        };
+        Ok(load(file.as_ref(), &self.set).map_err(|faults| refuse(&faults, file.as_ref())))
+    }
+}
+
+/// What is said about a faulty profile.
+pub(super) fn refuse(faults: &Faults, file: Option<&Source>) -> Finished {
+    let mut said = String::new();
+    if let Some(file) = file {
+        said.push_str(&render(&faults.file, file));
+    }
+    let arguments = Source::new("command line", Vec::new()).expect("nothing is small");
+    said.push_str(&render(&faults.arguments, &arguments));
+    let count = faults.file.count(Severity::Error) + faults.arguments.count(Severity::Error);
+    say(&mut said, format_args!("the machine profile has {}", counted(count, "error")));
+    Finished::text(String::new(), said, if faults.file.has_errors() { FAULTY } else { USAGE })
+}
+
+/// A number with its noun: `1 error`, `2 errors`.
+pub(super) fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}

@@ -1,0 +1,87 @@
+//! `cutc profile`: show, begin or check a machine profile.
+
+use std::io::Write as _;
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand};
+
+use super::files::{self, Draft};
+use super::options::{Machine, refuse};
+use super::{DONE, Finished};
+use crate::machine::{Comments, MachineProfile, load};
+
+/// Arguments of `cutc profile`.
+#[derive(Debug, Args)]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Print the values in effect: the defaults, the profile and `--set` together
+    Show {
+        #[command(flatten)]
+        machine: Machine,
+    },
+    /// Print a profile with every key, its meaning, range and default: a beginning for your machine
+    Init {
+        /// File to write, instead of standard output; never overwritten
+        #[arg(short, long, value_name = "PROFILE.toml")]
+        out: Option<PathBuf>,
+    },
+    /// Say everything that is wrong with profiles
+    Check {
+        /// Profiles to check
+        #[arg(required = true, value_name = "PROFILE.toml")]
+        files: Vec<PathBuf>,
+    },
+}
+
+pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
+    match &arguments.command {
+        Command::Show { machine } => Ok(match machine.load()? {
+            Ok(profile) => Finished::text(profile.effective().to_toml(Comments::Plain), String::new(), DONE),
+            Err(refused) => refused,
+        }),
+        Command::Init { out } => init(out.as_ref()),
+        Command::Check { files } => Ok(check(files)),
+    }
+}
+
+/// What stands above the keys of a new profile.
+const HEAD: &str = "\
+# Machine profile of cutc. Every key is here with its default: change what differs on your machine and
+# delete the rest. `cutc profile check FILE` says what is wrong, `cutc profile show -p FILE` what holds.
+
+";
+
+fn init(out: Option<&PathBuf>) -> anyhow::Result<Finished> {
+    let text = format!("{HEAD}{}", MachineProfile::default().to_toml(Comments::Explained));
+    let Some(path) = out else {
+        return Ok(Finished::text(text, String::new(), DONE));
+    };
+    let mut draft = Draft::new(path)?;
+    draft.file().write_all(text.as_bytes()).map_err(|error| files::cannot_write(path, &error))?;
+    draft.publish_new()?;
+    Ok(Finished::text(String::new(), format!("wrote `{}`\n", path.display()), DONE))
+}
+
+fn check(paths: &[PathBuf]) -> Finished {
+    let mut finished = Finished::text(String::new(), String::new(), DONE);
+    for path in paths {
+        let (said, code) = match files::read(path) {
+            Err(error) => (format!("error: {error:#}\n"), super::USAGE),
+            Ok(file) => match load(Some(&file), &[]) {
+                Ok(_) => (format!("{}: no errors\n", file.name()), DONE),
+                Err(faults) => {
+                    let refused = refuse(&faults, Some(&file));
+                    (refused.stderr, refused.code)
+                }
+            },
+        };
+        finished.stderr.push_str(&said);
+        finished.code = finished.code.max(code);
+    }
+    finished
+}

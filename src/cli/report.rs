@@ -1,0 +1,101 @@
+//! The figures of a file as JSON: every key always there, null for what is not known.
+
+use serde::Serialize;
+
+use crate::diagnostic::{Diagnostics, Json, Severity};
+use crate::ir::Marker;
+use crate::pipeline::Report;
+use crate::source::Source;
+
+#[derive(Serialize)]
+struct Figures<T: Serialize> {
+    #[serde(flatten)]
+    report: T,
+    #[serde(flatten)]
+    findings: Findings,
+}
+
+/// Diagnostics by severity.
+#[derive(Serialize)]
+pub(super) struct Findings {
+    warnings: Vec<Json>,
+    errors: Vec<Json>,
+}
+
+impl Findings {
+    /// The findings about a source.
+    pub(super) fn of(diagnostics: &Diagnostics, source: &Source) -> Self {
+        let of =
+            |severity| diagnostics.iter().filter(|d| d.code.severity == severity).map(|d| d.to_json(source)).collect();
+        Self { warnings: of(Severity::Warning), errors: of(Severity::Error) }
+    }
+}
+
+/// A report with the findings as one JSON object; without a report all its keys are null.
+pub(super) fn json(report: Option<&Report>, diagnostics: &Diagnostics, source: &Source) -> String {
+    let findings = Findings::of(diagnostics, source);
+    match report {
+        Some(report) => pretty(&Figures { report, findings }),
+        None => pretty(&Figures { report: nothing(), findings }),
+    }
+}
+
+/// The keys of a report, all null.
+fn nothing() -> serde_json::Value {
+    let mut empty = serde_json::to_value(Report::of(&Marker::default(), "")).expect("a report is plain data");
+    for value in empty.as_object_mut().into_iter().flat_map(serde_json::Map::values_mut) {
+        *value = serde_json::Value::Null;
+    }
+    empty
+}
+
+/// Indented JSON with a final line break.
+pub(super) fn pretty(value: &impl Serialize) -> String {
+    serde_json::to_string_pretty(value).expect("plain data with text keys") + "\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnostic::{Diagnostic, code};
+
+    const KEYS: [&str; 18] = [
+        "dialect",
+        "unit_mm",
+        "extent_mm",
+        "pieces",
+        "contours",
+        "closed_contours",
+        "notches",
+        "drills",
+        "labels",
+        "cut_m",
+        "travel_m",
+        "runs",
+        "stabs",
+        "lifts",
+        "time_s",
+        "axes",
+        "warnings",
+        "errors",
+    ];
+
+    #[test]
+    fn every_key_is_there_whether_known_or_not() {
+        let source = Source::new("a.cut", Vec::new()).expect("small");
+        let mut found = Diagnostics::default();
+        found.push(Diagnostic::new(&code::SOURCE_EMPTY, "the file holds nothing"));
+        let report = Report::of(&Marker::default(), "iso");
+        for report in [Some(&report), None] {
+            let text = json(report, &found, &source);
+            let value: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+            let mut keys: Vec<_> = value.as_object().expect("an object").keys().map(String::as_str).collect();
+            let mut expected = KEYS;
+            keys.sort_unstable();
+            expected.sort_unstable();
+            assert_eq!(keys, expected);
+            assert_eq!(value["errors"][0]["code"], "source/empty");
+            assert!(value["time_s"].is_null());
+        }
+    }
+}

@@ -1,0 +1,167 @@
+//! The figures of a file for people: calm, aligned, with units, within 80 columns.
+
+use std::fmt::Write as _;
+
+use super::options::counted;
+use crate::diagnostic::{Diagnostics, Severity};
+use crate::pipeline::{Axes, Peak, Peaks, Report};
+use crate::units::number::{exact, fixed};
+
+/// Seconds in a minute.
+const S_PER_MIN: f64 = 60.0;
+
+/// The summary of a report; lines that only planning knows are left out where it did not run.
+pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> String {
+    let mut out = format!("{name}\n");
+    // Writing into a `String` cannot fail, so the results of `writeln!` are dropped throughout.
+    let mut line = |label: &str, value: String| {
+        let _ = writeln!(out, "  {label:10} {value}");
+    };
+    let unit = if report.unit_mm > 0.0 { format!("unit {} mm", exact(report.unit_mm)) } else { "no grid".to_owned() };
+    line("dialect", format!("{}, {unit}", report.dialect));
+    let [width, height] = report.extent_mm;
+    line("extent", format!("{} x {} mm", fixed(width, 1), fixed(height, 1)));
+    line("pieces", report.pieces.to_string());
+    let open = report.contours - report.closed_contours;
+    line("contours", format!("{} ({} closed, {open} open)", report.contours, report.closed_contours));
+    let notches = report.notches;
+    line("notches", format!("{} ({} slit, {} v)", notches.slit + notches.v, notches.slit, notches.v));
+    line("drills", report.drills.to_string());
+    line("labels", report.labels.to_string());
+    line("cut", format!("{} m", fixed(report.cut_m, 3)));
+    let program = &report.program;
+    if let Some(travel) = program.travel_m {
+        line("travel", format!("{} m", fixed(travel, 3)));
+    }
+    if let (Some(runs), Some(stabs)) = (program.runs, program.stabs) {
+        line("runs", format!("{runs}, of which {}", counted(stabs, "stab")));
+    }
+    if let Some(lifts) = program.lifts {
+        line("lifts", lifts.to_string());
+    }
+    if let Some(time) = program.time_s {
+        line("time", duration(time));
+    }
+    line("warnings", diagnostics.count(Severity::Warning).to_string());
+    if let Some(axes) = &program.axes {
+        peaks(&mut out, axes);
+    }
+    out
+}
+
+/// A duration as people say it.
+fn duration(seconds: f64) -> String {
+    if seconds < S_PER_MIN {
+        return format!("{} s", fixed(seconds, 2));
+    }
+    // Rounded first: 119.96 s are 2 min, not 1 min 60.0 s.
+    let tenths = (seconds * 10.0).round();
+    let minutes = (tenths / 600.0).floor();
+    format!("{} min {} s", fixed(minutes, 0), fixed((tenths - minutes * 600.0) / 10.0, 1))
+}
+
+/// The greatest values of each axis beside its limit.
+fn peaks(out: &mut String, axes: &Axes) {
+    let cells = |peaks: &Peaks| [peaks.speed, peaks.acceleration, peaks.jerk].map(cell);
+    let rows = [("x mm", cells(&axes.x)), ("y mm", cells(&axes.y)), ("c degrees", cells(&axes.c))];
+    let titles = ["speed, /s", "acceleration, /s2", "jerk, /s3"];
+    let worst = |column: usize| rows.iter().map(|(_, cells)| cells[column].0.len()).max().unwrap_or(0);
+    let limit = |column: usize| rows.iter().map(|(_, cells)| cells[column].1.len()).max().unwrap_or(0);
+    let width = |column: usize| titles[column].len().max(worst(column) + 4 + limit(column));
+    out.push_str("\n  greatest of limit\n");
+    let title = |i: usize| format!("   {:>1$}", titles[i], width(i));
+    let _ = writeln!(out, "  {:9}{}", "axis", [0, 1, 2].map(title).concat());
+    for (axis, cells) in &rows {
+        let cell = |i: usize| {
+            let both = format!("{:>2$} of {:>3$}", cells[i].0, cells[i].1, worst(i), limit(i));
+            format!("   {both:>0$}", width(i))
+        };
+        let _ = writeln!(out, "  {axis:9}{}", [0, 1, 2].map(cell).concat());
+    }
+}
+
+/// Below this limit two decimals are shown, else none.
+const WHOLE_FROM: f64 = 100.0;
+
+fn cell(peak: Peak) -> (String, String) {
+    let decimals = if peak.limit < WHOLE_FROM { 2 } else { 0 };
+    (fixed(peak.worst, decimals), fixed(peak.limit, decimals))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ir::Marker;
+    use crate::pipeline::{Notches, Program};
+
+    fn report() -> Report {
+        let peak = |worst, limit| Peak { worst, limit };
+        let x = Peaks { speed: peak(761.4, 1200.0), acceleration: peak(7999.9, 8000.0), jerk: peak(199_876.0, 2e5) };
+        let c = Peaks { speed: peak(7.4, 1080.0), acceleration: peak(19_999.9, 2e4), jerk: peak(1e6, 1e6) };
+        Report {
+            unit_mm: 0.254,
+            extent_mm: [1234.56, 789.0],
+            pieces: 12,
+            contours: 14,
+            closed_contours: 13,
+            notches: Notches { slit: 31, v: 0 },
+            drills: 2,
+            labels: 12,
+            cut_m: 20.123_456,
+            program: Program {
+                travel_m: Some(8.2),
+                runs: Some(101),
+                stabs: Some(1),
+                lifts: Some(101),
+                time_s: Some(119.96),
+                axes: Some(Axes { x, y: x, c }),
+            },
+            ..Report::of(&Marker::default(), "iso")
+        }
+    }
+
+    #[test]
+    fn a_summary_is_aligned_and_fits_80_columns() {
+        let text = text(&report(), "marker.cut", &Diagnostics::default());
+        assert!(text.lines().all(|line| line.len() <= 80), "{text}");
+        insta::assert_snapshot!(text, @r"
+        marker.cut
+          dialect    iso, unit 0.254 mm
+          extent     1234.6 x 789.0 mm
+          pieces     12
+          contours   14 (13 closed, 1 open)
+          notches    31 (31 slit, 0 v)
+          drills     2
+          labels     12
+          cut        20.123 m
+          travel     8.200 m
+          runs       101, of which 1 stab
+          lifts      101
+          time       2 min 0.0 s
+          warnings   0
+
+          greatest of limit
+          axis          speed, /s   acceleration, /s2            jerk, /s3
+          x mm        761 of 1200       8000 of  8000    199876 of  200000
+          y mm        761 of 1200       8000 of  8000    199876 of  200000
+          c degrees     7 of 1080      20000 of 20000   1000000 of 1000000
+        ");
+    }
+
+    #[test]
+    fn what_only_planning_knows_is_left_out_without_it() {
+        let unplanned = Report { program: Program::default(), unit_mm: 0.0, ..report() };
+        insta::assert_snapshot!(text(&unplanned, "marker.cut", &Diagnostics::default()), @r"
+        marker.cut
+          dialect    iso, no grid
+          extent     1234.6 x 789.0 mm
+          pieces     12
+          contours   14 (13 closed, 1 open)
+          notches    31 (31 slit, 0 v)
+          drills     2
+          labels     12
+          cut        20.123 m
+          warnings   0
+        ");
+    }
+}

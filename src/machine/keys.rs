@@ -1,0 +1,336 @@
+//! Every key of the profile: what it takes and what it means in a cutting room.
+//!
+//! The commented profile, the messages about wrong values, the help and the README come from this one table.
+
+use std::fmt;
+use std::ops::{Bound, RangeBounds as _};
+
+use crate::units::number::exact;
+
+/// A key of the profile: a row of [`KEYS`].
+#[derive(Debug)]
+pub struct Key {
+    /// Its dotted name; `codes.<code>` stands for a key a code.
+    pub name: &'static str,
+    /// What may stand there.
+    pub takes: Takes,
+    /// What it means, in a line or two.
+    pub about: &'static str,
+}
+
+/// The legal values of a key.
+#[derive(Debug, Clone, Copy)]
+pub enum Takes {
+    /// A number in a range.
+    Number(Within),
+    /// A number in a range, or a word.
+    NumberOr(Within, &'static str),
+    /// One of some whole numbers.
+    Whole(&'static [i64]),
+    /// Two numbers, `[x, y]`.
+    Point,
+    /// Three numbers, `[x_mm, y_mm, c_deg]`.
+    Pose,
+    /// Three numbers or a word.
+    PoseOr(&'static str),
+    /// Two numbers, the first one smaller, or a word.
+    RangeOr(&'static str),
+    /// One of some words.
+    Word(&'static [&'static str]),
+    /// True or false.
+    Flag,
+}
+
+/// A range of numbers.
+#[derive(Debug, Clone, Copy)]
+pub struct Within(Bound<f64>, Bound<f64>);
+
+const fn from(least: f64, greatest: f64) -> Within {
+    Within(Bound::Included(least), Bound::Included(greatest))
+}
+
+const fn between(least: f64, greatest: f64) -> Within {
+    Within(Bound::Excluded(least), Bound::Excluded(greatest))
+}
+
+/// Blades and what belongs to them, mm: longer ones are a slip of the unit.
+const BLADE: Within = from(0.0, 1000.0);
+/// Rests of the axes, ms: longer ones are a slip of the unit.
+const REST: Within = from(0.0, 10_000.0);
+/// Greatest speeds, per s: slower axes would make programs of astronomic length.
+const SPEED: Within = from(1.0, 1.0e6);
+/// Greatest accelerations, per s2.
+const ACCELERATION: Within = from(1.0, 1.0e9);
+/// Greatest jerks, per s3.
+const JERK: Within = from(1.0, 1.0e12);
+/// Angles that may be anywhere within a turn, degrees.
+const TURN: Within = from(-360.0, 360.0);
+
+impl Within {
+    /// Whether the number lies in the range; never for NaN.
+    fn holds(self, value: f64) -> bool {
+        (self.0, self.1).contains(&value)
+    }
+}
+
+impl Takes {
+    /// Whether a value is legal.
+    pub fn allows(self, value: &toml::Value) -> bool {
+        let is = |word: &str| value.as_str() == Some(word);
+        let list = |n: usize| match value.as_array() {
+            Some(items) if items.len() == n => items.iter().map(number).collect::<Option<Vec<f64>>>(),
+            _ => None,
+        };
+        let finite = |n: usize| list(n).is_some_and(|items| items.iter().all(|v| v.is_finite()));
+        match self {
+            Self::Number(within) => number(value).is_some_and(|v| within.holds(v)),
+            Self::NumberOr(within, word) => is(word) || number(value).is_some_and(|v| within.holds(v)),
+            Self::Whole(numbers) => value.as_integer().is_some_and(|v| numbers.contains(&v)),
+            Self::Point => finite(2),
+            Self::Pose => finite(3),
+            Self::PoseOr(word) => is(word) || finite(3),
+            Self::RangeOr(word) => is(word) || (finite(2) && list(2).is_some_and(|ends| ends[0] < ends[1])),
+            Self::Word(words) => words.iter().any(|word| is(word)),
+            Self::Flag => value.is_bool(),
+        }
+    }
+}
+
+fn number(value: &toml::Value) -> Option<f64> {
+    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
+}
+
+/// From this magnitude on a number is shown with an exponent: nobody counts more zeros.
+const EXPONENT_FROM: f64 = 1.0e7;
+
+/// A number as people write it.
+fn shown(value: f64) -> String {
+    if value.abs() >= EXPONENT_FROM { format!("{value:e}") } else { exact(value) }
+}
+
+/// A value as people write it: `6.6`, `1e12`, `[0, 90]`, `"off"`.
+pub fn shown_value(value: &toml::Value) -> String {
+    match (value.as_array(), value.as_float()) {
+        (Some(items), _) => format!("[{}]", items.iter().map(shown_value).collect::<Vec<_>>().join(", ")),
+        (None, Some(number)) => shown(number),
+        (None, None) => value.to_string(),
+    }
+}
+
+impl fmt::Display for Within {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.0, self.1) {
+            (Bound::Excluded(least), Bound::Excluded(greatest)) => {
+                write!(f, "between {} and {}", shown(least), shown(greatest))
+            }
+            (
+                Bound::Included(least) | Bound::Excluded(least),
+                Bound::Included(greatest) | Bound::Excluded(greatest),
+            ) => {
+                write!(f, "from {} to {}", shown(least), shown(greatest))
+            }
+            (Bound::Unbounded, _) | (_, Bound::Unbounded) => write!(f, "without bounds"),
+        }
+    }
+}
+
+impl Key {
+    /// The unit of its numbers, from the end of its name; empty when they have none.
+    pub fn unit(&self) -> &'static str {
+        const UNITS: [(&str, &str); 9] = [
+            ("_mm", "mm"),
+            ("_mm_s", "mm/s"),
+            ("_mm_s2", "mm/s2"),
+            ("_mm_s3", "mm/s3"),
+            ("_deg", "degrees"),
+            ("_deg_s", "degrees/s"),
+            ("_deg_s2", "degrees/s2"),
+            ("_deg_s3", "degrees/s3"),
+            ("_ms", "ms"),
+        ];
+        let percent = self.name.ends_with("_percent").then_some("percent");
+        UNITS.iter().find(|(end, _)| self.name.ends_with(end)).map(|&(_, unit)| unit).or(percent).unwrap_or("")
+    }
+
+    /// What it takes, as a message says it: `a number from 0 to 1000 mm, or "off"`.
+    pub fn expects(&self) -> String {
+        let unit = if self.unit().is_empty() { String::new() } else { format!(" {}", self.unit()) };
+        match self.takes {
+            Takes::Number(within) => format!("a number {within}{unit}"),
+            Takes::NumberOr(within, word) => format!("a number {within}{unit}, or \"{word}\""),
+            Takes::Whole(numbers) => numbers.iter().map(ToString::to_string).collect::<Vec<_>>().join(" or "),
+            Takes::Point => format!("two numbers [x, y]{unit}"),
+            Takes::Pose => "three numbers [x_mm, y_mm, c_deg]".to_owned(),
+            Takes::PoseOr(word) => format!("three numbers [x_mm, y_mm, c_deg], or \"{word}\""),
+            Takes::RangeOr(word) => format!("two numbers [least, greatest]{unit}, or \"{word}\""),
+            Takes::Word([words @ .., last]) if !words.is_empty() => {
+                let words: Vec<_> = words.iter().map(|word| format!("\"{word}\"")).collect();
+                format!("{} or \"{last}\"", words.join(", "))
+            }
+            Takes::Word(words) => format!("\"{}\"", words.concat()),
+            Takes::Flag => "true or false".to_owned(),
+        }
+    }
+
+    /// The part of its name before the last dot; empty for the keys at the top.
+    pub fn section(&self) -> &'static str {
+        self.name.rsplit_once('.').map_or("", |(section, _)| section)
+    }
+}
+
+/// The start of the names of the keys that switch a code of the cutter file.
+pub const CODES: &str = "codes";
+
+/// The key of that dotted name.
+pub fn find(name: &str) -> Option<&'static Key> {
+    let code = name.strip_prefix(CODES).and_then(|rest| rest.strip_prefix('.'));
+    let name = if code.is_some_and(is_code) { "codes.<code>" } else { name };
+    KEYS.iter().find(|key| key.name == name)
+}
+
+/// Whether a word is a code of a cutter file: a capital letter, then digits.
+fn is_code(word: &str) -> bool {
+    word.starts_with(|c: char| c.is_ascii_uppercase()) && word[1..].chars().all(|c| c.is_ascii_digit())
+}
+
+/// Whether the name is that of a table of keys, such as `axes.x`.
+pub fn is_section(name: &str) -> bool {
+    KEYS.iter().any(|key| key.name.strip_prefix(name).is_some_and(|rest| rest.starts_with('.')))
+}
+
+/// The key or table whose name is nearest to one that does not exist.
+pub fn nearest(name: &str) -> String {
+    let upper = name.rsplit_once('.').map(|(section, last)| format!("{section}.{}", last.to_uppercase()));
+    if let Some(code) = upper.filter(|_| name.starts_with("codes.")).filter(|upper| find(upper).is_some()) {
+        return code;
+    }
+    let last = |name: &str| name.rsplit('.').next().unwrap_or_default().to_owned();
+    let sections = KEYS.iter().flat_map(|key| key.name.match_indices('.').map(|(dot, _)| &key.name[..dot]));
+    let likeness = |other: &str| {
+        let whole = strsim::normalized_damerau_levenshtein(name, other);
+        // The right key in the wrong table is a common slip.
+        whole.max(strsim::normalized_damerau_levenshtein(&last(name), &last(other)))
+    };
+    let best = KEYS.iter().map(|key| key.name).chain(sections).max_by(|a, b| {
+        let whole = |other: &str| strsim::normalized_damerau_levenshtein(name, other);
+        likeness(a).total_cmp(&likeness(b)).then(whole(a).total_cmp(&whole(b)))
+    });
+    best.unwrap_or_default().to_owned()
+}
+
+/// Every key, in the order in which a profile is written.
+#[rustfmt::skip] // a table: one row a key
+pub const KEYS: &[Key] = &[
+    Key { name: "version", takes: Takes::Whole(&[1]), about: "Version of this format." },
+    Key { name: "units", takes: Takes::Word(&["auto", "mm/10", "in/100", "in/1000"]), about: "Unit of the coordinates in cut files. \"auto\" believes the file (G70, G71, G91); set it for a\nfile that is drawn in another unit than it says." },
+    Key { name: "home", takes: Takes::Pose, about: "Where the axes stand when a program starts." },
+    Key { name: "park", takes: Takes::PoseOr("stay"), about: "Where the axes go when a program ends; \"stay\" = they stay over the last cut." },
+
+    Key { name: "knife.width_mm", takes: Takes::Number(BLADE), about: "Knife width: the blade from heel to tip as it is today, worn by sharpening. 0 = a point." },
+    Key { name: "knife.back_mm", takes: Takes::NumberOr(BLADE, "auto"), about: "From the C axis back to the heel (the advance of M17). Sharpening takes the front, so it stays\nwhile the width shrinks. \"auto\" = what radius_mm leaves." },
+    Key { name: "knife.radius_mm", takes: Takes::NumberOr(BLADE, "auto"), about: "From the C axis forward to the tip. Give this or back_mm; \"auto\" = what back_mm leaves." },
+    Key { name: "knife.front_overlap_mm", takes: Takes::Number(BLADE), about: "Overcut: how far the tip cuts past the end of a line." },
+    Key { name: "knife.corner_front_overlap_mm", takes: Takes::Number(BLADE), about: "Corner overcut: the same before the knife is lifted at a corner." },
+    Key { name: "knife.heel_overlap_mm", takes: Takes::Number(BLADE), about: "How far the heel plunges before the start of a line (back_mm less the advance before plunge)." },
+    Key { name: "knife.corner_heel_overlap_mm", takes: Takes::Number(BLADE), about: "The same where the knife plunges again at a corner (back_mm less the corner advance)." },
+    Key { name: "knife.reflex_front_overlap_mm", takes: Takes::Number(BLADE), about: "Overcut at corners where it would run into the part." },
+    Key { name: "knife.reflex_heel_overlap_mm", takes: Takes::Number(BLADE), about: "Heel overlap at corners where it would run into the part." },
+    Key { name: "knife.feed_mm_s", takes: Takes::NumberOr(SPEED, "off"), about: "Maximum cutting velocity of the tip; \"off\" = whatever the axes can do." },
+    Key { name: "knife.slow_percent", takes: Takes::Number(from(1.0, 100.0)), about: "Speed of slowed cuts (M25), a part of the cutting velocity." },
+    Key { name: "knife.plunge_ms", takes: Takes::Number(REST), about: "How long the axes rest while the knife goes down." },
+    Key { name: "knife.lift_ms", takes: Takes::Number(REST), about: "How long the axes rest while the knife comes up." },
+    Key { name: "knife.clear_ms", takes: Takes::NumberOr(REST, "off"), about: "How long after the lift command the blade is clear of the cloth, so that the axes may move\nbefore it is all the way up; \"off\" = they wait for lift_ms." },
+    Key { name: "knife.max_down_mm", takes: Takes::NumberOr(from(1.0, 1.0e6), "off"), about: "Maximum distance with the knife down: a longer cut is lifted there and rejoined with overlap." },
+    Key { name: "knife.follow", takes: Takes::Word(&["tangent", "chord"]), about: "How the blade lies on curves: \"tangent\" = the tip on the line, the blade along it; \"chord\" =\ntip and heel both on the line." },
+    Key { name: "knife.edges", takes: Takes::Whole(&[1, 2]), about: "Cutting edges: a blade with 2 may run either way round." },
+    Key { name: "knife.yaw_deg", takes: Takes::Number(from(-45.0, 45.0)), about: "C yaw: a constant correction of the blade's angle." },
+
+    Key { name: "drill.dwell_ms", takes: Takes::Number(REST), about: "Time for one drill hole; the axes rest." },
+    Key { name: "drill.offset_mm", takes: Takes::Point, about: "Where the drill stands, seen from the C axis." },
+
+    Key { name: "corner.angle_deg", takes: Takes::Number(between(0.0, 180.0)), about: "Lift and plunge corner angle: where the line turns by more than this the knife is lifted and\nturned in the air." },
+
+    Key { name: "path.tolerance_mm", takes: Takes::NumberOr(from(0.001, 10.0), "auto"), about: "How far the tip may leave the line; \"auto\" = 0.05 mm, or what the unit of the file resolves if\nthat is more." },
+    Key { name: "path.fit", takes: Takes::Word(&["curve", "polygon"]), about: "What the straight pieces of a file stand for: \"curve\" = a curve that the CAD system cut into\npieces, \"polygon\" = exactly what they are." },
+    Key { name: "path.chord_sag_max_mm", takes: Takes::Number(from(0.0, 10.0)), about: "With fit = \"curve\": how far the curve may bulge beyond a straight piece." },
+
+    Key { name: "axes.x.speed_mm_s", takes: Takes::Number(SPEED), about: "Greatest speed along the table." },
+    Key { name: "axes.x.acceleration_mm_s2", takes: Takes::Number(ACCELERATION), about: "Greatest acceleration along the table." },
+    Key { name: "axes.x.jerk_mm_s3", takes: Takes::Number(JERK), about: "Greatest jerk along the table." },
+    Key { name: "axes.y.speed_mm_s", takes: Takes::Number(SPEED), about: "Greatest speed across the table." },
+    Key { name: "axes.y.acceleration_mm_s2", takes: Takes::Number(ACCELERATION), about: "Greatest acceleration across the table." },
+    Key { name: "axes.y.jerk_mm_s3", takes: Takes::Number(JERK), about: "Greatest jerk across the table." },
+    Key { name: "axes.c.speed_deg_s", takes: Takes::Number(SPEED), about: "Greatest speed of the blade's turn." },
+    Key { name: "axes.c.acceleration_deg_s2", takes: Takes::Number(ACCELERATION), about: "Greatest acceleration of the blade's turn." },
+    Key { name: "axes.c.jerk_deg_s3", takes: Takes::Number(JERK), about: "Greatest jerk of the blade's turn." },
+
+    Key { name: "c.range_deg", takes: Takes::RangeOr("unbounded"), about: "Least and greatest position of the C axis, when its cables do not let it turn for ever." },
+    Key { name: "c.offset_deg", takes: Takes::Number(TURN), about: "Where the machine's zero of C points, seen from +X." },
+    Key { name: "c.reverse", takes: Takes::Flag, about: "Whether the machine counts C clockwise." },
+
+    Key { name: "table.x_mm", takes: Takes::RangeOr("unlimited"), about: "Where the table begins and ends along X." },
+    Key { name: "table.y_mm", takes: Takes::RangeOr("unlimited"), about: "Where the table begins and ends along Y." },
+    Key { name: "table.strict", takes: Takes::Flag, about: "Whether a program that leaves the table is an error, not only a warning." },
+
+    Key { name: "time.period_ms", takes: Takes::Number(from(0.1, 100.0)), about: "Time between two setpoints: the cycle of the controller." },
+
+    Key { name: "codes.<code>", takes: Takes::Word(&["use", "ignore"]), about: "A code of the cutter file to obey or to skip, as the USE/IGNORE switches of a cutter." },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::MachineProfile;
+
+    fn leaves(prefix: &str, table: &toml::Table, out: &mut Vec<String>) {
+        for (name, value) in table {
+            let name = if prefix.is_empty() { name.clone() } else { format!("{prefix}.{name}") };
+            match value.as_table() {
+                Some(inner) => leaves(&name, inner, out),
+                None => out.push(name),
+            }
+        }
+    }
+
+    #[test]
+    fn the_table_and_the_profile_have_the_same_keys() {
+        let mut typed = Vec::new();
+        leaves("", &toml::Table::try_from(MachineProfile::default()).expect("serialises"), &mut typed);
+        typed.sort();
+        let mut listed: Vec<_> = KEYS.iter().map(|key| key.name).filter(|name| !name.contains('<')).collect();
+        listed.sort_unstable();
+        assert_eq!(typed, listed);
+    }
+
+    #[test]
+    fn a_mistyped_key_has_its_nearest() {
+        let check = |typed: &str, expected: &str| assert_eq!(nearest(typed), expected, "{typed}");
+        check("knife.widht_mm", "knife.width_mm");
+        check("knife.width", "knife.width_mm");
+        check("knive", "knife");
+        check("axis", "axes");
+        check("width_mm", "knife.width_mm");
+        check("knife.angle_deg", "corner.angle_deg");
+        check("axis.x.speed_mm_s", "axes.x.speed_mm_s");
+        check("codes.m19", "codes.M19");
+        check("time.period", "time.period_ms");
+    }
+
+    #[test]
+    fn codes_are_a_capital_letter_and_digits() {
+        assert!(find("codes.M19").is_some() && find("codes.A").is_some());
+        assert!(find("codes.m19").is_none() && find("codes.").is_none() && find("codes.M1x").is_none());
+        assert!(is_section("codes") && is_section("axes.x") && !is_section("knife.width_mm") && !is_section("kni"));
+    }
+
+    #[test]
+    fn what_a_key_expects_has_its_unit() {
+        let expects = |name: &str| find(name).expect("a key").expects();
+        assert_eq!(expects("knife.width_mm"), "a number from 0 to 1000 mm");
+        assert_eq!(expects("knife.feed_mm_s"), "a number from 1 to 1000000 mm/s, or \"off\"");
+        assert_eq!(expects("corner.angle_deg"), "a number between 0 and 180 degrees");
+        assert_eq!(expects("knife.edges"), "1 or 2");
+        assert_eq!(expects("knife.follow"), "\"tangent\" or \"chord\"");
+        assert_eq!(expects("c.range_deg"), "two numbers [least, greatest] degrees, or \"unbounded\"");
+    }
+}

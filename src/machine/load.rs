@@ -1,0 +1,359 @@
+//! Reading a profile: TOML text, then `--set` arguments over it. Every fault is reported, at its place.
+
+use std::ops::Range;
+
+use serde::Deserialize as _;
+use toml::de::{DeTable, DeValue, ValueDeserializer};
+
+use super::keys::{self, CODES};
+use super::profile::MachineProfile;
+use super::validate::validate;
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
+use crate::source::{Source, Span};
+
+/// What is wrong with a profile; at least one of the two has errors.
+#[derive(Debug, Default)]
+pub struct Faults {
+    /// In the file.
+    pub file: Diagnostics,
+    /// In the `--set` arguments: each names its argument.
+    pub arguments: Diagnostics,
+}
+
+/// Reads a profile: the defaults, overridden by the file, overridden by `key=value` arguments in their order.
+pub fn load(file: Option<&Source>, sets: &[String]) -> Result<MachineProfile, Faults> {
+    let mut draft = Draft::default();
+    if let Some(file) = file {
+        draft.read(file);
+    }
+    for argument in sets {
+        draft.set(argument);
+    }
+    draft.finish()
+}
+
+/// Where a value came from.
+#[derive(Debug, Clone)]
+enum Origin {
+    File(Span),
+    Argument(String),
+}
+
+/// A profile in the making.
+#[derive(Debug, Default)]
+struct Draft {
+    /// Values that are typed as their keys want them.
+    values: toml::Table,
+    /// Their keys, the last one that was given last.
+    given: Vec<(String, Origin)>,
+    faults: Vec<(Origin, Diagnostic)>,
+}
+
+/// A value with the place of its key and its own text.
+struct Entry<'a> {
+    name: String,
+    origin: Origin,
+    text: &'a str,
+}
+
+impl Draft {
+    fn read(&mut self, file: &Source) {
+        let bytes = file.bytes();
+        let text = match std::str::from_utf8(bytes) {
+            Ok(text) => text,
+            Err(error) => {
+                let at = error.valid_up_to();
+                let message = "the profile is not UTF-8 text";
+                return self.fault(
+                    span(at..at + 1),
+                    &code::PROFILE_SYNTAX,
+                    message,
+                    Some("save it as plain UTF-8 text"),
+                );
+            }
+        };
+        let (root, errors) = DeTable::parse_recoverable(text);
+        for error in &errors {
+            let at = error.span().unwrap_or(0..0);
+            self.fault(span(at), &code::PROFILE_SYNTAX, error.message().replace('\n', ", "), None);
+        }
+        // What is left of broken TOML is guesswork: its keys would only add faults that are none.
+        if errors.is_empty() {
+            self.walk("", root.get_ref(), text);
+        }
+    }
+
+    /// Takes every key of a table in.
+    fn walk(&mut self, prefix: &str, table: &DeTable<'_>, text: &str) {
+        for (key, value) in table {
+            let name =
+                if prefix.is_empty() { key.get_ref().to_string() } else { format!("{prefix}.{}", key.get_ref()) };
+            let origin = span(key.span());
+            match value.get_ref() {
+                DeValue::Table(inner) if keys::is_section(&name) => self.walk(&name, inner, text),
+                DeValue::Table(_) if keys::find(&name).is_some() => self.mistyped(&name, origin, "a table"),
+                DeValue::Table(_) => self.unknown(&name, origin),
+                DeValue::String(_)
+                | DeValue::Integer(_)
+                | DeValue::Float(_)
+                | DeValue::Boolean(_)
+                | DeValue::Datetime(_)
+                | DeValue::Array(_) => {
+                    let text = text.get(value.span()).unwrap_or_default();
+                    self.take(Entry { name, origin, text });
+                }
+            }
+        }
+    }
+
+    /// Takes a `key=value` argument in; a value that is no TOML is a bare word.
+    fn set(&mut self, argument: &str) {
+        let origin = Origin::Argument(argument.to_owned());
+        let Some((name, text)) = argument.split_once('=') else {
+            let hint = "write it as in `--set knife.width_mm=6.6`";
+            return self.fault(origin, &code::PROFILE_SYNTAX, "it is no key=value", Some(hint));
+        };
+        let (name, text) = (name.trim().to_owned(), text.trim());
+        if DeValue::parse(text).is_ok() {
+            return self.take(Entry { name, origin, text });
+        }
+        let quoted = toml::Value::String(text.to_owned()).to_string();
+        self.take(Entry { name, origin, text: &quoted });
+    }
+
+    /// Takes one value in, if its key exists and wants such a value.
+    fn take(&mut self, entry: Entry<'_>) {
+        let Entry { name, origin, text } = entry;
+        if keys::find(&name).is_none() {
+            if keys::is_section(&name) {
+                let message = format!("`{name}` is a table of keys, not a key");
+                return self.fault(
+                    origin,
+                    &code::PROFILE_TYPE,
+                    message,
+                    Some(&format!("write `[{name}]`, and its keys below it")),
+                );
+            }
+            return self.unknown(&name, origin);
+        }
+        let value = ValueDeserializer::parse(text).and_then(toml::Value::deserialize);
+        let typed = value.ok().filter(|value| MachineProfile::deserialize(nested(&name, value.clone())).is_ok());
+        match typed {
+            Some(value) => {
+                merge(&mut self.values, nested(&name, value));
+                self.given.retain(|(other, _)| *other != name);
+                self.given.push((name, origin));
+            }
+            None => self.mistyped(&name, origin, &shortened(text)),
+        }
+    }
+
+    fn mistyped(&mut self, name: &str, origin: Origin, found: &str) {
+        let expected = keys::find(name).map(keys::Key::expects).unwrap_or_default();
+        let message = format!("`{name}` must be {expected}, but is {found}");
+        self.fault(origin, &code::PROFILE_TYPE, message, None);
+    }
+
+    fn unknown(&mut self, name: &str, origin: Origin) {
+        let hint = format!("the nearest is `{}`; `cutc profile init` lists all keys", keys::nearest(name));
+        self.fault(origin, &code::PROFILE_UNKNOWN_KEY, format!("there is no key `{name}`"), Some(&hint));
+    }
+
+    fn fault(&mut self, origin: Origin, code: &'static Code, message: impl Into<String>, hint: Option<&str>) {
+        let message = message.into();
+        let diagnostic = match &origin {
+            Origin::File(span) => Diagnostic::new(code, message).at(*span),
+            Origin::Argument(argument) => Diagnostic::new(code, format!("--set {argument}: {message}")),
+        };
+        let diagnostic = match hint {
+            Some(hint) => diagnostic.hint(hint),
+            None => diagnostic,
+        };
+        self.faults.push((origin, diagnostic));
+    }
+
+    /// The profile, or everything that is wrong with it.
+    fn finish(mut self) -> Result<MachineProfile, Faults> {
+        let profile = MachineProfile::deserialize(std::mem::take(&mut self.values))
+            .expect("values that fit the profile one by one fit it together");
+        let given = std::mem::take(&mut self.given);
+        for fault in validate(&profile, &|key| given.iter().any(|(name, _)| name == key)) {
+            // The key that was given last is the one that broke the rule.
+            let origin =
+                given.iter().rev().find(|(name, _)| fault.keys.contains(name)).map(|(_, origin)| origin.clone());
+            let origin = origin.unwrap_or(Origin::File(Span::default()));
+            self.fault(origin, fault.code, fault.message, fault.hint.as_deref());
+        }
+        if self.faults.is_empty() {
+            return Ok(profile);
+        }
+        // In the order of the file, then in that of the arguments.
+        self.faults.sort_by_key(|(origin, _)| if let Origin::File(span) = origin { span.start } else { u32::MAX });
+        let mut faults = Faults::default();
+        for (origin, diagnostic) in self.faults {
+            match origin {
+                Origin::File(_) => faults.file.push(diagnostic),
+                Origin::Argument(_) => faults.arguments.push(diagnostic),
+            }
+        }
+        Err(faults)
+    }
+}
+
+fn span(bytes: Range<usize>) -> Origin {
+    // A `Source` is below 4 GiB.
+    Origin::File(Span { start: bytes.start as u32, end: bytes.end as u32, block: 0 })
+}
+
+/// Longest value that a message quotes, characters.
+const QUOTED_CHARS: usize = 40;
+
+fn shortened(text: &str) -> String {
+    if text.chars().count() <= QUOTED_CHARS {
+        return text.replace('\n', " ");
+    }
+    let start: String = text.chars().take(QUOTED_CHARS).collect();
+    format!("{}...", start.replace('\n', " "))
+}
+
+/// The tables that hold one value under a dotted name.
+fn nested(name: &str, value: toml::Value) -> toml::Table {
+    let (head, rest) = name.split_once('.').map_or((name, None), |(head, rest)| (head, Some(rest)));
+    let value = match rest {
+        // A code of the cutter file is one word, whatever it holds.
+        Some(rest) if head != CODES => toml::Value::Table(nested(rest, value)),
+        Some(rest) => toml::Value::Table(toml::Table::from_iter([(rest.to_owned(), value)])),
+        None => value,
+    };
+    toml::Table::from_iter([(head.to_owned(), value)])
+}
+
+/// Puts the values of one table over those of another.
+fn merge(base: &mut toml::Table, over: toml::Table) {
+    for (key, value) in over {
+        match (base.get_mut(&key), value) {
+            (Some(toml::Value::Table(inner)), toml::Value::Table(value)) => merge(inner, value),
+            (_, value) => {
+                base.insert(key, value);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnostic::render;
+
+    fn source(text: &str) -> Source {
+        Source::new("machine.toml", text.as_bytes().to_vec()).expect("small")
+    }
+
+    fn profile(text: &str, sets: &[&str]) -> MachineProfile {
+        let sets: Vec<String> = sets.iter().map(ToString::to_string).collect();
+        let source = source(text);
+        load(Some(&source), &sets).map_err(|faults| render(&faults.file, &source)).expect("a legal profile")
+    }
+
+    fn messages(text: &str, sets: &[&str]) -> Vec<String> {
+        let sets: Vec<String> = sets.iter().map(ToString::to_string).collect();
+        let faults = load(Some(&source(text)), &sets).expect_err("a faulty profile");
+        faults.file.iter().chain(&faults.arguments).map(|d| format!("{}: {}", d.code.name, d.message)).collect()
+    }
+
+    #[test]
+    fn arguments_override_the_file_and_the_file_the_defaults() {
+        let text = "[knife]\nwidth_mm = 8.89\nfeed_mm_s = 500\n[codes]\nM19 = \"ignore\"";
+        let read =
+            profile(text, &["knife.width_mm=7", "axes.c.speed_deg_s = 720", "knife.feed_mm_s=off", "units=mm/10"]);
+        assert_eq!((read.knife.width_mm, read.knife.feed_mm_s, read.axes.c.speed_deg_s), (7.0, None, 720.0));
+        assert_eq!(read.units.mm(), Some(0.1));
+        assert!(!read.obeys("M19") && read.obeys("M14"));
+        assert_eq!(profile("", &[]), MachineProfile::default());
+    }
+
+    #[test]
+    fn a_point_needs_no_other_key() {
+        let knife = profile("knife.width_mm = 0", &[]).knife;
+        assert_eq!((knife.radius(), knife.back()), (0.0, 0.0));
+        let knife = profile("", &["knife.width_mm=3"]).knife;
+        assert_eq!((knife.radius(), knife.back()), (0.0, 3.0));
+    }
+
+    #[test]
+    fn every_fault_of_a_file_comes_in_one_run_in_its_order() {
+        let found = messages("knive = 3\n[knife]\nwidth_mm = \"6,6\"\nedges = 3\n[time]\nperiod_ms = 0\n", &[]);
+        assert_eq!(
+            found,
+            [
+                "profile/unknown-key: there is no key `knive`",
+                "profile/type: `knife.width_mm` must be a number from 0 to 1000 mm, but is \"6,6\"",
+                "profile/range: `knife.edges` must be 1 or 2, but is 3",
+                "profile/range: `time.period_ms` must be a number from 0.1 to 100 ms, but is 0",
+            ]
+        );
+    }
+
+    #[test]
+    fn a_fault_of_an_argument_names_it() {
+        assert_eq!(
+            messages("", &["knife.width_mm=nan", "c.range_deg=[0, 90]", "knife", "park=home"]),
+            [
+                "profile/syntax: --set knife: it is no key=value",
+                "profile/type: --set park=home: `park` must be three numbers [x_mm, y_mm, c_deg], or \"stay\", but is \"home\"",
+                "profile/range: --set knife.width_mm=nan: `knife.width_mm` must be a number from 0 to 1000 mm, but is NaN",
+                "profile/range: --set c.range_deg=[0, 90]: `c.range_deg` spans 90 degrees, less than 360",
+            ]
+        );
+    }
+
+    #[test]
+    fn limits_must_be_positive_numbers() {
+        for value in ["0", "-1", "nan", "inf", "-inf", "1e-300"] {
+            for key in keys::KEYS.iter().filter(|key| key.name.starts_with("axes.")) {
+                let found = messages("", &[&format!("{}={value}", key.name)]);
+                assert!(found.len() == 1 && found[0].starts_with("profile/range"), "{found:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn back_and_radius_make_the_width() {
+        let check = |text: &str, expected: &str| assert_eq!(messages(text, &[]), [expected]);
+        check(
+            "knife = { width_mm = 6, back_mm = 7 }",
+            "profile/range: `knife.back_mm` is 7 mm, more than `knife.width_mm`, 6 mm",
+        );
+        check(
+            "knife = { width_mm = 6, radius_mm = 7 }",
+            "profile/range: `knife.radius_mm` is 7 mm, more than `knife.width_mm`, 6 mm",
+        );
+        check(
+            "knife = { width_mm = 6, back_mm = 2, radius_mm = 3 }",
+            "profile/range: `knife.back_mm` and `knife.radius_mm` disagree: 2 mm and 3 mm are not the 6 mm of `knife.width_mm`",
+        );
+        assert!(
+            (profile("knife = { width_mm = 6, back_mm = 2, radius_mm = 4 }", &[]).knife.radius() - 4.0).abs() < 1e-12
+        );
+        assert!((profile("knife = { width_mm = 6, radius_mm = 4 }", &[]).knife.back() - 2.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_this_version_does_not_obey_is_refused() {
+        let found = messages("", &["knife.follow=chord", "knife.edges=2", "knife.yaw_deg=1", "knife.clear_ms=30"]);
+        assert_eq!(found.len(), 4);
+        assert!(found.iter().all(|message| message.starts_with("profile/unsupported")), "{found:?}");
+    }
+
+    #[test]
+    fn no_text_makes_it_panic() {
+        for text in
+            ["\u{feff}", "=", "[[knife]]", "[knife.width_mm]", "[codes.M1]\nx=1", "a.b.c.d=1", "\"\"=1", "home=[1,2]"]
+        {
+            let _ = load(Some(&source(text)), &[]);
+            let _ = load(None, &[text.to_owned(), format!("{text}=1"), format!("home={text}")]);
+        }
+        let junk: Vec<u8> = (0..4096_u32).map(|i| ((i * 7919) >> 3) as u8).collect();
+        assert!(load(Some(&Source::new("junk", junk).expect("small")), &[]).is_err());
+    }
+}

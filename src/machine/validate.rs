@@ -1,0 +1,106 @@
+//! The rules between the values of a profile, and each value's own range.
+
+use super::keys::{CODES, KEYS, Key, shown_value};
+use super::profile::{Follow, MachineProfile};
+use crate::diagnostic::{Code, code};
+
+/// Something that a profile may not say.
+#[derive(Debug)]
+pub(super) struct Fault {
+    /// Range, or a legal value that is not obeyed.
+    pub(super) code: &'static Code,
+    /// The keys that it concerns; a message stands at the one that the user gave.
+    pub(super) keys: Vec<String>,
+    /// What is wrong.
+    pub(super) message: String,
+    /// What to do.
+    pub(super) hint: Option<String>,
+}
+
+/// How much `back_mm` and `radius_mm` together may miss the width, mm: they are read off a gauge in hundredths.
+const BLADE_EPSILON: f64 = 0.005;
+/// A whole turn and half of one, degrees.
+const TURN_DEG: f64 = 360.0;
+
+/// All faults of a profile. `is_given` tells the keys that the user gave: only those can contradict each other.
+pub(super) fn validate(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault> {
+    let mut faults = ranges(profile);
+    let broken: Vec<String> = faults.iter().flat_map(|fault| fault.keys.clone()).collect();
+    // A rule between two values says nothing new about one that is out of its own range.
+    let further = rules(profile, is_given).into_iter().chain(unsupported(profile));
+    faults.extend(further.filter(|fault| !fault.keys.iter().any(|key| broken.contains(key))));
+    faults
+}
+
+/// Each value by itself.
+fn ranges(profile: &MachineProfile) -> Vec<Fault> {
+    let table = toml::Value::try_from(profile).expect("a profile holds numbers, words and named tables");
+    let fault = |key: &Key| {
+        let value = key.name.split('.').try_fold(&table, |inner, part| inner.get(part))?;
+        (!key.takes.allows(value)).then(|| Fault {
+            code: &code::PROFILE_RANGE,
+            keys: vec![key.name.to_owned()],
+            message: format!("`{}` must be {}, but is {}", key.name, key.expects(), shown_value(value)),
+            hint: None,
+        })
+    };
+    KEYS.iter().filter(|key| key.section() != CODES).filter_map(fault).collect()
+}
+
+/// One value against another.
+fn rules(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    let mut broken = |keys: &[&str], message: String, hint: &str| {
+        let keys = keys.iter().map(|&key| key.to_owned()).collect();
+        faults.push(Fault { code: &code::PROFILE_RANGE, keys, message, hint: Some(hint.to_owned()) });
+    };
+    let knife = &profile.knife;
+    let width = knife.width_mm;
+    let given_back = knife.back_mm.filter(|_| is_given("knife.back_mm") && width > 0.0);
+    if let Some(back) = given_back.filter(|&back| back > width) {
+        let message = format!("`knife.back_mm` is {back} mm, more than `knife.width_mm`, {width} mm");
+        broken(&["knife.back_mm", "knife.width_mm"], message, "the width is the blade from heel to tip, back included");
+    }
+    match (knife.radius_mm, given_back) {
+        (Some(radius), _) if radius > width => {
+            let message = format!("`knife.radius_mm` is {radius} mm, more than `knife.width_mm`, {width} mm");
+            let hint = "the width is the blade from heel to tip, radius included";
+            broken(&["knife.radius_mm", "knife.width_mm"], message, hint);
+        }
+        (Some(radius), Some(back)) if back <= width && (back + radius - width).abs() > BLADE_EPSILON => {
+            let message = format!(
+                "`knife.back_mm` and `knife.radius_mm` disagree: {back} mm and {radius} mm are not the {width} mm of `knife.width_mm`"
+            );
+            broken(&["knife.radius_mm", "knife.back_mm", "knife.width_mm"], message, "give only one of the two");
+        }
+        (Some(_) | None, _) => {}
+    }
+    if let Some(clear) = knife.clear_ms.filter(|&clear| clear > knife.lift_ms) {
+        let message = format!("`knife.clear_ms` is {clear} ms, more than `knife.lift_ms`, {} ms", knife.lift_ms);
+        broken(&["knife.clear_ms", "knife.lift_ms"], message, "the blade is clear before it is all the way up");
+    }
+    let turn = TURN_DEG / f64::from(knife.edges.clamp(1, 2));
+    if let Some([least, greatest]) = profile.c.range_deg.filter(|[least, greatest]| greatest - least < turn) {
+        let message = format!("`c.range_deg` spans {} degrees, less than {turn}", greatest - least);
+        broken(&["c.range_deg"], message, "the blade must reach every heading");
+    }
+    faults
+}
+
+/// Values that are legal but not obeyed by this version: each is an error, so that no program is silently wrong.
+fn unsupported(profile: &MachineProfile) -> Vec<Fault> {
+    let knife = &profile.knife;
+    let list = [
+        (knife.follow == Follow::Chord, "knife.follow", "\"tangent\"", "lays the blade along the tangent only"),
+        (knife.edges == 2, "knife.edges", "1", "plans blades with one edge only"),
+        (knife.yaw_deg != 0.0, "knife.yaw_deg", "0", "applies no yaw correction"),
+        (knife.clear_ms.is_some(), "knife.clear_ms", "\"off\"", "lets the axes rest for all of `knife.lift_ms`"),
+    ];
+    let fault = |(_, key, value, reason): (bool, &str, &str, &str)| Fault {
+        code: &code::PROFILE_UNSUPPORTED,
+        keys: vec![key.to_owned()],
+        message: format!("`{key}` must be {value}: this version {reason}"),
+        hint: Some(format!("set `{key} = {value}`, or leave the key out")),
+    };
+    list.into_iter().filter(|(set, ..)| *set).map(fault).collect()
+}

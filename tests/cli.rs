@@ -1,0 +1,399 @@
+//! The built program as a user meets it: exit codes, what is written and what is not, and what is said.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use cutc::back::TARGETS;
+use cutc::machine::{MachineProfile, sha256_hex};
+use cutc::pass::marker::MARKER_PASSES;
+use cutc::pass::toolpath::TOOLPATH_PASSES;
+use serde_json::Value;
+use tempfile::TempDir;
+
+const DONE: i32 = 0;
+const FAULTY: i32 = 1;
+const USAGE: i32 = 2;
+
+/// A room to work in, with the seed's circle and a file that nothing can read.
+struct Room(TempDir);
+
+impl Room {
+    fn new() -> Self {
+        let room = Self(tempfile::tempdir().expect("a directory"));
+        fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/iso/seed-circle.cut"), room.at("circle.cut"))
+            .expect("the seed's circle is a fixture");
+        room.write("junk.cut", &(0..2000_u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 13) as u8).collect::<Vec<_>>());
+        room
+    }
+
+    fn at(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn write(&self, name: &str, bytes: &[u8]) {
+        fs::write(self.at(name), bytes).expect("writable");
+    }
+
+    fn read(&self, name: &str) -> Vec<u8> {
+        fs::read(self.at(name)).unwrap_or_else(|error| panic!("{name}: {error}; there are {:?}", self.names()))
+    }
+
+    fn has(&self, name: &str) -> bool {
+        self.at(name).exists()
+    }
+
+    /// The names of all files, sorted.
+    fn names(&self) -> Vec<String> {
+        let entries = fs::read_dir(self.0.path()).expect("readable");
+        let mut names: Vec<_> =
+            entries.map(|entry| entry.expect("readable").file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+
+    fn command(&self, arguments: &str) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_cutc"));
+        command.current_dir(self.0.path()).args(arguments.split_whitespace());
+        command
+    }
+
+    fn run(&self, arguments: &str) -> Output {
+        self.command(arguments).output().expect("the program starts")
+    }
+
+    /// Runs and expects an exit code; gives standard output and standard error.
+    fn expect(&self, arguments: &str, code: i32) -> (String, String) {
+        let output = self.run(arguments);
+        let stdout = String::from_utf8_lossy(&output.stdout).into_owned();
+        let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(code), "cutc {arguments}\n{stdout}\n{stderr}");
+        (stdout, stderr)
+    }
+}
+
+fn keys(value: &Value) -> Vec<&str> {
+    let mut keys: Vec<_> = value.as_object().expect("an object").keys().map(String::as_str).collect();
+    keys.sort_unstable();
+    keys
+}
+
+/// The keys of the figures as JSON, sorted.
+const FIGURES: [&str; 18] = [
+    "axes",
+    "closed_contours",
+    "contours",
+    "cut_m",
+    "dialect",
+    "drills",
+    "errors",
+    "extent_mm",
+    "labels",
+    "lifts",
+    "notches",
+    "pieces",
+    "runs",
+    "stabs",
+    "time_s",
+    "travel_m",
+    "unit_mm",
+    "warnings",
+];
+
+#[test]
+fn a_compile_writes_the_program_with_its_provenance_and_a_summary() {
+    let room = Room::new();
+    let (stdout, stderr) = room.expect("compile circle.cut", DONE);
+    assert_eq!(stdout, "");
+    for label in ["dialect", "pieces", "contours", "cut ", "travel", "runs", "time", "warnings", "acceleration"] {
+        assert!(stderr.contains(label), "{label}\n{stderr}");
+    }
+    assert!(stderr.lines().all(|line| line.chars().count() <= 80), "{stderr}");
+    assert_eq!(room.names(), ["circle.csv", "circle.csv.meta.json", "circle.cut", "junk.cut"]);
+    assert!(room.read("circle.csv").starts_with(b"t_s,x_mm,y_mm,c_deg,knife,drill,event,block\n"));
+
+    let meta: Value = serde_json::from_slice(&room.read("circle.csv.meta.json")).expect("JSON");
+    assert_eq!(meta["source"], "circle.cut");
+    assert_eq!(meta["source_sha256"], sha256_hex(&room.read("circle.cut")));
+    assert_eq!(meta["profile_sha256"], MachineProfile::default().digest());
+    assert_eq!((&meta["target"], &meta["verified"]), (&Value::from("csv"), &Value::from("no")));
+    assert_eq!(meta["period_ms"], 1.0);
+    let expected = ["period_ms", "profile_sha256", "source", "source_sha256", "target", "units", "verified", "version"];
+    assert_eq!(keys(&meta), expected);
+}
+
+#[test]
+fn a_program_goes_where_the_user_says_with_the_same_bytes() {
+    let room = Room::new();
+    fs::create_dir(room.at("out")).expect("writable");
+    room.expect("compile circle.cut -o one.txt", DONE);
+    room.expect("compile circle.cut -o out", DONE);
+    room.expect("compile circle.cut -o out/", DONE);
+    let (piped, _) = room.expect("compile circle.cut -o -", DONE);
+    let program = room.read("one.txt");
+    assert_eq!(room.read("out/circle.csv"), program);
+    assert_eq!(piped.as_bytes(), program);
+    assert!(room.has("one.txt.meta.json") && room.has("out/circle.csv.meta.json"));
+    assert_eq!(room.names(), ["circle.cut", "junk.cut", "one.txt", "one.txt.meta.json", "out"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_program_may_be_read_by_whom_any_new_file_may() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let room = Room::new();
+    room.expect("compile circle.cut", DONE);
+    room.write("new", b"");
+    let mode = |name: &str| fs::metadata(room.at(name)).expect("there").permissions().mode();
+    assert_eq!(mode("circle.csv"), mode("new"));
+    assert_eq!(mode("circle.csv.meta.json"), mode("new"));
+}
+
+#[test]
+fn the_figures_come_as_json_with_every_key() {
+    let room = Room::new();
+    let (stdout, stderr) = room.expect("compile circle.cut --format json", DONE);
+    let figures: Value = serde_json::from_str(&stdout).expect("JSON");
+    assert_eq!(keys(&figures), FIGURES);
+    assert!(!stderr.contains("acceleration"), "{stderr}");
+    assert_eq!((&figures["contours"], &figures["closed_contours"]), (&1.into(), &1.into()));
+    assert_eq!(keys(&figures["notches"]), ["slit", "v"]);
+    assert_eq!(figures["errors"], Value::Array(Vec::new()));
+    for axis in ["x", "y", "c"] {
+        for limit in ["speed", "acceleration", "jerk"] {
+            let peak = &figures["axes"][axis][limit];
+            let (worst, limit) = (peak["worst"].as_f64().expect("a number"), peak["limit"].as_f64().expect("a number"));
+            assert!(worst > 0.0 && worst <= limit, "{axis} {peak}");
+        }
+    }
+    let rows = String::from_utf8(room.read("circle.csv")).expect("text").lines().count() - 1;
+    let time = figures["time_s"].as_f64().expect("a number");
+    assert!((time - rows as f64 * 0.001).abs() < 0.0015, "{rows} rows, {time} s");
+}
+
+#[test]
+fn info_has_the_same_keys_and_null_for_what_only_planning_knows() {
+    let room = Room::new();
+    let (stdout, _) = room.expect("info circle.cut --format json", DONE);
+    let figures: Value = serde_json::from_str(&stdout).expect("JSON");
+    assert_eq!(keys(&figures), FIGURES);
+    for key in ["travel_m", "runs", "stabs", "lifts", "time_s", "axes"] {
+        assert!(figures[key].is_null(), "{key}");
+    }
+    assert!(figures["cut_m"].as_f64().expect("a number") > 0.0);
+    let (stdout, _) = room.expect("info circle.cut", DONE);
+    assert!(stdout.contains("contours") && !stdout.contains("travel"), "{stdout}");
+    assert_eq!(room.names(), ["circle.cut", "junk.cut"]);
+}
+
+#[test]
+fn check_reads_every_file_and_writes_none() {
+    let room = Room::new();
+    room.write("empty.cut", b"");
+    room.expect("check circle.cut", DONE);
+    let (_, stderr) = room.expect("check empty.cut junk.cut circle.cut", FAULTY);
+    assert!(stderr.contains("source/empty") && stderr.contains("circle.cut: iso, 0 errors"), "{stderr}");
+    let (_, stderr) = room.expect("check nowhere.cut junk.cut circle.cut", USAGE);
+    assert!(stderr.contains("there is no such file") && stderr.contains("circle.cut: iso, 0 errors"), "{stderr}");
+    let (stdout, _) = room.expect("check circle.cut junk.cut --format json", FAULTY);
+    let verdicts: Value = serde_json::from_str(&stdout).expect("JSON");
+    assert_eq!(keys(&verdicts[0]), ["dialect", "errors", "file", "warnings"]);
+    assert_eq!(verdicts[1]["errors"].as_array().map(Vec::is_empty), Some(false));
+    assert_eq!(room.names(), ["circle.cut", "empty.cut", "junk.cut"]);
+}
+
+#[test]
+fn a_program_with_errors_is_never_written() {
+    let room = Room::new();
+    for arguments in ["compile junk.cut", "compile junk.cut -o x.csv", "compile junk.cut --from iso -o x.csv"] {
+        let (stdout, stderr) = room.expect(arguments, FAULTY);
+        assert!(stdout.is_empty() && stderr.contains("no program was written"), "{stderr}");
+    }
+    let (stdout, _) = room.expect("compile junk.cut -o -", FAULTY);
+    assert_eq!(stdout, "");
+    let (stdout, _) = room.expect("compile junk.cut --format json", FAULTY);
+    let figures: Value = serde_json::from_str(&stdout).expect("JSON");
+    assert_eq!(keys(&figures), FIGURES);
+    assert!(figures["time_s"].is_null() && figures["errors"][0]["code"].is_string());
+    assert_eq!(room.names(), ["circle.cut", "junk.cut"]);
+}
+
+#[test]
+fn an_older_program_is_moved_aside_when_a_compile_fails() {
+    let room = Room::new();
+    room.expect("compile circle.cut -o x.csv", DONE);
+    let older = room.read("x.csv");
+    let (_, stderr) = room.expect("compile junk.cut -o x.csv", FAULTY);
+    assert!(stderr.contains("x.csv.stale"), "{stderr}");
+    assert_eq!(room.read("x.csv.stale"), older);
+    assert_eq!(room.names(), ["circle.cut", "junk.cut", "x.csv.meta.json.stale", "x.csv.stale"]);
+
+    room.expect("compile circle.cut -o x.csv", DONE);
+    room.write("bad.toml", b"[time]\nperiod_ms = 0\n");
+    room.expect("compile circle.cut -p bad.toml -o x.csv", FAULTY);
+    assert!(!room.has("x.csv") && room.has("x.csv.stale"));
+}
+
+#[test]
+fn a_slip_in_the_arguments_touches_no_program() {
+    let room = Room::new();
+    room.expect("compile circle.cut", DONE);
+    let older = room.read("circle.csv");
+    for slip in ["-t cvs", "--set time.period=2", "--set knife.width_mm=-1", "--from dfx", "-p none.toml", "--fromat"] {
+        room.expect(&format!("compile circle.cut {slip}"), USAGE);
+        assert_eq!(room.read("circle.csv"), older, "{slip}");
+    }
+    room.expect("compile nowhere.cut -o circle.csv", USAGE);
+    assert_eq!(room.read("circle.csv"), older);
+}
+
+#[test]
+fn an_input_is_never_overwritten() {
+    let room = Room::new();
+    let text = b"x_mm,y_mm\n0,0\n100,0\n100,100\n";
+    room.write("line.csv", text);
+    for arguments in ["compile line.csv", "compile line.csv -o .", "compile line.csv -o ./line.csv"] {
+        let (_, stderr) = room.expect(arguments, USAGE);
+        assert!(stderr.contains("input") && stderr.contains("-o"), "{stderr}");
+    }
+    assert_eq!(room.read("line.csv"), text);
+    room.write("machine.toml", b"");
+    room.expect("compile circle.cut -p machine.toml -o machine.toml", USAGE);
+    assert_eq!(room.read("machine.toml"), b"");
+    fs::remove_file(room.at("machine.toml")).expect("removable");
+    assert_eq!(room.names(), ["circle.cut", "junk.cut", "line.csv"]);
+}
+
+#[test]
+fn a_program_and_figures_do_not_share_standard_output() {
+    let (_, stderr) = Room::new().expect("compile circle.cut -o - --format json", USAGE);
+    assert!(stderr.contains("-o -") && stderr.contains("hint"), "{stderr}");
+}
+
+#[test]
+fn a_closed_pipe_is_no_error() {
+    let room = Room::new();
+    // A slow axis makes a program that no pipe holds.
+    let mut child = room
+        .command("compile circle.cut -o - --set axes.x.speed_mm_s=10")
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("the program starts");
+    drop(child.stdout.take());
+    assert_eq!(child.wait().expect("it ends").code(), Some(DONE));
+}
+
+#[test]
+fn files_that_cannot_be_used_are_named_with_what_to_do() {
+    let room = Room::new();
+    fs::create_dir(room.at("folder")).expect("writable");
+    let check = |arguments: &str, expected: &str| {
+        let (_, stderr) = room.expect(arguments, USAGE);
+        assert!(stderr.contains(expected) && stderr.contains("hint: "), "cutc {arguments}\n{stderr}");
+        assert!(stderr.lines().count() <= 3, "{stderr}");
+    };
+    check("compile nowhere.cut", "cannot read `nowhere.cut`: there is no such file");
+    check("compile folder", "`folder` is a directory");
+    check("info folder", "`folder` is a directory");
+    check("compile circle.cut -o nowhere/x.csv", "there is no directory `nowhere`");
+    check("compile circle.cut -o nowhere/", "there is no directory `nowhere/`");
+    check("compile circle.cut -o junk.cut/x.csv", "there is no directory `junk.cut`");
+    check("compile circle.cut -p nowhere.toml", "there is no profile `nowhere.toml`");
+    check("profile check nowhere.toml", "there is no such file");
+    assert_eq!(room.names(), ["circle.cut", "folder", "junk.cut"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_place_without_permission_is_refused() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let room = Room::new();
+    fs::create_dir(room.at("locked")).expect("writable");
+    fs::set_permissions(room.at("locked"), fs::Permissions::from_mode(0o555)).expect("its owner may");
+    fs::set_permissions(room.at("junk.cut"), fs::Permissions::from_mode(0o000)).expect("its owner may");
+    // The superuser may write and read everywhere.
+    if fs::write(room.at("locked/probe"), b"").is_err() {
+        let (_, stderr) = room.expect("compile circle.cut -o locked", USAGE);
+        assert!(stderr.contains("permission denied") && stderr.contains("hint: "), "{stderr}");
+    }
+    if fs::read(room.at("junk.cut")).is_err() {
+        let (_, stderr) = room.expect("check junk.cut", USAGE);
+        assert!(stderr.contains("permission denied") && stderr.contains("hint: "), "{stderr}");
+    }
+    fs::set_permissions(room.at("locked"), fs::Permissions::from_mode(0o755)).expect("its owner may");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_device_is_not_replaced_by_a_program() {
+    let (_, stderr) = Room::new().expect("compile circle.cut -o /dev/null", USAGE);
+    assert!(stderr.contains("not a regular file"), "{stderr}");
+}
+
+#[test]
+fn a_profile_begins_with_every_key_and_loads_back() {
+    let room = Room::new();
+    let (text, _) = room.expect("profile init", DONE);
+    room.expect("profile init -o machine.toml", DONE);
+    assert_eq!(room.read("machine.toml"), text.as_bytes());
+    room.expect("profile check machine.toml", DONE);
+    let (shown, _) = room.expect("profile show -p machine.toml", DONE);
+    assert_eq!(shown, room.expect("profile show", DONE).0);
+    assert!(shown.contains("back_mm = 6.35"), "{shown}");
+
+    room.write("machine.toml", b"# mine\n");
+    let (_, stderr) = room.expect("profile init -o machine.toml", USAGE);
+    assert!(stderr.contains("not overwritten"), "{stderr}");
+    assert_eq!(room.read("machine.toml"), b"# mine\n");
+}
+
+#[test]
+fn what_is_shown_is_what_holds() {
+    let room = Room::new();
+    room.write("machine.toml", b"[knife]\nwidth_mm = 8.89\nradius_mm = 2.54\n");
+    let (shown, _) = room.expect("profile show -p machine.toml --set units=in/100", DONE);
+    assert!(shown.contains("back_mm = 6.35") && shown.contains("units = \"in/100\""), "{shown}");
+    let (shown, _) = room.expect("profile show --set knife.width_mm=0", DONE);
+    assert!(shown.contains("back_mm = 0.0"), "{shown}");
+}
+
+#[test]
+fn faults_of_a_profile_end_a_command_with_the_exit_code_of_their_place() {
+    let room = Room::new();
+    room.write("bad.toml", b"[knife]\nwidht_mm = 6.6\nback_mm = 9\n");
+    for arguments in ["profile check bad.toml", "profile show -p bad.toml", "compile circle.cut -p bad.toml"] {
+        let (_, stderr) = room.expect(arguments, FAULTY);
+        assert!(stderr.contains("knife.width_mm") && stderr.contains("profile/range"), "{stderr}");
+    }
+    let (_, stderr) = room.expect("compile circle.cut --set knife.widht_mm=6", USAGE);
+    assert!(stderr.contains("--set knife.widht_mm=6") && stderr.contains("knife.width_mm"), "{stderr}");
+    assert_eq!(room.names(), ["bad.toml", "circle.cut", "junk.cut"]);
+}
+
+#[test]
+fn a_pass_can_be_looked_into() {
+    let room = Room::new();
+    let passes = MARKER_PASSES.iter().map(|pass| pass.name).chain(TOOLPATH_PASSES.iter().map(|pass| pass.name));
+    for pass in passes {
+        let (stdout, _) = room.expect(&format!("compile circle.cut --dump-after {pass}"), DONE);
+        assert!(!stdout.is_empty(), "{pass}");
+    }
+    room.expect("compile circle.cut --dump-after wedl", USAGE);
+    assert_eq!(room.names(), ["circle.cut", "junk.cut"]);
+}
+
+#[test]
+fn the_help_is_enough_to_begin() {
+    let room = Room::new();
+    let (help, _) = room.expect("--help", DONE);
+    for word in ["Examples", "cutc compile", "cutc profile init", "Exit codes"] {
+        assert!(help.contains(word), "{word}\n{help}");
+    }
+    assert!(TARGETS.iter().all(|target| help.contains(target.about)), "{help}");
+    let (help, _) = room.expect("compile --help", DONE);
+    assert!(TARGETS.iter().all(|target| help.contains(target.about)), "{help}");
+    room.expect("", USAGE);
+    room.expect("complie circle.cut", USAGE);
+    assert!(room.expect("--version", DONE).0.starts_with("cutc "));
+}
