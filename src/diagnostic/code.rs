@@ -70,6 +70,12 @@ mod table {
     pub static ISO_UNITS_CHANGED: Code = error("iso/units-changed", "G70, G71 or G91 change the unit after coordinates were read; two jobs may stand in one file.");
     /// The drawing does not fit its own title or any table.
     pub static ISO_UNIT_DOUBTFUL: Code = warning("iso/unit-doubtful", "The extent suggests that another unit is meant; set `units` if it is.");
+    /// G02, G03, I or J.
+    pub static ISO_ARC: Code = error("iso/arc-unsupported", "Arcs are not cut yet, and a chord in place of an arc would be a wrong cut.");
+    /// M14 before any place.
+    pub static ISO_NO_POSITION: Code = warning("iso/no-position", "The knife goes down before the file gave X and Y; what is missing is taken as 0.");
+    /// A drill between M14 and M15.
+    pub static ISO_DRILL_KNIFE_DOWN: Code = error("iso/drill-knife-down", "A drill code stands where the knife is down; an M15 may be missing.");
     /// No contour, slit or drill.
     pub static ISO_NOTHING_TO_CUT: Code = error("iso/nothing-to-cut", "The file was read to its end and holds no contour, slit or drill.");
 
@@ -78,6 +84,10 @@ mod table {
     pub static CSV_HEADER: Code = error("csv/header", "The first row must be `x_mm,y_mm`.");
     /// A row that is not two numbers.
     pub static CSV_ROW: Code = error("csv/row", "A row must hold two finite decimal numbers, separated by a comma.");
+    /// A contour of one point.
+    pub static CSV_NO_LENGTH: Code = error("csv/no-length", "A contour must have two different points at least; a blank line ends a contour.");
+    /// No contour.
+    pub static CSV_NOTHING_TO_CUT: Code = error("csv/nothing-to-cut", "The file holds a header and no contour.");
 
     // The marker, whatever the dialect.
     /// A contour that does not close.
@@ -139,9 +149,14 @@ pub static ALL: &[&Code] = &[
     &ISO_IGNORED_CODE,
     &ISO_UNITS_CHANGED,
     &ISO_UNIT_DOUBTFUL,
+    &ISO_ARC,
+    &ISO_NO_POSITION,
+    &ISO_DRILL_KNIFE_DOWN,
     &ISO_NOTHING_TO_CUT,
     &CSV_HEADER,
     &CSV_ROW,
+    &CSV_NO_LENGTH,
+    &CSV_NOTHING_TO_CUT,
     &MARKER_OPEN,
     &MARKER_TWICE,
     &MARKER_EQUAL_POINTS,

@@ -4,7 +4,11 @@
 //! line breaks, codes and layouts. Everything keeps the span that it came from. Faults are reported all in one run;
 //! a marker with an error among the diagnostics is never compiled. Never guesses silently, never does I/O.
 
-use crate::diagnostic::Diagnostics;
+mod csv;
+mod foreign;
+mod iso;
+
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::ir::Marker;
 use crate::machine::Job;
 use crate::source::Source;
@@ -38,4 +42,58 @@ pub enum Likeness {
 }
 
 /// Every dialect, the likelier ones first.
-pub const DIALECTS: &[Dialect] = &[];
+pub const DIALECTS: &[Dialect] = &[iso::DIALECT, csv::DIALECT];
+
+/// The dialect of that name.
+pub fn by_name(name: &str) -> Option<&'static Dialect> {
+    DIALECTS.iter().find(|dialect| dialect.name == name)
+}
+
+/// The dialect that the content looks like. The extension of the name, without its dot, decides between equals only.
+/// Content that is no dialect is an error diagnostic that says what it looks like.
+pub fn detect(
+    source: &Source,
+    name_extension: Option<&str>,
+    diagnostics: &mut Diagnostics,
+) -> Option<&'static Dialect> {
+    if foreign::refuse(source, diagnostics) {
+        return None;
+    }
+    let named = |dialect: &Dialect| {
+        name_extension.is_some_and(|name| dialect.extensions.iter().any(|known| known.eq_ignore_ascii_case(name)))
+    };
+    // `max_by_key` gives the last of equals and the likelier dialects come first, hence the reversal.
+    let best = DIALECTS.iter().rev().max_by_key(|dialect| ((dialect.sniff)(source.bytes()), named(dialect)));
+    let found = best.filter(|dialect| (dialect.sniff)(source.bytes()) != Likeness::No);
+    if found.is_none() {
+        let known: Vec<&str> = DIALECTS.iter().map(|dialect| dialect.name).collect();
+        let message = format!("the content is none of the dialects that cutc reads: {}", known.join(", "));
+        let finding = Diagnostic::new(&code::SOURCE_UNKNOWN, message);
+        diagnostics.push(finding.hint("if it is one of them all the same, name it with `--from`"));
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(bytes: &[u8], extension: Option<&str>, dialect: Option<&str>) {
+        let source = Source::new("a", bytes.to_vec()).expect("small");
+        let mut found = Diagnostics::default();
+        let detected = detect(&source, extension, &mut found).map(|dialect| dialect.name);
+        assert_eq!(detected, dialect, "{}", String::from_utf8_lossy(bytes));
+        assert_eq!(found.has_errors(), dialect.is_none());
+    }
+
+    #[test]
+    fn content_decides_and_the_extension_breaks_ties() {
+        check(b"H1*G71*M15*N1*M0*", Some("csv"), Some("iso"));
+        check(b"x_mm,y_mm\n1,2\n", Some("cut"), Some("csv"));
+        check(b"x,y*\n", None, Some("iso"));
+        check(b"x,y*\n", Some("CSV"), Some("csv"));
+        check(b"1.5,2.5\n", None, Some("csv"));
+        check(b"hello world\n", Some("cut"), None);
+        check(b" \r\n\x1a", Some("cut"), None);
+    }
+}

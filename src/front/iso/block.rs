@@ -1,0 +1,206 @@
+//! Cuts the bytes into blocks: what ends in `*`, without line breaks, blanks and deleted passages.
+
+use nom::Err;
+
+use super::syntax::{self, Fault, FaultKind, Words};
+use crate::diagnostic::{Diagnostic, code};
+use crate::source::Span;
+
+/// Walks over the blocks of a file. A clone looks ahead.
+#[derive(Debug, Clone)]
+pub(super) struct Blocks<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    number: u32,
+    ended: bool,
+}
+
+/// A block that is not text.
+#[derive(Debug)]
+pub(super) struct Block {
+    /// Its bytes, without the asterisk.
+    pub(super) span: Span,
+    /// What it holds, or what is wrong with it.
+    pub(super) words: Result<Words, Diagnostic>,
+}
+
+/// Line breaks, blanks, NUL and the end mark of old systems carry no meaning outside text.
+fn is_blank(byte: u8) -> bool {
+    matches!(byte, b' ' | b'\t' | b'\r' | b'\n' | 0 | 0x1a)
+}
+
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
+impl<'a> Blocks<'a> {
+    /// Starts before the first block.
+    pub(super) fn new(bytes: &'a [u8]) -> Self {
+        let at = if bytes.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 };
+        Self { bytes, at, number: 0, ended: true }
+    }
+
+    /// Offset of the next byte to read.
+    pub(super) fn offset(&self) -> usize {
+        self.at
+    }
+
+    /// Whether every block so far had its asterisk.
+    pub(super) fn all_ended(&self) -> bool {
+        self.ended
+    }
+
+    /// The next block; `None` at the end.
+    pub(super) fn next(&mut self) -> Option<Block> {
+        self.skip_blanks();
+        let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
+        // Nearly every block has no blanks inside and is read where it stands.
+        if let Ok((after, words)) = syntax::block(rest) {
+            let end = self.bytes.len() - after.len();
+            self.number += 1;
+            let span = Span { start: self.at as u32, end: end as u32 - 1, block: self.number };
+            self.at = end;
+            return Some(Block { span, words: Ok(words) });
+        }
+        self.next_with_blanks()
+    }
+
+    /// The next block as text; `None` at the end of the file.
+    pub(super) fn next_text(&mut self) -> Option<Span> {
+        self.skip_blanks();
+        let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
+        let length = memchr::memchr(b'*', rest);
+        self.ended = length.is_some();
+        let length = length.unwrap_or(rest.len());
+        self.number += 1;
+        let text = rest[..length].trim_ascii_end();
+        let span = Span { start: self.at as u32, end: (self.at + text.len()) as u32, block: self.number };
+        self.at += length + 1;
+        Some(span)
+    }
+
+    fn skip_blanks(&mut self) {
+        while self.bytes.get(self.at).copied().is_some_and(is_blank) {
+            self.at += 1;
+        }
+    }
+
+    /// The next block, copied without blanks and deleted passages.
+    fn next_with_blanks(&mut self) -> Option<Block> {
+        let mut text = Vec::new();
+        let mut origins = Vec::new();
+        let mut end = self.bytes.len();
+        let mut asterisks = 0;
+        let mut unclosed = None;
+        let mut at = self.at;
+        while let Some(&byte) = self.bytes.get(at) {
+            match byte {
+                b'*' => {
+                    end = at;
+                    break;
+                }
+                b'/' => match memchr::memchr(b'/', &self.bytes[at + 1..]) {
+                    Some(length) => {
+                        let passage = &self.bytes[at + 1..at + 1 + length];
+                        asterisks += memchr::memchr_iter(b'*', passage).count() as u32;
+                        at += length + 1;
+                    }
+                    None => unclosed = Some(at),
+                },
+                _ if is_blank(byte) => {}
+                _ => {
+                    text.push(byte);
+                    origins.push(at);
+                }
+            }
+            at += 1;
+        }
+        self.ended = end < self.bytes.len();
+        if !self.ended && text.is_empty() && unclosed.is_none() {
+            self.ended = true; // blanks at the end of the file are no block
+            self.at = end;
+            return None;
+        }
+        self.number += 1;
+        let block = self.number;
+        self.number += asterisks;
+        self.at = end + 1;
+        let span = Span { start: origins.first().map_or(end, |&at| at) as u32, end: end as u32, block };
+        text.push(b'*');
+        origins.push(end);
+        let words = match (unclosed, syntax::block(&text)) {
+            (Some(at), _) => Err(self.fault_at(at, block, "the passage that `/` deletes has no end")),
+            (None, Ok((_, words))) => Ok(words),
+            (None, Err(Err::Error(fault) | Err::Failure(fault))) => {
+                let at = origins[text.len() - fault.at.len()];
+                Err(self.diagnose(&fault, at, block))
+            }
+            (None, Err(Err::Incomplete(_))) => Err(self.fault_at(end, block, "the block is cut short")),
+        };
+        Some(Block { span, words })
+    }
+
+    fn fault_at(&self, at: usize, block: u32, message: impl Into<String>) -> Diagnostic {
+        let end = (at + 1).min(self.bytes.len());
+        Diagnostic::new(&code::ISO_SYNTAX, message).at(Span { start: at as u32, end: end as u32, block })
+    }
+
+    fn diagnose(&self, fault: &Fault<'_>, at: usize, block: u32) -> Diagnostic {
+        let letter = char::from(self.bytes[at.min(self.bytes.len() - 1)]);
+        let span = Span { start: at as u32, end: at as u32 + 1, block };
+        match fault.kind {
+            FaultKind::Expected(what) => {
+                let found = match self.bytes.get(at) {
+                    None => "the end of the file".to_owned(),
+                    Some(byte @ b'!'..=b'~') => format!("`{}`", char::from(*byte)),
+                    Some(byte) => format!("byte 0x{byte:02x}"),
+                };
+                self.fault_at(at, block, format!("{what} was expected here, but {found} was found"))
+            }
+            FaultKind::NoValue => Diagnostic::new(&code::ISO_NO_VALUE, format!("{letter} stands without its number"))
+                .at(span)
+                .hint("the file may be damaged here; export it again"),
+            FaultKind::Overflow => {
+                let digits = self.bytes[at..].iter().take_while(|b| b.is_ascii_digit() || b"+-.".contains(b)).count();
+                let message = format!("the number is beyond {:.0} units of the file", syntax::VALUE_MAX);
+                Diagnostic::new(&code::ISO_OVERFLOW, message)
+                    .at(Span { end: (at + digits) as u32, ..span })
+                    .hint("a block end `*` may be missing, or digits were doubled")
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn points(text: &str) -> Vec<(u32, Option<f64>, Option<f64>)> {
+        let mut blocks = Blocks::new(text.as_bytes());
+        let mut found = Vec::new();
+        while let Some(block) = blocks.next() {
+            let point = block.words.expect("a sound block").point.unwrap_or_default();
+            found.push((block.span.block, point.x, point.y));
+        }
+        found
+    }
+
+    #[test]
+    fn line_breaks_may_stand_inside_numbers() {
+        assert_eq!(points("\u{feff}X10\r\n5Y 20*\n\0 X1*\x1a\n"), [(1, Some(105.0), Some(20.0)), (2, Some(1.0), None)]);
+    }
+
+    #[test]
+    fn a_deleted_passage_is_skipped_but_its_blocks_count() {
+        assert_eq!(points("X1*/X2*X3*/X4*X5*"), [(1, Some(1.0), None), (2, Some(4.0), None), (5, Some(5.0), None)]);
+    }
+
+    #[test]
+    fn text_is_kept_verbatim() {
+        let bytes = b"M31*\r\nA/B 1\xff\r\n*X1*";
+        let mut blocks = Blocks::new(bytes);
+        blocks.next();
+        let span = blocks.next_text().expect("text");
+        assert_eq!(&bytes[span.start as usize..span.end as usize], b"A/B 1\xff");
+        assert_eq!(span.block, 2);
+        assert_eq!(blocks.next().map(|b| b.span.block), Some(3));
+    }
+}

@@ -1,0 +1,366 @@
+//! What the knife of the file does, gathered into contours, slits and pieces.
+//!
+//! Files interrupt an outline for slit notches and corner lifts. When the knife goes down where an open chain of the
+//! same piece ends, that chain goes on; a map from end points makes that one look-up.
+
+use std::collections::HashMap;
+
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::Point;
+use crate::ir::list::{Joint, Segment, SegmentList};
+use crate::ir::marker::{Contour, Drill, Label, Marker, Notch, NotchKind, Piece};
+use crate::source::Span;
+
+/// Follows the knife and makes the marker.
+#[derive(Debug, Default)]
+pub(super) struct Knife {
+    state: State,
+    /// Where the knife is, mm.
+    at: Point,
+    /// Asked for by M17, M18 and M46, until obeyed.
+    advance: bool,
+    no_overcut: bool,
+    corner_lift: bool,
+    /// Chains of the pieces that are not finished.
+    chains: Vec<Chain>,
+    /// The open ones, by the bits of their end.
+    open: HashMap<[u64; 2], usize>,
+    /// The piece that N began; `None` in a file without N.
+    current: Option<usize>,
+    /// In a file without N: what waits for the contour that it belongs to.
+    waiting: Piece,
+    /// A piece that begins when the knife is lifted.
+    deferred: Option<(Option<u32>, Span)>,
+    pieces: Vec<Piece>,
+    list: SegmentList,
+}
+
+#[derive(Debug, Default)]
+enum State {
+    #[default]
+    Up,
+    /// Down, and not moved yet.
+    Plunged { joint: Joint, span: Span },
+    /// Cutting the chain of this index.
+    Cutting(usize),
+    /// Cutting a slit from its root, which lies on a contour of this piece.
+    Slit { points: Vec<Vertex>, piece: Option<usize>, span: Span },
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Vertex {
+    at: Point,
+    span: Span,
+    joint: Joint,
+}
+
+#[derive(Debug)]
+struct Chain {
+    piece: usize,
+    vertices: Vec<Vertex>,
+    /// Whether it is a slit: those are cut before the outlines.
+    slit: bool,
+    /// Whether it was left by a lift that is meant, not for a slit.
+    lifted: bool,
+    /// Whether the lift at its end goes without overcut.
+    no_overcut: bool,
+}
+
+impl Chain {
+    /// Whether it has no extent: all of its points are equal.
+    fn is_point(&self) -> bool {
+        self.vertices.iter().all(|vertex| vertex.at == self.vertices[0].at)
+    }
+
+    fn ends(&self) -> (Point, Point) {
+        (self.vertices[0].at, self.vertices[self.vertices.len() - 1].at)
+    }
+}
+
+/// Coordinates are whole units times one factor, without a negative zero: equal places have equal bits.
+fn key(at: Point) -> [u64; 2] {
+    [at.x.to_bits(), at.y.to_bits()]
+}
+
+impl Knife {
+    /// Whether it is down.
+    pub(super) fn is_down(&self) -> bool {
+        !matches!(self.state, State::Up)
+    }
+
+    /// Where it is, mm.
+    pub(super) fn at(&self) -> Point {
+        self.at
+    }
+
+    /// A move, mm.
+    pub(super) fn go(&mut self, to: Point, span: Span) {
+        match &mut self.state {
+            State::Up => {}
+            State::Cutting(chain) => {
+                let joint = Joint { lift: std::mem::take(&mut self.corner_lift), ..Joint::default() };
+                self.chains[*chain].vertices.push(Vertex { at: to, span, joint });
+            }
+            State::Slit { points, .. } => points.push(Vertex { at: to, span, joint: Joint::default() }),
+            State::Plunged { joint, span: from } => {
+                let start = Vertex { at: self.at, span: *from, joint: *joint };
+                let joint = Joint { lift: std::mem::take(&mut self.corner_lift), ..Joint::default() };
+                let vertices = vec![start, Vertex { at: to, span, joint }];
+                let piece = self.piece_of_new_chain(start.span);
+                self.chains.push(Chain { piece, vertices, slit: false, lifted: false, no_overcut: false });
+                self.state = State::Cutting(self.chains.len() - 1);
+            }
+        }
+        self.at = to;
+    }
+
+    /// The piece that a chain which begins at `span` belongs to. Without N every contour is a piece.
+    fn piece_of_new_chain(&mut self, span: Span) -> usize {
+        self.current.unwrap_or_else(|| {
+            let waiting = std::mem::take(&mut self.waiting);
+            self.pieces.push(Piece { number: self.pieces.len() as u32 + 1, span, ..waiting });
+            self.pieces.len() - 1
+        })
+    }
+
+    /// M14.
+    pub(super) fn down(&mut self, span: Span, out: &mut Diagnostics) {
+        match &self.state {
+            State::Up => {}
+            State::Plunged { .. } | State::Cutting(_) => {
+                out.push(Diagnostic::new(&code::ISO_KNIFE_DOWN_TWICE, "the knife is down already").at(span));
+                return;
+            }
+            State::Slit { span: slit, .. } => {
+                let message = format!("the slit that begins in block {} has no M15 before this knife-down", slit.block);
+                out.push(Diagnostic::new(&code::ISO_OPEN_SLIT, message).at(span));
+                self.end_slit();
+            }
+        }
+        let full_advance = std::mem::take(&mut self.advance);
+        if let Some(index) = self.open.remove(&key(self.at)) {
+            let chain = &mut self.chains[index];
+            if let Some(last) = chain.vertices.last_mut() {
+                last.joint.lift |= chain.lifted;
+                last.joint.full_advance |= full_advance;
+                last.joint.no_overcut |= chain.no_overcut;
+            }
+            (chain.lifted, chain.no_overcut) = (false, false);
+            let piece = &mut self.pieces[chain.piece];
+            // Without N: what the file holds while it interrupts a contour belongs to that contour.
+            piece.drills.append(&mut self.waiting.drills);
+            piece.notches.append(&mut self.waiting.notches);
+            self.state = State::Cutting(index);
+        } else {
+            self.state = State::Plunged { joint: Joint { full_advance, ..Joint::default() }, span };
+        }
+    }
+
+    /// M15.
+    pub(super) fn up(&mut self) {
+        match self.state {
+            State::Up => return,
+            State::Plunged { .. } => {
+                self.no_overcut = false;
+                self.state = State::Up;
+            }
+            State::Cutting(index) => {
+                let no_overcut = std::mem::take(&mut self.no_overcut);
+                self.leave(index, true, no_overcut);
+            }
+            State::Slit { .. } => self.end_slit(),
+        }
+        self.corner_lift = false;
+        if let Some((number, span)) = self.deferred.take() {
+            self.begin_piece(number, span);
+        }
+    }
+
+    /// The chain is left for now. One that closed on itself is finished; any other may go on where it ends.
+    fn leave(&mut self, index: usize, lifted: bool, no_overcut: bool) {
+        let chain = &mut self.chains[index];
+        (chain.lifted, chain.no_overcut) = (lifted, no_overcut);
+        let (first, last) = chain.ends();
+        if first != last || chain.is_point() {
+            self.open.insert(key(last), index);
+        }
+        self.state = State::Up;
+    }
+
+    /// M19.
+    pub(super) fn slit(&mut self, span: Span) {
+        let piece = match self.state {
+            State::Up => {
+                (self.advance, self.no_overcut) = (true, true);
+                return;
+            }
+            State::Slit { .. } => return,
+            State::Plunged { .. } => None,
+            State::Cutting(index) => {
+                self.leave(index, false, false);
+                Some(self.chains[index].piece)
+            }
+        };
+        let root = Vertex { at: self.at, span, joint: Joint::default() };
+        self.state = State::Slit { points: vec![root], piece, span };
+    }
+
+    /// Ends a slit: a straight one is a notch, any other an open contour.
+    fn end_slit(&mut self) {
+        (self.advance, self.no_overcut) = (false, false);
+        let State::Slit { mut points, piece, .. } = std::mem::take(&mut self.state) else { return };
+        points.dedup_by_key(|vertex| key(vertex.at));
+        match points[..] {
+            [] | [_] => {}
+            [root, tip] => {
+                let notch = Notch { kind: NotchKind::Slit, root: root.at, tip: tip.at, span: tip.span };
+                match piece {
+                    Some(piece) => self.pieces[piece].notches.push(notch),
+                    None => self.target().notches.push(notch),
+                }
+            }
+            [first, ..] => {
+                let piece = piece.unwrap_or_else(|| self.piece_of_new_chain(first.span));
+                for vertex in &mut points {
+                    vertex.joint.no_overcut = true;
+                }
+                points[0].joint.full_advance = true;
+                self.chains.push(Chain { piece, vertices: points, slit: true, lifted: false, no_overcut: true });
+            }
+        }
+    }
+
+    /// M17.
+    pub(super) fn full_advance(&mut self) {
+        self.advance = true;
+    }
+
+    /// M18.
+    pub(super) fn no_overcut(&mut self) {
+        self.no_overcut = true;
+    }
+
+    /// M46.
+    pub(super) fn corner_lift(&mut self) {
+        self.corner_lift = true;
+    }
+
+    /// A hole, with the knife up.
+    pub(super) fn drill(&mut self, at: Point, tool: u8, span: Span) {
+        self.target().drills.push(Drill { at, tool, span });
+    }
+
+    /// A text.
+    pub(super) fn label(&mut self, label: Label) -> LabelId {
+        let piece = self.current;
+        let labels = &mut self.target().labels;
+        labels.push(label);
+        LabelId { piece, index: labels.len() - 1 }
+    }
+
+    /// The last label that was added with that id, as long as no other piece began.
+    pub(super) fn label_mut(&mut self, id: LabelId) -> Option<&mut Label> {
+        if id.piece != self.current {
+            return None;
+        }
+        self.target().labels.get_mut(id.index)
+    }
+
+    /// Where notches, drills and labels go.
+    fn target(&mut self) -> &mut Piece {
+        match self.current {
+            Some(piece) => &mut self.pieces[piece],
+            None => &mut self.waiting,
+        }
+    }
+
+    /// N. With the knife down it takes effect at the next lift: controllers insert some.
+    pub(super) fn begin_piece(&mut self, number: Option<u32>, span: Span) {
+        if self.is_down() {
+            self.deferred = Some((number, span));
+            return;
+        }
+        (self.advance, self.no_overcut) = (false, false);
+        self.finish_chains();
+        let waiting = std::mem::take(&mut self.waiting);
+        let number = number.unwrap_or(self.pieces.len() as u32 + 1);
+        self.pieces.push(Piece { number, span, ..waiting });
+        self.current = Some(self.pieces.len() - 1);
+    }
+
+    /// Writes the chains into the list: first the slits, as they are cut before the outlines.
+    fn finish_chains(&mut self) {
+        self.open.clear();
+        for slit in [true, false] {
+            for chain in self.chains.iter_mut().filter(|chain| chain.slit == slit && !chain.is_point()) {
+                // The joint of the first segment speaks for the plunge at the start and for the lift at the end.
+                chain.vertices[0].joint.no_overcut |= chain.no_overcut;
+                let (first, last) = chain.ends();
+                let segments = chain.vertices.windows(2).map(|pair| Segment {
+                    from: pair[0].at,
+                    to: pair[1].at,
+                    span: pair[1].span,
+                    joint: pair[0].joint,
+                });
+                if let Some(range) = self.list.append(segments) {
+                    self.pieces[chain.piece].contours.push(Contour { range, closed: first == last });
+                }
+            }
+        }
+        self.chains.clear();
+    }
+
+    /// The end of the file: what was cut.
+    pub(super) fn finish(mut self, last: Span, out: &mut Diagnostics) -> Marker {
+        match &self.state {
+            State::Up => {}
+            State::Slit { span, .. } => {
+                let message = "the slit that begins here has no M15 before the file ends";
+                out.push(Diagnostic::new(&code::ISO_OPEN_SLIT, message).at(*span));
+            }
+            State::Plunged { .. } | State::Cutting(_) => {
+                let message = "the knife is down where the file ends";
+                let finding = Diagnostic::new(&code::ISO_ENDS_KNIFE_DOWN, message).at(last);
+                out.push(finding.hint("the file is most likely cut short; export it again"));
+            }
+        }
+        self.deferred = None;
+        self.up();
+        if !(self.waiting.drills.is_empty() && self.waiting.notches.is_empty() && self.waiting.labels.is_empty()) {
+            let mut waiting = std::mem::take(&mut self.waiting);
+            if let Some(piece) = self.pieces.last_mut() {
+                piece.drills.append(&mut waiting.drills);
+                piece.notches.append(&mut waiting.notches);
+                piece.labels.append(&mut waiting.labels);
+            } else {
+                self.pieces.push(Piece { number: 1, ..waiting });
+            }
+        }
+        self.finish_chains();
+        Marker { list: self.list, pieces: with_something_to_cut(self.pieces), unit: 0.0 }
+    }
+}
+
+/// Names a label of the piece that is being read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct LabelId {
+    piece: Option<usize>,
+    index: usize,
+}
+
+/// An N without anything to cut is no piece (controllers insert some); its labels go to the next piece.
+fn with_something_to_cut(pieces: Vec<Piece>) -> Vec<Piece> {
+    let mut kept: Vec<Piece> = Vec::with_capacity(pieces.len());
+    let mut labels = Vec::new();
+    for mut piece in pieces {
+        labels.append(&mut piece.labels);
+        if !(piece.contours.is_empty() && piece.notches.is_empty() && piece.drills.is_empty()) {
+            piece.labels = std::mem::take(&mut labels);
+            kept.push(piece);
+        }
+    }
+    if let Some(last) = kept.last_mut() {
+        last.labels.append(&mut labels);
+    }
+    kept
+}

@@ -1,0 +1,340 @@
+//! The meaning of a file: follows block after block and makes the marker.
+
+use std::ops::ControlFlow;
+
+use super::block::Blocks;
+use super::knife::{Knife, LabelId};
+use super::label;
+use super::meaning::{Meaning, meaning, name};
+use super::syntax::{Code, Point, Words};
+use super::tally::Tally;
+use super::title::Title;
+use super::unit::{Unit, check_plausible};
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::{self, Heading};
+use crate::ir::Marker;
+use crate::ir::marker::Label;
+use crate::machine::Job;
+use crate::source::{Source, Span};
+
+/// Reads a file as the job's profile asks.
+pub(super) fn lower(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker {
+    let mut lowering = Lowering {
+        source,
+        job,
+        blocks: Blocks::new(source.bytes()),
+        knife: Knife::default(),
+        unit: Unit::new(job.profile.units),
+        place: [None, None],
+        fresh: false,
+        drill: None,
+        awaiting: None,
+        second: None,
+        title: None,
+        bite: None,
+        tally: Tally::default(),
+        last_cut: None,
+        out,
+    };
+    let last = lowering.run();
+    lowering.finish(last)
+}
+
+struct Lowering<'a> {
+    source: &'a Source,
+    job: &'a Job,
+    blocks: Blocks<'a>,
+    knife: Knife,
+    unit: Unit,
+    /// The last X and Y, in units of the file: one that a block does not write keeps its value.
+    place: [Option<f64>; 2],
+    /// Whether the knife was moved here in the air and nothing was done here yet: a drill code without a point means here.
+    fresh: bool,
+    /// A drill code that waits for its point.
+    drill: Option<(u8, Span)>,
+    /// A label that may get a second point, and one that has got it if the knife does not go down there.
+    awaiting: Option<LabelId>,
+    second: Option<LabelId>,
+    title: Option<Title>,
+    /// The code that sets the size of a bite, the size in units of the file, and its block.
+    bite: Option<(Code, f64, Span)>,
+    tally: Tally,
+    /// Offset behind the last block that cuts or drills, once it was looked for.
+    last_cut: Option<usize>,
+    out: &'a mut Diagnostics,
+}
+
+impl Lowering<'_> {
+    /// Follows the file to its end and gives its last block.
+    fn run(&mut self) -> Span {
+        let mut ended = false;
+        let mut last = Span::default();
+        while let Some(block) = self.blocks.next() {
+            last = block.span;
+            match block.words {
+                Ok(words) if words.codes.is_empty() => {
+                    if let Some(point) = words.point {
+                        self.go(point, block.span);
+                    }
+                }
+                Ok(words) => {
+                    if self.obey(&words, block.span).is_break() {
+                        ended = true;
+                        break;
+                    }
+                }
+                Err(fault) => self.out.push(fault),
+            }
+        }
+        if !self.blocks.all_ended() {
+            self.out.push(Diagnostic::new(&code::ISO_NO_FINAL_ASTERISK, "the last block has no `*`").at(last));
+        }
+        if !ended {
+            let finding = Diagnostic::new(&code::ISO_NO_END, "the file has no M0 at its end").at(last);
+            self.out.push(finding.hint("check that the file is complete"));
+        }
+        last
+    }
+
+    /// What was read, judged as a whole.
+    fn finish(mut self, last: Span) -> Marker {
+        self.settle_second_point();
+        let mut marker = self.knife.finish(last, self.out);
+        marker.unit = self.unit.mm();
+        let extent = marker.extent();
+        if let Some((code, size, span)) = self.bite
+            && size * self.unit.mm() < extent.max.x
+        {
+            self.tally.ignore(code, "bite size", span);
+        }
+        self.tally.report(self.out);
+        if marker.pieces.is_empty() {
+            self.out.push(Diagnostic::new(&code::ISO_NOTHING_TO_CUT, "the file holds no contour, slit or drill"));
+        }
+        check_plausible(&self.unit, &extent, self.title.as_ref(), self.out);
+        marker
+    }
+
+    /// A block of coordinates alone.
+    fn go(&mut self, point: Point, span: Span) {
+        let to = self.locate(point);
+        if self.knife.is_down() {
+            if point.centre {
+                self.refuse_arc(span);
+            }
+            self.knife.go(to, span);
+            return;
+        }
+        if let Some((tool, code)) = self.drill.take() {
+            self.move_in_air(to, span);
+            self.fresh = false;
+            self.knife.drill(to, tool, code);
+            return;
+        }
+        let label = self.awaiting.take();
+        self.move_in_air(to, span);
+        self.second = label;
+    }
+
+    fn move_in_air(&mut self, to: geom::Point, span: Span) {
+        self.settle_second_point();
+        self.awaiting = None;
+        self.knife.go(to, span);
+        self.fresh = true;
+    }
+
+    /// Obeys the codes of a block, then its move; labels and drills belong to the place where the block ends. (A knife
+    /// code that shares a block with a move acts before it, says the vendor; no file seen has one.)
+    fn obey(&mut self, words: &Words, span: Span) -> ControlFlow<()> {
+        let mut at_place = None;
+        let mut label = None;
+        let mut moves = true;
+        let mut arc = false;
+        for &code in &words.codes {
+            let obeyed = self.obeys(code);
+            match meaning(code) {
+                Meaning::Park => moves = false,
+                Meaning::BiteSize => {
+                    moves = false;
+                    let size = code.number.or(words.point.and_then(|point| point.x));
+                    self.bite = size.filter(|_| obeyed).map(|size| (code, size, span)).or(self.bite);
+                }
+                Meaning::Arc => arc = true,
+                Meaning::Message => self.message(),
+                Meaning::Label => label = Some(obeyed),
+                _ if !obeyed => {}
+                Meaning::Down => self.down(span),
+                Meaning::Up => {
+                    self.fresh = false;
+                    self.knife.up();
+                }
+                Meaning::Piece => {
+                    self.settle_second_point();
+                    self.awaiting = None;
+                    self.knife.begin_piece(code.number.map(|number| number as u32), span);
+                }
+                Meaning::Unit(unit) => self.unit.set(unit, span, self.out),
+                Meaning::Drill(tool) => at_place = Some(tool),
+                Meaning::Slit => self.knife.slit(span),
+                Meaning::FullAdvance => self.knife.full_advance(),
+                Meaning::NoOvercut => self.knife.no_overcut(),
+                Meaning::CornerLift => self.knife.corner_lift(),
+                Meaning::End if self.more_to_cut() => self.tally.ignore(code, "stop before the end", span),
+                Meaning::End => return ControlFlow::Break(()),
+                Meaning::NotObeyed(what) => self.tally.ignore(code, what, span),
+                Meaning::Housekeeping => {}
+                Meaning::Unknown => self.tally.unknown(code, span),
+            }
+        }
+        let point = words.point.filter(|_| moves);
+        if arc {
+            self.refuse_arc(span);
+        }
+        if let Some(obeyed) = label {
+            self.label(point, obeyed);
+        } else if let Some(tool) = at_place {
+            self.drill(tool, point, span);
+        } else if let Some(point) = point {
+            self.go(Point { centre: point.centre && !arc, ..point }, span);
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn obeys(&self, code: Code) -> bool {
+        self.job.profile.codes.is_empty() || self.job.profile.obeys(&name(code))
+    }
+
+    fn down(&mut self, span: Span) {
+        if self.place.contains(&None) {
+            let message = "the knife goes down before the file gave X and Y; what is missing is taken as 0";
+            self.out.push(Diagnostic::new(&code::ISO_NO_POSITION, message).at(span));
+        }
+        // The place is where a contour starts, not the second point of a label.
+        self.second = None;
+        self.awaiting = None;
+        self.fresh = false;
+        self.knife.down(span, self.out);
+    }
+
+    fn refuse_arc(&mut self, span: Span) {
+        self.out.push(
+            Diagnostic::new(&code::ISO_ARC, "an arc (G02, G03) cannot be cut yet, and its chord would be a wrong cut")
+                .at(span)
+                .hint("let the CAD export arcs as short lines"),
+        );
+    }
+
+    /// A drill code: in a block with its point, before the block with its point, or at the place where the knife is.
+    fn drill(&mut self, tool: u8, point: Option<Point>, span: Span) {
+        if self.knife.is_down() {
+            let message = "a drill code stands where the knife is down";
+            let finding = Diagnostic::new(&code::ISO_DRILL_KNIFE_DOWN, message).at(span);
+            self.out.push(finding.hint("an M15 may be missing before it"));
+        } else if let Some(point) = point {
+            let to = self.locate(point);
+            self.move_in_air(to, span);
+            self.fresh = false;
+            self.knife.drill(to, tool, span);
+        } else if !self.fresh && self.point_of_drill_follows() {
+            self.drill = Some((tool, span));
+        } else {
+            self.second = None;
+            self.fresh = false;
+            self.knife.drill(self.knife.at(), tool, span);
+        }
+    }
+
+    /// Whether the next block is a point, and not the start of a contour.
+    fn point_of_drill_follows(&self) -> bool {
+        let mut ahead = self.blocks.clone();
+        let words = |ahead: &mut Blocks<'_>| ahead.next().and_then(|block| block.words.ok());
+        if !words(&mut ahead).is_some_and(|words| words.codes.is_empty() && words.point.is_some()) {
+            return false;
+        }
+        while let Some(words) = words(&mut ahead) {
+            if words.point.is_some() {
+                return true;
+            }
+            for &code in &words.codes {
+                match meaning(code) {
+                    Meaning::Down => return false,
+                    Meaning::Up | Meaning::Housekeeping | Meaning::FullAdvance | Meaning::NoOvercut => {}
+                    _ => return true,
+                }
+            }
+        }
+        true
+    }
+
+    /// A label whose block holds `point`.
+    fn label(&mut self, point: Option<Point>, obeyed: bool) {
+        self.settle_second_point();
+        self.awaiting = None;
+        let text = label::read(&mut self.blocks, point);
+        let Some(span) = text.text.filter(|span| obeyed && span.start < span.end) else { return };
+        let at = text.at.map(|at| self.peek(at));
+        let second = text.second.map(|second| self.peek(second));
+        let heading = at.zip(second).and_then(|(at, second)| direction(at, second));
+        let id = self.knife.label(Label { at, heading, span });
+        // Only the layout that starts with the point may have its second point later.
+        self.awaiting = (point.is_some() && second.is_none()).then_some(id);
+    }
+
+    /// The knife was moved on in the air, so the place where it was is the second point of the label before it.
+    fn settle_second_point(&mut self) {
+        let place = self.knife.at();
+        if let Some(id) = self.second.take()
+            && let Some(label) = self.knife.label_mut(id)
+        {
+            label.heading = label.at.and_then(|at| direction(at, place));
+        }
+    }
+
+    /// The text behind M20.
+    fn message(&mut self) {
+        if let Some(span) = self.blocks.next_text() {
+            self.title = self.title.or(Title::read(self.source.slice(span), span));
+        }
+    }
+
+    /// Whether anything is cut or drilled in the blocks ahead. The file is searched once.
+    fn more_to_cut(&mut self) -> bool {
+        let last = *self.last_cut.get_or_insert_with(|| last_cut(self.blocks.clone()));
+        last > self.blocks.offset()
+    }
+
+    /// A point of the file, mm; the knife is there from now on.
+    fn locate(&mut self, point: Point) -> geom::Point {
+        self.place = [point.x.or(self.place[0]), point.y.or(self.place[1])];
+        self.peek(point)
+    }
+
+    /// A point of the file, mm. One multiplication, so that equal numbers of the file are equal to the bit.
+    fn peek(&mut self, point: Point) -> geom::Point {
+        let unit = self.unit.convert();
+        let x = point.x.or(self.place[0]).unwrap_or(0.0);
+        let y = point.y.or(self.place[1]).unwrap_or(0.0);
+        geom::Point::new(x * unit, y * unit)
+    }
+}
+
+fn direction(from: geom::Point, to: geom::Point) -> Option<Heading> {
+    (from != to).then(|| Heading::of(to - from))
+}
+
+/// Offset behind the last block that puts the knife or a drill down; 0 when there is none.
+fn last_cut(mut blocks: Blocks<'_>) -> usize {
+    let mut last = 0;
+    while let Some(block) = blocks.next() {
+        let Ok(words) = block.words else { continue };
+        for &code in &words.codes {
+            match meaning(code) {
+                Meaning::Down | Meaning::Drill(_) => last = blocks.offset(),
+                Meaning::Message => _ = blocks.next_text(),
+                Meaning::Label => _ = label::read(&mut blocks, words.point),
+                _ => {}
+            }
+        }
+    }
+    last
+}

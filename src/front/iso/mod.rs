@@ -1,0 +1,93 @@
+//! ISO cut files: the family of codes that garment CAD writes for knife cutters.
+//!
+//! Receives bytes: blocks that end in `*`, with line breaks and blanks anywhere, free text behind some codes, three
+//! possible units. Promises a marker in mm whose outlines are whole again where the file interrupts them for slits and
+//! corner lifts, whose slits are notches, whose equal points are equal to the bit, and whose texts were never executed.
+//! Codes that are not obeyed are reported with their count. Never closes a contour that the file leaves open, and never
+//! recognises a notch by its shape: that is for the passes.
+//!
+//! [`block`] cuts the bytes into blocks, [`syntax`] is the grammar of one, [`meaning`] the table of codes, [`label`] the
+//! layouts of text; [`lower`] follows the file and [`knife`] gathers what it cuts.
+
+mod block;
+mod knife;
+mod label;
+mod lower;
+mod meaning;
+mod syntax;
+mod tally;
+mod title;
+mod unit;
+
+use self::block::Blocks;
+use self::meaning::{Meaning, meaning};
+use super::{Dialect, Likeness, foreign};
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::ir::Marker;
+use crate::machine::Job;
+use crate::source::Source;
+
+pub(super) const DIALECT: Dialect = Dialect {
+    name: "iso",
+    about: "ISO cut file of garment CAD: blocks that end in `*`, M14/M15 for the knife",
+    extensions: &["cut", "iso", "ggt", "nc", "gbr", "cnc"],
+    sniff,
+    syntax: check_syntax,
+    read,
+};
+
+/// Blocks that are looked at to recognise a file, and bytes of it.
+const SNIFFED_BLOCKS: usize = 64;
+const SNIFFED_BYTES: usize = 4096;
+/// Blocks that must be sound for a file to be recognised without doubt.
+const SURE_BLOCKS: usize = 3;
+
+fn sniff(bytes: &[u8]) -> Likeness {
+    let bytes = &bytes[..bytes.len().min(SNIFFED_BYTES)];
+    let mut blocks = Blocks::new(bytes);
+    let (mut sound, mut all) = (0, 0);
+    while all < SNIFFED_BLOCKS
+        && let Some(block) = blocks.next()
+        && blocks.all_ended()
+    {
+        all += 1;
+        let known = |words: &syntax::Words| words.codes.iter().all(|&c| meaning(c) != Meaning::Unknown);
+        sound += usize::from(block.words.is_ok_and(|words| known(&words)));
+    }
+    match sound {
+        0 if memchr::memchr(b'*', bytes).is_none() => Likeness::No,
+        SURE_BLOCKS.. if 2 * sound > all => Likeness::Sure,
+        _ => Likeness::Maybe,
+    }
+}
+
+/// Whether every block follows the grammar.
+fn check_syntax(source: &Source, out: &mut Diagnostics) {
+    let mut blocks = Blocks::new(source.bytes());
+    while let Some(block) = blocks.next() {
+        let words = match block.words {
+            Ok(words) => words,
+            Err(fault) => {
+                out.push(fault);
+                continue;
+            }
+        };
+        for &code in &words.codes {
+            match meaning(code) {
+                Meaning::Message => _ = blocks.next_text(),
+                Meaning::Label => _ = label::read(&mut blocks, words.point),
+                _ => {}
+            }
+        }
+    }
+    if !blocks.all_ended() {
+        out.push(Diagnostic::new(&code::ISO_NO_FINAL_ASTERISK, "the last block has no `*`"));
+    }
+}
+
+fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker {
+    if foreign::refuse(source, out) {
+        return Marker::default();
+    }
+    lower::lower(source, job, out)
+}

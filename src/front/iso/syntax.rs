@@ -1,0 +1,236 @@
+//! The grammar of a block, without meaning: one function a rule of `grammar/iso.bnf`, in its order.
+//!
+//! The rules see a block without line breaks and blanks. The choice of a rule never needs more than one byte of
+//! look-ahead, so the first fault is also the furthest.
+
+use arrayvec::ArrayVec;
+use nom::IResult;
+use nom::bytes::complete::take_while1;
+use nom::combinator::opt;
+use nom::error::{ErrorKind, ParseError};
+use nom::{Err, Parser};
+
+/// What a rule gives.
+pub(super) type Out<'a, T> = IResult<&'a [u8], T, Fault<'a>>;
+
+/// Where a block leaves the grammar.
+#[derive(Debug, PartialEq)]
+pub(super) struct Fault<'a> {
+    /// What is left of the block from the fault on.
+    pub(super) at: &'a [u8],
+    /// What is wrong there.
+    pub(super) kind: FaultKind,
+}
+
+/// What is wrong with a block.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum FaultKind {
+    /// Something else should stand here.
+    Expected(&'static str),
+    /// An axis has no number.
+    NoValue,
+    /// A number is beyond [`VALUE_MAX`].
+    Overflow,
+}
+
+impl<'a> ParseError<&'a [u8]> for Fault<'a> {
+    fn from_error_kind(at: &'a [u8], _: ErrorKind) -> Self {
+        Self { at, kind: FaultKind::Expected("a word") }
+    }
+
+    fn append(_: &'a [u8], _: ErrorKind, other: Self) -> Self {
+        other
+    }
+}
+
+/// Codes that one block can hold; the standard asks for one, files have three (`H1G71D2`).
+const MOST_CODES: usize = 6;
+
+/// Largest number that is read, in units of the file: 25 km in the smallest unit, far beyond any table, and small
+/// enough for whole numbers to be exact.
+pub(super) const VALUE_MAX: f64 = 1e9;
+
+/// The words of a block.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Words {
+    /// Its codes in the order of the file.
+    pub(super) codes: ArrayVec<Code, MOST_CODES>,
+    /// Its place.
+    pub(super) point: Option<Point>,
+}
+
+/// The coordinates of a block, in units of the file; one that is not written keeps its last value.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Point {
+    /// Along the table.
+    pub(super) x: Option<f64>,
+    /// Across the table.
+    pub(super) y: Option<f64>,
+    /// Whether I or J stand beside them: the centre of an arc.
+    pub(super) centre: bool,
+}
+
+/// A letter and, mostly, a number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Code {
+    /// The letter, upper case.
+    pub(super) letter: u8,
+    /// The number.
+    pub(super) number: Option<f64>,
+}
+
+/// `<block>`: up to its asterisk.
+pub(super) fn block(i: &[u8]) -> Out<'_, Words> {
+    let mut words = Words::default();
+    let i = codes(i, &mut words)?;
+    let (i, point) = opt(point).parse(i)?;
+    words.point = point;
+    let i = codes(i, &mut words)?;
+    match i.split_first() {
+        Some((b'*', rest)) => Ok((rest, words)),
+        Some((b'X' | b'Y' | b'I' | b'J', _)) => expected(i, "`*`, because a block holds one point,"),
+        _ => expected(i, "a letter with its number, or `*`,"),
+    }
+}
+
+/// `<codes>`: none or more of them, added to `words`.
+fn codes<'a>(mut i: &'a [u8], words: &mut Words) -> Result<&'a [u8], Err<Fault<'a>>> {
+    while let (rest, Some(code)) = opt(code).parse(i)? {
+        if words.codes.try_push(code).is_err() {
+            return Err(Err::Failure(Fault { at: i, kind: FaultKind::Expected("`*` after so many codes") }));
+        }
+        i = rest;
+    }
+    Ok(i)
+}
+
+/// `<code>`
+fn code(i: &[u8]) -> Out<'_, Code> {
+    match i.split_first() {
+        Some((&letter, rest)) if letter.is_ascii_uppercase() && !matches!(letter, b'X' | b'Y' | b'I' | b'J') => {
+            let (rest, number) = opt(number).parse(rest)?;
+            Ok((rest, Code { letter, number }))
+        }
+        _ => Err(Err::Error(Fault { at: i, kind: FaultKind::Expected("a code") })),
+    }
+}
+
+/// `<point>`
+fn point(mut i: &[u8]) -> Out<'_, Point> {
+    let mut point = Point::default();
+    let start = i.len();
+    while let Some((&letter, rest)) = i.split_first() {
+        match letter {
+            b'X' if point.x.is_none() => (i, point.x) = coordinate(i, rest)?,
+            b'Y' if point.y.is_none() => (i, point.y) = coordinate(i, rest)?,
+            b'I' | b'J' => {
+                (i, _) = coordinate(i, rest)?;
+                point.centre = true;
+            }
+            _ => break,
+        }
+    }
+    if i.len() < start { Ok((i, point)) } else { expected(i, "a point") }
+}
+
+/// `<coordinate>`: the letter stands at `i`, its number at `rest`. From the letter on the branch is certain.
+fn coordinate<'a>(i: &'a [u8], rest: &'a [u8]) -> Out<'a, Option<f64>> {
+    match number(rest) {
+        Ok((rest, value)) => Ok((rest, Some(value))),
+        Err(Err::Error(_)) => Err(Err::Failure(Fault { at: i, kind: FaultKind::NoValue })),
+        Err(failure) => Err(failure),
+    }
+}
+
+/// `<number>`: whole numbers in units of the file; a plus sign and decimals are tolerated.
+fn number(i: &[u8]) -> Out<'_, f64> {
+    let (negative, unsigned) = match i.split_first() {
+        Some((b'-', rest)) => (true, rest),
+        Some((b'+', rest)) => (false, rest),
+        _ => (false, i),
+    };
+    let (mut rest, whole) = digits(unsigned)?;
+    let mut mantissa = whole.iter().fold(0, append_digit);
+    let mut magnitude = mantissa as f64;
+    if let Some((b'.', after)) = rest.split_first() {
+        rest = after;
+        if let (after, Some(decimals)) = opt(digits).parse(after)? {
+            rest = after;
+            // One division of two exact integers: the nearest number to what is written.
+            let kept = &decimals[..decimals.len().min(MOST_DECIMALS)];
+            mantissa = kept.iter().fold(mantissa, append_digit);
+            magnitude = mantissa as f64 / 10_f64.powi(kept.len() as i32);
+        }
+    }
+    if magnitude > VALUE_MAX {
+        return Err(Err::Failure(Fault { at: i, kind: FaultKind::Overflow }));
+    }
+    // The negative of zero is another bit pattern than zero, though the same place.
+    Ok((rest, if negative && magnitude > 0.0 { -magnitude } else { magnitude }))
+}
+
+/// Decimals that count: with nine digits before them, all are exact in `f64`.
+const MOST_DECIMALS: usize = 6;
+
+/// Saturates: what is too large stays too large.
+fn append_digit(value: u64, digit: &u8) -> u64 {
+    value.saturating_mul(10).saturating_add(u64::from(digit - b'0'))
+}
+
+/// `<digits>`
+fn digits(i: &[u8]) -> Out<'_, &[u8]> {
+    take_while1(|byte: u8| byte.is_ascii_digit()).parse(i)
+}
+
+fn expected<'a, T>(at: &'a [u8], what: &'static str) -> Out<'a, T> {
+    Err(Err::Error(Fault { at, kind: FaultKind::Expected(what) }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(text: &str, x: Option<f64>, y: Option<f64>, codes: &str) {
+        let (rest, words) = block(text.as_bytes()).expect("a block");
+        assert!(rest.is_empty());
+        let point = words.point.unwrap_or_default();
+        assert_eq!((point.x, point.y), (x, y), "{text}");
+        let found: Vec<String> = words
+            .codes
+            .iter()
+            .map(|c| format!("{}{}", c.letter as char, c.number.map_or(String::new(), |n| n.to_string())))
+            .collect();
+        assert_eq!(found.join(" "), codes, "{text}");
+    }
+
+    #[test]
+    fn a_block_is_codes_and_a_point() {
+        check("*", None, None, "");
+        check("X105Y-2326*", Some(105.0), Some(-2326.0), "");
+        check("Y7*", None, Some(7.0), "");
+        check("X+1.25Y10.*", Some(1.25), Some(10.0), "");
+        check("H1G71D2*", None, None, "H1 G71 D2");
+        check("X3904Y1117M31*", Some(3904.0), Some(1117.0), "M31");
+        check("QX905Y0*", Some(905.0), Some(0.0), "Q");
+        check("ZX984251*", Some(984_251.0), None, "Z");
+        check("M00*", None, None, "M0");
+    }
+
+    #[test]
+    fn zero_has_no_sign() {
+        let (_, words) = block(b"X-0*").expect("a block");
+        assert!(words.point.and_then(|p| p.x).is_some_and(f64::is_sign_positive));
+    }
+
+    #[test]
+    fn a_fault_names_its_place() {
+        let fault = |text: &'static [u8]| match block(text) {
+            Err(Err::Error(fault) | Err::Failure(fault)) => (text.len() - fault.at.len(), fault.kind),
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(fault(b"X105Y*"), (4, FaultKind::NoValue));
+        assert_eq!(fault(b"X99999999999Y1*"), (1, FaultKind::Overflow));
+        assert!(matches!(fault(b"X1Y2X3Y4*"), (4, FaultKind::Expected(_))));
+        assert!(matches!(fault(b"M14%*"), (3, FaultKind::Expected(_))));
+    }
+}

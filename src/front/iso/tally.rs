@@ -1,0 +1,66 @@
+//! Codes that are not obeyed, each reported once, with its count and first block.
+
+use std::collections::BTreeMap;
+
+use super::meaning::name;
+use super::syntax::Code;
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::source::Span;
+
+/// Counts codes that are not obeyed.
+#[derive(Debug, Default)]
+pub(super) struct Tally {
+    /// By letter and the bits of the number.
+    codes: BTreeMap<(u8, Option<u64>), Entry>,
+}
+
+#[derive(Debug)]
+struct Entry {
+    code: Code,
+    /// What it is; `None` for an unknown code.
+    what: Option<&'static str>,
+    first: Span,
+    count: usize,
+}
+
+impl Tally {
+    /// A known code that changes the cut: `what` it is, in words.
+    pub(super) fn ignore(&mut self, code: Code, what: &'static str, span: Span) {
+        self.add(code, Some(what), span);
+    }
+
+    /// A code that is not known.
+    pub(super) fn unknown(&mut self, code: Code, span: Span) {
+        self.add(code, None, span);
+    }
+
+    fn add(&mut self, code: Code, what: Option<&'static str>, first: Span) {
+        let key = (code.letter, code.number.map(f64::to_bits));
+        self.codes.entry(key).or_insert(Entry { code, what, first, count: 0 }).count += 1;
+    }
+
+    /// Reports them, in the order of the file.
+    pub(super) fn report(self, out: &mut Diagnostics) {
+        let mut entries: Vec<Entry> = self.codes.into_values().collect();
+        entries.sort_by_key(|entry| entry.first);
+        for Entry { code, what, first, count } in entries {
+            let name = name(code);
+            let times = if count == 1 { "once".to_owned() } else { format!("{count} times") };
+            let first_block = first.block;
+            out.push(match what {
+                Some(what) => Diagnostic::new(
+                    &code::ISO_IGNORED_CODE,
+                    format!("{name} ({what}) is not obeyed: it stands {times}, first in block {first_block}"),
+                )
+                .at(first)
+                .hint(format!("`codes.{name} = \"ignore\"` in the profile silences this")),
+                None => Diagnostic::new(
+                    &code::ISO_UNKNOWN_CODE,
+                    format!("{name} is not known and was ignored: it stands {times}, first in block {first_block}"),
+                )
+                .at(first)
+                .hint(format!("`codes.{name} = \"ignore\"` in the profile silences this")),
+            });
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! The unit of the numbers: what the file says, what the profile says, and whether the result is plausible.
+
+use super::title::Title;
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::Extent;
+use crate::machine::FileUnit;
+use crate::source::Span;
+
+/// The unit of a file that names none (1/100 inch), mm.
+const DEFAULT_MM: f64 = crate::units::MM_PER_INCH / 100.0;
+
+/// The unit in force.
+#[derive(Debug)]
+pub(super) struct Unit {
+    mm: f64,
+    /// Whether the profile gives it, whatever the file says.
+    by_profile: bool,
+    /// Whether a coordinate was converted: from then on it may not change.
+    in_use: bool,
+}
+
+impl Unit {
+    pub(super) fn new(profile: FileUnit) -> Self {
+        Self { mm: profile.mm().unwrap_or(DEFAULT_MM), by_profile: profile.mm().is_some(), in_use: false }
+    }
+
+    /// Its length, mm, for a coordinate.
+    pub(super) fn convert(&mut self) -> f64 {
+        self.in_use = true;
+        self.mm
+    }
+
+    /// Its length, mm.
+    pub(super) fn mm(&self) -> f64 {
+        self.mm
+    }
+
+    /// The file names a unit.
+    pub(super) fn set(&mut self, unit: FileUnit, span: Span, out: &mut Diagnostics) {
+        let Some(mm) = unit.mm().filter(|_| !self.by_profile) else { return };
+        if self.in_use && mm.to_bits() != self.mm.to_bits() {
+            let message = format!("the unit changes from {} mm to {mm} mm after coordinates", self.mm);
+            out.push(
+                Diagnostic::new(&code::ISO_UNITS_CHANGED, message)
+                    .at(span)
+                    .hint("two jobs may stand in one file: split it; or set `units` in the profile"),
+            );
+        } else {
+            self.mm = mm;
+        }
+    }
+}
+
+/// Widest marker that a table takes, mm, and the smallest thing worth cutting, mm.
+const WIDEST: f64 = 3500.0;
+const SMALLEST: f64 = 5.0;
+/// A drawing fills between 40 % and 102 % of what its title says.
+const LEAST_FILL: f64 = 0.40;
+const MOST_FILL: f64 = 1.02;
+
+/// The units that a file can have, with the value of the profile's key.
+const CANDIDATES: [(FileUnit, &str); 3] =
+    [(FileUnit::TenthMm, "mm/10"), (FileUnit::HundredthInch, "in/100"), (FileUnit::ThousandthInch, "in/1000")];
+
+/// Warns when the drawing fits neither its title nor any table, and names the unit that would fit.
+pub(super) fn check_plausible(unit: &Unit, extent: &Extent, title: Option<&Title>, out: &mut Diagnostics) {
+    if extent.is_empty() {
+        return;
+    }
+    let (length, width) = extent.size();
+    let fits = |scale: f64| {
+        let filled = |size: f64, stated: Option<f64>| {
+            stated.is_none_or(|stated| (LEAST_FILL..=MOST_FILL).contains(&(size * scale / stated)))
+        };
+        title.is_none_or(|title| filled(length, title.length) && filled(width, title.width))
+            && width * scale <= WIDEST
+            && length.max(width) * scale >= SMALLEST
+    };
+    if fits(1.0) {
+        return;
+    }
+    let drawn = format!("{length:.0} x {width:.0} mm");
+    let mut finding = match title {
+        Some(title) if width <= WIDEST && length.max(width) >= SMALLEST => {
+            let stated = |size: Option<f64>| size.map_or("any".to_owned(), |size| format!("{size:.0}"));
+            let (l, w) = (stated(title.length), stated(title.width));
+            let message =
+                format!("with a unit of {} mm the drawing is {drawn}, but its title says {l} x {w} mm", unit.mm);
+            Diagnostic::new(&code::ISO_UNIT_DOUBTFUL, message).at(title.span)
+        }
+        _ => {
+            let what = if width > WIDEST { "wider than any table" } else { "smaller than any part" };
+            let message = format!("with a unit of {} mm the drawing is {drawn}: {what}", unit.mm);
+            Diagnostic::new(&code::ISO_UNIT_DOUBTFUL, message)
+        }
+    };
+    for (candidate, key) in CANDIDATES {
+        if candidate.mm().is_some_and(|mm| fits(mm / unit.mm)) {
+            finding = finding.hint(format!("`units = \"{key}\"` in the profile would fit"));
+        }
+    }
+    out.push(finding);
+}
