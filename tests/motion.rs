@@ -4,8 +4,8 @@ mod support;
 
 use cutc::geom::Point;
 use cutc::ir::list::Joint;
-use cutc::ir::toolpath::{End, Pose, Run, Shape, Step, Toolpath};
-use cutc::machine::{Fit, Follow, Job};
+use cutc::ir::toolpath::{End, Law, Pose, Run, Shape, Step, Toolpath};
+use cutc::machine::{Fit, Job};
 use cutc::plan;
 use cutc::source::Span;
 
@@ -24,7 +24,7 @@ fn toolpath(points: Vec<Point>, feed: f64) -> Toolpath {
         joints: vec![Joint::default(); points.len()],
         points,
         shape: Shape::Open,
-        law: Follow::Tangent,
+        law: Law::Tangent,
         front: 0.0,
         heel: 0.0,
         feed,

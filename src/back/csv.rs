@@ -14,13 +14,15 @@ pub(super) const TARGET: Target = Target {
     name: "csv",
     about: "timed setpoints of X, Y and C, a row a period",
     extension: "csv",
-    emit: Emit::Motion(Parts { head, body, tail }),
+    emit: Emit::Motion(PARTS),
     proof: Proof::Setpoints,
 };
 
+pub(super) const PARTS: Parts<Motion> = Parts { head, body, tail };
+
 /// Decimals of positions, in mm and degrees.
 const POSITION_DECIMALS: u32 = 6;
-/// Decimals of the time, in s: a microsecond, or a thousandth of the shortest legal period.
+/// Decimals of the time, in s: a hundredth of the shortest legal period.
 const TIME_DECIMALS: u32 = 6;
 
 fn head(_: &Context, out: &mut dyn Output) -> io::Result<()> {

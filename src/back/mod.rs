@@ -76,3 +76,6 @@ pub enum Proof {
 
 /// Every target; the first is the default.
 pub const TARGETS: &[Target] = &[csv::TARGET];
+
+/// The timed setpoints that are made to be judged when a target's own bytes are none.
+pub const SETPOINTS: Parts<Motion> = csv::PARTS;

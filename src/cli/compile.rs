@@ -1,6 +1,6 @@
 //! `cutc compile`: a cutter file to a machine program.
 
-use std::io::{self, BufWriter, Write as _};
+use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -10,10 +10,10 @@ use super::choices::{self, Format};
 use super::files::{self, Destination, Draft};
 use super::options::{Reading, counted};
 use super::{DONE, FAULTY, Finished, Stdout, USAGE, failure, provenance, report, say, summary};
-use crate::back::{Output, TARGETS, Target};
+use crate::back::{TARGETS, Target};
 use crate::diagnostic::{Diagnostics, Severity, render};
 use crate::machine::Job;
-use crate::pipeline::{self, Report};
+use crate::pipeline::{self, Compiled, Medium, Order};
 use crate::source::Source;
 
 /// Arguments of `cutc compile`.
@@ -36,6 +36,10 @@ pub(super) struct Arguments {
 
     #[command(flatten)]
     reading: Reading,
+
+    /// Do not read the program back and judge it; summary and provenance say so
+    #[arg(long)]
+    no_verify: bool,
 
     /// How to give the figures
     #[arg(long, value_enum, default_value = "text")]
@@ -104,11 +108,11 @@ impl Compile<'_> {
     fn to_stdout(&self) -> anyhow::Result<Finished> {
         let mut spool = SpooledTempFile::new(SPOOL_BYTES);
         let mut diagnostics = Diagnostics::default();
-        let report = self.emit(&mut spool, &mut diagnostics).map_err(|error| {
+        let compiled = self.emit(&mut spool, &mut diagnostics).map_err(|error| {
             failure(format!("cannot spool the program: {error}"), "make room for temporary files, or write to a file")
         })?;
-        let mut finished = self.finish(report.as_ref(), &diagnostics);
-        if report.is_some() {
+        let mut finished = self.finish(compiled.as_ref(), &diagnostics);
+        if compiled.is_some() {
             finished.stdout = Stdout::Program(spool);
         }
         Ok(finished)
@@ -131,39 +135,41 @@ impl Compile<'_> {
     }
 
     /// Writes the program and its provenance, both whole or not at all; `None` when the data has errors.
-    fn write(&self, path: &Path, diagnostics: &mut Diagnostics) -> anyhow::Result<Option<Report>> {
+    fn write(&self, path: &Path, diagnostics: &mut Diagnostics) -> anyhow::Result<Option<Compiled>> {
         let mut program = Draft::new(path)?;
-        let Some(report) = self.emit(program.file(), diagnostics).map_err(|error| files::cannot_write(path, &error))?
+        let Some(compiled) =
+            self.emit(program.file(), diagnostics).map_err(|error| files::cannot_write(path, &error))?
         else {
             return Ok(None);
         };
         let meta_path = files::meta(path);
         let mut meta = Draft::new(&meta_path)?;
-        let text = provenance::json(&self.source, &self.job, self.arguments.target);
+        let text = provenance::json(&self.source, &self.job, self.arguments.target, compiled.verdict.is_some());
         meta.file().write_all(text.as_bytes()).map_err(|error| files::cannot_write(&meta_path, &error))?;
         meta.publish()?;
         program.publish()?;
-        Ok(Some(report))
+        Ok(Some(compiled))
     }
 
-    /// Compiles into `out`, which is worth nothing unless a report comes back.
-    fn emit(&self, out: &mut impl Output, diagnostics: &mut Diagnostics) -> io::Result<Option<Report>> {
-        let mut out = BufWriter::new(out);
-        let Arguments { reading, target, .. } = self.arguments;
-        let report = pipeline::compile(&self.source, reading.from, &self.job, target, &mut out, diagnostics)?;
-        out.flush()?;
-        Ok(report.filter(|_| !diagnostics.has_errors()))
+    /// Compiles into `out`, which is worth nothing unless something comes back.
+    fn emit(&self, out: &mut dyn Medium, diagnostics: &mut Diagnostics) -> io::Result<Option<Compiled>> {
+        let Arguments { reading, target, no_verify, .. } = self.arguments;
+        let order = Order { from: reading.from, target, verify: !no_verify };
+        pipeline::compile(&self.source, &self.job, order, out, diagnostics)
     }
 
     /// What is said about the data and the program.
-    fn finish(&self, report: Option<&Report>, diagnostics: &Diagnostics) -> Finished {
+    fn finish(&self, compiled: Option<&Compiled>, diagnostics: &Diagnostics) -> Finished {
         let mut said = render(diagnostics, &self.source);
         let stdout = match self.arguments.format {
-            Format::Json => report::json(report, diagnostics, &self.source),
+            Format::Json => report::json(compiled.map(|c| &c.report), diagnostics, &self.source),
             Format::Text => String::new(),
         };
-        match (report, self.arguments.format) {
-            (Some(report), Format::Text) => said.push_str(&summary::text(report, self.source.name(), diagnostics)),
+        match (compiled, self.arguments.format) {
+            (Some(Compiled { report, verdict }), Format::Text) => {
+                said.push_str(&summary::text(report, self.source.name(), diagnostics));
+                said.push_str(&summary::verdict(verdict.as_ref()));
+            }
             (Some(_), Format::Json) => {}
             (None, Format::Text | Format::Json) => {
                 let errors = counted(diagnostics.count(Severity::Error), "error");
@@ -171,6 +177,6 @@ impl Compile<'_> {
                 say(&mut said, format_args!("{}: {errors}, {warnings}; no program was written", self.source.name()));
             }
         }
-        Finished::text(stdout, said, if report.is_some() { DONE } else { FAULTY })
+        Finished::text(stdout, said, if compiled.is_some() { DONE } else { FAULTY })
     }
 }

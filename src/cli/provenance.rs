@@ -39,10 +39,12 @@ struct Units {
 enum Verified {
     /// Not by this compile.
     No,
+    /// By this compile.
+    Yes,
 }
 
 /// The provenance of a program as JSON.
-pub(super) fn json(source: &Source, job: &Job, target: &Target) -> String {
+pub(super) fn json(source: &Source, job: &Job, target: &Target, verified: bool) -> String {
     let name = Path::new(source.name()).file_name().map(|name| name.to_string_lossy().into_owned());
     pretty(&Provenance {
         version: env!("CARGO_PKG_VERSION"),
@@ -52,6 +54,6 @@ pub(super) fn json(source: &Source, job: &Job, target: &Target) -> String {
         target: target.name,
         period_ms: job.profile.time.period_ms,
         units: Units { time: "s", length: "mm", angle: "deg" },
-        verified: Verified::No,
+        verified: if verified { Verified::Yes } else { Verified::No },
     })
 }

@@ -6,6 +6,7 @@ use super::options::counted;
 use crate::diagnostic::{Diagnostics, Severity};
 use crate::pipeline::{Axes, Peak, Peaks, Report};
 use crate::units::number::{exact, fixed};
+use crate::verify::Verdict;
 
 /// Seconds in a minute.
 const S_PER_MIN: f64 = 60.0;
@@ -47,6 +48,14 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
         peaks(&mut out, axes);
     }
     out
+}
+
+/// One line on what the program is worth.
+pub(super) fn verdict(verdict: Option<&Verdict>) -> String {
+    match verdict {
+        None => "\n  not verified (--no-verify)\n".to_owned(),
+        Some(verdict) => format!("\n  verified: all of {} hold\n", counted(verdict.findings.len(), "rule")),
+    }
 }
 
 /// A duration as people say it.

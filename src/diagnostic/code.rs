@@ -117,6 +117,10 @@ mod table {
     /// The samples break a limit.
     pub static PLAN_CERTIFY: Code = error("plan/certify", "The samples of a run break a limit of the profile however far it is slowed down.");
 
+    // Verification.
+    /// A rule does not hold.
+    pub static VERIFY_BROKEN: Code = error("verify/broken", "The program, read back, breaks a rule; the message names the rule, the worst value, the limit, the time and the place.");
+
     // Machine profile.
     /// The TOML is broken.
     pub static PROFILE_SYNTAX: Code = error("profile/syntax", "The profile is not valid TOML.");
@@ -168,6 +172,7 @@ pub static ALL: &[&Code] = &[
     &PLAN_SMOOTH,
     &PLAN_PROFILE,
     &PLAN_CERTIFY,
+    &VERIFY_BROKEN,
     &PROFILE_SYNTAX,
     &PROFILE_UNKNOWN_KEY,
     &PROFILE_TYPE,

@@ -5,7 +5,6 @@
 
 use super::list::Joint;
 use crate::geom::{Point, Rotation, Vector, polyline};
-use crate::machine::Follow;
 use crate::source::Span;
 
 /// Where the axes stand: the C axis over the table, and its position.
@@ -99,7 +98,7 @@ pub struct Run {
     /// How it begins and ends.
     pub shape: Shape,
     /// How the blade lies on curves.
-    pub law: Follow,
+    pub law: Law,
     /// How far the tip goes past the end, mm.
     pub front: f64,
     /// How far the tail starts before the start, mm; without meaning on a closed run.
@@ -130,6 +129,15 @@ impl Run {
         }
         points
     }
+}
+
+/// How the blade lies on a curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Law {
+    /// Tip on the path, blade along the tangent.
+    Tangent,
+    /// Tip and tail on the path: the blade is a chord of it.
+    Chord,
 }
 
 /// Whether a run closes on itself.

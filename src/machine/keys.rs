@@ -273,6 +273,12 @@ pub const KEYS: &[Key] = &[
     Key { name: "table.strict", takes: Takes::Flag, about: "Whether a program that leaves the table is an error, not only a warning." },
 
     Key { name: "time.period_ms", takes: Takes::Number(from(0.1, 100.0)), about: "Time between two setpoints: the cycle of the controller." },
+    Key { name: "verify.max_uncut_mm", takes: Takes::Number(from(0.0, 10.0)), about: "Longest stretch that may be left uncut: what the rounding of setpoints can leave." },
+    Key { name: "verify.max_heading_deg", takes: Takes::Number(from(0.01, 45.0)), about: "Greatest angle between the blade and its law while it cuts." },
+    Key { name: "verify.max_body_mm", takes: Takes::NumberOr(from(0.0, 1000.0), "off"), about: "Farthest that the blade's body may leave the path on curves." },
+    Key { name: "verify.max_overcut_part_mm", takes: Takes::NumberOr(from(0.0, 1000.0), "off"), about: "Farthest overcut into the part itself." },
+    Key { name: "verify.max_overcut_neighbour_mm", takes: Takes::NumberOr(from(0.0, 1000.0), "off"), about: "Farthest overcut into another part." },
+    Key { name: "verify.max_overcut_waste_mm", takes: Takes::NumberOr(from(0.0, 1000.0), "off"), about: "Farthest overcut into waste." },
 
     Key { name: "codes.<code>", takes: Takes::Word(&["use", "ignore"]), about: "A code of the cutter file to obey or to skip, as the USE/IGNORE switches of a cutter." },
 ];

@@ -421,16 +421,16 @@ pub struct Verify {
     /// Greatest angle between the blade and its law, degrees.
     pub max_heading_deg: f64,
     /// Farthest that the blade's body may leave the path on curves, mm.
-    #[serde(with = "word::off")]
+    #[serde(with = "OrWord::<Off>")]
     pub max_body_mm: Option<f64>,
     /// Farthest overcut into the part itself, mm.
-    #[serde(with = "word::off")]
+    #[serde(with = "OrWord::<Off>")]
     pub max_overcut_part_mm: Option<f64>,
     /// Farthest overcut into another part, mm.
-    #[serde(with = "word::off")]
+    #[serde(with = "OrWord::<Off>")]
     pub max_overcut_neighbour_mm: Option<f64>,
     /// Farthest overcut into waste, mm.
-    #[serde(with = "word::off")]
+    #[serde(with = "OrWord::<Off>")]
     pub max_overcut_waste_mm: Option<f64>,
 }
 

@@ -1,27 +1,35 @@
 //! The compiler, each stage named once, in order.
 
+mod judge;
+mod program;
 mod report;
 
+pub use judge::judge_program;
 pub use report::{Axes, Notches, Peak, Peaks, Program, Report};
 
-use std::io;
+use std::io::{self, BufWriter, Read, Seek, Write};
+use std::path::Path;
 
-use rayon::prelude::*;
+use tempfile::SpooledTempFile;
 
-use crate::back::{Context, Emit, Output, Target};
+use crate::back::{Context, Emit, Proof, SETPOINTS, Target};
 use crate::diagnostic::Diagnostics;
-use crate::front::Dialect;
-use crate::ir::motion::Kind;
-use crate::ir::{Marker, Motion, Toolpath, check, text};
+use crate::front::{self, Dialect};
+use crate::ir::{Finding, Marker, Toolpath, check, text};
 use crate::machine::Job;
 use crate::pass::marker::MARKER_PASSES;
 use crate::pass::toolpath::{TOOLPATH_PASSES, trace};
-use crate::plan::{self, Planner};
+use crate::plan;
 use crate::source::Source;
-use crate::units::MM_PER_M;
+use crate::verify::Verdict;
 
-/// Toolpaths that are planned at a time: enough to keep all cores busy, few enough to keep memory small.
-const WINDOW: usize = 128;
+/// Bytes of setpoints that are kept in memory when they are made only to be judged; more go to a temporary file.
+const SCRATCH_BYTES: usize = 64 << 20;
+
+/// Where a program is written, and read back from.
+pub trait Medium: Read + Write + Seek {}
+
+impl<T: Read + Write + Seek> Medium for T {}
 
 /// A file as read and passed: what is cut, in which order.
 #[derive(Debug)]
@@ -32,6 +40,26 @@ pub struct Input {
     pub marker: Marker,
 }
 
+/// What is asked of a compile beside the job.
+#[derive(Debug, Clone, Copy)]
+pub struct Order {
+    /// What the source is read as; `None` = what its content looks like.
+    pub from: Option<&'static Dialect>,
+    /// What is written.
+    pub target: &'static Target,
+    /// Whether the program is read back and judged.
+    pub verify: bool,
+}
+
+/// What a compile gives.
+#[derive(Debug)]
+pub struct Compiled {
+    /// The figures of the program.
+    pub report: Report,
+    /// What it is worth; `None` when nobody asked.
+    pub verdict: Option<Verdict>,
+}
+
 /// Reads a source as `from`, or as what its content looks like, and runs the marker passes. `None` when nothing can be
 /// read; faults of the data are diagnostics.
 pub fn read(
@@ -40,74 +68,101 @@ pub fn read(
     job: &Job,
     diagnostics: &mut Diagnostics,
 ) -> Option<Input> {
-    let dialect = from?;
+    read_until(source, from, job, None, diagnostics)
+}
+
+/// The same, up to and with the pass `last`; `None` = all.
+fn read_until(
+    source: &Source,
+    from: Option<&'static Dialect>,
+    job: &Job,
+    last: Option<&str>,
+    diagnostics: &mut Diagnostics,
+) -> Option<Input> {
+    let extension = Path::new(source.name()).extension().and_then(|e| e.to_str());
+    let dialect = from.or_else(|| front::detect(source, extension, diagnostics))?;
     let mut marker = (dialect.read)(source, job, diagnostics);
     for pass in MARKER_PASSES {
-        (pass.run)(&mut marker, job, diagnostics);
         if diagnostics.has_errors() {
             break;
         }
+        (pass.run)(&mut marker, job, diagnostics);
         assert_sound(pass.name, &check::marker(&marker));
+        if last == Some(pass.name) {
+            break;
+        }
     }
     Some(Input { dialect, marker })
 }
 
-/// Compiles a source to a target. `None` when the diagnostics hold errors: what `out` then holds must be thrown away.
+/// Compiles a source to a program in `out`, reads that back and judges it. `None` when the diagnostics hold errors: what
+/// `out` then holds must be thrown away.
 pub fn compile(
     source: &Source,
-    from: Option<&'static Dialect>,
     job: &Job,
-    target: &Target,
-    out: &mut dyn Output,
+    order: Order,
+    out: &mut dyn Medium,
     diagnostics: &mut Diagnostics,
-) -> io::Result<Option<Report>> {
-    let Some(Input { dialect, marker }) = read(source, from, job, diagnostics) else { return Ok(None) };
-    let mut report = Report::of(&marker, dialect.name);
+) -> io::Result<Option<Compiled>> {
+    let Some(Input { dialect, marker }) = read(source, order.from, job, diagnostics) else { return Ok(None) };
     if diagnostics.has_errors() {
         return Ok(None);
     }
+    let mut report = Report::of(&marker, dialect.name);
     let context = Context { job, marker: &marker };
-    match &target.emit {
-        Emit::Marker(emit) => emit(&context, out)?,
-        Emit::Toolpath(parts) => {
-            (parts.head)(&context, out)?;
-            for toolpath in toolpaths(&marker, job, diagnostics) {
-                (parts.body)(&toolpath, &context, out)?;
+    let toolpaths = match &order.target.emit {
+        Emit::Marker(_) if !order.verify => Vec::new(),
+        Emit::Marker(_) | Emit::Toolpath(_) | Emit::Motion(_) => toolpaths(&marker, job, diagnostics),
+    };
+    let mut verdict = None;
+    if let (Emit::Motion(parts), Proof::Setpoints) = (&order.target.emit, order.target.proof) {
+        report.program = program::write(&toolpaths, parts, &context, &mut *out, diagnostics)?;
+        if order.verify && !diagnostics.has_errors() {
+            verdict = Some(judge::judge(source, dialect, &context, out)?);
+        }
+    } else {
+        // The bytes are no setpoints: those are made beside them, to be judged, so that a picture can show the worst.
+        if order.verify {
+            let mut scratch = SpooledTempFile::new(SCRATCH_BYTES);
+            report.program = program::write(&toolpaths, &SETPOINTS, &context, &mut scratch, diagnostics)?;
+            if !diagnostics.has_errors() {
+                verdict = Some(judge::judge(source, dialect, &context, &mut scratch)?);
             }
-            (parts.tail)(&context, &[], out)?;
+        }
+        let findings = verdict.as_ref().map_or(&[][..], |verdict| &verdict.findings);
+        write(&order.target.emit, &toolpaths, findings, &context, &mut *out, diagnostics)?;
+    }
+    out.flush()?;
+    if let Some(verdict) = &verdict {
+        judge::report(verdict, &marker, diagnostics);
+    }
+    Ok((!diagnostics.has_errors()).then_some(Compiled { report, verdict }))
+}
+
+/// Writes a target that is no timed setpoints.
+fn write(
+    emit: &Emit,
+    toolpaths: &[Toolpath],
+    findings: &[Finding],
+    context: &Context,
+    out: &mut dyn Medium,
+    diagnostics: &mut Diagnostics,
+) -> io::Result<()> {
+    let mut out = BufWriter::new(out);
+    match emit {
+        Emit::Marker(emit) => emit(context, &mut out)?,
+        Emit::Toolpath(parts) => {
+            (parts.head)(context, &mut out)?;
+            for toolpath in toolpaths {
+                (parts.body)(toolpath, context, &mut out)?;
+            }
+            (parts.tail)(context, findings, &mut out)?;
         }
         Emit::Motion(parts) => {
-            (parts.head)(&context, out)?;
-            let mut tally = Tally::default();
-            let mut planner = Planner::new(job);
-            let steps = toolpaths(&marker, job, diagnostics);
-            for window in steps.chunks(WINDOW) {
-                let solved: Vec<_> = window.par_iter().map(|toolpath| plan::solve(toolpath, job)).collect();
-                for (toolpath, cuts) in window.iter().zip(solved) {
-                    match cuts {
-                        Err(refused) => refused.into_iter().for_each(|d| diagnostics.push(d)),
-                        Ok(cuts) => {
-                            let motion = planner.join(toolpath, cuts);
-                            tally.add(&motion);
-                            (parts.body)(&motion, &context, out)?;
-                        }
-                    }
-                }
-                if diagnostics.has_errors() {
-                    return Ok(None);
-                }
-            }
-            let end = planner.finish();
-            tally.add(&end);
-            (parts.body)(&end, &context, out)?;
-            (parts.tail)(&context, &[], out)?;
-            if let Err(diagnostic) = planner.certify() {
-                diagnostics.push(diagnostic);
-            }
-            report.program = tally.program(&planner, job);
+            program::write(toolpaths, parts, context, out.get_mut(), diagnostics)?;
         }
     }
-    Ok((!diagnostics.has_errors()).then_some(report))
+    out.flush()
 }
 
 /// The form after a pass, as text; `None` when no pass has that name or nothing could be read.
@@ -118,18 +173,17 @@ pub fn dump(
     pass: &str,
     diagnostics: &mut Diagnostics,
 ) -> Option<String> {
-    let dialect = from?;
-    let mut marker = (dialect.read)(source, job, diagnostics);
-    for marker_pass in MARKER_PASSES {
-        (marker_pass.run)(&mut marker, job, diagnostics);
-        if marker_pass.name == pass {
-            return Some(text::print_marker(&marker));
-        }
+    let input = read_until(source, from, job, Some(pass), diagnostics)?;
+    if MARKER_PASSES.iter().any(|marker_pass| marker_pass.name == pass) {
+        return Some(text::print_marker(&input.marker));
+    }
+    if diagnostics.has_errors() {
+        return None;
     }
     let last = TOOLPATH_PASSES.iter().position(|p| p.name == pass)?;
     let mut text = String::new();
     let mut pose = plan::home(job);
-    for mut toolpath in trace(&marker, job) {
+    for mut toolpath in trace(&input.marker, job) {
         toolpath.entry = pose;
         for toolpath_pass in &TOOLPATH_PASSES[..=last] {
             (toolpath_pass.run)(&mut toolpath, job, diagnostics);
@@ -158,45 +212,4 @@ fn toolpaths(marker: &Marker, job: &Job, diagnostics: &mut Diagnostics) -> Vec<T
 /// In tests and debug builds a pass that breaks an invariant is found at once.
 fn assert_sound(pass: &str, faults: &check::Faults) {
     debug_assert!(faults.is_empty(), "after pass {pass}: {faults:?}");
-}
-
-/// Counts what a program does.
-#[derive(Default)]
-struct Tally {
-    travel: f64,
-    plunges: usize,
-    stabs: usize,
-    lifts: usize,
-    ticks: u64,
-}
-
-impl Tally {
-    fn add(&mut self, motion: &Motion) {
-        self.ticks += motion.ticks();
-        let mut before = None;
-        for phase in &motion.phases {
-            match phase.kind {
-                Kind::Travel | Kind::Turn => self.travel += phase.length,
-                Kind::Plunge => self.plunges += 1,
-                Kind::Lift => {
-                    self.lifts += 1;
-                    self.stabs += usize::from(before == Some(Kind::Plunge));
-                }
-                Kind::Cut | Kind::Rest | Kind::Drill(_) | Kind::Event(_) => {}
-            }
-            before = Some(phase.kind);
-        }
-    }
-
-    fn program(&self, planner: &Planner, job: &Job) -> Program {
-        Program {
-            travel_m: Some(self.travel / MM_PER_M),
-            runs: Some(self.plunges),
-            stabs: Some(self.stabs),
-            lifts: Some(self.lifts),
-            // The last setpoint stands at the last tick, and rows count from tick 0.
-            time_s: Some((self.ticks - 1) as f64 * job.profile.time.period()),
-            axes: Some(Axes::new(&planner.peaks(), &job.profile.axes.limits())),
-        }
-    }
 }

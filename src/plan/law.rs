@@ -6,8 +6,7 @@
 //! c' = X / n, c'' = X' / n - X n' / n^2, c''' = X'' / n - 2 X' n' / n^2 - X n'' / n^2 + 2 X n'^2 / n^3.
 
 use super::smooth::Curve;
-use crate::geom::{Point, Vector};
-use crate::geom::{Rotation, angle, cross, spline};
+use crate::geom::{Point, Rotation, Vector, angle, cross, left, spline};
 use crate::ir::toolpath::Pose;
 
 /// Samples a span when a place or an angle is searched along the curve.
@@ -143,7 +142,7 @@ impl<'a> Way<'a> {
             return Axes { q: [[p.x, p.y, c[0]], [p1.x, p1.y, c[1]], [p2.x, p2.y, c[2]], [p3.x, p3.y, c[3]]], pace };
         }
         let e = Rotation(c[0]).unit();
-        let normal = crate::geom::left(e);
+        let normal = left(e);
         let r = self.radius;
         let q = p - e * r;
         let q1 = p1 - normal * (r * c[1]);

@@ -8,9 +8,9 @@ use super::smooth::smooth;
 use super::tube::Tube;
 use crate::diagnostic::{Diagnostic, code};
 use crate::geom::{Point, polyline};
-use crate::ir::toolpath::{Pose, Run, Shape};
+use crate::ir::toolpath::{Law, Pose, Run, Shape};
 use crate::machine::kinematics::Move;
-use crate::machine::{Follow, Job, Limits};
+use crate::machine::{Job, Limits};
 use crate::source::Span;
 use crate::units::number::fixed;
 
@@ -53,8 +53,8 @@ struct Extended {
 pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnostic> {
     let knife = &job.profile.knife;
     match run.law {
-        Follow::Tangent => {}
-        Follow::Chord => return Err(refuse(run, &code::PROFILE_UNSUPPORTED, "the chord law has no motion yet")),
+        Law::Tangent => {}
+        Law::Chord => return Err(refuse(run, &code::PROFILE_UNSUPPORTED, "the chord law has no motion yet")),
     }
     let bounds = Bounds { axes: job.profile.axes.limits(), feed: run.feed };
     let extended = extend(run);

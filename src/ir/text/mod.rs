@@ -47,8 +47,7 @@ pub use print::{print_marker, print_toolpath};
 pub use read::{ReadError, read_marker, read_toolpath};
 
 use super::list::Joint;
-use super::toolpath::{End, Event, Shape};
-use crate::machine::Follow;
+use super::toolpath::{End, Event, Law, Shape};
 
 /// Picks one flag of a joint.
 type Flag = fn(&mut Joint) -> &mut bool;
@@ -62,7 +61,7 @@ const JOINTS: [(&str, Flag); 3] = [
 
 const SHAPES: [(&str, Shape); 2] = [("open", Shape::Open), ("ring", Shape::Ring)];
 
-const LAWS: [(&str, Follow); 2] = [("tangent", Follow::Tangent), ("chord", Follow::Chord)];
+const LAWS: [(&str, Law); 2] = [("tangent", Law::Tangent), ("chord", Law::Chord)];
 
 const ENDS: [(&str, End); 4] = [
     ("path", End { corner: false, bare: false }),

@@ -101,8 +101,7 @@ mod tests {
     use super::*;
     use crate::geom::Point;
     use crate::ir::list::Joint;
-    use crate::ir::toolpath::Pose;
-    use crate::machine::Follow;
+    use crate::ir::toolpath::{Law, Pose};
     use crate::source::Span;
 
     fn ring(coordinates: &[(f64, f64)]) -> Run {
@@ -113,7 +112,7 @@ mod tests {
             joints: vec![Joint::default(); points.len()],
             points,
             shape: Shape::Ring,
-            law: Follow::Tangent,
+            law: Law::Tangent,
             front: 0.0,
             heel: 0.0,
             feed: 1.0,

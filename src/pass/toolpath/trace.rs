@@ -3,8 +3,8 @@
 use crate::ir::Marker;
 use crate::ir::list::Joint;
 use crate::ir::marker::{Contour, Notch, Piece};
-use crate::ir::toolpath::{Drill, End, Pose, Run, Shape, Step, Toolpath};
-use crate::machine::Job;
+use crate::ir::toolpath::{Drill, End, Law, Pose, Run, Shape, Step, Toolpath};
+use crate::machine::{Follow, Job};
 
 /// The raw toolpath of each drill, notch and contour, in cut order: a contour is one run, not yet split, without
 /// overlaps and without poses.
@@ -34,7 +34,9 @@ fn contour_run(marker: &Marker, contour: &Contour, job: &Job) -> Run {
         spans.push(segment.span);
         joints.push(segment.joint);
     }
-    joints.push(if contour.closed { joints[0] } else { Joint::default() });
+    // The end of a contour, closed or not, shares the joint of its first segment: there is no segment behind it.
+    joints
+        .push(Joint { no_overcut: joints[0].no_overcut, ..if contour.closed { joints[0] } else { Joint::default() } });
     let shape = if contour.closed { Shape::Ring } else { Shape::Open };
     Run { points: marker.points(contour), spans, joints, ..raw(shape, job) }
 }
@@ -45,7 +47,10 @@ fn raw(shape: Shape, job: &Job) -> Run {
         spans: Vec::new(),
         joints: Vec::new(),
         shape,
-        law: job.profile.knife.follow,
+        law: match job.profile.knife.follow {
+            Follow::Tangent => Law::Tangent,
+            Follow::Chord => Law::Chord,
+        },
         front: 0.0,
         heel: 0.0,
         feed: job.profile.knife.feed_mm_s.unwrap_or(f64::INFINITY),
