@@ -11,6 +11,9 @@ use crate::machine::{Fit, MachineProfile};
 /// Longest chord that counts as a chord of a curve, mm.
 const CURVE_CHORD: f64 = 25.0;
 
+/// Smaller turns are none, rad.
+const TURN_EPSILON: f64 = 1e-6;
+
 /// A stretch that is cut from one end to the other, mm.
 #[derive(Debug)]
 pub(super) struct Line {
@@ -126,11 +129,12 @@ fn line(segments: &[Segment], turns: &[f64], piece: usize, ring: bool, profile: 
 fn bulge(segment: &Segment, turns: &[f64], profile: &MachineProfile) -> Vector {
     let along = segment.to - segment.from;
     let length = along.norm();
-    let curved = turns[0] * turns[1] > 0.0 && turns.iter().all(|t| t.abs() < profile.corner.angle());
+    let is_turn = |turn: &f64| turn.abs() > TURN_EPSILON && turn.abs() < profile.corner.angle();
+    let curved = turns[0] * turns[1] > 0.0 && turns.iter().all(is_turn);
     if profile.path.fit == Fit::Polygon || !curved || length > CURVE_CHORD {
         return Vector::zeros();
     }
-    let mean = (turns[0] + turns[1]) / 2.0;
+    let mean = f64::midpoint(turns[0], turns[1]);
     let sagitta = (length * mean.abs() / 8.0).min(profile.path.chord_sag_max_mm);
     left(along) * (-mean.signum() * sagitta / length)
 }

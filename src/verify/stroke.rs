@@ -82,6 +82,8 @@ struct Cut {
     points: Vec<Point>,
     /// Number of places of the body.
     body: usize,
+    /// The row of each place of the tip.
+    rows: Vec<usize>,
 }
 
 impl<'a> Judge<'a> {
@@ -135,7 +137,7 @@ impl<'a> Judge<'a> {
             self.candidates(&cut).into_iter().map(|(line, chord, at)| self.follow(&cut, line, chord, at, coverage));
         let best = trial.max_by(|a, b| a.fresh.total_cmp(&b.fresh).then(b.worst.0.total_cmp(&a.worst.0)));
         let seen = |i: usize| {
-            let row = &rows[i.saturating_sub(cut.body).min(rows.len() - 1)];
+            let row = &rows[cut.rows[i.saturating_sub(cut.body)]];
             at(row.t, cut.points[i], row.block)
         };
         let Some(best) = best else {
@@ -160,10 +162,10 @@ impl<'a> Judge<'a> {
         let tail = rows[0].centre - rows[0].along() * self.knife.back();
         let body = (0..steps).map(|i| tail + (tips[0] - tail) * (i as f64 / steps as f64));
         let mut points: Vec<Point> = body.collect();
-        let mut last = None;
         // Rest rows repeat their place; a track of places that differ is enough.
-        points.extend(tips.iter().copied().filter(|tip| last.replace(*tip) != Some(*tip)));
-        Cut { points, body: steps }
+        let moves: Vec<usize> = (0..tips.len()).filter(|&i| i == 0 || tips[i] != tips[i - 1]).collect();
+        points.extend(moves.iter().map(|&i| tips[i]));
+        Cut { points, body: steps, rows: moves }
     }
 
     /// Lines that pass near the stroke: line, chord, and the place of the cut that is near it.
