@@ -30,7 +30,7 @@ use crate::source::Source;
 pub(super) const DIALECT: Dialect = Dialect {
     name: "iso",
     about: "ISO cut file of garment CAD: blocks that end in `*`, M14/M15 for the knife",
-    extensions: &["cut", "iso", "ggt", "nc", "gbr", "cnc"],
+    extensions: &["cut", "iso", "ggt", "nc"],
     sniff,
     syntax: check_syntax,
     read,
