@@ -23,11 +23,14 @@ pub(super) const DIALECT: Dialect = Dialect {
 
 const HEADER: &[u8] = b"x_mm,y_mm";
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+/// Bytes of a file in which its first row is looked for.
+const SNIFFED_BYTES: usize = 4096;
 /// Largest coordinate, mm: a kilometre, far beyond any table.
 const VALUE_MAX: f64 = 1e6;
 
 fn sniff(bytes: &[u8]) -> Likeness {
     let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
+    let bytes = &bytes[..bytes.len().min(SNIFFED_BYTES)];
     let Some(line) = bytes.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).find(|line| !line.is_empty()) else {
         return Likeness::No;
     };
@@ -72,7 +75,7 @@ fn rows(source: &Source, out: &mut Diagnostics) -> Vec<(Row, Span)> {
                 let finding = Diagnostic::new(&code::CSV_HEADER, "the first row is not `x_mm,y_mm`").at(span);
                 out.push(finding.hint("write the header `x_mm,y_mm`, and the numbers in mm"));
                 // A header of other words is one fault, not two.
-                if line.iter().any(|byte| byte.is_ascii_alphabetic()) {
+                if line.iter().any(u8::is_ascii_alphabetic) {
                     continue;
                 }
             }
@@ -109,11 +112,14 @@ fn point(line: &[u8], span: Span) -> Result<Point, Diagnostic> {
 
 /// `<number>`: a decimal number, with an exponent or without.
 fn number(field: &[u8], span: Span) -> Result<f64, Diagnostic> {
-    let fault = |message: String| Diagnostic::new(&code::CSV_ROW, message).at(span);
+    let fault = |message: String| {
+        Diagnostic::new(&code::CSV_ROW, message).at(span).hint("write a finite decimal number, such as -12.5")
+    };
     let shown = String::from_utf8_lossy(&field[..field.len().min(20)]).into_owned();
     let digits = field.iter().all(|byte| byte.is_ascii_digit() || b"+-.eE".contains(byte));
     let value = std::str::from_utf8(field).ok().filter(|_| digits).and_then(|text| text.parse::<f64>().ok());
     match value {
+        None if field.is_empty() => Err(fault("a coordinate is missing".to_owned())),
         None => Err(fault(format!("`{shown}` is not a decimal number"))),
         Some(value) if value.abs() > VALUE_MAX => Err(fault(format!("`{shown}` is beyond {VALUE_MAX:.0} mm"))),
         // The negative of zero is another bit pattern than zero, though the same place.
@@ -130,10 +136,14 @@ fn read(source: &Source, _: &Job, out: &mut Diagnostics) -> Marker {
     if foreign::refuse(source, out) {
         return marker;
     }
-    let rows = rows(source, out);
+    let mut faults = Diagnostics::default();
+    let rows = rows(source, &mut faults);
+    // A contour whose rows are at fault may look shorter than it is.
+    let mut short = Diagnostics::default();
     for polyline in rows.split(|(row, _)| matches!(row, Row::Blank)) {
-        add(&mut marker, polyline, out);
+        add(&mut marker, polyline, &mut short);
     }
+    out.extend(if faults.has_errors() { faults } else { short });
     if marker.pieces.is_empty() && !out.has_errors() {
         out.push(Diagnostic::new(&code::CSV_NOTHING_TO_CUT, "the file holds no contour"));
     }

@@ -20,6 +20,9 @@ pub struct Segment {
 }
 
 /// What the file asks for at the joint where a segment starts.
+///
+/// The joint of a contour's first segment speaks for both of its ends, open or closed: `full_advance` for the plunge at
+/// the start, `no_overcut` for the lift at the end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Joint {
     /// The knife is lifted here whatever the angle (a lift that the file writes, or M46).

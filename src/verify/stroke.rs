@@ -337,7 +337,8 @@ impl Trial {
 fn plunge_sag(line: &Line, feet: &[Foot], width: f64) -> f64 {
     let stations = feet.iter().map(|f| f.station);
     let (low, high) = (stations.clone().fold(f64::INFINITY, f64::min), stations.fold(0.0, f64::max));
-    let (first, last) = (line.chord_at(low), line.chord_at(high));
+    // The chord that is being left counts, too: a curve turns along its chords, not at its vertices.
+    let (first, last) = (line.chord_at(low), (line.chord_at(high) + 1).min(line.chords() - 1));
     let turned: f64 =
         (first..last).map(|chord| angle::turn(line.direction(chord), line.direction(chord + 1)).abs()).sum();
     width * turned / 8.0

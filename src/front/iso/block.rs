@@ -2,7 +2,7 @@
 
 use nom::Err;
 
-use super::syntax::{self, Fault, FaultKind, Words};
+use super::syntax::{self, Fault, FaultKind, Point, Words};
 use crate::diagnostic::{Diagnostic, code};
 use crate::source::Span;
 
@@ -13,6 +13,9 @@ pub(super) struct Blocks<'a> {
     at: usize,
     number: u32,
     ended: bool,
+    /// Room for the block that is read, without its blanks, and for the offsets of its bytes.
+    text: Vec<u8>,
+    origins: Vec<usize>,
 }
 
 /// A block that is not text.
@@ -35,7 +38,7 @@ impl<'a> Blocks<'a> {
     /// Starts before the first block.
     pub(super) fn new(bytes: &'a [u8]) -> Self {
         let at = if bytes.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 };
-        Self { bytes, at, number: 0, ended: true }
+        Self { bytes, at, number: 0, ended: true, text: Vec::new(), origins: Vec::new() }
     }
 
     /// Offset of the next byte to read.
@@ -63,6 +66,19 @@ impl<'a> Blocks<'a> {
         self.next_with_blanks()
     }
 
+    /// The next block if it is a point alone, as nearly all are; otherwise it stays the next one. Reads what [`Self::next`]
+    /// reads, without making room for codes and faults.
+    pub(super) fn next_point(&mut self) -> Option<(Point, Span)> {
+        self.skip_blanks();
+        let (after, point) = syntax::point(self.bytes.get(self.at..)?).ok()?;
+        let (b'*', after) = after.split_first()? else { return None };
+        let end = self.bytes.len() - after.len();
+        self.number += 1;
+        let span = Span { start: self.at as u32, end: end as u32 - 1, block: self.number };
+        self.at = end;
+        Some((point, span))
+    }
+
     /// The next block as text; `None` at the end of the file.
     pub(super) fn next_text(&mut self) -> Option<Span> {
         self.skip_blanks();
@@ -85,8 +101,9 @@ impl<'a> Blocks<'a> {
 
     /// The next block, copied without blanks and deleted passages.
     fn next_with_blanks(&mut self) -> Option<Block> {
-        let mut text = Vec::new();
-        let mut origins = Vec::new();
+        let (mut text, mut origins) = (std::mem::take(&mut self.text), std::mem::take(&mut self.origins));
+        text.clear();
+        origins.clear();
         let mut end = self.bytes.len();
         let mut asterisks = 0;
         let mut unclosed = None;
@@ -135,6 +152,7 @@ impl<'a> Blocks<'a> {
             }
             (None, Err(Err::Incomplete(_))) => Err(self.fault_at(end, block, "the block is cut short")),
         };
+        (self.text, self.origins) = (text, origins);
         Some(Block { span, words })
     }
 

@@ -6,13 +6,13 @@
 use std::collections::HashMap;
 
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::Point;
+use crate::geom::{Extent, Point};
 use crate::ir::list::{Joint, Segment, SegmentList};
 use crate::ir::marker::{Contour, Drill, Label, Marker, Notch, NotchKind, Piece};
 use crate::source::Span;
 
 /// Follows the knife and makes the marker.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Knife {
     state: State,
     /// Where the knife is, mm.
@@ -33,6 +33,7 @@ pub(super) struct Knife {
     deferred: Option<(Option<u32>, Span)>,
     pieces: Vec<Piece>,
     list: SegmentList,
+    extent: Extent,
 }
 
 #[derive(Debug, Default)]
@@ -83,6 +84,25 @@ fn key(at: Point) -> [u64; 2] {
 }
 
 impl Knife {
+    /// Up, at the origin.
+    pub(super) fn new() -> Self {
+        Self {
+            state: State::Up,
+            at: Point::origin(),
+            advance: false,
+            no_overcut: false,
+            corner_lift: false,
+            chains: Vec::new(),
+            open: HashMap::new(),
+            current: None,
+            waiting: Piece::default(),
+            deferred: None,
+            pieces: Vec::new(),
+            list: SegmentList::default(),
+            extent: Extent::EMPTY,
+        }
+    }
+
     /// Whether it is down.
     pub(super) fn is_down(&self) -> bool {
         !matches!(self.state, State::Up)
@@ -131,9 +151,8 @@ impl Knife {
                 out.push(Diagnostic::new(&code::ISO_KNIFE_DOWN_TWICE, "the knife is down already").at(span));
                 return;
             }
-            State::Slit { span: slit, .. } => {
-                let message = format!("the slit that begins in block {} has no M15 before this knife-down", slit.block);
-                out.push(Diagnostic::new(&code::ISO_OPEN_SLIT, message).at(span));
+            State::Slit { .. } => {
+                self.report_open_slit("this knife-down", span, out);
                 self.end_slit();
             }
         }
@@ -172,7 +191,7 @@ impl Knife {
         }
         self.corner_lift = false;
         if let Some((number, span)) = self.deferred.take() {
-            self.begin_piece(number, span);
+            self.start_piece(number, span);
         }
     }
 
@@ -203,6 +222,13 @@ impl Knife {
         };
         let root = Vertex { at: self.at, span, joint: Joint::default() };
         self.state = State::Slit { points: vec![root], piece, span };
+    }
+
+    fn report_open_slit(&self, before: &str, at: Span, out: &mut Diagnostics) {
+        if let State::Slit { span, .. } = &self.state {
+            let message = format!("the slit that begins in block {} has no M15 before {before}", span.block);
+            out.push(Diagnostic::new(&code::ISO_OPEN_SLIT, message).at(at));
+        }
     }
 
     /// Ends a slit: a straight one is a notch, any other an open contour.
@@ -275,11 +301,22 @@ impl Knife {
     }
 
     /// N. With the knife down it takes effect at the next lift: controllers insert some.
-    pub(super) fn begin_piece(&mut self, number: Option<u32>, span: Span) {
-        if self.is_down() {
-            self.deferred = Some((number, span));
-            return;
+    pub(super) fn begin_piece(&mut self, number: Option<u32>, span: Span, out: &mut Diagnostics) {
+        match &self.state {
+            State::Up => {}
+            State::Plunged { .. } | State::Cutting(_) => {
+                self.deferred = Some((number, span));
+                return;
+            }
+            State::Slit { .. } => {
+                self.report_open_slit("this piece", span, out);
+                self.end_slit();
+            }
         }
+        self.start_piece(number, span);
+    }
+
+    fn start_piece(&mut self, number: Option<u32>, span: Span) {
         (self.advance, self.no_overcut) = (false, false);
         self.finish_chains();
         let waiting = std::mem::take(&mut self.waiting);
@@ -295,6 +332,9 @@ impl Knife {
             for chain in self.chains.iter_mut().filter(|chain| chain.slit == slit && !chain.is_point()) {
                 // The joint of the first segment speaks for the plunge at the start and for the lift at the end.
                 chain.vertices[0].joint.no_overcut |= chain.no_overcut;
+                for vertex in &chain.vertices {
+                    self.extent.add(vertex.at);
+                }
                 let (first, last) = chain.ends();
                 let segments = chain.vertices.windows(2).map(|pair| Segment {
                     from: pair[0].at,
@@ -310,14 +350,12 @@ impl Knife {
         self.chains.clear();
     }
 
-    /// The end of the file: what was cut.
-    pub(super) fn finish(mut self, last: Span, out: &mut Diagnostics) -> Marker {
+    /// The end of the file: what was cut, and the box around it. (The box that a marker can give of itself would cost
+    /// another walk over all segments.)
+    pub(super) fn finish(mut self, last: Span, out: &mut Diagnostics) -> (Marker, Extent) {
         match &self.state {
             State::Up => {}
-            State::Slit { span, .. } => {
-                let message = "the slit that begins here has no M15 before the file ends";
-                out.push(Diagnostic::new(&code::ISO_OPEN_SLIT, message).at(*span));
-            }
+            State::Slit { .. } => self.report_open_slit("the end of the file", last, out),
             State::Plunged { .. } | State::Cutting(_) => {
                 let message = "the knife is down where the file ends";
                 let finding = Diagnostic::new(&code::ISO_ENDS_KNIFE_DOWN, message).at(last);
@@ -337,7 +375,11 @@ impl Knife {
             }
         }
         self.finish_chains();
-        Marker { list: self.list, pieces: with_something_to_cut(self.pieces), unit: 0.0 }
+        for piece in &self.pieces {
+            piece.notches.iter().flat_map(|notch| [notch.root, notch.tip]).for_each(|at| self.extent.add(at));
+            piece.drills.iter().for_each(|drill| self.extent.add(drill.at));
+        }
+        (Marker { list: self.list, pieces: with_something_to_cut(self.pieces), unit: 0.0 }, self.extent)
     }
 }
 

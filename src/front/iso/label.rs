@@ -14,7 +14,7 @@ use crate::source::Span;
 
 /// What follows M31.
 #[derive(Debug, PartialEq)]
-pub(super) struct Text {
+pub(super) struct Layout {
     /// Where it stands, in the file's numbers; `None` when the file gives no place.
     pub(super) at: Option<Point>,
     /// The text; `None` when the file ends before it.
@@ -24,14 +24,14 @@ pub(super) struct Text {
 }
 
 /// Reads the blocks that belong to an M31 whose own block holds `point`.
-pub(super) fn read(blocks: &mut Blocks<'_>, point: Option<Point>) -> Text {
+pub(super) fn read(blocks: &mut Blocks<'_>, point: Option<Point>) -> Layout {
     let Some(at) = point else {
         let at = next_if(blocks, |words| words.codes.is_empty() && is_place(words));
-        return Text { at, text: blocks.next_text(), second: None };
+        return Layout { at, text: blocks.next_text(), second: None };
     };
     let text = blocks.next_text();
     let second = mirrored(blocks);
-    Text { at: Some(at), text, second }
+    Layout { at: Some(at), text, second }
 }
 
 /// The mirrored text and the second point of the fourth layout. A text may look like codes, and codes like text, so all

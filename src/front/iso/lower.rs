@@ -23,7 +23,7 @@ pub(super) fn lower(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker
         source,
         job,
         blocks: Blocks::new(source.bytes()),
-        knife: Knife::default(),
+        knife: Knife::new(),
         unit: Unit::new(job.profile.units),
         place: [None, None],
         fresh: false,
@@ -69,14 +69,14 @@ impl Lowering<'_> {
     fn run(&mut self) -> Span {
         let mut ended = false;
         let mut last = Span::default();
-        while let Some(block) = self.blocks.next() {
+        loop {
+            while let Some((point, span)) = self.blocks.next_point() {
+                last = span;
+                self.go(point, span);
+            }
+            let Some(block) = self.blocks.next() else { break };
             last = block.span;
             match block.words {
-                Ok(words) if words.codes.is_empty() => {
-                    if let Some(point) = words.point {
-                        self.go(point, block.span);
-                    }
-                }
                 Ok(words) => {
                     if self.obey(&words, block.span).is_break() {
                         ended = true;
@@ -99,16 +99,15 @@ impl Lowering<'_> {
     /// What was read, judged as a whole.
     fn finish(mut self, last: Span) -> Marker {
         self.settle_second_point();
-        let mut marker = self.knife.finish(last, self.out);
+        let (mut marker, extent) = self.knife.finish(last, self.out);
         marker.unit = self.unit.mm();
-        let extent = marker.extent();
         if let Some((code, size, span)) = self.bite
             && size * self.unit.mm() < extent.max.x
         {
             self.tally.ignore(code, "bite size", span);
         }
         self.tally.report(self.out);
-        if marker.pieces.is_empty() {
+        if marker.pieces.is_empty() && !self.out.has_errors() {
             self.out.push(Diagnostic::new(&code::ISO_NOTHING_TO_CUT, "the file holds no contour, slit or drill"));
         }
         check_plausible(&self.unit, &extent, self.title.as_ref(), self.out);
@@ -171,7 +170,7 @@ impl Lowering<'_> {
                 Meaning::Piece => {
                     self.settle_second_point();
                     self.awaiting = None;
-                    self.knife.begin_piece(code.number.map(|number| number as u32), span);
+                    self.knife.begin_piece(code.number.map(|number| number as u32), span, self.out);
                 }
                 Meaning::Unit(unit) => self.unit.set(unit, span, self.out),
                 Meaning::Drill(tool) => at_place = Some(tool),
@@ -337,4 +336,60 @@ fn last_cut(mut blocks: Blocks<'_>) -> usize {
         }
     }
     last
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::FileUnit;
+    use crate::machine::profile::CodeUse;
+
+    const SQUARE: &str = "H1*G71*M15*N1*X0Y0*M14*X1000Y0*X1000Y1000*M19*X900Y900*M15*X1000Y1000*M14*X0Y0*M15*M0*";
+
+    /// Reads with a profile; gives the marker and the codes of what was found.
+    fn check(text: &str, edit: impl Fn(&mut Job), found: &[&str]) -> Marker {
+        let source = Source::new("a", text.as_bytes().to_vec()).expect("small");
+        let mut job = Job::default();
+        edit(&mut job);
+        let mut out = Diagnostics::default();
+        let marker = lower(&source, &job, &mut out);
+        let codes: Vec<&str> = out.iter().map(|diagnostic| diagnostic.code.name).collect();
+        assert_eq!(codes, found, "{text}");
+        marker
+    }
+
+    #[test]
+    fn the_profile_overrides_the_unit_of_the_file() {
+        let marker = check(SQUARE, |job| job.profile.units = FileUnit::HundredthInch, &[]);
+        assert_eq!(marker.extent().size(), (1000.0 * 0.254, 1000.0 * 0.254));
+        assert_eq!(marker.unit.to_bits(), 0.254_f64.to_bits());
+    }
+
+    #[test]
+    fn a_code_that_the_profile_ignores_is_skipped_in_silence() {
+        let ignore =
+            |name: &'static str| move |job: &mut Job| _ = job.profile.codes.insert(name.to_owned(), CodeUse::Ignore);
+        assert_eq!(check(SQUARE, ignore("M19"), &[]).pieces[0].notches.len(), 0);
+        assert_eq!(check(SQUARE, |_| {}, &[]).pieces[0].notches.len(), 1);
+        check("H1*F30*F40*X0Y0*M14*X500Y0*M15*M0*", |_| {}, &["iso/ignored-code"]);
+        check("H1*F30*F40*X0Y0*M14*X500Y0*M15*M0*", ignore("F"), &[]);
+    }
+
+    #[test]
+    fn equal_points_of_the_file_are_equal_to_the_bit() {
+        let marker = check("X3Y-0*M14*X1003Y7*X+3.0Y0*M15*M0*", |_| {}, &[]);
+        assert!(marker.pieces[0].contours[0].closed);
+    }
+
+    #[test]
+    fn a_closed_contour_is_never_rejoined() {
+        let twice = "G71*X0Y0*M14*X900Y0*X0Y900*X0Y0*M15*M14*X-900Y0*X0Y-900*X0Y0*M15*M0*";
+        assert_eq!(check(twice, |_| {}, &[]).contours().count(), 2);
+    }
+
+    #[test]
+    fn a_bite_longer_than_the_marker_changes_nothing() {
+        check("H1*ZX984251*X0Y0*M14*X500Y0*M15*M0*", |_| {}, &[]);
+        check("H1*ZX400*X0Y0*M14*X500Y0*M15*M0*", |_| {}, &["iso/ignored-code"]);
+    }
 }

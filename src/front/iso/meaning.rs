@@ -98,9 +98,15 @@ fn m_code(number: u32) -> Meaning {
     }
 }
 
+/// The code without its number where that is a value and not a part of the name.
+pub(super) fn kind(code: Code) -> Code {
+    let number = if matches!(code.letter, b'F' | b'H' | b'N' | b'Z') { None } else { code.number };
+    Code { number, ..code }
+}
+
 /// The code as the profile and messages name it: without leading zeros.
 pub(super) fn name(code: Code) -> String {
-    match code.number {
+    match kind(code).number {
         None => char::from(code.letter).to_string(),
         Some(number) => format!("{}{number}", char::from(code.letter)),
     }
@@ -119,5 +125,6 @@ mod tests {
         assert_eq!(of(b'M', Some(45.0)), of(b'M', Some(72.0)));
         assert_eq!(of(b'M', Some(14.5)), Meaning::Unknown);
         assert_eq!(name(Code { letter: b'M', number: Some(0.0) }), "M0");
+        assert_eq!(name(Code { letter: b'F', number: Some(12.0) }), "F");
     }
 }

@@ -6,7 +6,7 @@
 //! Codes that are not obeyed are reported with their count. Never closes a contour that the file leaves open, and never
 //! recognises a notch by its shape: that is for the passes.
 //!
-//! [`block`] cuts the bytes into blocks, [`syntax`] is the grammar of one, [`meaning`] the table of codes, [`label`] the
+//! [`block`] cuts the bytes into blocks, [`syntax`] is the grammar of one, [`mod@meaning`] the table of codes, [`label`] the
 //! layouts of text; [`lower`] follows the file and [`knife`] gathers what it cuts.
 
 mod block;
@@ -30,7 +30,7 @@ use crate::source::Source;
 pub(super) const DIALECT: Dialect = Dialect {
     name: "iso",
     about: "ISO cut file of garment CAD: blocks that end in `*`, M14/M15 for the knife",
-    extensions: &["cut", "iso", "ggt", "nc", "gbr", "cnc"],
+    extensions: &["cut", "iso", "ggt", "nc"],
     sniff,
     syntax: check_syntax,
     read,

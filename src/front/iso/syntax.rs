@@ -116,7 +116,7 @@ fn code(i: &[u8]) -> Out<'_, Code> {
 }
 
 /// `<point>`
-fn point(mut i: &[u8]) -> Out<'_, Point> {
+pub(super) fn point(mut i: &[u8]) -> Out<'_, Point> {
     let mut point = Point::default();
     let start = i.len();
     while let Some((&letter, rest)) = i.split_first() {
@@ -150,7 +150,7 @@ fn number(i: &[u8]) -> Out<'_, f64> {
         _ => (false, i),
     };
     let (mut rest, whole) = digits(unsigned)?;
-    let mut mantissa = whole.iter().fold(0, append_digit);
+    let mantissa = append(0, whole);
     let mut magnitude = mantissa as f64;
     if let Some((b'.', after)) = rest.split_first() {
         rest = after;
@@ -158,8 +158,7 @@ fn number(i: &[u8]) -> Out<'_, f64> {
             rest = after;
             // One division of two exact integers: the nearest number to what is written.
             let kept = &decimals[..decimals.len().min(MOST_DECIMALS)];
-            mantissa = kept.iter().fold(mantissa, append_digit);
-            magnitude = mantissa as f64 / 10_f64.powi(kept.len() as i32);
+            magnitude = append(mantissa, kept) as f64 / POWERS_OF_TEN[kept.len()];
         }
     }
     if magnitude > VALUE_MAX {
@@ -171,10 +170,11 @@ fn number(i: &[u8]) -> Out<'_, f64> {
 
 /// Decimals that count: with nine digits before them, all are exact in `f64`.
 const MOST_DECIMALS: usize = 6;
+const POWERS_OF_TEN: [f64; MOST_DECIMALS + 1] = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6];
 
-/// Saturates: what is too large stays too large.
-fn append_digit(value: u64, digit: &u8) -> u64 {
-    value.saturating_mul(10).saturating_add(u64::from(digit - b'0'))
+/// The number whose digits are those of `value` and then `digits`. Saturates: what is too large stays too large.
+fn append(value: u64, digits: &[u8]) -> u64 {
+    digits.iter().fold(value, |value, digit| value.saturating_mul(10).saturating_add(u64::from(digit - b'0')))
 }
 
 /// `<digits>`

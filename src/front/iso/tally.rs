@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::meaning::name;
+use super::meaning::{kind, name};
 use super::syntax::Code;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::source::Span;
@@ -35,6 +35,7 @@ impl Tally {
     }
 
     fn add(&mut self, code: Code, what: Option<&'static str>, first: Span) {
+        let code = kind(code);
         let key = (code.letter, code.number.map(f64::to_bits));
         self.codes.entry(key).or_insert(Entry { code, what, first, count: 0 }).count += 1;
     }
