@@ -1,0 +1,119 @@
+//! The layer of findings: a ring around the worst place under each rule, and the table that explains the rings.
+
+use std::fmt::Write;
+
+use super::knife::symbol_width;
+use super::markup::{PathData, escape, mm};
+use super::sheet::Sheet;
+use crate::geom::{Point, Vector};
+use crate::ir::Finding;
+use crate::machine::Knife;
+use crate::units::MM_PER_M;
+use crate::units::number::fixed;
+
+/// Radii of rings, nominal pixels.
+const FAILS_RADIUS_PX: f64 = 13.0;
+const HOLDS_RADIUS_PX: f64 = 8.0;
+/// Height of a ring's letter, nominal pixels.
+const LETTER_PX: f64 = 13.0;
+/// Radius of the cross that shows the place itself, in blade widths.
+const CROSS_RADIUS: f64 = 0.15;
+
+/// The name of the n-th finding: a letter, so that nobody takes it for a piece. A to Z, then AA to AZ, and so on.
+fn letter(n: usize) -> String {
+    let last = char::from(b'A' + (n % 26) as u8);
+    if n < 26 { last.to_string() } else { letter(n / 26 - 1) + &last.to_string() }
+}
+
+/// The layer, in the coordinates of the sheet (Y down).
+pub(super) fn layer(findings: &[Finding], sheet: &Sheet, knife: &Knife) -> String {
+    if findings.is_empty() {
+        return String::new();
+    }
+    let mut text = String::from("<g id=\"findings\" inkscape:groupmode=\"layer\" inkscape:label=\"findings\">\n");
+    let mut lettered: Vec<Point> = Vec::new();
+    // What holds is drawn first: what fails lies on top.
+    for fails in [false, true] {
+        for (n, finding) in findings.iter().enumerate().filter(|(_, f)| f.holds() != fails) {
+            let Some(sighting) = finding.place else { continue };
+            let at = Point::new(sighting.point.x, -sighting.point.y);
+            if !(at.x.is_finite() && at.y.is_finite()) {
+                continue;
+            }
+            let radius = sheet.px * if fails { FAILS_RADIUS_PX } else { HOLDS_RADIUS_PX };
+            let class = if fails { "fails" } else { "holds" };
+            let mut data = PathData::default();
+            data.circle(at, radius);
+            let arm = CROSS_RADIUS * symbol_width(knife);
+            for arm in [Vector::new(arm, arm), Vector::new(arm, -arm)] {
+                data.line([at - arm, at + arm]);
+            }
+            // Letters at one place stand one beside the other.
+            let beside = lettered.iter().filter(|other| (**other - at).norm() < 2.0 * radius).count();
+            lettered.push(at);
+            let shift = radius + sheet.px * (2.0 + LETTER_PX * beside as f64);
+            let _infallible = write!(
+                text,
+                "<g><title>{}</title>\n{}<text class=\"{class}-text\" x=\"{}\" y=\"{}\" font-size=\"{}\">{}</text></g>\n",
+                escape(&sentence(n, finding)),
+                data.element(class),
+                mm(at.x + shift),
+                mm(at.y - radius / 2.0),
+                mm(LETTER_PX * sheet.px),
+                letter(n)
+            );
+        }
+    }
+    text.push_str("</g>\n");
+    text
+}
+
+/// What was found, in a line: letter, rule, values, place.
+pub(super) fn sentence(n: usize, finding: &Finding) -> String {
+    let unit = if finding.unit.is_empty() { String::new() } else { format!(" {}", finding.unit) };
+    let value = |value: f64| format!("{}{unit}", shown(value));
+    let verdict = match finding.limit {
+        None => format!("{} (no limit)", value(finding.worst)),
+        Some(limit) if finding.holds() => format!("{}, limit {}: holds", value(finding.worst), value(limit)),
+        Some(limit) => format!("{}, limit {}: FAILS", value(finding.worst), value(limit)),
+    };
+    let mut text = format!("{}  {}  {verdict}", letter(n), finding.rule);
+    if let Some(place) = finding.place {
+        let _infallible = write!(text, ", at X {} Y {} mm", fixed(place.point.x, 2), fixed(place.point.y, 2));
+        if let Some(time) = place.time {
+            let _infallible = write!(text, ", {} s", fixed(time, 3));
+        }
+        if place.block > 0 {
+            let _infallible = write!(text, ", block {}", place.block);
+        }
+    }
+    text
+}
+
+/// A value with as many decimals as its size deserves: limits reach from micrometres to jerks of 1e6.
+fn shown(value: f64) -> String {
+    let decimals = match value.abs() {
+        size if size == 0.0 || size >= MM_PER_M => 0,
+        size if size >= 10.0 => 1,
+        size if size >= 0.01 => 3,
+        _ => 6,
+    };
+    fixed(value, decimals)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_finding_has_a_letter_of_its_own() {
+        let letters: Vec<String> = [0, 25, 26, 51, 52, 701, 702].into_iter().map(letter).collect();
+        assert_eq!(letters, ["A", "Z", "AA", "AZ", "BA", "ZZ", "AAA"]);
+    }
+
+    #[test]
+    fn a_value_is_shown_with_the_decimals_that_matter() {
+        let values: Vec<String> = [0.0, 0.000_4, 0.05, 12.34, 199_999.6].into_iter().map(shown).collect();
+        assert_eq!(values, ["0", "0.000400", "0.050", "12.3", "200000"]);
+    }
+}

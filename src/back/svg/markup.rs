@@ -1,0 +1,109 @@
+//! The few things that XML and SVG ask of text, numbers and path data.
+
+use std::fmt::Write;
+
+use crate::geom::Point;
+use crate::source::Span;
+use crate::units::number;
+
+/// Decimals of coordinates, mm: a micrometre, far below what cloth or blade know.
+const DECIMALS: u32 = 3;
+
+/// A length or coordinate in mm as it stands in an attribute.
+pub(super) fn mm(value: f64) -> String {
+    number::fixed(value, DECIMALS)
+}
+
+/// Text as it may stand in an element or in an attribute.
+pub(super) fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            // XML 1.0 knows no other control characters, not even escaped.
+            c if c.is_control() && !matches!(c, '\t' | '\n' | '\r') => escaped.push('\u{fffd}'),
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+/// The data of a path: polylines and circles, any number of them.
+#[derive(Debug, Default)]
+pub(super) struct PathData(Vec<u8>);
+
+impl PathData {
+    /// Adds a polyline.
+    pub(super) fn line(&mut self, points: impl IntoIterator<Item = Point>) {
+        for (i, point) in points.into_iter().enumerate() {
+            self.0.push(if i == 0 { b'M' } else { b' ' });
+            self.pair(point.x, point.y);
+        }
+    }
+
+    /// Adds a polygon; its first point is not repeated.
+    pub(super) fn polygon(&mut self, points: impl IntoIterator<Item = Point>) {
+        self.line(points);
+        self.0.push(b'Z');
+    }
+
+    /// Adds a circle.
+    pub(super) fn circle(&mut self, centre: Point, radius: f64) {
+        self.0.push(b'M');
+        self.pair(centre.x - radius, centre.y);
+        for across in [2.0 * radius, -2.0 * radius] {
+            self.0.push(b'a');
+            self.pair(radius, radius);
+            self.0.extend_from_slice(b" 0 1 0 ");
+            self.pair(across, 0.0);
+        }
+        self.0.push(b'Z');
+    }
+
+    fn pair(&mut self, x: f64, y: f64) {
+        number::push_fixed(&mut self.0, x, DECIMALS);
+        self.0.push(b',');
+        number::push_fixed(&mut self.0, y, DECIMALS);
+    }
+
+    /// The path element of a class; nothing when the path is empty.
+    pub(super) fn element(&self, class: &str) -> String {
+        self.titled(class, "")
+    }
+
+    /// The same with a title, which browsers show under the pointer.
+    pub(super) fn titled(&self, class: &str, title: &str) -> String {
+        if self.0.is_empty() {
+            return String::new();
+        }
+        let data = std::str::from_utf8(&self.0).expect("path data is ASCII");
+        if title.is_empty() {
+            return format!("<path class=\"{class}\" d=\"{data}\"/>\n");
+        }
+        format!("<path class=\"{class}\" d=\"{data}\"><title>{}</title></path>\n", escape(title))
+    }
+}
+
+/// The source blocks of some spans, as people say them; empty when there are none.
+pub(super) fn blocks(spans: impl IntoIterator<Item = Span>) -> String {
+    let mut range: Option<(u32, u32)> = None;
+    for span in spans {
+        // Block 0 is no block.
+        if span.block > 0 {
+            let (least, greatest) = range.unwrap_or((span.block, span.block));
+            range = Some((least.min(span.block), greatest.max(span.block)));
+        }
+    }
+    let mut text = String::new();
+    if let Some((least, greatest)) = range {
+        let _infallible = if least == greatest {
+            write!(text, ", block {least}")
+        } else {
+            write!(text, ", blocks {least} to {greatest}")
+        };
+    }
+    text
+}

@@ -1,0 +1,63 @@
+//! Target `svg`: the marker and what the knife does to it, drawn to scale.
+//!
+//! One user unit is a millimetre. The drawing itself stands in table coordinates (a transform turns Y up), so every number
+//! in it is one of the program; text and legend stand outside that transform. Strokes keep their width on the screen at
+//! any zoom, symbols are as large as the blade suggests: the whole shows pieces, a corner shows its overlaps.
+//!
+//! Layers from the bottom: pieces with their numbers, the knife's way (a group for each contour, notch and drill), the
+//! worst places that the verifier saw, the legend. In a browser the picture fills the window; a piece's number is a link
+//! to a view of that piece, and the legend links to the whole and to the actual size.
+
+mod findings;
+mod knife;
+mod markup;
+mod piece;
+mod sheet;
+mod spot;
+
+use std::io::{self, SeekFrom};
+
+use super::{Context, Emit, Output, Parts, Proof, Target};
+use crate::ir::{Finding, Toolpath};
+use sheet::Sheet;
+
+pub(super) const TARGET: Target = Target {
+    name: "svg",
+    about: "a picture to scale: pieces, runs, overlaps, plunges, travels, findings",
+    extension: "svg",
+    emit: Emit::Toolpath(Parts { head, body, tail }),
+    proof: Proof::None,
+};
+
+fn head(context: &Context, out: &mut dyn Output) -> io::Result<()> {
+    let sheet = Sheet::of(context, &[]);
+    let mut text = sheet.opening();
+    let shapes = piece::shapes(context.marker);
+    text.push_str(&sheet::style(&piece::colour_rules(&shapes)));
+    text.push_str(&sheet.ground(context));
+    text.push_str(&piece::layer(&shapes, &sheet));
+    text.push_str("<g id=\"knife\" inkscape:groupmode=\"layer\" inkscape:label=\"knife\" transform=\"scale(1,-1)\">\n");
+    out.write_all(text.as_bytes())
+}
+
+fn body(toolpath: &Toolpath, context: &Context, out: &mut dyn Output) -> io::Result<()> {
+    out.write_all(knife::group(toolpath, &context.job.profile.knife).as_bytes())
+}
+
+fn tail(context: &Context, found: &[Finding], out: &mut dyn Output) -> io::Result<()> {
+    let sheet = Sheet::of(context, found);
+    let mut text = String::from("</g>\n");
+    text.push_str(&findings::layer(found, &sheet, &context.job.profile.knife));
+    text.push_str(&sheet.legend(context, found));
+    text.push_str("</svg>\n");
+    out.write_all(text.as_bytes())?;
+    // The table of findings makes the sheet taller than the head could know.
+    let (before, now) = (Sheet::of(context, &[]).opening(), sheet.opening());
+    if before != now && before.len() == now.len() {
+        let end = out.stream_position()?;
+        out.seek(SeekFrom::Start(0))?;
+        out.write_all(now.as_bytes())?;
+        out.seek(SeekFrom::Start(end))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,157 @@
+//! The layer of pieces: their areas in calm colours, and their numbers.
+
+use std::fmt::Write;
+
+use super::markup::{PathData, blocks, mm};
+use super::sheet::Sheet;
+use super::spot::{self, Spot};
+use crate::geom::{Extent, Point};
+use crate::ir::Marker;
+use crate::source::Span;
+
+/// Colours of pieces: of like weight, none near the signal colours (magenta, red, amber) or the grey of travels.
+pub(super) const PALETTE: [&str; 10] =
+    ["#3f6fa3", "#4f8f46", "#8a6bb0", "#8d6546", "#2f8c8c", "#8a8a2e", "#5b63c4", "#b0705a", "#4a7c63", "#6d86ad"];
+/// Pieces nearer than this are neighbours, mm.
+const NEIGHBOUR_GAP: f64 = 40.0;
+/// Neighbours are looked for among this many pieces before: a marker is cut from one end to the other.
+const NEIGHBOUR_WINDOW: usize = 200;
+/// Largest height of a number, nominal pixels.
+const NUMBER_MAX_PX: f64 = 26.0;
+/// Width of a digit and height of a number, in parts of the font size.
+const DIGIT_WIDTH: f64 = 0.64;
+const DIGIT_HEIGHT: f64 = 0.73;
+/// Room that a view of one piece leaves around it, in parts of its larger side.
+const VIEW_MARGIN: f64 = 0.06;
+
+/// A piece as it is drawn.
+#[derive(Debug)]
+pub(super) struct Shape {
+    number: u32,
+    contours: Vec<Contour>,
+    drills: Vec<Point>,
+    extent: Extent,
+    blocks: String,
+}
+
+#[derive(Debug)]
+struct Contour {
+    points: Vec<Point>,
+    closed: bool,
+}
+
+/// The shapes of all pieces, in cut order.
+pub(super) fn shapes(marker: &Marker) -> Vec<Shape> {
+    let mut shapes = Vec::with_capacity(marker.pieces.len());
+    for piece in &marker.pieces {
+        let contours: Vec<Contour> =
+            piece.contours.iter().map(|c| Contour { points: marker.points(c), closed: c.closed }).collect();
+        let drills: Vec<Point> = piece.drills.iter().map(|drill| drill.at).collect();
+        let mut extent = Extent::EMPTY;
+        contours.iter().flat_map(|c| &c.points).chain(&drills).for_each(|&point| extent.add(point));
+        piece.notches.iter().flat_map(|notch| [notch.root, notch.tip]).for_each(|point| extent.add(point));
+        let cut = piece.contours.iter().flat_map(|c| marker.list.walk(c.range)).map(|(_, segment)| segment.span);
+        let marked = piece.drills.iter().map(|d| d.span).chain(piece.notches.iter().map(|n| n.span));
+        let spans = std::iter::once::<Span>(piece.span).chain(cut).chain(marked);
+        shapes.push(Shape { number: piece.number, extent, blocks: blocks(spans), contours, drills });
+    }
+    shapes
+}
+
+/// Style rules that give each piece number its colour.
+pub(super) fn colour_rules(shapes: &[Shape]) -> String {
+    let colours = colours(shapes);
+    let mut rules = String::new();
+    for (i, colour) in PALETTE.iter().enumerate() {
+        let mut separator = "";
+        for (shape, _) in shapes.iter().zip(&colours).filter(|&(_, &c)| c == i) {
+            let _infallible = write!(rules, "{separator}.n{}", shape.number);
+            separator = ",";
+        }
+        if !separator.is_empty() {
+            let _infallible = writeln!(rules, "{{color:{colour}}}");
+        }
+    }
+    rules
+}
+
+/// An index into the palette for each piece: the next one that no neighbour has.
+fn colours(shapes: &[Shape]) -> Vec<usize> {
+    let mut colours: Vec<usize> = Vec::with_capacity(shapes.len());
+    for (i, shape) in shapes.iter().enumerate() {
+        let mut taken = [false; PALETTE.len()];
+        for k in i.saturating_sub(NEIGHBOUR_WINDOW)..i {
+            taken[colours[k]] |= are_near(&shape.extent, &shapes[k].extent);
+        }
+        let next = i % PALETTE.len();
+        let free = (0..PALETTE.len()).map(|step| (next + step) % PALETTE.len()).find(|&colour| !taken[colour]);
+        colours.push(free.unwrap_or(next));
+    }
+    colours
+}
+
+fn are_near(a: &Extent, b: &Extent) -> bool {
+    let apart = (a.min.x - b.max.x).max(b.min.x - a.max.x).max(a.min.y - b.max.y).max(b.min.y - a.max.y);
+    apart < NEIGHBOUR_GAP
+}
+
+/// The layer: a group for each piece, and a view of each.
+pub(super) fn layer(shapes: &[Shape], sheet: &Sheet) -> String {
+    let mut text = String::new();
+    for (shape, order) in shapes.iter().zip(1..).filter(|(shape, _)| !shape.extent.is_empty()) {
+        let (width, height) = shape.extent.size();
+        let margin = width.max(height).max(sheet.px) * VIEW_MARGIN;
+        let _infallible = writeln!(
+            text,
+            "<view id=\"view-{order}\" viewBox=\"{} {} {} {}\"/>",
+            mm(shape.extent.min.x - margin),
+            mm(-shape.extent.max.y - margin),
+            mm(width + 2.0 * margin),
+            mm(height + 2.0 * margin)
+        );
+    }
+    text.push_str(
+        "<g id=\"pieces\" inkscape:groupmode=\"layer\" inkscape:label=\"pieces\" transform=\"scale(1,-1)\">\n",
+    );
+    for (shape, order) in shapes.iter().zip(1..) {
+        group(shape, order, sheet, &mut text);
+    }
+    text.push_str("</g>\n");
+    text
+}
+
+fn group(shape: &Shape, order: u32, sheet: &Sheet, text: &mut String) {
+    let number = shape.number;
+    let _infallible = writeln!(
+        text,
+        "<g id=\"piece-{order}\" class=\"n{number}\" inkscape:label=\"piece {number}\"><title>piece {number}{}</title>",
+        shape.blocks
+    );
+    let rings: Vec<&[Point]> = shape.contours.iter().filter(|c| c.closed).map(|c| c.points.as_slice()).collect();
+    let mut area = PathData::default();
+    for ring in &rings {
+        area.polygon(ring[..ring.len() - 1].iter().copied());
+    }
+    text.push_str(&area.element("area"));
+    if !shape.extent.is_empty() {
+        let middle = shape.extent.min + (shape.extent.max - shape.extent.min) / 2.0;
+        let spot = spot::find(&rings, &shape.drills).unwrap_or(Spot { at: middle, clear: 0.0 });
+        text.push_str(&label(number, order, spot, sheet));
+    }
+    text.push_str("</g>\n");
+}
+
+/// The number of a piece, as large as its spot allows; a link to the view of the piece.
+fn label(number: u32, order: u32, spot: Spot, sheet: &Sheet) -> String {
+    let digits = f64::from(number.checked_ilog10().unwrap_or(0) + 1);
+    let largest = NUMBER_MAX_PX * sheet.px;
+    let fitting = spot.clear / (digits * DIGIT_WIDTH / 2.0).hypot(DIGIT_HEIGHT / 2.0);
+    // A piece without an inside has its number over its lines, small.
+    let size = if spot.clear > 0.0 { fitting.min(largest) } else { largest / 2.0 };
+    format!(
+        "<a href=\"#view-{order}\"><text class=\"number\" transform=\"scale(1,-1)\" x=\"{}\" y=\"{}\" font-size=\"{}\">{number}</text></a>\n",
+        mm(spot.at.x),
+        mm(-spot.at.y + size * DIGIT_HEIGHT / 2.0),
+        mm(size)
+    )
+}
