@@ -116,7 +116,7 @@ fn a_compile_writes_the_program_with_its_provenance_and_a_summary() {
     assert_eq!(meta["source"], "circle.cut");
     assert_eq!(meta["source_sha256"], sha256_hex(&room.read("circle.cut")));
     assert_eq!(meta["profile_sha256"], MachineProfile::default().digest());
-    assert_eq!((&meta["target"], &meta["verified"]), (&Value::from("csv"), &Value::from("no")));
+    assert_eq!((&meta["target"], &meta["verified"]), (&Value::from("csv"), &Value::from("yes")));
     assert_eq!(meta["period_ms"], 1.0);
     let expected = ["period_ms", "profile_sha256", "source", "source_sha256", "target", "units", "verified", "version"];
     assert_eq!(keys(&meta), expected);

@@ -4,9 +4,8 @@ use std::fmt::Write as _;
 
 use super::options::counted;
 use crate::diagnostic::{Diagnostics, Severity};
-use crate::pipeline::{Axes, Peak, Peaks, Report};
+use crate::pipeline::{Axes, Peak, Peaks, Report, Verdict};
 use crate::units::number::{exact, fixed};
-use crate::verify::Verdict;
 
 /// Seconds in a minute.
 const S_PER_MIN: f64 = 60.0;

@@ -183,9 +183,9 @@ mod tests {
                 assert!((value[0] - expected).abs() <= 1e-9 * (1.0 + expected.abs()), "{u}");
             }
         }
-        for s in 1..BREAKS.len() - 1 {
-            let before = curve.derivatives_on::<5>(s - 1, BREAKS[s]);
-            let after = curve.derivatives_on::<5>(s, BREAKS[s]);
+        for (s, &meet) in BREAKS.iter().enumerate().take(BREAKS.len() - 1).skip(1) {
+            let before = curve.derivatives_on::<5>(s - 1, meet);
+            let after = curve.derivatives_on::<5>(s, meet);
             for (b, a) in before.iter().zip(after) {
                 assert!((b[0] - a[0]).abs() < 1e-7 * (1.0 + a[0].abs()));
             }

@@ -7,6 +7,8 @@ mod report;
 pub use judge::judge_program;
 pub use report::{Axes, Notches, Peak, Peaks, Program, Report};
 
+pub use crate::verify::Verdict;
+
 use std::io::{self, BufWriter, Read, Seek, Write};
 use std::path::Path;
 
@@ -21,7 +23,6 @@ use crate::pass::marker::MARKER_PASSES;
 use crate::pass::toolpath::{TOOLPATH_PASSES, trace};
 use crate::plan;
 use crate::source::Source;
-use crate::verify::Verdict;
 
 /// Bytes of setpoints that are kept in memory when they are made only to be judged; more go to a temporary file.
 const SCRATCH_BYTES: usize = 64 << 20;

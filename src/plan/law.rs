@@ -196,10 +196,10 @@ fn tangents(curve: &Curve) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::smooth::smooth;
-    use super::super::tube::Tube;
     use super::*;
     use crate::machine::MachineProfile;
+    use crate::plan::smooth::smooth;
+    use crate::plan::tube::Tube;
 
     fn arc() -> Curve {
         let points =

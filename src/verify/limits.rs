@@ -43,7 +43,7 @@ impl Limits {
             [x.jerk, y.jerk, deg(c.jerk)],
         ];
         let axes = std::array::from_fn(|order| {
-            let rounding = ROUNDING * (2.0 / period).powi(order as i32 + 1);
+            let rounding = ROUNDING * [1, 2, 3].map(|k| (2.0 / period).powi(k))[order];
             std::array::from_fn(|axis| {
                 let limit = limits[order][axis] * (1.0 + LIMIT_EPSILON) + rounding;
                 Worst::new(RULES[order][axis], UNITS[order][axis], Some(limit))

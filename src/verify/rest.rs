@@ -28,7 +28,7 @@ pub(super) struct Rest<'a> {
     drilled: Vec<(Point, u8, Row)>,
     start: Worst,
     end: Worst,
-    rest: Worst,
+    still: Worst,
     dwell: Worst,
 }
 
@@ -51,7 +51,7 @@ impl<'a> Rest<'a> {
             drilled: Vec::new(),
             start: Worst::new("verify/start", "mm, deg", Some(SAME)),
             end: Worst::new("verify/end", "mm, deg", Some(SAME)),
-            rest: Worst::new("verify/rest", "mm, deg", Some(SAME)),
+            still: Worst::new("verify/rest", "mm, deg", Some(SAME)),
             dwell: Worst::new("verify/dwell", "s missing", Some(PERIOD_EPSILON * period)),
         }
     }
@@ -65,10 +65,8 @@ impl<'a> Rest<'a> {
             return;
         };
         // The pose at the tick of a command belongs to the rest that it begins.
-        if let Some((at, until)) = self.hold {
-            if row.tick <= until {
-                self.rest.see(distance(row, [at.centre.x, at.centre.y, at.c_deg]), || row.sighting());
-            }
+        if let Some((at, _)) = self.hold.filter(|&(_, until)| row.tick <= until) {
+            self.still.see(distance(row, [at.centre.x, at.centre.y, at.c_deg]), || row.sighting());
         }
         if row.knife != before.knife {
             self.begin(row, if row.knife { self.plunge } else { self.lift });
@@ -83,10 +81,10 @@ impl<'a> Rest<'a> {
         if row.drill != 0 {
             let last = distance(row, [before.centre.x, before.centre.y, before.c_deg]);
             if before.drill == row.drill {
-                self.rest.see(last, || row.sighting());
+                self.still.see(last, || row.sighting());
             }
             if row.knife {
-                self.rest.see(f64::INFINITY, || row.sighting());
+                self.still.see(f64::INFINITY, || row.sighting());
             }
         }
     }
@@ -116,7 +114,7 @@ impl<'a> Rest<'a> {
             }
         }
         let (drills, place) = self.holes();
-        vec![self.start.finding(), self.end.finding(), self.rest.finding(), self.dwell.finding(), drills, place]
+        vec![self.start.finding(), self.end.finding(), self.still.finding(), self.dwell.finding(), drills, place]
     }
 
     /// Compares the holes of the program with those of the marker: each takes the nearest one that is left.
@@ -130,15 +128,12 @@ impl<'a> Rest<'a> {
                 if *tool == drill.tool { (at - drill.at).norm() } else { f64::INFINITY }
             };
             let nearest = (0..left.len()).min_by(|&a, &b| away(&left[a]).total_cmp(&away(&left[b])));
-            match nearest.filter(|&i| away(&left[i]) < HOLE_REACH) {
-                Some(i) => {
-                    let (at, _, row) = left.remove(i);
-                    place.see((at - drill.at).norm(), || row.sighting());
-                }
-                None => {
-                    count += 1.0;
-                    wrong.see(count, || Sighting { time: None, point: drill.at, block: drill.span.block });
-                }
+            if let Some(i) = nearest.filter(|&i| away(&left[i]) < HOLE_REACH) {
+                let (at, _, row) = left.remove(i);
+                place.see((at - drill.at).norm(), || row.sighting());
+            } else {
+                count += 1.0;
+                wrong.see(count, || Sighting { time: None, point: drill.at, block: drill.span.block });
             }
         }
         for (_, _, row) in left {

@@ -120,7 +120,9 @@ fn finish(stroke: &mut Vec<Point>, census: &mut Census) {
     if stroke.len() > 1 {
         census.points += stroke.len() - 1;
         census.length += stroke.windows(2).map(|w| (w[1] - w[0]).norm()).sum::<f64>();
-        stroke.iter().for_each(|&p| census.bounds.add(p));
+        for &point in stroke.iter() {
+            census.bounds.add(point);
+        }
     }
     stroke.clear();
 }
