@@ -107,7 +107,8 @@ impl<'a> Judge<'a> {
             table: [profile.table.x_mm, profile.table.y_mm],
             on_path: Worst::new("verify/on-path", "mm", Some(tolerance + PLACE_ROUNDING)),
             stray: Worst::new("verify/stray", "mm", Some(0.0)),
-            once: Worst::new("verify/once", "mm", Some(overlaps + 2.0 * tolerance)),
+            // The surplus of a stab, or the body that plunges into a ring, lies over what is cut from the other side.
+            once: Worst::new("verify/once", "mm", Some(overlaps + knife.width_mm + 2.0 * tolerance)),
             heading: Worst::new("verify/heading", "deg", Some(verify.max_heading_deg)),
             body: Worst::new("verify/body", "mm", verify.max_body_mm),
             feed: Worst::new("verify/feed", "mm/s", feed),
@@ -213,17 +214,18 @@ impl<'a> Judge<'a> {
         for i in (0..from).rev() {
             feet[i] = backward.step(points[i]);
         }
-        let first = if line.ring { cut.body } else { 0 };
-        let sag =
-            if cut.body > 0 && !line.ring { plunge_sag(line, &feet[..=cut.body], self.knife.width_mm) } else { 0.0 };
+        let sag = if cut.body > 0 { plunge_sag(line, &feet[..=cut.body], self.knife.width_mm) } else { 0.0 };
         let allowed = self.reference.tolerance + PLACE_ROUNDING;
         let mut trial = Trial { line: index, feet, stretches: Vec::new(), fresh: 0.0, worst: (0.0, cut.body) };
         let mut open: Option<[f64; 2]> = None;
-        for i in first..points.len() {
+        for i in 0..points.len() {
             let in_body = i < cut.body;
             let off = (trial.feet[i].deviation - if in_body { sag } else { 0.0 }).max(0.0);
-            trial.note(off, i);
-            let mut joined = i > first && off <= allowed;
+            // Into a ring the blade may plunge along the tangent: its body then cuts beside the line, which is reported.
+            if !(in_body && line.ring) {
+                trial.note(off, i);
+            }
+            let mut joined = i > 0 && off <= allowed;
             if joined && i > cut.body {
                 let skipped = skipped(line, points, &trial.feet, i);
                 trial.note(skipped, i);

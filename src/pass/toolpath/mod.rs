@@ -4,6 +4,7 @@
 
 mod corner;
 mod down;
+mod entry;
 mod overlap;
 mod place;
 mod table;
@@ -27,4 +28,5 @@ pub struct ToolpathPass {
 }
 
 /// Every pass over a toolpath, in order.
-pub const TOOLPATH_PASSES: &[ToolpathPass] = &[corner::PASS, down::PASS, overlap::PASS, place::PASS, table::PASS];
+pub const TOOLPATH_PASSES: &[ToolpathPass] =
+    &[corner::PASS, down::PASS, entry::PASS, overlap::PASS, place::PASS, table::PASS];

@@ -34,7 +34,8 @@ fn run(toolpath: &mut Toolpath, job: &Job, diagnostics: &mut Diagnostics) {
     }
 }
 
-fn give(run: &mut Run, knife: &Knife) {
+/// Gives a run the overlaps that the profile has for its ends.
+pub(super) fn give(run: &mut Run, knife: &Knife) {
     let [start, end] = run.ends;
     let heel = if start.corner { knife.corner_heel_overlap_mm } else { knife.heel_overlap_mm };
     let front = if end.corner { knife.corner_front_overlap_mm } else { knife.front_overlap_mm };

@@ -1,0 +1,87 @@
+//! README is true: its commands run, its tables are those of the program.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use cutc::diagnostic::code;
+use cutc::machine::keys::KEYS;
+use cutc::verify::RULES;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn readme() -> String {
+    fs::read_to_string(root().join("README.md")).expect("README.md is there")
+}
+
+/// The lines of README's code blocks that start with `word`, without their comments.
+fn commands(word: &str) -> Vec<String> {
+    let readme = readme();
+    let lines = readme.lines().filter_map(|line| line.strip_prefix("    "));
+    let commands = lines.filter(|line| line.starts_with(word));
+    commands.map(|line| line.split('#').next().unwrap_or(line).trim().to_owned()).collect()
+}
+
+/// Runs a line of README in a directory, with `cutc` on the path.
+fn shell(line: &str, directory: &Path) -> Output {
+    let binary = PathBuf::from(env!("CARGO_BIN_EXE_cutc"));
+    let folder = binary.parent().expect("a binary lies in a folder").display().to_string();
+    let path = format!("{folder}:{}", std::env::var("PATH").unwrap_or_default());
+    Command::new("sh").args(["-c", line]).current_dir(directory).env("PATH", path).output().expect("sh runs")
+}
+
+#[test]
+fn the_first_two_commands_are_the_main_job_and_the_tests() {
+    let commands = commands("cargo ");
+    assert_eq!(commands[..2], ["cargo run --release -- compile fixtures/iso/seed-circle.cut", "cargo test"]);
+    // The same as the first, with the binary of this test run.
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let input = root().join("fixtures/iso/seed-circle.cut");
+    let ran = shell(&format!("cutc compile {}", input.display()), folder.path());
+    let said = String::from_utf8_lossy(&ran.stderr);
+    assert!(ran.status.success() && said.contains("verified"), "{said}");
+    for name in ["seed-circle.csv", "seed-circle.csv.meta.json"] {
+        assert!(folder.path().join(name).is_file(), "{name} was not written");
+    }
+}
+
+#[test]
+fn every_command_of_the_readme_runs() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    fs::copy(root().join("fixtures/pictures/marker.cut"), folder.path().join("marker.cut")).expect("a copy");
+    fs::write(folder.path().join("machine.toml"), "knife.width_mm = 7.2\n").expect("a profile");
+    fs::create_dir(folder.path().join("pictures")).expect("a folder");
+    let commands = commands("cutc ");
+    assert!(commands.len() >= 6, "{commands:?}");
+    for command in commands {
+        // `profile init` never overwrites, and `verify` judges against the profile that the program was made for.
+        let command = command.replace("init -o machine.toml", "init -o other.toml");
+        let command = command.replace("--source marker.cut", "--source marker.cut -p machine.toml");
+        let ran = shell(&command, folder.path());
+        assert!(ran.status.success(), "`{command}`: {}", String::from_utf8_lossy(&ran.stderr));
+    }
+}
+
+#[test]
+fn the_tables_are_those_of_the_program() {
+    let readme = readme();
+    let mut missing: Vec<String> = Vec::new();
+    let mut row = |row: String| {
+        if !readme.lines().any(|line| line.starts_with(&row)) {
+            missing.push(row);
+        }
+    };
+    for code in code::ALL {
+        let severity = format!("{:?}", code.severity).to_lowercase();
+        row(format!("| `{}` | {severity} | {} |", code.name, code.about));
+    }
+    for (rule, about) in RULES {
+        row(format!("| `{rule}` | {about} |"));
+    }
+    for key in KEYS {
+        row(format!("| `{}` | ", key.name));
+    }
+    assert!(missing.is_empty(), "README.md lacks these rows:\n{}", missing.join("\n"));
+}
