@@ -9,8 +9,8 @@ use super::tube::Tube;
 use crate::diagnostic::{Diagnostic, code};
 use crate::geom::{Point, polyline};
 use crate::ir::toolpath::{Law, Pose, Run, Shape};
+use crate::machine::Job;
 use crate::machine::kinematics::Move;
-use crate::machine::{Job, Limits};
 use crate::source::Span;
 use crate::units::number::fixed;
 
@@ -82,13 +82,13 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
     }
     let timing = profile(&way, &bounds)
         .map_err(|_| refuse(run, &code::PLAN_PROFILE, "no motion within the limits was found"))?;
-    let mut length = 0.0;
-    let mut cut = certified(run, timing.duration(), period, &bounds.axes, |count| {
+    let mut cut = certified(run, timing.duration(), period, &bounds, |count| {
         let places = timing.sample(count);
-        length = places.windows(2).map(|u| (way.point(u[1]) - way.point(u[0])).norm()).sum();
-        places.iter().map(|&u| (way.pose(u), blocks.at(u))).unzip()
+        let tips: Vec<Point> = places.iter().map(|&u| way.point(u)).collect();
+        let (poses, blocks) = places.iter().map(|&u| (way.pose(u), blocks.at(u))).unzip();
+        Samples { poses, blocks, ways: tips.windows(2).map(|w| (w[1] - w[0]).norm()).collect() }
     })?;
-    (cut.length, cut.bulge) = (length, smooth.bulge);
+    cut.bulge = smooth.bulge;
     Ok(cut)
 }
 
@@ -107,35 +107,44 @@ fn straight(run: &Run, extended: &Extended, blocks: &Blocks, bounds: &Bounds, jo
     let mut limits = bounds.axes[0].along(u.x).min(bounds.axes[1].along(u.y));
     limits.speed = limits.speed.min(bounds.feed);
     let motion = Move::new(way, limits);
-    let mut cut = certified(run, motion.duration(), job.profile.time.period(), &bounds.axes, |count| {
+    certified(run, motion.duration(), job.profile.time.period(), bounds, |count| {
         let reach = |i: usize| knife.width_mm + motion.at(i as f64, (count - 1) as f64);
-        (0..count).map(|i| (pose(reach(i)), blocks.at(reach(i)))).unzip()
-    })?;
-    cut.length = way;
-    Ok(cut)
+        let (poses, blocks) = (0..count).map(|i| (pose(reach(i)), blocks.at(reach(i)))).unzip();
+        Samples { poses, blocks, ways: (1..count).map(|i| reach(i) - reach(i - 1)).collect() }
+    })
+}
+
+/// A motion at the ticks of a run.
+struct Samples {
+    poses: Vec<Pose>,
+    blocks: Vec<u32>,
+    /// Way of the tip from each tick to the next, mm.
+    ways: Vec<f64>,
 }
 
 fn plunge_only(pose: Pose, block: u32) -> Cut {
     Cut { poses: vec![pose], blocks: vec![block], duration: 0.0, length: 0.0, bulge: 0.0 }
 }
 
-/// Samples a motion over a whole number of periods, stretched until every difference keeps its limit.
+/// Samples a motion over a whole number of periods, stretched until every difference keeps its limit, and the tip its
+/// feed.
 fn certified(
     run: &Run,
     duration: f64,
     period: f64,
-    limits: &[Limits; 3],
-    mut sample: impl FnMut(usize) -> (Vec<Pose>, Vec<u32>),
+    bounds: &Bounds,
+    sample: impl Fn(usize) -> Samples,
 ) -> Result<Cut, Diagnostic> {
     let mut stretch = 1.0;
     let mut rho = 1.0;
     for _ in 0..ROUNDS {
         let ticks = whole_periods(duration * stretch, period);
-        let (poses, blocks) = sample(ticks + 1);
+        let Samples { poses, blocks, ways } = sample(ticks + 1);
         let peaks: Peaks = certify::peaks_of(&poses, period);
-        rho = certify::excess(&peaks, limits);
+        let fastest = ways.iter().copied().fold(0.0, f64::max) / period;
+        rho = certify::excess(&peaks, &bounds.axes).max(fastest / bounds.feed);
         if rho <= 1.0 + EXCESS_EPSILON {
-            return Ok(Cut { poses, blocks, duration, length: 0.0, bulge: 0.0 });
+            return Ok(Cut { poses, blocks, duration, length: ways.iter().sum(), bulge: 0.0 });
         }
         stretch = ticks as f64 * period / duration * rho;
     }

@@ -44,7 +44,8 @@ pub(super) fn give(run: &mut Run, knife: &Knife) {
 }
 
 /// The stab that a run is, when the blade reaches from the heel overlap to the end or beyond: L + F + H <= w on a straight
-/// run, no path point at the distance w on a curved one. The surplus lies behind the start.
+/// run, no path point at the distance w on a curved one. The surplus lies behind the start, unless only there nothing may
+/// be cut.
 fn stab(run: &Run, knife: &Knife) -> Option<Stab> {
     let extended = run.extended();
     let reached = polyline::first_at_distance(&extended, knife.width_mm);
@@ -54,13 +55,15 @@ fn stab(run: &Run, knife: &Knife) -> Option<Stab> {
         return None;
     }
     let along = polyline::direction(first, last)?;
-    let surplus = knife.width_mm - (last - first).norm();
+    let surplus = (knife.width_mm - (last - first).norm()).max(0.0);
+    let [start, end] = run.ends;
+    let ahead = start.bare && !end.bare;
     Some(Stab {
         points: run.points.clone(),
         spans: run.spans.clone(),
         along,
-        front: run.front,
-        heel: run.heel + surplus.max(0.0),
+        front: run.front + if ahead { surplus } else { 0.0 },
+        heel: run.heel + if ahead { 0.0 } else { surplus },
         ends: run.ends,
         pose: Pose::default(),
     })
