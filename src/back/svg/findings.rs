@@ -25,6 +25,13 @@ fn letter(n: usize) -> String {
     if n < 26 { last.to_string() } else { letter(n / 26 - 1) + &last.to_string() }
 }
 
+/// The findings that a picture shows: what fails, and what has its worst place on the cloth; that an axis reaches its
+/// limit somewhere is no news.
+pub(super) fn worth_a_ring(findings: &[Finding]) -> Vec<Finding> {
+    let on_the_cloth = |finding: &Finding| finding.place.is_some() && matches!(finding.unit, "mm" | "deg");
+    findings.iter().filter(|finding| !finding.holds() || on_the_cloth(finding)).cloned().collect()
+}
+
 /// The layer, in the coordinates of the sheet (Y down).
 pub(super) fn layer(findings: &[Finding], sheet: &Sheet, knife: &Knife) -> String {
     if findings.is_empty() {

@@ -45,10 +45,11 @@ fn body(toolpath: &Toolpath, context: &Context, out: &mut dyn Output) -> io::Res
 }
 
 fn tail(context: &Context, found: &[Finding], out: &mut dyn Output) -> io::Result<()> {
-    let sheet = Sheet::of(context, found);
+    let shown = findings::worth_a_ring(found);
+    let sheet = Sheet::of(context, &shown);
     let mut text = String::from("</g>\n");
-    text.push_str(&findings::layer(found, &sheet, &context.job.profile.knife));
-    text.push_str(&sheet.legend(context, found));
+    text.push_str(&findings::layer(&shown, &sheet, &context.job.profile.knife));
+    text.push_str(&sheet.legend(context, &shown, found.len()));
     text.push_str("</svg>\n");
     out.write_all(text.as_bytes())?;
     // The table of findings makes the sheet taller than the head could know.

@@ -159,7 +159,7 @@ impl Sheet {
     }
 
     /// Scale bar, caption, symbols and the table of findings, below the drawing.
-    pub(super) fn legend(&self, context: &Context, found: &[Finding]) -> String {
+    pub(super) fn legend(&self, context: &Context, found: &[Finding], rules: usize) -> String {
         let line = LINE_PX * self.px;
         let left = self.left + MARGIN_PX * self.px;
         let mut text = String::from("<g id=\"legend\" inkscape:groupmode=\"layer\" inkscape:label=\"legend\">\n");
@@ -176,12 +176,12 @@ impl Sheet {
             text.push_str(&self.text("", at + Vector::new((SYMBOL_PX + 8.0) * self.px, 0.0), item.meaning));
         }
         y += line * ITEMS.len().div_ceil(self.columns()) as f64;
-        if !found.is_empty() {
+        if rules > 0 {
             let failing = found.iter().filter(|finding| !finding.holds()).count();
             let class = if failing == 0 { "verdict" } else { "fails-text" };
             let verdict = match failing {
-                0 => format!("verified: all {} rules hold; the worst place under each:", found.len()),
-                n => format!("FAILED: {n} of {} rules are broken; the worst place under each:", found.len()),
+                0 => format!("verified: all {rules} rules hold; the worst places on the cloth:"),
+                n => format!("FAILED: {n} of {rules} rules are broken:"),
             };
             text.push_str(&self.text(class, Point::new(left, y), &verdict));
             for (n, finding) in found.iter().enumerate() {

@@ -28,7 +28,7 @@ fn run(toolpath: &mut Toolpath, job: &Job, _: &mut Diagnostics) {
         match step {
             Step::Run(mut run) if run.shape == Shape::Open => {
                 while let Some(bend) = bend(&run, knife, allowance) {
-                    let (before, behind) = split(run, bend);
+                    let (before, behind) = split(&run, bend);
                     toolpath.steps.push(Step::Run(before));
                     run = behind;
                 }
@@ -60,21 +60,21 @@ fn bend(run: &Run, knife: &Knife, allowance: f64) -> Option<usize> {
 }
 
 /// A run up to a point, and from there on.
-fn split(run: Run, at: usize) -> (Run, Run) {
+fn split(run: &Run, at: usize) -> (Run, Run) {
     let [start, end] = run.ends;
     let before = Run {
         points: run.points[..=at].to_vec(),
         spans: run.spans[..at].to_vec(),
         joints: run.joints[..=at].to_vec(),
         ends: [start, BEND],
-        ..run
+        ..*run
     };
     let behind = Run {
         points: run.points[at..].to_vec(),
         spans: run.spans[at..].to_vec(),
         joints: run.joints[at..].to_vec(),
         ends: [BEND, end],
-        ..run
+        ..*run
     };
     (before, behind)
 }
