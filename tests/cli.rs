@@ -384,6 +384,177 @@ fn a_pass_can_be_looked_into() {
 }
 
 #[test]
+fn every_target_gives_a_file_with_its_provenance() {
+    let room = Room::new();
+    for target in TARGETS {
+        let (_, stderr) = room.expect(&format!("compile circle.cut -t {}", target.name), DONE);
+        assert!(stderr.contains("verified ") && stderr.contains("rules hold"), "{stderr}");
+        let name = format!("circle.{}", target.extension);
+        assert!(!room.read(&name).is_empty());
+        let meta: Value = serde_json::from_slice(&room.read(&format!("{name}.meta.json"))).expect("JSON");
+        assert_eq!((&meta["target"], &meta["verified"]), (&Value::from(target.name), &Value::from("yes")));
+    }
+    assert!(room.read("circle.svg").starts_with(b"<"));
+}
+
+#[test]
+fn a_program_that_nobody_verified_says_so() {
+    let room = Room::new();
+    let (_, stderr) = room.expect("compile circle.cut", DONE);
+    assert!(stderr.contains("rules hold; tip at most 0.0"), "{stderr}");
+    let verified = room.read("circle.csv");
+    let (_, stderr) = room.expect("compile circle.cut --no-verify", DONE);
+    assert!(stderr.contains("--no-verify") && !stderr.contains("rules hold"), "{stderr}");
+    let meta: Value = serde_json::from_slice(&room.read("circle.csv.meta.json")).expect("JSON");
+    assert_eq!(meta["verified"], "no");
+    assert_eq!(room.read("circle.csv"), verified);
+    room.expect("compile circle.cut --no-verify -t svg", DONE);
+    assert!(room.has("circle.svg"));
+}
+
+/// A limit that no program of the circle keeps: a straight blade leaves every curve.
+const TOO_STRICT: &str = "--set verify.max_body_mm=0.001";
+
+#[test]
+fn a_program_that_fails_its_verification_is_never_written() {
+    let room = Room::new();
+    let (_, stderr) = room.expect(&format!("compile circle.cut {TOO_STRICT}"), FAULTY);
+    for words in ["verify/body: ", "(0.001 allowed) at X ", "`verify.max_body_mm`", "no program was written"] {
+        assert!(stderr.contains(words), "{words}\n{stderr}");
+    }
+    assert!(stderr.contains("the program breaks 1 rule of its verification"), "{stderr}");
+    assert!(stderr.contains("no program was written to `circle.csv`"), "{stderr}");
+    let (stdout, _) = room.expect(&format!("compile circle.cut -o - {TOO_STRICT}"), FAULTY);
+    assert_eq!(stdout, "");
+    let (stdout, _) = room.expect(&format!("compile circle.cut --format json {TOO_STRICT}"), FAULTY);
+    let figures: Value = serde_json::from_str(&stdout).expect("JSON");
+    assert_eq!(keys(&figures), FIGURES);
+    assert_eq!(figures["errors"][0]["code"], "verify/broken");
+    assert_eq!(room.names(), ["circle.cut", "junk.cut"]);
+
+    room.expect("compile circle.cut", DONE);
+    let older = room.read("circle.csv");
+    let (_, stderr) = room.expect(&format!("compile circle.cut {TOO_STRICT}"), FAULTY);
+    assert!(stderr.contains("circle.csv.stale"), "{stderr}");
+    assert_eq!(room.read("circle.csv.stale"), older);
+    assert_eq!(room.names(), ["circle.csv.meta.json.stale", "circle.csv.stale", "circle.cut", "junk.cut"]);
+    room.expect(&format!("compile circle.cut --no-verify {TOO_STRICT}"), DONE);
+    assert_eq!(room.read("circle.csv"), older);
+}
+
+impl Room {
+    /// Compiles the circle and moves Y of one row, in the middle of the cut, by 1 mm, as a slip of the hand would. Gives
+    /// the time of that row.
+    fn edited(&self) -> f64 {
+        self.expect("compile circle.cut", DONE);
+        let text = String::from_utf8(self.read("circle.csv")).expect("text");
+        let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+        let down: Vec<usize> =
+            (1..lines.len()).filter(|&i| lines[i].split(',').nth(4).expect("a knife") == "1").collect();
+        let at = down[down.len() / 2];
+        let mut fields: Vec<String> = lines[at].split(',').map(str::to_owned).collect();
+        fields[2] = format!("{:.6}", fields[2].parse::<f64>().expect("a number") + 1.0);
+        lines[at] = fields.join(",");
+        self.write("edited.csv", (lines.join("\n") + "\n").as_bytes());
+        fields[0].parse().expect("a number")
+    }
+}
+
+#[test]
+fn a_program_is_verified_alone() {
+    let room = Room::new();
+    room.expect("compile circle.cut", DONE);
+    let (stdout, stderr) = room.expect("verify circle.csv --source circle.cut", DONE);
+    assert!(!stderr.contains("made"), "{stderr}");
+    assert!(stdout.lines().all(|line| line.chars().count() <= 100), "{stdout}");
+    assert!(stdout.ends_with("rules hold\n") && stdout.contains("\nPASS  `circle.csv`"), "{stdout}");
+    assert!(stdout.contains("verify/on-path") && stdout.contains("source/length"), "{stdout}");
+
+    let (stdout, _) = room.expect("verify circle.csv --source circle.cut --format json", DONE);
+    let judged: Value = serde_json::from_str(&stdout).expect("JSON");
+    assert_eq!((keys(&judged), &judged["verdict"]), (vec!["rules", "verdict"], &Value::from("pass")));
+    let rules = judged["rules"].as_array().expect("a list");
+    assert!(rules.len() > 25);
+    for rule in rules {
+        assert_eq!(keys(rule), ["code", "holds", "limit", "unit", "where", "worst"]);
+        assert!(rule["code"].is_string() && rule["unit"].is_string() && rule["holds"] == true, "{rule}");
+        assert!(rule["worst"].is_number() && (rule["limit"].is_number() || rule["limit"].is_null()), "{rule}");
+        if !rule["where"].is_null() {
+            assert_eq!(keys(&rule["where"]), ["block", "time_s", "x_mm", "y_mm"]);
+        }
+    }
+    assert!(rules.iter().any(|rule| !rule["where"].is_null()));
+}
+
+#[test]
+fn a_slip_of_the_hand_in_a_program_is_found_with_its_place() {
+    let room = Room::new();
+    let time = room.edited();
+    let (stdout, stderr) = room.expect("verify edited.csv --source circle.cut", FAULTY);
+    assert!(stderr.contains("iso/no-end"), "{stderr}");
+    let last = stdout.lines().last().expect("a verdict");
+    assert!(last.starts_with("FAIL  `edited.csv` must not run: it breaks "), "{stdout}");
+    let on_path = stdout.lines().find(|line| line.contains("verify/on-path")).expect("a row");
+    assert!(on_path.starts_with("FAIL"), "{stdout}");
+
+    let (stdout, _) = room.expect("verify edited.csv --source circle.cut --format json", FAULTY);
+    let judged: Value = serde_json::from_str(&stdout).expect("JSON");
+    assert_eq!(judged["verdict"], "fail");
+    let rules = judged["rules"].as_array().expect("a list");
+    let on_path = rules.iter().find(|rule| rule["code"] == "verify/on-path").expect("a rule");
+    assert_eq!(on_path["holds"], false);
+    let found = on_path["where"]["time_s"].as_f64().expect("a time");
+    assert!((found - time).abs() < 0.002, "at {found} s, not {time} s");
+}
+
+#[test]
+fn a_program_is_judged_by_the_source_and_profile_it_was_made_from() {
+    let room = Room::new();
+    room.expect("compile circle.cut", DONE);
+    let text = String::from_utf8(room.read("circle.cut")).expect("text");
+    // The same cut with other bytes: a warning, no more.
+    room.write("again.cut", format!("{text}\n").as_bytes());
+    let (_, stderr) = room.expect("verify circle.csv --source again.cut", DONE);
+    assert!(stderr.contains("was not made from this `again.cut`") && stderr.contains("`circle.cut`"), "{stderr}");
+    // Another cut altogether.
+    room.write("other.csv", b"x_mm,y_mm\n100,100\n200,100\n200,200\n");
+    let (stdout, stderr) = room.expect("verify circle.csv --source other.csv", FAULTY);
+    assert!(stdout.contains("FAIL  verify/complete") && stderr.contains("was not made from"), "{stdout}{stderr}");
+    // A slower machine: the program is too fast for it.
+    let slower = "verify circle.csv --source circle.cut --set axes.x.speed_mm_s=10";
+    let (stdout, stderr) = room.expect(slower, FAULTY);
+    assert!(stdout.contains("FAIL  verify/speed-x") && stderr.contains("another machine profile"), "{stdout}{stderr}");
+    room.write("circle.csv.meta.json", b"{");
+    let (_, stderr) = room.expect("verify circle.csv --source circle.cut", DONE);
+    assert!(stderr.contains("is no JSON"), "{stderr}");
+}
+
+#[test]
+fn what_cannot_be_verified_is_said() {
+    let room = Room::new();
+    room.expect("compile circle.cut", DONE);
+    fs::create_dir(room.at("folder")).expect("writable");
+    room.write("bad.toml", b"[time]\nperiod_ms = 0\n");
+    let check = |arguments: &str, code, expected: &str| {
+        let (_, stderr) = room.expect(&format!("verify {arguments}"), code);
+        assert!(stderr.contains(expected), "cutc verify {arguments}\n{stderr}");
+    };
+    check("circle.csv", USAGE, "--source");
+    check("nowhere.csv --source circle.cut", USAGE, "cannot read `nowhere.csv`: there is no such file");
+    check("circle.csv --source nowhere.cut", USAGE, "cannot read `nowhere.cut`: there is no such file");
+    check("folder --source circle.cut", USAGE, "`folder` is not a regular file");
+    check("circle.csv --source circle.cut -p nowhere.toml", USAGE, "there is no profile");
+    check("circle.csv --source circle.cut --set time.period=1", USAGE, "time.period_ms");
+    check("circle.csv --source circle.cut -p bad.toml", FAULTY, "profile/range");
+    check("circle.csv --source junk.cut", FAULTY, "`circle.csv` was not judged");
+    let (stdout, _) = room.expect("verify circle.csv --source junk.cut --format json", FAULTY);
+    let judged: Value = serde_json::from_str(&stdout).expect("JSON");
+    assert_eq!(judged.to_string(), r#"{"rules":[],"verdict":"fail"}"#);
+    let (stdout, _) = room.expect("verify junk.cut --source circle.cut", FAULTY);
+    assert!(stdout.contains("FAIL  verify/format"), "{stdout}");
+}
+
+#[test]
 fn the_help_is_enough_to_begin() {
     let room = Room::new();
     let (help, _) = room.expect("--help", DONE);

@@ -11,7 +11,7 @@ use super::files::{self, Destination, Draft};
 use super::options::{Reading, counted};
 use super::{DONE, FAULTY, Finished, Stdout, USAGE, failure, provenance, report, say, summary};
 use crate::back::{TARGETS, Target};
-use crate::diagnostic::{Diagnostics, Severity, render};
+use crate::diagnostic::{Diagnostics, Severity, code, render};
 use crate::machine::Job;
 use crate::pipeline::{self, Compiled, Medium, Order};
 use crate::source::Source;
@@ -25,7 +25,8 @@ pub(super) struct Arguments {
     /// Where the program goes: a file, a directory, or `-` for standard output
     ///
     /// By default `<stem of FILE>.<extension of the target>` in the current directory. The input is never overwritten.
-    /// Beside the program stands its `.meta.json`: what it was made from. When the compile fails, an older program of
+    /// Beside the program stands its `.meta.json`: what it was made from. A program is read back and judged before it
+    /// is written (see `cutc verify`); when it fails, or the compile does, nothing is written and an older program of
     /// the same name is moved to `<name>.stale`.
     #[arg(short, long)]
     out: Option<PathBuf>,
@@ -111,7 +112,7 @@ impl Compile<'_> {
         let compiled = self.emit(&mut spool, &mut diagnostics).map_err(|error| {
             failure(format!("cannot spool the program: {error}"), "make room for temporary files, or write to a file")
         })?;
-        let mut finished = self.finish(compiled.as_ref(), &diagnostics);
+        let mut finished = self.finish(compiled.as_ref(), &diagnostics, None);
         if compiled.is_some() {
             finished.stdout = Stdout::Program(spool);
         }
@@ -121,7 +122,7 @@ impl Compile<'_> {
     fn to_file(&self, path: &Path) -> Finished {
         let mut diagnostics = Diagnostics::default();
         let written = self.write(path, &mut diagnostics);
-        let mut finished = self.finish(written.as_ref().unwrap_or(&None).as_ref(), &diagnostics);
+        let mut finished = self.finish(written.as_ref().unwrap_or(&None).as_ref(), &diagnostics, Some(path));
         match written {
             Ok(Some(_)) => say(&mut finished.stderr, format_args!("wrote `{}`", path.display())),
             Ok(None) => finished.stderr.push_str(&files::move_aside(path)),
@@ -158,8 +159,8 @@ impl Compile<'_> {
         pipeline::compile(&self.source, &self.job, order, out, diagnostics)
     }
 
-    /// What is said about the data and the program.
-    fn finish(&self, compiled: Option<&Compiled>, diagnostics: &Diagnostics) -> Finished {
+    /// What is said about the data and the program, which goes to a file or to standard output.
+    fn finish(&self, compiled: Option<&Compiled>, diagnostics: &Diagnostics, path: Option<&Path>) -> Finished {
         let mut said = render(diagnostics, &self.source);
         let stdout = match self.arguments.format {
             Format::Json => report::json(compiled.map(|c| &c.report), diagnostics, &self.source),
@@ -174,7 +175,13 @@ impl Compile<'_> {
             (None, Format::Text | Format::Json) => {
                 let errors = counted(diagnostics.count(Severity::Error), "error");
                 let warnings = counted(diagnostics.count(Severity::Warning), "warning");
-                say(&mut said, format_args!("{}: {errors}, {warnings}; no program was written", self.source.name()));
+                let broken = diagnostics.iter().filter(|d| d.code == &code::VERIFY_BROKEN).count();
+                let why = match broken {
+                    0 => format!("{errors}, {warnings}"),
+                    n => format!("the program breaks {} of its verification", counted(n, "rule")),
+                };
+                let place = path.map_or_else(String::new, |path| format!(" to `{}`", path.display()));
+                say(&mut said, format_args!("{}: {why}; no program was written{place}", self.source.name()));
             }
         }
         Finished::text(stdout, said, if compiled.is_some() { DONE } else { FAULTY })

@@ -34,6 +34,23 @@ pub(super) fn read(path: &Path) -> anyhow::Result<Source> {
         .map_err(|error| failure(format!("cannot read `{name}`: {error}"), "split the marker into several files"))
 }
 
+/// Opens a program to judge it, from its start.
+pub(super) fn open(path: &Path) -> anyhow::Result<fs::File> {
+    let name = path.display();
+    let cannot = |error: io::Error| {
+        failure(
+            format!("cannot read `{name}`: {}", reason(&error)),
+            "name a program that was compiled to a file, as `cutc compile marker.cut` does",
+        )
+    };
+    // Asked first: opening a pipe would wait for its writer.
+    if !fs::metadata(path).map_err(cannot)?.is_file() {
+        let message = format!("`{name}` is not a regular file");
+        return Err(failure(message, "write the program to a file first"));
+    }
+    fs::File::open(path).map_err(cannot)
+}
+
 /// What went wrong, in plain words where the usual ones are cryptic.
 fn reason(error: &io::Error) -> String {
     match error.kind() {

@@ -14,6 +14,7 @@ pub(super) fn overview() -> String {
   cutc compile marker.cut --set knife.width_mm=7.2 -o out/
                                               with one key changed, into a directory
   cutc compile marker.cut -o - | less         the program on standard output
+  cutc verify marker.csv --source marker.cut  judges a program, after an edit by hand too
   cutc check *.cut                            says all that is wrong, writes nothing
   cutc info marker.cut --format json          what is in a file, for a script
   cutc profile init -o machine.toml           every key of a machine with its default
@@ -29,7 +30,8 @@ pub(super) fn overview() -> String {
         "The machine: without -p the defaults are a real cutter's, with a worn 6.6 mm knife.
 `cutc profile init` prints every key of a profile with its meaning, range and default.
 
-Exit codes: 0 done, 1 the data has errors, 2 wrong usage, or a file that cannot be read or written.",
+Exit codes: 0 done, 1 the data has errors or the program fails its verification,
+2 wrong usage, or a file that cannot be read or written.",
     );
     out
 }

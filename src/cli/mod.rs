@@ -14,6 +14,8 @@ mod profile;
 mod provenance;
 mod report;
 mod summary;
+mod verdict;
+mod verify;
 
 use std::ffi::OsString;
 use std::fmt::Write as _;
@@ -25,7 +27,7 @@ use thiserror::Error;
 
 /// Exit code: done.
 pub const DONE: u8 = 0;
-/// Exit code: the data has errors.
+/// Exit code: the data has errors, or a program is not what it should be.
 pub const FAULTY: u8 = 1;
 /// Exit code: the arguments are wrong, or a file cannot be read or written.
 pub const USAGE: u8 = 2;
@@ -50,6 +52,8 @@ struct Arguments {
 enum Command {
     /// Compile a cutter file to a machine program
     Compile(compile::Arguments),
+    /// Judge a program, edited by hand or not: does it cut what its cutter file says?
+    Verify(verify::Arguments),
     /// Read cutter files and say everything that is wrong with them; writes nothing
     Check(check::Arguments),
     /// Say what is in a cutter file: pieces, contours, lengths
@@ -133,6 +137,7 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> Finished {
     };
     let finished = match &arguments.command {
         Command::Compile(arguments) => compile::run(arguments),
+        Command::Verify(arguments) => verify::run(arguments),
         Command::Check(arguments) => check::run(arguments),
         Command::Info(arguments) => info::run(arguments),
         Command::Profile(arguments) => profile::run(arguments),

@@ -1,10 +1,13 @@
 //! Where a program comes from: the `.meta.json` beside it.
 
+use std::fs;
 use std::path::Path;
 
 use serde::Serialize;
 
+use super::files;
 use super::report::pretty;
+use super::say;
 use crate::back::Target;
 use crate::machine::{Job, sha256_hex};
 use crate::source::Source;
@@ -56,4 +59,38 @@ pub(super) fn json(source: &Source, job: &Job, target: &Target, verified: bool) 
         units: Units { time: "s", length: "mm", angle: "deg" },
         verified: if verified { Verified::Yes } else { Verified::No },
     })
+}
+
+/// What the provenance beside a program, if there is one, says against judging it by this source and profile: warnings.
+pub(super) fn doubts(program: &Path, source: &Source, job: &Job) -> String {
+    let path = files::meta(program);
+    let mut said = String::new();
+    let Ok(bytes) = fs::read(&path) else { return said };
+    let path = path.display();
+    let Ok(meta) = serde_json::from_slice::<serde_json::Value>(&bytes) else {
+        say(&mut said, format_args!("warning: `{path}` is no JSON: nobody knows what the program was made from"));
+        return said;
+    };
+    let differs = |key: &str, digest: &str| meta[key].as_str().is_some_and(|told| told != digest);
+    if differs("source_sha256", &sha256_hex(source.bytes())) {
+        let made_from = meta["source"].as_str().unwrap_or("another file");
+        say(
+            &mut said,
+            format_args!(
+                "warning: the program was not made from this `{}`\n  --> {path}: from `{made_from}`, with other bytes\n  \
+                 = hint: name the cutter file that it was made from with --source, or compile it anew",
+                source.name()
+            ),
+        );
+    }
+    if differs("profile_sha256", &job.profile.digest()) {
+        say(
+            &mut said,
+            format_args!(
+                "warning: the program was made with another machine profile\n  --> {path}\n  \
+                 = hint: give the -p and --set that it was compiled with"
+            ),
+        );
+    }
+    said
 }

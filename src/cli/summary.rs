@@ -42,6 +42,9 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
     if let Some(time) = program.time_s {
         line("time", duration(time));
     }
+    if let Some(bulge) = program.bulge_mm.filter(|&bulge| fixed(bulge, 3) != "0.000") {
+        line("bulge", format!("{} mm beyond the chords of flattened curves", fixed(bulge, 3)));
+    }
     line("warnings", diagnostics.count(Severity::Warning).to_string());
     if let Some(axes) = &program.axes {
         peaks(&mut out, axes);
@@ -51,11 +54,19 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
 
 /// One line on what the program is worth.
 pub(super) fn verdict(verdict: Option<&Verdict>) -> String {
-    match verdict {
-        None => "\n  not verified (--no-verify)\n".to_owned(),
-        Some(verdict) => format!("\n  verified: all of {} hold\n", counted(verdict.findings.len(), "rule")),
+    let Some(verdict) = verdict else {
+        return "\n  verified   no: --no-verify was given, nobody has read the program back\n".to_owned();
+    };
+    let mut out = format!("\n  verified   {} hold", counted(verdict.findings.len(), "rule"));
+    let on_path = verdict.findings.iter().find(|finding| finding.rule == ON_PATH);
+    if let Some((worst, limit)) = on_path.and_then(|finding| Some((finding.worst, finding.limit?))) {
+        let _ = write!(out, "; tip at most {} mm off the path ({} allowed)", fixed(worst, 3), fixed(limit, 3));
     }
+    out + "\n"
 }
+
+/// The rule that says most about a cut.
+const ON_PATH: &str = "verify/on-path";
 
 /// A duration as people say it.
 fn duration(seconds: f64) -> String {
@@ -76,7 +87,7 @@ fn peaks(out: &mut String, axes: &Axes) {
     let worst = |column: usize| rows.iter().map(|(_, cells)| cells[column].0.len()).max().unwrap_or(0);
     let limit = |column: usize| rows.iter().map(|(_, cells)| cells[column].1.len()).max().unwrap_or(0);
     let width = |column: usize| titles[column].len().max(worst(column) + 4 + limit(column));
-    out.push_str("\n  greatest of limit\n");
+    out.push_str("\n  greatest value of limit\n");
     let title = |i: usize| format!("   {:>1$}", titles[i], width(i));
     let _ = writeln!(out, "  {:9}{}", "axis", [0, 1, 2].map(title).concat());
     for (axis, cells) in &rows {
@@ -99,7 +110,7 @@ fn cell(peak: Peak) -> (String, String) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ir::Marker;
+    use crate::ir::{Finding, Marker};
     use crate::pipeline::{Notches, Program};
 
     fn report() -> Report {
@@ -122,6 +133,7 @@ mod tests {
                 stabs: Some(1),
                 lifts: Some(101),
                 time_s: Some(119.96),
+                bulge_mm: Some(0.138_2),
                 axes: Some(Axes { x, y: x, c }),
             },
             ..Report::of(&Marker::default(), "iso")
@@ -146,9 +158,10 @@ mod tests {
           runs       101, of which 1 stab
           lifts      101
           time       2 min 0.0 s
+          bulge      0.138 mm beyond the chords of flattened curves
           warnings   0
 
-          greatest of limit
+          greatest value of limit
           axis          speed, /s   acceleration, /s2            jerk, /s3
           x mm        761 of 1200       8000 of  8000    199876 of  200000
           y mm        761 of 1200       8000 of  8000    199876 of  200000
@@ -171,5 +184,14 @@ mod tests {
           cut        20.123 m
           warnings   0
         ");
+    }
+
+    #[test]
+    fn a_verdict_is_a_line() {
+        let finding = |rule, worst, limit| Finding { rule, worst, limit: Some(limit), unit: "mm", place: None };
+        let findings = vec![finding("verify/on-path", 0.061_23, 0.071), finding("verify/stray", 0.0, 0.0)];
+        let line = verdict(Some(&Verdict { findings }));
+        assert_eq!(line, "\n  verified   2 rules hold; tip at most 0.061 mm off the path (0.071 allowed)\n");
+        assert!(verdict(None).contains("no: --no-verify"));
     }
 }

@@ -3,20 +3,22 @@
 use std::fmt::Write as _;
 use std::io::{self, BufReader};
 
+use super::report::significant;
 use super::{Input, Medium, read};
 use crate::back::Context;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::Dialect;
-use crate::ir::Marker;
+use crate::ir::{Finding, Marker};
 use crate::machine::Job;
 use crate::source::{Source, Span};
-use crate::units::number::fixed;
-use crate::verify::{self, Census, Verdict};
+use crate::units::number::{exact, fixed};
+use crate::verify::{self, Census, RULES, Verdict};
 
 /// Bytes that are read back at a time.
 const BLOCK: usize = 1 << 16;
 
-/// Judges a program of timed setpoints, edited by hand or not, against a source. `None` when that cannot be read.
+/// Judges a program of timed setpoints, edited by hand or not, against a source. `None` when the source has errors: then
+/// the diagnostics say which. They are about the source alone; what the program breaks is in the verdict.
 pub fn judge_program(
     program: &mut dyn Medium,
     source: &Source,
@@ -28,9 +30,7 @@ pub fn judge_program(
     if diagnostics.has_errors() {
         return Ok(None);
     }
-    let verdict = judge(source, dialect, &Context { job, marker: &marker }, program)?;
-    report(&verdict, &marker, diagnostics);
-    Ok(Some(verdict))
+    judge(source, dialect, &Context { job, marker: &marker }, program).map(Some)
 }
 
 /// Reads a program back from its start and judges it, and the marker against the source.
@@ -52,20 +52,68 @@ pub(super) fn judge(
 /// A diagnostic for each rule that does not hold.
 pub(super) fn report(verdict: &Verdict, marker: &Marker, diagnostics: &mut Diagnostics) {
     for finding in verdict.broken() {
+        let (worst, limit) = figures(finding);
         let unit = finding.unit;
-        let limit = finding.limit.map_or_else(String::new, |limit| format!(", the most is {}", fixed(limit, 4)));
-        let mut message = format!("{}: {} {unit}{limit}", finding.rule, fixed(finding.worst, 4));
+        let mut message = format!("{}: {worst} {unit}", finding.rule);
+        if let Some(limit) = limit {
+            let _ = write!(message, " ({limit} allowed)");
+        }
         let mut span = None;
         if let Some(place) = finding.place {
+            let _ = write!(message, " at X {} Y {} mm", fixed(place.point.x, 3), fixed(place.point.y, 3));
             if let Some(time) = place.time {
-                let _ = write!(message, ", at {} s", fixed(time, 3));
+                let _ = write!(message, ", {} s into the program", fixed(time, 3));
             }
-            let _ = write!(message, ", X {} Y {} mm", fixed(place.point.x, 3), fixed(place.point.y, 3));
             span = span_of(marker, place.block);
         }
+        let rule = format!("the rule: {}", about(finding.rule));
+        let hint = match key(finding.rule) {
+            Some(key) => format!("the limit is the profile's `{key}`"),
+            None => "no setting should lead here: please report it, with the cutter file and the profile".to_owned(),
+        };
         let diagnostic = Diagnostic { span, ..Diagnostic::new(&code::VERIFY_BROKEN, message) };
-        diagnostics.push(diagnostic.hint("this program must not run; no program is written"));
+        diagnostics.push(diagnostic.hint(rule).hint(hint));
     }
+}
+
+/// What a rule says.
+pub fn about(rule: &str) -> &'static str {
+    RULES.iter().find(|(code, _)| *code == rule).map_or("", |(_, about)| about)
+}
+
+/// The key of the profile that is the limit of a rule and nothing else.
+fn key(rule: &str) -> Option<&'static str> {
+    Some(match rule {
+        "verify/complete" => "verify.max_uncut_mm",
+        "verify/heading" => "verify.max_heading_deg",
+        "verify/body" => "verify.max_body_mm",
+        "verify/overcut-part" => "verify.max_overcut_part_mm",
+        "verify/overcut-neighbour" => "verify.max_overcut_neighbour_mm",
+        "verify/overcut-waste" => "verify.max_overcut_waste_mm",
+        _ => return None,
+    })
+}
+
+/// Significant digits at which figures of findings are shown to people.
+const DIGITS: i32 = 4;
+/// Below this, in any unit, an allowed value is rounding of the computation.
+const NOISE_EPSILON: f64 = 0.99e-9;
+/// The most that are needed to tell a worst value from its limit; beyond, they differ by rounding alone.
+const MOST_DIGITS: i32 = 15;
+
+/// The worst value and the limit of a finding for people: short, but told apart where the one breaks the other.
+pub fn figures(finding: &Finding) -> (String, Option<String>) {
+    let shown = |value: f64, digits| match value {
+        f64::INFINITY => "infinite".to_owned(),
+        noise if noise < NOISE_EPSILON && finding.holds() => "0".to_owned(),
+        _ => exact(significant(value, digits)),
+    };
+    let at = |digits| (shown(finding.worst, digits), finding.limit.map(|limit| shown(limit, digits)));
+    let apart = |digits: &i32| {
+        let (worst, limit) = at(*digits);
+        finding.holds() || limit.is_none_or(|limit| limit != worst)
+    };
+    at((DIGITS..MOST_DIGITS).find(apart).unwrap_or(MOST_DIGITS))
 }
 
 /// The span of a source block that is cut.
@@ -73,4 +121,34 @@ fn span_of(marker: &Marker, block: u32) -> Option<Span> {
     let contours = marker.contours().flat_map(|(_, contour)| marker.list.walk(contour.range)).map(|(_, s)| s.span);
     let notches = marker.pieces.iter().flat_map(|piece| &piece.notches).map(|notch| notch.span);
     contours.chain(notches).find(|span| span.block == block && block > 0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_broken_limit_is_seen_in_the_figures() {
+        let check = |worst, limit, expected: (&str, Option<&str>)| {
+            let finding = Finding { rule: "verify/body", worst, limit, unit: "mm", place: None };
+            let (worst, limit) = figures(&finding);
+            assert_eq!((worst.as_str(), limit.as_deref()), expected);
+        };
+        check(0.061_234, Some(0.071), ("0.06123", Some("0.071")));
+        check(0.071_000_2, Some(0.071), ("0.0710002", Some("0.071")));
+        check(204_000.2, Some(204_000.0), ("204000.2", Some("204000")));
+        check(203_999.8, Some(204_000.0), ("204000", Some("204000")));
+        check(5e-7, Some(0.0), ("0.0000005", Some("0")));
+        check(f64::INFINITY, Some(0.1), ("infinite", Some("0.1")));
+        check(4e-12, Some(1e-9), ("0", Some("0.000000001")));
+        check(4e-12, Some(0.0), ("0.000000000004", Some("0")));
+        check(3.0, None, ("3", None));
+    }
+
+    #[test]
+    fn every_rule_with_a_key_of_its_own_stands_in_the_table() {
+        let keyed = RULES.iter().filter(|(rule, _)| key(rule).is_some()).count();
+        assert_eq!(keyed, 6);
+        assert!(RULES.iter().all(|(rule, _)| !about(rule).is_empty()));
+    }
 }

@@ -4,8 +4,8 @@ mod judge;
 mod program;
 mod report;
 
-pub use judge::judge_program;
-pub use report::{Axes, Notches, Peak, Peaks, Program, Report};
+pub use judge::{about, figures, judge_program};
+pub use report::{Axes, Notches, Peak, Peaks, Program, Report, significant};
 
 pub use crate::verify::Verdict;
 

@@ -35,6 +35,7 @@ pub(super) fn write(
             match cuts {
                 Err(refused) => refused.into_iter().for_each(|diagnostic| diagnostics.push(diagnostic)),
                 Ok(cuts) => {
+                    tally.bulge = cuts.iter().fold(tally.bulge, |most, cut| most.max(cut.bulge));
                     let motion = planner.join(toolpath, cuts);
                     tally.add(&motion);
                     (parts.body)(&motion, context, &mut out)?;
@@ -61,6 +62,7 @@ struct Tally {
     stabs: usize,
     lifts: usize,
     ticks: u64,
+    bulge: f64,
 }
 
 impl Tally {
@@ -89,6 +91,7 @@ impl Tally {
             lifts: Some(self.lifts),
             // The last setpoint stands at the last tick, and rows count from tick 0.
             time_s: Some((self.ticks - 1) as f64 * job.profile.time.period()),
+            bulge_mm: Some(self.bulge),
             axes: Some(Axes::new(&planner.peaks(), &job.profile.axes.limits())),
         }
     }

@@ -1,6 +1,9 @@
 //! What a compile has to tell about its input and its program: the figures of the summary.
+//!
+//! Serialised figures are rounded, all of them here: lengths and times far below what a machine resolves, peaks to
+//! [`PEAK_DIGITS`]. What is kept in memory is not.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use crate::ir::Marker;
 use crate::ir::marker::NotchKind;
@@ -13,8 +16,10 @@ pub struct Report {
     /// Name of the dialect that was read.
     pub dialect: &'static str,
     /// What the numbers of the file are multiples of, mm; 0 when they are not rounded.
+    #[serde(serialize_with = "micro")]
     pub unit_mm: f64,
     /// Width and height of everything that is cut or drilled, mm.
+    #[serde(serialize_with = "micro_pair")]
     pub extent_mm: [f64; 2],
     /// Pieces.
     pub pieces: usize,
@@ -29,6 +34,7 @@ pub struct Report {
     /// Texts.
     pub labels: usize,
     /// Length of contours and slits, without overlaps, m.
+    #[serde(serialize_with = "micro")]
     pub cut_m: f64,
     /// What planning adds.
     #[serde(flatten)]
@@ -48,6 +54,7 @@ pub struct Notches {
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Program {
     /// Way of the C axis with the knife up, m.
+    #[serde(serialize_with = "micro_known")]
     pub travel_m: Option<f64>,
     /// Times that the knife goes down: runs and stabs.
     pub runs: Option<usize>,
@@ -56,7 +63,11 @@ pub struct Program {
     /// Times that the knife goes up.
     pub lifts: Option<usize>,
     /// Duration of the program, s.
+    #[serde(serialize_with = "micro_known")]
     pub time_s: Option<f64>,
+    /// The farthest that the way of the knife bulges beyond the chords of flattened curves, mm.
+    #[serde(skip)]
+    pub bulge_mm: Option<f64>,
     /// The greatest speed, acceleration and jerk of each axis beside its limit.
     pub axes: Option<Axes>,
 }
@@ -87,8 +98,10 @@ pub struct Peaks {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Peak {
     /// The greatest value of the program, by finite differences of its setpoints.
+    #[serde(serialize_with = "peak")]
     pub worst: f64,
     /// What the profile allows.
+    #[serde(serialize_with = "peak")]
     pub limit: f64,
 }
 
@@ -125,5 +138,78 @@ impl Report {
             cut_m: marker.cut_length() / MM_PER_M,
             program: Program::default(),
         }
+    }
+}
+
+/// Millionths that lengths and times are rounded to: micrometres of a metre, microseconds of a second.
+const MILLIONTHS: f64 = 1e6;
+/// Significant digits of a peak.
+const PEAK_DIGITS: i32 = 6;
+/// The most decimals that [`significant`] keeps: what is smaller is noise of the computation.
+const MOST_DECIMALS: i32 = 12;
+
+/// `value` to some significant digits, for output: the nearest number that prints as short as that.
+pub fn significant(value: f64, digits: i32) -> f64 {
+    if value == 0.0 || !value.is_finite() {
+        return value;
+    }
+    let decimals = (digits - 1 - value.abs().log10().floor() as i32).min(MOST_DECIMALS);
+    let scale = 10_f64.powi(decimals.abs());
+    // A quotient or product with an exact power of ten is rounded once, so that no stray decimals follow.
+    if decimals < 0 { (value / scale).round() * scale } else { (value * scale).round() / scale }
+}
+
+fn to_millionths(value: f64) -> f64 {
+    (value * MILLIONTHS).round() / MILLIONTHS
+}
+
+// The signatures are those that serde calls.
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde hands fields over by reference")]
+fn micro<S: Serializer>(value: &f64, out: S) -> Result<S::Ok, S::Error> {
+    to_millionths(*value).serialize(out)
+}
+
+#[allow(clippy::ref_option, reason = "serde hands fields over by reference")]
+fn micro_known<S: Serializer>(value: &Option<f64>, out: S) -> Result<S::Ok, S::Error> {
+    value.map(to_millionths).serialize(out)
+}
+
+fn micro_pair<S: Serializer>(values: &[f64; 2], out: S) -> Result<S::Ok, S::Error> {
+    values.map(to_millionths).serialize(out)
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde hands fields over by reference")]
+fn peak<S: Serializer>(value: &f64, out: S) -> Result<S::Ok, S::Error> {
+    significant(*value, PEAK_DIGITS).serialize(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_are_printed_without_stray_decimals() {
+        let check = |value, digits, expected| assert_eq!(significant(value, digits), expected);
+        check(1_199.954_212_454_599_7, 6, 1199.95);
+        check(1_200.000_000_000_045_5, 6, 1200.0);
+        check(1_004_000.9, 6, 1_004_000.0);
+        check(-0.061_234_567, 3, -0.0612);
+        check(0.0, 6, 0.0);
+        check(1e-300, 6, 0.0);
+        check(f64::INFINITY, 6, f64::INFINITY);
+
+        let peak = Peak { worst: 199_977.108_195_525_94, limit: 2e5 };
+        let text = serde_json::to_string(&peak).expect("plain data");
+        assert_eq!(text, r#"{"worst":199977.0,"limit":200000.0}"#);
+        let report = Report {
+            extent_mm: [12.800_000_000_000_011, 3.999_999_999_999_9],
+            cut_m: 19.059_211_020_457_624,
+            program: Program { time_s: Some(80.642_000_000_1), bulge_mm: Some(0.1), ..Program::default() },
+            ..Report::of(&Marker::default(), "iso")
+        };
+        let json = serde_json::to_value(&report).expect("plain data");
+        assert_eq!(json["extent_mm"].to_string(), "[12.8,4.0]");
+        assert_eq!((json["cut_m"].to_string().as_str(), json["time_s"].to_string().as_str()), ("19.059211", "80.642"));
+        assert!(json["travel_m"].is_null() && json.get("bulge_mm").is_none());
     }
 }

@@ -1,0 +1,63 @@
+//! `cutc verify`: does a program cut what its cutter file says?
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::choices::Format;
+use super::options::{Reading, counted};
+use super::{DONE, FAULTY, Finished, failure, files, provenance, say, verdict};
+use crate::diagnostic::{Diagnostics, Severity, render};
+use crate::pipeline::{self, Verdict};
+
+/// Arguments of `cutc verify`.
+///
+/// The program is simulated row by row and judged under every rule: whether all is cut, once and nothing else, how far
+/// the tip leaves the path, and whether the axes keep their limits. The exit code is 0 when every rule holds, 1 when one
+/// is broken or the cutter file has errors.
+#[derive(Debug, Args)]
+pub(super) struct Arguments {
+    /// Program to judge: timed setpoints, as `cutc compile` writes them with the target csv
+    program: PathBuf,
+
+    /// Cutter file that the program must cut
+    #[arg(long, value_name = "FILE")]
+    source: PathBuf,
+
+    #[command(flatten)]
+    reading: Reading,
+
+    /// How to give the verdict
+    ///
+    /// JSON has `verdict` ("pass" or "fail") and `rules`, each with `code`, `worst`, `limit`, `unit`, `where` and
+    /// `holds`. A `worst` of null is beyond measure, a `limit` of null is only reported, a `block` of 0 is none. When
+    /// the cutter file has errors, the verdict is "fail" without rules.
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
+    let name = arguments.program.display().to_string();
+    let mut program = files::open(&arguments.program)?;
+    let source = files::read(&arguments.source)?;
+    let job = match arguments.reading.machine.job()? {
+        Ok(job) => job,
+        Err(refused) => return Ok(refused),
+    };
+    let mut diagnostics = Diagnostics::default();
+    let judged = pipeline::judge_program(&mut program, &source, arguments.reading.from, &job, &mut diagnostics)
+        .map_err(|error| failure(format!("cannot read `{name}`: {error}"), "check the disk that it is on"))?;
+    let mut said = render(&diagnostics, &source);
+    said.push_str(&provenance::doubts(&arguments.program, &source, &job));
+    if judged.is_none() {
+        let errors = counted(diagnostics.count(Severity::Error), "error");
+        say(&mut said, format_args!("{}: {errors}; `{name}` was not judged", source.name()));
+    }
+    let stdout = match (arguments.format, &judged) {
+        (Format::Json, judged) => verdict::json(judged.as_ref()),
+        (Format::Text, Some(judged)) => verdict::text(judged, &name, source.name()),
+        (Format::Text, None) => String::new(),
+    };
+    let code = if judged.is_some_and(|judged| Verdict::passes(&judged)) { DONE } else { FAULTY };
+    Ok(Finished::text(stdout, said, code))
+}
