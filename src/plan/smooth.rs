@@ -21,6 +21,8 @@ const BAND_XY: usize = 2 * ORDER;
 const PENALTY_ORDER: usize = 3;
 /// Part of the tolerance that the samples may use; the rest is for what happens between them.
 const SHARE: f64 = 0.94;
+/// By how much that part shrinks when the curve swings out between the samples.
+const SHARE_STEP: f64 = 0.03;
 /// Samples a span of the spline, besides the vertices.
 const SAMPLES_A_SPAN: usize = 3;
 /// Samples a span of the check between them.
@@ -65,8 +67,9 @@ pub(super) struct Smooth {
 pub(super) fn smooth(tube: &Tube) -> Result<Smooth, TooTight> {
     let mut finer = vec![1.0; tube.points.len()];
     let mut worst = f64::INFINITY;
+    let mut share = SHARE;
     for _ in 0..ATTEMPTS {
-        let problem = Problem::new(tube, knots::breaks(tube, &finer));
+        let problem = Problem::new(tube, knots::breaks(tube, &finer), share * tube.tolerance);
         let start = problem.feasible_start();
         let trouble = match start {
             Ok((control, weight)) => {
@@ -76,6 +79,7 @@ pub(super) fn smooth(tube: &Tube) -> Result<Smooth, TooTight> {
                     return Ok(Smooth { curve, bulge });
                 }
                 worst = worst.min(deviation);
+                share -= SHARE_STEP;
                 violations
             }
             Err((violations, deviation)) => {
@@ -144,7 +148,7 @@ struct Problem<'a> {
 }
 
 impl<'a> Problem<'a> {
-    fn new(tube: &'a Tube, breaks: Vec<f64>) -> Self {
+    fn new(tube: &'a Tube, breaks: Vec<f64>, bound: f64) -> Self {
         let knots = spline::clamped_knots::<ORDER>(&breaks);
         let count = spline::control_count::<ORDER>(&breaks);
         let stations = sample_stations(tube, &breaks);
@@ -180,7 +184,7 @@ impl<'a> Problem<'a> {
                 penalty.add_square(span, &ders[PENALTY_ORDER], half * weight);
             }
         }
-        Self { tube, breaks, samples, shares, squares, penalty, bound: SHARE * tube.tolerance }
+        Self { tube, breaks, samples, shares, squares, penalty, bound }
     }
 
     fn median_span(&self) -> f64 {
@@ -246,7 +250,7 @@ impl<'a> Problem<'a> {
             weight *= 0.1;
         }
         let Some((control, deviation)) = best else { return Err((self.tube.stations.clone(), f64::INFINITY)) };
-        let out = |s: &&Sample| s.deviation(&control).norm() > SHARE * self.bound;
+        let out = |s: &&Sample| s.deviation(&control).norm() > TROUBLE_SHARE * self.bound;
         Err((self.samples.iter().filter(out).map(|s| s.u).collect(), deviation))
     }
 
@@ -412,6 +416,8 @@ const SHARE_MIN: f64 = 1e-6;
 const START_WEIGHT: f64 = 1e-6;
 const START_ROUNDS: usize = 14;
 const START_SHARE: f64 = 0.999;
+/// A sample beyond this part of the bound asks for finer knots near it.
+const TROUBLE_SHARE: f64 = 0.94;
 /// Rounds that raise the weight threefold, and how far inside the bound they must stay.
 const RELAX_ROUNDS: usize = 80;
 const RELAX_SHARE: f64 = 0.8;
