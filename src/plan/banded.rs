@@ -24,11 +24,6 @@ impl<const W: usize> Band<W> {
         Self { rows: vec![[0.0; W]; n] }
     }
 
-    /// Sets every entry to zero.
-    pub(super) fn clear(&mut self) {
-        self.rows.fill([0.0; W]);
-    }
-
     /// Adds `weight * v v^T` at the rows `first ..`.
     pub(super) fn add_square<const K: usize>(&mut self, first: usize, v: &[f64; K], weight: f64) {
         for (i, &vi) in v.iter().enumerate() {

@@ -6,6 +6,7 @@
 
 mod air;
 mod banded;
+mod barrier;
 mod certify;
 mod knots;
 mod law;

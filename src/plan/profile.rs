@@ -13,6 +13,7 @@
 //! beta, small enough, is always feasible, so there is no run without a motion.
 
 use super::banded::Band;
+use super::barrier::{self, Schedule};
 use super::law::Way;
 use super::timing::Timing;
 use crate::geom::spline::{self, Piecewise};
@@ -22,20 +23,11 @@ use crate::machine::Limits;
 const ORDER: usize = 4;
 /// Constraints at a place: the speed, and both signs of acceleration and jerk of three axes.
 const BOUNDS_A_PLACE: f64 = 13.0;
-/// The barrier stops when its duality gap is below this part of the duration.
-const GAP: f64 = 1e-3;
-/// Growth of the barrier's weight from round to round.
-const ROUND: f64 = 8.0;
-/// Bounds on Newton steps, in a round and in all: a guard, far above what is seen (41 to 63).
-const STEPS_A_ROUND: usize = 12;
-const STEPS_MAX: usize = 150;
-/// A round ends when the Newton decrement squared falls below this.
-const DECREMENT: f64 = 1.0;
+/// To a thousandth of the duration; 41 to 63 steps are seen, whatever the size.
+const SCHEDULE: Schedule =
+    Schedule { start: 0.3, growth: 8.0, gap: 1e-3, decrement: 1.0, steps_a_round: 12, steps: 150 };
 /// How far inside the limits the start lies.
 const START_SHARE: f64 = 0.7;
-/// Sufficient decrease of a line search, as a part of what the slope promises, and its least factor.
-const ARMIJO: f64 = 1e-4;
-const STEP_EPSILON: f64 = 1e-10;
 /// Least difference of two collocation places, mm: nearer ones say the same.
 const PLACE_EPSILON: f64 = 1e-7;
 /// Least derivative of an axis that bounds its speed: smaller ones allow any.
@@ -57,7 +49,7 @@ pub(super) struct Bounds {
 /// The motion along `way` within `bounds`, from rest to rest.
 pub(super) fn profile(way: &Way, bounds: &Bounds) -> Result<Timing, NoMotion> {
     let problem = Problem::new(way, bounds);
-    let control = problem.solve().ok_or(NoMotion)?;
+    let control = barrier::minimise(&problem, problem.feasible_start(), SCHEDULE).ok_or(NoMotion)?;
     Ok(problem.timing(&control))
 }
 
@@ -113,8 +105,8 @@ struct Problem {
     nodes: Vec<Node>,
 }
 
-fn dot(a: &[f64; ORDER], control: &[f64]) -> f64 {
-    a[0] * control[0] + a[1] * control[1] + a[2] * control[2] + a[3] * control[3]
+fn dot(a: &[f64; ORDER], control: &[[f64; 1]]) -> f64 {
+    a[0] * control[0][0] + a[1] * control[1][0] + a[2] * control[2][0] + a[3] * control[3][0]
 }
 
 impl Problem {
@@ -146,12 +138,43 @@ impl Problem {
         Self { breaks, start: way.from, ends, places, nodes }
     }
 
-    fn duration(&self, control: &[f64]) -> f64 {
+    /// A constant beta well inside every limit.
+    fn feasible_start(&self) -> Vec<[f64; 1]> {
+        let ones = [[1.0]; ORDER];
+        let mut scale = f64::INFINITY;
+        for place in &self.places {
+            let b = dot(&place.square, &ones);
+            scale = scale.min(1.0 / (b * place.speed));
+            for (a, j) in place.acceleration.iter().zip(&place.jerk) {
+                scale = scale.min(1.0 / dot(a, &ones).abs());
+                scale = scale.min((dot(j, &ones).abs() * b.sqrt()).powf(-2.0 / 3.0));
+            }
+        }
+        vec![[START_SHARE * scale]; spline::control_count::<ORDER>(&self.breaks)]
+    }
+
+    /// The motion as time over the parameter.
+    fn timing(&self, control: &[[f64; 1]]) -> Timing {
+        let beta = Piecewise::<ORDER, 1>::from_control(self.breaks.clone(), control);
+        let pace = |span: usize, s: f64| {
+            let [w, w1, _] = self.ends.weight(s);
+            let [[v], [v1]] = beta.derivatives_on::<2>(span, s);
+            (w * v, w1 * v + w * v1)
+        };
+        Timing::new(self.start, &self.breaks, pace)
+    }
+}
+
+impl barrier::Problem<1> for Problem {
+    fn constraints(&self) -> f64 {
+        BOUNDS_A_PLACE * self.places.len() as f64
+    }
+
+    fn objective(&self, control: &[[f64; 1]]) -> f64 {
         self.nodes.iter().map(|n| n.weight / dot(&n.square, &control[n.first..]).sqrt()).sum()
     }
 
-    /// Barrier function; infinite outside the limits.
-    fn value(&self, control: &[f64], weight: f64) -> f64 {
+    fn value(&self, control: &[[f64; 1]], weight: f64) -> f64 {
         let mut duration = 0.0;
         for node in &self.nodes {
             let b = dot(&node.square, &control[node.first..]);
@@ -188,52 +211,9 @@ impl Problem {
         weight * duration - logs
     }
 
-    /// A constant beta well inside every limit.
-    fn feasible_start(&self) -> Vec<f64> {
-        let ones = [1.0; ORDER];
-        let mut scale = f64::INFINITY;
-        for place in &self.places {
-            let b = dot(&place.square, &ones);
-            scale = scale.min(1.0 / (b * place.speed));
-            for (a, j) in place.acceleration.iter().zip(&place.jerk) {
-                scale = scale.min(1.0 / dot(a, &ones).abs());
-                scale = scale.min((dot(j, &ones).abs() * b.sqrt()).powf(-2.0 / 3.0));
-            }
-        }
-        vec![START_SHARE * scale; spline::control_count::<ORDER>(&self.breaks)]
-    }
-
-    /// Minimises the duration; `None` when the numbers break down before anything is found.
-    fn solve(&self) -> Option<Vec<f64>> {
-        let mut control = self.feasible_start();
-        let bounds = BOUNDS_A_PLACE * self.places.len() as f64;
-        let mut weight = 0.3 * bounds / self.duration(&control);
-        if !weight.is_finite() || !self.value(&control, weight).is_finite() {
-            return None;
-        }
+    /// The Hessian is exact for the duration and takes g g^T terms for the bounds, so it is positive definite everywhere.
+    fn newton(&self, control: &[[f64; 1]], weight: f64) -> Option<(Vec<[f64; 1]>, f64)> {
         let mut hessian = Band::<ORDER>::zero(control.len());
-        let mut steps = 0;
-        loop {
-            for _ in 0..STEPS_A_ROUND {
-                steps += 1;
-                let Some((direction, decrement)) = self.newton(&control, weight, &mut hessian) else { break };
-                let Some(next) = self.line_search(&control, &direction, weight, decrement) else { break };
-                control = next;
-                if decrement < DECREMENT {
-                    break;
-                }
-            }
-            if bounds / weight < GAP * self.duration(&control) || steps > STEPS_MAX {
-                return Some(control);
-            }
-            weight *= ROUND;
-        }
-    }
-
-    /// The Newton direction and the square of its decrement. The Hessian is exact for the duration and takes g g^T terms
-    /// for the bounds, so it is positive definite everywhere.
-    fn newton(&self, control: &[f64], weight: f64, hessian: &mut Band<ORDER>) -> Option<(Vec<f64>, f64)> {
-        hessian.clear();
         let mut gradient = vec![0.0; control.len()];
         let mut add = |hessian: &mut Band<ORDER>, first: usize, row: &[f64; ORDER], slope: f64, bend: f64| {
             for (g, r) in gradient[first..].iter_mut().zip(row) {
@@ -244,17 +224,17 @@ impl Problem {
         for node in &self.nodes {
             let b = dot(&node.square, &control[node.first..]);
             let slope = -0.5 * weight * node.weight / (b * b.sqrt());
-            add(hessian, node.first, &node.square, slope, -1.5 * slope / b);
+            add(&mut hessian, node.first, &node.square, slope, -1.5 * slope / b);
         }
         for place in &self.places {
             let near = &control[place.first..];
             let b = dot(&place.square, near);
             let root = b.sqrt();
             let speed = place.speed / (1.0 - b * place.speed);
-            add(hessian, place.first, &place.square, speed, speed * speed);
+            add(&mut hessian, place.first, &place.square, speed, speed * speed);
             for row in &place.acceleration {
                 let (slope, bend) = two_sided(dot(row, near));
-                add(hessian, place.first, row, slope, bend);
+                add(&mut hessian, place.first, row, slope, bend);
             }
             for row in &place.jerk {
                 let half = dot(row, near);
@@ -262,38 +242,13 @@ impl Problem {
                 // Gradient of sqrt(b) * (row . control).
                 let share = 0.5 * half / root;
                 let full: [f64; ORDER] = std::array::from_fn(|i| root * row[i] + share * place.square[i]);
-                add(hessian, place.first, &full, slope, bend);
+                add(&mut hessian, place.first, &full, slope, bend);
             }
         }
         let mut step: Vec<[f64; 1]> = gradient.iter().map(|g| [-g]).collect();
-        hessian.clone().factor().ok()?.solve(&mut step);
+        hessian.factor().ok()?.solve(&mut step);
         let decrement = -step.iter().zip(&gradient).map(|(s, g)| s[0] * g).sum::<f64>();
-        decrement.is_finite().then(|| (step.iter().map(|s| s[0]).collect(), decrement))
-    }
-
-    fn line_search(&self, control: &[f64], direction: &[f64], weight: f64, decrement: f64) -> Option<Vec<f64>> {
-        let before = self.value(control, weight);
-        let mut step = 1.0;
-        while step > STEP_EPSILON {
-            let next: Vec<f64> = control.iter().zip(direction).map(|(c, d)| c + step * d).collect();
-            if self.value(&next, weight) <= before - ARMIJO * step * decrement {
-                return Some(next);
-            }
-            step *= 0.5;
-        }
-        None
-    }
-
-    /// The motion as time over the parameter.
-    fn timing(&self, control: &[f64]) -> Timing {
-        let control: Vec<[f64; 1]> = control.iter().map(|&c| [c]).collect();
-        let beta = Piecewise::<ORDER, 1>::from_control(self.breaks.clone(), &control);
-        let pace = |span: usize, s: f64| {
-            let [w, w1, _] = self.ends.weight(s);
-            let [[v], [v1]] = beta.derivatives_on::<2>(span, s);
-            (w * v, w1 * v + w * v1)
-        };
-        Timing::new(self.start, &self.breaks, pace)
+        decrement.is_finite().then_some((step, decrement))
     }
 }
 

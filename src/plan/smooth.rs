@@ -7,6 +7,7 @@
 //! the optimum. All matrices are banded, so time and memory are linear in the number of knots.
 
 use super::banded::Band;
+use super::barrier::{self, Schedule};
 use super::knots;
 use super::tube::{Slot, Tube};
 use crate::geom::spline::{self, Piecewise};
@@ -30,19 +31,11 @@ const CHECKS_A_SPAN: usize = 9;
 /// Attempts with finer and finer knots, and the factor on the spacing near what was not reached.
 const ATTEMPTS: usize = 8;
 const FINER: f64 = 0.6;
-/// The barrier stops when its duality gap is below this part of the penalty: geometry is insensitive beyond.
-const GAP: f64 = 2e-2;
-/// Growth of the barrier's weight from round to round.
-const ROUND: f64 = 10.0;
-/// Bounds on Newton steps, in a round and in all: a guard, far above what is seen.
-const STEPS_A_ROUND: usize = 10;
-const STEPS_MAX: usize = 90;
-/// A round ends when the Newton decrement squared falls below this.
-const DECREMENT: f64 = 2.0;
+/// To a fiftieth of the penalty: program time is insensitive beyond.
+const SCHEDULE: Schedule =
+    Schedule { start: 0.05, growth: 10.0, gap: 2e-2, decrement: 2.0, steps_a_round: 10, steps: 90 };
 /// Least distance of two samples, as a part of the length: nearer ones say the same.
 const SAMPLE_EPSILON: f64 = 1e-7;
-/// Least factor of a line search: a smaller step makes no progress in floating point.
-const STEP_EPSILON: f64 = 1e-9;
 
 /// A smooth path: position over chord length, mm.
 pub(super) type Curve = Piecewise<ORDER, 2>;
@@ -73,7 +66,9 @@ pub(super) fn smooth(tube: &Tube) -> Result<Smooth, TooTight> {
         let start = problem.feasible_start();
         let trouble = match start {
             Ok((control, weight)) => {
-                let curve = problem.curve(&problem.barrier(problem.relax(control, weight)));
+                let start = problem.relax(control, weight);
+                let control = barrier::minimise(&problem, start.clone(), SCHEDULE).unwrap_or(start);
+                let curve = problem.curve(&control);
                 let (violations, deviation, bulge) = problem.check(&curve);
                 if violations.is_empty() {
                     return Ok(Smooth { curve, bulge });
@@ -267,12 +262,42 @@ impl<'a> Problem<'a> {
         control
     }
 
-    fn penalty_of(&self, control: &[[f64; 2]]) -> f64 {
+    /// Where the curve leaves the whole tolerance between the samples, its greatest deviation and greatest bulge, mm.
+    fn check(&self, curve: &Curve) -> (Vec<f64>, f64, f64) {
+        let mut violations = Vec::new();
+        let (mut deviation, mut bulge) = (0.0_f64, 0.0_f64);
+        let mut chord = 0;
+        for (span, ends) in self.breaks.windows(2).enumerate() {
+            for i in 0..CHECKS_A_SPAN {
+                let u = ends[0] + (ends[1] - ends[0]) * i as f64 / CHECKS_A_SPAN as f64;
+                while chord + 2 < self.tube.stations.len() && self.tube.stations[chord + 1] <= u {
+                    chord += 1;
+                }
+                let [[x, y]] = curve.derivatives_on::<1>(span, u);
+                let (away, used) = self.tube.slot(chord, u).deviation(Point::new(x, y));
+                deviation = deviation.max(away.norm());
+                bulge = bulge.max(used);
+                if away.norm() > CHECK_SHARE * self.tube.tolerance {
+                    violations.push(u);
+                }
+            }
+        }
+        (violations, deviation, bulge)
+    }
+}
+
+impl barrier::Problem<2> for Problem<'_> {
+    fn constraints(&self) -> f64 {
+        self.samples.len() as f64
+    }
+
+    /// The integral of |r'''|^2.
+    fn objective(&self, control: &[[f64; 2]]) -> f64 {
         let product = self.penalty.times(control);
         product.iter().zip(control).map(|(p, c)| p[0] * c[0] + p[1] * c[1]).sum()
     }
 
-    /// Barrier function: weight / 2 * penalty - sum of log(bound^2 - |deviation|^2); infinite outside.
+    /// weight / 2 * penalty - sum of log(bound^2 - |deviation|^2).
     fn value(&self, control: &[[f64; 2]], weight: f64) -> f64 {
         let square = self.bound * self.bound;
         let mut logs = 0.0;
@@ -283,34 +308,10 @@ impl<'a> Problem<'a> {
             }
             logs += slack.ln();
         }
-        0.5 * weight * self.penalty_of(control) - logs
+        0.5 * weight * self.objective(control) - logs
     }
 
-    /// From a strictly feasible start to the optimum, as far as [`GAP`] says; every iterate is feasible.
-    fn barrier(&self, mut control: Control) -> Control {
-        let count = self.samples.len() as f64;
-        let mut weight = 0.05 * count / self.penalty_of(&control).max(f64::MIN_POSITIVE);
-        let mut steps = 0;
-        loop {
-            for _ in 0..STEPS_A_ROUND {
-                steps += 1;
-                let Some((direction, decrement)) = self.newton(&control, weight) else { break };
-                let before = self.value(&control, weight);
-                let Some(next) = self.line_search(&control, &direction, weight, before, decrement) else { break };
-                control = next;
-                if decrement < DECREMENT {
-                    break;
-                }
-            }
-            if count / weight < GAP * self.penalty_of(&control) || steps > STEPS_MAX {
-                return control;
-            }
-            weight *= ROUND;
-        }
-    }
-
-    /// The Newton direction and the square of its decrement.
-    fn newton(&self, control: &[[f64; 2]], weight: f64) -> Option<(Control, f64)> {
+    fn newton(&self, control: &[[f64; 2]], weight: f64) -> Option<(Vec<[f64; 2]>, f64)> {
         let n = self.penalty.len();
         let square = self.bound * self.bound;
         let mut hessian = Band::<BAND_XY>::zero(2 * n);
@@ -361,49 +362,6 @@ impl<'a> Problem<'a> {
         let decrement = -step.iter().zip(&gradient).map(|(s, g)| s[0] * g[0]).sum::<f64>();
         (decrement.is_finite()).then(|| (step.chunks_exact(2).map(|s| [s[0][0], s[1][0]]).collect(), decrement))
     }
-
-    fn line_search(
-        &self,
-        control: &[[f64; 2]],
-        direction: &[[f64; 2]],
-        weight: f64,
-        before: f64,
-        decrement: f64,
-    ) -> Option<Control> {
-        let mut step = 1.0;
-        while step > STEP_EPSILON {
-            let next: Control =
-                control.iter().zip(direction).map(|(c, d)| [c[0] + step * d[0], c[1] + step * d[1]]).collect();
-            if self.value(&next, weight) <= before - ARMIJO * step * decrement {
-                return Some(next);
-            }
-            step *= 0.5;
-        }
-        None
-    }
-
-    /// Where the curve leaves the whole tolerance between the samples, its greatest deviation and greatest bulge, mm.
-    fn check(&self, curve: &Curve) -> (Vec<f64>, f64, f64) {
-        let mut violations = Vec::new();
-        let (mut deviation, mut bulge) = (0.0_f64, 0.0_f64);
-        let mut chord = 0;
-        for (span, ends) in self.breaks.windows(2).enumerate() {
-            for i in 0..CHECKS_A_SPAN {
-                let u = ends[0] + (ends[1] - ends[0]) * i as f64 / CHECKS_A_SPAN as f64;
-                while chord + 2 < self.tube.stations.len() && self.tube.stations[chord + 1] <= u {
-                    chord += 1;
-                }
-                let [[x, y]] = curve.derivatives_on::<1>(span, u);
-                let (away, used) = self.tube.slot(chord, u).deviation(Point::new(x, y));
-                deviation = deviation.max(away.norm());
-                bulge = bulge.max(used);
-                if away.norm() > CHECK_SHARE * self.tube.tolerance {
-                    violations.push(u);
-                }
-            }
-        }
-        (violations, deviation, bulge)
-    }
 }
 
 /// Nodes and weights of Gauss-Legendre quadrature with three points: exact for the square of a third derivative.
@@ -421,8 +379,6 @@ const TROUBLE_SHARE: f64 = 0.94;
 /// Rounds that raise the weight threefold, and how far inside the bound they must stay.
 const RELAX_ROUNDS: usize = 80;
 const RELAX_SHARE: f64 = 0.8;
-/// Sufficient decrease of a line search, as a part of what the slope promises.
-const ARMIJO: f64 = 1e-4;
 /// Part of the tolerance that the curve may use anywhere: the rest is for rounding of the emitted numbers.
 const CHECK_SHARE: f64 = 0.995;
 
