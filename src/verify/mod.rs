@@ -4,8 +4,8 @@
 //! holds or not. A checker must not share the fault that it looks for, so nothing here comes from the reader, the passes,
 //! the planner or the emitters: the rows are read, the corners found, the tube laid and the blade simulated anew.
 //!
-//! The way: [`read`] gives rows; [`limits`] and [`rest`] watch the axes; the rows between a plunge and a lift are a
-//! [`stroke`], which is followed along the lines of the [`reference`] and marks what it cut in [`coverage`].
+//! The way: `read` gives rows; `limits` and `rest` watch the axes; the rows between a plunge and a lift are a
+//! `stroke`, which is followed along the lines of the `reference` and marks what it cut in `coverage`.
 
 mod coverage;
 mod follow;
