@@ -27,6 +27,11 @@ impl<'a> Coverage<'a> {
         parts.map(|[a, b]| (b - a) - covered(&self.cut[line], a, b)).sum()
     }
 
+    /// How much of a line was cut, mm.
+    pub(super) fn length(&self, line: usize) -> f64 {
+        self.cut[line].iter().map(|[a, b]| b - a).sum()
+    }
+
     /// Marks stretches as cut.
     pub(super) fn add(&mut self, line: usize, stretches: &[[f64; 2]]) {
         for stretch in stretches {

@@ -4,8 +4,8 @@
 //! holds or not. A checker must not share the fault that it looks for, so nothing here comes from the reader, the passes,
 //! the planner or the emitters: the rows are read, the corners found, the tube laid and the blade simulated anew.
 //!
-//! The way: [`read`] gives rows; [`limits`] and [`rest`] watch the axes; the rows between a plunge and a lift are a
-//! [`stroke`], which is followed along the lines of the [`reference`] and marks what it cut in [`coverage`].
+//! The way: `read` gives rows; `limits` and `rest` watch the axes; the rows between a plunge and a lift are a
+//! `stroke`, which is followed along the lines of the `reference` and marks what it cut in `coverage`.
 
 mod coverage;
 mod follow;
@@ -17,6 +17,7 @@ mod reference;
 mod rest;
 mod source_audit;
 mod stroke;
+mod table;
 mod worst;
 
 pub use source_audit::{Census, source_audit};
@@ -29,6 +30,7 @@ use self::read::{Row, Rows};
 use self::reference::Reference;
 use self::rest::Rest;
 use self::stroke::{Judge, Stroke};
+use self::table::Table;
 use crate::ir::{Finding, Marker};
 use crate::machine::Job;
 
@@ -37,7 +39,7 @@ pub const RULES: &[(&str, &str)] = &[
     ("verify/format", "every row can be read: numbers are finite, outputs legal, no field is missing"),
     ("verify/time", "rows follow each other at the period of the profile, without gap or repetition"),
     ("verify/start", "the program starts at home"),
-    ("verify/end", "the program ends with the knife up and, when the profile says so, at the park pose"),
+    ("verify/end", "the program ends with knife and drill up and, when the profile says so, at the park pose"),
     ("verify/speed-x", "X never is faster than its limit"),
     ("verify/speed-y", "Y never is faster than its limit"),
     ("verify/speed-c", "C never is faster than its limit"),
@@ -47,13 +49,14 @@ pub const RULES: &[(&str, &str)] = &[
     ("verify/jerk-x", "X never jerks more than its limit"),
     ("verify/jerk-y", "Y never jerks more than its limit"),
     ("verify/jerk-c", "C never jerks more than its limit"),
-    ("verify/feed", "the tip is never faster than the feed while it cuts; in parts of the feed"),
+    ("verify/feed", "the tip is never faster than the feed while it cuts"),
     ("verify/rest", "the axes rest while the knife plunges or lifts and while a drill works"),
     ("verify/dwell", "plunges, lifts and drills last as long as the profile says"),
     ("verify/c-range", "C stays inside its range"),
-    ("verify/table", "the blade stays over the table"),
+    ("verify/table", "the axes, and the blade while it is down, stay over the table"),
     ("verify/on-path", "the tip stays inside the tube of the path while it cuts"),
     ("verify/stray", "the knife cuts nothing that is not in the marker"),
+    ("verify/order", "contours and slits are cut in the order of the marker"),
     ("verify/once", "nothing is cut twice beyond the overlaps"),
     ("verify/complete", "no stretch of a contour or slit is left uncut"),
     ("verify/heading", "the blade points along its law while it cuts"),
@@ -95,12 +98,14 @@ pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdi
     let mut coverage = Coverage::new(&reference);
     let mut limits = Limits::new(&job.profile);
     let mut rest = Rest::new(marker, &job.profile);
+    let mut table = Table::new(&job.profile);
     let mut rows = Rows::new(program);
     let mut stroke = Stroke::default();
     let mut last: Option<Row> = None;
     while let Some(row) = rows.next() {
         limits.see(&row);
         rest.see(&row);
+        table.see(&row);
         if row.knife {
             stroke.push(&row);
         } else if !stroke.is_empty() {
@@ -117,6 +122,7 @@ pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdi
     let mut findings = vec![rows.finding()];
     findings.extend(limits.findings(last.as_ref()));
     findings.extend(rest.findings(last.as_ref()));
+    findings.push(table.finding());
     findings.extend(judge.findings());
     findings.extend(coverage.findings(&job.profile));
     sort(&mut findings);

@@ -19,6 +19,8 @@ const TURN_EPSILON: f64 = 1e-6;
 pub(super) struct Line {
     /// Index of its piece.
     pub(super) piece: usize,
+    /// Number of its contour or slit, in cut order.
+    pub(super) group: usize,
     /// Its points; a ring ends with its first one.
     pub(super) points: Vec<Point>,
     /// Length from the first point to each point.
@@ -49,7 +51,8 @@ impl<'a> Reference<'a> {
         for (index, piece) in marker.pieces.iter().enumerate() {
             slits(piece, index, &mut lines);
             for contour in &piece.contours {
-                contour_lines(marker, contour, index, profile, &mut lines);
+                let group = lines.last().map_or(0, |line: &Line| line.group + 1);
+                contour_lines(marker, contour, [index, group], profile, &mut lines);
             }
         }
         Self { marker, lines, tolerance: profile.tolerance(marker.unit) }
@@ -60,8 +63,10 @@ fn slits(piece: &Piece, index: usize, lines: &mut Vec<Line>) {
     for notch in &piece.notches {
         let points = vec![notch.root, notch.tip];
         let stations = polyline::stations(&points);
+        let group = lines.last().map_or(0, |line| line.group + 1);
         lines.push(Line {
             piece: index,
+            group,
             points,
             stations,
             blocks: vec![notch.span.block],
@@ -71,8 +76,14 @@ fn slits(piece: &Piece, index: usize, lines: &mut Vec<Line>) {
     }
 }
 
-/// Cuts a contour at its corners.
-fn contour_lines(marker: &Marker, contour: &Contour, piece: usize, profile: &MachineProfile, lines: &mut Vec<Line>) {
+/// Cuts a contour at its corners; `owner` is the index of its piece and its group.
+fn contour_lines(
+    marker: &Marker,
+    contour: &Contour,
+    owner: [usize; 2],
+    profile: &MachineProfile,
+    lines: &mut Vec<Line>,
+) {
     let mut segments: Vec<Segment> = marker.list.walk(contour.range).map(|(_, segment)| segment).collect();
     let count = segments.len();
     let turn = |segments: &[Segment], i: usize| {
@@ -92,37 +103,24 @@ fn contour_lines(marker: &Marker, contour: &Contour, piece: usize, profile: &Mac
     for i in 1..=count {
         if i == count || is_corner(&segments, i) {
             let inner = i - from;
-            let turns: Vec<f64> = (0..=inner)
-                .map(|k| match k {
-                    0 => {
-                        if ring {
-                            turn(&segments, 0)
-                        } else {
-                            0.0
-                        }
-                    }
-                    k if k == inner => {
-                        if ring {
-                            turn(&segments, 0)
-                        } else {
-                            0.0
-                        }
-                    }
-                    k => turn(&segments, from + k),
-                })
-                .collect();
-            lines.push(line(&segments[from..i], &turns, piece, ring, profile));
+            let turn_at = |k: usize| match (k == 0 || k == inner, ring) {
+                (true, false) => 0.0,
+                (true, true) => turn(&segments, 0),
+                (false, _) => turn(&segments, from + k),
+            };
+            let turns: Vec<f64> = (0..=inner).map(turn_at).collect();
+            lines.push(line(&segments[from..i], &turns, owner, ring, profile));
             from = i;
         }
     }
 }
 
-fn line(segments: &[Segment], turns: &[f64], piece: usize, ring: bool, profile: &MachineProfile) -> Line {
+fn line(segments: &[Segment], turns: &[f64], [piece, group]: [usize; 2], ring: bool, profile: &MachineProfile) -> Line {
     let mut points = vec![segments[0].from];
     points.extend(segments.iter().map(|s| s.to));
     let bulges = segments.iter().zip(turns.windows(2)).map(|(s, t)| bulge(s, t, profile)).collect();
     let blocks = segments.iter().map(|s| s.span.block).collect();
-    Line { piece, stations: polyline::stations(&points), points, blocks, bulges, ring }
+    Line { piece, group, stations: polyline::stations(&points), points, blocks, bulges, ring }
 }
 
 /// On a chord between two turns to the same side the curve that was flattened lies outside, by about length * turn / 8.
@@ -171,6 +169,26 @@ impl Line {
         let outward = reach / height;
         let used = away.dot(&outward).clamp(0.0, height);
         ((away - outward * used).norm(), station)
+    }
+
+    /// The vertices between two stations; on a ring these may lie on any lap, and its last point is left to its first.
+    pub(super) fn vertices(&self, low: f64, high: f64) -> impl Iterator<Item = usize> + '_ {
+        let length = self.length();
+        let count = if self.ring { self.chords() } else { self.points.len() };
+        let lap = if self.ring { (low / length).floor() } else { 0.0 };
+        let first = self.stations[..count].partition_point(|&s| s + lap * length < low);
+        let laps = if self.ring { usize::MAX } else { count };
+        let station = move |i: usize| self.stations[i % count] + (lap + (i / count) as f64) * length;
+        (first..laps).take_while(move |&i| station(i) <= high).map(move |i| i % count)
+    }
+
+    /// Turn of the line at a vertex, rad; none at the ends of an open line.
+    pub(super) fn turn(&self, vertex: usize) -> f64 {
+        let count = self.chords();
+        if !self.ring && (vertex == 0 || vertex == count) {
+            return 0.0;
+        }
+        angle::turn(self.direction((vertex + count - 1) % count), self.direction(vertex % count))
     }
 
     /// The chord of a station.

@@ -106,7 +106,7 @@ impl<'a> Rest<'a> {
     pub(super) fn findings(mut self, last: Option<&Row>) -> Vec<Finding> {
         if let Some(last) = last {
             self.finish(last);
-            if last.knife {
+            if last.knife || last.drill != 0 {
                 self.end.see(f64::INFINITY, || last.sighting());
             }
             if let Some(park) = self.park {
@@ -122,21 +122,25 @@ impl<'a> Rest<'a> {
         let mut wrong = Worst::new("verify/drills", "holes", Some(0.0));
         let mut place = Worst::new("verify/drill-place", "mm", Some(HOLE));
         let mut left = std::mem::take(&mut self.drilled);
+        // By tool and X, so that the holes near a place lie side by side.
+        left.sort_by(|a, b| a.1.cmp(&b.1).then(a.0.x.total_cmp(&b.0.x)));
+        let mut taken = vec![false; left.len()];
         let mut count = 0.0;
         for drill in self.marker.pieces.iter().flat_map(|p| &p.drills) {
-            let away = |(at, tool, _): &(Point, u8, Row)| {
-                if *tool == drill.tool { (at - drill.at).norm() } else { f64::INFINITY }
-            };
-            let nearest = (0..left.len()).min_by(|&a, &b| away(&left[a]).total_cmp(&away(&left[b])));
-            if let Some(i) = nearest.filter(|&i| away(&left[i]) < HOLE_REACH) {
-                let (at, _, row) = left.remove(i);
-                place.see((at - drill.at).norm(), || row.sighting());
+            let first = left.partition_point(|(at, tool, _)| (*tool, at.x) < (drill.tool, drill.at.x - HOLE_REACH));
+            let near =
+                left[first..].partition_point(|(at, tool, _)| (*tool, at.x) <= (drill.tool, drill.at.x + HOLE_REACH));
+            let away = |i: &usize| (left[*i].0 - drill.at).norm();
+            let nearest = (first..first + near).filter(|&i| !taken[i]).min_by(|a, b| away(a).total_cmp(&away(b)));
+            if let Some(i) = nearest.filter(|i| away(i) < HOLE_REACH) {
+                taken[i] = true;
+                place.see(away(&i), || left[i].2.sighting());
             } else {
                 count += 1.0;
                 wrong.see(count, || Sighting { time: None, point: drill.at, block: drill.span.block });
             }
         }
-        for (_, _, row) in left {
+        for (_, (_, _, row)) in taken.iter().zip(&left).filter(|(taken, _)| !**taken) {
             count += 1.0;
             wrong.see(count, || row.sighting());
         }

@@ -65,30 +65,30 @@ const LENGTH_EPSILON: f64 = 1e-9;
 /// Scans a cut file. Only what moves the knife matters here; everything else is passed over.
 fn scan_iso(bytes: &[u8], unit: f64) -> Census {
     let mut census = Census { points: 0, drills: 0, length: 0.0, bounds: Extent::EMPTY };
-    let mut blocks = bytes.split(|&b| b == b'*').map(squeeze).peekable();
+    let mut blocks = Blocks { bytes, at: 0 };
     let (mut at, mut down) = (Point::origin(), false);
+    // Whether the knife was led here for a hole; whether a drill waits for its place.
+    let (mut fresh, mut waiting) = (false, false);
     // Points of the stroke under way, so that one that never moves counts for nothing.
     let mut stroke: Vec<Point> = Vec::new();
-    while let Some(block) = blocks.next() {
+    while let Some(block) = blocks.next(false) {
         let Some(words) = words(&block) else { continue };
         let has =
             |code: &str| words.iter().any(|(letter, number)| format!("{letter}{}", number.unwrap_or(0.0)) == code);
-        let is_label = has("M31");
         let moves = words.iter().any(|(letter, _)| matches!(letter, 'X' | 'Y'))
             && !words.iter().any(|w| w.0 == 'Q' || w.0 == 'Z');
-        if is_label || has("M20") {
-            let placed = moves;
-            if is_label && !placed && blocks.peek().is_some_and(|next| is_place(next)) {
-                blocks.next();
+        if has("M31") || has("M20") {
+            if has("M31") && !moves && blocks.clone().next(false).is_some_and(|next| is_place(&next)) {
+                blocks.next(false);
             }
-            blocks.next();
+            blocks.next(true);
             continue;
         }
         if has("M15") || words[0].0 == 'A' {
             finish(&mut stroke, &mut census);
-            down = false;
+            (down, fresh) = (false, false);
         }
-        if has("M14") || words[0].0 == 'B' {
+        if (has("M14") || words[0].0 == 'B') && !down {
             down = true;
             stroke = vec![at];
         }
@@ -100,16 +100,21 @@ fn scan_iso(bytes: &[u8], unit: f64) -> Census {
                     _ => {}
                 }
             }
+            fresh = true;
             if down {
                 stroke.push(at);
+            }
+            if std::mem::take(&mut waiting) {
+                census.bounds.add(at);
             }
         }
         if ["M43", "R0", "M44", "M45", "M72", "M73"].iter().any(|code| has(code)) {
             census.drills += 1;
-            census.bounds.add(at);
-        }
-        if has("M0") {
-            break;
+            waiting = !fresh && place_follows(blocks.clone());
+            if !waiting {
+                census.bounds.add(at);
+            }
+            fresh = false;
         }
     }
     finish(&mut stroke, &mut census);
@@ -117,6 +122,7 @@ fn scan_iso(bytes: &[u8], unit: f64) -> Census {
 }
 
 fn finish(stroke: &mut Vec<Point>, census: &mut Census) {
+    stroke.dedup();
     if stroke.len() > 1 {
         census.points += stroke.len() - 1;
         census.length += stroke.windows(2).map(|w| (w[1] - w[0]).norm()).sum::<f64>();
@@ -127,11 +133,46 @@ fn finish(stroke: &mut Vec<Point>, census: &mut Census) {
     stroke.clear();
 }
 
+/// The blocks of a file.
+#[derive(Clone)]
+struct Blocks<'a> {
+    bytes: &'a [u8],
+    at: usize,
+}
+
+impl Blocks<'_> {
+    /// The next block, without blanks. What stands between two slashes is deleted; in a text it is not.
+    fn next(&mut self, is_text: bool) -> Option<Vec<u8>> {
+        let mut block = Vec::new();
+        if self.at >= self.bytes.len() {
+            return None;
+        }
+        while let Some(&byte) = self.bytes.get(self.at) {
+            self.at += 1;
+            match byte {
+                b'*' => return Some(squeeze(&block)),
+                b'/' if !is_text => {
+                    self.at += self.bytes[self.at..].iter().position(|&b| b == b'/').map_or(0, |i| i + 1);
+                }
+                _ => block.push(byte),
+            }
+        }
+        Some(squeeze(&block))
+    }
+}
+
+/// Whether the next block is a place, but not the start of a contour.
+fn place_follows(mut blocks: Blocks) -> bool {
+    let is_down = |block: Vec<u8>| words(&block).is_some_and(|words| words.contains(&('M', Some(14.0))));
+    blocks.next(false).is_some_and(|block| is_place(&block)) && !blocks.next(false).is_some_and(is_down)
+}
+
 fn squeeze(block: &[u8]) -> Vec<u8> {
     block.iter().copied().filter(|b| !matches!(b, b'\r' | b'\n' | b' ' | b'\t' | 0 | 0x1a)).collect()
 }
 
-/// The words of a block: a letter and the number behind it. `None` when it is no such thing.
+/// The words of a block: a letter and the number behind it. `None` when it is no such thing, but a text: codes have
+/// numbers, all but one at the most.
 fn words(block: &[u8]) -> Option<Vec<(char, Option<f64>)>> {
     let mut words: Vec<(char, Option<f64>)> = Vec::new();
     let mut rest = block;
@@ -144,7 +185,8 @@ fn words(block: &[u8]) -> Option<Vec<(char, Option<f64>)>> {
         words.push((char::from(*letter), if number.is_empty() { None } else { Some(number.parse().ok()?) }));
         rest = &behind[end..];
     }
-    (!words.is_empty()).then_some(words)
+    let bare = words.iter().filter(|(_, number)| number.is_none()).count();
+    (!words.is_empty() && bare <= 1).then_some(words)
 }
 
 fn is_place(block: &[u8]) -> bool {

@@ -11,7 +11,7 @@ use super::inside::Inside;
 use super::read::{ROUNDING, Row};
 use super::reference::{Line, Reference};
 use super::worst::{Worst, at};
-use crate::geom::{Point, angle, polyline};
+use crate::geom::{Point, Vector, angle, polyline};
 use crate::ir::Finding;
 use crate::ir::finding::Sighting;
 use crate::machine::{Knife, MachineProfile};
@@ -22,8 +22,8 @@ const BODY_STEP: f64 = 0.25;
 const REACH: f64 = 2.0;
 /// Lines that a stroke is tried on, at the most.
 const TRIALS: usize = 8;
-/// Least way of the tip between two rows that shows a direction, mm: its rounding is then below 0.01 degrees.
-const WAY_MIN: f64 = 0.02;
+/// Least way of the tip that shows a direction, mm: its rounding is then below 0.02 degrees.
+const WAY_MIN: f64 = 0.005;
 /// Rounding of a tip's place, mm.
 const PLACE_ROUNDING: f64 = 4.0 * ROUNDING;
 
@@ -54,15 +54,20 @@ pub(super) struct Judge<'a> {
     period: f64,
     grid: Grid,
     inside: Inside,
+    /// Greatest overlap at one end, and of both ends together.
+    overlap: f64,
     overlaps: f64,
-    table: [Option<[f64; 2]>; 2],
+    max_uncut: f64,
+    /// Greatest group of a line that was cut, and strokes that came behind a later one.
+    group: usize,
+    late: f64,
     on_path: Worst,
     stray: Worst,
+    order: Worst,
     once: Worst,
     heading: Worst,
     body: Worst,
     feed: Worst,
-    off_table: Worst,
     overcut: [Worst; 3],
 }
 
@@ -72,9 +77,14 @@ struct Trial {
     feet: Vec<Foot>,
     /// Stations that were cut.
     stretches: Vec<[f64; 2]>,
+    /// How much of them was not cut before, mm.
     fresh: f64,
+    /// How much of the line is then still uncut, mm.
+    left: f64,
     /// Greatest deviation, mm, and the index of its place.
     worst: (f64, usize),
+    /// Whether it goes all the way round a closed line.
+    laps: bool,
 }
 
 /// What a stroke cuts: the body's places, then the tip's.
@@ -93,26 +103,30 @@ impl<'a> Judge<'a> {
         let front = knife.front_overlap_mm.max(knife.corner_front_overlap_mm);
         let heel = knife.heel_overlap_mm.max(knife.corner_heel_overlap_mm);
         let overlaps = front + heel;
+        // A part of a long run overlaps with the one before and, on a closed contour, with the one behind.
+        let joints = if knife.max_down_mm.is_some() { 2.0 } else { 1.0 };
         let tolerance = reference.tolerance;
         let period = profile.time.period();
         let feed = knife.feed_mm_s.map(|feed| feed + 4.0 * PLACE_ROUNDING / period);
-        let strict = profile.table.strict;
         Self {
             reference,
             knife,
             period,
             grid: Grid::new(reference),
             inside: Inside::new(reference.marker),
+            overlap: front.max(heel),
             overlaps,
-            table: [profile.table.x_mm, profile.table.y_mm],
+            max_uncut: verify.max_uncut_mm,
+            group: 0,
+            late: 0.0,
             on_path: Worst::new("verify/on-path", "mm", Some(tolerance + PLACE_ROUNDING)),
             stray: Worst::new("verify/stray", "mm", Some(0.0)),
-            // The surplus of a stab, or the body that plunges into a ring, lies over what is cut from the other side.
-            once: Worst::new("verify/once", "mm", Some(overlaps + knife.width_mm + 2.0 * tolerance)),
+            order: Worst::new("verify/order", "strokes", Some(0.0)),
+            // The surplus of a short stab lies over what was cut before it.
+            once: Worst::new("verify/once", "mm", Some(joints * overlaps + knife.width_mm + 2.0 * tolerance)),
             heading: Worst::new("verify/heading", "deg", Some(verify.max_heading_deg)),
             body: Worst::new("verify/body", "mm", verify.max_body_mm),
             feed: Worst::new("verify/feed", "mm/s", feed),
-            off_table: Worst::new("verify/table", "mm", strict.then_some(PLACE_ROUNDING)),
             overcut: [
                 Worst::new("verify/overcut-part", "mm", verify.max_overcut_part_mm),
                 Worst::new("verify/overcut-neighbour", "mm", verify.max_overcut_neighbour_mm),
@@ -122,7 +136,7 @@ impl<'a> Judge<'a> {
     }
 
     pub(super) fn findings(self) -> Vec<Finding> {
-        let one = [self.on_path, self.stray, self.once, self.heading, self.body, self.feed, self.off_table];
+        let one = [self.on_path, self.stray, self.order, self.once, self.heading, self.body, self.feed];
         one.into_iter().chain(self.overcut).map(Worst::finding).collect()
     }
 
@@ -130,24 +144,25 @@ impl<'a> Judge<'a> {
     pub(super) fn judge(&mut self, stroke: &Stroke, coverage: &mut Coverage) {
         let rows = &stroke.rows;
         let tips: Vec<Point> = rows.iter().map(|row| row.centre + row.along() * self.knife.radius()).collect();
-        self.check_heading(rows, &tips);
         self.check_feed(rows, &tips);
-        self.check_table(rows);
         let cut = self.cut(rows, &tips);
-        let trial =
-            self.candidates(&cut).into_iter().map(|(line, chord, at)| self.follow(&cut, line, chord, at, coverage));
-        let best = trial.max_by(|a, b| a.fresh.total_cmp(&b.fresh).then(b.worst.0.total_cmp(&a.worst.0)));
+        let trials: Vec<Trial> =
+            self.candidates(&cut).into_iter().map(|(line, chord, at)| self.follow(&cut, line, chord, at)).collect();
         let seen = |i: usize| {
             let row = &rows[cut.rows[i.saturating_sub(cut.body)]];
             at(row.t, cut.points[i], row.block)
         };
-        let Some(best) = best else {
+        let Some(best) = self.choose(trials, coverage) else {
+            self.check_heading(rows, &tips, false);
             self.stray.see(polyline::length(&cut.points).max(self.knife.width_mm).max(REACH), || seen(cut.body));
             return;
         };
+        let line = &self.reference.lines[best.line];
+        self.check_heading(rows, &tips, line.ring && best.laps);
         self.on_path.see(best.worst.0, || seen(best.worst.1));
-        let length: f64 = best.stretches.iter().map(|[a, b]| b - a).sum();
-        let mut twice = length - best.fresh;
+        self.check_ends(&best, &seen);
+        self.check_order(line.group, seen(cut.body));
+        let mut twice = best.stretches.iter().map(|[a, b]| b - a).sum::<f64>() - best.fresh;
         if best.fresh < self.reference.tolerance {
             // A stroke that cuts nothing new counts with its overlaps.
             twice += self.overlaps + self.knife.width_mm.max(REACH);
@@ -156,6 +171,24 @@ impl<'a> Judge<'a> {
         coverage.add(best.line, &best.stretches);
         self.check_overcut(&cut, &best, &seen);
         self.check_body(rows, &cut, &best);
+    }
+
+    /// The line that a stroke was meant for: of those on which it cuts the most, but for overlaps and the surplus of the
+    /// blade, which may lie on a neighbour, the one that it completes best.
+    fn choose(&self, mut trials: Vec<Trial>, coverage: &Coverage) -> Option<Trial> {
+        let tolerance = self.reference.tolerance;
+        for trial in &mut trials {
+            trial.fresh = coverage.fresh(trial.line, &trial.stretches);
+            let left = self.reference.lines[trial.line].length() - coverage.length(trial.line) - trial.fresh;
+            trial.left = (left - 2.0 * tolerance).max(0.0);
+        }
+        let most = trials.iter().map(|trial| trial.fresh).fold(0.0, f64::max);
+        trials.retain(|trial| trial.fresh >= tolerance.min(most));
+        trials.retain(|trial| trial.fresh >= most - self.overlaps - self.knife.width_mm - 2.0 * tolerance);
+        trials.into_iter().min_by(|a, b| {
+            let by_left = a.left.total_cmp(&b.left);
+            by_left.then(b.fresh.total_cmp(&a.fresh)).then(a.worst.0.total_cmp(&b.worst.0)).then(a.line.cmp(&b.line))
+        })
     }
 
     fn cut(&self, rows: &[Row], tips: &[Point]) -> Cut {
@@ -174,8 +207,9 @@ impl<'a> Judge<'a> {
         let count = cut.points.len();
         let tips = count - cut.body;
         let mut probes: Vec<usize> = [1, 2, 3].iter().map(|part| cut.body + (tips - 1) * part / 4).collect();
-        if tips < 4 {
-            probes.extend([1, 2, 3].iter().map(|part| (count - 1) * part / 4));
+        if cut.body > 0 {
+            // On a short line the tip may stand beyond its end all the time.
+            probes.extend([0, 1, 2, 3].iter().map(|part| cut.body * part / 4));
         }
         let mut found: Vec<(usize, usize, usize, f64)> = Vec::new();
         for probe in probes {
@@ -200,7 +234,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Follows a cut along a line, from the place `from` beside chord `chord` both ways.
-    fn follow(&self, cut: &Cut, index: usize, chord: usize, from: usize, coverage: &Coverage) -> Trial {
+    fn follow(&self, cut: &Cut, index: usize, chord: usize, from: usize) -> Trial {
         let line = &self.reference.lines[index];
         let points = &cut.points;
         let ahead = points[(from + 1).min(points.len() - 1)] - points[from.saturating_sub(1)];
@@ -214,24 +248,27 @@ impl<'a> Judge<'a> {
         for i in (0..from).rev() {
             feet[i] = backward.step(points[i]);
         }
-        let sag = if cut.body > 0 { plunge_sag(line, &feet[..=cut.body], self.knife.width_mm) } else { 0.0 };
+        let length = line.length();
+        let way = (feet[points.len() - 1].station - feet[cut.body].station).abs();
+        // The blade of a stroke that goes all the way round lies behind its start, where the end comes by again.
+        let laps = line.ring && way > length - self.knife.width_mm.min(0.5 * length);
+        let first = if laps { cut.body } else { 0 };
         let allowed = self.reference.tolerance + PLACE_ROUNDING;
-        let mut trial = Trial { line: index, feet, stretches: Vec::new(), fresh: 0.0, worst: (0.0, cut.body) };
+        let mut trial =
+            Trial { line: index, feet, stretches: Vec::new(), fresh: 0.0, left: 0.0, worst: (0.0, cut.body), laps };
+        let body = if laps { Body::default() } else { Body::new(line, cut, &trial.feet, allowed) };
         let mut open: Option<[f64; 2]> = None;
-        for i in 0..points.len() {
-            let in_body = i < cut.body;
-            let off = (trial.feet[i].deviation - if in_body { sag } else { 0.0 }).max(0.0);
-            // Into a ring the blade may plunge along the tangent: its body then cuts beside the line, which is reported.
-            if !(in_body && line.ring) {
-                trial.note(off, i);
-            }
-            let mut joined = i > 0 && off <= allowed;
+        for i in first..points.len() {
+            let foot = trial.feet[i];
+            let off = if i < cut.body { body.off(i, &foot) } else { foot.deviation };
+            trial.note(off, i);
+            let mut joined = i > first && off <= allowed;
             if joined && i > cut.body {
                 let skipped = skipped(line, points, &trial.feet, i);
                 trial.note(skipped, i);
                 joined = skipped <= allowed;
             }
-            let station = trial.feet[i].station;
+            let station = foot.station;
             match (&mut open, joined) {
                 (Some([a, b]), true) => (*a, *b) = (a.min(station), b.max(station)),
                 (_, false) => {
@@ -242,20 +279,41 @@ impl<'a> Judge<'a> {
             }
         }
         trial.stretches.extend(open);
-        trial.fresh = coverage.fresh(index, &trial.stretches);
+        if let ([[a, b]], true) = (&mut trial.stretches[..], laps) {
+            // The feet of one place may differ on both sides of a vertex.
+            if (points[points.len() - 1] - points[cut.body]).norm() <= self.max_uncut {
+                *b = b.max(*a + length);
+            }
+        }
         trial
     }
 
-    /// The blade against its law while the tip moves.
-    fn check_heading(&mut self, rows: &[Row], tips: &[Point]) {
+    /// The blade against its law: along the way of the tip; before the tip has moved, along the way to come.
+    fn check_heading(&mut self, rows: &[Row], tips: &[Point], steady: bool) {
         let total = polyline::length(tips);
         let fade = self.knife.width_mm.min(total);
-        let mut lead = None;
+        let mut lead = steady.then_some(0.0);
         let mut way = 0.0;
-        for i in 1..rows.len().saturating_sub(1) {
-            way += (tips[i] - tips[i - 1]).norm();
-            let along = tips[i + 1] - tips[i - 1];
+        let last = rows.len() - 1;
+        let ends = |i: usize, reach: usize| [tips[i.saturating_sub(reach)], tips[(i + reach).min(last)]];
+        let mut reach = 1;
+        for i in 0..rows.len() {
+            if i > 0 {
+                way += (tips[i] - tips[i - 1]).norm();
+            }
+            reach = (reach - 1).max(1);
+            let shows = |[before, behind]: [Point; 2]| {
+                let clear = |at: Point, end: usize| (at - tips[i]).norm() >= WAY_MIN || at == tips[end];
+                clear(before, 0) && clear(behind, last)
+            };
+            while !shows(ends(i, reach)) && reach < last {
+                reach += 1;
+            }
+            let [before, behind] = ends(i, reach);
+            let along = direction(before, tips[i], behind);
             if along.norm() < WAY_MIN {
+                // A blade that goes nowhere turns nowhere.
+                self.heading.see((rows[i].c_deg - rows[0].c_deg).abs(), || rows[i].sighting());
                 continue;
             }
             let ahead = angle::wrap(along.y.atan2(along.x) - rows[i].c_deg.to_radians());
@@ -265,22 +323,34 @@ impl<'a> Judge<'a> {
         }
     }
 
-    fn check_feed(&mut self, rows: &[Row], tips: &[Point]) {
-        for (row, ends) in rows.iter().zip(tips.windows(2)) {
-            self.feed.see((ends[1] - ends[0]).norm() / self.period, || row.sighting());
+    /// Beyond the ends of its line a stroke cuts overlaps and what the blade is longer than a short line, and no more.
+    fn check_ends(&mut self, trial: &Trial, seen: &impl Fn(usize) -> Sighting) {
+        let line = &self.reference.lines[trial.line];
+        if line.ring {
+            return;
+        }
+        let (start, end) = (line.points[0], line.points[line.points.len() - 1]);
+        let farthest = line.points.iter().map(|point| (point - start).norm()).fold(0.0, f64::max);
+        let width = self.knife.width_mm;
+        let surplus = if farthest < width { width - (end - start).norm() } else { 0.0 };
+        let allowed = self.overlap.max(surplus) + self.reference.tolerance;
+        for (i, foot) in trial.feet.iter().enumerate() {
+            self.stray.see(foot.beyond - allowed, || seen(i));
         }
     }
 
-    fn check_table(&mut self, rows: &[Row]) {
-        for row in rows {
-            let along = row.along();
-            for point in [row.centre + along * self.knife.radius(), row.centre - along * self.knife.back()] {
-                for (value, range) in [point.x, point.y].into_iter().zip(self.table) {
-                    if let Some([least, most]) = range {
-                        self.off_table.see((least - value).max(value - most), || row.sighting());
-                    }
-                }
-            }
+    /// Contours and slits are cut in the order of the marker.
+    fn check_order(&mut self, group: usize, seen: Sighting) {
+        if group < self.group {
+            self.late += 1.0;
+            self.order.see(self.late, || seen);
+        }
+        self.group = self.group.max(group);
+    }
+
+    fn check_feed(&mut self, rows: &[Row], tips: &[Point]) {
+        for (row, ends) in rows.iter().zip(tips.windows(2)) {
+            self.feed.see((ends[1] - ends[0]).norm() / self.period, || row.sighting());
         }
     }
 
@@ -335,25 +405,62 @@ impl Trial {
     }
 }
 
-/// By how much the path may bow away from the body of a plunged blade: w^2 k / 8, with k the mean curvature under it.
-fn plunge_sag(line: &Line, feet: &[Foot], width: f64) -> f64 {
-    let stations = feet.iter().map(|f| f.station);
-    let (low, high) = (stations.clone().fold(f64::INFINITY, f64::min), stations.fold(0.0, f64::max));
-    // The chord that is being left counts, too: a curve turns along its chords, not at its vertices.
-    let (first, last) = (line.chord_at(low), (line.chord_at(high) + 1).min(line.chords() - 1));
-    let turned: f64 =
-        (first..last).map(|chord| angle::turn(line.direction(chord), line.direction(chord + 1)).abs()).sum();
-    width * turned / 8.0
+/// The body of a plunged blade: a chord of the path, which bows away from it.
+#[derive(Debug, Default)]
+struct Body {
+    /// How far the path bows away from the blade, mm: what it does, and at the most w^2 k / 8 with k its mean curvature.
+    sag: f64,
+    /// Turn of the path under the blade, rad, when the blade never moves: its surplus then goes off the line straight on.
+    turned: f64,
+}
+
+impl Body {
+    fn new(line: &Line, cut: &Cut, feet: &[Foot], allowed: f64) -> Self {
+        let (tail, tip) = (cut.points[0], cut.points[cut.body]);
+        let (a, b) = (feet[0].station, feet[cut.body].station);
+        let (low, high) = (a.min(b), a.max(b));
+        let mut body = Self::default();
+        let mut turned = 0.0;
+        for vertex in line.vertices(low, high) {
+            body.sag = body.sag.max(polyline::distance_to_segment(line.points[vertex], tail, tip));
+            turned += line.turn(vertex).abs();
+        }
+        let moves = cut.points.len() > cut.body + 1;
+        body.turned = if moves { 0.0 } else { turned };
+        // The chord that is being left counts, too: a curve turns along its chords, not at its vertices.
+        let length = line.length();
+        let next = if b >= a {
+            line.vertices(high.next_up(), high + length).next()
+        } else {
+            line.vertices(low - length, low.next_down()).last()
+        };
+        turned += next.map_or(0.0, |vertex| line.turn(vertex).abs());
+        body.sag = body.sag.min((tip - tail).norm() * turned / 8.0);
+        let off = |i: usize| feet[i].deviation - body.turned * feet[i].beyond > allowed;
+        // A blade that does not lie along the line is no chord of it.
+        if off(0) || off(cut.body) { Self::default() } else { body }
+    }
+
+    /// How far place `i` of the body is off. The tail stands on the path or its extension; only between its ends the
+    /// blade cuts across.
+    fn off(&self, i: usize, foot: &Foot) -> f64 {
+        let sag = if i == 0 { 0.0 } else { self.sag };
+        (foot.deviation - sag.max(self.turned * foot.beyond)).max(0.0)
+    }
+}
+
+/// Direction of a way at the middle one of three places, to the second order: that of the parabola through them. A place
+/// too near to show a direction gives none.
+fn direction(before: Point, here: Point, behind: Point) -> Vector {
+    let (to, from) = (here - before, behind - here);
+    let (a, b) = (to.norm(), from.norm());
+    if a < WAY_MIN || b < WAY_MIN { to + from } else { to * (b / a) + from * (a / b) }
 }
 
 /// How far the tip's way from place `i - 1` to place `i` passes by the vertices between their stations, mm.
 fn skipped(line: &Line, points: &[Point], feet: &[Foot], i: usize) -> f64 {
     let (a, b) = (feet[i - 1].station, feet[i].station);
     let (low, high) = (a.min(b), a.max(b));
-    let length = line.length();
-    let lap = if line.ring { (low / length).floor() * length } else { 0.0 };
-    let mut vertex = line.stations.partition_point(|&s| s + lap <= low);
-    let mut worst = 0.0_f64;
     // The tip bows between two rows: a quarter of the second difference of neighbouring rows, at the most.
     let bow = |k: usize| {
         if k == 0 || k + 1 >= points.len() {
@@ -361,22 +468,8 @@ fn skipped(line: &Line, points: &[Point], feet: &[Foot], i: usize) -> f64 {
         }
         ((points[k + 1] - points[k]) - (points[k] - points[k - 1])).norm() / 8.0
     };
-    let bow = bow(i).max(bow(i - 1));
-    let mut lap = lap;
-    loop {
-        if vertex >= line.points.len() {
-            if !line.ring {
-                return worst;
-            }
-            (vertex, lap) = (1, lap + length);
-        }
-        if line.stations[vertex] + lap >= high {
-            return worst;
-        }
-        let away = polyline::distance_to_segment(line.points[vertex], points[i - 1], points[i]);
-        worst = worst.max(away - bow);
-        vertex += 1;
-    }
+    let away = |vertex: usize| polyline::distance_to_segment(line.points[vertex], points[i - 1], points[i]);
+    line.vertices(low.next_up(), high.next_down()).map(away).fold(0.0, f64::max) - bow(i).max(bow(i - 1))
 }
 
 /// What is left of the lead at a fraction of the fade: 1 - (35 x^4 - 84 x^5 + 70 x^6 - 20 x^7).

@@ -11,6 +11,8 @@ use cutc::pass::toolpath::{TOOLPATH_PASSES, trace};
 use cutc::plan;
 use cutc::source::Span;
 
+pub(crate) mod program;
+
 /// A marker of one piece with one contour through the points; block k + 1 holds the k-th chord.
 pub(crate) fn marker(points: &[Point]) -> Marker {
     let mut marker = Marker::default();

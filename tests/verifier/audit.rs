@@ -1,0 +1,111 @@
+//! The scan of the source bytes agrees with the reader, and sees what a marker lacks.
+
+use std::fs;
+use std::path::Path;
+
+use cutc::diagnostic::Diagnostics;
+use cutc::geom::Vector;
+use cutc::ir::{Finding, Marker};
+use cutc::machine::Job;
+use cutc::pipeline;
+use cutc::source::Source;
+use cutc::verify::{Census, source_audit};
+
+use crate::case;
+
+/// Every file that is read without errors, with its marker after all passes.
+fn sources() -> Vec<(Source, Marker)> {
+    let mut paths = Vec::new();
+    for folder in ["iso", "markers"] {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(folder);
+        paths.extend(fs::read_dir(root).expect("readable").map(|entry| entry.expect("readable").path()));
+    }
+    paths.sort();
+    let read = |path: &std::path::PathBuf| {
+        let name = path.file_name().expect("a file").to_string_lossy();
+        let source = Source::new(name, fs::read(path).expect("readable")).expect("fixtures are small");
+        let mut diagnostics = Diagnostics::default();
+        let input = pipeline::read(&source, None, &Job::default(), &mut diagnostics).expect("it is read");
+        assert_eq!(input.dialect.name, "iso", "{}", source.name());
+        (source, input.marker)
+    };
+    paths.iter().map(read).collect()
+}
+
+fn audit(source: &Source, marker: &Marker) -> Vec<Finding> {
+    source_audit("iso", source.bytes(), &Census::of(marker), marker.unit).expect("cut files have a scan")
+}
+
+#[test]
+fn the_scan_finds_what_the_reader_finds_in_every_cut_file() {
+    let mut differing = Vec::new();
+    for (source, marker) in sources() {
+        let broken: Vec<Finding> = audit(&source, &marker).into_iter().filter(|finding| !finding.holds()).collect();
+        if !broken.is_empty() {
+            differing.push(format!("{}: {broken:?}", source.name()));
+        }
+    }
+    assert!(differing.is_empty(), "{differing:#?}");
+}
+
+#[test]
+fn a_marker_that_lacks_something_of_the_file_is_refused() {
+    type Loss = fn(&mut Marker) -> bool;
+    let losses: &[(&str, Loss)] = &[
+        ("source/bounds", |marker| {
+            // The points farthest to the left, a unit further.
+            let least = marker.extent().min.x;
+            let unit = marker.unit;
+            let Marker { list, pieces, .. } = marker;
+            let shifted = |p: &mut cutc::geom::Point| {
+                if p.x == least {
+                    p.x -= unit;
+                }
+            };
+            for contour in pieces.iter_mut().flat_map(|piece| &mut piece.contours) {
+                let mut cursor = list.cursor(&mut contour.range);
+                loop {
+                    shifted(&mut cursor.segment_mut().from);
+                    shifted(&mut cursor.segment_mut().to);
+                    if !cursor.advance() {
+                        break;
+                    }
+                }
+            }
+            true
+        }),
+        ("source/length", |marker| {
+            let Marker { list, pieces, .. } = marker;
+            let Some(contour) = pieces.iter_mut().find_map(|piece| piece.contours.first_mut()) else { return false };
+            let mut cursor = list.cursor(&mut contour.range);
+            cursor.segment_mut().to += Vector::new(0.3, 0.1);
+            true
+        }),
+        ("source/points", |marker| {
+            let Marker { list, pieces, .. } = marker;
+            let Some(contour) = pieces.iter_mut().find_map(|piece| piece.contours.first_mut()) else { return false };
+            list.cursor(&mut contour.range).remove()
+        }),
+        ("source/points", |marker| {
+            let piece = marker.pieces.iter_mut().find(|piece| !piece.notches.is_empty());
+            piece.is_some_and(|piece| piece.notches.pop().is_some())
+        }),
+        ("source/drills", |marker| {
+            let piece = marker.pieces.iter_mut().find(|piece| !piece.drills.is_empty());
+            piece.is_some_and(|piece| piece.drills.pop().is_some())
+        }),
+    ];
+    for (rule, lose) in losses {
+        let mut refused = 0;
+        for name in case::names() {
+            let source = case::source(name);
+            let mut marker = case::marker(name, &Job::default());
+            if lose(&mut marker) {
+                let broken = audit(&source, &marker).into_iter().any(|f| f.rule == *rule && !f.holds());
+                assert!(broken, "{rule} of {name}");
+                refused += 1;
+            }
+        }
+        assert!(refused >= 2, "{rule}");
+    }
+}
