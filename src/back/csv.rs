@@ -31,9 +31,10 @@ fn head(_: &Context, out: &mut dyn Output) -> io::Result<()> {
 
 fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<()> {
     let period = context.job.profile.time.period();
-    let mut rows = Vec::with_capacity(80 * motion.ticks() as usize);
+    let mut rows = Vec::new();
     let mut tick = motion.first_tick;
     for phase in &motion.phases {
+        rows.clear();
         for i in 0..phase.ticks {
             let pose = phase.pose(i);
             number::push_fixed(&mut rows, tick as f64 * period, TIME_DECIMALS);
@@ -49,8 +50,9 @@ fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<
             rows.push(b'\n');
             tick += 1;
         }
+        out.write_all(&rows)?;
     }
-    out.write_all(&rows)
+    Ok(())
 }
 
 #[allow(clippy::unnecessary_wraps, reason = "the signature is that of every target")]

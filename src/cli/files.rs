@@ -209,9 +209,13 @@ pub(super) fn cannot_write(path: &Path, error: &io::Error) -> anyhow::Error {
     failure(format!("cannot write `{}`: {}", path.display(), reason(error)), hint)
 }
 
-/// Moves an older program and its provenance aside, because the compile that should replace it failed. Says so.
+/// Moves an older program and its provenance aside, because the compile that should replace it failed. Says so. A file
+/// that has no provenance beside it is not one of ours and stays.
 pub(super) fn move_aside(program: &Path) -> String {
     let mut said = String::new();
+    if !meta(program).is_file() {
+        return said;
+    }
     for path in [program.to_owned(), meta(program)] {
         let aside = stale(&path);
         let moved = fs::rename(&path, &aside);

@@ -169,7 +169,7 @@ mod tests {
         info  verify/overcut-neighbour    0.3333      none  mm        80.000     0.0  20.0      9
 
         FAIL  verify/end                infinite  0.000001  mm, deg    1.500    10.0  20.0
-              the rule: the program ends with the knife up and, when the profile says so, at the park pose
+              the rule: the program ends with knife and drill up and, when the profile says so, at the park pose
         FAIL  verify/acceleration-x         8123      8012  mm/s2     12.345  1695.4  20.0    268
               the rule: X never accelerates more than its limit
 

@@ -173,7 +173,7 @@ pub struct Stab {
     pub heel: f64,
     /// What the two ends of the cut are.
     pub ends: [End; 2],
-    /// Where the axes stand at the plunge.
+    /// Where the axes stand at the plunge; `place` turns C.
     pub pose: Pose,
 }
 

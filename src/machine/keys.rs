@@ -63,6 +63,8 @@ const SPEED: Within = from(1.0, 1.0e6);
 const ACCELERATION: Within = from(1.0, 1.0e9);
 /// Greatest jerks, per s3.
 const JERK: Within = from(1.0, 1.0e12);
+/// Places on a table and positions of C: farther ones would make programs of astronomic length, mm and degrees.
+const PLACE: Within = from(-1.0e6, 1.0e6);
 /// Angles that may be anywhere within a turn, degrees.
 const TURN: Within = from(-360.0, 360.0);
 
@@ -81,15 +83,15 @@ impl Takes {
             Some(items) if items.len() == n => items.iter().map(number).collect::<Option<Vec<f64>>>(),
             _ => None,
         };
-        let finite = |n: usize| list(n).is_some_and(|items| items.iter().all(|v| v.is_finite()));
+        let places = |n: usize| list(n).is_some_and(|items| items.iter().all(|&v| PLACE.holds(v)));
         match self {
             Self::Number(within) => number(value).is_some_and(|v| within.holds(v)),
             Self::NumberOr(within, word) => is(word) || number(value).is_some_and(|v| within.holds(v)),
             Self::Whole(numbers) => value.as_integer().is_some_and(|v| numbers.contains(&v)),
-            Self::Point => finite(2),
-            Self::Pose => finite(3),
-            Self::PoseOr(word) => is(word) || finite(3),
-            Self::RangeOr(word) => is(word) || (finite(2) && list(2).is_some_and(|ends| ends[0] < ends[1])),
+            Self::Point => places(2),
+            Self::Pose => places(3),
+            Self::PoseOr(word) => is(word) || places(3),
+            Self::RangeOr(word) => is(word) || (places(2) && list(2).is_some_and(|ends| ends[0] < ends[1])),
             Self::Word(words) => words.iter().any(|word| is(word)),
             Self::Flag => value.is_bool(),
         }

@@ -175,11 +175,11 @@ pub fn dump(
     diagnostics: &mut Diagnostics,
 ) -> Option<String> {
     let input = read_until(source, from, job, Some(pass), diagnostics)?;
-    if MARKER_PASSES.iter().any(|marker_pass| marker_pass.name == pass) {
-        return Some(text::print_marker(&input.marker));
-    }
     if diagnostics.has_errors() {
         return None;
+    }
+    if MARKER_PASSES.iter().any(|marker_pass| marker_pass.name == pass) {
+        return Some(text::print_marker(&input.marker));
     }
     let last = TOOLPATH_PASSES.iter().position(|p| p.name == pass)?;
     let mut text = String::new();

@@ -90,6 +90,8 @@ impl<'a> Planner<'a> {
                     let [x, y] = profile.drill.offset_mm;
                     self.go(kind, Pose::new(drill.at.x - x, drill.at.y - y, self.pose.c.0), &mut motion);
                     self.hold(Kind::Drill(drill.tool), profile.drill.dwell(), 0, &mut motion);
+                    // The drill goes up for a period at least, so that two holes at one place are two.
+                    self.hold(Kind::Rest, 0.0, 0, &mut motion);
                 }
                 Step::Event(event) => self.hold(Kind::Event(*event), 0.0, 0, &mut motion),
             }

@@ -192,10 +192,10 @@ const LEAD_CHORDS: usize = 3;
 fn extend_ring(run: &Run) -> Extended {
     let n = run.points.len() - 1;
     let chord = |i: usize| (run.points[i % n + 1] - run.points[i % n]).norm();
-    // Chords of the contour, walked again and again, until they are as long as asked.
+    // Chords of the contour, walked on and on until they are as long as asked, or twice round: enough for any overlap.
     let lead = |length: f64, next: &dyn Fn(usize) -> usize| {
         let (mut chords, mut sum) = (0, 0.0);
-        while sum < length || chords < LEAD_CHORDS {
+        while (sum < length || chords < LEAD_CHORDS) && chords < 2 * n {
             sum += chord(next(chords));
             chords += 1;
         }

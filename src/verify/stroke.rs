@@ -122,8 +122,7 @@ impl<'a> Judge<'a> {
             on_path: Worst::new("verify/on-path", "mm", Some(tolerance + PLACE_ROUNDING)),
             stray: Worst::new("verify/stray", "mm", Some(0.0)),
             order: Worst::new("verify/order", "strokes", Some(0.0)),
-            // The surplus of a short stab lies over what was cut before it.
-            once: Worst::new("verify/once", "mm", Some(joints * overlaps + knife.width_mm + 2.0 * tolerance)),
+            once: Worst::new("verify/once", "mm", Some(joints * overlaps + 2.0 * tolerance)),
             heading: Worst::new("verify/heading", "deg", Some(verify.max_heading_deg)),
             body: Worst::new("verify/body", "mm", verify.max_body_mm),
             feed: Worst::new("verify/feed", "mm/s", feed),
@@ -160,12 +159,15 @@ impl<'a> Judge<'a> {
         let line = &self.reference.lines[best.line];
         self.check_heading(rows, &tips, line.ring && best.laps);
         self.on_path.see(best.worst.0, || seen(best.worst.1));
-        self.check_ends(&best, &seen);
+        self.check_ends(&cut, &best, &seen);
         self.check_order(line.group, seen(cut.body));
         let mut twice = best.stretches.iter().map(|[a, b]| b - a).sum::<f64>() - best.fresh;
         if best.fresh < self.reference.tolerance {
             // A stroke that cuts nothing new counts with its overlaps.
             twice += self.overlaps + self.knife.width_mm.max(REACH);
+        } else if cut.points.len() == cut.body + 1 {
+            // The blade of a stab is longer than what was left: its surplus lies over what was cut before.
+            twice -= self.knife.width_mm - best.fresh;
         }
         self.once.see(twice, || seen(cut.body));
         coverage.add(best.line, &best.stretches);
@@ -323,8 +325,9 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Beyond the ends of its line a stroke cuts overlaps and what the blade is longer than a short line, and no more.
-    fn check_ends(&mut self, trial: &Trial, seen: &impl Fn(usize) -> Sighting) {
+    /// Beyond the ends of its line a stroke cuts overlaps and what the blade is longer than a short line, or than what was
+    /// left of it when it plunges only once, and no more.
+    fn check_ends(&mut self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting) {
         let line = &self.reference.lines[trial.line];
         if line.ring {
             return;
@@ -332,7 +335,14 @@ impl<'a> Judge<'a> {
         let (start, end) = (line.points[0], line.points[line.points.len() - 1]);
         let farthest = line.points.iter().map(|point| (point - start).norm()).fold(0.0, f64::max);
         let width = self.knife.width_mm;
-        let surplus = if farthest < width { width - (end - start).norm() } else { 0.0 };
+        let moves = cut.points.len() > cut.body + 1;
+        let surplus = if !moves && trial.fresh > self.reference.tolerance {
+            width - trial.fresh
+        } else if farthest < width {
+            width - (end - start).norm()
+        } else {
+            0.0
+        };
         let allowed = self.overlap.max(surplus) + self.reference.tolerance;
         for (i, foot) in trial.feet.iter().enumerate() {
             self.stray.see(foot.beyond - allowed, || seen(i));

@@ -40,7 +40,14 @@ pub(super) fn give(run: &mut Run, knife: &Knife) {
     let heel = if start.corner { knife.corner_heel_overlap_mm } else { knife.heel_overlap_mm };
     let front = if end.corner { knife.corner_front_overlap_mm } else { knife.front_overlap_mm };
     run.heel = if start.bare || run.shape == Shape::Ring { 0.0 } else { heel };
-    run.front = if end.bare { 0.0 } else { front };
+    run.front = match run.shape {
+        Shape::Open => front,
+        // Once more round would cut nothing new.
+        Shape::Ring => front.min(polyline::length(&run.points)),
+    };
+    if end.bare {
+        run.front = 0.0;
+    }
 }
 
 /// The stab that a run is, when the blade reaches from the heel overlap to the end or beyond: L + F + H <= w on a straight
@@ -58,6 +65,7 @@ fn stab(run: &Run, knife: &Knife) -> Option<Stab> {
     let surplus = (knife.width_mm - (last - first).norm()).max(0.0);
     let [start, end] = run.ends;
     let ahead = start.bare && !end.bare;
+    let tip = last + along * if ahead { surplus } else { 0.0 };
     Some(Stab {
         points: run.points.clone(),
         spans: run.spans.clone(),
@@ -65,7 +73,7 @@ fn stab(run: &Run, knife: &Knife) -> Option<Stab> {
         front: run.front + if ahead { surplus } else { 0.0 },
         heel: run.heel + if ahead { 0.0 } else { surplus },
         ends: run.ends,
-        pose: Pose::default(),
+        pose: Pose { centre: tip - along * knife.radius(), ..Pose::default() },
     })
 }
 

@@ -1,6 +1,6 @@
 //! Pass `place`: where the axes stand at the ends of each step, and the moves through the air between them.
 //!
-//! Needs runs with overlaps and stabs. Leaves every step with its nominal poses: C unwrapped, each plunge at the
+//! Needs runs with overlaps, and stabs over their place. Leaves every step with its nominal poses: C unwrapped, each plunge at the
 //! equivalent of its heading that is nearest to where C stands, inside `c.range_deg`; a turn or a travel before each step
 //! that starts elsewhere. Smoothing moves the headings of runs a little; `plan` goes by what the runs really have.
 
@@ -52,21 +52,11 @@ fn pose_at(tip: Point, along: Vector, c: Rotation, knife: &Knife) -> Pose {
 }
 
 fn place_stab(stab: &mut Stab, before: Rotation, job: &Job, diagnostics: &mut Diagnostics) {
-    let last = stab.points[stab.points.len() - 1];
-    let along = stab.along;
-    let end = if stab.points.len() == 2 { last } else { last_on(stab, last) };
-    let c = equivalent(before, Heading::of(along), [0.0, 0.0], job).unwrap_or_else(|| {
+    let heading = Heading::of(stab.along);
+    stab.pose.c = equivalent(before, heading, [0.0, 0.0], job).unwrap_or_else(|| {
         diagnostics.push(out_of_range(stab.spans[0]));
-        before.nearest(Heading::of(along))
+        before.nearest(heading)
     });
-    stab.pose = pose_at(end + along * stab.front, along, c, &job.profile.knife);
-}
-
-/// Where the front overlap of a bent stab starts, so that its tip stands at the end of the extended path.
-fn last_on(stab: &Stab, last: Point) -> Point {
-    let before = stab.points[stab.points.len() - 2];
-    let direction = polyline::direction(before, last).expect("no chord of a run has length zero");
-    last + (direction - stab.along) * stab.front
 }
 
 fn place_run(run: &mut Run, before: Rotation, job: &Job, diagnostics: &mut Diagnostics) {
