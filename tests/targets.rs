@@ -7,7 +7,7 @@ use std::process::{Command, Output};
 use serde_json::Value;
 use tempfile::TempDir;
 
-/// A square with a slit and two drills: every kind of run but an event.
+/// A square, a short line and a drill: every kind of run but an event.
 const SMALL: &str = "H1*G71*N1*X0Y0*M14*X400Y0*X400Y400*X0Y400*X0Y0*M15*N2*X600Y0*M14*X640Y0*M15*X600Y200*M43*M0*";
 
 /// Half of the last decimal that `csv` prints, and what the sum of both roundings to f64 adds.
@@ -154,11 +154,24 @@ fn the_times_of_the_runs_add_up_to_the_program() {
     }
 }
 
+/// A text with no more than nine decimals a number: the last digits of a root are not the same everywhere.
+fn reviewed(text: &str) -> String {
+    let mut decimals = None;
+    let mut keep = |c: char| {
+        decimals = match decimals {
+            Some(count) if c.is_ascii_digit() => Some(count + 1),
+            _ => (c == '.').then_some(0),
+        };
+        decimals.is_none_or(|count| count <= 9)
+    };
+    text.chars().filter(|&c| keep(c)).collect()
+}
+
 #[test]
 fn the_runs_of_a_small_program_read_well() {
     let room = Room::new();
     steps(&room, "small");
-    insta::assert_snapshot!(room.text("small.json"));
+    insta::assert_snapshot!(reviewed(&room.text("small.json")));
 }
 
 #[test]
@@ -190,7 +203,7 @@ fn several_targets_need_several_places() {
 fn of_several_targets_none_is_written_when_one_cannot_be() {
     let room = Room::new();
     room.expect("compile small.cut -t csv,npy", 0);
-    let said = room.expect("compile small.cut -t csv,npy --set verify.max_overcut_part_mm=0", 1);
+    let said = room.expect("compile small.cut -t csv,npy --set verify.max_overcut_waste_mm=0", 1);
     for end in ["csv", "npy"] {
         assert!(!room.has(&format!("small.{end}")) && room.has(&format!("small.{end}.stale")), "{said}");
         assert!(room.has(&format!("small.{end}.meta.json.stale")));
