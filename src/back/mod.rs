@@ -9,6 +9,8 @@ use crate::ir::{Finding, Marker, Motion, Toolpath};
 use crate::machine::Job;
 
 mod csv;
+mod json;
+mod npy;
 mod svg;
 
 /// Where a target writes: a file or a buffer; it may go back to fill in a header.
@@ -76,7 +78,7 @@ pub enum Proof {
 }
 
 /// Every target; the first is the default.
-pub const TARGETS: &[Target] = &[csv::TARGET, svg::TARGET];
+pub const TARGETS: &[Target] = &[csv::TARGET, npy::TARGET, json::TARGET, svg::TARGET];
 
 /// The timed setpoints that are made to be judged when a target's own bytes are none.
 pub const SETPOINTS: Parts<Motion> = csv::PARTS;

@@ -1,7 +1,7 @@
 //! `cutc compile`: a cutter file to a machine program.
 
 use std::io::{self, Write as _};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use tempfile::SpooledTempFile;
@@ -13,7 +13,7 @@ use super::{DONE, FAULTY, Finished, Stdout, USAGE, failure, provenance, report, 
 use crate::back::{TARGETS, Target};
 use crate::diagnostic::{Diagnostics, Severity, code, render};
 use crate::machine::Job;
-use crate::pipeline::{self, Compiled, Medium, Order};
+use crate::pipeline::{self, Compiled, Medium, Product};
 use crate::source::Source;
 
 /// Arguments of `cutc compile`.
@@ -31,9 +31,16 @@ pub(super) struct Arguments {
     #[arg(short, long)]
     out: Option<PathBuf>,
 
-    /// What to write
-    #[arg(short, long, value_parser = choices::targets(), default_value = TARGETS[0].name)]
-    target: &'static Target,
+    /// What to write; several, as in `-t csv,svg`, are written together or not at all
+    #[arg(
+        short,
+        long = "target",
+        value_name = "TARGET",
+        value_parser = choices::targets(),
+        value_delimiter = ',',
+        default_value = TARGETS[0].name
+    )]
+    targets: Vec<&'static Target>,
 
     #[command(flatten)]
     reading: Reading,
@@ -66,8 +73,14 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
         return dump(arguments, pass);
     }
     let profile = arguments.reading.machine.profile.as_deref();
-    let extension = arguments.target.extension;
-    let destination = Destination::find(arguments.out.as_deref(), &arguments.file, profile, extension)?;
+    let extensions: Vec<&str> = arguments.targets.iter().map(|target| target.extension).collect();
+    if let Some(twice) = extensions.iter().enumerate().find_map(|(i, e)| extensions[..i].contains(e).then_some(e)) {
+        return Err(failure(
+            format!("two of the targets would write the same file, of extension `{twice}`"),
+            "name each target once",
+        ));
+    }
+    let destination = Destination::find(arguments.out.as_deref(), &arguments.file, profile, &extensions)?;
     if destination == Destination::Stdout && arguments.format == Format::Json {
         return Err(failure(
             "`-o -` and `--format json` both want standard output",
@@ -79,8 +92,8 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
         Ok(job) => job,
         Err(mut refused) => {
             // A slip in an argument is no verdict on the program that is there.
-            if let (FAULTY, Destination::File(path)) = (refused.code, &destination) {
-                refused.stderr.push_str(&files::move_aside(path));
+            if let (FAULTY, Destination::Files(paths)) = (refused.code, &destination) {
+                refused.stderr.push_str(&move_aside(paths));
             }
             return Ok(refused);
         }
@@ -88,8 +101,13 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     let compile = Compile { arguments, source, job };
     match destination {
         Destination::Stdout => compile.to_stdout(),
-        Destination::File(path) => Ok(compile.to_file(&path)),
+        Destination::Files(paths) => Ok(compile.to_files(&paths)),
     }
+}
+
+/// Moves older programs aside, and says so.
+fn move_aside(paths: &[PathBuf]) -> String {
+    paths.iter().map(|path| files::move_aside(path)).collect()
 }
 
 /// What `--dump-after` prints.
@@ -109,25 +127,29 @@ impl Compile<'_> {
     fn to_stdout(&self) -> anyhow::Result<Finished> {
         let mut spool = SpooledTempFile::new(SPOOL_BYTES);
         let mut diagnostics = Diagnostics::default();
-        let compiled = self.emit(&mut spool, &mut diagnostics).map_err(|error| {
+        let compiled = self.emit(vec![&mut spool], &mut diagnostics).map_err(|error| {
             failure(format!("cannot spool the program: {error}"), "make room for temporary files, or write to a file")
         })?;
-        let mut finished = self.finish(compiled.as_ref(), &diagnostics, None);
+        let mut finished = self.finish(compiled.as_ref(), &diagnostics, &[]);
         if compiled.is_some() {
             finished.stdout = Stdout::Program(spool);
         }
         Ok(finished)
     }
 
-    fn to_file(&self, path: &Path) -> Finished {
+    fn to_files(&self, paths: &[PathBuf]) -> Finished {
         let mut diagnostics = Diagnostics::default();
-        let written = self.write(path, &mut diagnostics);
-        let mut finished = self.finish(written.as_ref().unwrap_or(&None).as_ref(), &diagnostics, Some(path));
+        let written = self.write(paths, &mut diagnostics);
+        let mut finished = self.finish(written.as_ref().unwrap_or(&None).as_ref(), &diagnostics, paths);
         match written {
-            Ok(Some(_)) => say(&mut finished.stderr, format_args!("wrote `{}`", path.display())),
-            Ok(None) => finished.stderr.push_str(&files::move_aside(path)),
+            Ok(Some(_)) => {
+                for path in paths {
+                    say(&mut finished.stderr, format_args!("wrote `{}`", path.display()));
+                }
+            }
+            Ok(None) => finished.stderr.push_str(&move_aside(paths)),
             Err(error) => {
-                let aside = files::move_aside(path);
+                let aside = move_aside(paths);
                 let said = format!("{}error: {error:#}\n{aside}", render(&diagnostics, &self.source));
                 return Finished::text(String::new(), said, USAGE);
             }
@@ -135,32 +157,37 @@ impl Compile<'_> {
         finished
     }
 
-    /// Writes the program and its provenance, both whole or not at all; `None` when the data has errors.
-    fn write(&self, path: &Path, diagnostics: &mut Diagnostics) -> anyhow::Result<Option<Compiled>> {
-        let mut program = Draft::new(path)?;
-        let Some(compiled) =
-            self.emit(program.file(), diagnostics).map_err(|error| files::cannot_write(path, &error))?
+    /// Writes the programs and their provenance, all whole or none at all; `None` when the data has errors.
+    fn write(&self, paths: &[PathBuf], diagnostics: &mut Diagnostics) -> anyhow::Result<Option<Compiled>> {
+        let mut programs = paths.iter().map(|path| Draft::new(path)).collect::<anyhow::Result<Vec<_>>>()?;
+        let outs = programs.iter_mut().map(|program| program.file() as &mut dyn Medium).collect();
+        let Some(compiled) = self.emit(outs, diagnostics).map_err(|error| files::cannot_write(&paths[0], &error))?
         else {
             return Ok(None);
         };
-        let meta_path = files::meta(path);
-        let mut meta = Draft::new(&meta_path)?;
-        let text = provenance::json(&self.source, &self.job, self.arguments.target, compiled.verdict.is_some());
-        meta.file().write_all(text.as_bytes()).map_err(|error| files::cannot_write(&meta_path, &error))?;
-        meta.publish()?;
-        program.publish()?;
+        let mut metas = Vec::new();
+        for (path, target) in paths.iter().zip(&self.arguments.targets) {
+            let path = files::meta(path);
+            let mut meta = Draft::new(&path)?;
+            let text = provenance::json(&self.source, &self.job, target, compiled.verdict.is_some());
+            meta.file().write_all(text.as_bytes()).map_err(|error| files::cannot_write(&path, &error))?;
+            metas.push(meta);
+        }
+        // Nothing takes its place before all is there.
+        metas.into_iter().chain(programs).try_for_each(Draft::publish)?;
         Ok(Some(compiled))
     }
 
-    /// Compiles into `out`, which is worth nothing unless something comes back.
-    fn emit(&self, out: &mut dyn Medium, diagnostics: &mut Diagnostics) -> io::Result<Option<Compiled>> {
-        let Arguments { reading, target, no_verify, .. } = self.arguments;
-        let order = Order { from: reading.from, target, verify: !no_verify };
-        pipeline::compile(&self.source, &self.job, order, out, diagnostics)
+    /// Compiles into `outs`, one for each target, which are worth nothing unless something comes back.
+    fn emit(&self, outs: Vec<&mut dyn Medium>, diagnostics: &mut Diagnostics) -> io::Result<Option<Compiled>> {
+        let Arguments { reading, targets, no_verify, .. } = self.arguments;
+        let mut products: Vec<Product> =
+            targets.iter().zip(outs).map(|(target, out)| Product { target, out }).collect();
+        pipeline::compile_all(&self.source, &self.job, (reading.from, !no_verify), &mut products, diagnostics)
     }
 
     /// What is said about the data and the program, which goes to a file or to standard output.
-    fn finish(&self, compiled: Option<&Compiled>, diagnostics: &Diagnostics, path: Option<&Path>) -> Finished {
+    fn finish(&self, compiled: Option<&Compiled>, diagnostics: &Diagnostics, paths: &[PathBuf]) -> Finished {
         let mut said = render(diagnostics, &self.source);
         let stdout = match self.arguments.format {
             Format::Json => report::json(compiled.map(|c| &c.report), diagnostics, &self.source),
@@ -180,7 +207,8 @@ impl Compile<'_> {
                     0 => format!("{errors}, {warnings}"),
                     n => format!("the program breaks {} of its verification", counted(n, "rule")),
                 };
-                let place = path.map_or_else(String::new, |path| format!(" to `{}`", path.display()));
+                let places: Vec<_> = paths.iter().map(|path| format!("`{}`", path.display())).collect();
+                let place = if places.is_empty() { String::new() } else { format!(" to {}", places.join(" or ")) };
                 say(&mut said, format_args!("{}: {why}; no program was written{place}", self.source.name()));
             }
         }

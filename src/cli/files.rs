@@ -67,59 +67,76 @@ fn reason(error: &io::Error) -> String {
 pub(super) enum Destination {
     /// Standard output.
     Stdout,
-    /// A file, with its `.meta.json` beside it.
-    File(PathBuf),
+    /// Files, one for each target, with their `.meta.json` beside them.
+    Files(Vec<PathBuf>),
 }
 
 impl Destination {
-    /// Finds where the program of `input` goes: `out` as typed, a directory for `<stem>.<extension>`, or without it
-    /// the current directory. Never the input itself, nor the profile.
+    /// Finds where the programs of `input` go, one for each of the `extensions`: `out` as typed, a directory for
+    /// `<stem>.<extension>`, or without it the current directory. Never the input itself, nor the profile.
     pub(super) fn find(
         out: Option<&Path>,
         input: &Path,
         profile: Option<&Path>,
-        extension: &str,
+        extensions: &[&str],
     ) -> anyhow::Result<Self> {
-        let stem = input.file_stem().unwrap_or(input.as_os_str());
-        let mut name = OsString::from(stem);
-        name.push(format!(".{extension}"));
-        let path = match out {
-            None if input.file_name() == Some(&name) => {
-                return Err(failure(
-                    format!("the program would have the name of its input, `{}`", name.display()),
-                    "say where it goes with -o FILE or -o DIRECTORY",
-                ));
-            }
-            None => PathBuf::from(&name),
-            Some(out) if out == Path::new("-") => return Ok(Self::Stdout),
-            Some(out) if out.is_dir() => out.join(&name),
-            Some(out) if out.as_os_str().to_string_lossy().ends_with(MAIN_SEPARATOR) => {
-                return Err(failure(
-                    format!("there is no directory `{}`", out.display()),
-                    "create it first, or name another one",
-                ));
-            }
-            Some(out) => out.to_owned(),
-        };
-        let shown = path.display();
-        if !directory(&path).is_dir() {
-            let message = format!("cannot write `{shown}`: there is no directory `{}`", directory(&path).display());
-            return Err(failure(message, "create it first, or name another one"));
-        }
-        if fs::metadata(&path).is_ok_and(|target| !target.is_file()) {
+        let is_stdout = out == Some(Path::new("-"));
+        if let Some(out) = out.filter(|out| extensions.len() > 1 && (is_stdout || !names_directory(out))) {
             return Err(failure(
-                format!("`{shown}` is not a regular file"),
-                "write to a file, or to a pipe with `-o -`",
+                format!("`-o {}` is one place for {} programs", out.display(), extensions.len()),
+                "name a directory, or leave -o out: each gets a name of its own",
             ));
         }
-        for made in [path.clone(), meta(&path), stale(&path), stale(&meta(&path))] {
-            if let Some(read) = [Some(input), profile].into_iter().flatten().find(|read| same_file(&made, read)) {
-                let message = format!("`{}` is an input: it is never overwritten", read.display());
-                return Err(failure(message, "give the program another name with -o"));
-            }
+        if is_stdout {
+            return Ok(Self::Stdout);
         }
-        Ok(Self::File(path))
+        let paths = extensions.iter().map(|extension| place(out, input, profile, extension));
+        paths.collect::<anyhow::Result<_>>().map(Self::Files)
     }
+}
+
+/// Whether a path is a directory, or written as one.
+fn names_directory(path: &Path) -> bool {
+    path.is_dir() || path.as_os_str().to_string_lossy().ends_with(MAIN_SEPARATOR)
+}
+
+/// The file of one program.
+fn place(out: Option<&Path>, input: &Path, profile: Option<&Path>, extension: &str) -> anyhow::Result<PathBuf> {
+    let stem = input.file_stem().unwrap_or(input.as_os_str());
+    let mut name = OsString::from(stem);
+    name.push(format!(".{extension}"));
+    let path = match out {
+        None if input.file_name() == Some(&name) => {
+            return Err(failure(
+                format!("the program would have the name of its input, `{}`", name.display()),
+                "say where it goes with -o FILE or -o DIRECTORY",
+            ));
+        }
+        None => PathBuf::from(&name),
+        Some(out) if out.is_dir() => out.join(&name),
+        Some(out) if names_directory(out) => {
+            return Err(failure(
+                format!("there is no directory `{}`", out.display()),
+                "create it first, or name another one",
+            ));
+        }
+        Some(out) => out.to_owned(),
+    };
+    let shown = path.display();
+    if !directory(&path).is_dir() {
+        let message = format!("cannot write `{shown}`: there is no directory `{}`", directory(&path).display());
+        return Err(failure(message, "create it first, or name another one"));
+    }
+    if fs::metadata(&path).is_ok_and(|target| !target.is_file()) {
+        return Err(failure(format!("`{shown}` is not a regular file"), "write to a file, or to a pipe with `-o -`"));
+    }
+    for made in [path.clone(), meta(&path), stale(&path), stale(&meta(&path))] {
+        if let Some(read) = [Some(input), profile].into_iter().flatten().find(|read| same_file(&made, read)) {
+            let message = format!("`{}` is an input: it is never overwritten", read.display());
+            return Err(failure(message, "give the program another name with -o"));
+        }
+    }
+    Ok(path)
 }
 
 /// The directory of a file.
@@ -242,7 +259,7 @@ mod tests {
     use super::*;
 
     fn find(out: Option<&Path>, input: &Path) -> Result<Destination, String> {
-        Destination::find(out, input, None, "csv").map_err(|error| error.to_string())
+        Destination::find(out, input, None, &["csv"]).map_err(|error| error.to_string())
     }
 
     #[test]
@@ -250,9 +267,9 @@ mod tests {
         let directory = tempfile::tempdir().expect("a directory");
         let at = |name: &str| directory.path().join(name);
         let input = at("marker.one.cut");
-        assert_eq!(find(None, &input), Ok(Destination::File("marker.one.csv".into())));
-        assert_eq!(find(Some(directory.path()), &input), Ok(Destination::File(at("marker.one.csv"))));
-        assert_eq!(find(Some(&at("x.txt")), &input), Ok(Destination::File(at("x.txt"))));
+        assert_eq!(find(None, &input), Ok(Destination::Files(vec!["marker.one.csv".into()])));
+        assert_eq!(find(Some(directory.path()), &input), Ok(Destination::Files(vec![at("marker.one.csv")])));
+        assert_eq!(find(Some(&at("x.txt")), &input), Ok(Destination::Files(vec![at("x.txt")])));
         assert_eq!(find(Some(Path::new("-")), &input), Ok(Destination::Stdout));
     }
 

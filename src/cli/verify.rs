@@ -17,7 +17,7 @@ use crate::pipeline::{self, Verdict};
 /// is broken or the cutter file has errors.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
-    /// Program to judge: timed setpoints, as `cutc compile` writes them with the target csv
+    /// Program to judge: timed setpoints, as `cutc compile` writes them with the targets csv and npy
     program: PathBuf,
 
     /// Cutter file that the program must cut

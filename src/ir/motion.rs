@@ -12,8 +12,25 @@ pub struct Motion {
     pub piece: u32,
     /// Tick at which its first phase begins, counted from the start of the program.
     pub first_tick: u64,
+    /// Steps of the program before its first.
+    pub first_step: u64,
+    /// Time that the program took before its first phase, not stretched to whole periods, s.
+    pub first_time: f64,
     /// The phases.
     pub phases: Vec<Phase>,
+    /// What each plunge and each drill in them is for, in order.
+    pub tasks: Vec<Task>,
+}
+
+/// What a plunge or a drill is for.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Task {
+    /// The first and the last source block that it cuts or drills.
+    pub blocks: [u32; 2],
+    /// How far the tip goes past the end, mm; 0 for a drill.
+    pub front: f64,
+    /// How far the tail starts before the start, mm; 0 for a drill.
+    pub heel: f64,
 }
 
 /// A stretch of time in which the outputs do not change.
@@ -36,7 +53,7 @@ pub struct Phase {
 /// What happens in a phase.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// Knife up, axes at rest: the start and the end of a program.
+    /// Knife up, axes at rest: the last setpoint of a program, and nothing else.
     Rest,
     /// Knife up, from anywhere to anywhere.
     Travel,
@@ -60,6 +77,15 @@ impl Kind {
         match self {
             Self::Plunge | Self::Cut => true,
             Self::Rest | Self::Travel | Self::Turn | Self::Lift | Self::Drill(_) | Self::Event(_) => false,
+        }
+    }
+
+    /// Whether a step of the program begins with it: a cut goes on from its plunge to its lift, and the rest at the end
+    /// is no step.
+    pub fn begins_step(self) -> bool {
+        match self {
+            Self::Travel | Self::Turn | Self::Plunge | Self::Drill(_) | Self::Event(_) => true,
+            Self::Cut | Self::Lift | Self::Rest => false,
         }
     }
 

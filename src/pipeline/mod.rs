@@ -14,6 +14,7 @@ use std::path::Path;
 
 use tempfile::SpooledTempFile;
 
+use self::program::Sink;
 use crate::back::{Context, Emit, Proof, SETPOINTS, Target};
 use crate::diagnostic::Diagnostics;
 use crate::front::{self, Dialect};
@@ -50,6 +51,24 @@ pub struct Order {
     pub target: &'static Target,
     /// Whether the program is read back and judged.
     pub verify: bool,
+}
+
+/// One of the programs that a compile writes.
+pub struct Product<'a> {
+    /// What is written.
+    pub target: &'static Target,
+    /// Where it goes.
+    pub out: &'a mut dyn Medium,
+}
+
+impl Product<'_> {
+    /// The way in for motion, when the target is made from that.
+    fn sink(&mut self) -> Option<Sink<'_>> {
+        match &self.target.emit {
+            Emit::Motion(parts) => Some(Sink { parts, out: &mut *self.out }),
+            Emit::Marker(_) | Emit::Toolpath(_) => None,
+        }
+    }
 }
 
 /// What a compile gives.
@@ -105,49 +124,75 @@ pub fn compile(
     out: &mut dyn Medium,
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Option<Compiled>> {
-    let Some(Input { dialect, marker }) = read(source, order.from, job, diagnostics) else { return Ok(None) };
+    let Order { from, target, verify } = order;
+    compile_all(source, job, (from, verify), &mut [Product { target, out }], diagnostics)
+}
+
+/// Compiles a source to several programs at once: each stage runs once for all of them. `read` is the dialect, if not
+/// what the content looks like, and whether the programs are judged. `None` when the diagnostics hold errors: then all
+/// that was written must be thrown away.
+pub fn compile_all(
+    source: &Source,
+    job: &Job,
+    (from, verify): (Option<&'static Dialect>, bool),
+    products: &mut [Product],
+    diagnostics: &mut Diagnostics,
+) -> io::Result<Option<Compiled>> {
+    let Some(Input { dialect, marker }) = read(source, from, job, diagnostics) else { return Ok(None) };
     if diagnostics.has_errors() {
         return Ok(None);
     }
     let mut report = Report::of(&marker, dialect.name);
     let context = Context { job, marker: &marker };
-    let toolpaths = match &order.target.emit {
-        Emit::Marker(_) if !order.verify => Vec::new(),
-        Emit::Marker(_) | Emit::Toolpath(_) | Emit::Motion(_) => toolpaths(&marker, job, diagnostics),
-    };
-    let mut verdict = None;
-    if let (Emit::Motion(parts), Proof::Setpoints) = (&order.target.emit, order.target.proof) {
-        report.program = program::write(&toolpaths, parts, &context, &mut *out, diagnostics)?;
-        if order.verify && !diagnostics.has_errors() {
-            verdict = Some(judge::judge(source, dialect, &context, out)?);
+    let needs_toolpaths = verify || products.iter().any(|product| !matches!(product.target.emit, Emit::Marker(_)));
+    let toolpaths = if needs_toolpaths { toolpaths(&marker, job, diagnostics) } else { Vec::new() };
+
+    // When no target's own bytes are setpoints, those are made beside them to be judged, so that a picture can show the
+    // worst places.
+    let mut scratch = SpooledTempFile::new(SCRATCH_BYTES);
+    let proven = products.iter().any(|product| product.target.proof == Proof::Setpoints);
+    let mut sinks: Vec<Sink> = products.iter_mut().filter_map(Product::sink).collect();
+    if verify && !proven {
+        sinks.push(Sink { parts: &SETPOINTS, out: &mut scratch });
+    }
+    if !sinks.is_empty() {
+        report.program = program::write(&toolpaths, &mut sinks, &context, diagnostics)?;
+    }
+    drop(sinks);
+
+    let mut verdict: Option<Verdict> = None;
+    if verify && !diagnostics.has_errors() {
+        let judged = products.iter_mut().filter(|product| product.target.proof == Proof::Setpoints);
+        let mut programs: Vec<&mut dyn Medium> = judged.map(|product| &mut *product.out as &mut dyn Medium).collect();
+        if !proven {
+            programs.push(&mut scratch);
         }
-    } else {
-        // The bytes are no setpoints: those are made beside them, to be judged, so that a picture can show the worst.
-        if order.verify {
-            let mut scratch = SpooledTempFile::new(SCRATCH_BYTES);
-            report.program = program::write(&toolpaths, &SETPOINTS, &context, &mut scratch, diagnostics)?;
-            if !diagnostics.has_errors() {
-                verdict = Some(judge::judge(source, dialect, &context, &mut scratch)?);
+        for program in programs {
+            let next = judge::judge(source, dialect, &context, program)?;
+            // Of several, the first that breaks a rule is told.
+            if verdict.as_ref().is_none_or(|verdict| verdict.passes() && !next.passes()) {
+                verdict = Some(next);
             }
         }
-        let findings = verdict.as_ref().map_or(&[][..], |verdict| &verdict.findings);
-        write(&order.target.emit, &toolpaths, findings, &context, &mut *out, diagnostics)?;
     }
-    out.flush()?;
+    let findings = verdict.as_ref().map_or(&[][..], |verdict| &verdict.findings);
+    for Product { target, out } in products {
+        write_untimed(&target.emit, &toolpaths, findings, &context, *out)?;
+        out.flush()?;
+    }
     if let Some(verdict) = &verdict {
         judge::report(verdict, &marker, diagnostics);
     }
     Ok((!diagnostics.has_errors()).then_some(Compiled { report, verdict }))
 }
 
-/// Writes a target that is no timed setpoints.
-fn write(
+/// Writes a target that needs no timed motion; those that do are written by then.
+fn write_untimed(
     emit: &Emit,
     toolpaths: &[Toolpath],
     findings: &[Finding],
     context: &Context,
     out: &mut dyn Medium,
-    diagnostics: &mut Diagnostics,
 ) -> io::Result<()> {
     let mut out = BufWriter::new(out);
     match emit {
@@ -159,9 +204,7 @@ fn write(
             }
             (parts.tail)(context, findings, &mut out)?;
         }
-        Emit::Motion(parts) => {
-            program::write(toolpaths, parts, context, out.get_mut(), diagnostics)?;
-        }
+        Emit::Motion(_) => {}
     }
     out.flush()
 }

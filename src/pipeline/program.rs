@@ -16,19 +16,28 @@ use crate::units::MM_PER_M;
 /// Toolpaths that are planned at a time: enough to keep all cores busy, few enough to keep memory small.
 const WINDOW: usize = 128;
 
-/// Plans toolpaths and writes their motion. Runs that cannot be planned are diagnostics; what was written is then worth
-/// nothing.
+/// A program that takes the motion as it is planned.
+pub(super) struct Sink<'a> {
+    /// How its target writes motion.
+    pub(super) parts: &'static Parts<Motion>,
+    /// Where it goes.
+    pub(super) out: &'a mut dyn Medium,
+}
+
+/// Plans toolpaths and writes their motion to every sink. Runs that cannot be planned are diagnostics; what was written is
+/// then worth nothing.
 pub(super) fn write(
     toolpaths: &[Toolpath],
-    parts: &Parts<Motion>,
+    sinks: &mut [Sink],
     context: &Context,
-    out: &mut dyn Medium,
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Program> {
-    let mut out = BufWriter::new(out);
+    let mut outs: Vec<_> = sinks.iter_mut().map(|sink| (sink.parts, BufWriter::new(&mut *sink.out))).collect();
     let mut tally = Tally::default();
     let mut planner = Planner::new(context.job);
-    (parts.head)(context, &mut out)?;
+    for (parts, out) in &mut outs {
+        (parts.head)(context, out)?;
+    }
     for window in toolpaths.chunks(WINDOW) {
         let solved: Vec<_> = window.par_iter().map(|toolpath| plan::solve(toolpath, context.job)).collect();
         for (toolpath, cuts) in window.iter().zip(solved) {
@@ -38,16 +47,20 @@ pub(super) fn write(
                     tally.bulge = cuts.iter().fold(tally.bulge, |most, cut| most.max(cut.bulge));
                     let motion = planner.join(toolpath, cuts);
                     tally.add(&motion);
-                    (parts.body)(&motion, context, &mut out)?;
+                    for (parts, out) in &mut outs {
+                        (parts.body)(&motion, context, out)?;
+                    }
                 }
             }
         }
     }
     let end = planner.finish();
     tally.add(&end);
-    (parts.body)(&end, context, &mut out)?;
-    (parts.tail)(context, &[], &mut out)?;
-    out.flush()?;
+    for (parts, out) in &mut outs {
+        (parts.body)(&end, context, out)?;
+        (parts.tail)(context, &[], out)?;
+        out.flush()?;
+    }
     if let Err(diagnostic) = planner.certify() {
         diagnostics.push(diagnostic);
     }

@@ -24,9 +24,10 @@ use self::air::Air;
 use self::certify::{Differences, EXCESS_EPSILON};
 use self::run::whole_periods;
 use crate::diagnostic::{Diagnostic, code};
-use crate::ir::motion::{Kind, Motion, Phase};
+use crate::ir::motion::{Kind, Motion, Phase, Task};
 use crate::ir::toolpath::{Pose, Step, Toolpath};
 use crate::machine::{Job, Limits};
+use crate::source::Span;
 use crate::units::number::fixed;
 
 /// The runs of a toolpath as they will be cut, in order; a diagnostic for each that cannot be.
@@ -51,6 +52,8 @@ pub struct Planner<'a> {
     limits: [Limits; 3],
     pose: Pose,
     tick: u64,
+    steps: u64,
+    time: f64,
     differences: Differences,
 }
 
@@ -60,20 +63,21 @@ impl<'a> Planner<'a> {
         let pose = home(job);
         let mut differences = Differences::new(job.profile.time.period());
         differences.push(pose);
-        Self { job, limits: job.profile.axes.limits(), pose, tick: 0, differences }
+        Self { job, limits: job.profile.axes.limits(), pose, tick: 0, steps: 0, time: 0.0, differences }
     }
 
     /// The timed motion of a toolpath whose runs were solved.
     pub fn join(&mut self, toolpath: &Toolpath, cuts: Vec<Cut>) -> Motion {
         let profile = &self.job.profile;
-        let mut motion = Motion { piece: toolpath.piece, first_tick: self.tick, phases: Vec::new() };
+        let mut motion = self.begin(toolpath.piece);
         let mut cuts = cuts.into_iter();
         let mut kind = Kind::Travel;
         for step in &toolpath.steps {
             match step {
                 Step::Turn(_) => kind = Kind::Turn,
                 Step::Travel(_) => kind = Kind::Travel,
-                Step::Run(_) => {
+                Step::Run(run) => {
+                    motion.tasks.push(Task { blocks: ends(&run.spans), front: run.front, heel: run.heel });
                     let cut = cuts.next().expect("solve gives a cut for each run");
                     self.go(kind, cut.poses[0], &mut motion);
                     self.hold(Kind::Plunge, profile.knife.plunge(), cut.blocks[0], &mut motion);
@@ -81,12 +85,14 @@ impl<'a> Planner<'a> {
                     self.hold(Kind::Lift, profile.knife.lift(), 0, &mut motion);
                 }
                 Step::Stab(stab) => {
+                    motion.tasks.push(Task { blocks: ends(&stab.spans), front: stab.front, heel: stab.heel });
                     self.go(kind, stab.pose, &mut motion);
                     let block = stab.spans.last().map_or(0, |span| span.block);
                     self.hold(Kind::Plunge, profile.knife.plunge(), block, &mut motion);
                     self.hold(Kind::Lift, profile.knife.lift(), 0, &mut motion);
                 }
                 Step::Drill(drill) => {
+                    motion.tasks.push(Task { blocks: [drill.span.block; 2], ..Task::default() });
                     let [x, y] = profile.drill.offset_mm;
                     self.go(kind, Pose::new(drill.at.x - x, drill.at.y - y, self.pose.c.0), &mut motion);
                     self.hold(Kind::Drill(drill.tool), profile.drill.dwell(), 0, &mut motion);
@@ -101,7 +107,7 @@ impl<'a> Planner<'a> {
 
     /// The end of the program: to the park pose if there is one, and a last setpoint at rest.
     pub fn finish(&mut self) -> Motion {
-        let mut motion = Motion { piece: 0, first_tick: self.tick, phases: Vec::new() };
+        let mut motion = self.begin(0);
         if let Some([x, y, c]) = self.job.profile.park {
             self.go(Kind::Travel, Pose::new(x, y, crate::units::rad(c)), &mut motion);
         }
@@ -126,6 +132,12 @@ impl<'a> Planner<'a> {
             &code::PLAN_CERTIFY,
             format!("the program as a whole exceeds a limit by {percent} % of time"),
         ))
+    }
+
+    /// A motion that begins now.
+    fn begin(&self, piece: u32) -> Motion {
+        let (first_tick, first_step, first_time) = (self.tick, self.steps, self.time);
+        Motion { piece, first_tick, first_step, first_time, phases: Vec::new(), tasks: Vec::new() }
     }
 
     /// Through the air to a pose, when it is another one.
@@ -165,9 +177,16 @@ impl<'a> Planner<'a> {
             self.differences.push(phase.pose(i));
         }
         self.tick += u64::from(phase.ticks);
+        self.steps += u64::from(phase.kind.begins_step());
+        self.time += phase.duration;
         self.pose = end;
         motion.phases.push(phase);
     }
+}
+
+/// The first and the last block of a chain.
+fn ends(spans: &[Span]) -> [u32; 2] {
+    [spans.first(), spans.last()].map(|span| span.map_or(0, |span| span.block))
 }
 
 /// The pose at which programs start.

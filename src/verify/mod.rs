@@ -12,6 +12,7 @@ mod follow;
 mod grid;
 mod inside;
 mod limits;
+mod npy;
 mod read;
 mod reference;
 mod rest;
@@ -91,7 +92,7 @@ impl Verdict {
     }
 }
 
-/// Judges timed setpoints, as the target `csv` writes them, against what the marker says must be cut.
+/// Judges timed setpoints, as the targets `csv` and `npy` write them, against what the marker says must be cut.
 pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdict {
     let reference = Reference::new(marker, &job.profile);
     let mut judge = Judge::new(&reference, &job.profile);

@@ -1,7 +1,8 @@
-//! Reads the rows of timed setpoints: `t_s,x_mm,y_mm,c_deg,knife,drill,event,block`.
+//! Reads the rows of timed setpoints: `t_s,x_mm,y_mm,c_deg,knife,drill,event,block`, as text or as records.
 
 use std::io::BufRead;
 
+use super::npy;
 use super::worst::Worst;
 use crate::geom::{Point, Vector};
 use crate::ir::Finding;
@@ -47,6 +48,9 @@ impl Row {
 /// The rows of a program; stops at the first that cannot be read.
 pub(super) struct Rows<'a> {
     input: &'a mut dyn BufRead,
+    /// The records still to come; `None` when the rows are lines of text.
+    records: Option<u64>,
+    /// The line or record that was read last.
     line: Vec<u8>,
     tick: u64,
     last: Option<Row>,
@@ -59,8 +63,14 @@ const HEADER: &[u8] = b"t_s,x_mm,y_mm,c_deg,knife,drill,event,block";
 impl<'a> Rows<'a> {
     pub(super) fn new(input: &'a mut dyn BufRead) -> Self {
         let worst = Worst::new("verify/format", "bad rows", Some(0.0));
-        let mut rows = Self { input, line: Vec::new(), tick: 0, last: None, worst, ended: false };
-        if rows.fetch() != Some(true) || rows.line != HEADER {
+        let records = npy::begins(input).then_some(0);
+        let mut rows = Self { input, records, line: Vec::new(), tick: 0, last: None, worst, ended: false };
+        if let Some(count) = &mut rows.records {
+            match npy::header(rows.input) {
+                Some(told) => *count = told,
+                None => rows.fail(),
+            }
+        } else if rows.fetch() != Some(true) || rows.line != HEADER {
             rows.fail();
         }
         rows
@@ -85,7 +95,8 @@ impl<'a> Rows<'a> {
                 return None;
             }
         }
-        let Some(row) = parse(&self.line, self.tick) else {
+        let row = if self.records.is_some() { npy::row(&self.line, self.tick) } else { parse(&self.line, self.tick) };
+        let Some(row) = row else {
             self.fail();
             return None;
         };
@@ -99,10 +110,13 @@ impl<'a> Rows<'a> {
         self.worst.finding()
     }
 
-    /// Reads a line without its end; `Some(false)` at the end of the program, `None` when it cannot be read or its last
+    /// Reads a record, or a line without its end; `Some(false)` at the end of the program, `None` when it cannot be read or its last
     /// line has no end, which is how a program cut short looks.
     fn fetch(&mut self) -> Option<bool> {
         self.line.clear();
+        if let Some(left) = &mut self.records {
+            return npy::record(self.input, left, &mut self.line);
+        }
         let read = self.input.read_until(b'\n', &mut self.line).ok()?;
         if read == 0 {
             return Some(false);

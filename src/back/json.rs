@@ -1,0 +1,146 @@
+//! Target `json`: the program step by step, for a script or a time study.
+//!
+//! `runs` has one object a line for everything that the machine does, in order: `kind` is "cut" (plunge, way, lift),
+//! "stab" (plunge and lift without a way), "travel", "turn", "drill" or "event". Every run has every key; what a kind does
+//! not have is 0, as block 0 is none. Lengths and poses have the decimals of `csv`.
+//!
+//! Two clocks are given. `duration_s` is what the axes need from rest to rest, not rounded; `dwell_s` how long they rest
+//! for plunge and lift, or a drill; all of both add up to the program's `time_s`. A controller has whole periods only, so
+//! each motion and each rest is stretched to the next one, and at least one: `ticks` says how many a run really takes, and
+//! all of them add up to the program's `ticks` and, times the period, to `setpoints_s`, the time of the last setpoint.
+//!
+//! Runs are written as they come; `program`, which sums them up, stands behind them.
+
+use std::io;
+
+use super::{Context, Emit, Output, Parts, Proof, Target};
+use crate::ir::motion::{Kind, Phase, Task};
+use crate::ir::toolpath::Pose;
+use crate::ir::{Finding, Motion};
+use crate::units::deg;
+use crate::units::number::{exact, fixed};
+
+pub(super) const TARGET: Target = Target {
+    name: "json",
+    about: "the program step by step: cuts, stabs, travels, turns with their times",
+    extension: "json",
+    emit: Emit::Motion(Parts { head, body, tail }),
+    proof: Proof::None,
+};
+
+/// Decimals of positions and lengths, in mm and degrees.
+const DECIMALS: u32 = 6;
+
+/// What the machine does between two of its rests.
+struct Run {
+    kind: &'static str,
+    task: Task,
+    length: f64,
+    duration: f64,
+    dwell: f64,
+    ticks: u64,
+    start: Pose,
+    end: Pose,
+}
+
+fn head(_: &Context, out: &mut dyn Output) -> io::Result<()> {
+    out.write_all(b"{\"runs\": [")
+}
+
+fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<()> {
+    let mut text = String::new();
+    let mut tasks = motion.tasks.iter().copied();
+    let mut index = motion.first_step;
+    let mut rest = &motion.phases[..];
+    while let Some((first, behind)) = rest.split_first() {
+        if first.kind == Kind::Rest {
+            text.push_str(&program(motion, index, context));
+            break;
+        }
+        let more = behind.iter().take_while(|phase| !phase.kind.begins_step() && phase.kind != Kind::Rest).count();
+        let (phases, next) = rest.split_at(1 + more);
+        text.push_str(if index == 0 { "\n" } else { ",\n" });
+        text.push_str(&object(&run(phases, next.first(), &mut tasks), index, motion.piece));
+        index += 1;
+        rest = next;
+    }
+    out.write_all(text.as_bytes())
+}
+
+fn tail(_: &Context, _: &[Finding], out: &mut dyn Output) -> io::Result<()> {
+    out.write_all(b"}\n")
+}
+
+/// One run from its phases; the `next` phase begins where the axes of a motion come to rest.
+fn run(phases: &[Phase], next: Option<&Phase>, tasks: &mut impl Iterator<Item = Task>) -> Run {
+    let mut run = Run {
+        kind: "",
+        task: Task::default(),
+        length: 0.0,
+        duration: 0.0,
+        dwell: 0.0,
+        ticks: 0,
+        start: phases[0].pose(0),
+        end: next.unwrap_or(&phases[phases.len() - 1]).pose(0),
+    };
+    for phase in phases {
+        run.ticks += u64::from(phase.ticks);
+        run.length += phase.length;
+        match phase.kind {
+            Kind::Travel | Kind::Turn | Kind::Cut => run.duration += phase.duration,
+            Kind::Plunge | Kind::Lift | Kind::Drill(_) | Kind::Event(_) | Kind::Rest => run.dwell += phase.duration,
+        }
+        match phase.kind {
+            Kind::Travel => run.kind = "travel",
+            Kind::Turn => run.kind = "turn",
+            Kind::Event(_) => run.kind = "event",
+            Kind::Cut => run.kind = "cut",
+            Kind::Plunge => (run.kind, run.task) = ("stab", tasks.next().unwrap_or_default()),
+            Kind::Drill(_) => (run.kind, run.task) = ("drill", tasks.next().unwrap_or_default()),
+            // The axes rest until the knife is up.
+            Kind::Lift => run.end = phase.pose(0),
+            Kind::Rest => {}
+        }
+    }
+    run
+}
+
+/// A run as an object on a line.
+fn object(run: &Run, index: u64, piece: u32) -> String {
+    let mm = |value| fixed(value, DECIMALS);
+    let pose = |pose: Pose| {
+        let [x, y, c] = [pose.centre.x, pose.centre.y, deg(pose.c.0)].map(mm);
+        format!("{{\"x_mm\": {x}, \"y_mm\": {y}, \"c_deg\": {c}}}")
+    };
+    let Task { blocks: [first, last], front, heel } = run.task;
+    format!(
+        "{{\"index\": {index}, \"kind\": \"{}\", \"piece\": {piece}, \"block_first\": {first}, \"block_last\": {last}, \
+         \"length_mm\": {}, \"duration_s\": {}, \"dwell_s\": {}, \"ticks\": {}, \"start\": {}, \"end\": {}, \
+         \"front_overlap_mm\": {}, \"heel_overlap_mm\": {}}}",
+        run.kind,
+        mm(run.length),
+        exact(run.duration),
+        exact(run.dwell),
+        run.ticks,
+        pose(run.start),
+        pose(run.end),
+        mm(front),
+        mm(heel),
+    )
+}
+
+/// The end of the runs and the object that sums them up.
+fn program(last: &Motion, runs: u64, context: &Context) -> String {
+    let period = context.job.profile.time.period();
+    let moving = last.phases.iter().filter(|phase| phase.kind != Kind::Rest);
+    let ticks = last.first_tick + moving.clone().map(|phase| u64::from(phase.ticks)).sum::<u64>();
+    let time = moving.fold(last.first_time, |sum, phase| sum + phase.duration);
+    format!(
+        "\n],\n\"program\": {{\"runs\": {runs}, \"pieces\": {}, \"time_s\": {}, \"period_s\": {}, \"ticks\": {ticks}, \
+         \"setpoints_s\": {}}}",
+        context.marker.pieces.len(),
+        exact(time),
+        exact(period),
+        fixed(ticks as f64 * period, DECIMALS),
+    )
+}
