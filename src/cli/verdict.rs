@@ -6,6 +6,7 @@ use super::options::counted;
 use super::report::pretty;
 use super::say;
 use crate::ir::Finding;
+use crate::machine::Mode;
 use crate::pipeline::{self, Verdict};
 use crate::units::number::fixed;
 
@@ -80,7 +81,7 @@ type Cells = [String; 9];
 const RIGHT: [bool; 9] = [false, false, true, true, false, true, true, true, true];
 
 /// The verdict as a table: what holds, then what is broken, then one line that says it all.
-pub(super) fn text(verdict: &Verdict, program: &str, source: &str) -> String {
+pub(super) fn text(verdict: &Verdict, mode: Mode, program: &str, source: &str) -> String {
     let broken: Vec<_> = verdict.broken().collect();
     let holding = verdict.findings.iter().filter(|finding| finding.holds());
     let titles = ["", "rule", "worst", "limit", "unit", "at s", "X mm", "Y mm", "block"].map(str::to_owned);
@@ -100,7 +101,11 @@ pub(super) fn text(verdict: &Verdict, program: &str, source: &str) -> String {
     }
     let total = counted(verdict.findings.len(), "rule");
     if broken.is_empty() {
-        say(&mut out, format_args!("\nPASS  `{program}` cuts what `{source}` says: {total} hold"));
+        let is = match mode {
+            Mode::Cut => format!("cuts what `{source}` says"),
+            Mode::Dry | Mode::Frame => "moves within the limits and keeps the knife up".to_owned(),
+        };
+        say(&mut out, format_args!("\nPASS  `{program}` {is}: {total} hold"));
     } else {
         let count = broken.len();
         say(&mut out, format_args!("\nFAIL  `{program}` must not run: it breaks {count} of {total}"));
@@ -160,7 +165,7 @@ mod tests {
 
     #[test]
     fn what_is_broken_stands_last_and_marked() {
-        let text = text(&verdict(), "a.csv", "a.cut");
+        let text = text(&verdict(), Mode::Cut, "a.csv", "a.cut");
         assert!(text.lines().all(|line| line.len() <= 100), "{text}");
         insta::assert_snapshot!(text, @r"
               rule                         worst     limit  unit        at s    X mm  Y mm  block

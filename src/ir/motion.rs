@@ -36,7 +36,7 @@ pub struct Phase {
 /// What happens in a phase.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// Knife up, axes at rest: the start and the end of a program.
+    /// Knife up, axes at rest: the end of a program, and the dwells of one that keeps the knife up.
     Rest,
     /// Knife up, from anywhere to anywhere.
     Travel,
@@ -60,6 +60,16 @@ impl Kind {
         match self {
             Self::Plunge | Self::Cut => true,
             Self::Rest | Self::Travel | Self::Turn | Self::Lift | Self::Drill(_) | Self::Event(_) => false,
+        }
+    }
+
+    /// What happens instead when knife and drills stay up: the axes do the same.
+    #[must_use]
+    pub fn raised(self) -> Self {
+        match self {
+            Self::Plunge | Self::Lift | Self::Drill(_) => Self::Rest,
+            Self::Cut => Self::Travel,
+            Self::Rest | Self::Travel | Self::Turn | Self::Event(_) => self,
         }
     }
 

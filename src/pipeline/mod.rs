@@ -7,7 +7,7 @@ mod report;
 pub use judge::{about, figures, judge_program};
 pub use report::{Axes, Notches, Peak, Peaks, Program, Report, significant};
 
-pub use crate::verify::Verdict;
+pub use crate::verify::{RULES, Verdict};
 
 use std::io::{self, BufWriter, Read, Seek, Write};
 use std::path::Path;
@@ -18,11 +18,12 @@ use crate::back::{Context, Emit, Proof, SETPOINTS, Target};
 use crate::diagnostic::Diagnostics;
 use crate::front::{self, Dialect};
 use crate::ir::{Finding, Marker, Toolpath, check, text};
-use crate::machine::Job;
-use crate::pass::marker::MARKER_PASSES;
-use crate::pass::toolpath::{TOOLPATH_PASSES, trace};
+use crate::machine::{Job, Mode};
+use crate::pass::marker::{FIRST_CHOICE, MARKER_PASSES};
+use crate::pass::toolpath::{TOOLPATH_PASSES, frame, trace};
 use crate::plan;
 use crate::source::Source;
+use crate::verify::Census;
 
 /// Bytes of setpoints that are kept in memory when they are made only to be judged; more go to a temporary file.
 const SCRATCH_BYTES: usize = 64 << 20;
@@ -37,8 +38,10 @@ impl<T: Read + Write + Seek> Medium for T {}
 pub struct Input {
     /// What it was read as.
     pub dialect: &'static Dialect,
-    /// What it says.
+    /// What it says, as far as the job wants it cut.
     pub marker: Marker,
+    /// What the whole file says; `None` when the marker is all of it.
+    pub whole: Option<Census>,
 }
 
 /// What is asked of a compile beside the job.
@@ -83,7 +86,11 @@ fn read_until(
     let extension = Path::new(source.name()).extension().and_then(|e| e.to_str());
     let dialect = from.or_else(|| front::detect(source, extension, diagnostics))?;
     let mut marker = (dialect.read)(source, job, diagnostics);
+    let mut whole = None;
     for pass in MARKER_PASSES {
+        if pass.name == FIRST_CHOICE && !job.selection.is_all() {
+            whole = Some(Census::of(&marker));
+        }
         if diagnostics.has_errors() {
             break;
         }
@@ -93,7 +100,7 @@ fn read_until(
             break;
         }
     }
-    Some(Input { dialect, marker })
+    Some(Input { dialect, marker, whole })
 }
 
 /// Compiles a source to a program in `out`, reads that back and judges it. `None` when the diagnostics hold errors: what
@@ -105,21 +112,22 @@ pub fn compile(
     out: &mut dyn Medium,
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Option<Compiled>> {
-    let Some(Input { dialect, marker }) = read(source, order.from, job, diagnostics) else { return Ok(None) };
+    let Some(input) = read(source, order.from, job, diagnostics) else { return Ok(None) };
     if diagnostics.has_errors() {
         return Ok(None);
     }
-    let mut report = Report::of(&marker, dialect.name);
-    let context = Context { job, marker: &marker };
+    let marker = &input.marker;
+    let mut report = Report::of(marker, input.dialect.name);
+    let context = Context { job, marker };
     let toolpaths = match &order.target.emit {
         Emit::Marker(_) if !order.verify => Vec::new(),
-        Emit::Marker(_) | Emit::Toolpath(_) | Emit::Motion(_) => toolpaths(&marker, job, diagnostics),
+        Emit::Marker(_) | Emit::Toolpath(_) | Emit::Motion(_) => toolpaths(marker, job, diagnostics),
     };
     let mut verdict = None;
     if let (Emit::Motion(parts), Proof::Setpoints) = (&order.target.emit, order.target.proof) {
         report.program = program::write(&toolpaths, parts, &context, &mut *out, diagnostics)?;
         if order.verify && !diagnostics.has_errors() {
-            verdict = Some(judge::judge(source, dialect, &context, out)?);
+            verdict = Some(judge::judge(source, &input, job, out)?);
         }
     } else {
         // The bytes are no setpoints: those are made beside them, to be judged, so that a picture can show the worst.
@@ -127,7 +135,7 @@ pub fn compile(
             let mut scratch = SpooledTempFile::new(SCRATCH_BYTES);
             report.program = program::write(&toolpaths, &SETPOINTS, &context, &mut scratch, diagnostics)?;
             if !diagnostics.has_errors() {
-                verdict = Some(judge::judge(source, dialect, &context, &mut scratch)?);
+                verdict = Some(judge::judge(source, &input, job, &mut scratch)?);
             }
         }
         let findings = verdict.as_ref().map_or(&[][..], |verdict| &verdict.findings);
@@ -135,7 +143,7 @@ pub fn compile(
     }
     out.flush()?;
     if let Some(verdict) = &verdict {
-        judge::report(verdict, &marker, diagnostics);
+        judge::report(verdict, marker, diagnostics);
     }
     Ok((!diagnostics.has_errors()).then_some(Compiled { report, verdict }))
 }
@@ -198,6 +206,14 @@ pub fn dump(
 /// The toolpath of every drill, notch and contour after all passes, in cut order.
 fn toolpaths(marker: &Marker, job: &Job, diagnostics: &mut Diagnostics) -> Vec<Toolpath> {
     let mut pose = plan::home(job);
+    match job.mode {
+        Mode::Cut | Mode::Dry => {}
+        Mode::Frame => {
+            let frame = frame(marker, pose, job, diagnostics);
+            assert_sound("frame", || check::toolpath(&frame));
+            return vec![frame];
+        }
+    }
     let pass = |mut toolpath: Toolpath| {
         toolpath.entry = pose;
         for pass in TOOLPATH_PASSES {

@@ -69,10 +69,15 @@ impl<'a> Planner<'a> {
         let mut motion = Motion { piece: toolpath.piece, first_tick: self.tick, phases: Vec::new() };
         let mut cuts = cuts.into_iter();
         let mut kind = Kind::Travel;
-        for step in &toolpath.steps {
+        for (step, next) in toolpath.steps.iter().zip(toolpath.steps.iter().skip(1).map(Some).chain([None])) {
             match step {
-                Step::Turn(_) => kind = Kind::Turn,
-                Step::Travel(_) => kind = Kind::Travel,
+                Step::Turn(air) | Step::Travel(air) => {
+                    kind = if matches!(step, Step::Turn(_)) { Kind::Turn } else { Kind::Travel };
+                    // What follows a move decides where it ends; one that nothing follows ends where it says.
+                    if next.is_none_or(|next| matches!(next, Step::Turn(_) | Step::Travel(_))) {
+                        self.go(kind, air.to, &mut motion);
+                    }
+                }
                 Step::Run(_) => {
                     let cut = cuts.next().expect("solve gives a cut for each run");
                     self.go(kind, cut.poses[0], &mut motion);
@@ -158,7 +163,10 @@ impl<'a> Planner<'a> {
         self.emit(phase, end, motion);
     }
 
-    fn emit(&mut self, phase: Phase, end: Pose, motion: &mut Motion) {
+    fn emit(&mut self, mut phase: Phase, end: Pose, motion: &mut Motion) {
+        if !self.job.mode.cuts() {
+            phase = Phase { kind: phase.kind.raised(), blocks: vec![0], ..phase };
+        }
         for i in 0..phase.ticks {
             self.differences.push(phase.pose(i));
         }
