@@ -63,6 +63,7 @@ const NO_GRAMMAR: &[(&str, &str)] = &[];
 /// Source files in the folder of a table that are no entry of it, and why.
 const BESIDE_A_TABLE: &[(&str, &str)] = &[
     ("foreign", "names the formats that are no dialect of ours"),
+    ("frame", "makes the one toolpath that no pass edits"),
     ("trace", "makes the toolpaths that the passes edit"),
 ];
 

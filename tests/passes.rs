@@ -28,7 +28,7 @@ fn run(name: &str, marker: &mut Marker) -> Diagnostics {
 fn job(input: &str) -> Job {
     let keys: Vec<&str> = input.lines().filter_map(|line| line.strip_prefix(";!")).collect();
     let profile = toml::from_str(&keys.join("\n")).unwrap_or_else(|error| panic!("{error}"));
-    Job { profile }
+    Job { profile, ..Job::default() }
 }
 
 /// The text that a pass makes of a text, then what it says and what `ir::check` finds.

@@ -8,7 +8,7 @@ use tempfile::SpooledTempFile;
 
 use super::choices::{self, Format};
 use super::files::{self, Destination, Draft};
-use super::options::{Reading, counted};
+use super::options::{Choice, Reading, counted};
 use super::{DONE, FAULTY, Finished, Stdout, USAGE, failure, provenance, report, say, summary};
 use crate::back::{TARGETS, Target};
 use crate::diagnostic::{Diagnostics, Severity, code, render};
@@ -45,6 +45,9 @@ pub(super) struct Arguments {
     #[command(flatten)]
     reading: Reading,
 
+    #[command(flatten)]
+    choice: Choice,
+
     /// Do not read the program back and judge it; summary and provenance say so
     #[arg(long)]
     no_verify: bool,
@@ -54,7 +57,7 @@ pub(super) struct Arguments {
     format: Format,
 
     /// Print what a pass leaves, as text, and write no program
-    #[arg(long, value_name = "PASS", value_parser = choices::passes(), conflicts_with_all = ["out", "format"])]
+    #[arg(long, value_name = "PASS", value_parser = choices::passes(), conflicts_with_all = ["out", "format", "frame"])]
     dump_after: Option<String>,
 }
 
@@ -89,7 +92,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     }
     let source = files::read(&arguments.file)?;
     let job = match arguments.reading.machine.job()? {
-        Ok(job) => job,
+        Ok(job) => arguments.choice.of(job),
         Err(mut refused) => {
             // A slip in an argument is no verdict on the program that is there.
             if let (FAULTY, Destination::Files(paths)) = (refused.code, &destination) {
@@ -114,7 +117,7 @@ fn move_aside(paths: &[PathBuf]) -> String {
 fn dump(arguments: &Arguments, pass: &str) -> anyhow::Result<Finished> {
     let source = files::read(&arguments.file)?;
     let job = match arguments.reading.machine.job()? {
-        Ok(job) => job,
+        Ok(job) => arguments.choice.of(job),
         Err(refused) => return Ok(refused),
     };
     let mut diagnostics = Diagnostics::default();
@@ -196,6 +199,7 @@ impl Compile<'_> {
         match (compiled, self.arguments.format) {
             (Some(Compiled { report, verdict }), Format::Text) => {
                 said.push_str(&summary::text(report, self.source.name(), diagnostics));
+                said.push_str(&summary::choice(&self.job));
                 said.push_str(&summary::verdict(verdict.as_ref()));
             }
             (Some(_), Format::Json) => {}

@@ -17,6 +17,9 @@ pub(super) fn overview() -> String {
   cutc verify marker.csv --source marker.cut  judges a program, after an edit by hand too
   cutc check *.cut                            says all that is wrong, writes nothing
   cutc info marker.cut --format json          what is in a file, for a script
+  cutc compile marker.cut --pieces 3,7-12     some pieces only; --skip and --resume-from likewise
+  cutc compile marker.cut --dry-run           the same motion, knife up; --frame: once around the box
+  cutc explain iso/open-slit                  what a message means and what to do
   cutc profile init -o machine.toml           every key of a machine with its default
   cutc profile show -p machine.toml           the values in effect
 

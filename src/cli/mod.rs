@@ -6,6 +6,9 @@
 mod check;
 mod choices;
 mod compile;
+mod completions;
+mod explain;
+mod explanations;
 mod files;
 mod help;
 mod info;
@@ -60,6 +63,12 @@ enum Command {
     Info(info::Arguments),
     /// Show, begin or check a machine profile
     Profile(profile::Arguments),
+    /// Explain a code of a message or a rule of the verifier; without one, list them all
+    Explain(explain::Arguments),
+    /// Print completions of the command line for a shell
+    Completions(completions::Arguments),
+    /// Print the manual page
+    Man,
 }
 
 /// What a command leaves to print, and its exit code.
@@ -141,6 +150,9 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> Finished {
         Command::Check(arguments) => check::run(arguments),
         Command::Info(arguments) => info::run(arguments),
         Command::Profile(arguments) => profile::run(arguments),
+        Command::Explain(arguments) => explain::run(arguments),
+        Command::Completions(arguments) => Ok(completions::run(arguments)),
+        Command::Man => completions::man(),
     };
     finished.unwrap_or_else(|error| Finished::text(String::new(), format!("error: {error:#}\n"), USAGE))
 }

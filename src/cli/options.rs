@@ -7,7 +7,7 @@ use clap::Args;
 use super::{FAULTY, Finished, USAGE, choices, failure, files, say};
 use crate::diagnostic::{Severity, render};
 use crate::front::Dialect;
-use crate::machine::{Faults, Job, MachineProfile, load};
+use crate::machine::{Faults, Job, MachineProfile, Mode, NotNumbers, Numbers, Selection, load};
 use crate::source::Source;
 
 /// Which machine.
@@ -38,10 +38,71 @@ pub(super) struct Reading {
     pub(super) machine: Machine,
 }
 
+/// What of a marker is cut, and whether the knife goes down.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "What is cut")]
+pub(super) struct Choice {
+    /// Cut these pieces only, by their numbers in the file, as in `--pieces 3,7-12`
+    ///
+    /// The order stays that of the file. A number that the file does not have is an error. --pieces, --skip and
+    /// --resume-from act together.
+    #[arg(long, value_name = "NUMBERS", value_parser = numbers)]
+    pieces: Option<Numbers>,
+
+    /// Leave these pieces out, as in `--skip 4,9-10`
+    #[arg(long, value_name = "NUMBERS", value_parser = numbers)]
+    skip: Option<Numbers>,
+
+    /// Cut from the piece of this number on, in cut order: what an interrupted run has left
+    #[arg(long, value_name = "NUMBER")]
+    resume_from: Option<u32>,
+
+    /// The same motion with knife and drills up: nothing is cut
+    #[arg(long, conflicts_with = "frame")]
+    dry_run: bool,
+
+    /// No cut, but once around the box of what would be cut, knife up: the C axis from home along it and back
+    #[arg(long)]
+    frame: bool,
+}
+
+fn numbers(text: &str) -> Result<Numbers, NotNumbers> {
+    Numbers::parse(text)
+}
+
+impl Choice {
+    /// The job, with this choice.
+    pub(super) fn of(&self, job: Job) -> Job {
+        let selection =
+            Selection { pieces: self.pieces.clone(), skip: self.skip.clone(), resume_from: self.resume_from };
+        let mode = match (self.dry_run, self.frame) {
+            (_, true) => Mode::Frame,
+            (true, false) => Mode::Dry,
+            (false, false) => Mode::Cut,
+        };
+        Job { selection, mode, ..job }
+    }
+}
+
+/// The choice of a job as it is typed; empty when all is cut.
+pub(super) fn typed(job: &Job) -> String {
+    let Selection { pieces, skip, resume_from } = &job.selection;
+    let mut words = Vec::new();
+    words.extend(pieces.iter().map(|numbers| format!("--pieces {numbers}")));
+    words.extend(skip.iter().map(|numbers| format!("--skip {numbers}")));
+    words.extend(resume_from.iter().map(|number| format!("--resume-from {number}")));
+    match job.mode {
+        Mode::Cut => {}
+        Mode::Dry => words.push("--dry-run".to_owned()),
+        Mode::Frame => words.push("--frame".to_owned()),
+    }
+    words.join(" ")
+}
+
 impl Machine {
     /// The job on this machine, or what is wrong with its profile.
     pub(super) fn job(&self) -> anyhow::Result<Result<Job, Finished>> {
-        Ok(self.load()?.map(|profile| Job { profile }))
+        Ok(self.load()?.map(|profile| Job { profile, ..Job::default() }))
     }
 
     /// The profile, or what is wrong with it: [`FAULTY`] when the file is, [`USAGE`] when only arguments are.

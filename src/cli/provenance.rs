@@ -6,6 +6,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::files;
+use super::options::typed;
 use super::report::pretty;
 use super::say;
 use crate::back::Target;
@@ -26,6 +27,9 @@ struct Provenance<'a> {
     period_ms: f64,
     units: Units,
     verified: Verified,
+    /// What was chosen beside the whole marker and the knife, as it is typed; not there when nothing was.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    options: String,
 }
 
 /// Units of the setpoints.
@@ -58,6 +62,7 @@ pub(super) fn json(source: &Source, job: &Job, target: &Target, verified: bool) 
         period_ms: job.profile.time.period_ms,
         units: Units { time: "s", length: "mm", angle: "deg" },
         verified: if verified { Verified::Yes } else { Verified::No },
+        options: typed(job),
     })
 }
 
@@ -89,6 +94,18 @@ pub(super) fn doubts(program: &Path, source: &Source, job: &Job) -> String {
             format_args!(
                 "warning: the program was made with another machine profile\n  --> {path}\n  \
                  = hint: give the -p and --set that it was compiled with"
+            ),
+        );
+    }
+    let (made, asked) = (meta["options"].as_str().unwrap_or_default(), typed(job));
+    if made != asked {
+        let made =
+            if made.is_empty() { "none of --pieces, --skip, --resume-from, --dry-run and --frame" } else { made };
+        say(
+            &mut said,
+            format_args!(
+                "warning: the program was made with other options\n  --> {path}: with {made}\n  \
+                 = hint: give the same to `cutc verify`"
             ),
         );
     }

@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
-use super::options::counted;
+use super::options::{counted, typed};
 use crate::diagnostic::{Diagnostics, Severity};
+use crate::machine::{Job, Mode};
 use crate::pipeline::{Axes, Peak, Peaks, Report, Verdict};
 use crate::units::number::{exact, fixed};
 
@@ -49,6 +50,23 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
     if let Some(axes) = &program.axes {
         peaks(&mut out, axes);
     }
+    out
+}
+
+/// What was chosen beside the whole marker and the knife; empty when nothing was.
+pub(super) fn choice(job: &Job) -> String {
+    let mut out = String::new();
+    if !job.selection.is_all() {
+        let selection = typed(&Job { selection: job.selection.clone(), ..Job::default() });
+        let _ = writeln!(out, "\n  selected   {selection}: the figures are those of these pieces");
+    }
+    let mode = match job.mode {
+        Mode::Cut => return out,
+        Mode::Dry => "up all the time: --dry-run was given, nothing is cut or drilled",
+        Mode::Frame => "up all the time: --frame was given, the C axis goes once around the box",
+    };
+    let gap = if out.is_empty() { "\n" } else { "" };
+    let _ = writeln!(out, "{gap}  knife      {mode}");
     out
 }
 

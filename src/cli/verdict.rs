@@ -6,6 +6,7 @@ use super::options::counted;
 use super::report::pretty;
 use super::say;
 use crate::ir::Finding;
+use crate::machine::Mode;
 use crate::pipeline::{self, Verdict};
 use crate::units::number::fixed;
 
@@ -80,7 +81,7 @@ type Cells = [String; 9];
 const RIGHT: [bool; 9] = [false, false, true, true, false, true, true, true, true];
 
 /// The verdict as a table: what holds, then what is broken, then one line that says it all.
-pub(super) fn text(verdict: &Verdict, program: &str, source: &str) -> String {
+pub(super) fn text(verdict: &Verdict, mode: Mode, program: &str, source: &str) -> String {
     let broken: Vec<_> = verdict.broken().collect();
     let holding = verdict.findings.iter().filter(|finding| finding.holds());
     let titles = ["", "rule", "worst", "limit", "unit", "at s", "X mm", "Y mm", "block"].map(str::to_owned);
@@ -100,7 +101,11 @@ pub(super) fn text(verdict: &Verdict, program: &str, source: &str) -> String {
     }
     let total = counted(verdict.findings.len(), "rule");
     if broken.is_empty() {
-        say(&mut out, format_args!("\nPASS  `{program}` cuts what `{source}` says: {total} hold"));
+        let is = match mode {
+            Mode::Cut => format!("cuts what `{source}` says"),
+            Mode::Dry | Mode::Frame => "moves within the limits and keeps the knife up".to_owned(),
+        };
+        say(&mut out, format_args!("\nPASS  `{program}` {is}: {total} hold"));
     } else {
         let count = broken.len();
         say(&mut out, format_args!("\nFAIL  `{program}` must not run: it breaks {count} of {total}"));
@@ -160,7 +165,7 @@ mod tests {
 
     #[test]
     fn what_is_broken_stands_last_and_marked() {
-        let text = text(&verdict(), "a.csv", "a.cut");
+        let text = text(&verdict(), Mode::Cut, "a.csv", "a.cut");
         assert!(text.lines().all(|line| line.len() <= 100), "{text}");
         insta::assert_snapshot!(text, @r"
               rule                         worst     limit  unit        at s    X mm  Y mm  block
@@ -169,7 +174,7 @@ mod tests {
         info  verify/overcut-neighbour    0.3333      none  mm        80.000     0.0  20.0      9
 
         FAIL  verify/end                infinite  0.000001  mm, deg    1.500    10.0  20.0
-              the rule: the program ends with knife and drill up and, when the profile says so, at the park pose
+              the rule: the program ends with knife and drill up, and parked if the profile says so
         FAIL  verify/acceleration-x         8123      8012  mm/s2     12.345  1695.4  20.0    268
               the rule: X never accelerates more than its limit
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::choices::Format;
-use super::options::{Reading, counted};
+use super::options::{Choice, Reading, counted};
 use super::{DONE, FAULTY, Finished, failure, files, provenance, say, verdict};
 use crate::diagnostic::{Diagnostics, Severity, render};
 use crate::pipeline::{self, Verdict};
@@ -27,6 +27,10 @@ pub(super) struct Arguments {
     #[command(flatten)]
     reading: Reading,
 
+    /// What the program was compiled with
+    #[command(flatten)]
+    choice: Choice,
+
     /// How to give the verdict
     ///
     /// JSON has `verdict` ("pass" or "fail") and `rules`, each with `code`, `worst`, `limit`, `unit`, `where` and
@@ -41,7 +45,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     let mut program = files::open(&arguments.program)?;
     let source = files::read(&arguments.source)?;
     let job = match arguments.reading.machine.job()? {
-        Ok(job) => job,
+        Ok(job) => arguments.choice.of(job),
         Err(refused) => return Ok(refused),
     };
     let mut diagnostics = Diagnostics::default();
@@ -55,7 +59,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     }
     let stdout = match (arguments.format, &judged) {
         (Format::Json, judged) => verdict::json(judged.as_ref()),
-        (Format::Text, Some(judged)) => verdict::text(judged, &name, source.name()),
+        (Format::Text, Some(judged)) => verdict::text(judged, job.mode, &name, source.name()),
         (Format::Text, None) => String::new(),
     };
     let code = if judged.is_some_and(|judged| Verdict::passes(&judged)) { DONE } else { FAULTY };

@@ -99,6 +99,12 @@ mod table {
     /// A contour that is one place.
     pub static MARKER_NO_LENGTH: Code = warning("marker/no-length", "All points of a contour are the same place: nothing is cut there.");
 
+    // The choice of pieces.
+    /// A number that no piece has.
+    pub static SELECT_UNKNOWN_PIECE: Code = error("select/unknown-piece", "A piece number that was asked for is not in the file; the message names the flag, the hint the numbers that there are.");
+    /// Nothing is chosen.
+    pub static SELECT_NOTHING_LEFT: Code = error("select/nothing-left", "The options that choose pieces leave nothing to cut.");
+
     // The knife's way.
     /// A smooth closed contour too small for the blade.
     pub static PATH_TIGHT: Code = warning("path/tight-contour", "A smooth closed contour is narrower than the blade; it is cut all the same.");
@@ -165,6 +171,8 @@ pub static ALL: &[&Code] = &[
     &MARKER_TWICE,
     &MARKER_EQUAL_POINTS,
     &MARKER_NO_LENGTH,
+    &SELECT_UNKNOWN_PIECE,
+    &SELECT_NOTHING_LEFT,
     &PATH_TIGHT,
     &PATH_C_RANGE,
     &PATH_OFF_TABLE,

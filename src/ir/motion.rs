@@ -53,7 +53,7 @@ pub struct Phase {
 /// What happens in a phase.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// Knife up, axes at rest: the last setpoint of a program, and nothing else.
+    /// Knife up, axes at rest: the end of a program, and the dwells of one that keeps the knife up.
     Rest,
     /// Knife up, from anywhere to anywhere.
     Travel,
@@ -86,6 +86,16 @@ impl Kind {
         match self {
             Self::Travel | Self::Turn | Self::Plunge | Self::Drill(_) | Self::Event(_) => true,
             Self::Cut | Self::Lift | Self::Rest => false,
+        }
+    }
+
+    /// What happens instead when knife and drills stay up: the axes do the same.
+    #[must_use]
+    pub fn raised(self) -> Self {
+        match self {
+            Self::Plunge | Self::Lift | Self::Drill(_) => Self::Rest,
+            Self::Cut => Self::Travel,
+            Self::Rest | Self::Travel | Self::Turn | Self::Event(_) => self,
         }
     }
 

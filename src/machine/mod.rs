@@ -9,6 +9,7 @@ pub mod keys;
 pub mod kinematics;
 mod load;
 pub mod profile;
+mod selection;
 mod show;
 mod validate;
 mod word;
@@ -17,6 +18,7 @@ pub use digest::sha256_hex;
 pub use kinematics::Limits;
 pub use load::{Faults, load};
 pub use profile::{FileUnit, Fit, Follow, Knife, MachineProfile};
+pub use selection::{Mode, NotNumbers, Numbers, Selection};
 pub use show::Comments;
 
 /// What one compile is asked to do: the profile and the options of this run.
@@ -24,4 +26,8 @@ pub use show::Comments;
 pub struct Job {
     /// The machine and the cutting room.
     pub profile: MachineProfile,
+    /// Which pieces it cuts.
+    pub selection: Selection,
+    /// What it does with the knife.
+    pub mode: Mode,
 }

@@ -5,7 +5,6 @@ use std::io::{self, BufReader};
 
 use super::report::significant;
 use super::{Input, Medium, read};
-use crate::back::Context;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::Dialect;
 use crate::ir::{Finding, Marker};
@@ -26,28 +25,50 @@ pub fn judge_program(
     job: &Job,
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Option<Verdict>> {
-    let Some(Input { dialect, marker }) = read(source, from, job, diagnostics) else { return Ok(None) };
+    let Some(input) = read(source, from, job, diagnostics) else { return Ok(None) };
     if diagnostics.has_errors() {
         return Ok(None);
     }
-    judge(source, dialect, &Context { job, marker: &marker }, program).map(Some)
+    judge(source, &input, job, program).map(Some)
 }
 
-/// Reads a program back from its start and judges it, and the marker against the source.
-pub(super) fn judge(
-    source: &Source,
-    dialect: &Dialect,
-    context: &Context,
-    program: &mut dyn Medium,
-) -> io::Result<Verdict> {
+/// Reads a program back from its start and judges it, and what was read of the source against its bytes.
+///
+/// Where the knife stays up nothing may be cut: the program is judged against a marker without pieces, so that every
+/// stroke is one too many, and the rules on how something is cut say nothing.
+pub(super) fn judge(source: &Source, input: &Input, job: &Job, program: &mut dyn Medium) -> io::Result<Verdict> {
     program.rewind()?;
-    let mut verdict = verify::setpoints(&mut BufReader::with_capacity(BLOCK, program), context.marker, context.job);
-    let unit = context.marker.unit;
-    let audit = verify::source_audit(dialect.name, source.bytes(), &Census::of(context.marker), unit);
+    let marker = &input.marker;
+    let mut rows = BufReader::with_capacity(BLOCK, program);
+    let mut verdict = if job.mode.cuts() {
+        verify::setpoints(&mut rows, marker, job)
+    } else {
+        let mut verdict = verify::setpoints(&mut rows, &Marker::default(), job);
+        verdict.findings.retain(|finding| !OF_CUTS.contains(&finding.rule));
+        verdict
+    };
+    let whole = input.whole.clone().unwrap_or_else(|| Census::of(marker));
+    let audit = verify::source_audit(input.dialect.name, source.bytes(), &whole, marker.unit);
     verdict.findings.extend(audit.into_iter().flatten());
     verify::sort(&mut verdict.findings);
     Ok(verdict)
 }
+
+/// Rules on how something is cut or drilled: they say nothing about a program that does neither.
+const OF_CUTS: &[&str] = &[
+    "verify/feed",
+    "verify/dwell",
+    "verify/on-path",
+    "verify/order",
+    "verify/once",
+    "verify/complete",
+    "verify/heading",
+    "verify/body",
+    "verify/overcut-part",
+    "verify/overcut-neighbour",
+    "verify/overcut-waste",
+    "verify/drill-place",
+];
 
 /// A diagnostic for each rule that does not hold.
 pub(super) fn report(verdict: &Verdict, marker: &Marker, diagnostics: &mut Diagnostics) {

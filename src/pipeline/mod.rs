@@ -7,7 +7,7 @@ mod report;
 pub use judge::{about, figures, judge_program};
 pub use report::{Axes, Notches, Peak, Peaks, Program, Report, significant};
 
-pub use crate::verify::Verdict;
+pub use crate::verify::{RULES, Verdict};
 
 use std::io::{self, BufWriter, Read, Seek, Write};
 use std::path::Path;
@@ -19,11 +19,12 @@ use crate::back::{Context, Emit, Proof, SETPOINTS, Target};
 use crate::diagnostic::Diagnostics;
 use crate::front::{self, Dialect};
 use crate::ir::{Finding, Marker, Toolpath, check, text};
-use crate::machine::Job;
-use crate::pass::marker::MARKER_PASSES;
-use crate::pass::toolpath::{TOOLPATH_PASSES, trace};
+use crate::machine::{Job, Mode};
+use crate::pass::marker::{FIRST_CHOICE, MARKER_PASSES};
+use crate::pass::toolpath::{TOOLPATH_PASSES, frame, trace};
 use crate::plan;
 use crate::source::Source;
+use crate::verify::Census;
 
 /// Bytes of setpoints that are kept in memory when they are made only to be judged; more go to a temporary file.
 const SCRATCH_BYTES: usize = 64 << 20;
@@ -38,8 +39,10 @@ impl<T: Read + Write + Seek> Medium for T {}
 pub struct Input {
     /// What it was read as.
     pub dialect: &'static Dialect,
-    /// What it says.
+    /// What it says, as far as the job wants it cut.
     pub marker: Marker,
+    /// What the whole file says; `None` when the marker is all of it.
+    pub whole: Option<Census>,
 }
 
 /// What is asked of a compile beside the job.
@@ -102,7 +105,11 @@ fn read_until(
     let extension = Path::new(source.name()).extension().and_then(|e| e.to_str());
     let dialect = from.or_else(|| front::detect(source, extension, diagnostics))?;
     let mut marker = (dialect.read)(source, job, diagnostics);
+    let mut whole = None;
     for pass in MARKER_PASSES {
+        if pass.name == FIRST_CHOICE && !job.selection.is_all() {
+            whole = Some(Census::of(&marker));
+        }
         if diagnostics.has_errors() {
             break;
         }
@@ -112,7 +119,7 @@ fn read_until(
             break;
         }
     }
-    Some(Input { dialect, marker })
+    Some(Input { dialect, marker, whole })
 }
 
 /// Compiles a source to a program in `out`, reads that back and judges it. `None` when the diagnostics hold errors: what
@@ -138,14 +145,15 @@ pub fn compile_all(
     products: &mut [Product],
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Option<Compiled>> {
-    let Some(Input { dialect, marker }) = read(source, from, job, diagnostics) else { return Ok(None) };
+    let Some(input) = read(source, from, job, diagnostics) else { return Ok(None) };
     if diagnostics.has_errors() {
         return Ok(None);
     }
-    let mut report = Report::of(&marker, dialect.name);
-    let context = Context { job, marker: &marker };
+    let marker = &input.marker;
+    let mut report = Report::of(marker, input.dialect.name);
+    let context = Context { job, marker };
     let needs_toolpaths = verify || products.iter().any(|product| !matches!(product.target.emit, Emit::Marker(_)));
-    let toolpaths = if needs_toolpaths { toolpaths(&marker, job, diagnostics) } else { Vec::new() };
+    let toolpaths = if needs_toolpaths { toolpaths(marker, job, diagnostics) } else { Vec::new() };
 
     // When no target's own bytes are setpoints, those are made beside them to be judged, so that a picture can show the
     // worst places.
@@ -168,7 +176,7 @@ pub fn compile_all(
             programs.push(&mut scratch);
         }
         for program in programs {
-            let next = judge::judge(source, dialect, &context, program)?;
+            let next = judge::judge(source, &input, job, program)?;
             // Of several, the first that breaks a rule is told.
             if verdict.as_ref().is_none_or(|verdict| verdict.passes() && !next.passes()) {
                 verdict = Some(next);
@@ -181,7 +189,7 @@ pub fn compile_all(
         out.flush()?;
     }
     if let Some(verdict) = &verdict {
-        judge::report(verdict, &marker, diagnostics);
+        judge::report(verdict, marker, diagnostics);
     }
     Ok((!diagnostics.has_errors()).then_some(Compiled { report, verdict }))
 }
@@ -241,6 +249,14 @@ pub fn dump(
 /// The toolpath of every drill, notch and contour after all passes, in cut order.
 fn toolpaths(marker: &Marker, job: &Job, diagnostics: &mut Diagnostics) -> Vec<Toolpath> {
     let mut pose = plan::home(job);
+    match job.mode {
+        Mode::Cut | Mode::Dry => {}
+        Mode::Frame => {
+            let frame = frame(marker, pose, job, diagnostics);
+            assert_sound("frame", || check::toolpath(&frame));
+            return vec![frame];
+        }
+    }
     let pass = |mut toolpath: Toolpath| {
         toolpath.entry = pose;
         for pass in TOOLPATH_PASSES {

@@ -72,10 +72,15 @@ impl<'a> Planner<'a> {
         let mut motion = self.begin(toolpath.piece);
         let mut cuts = cuts.into_iter();
         let mut kind = Kind::Travel;
-        for step in &toolpath.steps {
+        for (step, next) in toolpath.steps.iter().zip(toolpath.steps.iter().skip(1).map(Some).chain([None])) {
             match step {
-                Step::Turn(_) => kind = Kind::Turn,
-                Step::Travel(_) => kind = Kind::Travel,
+                Step::Turn(air) | Step::Travel(air) => {
+                    kind = if matches!(step, Step::Turn(_)) { Kind::Turn } else { Kind::Travel };
+                    // What follows a move decides where it ends; one that nothing follows ends where it says.
+                    if next.is_none_or(|next| matches!(next, Step::Turn(_) | Step::Travel(_))) {
+                        self.go(kind, air.to, &mut motion);
+                    }
+                }
                 Step::Run(run) => {
                     motion.tasks.push(Task { blocks: ends(&run.spans), front: run.front, heel: run.heel });
                     let cut = cuts.next().expect("solve gives a cut for each run");
@@ -94,10 +99,13 @@ impl<'a> Planner<'a> {
                 Step::Drill(drill) => {
                     motion.tasks.push(Task { blocks: [drill.span.block; 2], ..Task::default() });
                     let [x, y] = profile.drill.offset_mm;
-                    self.go(kind, Pose::new(drill.at.x - x, drill.at.y - y, self.pose.c.0), &mut motion);
+                    let there = Pose::new(drill.at.x - x, drill.at.y - y, self.pose.c.0);
+                    if there == self.pose {
+                        // The drill goes up for a period at least, so that two holes at one place are two.
+                        self.hold(Kind::Travel, 0.0, 0, &mut motion);
+                    }
+                    self.go(kind, there, &mut motion);
                     self.hold(Kind::Drill(drill.tool), profile.drill.dwell(), 0, &mut motion);
-                    // The drill goes up for a period at least, so that two holes at one place are two.
-                    self.hold(Kind::Rest, 0.0, 0, &mut motion);
                 }
                 Step::Event(event) => self.hold(Kind::Event(*event), 0.0, 0, &mut motion),
             }
@@ -172,7 +180,10 @@ impl<'a> Planner<'a> {
         self.emit(phase, end, motion);
     }
 
-    fn emit(&mut self, phase: Phase, end: Pose, motion: &mut Motion) {
+    fn emit(&mut self, mut phase: Phase, end: Pose, motion: &mut Motion) {
+        if !self.job.mode.cuts() {
+            phase = Phase { kind: phase.kind.raised(), blocks: vec![0], ..phase };
+        }
         for i in 0..phase.ticks {
             self.differences.push(phase.pose(i));
         }

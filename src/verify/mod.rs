@@ -40,7 +40,7 @@ pub const RULES: &[(&str, &str)] = &[
     ("verify/format", "every row can be read: numbers are finite, outputs legal, no field is missing"),
     ("verify/time", "rows follow each other at the period of the profile, without gap or repetition"),
     ("verify/start", "the program starts at home"),
-    ("verify/end", "the program ends with knife and drill up and, when the profile says so, at the park pose"),
+    ("verify/end", "the program ends with knife and drill up, and parked if the profile says so"),
     ("verify/speed-x", "X never is faster than its limit"),
     ("verify/speed-y", "Y never is faster than its limit"),
     ("verify/speed-c", "C never is faster than its limit"),

@@ -5,6 +5,7 @@ use crate::ir::Marker;
 use crate::machine::Job;
 
 mod inspect;
+mod select;
 mod weld;
 
 /// A pass over the marker: a row of [`MARKER_PASSES`].
@@ -19,4 +20,7 @@ pub struct MarkerPass {
 }
 
 /// Every pass over the marker, in order.
-pub const MARKER_PASSES: &[MarkerPass] = &[weld::PASS, inspect::PASS];
+pub const MARKER_PASSES: &[MarkerPass] = &[weld::PASS, inspect::PASS, select::PASS];
+
+/// The first pass that may leave out what the file says: up to it the marker is the whole file.
+pub const FIRST_CHOICE: &str = select::PASS.name;

@@ -5,11 +5,13 @@
 mod corner;
 mod down;
 mod entry;
+mod frame;
 mod overlap;
 mod place;
 mod table;
 mod trace;
 
+pub use frame::frame;
 pub use trace::trace;
 
 use crate::diagnostic::Diagnostics;

@@ -6,7 +6,7 @@ use super::ToolpathPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
 use crate::ir::toolpath::{Step, Toolpath};
-use crate::machine::Job;
+use crate::machine::{Job, Mode};
 use crate::source::Span;
 use crate::units::number::fixed;
 
@@ -26,6 +26,8 @@ fn run(toolpath: &mut Toolpath, job: &Job, diagnostics: &mut Diagnostics) {
             Step::Run(run) => (&run.points, &run.spans, swing),
             Step::Stab(stab) => (&stab.points, &stab.spans, swing),
             Step::Drill(drill) => (&[drill.at], &[drill.span], 0.0),
+            // A travel ends where a run starts, but for the frame of a marker, which has no runs.
+            Step::Travel(air) if job.mode == Mode::Frame => (&[air.to.centre], &[], 0.0),
             Step::Turn(_) | Step::Travel(_) | Step::Event(_) => continue,
         };
         let outside = |p: &Point| {
@@ -39,7 +41,8 @@ fn run(toolpath: &mut Toolpath, job: &Job, diagnostics: &mut Diagnostics) {
             let code = if table.strict { &code::PATH_OFF_TABLE_STRICT } else { &code::PATH_OFF_TABLE };
             let (x, y) = (fixed(points[i].x, 2), fixed(points[i].y, 2));
             let message = format!("the knife may leave the table by {} mm at X {x} Y {y} mm", fixed(by, 2));
-            diagnostics.push(Diagnostic::new(code, message).at(spans[i.min(spans.len() - 1)]));
+            let span = spans.get(i).or(spans.last()).copied();
+            diagnostics.push(Diagnostic { span, ..Diagnostic::new(code, message) });
         }
     }
 }

@@ -1,0 +1,123 @@
+//! `cutc explain`: what a code means, why it matters and what to do.
+
+use std::fmt::Write as _;
+
+use clap::Args;
+
+use super::explanations::EXPLANATIONS;
+use super::{DONE, Finished, failure};
+use crate::diagnostic::{Severity, code};
+use crate::pipeline::RULES;
+
+/// Arguments of `cutc explain`.
+#[derive(Debug, Args)]
+pub(super) struct Arguments {
+    /// A code as messages show it, `iso/open-slit`, or a rule of the verifier, `verify/on-path`
+    code: Option<String>,
+}
+
+/// A code or a rule: name, what kind it is, what it says in a sentence.
+type Topic = (&'static str, &'static str, &'static str);
+
+/// Every code, then every rule.
+fn topics() -> impl Iterator<Item = Topic> {
+    let codes = code::ALL.iter().map(|code| (code.name, severity(code.severity), code.about));
+    codes.chain(RULES.iter().map(|&(name, about)| (name, "rule", about)))
+}
+
+fn severity(severity: Severity) -> &'static str {
+    match severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+    }
+}
+
+pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
+    let Some(asked) = &arguments.code else { return Ok(Finished::text(list(), String::new(), DONE)) };
+    if let Some(topic) = topics().find(|(name, _, _)| name == asked) {
+        return Ok(Finished::text(explained(topic), String::new(), DONE));
+    }
+    let likeness = |name: &str| strsim::jaro_winkler(name, asked);
+    let nearest = topics().map(|topic| topic.0).max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
+    let hint = nearest.map_or_else(String::new, |name| format!("did you mean `{name}`? "));
+    Err(failure(format!("there is no code `{asked}`"), format!("{hint}`cutc explain` lists them all")))
+}
+
+fn list() -> String {
+    let width = topics().map(|topic| topic.0.len()).max().unwrap_or(0);
+    let mut out = String::new();
+    for (name, kind, about) in topics() {
+        // Writing into a `String` cannot fail.
+        let _ = writeln!(out, "{name:width$}  {kind:7}  {about}");
+    }
+    out
+}
+
+/// What follows from a kind of finding.
+fn consequence(kind: &str) -> &'static str {
+    match kind {
+        "error" => "error: no program is written",
+        "warning" => "warning: a program is written; somebody should look",
+        _ => "rule of the verifier: a program that breaks it is not written",
+    }
+}
+
+fn explained((name, kind, about): Topic) -> String {
+    let more = EXPLANATIONS.iter().find(|(code, _)| *code == name).map_or("", |(_, text)| text);
+    format!("{name}\n{}\n\n{}\n\n{}\n", consequence(kind), wrapped(&sentence(about)), paragraphs(more))
+}
+
+/// Rules are said in lower case without a full stop, codes as sentences.
+fn sentence(about: &str) -> String {
+    let mut letters = about.chars();
+    let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
+    format!("{first}{}{}", letters.as_str(), if about.ends_with('.') { "" } else { "." })
+}
+
+/// Columns of an explanation.
+const COLUMNS: usize = 80;
+
+/// Paragraphs stand on a line each; an indented line is an example and stays as it is.
+fn paragraphs(text: &str) -> String {
+    let paragraph = |line: &str| if line.starts_with(' ') { line.to_owned() } else { wrapped(line) };
+    text.lines().map(paragraph).collect::<Vec<_>>().join("\n")
+}
+
+fn wrapped(text: &str) -> String {
+    let mut out = String::new();
+    let mut column = 0;
+    for word in text.split(' ') {
+        let width = word.chars().count();
+        if column > 0 && column + 1 + width > COLUMNS {
+            out.push('\n');
+            column = 0;
+        } else if column > 0 {
+            out.push(' ');
+            column += 1;
+        }
+        out.push_str(word);
+        column += width;
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_code_and_rule_is_explained_once() {
+        let count = |name: &str| EXPLANATIONS.iter().filter(|(code, _)| *code == name).count();
+        let wrong: Vec<_> = topics().map(|topic| topic.0).filter(|name| count(name) != 1).collect();
+        assert!(wrong.is_empty(), "EXPLANATIONS must have one row for each of {wrong:?}");
+    }
+
+    #[test]
+    fn an_explanation_says_more_than_the_table_and_fits_80_columns() {
+        for topic in topics() {
+            let text = explained(topic);
+            assert!(text.lines().all(|line| line.chars().count() <= COLUMNS), "{text}");
+            assert!(text.len() > topic.2.len() + 150, "{text}");
+        }
+    }
+}

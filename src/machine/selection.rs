@@ -1,0 +1,142 @@
+//! Which pieces of a marker one compile cuts, and whether the knife goes down at all.
+
+use std::fmt;
+
+use thiserror::Error;
+
+/// Which pieces are cut: all, unless one of these says otherwise.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Selection {
+    /// Only these; `None` = every piece.
+    pub pieces: Option<Numbers>,
+    /// Not these.
+    pub skip: Option<Numbers>,
+    /// Only the first piece of this number and those behind it in cut order.
+    pub resume_from: Option<u32>,
+}
+
+impl Selection {
+    /// Whether every piece is cut.
+    pub fn is_all(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// Whether a piece of this number is cut, its place in the cut order aside.
+    pub fn has(&self, number: u32) -> bool {
+        self.pieces.as_ref().is_none_or(|only| only.has(number))
+            && !self.skip.as_ref().is_some_and(|skipped| skipped.has(number))
+    }
+}
+
+/// Numbers of pieces, as in `3,7-12`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Numbers {
+    /// First and last of each range, as they were given.
+    ranges: Vec<[u32; 2]>,
+}
+
+/// What is wrong with a list of numbers.
+#[derive(Debug, Error, PartialEq, Eq)]
+pub enum NotNumbers {
+    /// Something else than a whole number stands there.
+    #[error("`{0}` is no piece number; give numbers and ranges, as in 3,7-12")]
+    Word(String),
+    /// A range that runs down.
+    #[error("the range {0}-{1} runs backward; did you mean {1}-{0}?")]
+    Backward(u32, u32),
+}
+
+impl Numbers {
+    /// Reads numbers and ranges with commas between them.
+    pub fn parse(text: &str) -> Result<Self, NotNumbers> {
+        let number = |word: &str| {
+            let digits = word.trim();
+            let is_number = !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit());
+            digits.parse().ok().filter(|_| is_number).ok_or_else(|| NotNumbers::Word(word.trim().to_owned()))
+        };
+        let range = |part: &str| {
+            let [first, last] = match part.split_once('-') {
+                Some((first, last)) => [number(first)?, number(last)?],
+                None => [number(part)?; 2],
+            };
+            if last < first { Err(NotNumbers::Backward(first, last)) } else { Ok([first, last]) }
+        };
+        Ok(Self { ranges: text.split(',').map(range).collect::<Result<_, _>>()? })
+    }
+
+    /// Whether a number is among them.
+    pub fn has(&self, number: u32) -> bool {
+        self.ranges.iter().any(|&[first, last]| (first..=last).contains(&number))
+    }
+
+    /// The numbers that were written: the two ends of each range.
+    pub fn written(&self) -> impl Iterator<Item = u32> + '_ {
+        self.ranges.iter().flat_map(|&[first, last]| std::iter::once(first).chain((last != first).then_some(last)))
+    }
+}
+
+/// As it is typed.
+impl fmt::Display for Numbers {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, &[first, last]) in self.ranges.iter().enumerate() {
+            let comma = if i == 0 { "" } else { "," };
+            if first == last { write!(out, "{comma}{first}")? } else { write!(out, "{comma}{first}-{last}")? }
+        }
+        Ok(())
+    }
+}
+
+/// What a program does with the knife.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Mode {
+    /// It cuts.
+    #[default]
+    Cut,
+    /// The same motion with knife and drills up.
+    Dry,
+    /// Once around the box of the marker with the knife up, from home and back.
+    Frame,
+}
+
+impl Mode {
+    /// Whether knife and drills work.
+    pub fn cuts(self) -> bool {
+        match self {
+            Self::Cut => true,
+            Self::Dry | Self::Frame => false,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_read_as_people_write_them() {
+        let numbers = Numbers::parse("3, 7-12,20").expect("numbers");
+        let found: Vec<u32> = (0..30).filter(|&number| numbers.has(number)).collect();
+        assert_eq!(found, [3, 7, 8, 9, 10, 11, 12, 20]);
+        assert_eq!(numbers.written().collect::<Vec<_>>(), [3, 7, 12, 20]);
+        assert_eq!(numbers.to_string(), "3,7-12,20");
+        let wide = Numbers::parse("0-4294967295").expect("numbers");
+        assert!(wide.has(0) && wide.has(u32::MAX));
+    }
+
+    #[test]
+    fn what_is_no_number_is_named() {
+        for (text, word) in [("", ""), ("3,", ""), ("a", "a"), ("-3", ""), ("3-", ""), ("+3", "+3"), ("1.5", "1.5")] {
+            assert_eq!(Numbers::parse(text), Err(NotNumbers::Word(word.to_owned())), "{text}");
+        }
+        assert_eq!(Numbers::parse("4294967296"), Err(NotNumbers::Word("4294967296".to_owned())));
+        assert_eq!(Numbers::parse("12-7"), Err(NotNumbers::Backward(12, 7)));
+    }
+
+    #[test]
+    fn skipping_wins_over_choosing() {
+        let of = |text| Some(Numbers::parse(text).expect("numbers"));
+        let selection = Selection { pieces: of("1-5"), skip: of("3"), resume_from: None };
+        assert!(selection.has(2) && !selection.has(3) && !selection.has(6) && !selection.is_all());
+        assert!(Selection::default().has(7) && Selection::default().is_all());
+    }
+}

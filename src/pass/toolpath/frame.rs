@@ -1,0 +1,31 @@
+//! The frame of a marker: once around its box with the knife up, to see on the cloth where it will lie.
+
+use super::table;
+use crate::diagnostic::Diagnostics;
+use crate::geom::Point;
+use crate::ir::Marker;
+use crate::ir::toolpath::{Air, Pose, Step, Toolpath};
+use crate::machine::Job;
+
+/// The C axis from `home` along the box around everything that is cut or drilled, and back; C does not turn. An empty
+/// marker has no frame.
+pub fn frame(marker: &Marker, home: Pose, job: &Job, diagnostics: &mut Diagnostics) -> Toolpath {
+    let extent = marker.extent();
+    let tolerance = job.profile.tolerance(marker.unit);
+    let mut toolpath = Toolpath { piece: 0, tolerance, entry: home, steps: Vec::new() };
+    if extent.is_empty() {
+        return toolpath;
+    }
+    let (min, max) = (extent.min, extent.max);
+    let corners = [min, Point::new(max.x, min.y), max, Point::new(min.x, max.y), min, home.centre];
+    let mut from = home;
+    for corner in corners {
+        let to = Pose { centre: corner, c: home.c };
+        if to != from {
+            toolpath.steps.push(Step::Travel(Air { from, to }));
+            from = to;
+        }
+    }
+    (table::PASS.run)(&mut toolpath, job, diagnostics);
+    toolpath
+}
