@@ -272,14 +272,18 @@ impl<'a> Layout<'a> {
     /// Moves an outline to the next free place; gives its centre.
     fn place(&mut self, outline: &mut [Vertex]) -> Point {
         let mut extent = Extent::EMPTY;
-        outline.iter().for_each(|vertex| extent.add(vertex.at));
+        for vertex in outline.iter() {
+            extent.add(vertex.at);
+        }
         let (length, height) = extent.size();
         if self.corner.y + height > self.order.width {
             self.corner = Point::new(self.corner.x + self.row + self.order.gap, 0.0);
             self.row = 0.0;
         }
         let shift = self.corner - extent.min;
-        outline.iter_mut().for_each(|vertex| vertex.at += shift);
+        for vertex in outline.iter_mut() {
+            vertex.at += shift;
+        }
         let centre = self.corner + Vector::new(length, height) / 2.0;
         self.corner.y += height + self.order.gap;
         self.row = self.row.max(length);
@@ -323,11 +327,15 @@ impl Iterator for Layout<'_> {
         let mut outline = flatten(pattern, scale, self.order.tolerance);
         // Left and right of a garment mirror each other; the mirror image, taken backwards, stays counter-clockwise.
         if self.random.random_bool(0.5) {
-            outline.iter_mut().for_each(|vertex| vertex.at.x = -vertex.at.x);
+            for vertex in &mut outline {
+                vertex.at.x = -vertex.at.x;
+            }
             outline.reverse();
         }
         if self.random.random_bool(0.5) {
-            outline.iter_mut().for_each(|vertex| vertex.at = -vertex.at);
+            for vertex in &mut outline {
+                vertex.at = -vertex.at;
+            }
         }
         let centre = self.place(&mut outline);
         self.notch(&mut outline);
@@ -338,7 +346,9 @@ impl Iterator for Layout<'_> {
         let drills = if pattern.name == "BODICE" { vec![centre] } else { Vec::new() };
         if self.random.random_bool(0.5) {
             turn_round(&mut outline);
-            holes.iter_mut().for_each(|hole| turn_round(hole));
+            for hole in &mut holes {
+                turn_round(hole);
+            }
         }
         self.pieces += 1;
         self.vertices += outline.len();
