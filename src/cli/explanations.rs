@@ -27,7 +27,7 @@ pub(super) const EXPLANATIONS: &[(&str, &str)] = &[
     ("csv/header", "The header tells a list of points from any other table, and says that the unit is mm. Write it above the rows.\n  x_mm,y_mm\n  0,0\n  100,0"),
     ("csv/row", "A row that is guessed would be a wrong cut. Use a point for decimals and a comma between the two numbers, without units.\n  12.5,-3"),
     ("csv/no-length", "One point is nowhere to cut along, and points that are equal count as one. Remove it, or look for a blank line too many: it ends a contour."),
-    ("csv/nothing-to-cut", "The export wrote a header and then stopped. Export the points again."),
+    ("csv/nothing-to-cut", "The export wrote a header and then stopped, or everything was on a layer that it leaves out. Look at the drawing, and export the points again."),
     ("marker/open-contour", "A part whose outline does not close hangs on the cloth by a bridge, and is torn out by hand. Close it in the CAD system; if it is a line that is meant to be open, all is well."),
     ("marker/contour-twice", "The knife runs the same way again: that takes time, frays the edge and may shift the part, which is free by then. Delete one of the two in the CAD system."),
     ("marker/equal-points", "Harmless: a direction cannot be taken from two equal points, so one of them goes. Many of them hint at an export in too coarse a unit."),
