@@ -4,6 +4,8 @@
 //! of the reference that they belong to. Under the tangent law the blade lies along the tip's way; after a plunge as a
 //! chord it fades from the chord to the tangent over the next blade width, by the step of degree 7.
 
+use std::ops::RangeInclusive;
+
 use super::coverage::Coverage;
 use super::follow::{Follower, Foot, on_chord};
 use super::grid::Grid;
@@ -85,6 +87,8 @@ struct Trial {
     worst: (f64, usize),
     /// Whether it goes all the way round a closed line.
     laps: bool,
+    /// The places that are held to the line: of a stab its longest stretch on it; its surplus lies before and behind.
+    held: RangeInclusive<usize>,
 }
 
 /// What a stroke cuts: the body's places, then the tip's.
@@ -256,14 +260,33 @@ impl<'a> Judge<'a> {
         let laps = line.ring && way > length - self.knife.width_mm.min(0.5 * length);
         let first = if laps { cut.body } else { 0 };
         let allowed = self.reference.tolerance + PLACE_ROUNDING;
-        let mut trial =
-            Trial { line: index, feet, stretches: Vec::new(), fresh: 0.0, left: 0.0, worst: (0.0, cut.body), laps };
+        let mut trial = Trial {
+            line: index,
+            feet,
+            stretches: Vec::new(),
+            fresh: 0.0,
+            left: 0.0,
+            worst: (0.0, cut.body),
+            laps,
+            held: first..=points.len() - 1,
+        };
         let body = if laps { Body::default() } else { Body::new(line, cut, &trial.feet, allowed) };
+        let off = |i: usize, foot: &Foot| if i < cut.body { body.off(i, foot) } else { foot.deviation };
+        if points.len() == cut.body + 1 {
+            // A blade that never moves is often longer than what it cuts: what it is longer by leaves the line straight on,
+            // at corners as at bends. That is overcut, not a bad way.
+            let on: Vec<bool> = (0..points.len()).map(|i| i >= first && off(i, &trial.feet[i]) <= allowed).collect();
+            if let Some(held) = longest(&on) {
+                trial.held = held;
+            }
+        }
         let mut open: Option<[f64; 2]> = None;
         for i in first..points.len() {
             let foot = trial.feet[i];
-            let off = if i < cut.body { body.off(i, &foot) } else { foot.deviation };
-            trial.note(off, i);
+            let off = off(i, &foot);
+            if trial.held.contains(&i) {
+                trial.note(off, i);
+            }
             let mut joined = i > first && off <= allowed;
             if joined && i > cut.body {
                 let skipped = skipped(line, points, &trial.feet, i);
@@ -371,7 +394,9 @@ impl<'a> Judge<'a> {
             return;
         }
         for (i, foot) in trial.feet.iter().enumerate() {
-            if foot.beyond <= PLACE_ROUNDING {
+            let edge = i.clamp(*trial.held.start(), *trial.held.end());
+            let beyond = foot.beyond.max((cut.points[i] - cut.points[edge]).norm());
+            if beyond <= PLACE_ROUNDING {
                 continue;
             }
             let pieces = self.inside.pieces_at(cut.points[i]);
@@ -382,7 +407,7 @@ impl<'a> Judge<'a> {
             } else {
                 1
             };
-            self.overcut[into].see(foot.beyond, || seen(i));
+            self.overcut[into].see(beyond, || seen(i));
         }
     }
 
@@ -480,6 +505,20 @@ fn skipped(line: &Line, points: &[Point], feet: &[Foot], i: usize) -> f64 {
     };
     let away = |vertex: usize| polyline::distance_to_segment(line.points[vertex], points[i - 1], points[i]);
     line.vertices(low.next_up(), high.next_down()).map(away).fold(0.0, f64::max) - bow(i).max(bow(i - 1))
+}
+
+/// The longest stretch of places that hold; the first of two alike.
+fn longest(on: &[bool]) -> Option<RangeInclusive<usize>> {
+    let mut best: Option<RangeInclusive<usize>> = None;
+    let mut from = 0;
+    for (i, &holds) in on.iter().enumerate() {
+        if !holds {
+            from = i + 1;
+        } else if best.as_ref().is_none_or(|b| i - from > b.end() - b.start()) {
+            best = Some(from..=i);
+        }
+    }
+    best
 }
 
 /// What is left of the lead at a fraction of the fade: 1 - (35 x^4 - 84 x^5 + 70 x^6 - 20 x^7).
