@@ -155,7 +155,7 @@ impl<'a> Judge<'a> {
             let row = &rows[cut.rows[i.saturating_sub(cut.body)]];
             at(row.t, cut.points[i], row.block)
         };
-        let Some(best) = self.choose(trials, coverage) else {
+        let Some(best) = self.choose(trials, rows[0].block, coverage) else {
             self.check_heading(rows, &tips, false);
             self.stray.see(polyline::length(&cut.points).max(self.knife.width_mm).max(REACH), || seen(cut.body));
             return;
@@ -180,8 +180,9 @@ impl<'a> Judge<'a> {
     }
 
     /// The line that a stroke was meant for: of those on which it cuts the most, but for overlaps and the surplus of the
-    /// blade, which may lie on a neighbour, the one that it completes best.
-    fn choose(&self, mut trials: Vec<Trial>, coverage: &Coverage) -> Option<Trial> {
+    /// blade, which may lie on a neighbour, the one that its row names as the block being cut, else the one that it
+    /// completes best. The name decides between equals only: what is cut is seen on the cloth.
+    fn choose(&self, mut trials: Vec<Trial>, block: u32, coverage: &Coverage) -> Option<Trial> {
         let tolerance = self.reference.tolerance;
         for trial in &mut trials {
             trial.fresh = coverage.fresh(trial.line, &trial.stretches);
@@ -192,8 +193,13 @@ impl<'a> Judge<'a> {
         trials.retain(|trial| trial.fresh >= tolerance.min(most));
         trials.retain(|trial| trial.fresh >= most - self.overlaps - self.knife.width_mm - 2.0 * tolerance);
         trials.into_iter().min_by(|a, b| {
-            let by_left = a.left.total_cmp(&b.left);
-            by_left.then(b.fresh.total_cmp(&a.fresh)).then(a.worst.0.total_cmp(&b.worst.0)).then(a.line.cmp(&b.line))
+            let named = |trial: &Trial| self.reference.lines[trial.line].blocks.contains(&block);
+            let by_name = named(b).cmp(&named(a));
+            by_name
+                .then(a.left.total_cmp(&b.left))
+                .then(b.fresh.total_cmp(&a.fresh))
+                .then(a.worst.0.total_cmp(&b.worst.0))
+                .then(a.line.cmp(&b.line))
         })
     }
 
