@@ -48,7 +48,7 @@ const MOST_CODES: usize = 6;
 
 /// Largest number that is read, in units of the file: 25 km in the smallest unit, far beyond any table, and small
 /// enough for whole numbers to be exact.
-pub(super) const VALUE_MAX: f64 = 1e7;
+pub(super) const VALUE_MAX: f64 = 1e8;
 
 /// The words of a block.
 #[derive(Debug, Clone, Default, PartialEq)]
