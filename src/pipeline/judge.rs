@@ -48,7 +48,7 @@ pub(super) fn judge(source: &Source, input: &Input, job: &Job, program: &mut dyn
         verdict
     };
     let whole = input.whole.clone().unwrap_or_else(|| Census::of(marker));
-    let audit = verify::source_audit(input.dialect.name, source.bytes(), &whole, marker.unit);
+    let audit = verify::source_audit(input.dialect.name, source.bytes(), &whole, &job.profile);
     verdict.findings.extend(audit.into_iter().flatten());
     verify::sort(&mut verdict.findings);
     Ok(verdict)

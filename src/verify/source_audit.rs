@@ -4,6 +4,7 @@
 use super::worst::Worst;
 use crate::geom::{Extent, Point};
 use crate::ir::{Finding, Marker};
+use crate::machine::MachineProfile;
 
 /// What is cut: points reached with the knife down, holes, length and bounds.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,12 +17,15 @@ pub struct Census {
     pub length: f64,
     /// The box around all of it.
     pub bounds: Extent,
+    /// What the numbers of the file are multiples of, mm.
+    pub unit: f64,
 }
 
 impl Census {
     /// The census of a marker as it was read, before any pass.
     pub fn of(marker: &Marker) -> Self {
-        let mut census = Self { points: 0, drills: 0, length: marker.cut_length(), bounds: marker.extent() };
+        let mut census =
+            Self { points: 0, drills: 0, length: marker.cut_length(), bounds: marker.extent(), unit: marker.unit };
         for piece in &marker.pieces {
             census.points += piece.notches.len();
             census.drills += piece.drills.len();
@@ -34,9 +38,9 @@ impl Census {
 }
 
 /// Compares a marker as it was read with a scan of the bytes; `None` when there is no scan for the dialect.
-pub fn source_audit(dialect: &str, bytes: &[u8], read: &Census, unit: f64) -> Option<Vec<Finding>> {
+pub fn source_audit(dialect: &str, bytes: &[u8], read: &Census, profile: &MachineProfile) -> Option<Vec<Finding>> {
     let scanned = match dialect {
-        "iso" => scan_iso(bytes, unit),
+        "iso" => scan_iso(bytes, read.unit, profile),
         _ => return None,
     };
     let corner = |a: Point, b: Point| (a - b).amax();
@@ -63,8 +67,8 @@ pub fn source_audit(dialect: &str, bytes: &[u8], read: &Census, unit: f64) -> Op
 const LENGTH_EPSILON: f64 = 1e-9;
 
 /// Scans a cut file. Only what moves the knife matters here; everything else is passed over.
-fn scan_iso(bytes: &[u8], unit: f64) -> Census {
-    let mut census = Census { points: 0, drills: 0, length: 0.0, bounds: Extent::EMPTY };
+fn scan_iso(bytes: &[u8], unit: f64, profile: &MachineProfile) -> Census {
+    let mut census = Census { points: 0, drills: 0, length: 0.0, bounds: Extent::EMPTY, unit };
     let mut blocks = Blocks { bytes, at: 0 };
     let (mut at, mut down) = (Point::origin(), false);
     // Whether the knife was led here for a hole; whether a drill waits for its place.
@@ -108,7 +112,9 @@ fn scan_iso(bytes: &[u8], unit: f64) -> Census {
                 census.bounds.add(at);
             }
         }
-        if ["M43", "R0", "M44", "M45", "M72", "M73"].iter().any(|code| has(code)) {
+        // A bare R has no number; the profile knows it by its letter.
+        let drills = [("M43", "M43"), ("R0", "R"), ("M44", "M44"), ("M45", "M45"), ("M72", "M72"), ("M73", "M73")];
+        if drills.iter().any(|(code, name)| has(code) && profile.obeys(name)) {
             census.drills += 1;
             waiting = !fresh && place_follows(blocks.clone());
             if !waiting {

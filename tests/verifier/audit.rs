@@ -6,7 +6,7 @@ use std::path::Path;
 use cutc::diagnostic::Diagnostics;
 use cutc::geom::Vector;
 use cutc::ir::{Finding, Marker};
-use cutc::machine::Job;
+use cutc::machine::{Job, MachineProfile};
 use cutc::pipeline;
 use cutc::source::Source;
 use cutc::verify::{Census, source_audit};
@@ -33,7 +33,7 @@ fn sources() -> Vec<(Source, Marker)> {
 }
 
 fn audit(source: &Source, marker: &Marker) -> Vec<Finding> {
-    source_audit("iso", source.bytes(), &Census::of(marker), marker.unit).expect("cut files have a scan")
+    source_audit("iso", source.bytes(), &Census::of(marker), &MachineProfile::default()).expect("cut files have a scan")
 }
 
 #[test]
