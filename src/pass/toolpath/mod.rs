@@ -1,6 +1,6 @@
 //! Passes over the toolpath of one contour, notch or drill.
 //!
-//! [`trace`] makes it: one run as the file has it. The passes split it at corners, give it overlaps, and place it.
+//! [`trace()`] makes it: one run as the file has it. The passes split it at corners, give it overlaps, and place it.
 
 mod corner;
 mod down;
