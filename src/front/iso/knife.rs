@@ -195,7 +195,7 @@ impl Knife {
         }
     }
 
-    /// The chain is left for now. One that closed on itself is finished; any other may go on where it ends.
+    /// The knife leaves the chain. One that closed on itself is finished; any other may go on where it ends.
     fn leave(&mut self, index: usize, lifted: bool, no_overcut: bool) {
         let chain = &mut self.chains[index];
         (chain.lifted, chain.no_overcut) = (lifted, no_overcut);
