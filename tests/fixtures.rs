@@ -52,7 +52,11 @@ fn at(point: Point) -> String {
 fn describe(marker: &Marker, source: &Source) -> String {
     let mut out = format!("unit {} mm\n", marker.unit);
     for piece in &marker.pieces {
-        let _ = writeln!(out, "piece {}, block {}", piece.number, piece.span.block);
+        for event in &piece.events {
+            let _ = writeln!(out, "{:?}, block {}", event.kind, event.span.block);
+        }
+        let feed = piece.feed.map_or(String::new(), |feed| format!(", feed {feed:.3} mm/s"));
+        let _ = writeln!(out, "piece {}, block {}{feed}", piece.number, piece.span.block);
         for contour in &piece.contours {
             let points = marker.points(contour);
             let kind = if contour.closed { "closed" } else { "open" };
@@ -63,6 +67,9 @@ fn describe(marker: &Marker, source: &Source) -> String {
                 let flags =
                     [(joint.lift, "lift"), (joint.full_advance, "full advance"), (joint.no_overcut, "no overcut")];
                 let asked: Vec<&str> = flags.iter().filter(|(set, _)| *set).map(|(_, name)| *name).collect();
+                if segment.percent != 100 {
+                    let _ = writeln!(out, "    to {}: {} %", at(segment.to), segment.percent);
+                }
                 if !asked.is_empty() {
                     let _ = writeln!(out, "    at {}: {}", at(segment.from), asked.join(", "));
                 }
@@ -80,7 +87,17 @@ fn describe(marker: &Marker, source: &Source) -> String {
             let place = label.at.map_or("nowhere".to_owned(), at);
             let heading = label.heading.map_or(String::new(), |h| format!(", {:.1} deg", h.radians().to_degrees()));
             let _ = writeln!(out, "  label at {place}{heading}: {text}");
+            if let Some(mirrored) = label.mirrored {
+                let _ = writeln!(out, "    mirrored: {}", source.slice(mirrored).escape_ascii());
+            }
         }
+        for field in &piece.fields {
+            let value = source.slice(field.span).escape_ascii();
+            let _ = writeln!(out, "  field {}: {value}", char::from(field.letter));
+        }
+    }
+    for event in &marker.closing {
+        let _ = writeln!(out, "{:?}, block {}", event.kind, event.span.block);
     }
     out
 }

@@ -124,7 +124,13 @@ fn raw_marker(random: &mut Random) -> Marker {
                 let to = if random.flag() { from } else { random.point() };
                 let joint = Joint { lift: random.flag(), full_advance: random.flag(), no_overcut: random.flag() };
                 block += 1;
-                chain.push(Segment { from, to, span: Span { start: 5 * block, end: 5 * block + 4, block }, joint });
+                chain.push(Segment {
+                    from,
+                    to,
+                    span: Span { start: 5 * block, end: 5 * block + 4, block },
+                    joint,
+                    percent: 100,
+                });
                 from = to;
             }
             let range = marker.list.append(chain).expect("a segment at least");
@@ -221,6 +227,7 @@ fn a_contour_is_known_again_from_any_start_and_either_way() {
                 to,
                 span: Span::default(),
                 joint: Joint::default(),
+                percent: 100,
             });
             let range = marker.list.append(chain).expect("three segments at least");
             marker.pieces.push(Piece { contours: vec![Contour { range, closed: true }], ..Piece::default() });
@@ -249,6 +256,7 @@ fn ten_thousand_chains_weld_into_a_thousand_rings() {
                 to: ring[(i + 1) % 1000],
                 span: Span::default(),
                 joint: Joint::default(),
+                percent: 100,
             });
             let range = marker.list.append(chain).expect("a hundred segments");
             piece.contours.push(Contour { range, closed: false });

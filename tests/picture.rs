@@ -20,12 +20,12 @@ fn demo() -> Marker {
     let span = |block| Span { block, ..Span::default() };
     marker.pieces[0].drills.push(Drill { at: Point::new(50.0, 30.0), tool: 1, span: span(5) });
     let (root, tip) = (Point::new(0.0, 50.0), Point::new(5.0, 50.0));
-    marker.pieces[0].notches.push(Notch { kind: NotchKind::Slit, root, tip, span: span(6) });
+    marker.pieces[0].notches.push(Notch { kind: NotchKind::Slit, root, tip, percent: 100, span: span(6) });
     let at = |i: u32| {
         let angle = std::f64::consts::TAU * f64::from(i % 24) / 24.0;
         Point::new(140.0 + 20.0 * angle.cos(), 50.0 + 20.0 * angle.sin())
     };
-    let chord = |i| Segment { from: at(i), to: at(i + 1), span: span(10 + i), joint: Joint::default() };
+    let chord = |i| Segment { from: at(i), to: at(i + 1), span: span(10 + i), joint: Joint::default(), percent: 100 };
     let range = marker.list.append((0..24).map(chord)).expect("24 chords");
     marker.pieces.push(Piece { number: 12, contours: vec![Contour { range, closed: true }], ..Piece::default() });
     marker

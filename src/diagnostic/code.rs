@@ -70,8 +70,10 @@ mod table {
     pub static ISO_UNITS_CHANGED: Code = error("iso/units-changed", "G70, G71 or G91 change the unit after coordinates were read; two jobs may stand in one file.");
     /// The drawing does not fit its own title or any table.
     pub static ISO_UNIT_DOUBTFUL: Code = warning("iso/unit-doubtful", "The extent suggests that another unit is meant; set `units` if it is.");
-    /// G02, G03, I or J.
-    pub static ISO_ARC: Code = error("iso/arc-unsupported", "Arcs are not cut yet, and a chord in place of an arc would be a wrong cut.");
+    /// An arc that is none.
+    pub static ISO_ARC_RADIUS: Code = error("iso/arc-radius", "An arc (G02, G03) has no centre, or its two ends are not equally far from it within one unit of the file.");
+    /// Labels of nothing.
+    pub static ISO_TRAILER_PIECE: Code = warning("iso/trailer-piece", "The list of labels behind M0 names a piece that the file does not hold; its fields are dropped.");
     /// M14 before any place.
     pub static ISO_NO_POSITION: Code = warning("iso/no-position", "The knife goes down before the file gave X and Y; what is missing is taken as 0.");
     /// A drill between M14 and M15.
@@ -96,6 +98,10 @@ mod table {
     pub static MARKER_TWICE: Code = warning("marker/contour-twice", "The same contour stands twice in the file and would be cut twice.");
     /// Equal points in a row.
     pub static MARKER_EQUAL_POINTS: Code = warning("marker/equal-points", "Points that repeat the one before them were dropped; the message gives their count.");
+    /// A slit again.
+    pub static MARKER_SLIT_TWICE: Code = warning("marker/slit-twice", "The same slit stands twice in a piece; it is cut once.");
+    /// A slit without length.
+    pub static MARKER_SLIT_NO_LENGTH: Code = warning("marker/slit-no-length", "A slit ends where it starts: nothing is cut there.");
     /// A contour that is one place.
     pub static MARKER_NO_LENGTH: Code = warning("marker/no-length", "All points of a contour are the same place: nothing is cut there.");
 
@@ -159,7 +165,8 @@ pub static ALL: &[&Code] = &[
     &ISO_IGNORED_CODE,
     &ISO_UNITS_CHANGED,
     &ISO_UNIT_DOUBTFUL,
-    &ISO_ARC,
+    &ISO_ARC_RADIUS,
+    &ISO_TRAILER_PIECE,
     &ISO_NO_POSITION,
     &ISO_DRILL_KNIFE_DOWN,
     &ISO_NOTHING_TO_CUT,
@@ -170,6 +177,8 @@ pub static ALL: &[&Code] = &[
     &MARKER_OPEN,
     &MARKER_TWICE,
     &MARKER_EQUAL_POINTS,
+    &MARKER_SLIT_TWICE,
+    &MARKER_SLIT_NO_LENGTH,
     &MARKER_NO_LENGTH,
     &SELECT_UNKNOWN_PIECE,
     &SELECT_NOTHING_LEFT,

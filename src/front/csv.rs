@@ -7,7 +7,7 @@ use super::{Dialect, Likeness, foreign};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
 use crate::ir::Marker;
-use crate::ir::list::{Joint, Segment};
+use crate::ir::list::{FULL_SPEED, Joint, Segment};
 use crate::ir::marker::{Contour, Piece};
 use crate::machine::Job;
 use crate::source::{Source, Span};
@@ -166,8 +166,13 @@ fn add(marker: &mut Marker, polyline: &[(Row, Span)], out: &mut Diagnostics) {
         );
         return;
     }
-    let segment =
-        |pair: &[(Point, Span)]| Segment { from: pair[0].0, to: pair[1].0, span: pair[1].1, joint: Joint::default() };
+    let segment = |pair: &[(Point, Span)]| Segment {
+        from: pair[0].0,
+        to: pair[1].0,
+        span: pair[1].1,
+        joint: Joint::default(),
+        percent: FULL_SPEED,
+    };
     if let Some(range) = marker.list.append(points.windows(2).map(segment)) {
         let contours = vec![Contour { range, closed: first == last }];
         marker.pieces.push(Piece { number: marker.pieces.len() as u32 + 1, span, contours, ..Piece::default() });

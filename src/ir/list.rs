@@ -17,7 +17,12 @@ pub struct Segment {
     pub span: Span,
     /// What the file asks for where it starts.
     pub joint: Joint,
+    /// Its speed in percent of the speed of the piece, 1 to 100.
+    pub percent: u8,
 }
+
+/// [`Segment::percent`] where the file asks for nothing.
+pub const FULL_SPEED: u8 = 100;
 
 /// What the file asks for at the joint where a segment starts.
 ///
@@ -275,8 +280,13 @@ mod tests {
 
     fn chain(xs: &[f64]) -> Vec<Segment> {
         let p = |x: f64| Point::new(x, 0.0);
-        let segment =
-            |w: &[f64]| Segment { from: p(w[0]), to: p(w[1]), span: Span::default(), joint: Joint::default() };
+        let segment = |w: &[f64]| Segment {
+            from: p(w[0]),
+            to: p(w[1]),
+            span: Span::default(),
+            joint: Joint::default(),
+            percent: FULL_SPEED,
+        };
         xs.windows(2).map(segment).collect()
     }
 

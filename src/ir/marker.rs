@@ -1,6 +1,7 @@
 //! What the file says, in mm: pieces in cut order, with their contours, notches, drills and labels.
 
 use super::list::{Range, SegmentList};
+use super::toolpath;
 use crate::geom::{Extent, Heading, Point};
 use crate::source::Span;
 
@@ -13,6 +14,8 @@ pub struct Marker {
     pub pieces: Vec<Piece>,
     /// What the numbers of the file are multiples of, mm; 0 when they are not rounded to a grid.
     pub unit: f64,
+    /// What happens behind the last piece.
+    pub closing: Vec<Event>,
 }
 
 /// A piece of the garment, or what the file calls one.
@@ -30,6 +33,31 @@ pub struct Piece {
     pub contours: Vec<Contour>,
     /// Texts.
     pub labels: Vec<Label>,
+    /// What happens before the piece is cut, in order.
+    pub events: Vec<Event>,
+    /// The speed of the tip that the file asks for, mm/s: the least while any of the piece is cut; `None` = whatever the
+    /// profile allows.
+    pub feed: Option<f64>,
+    /// What the file's list of labels says of it, in the file's order.
+    pub fields: Vec<Field>,
+}
+
+/// Something for the controller or the operator, between two pieces: the knife is up and the axes rest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Event {
+    /// What is asked for.
+    pub kind: toolpath::Event,
+    /// Where it stands in the source.
+    pub span: Span,
+}
+
+/// A field of a piece in the file's list of labels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Field {
+    /// Its name, an upper-case letter.
+    pub letter: u8,
+    /// The bytes of its value in the source.
+    pub span: Span,
 }
 
 /// A line that the knife cuts.
@@ -50,6 +78,8 @@ pub struct Notch {
     pub root: Point,
     /// Its innermost point.
     pub tip: Point,
+    /// Its speed in percent of the speed of the piece, 1 to 100.
+    pub percent: u8,
     /// Where it stands in the source.
     pub span: Span,
 }
@@ -88,6 +118,8 @@ pub struct Label {
     pub heading: Option<Heading>,
     /// The bytes of the text in the source.
     pub span: Span,
+    /// The bytes of the form that it takes on mirrored pieces, when the file gives one.
+    pub mirrored: Option<Span>,
 }
 
 impl Marker {

@@ -11,7 +11,7 @@ use crate::ir::{Finding, Marker};
 use crate::machine::Job;
 use crate::source::{Source, Span};
 use crate::units::number::{exact, fixed};
-use crate::verify::{self, Census, RULES, Verdict};
+use crate::verify::{self, RULES, Verdict};
 
 /// Bytes that are read back at a time.
 const BLOCK: usize = 1 << 16;
@@ -47,8 +47,7 @@ pub(super) fn judge(source: &Source, input: &Input, job: &Job, program: &mut dyn
         verdict.findings.retain(|finding| !OF_CUTS.contains(&finding.rule));
         verdict
     };
-    let whole = input.whole.clone().unwrap_or_else(|| Census::of(marker));
-    let audit = verify::source_audit(input.dialect.name, source.bytes(), &whole, &job.profile);
+    let audit = verify::source_audit(input.dialect.name, source.bytes(), &input.read, &job.profile);
     verdict.findings.extend(audit.into_iter().flatten());
     verify::sort(&mut verdict.findings);
     Ok(verdict)

@@ -20,7 +20,7 @@ use crate::diagnostic::Diagnostics;
 use crate::front::{self, Dialect};
 use crate::ir::{Finding, Marker, Toolpath, check, text};
 use crate::machine::{Job, Mode};
-use crate::pass::marker::{FIRST_CHOICE, MARKER_PASSES};
+use crate::pass::marker::MARKER_PASSES;
 use crate::pass::toolpath::{TOOLPATH_PASSES, frame, trace};
 use crate::plan;
 use crate::source::Source;
@@ -41,8 +41,8 @@ pub struct Input {
     pub dialect: &'static Dialect,
     /// What it says, as far as the job wants it cut.
     pub marker: Marker,
-    /// What the whole file says; `None` when the marker is all of it.
-    pub whole: Option<Census>,
+    /// What the file says in all, as it was read: before any pass.
+    pub read: Census,
 }
 
 /// What is asked of a compile beside the job.
@@ -105,11 +105,8 @@ fn read_until(
     let extension = Path::new(source.name()).extension().and_then(|e| e.to_str());
     let dialect = from.or_else(|| front::detect(source, extension, diagnostics))?;
     let mut marker = (dialect.read)(source, job, diagnostics);
-    let mut whole = None;
+    let read = Census::of(&marker);
     for pass in MARKER_PASSES {
-        if pass.name == FIRST_CHOICE && !job.selection.is_all() {
-            whole = Some(Census::of(&marker));
-        }
         if diagnostics.has_errors() {
             break;
         }
@@ -119,7 +116,7 @@ fn read_until(
             break;
         }
     }
-    Some(Input { dialect, marker, whole })
+    Some(Input { dialect, marker, read })
 }
 
 /// Compiles a source to a program in `out`, reads that back and judges it. `None` when the diagnostics hold errors: what

@@ -1,10 +1,18 @@
 //! A small scan of the source bytes by other means than the reader's: what it counts must be what the marker holds, so
 //! that a fault of the reader is seen, too.
 
+use std::f64::consts::TAU;
+
 use super::worst::Worst;
-use crate::geom::{Extent, Point};
+use crate::geom::{Extent, Point, Vector};
 use crate::ir::{Finding, Marker};
 use crate::machine::MachineProfile;
+
+/// Rounding of sums of lengths, as a part of them.
+const LENGTH_EPSILON: f64 = 1e-9;
+/// Farthest that the chords of an arc may lie off it, as a part of the tolerance: a curve that is drawn coarser leaves the
+/// knife no room.
+const ARC_SAGITTA: f64 = 0.25;
 
 /// What is cut: points reached with the knife down, holes, length and bounds.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,10 +35,16 @@ impl Census {
         let mut census =
             Self { points: 0, drills: 0, length: marker.cut_length(), bounds: marker.extent(), unit: marker.unit };
         for piece in &marker.pieces {
-            census.points += piece.notches.len();
+            census.points += piece.notches.iter().filter(|notch| notch.root != notch.tip).count();
             census.drills += piece.drills.len();
             for contour in &piece.contours {
-                census.points += marker.list.walk(contour.range).count();
+                let mut block = None;
+                for (_, segment) in marker.list.walk(contour.range) {
+                    // The chords of an arc come from one block and are one point of the file.
+                    let is_new =
+                        segment.span.block == 0 || block.replace(segment.span.block) != Some(segment.span.block);
+                    census.points += usize::from(is_new && segment.from != segment.to);
+                }
             }
         }
         census
@@ -39,7 +53,7 @@ impl Census {
 
 /// Compares a marker as it was read with a scan of the bytes; `None` when there is no scan for the dialect.
 pub fn source_audit(dialect: &str, bytes: &[u8], read: &Census, profile: &MachineProfile) -> Option<Vec<Finding>> {
-    let scanned = match dialect {
+    let (scanned, slack) = match dialect {
         "iso" => scan_iso(bytes, read.unit, profile),
         _ => return None,
     };
@@ -55,31 +69,31 @@ pub fn source_audit(dialect: &str, bytes: &[u8], read: &Census, profile: &Machin
         worst.see(value, nowhere);
         Finding { place: None, ..worst.finding() }
     };
+    let length = (read.length - scanned.length).abs();
     Some(vec![
         finding("source/points", "points", read.points.abs_diff(scanned.points) as f64, 0.0),
         finding("source/drills", "holes", read.drills.abs_diff(scanned.drills) as f64, 0.0),
-        finding("source/length", "mm", (read.length - scanned.length).abs(), LENGTH_EPSILON * (1.0 + read.length)),
-        finding("source/bounds", "mm", bounds, LENGTH_EPSILON),
+        finding("source/length", "mm", length, LENGTH_EPSILON * (1.0 + read.length) + slack.length),
+        finding("source/bounds", "mm", bounds, LENGTH_EPSILON + slack.bounds),
     ])
 }
 
-/// Rounding of sums of lengths, as a part of them.
-const LENGTH_EPSILON: f64 = 1e-9;
-
 /// Scans a cut file. Only what moves the knife matters here; everything else is passed over.
-fn scan_iso(bytes: &[u8], unit: f64, profile: &MachineProfile) -> Census {
+fn scan_iso(bytes: &[u8], unit: f64, profile: &MachineProfile) -> (Census, Slack) {
     let mut census = Census { points: 0, drills: 0, length: 0.0, bounds: Extent::EMPTY, unit };
+    let mut slack = Slack { sagitta: profile.tolerance(unit) * ARC_SAGITTA, length: 0.0, bounds: 0.0 };
     let mut blocks = Blocks { bytes, at: 0 };
     let (mut at, mut down) = (Point::origin(), false);
-    // Whether the knife was led here for a hole; whether a drill waits for its place.
-    let (mut fresh, mut waiting) = (false, false);
-    // Points of the stroke under way, so that one that never moves counts for nothing.
-    let mut stroke: Vec<Point> = Vec::new();
+    // Whether the knife was led here for a hole; whether a drill waits for its place; which way arcs go.
+    let (mut fresh, mut waiting, mut way) = (false, false, 0.0);
+    let mut stroke = Stroke::new(at);
     while let Some(block) = blocks.next(false) {
         let Some(words) = words(&block) else { continue };
         let has =
             |code: &str| words.iter().any(|(letter, number)| format!("{letter}{}", number.unwrap_or(0.0)) == code);
-        let moves = words.iter().any(|(letter, _)| matches!(letter, 'X' | 'Y'))
+        let value =
+            |of: char| words.iter().find(|(letter, _)| *letter == of).map(|(_, n)| n.unwrap_or(f64::NAN) * unit);
+        let moves = ['X', 'Y', 'I', 'J'].iter().any(|&letter| value(letter).is_some())
             && !words.iter().any(|w| w.0 == 'Q' || w.0 == 'Z');
         if has("M31") || has("M20") {
             if has("M31") && !moves && blocks.clone().next(false).is_some_and(|next| is_place(&next)) {
@@ -89,25 +103,30 @@ fn scan_iso(bytes: &[u8], unit: f64, profile: &MachineProfile) -> Census {
             continue;
         }
         if has("M15") || words[0].0 == 'A' {
-            finish(&mut stroke, &mut census);
+            stroke.finish(&mut census);
             (down, fresh) = (false, false);
         }
         if (has("M14") || words[0].0 == 'B') && !down {
             down = true;
-            stroke = vec![at];
+            stroke = Stroke::new(at);
+        }
+        for (code, turn) in [("G1", 0.0), ("G2", -1.0), ("G3", 1.0)] {
+            if has(code) && profile.obeys(code) {
+                way = turn;
+            }
         }
         if moves {
-            for (letter, number) in &words {
-                match letter {
-                    'X' => at.x = number.unwrap_or(f64::NAN) * unit,
-                    'Y' => at.y = number.unwrap_or(f64::NAN) * unit,
-                    _ => {}
-                }
-            }
+            let to = Point::new(value('X').unwrap_or(at.x), value('Y').unwrap_or(at.y));
+            let centre = Vector::new(value('I').unwrap_or(0.0), value('J').unwrap_or(0.0));
             fresh = true;
             if down {
-                stroke.push(at);
+                match (value('R').filter(|r| r.is_finite()), value('I').or(value('J'))) {
+                    (_, Some(_)) if way != 0.0 => stroke.arc(to, centre, way, &mut slack),
+                    (Some(radius), None) if way != 0.0 => stroke.arc(to, bulge(to - at, radius, way), way, &mut slack),
+                    _ => stroke.line(to),
+                }
             }
+            at = to;
             if std::mem::take(&mut waiting) {
                 census.bounds.add(at);
             }
@@ -123,20 +142,82 @@ fn scan_iso(bytes: &[u8], unit: f64, profile: &MachineProfile) -> Census {
             fresh = false;
         }
     }
-    finish(&mut stroke, &mut census);
-    census
+    stroke.finish(&mut census);
+    (census, slack)
 }
 
-fn finish(stroke: &mut Vec<Point>, census: &mut Census) {
-    stroke.dedup();
-    if stroke.len() > 1 {
-        census.points += stroke.len() - 1;
-        census.length += stroke.windows(2).map(|w| (w[1] - w[0]).norm()).sum::<f64>();
-        for &point in stroke.iter() {
-            census.bounds.add(point);
-        }
+/// What the chords of arcs may change, mm.
+struct Slack {
+    /// Farthest that a chord may lie off its arc.
+    sagitta: f64,
+    length: f64,
+    bounds: f64,
+}
+
+/// What the knife does between going down and up.
+struct Stroke {
+    at: Point,
+    points: usize,
+    length: f64,
+    bounds: Extent,
+}
+
+impl Stroke {
+    fn new(at: Point) -> Self {
+        let mut bounds = Extent::EMPTY;
+        bounds.add(at);
+        Self { at, points: 0, length: 0.0, bounds }
     }
-    stroke.clear();
+
+    fn line(&mut self, to: Point) {
+        self.points += usize::from(to != self.at);
+        self.length += (to - self.at).norm();
+        self.bounds.add(to);
+        self.at = to;
+    }
+
+    /// An arc around `at + centre`, `way` 1 counter-clockwise and -1 clockwise; it is longer than its chords by
+    /// s / (3 r) of its length, s their sagitta.
+    fn arc(&mut self, to: Point, centre: Vector, way: f64, slack: &mut Slack) {
+        let around = self.at + centre;
+        let (start, end) = (-centre, to - around);
+        let radius = start.norm();
+        let angle = |v: Vector| v.y.atan2(v.x);
+        let turned = (way * (angle(end) - angle(start))).rem_euclid(TAU);
+        let sweep = if to == self.at { TAU } else { turned };
+        for quarter in 0..4 {
+            let extreme = f64::from(quarter) * TAU / 4.0;
+            if (way * (extreme - angle(start))).rem_euclid(TAU) < sweep {
+                self.bounds.add(around + Vector::new(extreme.cos(), extreme.sin()) * radius);
+            }
+        }
+        let length = sweep * radius;
+        self.points += 1;
+        self.length += length;
+        self.bounds.add(to);
+        self.at = to;
+        let uneven = (end.norm() - radius).abs();
+        slack.length += length * (slack.sagitta / (3.0 * radius)).min(1.0) + uneven * (1.0 + sweep);
+        slack.bounds = slack.bounds.max(slack.sagitta + uneven);
+    }
+
+    /// A stroke that never moves cuts nothing.
+    fn finish(&mut self, census: &mut Census) {
+        if self.points > 0 {
+            census.points += self.points;
+            census.length += self.length;
+            census.bounds.add(self.bounds.min);
+            census.bounds.add(self.bounds.max);
+        }
+        *self = Self::new(self.at);
+    }
+}
+
+/// Where the centre of an arc lies as seen from its start, when the file gives the radius: negative, the longer way round.
+fn bulge(chord: Vector, radius: f64, way: f64) -> Vector {
+    let half = chord.norm() / 2.0;
+    let height = (radius * radius - half * half).max(0.0).sqrt() * way * radius.signum();
+    chord / 2.0 + Vector::new(-chord.y, chord.x) / (2.0 * half) * height
 }
 
 /// The blocks of a file.

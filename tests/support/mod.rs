@@ -21,6 +21,7 @@ pub(crate) fn marker(points: &[Point]) -> Marker {
         to: w[1],
         span: Span { block, ..Span::default() },
         joint: Joint::default(),
+        percent: 100,
     });
     let range = marker.list.append(chain).expect("two points or more");
     let closed = points.first() == points.last();

@@ -2,7 +2,7 @@
 
 use cutc::geom::{Point, Vector, angle, left, polyline};
 use cutc::ir::Marker;
-use cutc::ir::list::{Joint, Segment};
+use cutc::ir::list::{FULL_SPEED, Joint, Segment};
 use cutc::ir::marker::{Contour, Drill, Notch, Piece};
 use cutc::source::Span;
 
@@ -268,7 +268,13 @@ fn redraw(marker: &mut Marker, piece: usize, contour: usize, segments: Vec<Segme
 
 /// Adds an open contour to the last piece.
 fn add(marker: &mut Marker, points: &[Point]) {
-    let segment = |w: &[Point]| Segment { from: w[0], to: w[1], span: Span::default(), joint: Joint::default() };
+    let segment = |w: &[Point]| Segment {
+        from: w[0],
+        to: w[1],
+        span: Span::default(),
+        joint: Joint::default(),
+        percent: FULL_SPEED,
+    };
     let range = marker.list.append(points.windows(2).map(segment)).expect("two points or more");
     let last = marker.pieces.last_mut().expect("a marker has pieces");
     last.contours.push(Contour { range, closed: false });

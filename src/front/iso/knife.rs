@@ -7,8 +7,8 @@ use std::collections::HashMap;
 
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Extent, Point};
-use crate::ir::list::{Joint, Segment, SegmentList};
-use crate::ir::marker::{Contour, Drill, Label, Marker, Notch, NotchKind, Piece};
+use crate::ir::list::{FULL_SPEED, Joint, Segment, SegmentList};
+use crate::ir::marker::{Contour, Drill, Event, Label, Marker, Notch, NotchKind, Piece};
 use crate::source::Span;
 
 /// Follows the knife and makes the marker.
@@ -21,6 +21,13 @@ pub(super) struct Knife {
     advance: bool,
     no_overcut: bool,
     corner_lift: bool,
+    /// Speeds in percent, both until the next piece: M25's and that of M60 to M67.
+    slow: u8,
+    of_piece: u8,
+    /// The feed of F, mm/s, from there on.
+    feed: Option<f64>,
+    /// What happens before the next piece that is cut.
+    events: Vec<Event>,
     /// Chains of the pieces that are not finished.
     chains: Vec<Chain>,
     /// The open ones, by the bits of their end.
@@ -53,6 +60,8 @@ struct Vertex {
     at: Point,
     span: Span,
     joint: Joint,
+    /// Speed of the way to it, percent.
+    percent: u8,
 }
 
 #[derive(Debug)]
@@ -92,6 +101,10 @@ impl Knife {
             advance: false,
             no_overcut: false,
             corner_lift: false,
+            slow: FULL_SPEED,
+            of_piece: FULL_SPEED,
+            feed: None,
+            events: Vec::new(),
             chains: Vec::new(),
             open: HashMap::new(),
             current: None,
@@ -115,18 +128,22 @@ impl Knife {
 
     /// A move, mm.
     pub(super) fn go(&mut self, to: Point, span: Span) {
+        let percent = self.percent();
         match &mut self.state {
             State::Up => {}
             State::Cutting(chain) => {
                 let joint = Joint { lift: std::mem::take(&mut self.corner_lift), ..Joint::default() };
-                self.chains[*chain].vertices.push(Vertex { at: to, span, joint });
+                self.chains[*chain].vertices.push(Vertex { at: to, span, joint, percent });
+                let piece = self.chains[*chain].piece;
+                cap(&mut self.pieces[piece], self.feed);
             }
-            State::Slit { points, .. } => points.push(Vertex { at: to, span, joint: Joint::default() }),
+            State::Slit { points, .. } => points.push(Vertex { at: to, span, joint: Joint::default(), percent }),
             State::Plunged { joint, span: from } => {
-                let start = Vertex { at: self.at, span: *from, joint: *joint };
+                let start = Vertex { at: self.at, span: *from, joint: *joint, percent };
                 let joint = Joint { lift: std::mem::take(&mut self.corner_lift), ..Joint::default() };
-                let vertices = vec![start, Vertex { at: to, span, joint }];
+                let vertices = vec![start, Vertex { at: to, span, joint, percent }];
                 let piece = self.piece_of_new_chain(start.span);
+                cap(&mut self.pieces[piece], self.feed);
                 self.chains.push(Chain { piece, vertices, slit: false, lifted: false, no_overcut: false });
                 self.state = State::Cutting(self.chains.len() - 1);
             }
@@ -136,11 +153,51 @@ impl Knife {
 
     /// The piece that a chain which begins at `span` belongs to. Without N every contour is a piece.
     fn piece_of_new_chain(&mut self, span: Span) -> usize {
-        self.current.unwrap_or_else(|| {
+        let piece = self.current.unwrap_or_else(|| {
             let waiting = std::mem::take(&mut self.waiting);
             self.pieces.push(Piece { number: self.pieces.len() as u32 + 1, span, ..waiting });
             self.pieces.len() - 1
-        })
+        });
+        self.give_events(piece);
+        piece
+    }
+
+    /// What happens before a piece goes to the first one that is begun behind it; inside a piece it waits for the next.
+    fn give_events(&mut self, piece: usize) {
+        if self.events.is_empty() {
+            return;
+        }
+        let begun = &self.pieces[piece];
+        let in_chains = self.chains.iter().any(|chain| chain.piece == piece);
+        if !in_chains && begun.notches.is_empty() && begun.drills.is_empty() {
+            self.pieces[piece].events.append(&mut self.events);
+        }
+    }
+
+    /// The speed of a cut that is made now, percent of the feed.
+    fn percent(&self) -> u8 {
+        let product = u32::from(self.slow) * u32::from(self.of_piece) / u32::from(FULL_SPEED);
+        product.max(1) as u8
+    }
+
+    /// M25 with its percent, or M26 with full speed.
+    pub(super) fn slow(&mut self, percent: u8) {
+        self.slow = percent;
+    }
+
+    /// M60 to M67.
+    pub(super) fn speed_of_piece(&mut self, percent: u8) {
+        self.of_piece = percent;
+    }
+
+    /// F, mm/s.
+    pub(super) fn feed(&mut self, feed: f64) {
+        self.feed = Some(feed);
+    }
+
+    /// M01 and M69.
+    pub(super) fn event(&mut self, event: Event) {
+        self.events.push(event);
     }
 
     /// M14.
@@ -169,6 +226,7 @@ impl Knife {
             // Without N: what the file holds while it interrupts a contour belongs to that contour.
             piece.drills.append(&mut self.waiting.drills);
             piece.notches.append(&mut self.waiting.notches);
+            cap(piece, self.waiting.feed.take());
             self.state = State::Cutting(index);
         } else {
             self.state = State::Plunged { joint: Joint { full_advance, ..Joint::default() }, span };
@@ -220,7 +278,7 @@ impl Knife {
                 Some(self.chains[index].piece)
             }
         };
-        let root = Vertex { at: self.at, span, joint: Joint::default() };
+        let root = Vertex { at: self.at, span, joint: Joint::default(), percent: self.percent() };
         self.state = State::Slit { points: vec![root], piece, span };
     }
 
@@ -235,15 +293,28 @@ impl Knife {
     fn end_slit(&mut self) {
         (self.advance, self.no_overcut) = (false, false);
         let State::Slit { mut points, piece, .. } = std::mem::take(&mut self.state) else { return };
-        points.dedup_by_key(|vertex| key(vertex.at));
+        // One that goes nowhere is kept as it stands in the file: dropping it is for the passes, which say so.
+        let damaged = points.len() > 1 && points.iter().all(|vertex| key(vertex.at) == key(points[0].at));
+        if damaged {
+            points.truncate(2);
+        } else {
+            points.dedup_by_key(|vertex| key(vertex.at));
+        }
         match points[..] {
             [] | [_] => {}
             [root, tip] => {
-                let notch = Notch { kind: NotchKind::Slit, root: root.at, tip: tip.at, span: tip.span };
-                match piece {
-                    Some(piece) => self.pieces[piece].notches.push(notch),
-                    None => self.target().notches.push(notch),
+                let percent = tip.percent;
+                let notch = Notch { kind: NotchKind::Slit, root: root.at, tip: tip.at, percent, span: tip.span };
+                if let Some(piece) = piece.or(self.current) {
+                    self.give_events(piece);
                 }
+                let feed = self.feed;
+                let target = match piece {
+                    Some(piece) => &mut self.pieces[piece],
+                    None => self.target(),
+                };
+                cap(target, feed);
+                target.notches.push(notch);
             }
             [first, ..] => {
                 let piece = piece.unwrap_or_else(|| self.piece_of_new_chain(first.span));
@@ -273,6 +344,9 @@ impl Knife {
 
     /// A hole, with the knife up.
     pub(super) fn drill(&mut self, at: Point, tool: u8, span: Span) {
+        if let Some(piece) = self.current {
+            self.give_events(piece);
+        }
         self.target().drills.push(Drill { at, tool, span });
     }
 
@@ -318,6 +392,7 @@ impl Knife {
 
     fn start_piece(&mut self, number: Option<u32>, span: Span) {
         (self.advance, self.no_overcut) = (false, false);
+        (self.slow, self.of_piece) = (FULL_SPEED, FULL_SPEED);
         self.finish_chains();
         let waiting = std::mem::take(&mut self.waiting);
         let number = number.unwrap_or(self.pieces.len() as u32 + 1);
@@ -341,6 +416,7 @@ impl Knife {
                     to: pair[1].at,
                     span: pair[1].span,
                     joint: pair[0].joint,
+                    percent: pair[1].percent,
                 });
                 if let Some(range) = self.list.append(segments) {
                     self.pieces[chain.piece].contours.push(Contour { range, closed: first == last });
@@ -370,6 +446,7 @@ impl Knife {
                 piece.drills.append(&mut waiting.drills);
                 piece.notches.append(&mut waiting.notches);
                 piece.labels.append(&mut waiting.labels);
+                cap(piece, waiting.feed);
             } else {
                 self.pieces.push(Piece { number: 1, ..waiting });
             }
@@ -379,7 +456,17 @@ impl Knife {
             piece.notches.iter().flat_map(|notch| [notch.root, notch.tip]).for_each(|at| self.extent.add(at));
             piece.drills.iter().for_each(|drill| self.extent.add(drill.at));
         }
-        (Marker { list: self.list, pieces: with_something_to_cut(self.pieces), unit: 0.0 }, self.extent)
+        let mut closing = Vec::new();
+        let pieces = with_something_to_cut(self.pieces, &mut closing);
+        closing.append(&mut self.events);
+        (Marker { list: self.list, pieces, unit: 0.0, closing }, self.extent)
+    }
+}
+
+/// A piece is cut at the least feed in force while any of it is cut.
+fn cap(piece: &mut Piece, feed: Option<f64>) {
+    if let Some(feed) = feed {
+        piece.feed = Some(piece.feed.map_or(feed, |before| before.min(feed)));
     }
 }
 
@@ -390,14 +477,17 @@ pub(super) struct LabelId {
     index: usize,
 }
 
-/// An N without anything to cut is no piece (controllers insert some); its labels go to the next piece.
-fn with_something_to_cut(pieces: Vec<Piece>) -> Vec<Piece> {
+/// An N without anything to cut is no piece (controllers insert some); its labels and events go to the next piece, the
+/// events of the last one to `closing`.
+fn with_something_to_cut(pieces: Vec<Piece>, closing: &mut Vec<Event>) -> Vec<Piece> {
     let mut kept: Vec<Piece> = Vec::with_capacity(pieces.len());
     let mut labels = Vec::new();
     for mut piece in pieces {
         labels.append(&mut piece.labels);
+        closing.append(&mut piece.events);
         if !(piece.contours.is_empty() && piece.notches.is_empty() && piece.drills.is_empty()) {
             piece.labels = std::mem::take(&mut labels);
+            piece.events = std::mem::take(closing);
             kept.push(piece);
         }
     }

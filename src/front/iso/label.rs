@@ -21,28 +21,30 @@ pub(super) struct Layout {
     pub(super) text: Option<Span>,
     /// Its second point.
     pub(super) second: Option<Point>,
+    /// The text as mirrored pieces have it.
+    pub(super) mirrored: Option<Span>,
 }
 
 /// Reads the blocks that belong to an M31 whose own block holds `point`.
 pub(super) fn read(blocks: &mut Blocks<'_>, point: Option<Point>) -> Layout {
     let Some(at) = point else {
         let at = next_if(blocks, |words| words.codes.is_empty() && is_place(words));
-        return Layout { at, text: blocks.next_text(), second: None };
+        return Layout { at, text: blocks.next_text(), second: None, mirrored: None };
     };
     let text = blocks.next_text();
-    let second = mirrored(blocks);
-    Layout { at: Some(at), text, second }
+    let (mirrored, second) = mirrored(blocks).unzip();
+    Layout { at: Some(at), text, second, mirrored }
 }
 
 /// The mirrored text and the second point of the fourth layout. A text may look like codes, and codes like text, so all
 /// three blocks must fit: one that is no codes, a point with M31, and codes again.
-fn mirrored(blocks: &mut Blocks<'_>) -> Option<Point> {
+fn mirrored(blocks: &mut Blocks<'_>) -> Option<(Span, Point)> {
     let mut ahead = blocks.clone();
     if ahead.next().is_none_or(|block| is_known(&block)) {
         return None;
     }
     let mut ahead = blocks.clone();
-    ahead.next_text()?;
+    let text = ahead.next_text()?;
     let second = next_if(&mut ahead, |words| {
         is_place(words) && words.codes.len() == 1 && words.codes.iter().all(|&c| meaning(c) == Meaning::Label)
     })?;
@@ -51,7 +53,7 @@ fn mirrored(blocks: &mut Blocks<'_>) -> Option<Point> {
         return None;
     }
     *blocks = ahead;
-    Some(second)
+    Some((text, second))
 }
 
 /// Takes the next block when it is the one that is looked for, and gives its point.
@@ -66,7 +68,7 @@ fn next_if(blocks: &mut Blocks<'_>, wanted: impl Fn(&Words) -> bool) -> Option<P
 }
 
 fn is_place(words: &Words) -> bool {
-    words.point.is_some_and(|point| point.x.is_some() && point.y.is_some())
+    words.point.is_some_and(|point| point.x.is_some() && point.y.is_some() && !point.has_centre())
 }
 
 /// Whether a block holds known codes and coordinates and nothing else.

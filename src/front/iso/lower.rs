@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use super::arc::{Arc, Centre, Turn};
 use super::block::Blocks;
 use super::knife::{Knife, LabelId};
 use super::label;
@@ -9,13 +10,16 @@ use super::meaning::{Meaning, meaning, name};
 use super::syntax::{Code, Point, Words};
 use super::tally::Tally;
 use super::title::Title;
+use super::trailer;
 use super::unit::{Unit, check_plausible};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::{self, Heading};
+use crate::geom::{self, Heading, Vector};
 use crate::ir::Marker;
-use crate::ir::marker::Label;
+use crate::ir::list::FULL_SPEED;
+use crate::ir::marker::{Event, Label};
 use crate::machine::Job;
 use crate::source::{Source, Span};
+use crate::units::MM_PER_INCH;
 
 /// Reads a file as the job's profile asks.
 pub(super) fn lower(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker {
@@ -32,6 +36,8 @@ pub(super) fn lower(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker
         second: None,
         title: None,
         bite: None,
+        turn: None,
+        ended: None,
         tally: Tally::default(),
         last_cut: None,
         out,
@@ -39,6 +45,10 @@ pub(super) fn lower(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker
     let last = lowering.run();
     lowering.finish(last)
 }
+
+/// Farthest that the chords of an arc may lie off it, mm.
+const SAGITTA_MAX: f64 = 0.01;
+const SECONDS_PER_MINUTE: f64 = 60.0;
 
 struct Lowering<'a> {
     source: &'a Source,
@@ -58,6 +68,10 @@ struct Lowering<'a> {
     title: Option<Title>,
     /// The code that sets the size of a bite, the size in units of the file, and its block.
     bite: Option<(Code, f64, Span)>,
+    /// Which way blocks with I or J go: the last G02 or G03, until G01.
+    turn: Option<Turn>,
+    /// Where the file ended by its M0.
+    ended: Option<usize>,
     tally: Tally,
     /// Offset behind the last block that cuts or drills, once it was looked for.
     last_cut: Option<usize>,
@@ -80,6 +94,7 @@ impl Lowering<'_> {
                 Ok(words) => {
                     if self.obey(&words, block.span).is_break() {
                         ended = true;
+                        self.ended = Some(self.blocks.offset());
                         break;
                     }
                 }
@@ -101,6 +116,9 @@ impl Lowering<'_> {
         self.settle_second_point();
         let (mut marker, extent) = self.knife.finish(last, self.out);
         marker.unit = self.unit.mm();
+        if let Some(offset) = self.ended {
+            trailer::read(self.source, offset, last.block, &mut marker.pieces, self.out);
+        }
         if let Some((code, size, span)) = self.bite
             && size * self.unit.mm() < extent.max.x
         {
@@ -116,14 +134,20 @@ impl Lowering<'_> {
 
     /// A block of coordinates alone.
     fn go(&mut self, point: Point, span: Span) {
+        if point.has_centre() {
+            self.arc(point, None, span);
+            return;
+        }
         let to = self.locate(point);
         if self.knife.is_down() {
-            if point.centre {
-                self.refuse_arc(span);
-            }
             self.knife.go(to, span);
             return;
         }
+        self.land(to, span);
+    }
+
+    /// A move with the knife up.
+    fn land(&mut self, to: geom::Point, span: Span) {
         if let Some((tool, code)) = self.drill.take() {
             self.move_in_air(to, span);
             self.fresh = false;
@@ -148,7 +172,8 @@ impl Lowering<'_> {
         let mut at_place = None;
         let mut label = None;
         let mut moves = true;
-        let mut arc = false;
+        let mut turn = None;
+        let mut radius = None;
         for &code in &words.codes {
             let obeyed = self.obeys(code);
             match meaning(code) {
@@ -158,7 +183,6 @@ impl Lowering<'_> {
                     let size = code.number.or(words.point.and_then(|point| point.x));
                     self.bite = size.filter(|_| obeyed).map(|size| (code, size, span)).or(self.bite);
                 }
-                Meaning::Arc => arc = true,
                 Meaning::Message => self.message(),
                 Meaning::Label => label = Some(obeyed),
                 _ if !obeyed => {}
@@ -174,6 +198,14 @@ impl Lowering<'_> {
                 }
                 Meaning::Unit(unit) => self.unit.set(unit, span, self.out),
                 Meaning::Drill(tool) => at_place = Some(tool),
+                Meaning::Arc(way) => (turn, self.turn) = (Some(way), Some(way)),
+                Meaning::Line => self.turn = None,
+                Meaning::Slow => self.knife.slow(self.job.profile.knife.slow_percent.clamp(1.0, 100.0) as u8),
+                Meaning::Normal => self.knife.slow(FULL_SPEED),
+                Meaning::SpeedOfPiece(percent) => self.knife.speed_of_piece(percent),
+                Meaning::Feed => self.feed(code, span),
+                Meaning::Event(kind) => self.knife.event(Event { kind, span }),
+                Meaning::Origin => self.origin(code, words, span),
                 Meaning::Slit => self.knife.slit(span),
                 Meaning::FullAdvance => self.knife.full_advance(),
                 Meaning::NoOvercut => self.knife.no_overcut(),
@@ -182,19 +214,20 @@ impl Lowering<'_> {
                 Meaning::End => return ControlFlow::Break(()),
                 Meaning::NotObeyed(what) => self.tally.ignore(code, what, span),
                 Meaning::Housekeeping => {}
+                Meaning::Unknown if code.letter == b'R' && words.point.is_some() => radius = code.number,
                 Meaning::Unknown => self.tally.unknown(code, span),
             }
         }
         let point = words.point.filter(|_| moves);
-        if arc {
-            self.refuse_arc(span);
-        }
         if let Some(obeyed) = label {
             self.label(point, obeyed);
         } else if let Some(tool) = at_place {
             self.drill(tool, point, span);
         } else if let Some(point) = point {
-            self.go(Point { centre: point.centre && !arc, ..point }, span);
+            match turn {
+                Some(_) => self.arc(point, radius, span),
+                None => self.go(point, span),
+            }
         }
         ControlFlow::Continue(())
     }
@@ -215,12 +248,53 @@ impl Lowering<'_> {
         self.knife.down(span, self.out);
     }
 
-    fn refuse_arc(&mut self, span: Span) {
-        self.out.push(
-            Diagnostic::new(&code::ISO_ARC, "an arc (G02, G03) cannot be cut yet, and its chord would be a wrong cut")
-                .at(span)
-                .hint("let the CAD export arcs as short lines"),
-        );
+    /// F: a cap on the speed, or a fault when it is none.
+    fn feed(&mut self, code: Code, span: Span) {
+        match code.number {
+            Some(feed) if feed > 0.0 => self.knife.feed(feed * MM_PER_INCH / SECONDS_PER_MINUTE),
+            _ => self.tally.ignore(code, "feed without a speed", span),
+        }
+    }
+
+    /// G04 and M70: before the first place of the file the origin is where it always is. What it should be later the
+    /// vendors leave open, and all coordinates are absolute.
+    fn origin(&mut self, code: Code, words: &Words, span: Span) {
+        if self.place != [None, None] || words.point.is_some() {
+            self.tally.ignore(code, "origin amid the file", span);
+        }
+    }
+
+    /// The end of an arc whose centre stands beside it, or with a radius. Its chords keep the block; with the knife up
+    /// it is a move like any other.
+    fn arc(&mut self, point: Point, radius: Option<f64>, span: Span) {
+        let from = self.knife.at();
+        let to = self.locate(point);
+        if !self.knife.is_down() {
+            self.land(to, span);
+            return;
+        }
+        let unit = self.unit.mm();
+        let centre = if point.has_centre() {
+            Some(Centre::At(Vector::new(point.i.unwrap_or(0.0) * unit, point.j.unwrap_or(0.0) * unit)))
+        } else {
+            radius.map(|radius| Centre::Radius(radius * unit))
+        };
+        let chords = match (self.turn, centre) {
+            (Some(turn), Some(centre)) => {
+                let sagitta = (self.job.profile.tolerance(unit) / 4.0).min(SAGITTA_MAX);
+                Arc { from, to, turn, centre }.flatten(unit, sagitta)
+            }
+            (None, _) => Err("I or J stand in a block that no G02 or G03 makes an arc".to_owned()),
+            (Some(_), None) => Err("the arc has neither a centre I J nor a radius R".to_owned()),
+        };
+        match chords {
+            Ok(chords) => chords.into_iter().for_each(|to| self.knife.go(to, span)),
+            Err(message) => {
+                let finding = Diagnostic::new(&code::ISO_ARC_RADIUS, message).at(span);
+                self.out.push(finding.hint("I and J give the centre as seen from the start of the arc"));
+                self.knife.go(to, span);
+            }
+        }
     }
 
     /// A drill code: in a block with its point, before the block with its point, or at the place where the knife is.
@@ -274,7 +348,7 @@ impl Lowering<'_> {
         let at = text.at.map(|at| self.peek(at));
         let second = text.second.map(|second| self.peek(second));
         let heading = at.zip(second).and_then(|(at, second)| direction(at, second));
-        let id = self.knife.label(Label { at, heading, span });
+        let id = self.knife.label(Label { at, heading, span, mirrored: text.mirrored });
         // Only the layout that starts with the point may have its second point later.
         self.awaiting = (point.is_some() && second.is_none()).then_some(id);
     }
@@ -371,8 +445,12 @@ mod tests {
             |name: &'static str| move |job: &mut Job| _ = job.profile.codes.insert(name.to_owned(), CodeUse::Ignore);
         assert_eq!(check(SQUARE, ignore("M19"), &[]).pieces[0].notches.len(), 0);
         assert_eq!(check(SQUARE, |_| {}, &[]).pieces[0].notches.len(), 1);
-        check("H1*F30*F40*X0Y0*M14*X500Y0*M15*M0*", |_| {}, &["iso/ignored-code"]);
-        check("H1*F30*F40*X0Y0*M14*X500Y0*M15*M0*", ignore("F"), &[]);
+        check("H1*E*E*X0Y0*M14*X500Y0*M15*M0*", |_| {}, &["iso/ignored-code"]);
+        check("H1*E*E*X0Y0*M14*X500Y0*M15*M0*", ignore("E"), &[]);
+        let feed = |marker: Marker| marker.pieces[0].feed;
+        let slow = "H1*F30*X0Y0*M14*X500Y0*M15*M0*";
+        assert_eq!(feed(check(slow, |_| {}, &[])), Some(12.7));
+        assert_eq!(feed(check(slow, ignore("F"), &[])), None);
     }
 
     #[test]
@@ -385,6 +463,13 @@ mod tests {
     fn a_closed_contour_is_never_rejoined() {
         let twice = "G71*X0Y0*M14*X900Y0*X0Y900*X0Y0*M15*M14*X-900Y0*X0Y-900*X0Y0*M15*M0*";
         assert_eq!(check(twice, |_| {}, &[]).contours().count(), 2);
+    }
+
+    #[test]
+    fn an_origin_means_nothing_before_the_first_place() {
+        check("H1*M70*G04*X0Y0*M14*X500Y0*M15*M0*", |_| {}, &[]);
+        check("H1*X0Y0*M70*M14*X500Y0*M15*M0*", |_| {}, &["iso/ignored-code"]);
+        check("H1*G04X5Y5*X0Y0*M14*X500Y0*M15*M0*", |_| {}, &["iso/ignored-code"]);
     }
 
     #[test]

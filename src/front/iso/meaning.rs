@@ -1,6 +1,8 @@
 //! What the codes mean: the table of the family, as its vendors and the files of real machines agree on it.
 
+use super::arc::Turn;
 use super::syntax::Code;
+use crate::ir::toolpath::Event;
 use crate::machine::FileUnit;
 
 /// What a code asks for.
@@ -34,8 +36,22 @@ pub(super) enum Meaning {
     Park,
     /// Length of a bite of the conveyor, along X.
     BiteSize,
-    /// An arc, clockwise or not.
-    Arc,
+    /// An arc.
+    Arc(Turn),
+    /// Straight lines again.
+    Line,
+    /// Speed of the cut until normal speed or the next piece.
+    Slow,
+    /// Normal speed.
+    Normal,
+    /// Speed of the piece, percent.
+    SpeedOfPiece(u8),
+    /// Greatest speed of the tip from there on, inches per minute.
+    Feed,
+    /// Something for the operator or the controller.
+    Event(Event),
+    /// The origin of all numbers.
+    Origin,
     /// Known, changes the cut, and is not obeyed; its name in words.
     NotObeyed(&'static str),
     /// Known, and of no consequence for the cut.
@@ -59,13 +75,17 @@ pub(super) fn meaning(code: Code) -> Meaning {
         (b'G', Some(91)) => Meaning::Unit(FileUnit::HundredthInch),
         (b'G', Some(70)) => Meaning::Unit(FileUnit::ThousandthInch),
         (b'G', Some(71)) => Meaning::Unit(FileUnit::TenthMm),
-        (b'G', Some(2 | 3)) => Meaning::Arc,
-        (b'G', Some(1 | 4 | 90)) | (b'H', _) | (b'D', Some(1 | 2 | 4)) | (b'O', None) => Meaning::Housekeeping,
+        (b'G', Some(1)) => Meaning::Line,
+        (b'G', Some(2)) => Meaning::Arc(Turn::Clockwise),
+        (b'G', Some(3)) => Meaning::Arc(Turn::Counterclockwise),
+        (b'G', Some(4)) => Meaning::Origin,
+        (b'G', Some(90)) | (b'H', _) | (b'D', Some(1 | 2 | 4)) => Meaning::Housekeeping,
+        (b'O', None) => Meaning::Normal,
         (b'Q', None) => Meaning::Park,
         (b'R', None) => Meaning::Drill(1),
         (b'E', None) => Meaning::NotObeyed("flick notch"),
-        (b'L', None) => Meaning::NotObeyed("slow"),
-        (b'F', _) => Meaning::NotObeyed("feed"),
+        (b'L', None) => Meaning::Slow,
+        (b'F', _) => Meaning::Feed,
         (b'Z', _) => Meaning::BiteSize,
         _ => Meaning::Unknown,
     }
@@ -74,7 +94,7 @@ pub(super) fn meaning(code: Code) -> Meaning {
 fn m_code(number: u32) -> Meaning {
     match number {
         0 => Meaning::End,
-        1 => Meaning::NotObeyed("optional stop"),
+        1 => Meaning::Event(Event::Stop),
         14 => Meaning::Down,
         15 => Meaning::Up,
         17 => Meaning::FullAdvance,
@@ -82,18 +102,25 @@ fn m_code(number: u32) -> Meaning {
         19 => Meaning::Slit,
         20 => Meaning::Message,
         23 => Meaning::NotObeyed("edge clip"),
-        25 => Meaning::NotObeyed("slow"),
+        25 => Meaning::Slow,
+        26 => Meaning::Normal,
         31 => Meaning::Label,
         43 => Meaning::Drill(1),
         44 => Meaning::Drill(2),
         45 | 72 => Meaning::Drill(3),
         73 => Meaning::Drill(4),
         46 => Meaning::CornerLift,
-        60..=67 => Meaning::NotObeyed("speed of the piece"),
+        60..=67 => Meaning::SpeedOfPiece(95 - 5 * (number - 60) as u8),
         68 => Meaning::NotObeyed("flick notch"),
-        69 => Meaning::NotObeyed("conveyor bite"),
-        // Normal speed, rewind, sharpening, knife intelligence, origin.
-        26 | 30 | 40..=42 | 47 | 48 | 51 | 70 => Meaning::Housekeeping,
+        69 => Meaning::Event(Event::Advance),
+        70 => Meaning::Origin,
+        30 => Meaning::Housekeeping, // rewind
+        40 => Meaning::NotObeyed("sharpening on"),
+        41 => Meaning::NotObeyed("sharpening off"),
+        42 => Meaning::NotObeyed("sharpen now"),
+        47 => Meaning::NotObeyed("knife intelligence off"),
+        48 => Meaning::NotObeyed("knife intelligence on"),
+        51 => Meaning::NotObeyed("knife intelligence reset"),
         _ => Meaning::Unknown,
     }
 }

@@ -6,9 +6,10 @@
 //! Codes that are not obeyed are reported with their count. Never closes a contour that the file leaves open, and never
 //! recognises a notch by its shape: that is for the passes.
 //!
-//! [`block`] cuts the bytes into blocks, [`syntax`] is the grammar of one, [`mod@meaning`] the table of codes, [`label`] the
-//! layouts of text; [`lower`] follows the file and [`knife`] gathers what it cuts.
+//! Arcs are chords. [`block`] cuts the bytes into blocks, [`syntax`] is the grammar of one, [`mod@meaning`] the table of codes, [`label`] the
+//! layouts of text, [`trailer`] the list of labels at the end; [`lower`] follows the file and [`knife`] gathers what it cuts.
 
+mod arc;
 mod block;
 mod knife;
 mod label;
@@ -17,6 +18,7 @@ mod meaning;
 mod syntax;
 mod tally;
 mod title;
+mod trailer;
 mod unit;
 
 use self::block::Blocks;

@@ -66,8 +66,10 @@ pub(super) struct Point {
     pub(super) x: Option<f64>,
     /// Across the table.
     pub(super) y: Option<f64>,
-    /// Whether I or J stand beside them: the centre of an arc.
-    pub(super) centre: bool,
+    /// Centre of an arc along the table, relative to its start.
+    pub(super) i: Option<f64>,
+    /// The same across the table.
+    pub(super) j: Option<f64>,
 }
 
 /// A letter and, mostly, a number.
@@ -104,6 +106,13 @@ fn codes<'a>(mut i: &'a [u8], words: &mut Words) -> Result<&'a [u8], Err<Fault<'
     Ok(i)
 }
 
+impl Point {
+    /// Whether it is written as the end of an arc: with a centre.
+    pub(super) fn has_centre(&self) -> bool {
+        self.i.is_some() || self.j.is_some()
+    }
+}
+
 /// `<code>`
 fn code(i: &[u8]) -> Out<'_, Code> {
     match i.split_first() {
@@ -123,10 +132,8 @@ pub(super) fn point(mut i: &[u8]) -> Out<'_, Point> {
         match letter {
             b'X' if point.x.is_none() => (i, point.x) = coordinate(i, rest)?,
             b'Y' if point.y.is_none() => (i, point.y) = coordinate(i, rest)?,
-            b'I' | b'J' => {
-                (i, _) = coordinate(i, rest)?;
-                point.centre = true;
-            }
+            b'I' if point.i.is_none() => (i, point.i) = coordinate(i, rest)?,
+            b'J' if point.j.is_none() => (i, point.j) = coordinate(i, rest)?,
             _ => break,
         }
     }

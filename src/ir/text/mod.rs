@@ -6,13 +6,17 @@
 //! ```text
 //! marker unit-mm 0.1
 //! piece 1 @0..3#1
+//! event stop @4..7#1
+//! feed-mm-s 300
 //! drill 40 30 tool 1 @50..60#9
-//! slit 20 0 to 20 5 @60..70#12
+//! slit 20 0 to 20 5 @60..70#12 percent 75
 //! contour closed
 //!   from 0 0 to 100 0 @4..9#2
-//!   to 100 80 @10..19#3 lift full-advance no-overcut
+//!   to 100 80 @10..19#3 percent 75 lift full-advance no-overcut
 //!   to 0 0 @20..29#4
-//! label at 10 10 heading-rad 0 @30..39#5
+//! label at 10 10 heading-rad 0 @30..39#5 mirrored @40..44#6
+//! field D @80..89#15
+//! closing advance @90..93#16
 //! ```
 //!
 //! ```text

@@ -4,7 +4,7 @@ use std::fmt::{self, Display, Formatter, Write as _};
 
 use super::{ENDS, EVENTS, JOINTS, LAWS, SHAPES};
 use crate::geom::Point;
-use crate::ir::list::{Joint, Segment};
+use crate::ir::list::{FULL_SPEED, Joint, Segment};
 use crate::ir::marker::{Label, Marker, NotchKind, Piece};
 use crate::ir::toolpath::{Pose, Run, Stab, Step, Toolpath};
 use crate::source::Span;
@@ -17,11 +17,20 @@ pub fn print_marker(marker: &Marker) -> String {
     for piece in &marker.pieces {
         print_piece(&mut out, marker, piece);
     }
+    for event in &marker.closing {
+        line(&mut out, format_args!("closing {}{}", word(&EVENTS, event.kind), At(event.span)));
+    }
     out
 }
 
 fn print_piece(out: &mut String, marker: &Marker, piece: &Piece) {
     line(out, format_args!("piece {}{}", piece.number, At(piece.span)));
+    for event in &piece.events {
+        line(out, format_args!("event {}{}", word(&EVENTS, event.kind), At(event.span)));
+    }
+    if let Some(feed) = piece.feed {
+        line(out, format_args!("feed-mm-s {}", exact(feed)));
+    }
     for drill in &piece.drills {
         line(out, format_args!("drill {} tool {}{}", Xy(drill.at), drill.tool, At(drill.span)));
     }
@@ -29,7 +38,8 @@ fn print_piece(out: &mut String, marker: &Marker, piece: &Piece) {
         let kind = match notch.kind {
             NotchKind::Slit => "slit",
         };
-        line(out, format_args!("{kind} {} to {}{}", Xy(notch.root), Xy(notch.tip), At(notch.span)));
+        let (root, tip) = (Xy(notch.root), Xy(notch.tip));
+        line(out, format_args!("{kind} {root} to {tip}{}{}", At(notch.span), Percent(notch.percent)));
     }
     for contour in &piece.contours {
         line(out, format_args!("contour {}", if contour.closed { "closed" } else { "open" }));
@@ -42,6 +52,9 @@ fn print_piece(out: &mut String, marker: &Marker, piece: &Piece) {
     for label in &piece.labels {
         print_label(out, label);
     }
+    for field in &piece.fields {
+        line(out, format_args!("field {}{}", char::from(field.letter), At(field.span)));
+    }
 }
 
 fn print_segment(out: &mut String, segment: &Segment, end: Option<Point>) {
@@ -50,7 +63,7 @@ fn print_segment(out: &mut String, segment: &Segment, end: Option<Point>) {
         push(out, format_args!("from {} ", Xy(segment.from)));
     }
     push(out, format_args!("to {}{}", Xy(segment.to), At(segment.span)));
-    line(out, format_args!("{}", Asked(segment.joint)));
+    line(out, format_args!("{}{}", Percent(segment.percent), Asked(segment.joint)));
 }
 
 fn print_label(out: &mut String, label: &Label) {
@@ -61,7 +74,11 @@ fn print_label(out: &mut String, label: &Label) {
     if let Some(heading) = label.heading {
         push(out, format_args!(" heading-rad {}", exact(heading.radians())));
     }
-    line(out, format_args!("{}", At(label.span)));
+    push(out, format_args!("{}", At(label.span)));
+    if let Some(mirrored) = label.mirrored {
+        push(out, format_args!(" mirrored{}", At(mirrored)));
+    }
+    out.push('\n');
 }
 
 /// The text of a sound toolpath; [`read_toolpath`](super::read_toolpath) reads it back.
@@ -147,6 +164,15 @@ impl Display for At {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Span { start, end, block } = self.0;
         if self.0 == Span::default() { Ok(()) } else { write!(f, " @{start}..{end}#{block}") }
+    }
+}
+
+/// A speed with the blank before it; nothing for full speed.
+struct Percent(u8);
+
+impl Display for Percent {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        if self.0 == FULL_SPEED { Ok(()) } else { write!(f, " percent {}", self.0) }
     }
 }
 

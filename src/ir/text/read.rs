@@ -6,8 +6,8 @@ use thiserror::Error;
 
 use super::{ENDS, EVENTS, JOINTS, LAWS, SHAPES};
 use crate::geom::{Heading, Point, Vector};
-use crate::ir::list::{Joint, Segment};
-use crate::ir::marker::{Contour, Drill, Label, Marker, Notch, NotchKind, Piece};
+use crate::ir::list::{FULL_SPEED, Joint, Segment};
+use crate::ir::marker::{Contour, Drill, Event, Field, Label, Marker, Notch, NotchKind, Piece};
 use crate::ir::toolpath::{self, Air, End, Pose, Run, Stab, Step, Toolpath};
 use crate::source::Span;
 
@@ -23,6 +23,9 @@ pub struct ReadError {
 
 type Read<T> = Result<T, ReadError>;
 
+/// What a line of a marker starts with.
+const LINES: &str = "piece, event, feed-mm-s, drill, slit, contour, label, field or closing";
+
 /// Reads the text of a marker.
 pub fn read_marker(text: &str) -> Read<Marker> {
     let mut lines = lines(text);
@@ -33,10 +36,15 @@ pub fn read_marker(text: &str) -> Read<Marker> {
     marker.unit = head.number()?;
     head.end()?;
     while let Some(mut line) = lines.take() {
-        let word = line.word("piece, drill, slit, contour or label")?;
+        let word = line.word(LINES)?;
         if word == "piece" {
             let number = line.whole("a piece number")?;
             marker.pieces.push(Piece { number, span: line.span()?, ..Piece::default() });
+            line.end()?;
+            continue;
+        }
+        if word == "closing" {
+            marker.closing.push(event(&mut line)?);
             line.end()?;
             continue;
         }
@@ -50,7 +58,8 @@ pub fn read_marker(text: &str) -> Read<Marker> {
                 let root = line.point()?;
                 line.expect("to")?;
                 let tip = line.point()?;
-                piece.notches.push(Notch { kind: NotchKind::Slit, root, tip, span: line.span()? });
+                let span = line.span()?;
+                piece.notches.push(Notch { kind: NotchKind::Slit, root, tip, percent: line.percent()?, span });
             }
             "contour" => {
                 let closed = line.choice(&[("closed", true), ("open", false)])?;
@@ -61,13 +70,26 @@ pub fn read_marker(text: &str) -> Read<Marker> {
             "label" => {
                 let at = if line.has("at") { Some(line.point()?) } else { None };
                 let heading = if line.has("heading-rad") { Some(Heading::new(line.number()?)) } else { None };
-                piece.labels.push(Label { at, heading, span: line.span()? });
+                let span = line.span()?;
+                let mirrored = if line.has("mirrored") { Some(line.span()?) } else { None };
+                piece.labels.push(Label { at, heading, span, mirrored });
             }
-            _ => return Err(line.error("piece, drill, slit, contour or label")),
+            "event" => piece.events.push(event(&mut line)?),
+            "feed-mm-s" => piece.feed = Some(line.number()?),
+            "field" => {
+                let letter = line.word("a letter")?;
+                let &[letter @ b'A'..=b'Z'] = letter.as_bytes() else { return Err(line.error("a letter")) };
+                piece.fields.push(Field { letter, span: line.span()? });
+            }
+            _ => return Err(line.error(LINES)),
         }
         line.end()?;
     }
     Ok(marker)
+}
+
+fn event(line: &mut Line<'_>) -> Read<Event> {
+    Ok(Event { kind: line.choice(&EVENTS)?, span: line.span()? })
 }
 
 fn drill(line: &mut Line<'_>) -> Read<(Point, u8, Span)> {
@@ -84,7 +106,8 @@ fn segments(lines: &mut Lines<'_>) -> Read<Vec<Segment>> {
         let from = if line.has("from") { Some(line.point()?) } else { before };
         let from = from.ok_or_else(|| line.error("from"))?;
         line.expect("to")?;
-        chain.push(Segment { from, to: line.point()?, span: line.span()?, joint: line.joint() });
+        let (to, span) = (line.point()?, line.span()?);
+        chain.push(Segment { from, to, span, percent: line.percent()?, joint: line.joint() });
         line.end()?;
     }
     Ok(chain)
@@ -296,6 +319,11 @@ impl<'a> Line<'a> {
         let at = self.point()?;
         self.expect("c-rad")?;
         Ok(Pose::new(at.x, at.y, self.number()?))
+    }
+
+    /// A speed, or full speed where none stands.
+    fn percent(&mut self) -> Read<u8> {
+        if self.has("percent") { self.whole("a number of percents up to 255") } else { Ok(FULL_SPEED) }
     }
 
     /// The words of a joint, in their order; none of them where none stands.

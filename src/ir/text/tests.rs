@@ -1,7 +1,7 @@
 use super::*;
 use crate::geom::{Heading, Point, Rotation, Vector};
 use crate::ir::list::Segment;
-use crate::ir::marker::{Contour, Drill, Label, Marker, Notch, NotchKind, Piece};
+use crate::ir::marker::{self, Contour, Drill, Field, Label, Marker, Notch, NotchKind, Piece};
 use crate::ir::toolpath::{self, Air, Pose, Run, Stab, Step, Toolpath};
 use crate::source::Span;
 
@@ -49,6 +49,14 @@ impl Random {
         Joint { lift: self.flag(), full_advance: self.flag(), no_overcut: self.flag() }
     }
 
+    fn percent(&mut self) -> u8 {
+        if self.flag() { 100 } else { 1 + self.below(99) as u8 }
+    }
+
+    fn event(&mut self) -> marker::Event {
+        marker::Event { kind: EVENTS[self.below(2) as usize].1, span: self.span() }
+    }
+
     fn pose(&mut self) -> Pose {
         Pose { centre: self.point(), c: Rotation(self.number()) }
     }
@@ -73,13 +81,18 @@ fn marker(random: &mut Random) -> Marker {
                 kind: NotchKind::Slit,
                 root: r.point(),
                 tip: r.point(),
+                percent: r.percent(),
                 span: r.span(),
             }),
             contours: Vec::new(),
             labels: random.some(2, |r| {
                 let at = r.flag().then(|| r.point());
-                Label { at, heading: r.flag().then(|| Heading::new(r.number())), span: r.span() }
+                let heading = r.flag().then(|| Heading::new(r.number()));
+                Label { at, heading, span: r.span(), mirrored: r.flag().then(|| r.span()) }
             }),
+            events: random.some(2, Random::event),
+            feed: random.flag().then(|| random.number()),
+            fields: random.some(3, |r| Field { letter: b'A' + r.below(26) as u8, span: r.span() }),
         };
         for _ in 0..random.below(3) {
             let mut at = random.point();
@@ -87,15 +100,17 @@ fn marker(random: &mut Random) -> Marker {
                 // Most segments start where the one before ends; a broken chain must survive as well.
                 let from = if r.below(8) == 0 { r.point() } else { at };
                 at = r.point();
-                Segment { from, to: at, span: r.span(), joint: r.joint() }
+                Segment { from, to: at, span: r.span(), joint: r.joint(), percent: r.percent() }
             });
-            chain.push(Segment { from: at, to: random.point(), span: Span::default(), joint: random.joint() });
+            let (to, joint, percent) = (random.point(), random.joint(), random.percent());
+            chain.push(Segment { from: at, to, span: Span::default(), joint, percent });
             let range = marker.list.append(chain).expect("a segment at least");
             let range = if random.flag() { range.reversed() } else { range };
             piece.contours.push(Contour { range, closed: random.flag() });
         }
         marker.pieces.push(piece);
     }
+    marker.closing = random.some(2, Random::event);
     marker
 }
 
@@ -149,10 +164,11 @@ fn a_marker_survives_the_round_trip_to_the_bit() {
         let after = read_marker(&text).unwrap_or_else(|error| panic!("seed {seed}: {error}\n{text}"));
         assert_eq!(print_marker(&after), text, "seed {seed}");
         assert_eq!(after.unit.to_bits(), before.unit.to_bits());
-        assert_eq!(after.pieces.len(), before.pieces.len());
+        assert_eq!((after.pieces.len(), &after.closing), (before.pieces.len(), &before.closing));
         for (a, b) in after.pieces.iter().zip(&before.pieces) {
             assert_eq!((a.number, a.span), (b.number, b.span));
             assert_eq!((&a.drills, &a.notches, &a.labels), (&b.drills, &b.notches, &b.labels));
+            assert_eq!((&a.events, a.feed, &a.fields), (&b.events, b.feed, &b.fields));
             let contents = |m: &Marker, c: &Contour| {
                 let both_ways = [c.range, c.range.reversed()];
                 let walks = both_ways.map(|range| m.list.walk(range).map(|(_, s)| s).collect::<Vec<_>>());

@@ -21,6 +21,3 @@ pub struct MarkerPass {
 
 /// Every pass over the marker, in order.
 pub const MARKER_PASSES: &[MarkerPass] = &[weld::PASS, inspect::PASS, select::PASS];
-
-/// The first pass that may leave out what the file says: up to it the marker is the whole file.
-pub const FIRST_CHOICE: &str = select::PASS.name;

@@ -1,44 +1,70 @@
-//! From the marker to raw toolpaths: drills, then notches, then contours of each piece, in cut order.
+//! From the marker to raw toolpaths: events, drills, then notches, then contours of each piece, in cut order.
+//!
+//! The file's speeds become the cap of a run: the least that any of its segments asks for, so that a contour with a slow
+//! stretch is slow as a whole.
 
 use crate::ir::Marker;
-use crate::ir::list::Joint;
-use crate::ir::marker::{Contour, Notch, Piece};
+use crate::ir::list::{FULL_SPEED, Joint};
+use crate::ir::marker::{Contour, Event, Notch, Piece};
 use crate::ir::toolpath::{Drill, End, Law, Pose, Run, Shape, Step, Toolpath};
 use crate::machine::{Follow, Job};
 
 /// The raw toolpath of each drill, notch and contour, in cut order: a contour is one run, not yet split, without
-/// overlaps and without poses.
+/// overlaps and without poses. An event stands alone, between the pieces or behind the last.
 pub fn trace<'a>(marker: &'a Marker, job: &'a Job) -> impl Iterator<Item = Toolpath> + 'a {
     let tolerance = job.profile.tolerance(marker.unit);
-    marker.pieces.iter().flat_map(move |piece| {
+    let last = marker.pieces.last().map_or(0, |piece| piece.number);
+    let pieces = marker.pieces.iter().flat_map(move |piece| {
+        let events = piece.events.iter().map(event);
         let drills = piece.drills.iter().map(|d| Step::Drill(Drill { at: d.at, tool: d.tool, span: d.span }));
-        let notches = piece.notches.iter().map(move |notch| Step::Run(notch_run(notch, job)));
-        let contours = piece.contours.iter().map(move |contour| Step::Run(contour_run(marker, contour, job)));
-        drills.chain(notches).chain(contours).map(move |step| toolpath(piece, tolerance, step))
-    })
+        let notches = piece.notches.iter().map(move |notch| Step::Run(notch_run(piece, notch, job)));
+        let contours = piece.contours.iter().map(move |contour| Step::Run(contour_run(marker, piece, contour, job)));
+        events.chain(drills).chain(notches).chain(contours).map(move |step| toolpath(piece.number, tolerance, step))
+    });
+    pieces.chain(marker.closing.iter().map(move |closing| toolpath(last, tolerance, event(closing))))
 }
 
-fn toolpath(piece: &Piece, tolerance: f64, step: Step) -> Toolpath {
-    Toolpath { piece: piece.number, tolerance, entry: Pose::default(), steps: vec![step] }
+fn event(event: &Event) -> Step {
+    Step::Event(event.kind)
+}
+
+fn toolpath(piece: u32, tolerance: f64, step: Step) -> Toolpath {
+    Toolpath { piece, tolerance, entry: Pose::default(), steps: vec![step] }
 }
 
 /// A slit is cut from the edge inwards, without overlap at either end.
-fn notch_run(notch: &Notch, job: &Job) -> Run {
+fn notch_run(piece: &Piece, notch: &Notch, job: &Job) -> Run {
     let bare = Joint { lift: true, full_advance: true, no_overcut: true };
-    Run { points: vec![notch.root, notch.tip], spans: vec![notch.span], joints: vec![bare; 2], ..raw(Shape::Open, job) }
+    let feed = feed(piece, notch.percent, job);
+    let points = vec![notch.root, notch.tip];
+    Run { points, spans: vec![notch.span], joints: vec![bare; 2], feed, ..raw(Shape::Open, job) }
 }
 
-fn contour_run(marker: &Marker, contour: &Contour, job: &Job) -> Run {
+/// The cap of a cut, mm/s. A slowed cut needs something to be slower than: without any feed that is the slower of the two
+/// axes, which the tip can always reach.
+fn feed(piece: &Piece, percent: u8, job: &Job) -> f64 {
+    let profile = &job.profile;
+    let feed = profile.knife.feed_mm_s.unwrap_or(f64::INFINITY).min(piece.feed.unwrap_or(f64::INFINITY));
+    if percent >= FULL_SPEED {
+        return feed;
+    }
+    let [x, y, _] = profile.axes.limits();
+    feed.min(x.speed).min(y.speed) * f64::from(percent) / f64::from(FULL_SPEED)
+}
+
+fn contour_run(marker: &Marker, piece: &Piece, contour: &Contour, job: &Job) -> Run {
+    let mut percent = FULL_SPEED;
     let (mut spans, mut joints) = (Vec::new(), Vec::new());
     for (_, segment) in marker.list.walk(contour.range) {
         spans.push(segment.span);
         joints.push(segment.joint);
+        percent = percent.min(segment.percent);
     }
     // The end of a contour, closed or not, shares the joint of its first segment: there is no segment behind it.
     joints
         .push(Joint { no_overcut: joints[0].no_overcut, ..if contour.closed { joints[0] } else { Joint::default() } });
     let shape = if contour.closed { Shape::Ring } else { Shape::Open };
-    Run { points: marker.points(contour), spans, joints, ..raw(shape, job) }
+    Run { points: marker.points(contour), spans, joints, feed: feed(piece, percent, job), ..raw(shape, job) }
 }
 
 fn raw(shape: Shape, job: &Job) -> Run {
@@ -53,7 +79,7 @@ fn raw(shape: Shape, job: &Job) -> Run {
         },
         front: 0.0,
         heel: 0.0,
-        feed: job.profile.knife.feed_mm_s.unwrap_or(f64::INFINITY),
+        feed: f64::INFINITY,
         ends: [End::default(); 2],
         start: Pose::default(),
         end: Pose::default(),
