@@ -98,6 +98,14 @@ mod table {
     pub static MARKER_EQUAL_POINTS: Code = warning("marker/equal-points", "Points that repeat the one before them were dropped; the message gives their count.");
     /// A contour that is one place.
     pub static MARKER_NO_LENGTH: Code = warning("marker/no-length", "All points of a contour are the same place: nothing is cut there.");
+    /// A contour that crosses itself.
+    pub static MARKER_SELF_CROSSING: Code = warning("marker/self-crossing", "A contour crosses itself: the knife cuts through what was cut before, and the part has loose corners.");
+    /// Contours of two pieces that cross.
+    pub static MARKER_OVERLAPPING: Code = warning("marker/overlapping-pieces", "The outlines of two pieces overlap: each is cut into the other. Pieces that only touch are no such case.");
+    /// A hole in no part.
+    pub static MARKER_DRILL_OUTSIDE: Code = warning("marker/drill-outside", "A hole is drilled where no part is: in the waste or in a cut-out.");
+    /// Numbers that start again.
+    pub static MARKER_NUMBER_TWICE: Code = warning("marker/piece-number-twice", "The numbers of the pieces start again: two jobs may stand in one file, and both are cut.");
 
     // The knife's way.
     /// A smooth closed contour too small for the blade.
@@ -165,6 +173,10 @@ pub static ALL: &[&Code] = &[
     &MARKER_TWICE,
     &MARKER_EQUAL_POINTS,
     &MARKER_NO_LENGTH,
+    &MARKER_SELF_CROSSING,
+    &MARKER_OVERLAPPING,
+    &MARKER_DRILL_OUTSIDE,
+    &MARKER_NUMBER_TWICE,
     &PATH_TIGHT,
     &PATH_C_RANGE,
     &PATH_OFF_TABLE,

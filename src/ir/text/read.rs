@@ -7,7 +7,7 @@ use thiserror::Error;
 use super::{ENDS, EVENTS, JOINTS, LAWS, SHAPES};
 use crate::geom::{Heading, Point, Vector};
 use crate::ir::list::{Joint, Segment};
-use crate::ir::marker::{Contour, Drill, Label, Marker, Notch, NotchKind, Piece};
+use crate::ir::marker::{Contour, Drill, Label, Marker, Notch, NotchKind, Piece, Vee};
 use crate::ir::toolpath::{self, Air, End, Pose, Run, Stab, Step, Toolpath};
 use crate::source::Span;
 
@@ -33,7 +33,7 @@ pub fn read_marker(text: &str) -> Read<Marker> {
     marker.unit = head.number()?;
     head.end()?;
     while let Some(mut line) = lines.take() {
-        let word = line.word("piece, drill, slit, contour or label")?;
+        let word = line.word("piece, drill, slit, contour, vee or label")?;
         if word == "piece" {
             let number = line.whole("a piece number")?;
             marker.pieces.push(Piece { number, span: line.span()?, ..Piece::default() });
@@ -58,12 +58,20 @@ pub fn read_marker(text: &str) -> Read<Marker> {
                 let range = marker.list.append(chain).ok_or_else(|| line.error("a segment in the next line"))?;
                 piece.contours.push(Contour { range, closed });
             }
+            "vee" => {
+                let before = line.point()?;
+                line.expect("to")?;
+                let apex = line.point()?;
+                line.expect("to")?;
+                let mouth = [before, line.point()?];
+                piece.vees.push(Vee { apex, mouth, span: line.span()? });
+            }
             "label" => {
                 let at = if line.has("at") { Some(line.point()?) } else { None };
                 let heading = if line.has("heading-rad") { Some(Heading::new(line.number()?)) } else { None };
                 piece.labels.push(Label { at, heading, span: line.span()? });
             }
-            _ => return Err(line.error("piece, drill, slit, contour or label")),
+            _ => return Err(line.error("piece, drill, slit, contour, vee or label")),
         }
         line.end()?;
     }

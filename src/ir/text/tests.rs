@@ -1,7 +1,7 @@
 use super::*;
 use crate::geom::{Heading, Point, Rotation, Vector};
 use crate::ir::list::Segment;
-use crate::ir::marker::{Contour, Drill, Label, Marker, Notch, NotchKind, Piece};
+use crate::ir::marker::{Contour, Drill, Label, Marker, Notch, NotchKind, Piece, Vee};
 use crate::ir::toolpath::{self, Air, Pose, Run, Stab, Step, Toolpath};
 use crate::source::Span;
 
@@ -76,6 +76,7 @@ fn marker(random: &mut Random) -> Marker {
                 span: r.span(),
             }),
             contours: Vec::new(),
+            vees: random.some(2, |r| Vee { apex: r.point(), mouth: [r.point(), r.point()], span: r.span() }),
             labels: random.some(2, |r| {
                 let at = r.flag().then(|| r.point());
                 Label { at, heading: r.flag().then(|| Heading::new(r.number())), span: r.span() }
@@ -152,7 +153,7 @@ fn a_marker_survives_the_round_trip_to_the_bit() {
         assert_eq!(after.pieces.len(), before.pieces.len());
         for (a, b) in after.pieces.iter().zip(&before.pieces) {
             assert_eq!((a.number, a.span), (b.number, b.span));
-            assert_eq!((&a.drills, &a.notches, &a.labels), (&b.drills, &b.notches, &b.labels));
+            assert_eq!((&a.drills, &a.notches, &a.vees, &a.labels), (&b.drills, &b.notches, &b.vees, &b.labels));
             let contents = |m: &Marker, c: &Contour| {
                 let both_ways = [c.range, c.range.reversed()];
                 let walks = both_ways.map(|range| m.list.walk(range).map(|(_, s)| s).collect::<Vec<_>>());

@@ -5,6 +5,8 @@ use crate::ir::Marker;
 use crate::machine::Job;
 
 mod inspect;
+mod notch;
+mod sanity;
 mod weld;
 
 /// A pass over the marker: a row of [`MARKER_PASSES`].
@@ -19,4 +21,4 @@ pub struct MarkerPass {
 }
 
 /// Every pass over the marker, in order.
-pub const MARKER_PASSES: &[MarkerPass] = &[weld::PASS, inspect::PASS];
+pub const MARKER_PASSES: &[MarkerPass] = &[weld::PASS, inspect::PASS, notch::PASS, sanity::PASS];
