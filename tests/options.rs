@@ -6,8 +6,8 @@ use std::process::Command;
 use tempfile::TempDir;
 
 /// Three squares numbered 3, 5 and 9 in the order 5, 3, 9, each with a drill beside it.
-const MARKER: &str = "H1*G71*N5*X0Y0*M14*X500*Y500*X0*Y0*M15*X600Y100M43*\
-    N3*X1000Y0*M14*X1500*Y500*X1000*Y0*M15*X1600Y100M43*N9*X2000Y0*M14*X2500*Y500*X2000*Y0*M15*M0*";
+const MARKER: &str = "H1*G71*N5*X0Y0*M14*X500*Y500*X0*Y0*M15*X400Y100M43*\
+    N3*X1000Y0*M14*X1500*Y500*X1000*Y0*M15*X1400Y100M43*N9*X2000Y0*M14*X2500*Y500*X2000*Y0*M15*M0*";
 
 /// A folder with the marker in it.
 fn room() -> TempDir {
@@ -145,9 +145,9 @@ fn the_frame_leads_once_around_the_box_and_back_home() {
         [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)]
     };
     // Piece 3 lies from 100 to 150 mm, its drill at 160 mm; home is left of it.
-    assert_eq!((reach(1), reach(2)), ([10.0, 160.0], [0.0, 50.0]));
+    assert_eq!((reach(1), reach(2)), ([10.0, 150.0], [0.0, 50.0]));
     assert!(rows.iter().all(|row| row[3] == "30.000000" && row[4] == "0" && row[5] == "0"));
-    for corner in [[100.0, 0.0], [160.0, 0.0], [160.0, 50.0], [100.0, 50.0]] {
+    for corner in [[100.0, 0.0], [150.0, 0.0], [160.0, 50.0], [100.0, 50.0]] {
         assert!(rows.iter().any(|row| [number(row, 1), number(row, 2)] == corner), "{corner:?}");
     }
     let last = rows.last().expect("a row");

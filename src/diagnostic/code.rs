@@ -104,6 +104,14 @@ mod table {
     pub static MARKER_SLIT_NO_LENGTH: Code = warning("marker/slit-no-length", "A slit ends where it starts: nothing is cut there.");
     /// A contour that is one place.
     pub static MARKER_NO_LENGTH: Code = warning("marker/no-length", "All points of a contour are the same place: nothing is cut there.");
+    /// A contour that crosses itself.
+    pub static MARKER_SELF_CROSSING: Code = warning("marker/self-crossing", "A contour crosses itself: the knife cuts through what was cut before, and the part has loose corners.");
+    /// Contours of two pieces that cross.
+    pub static MARKER_OVERLAPPING: Code = warning("marker/overlapping-pieces", "The outlines of two pieces overlap: each is cut into the other. Pieces that only touch are no such case.");
+    /// A hole in no part.
+    pub static MARKER_DRILL_OUTSIDE: Code = warning("marker/drill-outside", "A hole is drilled where no part is: in the waste or in a cut-out.");
+    /// Numbers that start again.
+    pub static MARKER_NUMBER_TWICE: Code = warning("marker/piece-number-twice", "The numbers of the pieces start again: two jobs may stand in one file, and both are cut.");
 
     // The choice of pieces.
     /// A number that no piece has.
@@ -180,6 +188,10 @@ pub static ALL: &[&Code] = &[
     &MARKER_SLIT_TWICE,
     &MARKER_SLIT_NO_LENGTH,
     &MARKER_NO_LENGTH,
+    &MARKER_SELF_CROSSING,
+    &MARKER_OVERLAPPING,
+    &MARKER_DRILL_OUTSIDE,
+    &MARKER_NUMBER_TWICE,
     &SELECT_UNKNOWN_PIECE,
     &SELECT_NOTHING_LEFT,
     &PATH_TIGHT,

@@ -4,7 +4,9 @@
 //! never knows what the geometry is for.
 
 pub mod angle;
+pub mod monotone;
 pub mod polyline;
+pub mod ring;
 pub mod spline;
 
 pub use angle::{Heading, Rotation};
@@ -42,6 +44,16 @@ impl Extent {
     pub fn add(&mut self, point: Point) {
         self.min = Point::new(self.min.x.min(point.x), self.min.y.min(point.y));
         self.max = Point::new(self.max.x.max(point.x), self.max.y.max(point.y));
+    }
+
+    /// Whether the two boxes have a point in common, their edges included.
+    pub fn meets(&self, other: &Self) -> bool {
+        self.min.x <= other.max.x && other.min.x <= self.max.x && self.min.y <= other.max.y && other.min.y <= self.max.y
+    }
+
+    /// Whether a point lies in the box or on its edge.
+    pub fn holds(&self, point: Point) -> bool {
+        (self.min.x..=self.max.x).contains(&point.x) && (self.min.y..=self.max.y).contains(&point.y)
     }
 
     /// Whether nothing was added yet.

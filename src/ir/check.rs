@@ -43,6 +43,13 @@ pub fn marker(marker: &Marker) -> Faults {
                 ));
             }
         }
+        for vee in &piece.vees {
+            if !(finite(vee.apex) && vee.mouth.into_iter().all(finite)) {
+                faults.push(format!("piece {}: a V notch is not finite", i + 1));
+            } else if vee.depth() == 0.0 || vee.width() == 0.0 {
+                faults.push(format!("piece {}: a V notch has no depth or no width", i + 1));
+            }
+        }
         if piece.notches.iter().any(|n| !finite(n.root) || !finite(n.tip)) || piece.drills.iter().any(|d| !finite(d.at))
         {
             faults.push(format!("piece {}: a notch or drill is not finite", i + 1));

@@ -2,7 +2,7 @@
 
 use super::list::{Range, SegmentList};
 use super::toolpath;
-use crate::geom::{Extent, Heading, Point};
+use crate::geom::{Extent, Heading, Point, Vector};
 use crate::source::Span;
 
 /// The whole of a cutter file.
@@ -31,6 +31,9 @@ pub struct Piece {
     pub notches: Vec<Notch>,
     /// Contours, in cut order.
     pub contours: Vec<Contour>,
+    /// V notches, in the order in which the contours come to them. Their legs are segments of the contours, which cut
+    /// them: nothing is cut for a row of this list.
+    pub vees: Vec<Vee>,
     /// Texts.
     pub labels: Vec<Label>,
     /// What happens before the piece is cut, in order.
@@ -95,6 +98,38 @@ impl Notch {
     /// Length of the cut, mm.
     pub fn depth(&self) -> f64 {
         (self.tip - self.root).norm()
+    }
+}
+
+/// A V notch: two legs of an outline that meet inside the part.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Vee {
+    /// Its innermost point.
+    pub apex: Point,
+    /// The two points of the edge between which it opens, in the order of the outline.
+    pub mouth: [Point; 2],
+    /// Where its apex stands in the source.
+    pub span: Span,
+}
+
+impl Vee {
+    /// From the middle of the mouth to the apex, mm.
+    pub fn depth(&self) -> f64 {
+        self.inward().norm()
+    }
+
+    /// Width of the mouth, mm.
+    pub fn width(&self) -> f64 {
+        (self.mouth[1] - self.mouth[0]).norm()
+    }
+
+    /// Unit vector from the edge into the part.
+    pub fn direction(&self) -> Vector {
+        self.inward() / self.depth()
+    }
+
+    fn inward(&self) -> Vector {
+        self.apex - (self.mouth[0] + (self.mouth[1] - self.mouth[0]) / 2.0)
     }
 }
 

@@ -125,6 +125,7 @@ impl Report {
     pub fn of(marker: &Marker, dialect: &'static str) -> Self {
         let (width, height) = marker.extent().size();
         let slit = marker.pieces.iter().flat_map(|p| &p.notches).filter(|n| n.kind == NotchKind::Slit).count();
+        let v = marker.pieces.iter().map(|p| p.vees.len()).sum();
         Self {
             dialect,
             unit_mm: marker.unit,
@@ -132,7 +133,7 @@ impl Report {
             pieces: marker.pieces.len(),
             contours: marker.contours().count(),
             closed_contours: marker.contours().filter(|(_, c)| c.closed).count(),
-            notches: Notches { slit, v: 0 },
+            notches: Notches { slit, v },
             drills: marker.pieces.iter().map(|p| p.drills.len()).sum(),
             labels: marker.pieces.iter().map(|p| p.labels.len()).sum(),
             cut_m: marker.cut_length() / MM_PER_M,

@@ -14,6 +14,7 @@
 //!   from 0 0 to 100 0 @4..9#2
 //!   to 100 80 @10..19#3 percent 75 lift full-advance no-overcut
 //!   to 0 0 @20..29#4
+//! vee 59 0 to 60 5 to 61 0 @70..80#14
 //! label at 10 10 heading-rad 0 @30..39#5 mirrored @40..44#6
 //! field D @80..89#15
 //! closing advance @90..93#16

@@ -5,7 +5,7 @@ use std::fmt::{self, Display, Formatter, Write as _};
 use super::{ENDS, EVENTS, JOINTS, LAWS, SHAPES};
 use crate::geom::Point;
 use crate::ir::list::{FULL_SPEED, Joint, Segment};
-use crate::ir::marker::{Label, Marker, NotchKind, Piece};
+use crate::ir::marker::{Label, Marker, NotchKind, Piece, Vee};
 use crate::ir::toolpath::{Pose, Run, Stab, Step, Toolpath};
 use crate::source::Span;
 use crate::units::number::exact;
@@ -48,6 +48,9 @@ fn print_piece(out: &mut String, marker: &Marker, piece: &Piece) {
             print_segment(out, &segment, end);
             end = Some(segment.to);
         }
+    }
+    for Vee { apex, mouth: [before, after], span } in &piece.vees {
+        line(out, format_args!("vee {} to {} to {}{}", Xy(*before), Xy(*apex), Xy(*after), At(*span)));
     }
     for label in &piece.labels {
         print_label(out, label);

@@ -7,7 +7,7 @@ use thiserror::Error;
 use super::{ENDS, EVENTS, JOINTS, LAWS, SHAPES};
 use crate::geom::{Heading, Point, Vector};
 use crate::ir::list::{FULL_SPEED, Joint, Segment};
-use crate::ir::marker::{Contour, Drill, Event, Field, Label, Marker, Notch, NotchKind, Piece};
+use crate::ir::marker::{Contour, Drill, Event, Field, Label, Marker, Notch, NotchKind, Piece, Vee};
 use crate::ir::toolpath::{self, Air, End, Pose, Run, Stab, Step, Toolpath};
 use crate::source::Span;
 
@@ -24,7 +24,7 @@ pub struct ReadError {
 type Read<T> = Result<T, ReadError>;
 
 /// What a line of a marker starts with.
-const LINES: &str = "piece, event, feed-mm-s, drill, slit, contour, label, field or closing";
+const LINES: &str = "piece, event, feed-mm-s, drill, slit, contour, vee, label, field or closing";
 
 /// Reads the text of a marker.
 pub fn read_marker(text: &str) -> Read<Marker> {
@@ -66,6 +66,14 @@ pub fn read_marker(text: &str) -> Read<Marker> {
                 let chain = segments(&mut lines)?;
                 let range = marker.list.append(chain).ok_or_else(|| line.error("a segment in the next line"))?;
                 piece.contours.push(Contour { range, closed });
+            }
+            "vee" => {
+                let before = line.point()?;
+                line.expect("to")?;
+                let apex = line.point()?;
+                line.expect("to")?;
+                let mouth = [before, line.point()?];
+                piece.vees.push(Vee { apex, mouth, span: line.span()? });
             }
             "label" => {
                 let at = if line.has("at") { Some(line.point()?) } else { None };

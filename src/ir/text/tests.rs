@@ -1,7 +1,7 @@
 use super::*;
 use crate::geom::{Heading, Point, Rotation, Vector};
 use crate::ir::list::Segment;
-use crate::ir::marker::{self, Contour, Drill, Field, Label, Marker, Notch, NotchKind, Piece};
+use crate::ir::marker::{self, Contour, Drill, Field, Label, Marker, Notch, NotchKind, Piece, Vee};
 use crate::ir::toolpath::{self, Air, Pose, Run, Stab, Step, Toolpath};
 use crate::source::Span;
 
@@ -85,6 +85,7 @@ fn marker(random: &mut Random) -> Marker {
                 span: r.span(),
             }),
             contours: Vec::new(),
+            vees: random.some(2, |r| Vee { apex: r.point(), mouth: [r.point(), r.point()], span: r.span() }),
             labels: random.some(2, |r| {
                 let at = r.flag().then(|| r.point());
                 let heading = r.flag().then(|| Heading::new(r.number()));
@@ -167,7 +168,7 @@ fn a_marker_survives_the_round_trip_to_the_bit() {
         assert_eq!((after.pieces.len(), &after.closing), (before.pieces.len(), &before.closing));
         for (a, b) in after.pieces.iter().zip(&before.pieces) {
             assert_eq!((a.number, a.span), (b.number, b.span));
-            assert_eq!((&a.drills, &a.notches, &a.labels), (&b.drills, &b.notches, &b.labels));
+            assert_eq!((&a.drills, &a.notches, &a.vees, &a.labels), (&b.drills, &b.notches, &b.vees, &b.labels));
             assert_eq!((&a.events, a.feed, &a.fields), (&b.events, b.feed, &b.fields));
             let contents = |m: &Marker, c: &Contour| {
                 let both_ways = [c.range, c.range.reversed()];

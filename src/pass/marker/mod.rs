@@ -5,6 +5,8 @@ use crate::ir::Marker;
 use crate::machine::Job;
 
 mod inspect;
+mod notch;
+mod sanity;
 mod select;
 mod weld;
 
@@ -20,4 +22,4 @@ pub struct MarkerPass {
 }
 
 /// Every pass over the marker, in order.
-pub const MARKER_PASSES: &[MarkerPass] = &[weld::PASS, inspect::PASS, select::PASS];
+pub const MARKER_PASSES: &[MarkerPass] = &[weld::PASS, inspect::PASS, notch::PASS, sanity::PASS, select::PASS];

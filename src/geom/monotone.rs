@@ -1,0 +1,138 @@
+//! Where polylines cross. Each is cut into chains along which neither x nor y turns back; a chain does not cross itself,
+//! and the box of any part of it is that of its two ends, so halving finds the crossings of two chains fast.
+//! (Monotone chains: Park & Shin, "Self-intersection elimination by monotone chains", CAD 34, 2002.)
+
+use super::{Extent, Point, cross};
+
+/// A stretch of a polyline along which neither x nor y turns back: indices of its first and last point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Chain {
+    /// Index of its first point.
+    pub first: u32,
+    /// Index of its last point.
+    pub last: u32,
+}
+
+/// A crossing of two segments.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Crossing {
+    /// Indices of the points where the two segments start.
+    pub segments: [usize; 2],
+    /// Where they cross.
+    pub at: Point,
+}
+
+impl Chain {
+    /// The box around it.
+    pub fn extent(self, points: &[Point]) -> Extent {
+        let mut extent = Extent::EMPTY;
+        extent.add(points[self.first as usize]);
+        extent.add(points[self.last as usize]);
+        extent
+    }
+
+    fn halves(self) -> [Self; 2] {
+        let middle = self.first.midpoint(self.last);
+        [Self { last: middle, ..self }, Self { first: middle, ..self }]
+    }
+}
+
+/// The chains of a polyline in order; none when it has no segment.
+pub fn chains(points: &[Point]) -> Vec<Chain> {
+    let mut chains: Vec<Chain> = Vec::new();
+    let mut first = 0;
+    // The signs of dx and dy so far; 0 as long as there is none.
+    let (mut sx, mut sy) = (0.0, 0.0);
+    for (i, ends) in points.windows(2).enumerate() {
+        let (dx, dy) = (ends[1].x - ends[0].x, ends[1].y - ends[0].y);
+        if dx * sx < 0.0 || dy * sy < 0.0 {
+            chains.push(Chain { first, last: i as u32 });
+            first = i as u32;
+            (sx, sy) = (0.0, 0.0);
+        }
+        // Only the signs count; a sum of numbers of one sign has it.
+        sx += dx;
+        sy += dy;
+    }
+    if points.len() > 1 {
+        chains.push(Chain { first, last: points.len() as u32 - 1 });
+    }
+    chains
+}
+
+/// The first crossing of a chain of one polyline with a chain of another (or the same) that `wanted` accepts. Segments
+/// that merely touch, or lie in one line, do not cross.
+pub fn crossing(
+    points: [&[Point]; 2],
+    chains: [Chain; 2],
+    wanted: &mut impl FnMut(&Crossing) -> bool,
+) -> Option<Crossing> {
+    let [a, b] = chains;
+    if !a.extent(points[0]).meets(&b.extent(points[1])) {
+        return None;
+    }
+    let (long_a, long_b) = (a.last - a.first, b.last - b.first);
+    if long_a == 1 && long_b == 1 {
+        let segments = [a.first as usize, b.first as usize];
+        let ends = |k: usize| [points[k][segments[k]], points[k][segments[k] + 1]];
+        return cross_at(ends(0), ends(1)).map(|at| Crossing { segments, at }).filter(wanted);
+    }
+    if long_a >= long_b {
+        let [first, second] = a.halves();
+        crossing(points, [first, b], wanted).or_else(|| crossing(points, [second, b], wanted))
+    } else {
+        let [first, second] = b.halves();
+        crossing(points, [a, first], wanted).or_else(|| crossing(points, [a, second], wanted))
+    }
+}
+
+/// Nearer to a line than this a point lies on it, mm: rounding of coordinates of some metres.
+const ON_LINE_EPSILON: f64 = 1e-9;
+
+/// Where two segments cross; `None` when an end of one lies on the other.
+fn cross_at(a: [Point; 2], b: [Point; 2]) -> Option<Point> {
+    let (along_a, along_b) = (a[1] - a[0], b[1] - b[0]);
+    let is_split = |sides: [f64; 2], length: f64| {
+        sides[0] * sides[1] < 0.0 && sides.iter().all(|side| side.abs() > ON_LINE_EPSILON * length)
+    };
+    let of_b = b.map(|end| cross(along_a, end - a[0]));
+    let of_a = a.map(|end| cross(along_b, end - b[0]));
+    let split = is_split(of_b, along_a.norm()) && is_split(of_a, along_b.norm());
+    split.then(|| a[0] + along_a * (of_a[0] / (of_a[0] - of_a[1])))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn points(list: &[(f64, f64)]) -> Vec<Point> {
+        list.iter().map(|&(x, y)| Point::new(x, y)).collect()
+    }
+
+    fn first(a: &[Point], b: &[Point]) -> Option<Crossing> {
+        chains(a).iter().find_map(|&k| chains(b).iter().find_map(|&l| crossing([a, b], [k, l], &mut |_| true)))
+    }
+
+    #[test]
+    fn a_chain_ends_where_x_or_y_turns_back() {
+        let ring = points(&[(0.0, 0.0), (1.0, 0.0), (2.0, 1.0), (2.0, 2.0), (1.0, 3.0), (0.0, 0.0)]);
+        let ends: Vec<_> = chains(&ring).iter().map(|c| (c.first, c.last)).collect();
+        assert_eq!(ends, [(0, 3), (3, 4), (4, 5)]);
+        assert_eq!(chains(&ring[..1]), []);
+    }
+
+    #[test]
+    fn curves_that_cross_are_found_and_those_that_touch_are_not() {
+        let arc = |lift: f64| -> Vec<Point> {
+            let angle = |i: u32| f64::from(i) * std::f64::consts::PI / 1000.0;
+            (0..=1000).map(|i| Point::new(100.0 * angle(i).cos(), 100.0 * angle(i).sin() + lift)).collect()
+        };
+        let line = points(&[(-50.0, 99.0), (80.0, 99.0)]);
+        let found = first(&arc(0.0), &line).expect("a crossing");
+        assert!((found.at.y - 99.0).abs() < 1e-9 && (found.at.x - 199_f64.sqrt()).abs() < 0.01, "{found:?}");
+        assert_eq!(first(&arc(-1.0), &line), None);
+        assert_eq!(first(&arc(0.0), &arc(0.0)), None);
+        assert_eq!(first(&line, &points(&[(0.0, 99.0), (0.0, 0.0)])), None);
+        assert_eq!(first(&line, &points(&[(0.0, 99.0), (60.0, 99.0)])), None);
+    }
+}

@@ -1,0 +1,181 @@
+//! Notch: recognises V notches by their shape and lists them with their piece. The outline keeps them.
+//!
+//! Needs: welded contours. A V notch is three vertices of a closed contour, of which all of this is true:
+//!
+//! - the middle one, the apex, lies 2 to 15 mm from the middle of the mouth, and inside the part: on the inner side of a
+//!   contour that lies within none or two others of its piece, on the outer side of a cut-out;
+//! - the mouth is no wider than that depth, and the legs are equal within a quarter;
+//! - the outline comes to the mouth and leaves it within 30 degrees of the mouth's direction;
+//! - on either side the next notch is farther than the mouth is wide: closer ones are the teeth of a pinked hem;
+//! - three vertices at least belong to none of the contour's notches.
+//!
+//! So the point of a dart (too deep, or too wide), a corner, a row of teeth and a triangular cut-out are none.
+
+use std::f64::consts::PI;
+
+use super::MarkerPass;
+use crate::diagnostic::Diagnostics;
+use crate::geom::{Extent, Point, Vector, angle, cross, ring};
+use crate::ir::marker::{Marker, Vee};
+use crate::machine::Job;
+use crate::source::Span;
+
+pub(super) const PASS: MarkerPass =
+    MarkerPass { name: "notch", about: "finds V notches by their shape, and leaves them on the outline", run };
+
+/// Depths of V notches, mm.
+const LEAST_DEPTH: f64 = 2.0;
+const GREATEST_DEPTH: f64 = 15.0;
+/// How much longer than the other a leg may be.
+const LEG_RATIO: f64 = 1.25;
+/// How far the outline may turn where the mouth begins or ends, rad.
+const MOUTH_TURN: f64 = PI / 6.0;
+/// Vertices that must belong to no notch.
+const LEAST_OTHERS: usize = 3;
+/// How many vertices are looked at for the direction at a mouth: a guard against outlines that are a tangle.
+const MOST_STEPS: usize = 64;
+/// How far the rounding of two points to a grid may move one against the other, in units of the grid: its diagonal.
+const ROUNDING: f64 = std::f64::consts::SQRT_2;
+
+fn run(marker: &mut Marker, _: &Job, _: &mut Diagnostics) {
+    let outlines = outlines(marker);
+    let mut found: Vec<(usize, Vee)> = Vec::new();
+    for (i, outline) in outlines.iter().enumerate() {
+        if outline.apexes.is_empty() {
+            continue;
+        }
+        let counter_clockwise = ring::area(&outline.points) > 0.0;
+        let part_is_left = counter_clockwise != is_cut_out(i, &outlines);
+        found.extend(vees(outline, part_is_left).map(|vee| (outline.piece, vee)));
+    }
+    for piece in &mut marker.pieces {
+        piece.vees.clear();
+    }
+    for (piece, vee) in found {
+        marker.pieces[piece].vees.push(vee);
+    }
+}
+
+/// A closed contour.
+struct Outline {
+    /// Index of its piece.
+    piece: usize,
+    /// Its vertices, the first not repeated.
+    points: Vec<Point>,
+    extent: Extent,
+    /// Vertices that may be an apex, whichever side the part is on, with their spans.
+    apexes: Vec<(usize, Span)>,
+}
+
+fn outlines(marker: &Marker) -> Vec<Outline> {
+    let mut outlines = Vec::new();
+    for (piece, contour) in marker.contours().filter(|(_, contour)| contour.closed) {
+        let mut outline = Outline { piece, points: Vec::new(), extent: Extent::EMPTY, apexes: Vec::new() };
+        let mut spans = Vec::new();
+        for (_, segment) in marker.list.walk(contour.range) {
+            outline.points.push(segment.from);
+            outline.extent.add(segment.from);
+            spans.push(segment.span);
+        }
+        let count = outline.points.len();
+        if count >= 3 + LEAST_OTHERS {
+            // A vertex came from the block of the segment that ends there.
+            let apexes = (0..count).filter(|&i| is_apex(&outline.points, i, marker.unit));
+            outline.apexes = apexes.map(|i| (i, spans[(i + count - 1) % count])).collect();
+        }
+        outlines.push(outline);
+    }
+    outlines
+}
+
+/// Whether a vertex has the shape of an apex.
+fn is_apex(points: &[Point], i: usize, unit: f64) -> bool {
+    let at = Around { points, i };
+    let (before, apex, after) = (at.back(1), points[i], at.ahead(1));
+    let legs = [(apex - before).norm_squared(), (after - apex).norm_squared()];
+    // Squares, and the cheapest test first: nearly all vertices end here.
+    let (shorter, longer) = (legs[0].min(legs[1]), legs[0].max(legs[1]));
+    if longer > LEG_RATIO * LEG_RATIO * shorter || shorter < LEAST_DEPTH * LEAST_DEPTH {
+        return false;
+    }
+    let vee = Vee { apex, mouth: [before, after], span: Span::default() };
+    let (depth, width) = (vee.depth(), vee.width());
+    if !(LEAST_DEPTH..=GREATEST_DEPTH).contains(&depth) || width > depth || width == 0.0 {
+        return false;
+    }
+    let mouth = after - before;
+    let most = MOUTH_TURN + (ROUNDING * unit).atan2(width);
+    // Near the mouth an outline may have very short segments, whose direction is that of the grid; a stretch as long as
+    // the mouth is wide has its own.
+    let goes_on = |from: Point, next: &dyn Fn(usize) -> Point, sign: f64| {
+        (1..(points.len() - 2).min(MOST_STEPS))
+            .map(|step| (next(step) - from) * sign)
+            .scan(false, |far, way: Vector| {
+                let was_far = std::mem::replace(far, way.norm() >= width);
+                (!was_far).then_some(way)
+            })
+            .any(|way| angle::turn(way, mouth).abs() <= most)
+    };
+    goes_on(before, &|step| at.back(1 + step), -1.0) && goes_on(after, &|step| at.ahead(1 + step), 1.0)
+}
+
+/// The vertices of a ring, seen from one of them.
+struct Around<'a> {
+    points: &'a [Point],
+    i: usize,
+}
+
+impl Around<'_> {
+    fn ahead(&self, steps: usize) -> Point {
+        self.points[(self.i + steps) % self.points.len()]
+    }
+
+    fn back(&self, steps: usize) -> Point {
+        self.points[(self.i + self.points.len() - steps) % self.points.len()]
+    }
+}
+
+/// The notches of an outline whose part lies on the given side.
+fn vees(outline: &Outline, part_is_left: bool) -> impl Iterator<Item = Vee> {
+    let points = &outline.points;
+    let count = points.len();
+    let vee = |&(i, span): &(usize, Span)| {
+        let at = Around { points, i };
+        (i, Vee { apex: points[i], mouth: [at.back(1), at.ahead(1)], span })
+    };
+    let is_inside = |vee: &Vee| (cross(vee.mouth[1] - vee.mouth[0], vee.apex - vee.mouth[0]) > 0.0) == part_is_left;
+    let all: Vec<(usize, Vee)> = outline.apexes.iter().map(vee).filter(|(_, vee)| is_inside(vee)).collect();
+    // Whether the notch `k` and the next one, round the ring, are teeth in a row.
+    let is_crowded = |k: usize| {
+        let ((i, vee), (next, following)) = (all[k], all[(k + 1) % all.len()]);
+        let steps = (next + count - i - 1) % count + 1;
+        let width = vee.width().max(following.width());
+        // The flat between them has `steps - 2` segments; a notch alone has the whole ring before itself.
+        let at = Around { points, i };
+        let flat = (1..steps.saturating_sub(1)).map(|s| (at.ahead(s + 1) - at.ahead(s)).norm());
+        flat.scan(0.0, |sum, length| {
+            *sum += length;
+            Some(*sum)
+        })
+        .all(|length| length < width)
+    };
+    let crowded: Vec<bool> = (0..all.len()).map(is_crowded).collect();
+    let alone = |k: usize| !crowded[k] && !crowded[(k + all.len() - 1) % all.len()];
+    let mut kept: Vec<Vee> = (0..all.len()).filter(|&k| alone(k)).map(|k| all[k].1).collect();
+    // Notches that stand apart share no vertex.
+    if 3 * kept.len() + LEAST_OTHERS > count {
+        kept.clear();
+    }
+    kept.into_iter()
+}
+
+/// Whether an outline bounds a hole: an odd number of others of its piece hold it. Other pieces do not matter, since two
+/// jobs in one file may lie on each other.
+fn is_cut_out(i: usize, outlines: &[Outline]) -> bool {
+    let point = outlines[i].points[0];
+    let holds = |k: &usize| *k != i && outlines[*k].extent.holds(point) && ring::contains(&outlines[*k].points, point);
+    let piece = outlines[i].piece;
+    let first = outlines.partition_point(|outline| outline.piece < piece);
+    let end = outlines.partition_point(|outline| outline.piece <= piece);
+    (first..end).filter(holds).count() % 2 == 1
+}

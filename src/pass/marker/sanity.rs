@@ -1,0 +1,324 @@
+//! Sanity: warns of outlines that cross and of holes outside every part. Changes nothing.
+//!
+//! Needs: welded contours. Says each of these once for a piece, or a pair of them, at the first place in cut order:
+//!
+//! - An outline crosses itself, or another one of its piece.
+//! - The outlines of two pieces overlap by more than the grid of the file rounds. Pieces that lie edge to edge, or one in
+//!   the other, do not.
+//! - A hole lies in no part. Where nothing is closed there are no parts to tell.
+//! - The numbers of the pieces start again.
+
+use std::collections::BTreeSet;
+
+use super::MarkerPass;
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::monotone::{Chain, Crossing, chains, crossing};
+use crate::geom::{Extent, Point, cross, polyline, ring};
+use crate::ir::marker::{Drill, Marker};
+use crate::machine::Job;
+use crate::source::Span;
+use crate::units::number::fixed;
+
+pub(super) const PASS: MarkerPass =
+    MarkerPass { name: "sanity", about: "warns of outlines that cross and of holes outside every part", run };
+
+/// Comparisons of boxes, and visits of vertices, that one marker may cost: some hundred times what the largest real
+/// markers need. Drawings made to be slow are not searched to the end.
+const MOST_WORK: usize = 400_000_000;
+/// How far a line is followed from a crossing to see whether it really leads to the other side, vertices.
+const MOST_STEPS: usize = 64;
+/// Places of an outline that are tried for lying in another.
+const PROBES: usize = 16;
+/// Decimals of a place, mm.
+const PLACE_DECIMALS: u32 = 1;
+
+fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
+    numbers(marker, diagnostics);
+    let parts: Vec<Part> = (0..marker.pieces.len()).map(|piece| Part::of(marker, piece)).collect();
+    let search = Search { marker, parts: &parts };
+    let mut work = Work(MOST_WORK);
+    for (i, part) in parts.iter().enumerate() {
+        if let Some((place, span)) = search.self_crossing(part, &mut work) {
+            let message = format!("an outline of {} crosses itself at {}", search.name(i), at(place));
+            diagnostics.push(Diagnostic::new(&code::MARKER_SELF_CROSSING, message).at(span));
+        }
+    }
+    search.overlaps(&mut work, diagnostics);
+    search.drills(&mut work, diagnostics);
+}
+
+/// Numbers that start again from one that was there already.
+fn numbers(marker: &Marker, diagnostics: &mut Diagnostics) {
+    let mut seen = BTreeSet::new();
+    let mut before = 0;
+    for piece in &marker.pieces {
+        if !seen.insert(piece.number) && piece.number < before {
+            let message = format!("piece numbers start again: piece {} comes a second time", piece.number);
+            let finding = Diagnostic::new(&code::MARKER_NUMBER_TWICE, message).at(piece.span);
+            diagnostics.push(finding.hint("if two jobs stand in one file, cut it in two"));
+        }
+        before = piece.number;
+    }
+}
+
+/// How much more may be done.
+struct Work(usize);
+
+impl Work {
+    /// Takes some; `false` when there is no more.
+    fn spend(&mut self, amount: usize) -> bool {
+        self.0 = self.0.saturating_sub(amount);
+        self.0 > 0
+    }
+}
+
+/// The outlines of a piece.
+struct Part {
+    /// Its points, one contour behind the other; a closed one ends with its first point.
+    points: Vec<Point>,
+    /// Where each contour starts among the points, and whether it is closed.
+    contours: Vec<(usize, bool)>,
+    /// Monotone chains with their boxes, and the contour of each.
+    chains: Vec<(Extent, Chain, usize)>,
+    extent: Extent,
+}
+
+impl Part {
+    fn of(marker: &Marker, piece: usize) -> Self {
+        let mut part = Self { points: Vec::new(), contours: Vec::new(), chains: Vec::new(), extent: Extent::EMPTY };
+        for (k, contour) in marker.pieces[piece].contours.iter().enumerate() {
+            let start = part.points.len();
+            part.contours.push((start, contour.closed));
+            for (_, segment) in marker.list.walk(contour.range) {
+                if part.points.len() == start {
+                    part.points.push(segment.from);
+                }
+                part.points.push(segment.to);
+            }
+            for chain in chains(&part.points[start..]) {
+                let chain = Chain { first: chain.first + start as u32, last: chain.last + start as u32 };
+                let extent = chain.extent(&part.points);
+                part.extent.add(extent.min);
+                part.extent.add(extent.max);
+                part.chains.push((extent, chain, k));
+            }
+        }
+        part
+    }
+
+    /// The points of a contour.
+    fn contour(&self, k: usize) -> &[Point] {
+        let end = self.contours.get(k + 1).map_or(self.points.len(), |next| next.0);
+        &self.points[self.contours[k].0..end]
+    }
+
+    fn closed(&self) -> impl Iterator<Item = &[Point]> {
+        (0..self.contours.len()).filter(|&k| self.contours[k].1).map(|k| self.contour(k))
+    }
+
+    /// Whether a point lies in the part: within its outline and in no cut-out.
+    fn holds(&self, point: Point) -> bool {
+        self.extent.holds(point) && self.closed().filter(|points| ring::contains(points, point)).count() % 2 == 1
+    }
+
+    /// Distance of a point from the outlines, mm.
+    fn distance(&self, point: Point) -> f64 {
+        let contours = (0..self.contours.len()).map(|k| self.contour(k));
+        let ends = contours.flat_map(|points| points.windows(2));
+        ends.map(|w| polyline::distance_to_segment(point, w[0], w[1])).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The contour of a point.
+    fn contour_of(&self, point: usize) -> usize {
+        self.contours.partition_point(|&(start, _)| start <= point) - 1
+    }
+
+    /// Whether the line, followed from its segment `segment` both ways, comes farther than `slack` from the line through
+    /// `ends` on either side before it comes back.
+    fn leads_across(&self, segment: usize, ends: [Point; 2], slack: f64) -> bool {
+        let points = self.contour(self.contour_of(segment));
+        let start = segment - self.contours[self.contour_of(segment)].0;
+        let Some(along) = polyline::direction(ends[0], ends[1]) else { return false };
+        let side = |point: Point| cross(along, point - ends[0]);
+        // A closed contour repeats its first point.
+        let count = points.len() - usize::from(points.first() == points.last());
+        let departs = |step: &dyn Fn(usize) -> usize| {
+            let sign = side(points[step(0) % count]).signum();
+            let way = (0..count.min(MOST_STEPS)).map(|k| side(points[step(k) % count]) * sign);
+            way.take_while(|&far| far > 0.0).any(|far| far > slack)
+        };
+        departs(&|k| start + 1 + k) && departs(&|k| start + count - k)
+    }
+}
+
+/// What all searches look at.
+struct Search<'a> {
+    marker: &'a Marker,
+    parts: &'a [Part],
+}
+
+impl Search<'_> {
+    fn name(&self, piece: usize) -> String {
+        format!("piece {}", self.marker.pieces[piece].number)
+    }
+
+    /// What rounding to the grid of the file may have done to two points, mm: its diagonal.
+    fn slack(&self) -> f64 {
+        self.marker.unit * std::f64::consts::SQRT_2
+    }
+
+    /// The span of the segment of a piece that starts at one of its points.
+    fn span(&self, piece: usize, point: usize) -> Span {
+        let part = &self.parts[piece];
+        let k = part.contour_of(point);
+        let mut segments = self.marker.list.walk(self.marker.pieces[piece].contours[k].range);
+        segments.nth(point - part.contours[k].0).map(|(_, segment)| segment.span).unwrap_or_default()
+    }
+
+    fn self_crossing(&self, part: &Part, work: &mut Work) -> Option<(Point, Span)> {
+        let piece = self.parts.iter().position(|other| std::ptr::eq(other, part))?;
+        let ends = |segment: usize| [part.points[segment], part.points[segment + 1]];
+        let mut wanted = |crossing: &Crossing| {
+            let [a, b] = crossing.segments;
+            part.leads_across(a, ends(b), self.slack()) && part.leads_across(b, ends(a), self.slack())
+        };
+        let boxes: Vec<Extent> = part.chains.iter().map(|chain| chain.0).collect();
+        let mut found: Option<Crossing> = None;
+        pairs(&boxes, work, |i, k| {
+            let (earlier, later) = (i.min(k), i.max(k));
+            let both = [part.chains[earlier].1, part.chains[later].1];
+            found = found.or_else(|| crossing([&part.points, &part.points], both, &mut wanted));
+            found.is_none()
+        });
+        found.map(|crossing| (crossing.at, self.span(piece, crossing.segments[1])))
+    }
+
+    fn overlaps(&self, work: &mut Work, diagnostics: &mut Diagnostics) {
+        let boxes: Vec<Extent> = self.parts.iter().map(|part| part.extent).collect();
+        let mut near: Vec<(usize, usize)> = Vec::new();
+        pairs(&boxes, work, |i, k| {
+            near.push((i.min(k), i.max(k)));
+            true
+        });
+        near.sort_unstable();
+        for (i, k) in near {
+            if let Some((place, span)) = self.overlap(i, k, work) {
+                let message = format!("the outlines of {} and {} overlap at {}", self.name(i), self.name(k), at(place));
+                let finding = Diagnostic::new(&code::MARKER_OVERLAPPING, message).at(span);
+                diagnostics.push(finding.hint("move one of the two in the marker"));
+            }
+        }
+    }
+
+    /// A place where the outlines of two pieces overlap, and the span of the later one there.
+    fn overlap(&self, i: usize, k: usize, work: &mut Work) -> Option<(Point, Span)> {
+        let (a, b) = (&self.parts[i], &self.parts[k]);
+        let common = |part: &Part, other: &Part| -> Vec<Chain> {
+            part.chains.iter().filter(|(extent, ..)| extent.meets(&other.extent)).map(|chain| chain.1).collect()
+        };
+        let (of_a, of_b) = (common(a, b), common(b, a));
+        if of_a.is_empty() || of_b.is_empty() || !work.spend(a.chains.len() + b.chains.len()) {
+            return None;
+        }
+        let mut wanted = |crossing: &Crossing| {
+            let [s, t] = crossing.segments;
+            a.leads_across(s, [b.points[t], b.points[t + 1]], self.slack())
+                && b.leads_across(t, [a.points[s], a.points[s + 1]], self.slack())
+        };
+        for &of_b in &of_b {
+            for &of_a in &of_a {
+                if !work.spend(1) {
+                    return None;
+                }
+                if let Some(found) = crossing([&a.points, &b.points], [of_a, of_b], &mut wanted) {
+                    return Some((found.at, self.span(k, found.segments[1])));
+                }
+            }
+        }
+        let place = self.straddles(b, a, work).map(|(place, point)| (place, self.span(k, point)));
+        place.or_else(|| self.straddles(a, b, work).map(|(place, _)| (place, self.marker.pieces[k].span)))
+    }
+
+    /// A place of `part` that lies well inside `other`, while another place of it lies well outside: they overlap though
+    /// no two segments cross, since lines of the one run along lines of the other. With the point that starts it.
+    fn straddles(&self, part: &Part, other: &Part, work: &mut Work) -> Option<(Point, usize)> {
+        let ends: Vec<usize> = (0..part.points.len().saturating_sub(1)).collect();
+        let stride = ends.len().div_ceil(PROBES).max(1);
+        let (mut inside, mut outside) = (None, false);
+        for &start in ends.iter().step_by(stride) {
+            if !work.spend(2 * other.points.len()) {
+                return None;
+            }
+            let place = part.points[start] + (part.points[start + 1] - part.points[start]) / 2.0;
+            let holds = other.holds(place);
+            if (holds && inside.is_some()) || (!holds && outside) || other.distance(place) <= self.slack() {
+                continue;
+            }
+            if holds {
+                inside = Some((place, start));
+            } else {
+                outside = true;
+            }
+        }
+        inside.filter(|_| outside)
+    }
+
+    fn drills(&self, work: &mut Work, diagnostics: &mut Diagnostics) {
+        if self.parts.iter().all(|part| part.closed().next().is_none()) {
+            return;
+        }
+        for (i, piece) in self.marker.pieces.iter().enumerate() {
+            let mut outside = piece.drills.iter().filter(|drill| !self.is_in_a_part(i, drill, work));
+            let Some(first) = outside.next() else { continue };
+            let more = match outside.count() {
+                0 => String::new(),
+                more => format!(", and {more} more of this piece"),
+            };
+            let message = format!("a hole of {} at {} lies outside every part{more}", self.name(i), at(first.at));
+            diagnostics.push(Diagnostic::new(&code::MARKER_DRILL_OUTSIDE, message).at(first.span));
+        }
+    }
+
+    /// Its own piece is the likeliest.
+    fn is_in_a_part(&self, piece: usize, drill: &Drill, work: &mut Work) -> bool {
+        let own = std::iter::once(&self.parts[piece]);
+        own.chain(self.parts).any(|part| {
+            let near = part.extent.holds(drill.at);
+            !work.spend(if near { part.points.len() } else { 1 }) || (near && part.holds(drill.at))
+        })
+    }
+}
+
+fn at(place: Point) -> String {
+    format!("X {} Y {} mm", fixed(place.x, PLACE_DECIMALS), fixed(place.y, PLACE_DECIMALS))
+}
+
+/// Calls `met` for each pair of boxes that have a point in common, until it says no: a sweep along the longer side of
+/// what they cover. Empty boxes meet none.
+fn pairs(boxes: &[Extent], work: &mut Work, mut met: impl FnMut(usize, usize) -> bool) {
+    let mut all = Extent::EMPTY;
+    let mut order: Vec<usize> = (0..boxes.len()).filter(|&i| !boxes[i].is_empty()).collect();
+    for &i in &order {
+        all.add(boxes[i].min);
+        all.add(boxes[i].max);
+    }
+    let (width, height) = all.size();
+    let side = |i: usize| {
+        let Extent { min, max } = boxes[i];
+        if width >= height { [min.x, max.x] } else { [min.y, max.y] }
+    };
+    order.sort_by(|&a, &b| side(a)[0].total_cmp(&side(b)[0]).then(a.cmp(&b)));
+    let mut active: Vec<usize> = Vec::new();
+    for &i in &order {
+        if !work.spend(active.len()) {
+            return;
+        }
+        active.retain(|&k| side(k)[1] >= side(i)[0]);
+        for &k in &active {
+            if boxes[i].meets(&boxes[k]) && !met(k, i) {
+                return;
+            }
+        }
+        active.push(i);
+    }
+}
