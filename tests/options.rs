@@ -144,10 +144,10 @@ fn the_frame_leads_once_around_the_box_and_back_home() {
         let values = || rows.iter().map(|row| number(row, column));
         [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)]
     };
-    // Piece 3 lies from 100 to 150 mm, its drill at 160 mm; home is left of it.
+    // Piece 3 lies from 100 to 150 mm; home is left of it.
     assert_eq!((reach(1), reach(2)), ([10.0, 150.0], [0.0, 50.0]));
     assert!(rows.iter().all(|row| row[3] == "30.000000" && row[4] == "0" && row[5] == "0"));
-    for corner in [[100.0, 0.0], [150.0, 0.0], [160.0, 50.0], [100.0, 50.0]] {
+    for corner in [[100.0, 0.0], [150.0, 0.0], [150.0, 50.0], [100.0, 50.0]] {
         assert!(rows.iter().any(|row| [number(row, 1), number(row, 2)] == corner), "{corner:?}");
     }
     let last = rows.last().expect("a row");
