@@ -53,8 +53,10 @@ pub struct Phase {
 /// What happens in a phase.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// Knife up, axes at rest: the end of a program, and the dwells of one that keeps the knife up.
+    /// Knife up, axes at rest: the end of a program.
     Rest,
+    /// Knife up, axes at rest until the blade is all the way up; the dwells of a program that keeps the knife up.
+    Wait,
     /// Knife up, from anywhere to anywhere.
     Travel,
     /// Knife up, at a corner of a contour.
@@ -76,7 +78,7 @@ impl Kind {
     pub fn knife_down(self) -> bool {
         match self {
             Self::Plunge | Self::Cut => true,
-            Self::Rest | Self::Travel | Self::Turn | Self::Lift | Self::Drill(_) | Self::Event(_) => false,
+            Self::Rest | Self::Wait | Self::Travel | Self::Turn | Self::Lift | Self::Drill(_) | Self::Event(_) => false,
         }
     }
 
@@ -85,7 +87,7 @@ impl Kind {
     pub fn begins_step(self) -> bool {
         match self {
             Self::Travel | Self::Turn | Self::Plunge | Self::Drill(_) | Self::Event(_) => true,
-            Self::Cut | Self::Lift | Self::Rest => false,
+            Self::Cut | Self::Lift | Self::Rest | Self::Wait => false,
         }
     }
 
@@ -93,9 +95,9 @@ impl Kind {
     #[must_use]
     pub fn raised(self) -> Self {
         match self {
-            Self::Plunge | Self::Lift | Self::Drill(_) => Self::Rest,
+            Self::Plunge | Self::Lift | Self::Drill(_) => Self::Wait,
             Self::Cut => Self::Travel,
-            Self::Rest | Self::Travel | Self::Turn | Self::Event(_) => self,
+            Self::Rest | Self::Wait | Self::Travel | Self::Turn | Self::Event(_) => self,
         }
     }
 
@@ -109,7 +111,14 @@ impl Kind {
         match self {
             Self::Event(Event::Stop) => 1,
             Self::Event(Event::Advance) => 2,
-            Self::Rest | Self::Travel | Self::Turn | Self::Plunge | Self::Cut | Self::Lift | Self::Drill(_) => 0,
+            Self::Rest
+            | Self::Wait
+            | Self::Travel
+            | Self::Turn
+            | Self::Plunge
+            | Self::Cut
+            | Self::Lift
+            | Self::Drill(_) => 0,
         }
     }
 }

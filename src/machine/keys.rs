@@ -252,6 +252,9 @@ pub const KEYS: &[Key] = &[
 
     Key { name: "corner.angle_deg", takes: Takes::Number(between(0.0, 180.0)), about: "Lift and plunge corner angle: where the line turns by more than this the knife is lifted and\nturned in the air." },
 
+    Key { name: "slow.before_corner_mm", takes: Takes::NumberOr(from(0.1, 1000.0), "off"), about: "How far before a corner the knife slows down." },
+    Key { name: "slow.before_corner_percent", takes: Takes::Number(from(1.0, 100.0)), about: "Speed of the knife there, a part of what it would be." },
+
     Key { name: "path.tolerance_mm", takes: Takes::NumberOr(from(0.001, 10.0), "auto"), about: "How far the tip may leave the line; \"auto\" = 0.05 mm, or what the unit of the file resolves if\nthat is more." },
     Key { name: "path.fit", takes: Takes::Word(&["curve", "polygon"]), about: "What the straight pieces of a file stand for: \"curve\" = a curve that the CAD system cut into\npieces, \"polygon\" = exactly what they are." },
     Key { name: "path.chord_sag_max_mm", takes: Takes::Number(from(0.0, 10.0)), about: "With fit = \"curve\": how far the curve may bulge beyond a straight piece." },
@@ -265,6 +268,15 @@ pub const KEYS: &[Key] = &[
     Key { name: "axes.c.speed_deg_s", takes: Takes::Number(SPEED), about: "Greatest speed of the blade's turn." },
     Key { name: "axes.c.acceleration_deg_s2", takes: Takes::Number(ACCELERATION), about: "Greatest acceleration of the blade's turn." },
     Key { name: "axes.c.jerk_deg_s3", takes: Takes::Number(JERK), about: "Greatest jerk of the blade's turn." },
+    Key { name: "axes.x.travel.speed_mm_s", takes: Takes::NumberOr(SPEED, "same"), about: "Greatest speed along the table while the knife is up; \"same\" = as in cutting." },
+    Key { name: "axes.x.travel.acceleration_mm_s2", takes: Takes::NumberOr(ACCELERATION, "same"), about: "Greatest acceleration along the table while the knife is up; \"same\" = as in cutting." },
+    Key { name: "axes.x.travel.jerk_mm_s3", takes: Takes::NumberOr(JERK, "same"), about: "Greatest jerk along the table while the knife is up; \"same\" = as in cutting." },
+    Key { name: "axes.y.travel.speed_mm_s", takes: Takes::NumberOr(SPEED, "same"), about: "Greatest speed across the table while the knife is up; \"same\" = as in cutting." },
+    Key { name: "axes.y.travel.acceleration_mm_s2", takes: Takes::NumberOr(ACCELERATION, "same"), about: "Greatest acceleration across the table while the knife is up; \"same\" = as in cutting." },
+    Key { name: "axes.y.travel.jerk_mm_s3", takes: Takes::NumberOr(JERK, "same"), about: "Greatest jerk across the table while the knife is up; \"same\" = as in cutting." },
+    Key { name: "axes.c.travel.speed_deg_s", takes: Takes::NumberOr(SPEED, "same"), about: "Greatest speed of the blade's turn while the knife is up; \"same\" = as in cutting." },
+    Key { name: "axes.c.travel.acceleration_deg_s2", takes: Takes::NumberOr(ACCELERATION, "same"), about: "Greatest acceleration of the blade's turn while the knife is up; \"same\" = as in cutting." },
+    Key { name: "axes.c.travel.jerk_deg_s3", takes: Takes::NumberOr(JERK, "same"), about: "Greatest jerk of the blade's turn while the knife is up; \"same\" = as in cutting." },
 
     Key { name: "c.range_deg", takes: Takes::RangeOr("unbounded"), about: "Least and greatest position of the C axis, when its cables do not let it turn for ever." },
     Key { name: "c.offset_deg", takes: Takes::Number(TURN), about: "Where the machine's zero of C points, seen from +X." },

@@ -94,7 +94,6 @@ fn unsupported(profile: &MachineProfile) -> Vec<Fault> {
         (knife.follow == Follow::Chord, "knife.follow", "\"tangent\"", "lays the blade along the tangent only"),
         (knife.edges == 2, "knife.edges", "1", "plans blades with one edge only"),
         (knife.yaw_deg != 0.0, "knife.yaw_deg", "0", "applies no yaw correction"),
-        (knife.clear_ms.is_some(), "knife.clear_ms", "\"off\"", "lets the axes rest for all of `knife.lift_ms`"),
     ];
     let fault = |(_, key, value, reason): (bool, &str, &str, &str)| Fault {
         code: &code::PROFILE_UNSUPPORTED,

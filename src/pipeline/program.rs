@@ -90,7 +90,7 @@ impl Tally {
                     self.lifts += 1;
                     self.stabs += usize::from(before == Some(Kind::Plunge));
                 }
-                Kind::Cut | Kind::Rest | Kind::Drill(_) | Kind::Event(_) => {}
+                Kind::Cut | Kind::Rest | Kind::Wait | Kind::Drill(_) | Kind::Event(_) => {}
             }
             before = Some(phase.kind);
         }
@@ -105,7 +105,7 @@ impl Tally {
             // The last setpoint stands at the last tick, and rows count from tick 0.
             time_s: Some((self.ticks - 1) as f64 * job.profile.time.period()),
             bulge_mm: Some(self.bulge),
-            axes: Some(Axes::new(&planner.peaks(), &job.profile.axes.limits())),
+            axes: Some(Axes::new(&planner.peaks())),
         }
     }
 }

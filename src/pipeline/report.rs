@@ -7,7 +7,6 @@ use serde::{Serialize, Serializer};
 
 use crate::ir::Marker;
 use crate::ir::marker::NotchKind;
-use crate::machine::Limits;
 use crate::units::{MM_PER_M, deg};
 
 /// The figures of one file; `None` is what only planning knows.
@@ -106,15 +105,12 @@ pub struct Peak {
 }
 
 impl Axes {
-    /// Peaks (mm, rad) beside limits (mm, rad), in mm and degrees.
-    pub fn new(peaks: &crate::plan::Peaks, limits: &[Limits; 3]) -> Self {
+    /// Peaks (mm, rad) beside their limits, in mm and degrees.
+    pub fn new(peaks: &crate::plan::Peaks) -> Self {
         let axis = |i: usize, unit: fn(f64) -> f64| {
-            let [speed, acceleration, jerk] = peaks[i].map(unit);
-            Peaks {
-                speed: Peak { worst: speed, limit: unit(limits[i].speed) },
-                acceleration: Peak { worst: acceleration, limit: unit(limits[i].acceleration) },
-                jerk: Peak { worst: jerk, limit: unit(limits[i].jerk) },
-            }
+            let [speed, acceleration, jerk] =
+                peaks[i].map(|peak| Peak { worst: unit(peak.worst), limit: unit(peak.limit) });
+            Peaks { speed, acceleration, jerk }
         };
         Self { x: axis(0, |v| v), y: axis(1, |v| v), c: axis(2, deg) }
     }

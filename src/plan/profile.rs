@@ -14,6 +14,7 @@
 
 use super::banded::Band;
 use super::barrier::{self, Schedule};
+use super::feed::Feed;
 use super::law::Way;
 use super::timing::Timing;
 use crate::geom::spline::{self, Piecewise};
@@ -37,13 +38,13 @@ const SLOPE_EPSILON: f64 = 1e-12;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct NoMotion;
 
-/// What bounds a motion: the axes' limits (x, y, c) and the greatest speed of the tip, mm/s.
-#[derive(Debug, Clone, Copy)]
+/// What bounds a motion: the axes' limits (x, y, c) and the greatest speed of the tip.
+#[derive(Debug, Clone)]
 pub(super) struct Bounds {
     /// Limits of x, y, c in mm, rad, s.
     pub(super) axes: [Limits; 3],
-    /// Greatest speed of the tip, mm/s; infinite when nothing caps it.
-    pub(super) feed: f64,
+    /// Greatest speed of the tip, by the parameter of the way.
+    pub(super) feed: Feed,
 }
 
 /// The motion along `way` within `bounds`, from rest to rest.
@@ -113,8 +114,12 @@ impl Problem {
     fn new(way: &Way, bounds: &Bounds) -> Self {
         let length = way.to - way.from;
         let ends = Ends { length, reach: END_REACH.min(length / 8.0) };
-        let path_breaks: Vec<f64> = way.breaks().iter().map(|b| b - way.from).collect();
-        let breaks = super::pace::breaks(way, &path_breaks, ends.reach);
+        let inside = |u: &f64| *u > way.from && *u < way.to;
+        let changes: Vec<f64> = bounds.feed.changes().iter().copied().filter(inside).map(|u| u - way.from).collect();
+        let mut path_breaks: Vec<f64> =
+            way.breaks().iter().map(|b| b - way.from).chain(changes.iter().copied()).collect();
+        path_breaks.sort_by(f64::total_cmp);
+        let breaks = super::pace::breaks(way, &path_breaks, &changes, ends.reach);
         let knots = spline::clamped_knots::<ORDER>(&breaks);
         let mut span = 0;
         let mut span_of = |s: f64| {
@@ -270,7 +275,7 @@ impl Place {
         let b2: [f64; ORDER] = std::array::from_fn(|i| w2 * n0[i] + 2.0 * w1 * n1[i] + w * n2[i]);
         let axes = way.at(way.from + s);
         let [_, q1, q2, q3] = axes.q;
-        let mut speed = (axes.pace / bounds.feed).powi(2);
+        let mut speed = (axes.pace / bounds.feed.at(way.from + s)).powi(2);
         for (q1, limits) in q1.iter().zip(&bounds.axes) {
             speed = speed.max((q1.abs().max(SLOPE_EPSILON) / limits.speed).powi(2));
         }

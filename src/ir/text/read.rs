@@ -168,8 +168,31 @@ fn run(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Run> {
     let ends = ends(lines)?;
     let start = pose_line(lines, "start")?;
     let end = pose_line(lines, "end")?;
-    let Polyline { points, spans, joints } = points(lines, true)?;
-    Ok(Run { points, spans, joints, shape, law, front, heel, feed, ends, start, end })
+    let mut run = Run {
+        points: Vec::new(),
+        spans: Vec::new(),
+        joints: Vec::new(),
+        feeds: Vec::new(),
+        shape,
+        law,
+        front,
+        heel,
+        ends,
+        start,
+        end,
+    };
+    while run.points.len() < 2 || lines.is_next("point") {
+        let mut line = lines.next_or("point")?;
+        line.expect("point")?;
+        run.points.push(line.point()?);
+        if run.points.len() > 1 {
+            run.spans.push(line.span()?);
+            run.feeds.push(if line.has("feed") { line.number()? } else { feed });
+        }
+        run.joints.push(line.joint());
+        line.end()?;
+    }
+    Ok(run)
 }
 
 fn stab(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Stab> {
@@ -178,7 +201,16 @@ fn stab(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Stab> {
     let (front, heel) = overlaps(line)?;
     let ends = ends(lines)?;
     let pose = pose_line(lines, "pose")?;
-    let Polyline { points, spans, .. } = points(lines, false)?;
+    let (mut points, mut spans) = (Vec::new(), Vec::new());
+    while points.len() < 2 || lines.is_next("point") {
+        let mut line = lines.next_or("point")?;
+        line.expect("point")?;
+        points.push(line.point()?);
+        if points.len() > 1 {
+            spans.push(line.span()?);
+        }
+        line.end()?;
+    }
     Ok(Stab { points, spans, along, front, heel, ends, pose })
 }
 
@@ -203,32 +235,6 @@ fn pose_line(lines: &mut Lines<'_>, name: &str) -> Read<Pose> {
     let pose = line.pose()?;
     line.end()?;
     Ok(pose)
-}
-
-/// What point lines hold.
-#[derive(Default)]
-struct Polyline {
-    points: Vec<Point>,
-    spans: Vec<Span>,
-    joints: Vec<Joint>,
-}
-
-/// The point lines that follow: two at least, the first without a span.
-fn points(lines: &mut Lines<'_>, with_joints: bool) -> Read<Polyline> {
-    let mut held = Polyline::default();
-    while held.points.len() < 2 || lines.is_next("point") {
-        let mut line = lines.next_or("point")?;
-        line.expect("point")?;
-        held.points.push(line.point()?);
-        if held.points.len() > 1 {
-            held.spans.push(line.span()?);
-        }
-        if with_joints {
-            held.joints.push(line.joint());
-        }
-        line.end()?;
-    }
-    Ok(held)
 }
 
 /// The lines that hold something.
