@@ -464,7 +464,7 @@ impl Room {
 fn what_is_no_program_is_called_so() {
     let room = Room::new();
     room.write("empty.csv", b"");
-    room.write("one-line.csv", &[b'7'; 5_000_000]);
+    room.write("one-line.csv", &vec![b'7'; 5_000_000]);
     for file in ["circle.cut", "empty.csv", "one-line.csv"] {
         let (stdout, stderr) = room.expect(&format!("verify {file} --source circle.cut"), FAULTY);
         assert!(stdout.is_empty() && stderr.contains("not a program") && stderr.contains("hint"), "{stdout}{stderr}");
