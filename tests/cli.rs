@@ -461,6 +461,17 @@ impl Room {
 }
 
 #[test]
+fn what_is_no_program_is_called_so() {
+    let room = Room::new();
+    room.write("empty.csv", b"");
+    room.write("one-line.csv", &vec![b'7'; 5_000_000]);
+    for file in ["circle.cut", "empty.csv", "one-line.csv"] {
+        let (stdout, stderr) = room.expect(&format!("verify {file} --source circle.cut"), FAULTY);
+        assert!(stdout.is_empty() && stderr.contains("not a program") && stderr.contains("hint"), "{stdout}{stderr}");
+    }
+}
+
+#[test]
 fn a_program_is_verified_alone() {
     let room = Room::new();
     room.expect("compile circle.cut", DONE);
@@ -550,8 +561,8 @@ fn what_cannot_be_verified_is_said() {
     let (stdout, _) = room.expect("verify circle.csv --source junk.cut --format json", FAULTY);
     let judged: Value = serde_json::from_str(&stdout).expect("JSON");
     assert_eq!(judged.to_string(), r#"{"rules":[],"verdict":"fail"}"#);
-    let (stdout, _) = room.expect("verify junk.cut --source circle.cut", FAULTY);
-    assert!(stdout.contains("FAIL  verify/format"), "{stdout}");
+    let (stdout, _) = room.expect("verify junk.cut --source circle.cut --format json", FAULTY);
+    assert_eq!(stdout.trim(), room.expect("verify circle.csv --source junk.cut --format json", FAULTY).0.trim());
 }
 
 #[test]

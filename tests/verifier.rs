@@ -12,6 +12,8 @@ mod drawings;
 mod machines;
 #[path = "verifier/moves.rs"]
 mod moves;
+#[path = "verifier/names.rs"]
+mod names;
 #[path = "verifier/rows.rs"]
 mod rows;
 #[path = "verifier/texts.rs"]
@@ -47,7 +49,10 @@ const fn damage(
 
 /// Every way, from the bytes of a program to the machine that it was made for.
 fn damages() -> Vec<&'static Damage> {
-    [texts::DAMAGES, moves::DAMAGES, drawings::DAMAGES, machines::DAMAGES].into_iter().flatten().collect()
+    [texts::DAMAGES, moves::DAMAGES, drawings::DAMAGES, machines::DAMAGES, names::DAMAGES]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 /// Fewer ways, damaged programs or markers to a way than these would be a test that has lost its teeth.

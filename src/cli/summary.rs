@@ -75,10 +75,14 @@ pub(super) fn verdict(verdict: Option<&Verdict>) -> String {
     let Some(verdict) = verdict else {
         return "\n  verified   no: --no-verify was given, nobody has read the program back\n".to_owned();
     };
-    let mut out = format!("\n  verified   {} hold", counted(verdict.findings.len(), "rule"));
+    let (limited, reported) = verdict.counts();
+    let mut out = format!("\n  verified   {} hold", counted(limited, "rule"));
     let on_path = verdict.findings.iter().find(|finding| finding.rule == ON_PATH);
     if let Some((worst, limit)) = on_path.and_then(|finding| Some((finding.worst, finding.limit?))) {
         let _ = write!(out, "; tip at most {} mm off the path ({} allowed)", fixed(worst, 3), fixed(limit, 3));
+    }
+    if reported > 0 {
+        let _ = write!(out, "\n             {} without a limit only reported", counted(reported, "rule"));
     }
     out + "\n"
 }
@@ -206,10 +210,17 @@ mod tests {
 
     #[test]
     fn a_verdict_is_a_line() {
-        let finding = |rule, worst, limit| Finding { rule, worst, limit: Some(limit), unit: "mm", place: None };
-        let findings = vec![finding("verify/on-path", 0.061_23, 0.071), finding("verify/stray", 0.0, 0.0)];
+        let finding = |rule, worst, limit| Finding { rule, worst, limit, unit: "mm", place: None };
+        let findings = vec![
+            finding("verify/on-path", 0.061_23, Some(0.071)),
+            finding("verify/stray", 0.0, Some(0.0)),
+            finding("verify/body", 0.3, None),
+        ];
         let line = verdict(Some(&Verdict { findings }));
-        assert_eq!(line, "\n  verified   2 rules hold; tip at most 0.061 mm off the path (0.071 allowed)\n");
+        assert_eq!(
+            line,
+            "\n  verified   2 rules hold; tip at most 0.061 mm off the path (0.071 allowed)\n             1 rule without a limit only reported\n"
+        );
         assert!(verdict(None).contains("no: --no-verify"));
     }
 }

@@ -32,6 +32,12 @@ pub fn judge_program(
     judge(source, &input, job, program).map(Some)
 }
 
+/// Whether a file is a program that can be judged, by how it begins.
+pub fn is_program(file: &mut dyn Medium) -> io::Result<bool> {
+    file.rewind()?;
+    Ok(verify::is_program(&mut BufReader::with_capacity(BLOCK, file)))
+}
+
 /// Reads a program back from its start and judges it, and what was read of the source against its bytes.
 ///
 /// Where the knife stays up nothing may be cut: the program is judged against a marker without pieces, so that every

@@ -4,7 +4,7 @@ mod judge;
 mod program;
 mod report;
 
-pub use judge::{about, figures, judge_program};
+pub use judge::{about, figures, is_program, judge_program};
 pub use report::{Axes, Notches, Peak, Peaks, Program, Report, significant};
 
 pub use crate::verify::{RULES, Verdict};

@@ -5,7 +5,7 @@
 use crate::geom::{Point, Vector, angle, left, polyline};
 use crate::ir::Marker;
 use crate::ir::list::Segment;
-use crate::ir::marker::{Contour, Piece};
+use crate::ir::marker::{Contour, Notch};
 use crate::machine::{Fit, MachineProfile};
 
 /// Longest chord that counts as a chord of a curve, mm.
@@ -19,8 +19,8 @@ const TURN_EPSILON: f64 = 1e-6;
 pub(super) struct Line {
     /// Index of its piece.
     pub(super) piece: usize,
-    /// Number of its contour or slit, in cut order.
-    pub(super) group: usize,
+    /// Rank of its contour or slit among holes, slits and contours, in cut order.
+    pub(super) rank: usize,
     /// Its points; a ring ends with its first one.
     pub(super) points: Vec<Point>,
     /// Length from the first point to each point.
@@ -40,6 +40,8 @@ pub(super) struct Reference<'a> {
     pub(super) marker: &'a Marker,
     /// The lines, in cut order.
     pub(super) lines: Vec<Line>,
+    /// Ranks of the holes, in the order of the marker.
+    pub(super) holes: Vec<usize>,
     /// Permitted deviation of the tip, mm.
     pub(super) tolerance: f64,
 }
@@ -47,43 +49,37 @@ pub(super) struct Reference<'a> {
 impl<'a> Reference<'a> {
     /// The lines of `marker`.
     pub(super) fn new(marker: &'a Marker, profile: &MachineProfile) -> Self {
-        let mut lines = Vec::new();
+        let (mut lines, mut holes) = (Vec::new(), Vec::new());
+        // In each piece holes come first, then slits, then contours.
+        let mut ranks = 0..;
+        let mut rank = || ranks.next().expect("a marker has fewer lines than numbers");
         for (index, piece) in marker.pieces.iter().enumerate() {
-            slits(piece, index, &mut lines);
+            holes.extend(piece.drills.iter().map(|_| rank()));
+            lines.extend(piece.notches.iter().map(|notch| slit(notch, [index, rank()])));
             for contour in &piece.contours {
-                let group = lines.last().map_or(0, |line: &Line| line.group + 1);
-                contour_lines(marker, contour, [index, group], profile, &mut lines);
+                lines.extend(contour_lines(marker, contour, [index, rank()], profile));
             }
         }
-        Self { marker, lines, tolerance: profile.tolerance(marker.unit) }
+        Self { marker, lines, holes, tolerance: profile.tolerance(marker.unit) }
     }
 }
 
-fn slits(piece: &Piece, index: usize, lines: &mut Vec<Line>) {
-    for notch in &piece.notches {
-        let points = vec![notch.root, notch.tip];
-        let stations = polyline::stations(&points);
-        let group = lines.last().map_or(0, |line| line.group + 1);
-        lines.push(Line {
-            piece: index,
-            group,
-            points,
-            stations,
-            blocks: vec![notch.span.block],
-            bulges: vec![Vector::zeros()],
-            ring: false,
-        });
+fn slit(notch: &Notch, [piece, rank]: [usize; 2]) -> Line {
+    let points = vec![notch.root, notch.tip];
+    Line {
+        piece,
+        rank,
+        stations: polyline::stations(&points),
+        points,
+        blocks: vec![notch.span.block],
+        bulges: vec![Vector::zeros()],
+        ring: false,
     }
 }
 
-/// Cuts a contour at its corners; `owner` is the index of its piece and its group.
-fn contour_lines(
-    marker: &Marker,
-    contour: &Contour,
-    owner: [usize; 2],
-    profile: &MachineProfile,
-    lines: &mut Vec<Line>,
-) {
+/// Cuts a contour at its corners; `owner` is the index of its piece and its rank.
+fn contour_lines(marker: &Marker, contour: &Contour, owner: [usize; 2], profile: &MachineProfile) -> Vec<Line> {
+    let mut lines = Vec::new();
     let mut segments: Vec<Segment> = marker.list.walk(contour.range).map(|(_, segment)| segment).collect();
     let count = segments.len();
     let turn = |segments: &[Segment], i: usize| {
@@ -109,18 +105,23 @@ fn contour_lines(
                 (false, _) => turn(&segments, from + k),
             };
             let turns: Vec<f64> = (0..=inner).map(turn_at).collect();
-            lines.push(line(&segments[from..i], &turns, owner, ring, profile));
+            let points: Vec<Point> =
+                std::iter::once(segments[from].from).chain(segments[from..i].iter().map(|s| s.to)).collect();
+            let chords = segments[from..i].iter();
+            let [piece, rank] = owner;
+            lines.push(Line {
+                piece,
+                rank,
+                stations: polyline::stations(&points),
+                points,
+                blocks: chords.clone().map(|s| s.span.block).collect(),
+                bulges: chords.zip(turns.windows(2)).map(|(s, t)| bulge(s, t, profile)).collect(),
+                ring,
+            });
             from = i;
         }
     }
-}
-
-fn line(segments: &[Segment], turns: &[f64], [piece, group]: [usize; 2], ring: bool, profile: &MachineProfile) -> Line {
-    let mut points = vec![segments[0].from];
-    points.extend(segments.iter().map(|s| s.to));
-    let bulges = segments.iter().zip(turns.windows(2)).map(|(s, t)| bulge(s, t, profile)).collect();
-    let blocks = segments.iter().map(|s| s.span.block).collect();
-    Line { piece, group, stations: polyline::stations(&points), points, blocks, bulges, ring }
+    lines
 }
 
 /// On a chord between two turns to the same side the curve that was flattened lies outside, by about length * turn / 8.

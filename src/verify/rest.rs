@@ -1,10 +1,12 @@
 //! What happens at rest: start and end of the program, plunges, lifts, and the holes that are drilled.
 
+use super::order::Order;
 use super::read::{ROUNDING, Row};
+use super::reference::Reference;
 use super::worst::Worst;
 use crate::geom::{Point, Vector};
+use crate::ir::Finding;
 use crate::ir::finding::Sighting;
-use crate::ir::{Finding, Marker};
 use crate::machine::MachineProfile;
 
 /// Two printed numbers of the same value may differ by this, mm and degrees.
@@ -14,7 +16,7 @@ const PERIOD_EPSILON: f64 = 1e-6;
 
 /// Watches the rows.
 pub(super) struct Rest<'a> {
-    marker: &'a Marker,
+    reference: &'a Reference<'a>,
     period: f64,
     plunge: u64,
     lift: u64,
@@ -33,12 +35,12 @@ pub(super) struct Rest<'a> {
 }
 
 impl<'a> Rest<'a> {
-    pub(super) fn new(marker: &'a Marker, profile: &MachineProfile) -> Self {
+    pub(super) fn new(reference: &'a Reference, profile: &MachineProfile) -> Self {
         let period = profile.time.period();
         let ticks = |time: f64| (time / period - PERIOD_EPSILON).ceil().max(0.0) as u64;
         let [x, y] = profile.drill.offset_mm;
         Self {
-            marker,
+            reference,
             period,
             plunge: ticks(profile.knife.plunge()),
             lift: ticks(profile.knife.lift()),
@@ -61,6 +63,10 @@ impl<'a> Rest<'a> {
             self.start.see(distance(row, self.home), || row.sighting());
             if row.knife {
                 self.begin(row, self.plunge);
+            }
+            if row.drill != 0 {
+                self.begin(row, self.drill);
+                self.drilled.push((row.centre + self.offset, row.drill, *row));
             }
             return;
         };
@@ -103,7 +109,8 @@ impl<'a> Rest<'a> {
         }
     }
 
-    pub(super) fn findings(mut self, last: Option<&Row>) -> Vec<Finding> {
+    /// What was found; the holes of the marker that were drilled join the `order`.
+    pub(super) fn findings(mut self, last: Option<&Row>, order: &mut Order) -> Vec<Finding> {
         if let Some(last) = last {
             self.finish(last);
             if last.knife || last.drill != 0 {
@@ -113,12 +120,12 @@ impl<'a> Rest<'a> {
                 self.end.see(distance(last, park), || last.sighting());
             }
         }
-        let (drills, place) = self.holes();
+        let (drills, place) = self.holes(order);
         vec![self.start.finding(), self.end.finding(), self.still.finding(), self.dwell.finding(), drills, place]
     }
 
     /// Compares the holes of the program with those of the marker: each takes the nearest one that is left.
-    fn holes(&mut self) -> (Finding, Finding) {
+    fn holes(&mut self, order: &mut Order) -> (Finding, Finding) {
         let mut wrong = Worst::new("verify/drills", "holes", Some(0.0));
         let mut place = Worst::new("verify/drill-place", "mm", Some(HOLE));
         let mut left = std::mem::take(&mut self.drilled);
@@ -126,7 +133,8 @@ impl<'a> Rest<'a> {
         left.sort_by(|a, b| a.1.cmp(&b.1).then(a.0.x.total_cmp(&b.0.x)));
         let mut taken = vec![false; left.len()];
         let mut count = 0.0;
-        for drill in self.marker.pieces.iter().flat_map(|p| &p.drills) {
+        let drills = self.reference.marker.pieces.iter().flat_map(|p| &p.drills);
+        for (drill, &rank) in drills.zip(&self.reference.holes) {
             let first = left.partition_point(|(at, tool, _)| (*tool, at.x) < (drill.tool, drill.at.x - HOLE_REACH));
             let near =
                 left[first..].partition_point(|(at, tool, _)| (*tool, at.x) <= (drill.tool, drill.at.x + HOLE_REACH));
@@ -134,7 +142,9 @@ impl<'a> Rest<'a> {
             let nearest = (first..first + near).filter(|&i| !taken[i]).min_by(|a, b| away(a).total_cmp(&away(b)));
             if let Some(i) = nearest.filter(|i| away(i) < HOLE_REACH) {
                 taken[i] = true;
-                place.see(away(&i), || left[i].2.sighting());
+                let row = &left[i].2;
+                place.see(away(&i), || row.sighting());
+                order.see(row.tick, rank, row.sighting());
             } else {
                 count += 1.0;
                 wrong.see(count, || Sighting { time: None, point: drill.at, block: drill.span.block });

@@ -6,10 +6,13 @@
 
 use std::ops::RangeInclusive;
 
+use super::Done;
+use super::body::{BODY_STEP, Body, Cut};
 use super::coverage::Coverage;
 use super::follow::{Follower, Foot, on_chord};
 use super::grid::Grid;
 use super::inside::Inside;
+use super::joints::{Around, Joints};
 use super::read::{ROUNDING, Row};
 use super::reference::{Line, Reference};
 use super::worst::{Worst, at};
@@ -18,8 +21,6 @@ use crate::ir::Finding;
 use crate::ir::finding::Sighting;
 use crate::machine::{Knife, MachineProfile};
 
-/// Distance of two places at which the body of a plunged blade is looked at, mm.
-const BODY_STEP: f64 = 0.25;
 /// How far from a line a stroke may lie and still be taken for a bad cut of it, mm.
 const REACH: f64 = 2.0;
 /// Lines that a stroke is tried on, at the most.
@@ -56,16 +57,13 @@ pub(super) struct Judge<'a> {
     period: f64,
     grid: Grid,
     inside: Inside,
+    joints: Joints,
     /// Greatest overlap at one end, and of both ends together.
     overlap: f64,
     overlaps: f64,
     max_uncut: f64,
-    /// Greatest group of a line that was cut, and strokes that came behind a later one.
-    group: usize,
-    late: f64,
     on_path: Worst,
     stray: Worst,
-    order: Worst,
     once: Worst,
     heading: Worst,
     body: Worst,
@@ -89,15 +87,8 @@ struct Trial {
     laps: bool,
     /// The places that are held to the line: of a stab its longest stretch on it; its surplus lies before and behind.
     held: RangeInclusive<usize>,
-}
-
-/// What a stroke cuts: the body's places, then the tip's.
-struct Cut {
-    points: Vec<Point>,
-    /// Number of places of the body.
-    body: usize,
-    /// The row of each place of the tip.
-    rows: Vec<usize>,
+    /// Whether it is a stab that fits what was left of its line: its blade may then be longer.
+    fits: bool,
 }
 
 impl<'a> Judge<'a> {
@@ -118,14 +109,12 @@ impl<'a> Judge<'a> {
             period,
             grid: Grid::new(reference),
             inside: Inside::new(reference.marker),
+            joints: Joints::new(knife),
             overlap: front.max(heel),
             overlaps,
             max_uncut: verify.max_uncut_mm,
-            group: 0,
-            late: 0.0,
             on_path: Worst::new("verify/on-path", "mm", Some(tolerance + PLACE_ROUNDING)),
             stray: Worst::new("verify/stray", "mm", Some(0.0)),
-            order: Worst::new("verify/order", "strokes", Some(0.0)),
             once: Worst::new("verify/once", "mm", Some(joints * overlaps + 2.0 * tolerance)),
             heading: Worst::new("verify/heading", "deg", Some(verify.max_heading_deg)),
             body: Worst::new("verify/body", "mm", verify.max_body_mm),
@@ -139,44 +128,96 @@ impl<'a> Judge<'a> {
     }
 
     pub(super) fn findings(self) -> Vec<Finding> {
-        let one = [self.on_path, self.stray, self.order, self.once, self.heading, self.body, self.feed];
+        let one = [self.on_path, self.stray, self.once, self.heading, self.body, self.feed];
         one.into_iter().chain(self.overcut).map(Worst::finding).collect()
     }
 
     /// Judges one stroke and marks what it cut.
-    pub(super) fn judge(&mut self, stroke: &Stroke, coverage: &mut Coverage) {
+    pub(super) fn judge(&mut self, stroke: &Stroke, done: &mut Done) {
         let rows = &stroke.rows;
         let tips: Vec<Point> = rows.iter().map(|row| row.centre + row.along() * self.knife.radius()).collect();
         self.check_feed(rows, &tips);
-        let cut = self.cut(rows, &tips);
+        let cut = Cut::new(rows, &tips, self.knife);
         let trials: Vec<Trial> =
             self.candidates(&cut).into_iter().map(|(line, chord, at)| self.follow(&cut, line, chord, at)).collect();
         let seen = |i: usize| {
             let row = &rows[cut.rows[i.saturating_sub(cut.body)]];
             at(row.t, cut.points[i], row.block)
         };
-        let Some(best) = self.choose(trials, rows[0].block, coverage) else {
+        let Some(mut best) = self.choose(trials, rows[0].block, &done.coverage) else {
             self.check_heading(rows, &tips, false);
             self.stray.see(polyline::length(&cut.points).max(self.knife.width_mm).max(REACH), || seen(cut.body));
             return;
         };
         let line = &self.reference.lines[best.line];
+        best.fits = cut.is_stab() && self.fits(&best, &done.coverage);
         self.check_heading(rows, &tips, line.ring && best.laps);
-        self.on_path.see(best.worst.0, || seen(best.worst.1));
-        self.check_ends(&cut, &best, &seen);
-        self.check_order(line.group, seen(cut.body));
-        let mut twice = best.stretches.iter().map(|[a, b]| b - a).sum::<f64>() - best.fresh;
-        if best.fresh < self.reference.tolerance {
-            // A stroke that cuts nothing new counts with its overlaps.
-            twice += self.overlaps + self.knife.width_mm.max(REACH);
-        } else if cut.points.len() == cut.body + 1 {
-            // The blade of a stab is longer than what was left: its surplus lies over what was cut before.
-            twice -= self.knife.width_mm - best.fresh;
+        if cut.is_stab() {
+            self.check_stab(&cut, &best, &seen);
         }
-        self.once.see(twice, || seen(cut.body));
-        coverage.add(best.line, &best.stretches);
+        self.on_path.see(best.worst.0, || seen(best.worst.1));
+        self.check_ends(&best, &seen);
+        done.order.see(rows[0].tick, line.rank, seen(cut.body));
+        self.check_once(&cut, &best, &seen);
+        done.coverage.add(best.line, &best.stretches);
         self.check_overcut(&cut, &best, &seen);
         self.check_body(rows, &cut, &best);
+        for (i, ends) in (cut.body..).zip(cut.rows.iter().zip(cut.rows[1..].iter().chain([&rows.len()]))) {
+            let here = rows[*ends.0..*ends.1].iter().filter(|row| row.knife);
+            here.for_each(|row| done.naming.see_cut(row, line, best.feet[i].station));
+        }
+    }
+
+    /// Whether what a stab cuts anew reaches from one joint of its line to another: only then its blade may be longer
+    /// than what it cuts.
+    fn fits(&self, trial: &Trial, coverage: &Coverage) -> bool {
+        let line = &self.reference.lines[trial.line];
+        let joints = |station: f64| {
+            let tube = 2.0 * (self.reference.tolerance + PLACE_ROUNDING);
+            self.joints.near(line, Around { station, slack: BODY_STEP + tube, tube })
+        };
+        let Some([from, to]) = coverage.uncut(trial.line, &trial.stretches) else { return false };
+        matches!((joints(from), joints(to)), (Some([first, _]), Some([_, last])) if first < last)
+    }
+
+    /// A stab that is longer than what it cuts leaves the line straight on; any other must lie on it with all of its blade.
+    fn check_stab(&mut self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting) {
+        if !trial.fits {
+            for (i, foot) in trial.feet.iter().enumerate().filter(|(i, _)| !trial.held.contains(i)) {
+                self.on_path.see(foot.deviation, || seen(i));
+            }
+            return;
+        }
+        let line = &self.reference.lines[trial.line];
+        let width = self.knife.width_mm;
+        if width == 0.0 {
+            return;
+        }
+        // The blade lies between the directions of the chords that it cuts; the tube turns a blade by a little.
+        let (first, last) = (trial.feet[*trial.held.start()].station, trial.feet[*trial.held.end()].station);
+        let blade = (cut.points[cut.body] - cut.points[0]) * if last < first { -1.0 } else { 1.0 };
+        let chords = line.chord_at(first.min(last))..=line.chord_at(first.max(last));
+        let (mut turned, mut cone) = (0.0, [0.0_f64; 2]);
+        for chord in chords.clone().skip(1) {
+            turned += line.turn(chord);
+            cone = [cone[0].min(turned), cone[1].max(turned)];
+        }
+        let askew = angle::turn(line.direction(*chords.start()), blade);
+        let slack = (2.0 * (self.reference.tolerance + PLACE_ROUNDING) / width).atan();
+        let beyond = (cone[0] - askew).max(askew - cone[1]) - slack;
+        self.heading.see(beyond.to_degrees(), || seen(cut.body));
+    }
+
+    /// Nothing is cut twice but the overlaps, and what the blade of a stab is longer by than what was left.
+    fn check_once(&mut self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting) {
+        let mut twice = trial.stretches.iter().map(|[a, b]| b - a).sum::<f64>() - trial.fresh;
+        if trial.fresh < self.reference.tolerance {
+            // A stroke that cuts nothing new counts with its overlaps.
+            twice += self.overlaps + self.knife.width_mm.max(REACH);
+        } else if trial.fits {
+            twice -= self.knife.width_mm - trial.fresh;
+        }
+        self.once.see(twice, || seen(cut.body));
     }
 
     /// The line that a stroke was meant for: of those on which it cuts the most, but for overlaps and the surplus of the
@@ -201,17 +242,6 @@ impl<'a> Judge<'a> {
                 .then(a.worst.0.total_cmp(&b.worst.0))
                 .then(a.line.cmp(&b.line))
         })
-    }
-
-    fn cut(&self, rows: &[Row], tips: &[Point]) -> Cut {
-        let steps = (self.knife.width_mm / BODY_STEP).ceil() as usize;
-        let tail = rows[0].centre - rows[0].along() * self.knife.back();
-        let body = (0..steps).map(|i| tail + (tips[0] - tail) * (i as f64 / steps as f64));
-        let mut points: Vec<Point> = body.collect();
-        // Rest rows repeat their place; a track of places that differ is enough.
-        let moves: Vec<usize> = (0..tips.len()).filter(|&i| i == 0 || tips[i] != tips[i - 1]).collect();
-        points.extend(moves.iter().map(|&i| tips[i]));
-        Cut { points, body: steps, rows: moves }
     }
 
     /// Lines that pass near the stroke: line, chord, and the place of the cut that is near it.
@@ -275,10 +305,14 @@ impl<'a> Judge<'a> {
             worst: (0.0, cut.body),
             laps,
             held: first..=points.len() - 1,
+            fits: false,
         };
-        let body = if laps { Body::default() } else { Body::new(line, cut, &trial.feet, allowed) };
+        let mut body = if laps { Body::default() } else { Body::new(line, cut, &trial.feet, allowed) };
+        if body.sag > allowed && !self.may_bow(cut, line, &trial.feet) {
+            body.sag = 0.0;
+        }
         let off = |i: usize, foot: &Foot| if i < cut.body { body.off(i, foot) } else { foot.deviation };
-        if points.len() == cut.body + 1 {
+        if cut.is_stab() {
             // A blade that never moves is often longer than what it cuts: what it is longer by leaves the line straight on,
             // at corners as at bends. That is overcut, not a bad way.
             let on: Vec<bool> = (0..points.len()).map(|i| i >= first && off(i, &trial.feet[i]) <= allowed).collect();
@@ -319,6 +353,14 @@ impl<'a> Judge<'a> {
         trial
     }
 
+    /// Whether the path may bow away from a plunged blade: where a stroke begins at a joint, or a stab ends at one.
+    fn may_bow(&self, cut: &Cut, line: &Line, feet: &[Foot]) -> bool {
+        let slack = 2.0 * (self.reference.tolerance + PLACE_ROUNDING);
+        let is_joint =
+            |foot: &Foot| self.joints.near(line, Around { station: foot.station, slack, tube: 0.0 }).is_some();
+        is_joint(&feet[0]) || cut.is_stab() && is_joint(&feet[cut.body])
+    }
+
     /// The blade against its law: along the way of the tip; before the tip has moved, along the way to come.
     fn check_heading(&mut self, rows: &[Row], tips: &[Point], steady: bool) {
         let total = polyline::length(tips);
@@ -356,7 +398,7 @@ impl<'a> Judge<'a> {
 
     /// Beyond the ends of its line a stroke cuts overlaps and what the blade is longer than a short line, or than what was
     /// left of it when it plunges only once, and no more.
-    fn check_ends(&mut self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting) {
+    fn check_ends(&mut self, trial: &Trial, seen: &impl Fn(usize) -> Sighting) {
         let line = &self.reference.lines[trial.line];
         if line.ring {
             return;
@@ -364,8 +406,7 @@ impl<'a> Judge<'a> {
         let (start, end) = (line.points[0], line.points[line.points.len() - 1]);
         let farthest = line.points.iter().map(|point| (point - start).norm()).fold(0.0, f64::max);
         let width = self.knife.width_mm;
-        let moves = cut.points.len() > cut.body + 1;
-        let surplus = if !moves && trial.fresh > self.reference.tolerance {
+        let surplus = if trial.fits {
             width - trial.fresh
         } else if farthest < width {
             width - (end - start).norm()
@@ -378,15 +419,6 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Contours and slits are cut in the order of the marker.
-    fn check_order(&mut self, group: usize, seen: Sighting) {
-        if group < self.group {
-            self.late += 1.0;
-            self.order.see(self.late, || seen);
-        }
-        self.group = self.group.max(group);
-    }
-
     fn check_feed(&mut self, rows: &[Row], tips: &[Point]) {
         for (row, ends) in rows.iter().zip(tips.windows(2)) {
             self.feed.see((ends[1] - ends[0]).norm() / self.period, || row.sighting());
@@ -396,7 +428,7 @@ impl<'a> Judge<'a> {
     /// How far the blade goes beyond the ends of its line, and into what.
     fn check_overcut(&mut self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting) {
         let line = &self.reference.lines[trial.line];
-        if line.ring {
+        if trial.laps {
             return;
         }
         for (i, foot) in trial.feet.iter().enumerate() {
@@ -417,12 +449,17 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// How far the tail leaves the line while the blade moves.
+    /// How far the path bows away from the plunged blade, and the tail leaves it while the blade moves.
     fn check_body(&mut self, rows: &[Row], cut: &Cut, trial: &Trial) {
         if self.knife.width_mm == 0.0 {
             return;
         }
         let line = &self.reference.lines[trial.line];
+        for (i, foot) in trial.feet[..cut.body].iter().enumerate() {
+            if foot.beyond == 0.0 && trial.held.contains(&i) {
+                self.body.see(foot.deviation, || at(rows[0].t, cut.points[i], rows[0].block));
+            }
+        }
         let tail = |row: &Row| row.centre - row.along() * self.knife.back();
         let foot = trial.feet[0];
         let lap = if line.ring { (foot.station / line.length()).floor() * line.length() } else { 0.0 };
@@ -443,50 +480,6 @@ impl Trial {
         if deviation > self.worst.0 {
             self.worst = (deviation, place);
         }
-    }
-}
-
-/// The body of a plunged blade: a chord of the path, which bows away from it.
-#[derive(Debug, Default)]
-struct Body {
-    /// How far the path bows away from the blade, mm: what it does, and at the most w^2 k / 8 with k its mean curvature.
-    sag: f64,
-    /// Turn of the path under the blade, rad, when the blade never moves: its surplus then goes off the line straight on.
-    turned: f64,
-}
-
-impl Body {
-    fn new(line: &Line, cut: &Cut, feet: &[Foot], allowed: f64) -> Self {
-        let (tail, tip) = (cut.points[0], cut.points[cut.body]);
-        let (a, b) = (feet[0].station, feet[cut.body].station);
-        let (low, high) = (a.min(b), a.max(b));
-        let mut body = Self::default();
-        let mut turned = 0.0;
-        for vertex in line.vertices(low, high) {
-            body.sag = body.sag.max(polyline::distance_to_segment(line.points[vertex], tail, tip));
-            turned += line.turn(vertex).abs();
-        }
-        let moves = cut.points.len() > cut.body + 1;
-        body.turned = if moves { 0.0 } else { turned };
-        // The chord that is being left counts, too: a curve turns along its chords, not at its vertices.
-        let length = line.length();
-        let next = if b >= a {
-            line.vertices(high.next_up(), high + length).next()
-        } else {
-            line.vertices(low - length, low.next_down()).last()
-        };
-        turned += next.map_or(0.0, |vertex| line.turn(vertex).abs());
-        body.sag = body.sag.min((tip - tail).norm() * turned / 8.0);
-        let off = |i: usize| feet[i].deviation - body.turned * feet[i].beyond > allowed;
-        // A blade that does not lie along the line is no chord of it.
-        if off(0) || off(cut.body) { Self::default() } else { body }
-    }
-
-    /// How far place `i` of the body is off. The tail stands on the path or its extension; only between its ends the
-    /// blade cuts across.
-    fn off(&self, i: usize, foot: &Foot) -> f64 {
-        let sag = if i == 0 { 0.0 } else { self.sag };
-        (foot.deviation - sag.max(self.turned * foot.beyond)).max(0.0)
     }
 }
 

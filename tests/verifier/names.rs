@@ -1,0 +1,82 @@
+//! Damage to what rows say beside poses and outputs, and to the order of holes.
+
+use crate::case::Case;
+use crate::rows::{holes, pick, print, strokes};
+use crate::{Damage, damage};
+
+const BLOCK: &[&str] = &["verify/block"];
+
+/// No marker has so many blocks.
+const NO_BLOCK: u32 = 999_999;
+
+pub(crate) const DAMAGES: &[Damage] = &[
+    damage("a stroke under a block that no cut has", BLOCK, |case, rng| {
+        let stroke = pick(rng, &strokes(&case.rows))?;
+        named(case, |i, block| if stroke.contains(&i) { NO_BLOCK } else { block })
+    }),
+    damage("one row under a block that no cut has", BLOCK, |case, rng| {
+        let stroke = pick(rng, &strokes(&case.rows))?;
+        let row = rng.usize(stroke);
+        named(case, |i, block| if i == row { NO_BLOCK } else { block })
+    }),
+    damage("a stroke without its block", BLOCK, |case, rng| {
+        let stroke = pick(rng, &strokes(&case.rows))?;
+        named(case, |i, block| if stroke.contains(&i) { 0 } else { block })
+    }),
+    damage("the blocks of two strokes exchanged", BLOCK, |case, _| {
+        let blocks = |stroke: &std::ops::Range<usize>| case.rows[stroke.start].block;
+        let strokes = strokes(&case.rows);
+        let (first, last) = (strokes.first()?, strokes.last()?);
+        let (a, b) = (blocks(first), blocks(last));
+        let other = |i: usize, block| match (first.contains(&i), last.contains(&i)) {
+            (true, _) => b,
+            (_, true) => a,
+            (false, false) => block,
+        };
+        (a != b).then(|| named(case, other))?
+    }),
+    damage("a block in the air", BLOCK, |case, rng| {
+        let stroke = pick(rng, &strokes(&case.rows))?;
+        named(case, |i, block| if i == stroke.end + 1 { case.rows[stroke.start].block } else { block })
+    }),
+    damage("a stop that nobody asked for", &["verify/events"], |case, rng| {
+        let mut rows = case.rows.clone();
+        let i = rng.usize(0..rows.len());
+        rows[i].event = 1;
+        Some(print(&rows))
+    }),
+    damage("an advance while the knife is down", &["verify/events"], |case, rng| {
+        let mut rows = case.rows.clone();
+        rows[pick(rng, &strokes(&case.rows))?.start].event = 2;
+        Some(print(&rows))
+    }),
+    damage("a drill that is on at the start", &["verify/drills"], |case, _| {
+        let mut rows = case.rows.clone();
+        rows[0].drill = 1;
+        Some(print(&rows))
+    }),
+    damage("holes in another order", &["verify/order"], |case, _| {
+        let piece = case.marker.pieces.iter().position(|piece| piece.drills.len() > 1)?;
+        let mut marker = case.marker.clone();
+        marker.pieces[piece].drills.reverse();
+        Some(case.redrawn(&marker))
+    }),
+    damage("holes behind the cuts", &["verify/order"], |case, _| {
+        // The marker of a later piece has the holes, of the same file otherwise.
+        let mut marker = case.marker.clone();
+        let last = marker.pieces.len().checked_sub(1).filter(|&last| last > 0)?;
+        let drills = std::mem::take(&mut marker.pieces[0].drills);
+        let first = drills.first().copied()?;
+        marker.pieces[last].drills.push(first);
+        marker.pieces[0].drills = drills[1..].to_vec();
+        (!holes(&case.rows).is_empty()).then(|| case.redrawn(&marker))
+    }),
+];
+
+/// The program with other blocks.
+#[allow(clippy::unnecessary_wraps, reason = "every way to damage may find nothing to damage")]
+fn named(case: &Case, block: impl Fn(usize, u32) -> u32) -> Option<Vec<u8>> {
+    let mut rows = case.rows.clone();
+    rows.iter_mut().enumerate().for_each(|(i, row)| row.block = block(i, row.block));
+    Some(print(&rows))
+}

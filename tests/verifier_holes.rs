@@ -1,0 +1,362 @@
+//! Programs made by hand to slip through the verifier: each does a harm that the rules of the cut must see, and keeps the
+//! limits of the machine, so that nothing else refuses it.
+
+mod support;
+
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+
+use cutc::geom::{Heading, Point, Vector};
+use cutc::ir::Marker;
+use cutc::ir::marker::{Drill, Notch, NotchKind};
+use cutc::machine::Job;
+use cutc::source::Span;
+use cutc::verify::{self, Verdict};
+
+/// Time of the moves below, s: a little, and more the farther they go, so that no axis comes near a limit.
+const TIME_LEAST: f64 = 0.2;
+const TIME_A_STEP: f64 = 0.02;
+
+/// A row's outputs.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+struct Outputs {
+    knife: u8,
+    drill: u8,
+    event: u8,
+    block: u32,
+}
+
+/// A program that is written by hand: smooth moves from rest to rest, and dwells.
+struct Program {
+    job: Job,
+    poses: Vec<[f64; 3]>,
+    outputs: Vec<Outputs>,
+}
+
+impl Program {
+    fn new(job: &Job) -> Self {
+        Self { job: job.clone(), poses: vec![job.profile.home], outputs: vec![Outputs::default()] }
+    }
+
+    fn pose(&self) -> [f64; 3] {
+        self.poses[self.poses.len() - 1]
+    }
+
+    /// Ticks of a dwell, the one at which it is over included.
+    fn ticks(&self, ms: f64) -> usize {
+        (ms / self.job.profile.time.period_ms).ceil() as usize + 1
+    }
+
+    fn rest(&mut self, ticks: usize, outputs: Outputs) {
+        for _ in 0..ticks {
+            self.poses.push(self.pose());
+            self.outputs.push(outputs);
+        }
+    }
+
+    /// From rest to rest along a way that is given by the share of it that is done.
+    fn along(&mut self, steps: f64, outputs: Outputs, pose: impl Fn(f64) -> [f64; 3]) {
+        let ticks = ((TIME_LEAST + TIME_A_STEP * steps) / self.job.profile.time.period()).ceil();
+        for i in 1..=ticks as usize {
+            let x = i as f64 / ticks;
+            self.poses.push(pose(x * x * x * (10.0 - x * (15.0 - x * 6.0))));
+            self.outputs.push(outputs);
+        }
+    }
+
+    fn go(&mut self, to: [f64; 3], outputs: Outputs) {
+        let from = self.pose();
+        let way = |axis: usize| (to[axis] - from[axis]).abs();
+        let steps = way(0).max(way(1)).max(way(2));
+        self.along(steps, outputs, |x| std::array::from_fn(|axis| from[axis] + (to[axis] - from[axis]) * x));
+    }
+
+    /// The pose with the tip at a point.
+    fn at(&self, tip: Point, heading_deg: f64) -> [f64; 3] {
+        let centre = tip - Heading::new(heading_deg.to_radians()).unit() * self.job.profile.knife.radius();
+        [centre.x, centre.y, heading_deg]
+    }
+
+    fn down(block: u32) -> Outputs {
+        Outputs { knife: 1, block, ..Outputs::default() }
+    }
+
+    fn plunge(&mut self, tip: Point, heading_deg: f64, block: u32) {
+        self.go(self.at(tip, heading_deg), Outputs::default());
+        self.rest(self.ticks(self.job.profile.knife.plunge_ms), Self::down(block));
+    }
+
+    fn lift(&mut self) {
+        self.rest(self.ticks(self.job.profile.knife.lift_ms), Outputs::default());
+    }
+
+    fn stab(&mut self, tip: Point, heading_deg: f64, block: u32) {
+        self.plunge(tip, heading_deg, block);
+        self.lift();
+    }
+
+    /// One straight stroke: the tail plunges at `tail`, the tip is lifted at `tip`.
+    fn run(&mut self, tail: Point, tip: Point, block: u32) {
+        let along = (tip - tail).normalize();
+        let heading = along.y.atan2(along.x).to_degrees();
+        self.plunge(tail + along * self.job.profile.knife.width_mm, heading, block);
+        self.go(self.at(tip, heading), Self::down(block));
+        self.lift();
+    }
+
+    fn drill(&mut self, at: Point, tool: u8) {
+        let c = self.pose()[2];
+        self.go([at.x, at.y, c], Outputs::default());
+        self.rest(self.ticks(self.job.profile.drill.dwell_ms), Outputs { drill: tool, ..Outputs::default() });
+    }
+
+    fn judge(&mut self, marker: &Marker) -> Verdict {
+        self.rest(2, Outputs::default());
+        let mut text = String::from("t_s,x_mm,y_mm,c_deg,knife,drill,event,block\n");
+        for (i, ([x, y, c], outputs)) in self.poses.iter().map(|p| p.map(|v| v + 0.0)).zip(&self.outputs).enumerate() {
+            let Outputs { knife, drill, event, block } = outputs;
+            let t = i as f64 * self.job.profile.time.period();
+            let _ = writeln!(text, "{t:.6},{x:.6},{y:.6},{c:.6},{knife},{drill},{event},{block}");
+        }
+        verify::setpoints(&mut text.as_bytes(), marker, &self.job)
+    }
+}
+
+fn broken(verdict: &Verdict) -> Vec<&'static str> {
+    verdict.broken().map(|finding| finding.rule).collect()
+}
+
+fn check(mut program: Program, marker: &Marker, expected: &[&str]) {
+    let verdict = program.judge(marker);
+    assert_eq!(broken(&verdict), expected, "{:#?}", verdict.broken().collect::<Vec<_>>());
+}
+
+fn p(x: f64, y: f64) -> Point {
+    Point::new(x, y)
+}
+
+/// A line of 100 mm along X.
+fn long_line() -> Marker {
+    support::marker(&[p(100.0, 50.0), p(200.0, 50.0)])
+}
+
+/// The whole of it in one stroke.
+fn cut_long_line(program: &mut Program) {
+    program.run(p(99.5, 50.0), p(200.8, 50.0), 1);
+}
+
+/// A circle of 48 chords.
+fn circle(radius: f64) -> Marker {
+    let at = |i: i32| p(100.0, 50.0) + Heading::new(TAU * f64::from(i % 48) / 48.0).unit() * radius;
+    support::marker(&(0..=48).map(at).collect::<Vec<_>>())
+}
+
+#[test]
+fn what_is_done_by_hand_and_well_is_accepted() {
+    let mut program = Program::new(&Job::default());
+    cut_long_line(&mut program);
+    check(program, &long_line(), &[]);
+    // Lifted amid the line and rejoined with overlap: not as the compiler does it, but sound.
+    let mut program = Program::new(&Job::default());
+    program.run(p(99.5, 50.0), p(150.0, 50.0), 1);
+    program.run(p(149.0, 50.0), p(200.8, 50.0), 1);
+    check(program, &long_line(), &[]);
+    // A line shorter than the blade in one plunge, its surplus behind the start.
+    let mut program = Program::new(&Job::default());
+    program.stab(p(106.3, 50.0), 0.0, 1);
+    check(program, &support::marker(&[p(100.0, 50.0), p(106.0, 50.0)]), &[]);
+}
+
+#[test]
+fn a_stab_across_a_line_is_no_cut_of_it() {
+    for heading in [5.0, 10.0, 20.0, 45.0, 90.0] {
+        let mut program = Program::new(&Job::default());
+        let along = Heading::new(f64::to_radians(heading)).unit();
+        program.stab(p(150.0, 50.0) + along * 6.0, heading, 1);
+        cut_long_line(&mut program);
+        assert!(!program.judge(&long_line()).passes(), "{heading}");
+    }
+}
+
+#[test]
+fn a_stab_across_a_line_that_is_cut_but_for_a_little_is_no_cut_of_it() {
+    for heading in [5.0, 10.0, 20.0] {
+        let mut program = Program::new(&Job::default());
+        program.run(p(99.5, 50.0), p(150.0, 50.0), 1);
+        let along = Heading::new(f64::to_radians(heading)).unit();
+        program.stab(p(150.1, 50.0) + along * 3.0, heading, 1);
+        program.run(p(150.05, 50.0), p(200.8, 50.0), 1);
+        assert!(!program.judge(&long_line()).passes(), "{heading}");
+    }
+}
+
+#[test]
+fn a_blade_that_cuts_the_last_bit_of_a_line_and_much_beyond_it_is_astray() {
+    let mut program = Program::new(&Job::default());
+    program.run(p(99.5, 50.0), p(199.7, 50.0), 1);
+    program.stab(p(199.65 + 6.6, 50.0), 0.0, 1);
+    check(program, &long_line(), &["verify/stray"]);
+}
+
+#[test]
+fn a_short_line_is_not_cut_by_many_stabs() {
+    let marker = support::marker(&[p(100.0, 50.0), p(106.0, 50.0)]);
+    let mut program = Program::new(&Job::default());
+    for i in 0..60 {
+        program.stab(p(101.0 + 0.1 * f64::from(i), 50.0), 0.0, 1);
+    }
+    assert!(!program.judge(&marker).passes());
+}
+
+#[test]
+fn little_by_little_a_line_is_cut_twice_all_the_same() {
+    let mut program = Program::new(&Job::default());
+    for i in 0..20 {
+        let start = 99.5 + f64::from(i);
+        program.run(p(start, 50.0), p(start + 8.0, 50.0), 1);
+    }
+    program.run(p(127.0, 50.0), p(200.8, 50.0), 1);
+    assert!(!program.judge(&long_line()).passes());
+    let mut program = Program::new(&Job::default());
+    program.run(p(99.5, 50.0), p(120.0, 50.0), 1);
+    for i in 0..20 {
+        // Each goes on by a tenth and cuts again 1.2 mm of what was cut, by a blade that stands beside what is left.
+        let end = 120.1 + 0.1 * f64::from(i);
+        program.run(p(end - 6.61, 50.0), p(end, 50.0), 1);
+    }
+    program.run(p(121.9, 50.0), p(200.8, 50.0), 1);
+    assert!(!program.judge(&long_line()).passes());
+}
+
+#[test]
+fn a_circle_is_not_cut_as_a_polygon() {
+    let marker = circle(8.0);
+    let mut program = Program::new(&Job::default());
+    for i in 0..8 {
+        let from = TAU * f64::from(i) / 8.0;
+        let (a, b) = (Heading::new(from).unit() * 8.0, Heading::new(from + 2.0 * (3.3_f64 / 8.0).asin()).unit() * 8.0);
+        let along: Vector = (b - a).normalize();
+        let tail = p(100.0, 50.0) + a;
+        let c = (from + (3.3_f64 / 8.0).asin() + TAU / 4.0).to_degrees();
+        program.stab(tail + along * 6.6, c, (6 * i + 6) as u32);
+    }
+    let found = broken(&program.judge(&marker));
+    assert!(found.contains(&"verify/on-path"), "{found:?}");
+}
+
+#[test]
+fn a_stab_on_a_curve_does_not_leave_it_along_the_tangent() {
+    let marker = circle(20.0);
+    let mut program = Program::new(&Job::default());
+    program.stab(p(120.0, 53.3), 90.0, 2);
+    let start = p(120.0, 50.0);
+    program.plunge(start, 90.0, 1);
+    program.along(600.0, Program::down(1), |x| {
+        let turn = (TAU + 0.04) * x;
+        let tip = p(100.0, 50.0) + Heading::new(turn).unit() * 20.0;
+        let centre = tip - Heading::new(turn + TAU / 4.0).unit() * 0.25;
+        [centre.x, centre.y, 90.0 + turn.to_degrees()]
+    });
+    program.lift();
+    let found = broken(&program.judge(&marker));
+    assert!(found.contains(&"verify/on-path"), "{found:?}");
+}
+
+#[test]
+fn a_drill_that_is_on_at_the_start_makes_a_hole() {
+    let mut program = Program::new(&Job::default());
+    program.outputs[0].drill = 1;
+    program.rest(300, Outputs { drill: 1, ..Outputs::default() });
+    cut_long_line(&mut program);
+    check(program, &long_line(), &["verify/drills"]);
+}
+
+/// A piece with two holes, a slit and a line.
+fn drilled() -> Marker {
+    let mut marker = long_line();
+    let span = |block| Span { block, ..Span::default() };
+    let piece = &mut marker.pieces[0];
+    piece.drills = vec![
+        Drill { at: p(120.0, 60.0), tool: 1, span: span(11) },
+        Drill { at: p(180.0, 60.0), tool: 1, span: span(12) },
+    ];
+    piece.notches = vec![Notch { kind: NotchKind::Slit, root: p(150.0, 50.0), tip: p(150.0, 58.0), span: span(13) }];
+    marker
+}
+
+#[test]
+fn holes_come_in_their_order_and_before_the_cuts_of_their_piece() {
+    let slit = |program: &mut Program| program.run(p(150.0, 50.0), p(150.0, 58.0), 13);
+    let holes = |program: &mut Program, order: [f64; 2]| order.iter().for_each(|&x| program.drill(p(x, 60.0), 1));
+    let mut program = Program::new(&Job::default());
+    holes(&mut program, [120.0, 180.0]);
+    slit(&mut program);
+    cut_long_line(&mut program);
+    check(program, &drilled(), &[]);
+    let mut program = Program::new(&Job::default());
+    holes(&mut program, [180.0, 120.0]);
+    slit(&mut program);
+    cut_long_line(&mut program);
+    check(program, &drilled(), &["verify/order"]);
+    let mut program = Program::new(&Job::default());
+    slit(&mut program);
+    cut_long_line(&mut program);
+    holes(&mut program, [120.0, 180.0]);
+    check(program, &drilled(), &["verify/order"]);
+}
+
+#[test]
+fn rows_name_the_block_that_is_cut_and_none_in_the_air() {
+    let marker = support::marker(&[p(100.0, 50.0), p(150.0, 50.0), p(200.0, 50.5)]);
+    let made = |change: fn(&mut Outputs)| {
+        let mut program = Program::new(&Job::default());
+        program.plunge(p(106.1, 50.0), 0.0, 1);
+        program.go(program.at(p(130.0, 50.0), 0.0), Program::down(1));
+        program.outputs.iter_mut().for_each(change);
+        let verdict = program.judge(&marker);
+        let found = broken(&verdict);
+        found.contains(&"verify/block")
+    };
+    assert!(!made(|_| {}));
+    assert!(made(|outputs| outputs.block *= 2), "the block behind it");
+    assert!(made(|outputs| outputs.block *= 7), "no block of the marker");
+    assert!(made(|outputs| outputs.block = 0), "no block while it cuts");
+    assert!(made(|outputs| outputs.block = 1), "a block in the air");
+}
+
+#[test]
+fn an_event_that_the_marker_does_not_have_is_refused() {
+    let mut program = Program::new(&Job::default());
+    cut_long_line(&mut program);
+    program.rest(1, Outputs { event: 1, ..Outputs::default() });
+    check(program, &long_line(), &["verify/events"]);
+}
+
+#[test]
+fn the_bow_under_a_plunged_blade_is_reported() {
+    let arc = |i: i32| p(100.0, 50.0) + Heading::new(TAU * f64::from(i) / 96.0).unit() * 20.0;
+    let marker = support::marker(&(0..=24).map(arc).collect::<Vec<_>>());
+    let job = Job::default();
+    let program = support::program::setpoints(&marker, &job);
+    let verdict = verify::setpoints(&mut program.as_slice(), &marker, &job);
+    assert!(verdict.passes(), "{:?}", broken(&verdict));
+    let body = verdict.findings.iter().find(|finding| finding.rule == "verify/body").expect("it is reported");
+    // w^2 / 8 R of the plunge is the least; on its way the tail leaves the circle farther.
+    assert!(body.worst >= 6.6 * 6.6 / (8.0 * 20.0), "{}", body.worst);
+}
+
+#[test]
+fn a_leap_across_the_world_is_judged_at_once() {
+    let marker = circle(20.0);
+    let mut program = Program::new(&Job::default());
+    program.plunge(p(120.0, 50.0), 90.0, 1);
+    for i in 0..2000 {
+        program.rest(1, Program::down(1));
+        let last = program.poses.len() - 1;
+        program.poses[last][0] = if i % 2 == 0 { 1e12 } else { 120.0 };
+    }
+    program.lift();
+    let began = std::time::Instant::now();
+    assert!(!program.judge(&marker).passes());
+    assert!(began.elapsed().as_secs() < 20, "{:?}", began.elapsed());
+}
