@@ -17,6 +17,12 @@ const TRIALS: i32 = 24;
 /// Places of pose, mm and degrees: three times what is allowed and the rounding.
 const ELSEWHERE: f64 = DAMAGING * SAME + SAME;
 
+/// What the end of a short line may be off beside the amount, mm: the blade rounds the corner.
+const WIDE: f64 = 1.0;
+/// More than the turn of a corner, and the most that a run can round, degrees.
+const TURN_MORE_DEG: f64 = 0.01;
+const BLUNT_DEG: f64 = 75.0;
+
 pub(crate) const DAMAGES: &[Damage] = &[
     damage("another home", "verify/start", |case, _| home(case, 0)),
     damage("another heading at home", "verify/start", |case, _| home(case, 2)),
@@ -132,6 +138,20 @@ pub(crate) const DAMAGES: &[Damage] = &[
         });
         let farthest = parse(&program).iter().map(|row| row.pose[2]).fold(f64::NEG_INFINITY, f64::max);
         Some(Harm::anywhere(program, farthest - most - SAME))
+    }),
+    damage("a corner that is thought none", "verify/on-path", |case, _| {
+        // The bluntest corner between two lines that are long enough to leave each other's extension by the amount.
+        let amount = DAMAGING * case.tolerance();
+        let corner = case.job.profile.corner.angle();
+        let turns = case.marker.contours().flat_map(|(_, contour)| {
+            let segments = chain(&case.marker, *contour);
+            let far = |i: usize| segments[i].length().min(segments[i - 1].length()) * turn(&segments, i).sin();
+            let corners = (1..segments.len()).filter(|i| turn(&segments, *i) > corner && far(*i) > amount + WIDE);
+            corners.map(|i| turn(&segments, i)).collect::<Vec<_>>()
+        });
+        let bluntest = turns.fold(f64::INFINITY, f64::min).to_degrees() + TURN_MORE_DEG;
+        let program = (bluntest < BLUNT_DEG).then(|| case.on(|job| job.profile.corner.angle_deg = bluntest))?;
+        Some(Harm::anywhere(program, amount))
     }),
     scaled("another tube", "verify/on-path", |case, _, times| {
         let amount = DAMAGING * case.tolerance();

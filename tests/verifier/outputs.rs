@@ -28,6 +28,22 @@ pub(crate) const DAMAGES: &[Damage] = &[
         let from = last_away(&case.rows, stroke.start)?;
         still(case, from..stroke.start, |row| row.knife = 1)
     }),
+    damage("C late at a plunge", REST, |case, _| {
+        let dwell = ticks(case, case.job.profile.knife.plunge());
+        let late = |by: usize| -> Vec<Row> {
+            let turned = |(i, row): (usize, &Row)| {
+                let c = case.rows[i.saturating_sub(by)].pose[2];
+                Row { pose: [row.pose[0], row.pose[1], c], ..*row }
+            };
+            case.rows.iter().enumerate().map(turned).collect()
+        };
+        let turns = |rows: &Vec<Row>| {
+            let dwells = strokes(rows).into_iter().map(|stroke| stroke.start..=stroke.start + dwell);
+            dwells.into_iter().any(|at| rows[at.clone()].iter().any(|row| row.away(&rows[*at.start()]) > WAY + SAME))
+        };
+        let rows = (1..=TOUCH).map(late).find(turns)?;
+        Some(Harm::anywhere(print(&rows), WAY))
+    }),
     damage("a lift on the move", REST, |case, rng| {
         let stroke = pick(rng, &cuts(case))?;
         let from = last_away(&case.rows, stroke.end)?;
