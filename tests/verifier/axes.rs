@@ -23,31 +23,31 @@ const USED: f64 = 0.9;
 pub(crate) const DAMAGES: &[Damage] = &[
     damage("two rows swapped", TIME, |case, rng| {
         let i = any(case, rng);
-        timed(case, i..i + 1, period(case), |rows| rows.swap(i, i + 1))
+        timed(case, (i..i + 1, period(case)), |rows| rows.swap(i, i + 1))
     }),
     damage("a row dropped", TIME, |case, rng| {
         let i = any(case, rng);
-        timed(case, i..case.rows.len(), period(case), |rows| {
+        timed(case, (i..case.rows.len(), period(case)), |rows| {
             let _ = rows.remove(i);
         })
     }),
     damage("a row repeated", TIME, |case, rng| {
         let i = any(case, rng);
-        timed(case, i..case.rows.len(), period(case), |rows| rows.insert(i, rows[i]))
+        timed(case, (i..case.rows.len(), period(case)), |rows| rows.insert(i, rows[i]))
     }),
     damage("a pause without rows", TIME, |case, rng| {
         let i = any(case, rng);
         let late = |rows: &mut Vec<Row>| rows[i..].iter_mut().for_each(|row| row.t += LATE);
-        timed(case, i..case.rows.len(), DAMAGING * ROUNDING, late)
+        timed(case, (i..case.rows.len(), DAMAGING * ROUNDING), late)
     }),
     damage("a clock that runs slow", TIME, |case, _| {
         let end = case.rows[case.rows.len() - 1].t;
         let slow = |rows: &mut Vec<Row>| rows.iter_mut().for_each(|row| row.t *= 1.0 + LATE / end);
-        timed(case, 0..case.rows.len(), DAMAGING * ROUNDING, slow)
+        timed(case, (0..case.rows.len(), DAMAGING * ROUNDING), slow)
     }),
     damage("a clock that starts late", TIME, |case, _| {
         let late = |rows: &mut Vec<Row>| rows.iter_mut().for_each(|row| row.t += LATE);
-        timed(case, 0..case.rows.len(), DAMAGING * ROUNDING, late)
+        timed(case, (0..case.rows.len(), DAMAGING * ROUNDING), late)
     }),
     damage("X too fast once", SPEED[0], spike::<0, 1>),
     damage("Y too fast once", SPEED[1], spike::<1, 1>),
@@ -94,7 +94,7 @@ fn any(case: &Case, rng: &mut fastrand::Rng) -> usize {
 
 /// A program whose clock errs by an amount at some rows.
 #[allow(clippy::unnecessary_wraps, reason = "every way to damage may find nothing to damage")]
-fn timed(case: &Case, at: Range<usize>, amount: f64, change: impl FnOnce(&mut Vec<Row>)) -> Option<Harm> {
+fn timed(case: &Case, (at, amount): (Range<usize>, f64), change: impl FnOnce(&mut Vec<Row>)) -> Option<Harm> {
     let mut rows = case.rows.clone();
     change(&mut rows);
     let place = Place::During([case.rows[at.start].t, case.rows[at.end - 1].t]);

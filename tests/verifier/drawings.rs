@@ -19,6 +19,8 @@ const STRAY: &str = "verify/stray";
 const ORDER: &str = "verify/order";
 const DRILLS: &str = "verify/drills";
 
+/// Chord of a ring that is long enough for the gap in its midst and the overlaps beside it, mm.
+const SMOOTH_CHORD: f64 = 4.0;
 /// A turn that is a corner to every eye, rad.
 const SHARP: f64 = 1.2;
 
@@ -211,7 +213,7 @@ fn gap(
         if case.marker.pieces[piece].contours[contour].closed {
             // Beside a short line between corners the blade, which is longer, would cut the gap with its body.
             let smooth = (0..segments.len()).all(|i| turn(&segments, i) < case.job.profile.corner.angle());
-            let least = if smooth { 4.0 } else { 3.0 * case.job.profile.knife.width_mm };
+            let least = if smooth { SMOOTH_CHORD } else { 3.0 * case.job.profile.knife.width_mm };
             let long = (0..segments.len()).filter(|&i| segments[i].length() > least && fits(&segments, i));
             places.extend(long.map(|i| (piece, contour, i)));
         }

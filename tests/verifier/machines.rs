@@ -17,6 +17,12 @@ const TRIALS: i32 = 24;
 /// Places of pose, mm and degrees: three times what is allowed and the rounding.
 const ELSEWHERE: f64 = DAMAGING * SAME + SAME;
 
+/// How far ahead a knife is thought to stand, mm, and the most periods by which a dwell is too short: the least that is
+/// clearly seen is taken.
+const THOUGHT_AHEAD_MM: std::ops::Range<i32> = 4..16;
+const SHORTER: i32 = 20;
+/// Roundings of the tip's place that its speed allows for, which is computed from three numbers a row.
+const PLACES_ROUNDING: f64 = 8.0;
 /// What the end of a short line may be off beside the amount, mm: the blade rounds the corner.
 const WIDE: f64 = 1.0;
 /// More than the turn of a corner, and the most that a run can round, degrees.
@@ -41,8 +47,8 @@ pub(crate) const DAMAGES: &[Damage] = &[
     }),
     scaled("a feed of three times", "verify/feed", |case, _, times| {
         let limit = case.job.profile.knife.feed_mm_s?;
-        let amount = DAMAGING * limit + axis_rounding(case, 1) * 8.0;
-        grown(case, times, quicker, (|rows: &[Row]| feed(case, rows), amount))
+        let amount = DAMAGING * limit + PLACES_ROUNDING * axis_rounding(case, 1);
+        grown(case, (times, quicker), (|rows: &[Row]| feed(case, rows), amount))
     }),
     scaled("a faster machine, as X feels it", "verify/speed-x", |case, _, times| axis::<0, 1>(case, times, quicker)),
     scaled("a faster machine, as Y feels it", "verify/speed-y", |case, _, times| axis::<1, 1>(case, times, quicker)),
@@ -113,7 +119,7 @@ pub(crate) const DAMAGES: &[Damage] = &[
     }),
     damage("a knife that is thought to stand farther ahead, as a curve shows it", "verify/on-path", |case, _| {
         let amount = DAMAGING * case.tolerance();
-        let program = (4..16).map(|by| case.on(|job| reground(job, [f64::from(by), -f64::from(by)])));
+        let program = THOUGHT_AHEAD_MM.map(|by| case.on(|job| reground(job, [f64::from(by), -f64::from(by)])));
         let off = |program: &Vec<u8>| passed_by(case, &parse(program)) > amount * STEP;
         (!has_ends(case)).then(|| program.into_iter().find(off).map(|program| Harm::anywhere(program, amount)))?
     }),
@@ -158,7 +164,7 @@ pub(crate) const DAMAGES: &[Damage] = &[
         let wider = |profile: &mut MachineProfile, factor: f64| {
             profile.path.tolerance_mm = Some(factor * case.tolerance());
         };
-        grown(case, times, wider, (|rows: &[Row]| passed_by(case, rows), amount))
+        grown(case, (times, wider), (|rows: &[Row]| passed_by(case, rows), amount))
     }),
 ];
 
@@ -188,8 +194,7 @@ fn has_ends(case: &Case) -> bool {
 /// measure of the program reaches an amount.
 fn grown(
     case: &Case,
-    times: f64,
-    change: impl Fn(&mut MachineProfile, f64),
+    (times, change): (f64, impl Fn(&mut MachineProfile, f64)),
     (measure, amount): (impl Fn(&[Row]) -> f64, f64),
 ) -> Option<Harm> {
     if times < 1.0 {
@@ -211,7 +216,7 @@ fn axis<const AXIS: usize, const ORDER: u8>(
 ) -> Option<Harm> {
     let amount = axis_amount(case, AXIS, ORDER);
     let measured = |rows: &[Row]| greatest(case, rows, AXIS, ORDER) - axis_rounding(case, ORDER);
-    grown(case, times, change, (measured, amount))
+    grown(case, (times, change), (measured, amount))
 }
 
 /// A machine that does everything some times as fast: time runs faster for all derivatives.
@@ -271,7 +276,7 @@ fn moved_during(rows: &[Row], from: impl Iterator<Item = usize>, dwell: usize) -
 
 /// A machine with a dwell that is by so many periods shorter that the axes clearly move in the true one.
 fn shortened(case: &Case, shorten: impl Fn(&mut Job, f64), moved: impl Fn(&[Row]) -> f64) -> Option<Harm> {
-    let programs = (1..20).map(|by| case.on(|job| shorten(job, f64::from(by) * job.profile.time.period_ms)));
+    let programs = (1..=SHORTER).map(|by| case.on(|job| shorten(job, f64::from(by) * job.profile.time.period_ms)));
     let amount = DAMAGING * SAME;
     programs.into_iter().find(|program| moved(&parse(program)) >= amount).map(|program| Harm::anywhere(program, amount))
 }

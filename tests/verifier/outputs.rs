@@ -22,6 +22,9 @@ const TOUCH: usize = 5;
 /// Rows before the end of a cut at which the knife lifts by mistake: enough to be clearly on the move.
 const BEFORE_END: usize = 12;
 
+/// Way of a stroke along which the knife is led, mm: far more than the rows before its end.
+const LED: f64 = 2.0;
+
 pub(crate) const DAMAGES: &[Damage] = &[
     damage("a plunge on the move", REST, |case, rng| {
         let stroke = pick(rng, &behind_travels(case))?;
@@ -58,7 +61,7 @@ pub(crate) const DAMAGES: &[Damage] = &[
     damage("a drill with the knife down", REST, |case, rng| {
         let stroke = pick(rng, &strokes(&case.rows))?;
         let at = stroke.start + 2..stroke.start + 2 + TOUCH;
-        edited(case, at, f64::INFINITY, |row| row.drill = 1)
+        edited(case, (at, f64::INFINITY), |row| row.drill = 1)
     }),
     damage("knife down in a travel, on the move", REST, |case, rng| {
         let i = pick(rng, &travels(&case.rows)).map(|travel| travel.start + travel.len() / 3)?;
@@ -68,7 +71,7 @@ pub(crate) const DAMAGES: &[Damage] = &[
         let i = pick(rng, &travels(&case.rows)).map(|travel| travel.start + travel.len() / 3)?;
         let profile = &case.job.profile;
         let amount = profile.knife.plunge() - (TOUCH + 1) as f64 * profile.time.period();
-        edited(case, i..i + TOUCH, amount, |row| row.knife = 1)
+        edited(case, (i..i + TOUCH, amount), |row| row.knife = 1)
     }),
     damage("knife down in a travel, far from every line", "verify/stray", |case, rng| {
         let knife = &case.job.profile.knife;
@@ -76,7 +79,7 @@ pub(crate) const DAMAGES: &[Damage] = &[
         let is_far = |i: &usize| (0..=TOUCH).all(|k| distance(&case.marker, case.rows[i + k].tip(knife)) > clear);
         let places: Vec<usize> = travels(&case.rows).iter().map(|travel| travel.start + travel.len() / 2).collect();
         let i = pick(rng, &places.into_iter().filter(is_far).collect::<Vec<_>>())?;
-        edited(case, i..i + TOUCH, knife.width_mm, |row| row.knife = 1)
+        edited(case, (i..i + TOUCH, knife.width_mm), |row| row.knife = 1)
     }),
     damage("knife up amid a cut", REST, |case, rng| {
         let stroke = pick(rng, &cuts(case))?;
@@ -87,7 +90,7 @@ pub(crate) const DAMAGES: &[Damage] = &[
         let amount = DAMAGING * case.tolerance();
         let bulge = case.job.profile.path.chord_sag_max_mm;
         let [before, behind] = pick(rng, &neighbours(case, amount + bulge))?;
-        let harm = edited(case, before.end..behind.start, amount, |row| row.knife = 1)?;
+        let harm = edited(case, (before.end..behind.start, amount), |row| row.knife = 1)?;
         // Whichever of the two lines the stroke is taken for, it leaves the other's.
         Some(Harm { place: Place::During([case.rows[before.start].t, case.rows[behind.end].t]), ..harm })
     }),
@@ -95,7 +98,7 @@ pub(crate) const DAMAGES: &[Damage] = &[
         let stroke = pick(rng, &strokes(&case.rows))?;
         let knife = &case.job.profile.knife;
         let tips: Vec<Point> = case.rows[stroke.clone()].iter().map(|row| row.tip(knife)).collect();
-        let harm = edited(case, stroke, DAMAGING * case.job.profile.verify.max_uncut_mm, |row| row.knife = 0)?;
+        let harm = edited(case, (stroke, DAMAGING * case.job.profile.verify.max_uncut_mm), |row| row.knife = 0)?;
         Some(Harm { place: Place::Along(tips), ..harm })
     }),
     damage("cut short between two strokes", COMPLETE, |case, rng| {
@@ -117,23 +120,23 @@ pub(crate) const DAMAGES: &[Damage] = &[
     }),
     damage("ends with the knife down", END, |case, _| {
         let last = case.rows.len() - 1;
-        edited(case, last..last + 1, f64::INFINITY, |row| row.knife = 1)
+        edited(case, (last..last + 1, f64::INFINITY), |row| row.knife = 1)
     }),
     damage("ends with a drill down", END, |case, _| {
         let last = case.rows.len() - 1;
-        edited(case, last..last + 1, f64::INFINITY, |row| row.drill = 1)
+        edited(case, (last..last + 1, f64::INFINITY), |row| row.drill = 1)
     }),
     damage("a hole drilled twice", DRILLS, |case, rng| {
         let hole = pick(rng, &holes(&case.rows))?;
         let mut again = vec![Row { drill: 0, ..case.rows[hole.start] }];
         again.extend_from_slice(&case.rows[hole.clone()]);
-        Some(inserted(case, &again, hole, 1.0))
+        Some(inserted(case, &again, (hole, 1.0)))
     }),
     damage("a hole without the drill", DRILLS, |case, rng| {
         let hole = pick(rng, &holes(&case.rows))?;
         let [x, y, _] = case.rows[hole.start].pose;
         let [aside, ahead] = case.job.profile.drill.offset_mm;
-        let harm = edited(case, hole, 1.0, |row| row.drill = 0)?;
+        let harm = edited(case, (hole, 1.0), |row| row.drill = 0)?;
         Some(Harm { place: Place::Along(vec![Point::new(x + aside, y + ahead)]), ..harm })
     }),
     damage("a plunge that cuts nothing new", "verify/once", |case, rng| {
@@ -142,13 +145,13 @@ pub(crate) const DAMAGES: &[Damage] = &[
         let rest = Row { block: 0, knife: 0, ..case.rows[stroke.end] };
         let mut again = vec![rest; ticks(case, knife.lift())];
         again.extend(vec![Row { knife: 1, ..rest }; ticks(case, knife.plunge())]);
-        Some(inserted(case, &again, stroke, DAMAGING * once_limit(case)))
+        Some(inserted(case, &again, (stroke, DAMAGING * once_limit(case))))
     }),
 ];
 
 /// The program with some rows changed, which breaks a rule by an amount at their time.
 #[allow(clippy::unnecessary_wraps, reason = "every way to damage may find nothing to damage")]
-fn edited(case: &Case, at: Range<usize>, amount: f64, change: impl Fn(&mut Row)) -> Option<Harm> {
+fn edited(case: &Case, (at, amount): (Range<usize>, f64), change: impl Fn(&mut Row)) -> Option<Harm> {
     let mut rows = case.rows.clone();
     rows[at.clone()].iter_mut().for_each(change);
     let place = Place::During([rows[at.start].t, rows[at.end.min(rows.len() - 1)].t]);
@@ -156,7 +159,7 @@ fn edited(case: &Case, at: Range<usize>, amount: f64, change: impl Fn(&mut Row))
 }
 
 /// The program with other rows behind a stretch of it.
-fn inserted(case: &Case, more: &[Row], behind: Range<usize>, amount: f64) -> Harm {
+fn inserted(case: &Case, more: &[Row], (behind, amount): (Range<usize>, f64)) -> Harm {
     let period = case.job.profile.time.period();
     let mut rows = case.rows.clone();
     rows.splice(behind.end..behind.end, more.iter().copied());
@@ -172,7 +175,7 @@ fn still(case: &Case, at: Range<usize>, change: impl Fn(&mut Row)) -> Option<Har
     assert!(moved >= WAY, "{moved} is rest");
     let knife = &case.job.profile.knife;
     let dwell = ticks(case, knife.plunge().max(knife.lift()).max(case.job.profile.drill.dwell()));
-    let harm = edited(case, at.clone(), WAY, change)?;
+    let harm = edited(case, (at.clone(), WAY), change)?;
     let end = (at.end + dwell).min(case.rows.len() - 1);
     Some(Harm { place: Place::During([case.rows[at.start].t, case.rows[end].t]), ..harm })
 }
@@ -191,7 +194,7 @@ fn behind_travels(case: &Case) -> Vec<Range<usize>> {
 
 /// The strokes along which the knife is led by more than the rows before their end.
 fn cuts(case: &Case) -> Vec<Range<usize>> {
-    let is_led = |stroke: &Range<usize>| case.rows[stroke.start].away(&case.rows[stroke.end]) > 2.0;
+    let is_led = |stroke: &Range<usize>| case.rows[stroke.start].away(&case.rows[stroke.end]) > LED;
     strokes(&case.rows).into_iter().filter(is_led).collect()
 }
 
