@@ -280,7 +280,8 @@ fn drilled() -> Marker {
         Drill { at: p(120.0, 60.0), tool: 1, span: span(11) },
         Drill { at: p(180.0, 60.0), tool: 1, span: span(12) },
     ];
-    piece.notches = vec![Notch { kind: NotchKind::Slit, root: p(150.0, 50.0), tip: p(150.0, 58.0), span: span(13) }];
+    piece.notches =
+        vec![Notch { kind: NotchKind::Slit, root: p(150.0, 50.0), tip: p(150.0, 58.0), percent: 100, span: span(13) }];
     marker
 }
 

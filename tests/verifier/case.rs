@@ -9,6 +9,7 @@ use cutc::machine::Job;
 use cutc::pipeline;
 use cutc::source::Source;
 
+use crate::measure::HARMLESS;
 use crate::rows::{self, Row};
 use crate::support::program::setpoints;
 
@@ -31,6 +32,14 @@ impl Case {
     pub(crate) fn redrawn(&self, marker: &Marker) -> Vec<u8> {
         let mut job = self.job.clone();
         job.profile.table.strict = false;
+        setpoints(marker, &job)
+    }
+
+    /// The same, planned to a third of the tolerance: what is off is the marker.
+    pub(crate) fn redrawn_closely(&self, marker: &Marker) -> Vec<u8> {
+        let mut job = self.job.clone();
+        job.profile.table.strict = false;
+        job.profile.path.tolerance_mm = Some(self.tolerance() * HARMLESS);
         setpoints(marker, &job)
     }
 

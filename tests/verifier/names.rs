@@ -1,11 +1,15 @@
 //! Damage to what rows say beside poses and outputs, and to the order of holes.
 
 use crate::case::Case;
+use crate::harm::Harm;
+use crate::measure::DAMAGING;
 use crate::rows::{holes, pick, print, strokes};
 use crate::{Damage, damage};
 
-const BLOCK: &[&str] = &["verify/block"];
+const BLOCK: &str = "verify/block";
 
+/// How far beside its chord a block may be named, mm, when the tolerance is that of files in a tenth of a millimetre.
+const NAME_REACH: f64 = 0.6;
 /// No marker has so many blocks.
 const NO_BLOCK: u32 = 999_999;
 
@@ -39,29 +43,29 @@ pub(crate) const DAMAGES: &[Damage] = &[
         let stroke = pick(rng, &strokes(&case.rows))?;
         named(case, |i, block| if i == stroke.end + 1 { case.rows[stroke.start].block } else { block })
     }),
-    damage("a stop that nobody asked for", &["verify/events"], |case, rng| {
+    damage("a stop that nobody asked for", "verify/events", |case, rng| {
         let mut rows = case.rows.clone();
         let i = rng.usize(0..rows.len());
         rows[i].event = 1;
-        Some(print(&rows))
+        Some(one(print(&rows)))
     }),
-    damage("an advance while the knife is down", &["verify/events"], |case, rng| {
+    damage("an advance while the knife is down", "verify/events", |case, rng| {
         let mut rows = case.rows.clone();
         rows[pick(rng, &strokes(&case.rows))?.start].event = 2;
-        Some(print(&rows))
+        Some(one(print(&rows)))
     }),
-    damage("a drill that is on at the start", &["verify/drills"], |case, _| {
+    damage("a drill that is on at the start", "verify/drills", |case, _| {
         let mut rows = case.rows.clone();
         rows[0].drill = 1;
-        Some(print(&rows))
+        Some(one(print(&rows)))
     }),
-    damage("holes in another order", &["verify/order"], |case, _| {
+    damage("holes in another order", "verify/order", |case, _| {
         let piece = case.marker.pieces.iter().position(|piece| piece.drills.len() > 1)?;
         let mut marker = case.marker.clone();
         marker.pieces[piece].drills.reverse();
-        Some(case.redrawn(&marker))
+        Some(one(case.redrawn(&marker)))
     }),
-    damage("holes behind the cuts", &["verify/order"], |case, _| {
+    damage("holes behind the cuts", "verify/order", |case, _| {
         // The marker of a later piece has the holes, of the same file otherwise.
         let mut marker = case.marker.clone();
         let last = marker.pieces.len().checked_sub(1).filter(|&last| last > 0)?;
@@ -69,14 +73,19 @@ pub(crate) const DAMAGES: &[Damage] = &[
         let first = drills.first().copied()?;
         marker.pieces[last].drills.push(first);
         marker.pieces[0].drills = drills[1..].to_vec();
-        (!holes(&case.rows).is_empty()).then(|| case.redrawn(&marker))
+        (!holes(&case.rows).is_empty()).then(|| one(case.redrawn(&marker)))
     }),
 ];
 
 /// The program with other blocks.
 #[allow(clippy::unnecessary_wraps, reason = "every way to damage may find nothing to damage")]
-fn named(case: &Case, block: impl Fn(usize, u32) -> u32) -> Option<Vec<u8>> {
+fn named(case: &Case, block: impl Fn(usize, u32) -> u32) -> Option<Harm> {
     let mut rows = case.rows.clone();
     rows.iter_mut().enumerate().for_each(|(i, row)| row.block = block(i, row.block));
-    Some(print(&rows))
+    Some(Harm::anywhere(print(&rows), DAMAGING * NAME_REACH))
+}
+
+/// A program with one thing too many or in the wrong place.
+fn one(program: Vec<u8>) -> Harm {
+    Harm::anywhere(program, 1.0)
 }
