@@ -59,7 +59,7 @@ mod tests {
     use super::*;
     use crate::diagnostic::{Diagnostic, code};
 
-    const KEYS: [&str; 18] = [
+    const KEYS: [&str; 19] = [
         "dialect",
         "unit_mm",
         "extent_mm",
@@ -75,6 +75,7 @@ mod tests {
         "stabs",
         "lifts",
         "time_s",
+        "spent",
         "axes",
         "warnings",
         "errors",

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::options::{counted, typed};
 use crate::diagnostic::{Diagnostics, Severity};
 use crate::machine::{Job, Mode};
-use crate::pipeline::{Axes, Peak, Peaks, Report, Verdict};
+use crate::pipeline::{Axes, Peak, Peaks, Report, Verdict, word};
 use crate::units::number::{exact, fixed};
 
 /// Seconds in a minute.
@@ -42,6 +42,11 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
     }
     if let Some(time) = program.time_s {
         line("time", duration(time));
+    }
+    if let Some(spent) = &program.spent {
+        line("spent", shares(&spent.parts(), spent.total()));
+        let bounds: Vec<(String, f64)> = spent.bounds.iter().map(|&(bound, time)| (word(bound), time)).collect();
+        line("limited by", shares(&bounds, spent.cut));
     }
     if let Some(bulge) = program.bulge_mm.filter(|&bulge| fixed(bulge, 3) != "0.000") {
         line("bulge", format!("{} mm beyond the chords of flattened curves", fixed(bulge, 3)));
@@ -90,6 +95,33 @@ pub(super) fn verdict(verdict: Option<&Verdict>) -> String {
 /// The rule that says most about a cut.
 const ON_PATH: &str = "verify/on-path";
 
+/// Shares of a whole in percent, the greatest first, those that round to nothing left out; in lines that fit.
+fn shares<T: AsRef<str>>(parts: &[(T, f64)], whole: f64) -> String {
+    let percent = |time: f64| (100.0 * time / whole).round();
+    let mut parts: Vec<(&str, f64)> = parts.iter().map(|(name, time)| (name.as_ref(), percent(*time))).collect();
+    parts.retain(|(_, percent)| *percent >= 1.0);
+    parts.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let mut out = String::new();
+    let mut column = 0;
+    for (i, (name, percent)) in parts.iter().enumerate() {
+        let part = format!("{name} {} %", fixed(*percent, 0));
+        if i > 0 {
+            out.push(',');
+            if column + part.len() + 3 > SHARES_WIDTH {
+                out.push_str("\n            ");
+                column = 0;
+            }
+            out.push(' ');
+        }
+        out.push_str(&part);
+        column += part.len() + 2;
+    }
+    out
+}
+
+/// Columns that a line of shares may take.
+const SHARES_WIDTH: usize = 66;
+
 /// A duration as people say it.
 fn duration(seconds: f64) -> String {
     if seconds < S_PER_MIN {
@@ -132,8 +164,9 @@ fn cell(peak: Peak) -> (String, String) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ir::motion::Bound;
     use crate::ir::{Finding, Marker};
-    use crate::pipeline::{Notches, Program};
+    use crate::pipeline::{Notches, Program, Spent};
 
     fn report() -> Report {
         let peak = |worst, limit| Peak { worst, limit };
@@ -157,6 +190,23 @@ mod tests {
                 time_s: Some(119.96),
                 bulge_mm: Some(0.138_2),
                 axes: Some(Axes { x, y: x, c }),
+                spent: Some(Spent {
+                    cut: 60.0,
+                    travel: 20.0,
+                    turn: 15.0,
+                    plunge: 14.4,
+                    lift: 10.2,
+                    drill: 0.36,
+                    wait: 0.0,
+                    bounds: vec![
+                        (Bound::Ends, 30.0),
+                        (Bound::Feed, 12.0),
+                        (Bound::Axis { axis: 0, order: 1 }, 3.0),
+                        (Bound::Axis { axis: 2, order: 2 }, 14.9),
+                        (Bound::Axis { axis: 1, order: 0 }, 0.1),
+                    ],
+                }),
+                by_piece: Vec::new(),
             },
             ..Report::of(&Marker::default(), "iso")
         }
@@ -180,6 +230,9 @@ mod tests {
           runs       101, of which 1 stab
           lifts      101
           time       2 min 0.0 s
+          spent      cut 50 %, travel 17 %, turn 13 %, plunge 12 %, lift 9 %
+          limited by starts and stops 50 %, jerk of c 25 %, feed 20 %,
+                     acceleration of x 5 %
           bulge      0.138 mm beyond the chords of flattened curves
           warnings   0
 

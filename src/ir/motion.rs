@@ -141,3 +141,70 @@ impl Motion {
         self.phases.iter().map(|phase| u64::from(phase.ticks)).sum()
     }
 }
+
+/// What keeps a cut from being faster.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Bound {
+    /// It has to start from rest and to come to rest.
+    Ends,
+    /// The greatest speed of the tip.
+    Feed,
+    /// The greatest speed, acceleration or jerk (order 0 to 2) of x, y or c (axis 0 to 2).
+    Axis {
+        /// Which axis.
+        axis: u8,
+        /// Which of its limits.
+        order: u8,
+    },
+}
+
+/// Every bound; the axes' own stand behind the first two, axis by axis.
+pub const BOUNDS: [Bound; 11] = {
+    const fn of(axis: u8, order: u8) -> Bound {
+        Bound::Axis { axis, order }
+    }
+    let [x, y, c] = [0, 1, 2];
+    [Bound::Ends, Bound::Feed, of(x, 0), of(x, 1), of(x, 2), of(y, 0), of(y, 1), of(y, 2), of(c, 0), of(c, 1), of(c, 2)]
+};
+
+/// How many ticks each bound decides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Shares([u64; BOUNDS.len()]);
+
+impl Shares {
+    /// Counts more ticks of a bound.
+    pub fn add(&mut self, bound: Bound, ticks: u64) {
+        self.0[place(bound)] += ticks;
+    }
+
+    /// Counts what another cut counted.
+    pub fn merge(&mut self, other: &Self) {
+        for (sum, more) in self.0.iter_mut().zip(other.0) {
+            *sum += more;
+        }
+    }
+
+    /// The ticks of a bound.
+    pub fn of(&self, bound: Bound) -> u64 {
+        self.0[place(bound)]
+    }
+}
+
+/// Where a bound stands in [`BOUNDS`].
+fn place(bound: Bound) -> usize {
+    match bound {
+        Bound::Ends => 0,
+        Bound::Feed => 1,
+        Bound::Axis { axis, order } => 2 + 3 * usize::from(axis) + usize::from(order),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_bound_has_its_own_place() {
+        assert!(BOUNDS.iter().enumerate().all(|(i, &bound)| place(bound) == i));
+    }
+}

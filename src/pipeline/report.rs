@@ -5,6 +5,7 @@
 
 use serde::{Serialize, Serializer};
 
+use super::spent::Spent;
 use crate::ir::Marker;
 use crate::ir::marker::NotchKind;
 use crate::units::{MM_PER_M, deg};
@@ -64,6 +65,11 @@ pub struct Program {
     /// Duration of the program, s.
     #[serde(serialize_with = "micro_known")]
     pub time_s: Option<f64>,
+    /// Where that time goes.
+    pub spent: Option<Spent>,
+    /// The same for each piece by its number, in cut order.
+    #[serde(skip)]
+    pub by_piece: Vec<(u32, Spent)>,
     /// The farthest that the way of the knife bulges beyond the chords of flattened curves, mm.
     #[serde(skip)]
     pub bulge_mm: Option<f64>,
@@ -156,7 +162,7 @@ pub fn significant(value: f64, digits: i32) -> f64 {
     if decimals < 0 { (value / scale).round() * scale } else { (value * scale).round() / scale }
 }
 
-fn to_millionths(value: f64) -> f64 {
+pub(super) fn to_millionths(value: f64) -> f64 {
     (value * MILLIONTHS).round() / MILLIONTHS
 }
 

@@ -7,6 +7,7 @@
 mod air;
 mod banded;
 mod barrier;
+mod bound;
 mod certify;
 mod feed;
 mod knots;

@@ -29,9 +29,19 @@ const DENSITY_AT_END: usize = 80;
 const PLACES_A_SPAN: [f64; 3] = [0.0, 1.0 / 3.0, 2.0 / 3.0];
 const PLACES_AT_END: [f64; 2] = [1e-3, 0.1];
 
+/// How finely a motion is resolved.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Grid {
+    /// Length over which an end is felt, mm.
+    pub(super) reach: f64,
+    /// Knots as a multiple of what is known to be enough.
+    pub(super) density: f64,
+}
+
 /// The knots of a motion: dense where C turns or its turn changes, and in proportion to the distance from the ends and from
 /// the `changes` of the speed cap. `path_breaks` hold the changes, too.
-pub(super) fn breaks(way: &Way, path_breaks: &[f64], changes: &[f64], reach: f64) -> Vec<f64> {
+pub(super) fn breaks(way: &Way, path_breaks: &[f64], changes: &[f64], grid: &Grid) -> Vec<f64> {
+    let reach = grid.reach;
     let length = way.to - way.from;
     let mut places: Vec<f64> = Vec::with_capacity(DENSITY_A_SPAN * path_breaks.len() + 400);
     for ends in path_breaks.windows(2) {
@@ -66,7 +76,7 @@ pub(super) fn breaks(way: &Way, path_breaks: &[f64], changes: &[f64], reach: f64
         count.push(total);
         before = (s, here);
     }
-    let knots = (total as usize + 1).max(KNOTS_MIN);
+    let knots = ((total * grid.density) as usize + 1).max((KNOTS_MIN as f64 * grid.density) as usize);
     let mut breaks = Vec::with_capacity(knots);
     let mut at = 0;
     for i in 0..knots {

@@ -1,6 +1,7 @@
 //! One run, from the plunge to the lift: overlaps join the polyline, the polyline becomes a curve, the curve a motion,
 //! the motion samples, and the samples are certified.
 
+use super::bound;
 use super::certify::{EXCESS_EPSILON, excess_of};
 use super::feed::Feed;
 use super::law::{Entry, Way};
@@ -9,6 +10,7 @@ use super::smooth::{Curve, Smooth, smooth};
 use super::tube::Tube;
 use crate::diagnostic::{Diagnostic, code};
 use crate::geom::{Point, Vector, polyline};
+use crate::ir::motion::Shares;
 use crate::ir::toolpath::{Law, Pose, Run, Shape};
 use crate::machine::Job;
 use crate::machine::kinematics::Move;
@@ -28,6 +30,8 @@ pub struct Cut {
     pub length: f64,
     /// Greatest bulge of the tube that the curve uses, mm.
     pub bulge: f64,
+    /// What keeps it from being faster, in ticks.
+    pub shares: Shares,
 }
 
 /// Shorter ways are none, mm: below what a machine resolves and a tolerance notices.
@@ -162,7 +166,7 @@ struct Samples {
 }
 
 fn plunge_only(pose: Pose, block: u32) -> Cut {
-    Cut { poses: vec![pose], blocks: vec![block], duration: 0.0, length: 0.0, bulge: 0.0 }
+    Cut { poses: vec![pose], blocks: vec![block], duration: 0.0, length: 0.0, bulge: 0.0, shares: Shares::default() }
 }
 
 /// Samples a motion over a whole number of periods, stretched until every difference keeps its limit, and the tip its
@@ -182,7 +186,8 @@ fn certified(
         let too_fast = ways.iter().zip(&feeds).map(|(way, feed)| way / (feed * period)).fold(0.0, f64::max);
         rho = excess_of(&poses, period, &bounds.axes).max(too_fast);
         if rho <= 1.0 + EXCESS_EPSILON {
-            return Ok(Cut { poses, blocks, duration, length: ways.iter().sum(), bulge: 0.0 });
+            let shares = bound::shares(&poses, &ways, &feeds, period, &bounds.axes);
+            return Ok(Cut { poses, blocks, duration, length: ways.iter().sum(), bulge: 0.0, shares });
         }
         stretch = ticks as f64 * period / duration * rho;
     }
