@@ -24,14 +24,14 @@ const LIST_COLUMNS: usize = 42;
 /// The facts, as JSON has them.
 #[derive(Debug, Serialize)]
 pub(super) struct Facts {
-    notch_depths: Vec<Depth>,
+    notch_depths: Vec<Alike>,
     speeds: Vec<Speed>,
     events: Vec<Event>,
 }
 
 /// Notches of one kind and depth.
 #[derive(Debug, Serialize)]
-struct Depth {
+struct Alike {
     kind: &'static str,
     depth_mm: f64,
     count: usize,
@@ -70,7 +70,7 @@ impl Facts {
         if !self.notch_depths.is_empty() {
             out.push_str("\n  notch  depth mm  count\n");
         }
-        for Depth { kind, depth_mm, count } in &self.notch_depths {
+        for Alike { kind, depth_mm, count } in &self.notch_depths {
             let _ = writeln!(out, "  {kind:5}  {:>8}  {count:>5}", fixed(*depth_mm, 1));
         }
         if self.speeds.iter().any(|speed| speed.feed_mm_s.is_some() || speed.percent != FULL) {
@@ -94,7 +94,7 @@ impl Facts {
     }
 }
 
-fn depths(marker: &Marker) -> Vec<Depth> {
+fn depths(marker: &Marker) -> Vec<Alike> {
     let mut counts: BTreeMap<(&str, i64), usize> = BTreeMap::new();
     let rounded = |depth: f64| (depth * DEPTHS_PER_MM).round() as i64;
     for piece in &marker.pieces {
@@ -108,7 +108,7 @@ fn depths(marker: &Marker) -> Vec<Depth> {
             *counts.entry(("v", rounded(vee.depth()))).or_default() += 1;
         }
     }
-    let depth = |((kind, depth), count)| Depth { kind, depth_mm: depth as f64 / DEPTHS_PER_MM, count };
+    let depth = |((kind, depth), count)| Alike { kind, depth_mm: depth as f64 / DEPTHS_PER_MM, count };
     counts.into_iter().map(depth).collect()
 }
 

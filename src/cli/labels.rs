@@ -86,5 +86,8 @@ pub(super) fn text(pieces: &[Labelled]) -> String {
             let _ = writeln!(out, "  {piece:>5}  {letter}  {value}");
         }
     }
+    if out.contains(char::REPLACEMENT_CHARACTER) {
+        out.push_str("\n  \u{fffd} stands for bytes that are no text in this encoding: name another one, as in\n  --set labels.encoding=windows-1251\n");
+    }
     out
 }

@@ -58,7 +58,7 @@ pub(super) fn layer(shapes: &mut [Shape], sheet: &Sheet, context: &Context) -> S
             }
             let height = block.height(shape, sheet);
             block.draw(height, context, &mut drawn);
-            shape.keep_off(block.middles(height));
+            shape.keep_off(block.edges(height));
         }
         if !drawn.is_empty() {
             let _infallible = writeln!(text, "<g inkscape:label=\"labels of piece {}\">\n{drawn}</g>", shape.number);
@@ -125,14 +125,15 @@ impl Block<'_> {
         Vector::new(from.dot(&along), from.dot(&left(along)))
     }
 
-    /// Points in the middle of the texts, a height apart.
-    fn middles(&self, height: f64) -> Vec<Point> {
+    /// Points on the upper and lower edges of the texts, a height apart.
+    fn edges(&self, height: f64) -> Vec<Point> {
         let [forward, ..] = self.reach();
         let along = self.heading.unit();
-        let line = |k: usize| self.at + left(along) * (height * (ASCENT / 2.0 - LINE * k as f64));
-        let letters = (0..=forward.ceil() as usize).map(|i| along * (height * (i as f64).min(forward)));
-        let letters: Vec<Vector> = letters.collect();
-        (0..self.labels.len()).flat_map(|k| letters.iter().map(move |&letter| line(k) + letter)).collect()
+        let steps = forward.ceil() as usize;
+        let letters: Vec<Vector> = (0..=steps).map(|i| along * (height * (i as f64).min(forward))).collect();
+        let levels = (0..self.labels.len()).flat_map(|k| [ASCENT - LINE * k as f64, -DESCENT - LINE * k as f64]);
+        let lines = levels.map(|level| self.at + left(along) * (height * level));
+        lines.flat_map(|line| letters.iter().map(move |&letter| line + letter)).collect()
     }
 
     fn draw(&self, height: f64, context: &Context, out: &mut String) {
