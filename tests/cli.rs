@@ -172,11 +172,17 @@ fn the_figures_come_as_json_with_every_key() {
 }
 
 #[test]
-fn info_has_the_same_keys_and_null_for_what_only_planning_knows() {
+fn info_has_the_same_keys_and_more_and_null_for_what_only_planning_knows() {
     let room = Room::new();
     let (stdout, _) = room.expect("info circle.cut --format json", DONE);
     let figures: Value = serde_json::from_str(&stdout).expect("JSON");
-    assert_eq!(keys(&figures), FIGURES);
+    let mut expected = [&FIGURES[..], &["events", "notch_depths", "speeds"]].concat();
+    expected.sort_unstable();
+    assert_eq!(keys(&figures), expected);
+    let (stdout, _) = room.expect("info junk.cut --format json", FAULTY);
+    let unread: Value = serde_json::from_str(&stdout).expect("JSON");
+    assert_eq!(keys(&unread), expected);
+    assert!(unread["speeds"].is_null() && unread["pieces"].is_null());
     for key in ["travel_m", "runs", "stabs", "lifts", "time_s", "axes"] {
         assert!(figures[key].is_null(), "{key}");
     }

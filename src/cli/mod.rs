@@ -9,9 +9,11 @@ mod compile;
 mod completions;
 mod explain;
 mod explanations;
+mod facts;
 mod files;
 mod help;
 mod info;
+mod labels;
 mod options;
 mod profile;
 mod provenance;
@@ -59,7 +61,7 @@ enum Command {
     Verify(verify::Arguments),
     /// Read cutter files and say everything that is wrong with them; writes nothing
     Check(check::Arguments),
-    /// Say what is in a cutter file: pieces, contours, lengths
+    /// Say what is in a cutter file: pieces, notches, speeds, labels
     Info(info::Arguments),
     /// Show, begin or check a machine profile
     Profile(profile::Arguments),

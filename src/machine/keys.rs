@@ -5,6 +5,7 @@
 use std::fmt;
 use std::ops::{Bound, RangeBounds as _};
 
+use super::encoding;
 use crate::units::number::exact;
 
 /// A key of the profile: a row of [`KEYS`].
@@ -37,6 +38,8 @@ pub enum Takes {
     RangeOr(&'static str),
     /// One of some words.
     Word(&'static [&'static str]),
+    /// The name of an encoding of texts.
+    Encoding,
     /// True or false.
     Flag,
 }
@@ -93,6 +96,7 @@ impl Takes {
             Self::PoseOr(word) => is(word) || places(3),
             Self::RangeOr(word) => is(word) || (places(2) && list(2).is_some_and(|ends| ends[0] < ends[1])),
             Self::Word(words) => words.iter().any(|word| is(word)),
+            Self::Encoding => value.as_str().is_some_and(|name| encoding::find(name).is_some()),
             Self::Flag => value.is_bool(),
         }
     }
@@ -170,6 +174,7 @@ impl Key {
                 format!("{} or \"{last}\"", words.join(", "))
             }
             Takes::Word(words) => format!("\"{}\"", words.concat()),
+            Takes::Encoding => "the name of an encoding, such as \"windows-1251\"".to_owned(),
             Takes::Flag => "true or false".to_owned(),
         }
     }
@@ -293,6 +298,8 @@ pub const KEYS: &[Key] = &[
     Key { name: "verify.max_overcut_part_mm", takes: Takes::NumberOr(from(0.0, 1000.0), "off"), about: "Farthest overcut into the part itself." },
     Key { name: "verify.max_overcut_neighbour_mm", takes: Takes::NumberOr(from(0.0, 1000.0), "off"), about: "Farthest overcut into another part." },
     Key { name: "verify.max_overcut_waste_mm", takes: Takes::NumberOr(from(0.0, 1000.0), "off"), about: "Farthest overcut into waste." },
+
+    Key { name: "labels.encoding", takes: Takes::Encoding, about: "Encoding of label texts that are no UTF-8: \"windows-1251\" (Cyrillic), \"latin1\", \"gbk\" (Chinese),\n\"big5\", \"shift_jis\", \"euc-kr\" and more. What is no text in it is shown as \u{fffd}." },
 
     Key { name: "codes.<code>", takes: Takes::Word(&["use", "ignore"]), about: "A code of the cutter file to obey or to skip, as the USE/IGNORE switches of a cutter." },
 ];

@@ -47,6 +47,8 @@ pub struct MachineProfile {
     pub time: Time,
     /// What the verifier allows.
     pub verify: Verify,
+    /// The texts of labels.
+    pub labels: Labels,
     /// Codes of the cutter file to ignore, by name (`M19`).
     pub codes: BTreeMap<String, CodeUse>,
 }
@@ -482,6 +484,7 @@ impl Default for MachineProfile {
             table: Table::default(),
             time: Time::default(),
             verify: Verify::default(),
+            labels: Labels::default(),
             codes: BTreeMap::new(),
         }
     }
@@ -519,6 +522,20 @@ impl Default for Verify {
             max_overcut_neighbour_mm: None,
             max_overcut_waste_mm: None,
         }
+    }
+}
+
+/// The texts of labels.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Labels {
+    /// Name of the encoding of texts that are no UTF-8; [`Labels::text`] decodes them.
+    pub encoding: String,
+}
+
+impl Default for Labels {
+    fn default() -> Self {
+        Self { encoding: "utf-8".to_owned() }
     }
 }
 

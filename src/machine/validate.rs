@@ -1,6 +1,7 @@
 //! The rules between the values of a profile, and each value's own range.
 
-use super::keys::{CODES, KEYS, Key, shown_value};
+use super::encoding;
+use super::keys::{CODES, KEYS, Key, Takes, shown_value};
 use super::profile::{Follow, MachineProfile};
 use crate::diagnostic::{Code, code};
 
@@ -41,10 +42,17 @@ fn ranges(profile: &MachineProfile) -> Vec<Fault> {
             code: &code::PROFILE_RANGE,
             keys: vec![key.name.to_owned()],
             message: format!("`{}` must be {}, but is {}", key.name, key.expects(), shown_value(value)),
-            hint: None,
+            hint: hint(key, value),
         })
     };
     KEYS.iter().filter(|key| key.section() != CODES).filter_map(fault).collect()
+}
+
+/// What to do about a value that is out of its range, where more can be said than what the key takes.
+fn hint(key: &Key, value: &toml::Value) -> Option<String> {
+    let name = value.as_str().filter(|_| matches!(key.takes, Takes::Encoding))?;
+    let near: Vec<String> = encoding::nearest(name).iter().map(|name| format!("\"{name}\"")).collect();
+    Some(format!("the nearest are {}", near.join(", ")))
 }
 
 /// One value against another.

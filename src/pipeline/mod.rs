@@ -150,7 +150,7 @@ pub fn compile_all(
     }
     let marker = &input.marker;
     let mut report = Report::of(marker, input.dialect.name);
-    let context = Context { job, marker };
+    let context = Context { source, job, marker };
     let needs_toolpaths = verify || products.iter().any(|product| !matches!(product.target.emit, Emit::Marker(_)));
     let toolpaths = if needs_toolpaths { toolpaths(marker, job, diagnostics) } else { Vec::new() };
 
