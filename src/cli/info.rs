@@ -59,6 +59,7 @@ fn depths(marker: &Marker) -> String {
         for notch in &piece.notches {
             let kind = match notch.kind {
                 NotchKind::Slit => "slit",
+                NotchKind::T(_) => "t",
             };
             *counts.entry((kind, tenths(notch.depth()))).or_default() += 1;
         }

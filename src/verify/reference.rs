@@ -5,7 +5,7 @@
 use crate::geom::{Point, Vector, angle, left, polyline};
 use crate::ir::Marker;
 use crate::ir::list::Segment;
-use crate::ir::marker::{Contour, Piece};
+use crate::ir::marker::{Contour, Notch, Piece};
 use crate::machine::{Fit, MachineProfile};
 
 /// Longest chord that counts as a chord of a curve, mm.
@@ -60,8 +60,8 @@ impl<'a> Reference<'a> {
 }
 
 fn slits(piece: &Piece, index: usize, lines: &mut Vec<Line>) {
-    for notch in &piece.notches {
-        let points = vec![notch.root, notch.tip];
+    for stroke in piece.notches.iter().flat_map(Notch::strokes) {
+        let points = vec![stroke.from, stroke.to];
         let stations = polyline::stations(&points);
         let group = lines.last().map_or(0, |line| line.group + 1);
         lines.push(Line {
@@ -69,7 +69,7 @@ fn slits(piece: &Piece, index: usize, lines: &mut Vec<Line>) {
             group,
             points,
             stations,
-            blocks: vec![notch.span.block],
+            blocks: vec![stroke.span.block],
             bulges: vec![Vector::zeros()],
             ring: false,
         });

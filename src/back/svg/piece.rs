@@ -7,6 +7,7 @@ use super::sheet::Sheet;
 use super::spot::{self, Spot};
 use crate::geom::{Extent, Point};
 use crate::ir::Marker;
+use crate::ir::marker::Notch;
 use crate::source::Span;
 
 /// Colours of pieces: of like weight, none near the signal colours (magenta, red, amber) or the grey of travels.
@@ -49,9 +50,18 @@ pub(super) fn shapes(marker: &Marker) -> Vec<Shape> {
         let drills: Vec<Point> = piece.drills.iter().map(|drill| drill.at).collect();
         let mut extent = Extent::EMPTY;
         contours.iter().flat_map(|c| &c.points).chain(&drills).for_each(|&point| extent.add(point));
-        piece.notches.iter().flat_map(|notch| [notch.root, notch.tip]).for_each(|point| extent.add(point));
+        piece
+            .notches
+            .iter()
+            .flat_map(Notch::strokes)
+            .flat_map(|cut| [cut.from, cut.to])
+            .for_each(|point| extent.add(point));
         let cut = piece.contours.iter().flat_map(|c| marker.list.walk(c.range)).map(|(_, segment)| segment.span);
-        let marked = piece.drills.iter().map(|d| d.span).chain(piece.notches.iter().map(|n| n.span));
+        let marked = piece
+            .drills
+            .iter()
+            .map(|d| d.span)
+            .chain(piece.notches.iter().flat_map(Notch::strokes).map(|cut| cut.span));
         let spans = std::iter::once::<Span>(piece.span).chain(cut).chain(marked);
         shapes.push(Shape { number: piece.number, extent, blocks: blocks(spans), contours, drills });
     }
