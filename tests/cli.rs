@@ -79,7 +79,7 @@ fn keys(value: &Value) -> Vec<&str> {
 }
 
 /// The keys of the figures as JSON, sorted.
-const FIGURES: [&str; 18] = [
+const FIGURES: [&str; 19] = [
     "axes",
     "closed_contours",
     "contours",
@@ -93,6 +93,7 @@ const FIGURES: [&str; 18] = [
     "notches",
     "pieces",
     "runs",
+    "spent",
     "stabs",
     "time_s",
     "travel_m",
@@ -157,7 +158,7 @@ fn the_figures_come_as_json_with_every_key() {
     assert_eq!(keys(&figures), FIGURES);
     assert!(!stderr.contains("acceleration"), "{stderr}");
     assert_eq!((&figures["contours"], &figures["closed_contours"]), (&1.into(), &1.into()));
-    assert_eq!(keys(&figures["notches"]), ["slit", "v"]);
+    assert_eq!(keys(&figures["notches"]), ["slit", "t", "v"]);
     assert_eq!(figures["errors"], Value::Array(Vec::new()));
     for axis in ["x", "y", "c"] {
         for limit in ["speed", "acceleration", "jerk"] {

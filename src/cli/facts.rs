@@ -101,6 +101,7 @@ fn depths(marker: &Marker) -> Vec<Alike> {
         for notch in &piece.notches {
             let kind = match notch.kind {
                 NotchKind::Slit => "slit",
+                NotchKind::T(_) => "t",
             };
             *counts.entry((kind, rounded(notch.depth()))).or_default() += 1;
         }

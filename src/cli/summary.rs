@@ -26,7 +26,9 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
     let open = report.contours - report.closed_contours;
     line("contours", format!("{} ({} closed, {open} open)", report.contours, report.closed_contours));
     let notches = report.notches;
-    line("notches", format!("{} ({} slit, {} v)", notches.slit + notches.v, notches.slit, notches.v));
+    let all = notches.slit + notches.t + notches.v;
+    let with_t = if notches.t > 0 { format!("{} t, ", notches.t) } else { String::new() };
+    line("notches", format!("{all} ({} slit, {with_t}{} v)", notches.slit, notches.v));
     line("drills", report.drills.to_string());
     line("labels", report.labels.to_string());
     line("cut", format!("{} m", fixed(report.cut_m, 3)));
@@ -178,7 +180,7 @@ mod tests {
             pieces: 12,
             contours: 14,
             closed_contours: 13,
-            notches: Notches { slit: 31, v: 0 },
+            notches: Notches { slit: 31, t: 0, v: 0 },
             drills: 2,
             labels: 12,
             cut_m: 20.123_456,

@@ -1,6 +1,6 @@
 //! Every invariant of the three forms; collects all that is broken, never stops at the first.
 
-use super::marker::Marker;
+use super::marker::{Marker, Notch};
 use super::motion::Motion;
 use super::toolpath::{Pose, Run, Step, Toolpath};
 use crate::geom::Point;
@@ -50,8 +50,8 @@ pub fn marker(marker: &Marker) -> Faults {
                 faults.push(format!("piece {}: a V notch has no depth or no width", i + 1));
             }
         }
-        if piece.notches.iter().any(|n| !finite(n.root) || !finite(n.tip)) || piece.drills.iter().any(|d| !finite(d.at))
-        {
+        let mut strokes = piece.notches.iter().flat_map(Notch::strokes);
+        if strokes.any(|s| !finite(s.from) || !finite(s.to)) || piece.drills.iter().any(|d| !finite(d.at)) {
             faults.push(format!("piece {}: a notch or drill is not finite", i + 1));
         }
     }

@@ -195,9 +195,42 @@ pub fn find(name: &str) -> Option<&'static Key> {
     KEYS.iter().find(|key| key.name == name)
 }
 
-/// Whether a word is a code of a cutter file: a capital letter, then digits.
+/// Every code of cutter files that may be switched, without leading zeros, and without the number where that is a value.
+#[rustfmt::skip] // a table: one row a letter
+pub const CODE_NAMES: &[&str] = &[
+    "A", "B", "E", "F", "H", "L", "N", "O", "Q", "R", "Z",
+    "D1", "D2", "D4",
+    "G1", "G2", "G3", "G4", "G70", "G71", "G90", "G91",
+    "M0", "M1", "M14", "M15", "M17", "M18", "M19", "M20", "M23", "M25", "M26", "M30", "M31", "M40", "M41", "M42", "M43",
+    "M44", "M45", "M46", "M47", "M48", "M51", "M60", "M61", "M62", "M63", "M64", "M65", "M66", "M67", "M68", "M69", "M70",
+    "M72", "M73",
+];
+
+/// Codes that are named when somebody writes one that does not exist.
+const NEAR_CODES: usize = 3;
+
 fn is_code(word: &str) -> bool {
-    word.starts_with(|c: char| c.is_ascii_uppercase()) && word[1..].chars().all(|c| c.is_ascii_digit())
+    CODE_NAMES.contains(&word)
+}
+
+/// The keys of the codes that may be meant by one that does not exist, the likeliest first; `None` when the name is no
+/// code's.
+pub fn near_codes(name: &str) -> Option<Vec<String>> {
+    let typed = name.strip_prefix(CODES)?.strip_prefix('.')?.to_uppercase();
+    let digits = typed.find(|c: char| c.is_ascii_digit()).unwrap_or(typed.len());
+    let (letter, number) = typed.split_at(digits);
+    // Spelled as files spell them: M01 is M1, F300 is F.
+    let significant = match number.trim_start_matches('0') {
+        "" if !number.is_empty() => "0",
+        significant => significant,
+    };
+    let spelled = [format!("{letter}{significant}"), letter.to_owned()];
+    let mut codes: Vec<&str> = match CODE_NAMES.iter().find(|code| spelled.iter().any(|word| word == *code)) {
+        Some(code) => vec![*code],
+        None => CODE_NAMES.to_vec(),
+    };
+    codes.sort_by_key(|code| strsim::damerau_levenshtein(&typed, code)); // stable: the table's order among equals
+    Some(codes.into_iter().take(NEAR_CODES).map(|code| format!("{CODES}.{code}")).collect())
 }
 
 /// Whether the name is that of a table of keys, such as `axes.x`.
@@ -207,8 +240,7 @@ pub fn is_section(name: &str) -> bool {
 
 /// The key or table whose name is nearest to one that does not exist.
 pub fn nearest(name: &str) -> String {
-    let upper = name.rsplit_once('.').map(|(section, last)| format!("{section}.{}", last.to_uppercase()));
-    if let Some(code) = upper.filter(|_| name.starts_with("codes.")).filter(|upper| find(upper).is_some()) {
+    if let Some(code) = near_codes(name).and_then(|codes| codes.into_iter().next()) {
         return code;
     }
     let last = |name: &str| name.rsplit('.').next().unwrap_or_default().to_owned();
@@ -344,10 +376,23 @@ mod tests {
     }
 
     #[test]
-    fn codes_are_a_capital_letter_and_digits() {
+    fn codes_are_those_of_cutter_files() {
         assert!(find("codes.M19").is_some() && find("codes.A").is_some());
-        assert!(find("codes.m19").is_none() && find("codes.").is_none() && find("codes.M1x").is_none());
+        assert!(["codes.", "codes.X", "codes.M019", "codes.F300", "codes.m19"].iter().all(|name| find(name).is_none()));
         assert!(is_section("codes") && is_section("axes.x") && !is_section("knife.width_mm") && !is_section("kni"));
+    }
+
+    #[test]
+    fn a_mistyped_code_has_its_near_ones() {
+        let check =
+            |typed: &str, expected: &[&str]| assert_eq!(near_codes(typed).expect("a code"), expected, "{typed}");
+        check("codes.m19", &["codes.M19"]);
+        check("codes.M001", &["codes.M1"]);
+        check("codes.M00", &["codes.M0"]);
+        check("codes.F300", &["codes.F"]);
+        check("codes.M91", &["codes.G91", "codes.M1", "codes.M19"]);
+        check("codes.X", &["codes.A", "codes.B", "codes.E"]);
+        assert_eq!(near_codes("knife.width"), None);
     }
 
     #[test]

@@ -155,7 +155,11 @@ impl Draft {
     }
 
     fn unknown(&mut self, name: &str, origin: Origin) {
-        let hint = format!("the nearest is `{}`; `cutc profile init` lists all keys", keys::nearest(name));
+        let hint = match keys::near_codes(name).as_deref() {
+            Some([code]) => format!("it is spelled `{code}`"),
+            Some(codes) => format!("near ones are `{}`; the README lists all codes", codes.join("`, `")),
+            None => format!("the nearest is `{}`; `cutc profile init` lists all keys", keys::nearest(name)),
+        };
         self.fault(origin, &code::PROFILE_UNKNOWN_KEY, format!("there is no key `{name}`"), Some(&hint));
     }
 
@@ -290,6 +294,22 @@ mod tests {
                 "profile/type: `knife.width_mm` must be a number from 0 to 1000 mm, but is \"6,6\"",
                 "profile/range: `knife.edges` must be 1 or 2, but is 3",
                 "profile/range: `time.period_ms` must be a number from 0.1 to 100 ms, but is 0",
+            ]
+        );
+    }
+
+    #[test]
+    fn a_code_that_no_file_has_is_a_fault() {
+        let text = "[codes]\nX = \"ignore\"\nM019 = \"ignore\"\nM99 = \"use\"\n";
+        let faults = load(Some(&source(text)), &["codes.m19=ignore".to_owned()]).expect_err("a faulty profile");
+        let hints: Vec<&str> = faults.file.iter().chain(&faults.arguments).map(|d| d.hints[0].as_str()).collect();
+        assert_eq!(
+            hints,
+            [
+                "near ones are `codes.A`, `codes.B`, `codes.E`; the README lists all codes",
+                "it is spelled `codes.M19`",
+                "near ones are `codes.M19`, `codes.M69`, `codes.G90`; the README lists all codes",
+                "it is spelled `codes.M19`",
             ]
         );
     }

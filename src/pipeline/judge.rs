@@ -7,6 +7,7 @@ use super::report::significant;
 use super::{Input, Medium, read};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::Dialect;
+use crate::ir::marker::Notch;
 use crate::ir::{Finding, Marker};
 use crate::machine::Job;
 use crate::source::{Source, Span};
@@ -145,7 +146,7 @@ pub fn figures(finding: &Finding) -> (String, Option<String>) {
 /// The span of a source block that is cut.
 fn span_of(marker: &Marker, block: u32) -> Option<Span> {
     let contours = marker.contours().flat_map(|(_, contour)| marker.list.walk(contour.range)).map(|(_, s)| s.span);
-    let notches = marker.pieces.iter().flat_map(|piece| &piece.notches).map(|notch| notch.span);
+    let notches = marker.pieces.iter().flat_map(|piece| &piece.notches).flat_map(Notch::strokes).map(|cut| cut.span);
     contours.chain(notches).find(|span| span.block == block && block > 0)
 }
 

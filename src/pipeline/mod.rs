@@ -207,7 +207,7 @@ pub fn estimate(
     }
     let mut report = Report::of(&input.marker, input.dialect.name);
     let toolpaths = toolpaths(&input.marker, job, diagnostics);
-    let context = Context { job, marker: &input.marker };
+    let context = Context { job, marker: &input.marker, source };
     report.program = program::write(&toolpaths, &mut [], &context, diagnostics)?;
     Ok((!diagnostics.has_errors()).then_some(report))
 }

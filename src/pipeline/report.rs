@@ -46,6 +46,8 @@ pub struct Report {
 pub struct Notches {
     /// One straight cut from the edge inwards.
     pub slit: usize,
+    /// A slit with a crossbar over its tip.
+    pub t: usize,
     /// Two legs that meet inside.
     pub v: usize,
 }
@@ -126,6 +128,7 @@ impl Report {
     /// What is in a marker, before any planning.
     pub fn of(marker: &Marker, dialect: &'static str) -> Self {
         let (width, height) = marker.extent().size();
+        let all = marker.pieces.iter().map(|p| p.notches.len()).sum::<usize>();
         let slit = marker.pieces.iter().flat_map(|p| &p.notches).filter(|n| n.kind == NotchKind::Slit).count();
         let v = marker.pieces.iter().map(|p| p.vees.len()).sum();
         Self {
@@ -135,7 +138,7 @@ impl Report {
             pieces: marker.pieces.len(),
             contours: marker.contours().count(),
             closed_contours: marker.contours().filter(|(_, c)| c.closed).count(),
-            notches: Notches { slit, v },
+            notches: Notches { slit, t: all - slit, v },
             drills: marker.pieces.iter().map(|p| p.drills.len()).sum(),
             labels: marker.pieces.iter().map(|p| p.labels.len()).sum(),
             cut_m: marker.cut_length() / MM_PER_M,

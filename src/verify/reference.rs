@@ -5,7 +5,7 @@
 use crate::geom::{Point, Vector, angle, left, polyline};
 use crate::ir::Marker;
 use crate::ir::list::Segment;
-use crate::ir::marker::{Contour, Notch};
+use crate::ir::marker::{Contour, Notch, Stroke};
 use crate::machine::{Fit, MachineProfile};
 
 /// Longest chord that counts as a chord of a curve, mm.
@@ -55,7 +55,8 @@ impl<'a> Reference<'a> {
         let mut rank = || ranks.next().expect("a marker has fewer lines than numbers");
         for (index, piece) in marker.pieces.iter().enumerate() {
             holes.extend(piece.drills.iter().map(|_| rank()));
-            lines.extend(piece.notches.iter().map(|notch| slit(notch, [index, rank()])));
+            let strokes = piece.notches.iter().flat_map(Notch::strokes);
+            lines.extend(strokes.map(|stroke| slit(&stroke, [index, rank()])));
             for contour in &piece.contours {
                 lines.extend(contour_lines(marker, contour, [index, rank()], profile));
             }
@@ -64,14 +65,14 @@ impl<'a> Reference<'a> {
     }
 }
 
-fn slit(notch: &Notch, [piece, rank]: [usize; 2]) -> Line {
-    let points = vec![notch.root, notch.tip];
+fn slit(stroke: &Stroke, [piece, rank]: [usize; 2]) -> Line {
+    let points = vec![stroke.from, stroke.to];
     Line {
         piece,
         rank,
         stations: polyline::stations(&points),
         points,
-        blocks: vec![notch.span.block],
+        blocks: vec![stroke.span.block],
         bulges: vec![Vector::zeros()],
         ring: false,
     }

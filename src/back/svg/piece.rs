@@ -7,7 +7,7 @@ use super::sheet::Sheet;
 use super::spot::{self, Spot};
 use crate::geom::{Extent, Point};
 use crate::ir::Marker;
-use crate::ir::marker::{NotchKind, Piece};
+use crate::ir::marker::{self, NotchKind, Piece};
 use crate::source::Span;
 use crate::units::number::fixed;
 
@@ -83,9 +83,18 @@ pub(super) fn shapes(marker: &Marker) -> Vec<Shape> {
         let drills: Vec<Point> = piece.drills.iter().map(|drill| drill.at).collect();
         let mut extent = Extent::EMPTY;
         contours.iter().flat_map(|c| &c.points).chain(&drills).for_each(|&point| extent.add(point));
-        piece.notches.iter().flat_map(|notch| [notch.root, notch.tip]).for_each(|point| extent.add(point));
+        piece
+            .notches
+            .iter()
+            .flat_map(marker::Notch::strokes)
+            .flat_map(|cut| [cut.from, cut.to])
+            .for_each(|point| extent.add(point));
         let cut = piece.contours.iter().flat_map(|c| marker.list.walk(c.range)).map(|(_, segment)| segment.span);
-        let marked = piece.drills.iter().map(|d| d.span).chain(piece.notches.iter().map(|n| n.span));
+        let marked = piece
+            .drills
+            .iter()
+            .map(|d| d.span)
+            .chain(piece.notches.iter().flat_map(marker::Notch::strokes).map(|cut| cut.span));
         let spans = std::iter::once::<Span>(piece.span).chain(cut).chain(marked);
         let number = piece.number;
         let title = format!("piece {number}{}", blocks(spans));
@@ -98,9 +107,14 @@ fn notches(piece: &Piece) -> Vec<Notch> {
     let slits = piece.notches.iter().map(|notch| {
         let kind = match notch.kind {
             NotchKind::Slit => "slit",
+            NotchKind::T(_) => "T notch",
         };
         let title = format!("{kind}, {} mm deep{}", fixed(notch.depth(), 1), blocks([notch.span]));
-        Notch { points: vec![notch.root, notch.tip], title }
+        let bar = match notch.kind {
+            NotchKind::Slit => vec![],
+            NotchKind::T(bar) => vec![bar.from, bar.to, notch.tip],
+        };
+        Notch { points: [vec![notch.root, notch.tip], bar].concat(), title }
     });
     let vees = piece.vees.iter().map(|vee| {
         let (depth, width) = (fixed(vee.depth(), 1), fixed(vee.width(), 1));

@@ -60,7 +60,7 @@ impl Tally {
                     format!("{name} is not known and was ignored: it stands {times}, first in block {first_block}"),
                 )
                 .at(first)
-                .hint(format!("`codes.{name} = \"ignore\"` in the profile silences this")),
+                .hint("if the cutter obeys it, see in its manual whether the pieces need it"),
             });
         }
     }

@@ -35,11 +35,12 @@ fn print_piece(out: &mut String, marker: &Marker, piece: &Piece) {
         line(out, format_args!("drill {} tool {}{}", Xy(drill.at), drill.tool, At(drill.span)));
     }
     for notch in &piece.notches {
-        let kind = match notch.kind {
-            NotchKind::Slit => "slit",
-        };
         let (root, tip) = (Xy(notch.root), Xy(notch.tip));
-        line(out, format_args!("{kind} {root} to {tip}{}{}", At(notch.span), Percent(notch.percent)));
+        push(out, format_args!("slit {root} to {tip}{}{}", At(notch.span), Percent(notch.percent)));
+        match notch.kind {
+            NotchKind::Slit => out.push('\n'),
+            NotchKind::T(bar) => line(out, format_args!(" bar {} to {}{}", Xy(bar.from), Xy(bar.to), At(bar.span))),
+        }
     }
     for contour in &piece.contours {
         line(out, format_args!("contour {}", if contour.closed { "closed" } else { "open" }));

@@ -7,7 +7,7 @@ use thiserror::Error;
 use super::{ENDS, EVENTS, JOINTS, LAWS, SHAPES};
 use crate::geom::{Heading, Point, Vector};
 use crate::ir::list::{FULL_SPEED, Joint, Segment};
-use crate::ir::marker::{Contour, Drill, Event, Field, Label, Marker, Notch, NotchKind, Piece, Vee};
+use crate::ir::marker::{Contour, Drill, Event, Field, Label, Marker, Notch, NotchKind, Piece, Stroke, Vee};
 use crate::ir::toolpath::{self, Air, End, Pose, Run, Stab, Step, Toolpath};
 use crate::source::Span;
 
@@ -55,11 +55,10 @@ pub fn read_marker(text: &str) -> Read<Marker> {
                 piece.drills.push(Drill { at, tool, span });
             }
             "slit" => {
-                let root = line.point()?;
-                line.expect("to")?;
-                let tip = line.point()?;
-                let span = line.span()?;
-                piece.notches.push(Notch { kind: NotchKind::Slit, root, tip, percent: line.percent()?, span });
+                let Stroke { from: root, to: tip, span } = stroke(&mut line)?;
+                let percent = line.percent()?;
+                let kind = if line.has("bar") { NotchKind::T(stroke(&mut line)?) } else { NotchKind::Slit };
+                piece.notches.push(Notch { kind, root, tip, percent, span });
             }
             "contour" => {
                 let closed = line.choice(&[("closed", true), ("open", false)])?;
@@ -104,6 +103,12 @@ fn drill(line: &mut Line<'_>) -> Read<(Point, u8, Span)> {
     let at = line.point()?;
     line.expect("tool")?;
     Ok((at, line.whole("the number of a drill")?, line.span()?))
+}
+
+fn stroke(line: &mut Line<'_>) -> Read<Stroke> {
+    let from = line.point()?;
+    line.expect("to")?;
+    Ok(Stroke { from, to: line.point()?, span: line.span()? })
 }
 
 /// The segment lines that follow.

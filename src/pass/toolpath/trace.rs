@@ -4,7 +4,7 @@
 
 use crate::ir::Marker;
 use crate::ir::list::{FULL_SPEED, Joint};
-use crate::ir::marker::{Contour, Event, Notch, Piece};
+use crate::ir::marker::{Contour, Event, Piece, Stroke};
 use crate::ir::toolpath::{Drill, End, Law, Pose, Run, Shape, Step, Toolpath};
 use crate::machine::{Follow, Job};
 
@@ -16,7 +16,9 @@ pub fn trace<'a>(marker: &'a Marker, job: &'a Job) -> impl Iterator<Item = Toolp
     let pieces = marker.pieces.iter().flat_map(move |piece| {
         let events = piece.events.iter().map(event);
         let drills = piece.drills.iter().map(|d| Step::Drill(Drill { at: d.at, tool: d.tool, span: d.span }));
-        let notches = piece.notches.iter().map(move |notch| Step::Run(notch_run(piece, notch, job)));
+        let strokes = piece.notches.iter().flat_map(|notch| notch.strokes().map(|stroke| (notch.percent, stroke)));
+        let notches =
+            strokes.map(move |(percent, stroke)| Step::Run(notch_run(&stroke, feed(piece, percent, job), job)));
         let contours = piece.contours.iter().map(move |contour| Step::Run(contour_run(marker, piece, contour, job)));
         events.chain(drills).chain(notches).chain(contours).map(move |step| toolpath(piece.number, tolerance, step))
     });
@@ -31,12 +33,11 @@ fn toolpath(piece: u32, tolerance: f64, step: Step) -> Toolpath {
     Toolpath { piece, tolerance, entry: Pose::default(), steps: vec![step] }
 }
 
-/// A slit is cut from the edge inwards, without overlap at either end.
-fn notch_run(piece: &Piece, notch: &Notch, job: &Job) -> Run {
+/// A slit is cut from the edge inwards, its crossbar as it is written, both without overlap at either end.
+fn notch_run(stroke: &Stroke, feed: f64, job: &Job) -> Run {
     let bare = Joint { lift: true, full_advance: true, no_overcut: true };
-    let feed = feed(piece, notch.percent, job);
-    let points = vec![notch.root, notch.tip];
-    Run { points, spans: vec![notch.span], joints: vec![bare; 2], feeds: vec![feed], ..raw(Shape::Open, job) }
+    let points = vec![stroke.from, stroke.to];
+    Run { points, spans: vec![stroke.span], joints: vec![bare; 2], feeds: vec![feed], ..raw(Shape::Open, job) }
 }
 
 /// The cap of a cut, mm/s. A slowed cut needs something to be slower than: without any feed that is the slower of the two
