@@ -104,10 +104,11 @@ impl Differences {
 
     /// The greatest speed, acceleration and jerk so far.
     pub(super) fn peaks(&self) -> Peaks {
+        let powers = [self.period, self.period.powi(2), self.period.powi(3)];
         std::array::from_fn(|axis| {
             std::array::from_fn(|k| {
                 let (part, which) = self.greatest[axis][k];
-                let limit = self.allowed[which][axis][k] / self.period.powi(k as i32 + 1);
+                let limit = self.allowed[which][axis][k] / powers[k];
                 Peak { worst: part * limit, limit }
             })
         })
