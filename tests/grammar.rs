@@ -97,7 +97,7 @@ fn statements(bytes: &[u8]) -> Vec<(&'static str, String)> {
             blocks.text();
             statements.push(("message", "M20*TEXT*".to_owned()));
         } else if code == "M31" {
-            let place = if block == "M31" { blocks.next_if(|next| is_place(next)) } else { None };
+            let place = if block == "M31" { blocks.next_if(is_place) } else { None };
             blocks.text();
             let before = place.map_or(format!("{block}*"), |place| format!("M31*{place}*"));
             let mut ahead = blocks.clone();

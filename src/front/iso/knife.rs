@@ -227,7 +227,8 @@ impl Knife {
         match &self.state {
             State::Up => {}
             State::Plunged { .. } | State::Cutting(_) => {
-                out.push(Diagnostic::new(&code::ISO_KNIFE_DOWN_TWICE, "the knife is down already").at(span));
+                let finding = Diagnostic::new(&code::ISO_KNIFE_DOWN_TWICE, "the knife is down already").at(span);
+                out.push(finding.hint("an M15 may be missing before it: then two contours are joined by a cut"));
                 return;
             }
             State::Slit { .. } => {
@@ -363,7 +364,8 @@ impl Knife {
     fn report_open_slit(&self, before: &str, at: Span, out: &mut Diagnostics) {
         if let State::Slit { span, .. } = &self.state {
             let message = format!("the slit that begins in block {} has no M15 before {before}", span.block);
-            out.push(Diagnostic::new(&code::ISO_OPEN_SLIT, message).at(at));
+            let finding = Diagnostic::new(&code::ISO_OPEN_SLIT, message).at(at);
+            out.push(finding.hint("an M15 belongs behind the tip of a slit; one may be lost"));
         }
     }
 
