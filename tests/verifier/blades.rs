@@ -81,8 +81,8 @@ pub(crate) const DAMAGES: &[Damage] = &[
             case.rows[stroke.clone()].iter().all(|row| (row.pose[2] - c).abs() < READING)
         };
         let stroke = pick(rng, &strokes(&case.rows).into_iter().filter(straight).collect::<Vec<_>>())?;
-        // The row of the lift command still is where the cut ends.
-        let row = Row { knife: 1, ..case.rows[stroke.end] };
+        // The row of the lift command still is where the cut ends; the blade turns under the block that it cut there.
+        let row = Row { knife: 1, block: case.rows[stroke.end - 1].block, ..case.rows[stroke.end] };
         // Away from the end of the range of C.
         let twist = -twist(case, times).copysign(row.pose[2]);
         // There and back, smooth enough for every axis.

@@ -79,7 +79,10 @@ pub(crate) const DAMAGES: &[Damage] = &[
         let knife = &case.job.profile.knife;
         let limit = case.job.profile.verify.max_uncut_mm;
         let reach = times * limit + SAME + knife.heel_overlap_mm + knife.front_overlap_mm;
-        gap(case, rng, (|_, _| true, |length| [0.5 * (length - reach), 0.5 * (length + reach)]))
+        // Amid a smooth contour the blade would plunge as a chord of it, which is a harm of its own.
+        let least = if times < 1.0 { 3.0 * knife.width_mm } else { 0.0 };
+        let fits = |segments: &[Segment], i: usize| segments[i].length() > least;
+        gap(case, rng, (fits, |length| [0.5 * (length - reach), 0.5 * (length + reach)]))
     }),
     damage("another marker", COMPLETE, |case, _| {
         let others = case::names();
