@@ -8,7 +8,8 @@ use std::fmt::Write as _;
 
 use cutc::geom::{Heading, Point, Vector};
 use cutc::ir::Marker;
-use cutc::ir::marker::{Drill, Notch, NotchKind};
+use cutc::ir::marker::{Drill, Event, Notch, NotchKind};
+use cutc::ir::toolpath;
 use cutc::machine::Job;
 use cutc::source::Span;
 use cutc::verify::{self, Verdict};
@@ -331,6 +332,37 @@ fn an_event_that_the_marker_does_not_have_is_refused() {
     cut_long_line(&mut program);
     program.rest(1, Outputs { event: 1, ..Outputs::default() });
     check(program, &long_line(), &["verify/events"]);
+}
+
+#[test]
+fn the_events_of_the_marker_are_told_in_their_turn() {
+    let mut marker = drilled();
+    let event = |kind, block| Event { kind, span: Span { block, ..Span::default() } };
+    marker.pieces[0].events = vec![event(toolpath::Event::Stop, 9), event(toolpath::Event::Advance, 10)];
+    marker.closing = vec![event(toolpath::Event::Stop, 20)];
+    let made = |numbers: [u8; 3], cut_first: bool| {
+        let mut program = Program::new(&Job::default());
+        let tell = |program: &mut Program, event: u8| program.rest(1, Outputs { event, ..Outputs::default() });
+        let cut = |program: &mut Program| {
+            [120.0, 180.0].iter().for_each(|&x| program.drill(p(x, 60.0), 1));
+            program.run(p(150.0, 50.0), p(150.0, 58.0), 13);
+            cut_long_line(program);
+        };
+        if cut_first {
+            cut(&mut program);
+        }
+        numbers[..2].iter().for_each(|&number| tell(&mut program, number));
+        if !cut_first {
+            cut(&mut program);
+        }
+        tell(&mut program, numbers[2]);
+        program
+    };
+    check(made([1, 2, 1], false), &marker, &[]);
+    check(made([2, 1, 1], false), &marker, &["verify/events"]);
+    check(made([1, 2, 0], false), &marker, &["verify/events"]);
+    check(made([1, 0, 1], false), &marker, &["verify/events"]);
+    check(made([1, 2, 1], true), &marker, &["verify/order"]);
 }
 
 #[test]

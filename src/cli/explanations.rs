@@ -85,7 +85,7 @@ pub(super) const EXPLANATIONS: &[(&str, &str)] = &[
     ("verify/drills", "A hole that is missing, or one too many, is found only at the sewing machine. In a dry run there must be none."),
     ("verify/drill-place", "A hole marks where a pocket or a dart goes: beside its place it shows on the garment. Check drill.offset_mm."),
     ("verify/block", "A program is resumed by the blocks that its rows name, and reports say where by them. A wrong name would resume it in the wrong place; compile it anew rather than edit that column."),
-    ("verify/events", "An event stops the machine or moves the cloth on. The files that are read today ask for none, so a program that has one was edited, and what it moves is no longer where it was cut."),
+    ("verify/events", "An event stops the machine or moves the cloth on. One that is left out leaves the cloth where it lies; one too many, or out of its turn, moves away what is not yet cut."),
     ("source/points", "The reader and a second scan of the same bytes must count the same points: otherwise a line would be missing or made up. Please report the file."),
     ("source/drills", "The reader and a second scan of the same bytes must count the same holes. Please report the file if they do not."),
     ("source/length", "The reader and a second scan of the same bytes must find the same way of the knife. Please report the file if they do not."),

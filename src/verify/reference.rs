@@ -19,7 +19,7 @@ const TURN_EPSILON: f64 = 1e-6;
 pub(super) struct Line {
     /// Index of its piece.
     pub(super) piece: usize,
-    /// Rank of its contour or slit among holes, slits and contours, in cut order.
+    /// Rank of its contour or slit among events, holes, slits and contours, in cut order.
     pub(super) rank: usize,
     /// Its points; a ring ends with its first one.
     pub(super) points: Vec<Point>,
@@ -42,6 +42,8 @@ pub(super) struct Reference<'a> {
     pub(super) lines: Vec<Line>,
     /// Ranks of the holes, in the order of the marker.
     pub(super) holes: Vec<usize>,
+    /// Ranks of the events, in the order of the marker.
+    pub(super) events: Vec<usize>,
     /// Permitted deviation of the tip, mm.
     pub(super) tolerance: f64,
 }
@@ -49,18 +51,20 @@ pub(super) struct Reference<'a> {
 impl<'a> Reference<'a> {
     /// The lines of `marker`.
     pub(super) fn new(marker: &'a Marker, profile: &MachineProfile) -> Self {
-        let (mut lines, mut holes) = (Vec::new(), Vec::new());
-        // In each piece holes come first, then slits, then contours.
+        let (mut lines, mut holes, mut events) = (Vec::new(), Vec::new(), Vec::new());
+        // In each piece events come first, then holes, then slits, then contours.
         let mut ranks = 0..;
         let mut rank = || ranks.next().expect("a marker has fewer lines than numbers");
         for (index, piece) in marker.pieces.iter().enumerate() {
+            events.extend(piece.events.iter().map(|_| rank()));
             holes.extend(piece.drills.iter().map(|_| rank()));
             lines.extend(piece.notches.iter().map(|notch| slit(notch, [index, rank()])));
             for contour in &piece.contours {
                 lines.extend(contour_lines(marker, contour, [index, rank()], profile));
             }
         }
-        Self { marker, lines, holes, tolerance: profile.tolerance(marker.unit) }
+        events.extend(marker.closing.iter().map(|_| rank()));
+        Self { marker, lines, holes, events, tolerance: profile.tolerance(marker.unit) }
     }
 }
 

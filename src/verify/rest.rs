@@ -1,4 +1,4 @@
-//! What happens at rest: start and end of the program, plunges, lifts, and the holes that are drilled.
+//! What happens at rest: start and end of the program, plunges, lifts, events, and the holes that are drilled.
 
 use super::order::Order;
 use super::read::{ROUNDING, Row};
@@ -68,6 +68,9 @@ impl<'a> Rest<'a> {
                 self.begin(row, self.drill);
                 self.drilled.push((row.centre + self.offset, row.drill, *row));
             }
+            if row.event != 0 {
+                self.begin(row, 1);
+            }
             return;
         };
         // The pose at the tick of a command belongs to the rest that it begins.
@@ -83,6 +86,9 @@ impl<'a> Rest<'a> {
             if row.drill != 0 {
                 self.drilled.push((row.centre + self.offset, row.drill, *row));
             }
+        }
+        if row.event != 0 {
+            self.begin(row, 1);
         }
         if row.drill != 0 {
             let last = distance(row, [before.centre.x, before.centre.y, before.c_deg]);
