@@ -67,7 +67,7 @@ pub(super) const EXPLANATIONS: &[(&str, &str)] = &[
     ("verify/jerk-x", "A sudden change of force shakes the gantry, and the edge shows waves. Check axes.x.jerk_mm_s3."),
     ("verify/jerk-y", "A sudden change of force shakes the gantry, and the edge shows waves. Check axes.y.jerk_mm_s3."),
     ("verify/jerk-c", "A sudden change of torque makes the blade tremble in the cloth, and the edge frays. Check axes.c.jerk_deg_s3."),
-    ("verify/feed", "A reciprocating knife that is pushed faster than it strokes tears the cloth instead of cutting it. Check knife.feed_mm_s."),
+    ("verify/feed", "A reciprocating knife that is pushed faster than it strokes tears the cloth instead of cutting it. What caps it: knife.feed_mm_s, F and slowed parts of the file, and slow.before_corner_mm."),
     ("verify/rest", "Moving while the blade is half in the cloth bends it and pulls the plies along. The axes must stand from the command until the dwell is over."),
     ("verify/dwell", "A blade that has not arrived leaves the first millimetres uncut, or tears on the way out. Check knife.plunge_ms, knife.lift_ms and drill.dwell_ms."),
     ("verify/c-range", "Beyond its range the blade's axis winds up its cables. Check c.range_deg."),

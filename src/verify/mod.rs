@@ -8,6 +8,7 @@
 //! `stroke`, which is followed along the lines of the `reference` and marks what it cut in `coverage`.
 
 mod body;
+mod caps;
 mod coverage;
 mod events;
 mod follow;
@@ -58,7 +59,10 @@ pub const RULES: &[(&str, &str)] = &[
     ("verify/jerk-x", "X never jerks more than its limit"),
     ("verify/jerk-y", "Y never jerks more than its limit"),
     ("verify/jerk-c", "C never jerks more than its limit"),
-    ("verify/feed", "the tip is never faster than the feed while it cuts"),
+    (
+        "verify/feed",
+        "the tip is never faster than the feed, the slowed parts of the file and the way before a corner let it be",
+    ),
     ("verify/rest", "the axes rest while the knife plunges or lifts, while a drill works and at events"),
     ("verify/dwell", "plunges, lifts and drills last as long as the profile says"),
     ("verify/c-range", "C stays inside its range"),

@@ -2,6 +2,7 @@
 //!
 //! Corners and the tube are found anew from the marker and the profile; see the module doc of the stage.
 
+use super::caps::{Caps, Source};
 use crate::geom::{Point, Vector, angle, left, polyline};
 use crate::ir::Marker;
 use crate::ir::list::Segment;
@@ -10,6 +11,9 @@ use crate::machine::{Fit, MachineProfile};
 
 /// Longest chord that counts as a chord of a curve, mm.
 const CURVE_CHORD: f64 = 25.0;
+
+/// Ways along a contour that differ by less are the same, mm: rounding of their sums.
+const SAME_WAY: f64 = 1e-6;
 
 /// Smaller turns are none, rad.
 const TURN_EPSILON: f64 = 1e-6;
@@ -27,6 +31,8 @@ pub(super) struct Line {
     pub(super) stations: Vec<f64>,
     /// Source block of each chord.
     pub(super) blocks: Vec<u32>,
+    /// How fast the tip may be.
+    pub(super) caps: Caps,
     /// Outward bulge of each chord in its middle.
     bulges: Vec<Vector>,
     /// Whether it is a closed contour without a corner.
@@ -58,9 +64,11 @@ impl<'a> Reference<'a> {
         for (index, piece) in marker.pieces.iter().enumerate() {
             events.extend(piece.events.iter().map(|_| rank()));
             holes.extend(piece.drills.iter().map(|_| rank()));
-            lines.extend(piece.notches.iter().map(|notch| slit(notch, [index, rank()])));
+            let source = Source::new(profile, piece);
+            lines.extend(piece.notches.iter().map(|notch| slit(notch, [index, rank()], source)));
             for contour in &piece.contours {
-                lines.extend(contour_lines(marker, contour, [index, rank()], profile));
+                let place = Place { owner: [index, rank()], source, profile };
+                lines.extend(contour_lines(marker, contour, place));
             }
         }
         events.extend(marker.closing.iter().map(|_| rank()));
@@ -68,12 +76,23 @@ impl<'a> Reference<'a> {
     }
 }
 
-fn slit(notch: &Notch, [piece, rank]: [usize; 2]) -> Line {
+/// What the lines of a contour have in common.
+#[derive(Clone, Copy)]
+struct Place<'a> {
+    /// Index of its piece, and its rank.
+    owner: [usize; 2],
+    source: Source<'a>,
+    profile: &'a MachineProfile,
+}
+
+fn slit(notch: &Notch, [piece, rank]: [usize; 2], source: Source) -> Line {
     let points = vec![notch.root, notch.tip];
+    let stations = polyline::stations(&points);
     Line {
+        caps: source.caps(&stations, vec![source.at(notch.percent)], false),
         piece,
         rank,
-        stations: polyline::stations(&points),
+        stations,
         points,
         blocks: vec![notch.span.block],
         bulges: vec![Vector::zeros()],
@@ -81,8 +100,9 @@ fn slit(notch: &Notch, [piece, rank]: [usize; 2]) -> Line {
     }
 }
 
-/// Cuts a contour at its corners; `owner` is the index of its piece and its rank.
-fn contour_lines(marker: &Marker, contour: &Contour, owner: [usize; 2], profile: &MachineProfile) -> Vec<Line> {
+/// Cuts a contour at its corners.
+fn contour_lines(marker: &Marker, contour: &Contour, place: Place) -> Vec<Line> {
+    let Place { owner, source, profile } = place;
     let mut lines = Vec::new();
     let mut segments: Vec<Segment> = marker.list.walk(contour.range).map(|(_, segment)| segment).collect();
     let count = segments.len();
@@ -93,9 +113,15 @@ fn contour_lines(marker: &Marker, contour: &Contour, owner: [usize; 2], profile:
     let is_corner =
         |segments: &[Segment], i: usize| segments[i].joint.lift || turn(segments, i).abs() > profile.corner.angle();
     let mut ring = false;
+    // Where a contour ends no corner lies before the tip.
+    let mut ends = vec![0];
     if contour.closed {
-        match (0..count).find(|&i| is_corner(&segments, i)) {
-            Some(first) => segments.rotate_left(first),
+        let corners: Vec<usize> = (0..count).filter(|&i| is_corner(&segments, i)).collect();
+        match corners.first() {
+            Some(&first) => {
+                ends = nearest_to_start(&segments, &corners).map(|i| i - first).collect();
+                segments.rotate_left(first);
+            }
             None => ring = true,
         }
     }
@@ -113,10 +139,15 @@ fn contour_lines(marker: &Marker, contour: &Contour, owner: [usize; 2], profile:
                 std::iter::once(segments[from].from).chain(segments[from..i].iter().map(|s| s.to)).collect();
             let chords = segments[from..i].iter();
             let [piece, rank] = owner;
+            let stations = polyline::stations(&points);
+            let feeds = chords.clone().map(|s| source.at(s.percent)).collect();
+            let to_corner = !ring && !ends.contains(&(i % count));
+            let caps = source.caps(&stations, feeds, to_corner);
             lines.push(Line {
                 piece,
                 rank,
-                stations: polyline::stations(&points),
+                caps: if ring { caps.round(stations[stations.len() - 1]) } else { caps },
+                stations,
                 points,
                 blocks: chords.clone().map(|s| s.span.block).collect(),
                 bulges: chords.zip(turns.windows(2)).map(|(s, t)| bulge(s, t, profile)).collect(),
@@ -126,6 +157,18 @@ fn contour_lines(marker: &Marker, contour: &Contour, owner: [usize; 2], profile:
         }
     }
     lines
+}
+
+/// The corners of a closed contour at which it may begin, and end: those least far along it from its start in the file.
+fn nearest_to_start<'a>(segments: &[Segment], corners: &'a [usize]) -> impl Iterator<Item = usize> + 'a {
+    let mut stations = vec![0.0];
+    for segment in segments {
+        stations.push(stations[stations.len() - 1] + segment.length());
+    }
+    let length = stations[segments.len()];
+    let away = move |i: &usize| stations[*i].min(length - stations[*i]);
+    let least = corners.iter().map(&away).fold(f64::INFINITY, f64::min);
+    corners.iter().copied().filter(move |i| away(i) <= least + SAME_WAY)
 }
 
 /// On a chord between two turns to the same side the curve that was flattened lies outside, by about length * turn / 8.

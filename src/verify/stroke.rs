@@ -27,6 +27,9 @@ const REACH: f64 = 2.0;
 const TRIALS: usize = 8;
 /// Least way of the tip that shows a direction, mm: its rounding is then below 0.02 degrees.
 const WAY_MIN: f64 = 0.005;
+/// How far from its chord, along the line, a cap may be obeyed, mm, beside the tolerance: a tip that takes a bend inside
+/// its tube passes the vertex early or late by less.
+const CAP_ASIDE: f64 = 0.5;
 /// Rounding of a tip's place, mm.
 const PLACE_ROUNDING: f64 = 4.0 * ROUNDING;
 
@@ -136,7 +139,6 @@ impl<'a> Judge<'a> {
     pub(super) fn judge(&mut self, stroke: &Stroke, done: &mut Done) {
         let rows = &stroke.rows;
         let tips: Vec<Point> = rows.iter().map(|row| row.centre + row.along() * self.knife.radius()).collect();
-        self.check_feed(rows, &tips);
         let cut = Cut::new(rows, &tips, self.knife);
         let trials: Vec<Trial> =
             self.candidates(&cut).into_iter().map(|(line, chord, at)| self.follow(&cut, line, chord, at)).collect();
@@ -145,10 +147,12 @@ impl<'a> Judge<'a> {
             at(row.t, cut.points[i], row.block)
         };
         let Some(mut best) = self.choose(trials, rows[0].block, &done.coverage) else {
+            self.check_feed(rows, &cut, None);
             self.check_heading(rows, &tips, false);
             self.stray.see(polyline::length(&cut.points).max(self.knife.width_mm).max(REACH), || seen(cut.body));
             return;
         };
+        self.check_feed(rows, &cut, Some(&best));
         let line = &self.reference.lines[best.line];
         best.fits = cut.is_stab() && self.fits(&best, &done.coverage);
         self.check_heading(rows, &tips, line.ring && best.laps);
@@ -419,9 +423,17 @@ impl<'a> Judge<'a> {
         }
     }
 
-    fn check_feed(&mut self, rows: &[Row], tips: &[Point]) {
-        for (row, ends) in rows.iter().zip(tips.windows(2)) {
-            self.feed.see((ends[1] - ends[0]).norm() / self.period, || row.sighting());
+    /// The way of the tip from row to row against the greatest cap that holds anywhere on it.
+    fn check_feed(&mut self, rows: &[Row], cut: &Cut, trial: Option<&Trial>) {
+        let slack = self.reference.tolerance + CAP_ASIDE;
+        let rounding = 4.0 * PLACE_ROUNDING / self.period;
+        for (i, ends) in cut.points[cut.body..].windows(2).enumerate() {
+            let cap = trial.map_or(self.knife.feed_mm_s.unwrap_or(f64::INFINITY), |trial| {
+                let [a, b] = [0, 1].map(|k| trial.feet[cut.body + i + k].station);
+                self.reference.lines[trial.line].caps.greatest(a.min(b) - slack, a.max(b) + slack)
+            });
+            let speed = (ends[1] - ends[0]).norm() / self.period;
+            self.feed.see_under(speed, cap + rounding, || rows[cut.rows[i + 1] - 1].sighting());
         }
     }
 

@@ -50,6 +50,11 @@ pub(crate) const DAMAGES: &[Damage] = &[
         let amount = DAMAGING * limit + PLACES_ROUNDING * axis_rounding(case, 1);
         grown(case, (times, quicker), (|rows: &[Row]| feed(case, rows), amount))
     }),
+    damage("a piece faster than the file lets it be", "verify/feed", |case, _| {
+        let mut marker = case.marker.clone();
+        let slowest = marker.pieces.iter_mut().filter_map(|piece| piece.feed.take()).reduce(f64::min)?;
+        Some(Harm::anywhere(case.redrawn(&marker), DAMAGING * slowest))
+    }),
     scaled("a faster machine, as X feels it", "verify/speed-x", |case, _, times| axis::<0, 1>(case, times, quicker)),
     scaled("a faster machine, as Y feels it", "verify/speed-y", |case, _, times| axis::<1, 1>(case, times, quicker)),
     scaled("a faster machine, as C feels it", "verify/speed-c", |case, _, times| axis::<2, 1>(case, times, quicker)),
