@@ -13,6 +13,7 @@ mod coverage;
 mod events;
 mod follow;
 mod grid;
+mod heading;
 mod inside;
 mod joints;
 mod limits;
