@@ -90,4 +90,5 @@ pub(super) const EXPLANATIONS: &[(&str, &str)] = &[
     ("source/drills", "The reader and a second scan of the same bytes must count the same holes. Please report the file if they do not."),
     ("source/length", "The reader and a second scan of the same bytes must find the same way of the knife. Please report the file if they do not."),
     ("source/bounds", "The reader and a second scan of the same bytes must find the same box: a piece displaced or of another size would be seen here. Please report the file."),
+    ("source/kept", "Between reading and cutting lines are joined, points and slits that stand twice are dropped, pieces are chosen. A block that is lost on that way would leave a line uncut. Please report the file."),
 ];

@@ -56,6 +56,7 @@ pub(super) fn judge(source: &Source, input: &Input, job: &Job, program: &mut dyn
     };
     let audit = verify::source_audit(input.dialect.name, source.bytes(), &input.read, &job.profile);
     verdict.findings.extend(audit.into_iter().flatten());
+    verdict.findings.push(verify::source_kept(&input.read, marker));
     verify::sort(&mut verdict.findings);
     Ok(verdict)
 }

@@ -16,6 +16,7 @@ mod grid;
 mod heading;
 mod inside;
 mod joints;
+mod kept;
 mod limits;
 mod naming;
 mod npy;
@@ -28,7 +29,7 @@ mod stroke;
 mod table;
 mod worst;
 
-pub use source_audit::{Census, source_audit};
+pub use source_audit::{Census, source_audit, source_kept};
 
 use std::io::BufRead;
 
@@ -86,6 +87,7 @@ pub const RULES: &[(&str, &str)] = &[
     ("source/drills", "the marker has the holes of the file"),
     ("source/length", "the marker has the cut length of the file"),
     ("source/bounds", "the marker has the bounds of the file"),
+    ("source/kept", "every block that cuts or drills in the file as read does so in the marker that is cut"),
 ];
 
 /// What a program is worth.

@@ -9,6 +9,7 @@ use crate::measure::{
 };
 use crate::rows::{Row, holes, parse, strokes};
 use crate::sketch::{chain, contours, notches, turn};
+use crate::support::program::setpoints;
 use crate::{Damage, damage, scaled};
 
 /// By how much a machine differs more from one trial to the next, and the most trials.
@@ -53,7 +54,9 @@ pub(crate) const DAMAGES: &[Damage] = &[
     damage("a piece faster than the file lets it be", "verify/feed", |case, _| {
         let mut marker = case.marker.clone();
         let slowest = marker.pieces.iter_mut().filter_map(|piece| piece.feed.take()).reduce(f64::min)?;
-        Some(Harm::anywhere(case.redrawn(&marker), DAMAGING * slowest))
+        let mut job = case.job.clone();
+        job.profile.knife.feed_mm_s = None;
+        Some(Harm::anywhere(setpoints(&marker, &job), DAMAGING * slowest))
     }),
     scaled("a faster machine, as X feels it", "verify/speed-x", |case, _, times| axis::<0, 1>(case, times, quicker)),
     scaled("a faster machine, as Y feels it", "verify/speed-y", |case, _, times| axis::<1, 1>(case, times, quicker)),
