@@ -8,7 +8,8 @@ use std::fmt::Write as _;
 
 use cutc::geom::{Heading, Point, Vector};
 use cutc::ir::Marker;
-use cutc::ir::marker::{Drill, Notch, NotchKind};
+use cutc::ir::marker::{Drill, Event, Notch, NotchKind};
+use cutc::ir::toolpath;
 use cutc::machine::Job;
 use cutc::source::Span;
 use cutc::verify::{self, Verdict};
@@ -331,6 +332,191 @@ fn an_event_that_the_marker_does_not_have_is_refused() {
     cut_long_line(&mut program);
     program.rest(1, Outputs { event: 1, ..Outputs::default() });
     check(program, &long_line(), &["verify/events"]);
+}
+
+#[test]
+fn the_events_of_the_marker_are_told_in_their_turn() {
+    let mut marker = drilled();
+    let event = |kind, block| Event { kind, span: Span { block, ..Span::default() } };
+    marker.pieces[0].events = vec![event(toolpath::Event::Stop, 9), event(toolpath::Event::Advance, 10)];
+    marker.closing = vec![event(toolpath::Event::Stop, 20)];
+    let made = |numbers: [u8; 3], cut_first: bool| {
+        let mut program = Program::new(&Job::default());
+        let tell = |program: &mut Program, event: u8| program.rest(1, Outputs { event, ..Outputs::default() });
+        let cut = |program: &mut Program| {
+            for x in [120.0, 180.0] {
+                program.drill(p(x, 60.0), 1);
+            }
+            program.run(p(150.0, 50.0), p(150.0, 58.0), 13);
+            cut_long_line(program);
+        };
+        if cut_first {
+            cut(&mut program);
+        }
+        numbers[..2].iter().for_each(|&number| tell(&mut program, number));
+        if !cut_first {
+            cut(&mut program);
+        }
+        tell(&mut program, numbers[2]);
+        program
+    };
+    check(made([1, 2, 1], false), &marker, &[]);
+    check(made([2, 1, 1], false), &marker, &["verify/events"]);
+    check(made([1, 2, 0], false), &marker, &["verify/events"]);
+    check(made([1, 0, 1], false), &marker, &["verify/events"]);
+    check(made([1, 2, 1], true), &marker, &["verify/order"]);
+}
+
+#[test]
+fn a_blade_that_is_clear_may_be_led_on_but_nothing_happens_before_it_is_up() {
+    let mut job = Job::default();
+    job.profile.knife.clear_ms = Some(20.0);
+    let marker = support::marker(&[p(100.0, 50.0), p(200.0, 50.0)]);
+    // Lifted for so long at rest and then led away, or told an event.
+    let made = |job: &Job, rest: usize, event: u8| {
+        let mut program = Program::new(job);
+        program.plunge(p(106.1, 50.0), 0.0, 1);
+        program.go(program.at(p(200.8, 50.0), 0.0), Program::down(1));
+        program.rest(rest, Outputs::default());
+        if event == 0 {
+            program.go([0.0; 3], Outputs::default());
+        }
+        program.rest(1, Outputs { event, ..Outputs::default() });
+        program.rest(program.ticks(job.profile.knife.lift_ms), Outputs::default());
+        broken(&program.judge(&marker))
+    };
+    let none: [&str; 0] = [];
+    assert_eq!(made(&job, 21, 0), none);
+    assert_eq!(made(&job, 10, 0), ["verify/rest"]);
+    assert_eq!(made(&Job::default(), 21, 0), ["verify/rest"]);
+    assert_eq!(made(&Job::default(), 61, 0), none);
+    assert_eq!(made(&job, 59, 1), ["verify/dwell", "verify/events"]);
+    assert_eq!(made(&job, 60, 1), ["verify/events"]);
+}
+
+#[test]
+fn the_limits_of_travel_hold_while_the_knife_is_up_and_those_of_cutting_while_it_is_down() {
+    let made = |speed: f64, travel: Option<f64>, to: f64| {
+        let mut job = Job::default();
+        let axis = &mut job.profile.axes.x;
+        (axis.speed_mm_s, axis.travel.speed_mm_s) = (speed, travel);
+        let mut program = Program::new(&job);
+        program.run(p(99.5, 50.0), p(to + 0.8, 50.0), 1);
+        program.judge(&support::marker(&[p(100.0, 50.0), p(to, 50.0)]))
+    };
+    let none: [&str; 0] = [];
+    // A hundred millimetres take 2.2 s by hand: the greatest speed is 15 / 8 of the mean.
+    assert_eq!(broken(&made(120.0, None, 200.0)), none);
+    assert_eq!(broken(&made(40.0, Some(120.0), 108.0)), none);
+    assert_eq!(broken(&made(40.0, None, 108.0)), ["verify/speed-x"]);
+    assert_eq!(broken(&made(120.0, Some(40.0), 108.0)), ["verify/speed-x"]);
+    let verdict = made(40.0, Some(120.0), 200.0);
+    assert_eq!(broken(&verdict), ["verify/speed-x"]);
+    let finding = verdict.broken().next().expect("one is broken");
+    assert!(finding.worst > 70.0 && finding.limit.is_some_and(|limit| (40.0..41.0).contains(&limit)), "{finding:?}");
+}
+
+/// An angle of two lines, with a corner between them; the second one is drawn at half of its speed.
+fn angle() -> Marker {
+    let mut marker = support::marker(&[p(100.0, 50.0), p(200.0, 50.0), p(200.0, 150.0)]);
+    let Marker { list, pieces, .. } = &mut marker;
+    let mut cursor = list.cursor(&mut pieces[0].contours[0].range);
+    assert!(cursor.advance());
+    cursor.segment_mut().percent = 50;
+    marker
+}
+
+#[test]
+fn every_part_of_a_line_has_its_own_greatest_speed() {
+    let made = |feed: [Option<f64>; 2], before_corner: Option<f64>| {
+        let mut job = Job::default();
+        job.profile.knife.feed_mm_s = feed[0];
+        job.profile.slow.before_corner_mm = before_corner;
+        job.profile.slow.before_corner_percent = 40.0;
+        let mut marker = angle();
+        marker.pieces[0].feed = feed[1];
+        let mut program = Program::new(&job);
+        program.run(p(99.5, 50.0), p(200.8, 50.0), 1);
+        program.run(p(200.0, 49.5), p(200.0, 150.8), 2);
+        let verdict = program.judge(&marker);
+        let limit = verdict.broken().next().and_then(|finding| finding.limit).map(f64::round);
+        (broken(&verdict), limit)
+    };
+    let feed = vec!["verify/feed"];
+    // Each line takes 2.1 s by hand, and its greatest speed is 85 mm/s in its midst.
+    assert_eq!(made([Some(200.0), None], None), (vec![], None));
+    assert_eq!(made([Some(120.0), None], None), (feed.clone(), Some(60.0)));
+    assert_eq!(made([None, Some(120.0)], None), (feed.clone(), Some(60.0)));
+    assert_eq!(made([None, None], None), (vec![], None));
+    assert_eq!(made([Some(200.0), None], Some(10.0)), (vec![], None));
+    // Before the corner less is allowed; where the contour ends, no corner lies ahead.
+    assert_eq!(made([Some(172.0), None], Some(60.0)), (feed, Some(69.0)));
+}
+
+#[test]
+fn a_stab_askew_is_seen_though_it_stays_in_the_tube() {
+    for heading in [0.0, 0.4, 0.6, 0.8] {
+        let mut program = Program::new(&Job::default());
+        // Turned about its middle, so that neither end leaves the tube.
+        program.stab(p(103.0, 50.0) + Heading::new(f64::to_radians(heading)).unit() * 3.3, heading, 1);
+        let expected: &[&str] = if heading > 0.5 { &["verify/heading"] } else { &[] };
+        let found = broken(&program.judge(&support::marker(&[p(100.0, 50.0), p(106.0, 50.0)])));
+        assert_eq!(found, expected, "{heading}");
+    }
+}
+
+#[test]
+fn a_blade_does_not_plunge_askew_to_come_straight_on_its_way() {
+    for heading in [0.0, 0.4, 0.6, 1.2] {
+        let mut program = Program::new(&Job::default());
+        let start = p(106.1, 50.0);
+        program.plunge(start, heading, 1);
+        let fade = |way: f64| {
+            let x = (way / 6.6).min(1.0);
+            1.0 - x.powi(4) * (35.0 - x * (84.0 - x * (70.0 - x * 20.0)))
+        };
+        let poses: Vec<[f64; 3]> = (0..=1000)
+            .map(|i| {
+                let way = 94.7 * f64::from(i) / 1000.0;
+                program.at(start + Vector::new(way, 0.0), heading * fade(way))
+            })
+            .collect();
+        program.along(94.7, Program::down(1), |x| {
+            let at = x * 1000.0;
+            let i = (at as usize).min(999);
+            let part = at - i as f64;
+            std::array::from_fn(|axis| poses[i][axis] + (poses[i + 1][axis] - poses[i][axis]) * part)
+        });
+        program.lift();
+        let found = broken(&program.judge(&long_line()));
+        assert_eq!(found.contains(&"verify/heading"), heading > 0.5, "{heading}: {found:?}");
+    }
+}
+
+#[test]
+fn a_tip_that_rests_on_a_curve_with_noise_in_its_last_decimal_is_read_from_nearby() {
+    let marker = circle(20.0);
+    let mut program = Program::new(&Job::default());
+    program.plunge(p(120.0, 50.0), 90.0, 1);
+    let led = |program: &mut Program, from: f64, to: f64| {
+        program.along(300.0, Program::down(1), |x| {
+            let turn = from + (to - from) * x;
+            let tip = p(100.0, 50.0) + Heading::new(turn).unit() * 20.0;
+            let centre = tip - Heading::new(turn + TAU / 4.0).unit() * 0.25;
+            [centre.x, centre.y, 90.0 + turn.to_degrees()]
+        });
+    };
+    led(&mut program, 0.0, TAU / 2.0);
+    for i in 0..200 {
+        program.rest(1, Program::down(24));
+        let last = program.poses.len() - 1;
+        program.poses[last][0] += if i % 2 == 0 { 1e-6 } else { -1e-6 };
+    }
+    led(&mut program, TAU / 2.0, TAU + 0.04);
+    program.lift();
+    let verdict = program.judge(&marker);
+    let heading = verdict.findings.iter().find(|finding| finding.rule == "verify/heading").expect("it is reported");
+    assert!(heading.holds(), "{heading:?}");
 }
 
 #[test]

@@ -13,8 +13,10 @@ const WIDTHS: f64 = 4.0;
 #[derive(Debug)]
 pub(super) struct Joints {
     width: f64,
-    heels: [f64; 3],
-    fronts: [f64; 3],
+    /// How far a tail may stand before an end of a line, mm.
+    pub(super) heels: [f64; 3],
+    /// How far a tip may stand past one, mm.
+    pub(super) fronts: [f64; 3],
     longest: Option<f64>,
 }
 

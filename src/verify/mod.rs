@@ -8,11 +8,15 @@
 //! `stroke`, which is followed along the lines of the `reference` and marks what it cut in `coverage`.
 
 mod body;
+mod caps;
 mod coverage;
+mod events;
 mod follow;
 mod grid;
+mod heading;
 mod inside;
 mod joints;
+mod kept;
 mod limits;
 mod naming;
 mod npy;
@@ -25,11 +29,12 @@ mod stroke;
 mod table;
 mod worst;
 
-pub use source_audit::{Census, source_audit};
+pub use source_audit::{Census, source_audit, source_kept};
 
 use std::io::BufRead;
 
 use self::coverage::Coverage;
+use self::events::Events;
 use self::limits::Limits;
 use self::naming::Naming;
 use self::order::Order;
@@ -56,14 +61,17 @@ pub const RULES: &[(&str, &str)] = &[
     ("verify/jerk-x", "X never jerks more than its limit"),
     ("verify/jerk-y", "Y never jerks more than its limit"),
     ("verify/jerk-c", "C never jerks more than its limit"),
-    ("verify/feed", "the tip is never faster than the feed while it cuts"),
-    ("verify/rest", "the axes rest while the knife plunges or lifts and while a drill works"),
+    (
+        "verify/feed",
+        "the tip is never faster than the feed, the slowed parts of the file and the way before a corner let it be",
+    ),
+    ("verify/rest", "the axes rest while the knife plunges or lifts, while a drill works and at events"),
     ("verify/dwell", "plunges, lifts and drills last as long as the profile says"),
     ("verify/c-range", "C stays inside its range"),
     ("verify/table", "the axes, and the blade while it is down, stay over the table"),
     ("verify/on-path", "the tip stays inside the tube of the path while it cuts"),
     ("verify/stray", "the knife cuts nothing that is not in the marker"),
-    ("verify/order", "holes, slits and contours come in the order of the marker"),
+    ("verify/order", "events, holes, slits and contours come in the order of the marker"),
     ("verify/once", "nothing is cut twice beyond the overlaps"),
     ("verify/complete", "no stretch of a contour or slit is left uncut"),
     ("verify/heading", "the blade points along its law while it cuts"),
@@ -74,11 +82,12 @@ pub const RULES: &[(&str, &str)] = &[
     ("verify/drills", "every hole is drilled once, by its drill, and no other"),
     ("verify/drill-place", "every hole is where the marker has it"),
     ("verify/block", "rows that cut name the block that is cut there, and no others name one"),
-    ("verify/events", "no event is told that the marker does not have"),
+    ("verify/events", "the events of the marker are told, each once and with the knife up, and no others"),
     ("source/points", "the marker has the points that the file cuts"),
     ("source/drills", "the marker has the holes of the file"),
     ("source/length", "the marker has the cut length of the file"),
     ("source/bounds", "the marker has the bounds of the file"),
+    ("source/kept", "every block that cuts or drills in the file as read does so in the marker that is cut"),
 ];
 
 /// What a program is worth.
@@ -125,6 +134,7 @@ pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdi
     let mut done =
         Done { coverage: Coverage::new(&reference), order: Order::default(), naming: Naming::new(reference.tolerance) };
     let mut limits = Limits::new(&job.profile);
+    let mut events = Events::new(&reference);
     let mut rest = Rest::new(&reference, &job.profile);
     let mut table = Table::new(&job.profile);
     let mut rows = Rows::new(program);
@@ -135,6 +145,7 @@ pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdi
         rest.see(&row);
         table.see(&row);
         done.naming.see(&row);
+        events.see(&row, &mut done.order);
         if row.knife {
             stroke.push(&row);
         } else if !stroke.is_empty() {
@@ -154,7 +165,8 @@ pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdi
     findings.push(table.finding());
     findings.extend(judge.findings());
     findings.extend(done.coverage.findings(&job.profile));
-    findings.extend(done.naming.findings());
+    findings.push(done.naming.finding());
+    findings.push(events.finding());
     findings.push(done.order.finding());
     sort(&mut findings);
     Verdict { findings }

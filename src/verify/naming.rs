@@ -1,4 +1,4 @@
-//! What rows say beside poses and outputs: the block that is being cut, by which a program is resumed, and events.
+//! What rows say beside poses and outputs: the block that is being cut, by which a program is resumed.
 
 use super::read::Row;
 use super::reference::Line;
@@ -9,32 +9,21 @@ use crate::ir::Finding;
 /// its tube passes the vertex early or late by less.
 const ASIDE: f64 = 0.5;
 
-/// Watches the columns `block` and `event`.
+/// Watches the column `block`.
 pub(super) struct Naming {
     reach: f64,
     block: Worst,
-    events: f64,
-    event: Worst,
 }
 
 impl Naming {
     /// For a tube of this tolerance, mm.
     pub(super) fn new(tolerance: f64) -> Self {
         let reach = tolerance + ASIDE;
-        Self {
-            reach,
-            block: Worst::new("verify/block", "mm", Some(reach)),
-            events: 0.0,
-            event: Worst::new("verify/events", "events", Some(0.0)),
-        }
+        Self { reach, block: Worst::new("verify/block", "mm", Some(reach)) }
     }
 
-    /// Sees any row: a marker has no events, and in the air no block is cut.
+    /// Sees any row: in the air no block is cut.
     pub(super) fn see(&mut self, row: &Row) {
-        if row.event != 0 {
-            self.events += 1.0;
-            self.event.see(self.events, || row.sighting());
-        }
         if !row.knife && row.block != 0 {
             self.block.see(f64::INFINITY, || row.sighting());
         }
@@ -81,7 +70,7 @@ impl Naming {
     }
 
     /// What was found.
-    pub(super) fn findings(self) -> [Finding; 2] {
-        [self.block.finding(), self.event.finding()]
+    pub(super) fn finding(self) -> Finding {
+        self.block.finding()
     }
 }

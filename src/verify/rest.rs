@@ -1,4 +1,4 @@
-//! What happens at rest: start and end of the program, plunges, lifts, and the holes that are drilled.
+//! What happens at rest: start and end of the program, plunges, lifts, events, and the holes that are drilled.
 
 use super::order::Order;
 use super::read::{ROUNDING, Row};
@@ -19,6 +19,9 @@ pub(super) struct Rest<'a> {
     reference: &'a Reference<'a>,
     period: f64,
     plunge: u64,
+    /// From the lift command until the blade is clear of the cloth: so long the axes rest.
+    clear: u64,
+    /// From the lift command until it is all the way up.
     lift: u64,
     drill: u64,
     offset: Vector,
@@ -27,6 +30,8 @@ pub(super) struct Rest<'a> {
     before: Option<Row>,
     /// The row at which the axes came to rest, and the tick until which they must.
     hold: Option<(Row, u64)>,
+    /// The tick from which the blade is all the way up.
+    up: u64,
     drilled: Vec<(Point, u8, Row)>,
     start: Worst,
     end: Worst,
@@ -43,6 +48,7 @@ impl<'a> Rest<'a> {
             reference,
             period,
             plunge: ticks(profile.knife.plunge()),
+            clear: ticks(profile.knife.clear()),
             lift: ticks(profile.knife.lift()),
             drill: ticks(profile.drill.dwell()),
             offset: Vector::new(x, y),
@@ -50,6 +56,7 @@ impl<'a> Rest<'a> {
             home: profile.home,
             before: None,
             hold: None,
+            up: 0,
             drilled: Vec::new(),
             start: Worst::new("verify/start", "mm, deg", Some(SAME)),
             end: Worst::new("verify/end", "mm, deg", Some(SAME)),
@@ -68,6 +75,9 @@ impl<'a> Rest<'a> {
                 self.begin(row, self.drill);
                 self.drilled.push((row.centre + self.offset, row.drill, *row));
             }
+            if row.event != 0 {
+                self.begin(row, 1);
+            }
             return;
         };
         // The pose at the tick of a command belongs to the rest that it begins.
@@ -75,7 +85,10 @@ impl<'a> Rest<'a> {
             self.still.see(distance(row, [at.centre.x, at.centre.y, at.c_deg]), || row.sighting());
         }
         if row.knife != before.knife {
-            self.begin(row, if row.knife { self.plunge } else { self.lift });
+            self.begin(row, if row.knife { self.plunge } else { self.clear });
+            if !row.knife {
+                self.up = row.tick + self.lift;
+            }
         }
         if row.drill != before.drill {
             let ticks = if row.drill == 0 { 0 } else { self.drill };
@@ -83,6 +96,9 @@ impl<'a> Rest<'a> {
             if row.drill != 0 {
                 self.drilled.push((row.centre + self.offset, row.drill, *row));
             }
+        }
+        if row.event != 0 {
+            self.begin(row, 1);
         }
         if row.drill != 0 {
             let last = distance(row, [before.centre.x, before.centre.y, before.c_deg]);
@@ -95,9 +111,10 @@ impl<'a> Rest<'a> {
         }
     }
 
-    /// Begins a rest of `ticks`; the one before it must be over.
+    /// Begins a rest of `ticks`; the one before it must be over, and the blade up.
     fn begin(&mut self, row: &Row, ticks: u64) {
         self.finish(row);
+        self.rise(row);
         self.hold = (ticks > 0).then_some((*row, row.tick + ticks));
     }
 
@@ -109,10 +126,17 @@ impl<'a> Rest<'a> {
         }
     }
 
+    /// Sees whether the blade is all the way up at a row.
+    fn rise(&mut self, row: &Row) {
+        let missing = self.up.saturating_sub(row.tick) as f64 * self.period;
+        self.dwell.see(missing, || row.sighting());
+    }
+
     /// What was found; the holes of the marker that were drilled join the `order`.
     pub(super) fn findings(mut self, last: Option<&Row>, order: &mut Order) -> Vec<Finding> {
         if let Some(last) = last {
             self.finish(last);
+            self.rise(last);
             if last.knife || last.drill != 0 {
                 self.end.see(f64::INFINITY, || last.sighting());
             }

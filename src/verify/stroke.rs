@@ -1,8 +1,7 @@
 //! One stroke of the knife, from its plunge to its lift: what it cut, and how the blade lay.
 //!
 //! What a stroke cuts is the blade's body where it plunges, then the track of the tip. Both are followed along the line
-//! of the reference that they belong to. Under the tangent law the blade lies along the tip's way; after a plunge as a
-//! chord it fades from the chord to the tangent over the next blade width, by the step of degree 7.
+//! of the reference that they belong to.
 
 use std::ops::RangeInclusive;
 
@@ -11,22 +10,24 @@ use super::body::{BODY_STEP, Body, Cut};
 use super::coverage::Coverage;
 use super::follow::{Follower, Foot, on_chord};
 use super::grid::Grid;
+use super::heading::{self, Moving, Plunge};
 use super::inside::Inside;
 use super::joints::{Around, Joints};
 use super::read::{ROUNDING, Row};
 use super::reference::{Line, Reference};
 use super::worst::{Worst, at};
-use crate::geom::{Point, Vector, angle, polyline};
+use crate::geom::{Point, angle, polyline};
 use crate::ir::Finding;
 use crate::ir::finding::Sighting;
-use crate::machine::{Knife, MachineProfile};
+use crate::machine::{Fit, Knife, MachineProfile};
 
 /// How far from a line a stroke may lie and still be taken for a bad cut of it, mm.
 const REACH: f64 = 2.0;
 /// Lines that a stroke is tried on, at the most.
 const TRIALS: usize = 8;
-/// Least way of the tip that shows a direction, mm: its rounding is then below 0.02 degrees.
-const WAY_MIN: f64 = 0.005;
+/// How far from its chord, along the line, a cap may be obeyed, mm, beside the tolerance: a tip that takes a bend inside
+/// its tube passes the vertex early or late by less.
+const CAP_ASIDE: f64 = 0.5;
 /// Rounding of a tip's place, mm.
 const PLACE_ROUNDING: f64 = 4.0 * ROUNDING;
 
@@ -62,6 +63,8 @@ pub(super) struct Judge<'a> {
     overlap: f64,
     overlaps: f64,
     max_uncut: f64,
+    /// Greatest bulge of a tube beside its tolerance, mm.
+    bulge: f64,
     on_path: Worst,
     stray: Worst,
     once: Worst,
@@ -87,8 +90,8 @@ struct Trial {
     laps: bool,
     /// The places that are held to the line: of a stab its longest stretch on it; its surplus lies before and behind.
     held: RangeInclusive<usize>,
-    /// Whether it is a stab that fits what was left of its line: its blade may then be longer.
-    fits: bool,
+    /// The joints between which it is a stab that fits what was left of its line: its blade may then be longer.
+    fits: Option<[[f64; 2]; 2]>,
 }
 
 impl<'a> Judge<'a> {
@@ -113,6 +116,7 @@ impl<'a> Judge<'a> {
             overlap: front.max(heel),
             overlaps,
             max_uncut: verify.max_uncut_mm,
+            bulge: if profile.path.fit == Fit::Curve { profile.path.chord_sag_max_mm } else { 0.0 },
             on_path: Worst::new("verify/on-path", "mm", Some(tolerance + PLACE_ROUNDING)),
             stray: Worst::new("verify/stray", "mm", Some(0.0)),
             once: Worst::new("verify/once", "mm", Some(joints * overlaps + 2.0 * tolerance)),
@@ -136,7 +140,6 @@ impl<'a> Judge<'a> {
     pub(super) fn judge(&mut self, stroke: &Stroke, done: &mut Done) {
         let rows = &stroke.rows;
         let tips: Vec<Point> = rows.iter().map(|row| row.centre + row.along() * self.knife.radius()).collect();
-        self.check_feed(rows, &tips);
         let cut = Cut::new(rows, &tips, self.knife);
         let trials: Vec<Trial> =
             self.candidates(&cut).into_iter().map(|(line, chord, at)| self.follow(&cut, line, chord, at)).collect();
@@ -145,13 +148,15 @@ impl<'a> Judge<'a> {
             at(row.t, cut.points[i], row.block)
         };
         let Some(mut best) = self.choose(trials, rows[0].block, &done.coverage) else {
-            self.check_heading(rows, &tips, false);
+            self.check_feed(rows, &cut, None);
+            self.check_heading(rows, &tips, (&cut, None));
             self.stray.see(polyline::length(&cut.points).max(self.knife.width_mm).max(REACH), || seen(cut.body));
             return;
         };
+        self.check_feed(rows, &cut, Some(&best));
         let line = &self.reference.lines[best.line];
-        best.fits = cut.is_stab() && self.fits(&best, &done.coverage);
-        self.check_heading(rows, &tips, line.ring && best.laps);
+        best.fits = if cut.is_stab() { self.fits(&best, &done.coverage) } else { None };
+        self.check_heading(rows, &tips, (&cut, Some(&best)));
         if cut.is_stab() {
             self.check_stab(&cut, &best, &seen);
         }
@@ -168,32 +173,47 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Whether what a stab cuts anew reaches from one joint of its line to another: only then its blade may be longer
-    /// than what it cuts.
-    fn fits(&self, trial: &Trial, coverage: &Coverage) -> bool {
+    /// The joints of its line from one of which to another that reaches which a stab cuts anew, the first and the last at
+    /// either end; `None` when there are none: only between joints its blade may be longer than what it cuts.
+    fn fits(&self, trial: &Trial, coverage: &Coverage) -> Option<[[f64; 2]; 2]> {
         let line = &self.reference.lines[trial.line];
         let joints = |station: f64| {
             let tube = 2.0 * (self.reference.tolerance + PLACE_ROUNDING);
             self.joints.near(line, Around { station, slack: BODY_STEP + tube, tube })
         };
-        let Some([from, to]) = coverage.uncut(trial.line, &trial.stretches) else { return false };
-        matches!((joints(from), joints(to)), (Some([first, _]), Some([_, last])) if first < last)
+        let [from, to] = coverage.uncut(trial.line, &trial.stretches)?;
+        let ends = [joints(from)?, joints(to)?];
+        (ends[0][0] < ends[1][1]).then_some(ends)
     }
 
     /// A stab that is longer than what it cuts leaves the line straight on; any other must lie on it with all of its blade.
     fn check_stab(&mut self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting) {
-        if !trial.fits {
+        let line = &self.reference.lines[trial.line];
+        let width = self.knife.width_mm;
+        let Some([from, to]) = trial.fits else {
             for (i, foot) in trial.feet.iter().enumerate().filter(|(i, _)| !trial.held.contains(i)) {
                 self.on_path.see(foot.deviation, || seen(i));
             }
+            let askew = angle::turn(self.plunge(cut, trial).chord(), cut.points[cut.body] - cut.points[0]);
+            if width > 0.0 {
+                self.heading.see(askew.abs().to_degrees(), || seen(cut.body));
+            }
             return;
-        }
-        let line = &self.reference.lines[trial.line];
-        let width = self.knife.width_mm;
+        };
         if width == 0.0 {
             return;
         }
-        // The blade lies between the directions of the chords that it cuts; the tube turns a blade by a little.
+        if from.into_iter().chain(to).all(f64::is_finite) {
+            let blade = cut.points[cut.body] - cut.points[0];
+            let with = trial.feet[cut.body].station >= trial.feet[0].station;
+            let blade = if with { blade } else { -blade };
+            let ends = from.into_iter().flat_map(|from| to.map(|to| [from, to])).filter(|[from, to]| from < to);
+            let directions = ends.flat_map(|ends| heading::of_stab(line, ends, &self.joints));
+            let askew = directions.map(|direction| angle::turn(direction, blade).abs()).fold(f64::INFINITY, f64::min);
+            self.heading.see(askew.to_degrees(), || seen(cut.body));
+            return;
+        }
+        // Where the knife may have been lifted anywhere the blade lies between the directions of the chords that it cuts; the tube turns a blade by a little.
         let (first, last) = (trial.feet[*trial.held.start()].station, trial.feet[*trial.held.end()].station);
         let blade = (cut.points[cut.body] - cut.points[0]) * if last < first { -1.0 } else { 1.0 };
         let chords = line.chord_at(first.min(last))..=line.chord_at(first.max(last));
@@ -214,7 +234,7 @@ impl<'a> Judge<'a> {
         if trial.fresh < self.reference.tolerance {
             // A stroke that cuts nothing new counts with its overlaps.
             twice += self.overlaps + self.knife.width_mm.max(REACH);
-        } else if trial.fits {
+        } else if trial.fits.is_some() {
             twice -= self.knife.width_mm - trial.fresh;
         }
         self.once.see(twice, || seen(cut.body));
@@ -305,7 +325,7 @@ impl<'a> Judge<'a> {
             worst: (0.0, cut.body),
             laps,
             held: first..=points.len() - 1,
-            fits: false,
+            fits: None,
         };
         let mut body = if laps { Body::default() } else { Body::new(line, cut, &trial.feet, allowed) };
         if body.sag > allowed && !self.may_bow(cut, line, &trial.feet) {
@@ -361,39 +381,23 @@ impl<'a> Judge<'a> {
         is_joint(&feet[0]) || cut.is_stab() && is_joint(&feet[cut.body])
     }
 
-    /// The blade against its law: along the way of the tip; before the tip has moved, along the way to come.
-    fn check_heading(&mut self, rows: &[Row], tips: &[Point], steady: bool) {
-        let total = polyline::length(tips);
-        let fade = self.knife.width_mm.min(total);
-        let mut lead = steady.then_some(0.0);
-        let mut way = 0.0;
-        let last = rows.len() - 1;
-        let ends = |i: usize, reach: usize| [tips[i.saturating_sub(reach)], tips[(i + reach).min(last)]];
-        let mut reach = 1;
-        for i in 0..rows.len() {
-            if i > 0 {
-                way += (tips[i] - tips[i - 1]).norm();
-            }
-            reach = (reach - 1).max(1);
-            let shows = |[before, behind]: [Point; 2]| {
-                let clear = |at: Point, end: usize| (at - tips[i]).norm() >= WAY_MIN || at == tips[end];
-                clear(before, 0) && clear(behind, last)
-            };
-            while !shows(ends(i, reach)) && reach < last {
-                reach += 1;
-            }
-            let [before, behind] = ends(i, reach);
-            let along = direction(before, tips[i], behind);
-            if along.norm() < WAY_MIN {
-                // A blade that goes nowhere turns nowhere.
-                self.heading.see((rows[i].c_deg - rows[0].c_deg).abs(), || rows[i].sighting());
-                continue;
-            }
-            let ahead = angle::wrap(along.y.atan2(along.x) - rows[i].c_deg.to_radians());
-            let lead = *lead.get_or_insert(ahead);
-            let expected = if way < fade { lead * fading(way / fade) } else { 0.0 };
-            self.heading.see(angle::wrap(ahead - expected).abs().to_degrees(), || rows[i].sighting());
-        }
+    /// The blade against its law, along the way of its tip; `trial` is the line that it cuts, if any.
+    fn check_heading(&mut self, rows: &[Row], tips: &[Point], cut: (&Cut, Option<&Trial>)) {
+        let lead = match cut {
+            (_, None) => heading::ANY,
+            (_, Some(trial)) if trial.laps => heading::NONE,
+            (cut, Some(trial)) => self.plunge(cut, trial).lead(),
+        };
+        let fade = self.knife.width_mm.min(polyline::length(tips));
+        Moving { rows, tips, lead, fade }.check(&mut self.heading);
+    }
+
+    fn plunge(&self, cut: &Cut, trial: &Trial) -> Plunge<'_> {
+        let (tail, tip) = (trial.feet[0], trial.feet[cut.body]);
+        let last = trial.feet[cut.points.len() - 1];
+        let line = &self.reference.lines[trial.line];
+        let sign = if last.station < tail.station { -1.0 } else { 1.0 };
+        Plunge { line, tail, tip, sign, tube: self.reference.tolerance + PLACE_ROUNDING + self.bulge }
     }
 
     /// Beyond the ends of its line a stroke cuts overlaps and what the blade is longer than a short line, or than what was
@@ -406,7 +410,7 @@ impl<'a> Judge<'a> {
         let (start, end) = (line.points[0], line.points[line.points.len() - 1]);
         let farthest = line.points.iter().map(|point| (point - start).norm()).fold(0.0, f64::max);
         let width = self.knife.width_mm;
-        let surplus = if trial.fits {
+        let surplus = if trial.fits.is_some() {
             width - trial.fresh
         } else if farthest < width {
             width - (end - start).norm()
@@ -419,9 +423,17 @@ impl<'a> Judge<'a> {
         }
     }
 
-    fn check_feed(&mut self, rows: &[Row], tips: &[Point]) {
-        for (row, ends) in rows.iter().zip(tips.windows(2)) {
-            self.feed.see((ends[1] - ends[0]).norm() / self.period, || row.sighting());
+    /// The way of the tip from row to row against the greatest cap that holds anywhere on it.
+    fn check_feed(&mut self, rows: &[Row], cut: &Cut, trial: Option<&Trial>) {
+        let slack = self.reference.tolerance + CAP_ASIDE;
+        let rounding = 4.0 * PLACE_ROUNDING / self.period;
+        for (i, ends) in cut.points[cut.body..].windows(2).enumerate() {
+            let cap = trial.map_or(self.knife.feed_mm_s.unwrap_or(f64::INFINITY), |trial| {
+                let [a, b] = [0, 1].map(|k| trial.feet[cut.body + i + k].station);
+                self.reference.lines[trial.line].caps.greatest(a.min(b) - slack, a.max(b) + slack)
+            });
+            let speed = (ends[1] - ends[0]).norm() / self.period;
+            self.feed.see_under(speed, cap + rounding, || rows[cut.rows[i + 1] - 1].sighting());
         }
     }
 
@@ -483,14 +495,6 @@ impl Trial {
     }
 }
 
-/// Direction of a way at the middle one of three places, to the second order: that of the parabola through them. A place
-/// too near to show a direction gives none.
-fn direction(before: Point, here: Point, behind: Point) -> Vector {
-    let (to, from) = (here - before, behind - here);
-    let (a, b) = (to.norm(), from.norm());
-    if a < WAY_MIN || b < WAY_MIN { to + from } else { to * (b / a) + from * (a / b) }
-}
-
 /// How far the tip's way from place `i - 1` to place `i` passes by the vertices between their stations, mm.
 fn skipped(line: &Line, points: &[Point], feet: &[Foot], i: usize) -> f64 {
     let (a, b) = (feet[i - 1].station, feet[i].station);
@@ -518,10 +522,4 @@ fn longest(on: &[bool]) -> Option<RangeInclusive<usize>> {
         }
     }
     best
-}
-
-/// What is left of the lead at a fraction of the fade: 1 - (35 x^4 - 84 x^5 + 70 x^6 - 20 x^7).
-fn fading(x: f64) -> f64 {
-    let x4 = x * x * x * x;
-    1.0 - x4 * (35.0 - x * (84.0 - x * (70.0 - x * 20.0)))
 }

@@ -16,6 +16,8 @@ const READING: f64 = 0.05;
 const SWING: usize = 200;
 /// Share of the limits of its axes that a program uses whose blade can then be turned a little and still keeps them.
 const EASY: f64 = 0.5;
+/// The axes of a stab move less, mm and degrees.
+const WAY_OF_STAB: f64 = 1e-5;
 /// Rows by which C may be late.
 const LATE: usize = 100;
 
@@ -71,16 +73,45 @@ pub(crate) const DAMAGES: &[Damage] = &[
         let amount = DAMAGING * case.job.profile.verify.max_heading_deg;
         Some(Harm { program, amount, place: Place::During([rows[to.end].t, rows[from.start].t]) })
     }),
+    damage("a stab askew", HEADING, |case, rng| {
+        let is_stab = |stroke: &Range<usize>| case.rows[stroke.start].away(&case.rows[stroke.end]) < WAY_OF_STAB;
+        let stabs: Vec<_> = strokes(&case.rows).into_iter().filter(is_stab).collect();
+        let stab = pick(rng, &stabs)?;
+        let twist = twist(case, DAMAGING);
+        let turned = |(i, row): (usize, &Row)| {
+            let by = if (stab.start..=stab.end).contains(&i) { twist } else { 0.0 };
+            row.turned_to(row.pose[2] + by, &case.job.profile.knife)
+        };
+        let rows: Vec<Row> = case.rows.iter().enumerate().map(turned).collect();
+        let place = Place::During([rows[stab.start].t, rows[stab.end].t]);
+        Some(Harm { program: print(&rows), amount: DAMAGING * case.job.profile.verify.max_heading_deg, place })
+    }),
+    damage("a plunge askew on a straight line", HEADING, |case, rng| {
+        // The blade plunges askew and comes straight along its width, as it may only on a curve.
+        let knife = &case.job.profile.knife;
+        let is_straight = |stroke: &Range<usize>| {
+            let rows = &case.rows[stroke.clone()];
+            let way = (rows[rows.len() - 1].tip(knife) - rows[0].tip(knife)).norm();
+            rows.iter().all(|row| (row.pose[2] - rows[0].pose[2]).abs() < READING) && way > 2.0 * knife.width_mm
+        };
+        let straight: Vec<_> = strokes(&case.rows).into_iter().filter(is_straight).collect();
+        let stroke = pick(rng, &straight)?;
+        let from = case.rows[stroke.start].tip(knife);
+        let twist = twist(case, DAMAGING);
+        let turned = |(i, row): (usize, &Row)| {
+            let way = ((row.tip(knife) - from).norm() / knife.width_mm).min(1.0);
+            let by = if stroke.contains(&i) { twist * (1.0 - fade(way)) } else { 0.0 };
+            row.turned_to(row.pose[2] + by, knife)
+        };
+        let rows: Vec<Row> = case.rows.iter().enumerate().map(turned).collect();
+        let place = Place::During([rows[stroke.start].t, rows[stroke.end].t]);
+        Some(Harm { program: print(&rows), amount: DAMAGING * case.job.profile.verify.max_heading_deg, place })
+    }),
     damage("a blade that cuts backwards", HEADING, |case, _| Some(twisted(case, 180.0))),
     damage("a blade across the path", HEADING, |case, _| Some(twisted(case, 90.0))),
     scaled("a turn with the knife down", HEADING, |case, rng, times| {
         let profile = &case.job.profile;
-        // The verifier reads the way of a tip at rest from far before it: on a curve that is another way.
-        let straight = |stroke: &Range<usize>| {
-            let c = case.rows[stroke.start].pose[2];
-            case.rows[stroke.clone()].iter().all(|row| (row.pose[2] - c).abs() < READING)
-        };
-        let stroke = pick(rng, &strokes(&case.rows).into_iter().filter(straight).collect::<Vec<_>>())?;
+        let stroke = pick(rng, &strokes(&case.rows))?;
         // The row of the lift command still is where the cut ends; the blade turns under the block that it cut there.
         let row = Row { knife: 1, block: case.rows[stroke.end - 1].block, ..case.rows[stroke.end] };
         // Away from the end of the range of C.

@@ -9,6 +9,7 @@ use crate::measure::{
 };
 use crate::rows::{Row, holes, parse, strokes};
 use crate::sketch::{chain, contours, notches, turn};
+use crate::support::program::setpoints;
 use crate::{Damage, damage, scaled};
 
 /// By how much a machine differs more from one trial to the next, and the most trials.
@@ -49,6 +50,13 @@ pub(crate) const DAMAGES: &[Damage] = &[
         let limit = case.job.profile.knife.feed_mm_s?;
         let amount = DAMAGING * limit + PLACES_ROUNDING * axis_rounding(case, 1);
         grown(case, (times, quicker), (|rows: &[Row]| feed(case, rows), amount))
+    }),
+    damage("a piece faster than the file lets it be", "verify/feed", |case, _| {
+        let mut marker = case.marker.clone();
+        let slowest = marker.pieces.iter_mut().filter_map(|piece| piece.feed.take()).reduce(f64::min)?;
+        let mut job = case.job.clone();
+        job.profile.knife.feed_mm_s = None;
+        Some(Harm::anywhere(setpoints(&marker, &job), DAMAGING * slowest))
     }),
     scaled("a faster machine, as X feels it", "verify/speed-x", |case, _, times| axis::<0, 1>(case, times, quicker)),
     scaled("a faster machine, as Y feels it", "verify/speed-y", |case, _, times| axis::<1, 1>(case, times, quicker)),

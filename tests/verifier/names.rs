@@ -2,11 +2,12 @@
 
 use crate::case::Case;
 use crate::harm::Harm;
-use crate::measure::DAMAGING;
-use crate::rows::{holes, pick, print, strokes};
+use crate::measure::{DAMAGING, SAME};
+use crate::rows::{Row, holes, pick, print, strokes, travels};
 use crate::{Damage, damage};
 
 const BLOCK: &str = "verify/block";
+const EVENTS: &str = "verify/events";
 
 /// How far beside its chord a block may be named, mm, when the tolerance is that of files in a tenth of a millimetre.
 const NAME_REACH: f64 = 0.6;
@@ -54,6 +55,31 @@ pub(crate) const DAMAGES: &[Damage] = &[
         rows[pick(rng, &strokes(&case.rows))?.start].event = 2;
         Some(one(print(&rows)))
     }),
+    damage("an event left out", EVENTS, |case, rng| told(case, rng, |rows, i| rows[i].event = 0)),
+    damage("an event of the other kind", EVENTS, |case, rng| {
+        told(case, rng, |rows, i| rows[i].event = 3 - rows[i].event)
+    }),
+    damage("an event told for two periods", EVENTS, |case, rng| {
+        told(case, rng, |rows, i| rows[i + 1].event = rows[i].event)
+    }),
+    damage("an event behind the next stroke", "verify/order", |case, _| {
+        let mut rows = case.rows.clone();
+        let told = (0..rows.len()).find(|&i| rows[i].event != 0)?;
+        let behind = strokes(&rows).into_iter().find(|stroke| stroke.start > told)?.end;
+        let rest = (behind + 1..rows.len()).find(|&i| rows[i].knife == 0 && rows[i - 1].pose == rows[i].pose)?;
+        (rows[rest].event, rows[told].event) = (rows[told].event, 0);
+        Some(one(print(&rows)))
+    }),
+    damage("an event on the move", "verify/rest", |case, rng| {
+        let mut rows = case.rows.clone();
+        let events: Vec<usize> = (0..rows.len()).filter(|&i| rows[i].event != 0).collect();
+        let told = pick(rng, &events)?;
+        let travel = travels(&rows).into_iter().rev().find(|travel| travel.end <= told + 1)?;
+        let moving = travel.start + travel.len() / 2;
+        let moved = rows[moving].away(&rows[moving + 1]);
+        (rows[moving].event, rows[told].event) = (rows[told].event, 0);
+        (moved > DAMAGING * SAME).then(|| Harm::anywhere(print(&rows), DAMAGING * SAME))
+    }),
     damage("a drill that is on at the start", "verify/drills", |case, _| {
         let mut rows = case.rows.clone();
         rows[0].drill = 1;
@@ -83,6 +109,14 @@ fn named(case: &Case, block: impl Fn(usize, u32) -> u32) -> Option<Harm> {
     let mut rows = case.rows.clone();
     rows.iter_mut().enumerate().for_each(|(i, row)| row.block = block(i, row.block));
     Some(Harm::anywhere(print(&rows), DAMAGING * NAME_REACH))
+}
+
+/// The program in which the row of an event, or those about it, are changed.
+fn told(case: &Case, rng: &mut fastrand::Rng, change: impl FnOnce(&mut [Row], usize)) -> Option<Harm> {
+    let mut rows = case.rows.clone();
+    let events: Vec<usize> = (0..rows.len()).filter(|&i| rows[i].event != 0).collect();
+    change(&mut rows, pick(rng, &events)?);
+    Some(one(print(&rows)))
 }
 
 /// A program with one thing too many or in the wrong place.
