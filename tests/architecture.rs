@@ -64,6 +64,7 @@ const NO_GRAMMAR: &[(&str, &str)] = &[];
 const BESIDE_A_TABLE: &[(&str, &str)] = &[
     ("foreign", "names the formats that are no dialect of ours"),
     ("frame", "makes the one toolpath that no pass edits"),
+    ("scene", "holds what passes look at beside a toolpath"),
     ("trace", "makes the toolpaths that the passes edit"),
 ];
 

@@ -6,6 +6,7 @@
 pub mod angle;
 pub mod monotone;
 pub mod polyline;
+pub mod region;
 pub mod ring;
 pub mod spline;
 

@@ -117,6 +117,8 @@ pub struct Knife {
     pub reflex_front_overlap_mm: f64,
     /// Heel overlap at corners whose extension lies inside the part, mm.
     pub reflex_heel_overlap_mm: f64,
+    /// How far overlaps stay away from the next part, mm.
+    pub clearance_mm: f64,
     /// Greatest speed of the tip while cutting, mm/s.
     #[serde(with = "OrWord::<Off>")]
     pub feed_mm_s: Option<f64>,
@@ -136,7 +138,7 @@ pub struct Knife {
     pub follow: Follow,
     /// Number of cutting edges: a blade with two may run either way round.
     pub edges: u32,
-    /// Constant correction added to the blade's angle, degrees.
+    /// Constant correction added to the blade's angle, degrees: how far the axis stands ahead of the blade.
     pub yaw_deg: f64,
 }
 
@@ -164,6 +166,11 @@ impl Knife {
     /// Tail to centre, mm.
     pub fn back(&self) -> f64 {
         self.width_mm - self.radius()
+    }
+
+    /// Correction added to the blade's angle, rad.
+    pub fn yaw(&self) -> f64 {
+        rad(self.yaw_deg)
     }
 
     /// Length of the rest between the plunge command and the first motion, s.
@@ -194,6 +201,7 @@ impl Default for Knife {
             corner_heel_overlap_mm: 0.5,
             reflex_front_overlap_mm: 0.0,
             reflex_heel_overlap_mm: 0.0,
+            clearance_mm: 0.1,
             feed_mm_s: Some(760.0),
             slow_percent: 75.0,
             plunge_ms: 80.0,
@@ -501,10 +509,10 @@ pub struct Verify {
     /// Farthest that the blade's body may leave the path on curves, mm.
     #[serde(with = "OrWord::<Off>")]
     pub max_body_mm: Option<f64>,
-    /// Farthest overcut into the part itself, mm.
+    /// Farthest overcut into the part itself, mm, beside the tolerance and what is warned of.
     #[serde(with = "OrWord::<Off>")]
     pub max_overcut_part_mm: Option<f64>,
-    /// Farthest overcut into another part, mm.
+    /// Farthest overcut into another part, mm, beside what is warned of.
     #[serde(with = "OrWord::<Off>")]
     pub max_overcut_neighbour_mm: Option<f64>,
     /// Farthest overcut into waste, mm.
@@ -518,8 +526,8 @@ impl Default for Verify {
             max_uncut_mm: 0.01,
             max_heading_deg: 0.5,
             max_body_mm: None,
-            max_overcut_part_mm: None,
-            max_overcut_neighbour_mm: None,
+            max_overcut_part_mm: Some(0.0),
+            max_overcut_neighbour_mm: Some(0.0),
             max_overcut_waste_mm: None,
         }
     }
@@ -545,6 +553,11 @@ const AUTO_TOLERANCE: f64 = 0.05;
 const ROUNDING_REACH: f64 = 0.71;
 
 impl MachineProfile {
+    /// Least and greatest angle of the blade at which C is inside its range, rad.
+    pub fn blade_range(&self) -> Option<[f64; 2]> {
+        self.c.range().map(|range| range.map(|end| end - self.knife.yaw()))
+    }
+
     /// Permitted deviation of the tip from the path, mm, for a file whose numbers are multiples of `unit` mm:
     /// not smaller than what the file resolves, because its vertices carry that much noise.
     pub fn tolerance(&self, unit: f64) -> f64 {

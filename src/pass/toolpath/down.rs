@@ -4,16 +4,18 @@
 //! after equal parts and rejoined with the overlaps of a corner, which here lie along the contour.
 
 use super::ToolpathPass;
+use super::scene::Scene;
 use crate::diagnostic::Diagnostics;
 use crate::geom::{polyline, spline};
 use crate::ir::list::Joint;
-use crate::ir::toolpath::{End, Run, Shape, Step, Toolpath};
-use crate::machine::{Job, Knife};
+use crate::ir::toolpath::{End, Run, Shape, Side, Step, Toolpath};
+use crate::machine::Knife;
 
 pub(super) const PASS: ToolpathPass =
     ToolpathPass { name: "down", about: "lifts runs that are longer than knife.max_down_mm", run };
 
-fn run(toolpath: &mut Toolpath, job: &Job, _: &mut Diagnostics) {
+fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
+    let job = scene.job;
     let Some(longest) = job.profile.knife.max_down_mm else { return };
     let steps = std::mem::take(&mut toolpath.steps);
     for step in steps {
@@ -49,7 +51,7 @@ fn split(run: Run, longest: f64, knife: &Knife) -> Vec<Run> {
 }
 
 /// Where a run is lifted on its way: its overlap already lies along the contour.
-const REJOINED: End = End { corner: true, bare: true };
+const REJOINED: End = End { corner: true, bare: true, side: Side::Waste };
 
 /// The chords of a run by their stations; on a ring they go round and round.
 struct Way {
