@@ -33,7 +33,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     let source = files::read(&arguments.file)?;
-    let job = match arguments.reading.machine.job()? {
+    let job = match arguments.reading.job()? {
         Ok(job) => job,
         Err(refused) => return Ok(refused),
     };

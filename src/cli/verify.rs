@@ -44,7 +44,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     let name = arguments.program.display().to_string();
     let mut program = files::open(&arguments.program)?;
     let source = files::read(&arguments.source)?;
-    let job = match arguments.reading.machine.job()? {
+    let job = match arguments.reading.job()? {
         Ok(job) => arguments.choice.of(job),
         Err(refused) => return Ok(refused),
     };

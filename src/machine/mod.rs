@@ -8,6 +8,7 @@ mod digest;
 pub mod keys;
 pub mod kinematics;
 mod load;
+pub mod plot;
 pub mod profile;
 mod selection;
 mod show;
@@ -30,4 +31,6 @@ pub struct Job {
     pub selection: Selection,
     /// What it does with the knife.
     pub mode: Mode,
+    /// Which lines of a plot it cuts.
+    pub lines: plot::Lines,
 }

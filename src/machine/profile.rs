@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::kinematics::Limits;
+use super::plot::Hpgl;
 use super::word::{Auto, Off, OrWord, Stay, Unbounded, Unlimited};
 use crate::units::{MM_PER_INCH, MS_PER_S, rad};
 
@@ -45,6 +46,8 @@ pub struct MachineProfile {
     pub time: Time,
     /// What the verifier allows.
     pub verify: Verify,
+    /// How plots are read.
+    pub hpgl: Hpgl,
     /// Codes of the cutter file to ignore, by name (`M19`).
     pub codes: BTreeMap<String, CodeUse>,
 }
@@ -407,6 +410,7 @@ impl Default for MachineProfile {
             table: Table::default(),
             time: Time::default(),
             verify: Verify::default(),
+            hpgl: Hpgl::default(),
             codes: BTreeMap::new(),
         }
     }
