@@ -8,7 +8,7 @@ use clap::Args;
 
 use super::choices::Format;
 use super::options::Reading;
-use super::{DONE, FAULTY, Finished, files, report, summary};
+use super::{DONE, FAULTY, Finished, drawn, files, report, summary};
 use crate::diagnostic::{Diagnostics, render};
 use crate::ir::Marker;
 use crate::ir::marker::NotchKind;
@@ -43,7 +43,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     let report = input.map(|input| Report::of(&input.marker, input.dialect.name));
     let stdout = match (arguments.format, &report) {
         (Format::Json, report) => report::json(report.as_ref(), &diagnostics, &source),
-        (Format::Text, Some(report)) => summary::text(report, source.name(), &diagnostics) + &depths,
+        (Format::Text, Some(report)) => summary::text(report, source.name(), &diagnostics) + &drawn::text(report) + &depths,
         (Format::Text, None) => String::new(),
     };
     let code = if report.is_none() || diagnostics.has_errors() { FAULTY } else { DONE };

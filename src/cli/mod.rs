@@ -7,6 +7,7 @@ mod check;
 mod choices;
 mod compile;
 mod completions;
+mod drawn;
 mod explain;
 mod explanations;
 mod files;

@@ -5,7 +5,7 @@ mod program;
 mod report;
 
 pub use judge::{about, figures, judge_program};
-pub use report::{Axes, Notches, Peak, Peaks, Program, Report, significant};
+pub use report::{Axes, Drawn, Lines, Notches, Peak, Peaks, Program, Report, significant};
 
 pub use crate::verify::{RULES, Verdict};
 
