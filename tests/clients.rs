@@ -21,6 +21,65 @@ fn python(script: &str, directory: &Path) -> Output {
     Command::new("python3").args(["-c", script]).current_dir(directory).output().expect("python3 starts")
 }
 
+/// Way of the pen while it is down, mm, in a plot of plain PU and PD in units of 1/40 mm.
+fn pen_down(plot: &str) -> f64 {
+    let (mut at, mut way) = ([0.0, 0.0], 0.0);
+    for command in plot.split(';') {
+        let (name, numbers) = command.trim().split_at(command.trim().len().min(2));
+        if !["PU", "PD"].contains(&name) {
+            continue;
+        }
+        let numbers: Vec<f64> = numbers.split(',').filter_map(|number| number.parse().ok()).collect();
+        for pair in numbers.chunks_exact(2) {
+            if name == "PD" {
+                way += (pair[0] - at[0]).hypot(pair[1] - at[1]) / 40.0;
+            }
+            at = [pair[0], pair[1]];
+        }
+    }
+    way
+}
+
+#[test]
+fn hp2xx_draws_the_same_way_of_the_pen() {
+    // It has no option that ends well without a plot.
+    if !is_there("hp2xx", Command::new("sh").args(["-c", "command -v hp2xx"])) {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a directory");
+    let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/hpgl");
+    // Straight lines only: chords of curves differ from program to program. Texts are strokes there.
+    let plots = [
+        "parts-and-cut-out",
+        "no-terminators",
+        "no-pen-taken",
+        "beyond-sixteen-bits",
+        "marks-on-an-outline",
+        "spikes-in-an-outline",
+        "outline-in-strokes",
+        "frame-and-letters",
+        "two-pens",
+        "relative-and-absolute",
+        "scaled",
+        "turned",
+        "encoded-in-eight-bits",
+        "encoded-in-seven-bits",
+    ];
+    for name in plots {
+        let plot = fixtures.join(name).with_extension("plt");
+        let mut other = Command::new("hp2xx");
+        other.args(["-q", "-t", "-m", "hpgl", "-f", "out.hpgl"]).arg(&plot).current_dir(folder.path());
+        assert!(other.output().expect("hp2xx starts").status.success(), "{name}");
+        let drawn = std::fs::read_to_string(folder.path().join("out.hpgl")).expect("hp2xx writes text");
+        let mut info = Command::new(env!("CARGO_BIN_EXE_cutc"));
+        let said = info.args(["info", "--format", "json"]).arg(&plot).output().expect("the program starts");
+        let report: serde_json::Value = serde_json::from_slice(&said.stdout).expect("JSON");
+        let found = report["pen_down_mm"].as_f64().unwrap_or_else(|| panic!("{name}: {report}"));
+        let expected = pen_down(&drawn);
+        assert!((found - expected).abs() <= 1e-3, "{name}: {found} mm instead of {expected}");
+    }
+}
+
 #[test]
 fn numpy_maps_an_array_and_finds_the_numbers_of_the_table() {
     if !is_there("numpy", Command::new("python3").args(["-c", "import numpy"])) {

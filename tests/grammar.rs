@@ -35,6 +35,8 @@ fn sentence(grammar: &Grammar, seed: u32) -> Vec<u8> {
     let ends = ["\n", "\r\n"];
     text.replace("TEXT", texts[seed as usize % texts.len()])
         .replace("END", ends[seed as usize % ends.len()])
+        .replace("ETX", "\u{3}")
+        .replace("ESC", "\u{1b}")
         .into_bytes()
 }
 

@@ -37,6 +37,8 @@ pub(super) const EXPLANATIONS: &[(&str, &str)] = &[
     ("hpgl/instruction-not-obeyed", "What it draws is no outline: fills and characters are not cut. A window (IW) that would clip lines is not applied, so lines may reach farther than on paper."),
     ("hpgl/scale-of-device", "The size of the drawing depends on the plotter that it was made for, so it is most likely wrong here. Let the CAD system write coordinates without scale, or with IP."),
     ("hpgl/several-pages", "Two markers in one file would be cut into each other. If they are pages of one marker, export it as one long page; else split the file."),
+    ("hpgl/ends-pen-down", "The end of the file is missing, and with it the rest of an outline and perhaps more pieces. Transfer it again and compare the sizes."),
+    ("hpgl/open-outline", "Only closed lines are taken for parts, with gaps up to a millimetre. A part whose outline has a wider gap would be missing on the table: close it in the CAD system, or cut every line.\n  cutc compile marker.plt --cut all"),
     ("hpgl/frame", "Frames are drawn around markers, to show the cloth. A rectangular part with holes that fill much of it looks the same: then ask for closed lines, or give its pen to the knife.\n  cutc compile marker.plt --cut closed"),
     ("hpgl/too-many-outlines", "A cut-out that is taken for a part is cut all the same, but perhaps after the part around it, which is free by then. Split the plot."),
     ("hpgl/unit-doubtful", "Plots do not say their unit. 1/40 mm and 1/1000 inch differ by 1.6 percent, which nobody sees and every part would be wrong. Compare the extent with the marker.\n  cutc compile marker.plt --set hpgl.unit=0.0254"),

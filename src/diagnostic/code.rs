@@ -106,6 +106,10 @@ mod table {
     pub static HPGL_SCALE: Code = warning("hpgl/scale-of-device", "A plot is scaled to corners or a page that it does not give; the corners of a plotter for A4 paper are taken.");
     /// More than one page.
     pub static HPGL_PAGES: Code = warning("hpgl/several-pages", "A plot draws on after a page went out; the pages lie on each other.");
+    /// The file ends amid a line.
+    pub static HPGL_ENDS_PEN_DOWN: Code = error("hpgl/ends-pen-down", "A plot ends while the pen draws a line that does not close: it is most likely cut short.");
+    /// An outline with a gap.
+    pub static HPGL_OPEN_OUTLINE: Code = warning("hpgl/open-outline", "A long line of a plot nearly closes, but not quite: it may be an outline, and is not cut.");
     /// A rectangle around all.
     pub static HPGL_FRAME: Code = warning("hpgl/frame", "A rectangle that holds all outlines of a plot is taken for the frame of the marker and is not cut.");
     /// A search that was ended.
@@ -224,6 +228,8 @@ pub static ALL: &[&Code] = &[
     &HPGL_LEFT_OUT,
     &HPGL_SCALE,
     &HPGL_PAGES,
+    &HPGL_ENDS_PEN_DOWN,
+    &HPGL_OPEN_OUTLINE,
     &HPGL_FRAME,
     &HPGL_TOO_MANY,
     &HPGL_UNIT_DOUBTFUL,

@@ -29,6 +29,8 @@ pub(super) struct Sorted {
     pub(super) notches: Vec<Found>,
 }
 
+/// Gap of an outline that is cut as it stands, mm; a line with a wider one may be something else.
+const LARGEST_GAP: f64 = 1.0;
 /// How much longer one side of a hole's box may be than the other.
 const HOLE_RATIO: f64 = 1.1;
 /// Share of its box that a circle of eight chords fills; a square fills all of it.
@@ -56,6 +58,7 @@ pub(super) fn classify(mut drawing: Drawing, labels: Vec<Label>, job: &Job, out:
             _ if shape.class == Class::Frame => Class::Frame,
             Wanted::Nothing => Class::Pen,
             Wanted::All | Wanted::Open if !shape.is_closed => Class::Line,
+            Wanted::Guess if shape.gap(&drawing).is_some_and(|gap| gap <= LARGEST_GAP) => Class::Line,
             Wanted::Guess | Wanted::All | Wanted::Closed | Wanted::Open => Class::Other,
         };
     }
@@ -99,6 +102,13 @@ pub(super) fn classify(mut drawing: Drawing, labels: Vec<Label>, job: &Job, out:
     }
     for found in &notches {
         shapes[found.mark].class = Class::Notch;
+    }
+    for shape in shapes.iter().filter(|shape| shape.class == Class::Other && shape.wanted == Wanted::Guess) {
+        let Some(gap) = shape.gap(&drawing) else { continue };
+        let (length, gap) = (fixed(shape.length, 1), fixed(gap, 1));
+        let message = format!("a line of {length} mm ends {gap} mm from where it starts: it is not cut");
+        let finding = Diagnostic::new(&code::HPGL_OPEN_OUTLINE, message).at(shape.vertices(&drawing)[1].span);
+        out.push(finding.hint("if it is an outline, close it; `--cut all` cuts every line as it stands"));
     }
     piece::marker(&Sorted { drawing, shapes, outlines, parents, notches }, labels, job)
 }

@@ -14,6 +14,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Heading, Vector};
 use crate::ir::marker::Label;
 use crate::source::{Source, Span};
+use crate::units::number::fixed;
 use crate::units::rad;
 
 /// What a plot draws and writes.
@@ -45,8 +46,8 @@ pub(super) fn lower(source: &Source, measure: Measure, out: &mut Diagnostics) ->
         out,
     };
     lowering.run();
-    lowering.plotter.lift();
-    lowering.tally.report(lowering.out);
+    lowering.end();
+    lowering.tally.report(lowering.plotter.drawing.strokes.len(), lowering.out);
     Plot { drawing: lowering.plotter.drawing, labels: lowering.labels }
 }
 
@@ -94,6 +95,20 @@ impl Lowering<'_> {
             let finding = Diagnostic::new(&code::HPGL_PAGES, "a page goes out here, and more is drawn behind it");
             self.out.push(finding.at(span).hint("the pages lie on each other; if they do not belong together, split the file"));
         }
+    }
+
+    /// The end of the file: a line that the pen is still drawing there is most likely cut short.
+    fn end(&mut self) {
+        let drawing = &self.plotter.drawing;
+        let stroke = drawing.strokes.last().filter(|stroke| !drawing.is_lifted() && stroke.range().len() > 1);
+        let ends = stroke.map(|stroke| [drawing.vertices[stroke.first as usize], drawing.vertices[stroke.end as usize - 1]]);
+        if let Some([first, last]) = ends.filter(|[first, last]| first.at != last.at) {
+            let distance = fixed((last.at - first.at).norm(), 1);
+            let message = format!("the file ends amid a line, {distance} mm from where the line starts");
+            let finding = Diagnostic::new(&code::HPGL_ENDS_PEN_DOWN, message).at(last.span);
+            self.out.push(finding.hint("the file is most likely cut short; export it again"));
+        }
+        self.plotter.lift();
     }
 
     fn obey(&mut self, instruction: Instruction, span: Span) {

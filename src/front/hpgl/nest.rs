@@ -17,30 +17,35 @@ const LEAST_FILL: f64 = 0.2;
 /// Frames in frames that are looked for.
 const MOST_FRAMES: usize = 3;
 
-/// Marks the frames among the shapes whose outlines decide: rectangles that hold all others.
+/// Marks the frames among the shapes whose outlines decide, outermost first: rectangles that hold all others, around two
+/// parts at least. A rectangle around one outline alone may as well be a part with a cut-out.
 pub(super) fn frames(shapes: &mut [Shape], slack: f64) -> Vec<usize> {
-    let mut found = Vec::new();
-    while found.len() < MOST_FRAMES {
-        let outlines = || shapes.iter().filter(|shape| shape.is_outline() && shape.class != Class::Frame);
-        let Some((i, frame)) = shapes
-            .iter()
-            .enumerate()
-            .filter(|(_, shape)| shape.is_outline() && shape.class != Class::Frame)
-            .max_by(|a, b| a.1.area.abs().total_cmp(&b.1.area.abs()))
-        else {
-            break;
-        };
-        let (width, height) = frame.extent().size();
-        let is_rectangle = frame.area.abs() >= (1.0 - BOX_EPSILON) * width * height;
-        let holds_all = outlines().all(|other| is_within(other.extent(), frame.extent(), slack));
-        let filled: f64 = outlines().map(|other| other.area.abs()).sum::<f64>() - frame.area.abs();
-        if frame.wanted != Wanted::Guess || !is_rectangle || !holds_all || filled < LEAST_FILL * frame.area.abs() {
-            break;
-        }
-        shapes[i].class = Class::Frame;
-        found.push(i);
+    let mut order: Vec<usize> = (0..shapes.len()).filter(|&i| shapes[i].is_outline()).collect();
+    order.sort_by(|&a, &b| shapes[b].area.abs().total_cmp(&shapes[a].area.abs()));
+    // Rectangles that hold all the outlines behind them.
+    let holds = |outer: usize, inner: &[usize]| {
+        inner.iter().all(|&i| is_within(shapes[i].extent(), shapes[outer].extent(), slack))
+    };
+    let is_rectangle = |shape: &Shape| {
+        let (width, height) = shape.extent().size();
+        shape.area.abs() >= (1.0 - BOX_EPSILON) * width * height
+    };
+    let may_be = |k: usize| {
+        let shape = &shapes[order[k]];
+        shape.wanted == Wanted::Guess && is_rectangle(shape) && holds(order[k], &order[k + 1..])
+    };
+    let count = (0..order.len().min(MOST_FRAMES)).take_while(|&k| may_be(k)).count();
+    let (frames, inner) = order.split_at(count);
+    let (Some(&frame), [largest, others @ ..]) = (frames.last(), inner) else { return Vec::new() };
+    let filled: f64 = inner.iter().map(|&i| shapes[i].area.abs()).sum();
+    if holds(*largest, others) || filled < LEAST_FILL * shapes[frame].area.abs() {
+        return Vec::new();
     }
-    found
+    let frames = frames.to_vec();
+    for &frame in &frames {
+        shapes[frame].class = Class::Frame;
+    }
+    frames
 }
 
 fn is_within(inner: &Extent, outer: &Extent, slack: f64) -> bool {

@@ -89,6 +89,10 @@ pub(super) fn on_outlines(
                     let [nearest, second] = root.on;
                     // On the edge of two parts the notch belongs to the one that it leads into.
                     let leads_in = |on: Option<(f64, usize)>| on.filter(|on| ring::contains(&outline_ring(on.1), tip.at));
+                    // A line from edge to edge is a chord, such as the cross in a circle.
+                    if root.common(tip).is_some() {
+                        return None;
+                    }
                     let outline = if second.is_some() { leads_in(nearest).or(leads_in(second)).or(nearest) } else { nearest };
                     (outline?.1, Some([root.at, tip.at]))
                 }
@@ -117,8 +121,8 @@ impl End {
 
     /// The outline that both ends stand on.
     fn common(&self, other: &Self) -> Option<usize> {
-        let outlines = self.on.iter().flatten().map(|on| on.1);
-        outlines.filter(|outline| other.on.iter().flatten().any(|on| on.1 == *outline)).next()
+        let mut outlines = self.on.iter().flatten().map(|on| on.1);
+        outlines.find(|outline| other.on.iter().flatten().any(|on| on.1 == *outline))
     }
 }
 

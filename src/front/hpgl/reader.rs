@@ -138,7 +138,11 @@ impl<'a> Reader<'a> {
                 Next::Overflow(span) => Next::Overflow(span),
                 _ => Next::Odd(self.span(start)),
             },
-            Next::Overflow(span) => Next::Overflow(span),
+            Next::Overflow(span) => {
+                // Its partner goes with it, so that the places behind it stay pairs.
+                self.value();
+                Next::Overflow(span)
+            }
             Next::Odd(_) | Next::End => Next::End,
         }
     }
@@ -253,9 +257,9 @@ mod tests {
         assert_eq!(reader.pair(), Next::Some(([30.0, 40.0], Span { start: 11, end: 16, block: 2 })));
         assert_eq!(reader.pair(), Next::Odd(Span { start: 16, end: 18, block: 2 }));
         assert_eq!(reader.pair(), Next::End);
-        let mut reader = Reader::new(b"PD1,2147483648,3,4;PU");
+        let mut reader = Reader::new(b"PD2147483648,1,3,4;PU");
         reader.next();
-        assert_eq!(reader.pair(), Next::Overflow(Span { start: 4, end: 15, block: 1 }));
-        assert_eq!(reader.pair(), Next::Some(([3.0, 4.0], Span { start: 16, end: 19, block: 1 })));
+        assert_eq!(reader.pair(), Next::Overflow(Span { start: 2, end: 12, block: 1 }));
+        assert_eq!(reader.pair(), Next::Some(([3.0, 4.0], Span { start: 15, end: 18, block: 1 })));
     }
 }

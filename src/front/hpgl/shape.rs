@@ -105,6 +105,10 @@ pub(super) struct Shape {
 pub(super) const ROUNDING: f64 = std::f64::consts::SQRT_2;
 /// An area below this share of the squared length is the rounding of a line that goes out and back.
 const FLAT_EPSILON: f64 = 1e-9;
+/// Shortest line that may be an outline with a gap, mm: shorter ones are letters.
+const SHORTEST_OUTLINE: f64 = 100.0;
+/// A gap below this share of its length looks like one.
+const GAP_SHARE: f64 = 0.05;
 /// Longest notch, mm.
 pub(super) const LONGEST_NOTCH: f64 = 25.0;
 /// Shortest notch, mm: shorter ones are ticks of the drawing.
@@ -145,6 +149,14 @@ impl Shape {
     pub(super) fn size(&self) -> f64 {
         let (width, height) = self.extent().size();
         width.max(height)
+    }
+
+    /// Distance of its ends, mm, when it looks like an outline that was meant to close.
+    pub(super) fn gap(&self, drawing: &Drawing) -> Option<f64> {
+        let vertices = self.vertices(drawing);
+        let gap = (vertices[vertices.len() - 1].at - vertices[0].at).norm();
+        let is_outline = !self.is_closed && gap > 0.0 && self.length >= SHORTEST_OUTLINE && vertices.len() > 3;
+        (is_outline && gap < GAP_SHARE * self.length).then_some(gap)
     }
 
     /// Whether it may be an outline.

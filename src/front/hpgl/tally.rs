@@ -9,6 +9,8 @@ use crate::source::Span;
 const MOST_JUNK: usize = 10_000;
 /// How many mnemonics are told apart: junk has hundreds.
 const MOST_NAMES: usize = 40;
+/// How many of them a message names.
+const SHOWN_NAMES: usize = 8;
 
 /// Counts what is not obeyed.
 #[derive(Debug, Default)]
@@ -90,15 +92,19 @@ impl Tally {
         self.open_labels.add(span);
     }
 
-    /// Whether this cannot be a plot.
-    pub(super) fn is_hopeless(&self) -> bool {
-        let junk = self.junk.count + self.unknown_total;
-        junk > MOST_JUNK && junk > self.sound
+    /// Whether more is junk than not.
+    fn is_junk(&self) -> bool {
+        self.junk.count + self.unknown_total > self.sound
     }
 
-    /// Reports all of it.
-    pub(super) fn report(&self, out: &mut Diagnostics) {
-        if self.is_hopeless() {
+    /// Whether this cannot be a plot, whatever follows.
+    pub(super) fn is_hopeless(&self) -> bool {
+        self.junk.count + self.unknown_total > MOST_JUNK && self.is_junk()
+    }
+
+    /// Reports all of it; `strokes` is how many lines were drawn.
+    pub(super) fn report(&self, strokes: usize, out: &mut Diagnostics) {
+        if self.is_hopeless() || (self.is_junk() && strokes == 0) {
             let message = format!(
                 "this is no plot: of its first {} statements {} are none",
                 self.sound + self.junk.count + self.unknown_total,
@@ -110,7 +116,7 @@ impl Tally {
         }
         let mut found: Vec<Diagnostic> = Vec::new();
         if self.too_far.count > 0 {
-            let message = format!("a coordinate is beyond any table: this stands {}", self.too_far.times());
+            let message = format!("a coordinate is beyond any table; this happens {}", self.too_far.times());
             let finding = self.too_far.diagnostic(&code::HPGL_OVERFLOW, message);
             found.push(finding.hint("coordinates end at 100 million units; the file may be damaged here"));
         }
@@ -133,9 +139,13 @@ impl Tally {
             let finding = self.open_labels.diagnostic(&code::HPGL_OPEN_LABEL, message);
             found.push(finding.hint("look whether lines are missing: a text may have swallowed them"));
         }
-        for (mnemonic, count) in &self.unknown {
-            let message = format!("{} is not known and was ignored: it stands {}", name(mnemonic), count.times());
-            found.push(count.diagnostic(&code::HPGL_UNKNOWN, message));
+        if let Some(first) = self.unknown.values().filter_map(|count| count.first).min() {
+            let names: Vec<String> = self.unknown.keys().take(SHOWN_NAMES).map(name).collect();
+            let more = if self.unknown.len() > SHOWN_NAMES { " and others" } else { "" };
+            let times = Count { count: self.unknown_total, first: Some(first) };
+            let message =
+                format!("{}{more}: not known and ignored; this happens {}", names.join(", "), times.times());
+            found.push(times.diagnostic(&code::HPGL_UNKNOWN, message));
         }
         for (mnemonic, (what, count)) in &self.left_out {
             let message = format!("{} ({what}) is not obeyed: it stands {}", name(mnemonic), count.times());

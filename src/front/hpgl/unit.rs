@@ -78,18 +78,19 @@ pub(super) fn check_plausible(
 fn lengths(text: &[u8]) -> impl Iterator<Item = f64> {
     let text = String::from_utf8_lossy(&text[..text.len().min(LONGEST_TITLE)]).to_ascii_lowercase();
     let is_number = |c: char| c.is_ascii_digit() || c == '.';
-    // Numbers with the word behind each.
-    let mut parts: Vec<(f64, String)> = Vec::new();
+    // Numbers with the word behind each, and whether they follow the word before them directly.
+    let mut parts: Vec<(f64, String, bool)> = Vec::new();
     let mut rest = text.as_str();
     while let Some(start) = rest.find(|c: char| c.is_ascii_digit()) {
+        let follows = rest[..start].trim().is_empty();
         rest = &rest[start..];
         let end = rest.find(|c| !is_number(c)).unwrap_or(rest.len());
         let (number, behind) = rest.split_at(end);
         let word: String = behind.trim_start().chars().take_while(char::is_ascii_alphabetic).collect();
+        rest = behind.trim_start().strip_prefix(word.as_str()).unwrap_or(behind);
         if let Ok(number) = number.trim_end_matches('.').parse() {
-            parts.push((number, word));
+            parts.push((number, word, follows));
         }
-        rest = behind;
     }
     let factor = |word: &str| match word {
         "yd" | "yds" | "yard" | "yards" => Some(MM_PER_YARD),
@@ -103,10 +104,10 @@ fn lengths(text: &[u8]) -> impl Iterator<Item = f64> {
     let mut lengths: Vec<f64> = Vec::new();
     // A smaller unit directly behind a larger one adds to it.
     let mut before: Option<f64> = None;
-    for (number, word) in parts {
+    for (number, word, follows) in parts {
         let unit = factor(&word);
         if let Some(unit) = unit {
-            match (before, lengths.last_mut()) {
+            match (before.filter(|_| follows), lengths.last_mut()) {
                 (Some(larger), Some(last)) if unit < larger => *last += number * unit,
                 _ => lengths.push(number * unit),
             }
