@@ -4,7 +4,7 @@ use super::classify::{Sorted, depth};
 use super::drawing::Vertex;
 use super::notch::{Pruned, prune};
 use super::shape::{CLASSES, Class, LONGEST_NOTCH, Shape};
-use crate::geom::{Extent, Point, ring};
+use crate::geom::{Extent, Point, Vector, cross, ring};
 use crate::ir::Marker;
 use crate::ir::list::{FULL_SPEED, Joint, Segment, SegmentList};
 use crate::ir::marker::{Aside, Contour, Drawing, DrawnClass, Drill, Label, Notch, NotchKind, Piece};
@@ -39,6 +39,17 @@ pub(super) fn marker(sorted: &Sorted, labels: Vec<Label>, job: &Job) -> Marker {
         piece.number = i as u32 + 1;
     }
     Marker { list: making.list, pieces: making.pieces, unit, drawing: Some(drawing), ..Marker::default() }
+}
+
+/// The centre of gravity of a closed line: that of a circle whatever its chords.
+fn centroid(shape: &Shape, vertices: &[Vertex]) -> Point {
+    let origin = vertices[0].at;
+    let part = |pair: &[Vertex]| {
+        let (a, b) = (pair[0].at - origin, pair[1].at - origin);
+        (a + b) * cross(a, b)
+    };
+    let sum = vertices.windows(2).map(part).fold(Vector::zeros(), |sum, part| sum + part);
+    origin + sum / (6.0 * shape.area)
 }
 
 struct Making<'a> {
@@ -112,10 +123,9 @@ impl Making<'_> {
             }
         }
         for shape in &sorted.shapes {
-            let extent = shape.extent();
-            let middle = extent.min + (extent.max - extent.min) / 2.0;
             match shape.class {
                 Class::Hole => {
+                    let middle = centroid(shape, shape.vertices(&sorted.drawing));
                     let span = self.span(shape);
                     let piece = self.piece_around(middle, span);
                     self.pieces[piece].drills.push(Drill { at: middle, tool: DRILL, span });
