@@ -79,7 +79,7 @@ fn keys(value: &Value) -> Vec<&str> {
 }
 
 /// The keys of the figures as JSON, sorted.
-const FIGURES: [&str; 18] = [
+const FIGURES: [&str; 19] = [
     "axes",
     "closed_contours",
     "contours",
@@ -93,6 +93,7 @@ const FIGURES: [&str; 18] = [
     "notches",
     "pieces",
     "runs",
+    "spent",
     "stabs",
     "time_s",
     "travel_m",
@@ -157,7 +158,7 @@ fn the_figures_come_as_json_with_every_key() {
     assert_eq!(keys(&figures), FIGURES);
     assert!(!stderr.contains("acceleration"), "{stderr}");
     assert_eq!((&figures["contours"], &figures["closed_contours"]), (&1.into(), &1.into()));
-    assert_eq!(keys(&figures["notches"]), ["slit", "v"]);
+    assert_eq!(keys(&figures["notches"]), ["slit", "t", "v"]);
     assert_eq!(figures["errors"], Value::Array(Vec::new()));
     for axis in ["x", "y", "c"] {
         for limit in ["speed", "acceleration", "jerk"] {
@@ -172,11 +173,17 @@ fn the_figures_come_as_json_with_every_key() {
 }
 
 #[test]
-fn info_has_the_same_keys_and_null_for_what_only_planning_knows() {
+fn info_has_the_same_keys_and_more_and_null_for_what_only_planning_knows() {
     let room = Room::new();
     let (stdout, _) = room.expect("info circle.cut --format json", DONE);
     let figures: Value = serde_json::from_str(&stdout).expect("JSON");
-    assert_eq!(keys(&figures), FIGURES);
+    let mut expected = [&FIGURES[..], &["events", "notch_depths", "speeds"]].concat();
+    expected.sort_unstable();
+    assert_eq!(keys(&figures), expected);
+    let (stdout, _) = room.expect("info junk.cut --format json", FAULTY);
+    let unread: Value = serde_json::from_str(&stdout).expect("JSON");
+    assert_eq!(keys(&unread), expected);
+    assert!(unread["speeds"].is_null() && unread["pieces"].is_null());
     for key in ["travel_m", "runs", "stabs", "lifts", "time_s", "axes"] {
         assert!(figures[key].is_null(), "{key}");
     }
@@ -461,6 +468,17 @@ impl Room {
 }
 
 #[test]
+fn what_is_no_program_is_called_so() {
+    let room = Room::new();
+    room.write("empty.csv", b"");
+    room.write("one-line.csv", &vec![b'7'; 5_000_000]);
+    for file in ["circle.cut", "empty.csv", "one-line.csv"] {
+        let (stdout, stderr) = room.expect(&format!("verify {file} --source circle.cut"), FAULTY);
+        assert!(stdout.is_empty() && stderr.contains("not a program") && stderr.contains("hint"), "{stdout}{stderr}");
+    }
+}
+
+#[test]
 fn a_program_is_verified_alone() {
     let room = Room::new();
     room.expect("compile circle.cut", DONE);
@@ -550,8 +568,8 @@ fn what_cannot_be_verified_is_said() {
     let (stdout, _) = room.expect("verify circle.csv --source junk.cut --format json", FAULTY);
     let judged: Value = serde_json::from_str(&stdout).expect("JSON");
     assert_eq!(judged.to_string(), r#"{"rules":[],"verdict":"fail"}"#);
-    let (stdout, _) = room.expect("verify junk.cut --source circle.cut", FAULTY);
-    assert!(stdout.contains("FAIL  verify/format"), "{stdout}");
+    let (stdout, _) = room.expect("verify junk.cut --source circle.cut --format json", FAULTY);
+    assert_eq!(stdout.trim(), room.expect("verify circle.csv --source junk.cut --format json", FAULTY).0.trim());
 }
 
 #[test]

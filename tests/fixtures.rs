@@ -191,3 +191,28 @@ fn a_fixture_with_a_damaged_byte_never_panics() {
         }
     }
 }
+
+/// Damages of a block in the middle of a long file: what is said must show the place and fit a terminal.
+#[test]
+fn a_file_of_one_long_line_has_readable_errors() {
+    let vertex = |i: u32| format!("X{}Y{}*", 1000 + i % 700, 2000 + i * 7 % 900);
+    let vertices: String = (0..5500).map(vertex).collect();
+    let (head, end) = ("H1*G71*M15*N1*X0Y0*M14*", "X0Y0*M15*M0*");
+    let place = head.len() + vertices[..vertices.len() / 2].rfind('*').expect("blocks") + 1;
+    let whole = format!("{head}{vertices}{end}");
+    assert!(whole.len() > 59_000 && !whole.contains('\n'), "{} bytes", whole.len());
+    let damages = [("X1?2Y5*", 2), ("x", 0), ("X5Y5X", 4), ("X5Y*", 2), ("\u{43f}*", 0), ("X123456789012*", 1)];
+    let iso = DIALECTS.iter().find(|dialect| dialect.name == "iso").expect("cut files are read");
+    for (damage, at) in damages {
+        let mut bytes = whole.clone().into_bytes();
+        bytes.splice(place..place, damage.bytes());
+        let source = Source::new("long.cut", bytes).expect("small");
+        let (_, found) = read(iso, &source);
+        let first = found.iter().next().expect("a fault");
+        assert_eq!(first.span.map(|span| span.start as usize), Some(place + at), "{damage}");
+        assert!(!first.hints.is_empty(), "{damage}");
+        let text = render(&found, &source);
+        assert!(text.lines().count() < MOST_LINES, "{text}");
+        assert!(text.lines().all(|line| line.chars().count() <= MOST_COLUMNS), "{text}");
+    }
+}

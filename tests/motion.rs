@@ -29,12 +29,12 @@ fn run(points: Vec<Point>, job: &Job) -> Run {
     Run {
         spans: vec![Span::default(); points.len() - 1],
         joints: vec![Joint::default(); points.len()],
+        feeds: vec![knife.feed_mm_s.unwrap_or(f64::INFINITY); points.len() - 1],
         points,
         shape: Shape::Open,
         law: Law::Tangent,
         front: 0.0,
         heel: 0.0,
-        feed: knife.feed_mm_s.unwrap_or(f64::INFINITY),
         ends: [End::default(); 2],
         start: Pose::default(),
         end: Pose::default(),

@@ -1,7 +1,8 @@
-//! V notches and doubtful drawings, from the bytes of a file to what is said about them.
+//! Notches and doubtful drawings, from the bytes of a file to what is said about them.
 
 use cutc::diagnostic::Diagnostics;
 use cutc::ir::Marker;
+use cutc::ir::marker::{Notch, NotchKind};
 use cutc::machine::Job;
 use cutc::pipeline::{self, Report};
 use cutc::source::Source;
@@ -41,4 +42,75 @@ fn a_doubtful_drawing_is_named() {
     check(&file(&[square(1, 0), square(2, 1000)]), &[]);
     check(&file(&[square(1, 0), "X2000Y500M43*".into()]), &["marker/drill-outside"]);
     check(&file(&[square(1, 0), square(2, 2000), square(1, 4000)]), &["marker/piece-number-twice"]);
+}
+
+/// The slits of a piece of 100 by 80 mm that a file writes in some form: depths in mm, and lengths of crossbars. Nothing
+/// but the outline may be left of its contours.
+fn slits(body: &str) -> Vec<(f64, Option<f64>)> {
+    let (marker, found) = read(&format!("H1*G71*M15*{body}M0*"));
+    assert_eq!(found, [""; 0], "{body}");
+    assert_eq!(marker.pieces.len(), 1, "{body}");
+    let piece = &marker.pieces[0];
+    assert!(piece.contours.len() == 1 && piece.contours[0].closed, "{body}");
+    let bar = |notch: &Notch| match notch.kind {
+        NotchKind::Slit => None,
+        NotchKind::T(bar) => Some(bar.length()),
+    };
+    piece.notches.iter().map(|notch| (notch.depth(), bar(notch))).collect()
+}
+
+#[test]
+fn a_slit_is_a_notch_in_every_form_that_files_have() {
+    let slit = [(5.0, None)];
+    let t = [(5.0, Some(4.0))];
+    for piece in ["N4*M15*", ""] {
+        let check = |before: &str, within: &str, expected: &[(f64, Option<f64>)]| {
+            let outline = format!("X0Y0*M14*X1000Y0*X1000Y400*{within}X1000Y800*X0Y800*X0Y0*M15*");
+            assert_eq!(slits(&format!("{piece}{before}{outline}")), expected, "{before} {within}");
+        };
+        let root = "X1000Y400*M14*";
+        let bar = "X950Y380*M14*X950Y420*M15*";
+        // Within the contour, before it, and before it without its code: at a vertex, and inside a segment.
+        check("", &format!("M19*X950Y400*M15*{root}"), &slit);
+        check(&format!("{root}M19*X950Y400*M15*"), "", &slit);
+        check(&format!("{root}X950Y400*M15*"), "", &slit);
+        check("X1000Y633*M14*X950Y633*M15*", "", &slit);
+        // The same with a crossbar.
+        check("", &format!("M19*X950Y400*M15*{bar}{root}"), &t);
+        check(&format!("{root}M19*X950Y400*M15*{bar}"), "", &t);
+        check(&format!("{root}X950Y400*M15*{bar}"), "", &t);
+        // Damaged: M19 is lost, with a lift at the root and without one; the knife goes back in the cloth.
+        check("", &format!("X950Y400*M15*{root}"), &slit);
+        check("", &format!("M15*M14*X950Y400*M15*{root}"), &slit);
+        check("", &format!("X950Y400*M15*{bar}{root}"), &t);
+        check(&format!("{root}X950Y400*X1000Y400*M15*"), "", &slit);
+    }
+}
+
+#[test]
+fn a_slit_that_stands_twice_is_cut_once() {
+    let outline = "X0Y0*M14*X1000Y0*X1000Y800*X0Y800*X0Y0*M15*";
+    let check = |strokes: &str, expected: &[&str]| {
+        let (marker, found) = read(&format!("H1*G71*M15*N1*{strokes}{outline}M0*"));
+        assert_eq!(found, expected, "{strokes}");
+        assert_eq!((marker.pieces[0].notches.len(), marker.pieces[0].contours.len()), (1, 1), "{strokes}");
+    };
+    let slit = "X1000Y400*M14*X950Y400*M15*";
+    let bar = "X950Y380*M14*X950Y420*M15*";
+    check(&format!("{slit}{slit}"), &["marker/slit-twice"]);
+    check(&format!("{slit}X1000Y400*M14*M19*X950Y400*M15*"), &["marker/slit-twice"]);
+    check(&format!("{slit}{bar}{bar}"), &["marker/slit-twice"]);
+}
+
+#[test]
+fn lines_that_are_no_slits_stay_open_contours() {
+    let outline = "X0Y0*M14*X1000Y0*X1000Y800*X0Y800*X0Y0*M15*";
+    let check = |line: &str| {
+        let (marker, found) = read(&format!("H1*G71*M15*N1*{line}M15*{outline}M0*"));
+        assert_eq!(found, ["marker/open-contour"], "{line}");
+        assert_eq!((marker.pieces[0].notches.len(), marker.pieces[0].contours.len()), (0, 2), "{line}");
+    };
+    check("X1000Y400*M14*X849Y400*"); // a dart
+    check("X500Y400*M14*X550Y400*"); // a mark inside
+    check("X1000Y400*M14*X950Y400*X950Y450*"); // an L
 }

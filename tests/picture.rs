@@ -5,13 +5,13 @@ mod support;
 use std::io::Cursor;
 
 use cutc::back::{Context, Emit, Parts, TARGETS};
-use cutc::geom::Point;
+use cutc::geom::{Heading, Point};
 use cutc::ir::finding::Sighting;
 use cutc::ir::list::{Joint, Segment};
-use cutc::ir::marker::{Contour, Drill, Marker, Notch, NotchKind, Piece};
+use cutc::ir::marker::{Contour, Drill, Label, Marker, Notch, NotchKind, Piece, Vee};
 use cutc::ir::{Finding, Toolpath};
 use cutc::machine::Job;
-use cutc::source::Span;
+use cutc::source::{Source, Span};
 
 /// The paper's square with a slit and a drill; beside it a circle, numbered 12.
 fn demo() -> Marker {
@@ -48,7 +48,9 @@ fn parts() -> &'static Parts<Toolpath> {
 }
 
 fn picture(marker: &Marker, job: &Job, found: &[Finding]) -> String {
-    let context = Context { job, marker };
+    // Room for the texts that labels of these markers may point to.
+    let source = Source::new("texts", b"A < B & \"C\"\r".to_vec()).expect("small");
+    let context = Context { source: &source, job, marker };
     let mut out = Cursor::new(Vec::new());
     (parts().head)(&context, &mut out).expect("a buffer takes all");
     for toolpath in support::toolpaths(marker, job) {
@@ -190,6 +192,45 @@ fn the_worst_places_are_ringed_red_where_a_rule_fails_and_amber_where_it_holds()
     let height = |text: &str| numbers(attribute(text, "viewBox"))[3];
     assert!(height(&text) > height(&plain) && elements(&text).len() > elements(&plain).len());
     assert_eq!(attribute(&text, "height"), format!("{:.3}mm", height(&text)));
+}
+
+#[test]
+fn a_label_stands_at_its_place_in_its_direction_inside_its_piece() {
+    let mut marker = demo();
+    let text = Span { start: 0, end: 12, block: 7 };
+    let label = |x: f64, y: f64, degrees: f64| Label {
+        at: Some(Point::new(x, y)),
+        heading: Some(Heading::new(degrees.to_radians())),
+        span: text,
+        mirrored: None,
+    };
+    // With room, with little room before the right side, another one at the same place, without a place.
+    let texts = [label(20.0, 60.0, 30.0), label(90.0, 60.0, 0.0), label(90.0, 60.0, 0.0)];
+    marker.pieces[0].labels.extend(texts);
+    marker.pieces[0].labels.push(Label { at: None, ..label(0.0, 0.0, 0.0) });
+    let picture = picture(&marker, &square_knife(), &[]);
+    elements(&picture);
+    let labels: Vec<&str> = picture.lines().filter(|line| line.starts_with("<text class=\"label\"")).collect();
+    assert_eq!(labels.len(), 3, "{labels:?}");
+    assert!(labels.iter().all(|line| line.contains(">A &lt; B &amp; &quot;C&quot;␍<title>label, block 7</title>")));
+    assert_eq!(attribute(labels[0], "transform"), "translate(20.000,60.000) rotate(30.000) scale(1,-1)");
+    let [high, low, below] = [0, 1, 2].map(|i| numbers(attribute(labels[i], "font-size"))[0]);
+    assert!(high > 3.0 && low < 1.6 && low == below, "{labels:?}");
+    assert!(numbers(attribute(labels[2], "y"))[0] > low);
+    assert!(picture.contains(", label: A &lt; B &amp; &quot;C&quot;␍</title>"), "{picture}");
+}
+
+#[test]
+fn every_notch_is_marked_and_says_its_depth() {
+    let mut marker = demo();
+    let at = |x: f64, y: f64| Point::new(x, y);
+    let span = Span { block: 4, ..Span::default() };
+    marker.pieces[0].vees.push(Vee { apex: at(50.0, 5.0), mouth: [at(49.0, 0.0), at(51.0, 0.0)], span });
+    let text = picture(&marker, &square_knife(), &[]);
+    let drawing = drawing(&text);
+    assert_eq!(count(drawing, "notch"), 2);
+    assert!(drawing.contains("d=\"M49.000,0.000 50.000,5.000 51.000,0.000\"><title>V notch, 5.0 mm deep, 2.0 mm wide"));
+    assert!(drawing.contains("d=\"M0.000,50.000 5.000,50.000\"><title>slit, 5.0 mm deep, block 6"));
 }
 
 #[test]

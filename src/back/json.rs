@@ -1,8 +1,9 @@
 //! Target `json`: the program step by step, for a script or a time study.
 //!
 //! `runs` has one object a line for everything that the machine does, in order: `kind` is "cut" (plunge, way, lift),
-//! "stab" (plunge and lift without a way), "travel", "turn", "drill" or "event". Every run has every key; what a kind does
-//! not have is 0, as block 0 is none. Lengths and poses have the decimals of `csv`.
+//! "stab" (plunge and lift without a way), "travel", "turn", "drill", "event", or "wait" when the blade still rises at the
+//! very end. Every run has every key; what a kind does not have is 0, as block 0 is none. Lengths and poses have the
+//! decimals of `csv`.
 //!
 //! Two clocks are given. `duration_s` is what the axes need from rest to rest, not rounded; `dwell_s` how long they rest
 //! for plunge and lift, or a drill; all of both add up to the program's `time_s`. A controller has whole periods only, so
@@ -52,13 +53,18 @@ fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<
     let mut tasks = motion.tasks.iter().copied();
     let mut index = motion.first_step;
     let mut rest = &motion.phases[..];
-    while let Some((first, behind)) = rest.split_first() {
+    while let Some(first) = rest.first() {
         if first.kind == Kind::Rest {
             text.push_str(&program(motion, index, context));
             break;
         }
-        let more = behind.iter().take_while(|phase| !phase.kind.begins_step() && phase.kind != Kind::Rest).count();
-        let (phases, next) = rest.split_at(1 + more);
+        let is_wait = |phase: &&Phase| phase.kind == Kind::Wait;
+        let goes_on =
+            |phase: &&Phase| !phase.kind.begins_step() && phase.kind != Kind::Rest && phase.kind != Kind::Wait;
+        let lead = rest.iter().take_while(is_wait).count();
+        let begins = usize::from(rest.get(lead).is_some_and(|phase| phase.kind != Kind::Rest));
+        let more = rest[lead + begins..].iter().take_while(goes_on).count();
+        let (phases, next) = rest.split_at(lead + begins + more);
         text.push_str(if index == 0 { "\n" } else { ",\n" });
         text.push_str(&object(&run(phases, next.first(), &mut tasks), index, motion.piece));
         index += 1;
@@ -74,7 +80,7 @@ fn tail(_: &Context, _: &[Finding], out: &mut dyn Output) -> io::Result<()> {
 /// One run from its phases; the `next` phase begins where the axes of a motion come to rest.
 fn run(phases: &[Phase], next: Option<&Phase>, tasks: &mut impl Iterator<Item = Task>) -> Run {
     let mut run = Run {
-        kind: "",
+        kind: "wait",
         task: Task::default(),
         length: 0.0,
         duration: 0.0,
@@ -88,7 +94,9 @@ fn run(phases: &[Phase], next: Option<&Phase>, tasks: &mut impl Iterator<Item = 
         run.length += phase.length;
         match phase.kind {
             Kind::Travel | Kind::Turn | Kind::Cut => run.duration += phase.duration,
-            Kind::Plunge | Kind::Lift | Kind::Drill(_) | Kind::Event(_) | Kind::Rest => run.dwell += phase.duration,
+            Kind::Plunge | Kind::Lift | Kind::Drill(_) | Kind::Event(_) | Kind::Wait | Kind::Rest => {
+                run.dwell += phase.duration;
+            }
         }
         match phase.kind {
             Kind::Travel => run.kind = "travel",
@@ -99,7 +107,7 @@ fn run(phases: &[Phase], next: Option<&Phase>, tasks: &mut impl Iterator<Item = 
             Kind::Drill(_) => (run.kind, run.task) = ("drill", tasks.next().unwrap_or_default()),
             // The axes rest until the knife is up.
             Kind::Lift => run.end = phase.pose(0),
-            Kind::Rest => {}
+            Kind::Wait | Kind::Rest => {}
         }
     }
     run

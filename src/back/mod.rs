@@ -7,6 +7,7 @@ use std::io::{self, Seek, Write};
 
 use crate::ir::{Finding, Marker, Motion, Toolpath};
 use crate::machine::Job;
+use crate::source::Source;
 
 mod csv;
 mod json;
@@ -21,6 +22,8 @@ impl<T: Write + Seek> Output for T {}
 /// What a program is made from.
 #[derive(Debug, Clone, Copy)]
 pub struct Context<'a> {
+    /// What it was read from: the texts of labels stand there.
+    pub source: &'a Source,
     /// The machine and the options of this compile.
     pub job: &'a Job,
     /// What is cut, after all passes.

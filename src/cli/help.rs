@@ -16,7 +16,8 @@ pub(super) fn overview() -> String {
   cutc compile marker.cut -o - | less         the program on standard output
   cutc verify marker.csv --source marker.cut  judges a program, after an edit by hand too
   cutc check *.cut                            says all that is wrong, writes nothing
-  cutc info marker.cut --format json          what is in a file, for a script
+  cutc info marker.cut --labels               what is in a file, and what its labels say
+  cutc info marker.cut --format json          the same for a script
   cutc compile marker.cut --pieces 3,7-12     some pieces only; --skip and --resume-from likewise
   cutc compile marker.cut --dry-run           the same motion, knife up; --frame: once around the box
   cutc explain iso/open-slit                  what a message means and what to do

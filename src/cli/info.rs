@@ -1,19 +1,19 @@
 //! `cutc info`: what is in a cutter file.
 
-use std::collections::BTreeMap;
-use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;
+use serde::Serialize;
 
 use super::choices::Format;
+use super::facts::Facts;
+use super::labels::{self, Labelled};
 use super::options::Reading;
 use super::{DONE, FAULTY, Finished, drawn, files, report, summary};
 use crate::diagnostic::{Diagnostics, render};
 use crate::ir::Marker;
-use crate::ir::marker::NotchKind;
 use crate::pipeline::{self, Report};
-use crate::units::number::fixed;
+use crate::source::Source;
 
 /// Arguments of `cutc info`.
 #[derive(Debug, Args)]
@@ -24,9 +24,17 @@ pub(super) struct Arguments {
     #[command(flatten)]
     reading: Reading,
 
+    /// Also list the labels of each piece: place, angle, text, and the fields of the list behind M0
+    ///
+    /// Texts that are no UTF-8 are read in the encoding `labels.encoding` of the profile, as in `--set
+    /// labels.encoding=windows-1251`.
+    #[arg(long)]
+    labels: bool,
+
     /// How to give the figures
     ///
-    /// JSON has the keys of `cutc compile`, with null for what only planning knows.
+    /// JSON has the keys of `cutc compile`, with null for what only planning knows, and `notch_depths`, `speeds` and
+    /// `events`; with --labels also `labels_by_piece`.
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }
@@ -39,40 +47,42 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     };
     let mut diagnostics = Diagnostics::default();
     let input = pipeline::read(&source, arguments.reading.from, &job, &mut diagnostics);
-    let depths = input.as_ref().map_or(String::new(), |input| depths(&input.marker));
-    let report = input.map(|input| Report::of(&input.marker, input.dialect.name));
-    let stdout = match (arguments.format, &report) {
-        (Format::Json, report) => report::json(report.as_ref(), &diagnostics, &source),
-        (Format::Text, Some(report)) => summary::text(report, source.name(), &diagnostics) + &drawn::text(report) + &depths,
+    let known = input.map(|input| {
+        let labels = arguments.labels.then(|| labels::of(&input.marker, &source, &job));
+        Known { labels_by_piece: labels, ..Known::of(&input.marker, input.dialect.name) }
+    });
+    let stdout = match (arguments.format, &known) {
+        (Format::Json, Some(known)) => report::json_of(known, &diagnostics, &source),
+        (Format::Json, None) => {
+            let blank = Known::of(&Marker::default(), "");
+            report::json_of(report::nothing(&blank), &diagnostics, &source)
+        }
+        (Format::Text, Some(known)) => known.text(&source, &diagnostics),
         (Format::Text, None) => String::new(),
     };
-    let code = if report.is_none() || diagnostics.has_errors() { FAULTY } else { DONE };
+    let code = if known.is_none() || diagnostics.has_errors() { FAULTY } else { DONE };
     Ok(Finished::text(stdout, render(&diagnostics, &source), code))
 }
 
-/// Notches by kind and depth, a line each; nothing when there are none.
-fn depths(marker: &Marker) -> String {
-    // Depths in tenths of a millimetre: finer ones are rounding of the file.
-    let mut counts: BTreeMap<(&str, i64), usize> = BTreeMap::new();
-    let tenths = |depth: f64| (depth * 10.0).round() as i64;
-    for piece in &marker.pieces {
-        for notch in &piece.notches {
-            let kind = match notch.kind {
-                NotchKind::Slit => "slit",
-            };
-            *counts.entry((kind, tenths(notch.depth()))).or_default() += 1;
-        }
-        for vee in &piece.vees {
-            *counts.entry(("v", tenths(vee.depth()))).or_default() += 1;
-        }
+/// What is known of a file.
+#[derive(Debug, Serialize)]
+struct Known {
+    #[serde(flatten)]
+    report: Report,
+    #[serde(flatten)]
+    facts: Facts,
+    /// Only when it was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    labels_by_piece: Option<Vec<Labelled>>,
+}
+
+impl Known {
+    fn of(marker: &Marker, dialect: &'static str) -> Self {
+        Self { report: Report::of(marker, dialect), facts: Facts::of(marker), labels_by_piece: None }
     }
-    let mut out = String::new();
-    if !counts.is_empty() {
-        out.push_str("\n  notch  depth mm  count\n");
+
+    fn text(&self, source: &Source, diagnostics: &Diagnostics) -> String {
+        let figures = summary::text(&self.report, source.name(), diagnostics);
+        figures + &drawn::text(&self.report) + &self.facts.text() + &self.labels_by_piece.as_deref().map_or(String::new(), labels::text)
     }
-    for ((kind, depth), count) in counts {
-        // Writing into a `String` cannot fail.
-        let _ = writeln!(out, "  {kind:5}  {:>8}  {count:>5}", fixed(depth as f64 / 10.0, 1));
-    }
-    out
 }

@@ -10,9 +10,11 @@ mod completions;
 mod drawn;
 mod explain;
 mod explanations;
+mod facts;
 mod files;
 mod help;
 mod info;
+mod labels;
 mod options;
 mod profile;
 mod provenance;
@@ -60,7 +62,7 @@ enum Command {
     Verify(verify::Arguments),
     /// Read cutter files and say everything that is wrong with them; writes nothing
     Check(check::Arguments),
-    /// Say what is in a cutter file: pieces, contours, lengths
+    /// Say what is in a cutter file: pieces, notches, speeds, labels
     Info(info::Arguments),
     /// Show, begin or check a machine profile
     Profile(profile::Arguments),

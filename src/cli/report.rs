@@ -33,16 +33,20 @@ impl Findings {
 
 /// A report with the findings as one JSON object; without a report all its keys are null.
 pub(super) fn json(report: Option<&Report>, diagnostics: &Diagnostics, source: &Source) -> String {
-    let findings = Findings::of(diagnostics, source);
     match report {
-        Some(report) => pretty(&Figures { report, findings }),
-        None => pretty(&Figures { report: nothing(), findings }),
+        Some(report) => json_of(report, diagnostics, source),
+        None => json_of(nothing(&Report::of(&Marker::default(), "")), diagnostics, source),
     }
 }
 
-/// The keys of a report, all null.
-fn nothing() -> serde_json::Value {
-    let mut empty = serde_json::to_value(Report::of(&Marker::default(), "")).expect("a report is plain data");
+/// Any figures with the findings as one JSON object.
+pub(super) fn json_of(figures: impl Serialize, diagnostics: &Diagnostics, source: &Source) -> String {
+    pretty(&Figures { report: figures, findings: Findings::of(diagnostics, source) })
+}
+
+/// The keys of some figures, all null.
+pub(super) fn nothing(figures: &impl Serialize) -> serde_json::Value {
+    let mut empty = serde_json::to_value(figures).expect("figures are plain data");
     for value in empty.as_object_mut().into_iter().flat_map(serde_json::Map::values_mut) {
         *value = serde_json::Value::Null;
     }
@@ -59,7 +63,7 @@ mod tests {
     use super::*;
     use crate::diagnostic::{Diagnostic, code};
 
-    const KEYS: [&str; 18] = [
+    const KEYS: [&str; 19] = [
         "dialect",
         "unit_mm",
         "extent_mm",
@@ -75,6 +79,7 @@ mod tests {
         "stabs",
         "lifts",
         "time_s",
+        "spent",
         "axes",
         "warnings",
         "errors",

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::options::{counted, typed};
 use crate::diagnostic::{Diagnostics, Severity};
 use crate::machine::{Job, Mode};
-use crate::pipeline::{Axes, Peak, Peaks, Report, Verdict};
+use crate::pipeline::{Axes, Peak, Peaks, Report, Verdict, word};
 use crate::units::number::{exact, fixed};
 
 /// Seconds in a minute.
@@ -26,7 +26,9 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
     let open = report.contours - report.closed_contours;
     line("contours", format!("{} ({} closed, {open} open)", report.contours, report.closed_contours));
     let notches = report.notches;
-    line("notches", format!("{} ({} slit, {} v)", notches.slit + notches.v, notches.slit, notches.v));
+    let all = notches.slit + notches.t + notches.v;
+    let with_t = if notches.t > 0 { format!("{} t, ", notches.t) } else { String::new() };
+    line("notches", format!("{all} ({} slit, {with_t}{} v)", notches.slit, notches.v));
     line("drills", report.drills.to_string());
     line("labels", report.labels.to_string());
     line("cut", format!("{} m", fixed(report.cut_m, 3)));
@@ -42,6 +44,11 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
     }
     if let Some(time) = program.time_s {
         line("time", duration(time));
+    }
+    if let Some(spent) = &program.spent {
+        line("spent", shares(&spent.parts(), spent.total()));
+        let bounds: Vec<(String, f64)> = spent.bounds.iter().map(|&(bound, time)| (word(bound), time)).collect();
+        line("limited by", shares(&bounds, spent.cut));
     }
     if let Some(bulge) = program.bulge_mm.filter(|&bulge| fixed(bulge, 3) != "0.000") {
         line("bulge", format!("{} mm beyond the chords of flattened curves", fixed(bulge, 3)));
@@ -75,16 +82,47 @@ pub(super) fn verdict(verdict: Option<&Verdict>) -> String {
     let Some(verdict) = verdict else {
         return "\n  verified   no: --no-verify was given, nobody has read the program back\n".to_owned();
     };
-    let mut out = format!("\n  verified   {} hold", counted(verdict.findings.len(), "rule"));
+    let (limited, reported) = verdict.counts();
+    let mut out = format!("\n  verified   {} hold", counted(limited, "rule"));
     let on_path = verdict.findings.iter().find(|finding| finding.rule == ON_PATH);
     if let Some((worst, limit)) = on_path.and_then(|finding| Some((finding.worst, finding.limit?))) {
         let _ = write!(out, "; tip at most {} mm off the path ({} allowed)", fixed(worst, 3), fixed(limit, 3));
+    }
+    if reported > 0 {
+        let _ = write!(out, "\n             {} without a limit only reported", counted(reported, "rule"));
     }
     out + "\n"
 }
 
 /// The rule that says most about a cut.
 const ON_PATH: &str = "verify/on-path";
+
+/// Shares of a whole in percent, the greatest first, those that round to nothing left out; in lines that fit.
+fn shares<T: AsRef<str>>(parts: &[(T, f64)], whole: f64) -> String {
+    let percent = |time: f64| (100.0 * time / whole).round();
+    let mut parts: Vec<(&str, f64)> = parts.iter().map(|(name, time)| (name.as_ref(), percent(*time))).collect();
+    parts.retain(|(_, percent)| *percent >= 1.0);
+    parts.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let mut out = String::new();
+    let mut column = 0;
+    for (i, (name, percent)) in parts.iter().enumerate() {
+        let part = format!("{name} {} %", fixed(*percent, 0));
+        if i > 0 {
+            out.push(',');
+            if column + part.len() + 3 > SHARES_WIDTH {
+                out.push_str("\n            ");
+                column = 0;
+            }
+            out.push(' ');
+        }
+        out.push_str(&part);
+        column += part.len() + 2;
+    }
+    out
+}
+
+/// Columns that a line of shares may take.
+const SHARES_WIDTH: usize = 66;
 
 /// A duration as people say it.
 fn duration(seconds: f64) -> String {
@@ -128,8 +166,9 @@ fn cell(peak: Peak) -> (String, String) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ir::motion::Bound;
     use crate::ir::{Finding, Marker};
-    use crate::pipeline::{Notches, Program};
+    use crate::pipeline::{Notches, Program, Spent};
 
     fn report() -> Report {
         let peak = |worst, limit| Peak { worst, limit };
@@ -141,7 +180,7 @@ mod tests {
             pieces: 12,
             contours: 14,
             closed_contours: 13,
-            notches: Notches { slit: 31, v: 0 },
+            notches: Notches { slit: 31, t: 0, v: 0 },
             drills: 2,
             labels: 12,
             cut_m: 20.123_456,
@@ -153,6 +192,23 @@ mod tests {
                 time_s: Some(119.96),
                 bulge_mm: Some(0.138_2),
                 axes: Some(Axes { x, y: x, c }),
+                spent: Some(Spent {
+                    cut: 60.0,
+                    travel: 20.0,
+                    turn: 15.0,
+                    plunge: 14.4,
+                    lift: 10.2,
+                    drill: 0.36,
+                    wait: 0.0,
+                    bounds: vec![
+                        (Bound::Ends, 30.0),
+                        (Bound::Feed, 12.0),
+                        (Bound::Axis { axis: 0, order: 1 }, 3.0),
+                        (Bound::Axis { axis: 2, order: 2 }, 14.9),
+                        (Bound::Axis { axis: 1, order: 0 }, 0.1),
+                    ],
+                }),
+                by_piece: Vec::new(),
             },
             ..Report::of(&Marker::default(), "iso")
         }
@@ -176,6 +232,9 @@ mod tests {
           runs       101, of which 1 stab
           lifts      101
           time       2 min 0.0 s
+          spent      cut 50 %, travel 17 %, turn 13 %, plunge 12 %, lift 9 %
+          limited by starts and stops 50 %, jerk of c 25 %, feed 20 %,
+                     acceleration of x 5 %
           bulge      0.138 mm beyond the chords of flattened curves
           warnings   0
 
@@ -206,10 +265,17 @@ mod tests {
 
     #[test]
     fn a_verdict_is_a_line() {
-        let finding = |rule, worst, limit| Finding { rule, worst, limit: Some(limit), unit: "mm", place: None };
-        let findings = vec![finding("verify/on-path", 0.061_23, 0.071), finding("verify/stray", 0.0, 0.0)];
+        let finding = |rule, worst, limit| Finding { rule, worst, limit, unit: "mm", place: None };
+        let findings = vec![
+            finding("verify/on-path", 0.061_23, Some(0.071)),
+            finding("verify/stray", 0.0, Some(0.0)),
+            finding("verify/body", 0.3, None),
+        ];
         let line = verdict(Some(&Verdict { findings }));
-        assert_eq!(line, "\n  verified   2 rules hold; tip at most 0.061 mm off the path (0.071 allowed)\n");
+        assert_eq!(
+            line,
+            "\n  verified   2 rules hold; tip at most 0.061 mm off the path (0.071 allowed)\n             1 rule without a limit only reported\n"
+        );
         assert!(verdict(None).contains("no: --no-verify"));
     }
 }

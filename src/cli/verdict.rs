@@ -99,13 +99,15 @@ pub(super) fn text(verdict: &Verdict, mode: Mode, program: &str, source: &str) -
             say(&mut out, format_args!("      the rule: {}", pipeline::about(finding.rule)));
         }
     }
-    let total = counted(verdict.findings.len(), "rule");
+    let (limited, reported) = verdict.counts();
+    let total = counted(limited, "rule");
+    let besides = if reported == 0 { String::new() } else { format!("{reported} without a limit, ") };
     if broken.is_empty() {
         let is = match mode {
             Mode::Cut => format!("cuts what `{source}` says"),
             Mode::Dry | Mode::Frame => "moves within the limits and keeps the knife up".to_owned(),
         };
-        say(&mut out, format_args!("\nPASS  `{program}` {is}: {total} hold"));
+        say(&mut out, format_args!("\nPASS  `{program}` {is}: {besides}{total} hold"));
     } else {
         let count = broken.len();
         say(&mut out, format_args!("\nFAIL  `{program}` must not run: it breaks {count} of {total}"));
@@ -178,7 +180,7 @@ mod tests {
         FAIL  verify/acceleration-x         8123      8012  mm/s2     12.345  1695.4  20.0    268
               the rule: X never accelerates more than its limit
 
-        FAIL  `a.csv` must not run: it breaks 2 of 5 rules
+        FAIL  `a.csv` must not run: it breaks 2 of 4 rules
         ");
     }
 

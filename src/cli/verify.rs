@@ -14,7 +14,7 @@ use crate::pipeline::{self, Verdict};
 ///
 /// The program is simulated row by row and judged under every rule: whether all is cut, once and nothing else, how far
 /// the tip leaves the path, and whether the axes keep their limits. The exit code is 0 when every rule holds, 1 when one
-/// is broken or the cutter file has errors.
+/// is broken, the file is no program, or the cutter file has errors.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
     /// Program to judge: timed setpoints, as `cutc compile` writes them with the targets csv and npy
@@ -35,7 +35,7 @@ pub(super) struct Arguments {
     ///
     /// JSON has `verdict` ("pass" or "fail") and `rules`, each with `code`, `worst`, `limit`, `unit`, `where` and
     /// `holds`. A `worst` of null is beyond measure, a `limit` of null is only reported, a `block` of 0 is none. When
-    /// the cutter file has errors, the verdict is "fail" without rules.
+    /// the cutter file has errors, or the program is none, the verdict is "fail" without rules.
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }
@@ -43,6 +43,18 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     let name = arguments.program.display().to_string();
     let mut program = files::open(&arguments.program)?;
+    let cannot = |error| failure(format!("cannot read `{name}`: {error}"), "check the disk that it is on");
+    if !pipeline::is_program(&mut program).map_err(cannot)? {
+        let stdout = match arguments.format {
+            Format::Json => verdict::json(None),
+            Format::Text => String::new(),
+        };
+        let not = failure(
+            format!("not a program: `{name}` does not begin as timed setpoints do"),
+            "name first what `cutc compile` wrote with the target csv or npy, then its cutter file as --source",
+        );
+        return Ok(Finished::text(stdout, format!("error: {not}\n"), FAULTY));
+    }
     let source = files::read(&arguments.source)?;
     let job = match arguments.reading.job()? {
         Ok(job) => arguments.choice.of(job),
@@ -50,7 +62,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     };
     let mut diagnostics = Diagnostics::default();
     let judged = pipeline::judge_program(&mut program, &source, arguments.reading.from, &job, &mut diagnostics)
-        .map_err(|error| failure(format!("cannot read `{name}`: {error}"), "check the disk that it is on"))?;
+        .map_err(cannot)?;
     let mut said = render(&diagnostics, &source);
     said.push_str(&provenance::doubts(&arguments.program, &source, &job));
     if judged.is_none() {

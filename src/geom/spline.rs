@@ -112,6 +112,15 @@ impl<const K: usize, const N: usize> Piecewise<K, N> {
         Self { breaks, pieces }
     }
 
+    /// The straight line from one value to another over `ends` of the parameter.
+    pub fn line(ends: [f64; 2], [from, to]: [[f64; N]; 2]) -> Self {
+        const { assert!(K > 1, "a line needs a slope") };
+        let mut piece = [[0.0; N]; K];
+        piece[0] = from;
+        piece[1] = std::array::from_fn(|i| (to[i] - from[i]) / (ends[1] - ends[0]));
+        Self { breaks: ends.to_vec(), pieces: vec![piece] }
+    }
+
     /// Where the polynomials meet, ends included.
     pub fn breaks(&self) -> &[f64] {
         &self.breaks

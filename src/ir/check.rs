@@ -1,6 +1,6 @@
 //! Every invariant of the three forms; collects all that is broken, never stops at the first.
 
-use super::marker::Marker;
+use super::marker::{Marker, Notch};
 use super::motion::Motion;
 use super::toolpath::{Pose, Run, Step, Toolpath};
 use crate::geom::Point;
@@ -50,8 +50,8 @@ pub fn marker(marker: &Marker) -> Faults {
                 faults.push(format!("piece {}: a V notch has no depth or no width", i + 1));
             }
         }
-        if piece.notches.iter().any(|n| !finite(n.root) || !finite(n.tip)) || piece.drills.iter().any(|d| !finite(d.at))
-        {
+        let mut strokes = piece.notches.iter().flat_map(Notch::strokes);
+        if strokes.any(|s| !finite(s.from) || !finite(s.to)) || piece.drills.iter().any(|d| !finite(d.at)) {
             faults.push(format!("piece {}: a notch or drill is not finite", i + 1));
         }
     }
@@ -94,8 +94,9 @@ const UNIT_EPSILON: f64 = 1e-9;
 
 fn run_faults(run: &Run) -> Vec<&'static str> {
     let mut faults = Vec::new();
-    if run.points.len() < 2 || run.spans.len() + 1 != run.points.len() || run.joints.len() != run.points.len() {
-        faults.push("a run needs a span a chord and a joint a point");
+    let chords = run.points.len().saturating_sub(1);
+    if chords == 0 || [run.spans.len() + 1, run.feeds.len() + 1, run.joints.len()] != [chords + 1; 3] {
+        faults.push("a run needs a span and a speed a chord, and a joint a point");
     }
     if run.points.iter().any(|&p| !finite(p)) || !pose_finite(run.start) || !pose_finite(run.end) {
         faults.push("a number is not finite");
@@ -106,7 +107,7 @@ fn run_faults(run: &Run) -> Vec<&'static str> {
     if !(run.front >= 0.0 && run.heel >= 0.0) {
         faults.push("an overlap is negative");
     }
-    if run.feed.is_nan() || run.feed <= 0.0 {
+    if run.feeds.iter().any(|feed| feed.is_nan() || *feed <= 0.0) {
         faults.push("the speed cap is not positive");
     }
     faults

@@ -125,16 +125,50 @@ pub struct Notch {
 }
 
 /// Shape of a notch.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum NotchKind {
     /// One straight cut from the edge into the part.
     Slit,
+    /// A slit, and a crossbar over its tip.
+    T(Stroke),
+}
+
+/// A straight cut.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stroke {
+    /// Where it starts.
+    pub from: Point,
+    /// Where it ends.
+    pub to: Point,
+    /// The block that its end came from.
+    pub span: Span,
+}
+
+impl Stroke {
+    /// Length, mm.
+    pub fn length(&self) -> f64 {
+        (self.to - self.from).norm()
+    }
 }
 
 impl Notch {
-    /// Length of the cut, mm.
+    /// Longest slit, and longest crossbar, mm: what cutters punch is 3 to 12 mm deep, and the lines that are drawn inside
+    /// parts are longer.
+    pub const LONGEST: f64 = 15.0;
+
+    /// How far it goes into the part, mm.
     pub fn depth(&self) -> f64 {
         (self.tip - self.root).norm()
+    }
+
+    /// Its cuts in their order: from the edge inwards, then the crossbar if it has one.
+    pub fn strokes(&self) -> impl Iterator<Item = Stroke> + use<> {
+        let stem = Stroke { from: self.root, to: self.tip, span: self.span };
+        let bar = match self.kind {
+            NotchKind::Slit => None,
+            NotchKind::T(bar) => Some(bar),
+        };
+        std::iter::once(stem).chain(bar)
     }
 }
 
@@ -215,7 +249,8 @@ impl Marker {
     /// Length of all contours and slits, mm, without overlaps.
     pub fn cut_length(&self) -> f64 {
         let contours: f64 = self.contours().flat_map(|(_, c)| self.list.walk(c.range)).map(|(_, s)| s.length()).sum();
-        let notches: f64 = self.pieces.iter().flat_map(|p| &p.notches).map(Notch::depth).sum();
+        let notches: f64 =
+            self.pieces.iter().flat_map(|p| &p.notches).flat_map(Notch::strokes).map(|s| s.length()).sum();
         contours + notches
     }
 
@@ -229,9 +264,9 @@ impl Marker {
                     extent.add(segment.to);
                 }
             }
-            for notch in &piece.notches {
-                extent.add(notch.root);
-                extent.add(notch.tip);
+            for stroke in piece.notches.iter().flat_map(Notch::strokes) {
+                extent.add(stroke.from);
+                extent.add(stroke.to);
             }
             for drill in &piece.drills {
                 extent.add(drill.at);

@@ -53,8 +53,10 @@ pub struct Phase {
 /// What happens in a phase.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// Knife up, axes at rest: the end of a program, and the dwells of one that keeps the knife up.
+    /// Knife up, axes at rest: the end of a program.
     Rest,
+    /// Knife up, axes at rest until the blade is all the way up; the dwells of a program that keeps the knife up.
+    Wait,
     /// Knife up, from anywhere to anywhere.
     Travel,
     /// Knife up, at a corner of a contour.
@@ -76,7 +78,7 @@ impl Kind {
     pub fn knife_down(self) -> bool {
         match self {
             Self::Plunge | Self::Cut => true,
-            Self::Rest | Self::Travel | Self::Turn | Self::Lift | Self::Drill(_) | Self::Event(_) => false,
+            Self::Rest | Self::Wait | Self::Travel | Self::Turn | Self::Lift | Self::Drill(_) | Self::Event(_) => false,
         }
     }
 
@@ -85,7 +87,7 @@ impl Kind {
     pub fn begins_step(self) -> bool {
         match self {
             Self::Travel | Self::Turn | Self::Plunge | Self::Drill(_) | Self::Event(_) => true,
-            Self::Cut | Self::Lift | Self::Rest => false,
+            Self::Cut | Self::Lift | Self::Rest | Self::Wait => false,
         }
     }
 
@@ -93,9 +95,9 @@ impl Kind {
     #[must_use]
     pub fn raised(self) -> Self {
         match self {
-            Self::Plunge | Self::Lift | Self::Drill(_) => Self::Rest,
+            Self::Plunge | Self::Lift | Self::Drill(_) => Self::Wait,
             Self::Cut => Self::Travel,
-            Self::Rest | Self::Travel | Self::Turn | Self::Event(_) => self,
+            Self::Rest | Self::Wait | Self::Travel | Self::Turn | Self::Event(_) => self,
         }
     }
 
@@ -109,7 +111,14 @@ impl Kind {
         match self {
             Self::Event(Event::Stop) => 1,
             Self::Event(Event::Advance) => 2,
-            Self::Rest | Self::Travel | Self::Turn | Self::Plunge | Self::Cut | Self::Lift | Self::Drill(_) => 0,
+            Self::Rest
+            | Self::Wait
+            | Self::Travel
+            | Self::Turn
+            | Self::Plunge
+            | Self::Cut
+            | Self::Lift
+            | Self::Drill(_) => 0,
         }
     }
 }
@@ -130,5 +139,72 @@ impl Motion {
     /// Number of periods of all phases.
     pub fn ticks(&self) -> u64 {
         self.phases.iter().map(|phase| u64::from(phase.ticks)).sum()
+    }
+}
+
+/// What keeps a cut from being faster.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Bound {
+    /// It has to start from rest and to come to rest.
+    Ends,
+    /// The greatest speed of the tip.
+    Feed,
+    /// The greatest speed, acceleration or jerk (order 0 to 2) of x, y or c (axis 0 to 2).
+    Axis {
+        /// Which axis.
+        axis: u8,
+        /// Which of its limits.
+        order: u8,
+    },
+}
+
+/// Every bound; the axes' own stand behind the first two, axis by axis.
+pub const BOUNDS: [Bound; 11] = {
+    const fn of(axis: u8, order: u8) -> Bound {
+        Bound::Axis { axis, order }
+    }
+    let [x, y, c] = [0, 1, 2];
+    [Bound::Ends, Bound::Feed, of(x, 0), of(x, 1), of(x, 2), of(y, 0), of(y, 1), of(y, 2), of(c, 0), of(c, 1), of(c, 2)]
+};
+
+/// How many ticks each bound decides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Shares([u64; BOUNDS.len()]);
+
+impl Shares {
+    /// Counts more ticks of a bound.
+    pub fn add(&mut self, bound: Bound, ticks: u64) {
+        self.0[place(bound)] += ticks;
+    }
+
+    /// Counts what another cut counted.
+    pub fn merge(&mut self, other: &Self) {
+        for (sum, more) in self.0.iter_mut().zip(other.0) {
+            *sum += more;
+        }
+    }
+
+    /// The ticks of a bound.
+    pub fn of(&self, bound: Bound) -> u64 {
+        self.0[place(bound)]
+    }
+}
+
+/// Where a bound stands in [`BOUNDS`].
+fn place(bound: Bound) -> usize {
+    match bound {
+        Bound::Ends => 0,
+        Bound::Feed => 1,
+        Bound::Axis { axis, order } => 2 + 3 * usize::from(axis) + usize::from(order),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_bound_has_its_own_place() {
+        assert!(BOUNDS.iter().enumerate().all(|(i, &bound)| place(bound) == i));
     }
 }

@@ -103,8 +103,8 @@ pub struct Run {
     pub front: f64,
     /// How far the tail starts before the start, mm; without meaning on a closed run.
     pub heel: f64,
-    /// Greatest speed of the tip, mm/s; infinite when nothing caps it.
-    pub feed: f64,
+    /// Greatest speed of the tip on each chord, mm/s; infinite when nothing caps it.
+    pub feeds: Vec<f64>,
     /// What its two ends are.
     pub ends: [End; 2],
     /// Where the axes stand at the plunge, as the polyline has it; smoothing moves it a little.

@@ -5,6 +5,7 @@
 use std::fmt;
 use std::ops::{Bound, RangeBounds as _};
 
+use super::encoding;
 use super::plot::{GREATEST_UNIT_MM, LEAST_UNIT_MM, PlotUnit};
 use crate::units::number::exact;
 
@@ -40,6 +41,8 @@ pub enum Takes {
     Length(Within),
     /// One of some words.
     Word(&'static [&'static str]),
+    /// The name of an encoding of texts.
+    Encoding,
     /// True or false.
     Flag,
 }
@@ -100,6 +103,7 @@ impl Takes {
                 text.or_else(|| number(value)).is_some_and(|v| within.holds(v))
             }
             Self::Word(words) => words.iter().any(|word| is(word)),
+            Self::Encoding => value.as_str().is_some_and(|name| encoding::find(name).is_some()),
             Self::Flag => value.is_bool(),
         }
     }
@@ -180,6 +184,7 @@ impl Key {
                 format!("{} or \"{last}\"", words.join(", "))
             }
             Takes::Word(words) => format!("\"{}\"", words.concat()),
+            Takes::Encoding => "the name of an encoding, such as \"windows-1251\"".to_owned(),
             Takes::Flag => "true or false".to_owned(),
         }
     }
@@ -212,9 +217,42 @@ pub fn find(name: &str) -> Option<&'static Key> {
     KEYS.iter().find(|key| key.name == name)
 }
 
-/// Whether a word is a code of a cutter file: a capital letter, then digits.
+/// Every code of cutter files that may be switched, without leading zeros, and without the number where that is a value.
+#[rustfmt::skip] // a table: one row a letter
+pub const CODE_NAMES: &[&str] = &[
+    "A", "B", "E", "F", "H", "L", "N", "O", "Q", "R", "Z",
+    "D1", "D2", "D4",
+    "G1", "G2", "G3", "G4", "G70", "G71", "G90", "G91",
+    "M0", "M1", "M14", "M15", "M17", "M18", "M19", "M20", "M23", "M25", "M26", "M30", "M31", "M40", "M41", "M42", "M43",
+    "M44", "M45", "M46", "M47", "M48", "M51", "M60", "M61", "M62", "M63", "M64", "M65", "M66", "M67", "M68", "M69", "M70",
+    "M72", "M73",
+];
+
+/// Codes that are named when somebody writes one that does not exist.
+const NEAR_CODES: usize = 3;
+
 fn is_code(word: &str) -> bool {
-    word.starts_with(|c: char| c.is_ascii_uppercase()) && word[1..].chars().all(|c| c.is_ascii_digit())
+    CODE_NAMES.contains(&word)
+}
+
+/// The keys of the codes that may be meant by one that does not exist, the likeliest first; `None` when the name is no
+/// code's.
+pub fn near_codes(name: &str) -> Option<Vec<String>> {
+    let typed = name.strip_prefix(CODES)?.strip_prefix('.')?.to_uppercase();
+    let digits = typed.find(|c: char| c.is_ascii_digit()).unwrap_or(typed.len());
+    let (letter, number) = typed.split_at(digits);
+    // Spelled as files spell them: M01 is M1, F300 is F.
+    let significant = match number.trim_start_matches('0') {
+        "" if !number.is_empty() => "0",
+        significant => significant,
+    };
+    let spelled = [format!("{letter}{significant}"), letter.to_owned()];
+    let mut codes: Vec<&str> = match CODE_NAMES.iter().find(|code| spelled.iter().any(|word| word == *code)) {
+        Some(code) => vec![*code],
+        None => CODE_NAMES.to_vec(),
+    };
+    codes.sort_by_key(|code| strsim::damerau_levenshtein(&typed, code)); // stable: the table's order among equals
+    Some(codes.into_iter().take(NEAR_CODES).map(|code| format!("{CODES}.{code}")).collect())
 }
 
 /// Whether a word is the number of a pen: up to three digits, written in one way only.
@@ -230,8 +268,7 @@ pub fn is_section(name: &str) -> bool {
 
 /// The key or table whose name is nearest to one that does not exist.
 pub fn nearest(name: &str) -> String {
-    let upper = name.rsplit_once('.').map(|(section, last)| format!("{section}.{}", last.to_uppercase()));
-    if let Some(code) = upper.filter(|_| name.starts_with("codes.")).filter(|upper| find(upper).is_some()) {
+    if let Some(code) = near_codes(name).and_then(|codes| codes.into_iter().next()) {
         return code;
     }
     let last = |name: &str| name.rsplit('.').next().unwrap_or_default().to_owned();
@@ -280,6 +317,9 @@ pub const KEYS: &[Key] = &[
 
     Key { name: "corner.angle_deg", takes: Takes::Number(between(0.0, 180.0)), about: "Lift and plunge corner angle: where the line turns by more than this the knife is lifted and\nturned in the air." },
 
+    Key { name: "slow.before_corner_mm", takes: Takes::NumberOr(from(0.1, 1000.0), "off"), about: "How far before a corner the knife slows down." },
+    Key { name: "slow.before_corner_percent", takes: Takes::Number(from(1.0, 100.0)), about: "Speed of the knife there, a part of what it would be." },
+
     Key { name: "path.tolerance_mm", takes: Takes::NumberOr(from(0.001, 10.0), "auto"), about: "How far the tip may leave the line; \"auto\" = 0.05 mm, or what the unit of the file resolves if\nthat is more." },
     Key { name: "path.fit", takes: Takes::Word(&["curve", "polygon"]), about: "What the straight pieces of a file stand for: \"curve\" = a curve that the CAD system cut into\npieces, \"polygon\" = exactly what they are." },
     Key { name: "path.chord_sag_max_mm", takes: Takes::Number(from(0.0, 10.0)), about: "With fit = \"curve\": how far the curve may bulge beyond a straight piece." },
@@ -293,6 +333,15 @@ pub const KEYS: &[Key] = &[
     Key { name: "axes.c.speed_deg_s", takes: Takes::Number(SPEED), about: "Greatest speed of the blade's turn." },
     Key { name: "axes.c.acceleration_deg_s2", takes: Takes::Number(ACCELERATION), about: "Greatest acceleration of the blade's turn." },
     Key { name: "axes.c.jerk_deg_s3", takes: Takes::Number(JERK), about: "Greatest jerk of the blade's turn." },
+    Key { name: "axes.x.travel.speed_mm_s", takes: Takes::NumberOr(SPEED, "same"), about: "Greatest speed along the table while the knife is up; \"same\" = as in cutting." },
+    Key { name: "axes.x.travel.acceleration_mm_s2", takes: Takes::NumberOr(ACCELERATION, "same"), about: "Greatest acceleration along the table while the knife is up; \"same\" = as in cutting." },
+    Key { name: "axes.x.travel.jerk_mm_s3", takes: Takes::NumberOr(JERK, "same"), about: "Greatest jerk along the table while the knife is up; \"same\" = as in cutting." },
+    Key { name: "axes.y.travel.speed_mm_s", takes: Takes::NumberOr(SPEED, "same"), about: "Greatest speed across the table while the knife is up; \"same\" = as in cutting." },
+    Key { name: "axes.y.travel.acceleration_mm_s2", takes: Takes::NumberOr(ACCELERATION, "same"), about: "Greatest acceleration across the table while the knife is up; \"same\" = as in cutting." },
+    Key { name: "axes.y.travel.jerk_mm_s3", takes: Takes::NumberOr(JERK, "same"), about: "Greatest jerk across the table while the knife is up; \"same\" = as in cutting." },
+    Key { name: "axes.c.travel.speed_deg_s", takes: Takes::NumberOr(SPEED, "same"), about: "Greatest speed of the blade's turn while the knife is up; \"same\" = as in cutting." },
+    Key { name: "axes.c.travel.acceleration_deg_s2", takes: Takes::NumberOr(ACCELERATION, "same"), about: "Greatest acceleration of the blade's turn while the knife is up; \"same\" = as in cutting." },
+    Key { name: "axes.c.travel.jerk_deg_s3", takes: Takes::NumberOr(JERK, "same"), about: "Greatest jerk of the blade's turn while the knife is up; \"same\" = as in cutting." },
 
     Key { name: "c.range_deg", takes: Takes::RangeOr("unbounded"), about: "Least and greatest position of the C axis, when its cables do not let it turn for ever." },
     Key { name: "c.offset_deg", takes: Takes::Number(TURN), about: "Where the machine's zero of C points, seen from +X." },
@@ -313,6 +362,7 @@ pub const KEYS: &[Key] = &[
     Key { name: "hpgl.unit", takes: Takes::Length(from(LEAST_UNIT_MM, GREATEST_UNIT_MM)), about: "Unit of the numbers in plots, mm. Plotters count 1/40 mm; other programs write 0.0254, 0.1, 0.01\nor the dots of a printer. The extent is always printed: compare it with the cloth." },
     Key { name: "hpgl.drill_max_mm", takes: Takes::NumberOr(from(0.0, 1000.0), "off"), about: "Closed squares and circles of a plot up to this size are holes to drill; \"off\" = they are cut." },
     Key { name: "hpgl.pens.<pen>", takes: Takes::Word(&["knife", "pen", "ignore"]), about: "What a pen of a plot stands for: its lines are cut (\"knife\"), drawn only (\"pen\") or passed over\n(\"ignore\"). Of pens without a key the closed outlines and their notches are cut." },
+    Key { name: "labels.encoding", takes: Takes::Encoding, about: "Encoding of label texts that are no UTF-8: \"windows-1251\" (Cyrillic), \"latin1\", \"gbk\" (Chinese),\n\"big5\", \"shift_jis\", \"euc-kr\" and more. What is no text in it is shown as \u{fffd}." },
 
     Key { name: "codes.<code>", takes: Takes::Word(&["use", "ignore"]), about: "A code of the cutter file to obey or to skip, as the USE/IGNORE switches of a cutter." },
 ];
@@ -357,10 +407,23 @@ mod tests {
     }
 
     #[test]
-    fn codes_are_a_capital_letter_and_digits() {
+    fn codes_are_those_of_cutter_files() {
         assert!(find("codes.M19").is_some() && find("codes.A").is_some());
-        assert!(find("codes.m19").is_none() && find("codes.").is_none() && find("codes.M1x").is_none());
+        assert!(["codes.", "codes.X", "codes.M019", "codes.F300", "codes.m19"].iter().all(|name| find(name).is_none()));
         assert!(is_section("codes") && is_section("axes.x") && !is_section("knife.width_mm") && !is_section("kni"));
+    }
+
+    #[test]
+    fn a_mistyped_code_has_its_near_ones() {
+        let check =
+            |typed: &str, expected: &[&str]| assert_eq!(near_codes(typed).expect("a code"), expected, "{typed}");
+        check("codes.m19", &["codes.M19"]);
+        check("codes.M001", &["codes.M1"]);
+        check("codes.M00", &["codes.M0"]);
+        check("codes.F300", &["codes.F"]);
+        check("codes.M91", &["codes.G91", "codes.M1", "codes.M19"]);
+        check("codes.X", &["codes.A", "codes.B", "codes.E"]);
+        assert_eq!(near_codes("knife.width"), None);
     }
 
     #[test]

@@ -155,7 +155,11 @@ impl Draft {
     }
 
     fn unknown(&mut self, name: &str, origin: Origin) {
-        let hint = format!("the nearest is `{}`; `cutc profile init` lists all keys", keys::nearest(name));
+        let hint = match keys::near_codes(name).as_deref() {
+            Some([code]) => format!("it is spelled `{code}`"),
+            Some(codes) => format!("near ones are `{}`; the README lists all codes", codes.join("`, `")),
+            None => format!("the nearest is `{}`; `cutc profile init` lists all keys", keys::nearest(name)),
+        };
         self.fault(origin, &code::PROFILE_UNKNOWN_KEY, format!("there is no key `{name}`"), Some(&hint));
     }
 
@@ -295,6 +299,22 @@ mod tests {
     }
 
     #[test]
+    fn a_code_that_no_file_has_is_a_fault() {
+        let text = "[codes]\nX = \"ignore\"\nM019 = \"ignore\"\nM99 = \"use\"\n";
+        let faults = load(Some(&source(text)), &["codes.m19=ignore".to_owned()]).expect_err("a faulty profile");
+        let hints: Vec<&str> = faults.file.iter().chain(&faults.arguments).map(|d| d.hints[0].as_str()).collect();
+        assert_eq!(
+            hints,
+            [
+                "near ones are `codes.A`, `codes.B`, `codes.E`; the README lists all codes",
+                "it is spelled `codes.M19`",
+                "near ones are `codes.M19`, `codes.M69`, `codes.G90`; the README lists all codes",
+                "it is spelled `codes.M19`",
+            ]
+        );
+    }
+
+    #[test]
     fn a_fault_of_an_argument_names_it() {
         assert_eq!(
             messages("", &["knife.width_mm=nan", "c.range_deg=[0, 90]", "knife", "park=home"]),
@@ -340,8 +360,8 @@ mod tests {
 
     #[test]
     fn what_this_version_does_not_obey_is_refused() {
-        let found = messages("", &["knife.follow=chord", "knife.edges=2", "knife.yaw_deg=1", "knife.clear_ms=30"]);
-        assert_eq!(found.len(), 4);
+        let found = messages("", &["knife.follow=chord", "knife.edges=2", "knife.yaw_deg=1"]);
+        assert_eq!(found.len(), 3);
         assert!(found.iter().all(|message| message.starts_with("profile/unsupported")), "{found:?}");
     }
 

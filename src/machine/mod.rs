@@ -5,6 +5,7 @@
 //! and the README.
 
 mod digest;
+mod encoding;
 pub mod keys;
 pub mod kinematics;
 mod load;

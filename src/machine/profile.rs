@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::kinematics::Limits;
 use super::plot::Hpgl;
-use super::word::{Auto, Off, OrWord, Stay, Unbounded, Unlimited};
+use super::word::{Auto, Off, OrWord, Same, Stay, Unbounded, Unlimited};
 use crate::units::{MM_PER_INCH, MS_PER_S, rad};
 
 /// Version of the profile's format that this program reads and writes.
@@ -34,6 +34,8 @@ pub struct MachineProfile {
     pub drill: Drill,
     /// Corners.
     pub corner: Corner,
+    /// Where the knife slows down.
+    pub slow: Slow,
     /// How closely the path is followed.
     pub path: Path,
     /// Limits of the axes.
@@ -48,6 +50,8 @@ pub struct MachineProfile {
     pub verify: Verify,
     /// How plots are read.
     pub hpgl: Hpgl,
+    /// The texts of labels.
+    pub labels: Labels,
     /// Codes of the cutter file to ignore, by name (`M19`).
     pub codes: BTreeMap<String, CodeUse>,
 }
@@ -170,9 +174,14 @@ impl Knife {
         self.plunge_ms / MS_PER_S
     }
 
-    /// Length of the rest after the lift command, s.
+    /// From the lift command until the blade is all the way up, s.
     pub fn lift(&self) -> f64 {
         self.lift_ms / MS_PER_S
+    }
+
+    /// Length of the rest after the lift command, s: until the blade is clear of the cloth.
+    pub fn clear(&self) -> f64 {
+        self.clear_ms.unwrap_or(self.lift_ms) / MS_PER_S
     }
 }
 
@@ -245,6 +254,23 @@ impl Default for Corner {
     }
 }
 
+/// Where the knife slows down.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Slow {
+    /// Length before a corner on which it does, mm.
+    #[serde(with = "OrWord::<Off>")]
+    pub before_corner_mm: Option<f64>,
+    /// Its speed there, percent of what it would be.
+    pub before_corner_percent: f64,
+}
+
+impl Default for Slow {
+    fn default() -> Self {
+        Self { before_corner_mm: None, before_corner_percent: 50.0 }
+    }
+}
+
 /// How closely the path is followed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -284,11 +310,28 @@ pub struct LinearAxis {
     pub acceleration_mm_s2: f64,
     /// Greatest jerk, mm/s3.
     pub jerk_mm_s3: f64,
+    /// Limits while the knife is up.
+    pub travel: LinearTravel,
+}
+
+/// Limits of a linear axis while the knife is up, where they differ from those of cutting.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct LinearTravel {
+    /// Greatest speed, mm/s.
+    #[serde(with = "OrWord::<Same>")]
+    pub speed_mm_s: Option<f64>,
+    /// Greatest acceleration, mm/s2.
+    #[serde(with = "OrWord::<Same>")]
+    pub acceleration_mm_s2: Option<f64>,
+    /// Greatest jerk, mm/s3.
+    #[serde(with = "OrWord::<Same>")]
+    pub jerk_mm_s3: Option<f64>,
 }
 
 impl Default for LinearAxis {
     fn default() -> Self {
-        Self { speed_mm_s: 1200.0, acceleration_mm_s2: 8000.0, jerk_mm_s3: 2.0e5 }
+        Self { speed_mm_s: 1200.0, acceleration_mm_s2: 8000.0, jerk_mm_s3: 2.0e5, travel: LinearTravel::default() }
     }
 }
 
@@ -302,11 +345,28 @@ pub struct RotaryAxis {
     pub acceleration_deg_s2: f64,
     /// Greatest jerk, degrees/s3.
     pub jerk_deg_s3: f64,
+    /// Limits while the knife is up.
+    pub travel: RotaryTravel,
+}
+
+/// Limits of a rotary axis while the knife is up, where they differ from those of cutting.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct RotaryTravel {
+    /// Greatest speed, degrees/s.
+    #[serde(with = "OrWord::<Same>")]
+    pub speed_deg_s: Option<f64>,
+    /// Greatest acceleration, degrees/s2.
+    #[serde(with = "OrWord::<Same>")]
+    pub acceleration_deg_s2: Option<f64>,
+    /// Greatest jerk, degrees/s3.
+    #[serde(with = "OrWord::<Same>")]
+    pub jerk_deg_s3: Option<f64>,
 }
 
 impl Default for RotaryAxis {
     fn default() -> Self {
-        Self { speed_deg_s: 1080.0, acceleration_deg_s2: 2.0e4, jerk_deg_s3: 1.0e6 }
+        Self { speed_deg_s: 1080.0, acceleration_deg_s2: 2.0e4, jerk_deg_s3: 1.0e6, travel: RotaryTravel::default() }
     }
 }
 
@@ -323,7 +383,7 @@ pub struct Axes {
 }
 
 impl Axes {
-    /// Limits of x, y, c in mm, rad and s.
+    /// Limits of x, y, c in mm, rad and s while the knife is down.
     pub fn limits(&self) -> [Limits; 3] {
         let linear = |axis: &LinearAxis| Limits {
             speed: axis.speed_mm_s,
@@ -334,6 +394,22 @@ impl Axes {
             speed: rad(self.c.speed_deg_s),
             acceleration: rad(self.c.acceleration_deg_s2),
             jerk: rad(self.c.jerk_deg_s3),
+        };
+        [linear(&self.x), linear(&self.y), c]
+    }
+
+    /// Limits of x, y, c in mm, rad and s while the knife is up.
+    pub fn travel_limits(&self) -> [Limits; 3] {
+        let linear = |axis: &LinearAxis| Limits {
+            speed: axis.travel.speed_mm_s.unwrap_or(axis.speed_mm_s),
+            acceleration: axis.travel.acceleration_mm_s2.unwrap_or(axis.acceleration_mm_s2),
+            jerk: axis.travel.jerk_mm_s3.unwrap_or(axis.jerk_mm_s3),
+        };
+        let RotaryAxis { travel, .. } = &self.c;
+        let c = Limits {
+            speed: rad(travel.speed_deg_s.unwrap_or(self.c.speed_deg_s)),
+            acceleration: rad(travel.acceleration_deg_s2.unwrap_or(self.c.acceleration_deg_s2)),
+            jerk: rad(travel.jerk_deg_s3.unwrap_or(self.c.jerk_deg_s3)),
         };
         [linear(&self.x), linear(&self.y), c]
     }
@@ -404,6 +480,7 @@ impl Default for MachineProfile {
             knife: Knife::default(),
             drill: Drill::default(),
             corner: Corner::default(),
+            slow: Slow::default(),
             path: Path::default(),
             axes: Axes::default(),
             c: CAxis::default(),
@@ -411,6 +488,7 @@ impl Default for MachineProfile {
             time: Time::default(),
             verify: Verify::default(),
             hpgl: Hpgl::default(),
+            labels: Labels::default(),
             codes: BTreeMap::new(),
         }
     }
@@ -448,6 +526,20 @@ impl Default for Verify {
             max_overcut_neighbour_mm: None,
             max_overcut_waste_mm: None,
         }
+    }
+}
+
+/// The texts of labels.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Labels {
+    /// Name of the encoding of texts that are no UTF-8; [`Labels::text`] decodes them.
+    pub encoding: String,
+}
+
+impl Default for Labels {
+    fn default() -> Self {
+        Self { encoding: "utf-8".to_owned() }
     }
 }
 

@@ -1,6 +1,7 @@
 //! The rules between the values of a profile, and each value's own range.
 
-use super::keys::{KEYS, Key, shown_value};
+use super::encoding;
+use super::keys::{KEYS, Key, Takes, shown_value};
 use super::profile::{Follow, MachineProfile};
 use crate::diagnostic::{Code, code};
 
@@ -41,11 +42,18 @@ fn ranges(profile: &MachineProfile) -> Vec<Fault> {
             code: &code::PROFILE_RANGE,
             keys: vec![key.name.to_owned()],
             message: format!("`{}` must be {}, but is {}", key.name, key.expects(), shown_value(value)),
-            hint: None,
+            hint: hint(key, value),
         })
     };
     // A family of keys holds words, which reading has checked.
     KEYS.iter().filter(|key| !key.is_family()).filter_map(fault).collect()
+}
+
+/// What to do about a value that is out of its range, where more can be said than what the key takes.
+fn hint(key: &Key, value: &toml::Value) -> Option<String> {
+    let name = value.as_str().filter(|_| matches!(key.takes, Takes::Encoding))?;
+    let near: Vec<String> = encoding::nearest(name).iter().map(|name| format!("\"{name}\"")).collect();
+    Some(format!("the nearest are {}", near.join(", ")))
 }
 
 /// One value against another.
@@ -95,7 +103,6 @@ fn unsupported(profile: &MachineProfile) -> Vec<Fault> {
         (knife.follow == Follow::Chord, "knife.follow", "\"tangent\"", "lays the blade along the tangent only"),
         (knife.edges == 2, "knife.edges", "1", "plans blades with one edge only"),
         (knife.yaw_deg != 0.0, "knife.yaw_deg", "0", "applies no yaw correction"),
-        (knife.clear_ms.is_some(), "knife.clear_ms", "\"off\"", "lets the axes rest for all of `knife.lift_ms`"),
     ];
     let fault = |(_, key, value, reason): (bool, &str, &str, &str)| Fault {
         code: &code::PROFILE_UNSUPPORTED,

@@ -50,6 +50,8 @@ pub(super) struct Auto;
 pub(super) struct Stay;
 /// `"unbounded"`: an axis without ends.
 pub(super) struct Unbounded;
+/// `"same"`: what holds otherwise.
+pub(super) struct Same;
 /// `"unlimited"`: a table without edges.
 pub(super) struct Unlimited;
 
@@ -67,6 +69,10 @@ impl Word for Stay {
 
 impl Word for Unbounded {
     const WORD: &'static str = "unbounded";
+}
+
+impl Word for Same {
+    const WORD: &'static str = "same";
 }
 
 impl Word for Unlimited {

@@ -7,8 +7,9 @@ use super::report::significant;
 use super::{Input, Medium, read};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::Dialect;
+use crate::ir::marker::{Notch, Piece};
 use crate::ir::{Finding, Marker};
-use crate::machine::Job;
+use crate::machine::{Job, Mode};
 use crate::source::{Source, Span};
 use crate::units::number::{exact, fixed};
 use crate::verify::{self, RULES, Verdict};
@@ -32,9 +33,15 @@ pub fn judge_program(
     judge(source, &input, job, program).map(Some)
 }
 
+/// Whether a file is a program that can be judged, by how it begins.
+pub fn is_program(file: &mut dyn Medium) -> io::Result<bool> {
+    file.rewind()?;
+    Ok(verify::is_program(&mut BufReader::with_capacity(BLOCK, file)))
+}
+
 /// Reads a program back from its start and judges it, and what was read of the source against its bytes.
 ///
-/// Where the knife stays up nothing may be cut: the program is judged against a marker without pieces, so that every
+/// Where the knife stays up nothing may be cut: the program is judged against a marker without lines, so that every
 /// stroke is one too many, and the rules on how something is cut say nothing.
 pub(super) fn judge(source: &Source, input: &Input, job: &Job, program: &mut dyn Medium) -> io::Result<Verdict> {
     program.rewind()?;
@@ -43,14 +50,27 @@ pub(super) fn judge(source: &Source, input: &Input, job: &Job, program: &mut dyn
     let mut verdict = if job.mode.cuts() {
         verify::setpoints(&mut rows, marker, job)
     } else {
-        let mut verdict = verify::setpoints(&mut rows, &Marker::default(), job);
+        let mut verdict = verify::setpoints(&mut rows, &uncut(marker, job.mode), job);
         verdict.findings.retain(|finding| !OF_CUTS.contains(&finding.rule));
         verdict
     };
     let audit = verify::source_audit(input.dialect.name, source.bytes(), &input.read, &job.profile);
     verdict.findings.extend(audit.into_iter().flatten());
+    verdict.findings.push(verify::source_kept(&input.read, marker));
     verify::sort(&mut verdict.findings);
     Ok(verdict)
+}
+
+/// What is left of a marker where the knife stays up: the events of a dry run, and nothing of a frame.
+fn uncut(marker: &Marker, mode: Mode) -> Marker {
+    match mode {
+        Mode::Cut | Mode::Dry => {
+            let told = |piece: &Piece| Piece { events: piece.events.clone(), ..Piece::default() };
+            let pieces = marker.pieces.iter().map(told).collect();
+            Marker { pieces, closing: marker.closing.clone(), unit: marker.unit, ..Marker::default() }
+        }
+        Mode::Frame => Marker { unit: marker.unit, ..Marker::default() },
+    }
 }
 
 /// Rules on how something is cut or drilled: they say nothing about a program that does neither.
@@ -139,7 +159,7 @@ pub fn figures(finding: &Finding) -> (String, Option<String>) {
 /// The span of a source block that is cut.
 fn span_of(marker: &Marker, block: u32) -> Option<Span> {
     let contours = marker.contours().flat_map(|(_, contour)| marker.list.walk(contour.range)).map(|(_, s)| s.span);
-    let notches = marker.pieces.iter().flat_map(|piece| &piece.notches).map(|notch| notch.span);
+    let notches = marker.pieces.iter().flat_map(|piece| &piece.notches).flat_map(Notch::strokes).map(|cut| cut.span);
     contours.chain(notches).find(|span| span.block == block && block > 0)
 }
 

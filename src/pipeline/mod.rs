@@ -3,9 +3,11 @@
 mod judge;
 mod program;
 mod report;
+mod spent;
 
-pub use judge::{about, figures, judge_program};
+pub use judge::{about, figures, is_program, judge_program};
 pub use report::{Axes, Drawn, Lines, Notches, Peak, Peaks, Program, Report, significant};
+pub use spent::{Spent, word};
 
 pub use crate::verify::{RULES, Verdict};
 
@@ -148,7 +150,7 @@ pub fn compile_all(
     }
     let marker = &input.marker;
     let mut report = Report::of(marker, input.dialect.name);
-    let context = Context { job, marker };
+    let context = Context { source, job, marker };
     let needs_toolpaths = verify || products.iter().any(|product| !matches!(product.target.emit, Emit::Marker(_)));
     let toolpaths = if needs_toolpaths { toolpaths(marker, job, diagnostics) } else { Vec::new() };
 
@@ -189,6 +191,25 @@ pub fn compile_all(
         judge::report(verdict, marker, diagnostics);
     }
     Ok((!diagnostics.has_errors()).then_some(Compiled { report, verdict }))
+}
+
+/// The figures of the program that a source would become, nothing written and nothing judged. `None` when the
+/// diagnostics hold errors.
+pub fn estimate(
+    source: &Source,
+    from: Option<&'static Dialect>,
+    job: &Job,
+    diagnostics: &mut Diagnostics,
+) -> io::Result<Option<Report>> {
+    let Some(input) = read(source, from, job, diagnostics) else { return Ok(None) };
+    if diagnostics.has_errors() {
+        return Ok(None);
+    }
+    let mut report = Report::of(&input.marker, input.dialect.name);
+    let toolpaths = toolpaths(&input.marker, job, diagnostics);
+    let context = Context { job, marker: &input.marker, source };
+    report.program = program::write(&toolpaths, &mut [], &context, diagnostics)?;
+    Ok((!diagnostics.has_errors()).then_some(report))
 }
 
 /// Writes a target that needs no timed motion; those that do are written by then.

@@ -4,13 +4,14 @@ use std::io::{self, BufWriter, Write};
 
 use rayon::prelude::*;
 
+use super::spent::Clock;
 use super::{Axes, Medium, Program};
 use crate::back::{Context, Parts};
 use crate::diagnostic::Diagnostics;
 use crate::ir::motion::Kind;
 use crate::ir::{Motion, Toolpath};
 use crate::machine::Job;
-use crate::plan::{self, Planner};
+use crate::plan::{self, Cut, Planner};
 use crate::units::MM_PER_M;
 
 /// Toolpaths that are planned at a time: enough to keep all cores busy, few enough to keep memory small.
@@ -44,7 +45,7 @@ pub(super) fn write(
             match cuts {
                 Err(refused) => refused.into_iter().for_each(|diagnostic| diagnostics.push(diagnostic)),
                 Ok(cuts) => {
-                    tally.bulge = cuts.iter().fold(tally.bulge, |most, cut| most.max(cut.bulge));
+                    tally.take(toolpath.piece, &cuts);
                     let motion = planner.join(toolpath, cuts);
                     tally.add(&motion);
                     for (parts, out) in &mut outs {
@@ -76,11 +77,34 @@ struct Tally {
     lifts: usize,
     ticks: u64,
     bulge: f64,
+    /// Where the time goes, in all and piece by piece.
+    clock: Clock,
+    by_piece: Vec<(u32, Clock)>,
 }
 
 impl Tally {
+    /// The clock of a piece; what belongs to none has the number 0 and is part of the last.
+    fn clock_of(&mut self, piece: u32) -> &mut Clock {
+        if self.by_piece.last().is_none_or(|(last, _)| *last != piece && piece > 0) {
+            self.by_piece.push((piece, Clock::default()));
+        }
+        let last = self.by_piece.len() - 1;
+        &mut self.by_piece[last].1
+    }
+
+    /// Takes what is known of cuts before they are joined to a motion.
+    fn take(&mut self, piece: u32, cuts: &[Cut]) {
+        for cut in cuts {
+            self.bulge = self.bulge.max(cut.bulge);
+            self.clock.bind(&cut.shares);
+            self.clock_of(piece).bind(&cut.shares);
+        }
+    }
+
     fn add(&mut self, motion: &Motion) {
         self.ticks += motion.ticks();
+        self.clock.add(motion);
+        self.clock_of(motion.piece).add(motion);
         let mut before = None;
         for phase in &motion.phases {
             match phase.kind {
@@ -90,22 +114,25 @@ impl Tally {
                     self.lifts += 1;
                     self.stabs += usize::from(before == Some(Kind::Plunge));
                 }
-                Kind::Cut | Kind::Rest | Kind::Drill(_) | Kind::Event(_) => {}
+                Kind::Cut | Kind::Rest | Kind::Wait | Kind::Drill(_) | Kind::Event(_) => {}
             }
             before = Some(phase.kind);
         }
     }
 
     fn program(&self, planner: &Planner, job: &Job) -> Program {
+        let period = job.profile.time.period();
         Program {
             travel_m: Some(self.travel / MM_PER_M),
             runs: Some(self.plunges),
             stabs: Some(self.stabs),
             lifts: Some(self.lifts),
             // The last setpoint stands at the last tick, and rows count from tick 0.
-            time_s: Some((self.ticks - 1) as f64 * job.profile.time.period()),
+            time_s: Some((self.ticks - 1) as f64 * period),
+            spent: Some(self.clock.spent(period)),
+            by_piece: self.by_piece.iter().map(|(piece, clock)| (*piece, clock.spent(period))).collect(),
             bulge_mm: Some(self.bulge),
-            axes: Some(Axes::new(&planner.peaks(), &job.profile.axes.limits())),
+            axes: Some(Axes::new(&planner.peaks())),
         }
     }
 }

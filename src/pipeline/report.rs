@@ -5,9 +5,9 @@
 
 use serde::{Serialize, Serializer};
 
+use super::spent::Spent;
 use crate::ir::Marker;
 use crate::ir::marker::{Drawing, DrawnClass, NotchKind};
-use crate::machine::Limits;
 use crate::units::{MM_PER_M, deg};
 
 /// The figures of one file; `None` is what only planning knows.
@@ -86,6 +86,8 @@ impl Drawn {
 pub struct Notches {
     /// One straight cut from the edge inwards.
     pub slit: usize,
+    /// A slit with a crossbar over its tip.
+    pub t: usize,
     /// Two legs that meet inside.
     pub v: usize,
 }
@@ -105,6 +107,11 @@ pub struct Program {
     /// Duration of the program, s.
     #[serde(serialize_with = "micro_known")]
     pub time_s: Option<f64>,
+    /// Where that time goes.
+    pub spent: Option<Spent>,
+    /// The same for each piece by its number, in cut order.
+    #[serde(skip)]
+    pub by_piece: Vec<(u32, Spent)>,
     /// The farthest that the way of the knife bulges beyond the chords of flattened curves, mm.
     #[serde(skip)]
     pub bulge_mm: Option<f64>,
@@ -146,15 +153,12 @@ pub struct Peak {
 }
 
 impl Axes {
-    /// Peaks (mm, rad) beside limits (mm, rad), in mm and degrees.
-    pub fn new(peaks: &crate::plan::Peaks, limits: &[Limits; 3]) -> Self {
+    /// Peaks (mm, rad) beside their limits, in mm and degrees.
+    pub fn new(peaks: &crate::plan::Peaks) -> Self {
         let axis = |i: usize, unit: fn(f64) -> f64| {
-            let [speed, acceleration, jerk] = peaks[i].map(unit);
-            Peaks {
-                speed: Peak { worst: speed, limit: unit(limits[i].speed) },
-                acceleration: Peak { worst: acceleration, limit: unit(limits[i].acceleration) },
-                jerk: Peak { worst: jerk, limit: unit(limits[i].jerk) },
-            }
+            let [speed, acceleration, jerk] =
+                peaks[i].map(|peak| Peak { worst: unit(peak.worst), limit: unit(peak.limit) });
+            Peaks { speed, acceleration, jerk }
         };
         Self { x: axis(0, |v| v), y: axis(1, |v| v), c: axis(2, deg) }
     }
@@ -164,6 +168,7 @@ impl Report {
     /// What is in a marker, before any planning.
     pub fn of(marker: &Marker, dialect: &'static str) -> Self {
         let (width, height) = marker.extent().size();
+        let all = marker.pieces.iter().map(|p| p.notches.len()).sum::<usize>();
         let slit = marker.pieces.iter().flat_map(|p| &p.notches).filter(|n| n.kind == NotchKind::Slit).count();
         let v = marker.pieces.iter().map(|p| p.vees.len()).sum();
         Self {
@@ -173,7 +178,7 @@ impl Report {
             pieces: marker.pieces.len(),
             contours: marker.contours().count(),
             closed_contours: marker.contours().filter(|(_, c)| c.closed).count(),
-            notches: Notches { slit, v },
+            notches: Notches { slit, t: all - slit, v },
             drills: marker.pieces.iter().map(|p| p.drills.len()).sum(),
             labels: marker.pieces.iter().map(|p| p.labels.len()).sum(),
             cut_m: marker.cut_length() / MM_PER_M,
@@ -201,7 +206,7 @@ pub fn significant(value: f64, digits: i32) -> f64 {
     if decimals < 0 { (value / scale).round() * scale } else { (value * scale).round() / scale }
 }
 
-fn to_millionths(value: f64) -> f64 {
+pub(super) fn to_millionths(value: f64) -> f64 {
     (value * MILLIONTHS).round() / MILLIONTHS
 }
 

@@ -7,80 +7,131 @@
 use crate::ir::toolpath::Pose;
 use crate::machine::Limits;
 
-/// Greatest speed, acceleration and jerk of x, y (mm) and c (rad).
-pub type Peaks = [[f64; 3]; 3];
-
 /// Relative excess over a limit that is rounding of the differences themselves.
 pub(super) const EXCESS_EPSILON: f64 = 1e-6;
+
+/// A greatest speed, acceleration or jerk of an axis beside its limit, in mm or rad, and s.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Peak {
+    /// The greatest value.
+    pub worst: f64,
+    /// What was allowed where it was seen.
+    pub limit: f64,
+}
+
+/// The greatest speed, acceleration and jerk of x, y and c: of each the one that comes nearest to its limit.
+pub type Peaks = [[Peak; 3]; 3];
+
+/// Which limits hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Regime {
+    /// Those of cutting: the knife is commanded down.
+    Cut,
+    /// Those of travel.
+    Air,
+}
+
+/// Limits of x, y and c in both regimes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Allowed {
+    pub(super) cut: [Limits; 3],
+    pub(super) air: [Limits; 3],
+}
+
+/// Greatest differences of order 1 to 3 of each axis.
+type Rows = [[f64; 3]; 3];
 
 /// Follows setpoints and keeps the greatest differences. Before the first setpoint the axes rest.
 #[derive(Debug, Clone)]
 pub(super) struct Differences {
     period: f64,
-    /// The last setpoint and its differences of order 1 and 2.
-    last: Option<[[f64; 3]; 3]>,
-    /// Greatest differences of order 1 to 3, axis by axis, not yet divided by the period.
-    greatest: Peaks,
+    /// The greatest differences that are allowed in a cut, in the air, and where the one passes into the other at rest:
+    /// there the wider of both hold.
+    allowed: [Rows; 3],
+    /// The last setpoint and its differences of order 1 and 2, axis by axis.
+    last: Option<Rows>,
+    /// The regimes of the last setpoints.
+    regimes: [Regime; 3],
+    /// Greatest differences in parts of what is allowed, and which of `allowed` that was.
+    greatest: [[(f64, usize); 3]; 3],
 }
 
 impl Differences {
-    pub(super) fn new(period: f64) -> Self {
-        Self { period, last: None, greatest: [[0.0; 3]; 3] }
+    pub(super) fn new(period: f64, allowed: &Allowed) -> Self {
+        let rows = |limits: &[Limits; 3]| {
+            limits.map(|l| [l.speed * period, l.acceleration * period.powi(2), l.jerk * period.powi(3)])
+        };
+        let (cut, air) = (rows(&allowed.cut), rows(&allowed.air));
+        let wider = std::array::from_fn(|axis| std::array::from_fn(|k: usize| f64::max(cut[axis][k], air[axis][k])));
+        Self { period, allowed: [cut, air, wider], last: None, regimes: [Regime::Air; 3], greatest: [[(0.0, 0); 3]; 3] }
     }
 
     /// Takes the next setpoint.
-    pub(super) fn push(&mut self, pose: Pose) {
+    pub(super) fn push(&mut self, pose: Pose, regime: Regime) {
         let here = [pose.centre.x, pose.centre.y, pose.c.0];
         let Some(last) = &mut self.last else {
-            self.last = Some([here, [0.0; 3], [0.0; 3]]);
+            self.last = Some(here.map(|value| [value, 0.0, 0.0]));
+            self.regimes = [regime; 3];
             return;
         };
+        let which = match (self.regimes == [regime; 3], regime) {
+            (true, Regime::Cut) => 0,
+            (true, Regime::Air) => 1,
+            (false, _) => 2,
+        };
+        self.regimes = [self.regimes[1], self.regimes[2], regime];
         for axis in 0..3 {
-            let d1 = here[axis] - last[0][axis];
-            let d2 = d1 - last[1][axis];
-            let d3 = d2 - last[2][axis];
-            let greatest = &mut self.greatest[axis];
-            *greatest = [greatest[0].max(d1.abs()), greatest[1].max(d2.abs()), greatest[2].max(d3.abs())];
-            last[0][axis] = here[axis];
-            last[1][axis] = d1;
-            last[2][axis] = d2;
+            let of_axis = &mut last[axis];
+            let d1 = here[axis] - of_axis[0];
+            let d2 = d1 - of_axis[1];
+            let d3 = d2 - of_axis[2];
+            *of_axis = [here[axis], d1, d2];
+            for (k, difference) in [d1, d2, d3].into_iter().enumerate() {
+                let part = difference.abs() / self.allowed[which][axis][k];
+                if part > self.greatest[axis][k].0 {
+                    self.greatest[axis][k] = (part, which);
+                }
+            }
         }
     }
 
     /// Takes the last setpoint: behind it the axes rest.
-    pub(super) fn rest(&mut self, pose: Pose) {
+    pub(super) fn rest(&mut self, pose: Pose, regime: Regime) {
         for _ in 0..3 {
-            self.push(pose);
+            self.push(pose, regime);
         }
     }
 
     /// The greatest speed, acceleration and jerk so far.
     pub(super) fn peaks(&self) -> Peaks {
-        let h = self.period;
-        self.greatest.map(|[d1, d2, d3]| [d1 / h, d2 / (h * h), d3 / (h * h * h)])
+        let powers = [self.period, self.period.powi(2), self.period.powi(3)];
+        std::array::from_fn(|axis| {
+            std::array::from_fn(|k| {
+                let (part, which) = self.greatest[axis][k];
+                let limit = self.allowed[which][axis][k] / powers[k];
+                Peak { worst: part * limit, limit }
+            })
+        })
+    }
+
+    /// By how much time must be stretched for all differences so far to be allowed: 1 or less when they are.
+    pub(super) fn excess(&self) -> f64 {
+        let of_axis =
+            |[speed, acceleration, jerk]: &[(f64, usize); 3]| speed.0.max(acceleration.0.sqrt()).max(jerk.0.cbrt());
+        self.greatest.iter().map(of_axis).fold(0.0, f64::max)
     }
 }
 
-/// By how much time must be stretched for `peaks` to keep `limits`: 1 or less when they do.
-pub(super) fn excess(peaks: &Peaks, limits: &[Limits; 3]) -> f64 {
-    let of_axis = |([speed, acceleration, jerk], limits): (&[f64; 3], &Limits)| {
-        let square = (acceleration / limits.acceleration).sqrt();
-        let cube = (jerk / limits.jerk).cbrt();
-        (speed / limits.speed).max(square).max(cube)
-    };
-    peaks.iter().zip(limits).map(of_axis).fold(0.0, f64::max)
-}
-
-/// The greatest differences of a motion from rest to rest.
-pub(super) fn peaks_of(poses: &[Pose], period: f64) -> Peaks {
-    let mut differences = Differences::new(period);
+/// By how much time must be stretched for a cut from rest to rest to keep its limits: 1 or less when it does.
+pub(super) fn excess_of(poses: &[Pose], period: f64, limits: &[Limits; 3]) -> f64 {
+    let mut differences = Differences::new(period, &Allowed { cut: *limits, air: *limits });
     for &pose in poses {
-        differences.push(pose);
+        differences.push(pose, Regime::Cut);
     }
     if let Some(&last) = poses.last() {
-        differences.rest(last);
+        differences.rest(last, Regime::Cut);
     }
-    differences.peaks()
+    differences.excess()
 }
 
 #[cfg(test)]
@@ -88,14 +139,30 @@ mod tests {
     use super::*;
     use crate::machine::MachineProfile;
 
+    fn jump(regimes: [Regime; 2]) -> Differences {
+        let mut profile = MachineProfile::default();
+        profile.axes.x.travel.speed_mm_s = Some(3000.0);
+        let axes = &profile.axes;
+        let mut differences = Differences::new(1e-3, &Allowed { cut: axes.limits(), air: axes.travel_limits() });
+        differences.push(Pose::new(0.0, 0.0, 0.0), regimes[0]);
+        differences.rest(Pose::new(1.3, 0.0, 0.0), regimes[1]);
+        differences
+    }
+
     #[test]
     fn a_jump_breaks_every_limit_by_its_own_order() {
-        let limits = MachineProfile::default().axes.limits();
-        let poses = [Pose::new(0.0, 0.0, 0.0), Pose::new(1.3, 0.0, 0.0)];
-        let peaks = peaks_of(&poses, 1e-3);
-        assert!((peaks[0][0] - 1300.0).abs() < 1e-6);
-        assert!((peaks[0][2] - 2.6e9).abs() < 1.0);
-        assert!(excess(&peaks, &limits) > 10.0);
-        assert_eq!(peaks[2], [0.0; 3]);
+        let differences = jump([Regime::Cut; 2]);
+        let peaks = differences.peaks();
+        assert!((peaks[0][0].worst - 1300.0).abs() < 1e-6 && (peaks[0][0].limit - 1200.0).abs() < 1e-9);
+        assert!((peaks[0][2].worst - 2.6e9).abs() < 1.0);
+        assert!(differences.excess() > 10.0);
+        assert!(peaks[2].iter().all(|peak| peak.worst == 0.0));
+    }
+
+    #[test]
+    fn the_limits_are_those_of_what_is_done_and_at_the_passage_the_wider_ones() {
+        let speed = |regimes| jump(regimes).peaks()[0][0];
+        assert!((speed([Regime::Air; 2]).limit - 3000.0).abs() < 1e-9);
+        assert!((speed([Regime::Air, Regime::Cut]).limit - 3000.0).abs() < 1e-9);
     }
 }

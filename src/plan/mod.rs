@@ -7,7 +7,9 @@
 mod air;
 mod banded;
 mod barrier;
+mod bound;
 mod certify;
+mod feed;
 mod knots;
 mod law;
 mod pace;
@@ -17,16 +19,16 @@ mod smooth;
 mod timing;
 mod tube;
 
-pub use certify::Peaks;
+pub use certify::{Peak, Peaks};
 pub use run::Cut;
 
 use self::air::Air;
-use self::certify::{Differences, EXCESS_EPSILON};
+use self::certify::{Allowed, Differences, EXCESS_EPSILON, Regime};
 use self::run::whole_periods;
 use crate::diagnostic::{Diagnostic, code};
 use crate::ir::motion::{Kind, Motion, Phase, Task};
 use crate::ir::toolpath::{Pose, Step, Toolpath};
-use crate::machine::{Job, Limits};
+use crate::machine::Job;
 use crate::source::Span;
 use crate::units::number::fixed;
 
@@ -49,11 +51,13 @@ pub fn solve(toolpath: &Toolpath, job: &Job) -> Result<Vec<Cut>, Vec<Diagnostic>
 #[derive(Debug)]
 pub struct Planner<'a> {
     job: &'a Job,
-    limits: [Limits; 3],
+    allowed: Allowed,
     pose: Pose,
     tick: u64,
     steps: u64,
     time: f64,
+    /// Time that the blade still needs until it is all the way up, s: it may be clear of the cloth before.
+    rising: f64,
     differences: Differences,
 }
 
@@ -61,9 +65,10 @@ impl<'a> Planner<'a> {
     /// A program that starts at rest at home.
     pub fn new(job: &'a Job) -> Self {
         let pose = home(job);
-        let mut differences = Differences::new(job.profile.time.period());
-        differences.push(pose);
-        Self { job, limits: job.profile.axes.limits(), pose, tick: 0, steps: 0, time: 0.0, differences }
+        let allowed = Allowed { cut: job.profile.axes.limits(), air: job.profile.axes.travel_limits() };
+        let mut differences = Differences::new(job.profile.time.period(), &allowed);
+        differences.push(pose, Regime::Air);
+        Self { job, allowed, pose, tick: 0, steps: 0, time: 0.0, rising: 0.0, differences }
     }
 
     /// The timed motion of a toolpath whose runs were solved.
@@ -85,16 +90,16 @@ impl<'a> Planner<'a> {
                     motion.tasks.push(Task { blocks: ends(&run.spans), front: run.front, heel: run.heel });
                     let cut = cuts.next().expect("solve gives a cut for each run");
                     self.go(kind, cut.poses[0], &mut motion);
-                    self.hold(Kind::Plunge, profile.knife.plunge(), cut.blocks[0], &mut motion);
+                    self.plunge(cut.blocks[0], &mut motion);
                     self.cut(cut, &mut motion);
-                    self.hold(Kind::Lift, profile.knife.lift(), 0, &mut motion);
+                    self.lift(&mut motion);
                 }
                 Step::Stab(stab) => {
                     motion.tasks.push(Task { blocks: ends(&stab.spans), front: stab.front, heel: stab.heel });
                     self.go(kind, stab.pose, &mut motion);
                     let block = stab.spans.last().map_or(0, |span| span.block);
-                    self.hold(Kind::Plunge, profile.knife.plunge(), block, &mut motion);
-                    self.hold(Kind::Lift, profile.knife.lift(), 0, &mut motion);
+                    self.plunge(block, &mut motion);
+                    self.lift(&mut motion);
                 }
                 Step::Drill(drill) => {
                     motion.tasks.push(Task { blocks: [drill.span.block; 2], ..Task::default() });
@@ -105,9 +110,13 @@ impl<'a> Planner<'a> {
                         self.hold(Kind::Travel, 0.0, 0, &mut motion);
                     }
                     self.go(kind, there, &mut motion);
+                    self.rise(&mut motion);
                     self.hold(Kind::Drill(drill.tool), profile.drill.dwell(), 0, &mut motion);
                 }
-                Step::Event(event) => self.hold(Kind::Event(*event), 0.0, 0, &mut motion),
+                Step::Event(event) => {
+                    self.rise(&mut motion);
+                    self.hold(Kind::Event(*event), 0.0, 0, &mut motion);
+                }
             }
         }
         motion
@@ -119,8 +128,9 @@ impl<'a> Planner<'a> {
         if let Some([x, y, c]) = self.job.profile.park {
             self.go(Kind::Travel, Pose::new(x, y, crate::units::rad(c)), &mut motion);
         }
+        self.rise(&mut motion);
         self.hold(Kind::Rest, 0.0, 0, &mut motion);
-        self.differences.rest(self.pose);
+        self.differences.rest(self.pose, Regime::Air);
         motion
     }
 
@@ -131,7 +141,7 @@ impl<'a> Planner<'a> {
 
     /// Whether the whole program keeps the limits: the last word, over every setpoint in order.
     pub fn certify(&self) -> Result<(), Diagnostic> {
-        let rho = certify::excess(&self.peaks(), &self.limits);
+        let rho = self.differences.excess();
         if rho <= 1.0 + EXCESS_EPSILON {
             return Ok(());
         }
@@ -153,12 +163,32 @@ impl<'a> Planner<'a> {
         if to == self.pose {
             return;
         }
-        let air = Air::new(self.pose, to, &self.limits);
+        let air = Air::new(self.pose, to, &self.allowed.air);
         let ticks = whole_periods(air.duration(), self.job.profile.time.period());
         let poses = (0..ticks).map(|i| air.at(i as f64, ticks as f64)).collect();
         let phase =
             Phase { kind, ticks: ticks as u32, poses, blocks: vec![0], duration: air.duration(), length: air.length() };
         self.emit(phase, to, motion);
+    }
+
+    /// Down, once the blade is all the way up.
+    fn plunge(&mut self, block: u32, motion: &mut Motion) {
+        self.rise(motion);
+        self.hold(Kind::Plunge, self.job.profile.knife.plunge(), block, motion);
+    }
+
+    /// Up: the axes rest until the blade is clear of the cloth.
+    fn lift(&mut self, motion: &mut Motion) {
+        let knife = &self.job.profile.knife;
+        self.hold(Kind::Lift, knife.clear(), 0, motion);
+        self.rising = knife.lift() - knife.clear();
+    }
+
+    /// At rest until the blade is all the way up.
+    fn rise(&mut self, motion: &mut Motion) {
+        if self.rising > 0.0 {
+            self.hold(Kind::Wait, self.rising, 0, motion);
+        }
     }
 
     /// At rest for a time, at least one period.
@@ -184,9 +214,12 @@ impl<'a> Planner<'a> {
         if !self.job.mode.cuts() {
             phase = Phase { kind: phase.kind.raised(), blocks: vec![0], ..phase };
         }
+        let regime = if phase.kind.knife_down() { Regime::Cut } else { Regime::Air };
         for i in 0..phase.ticks {
-            self.differences.push(phase.pose(i));
+            self.differences.push(phase.pose(i), regime);
         }
+        // What lasts longer than its due in whole periods lets the blade rise farther.
+        self.rising = (self.rising - f64::from(phase.ticks) * self.job.profile.time.period()).max(0.0);
         self.tick += u64::from(phase.ticks);
         self.steps += u64::from(phase.kind.begins_step());
         self.time += phase.duration;

@@ -14,6 +14,8 @@ const KNOTS_MAX: f64 = 200.0;
 const END_KNOTS: f64 = 1.2;
 /// Nearest that end grading goes, in parts of the reach of an end.
 const END_NEAREST: f64 = 1e-3;
+/// Nearest that grading goes towards a change of the speed cap, mm.
+const CHANGE_NEAREST: f64 = 0.1;
 /// Greatest spacing: a part of the length, but no finer than 0.5 mm.
 const SPACING_SHARE: f64 = 1.0 / 60.0;
 const SPACING: f64 = 0.5;
@@ -27,8 +29,19 @@ const DENSITY_AT_END: usize = 80;
 const PLACES_A_SPAN: [f64; 3] = [0.0, 1.0 / 3.0, 2.0 / 3.0];
 const PLACES_AT_END: [f64; 2] = [1e-3, 0.1];
 
-/// The knots of a motion: dense where C turns or its turn changes, and in proportion to the distance from the ends.
-pub(super) fn breaks(way: &Way, path_breaks: &[f64], reach: f64) -> Vec<f64> {
+/// How finely a motion is resolved.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Grid {
+    /// Length over which an end is felt, mm.
+    pub(super) reach: f64,
+    /// Knots as a multiple of what is known to be enough.
+    pub(super) density: f64,
+}
+
+/// The knots of a motion: dense where C turns or its turn changes, and in proportion to the distance from the ends and from
+/// the `changes` of the speed cap. `path_breaks` hold the changes, too.
+pub(super) fn breaks(way: &Way, path_breaks: &[f64], changes: &[f64], grid: &Grid) -> Vec<f64> {
+    let reach = grid.reach;
     let length = way.to - way.from;
     let mut places: Vec<f64> = Vec::with_capacity(DENSITY_A_SPAN * path_breaks.len() + 400);
     for ends in path_breaks.windows(2) {
@@ -49,7 +62,10 @@ pub(super) fn breaks(way: &Way, path_breaks: &[f64], reach: f64) -> Vec<f64> {
         let [_, q1, q2, _] = way.at(way.from + s).q;
         let turn = q1[2].abs() / TURN_A_KNOT + (q2[2].abs() / BEND_A_KNOT).sqrt().min(BEND_KNOTS_MAX);
         let end = s.min(length - s).max(nearest);
-        (1.0 / spacing + turn + END_KNOTS / end).min(KNOTS_MAX.max(END_KNOTS / end))
+        let next = changes.partition_point(|&change| change < s);
+        let away = |i: Option<usize>| i.and_then(|i| changes.get(i)).map_or(f64::INFINITY, |change| (change - s).abs());
+        let change = away(Some(next)).min(away(next.checked_sub(1))).max(CHANGE_NEAREST);
+        (1.0 / spacing + turn + END_KNOTS / end + END_KNOTS / change).min(KNOTS_MAX.max(END_KNOTS / end))
     };
     let mut count = Vec::with_capacity(places.len());
     let (mut total, mut before) = (0.0, (places[0], density(places[0])));
@@ -60,7 +76,7 @@ pub(super) fn breaks(way: &Way, path_breaks: &[f64], reach: f64) -> Vec<f64> {
         count.push(total);
         before = (s, here);
     }
-    let knots = (total as usize + 1).max(KNOTS_MIN);
+    let knots = ((total * grid.density) as usize + 1).max((KNOTS_MIN as f64 * grid.density) as usize);
     let mut breaks = Vec::with_capacity(knots);
     let mut at = 0;
     for i in 0..knots {

@@ -14,7 +14,9 @@
 
 use super::banded::Band;
 use super::barrier::{self, Schedule};
+use super::feed::Feed;
 use super::law::Way;
+use super::pace::Grid;
 use super::timing::Timing;
 use crate::geom::spline::{self, Piecewise};
 use crate::machine::Limits;
@@ -37,18 +39,23 @@ const SLOPE_EPSILON: f64 = 1e-12;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct NoMotion;
 
-/// What bounds a motion: the axes' limits (x, y, c) and the greatest speed of the tip, mm/s.
-#[derive(Debug, Clone, Copy)]
+/// What bounds a motion: the axes' limits (x, y, c) and the greatest speed of the tip.
+#[derive(Debug, Clone)]
 pub(super) struct Bounds {
     /// Limits of x, y, c in mm, rad, s.
     pub(super) axes: [Limits; 3],
-    /// Greatest speed of the tip, mm/s; infinite when nothing caps it.
-    pub(super) feed: f64,
+    /// Greatest speed of the tip, by the parameter of the way.
+    pub(super) feed: Feed,
 }
 
 /// The motion along `way` within `bounds`, from rest to rest.
 pub(super) fn profile(way: &Way, bounds: &Bounds) -> Result<Timing, NoMotion> {
-    let problem = Problem::new(way, bounds);
+    profile_on(way, bounds, 1.0)
+}
+
+/// The same with `density` times as many knots.
+fn profile_on(way: &Way, bounds: &Bounds, density: f64) -> Result<Timing, NoMotion> {
+    let problem = Problem::new(way, bounds, density);
     let control = barrier::minimise(&problem, problem.feasible_start(), SCHEDULE).ok_or(NoMotion)?;
     Ok(problem.timing(&control))
 }
@@ -110,11 +117,15 @@ fn dot(a: &[f64; ORDER], control: &[[f64; 1]]) -> f64 {
 }
 
 impl Problem {
-    fn new(way: &Way, bounds: &Bounds) -> Self {
+    fn new(way: &Way, bounds: &Bounds, density: f64) -> Self {
         let length = way.to - way.from;
         let ends = Ends { length, reach: END_REACH.min(length / 8.0) };
-        let path_breaks: Vec<f64> = way.breaks().iter().map(|b| b - way.from).collect();
-        let breaks = super::pace::breaks(way, &path_breaks, ends.reach);
+        let inside = |u: &f64| *u > way.from && *u < way.to;
+        let changes: Vec<f64> = bounds.feed.changes().iter().copied().filter(inside).map(|u| u - way.from).collect();
+        let mut path_breaks: Vec<f64> =
+            way.breaks().iter().map(|b| b - way.from).chain(changes.iter().copied()).collect();
+        path_breaks.sort_by(f64::total_cmp);
+        let breaks = super::pace::breaks(way, &path_breaks, &changes, &Grid { reach: ends.reach, density });
         let knots = spline::clamped_knots::<ORDER>(&breaks);
         let mut span = 0;
         let mut span_of = |s: f64| {
@@ -270,7 +281,7 @@ impl Place {
         let b2: [f64; ORDER] = std::array::from_fn(|i| w2 * n0[i] + 2.0 * w1 * n1[i] + w * n2[i]);
         let axes = way.at(way.from + s);
         let [_, q1, q2, q3] = axes.q;
-        let mut speed = (axes.pace / bounds.feed).powi(2);
+        let mut speed = (axes.pace / bounds.feed.at(way.from + s)).powi(2);
         for (q1, limits) in q1.iter().zip(&bounds.axes) {
             speed = speed.max((q1.abs().max(SLOPE_EPSILON) / limits.speed).powi(2));
         }
@@ -282,5 +293,50 @@ impl Place {
         let jerk =
             std::array::from_fn(|k| sum(bounds.axes[k].jerk, [(0.5 * q1[k], &b2), (1.5 * q2[k], &b1), (q3[k], &b0)]));
         Self { first: span, square: b0, speed, acceleration, jerk }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    use super::*;
+    use crate::geom::{Heading, Point, Rotation};
+    use crate::machine::MachineProfile;
+    use crate::plan::law::Entry;
+    use crate::plan::smooth::smooth;
+    use crate::plan::tube::Tube;
+
+    /// A path of straights and bends from 0.3 mm to 3 m.
+    fn path(random: &mut ChaCha8Rng) -> Vec<Point> {
+        let length = 0.3 * 10_f64.powf(random.random_range(0.0..4.0));
+        let chords = random.random_range(2..40);
+        let mut heading = random.random_range(-3.0..3.0);
+        let mut points = vec![Point::origin()];
+        for _ in 0..chords {
+            heading += random.random_range(-0.7..0.7) * random.random_range(0.0_f64..1.0).powi(3);
+            let share = random.random_range(0.2..1.8);
+            points.push(points[points.len() - 1] + Heading::new(heading).unit() * (share * length / f64::from(chords)));
+        }
+        points
+    }
+
+    #[test]
+    fn twice_the_knots_make_no_run_faster_by_more_than_a_fiftieth() {
+        let profile = MachineProfile::default();
+        let slower = |seed: u64| {
+            let mut random = ChaCha8Rng::seed_from_u64(seed);
+            let points = path(&mut random);
+            let radius = [0.0, 4.4][(seed % 2) as usize];
+            let curve = smooth(&Tube::new(points, 0.05, &profile)).expect("a curve").curve;
+            let end = curve.breaks()[curve.breaks().len() - 1];
+            let way = Way::new(&curve, Entry::Tangent(0.0), end, radius, Rotation(0.0));
+            let bounds = Bounds { axes: profile.axes.limits(), feed: Feed::new(&[0.0, end], &[760.0]) };
+            let duration = |density| profile_on(&way, &bounds, density).expect("a motion").duration();
+            (duration(1.0) / duration(2.0), seed)
+        };
+        let worst = (0..200).map(slower).max_by(|a, b| a.0.total_cmp(&b.0)).expect("runs");
+        assert!(worst.0 <= 1.02, "seed {} is {} times slower than with twice the knots", worst.1, worst.0);
     }
 }

@@ -1,13 +1,16 @@
 //! One run, from the plunge to the lift: overlaps join the polyline, the polyline becomes a curve, the curve a motion,
 //! the motion samples, and the samples are certified.
 
-use super::certify::{self, EXCESS_EPSILON, Peaks};
+use super::bound;
+use super::certify::{EXCESS_EPSILON, excess_of};
+use super::feed::Feed;
 use super::law::{Entry, Way};
 use super::profile::{Bounds, profile};
-use super::smooth::smooth;
+use super::smooth::{Curve, Smooth, smooth};
 use super::tube::Tube;
 use crate::diagnostic::{Diagnostic, code};
-use crate::geom::{Point, polyline};
+use crate::geom::{Point, Vector, polyline};
+use crate::ir::motion::Shares;
 use crate::ir::toolpath::{Law, Pose, Run, Shape};
 use crate::machine::Job;
 use crate::machine::kinematics::Move;
@@ -27,6 +30,8 @@ pub struct Cut {
     pub length: f64,
     /// Greatest bulge of the tube that the curve uses, mm.
     pub bulge: f64,
+    /// What keeps it from being faster, in ticks.
+    pub shares: Shares,
 }
 
 /// Shorter ways are none, mm: below what a machine resolves and a tolerance notices.
@@ -35,6 +40,10 @@ const WAY_EPSILON: f64 = 1e-3;
 const STRAIGHT_SHARE: f64 = 0.9;
 /// Rounds of stretching before a run is refused; measured need is 1, by less than 1 %.
 const ROUNDS: usize = 12;
+/// Steps towards the seam of a ring, and the longest of them, mm: the gap is below two tolerances, and a step closes nearly
+/// all of it because the parameter is nearly the way.
+const SEAM_STEPS: usize = 8;
+const SEAM_STEP: f64 = 1.0;
 /// Part of a period by which a duration may exceed a whole number of them without taking one more: rounding.
 const PERIOD_EPSILON: f64 = 1e-9;
 
@@ -43,6 +52,8 @@ struct Extended {
     points: Vec<Point>,
     /// The block of each chord.
     blocks: Vec<u32>,
+    /// Greatest speed of the tip on each chord, mm/s.
+    feeds: Vec<f64>,
     /// Station at which the run proper starts.
     start: f64,
     /// Station at which the tip is lifted.
@@ -56,27 +67,32 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
         Law::Tangent => {}
         Law::Chord => return Err(refuse(run, &code::PROFILE_UNSUPPORTED, "the chord law has no motion yet")),
     }
-    let bounds = Bounds { axes: job.profile.axes.limits(), feed: run.feed };
     let extended = extend(run);
     let blocks = Blocks::new(&extended);
     let period = job.profile.time.period();
-    if run.shape == Shape::Open && polyline::is_straight(&extended.points, STRAIGHT_SHARE * tolerance) {
+    let feed = Feed::new(&blocks.stations, &extended.feeds);
+    let bounds = Bounds { axes: job.profile.axes.limits(), feed };
+    let is_straight = run.shape == Shape::Open && polyline::is_straight(&extended.points, STRAIGHT_SHARE * tolerance);
+    if is_straight && bounds.feed.constant().is_some() {
         return straight(run, &extended, &blocks, &bounds, job);
     }
-    let tube = Tube::new(extended.points, tolerance, &job.profile);
-    let smooth = smooth(&tube).map_err(|e| {
-        let least = fixed(e.deviation, 4);
-        refuse(
-            run,
-            &code::PLAN_SMOOTH,
-            &format!("no smooth curve inside {} mm (least deviation {least} mm)", fixed(tolerance, 4)),
-        )
-    })?;
-    let entry = match run.shape {
-        Shape::Open => Entry::Chord(knife.width_mm),
-        Shape::Ring => Entry::Tangent(extended.start),
+    let smooth = if is_straight {
+        Smooth { curve: chord(&extended), bulge: 0.0 }
+    } else {
+        smooth(&Tube::new(extended.points, tolerance, &job.profile)).map_err(|e| {
+            let least = fixed(e.deviation, 4);
+            refuse(
+                run,
+                &code::PLAN_SMOOTH,
+                &format!("no smooth curve inside {} mm (least deviation {least} mm)", fixed(tolerance, 4)),
+            )
+        })?
     };
-    let way = Way::new(&smooth.curve, entry, extended.end, knife.radius(), run.start.c);
+    let (entry, end) = match run.shape {
+        Shape::Open => (Entry::Chord(knife.width_mm), extended.end),
+        Shape::Ring => (Entry::Tangent(extended.start), closed(&smooth.curve, extended.start, extended.end)),
+    };
+    let way = Way::new(&smooth.curve, entry, end, knife.radius(), run.start.c);
     if way.to - way.from < WAY_EPSILON {
         return Ok(plunge_only(way.pose(way.to), blocks.at(way.to)));
     }
@@ -86,10 +102,34 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
         let places = timing.sample(count);
         let tips: Vec<Point> = places.iter().map(|&u| way.point(u)).collect();
         let (poses, blocks) = places.iter().map(|&u| (way.pose(u), blocks.at(u))).unzip();
-        Samples { poses, blocks, ways: tips.windows(2).map(|w| (w[1] - w[0]).norm()).collect() }
+        let ways = tips.windows(2).map(|w| (w[1] - w[0]).norm()).collect();
+        let feeds = places.windows(2).map(|w| bounds.feed.greatest(w[0], w[1])).collect();
+        Samples { poses, blocks, ways, feeds }
     })?;
     cut.bulge = smooth.bulge;
     Ok(cut)
+}
+
+/// Where a ring that should end at parameter `end` really closes: smoothing may have drawn its end back from its start, and
+/// the tip must come as far as that.
+fn closed(curve: &Curve, start: f64, end: f64) -> f64 {
+    let [from, along] = curve.derivatives::<2>(start).map(|v| Vector::new(v[0], v[1]));
+    let short = |u: f64| {
+        let [at] = curve.derivatives::<1>(u);
+        (from - Vector::new(at[0], at[1])).dot(&along) / along.norm()
+    };
+    let last = curve.breaks()[curve.breaks().len() - 1];
+    let mut end = end;
+    for _ in 0..SEAM_STEPS {
+        end = (end + short(end).clamp(0.0, SEAM_STEP)).min(last);
+    }
+    end
+}
+
+/// The chord from end to end of a straight run, as a curve over its own length.
+fn chord(extended: &Extended) -> Curve {
+    let ends = [extended.points[0], extended.points[extended.points.len() - 1]];
+    Curve::line([0.0, extended.end], ends.map(|point| [point.x, point.y]))
 }
 
 /// A straight run in closed form: the tightest axis decides.
@@ -105,12 +145,13 @@ fn straight(run: &Run, extended: &Extended, blocks: &Blocks, bounds: &Bounds, jo
         return Ok(plunge_only(pose(whole.max(knife.width_mm)), blocks.at(whole)));
     }
     let mut limits = bounds.axes[0].along(u.x).min(bounds.axes[1].along(u.y));
-    limits.speed = limits.speed.min(bounds.feed);
+    limits.speed = limits.speed.min(bounds.feed.at(0.0));
     let motion = Move::new(way, limits);
     certified(run, motion.duration(), job.profile.time.period(), bounds, |count| {
         let reach = |i: usize| knife.width_mm + motion.at(i as f64, (count - 1) as f64);
         let (poses, blocks) = (0..count).map(|i| (pose(reach(i)), blocks.at(reach(i)))).unzip();
-        Samples { poses, blocks, ways: (1..count).map(|i| reach(i) - reach(i - 1)).collect() }
+        let ways = (1..count).map(|i| reach(i) - reach(i - 1)).collect();
+        Samples { poses, blocks, ways, feeds: vec![bounds.feed.at(0.0); count - 1] }
     })
 }
 
@@ -120,10 +161,12 @@ struct Samples {
     blocks: Vec<u32>,
     /// Way of the tip from each tick to the next, mm.
     ways: Vec<f64>,
+    /// Greatest speed of the tip from each tick to the next, mm/s.
+    feeds: Vec<f64>,
 }
 
 fn plunge_only(pose: Pose, block: u32) -> Cut {
-    Cut { poses: vec![pose], blocks: vec![block], duration: 0.0, length: 0.0, bulge: 0.0 }
+    Cut { poses: vec![pose], blocks: vec![block], duration: 0.0, length: 0.0, bulge: 0.0, shares: Shares::default() }
 }
 
 /// Samples a motion over a whole number of periods, stretched until every difference keeps its limit, and the tip its
@@ -139,12 +182,12 @@ fn certified(
     let mut rho = 1.0;
     for _ in 0..ROUNDS {
         let ticks = whole_periods(duration * stretch, period);
-        let Samples { poses, blocks, ways } = sample(ticks + 1);
-        let peaks: Peaks = certify::peaks_of(&poses, period);
-        let fastest = ways.iter().copied().fold(0.0, f64::max) / period;
-        rho = certify::excess(&peaks, &bounds.axes).max(fastest / bounds.feed);
+        let Samples { poses, blocks, ways, feeds } = sample(ticks + 1);
+        let too_fast = ways.iter().zip(&feeds).map(|(way, feed)| way / (feed * period)).fold(0.0, f64::max);
+        rho = excess_of(&poses, period, &bounds.axes).max(too_fast);
         if rho <= 1.0 + EXCESS_EPSILON {
-            return Ok(Cut { poses, blocks, duration, length: ways.iter().sum(), bulge: 0.0 });
+            let shares = bound::shares(&poses, &ways, &feeds, period, &bounds.axes);
+            return Ok(Cut { poses, blocks, duration, length: ways.iter().sum(), bulge: 0.0, shares });
         }
         stretch = ticks as f64 * period / duration * rho;
     }
@@ -175,12 +218,15 @@ fn extend(run: &Run) -> Extended {
 fn extend_open(run: &Run) -> Extended {
     let points = run.extended();
     let mut blocks: Vec<u32> = run.spans.iter().map(|s| s.block).collect();
+    let mut feeds = run.feeds.clone();
     if run.heel > 0.0 {
         blocks.insert(0, blocks[0]);
+        feeds.insert(0, feeds[0]);
     }
     blocks.resize(points.len() - 1, blocks[blocks.len() - 1]);
+    feeds.resize(points.len() - 1, feeds[feeds.len() - 1]);
     let end = polyline::length(&points);
-    Extended { points, blocks, start: 0.0, end }
+    Extended { points, blocks, feeds, start: 0.0, end }
 }
 
 /// Length of contour before the start and behind the end of a ring that joins the polyline, so that the curve there is
@@ -207,8 +253,9 @@ fn extend_ring(run: &Run) -> Extended {
     let chords = before + n + after;
     let points = (0..=chords).map(|i| run.points[(first + i) % n]).collect();
     let blocks = (0..chords).map(|i| run.spans[(first + i) % n].block).collect();
+    let feeds = (0..chords).map(|i| run.feeds[(first + i) % n]).collect();
     let end = start + polyline::length(&run.points) + run.front;
-    Extended { points, blocks, start, end }
+    Extended { points, blocks, feeds, start, end }
 }
 
 /// The source block at each station of an extended run.

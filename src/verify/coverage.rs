@@ -27,6 +27,21 @@ impl<'a> Coverage<'a> {
         parts.map(|[a, b]| (b - a) - covered(&self.cut[line], a, b)).sum()
     }
 
+    /// From where to where the stretches reach that were not cut before; `None` when all of them were.
+    pub(super) fn uncut(&self, line: usize, stretches: &[[f64; 2]]) -> Option<[f64; 2]> {
+        let mut hull: Option<[f64; 2]> = None;
+        for [from, to] in stretches.iter().flat_map(|s| self.on_line(line, *s)) {
+            // From the front, then from the back, past what was cut.
+            let cut = &self.cut[line];
+            let a = cut.iter().fold(from, |a, s| if s[0] <= a { a.max(s[1]) } else { a });
+            let b = cut.iter().rev().fold(to, |b, s| if s[1] >= b { b.min(s[0]) } else { b });
+            if a < b {
+                hull = Some(hull.map_or([a, b], |[low, high]| [low.min(a), high.max(b)]));
+            }
+        }
+        hull
+    }
+
     /// How much of a line was cut, mm.
     pub(super) fn length(&self, line: usize) -> f64 {
         self.cut[line].iter().map(|[a, b]| b - a).sum()

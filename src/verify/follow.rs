@@ -7,6 +7,9 @@ use crate::geom::{Point, cross};
 const BACK: f64 = 0.5;
 /// How far ahead, mm, beside twice its way.
 const AHEAD: f64 = 1.0;
+/// The longest way from one place to the next that is followed, mm: no machine moves half as far in a period, and what
+/// leaps farther must not be looked for on the whole line.
+const LEAP: f64 = 25.0;
 
 /// Where a point stands beside a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,7 +62,7 @@ impl<'a> Follower<'a> {
     fn best(&self, point: Point, way: f64) -> Foot {
         let line = self.line;
         let length = line.length();
-        let reach = |sign: f64| if sign == self.sign { AHEAD + 2.0 * way } else { BACK };
+        let reach = |sign: f64| if sign == self.sign { AHEAD + 2.0 * way.min(LEAP) } else { BACK };
         let (low, high) = (self.foot.station - reach(-1.0), self.foot.station + reach(1.0));
         let laps = if line.ring { (self.foot.station / length).floor() } else { 0.0 };
         let start = line.chord_at(self.foot.station - laps * length);
@@ -75,7 +78,8 @@ impl<'a> Follower<'a> {
         let (mut chord, mut lap) = (start, laps);
         while let Some((next, turn)) = following(line, chord) {
             (chord, lap) = (next, lap + turn);
-            if line.stations[chord] + lap * length > high {
+            // Once round a ring every chord was looked at.
+            if line.stations[chord] + lap * length > high || chord == start {
                 break;
             }
             look(chord, lap);
@@ -83,7 +87,7 @@ impl<'a> Follower<'a> {
         (chord, lap) = (start, laps);
         while let Some((before, turn)) = preceding(line, chord) {
             (chord, lap) = (before, lap - turn);
-            if line.stations[chord + 1] + lap * length < low {
+            if line.stations[chord + 1] + lap * length < low || chord == start {
                 break;
             }
             look(chord, lap);

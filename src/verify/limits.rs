@@ -2,11 +2,14 @@
 //!
 //! A difference of order k over the period h is a weighted mean of the k-th derivative; rounding of the printed numbers
 //! can add 2^k q / h^k, q half of the last decimal, which is allowed for exactly.
+//!
+//! The way from one row to the next belongs to a cut when the knife is commanded down at the first of them, and else to a
+//! travel, which may have limits of its own. A difference over ways of both kinds may reach the wider of the two.
 
 use super::read::{ROUNDING, Row, TIME_ROUNDING};
 use super::worst::Worst;
 use crate::ir::Finding;
-use crate::machine::MachineProfile;
+use crate::machine::{self, MachineProfile};
 use crate::units::deg;
 
 /// Codes by order and axis.
@@ -27,32 +30,45 @@ pub(super) struct Limits {
     period: f64,
     /// Position and its differences of order 1 and 2, axis by axis.
     last: Option<[[f64; 3]; 3]>,
+    /// Limits by order and axis, in a cut, in a travel, and where both take part.
+    allowed: [[[f64; 3]; 3]; 3],
+    /// Whether the knife is down at the last rows, a bit for each, the last one lowest.
+    down: u8,
     axes: [[Worst; 3]; 3],
     time: Worst,
     c_range: Worst,
     range: Option<[f64; 2]>,
 }
 
+/// What differences may reach, by order and axis, mm or degrees per s to the power of the order.
+fn allowed([x, y, c]: [machine::Limits; 3], period: f64) -> [[f64; 3]; 3] {
+    let limits = [
+        [x.speed, y.speed, deg(c.speed)],
+        [x.acceleration, y.acceleration, deg(c.acceleration)],
+        [x.jerk, y.jerk, deg(c.jerk)],
+    ];
+    std::array::from_fn(|order| {
+        let rounding = ROUNDING * [1, 2, 3].map(|k| (2.0 / period).powi(k))[order];
+        limits[order].map(|limit| limit * (1.0 + LIMIT_EPSILON) + rounding)
+    })
+}
+
 impl Limits {
     pub(super) fn new(profile: &MachineProfile) -> Self {
         let period = profile.time.period();
-        let [x, y, c] = profile.axes.limits();
-        let limits = [
-            [x.speed, y.speed, deg(c.speed)],
-            [x.acceleration, y.acceleration, deg(c.acceleration)],
-            [x.jerk, y.jerk, deg(c.jerk)],
-        ];
+        let cut = allowed(profile.axes.limits(), period);
+        let air = allowed(profile.axes.travel_limits(), period);
+        let wider = std::array::from_fn(|order| std::array::from_fn(|axis| cut[order][axis].max(air[order][axis])));
         let axes = std::array::from_fn(|order| {
-            let rounding = ROUNDING * [1, 2, 3].map(|k| (2.0 / period).powi(k))[order];
-            std::array::from_fn(|axis| {
-                let limit = limits[order][axis] * (1.0 + LIMIT_EPSILON) + rounding;
-                Worst::new(RULES[order][axis], UNITS[order][axis], Some(limit))
-            })
+            let worst = |axis: usize| Worst::new(RULES[order][axis], UNITS[order][axis], Some(cut[order][axis]));
+            std::array::from_fn(worst)
         });
         let range = profile.c.range_deg;
         Self {
             period,
             last: None,
+            allowed: [cut, air, wider],
+            down: 0,
             axes,
             time: Worst::new("verify/time", "s", Some(TIME_ROUNDING + TIME_EPSILON)),
             c_range: Worst::new("verify/c-range", "deg", range.map(|_| ROUNDING)),
@@ -66,18 +82,27 @@ impl Limits {
             self.c_range.see((least - row.c_deg).max(row.c_deg - greatest), || row.sighting());
         }
         let here = [row.centre.x, row.centre.y, row.c_deg];
+        let down = self.down;
+        self.down = down << 1 | u8::from(row.knife);
         let Some(last) = &mut self.last else {
             self.last = Some([here, [0.0; 3], [0.0; 3]]);
             return;
         };
+        // A difference of order k is made of the ways that begin at the last k rows.
+        let [speed, acceleration, jerk] = [0b1, 0b11, 0b111].map(|ways: u8| match down & ways {
+            0 => 1,
+            all if all == ways => 0,
+            _ => 2,
+        });
         for axis in 0..3 {
             let first = here[axis] - last[0][axis];
             let second = first - last[1][axis];
             let third = second - last[2][axis];
             let h = self.period;
-            self.axes[0][axis].see(first.abs() / h, || row.sighting());
-            self.axes[1][axis].see(second.abs() / (h * h), || row.sighting());
-            self.axes[2][axis].see(third.abs() / (h * h * h), || row.sighting());
+            let allowed = |which: usize, order: usize| self.allowed[which][order][axis];
+            self.axes[0][axis].see_under(first.abs() / h, allowed(speed, 0), || row.sighting());
+            self.axes[1][axis].see_under(second.abs() / (h * h), allowed(acceleration, 1), || row.sighting());
+            self.axes[2][axis].see_under(third.abs() / (h * h * h), allowed(jerk, 2), || row.sighting());
             (last[0][axis], last[1][axis], last[2][axis]) = (here[axis], first, second);
         }
     }

@@ -7,12 +7,20 @@
 //! The way: `read` gives rows; `limits` and `rest` watch the axes; the rows between a plunge and a lift are a
 //! `stroke`, which is followed along the lines of the `reference` and marks what it cut in `coverage`.
 
+mod body;
+mod caps;
 mod coverage;
+mod events;
 mod follow;
 mod grid;
+mod heading;
 mod inside;
+mod joints;
+mod kept;
 mod limits;
+mod naming;
 mod npy;
+mod order;
 mod read;
 mod reference;
 mod rest;
@@ -22,12 +30,15 @@ mod stroke;
 mod table;
 mod worst;
 
-pub use source_audit::{Census, source_audit};
+pub use source_audit::{Census, source_audit, source_kept};
 
 use std::io::BufRead;
 
 use self::coverage::Coverage;
+use self::events::Events;
 use self::limits::Limits;
+use self::naming::Naming;
+use self::order::Order;
 use self::read::{Row, Rows};
 use self::reference::Reference;
 use self::rest::Rest;
@@ -51,14 +62,17 @@ pub const RULES: &[(&str, &str)] = &[
     ("verify/jerk-x", "X never jerks more than its limit"),
     ("verify/jerk-y", "Y never jerks more than its limit"),
     ("verify/jerk-c", "C never jerks more than its limit"),
-    ("verify/feed", "the tip is never faster than the feed while it cuts"),
-    ("verify/rest", "the axes rest while the knife plunges or lifts and while a drill works"),
+    (
+        "verify/feed",
+        "the tip is never faster than the feed, the slowed parts of the file and the way before a corner let it be",
+    ),
+    ("verify/rest", "the axes rest while the knife plunges or lifts, while a drill works and at events"),
     ("verify/dwell", "plunges, lifts and drills last as long as the profile says"),
     ("verify/c-range", "C stays inside its range"),
     ("verify/table", "the axes, and the blade while it is down, stay over the table"),
     ("verify/on-path", "the tip stays inside the tube of the path while it cuts"),
     ("verify/stray", "the knife cuts nothing that is not in the marker"),
-    ("verify/order", "contours and slits are cut in the order of the marker"),
+    ("verify/order", "events, holes, slits and contours come in the order of the marker"),
     ("verify/once", "nothing is cut twice beyond the overlaps"),
     ("verify/complete", "no stretch of a contour or slit is left uncut"),
     ("verify/heading", "the blade points along its law while it cuts"),
@@ -68,10 +82,13 @@ pub const RULES: &[(&str, &str)] = &[
     ("verify/overcut-waste", "how far the blade cuts into waste beyond ends and corners"),
     ("verify/drills", "every hole is drilled once, by its drill, and no other"),
     ("verify/drill-place", "every hole is where the marker has it"),
+    ("verify/block", "rows that cut name the block that is cut there, and no others name one"),
+    ("verify/events", "the events of the marker are told, each once and with the knife up, and no others"),
     ("source/points", "the marker has the points that the file cuts"),
     ("source/drills", "the marker has the holes of the file"),
     ("source/length", "the marker has the cut length of the file"),
     ("source/bounds", "the marker has the bounds of the file"),
+    ("source/kept", "every block that cuts or drills in the file as read does so in the marker that is cut"),
 ];
 
 /// What a program is worth.
@@ -87,19 +104,39 @@ impl Verdict {
         self.findings.iter().all(Finding::holds)
     }
 
+    /// How many rules have a limit, and how many only report.
+    pub fn counts(&self) -> (usize, usize) {
+        let limited = self.findings.iter().filter(|finding| finding.limit.is_some()).count();
+        (limited, self.findings.len() - limited)
+    }
+
     /// The findings that do not hold.
     pub fn broken(&self) -> impl Iterator<Item = &Finding> {
         self.findings.iter().filter(|finding| !finding.holds())
     }
 }
 
+/// Whether bytes are a program that [`setpoints`] can judge, be it damaged: they begin as `csv` or `npy` do.
+pub fn is_program(bytes: &mut dyn BufRead) -> bool {
+    read::begins(bytes) || npy::begins(bytes)
+}
+
+/// What was cut so far, as the strokes tell it.
+struct Done<'a> {
+    coverage: Coverage<'a>,
+    order: Order,
+    naming: Naming,
+}
+
 /// Judges timed setpoints, as the targets `csv` and `npy` write them, against what the marker says must be cut.
 pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdict {
     let reference = Reference::new(marker, &job.profile);
     let mut judge = Judge::new(&reference, &job.profile);
-    let mut coverage = Coverage::new(&reference);
+    let mut done =
+        Done { coverage: Coverage::new(&reference), order: Order::default(), naming: Naming::new(reference.tolerance) };
     let mut limits = Limits::new(&job.profile);
-    let mut rest = Rest::new(marker, &job.profile);
+    let mut events = Events::new(&reference);
+    let mut rest = Rest::new(&reference, &job.profile);
     let mut table = Table::new(&job.profile);
     let mut rows = Rows::new(program);
     let mut stroke = Stroke::default();
@@ -108,25 +145,30 @@ pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdi
         limits.see(&row);
         rest.see(&row);
         table.see(&row);
+        done.naming.see(&row);
+        events.see(&row, &mut done.order);
         if row.knife {
             stroke.push(&row);
         } else if !stroke.is_empty() {
             // The row of the lift command still holds the pose at the end of the cut.
             stroke.push(&row);
-            judge.judge(&stroke, &mut coverage);
+            judge.judge(&stroke, &mut done);
             stroke.clear();
         }
         last = Some(row);
     }
     if !stroke.is_empty() {
-        judge.judge(&stroke, &mut coverage);
+        judge.judge(&stroke, &mut done);
     }
     let mut findings = vec![rows.finding()];
     findings.extend(limits.findings(last.as_ref()));
-    findings.extend(rest.findings(last.as_ref()));
+    findings.extend(rest.findings(last.as_ref(), &mut done.order));
     findings.push(table.finding());
     findings.extend(judge.findings());
-    findings.extend(coverage.findings(&job.profile));
+    findings.extend(done.coverage.findings(&job.profile));
+    findings.push(done.naming.finding());
+    findings.push(events.finding());
+    findings.push(done.order.finding());
     sort(&mut findings);
     Verdict { findings }
 }

@@ -1,6 +1,6 @@
 //! Reads the rows of timed setpoints: `t_s,x_mm,y_mm,c_deg,knife,drill,event,block`, as text or as records.
 
-use std::io::BufRead;
+use std::io::{BufRead, Read as _};
 
 use super::npy;
 use super::worst::Worst;
@@ -28,6 +28,8 @@ pub(super) struct Row {
     pub(super) knife: bool,
     /// The drill that is commanded, 0 = none.
     pub(super) drill: u8,
+    /// The event that is told, 0 = none.
+    pub(super) event: u8,
     /// The source block, 0 = none.
     pub(super) block: u32,
 }
@@ -58,7 +60,17 @@ pub(super) struct Rows<'a> {
     ended: bool,
 }
 
+/// The longest line that is read, bytes: what is longer is no row, and must not fill the memory.
+const LINE_MAX: u64 = 1024;
+
 const HEADER: &[u8] = b"t_s,x_mm,y_mm,c_deg,knife,drill,event,block";
+/// How its first field ends.
+const FIRST_FIELD: &[u8] = b"t_s,";
+
+/// Whether a text is meant as rows, by its first field.
+pub(super) fn begins(input: &mut dyn BufRead) -> bool {
+    input.fill_buf().is_ok_and(|bytes| bytes.starts_with(FIRST_FIELD))
+}
 
 impl<'a> Rows<'a> {
     pub(super) fn new(input: &'a mut dyn BufRead) -> Self {
@@ -117,7 +129,7 @@ impl<'a> Rows<'a> {
         if let Some(left) = &mut self.records {
             return npy::record(self.input, left, &mut self.line);
         }
-        let read = self.input.read_until(b'\n', &mut self.line).ok()?;
+        let read = self.input.take(LINE_MAX).read_until(b'\n', &mut self.line).ok()?;
         if read == 0 {
             return Some(false);
         }
@@ -144,7 +156,16 @@ fn parse(line: &[u8], tick: u64) -> Option<Row> {
     let (t, x, y, c_deg) = (decimal(field()?)?, decimal(field()?)?, decimal(field()?)?, decimal(field()?)?);
     let (knife, drill, event, block) = (whole(field()?)?, whole(field()?)?, whole(field()?)?, whole(field()?)?);
     let legal = knife <= 1 && drill <= 4 && event <= 2 && field().is_none();
-    legal.then(|| Row { tick, t, centre: Point::new(x, y), c_deg, knife: knife == 1, drill: drill as u8, block })
+    legal.then(|| Row {
+        tick,
+        t,
+        centre: Point::new(x, y),
+        c_deg,
+        knife: knife == 1,
+        drill: drill as u8,
+        event: event as u8,
+        block,
+    })
 }
 
 /// A whole number below 2^32.

@@ -2,14 +2,18 @@
 //!
 //! Corners and the tube are found anew from the marker and the profile; see the module doc of the stage.
 
+use super::caps::{Caps, Source};
 use crate::geom::{Point, Vector, angle, left, polyline};
 use crate::ir::Marker;
 use crate::ir::list::Segment;
-use crate::ir::marker::{Contour, Piece};
+use crate::ir::marker::{Contour, Stroke};
 use crate::machine::{Fit, MachineProfile};
 
 /// Longest chord that counts as a chord of a curve, mm.
 const CURVE_CHORD: f64 = 25.0;
+
+/// Ways along a contour that differ by less are the same, mm: rounding of their sums.
+const SAME_WAY: f64 = 1e-6;
 
 /// Smaller turns are none, rad.
 const TURN_EPSILON: f64 = 1e-6;
@@ -19,14 +23,16 @@ const TURN_EPSILON: f64 = 1e-6;
 pub(super) struct Line {
     /// Index of its piece.
     pub(super) piece: usize,
-    /// Number of its contour or slit, in cut order.
-    pub(super) group: usize,
+    /// Rank of its contour or slit among events, holes, slits and contours, in cut order.
+    pub(super) rank: usize,
     /// Its points; a ring ends with its first one.
     pub(super) points: Vec<Point>,
     /// Length from the first point to each point.
     pub(super) stations: Vec<f64>,
     /// Source block of each chord.
     pub(super) blocks: Vec<u32>,
+    /// How fast the tip may be.
+    pub(super) caps: Caps,
     /// Outward bulge of each chord in its middle.
     bulges: Vec<Vector>,
     /// Whether it is a closed contour without a corner.
@@ -40,6 +46,10 @@ pub(super) struct Reference<'a> {
     pub(super) marker: &'a Marker,
     /// The lines, in cut order.
     pub(super) lines: Vec<Line>,
+    /// Ranks of the holes, in the order of the marker.
+    pub(super) holes: Vec<usize>,
+    /// Ranks of the events, in the order of the marker.
+    pub(super) events: Vec<usize>,
     /// Permitted deviation of the tip, mm.
     pub(super) tolerance: f64,
 }
@@ -47,43 +57,55 @@ pub(super) struct Reference<'a> {
 impl<'a> Reference<'a> {
     /// The lines of `marker`.
     pub(super) fn new(marker: &'a Marker, profile: &MachineProfile) -> Self {
-        let mut lines = Vec::new();
+        let (mut lines, mut holes, mut events) = (Vec::new(), Vec::new(), Vec::new());
+        // In each piece events come first, then holes, then slits, then contours.
+        let mut ranks = 0..;
+        let mut rank = || ranks.next().expect("a marker has fewer lines than numbers");
         for (index, piece) in marker.pieces.iter().enumerate() {
-            slits(piece, index, &mut lines);
+            events.extend(piece.events.iter().map(|_| rank()));
+            holes.extend(piece.drills.iter().map(|_| rank()));
+            let source = Source::new(profile, piece);
+            for notch in &piece.notches {
+                let cap = source.at(notch.percent);
+                lines.extend(notch.strokes().map(|stroke| slit(&stroke, [index, rank()], Caps::all(cap))));
+            }
             for contour in &piece.contours {
-                let group = lines.last().map_or(0, |line: &Line| line.group + 1);
-                contour_lines(marker, contour, [index, group], profile, &mut lines);
+                let place = Place { owner: [index, rank()], source, profile };
+                lines.extend(contour_lines(marker, contour, place));
             }
         }
-        Self { marker, lines, tolerance: profile.tolerance(marker.unit) }
+        events.extend(marker.closing.iter().map(|_| rank()));
+        Self { marker, lines, holes, events, tolerance: profile.tolerance(marker.unit) }
     }
 }
 
-fn slits(piece: &Piece, index: usize, lines: &mut Vec<Line>) {
-    for notch in &piece.notches {
-        let points = vec![notch.root, notch.tip];
-        let stations = polyline::stations(&points);
-        let group = lines.last().map_or(0, |line| line.group + 1);
-        lines.push(Line {
-            piece: index,
-            group,
-            points,
-            stations,
-            blocks: vec![notch.span.block],
-            bulges: vec![Vector::zeros()],
-            ring: false,
-        });
-    }
-}
-
-/// Cuts a contour at its corners; `owner` is the index of its piece and its group.
-fn contour_lines(
-    marker: &Marker,
-    contour: &Contour,
+/// What the lines of a contour have in common.
+#[derive(Clone, Copy)]
+struct Place<'a> {
+    /// Index of its piece, and its rank.
     owner: [usize; 2],
-    profile: &MachineProfile,
-    lines: &mut Vec<Line>,
-) {
+    source: Source<'a>,
+    profile: &'a MachineProfile,
+}
+
+fn slit(stroke: &Stroke, [piece, rank]: [usize; 2], caps: Caps) -> Line {
+    let points = vec![stroke.from, stroke.to];
+    Line {
+        caps,
+        piece,
+        rank,
+        stations: polyline::stations(&points),
+        points,
+        blocks: vec![stroke.span.block],
+        bulges: vec![Vector::zeros()],
+        ring: false,
+    }
+}
+
+/// Cuts a contour at its corners.
+fn contour_lines(marker: &Marker, contour: &Contour, place: Place) -> Vec<Line> {
+    let Place { owner, source, profile } = place;
+    let mut lines = Vec::new();
     let mut segments: Vec<Segment> = marker.list.walk(contour.range).map(|(_, segment)| segment).collect();
     let count = segments.len();
     let turn = |segments: &[Segment], i: usize| {
@@ -93,9 +115,15 @@ fn contour_lines(
     let is_corner =
         |segments: &[Segment], i: usize| segments[i].joint.lift || turn(segments, i).abs() > profile.corner.angle();
     let mut ring = false;
+    // Where a contour ends no corner lies before the tip.
+    let mut ends = vec![0];
     if contour.closed {
-        match (0..count).find(|&i| is_corner(&segments, i)) {
-            Some(first) => segments.rotate_left(first),
+        let corners: Vec<usize> = (0..count).filter(|&i| is_corner(&segments, i)).collect();
+        match corners.first() {
+            Some(&first) => {
+                ends = nearest_to_start(&segments, &corners).map(|i| i - first).collect();
+                segments.rotate_left(first);
+            }
             None => ring = true,
         }
     }
@@ -109,18 +137,40 @@ fn contour_lines(
                 (false, _) => turn(&segments, from + k),
             };
             let turns: Vec<f64> = (0..=inner).map(turn_at).collect();
-            lines.push(line(&segments[from..i], &turns, owner, ring, profile));
+            let points: Vec<Point> =
+                std::iter::once(segments[from].from).chain(segments[from..i].iter().map(|s| s.to)).collect();
+            let chords = segments[from..i].iter();
+            let [piece, rank] = owner;
+            let stations = polyline::stations(&points);
+            let feeds = chords.clone().map(|s| source.at(s.percent)).collect();
+            let to_corner = !ring && !ends.contains(&(i % count));
+            let caps = source.caps(&stations, feeds, to_corner);
+            lines.push(Line {
+                piece,
+                rank,
+                caps: if ring { caps.round(stations[stations.len() - 1]) } else { caps },
+                stations,
+                points,
+                blocks: chords.clone().map(|s| s.span.block).collect(),
+                bulges: chords.zip(turns.windows(2)).map(|(s, t)| bulge(s, t, profile)).collect(),
+                ring,
+            });
             from = i;
         }
     }
+    lines
 }
 
-fn line(segments: &[Segment], turns: &[f64], [piece, group]: [usize; 2], ring: bool, profile: &MachineProfile) -> Line {
-    let mut points = vec![segments[0].from];
-    points.extend(segments.iter().map(|s| s.to));
-    let bulges = segments.iter().zip(turns.windows(2)).map(|(s, t)| bulge(s, t, profile)).collect();
-    let blocks = segments.iter().map(|s| s.span.block).collect();
-    Line { piece, group, stations: polyline::stations(&points), points, blocks, bulges, ring }
+/// The corners of a closed contour at which it may begin, and end: those least far along it from its start in the file.
+fn nearest_to_start<'a>(segments: &[Segment], corners: &'a [usize]) -> impl Iterator<Item = usize> + 'a {
+    let mut stations = vec![0.0];
+    for segment in segments {
+        stations.push(stations[stations.len() - 1] + segment.length());
+    }
+    let length = stations[segments.len()];
+    let away = move |i: &usize| stations[*i].min(length - stations[*i]);
+    let least = corners.iter().map(&away).fold(f64::INFINITY, f64::min);
+    corners.iter().copied().filter(move |i| away(i) <= least + SAME_WAY)
 }
 
 /// On a chord between two turns to the same side the curve that was flattened lies outside, by about length * turn / 8.

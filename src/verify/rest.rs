@@ -1,10 +1,12 @@
-//! What happens at rest: start and end of the program, plunges, lifts, and the holes that are drilled.
+//! What happens at rest: start and end of the program, plunges, lifts, events, and the holes that are drilled.
 
+use super::order::Order;
 use super::read::{ROUNDING, Row};
+use super::reference::Reference;
 use super::worst::Worst;
 use crate::geom::{Point, Vector};
+use crate::ir::Finding;
 use crate::ir::finding::Sighting;
-use crate::ir::{Finding, Marker};
 use crate::machine::MachineProfile;
 
 /// Two printed numbers of the same value may differ by this, mm and degrees.
@@ -14,9 +16,12 @@ const PERIOD_EPSILON: f64 = 1e-6;
 
 /// Watches the rows.
 pub(super) struct Rest<'a> {
-    marker: &'a Marker,
+    reference: &'a Reference<'a>,
     period: f64,
     plunge: u64,
+    /// From the lift command until the blade is clear of the cloth: so long the axes rest.
+    clear: u64,
+    /// From the lift command until it is all the way up.
     lift: u64,
     drill: u64,
     offset: Vector,
@@ -25,6 +30,8 @@ pub(super) struct Rest<'a> {
     before: Option<Row>,
     /// The row at which the axes came to rest, and the tick until which they must.
     hold: Option<(Row, u64)>,
+    /// The tick from which the blade is all the way up.
+    up: u64,
     drilled: Vec<(Point, u8, Row)>,
     start: Worst,
     end: Worst,
@@ -33,14 +40,15 @@ pub(super) struct Rest<'a> {
 }
 
 impl<'a> Rest<'a> {
-    pub(super) fn new(marker: &'a Marker, profile: &MachineProfile) -> Self {
+    pub(super) fn new(reference: &'a Reference, profile: &MachineProfile) -> Self {
         let period = profile.time.period();
         let ticks = |time: f64| (time / period - PERIOD_EPSILON).ceil().max(0.0) as u64;
         let [x, y] = profile.drill.offset_mm;
         Self {
-            marker,
+            reference,
             period,
             plunge: ticks(profile.knife.plunge()),
+            clear: ticks(profile.knife.clear()),
             lift: ticks(profile.knife.lift()),
             drill: ticks(profile.drill.dwell()),
             offset: Vector::new(x, y),
@@ -48,6 +56,7 @@ impl<'a> Rest<'a> {
             home: profile.home,
             before: None,
             hold: None,
+            up: 0,
             drilled: Vec::new(),
             start: Worst::new("verify/start", "mm, deg", Some(SAME)),
             end: Worst::new("verify/end", "mm, deg", Some(SAME)),
@@ -62,6 +71,13 @@ impl<'a> Rest<'a> {
             if row.knife {
                 self.begin(row, self.plunge);
             }
+            if row.drill != 0 {
+                self.begin(row, self.drill);
+                self.drilled.push((row.centre + self.offset, row.drill, *row));
+            }
+            if row.event != 0 {
+                self.begin(row, 1);
+            }
             return;
         };
         // The pose at the tick of a command belongs to the rest that it begins.
@@ -69,7 +85,10 @@ impl<'a> Rest<'a> {
             self.still.see(distance(row, [at.centre.x, at.centre.y, at.c_deg]), || row.sighting());
         }
         if row.knife != before.knife {
-            self.begin(row, if row.knife { self.plunge } else { self.lift });
+            self.begin(row, if row.knife { self.plunge } else { self.clear });
+            if !row.knife {
+                self.up = row.tick + self.lift;
+            }
         }
         if row.drill != before.drill {
             let ticks = if row.drill == 0 { 0 } else { self.drill };
@@ -77,6 +96,9 @@ impl<'a> Rest<'a> {
             if row.drill != 0 {
                 self.drilled.push((row.centre + self.offset, row.drill, *row));
             }
+        }
+        if row.event != 0 {
+            self.begin(row, 1);
         }
         if row.drill != 0 {
             let last = distance(row, [before.centre.x, before.centre.y, before.c_deg]);
@@ -89,9 +111,10 @@ impl<'a> Rest<'a> {
         }
     }
 
-    /// Begins a rest of `ticks`; the one before it must be over.
+    /// Begins a rest of `ticks`; the one before it must be over, and the blade up.
     fn begin(&mut self, row: &Row, ticks: u64) {
         self.finish(row);
+        self.rise(row);
         self.hold = (ticks > 0).then_some((*row, row.tick + ticks));
     }
 
@@ -103,9 +126,17 @@ impl<'a> Rest<'a> {
         }
     }
 
-    pub(super) fn findings(mut self, last: Option<&Row>) -> Vec<Finding> {
+    /// Sees whether the blade is all the way up at a row.
+    fn rise(&mut self, row: &Row) {
+        let missing = self.up.saturating_sub(row.tick) as f64 * self.period;
+        self.dwell.see(missing, || row.sighting());
+    }
+
+    /// What was found; the holes of the marker that were drilled join the `order`.
+    pub(super) fn findings(mut self, last: Option<&Row>, order: &mut Order) -> Vec<Finding> {
         if let Some(last) = last {
             self.finish(last);
+            self.rise(last);
             if last.knife || last.drill != 0 {
                 self.end.see(f64::INFINITY, || last.sighting());
             }
@@ -113,12 +144,12 @@ impl<'a> Rest<'a> {
                 self.end.see(distance(last, park), || last.sighting());
             }
         }
-        let (drills, place) = self.holes();
+        let (drills, place) = self.holes(order);
         vec![self.start.finding(), self.end.finding(), self.still.finding(), self.dwell.finding(), drills, place]
     }
 
     /// Compares the holes of the program with those of the marker: each takes the nearest one that is left.
-    fn holes(&mut self) -> (Finding, Finding) {
+    fn holes(&mut self, order: &mut Order) -> (Finding, Finding) {
         let mut wrong = Worst::new("verify/drills", "holes", Some(0.0));
         let mut place = Worst::new("verify/drill-place", "mm", Some(HOLE));
         let mut left = std::mem::take(&mut self.drilled);
@@ -126,7 +157,8 @@ impl<'a> Rest<'a> {
         left.sort_by(|a, b| a.1.cmp(&b.1).then(a.0.x.total_cmp(&b.0.x)));
         let mut taken = vec![false; left.len()];
         let mut count = 0.0;
-        for drill in self.marker.pieces.iter().flat_map(|p| &p.drills) {
+        let drills = self.reference.marker.pieces.iter().flat_map(|p| &p.drills);
+        for (drill, &rank) in drills.zip(&self.reference.holes) {
             let first = left.partition_point(|(at, tool, _)| (*tool, at.x) < (drill.tool, drill.at.x - HOLE_REACH));
             let near =
                 left[first..].partition_point(|(at, tool, _)| (*tool, at.x) <= (drill.tool, drill.at.x + HOLE_REACH));
@@ -134,7 +166,9 @@ impl<'a> Rest<'a> {
             let nearest = (first..first + near).filter(|&i| !taken[i]).min_by(|a, b| away(a).total_cmp(&away(b)));
             if let Some(i) = nearest.filter(|i| away(i) < HOLE_REACH) {
                 taken[i] = true;
-                place.see(away(&i), || left[i].2.sighting());
+                let row = &left[i].2;
+                place.see(away(&i), || row.sighting());
+                order.see(row.tick, rank, row.sighting());
             } else {
                 count += 1.0;
                 wrong.see(count, || Sighting { time: None, point: drill.at, block: drill.span.block });

@@ -3,6 +3,7 @@
 
 use std::f64::consts::TAU;
 
+use super::kept::{self, Work};
 use super::source_hpgl;
 use super::worst::Worst;
 use crate::geom::{Extent, Point, Vector};
@@ -29,13 +30,21 @@ pub struct Census {
     pub bounds: Extent,
     /// What the numbers of the file are multiples of, mm.
     pub unit: f64,
+    /// What cuts or drills, block by block; a scan of the bytes does not tell.
+    pub(super) works: Vec<Work>,
 }
 
 impl Census {
     /// The census of a marker as it was read, before any pass.
     pub fn of(marker: &Marker) -> Self {
-        let mut census =
-            Self { points: 0, drills: 0, length: marker.cut_length(), bounds: marker.extent(), unit: marker.unit };
+        let mut census = Self {
+            works: kept::works(marker),
+            points: 0,
+            drills: 0,
+            length: marker.cut_length(),
+            bounds: marker.extent(),
+            unit: marker.unit,
+        };
         for piece in &marker.pieces {
             census.points += piece.notches.iter().filter(|notch| notch.root != notch.tip).count();
             census.drills += piece.drills.len();
@@ -59,6 +68,11 @@ impl Census {
         }
         census
     }
+}
+
+/// Whether all that was read is still cut behind the passes, of the pieces that are there.
+pub fn source_kept(read: &Census, marker: &Marker) -> Finding {
+    kept::kept(&read.works, marker)
 }
 
 /// Compares a marker as it was read with a scan of the bytes; `None` when there is no scan for the dialect.
@@ -91,7 +105,7 @@ pub fn source_audit(dialect: &str, bytes: &[u8], read: &Census, profile: &Machin
 
 /// Scans a cut file. Only what moves the knife matters here; everything else is passed over.
 fn scan_iso(bytes: &[u8], unit: f64, profile: &MachineProfile) -> (Census, Slack) {
-    let mut census = Census { points: 0, drills: 0, length: 0.0, bounds: Extent::EMPTY, unit };
+    let mut census = Census { points: 0, drills: 0, length: 0.0, bounds: Extent::EMPTY, unit, works: Vec::new() };
     let mut slack = Slack { sagitta: profile.tolerance(unit) * ARC_SAGITTA, length: 0.0, bounds: 0.0 };
     let mut blocks = Blocks { bytes, at: 0 };
     let (mut at, mut down) = (Point::origin(), false);

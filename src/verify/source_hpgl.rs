@@ -40,7 +40,7 @@ pub(super) fn scan(bytes: &[u8], read: &Census, profile: &MachineProfile) -> (Ce
         quarters: 0,
         polygon: Vec::new(),
         part: None,
-        census: Census { points: 0, drills: read.drills, length: 0.0, bounds: Extent::EMPTY, unit },
+        census: Census { points: 0, drills: read.drills, length: 0.0, bounds: Extent::EMPTY, unit, works: Vec::new() },
         slack: Slack { sagitta, length: 0.0, bounds: 0.0 },
     };
     scan.run();

@@ -1,31 +1,33 @@
 //! One stroke of the knife, from its plunge to its lift: what it cut, and how the blade lay.
 //!
 //! What a stroke cuts is the blade's body where it plunges, then the track of the tip. Both are followed along the line
-//! of the reference that they belong to. Under the tangent law the blade lies along the tip's way; after a plunge as a
-//! chord it fades from the chord to the tangent over the next blade width, by the step of degree 7.
+//! of the reference that they belong to.
 
 use std::ops::RangeInclusive;
 
+use super::Done;
+use super::body::{BODY_STEP, Body, Cut};
 use super::coverage::Coverage;
 use super::follow::{Follower, Foot, on_chord};
 use super::grid::Grid;
+use super::heading::{self, Moving, Plunge};
 use super::inside::Inside;
+use super::joints::{Around, Joints};
 use super::read::{ROUNDING, Row};
 use super::reference::{Line, Reference};
 use super::worst::{Worst, at};
-use crate::geom::{Point, Vector, angle, polyline};
+use crate::geom::{Point, angle, polyline};
 use crate::ir::Finding;
 use crate::ir::finding::Sighting;
-use crate::machine::{Knife, MachineProfile};
+use crate::machine::{Fit, Knife, MachineProfile};
 
-/// Distance of two places at which the body of a plunged blade is looked at, mm.
-const BODY_STEP: f64 = 0.25;
 /// How far from a line a stroke may lie and still be taken for a bad cut of it, mm.
 const REACH: f64 = 2.0;
 /// Lines that a stroke is tried on, at the most.
 const TRIALS: usize = 8;
-/// Least way of the tip that shows a direction, mm: its rounding is then below 0.02 degrees.
-const WAY_MIN: f64 = 0.005;
+/// How far from its chord, along the line, a cap may be obeyed, mm, beside the tolerance: a tip that takes a bend inside
+/// its tube passes the vertex early or late by less.
+const CAP_ASIDE: f64 = 0.5;
 /// Rounding of a tip's place, mm.
 const PLACE_ROUNDING: f64 = 4.0 * ROUNDING;
 
@@ -56,16 +58,15 @@ pub(super) struct Judge<'a> {
     period: f64,
     grid: Grid,
     inside: Inside,
+    joints: Joints,
     /// Greatest overlap at one end, and of both ends together.
     overlap: f64,
     overlaps: f64,
     max_uncut: f64,
-    /// Greatest group of a line that was cut, and strokes that came behind a later one.
-    group: usize,
-    late: f64,
+    /// Greatest bulge of a tube beside its tolerance, mm.
+    bulge: f64,
     on_path: Worst,
     stray: Worst,
-    order: Worst,
     once: Worst,
     heading: Worst,
     body: Worst,
@@ -89,15 +90,8 @@ struct Trial {
     laps: bool,
     /// The places that are held to the line: of a stab its longest stretch on it; its surplus lies before and behind.
     held: RangeInclusive<usize>,
-}
-
-/// What a stroke cuts: the body's places, then the tip's.
-struct Cut {
-    points: Vec<Point>,
-    /// Number of places of the body.
-    body: usize,
-    /// The row of each place of the tip.
-    rows: Vec<usize>,
+    /// The joints between which it is a stab that fits what was left of its line: its blade may then be longer.
+    fits: Option<[[f64; 2]; 2]>,
 }
 
 impl<'a> Judge<'a> {
@@ -118,14 +112,13 @@ impl<'a> Judge<'a> {
             period,
             grid: Grid::new(reference),
             inside: Inside::new(reference.marker),
+            joints: Joints::new(knife),
             overlap: front.max(heel),
             overlaps,
             max_uncut: verify.max_uncut_mm,
-            group: 0,
-            late: 0.0,
+            bulge: if profile.path.fit == Fit::Curve { profile.path.chord_sag_max_mm } else { 0.0 },
             on_path: Worst::new("verify/on-path", "mm", Some(tolerance + PLACE_ROUNDING)),
             stray: Worst::new("verify/stray", "mm", Some(0.0)),
-            order: Worst::new("verify/order", "strokes", Some(0.0)),
             once: Worst::new("verify/once", "mm", Some(joints * overlaps + 2.0 * tolerance)),
             heading: Worst::new("verify/heading", "deg", Some(verify.max_heading_deg)),
             body: Worst::new("verify/body", "mm", verify.max_body_mm),
@@ -139,44 +132,112 @@ impl<'a> Judge<'a> {
     }
 
     pub(super) fn findings(self) -> Vec<Finding> {
-        let one = [self.on_path, self.stray, self.order, self.once, self.heading, self.body, self.feed];
+        let one = [self.on_path, self.stray, self.once, self.heading, self.body, self.feed];
         one.into_iter().chain(self.overcut).map(Worst::finding).collect()
     }
 
     /// Judges one stroke and marks what it cut.
-    pub(super) fn judge(&mut self, stroke: &Stroke, coverage: &mut Coverage) {
+    pub(super) fn judge(&mut self, stroke: &Stroke, done: &mut Done) {
         let rows = &stroke.rows;
         let tips: Vec<Point> = rows.iter().map(|row| row.centre + row.along() * self.knife.radius()).collect();
-        self.check_feed(rows, &tips);
-        let cut = self.cut(rows, &tips);
+        let cut = Cut::new(rows, &tips, self.knife);
         let trials: Vec<Trial> =
             self.candidates(&cut).into_iter().map(|(line, chord, at)| self.follow(&cut, line, chord, at)).collect();
         let seen = |i: usize| {
             let row = &rows[cut.rows[i.saturating_sub(cut.body)]];
             at(row.t, cut.points[i], row.block)
         };
-        let Some(best) = self.choose(trials, rows[0].block, coverage) else {
-            self.check_heading(rows, &tips, false);
+        let Some(mut best) = self.choose(trials, rows[0].block, &done.coverage) else {
+            self.check_feed(rows, &cut, None);
+            self.check_heading(rows, &tips, (&cut, None));
             self.stray.see(polyline::length(&cut.points).max(self.knife.width_mm).max(REACH), || seen(cut.body));
             return;
         };
+        self.check_feed(rows, &cut, Some(&best));
         let line = &self.reference.lines[best.line];
-        self.check_heading(rows, &tips, line.ring && best.laps);
-        self.on_path.see(best.worst.0, || seen(best.worst.1));
-        self.check_ends(&cut, &best, &seen);
-        self.check_order(line.group, seen(cut.body));
-        let mut twice = best.stretches.iter().map(|[a, b]| b - a).sum::<f64>() - best.fresh;
-        if best.fresh < self.reference.tolerance {
-            // A stroke that cuts nothing new counts with its overlaps.
-            twice += self.overlaps + self.knife.width_mm.max(REACH);
-        } else if cut.points.len() == cut.body + 1 {
-            // The blade of a stab is longer than what was left: its surplus lies over what was cut before.
-            twice -= self.knife.width_mm - best.fresh;
+        best.fits = if cut.is_stab() { self.fits(&best, &done.coverage) } else { None };
+        self.check_heading(rows, &tips, (&cut, Some(&best)));
+        if cut.is_stab() {
+            self.check_stab(&cut, &best, &seen);
         }
-        self.once.see(twice, || seen(cut.body));
-        coverage.add(best.line, &best.stretches);
+        self.on_path.see(best.worst.0, || seen(best.worst.1));
+        self.check_ends(&best, &seen);
+        done.order.see(rows[0].tick, line.rank, seen(cut.body));
+        self.check_once(&cut, &best, &seen);
+        done.coverage.add(best.line, &best.stretches);
         self.check_overcut(&cut, &best, &seen);
         self.check_body(rows, &cut, &best);
+        for (i, ends) in (cut.body..).zip(cut.rows.iter().zip(cut.rows[1..].iter().chain([&rows.len()]))) {
+            let here = rows[*ends.0..*ends.1].iter().filter(|row| row.knife);
+            here.for_each(|row| done.naming.see_cut(row, line, best.feet[i].station));
+        }
+    }
+
+    /// The joints of its line from one of which to another that reaches which a stab cuts anew, the first and the last at
+    /// either end; `None` when there are none: only between joints its blade may be longer than what it cuts.
+    fn fits(&self, trial: &Trial, coverage: &Coverage) -> Option<[[f64; 2]; 2]> {
+        let line = &self.reference.lines[trial.line];
+        let joints = |station: f64| {
+            let tube = 2.0 * (self.reference.tolerance + PLACE_ROUNDING);
+            self.joints.near(line, Around { station, slack: BODY_STEP + tube, tube })
+        };
+        let [from, to] = coverage.uncut(trial.line, &trial.stretches)?;
+        let ends = [joints(from)?, joints(to)?];
+        (ends[0][0] < ends[1][1]).then_some(ends)
+    }
+
+    /// A stab that is longer than what it cuts leaves the line straight on; any other must lie on it with all of its blade.
+    fn check_stab(&mut self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting) {
+        let line = &self.reference.lines[trial.line];
+        let width = self.knife.width_mm;
+        let Some([from, to]) = trial.fits else {
+            for (i, foot) in trial.feet.iter().enumerate().filter(|(i, _)| !trial.held.contains(i)) {
+                self.on_path.see(foot.deviation, || seen(i));
+            }
+            let askew = angle::turn(self.plunge(cut, trial).chord(), cut.points[cut.body] - cut.points[0]);
+            if width > 0.0 {
+                self.heading.see(askew.abs().to_degrees(), || seen(cut.body));
+            }
+            return;
+        };
+        if width == 0.0 {
+            return;
+        }
+        if from.into_iter().chain(to).all(f64::is_finite) {
+            let blade = cut.points[cut.body] - cut.points[0];
+            let with = trial.feet[cut.body].station >= trial.feet[0].station;
+            let blade = if with { blade } else { -blade };
+            let ends = from.into_iter().flat_map(|from| to.map(|to| [from, to])).filter(|[from, to]| from < to);
+            let directions = ends.flat_map(|ends| heading::of_stab(line, ends, &self.joints));
+            let askew = directions.map(|direction| angle::turn(direction, blade).abs()).fold(f64::INFINITY, f64::min);
+            self.heading.see(askew.to_degrees(), || seen(cut.body));
+            return;
+        }
+        // Where the knife may have been lifted anywhere the blade lies between the directions of the chords that it cuts; the tube turns a blade by a little.
+        let (first, last) = (trial.feet[*trial.held.start()].station, trial.feet[*trial.held.end()].station);
+        let blade = (cut.points[cut.body] - cut.points[0]) * if last < first { -1.0 } else { 1.0 };
+        let chords = line.chord_at(first.min(last))..=line.chord_at(first.max(last));
+        let (mut turned, mut cone) = (0.0, [0.0_f64; 2]);
+        for chord in chords.clone().skip(1) {
+            turned += line.turn(chord);
+            cone = [cone[0].min(turned), cone[1].max(turned)];
+        }
+        let askew = angle::turn(line.direction(*chords.start()), blade);
+        let slack = (2.0 * (self.reference.tolerance + PLACE_ROUNDING) / width).atan();
+        let beyond = (cone[0] - askew).max(askew - cone[1]) - slack;
+        self.heading.see(beyond.to_degrees(), || seen(cut.body));
+    }
+
+    /// Nothing is cut twice but the overlaps, and what the blade of a stab is longer by than what was left.
+    fn check_once(&mut self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting) {
+        let mut twice = trial.stretches.iter().map(|[a, b]| b - a).sum::<f64>() - trial.fresh;
+        if trial.fresh < self.reference.tolerance {
+            // A stroke that cuts nothing new counts with its overlaps.
+            twice += self.overlaps + self.knife.width_mm.max(REACH);
+        } else if trial.fits.is_some() {
+            twice -= self.knife.width_mm - trial.fresh;
+        }
+        self.once.see(twice, || seen(cut.body));
     }
 
     /// The line that a stroke was meant for: of those on which it cuts the most, but for overlaps and the surplus of the
@@ -201,17 +262,6 @@ impl<'a> Judge<'a> {
                 .then(a.worst.0.total_cmp(&b.worst.0))
                 .then(a.line.cmp(&b.line))
         })
-    }
-
-    fn cut(&self, rows: &[Row], tips: &[Point]) -> Cut {
-        let steps = (self.knife.width_mm / BODY_STEP).ceil() as usize;
-        let tail = rows[0].centre - rows[0].along() * self.knife.back();
-        let body = (0..steps).map(|i| tail + (tips[0] - tail) * (i as f64 / steps as f64));
-        let mut points: Vec<Point> = body.collect();
-        // Rest rows repeat their place; a track of places that differ is enough.
-        let moves: Vec<usize> = (0..tips.len()).filter(|&i| i == 0 || tips[i] != tips[i - 1]).collect();
-        points.extend(moves.iter().map(|&i| tips[i]));
-        Cut { points, body: steps, rows: moves }
     }
 
     /// Lines that pass near the stroke: line, chord, and the place of the cut that is near it.
@@ -275,10 +325,14 @@ impl<'a> Judge<'a> {
             worst: (0.0, cut.body),
             laps,
             held: first..=points.len() - 1,
+            fits: None,
         };
-        let body = if laps { Body::default() } else { Body::new(line, cut, &trial.feet, allowed) };
+        let mut body = if laps { Body::default() } else { Body::new(line, cut, &trial.feet, allowed) };
+        if body.sag > allowed && !self.may_bow(cut, line, &trial.feet) {
+            body.sag = 0.0;
+        }
         let off = |i: usize, foot: &Foot| if i < cut.body { body.off(i, foot) } else { foot.deviation };
-        if points.len() == cut.body + 1 {
+        if cut.is_stab() {
             // A blade that never moves is often longer than what it cuts: what it is longer by leaves the line straight on,
             // at corners as at bends. That is overcut, not a bad way.
             let on: Vec<bool> = (0..points.len()).map(|i| i >= first && off(i, &trial.feet[i]) <= allowed).collect();
@@ -319,44 +373,36 @@ impl<'a> Judge<'a> {
         trial
     }
 
-    /// The blade against its law: along the way of the tip; before the tip has moved, along the way to come.
-    fn check_heading(&mut self, rows: &[Row], tips: &[Point], steady: bool) {
-        let total = polyline::length(tips);
-        let fade = self.knife.width_mm.min(total);
-        let mut lead = steady.then_some(0.0);
-        let mut way = 0.0;
-        let last = rows.len() - 1;
-        let ends = |i: usize, reach: usize| [tips[i.saturating_sub(reach)], tips[(i + reach).min(last)]];
-        let mut reach = 1;
-        for i in 0..rows.len() {
-            if i > 0 {
-                way += (tips[i] - tips[i - 1]).norm();
-            }
-            reach = (reach - 1).max(1);
-            let shows = |[before, behind]: [Point; 2]| {
-                let clear = |at: Point, end: usize| (at - tips[i]).norm() >= WAY_MIN || at == tips[end];
-                clear(before, 0) && clear(behind, last)
-            };
-            while !shows(ends(i, reach)) && reach < last {
-                reach += 1;
-            }
-            let [before, behind] = ends(i, reach);
-            let along = direction(before, tips[i], behind);
-            if along.norm() < WAY_MIN {
-                // A blade that goes nowhere turns nowhere.
-                self.heading.see((rows[i].c_deg - rows[0].c_deg).abs(), || rows[i].sighting());
-                continue;
-            }
-            let ahead = angle::wrap(along.y.atan2(along.x) - rows[i].c_deg.to_radians());
-            let lead = *lead.get_or_insert(ahead);
-            let expected = if way < fade { lead * fading(way / fade) } else { 0.0 };
-            self.heading.see(angle::wrap(ahead - expected).abs().to_degrees(), || rows[i].sighting());
-        }
+    /// Whether the path may bow away from a plunged blade: where a stroke begins at a joint, or a stab ends at one.
+    fn may_bow(&self, cut: &Cut, line: &Line, feet: &[Foot]) -> bool {
+        let slack = 2.0 * (self.reference.tolerance + PLACE_ROUNDING);
+        let is_joint =
+            |foot: &Foot| self.joints.near(line, Around { station: foot.station, slack, tube: 0.0 }).is_some();
+        is_joint(&feet[0]) || cut.is_stab() && is_joint(&feet[cut.body])
+    }
+
+    /// The blade against its law, along the way of its tip; `trial` is the line that it cuts, if any.
+    fn check_heading(&mut self, rows: &[Row], tips: &[Point], cut: (&Cut, Option<&Trial>)) {
+        let lead = match cut {
+            (_, None) => heading::ANY,
+            (_, Some(trial)) if trial.laps => heading::NONE,
+            (cut, Some(trial)) => self.plunge(cut, trial).lead(),
+        };
+        let fade = self.knife.width_mm.min(polyline::length(tips));
+        Moving { rows, tips, lead, fade }.check(&mut self.heading);
+    }
+
+    fn plunge(&self, cut: &Cut, trial: &Trial) -> Plunge<'_> {
+        let (tail, tip) = (trial.feet[0], trial.feet[cut.body]);
+        let last = trial.feet[cut.points.len() - 1];
+        let line = &self.reference.lines[trial.line];
+        let sign = if last.station < tail.station { -1.0 } else { 1.0 };
+        Plunge { line, tail, tip, sign, tube: self.reference.tolerance + PLACE_ROUNDING + self.bulge }
     }
 
     /// Beyond the ends of its line a stroke cuts overlaps and what the blade is longer than a short line, or than what was
     /// left of it when it plunges only once, and no more.
-    fn check_ends(&mut self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting) {
+    fn check_ends(&mut self, trial: &Trial, seen: &impl Fn(usize) -> Sighting) {
         let line = &self.reference.lines[trial.line];
         if line.ring {
             return;
@@ -364,8 +410,7 @@ impl<'a> Judge<'a> {
         let (start, end) = (line.points[0], line.points[line.points.len() - 1]);
         let farthest = line.points.iter().map(|point| (point - start).norm()).fold(0.0, f64::max);
         let width = self.knife.width_mm;
-        let moves = cut.points.len() > cut.body + 1;
-        let surplus = if !moves && trial.fresh > self.reference.tolerance {
+        let surplus = if trial.fits.is_some() {
             width - trial.fresh
         } else if farthest < width {
             width - (end - start).norm()
@@ -378,25 +423,24 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Contours and slits are cut in the order of the marker.
-    fn check_order(&mut self, group: usize, seen: Sighting) {
-        if group < self.group {
-            self.late += 1.0;
-            self.order.see(self.late, || seen);
-        }
-        self.group = self.group.max(group);
-    }
-
-    fn check_feed(&mut self, rows: &[Row], tips: &[Point]) {
-        for (row, ends) in rows.iter().zip(tips.windows(2)) {
-            self.feed.see((ends[1] - ends[0]).norm() / self.period, || row.sighting());
+    /// The way of the tip from row to row against the greatest cap that holds anywhere on it.
+    fn check_feed(&mut self, rows: &[Row], cut: &Cut, trial: Option<&Trial>) {
+        let slack = self.reference.tolerance + CAP_ASIDE;
+        let rounding = 4.0 * PLACE_ROUNDING / self.period;
+        for (i, ends) in cut.points[cut.body..].windows(2).enumerate() {
+            let cap = trial.map_or(self.knife.feed_mm_s.unwrap_or(f64::INFINITY), |trial| {
+                let [a, b] = [0, 1].map(|k| trial.feet[cut.body + i + k].station);
+                self.reference.lines[trial.line].caps.greatest(a.min(b) - slack, a.max(b) + slack)
+            });
+            let speed = (ends[1] - ends[0]).norm() / self.period;
+            self.feed.see_under(speed, cap + rounding, || rows[cut.rows[i + 1] - 1].sighting());
         }
     }
 
     /// How far the blade goes beyond the ends of its line, and into what.
     fn check_overcut(&mut self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting) {
         let line = &self.reference.lines[trial.line];
-        if line.ring {
+        if trial.laps {
             return;
         }
         for (i, foot) in trial.feet.iter().enumerate() {
@@ -417,12 +461,17 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// How far the tail leaves the line while the blade moves.
+    /// How far the path bows away from the plunged blade, and the tail leaves it while the blade moves.
     fn check_body(&mut self, rows: &[Row], cut: &Cut, trial: &Trial) {
         if self.knife.width_mm == 0.0 {
             return;
         }
         let line = &self.reference.lines[trial.line];
+        for (i, foot) in trial.feet[..cut.body].iter().enumerate() {
+            if foot.beyond == 0.0 && trial.held.contains(&i) {
+                self.body.see(foot.deviation, || at(rows[0].t, cut.points[i], rows[0].block));
+            }
+        }
         let tail = |row: &Row| row.centre - row.along() * self.knife.back();
         let foot = trial.feet[0];
         let lap = if line.ring { (foot.station / line.length()).floor() * line.length() } else { 0.0 };
@@ -444,58 +493,6 @@ impl Trial {
             self.worst = (deviation, place);
         }
     }
-}
-
-/// The body of a plunged blade: a chord of the path, which bows away from it.
-#[derive(Debug, Default)]
-struct Body {
-    /// How far the path bows away from the blade, mm: what it does, and at the most w^2 k / 8 with k its mean curvature.
-    sag: f64,
-    /// Turn of the path under the blade, rad, when the blade never moves: its surplus then goes off the line straight on.
-    turned: f64,
-}
-
-impl Body {
-    fn new(line: &Line, cut: &Cut, feet: &[Foot], allowed: f64) -> Self {
-        let (tail, tip) = (cut.points[0], cut.points[cut.body]);
-        let (a, b) = (feet[0].station, feet[cut.body].station);
-        let (low, high) = (a.min(b), a.max(b));
-        let mut body = Self::default();
-        let mut turned = 0.0;
-        for vertex in line.vertices(low, high) {
-            body.sag = body.sag.max(polyline::distance_to_segment(line.points[vertex], tail, tip));
-            turned += line.turn(vertex).abs();
-        }
-        let moves = cut.points.len() > cut.body + 1;
-        body.turned = if moves { 0.0 } else { turned };
-        // The chord that is being left counts, too: a curve turns along its chords, not at its vertices.
-        let length = line.length();
-        let next = if b >= a {
-            line.vertices(high.next_up(), high + length).next()
-        } else {
-            line.vertices(low - length, low.next_down()).last()
-        };
-        turned += next.map_or(0.0, |vertex| line.turn(vertex).abs());
-        body.sag = body.sag.min((tip - tail).norm() * turned / 8.0);
-        let off = |i: usize| feet[i].deviation - body.turned * feet[i].beyond > allowed;
-        // A blade that does not lie along the line is no chord of it.
-        if off(0) || off(cut.body) { Self::default() } else { body }
-    }
-
-    /// How far place `i` of the body is off. The tail stands on the path or its extension; only between its ends the
-    /// blade cuts across.
-    fn off(&self, i: usize, foot: &Foot) -> f64 {
-        let sag = if i == 0 { 0.0 } else { self.sag };
-        (foot.deviation - sag.max(self.turned * foot.beyond)).max(0.0)
-    }
-}
-
-/// Direction of a way at the middle one of three places, to the second order: that of the parabola through them. A place
-/// too near to show a direction gives none.
-fn direction(before: Point, here: Point, behind: Point) -> Vector {
-    let (to, from) = (here - before, behind - here);
-    let (a, b) = (to.norm(), from.norm());
-    if a < WAY_MIN || b < WAY_MIN { to + from } else { to * (b / a) + from * (a / b) }
 }
 
 /// How far the tip's way from place `i - 1` to place `i` passes by the vertices between their stations, mm.
@@ -525,10 +522,4 @@ fn longest(on: &[bool]) -> Option<RangeInclusive<usize>> {
         }
     }
     best
-}
-
-/// What is left of the lead at a fraction of the fade: 1 - (35 x^4 - 84 x^5 + 70 x^6 - 20 x^7).
-fn fading(x: f64) -> f64 {
-    let x4 = x * x * x * x;
-    1.0 - x4 * (35.0 - x * (84.0 - x * (70.0 - x * 20.0)))
 }

@@ -29,6 +29,23 @@ impl Worst {
         }
     }
 
+    /// Sees a value that has a limit of its own; infinite = none. The worst is the one that comes nearest to its limit, or
+    /// is farthest beyond it.
+    pub(super) fn see_under(&mut self, value: f64, limit: f64, place: impl FnOnce() -> Sighting) {
+        let value = if value.is_nan() { f64::INFINITY } else { value };
+        let is_worse = match (self.limit, limit.is_finite()) {
+            // As a product, because nothing may have been seen yet.
+            (Some(own), true) => value * own > self.value * limit,
+            (Some(_), false) => false,
+            (None, true) => value > 0.0,
+            (None, false) => value > self.value,
+        };
+        if is_worse {
+            (self.value, self.limit) = (value, Some(limit).filter(|limit| limit.is_finite()));
+            self.place = Some(place());
+        }
+    }
+
     /// What was seen.
     pub(super) fn finding(self) -> Finding {
         Finding { rule: self.rule, worst: self.value, limit: self.limit, unit: self.unit, place: self.place }

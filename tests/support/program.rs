@@ -6,10 +6,12 @@ use cutc::back::{Context, SETPOINTS};
 use cutc::ir::Marker;
 use cutc::machine::Job;
 use cutc::plan::{self, Planner};
+use cutc::source::Source;
 
 /// The setpoints of a marker.
 pub(crate) fn setpoints(marker: &Marker, job: &Job) -> Vec<u8> {
-    let context = Context { job, marker };
+    let source = Source::new("none", Vec::new()).expect("small");
+    let context = Context { source: &source, job, marker };
     let mut out = Cursor::new(Vec::new());
     let mut planner = Planner::new(job);
     (SETPOINTS.head)(&context, &mut out).expect("memory takes it");

@@ -9,7 +9,7 @@ use cutc::ir::{Finding, Marker};
 use cutc::machine::{Job, MachineProfile};
 use cutc::pipeline;
 use cutc::source::Source;
-use cutc::verify::{Census, source_audit};
+use cutc::verify::{Census, source_audit, source_kept};
 
 use crate::case;
 
@@ -47,6 +47,43 @@ fn the_scan_finds_what_the_reader_finds_in_every_cut_file() {
         }
     }
     assert!(differing.is_empty(), "{differing:#?}");
+}
+
+#[test]
+fn the_passes_lose_nothing_of_any_cut_file() {
+    for (source, read) in sources() {
+        let mut diagnostics = Diagnostics::default();
+        let input = pipeline::read(&source, None, &Job::default(), &mut diagnostics).expect("it is read");
+        if !diagnostics.has_errors() {
+            let finding = source_kept(&Census::of(&read), &input.marker);
+            assert!(finding.holds(), "{}: {finding:?}", source.name());
+        }
+    }
+}
+
+#[test]
+fn what_a_pass_loses_is_seen_but_for_slits_that_stand_twice_and_pieces_not_chosen() {
+    let job = Job::default();
+    let read = case::marker("drills-and-slits", &job);
+    let census = Census::of(&read);
+    let lost = |change: &dyn Fn(&mut Marker)| {
+        let mut marker = read.clone();
+        change(&mut marker);
+        source_kept(&census, &marker).worst
+    };
+    let with_slits = read.pieces.iter().position(|piece| !piece.notches.is_empty()).expect("it has slits");
+    let with_holes = read.pieces.iter().position(|piece| !piece.drills.is_empty()).expect("it has holes");
+    assert_eq!(lost(&|_| {}), 0.0);
+    assert_eq!(lost(&|marker| assert!(marker.pieces[with_slits].notches.pop().is_some())), 1.0);
+    assert_eq!(lost(&|marker| assert!(marker.pieces[with_holes].drills.pop().is_some())), 1.0);
+    assert_eq!(lost(&|marker| assert!(marker.list.cursor(&mut marker.pieces[0].contours[0].range).remove())), 1.0);
+    assert_eq!(lost(&|marker| assert!(marker.pieces.pop().is_some())), 0.0);
+    // A twin, drawn the other way round in another block.
+    let mut twice = read.clone();
+    let mut twin = twice.pieces[with_slits].notches[0];
+    (twin.root, twin.tip, twin.span.block) = (twin.tip, twin.root, 9999);
+    twice.pieces[with_slits].notches.push(twin);
+    assert!(source_kept(&Census::of(&twice), &read).holds());
 }
 
 #[test]

@@ -9,6 +9,7 @@ use cutc::machine::Job;
 use cutc::pipeline;
 use cutc::source::Source;
 
+use crate::measure::HARMLESS;
 use crate::rows::{self, Row};
 use crate::support::program::setpoints;
 
@@ -34,6 +35,14 @@ impl Case {
         setpoints(marker, &job)
     }
 
+    /// The same, planned to a third of the tolerance: what is off is the marker.
+    pub(crate) fn redrawn_closely(&self, marker: &Marker) -> Vec<u8> {
+        let mut job = self.job.clone();
+        job.profile.table.strict = false;
+        job.profile.path.tolerance_mm = Some(self.tolerance() * HARMLESS);
+        setpoints(marker, &job)
+    }
+
     /// The program of the same marker on another machine.
     pub(crate) fn on(&self, change: impl FnOnce(&mut Job)) -> Vec<u8> {
         let mut job = self.job.clone();
@@ -45,7 +54,7 @@ impl Case {
 /// What the machine of a case has that others have not.
 type Change = fn(&mut Job);
 
-/// Markers of `fixtures/markers`, and what the machine of each has that others have not.
+/// Markers of `fixtures/markers` and of `fixtures/iso`, and what the machine of each has that others have not.
 const CASES: &[(&str, Change)] = &[
     ("circles", |_| {}),
     ("drills-and-slits", |job| job.profile.drill.offset_mm = [12.0, -5.0]),
@@ -54,6 +63,7 @@ const CASES: &[(&str, Change)] = &[
     ("inch-four-pieces", |job| job.profile.knife.back_mm = Some(2.2)),
     ("spaced-four-pieces", |job| job.profile.time.period_ms = 2.0),
     ("metric-six-pieces", |job| job.profile.home = [20.0, -10.0, 90.0]),
+    ("speeds-and-events", |_| {}),
 ];
 
 pub(crate) fn all() -> Vec<Case> {
@@ -82,8 +92,10 @@ pub(crate) fn names() -> Vec<&'static str> {
 
 /// The source of a marker.
 pub(crate) fn source(name: &str) -> Source {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("fixtures/markers/{name}.cut"));
-    let bytes = fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures");
+    let paths = ["markers", "iso"].map(|folder| fixtures.join(format!("{folder}/{name}.cut")));
+    let path = paths.iter().find(|path| path.exists()).unwrap_or_else(|| panic!("no fixture is called {name}"));
+    let bytes = fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     Source::new(name, bytes).expect("fixtures are small")
 }
 

@@ -25,6 +25,10 @@ impl Row {
         Point::new(self.pose[0], self.pose[1]) + along(self.pose[2]) * knife.radius()
     }
 
+    pub(crate) fn tail(&self, knife: &Knife) -> Point {
+        Point::new(self.pose[0], self.pose[1]) - along(self.pose[2]) * knife.back()
+    }
+
     /// The row with its blade turned about the tip.
     pub(crate) fn turned_to(&self, c_deg: f64, knife: &Knife) -> Self {
         let centre = self.tip(knife) - along(c_deg) * knife.radius();

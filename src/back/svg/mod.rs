@@ -4,12 +4,13 @@
 //! in it is one of the program; text and legend stand outside that transform. Strokes keep their width on the screen at
 //! any zoom, symbols are as large as the blade suggests: the whole shows pieces, a corner shows its overlaps.
 //!
-//! Layers from the bottom: pieces with their numbers, the knife's way (a group for each contour, notch and drill), the
-//! worst places that the verifier saw, the legend. In a browser the picture fills the window; a piece's number is a link
+//! Layers from the bottom: pieces with their notches and numbers, labels, the knife's way (a group for each contour, notch
+//! and drill), the worst places that the verifier saw, the legend. In a browser the picture fills the window; a piece's number is a link
 //! to a view of that piece, and the legend links to the whole and to the actual size.
 
 mod findings;
 mod knife;
+mod label;
 mod markup;
 mod piece;
 mod sheet;
@@ -23,7 +24,7 @@ use sheet::Sheet;
 
 pub(super) const TARGET: Target = Target {
     name: "svg",
-    about: "a picture to scale: pieces, runs, overlaps, plunges, travels, findings",
+    about: "a picture to scale: pieces, labels, runs, overlaps, plunges, travels, findings",
     extension: "svg",
     emit: Emit::Toolpath(Parts { head, body, tail }),
     proof: Proof::None,
@@ -32,10 +33,12 @@ pub(super) const TARGET: Target = Target {
 fn head(context: &Context, out: &mut dyn Output) -> io::Result<()> {
     let sheet = Sheet::of(context, &[]);
     let mut text = sheet.opening();
-    let shapes = piece::shapes(context.marker);
+    let mut shapes = piece::shapes(context.marker);
+    let labels = label::layer(&mut shapes, &sheet, context);
     text.push_str(&sheet::style(&piece::colour_rules(&shapes)));
     text.push_str(&sheet.ground(context));
     text.push_str(&piece::layer(&shapes, &sheet));
+    text.push_str(&labels);
     text.push_str("<g id=\"knife\" inkscape:groupmode=\"layer\" inkscape:label=\"knife\" transform=\"scale(1,-1)\">\n");
     out.write_all(text.as_bytes())
 }

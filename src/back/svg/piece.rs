@@ -1,13 +1,15 @@
-//! The layer of pieces: their areas in calm colours, and their numbers.
+//! The layer of pieces: their areas in calm colours, their notches, and their numbers.
 
 use std::fmt::Write;
 
-use super::markup::{PathData, blocks, mm};
+use super::markup::{PathData, blocks, escape, mm};
 use super::sheet::Sheet;
 use super::spot::{self, Spot};
 use crate::geom::{Extent, Point};
 use crate::ir::Marker;
+use crate::ir::marker::{self, NotchKind, Piece};
 use crate::source::Span;
+use crate::units::number::fixed;
 
 /// Colours of pieces: of like weight, none near the signal colours (magenta, red, amber) or the grey of travels.
 pub(super) const PALETTE: [&str; 10] =
@@ -27,17 +29,49 @@ const VIEW_MARGIN: f64 = 0.06;
 /// A piece as it is drawn.
 #[derive(Debug)]
 pub(super) struct Shape {
-    number: u32,
-    contours: Vec<Contour>,
-    drills: Vec<Point>,
+    /// Its number in the file.
+    pub(super) number: u32,
+    /// Its contours.
+    pub(super) contours: Vec<Contour>,
+    /// Places that its number keeps off: its drills and labels.
+    taken: Vec<Point>,
+    notches: Vec<Notch>,
     extent: Extent,
-    blocks: String,
+    /// What browsers show under the pointer.
+    title: String,
 }
 
+/// A contour as it is drawn.
 #[derive(Debug)]
-struct Contour {
+pub(super) struct Contour {
+    /// A closed one ends with its first point.
+    pub(super) points: Vec<Point>,
+    /// Whether it ends where it starts.
+    pub(super) closed: bool,
+}
+
+/// A notch as it is drawn: a slit has two points, a V notch three.
+#[derive(Debug)]
+struct Notch {
     points: Vec<Point>,
-    closed: bool,
+    title: String,
+}
+
+impl Shape {
+    /// Adds a text that has no place to what is said about the piece.
+    pub(super) fn say(&mut self, text: &str) {
+        let _infallible = write!(self.title, ", label: {text}");
+    }
+
+    /// Has the number keep off some more places.
+    pub(super) fn keep_off(&mut self, places: impl IntoIterator<Item = Point>) {
+        self.taken.extend(places);
+    }
+
+    /// The contours that enclose something.
+    pub(super) fn rings(&self) -> Vec<&[Point]> {
+        self.contours.iter().filter(|c| c.closed).map(|c| c.points.as_slice()).collect()
+    }
 }
 
 /// The shapes of all pieces, in cut order.
@@ -49,13 +83,45 @@ pub(super) fn shapes(marker: &Marker) -> Vec<Shape> {
         let drills: Vec<Point> = piece.drills.iter().map(|drill| drill.at).collect();
         let mut extent = Extent::EMPTY;
         contours.iter().flat_map(|c| &c.points).chain(&drills).for_each(|&point| extent.add(point));
-        piece.notches.iter().flat_map(|notch| [notch.root, notch.tip]).for_each(|point| extent.add(point));
+        piece
+            .notches
+            .iter()
+            .flat_map(marker::Notch::strokes)
+            .flat_map(|cut| [cut.from, cut.to])
+            .for_each(|point| extent.add(point));
         let cut = piece.contours.iter().flat_map(|c| marker.list.walk(c.range)).map(|(_, segment)| segment.span);
-        let marked = piece.drills.iter().map(|d| d.span).chain(piece.notches.iter().map(|n| n.span));
+        let marked = piece
+            .drills
+            .iter()
+            .map(|d| d.span)
+            .chain(piece.notches.iter().flat_map(marker::Notch::strokes).map(|cut| cut.span));
         let spans = std::iter::once::<Span>(piece.span).chain(cut).chain(marked);
-        shapes.push(Shape { number: piece.number, extent, blocks: blocks(spans), contours, drills });
+        let number = piece.number;
+        let title = format!("piece {number}{}", blocks(spans));
+        shapes.push(Shape { number, extent, title, contours, taken: drills, notches: notches(piece) });
     }
     shapes
+}
+
+fn notches(piece: &Piece) -> Vec<Notch> {
+    let slits = piece.notches.iter().map(|notch| {
+        let kind = match notch.kind {
+            NotchKind::Slit => "slit",
+            NotchKind::T(_) => "T notch",
+        };
+        let title = format!("{kind}, {} mm deep{}", fixed(notch.depth(), 1), blocks([notch.span]));
+        let bar = match notch.kind {
+            NotchKind::Slit => vec![],
+            NotchKind::T(bar) => vec![bar.from, bar.to, notch.tip],
+        };
+        Notch { points: [vec![notch.root, notch.tip], bar].concat(), title }
+    });
+    let vees = piece.vees.iter().map(|vee| {
+        let (depth, width) = (fixed(vee.depth(), 1), fixed(vee.width(), 1));
+        let title = format!("V notch, {depth} mm deep, {width} mm wide{}", blocks([vee.span]));
+        Notch { points: vec![vee.mouth[0], vee.apex, vee.mouth[1]], title }
+    });
+    slits.chain(vees).collect()
 }
 
 /// Style rules that give each piece number its colour.
@@ -124,18 +190,23 @@ fn group(shape: &Shape, order: u32, sheet: &Sheet, text: &mut String) {
     let number = shape.number;
     let _infallible = writeln!(
         text,
-        "<g id=\"piece-{order}\" class=\"n{number}\" inkscape:label=\"piece {number}\"><title>piece {number}{}</title>",
-        shape.blocks
+        "<g id=\"piece-{order}\" class=\"n{number}\" inkscape:label=\"piece {number}\"><title>{}</title>",
+        escape(&shape.title)
     );
-    let rings: Vec<&[Point]> = shape.contours.iter().filter(|c| c.closed).map(|c| c.points.as_slice()).collect();
+    let rings = shape.rings();
     let mut area = PathData::default();
     for ring in &rings {
         area.polygon(ring[..ring.len() - 1].iter().copied());
     }
     text.push_str(&area.element("area"));
+    for notch in &shape.notches {
+        let mut data = PathData::default();
+        data.line(notch.points.iter().copied());
+        text.push_str(&data.titled("notch", &notch.title));
+    }
     if !shape.extent.is_empty() {
         let middle = shape.extent.min + (shape.extent.max - shape.extent.min) / 2.0;
-        let spot = spot::find(&rings, &shape.drills).unwrap_or(Spot { at: middle, clear: 0.0 });
+        let spot = spot::find(&rings, &shape.taken).unwrap_or(Spot { at: middle, clear: 0.0 });
         text.push_str(&label(number, order, spot, sheet));
     }
     text.push_str("</g>\n");

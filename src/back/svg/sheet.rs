@@ -40,6 +40,8 @@ text{font-family:'DejaVu Sans',Verdana,Arial,sans-serif;fill:#333}
 path{vector-effect:non-scaling-stroke;fill:none;stroke-linejoin:round}
 .area{fill:currentColor;fill-opacity:.13;fill-rule:evenodd;stroke:none}
 .number{fill:currentColor;fill-opacity:.8;font-weight:bold;text-anchor:middle}
+.label{fill:#333;fill-opacity:.85}
+.notch{stroke:currentColor;stroke-opacity:.5;stroke-width:6;stroke-linecap:round}
 .run{stroke:currentColor;stroke-width:1.5}
 .air{stroke:#8c8c8c;stroke-width:.7;stroke-dasharray:5 4}
 .over{fill:#d6006c;stroke:#d6006c;stroke-width:1.3}
@@ -83,6 +85,7 @@ impl Sheet {
         let profile = &context.job.profile;
         let extent = context.marker.extent();
         let mut drawn = extent;
+        context.marker.pieces.iter().flat_map(|piece| &piece.labels).filter_map(|l| l.at).for_each(|at| drawn.add(at));
         drawn.add(Point::new(profile.home[0], profile.home[1]));
         // Only the marker decides the scale: the head does not know the findings yet.
         let (w, h) = drawn.size();
@@ -113,6 +116,13 @@ impl Sheet {
             self.view_box()
         );
         format!("{tag:<OPENING_BYTES$}>\n")
+    }
+
+    /// The corners of the part of the sheet above the legend, in table coordinates (Y up), the first one repeated.
+    pub(super) fn edge(&self) -> [Point; 5] {
+        let (left, right) = (self.left, self.left + self.width);
+        let (top, bottom) = (-self.top, -self.legend);
+        [(left, bottom), (right, bottom), (right, top), (left, top), (left, bottom)].map(|(x, y)| Point::new(x, y))
     }
 
     fn view_box(&self) -> String {
@@ -267,7 +277,7 @@ enum Symbol {
     Target,
 }
 
-const ITEMS: [Item; 8] = [
+const ITEMS: [Item; 9] = [
     Item { class: "run", symbol: Symbol::Line, meaning: "cut, in the piece's colour" },
     Item { class: "over", symbol: Symbol::Bar, meaning: "overlap past an end" },
     Item { class: "blade", symbol: Symbol::Bar, meaning: "blade at plunge and lift" },
@@ -276,6 +286,7 @@ const ITEMS: [Item; 8] = [
     Item { class: "lift", symbol: Symbol::Circle(3.0), meaning: "lift, at the tip" },
     Item { class: "air", symbol: Symbol::Line, meaning: "knife up (C axis)" },
     Item { class: "drill", symbol: Symbol::Target, meaning: "drill" },
+    Item { class: "notch", symbol: Symbol::Line, meaning: "notch: slit or V" },
 ];
 
 /// The style element: what is common, then the colours of the pieces.

@@ -7,7 +7,7 @@ use crate::diagnostic::{Diagnostic, code};
 use crate::source::Span;
 
 /// Walks over the blocks of a file. A clone looks ahead.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(super) struct Blocks<'a> {
     bytes: &'a [u8],
     at: usize,
@@ -16,6 +16,13 @@ pub(super) struct Blocks<'a> {
     /// Room for the block that is read, without its blanks, and for the offsets of its bytes.
     text: Vec<u8>,
     origins: Vec<usize>,
+}
+
+impl Clone for Blocks<'_> {
+    /// The same place, without what the room holds: one damaged block may have filled it with megabytes.
+    fn clone(&self) -> Self {
+        Self { text: Vec::new(), origins: Vec::new(), ..*self }
+    }
 }
 
 /// A block that is not text.
@@ -144,7 +151,9 @@ impl<'a> Blocks<'a> {
         text.push(b'*');
         origins.push(end);
         let words = match (unclosed, syntax::block(&text)) {
-            (Some(at), _) => Err(self.fault_at(at, block, "the passage that `/` deletes has no end")),
+            (Some(at), _) => Err(self
+                .fault_at(at, block, "the passage that `/` deletes has no end")
+                .hint("put a second `/` behind what is to be left out, or take this one away")),
             (None, Ok((_, words))) => Ok(words),
             (None, Err(Err::Error(fault) | Err::Failure(fault))) => {
                 let at = origins[text.len() - fault.at.len()];
@@ -166,12 +175,13 @@ impl<'a> Blocks<'a> {
         let span = Span { start: at as u32, end: at as u32 + 1, block };
         match fault.kind {
             FaultKind::Expected(what) => {
-                let found = match self.bytes.get(at) {
+                let byte = self.bytes.get(at).copied();
+                let found = match byte {
                     None => "the end of the file".to_owned(),
-                    Some(byte @ b'!'..=b'~') => format!("`{}`", char::from(*byte)),
+                    Some(byte @ b'!'..=b'~') => format!("`{}`", char::from(byte)),
                     Some(byte) => format!("byte 0x{byte:02x}"),
                 };
-                self.fault_at(at, block, format!("{what} was expected here, but {found} was found"))
+                self.fault_at(at, block, format!("{what} was expected here, but {found} was found")).hint(remedy(byte))
             }
             FaultKind::NoValue => Diagnostic::new(&code::ISO_NO_VALUE, format!("{letter} stands without its number"))
                 .at(span)
@@ -184,6 +194,18 @@ impl<'a> Blocks<'a> {
                     .hint("a block end `*` may be missing, or digits were doubled")
             }
         }
+    }
+}
+
+/// What to do about a byte that leaves the grammar; `None` = the end of the file.
+fn remedy(byte: Option<u8>) -> &'static str {
+    match byte {
+        None => "the file is most likely cut short; export it again",
+        Some(b'A'..=b'Z') => "a block end `*` may be missing before it",
+        Some(b'a'..=b'z') => "codes are capital letters; a text stands behind M31 or M20 in a block of its own",
+        Some(b'0'..=b'9' | b'+' | b'-' | b'.') => "a letter may be missing before this number, or a digit was doubled",
+        Some(b'!'..=b'~') => "take it away, or export the file again; only texts behind M31 and M20 have such signs",
+        Some(_) => "the file may be damaged, or a text stands where M31 or M20 is missing; export it again",
     }
 }
 

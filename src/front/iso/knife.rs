@@ -11,6 +11,9 @@ use crate::ir::list::{FULL_SPEED, Joint, Segment, SegmentList};
 use crate::ir::marker::{Contour, Drill, Event, Label, Marker, Notch, NotchKind, Piece};
 use crate::source::Span;
 
+/// Most vertices of a stroke: one that goes to and fro more often is no slit.
+const STROKE_VERTICES: usize = 8;
+
 /// Follows the knife and makes the marker.
 #[derive(Debug)]
 pub(super) struct Knife {
@@ -34,8 +37,11 @@ pub(super) struct Knife {
     open: HashMap<[u64; 2], usize>,
     /// The piece that N began; `None` in a file without N.
     current: Option<usize>,
-    /// In a file without N: what waits for the contour that it belongs to.
+    /// In a file without N: what waits for the contour that it belongs to, and the chains that do.
     waiting: Piece,
+    strokes: Vec<usize>,
+    /// The chain that was left last, strokes not counted.
+    left: Option<usize>,
     /// A piece that begins when the knife is lifted.
     deferred: Option<(Option<u32>, Span)>,
     pieces: Vec<Piece>,
@@ -66,7 +72,8 @@ struct Vertex {
 
 #[derive(Debug)]
 struct Chain {
-    piece: usize,
+    /// In a file without N, a stroke has none before a contour claims it.
+    piece: Option<usize>,
     vertices: Vec<Vertex>,
     /// Whether it is a slit: those are cut before the outlines.
     slit: bool,
@@ -84,6 +91,17 @@ impl Chain {
 
     fn ends(&self) -> (Point, Point) {
         (self.vertices[0].at, self.vertices[self.vertices.len() - 1].at)
+    }
+
+    /// Whether it goes between two near places only, as slits and crossbars do.
+    fn is_stroke(&self) -> bool {
+        if self.vertices.len() > STROKE_VERTICES {
+            return false;
+        }
+        let first = self.vertices[0].at;
+        let Some(second) = self.vertices.iter().map(|vertex| vertex.at).find(|&at| at != first) else { return false };
+        (second - first).norm() <= Notch::LONGEST
+            && self.vertices.iter().all(|vertex| vertex.at == first || vertex.at == second)
     }
 }
 
@@ -109,6 +127,8 @@ impl Knife {
             open: HashMap::new(),
             current: None,
             waiting: Piece::default(),
+            strokes: Vec::new(),
+            left: None,
             deferred: None,
             pieces: Vec::new(),
             list: SegmentList::default(),
@@ -134,7 +154,7 @@ impl Knife {
             State::Cutting(chain) => {
                 let joint = Joint { lift: std::mem::take(&mut self.corner_lift), ..Joint::default() };
                 self.chains[*chain].vertices.push(Vertex { at: to, span, joint, percent });
-                let piece = self.chains[*chain].piece;
+                let piece = self.chains[*chain].piece.expect("what is being cut has a piece");
                 cap(&mut self.pieces[piece], self.feed);
             }
             State::Slit { points, .. } => points.push(Vertex { at: to, span, joint: Joint::default(), percent }),
@@ -144,6 +164,7 @@ impl Knife {
                 let vertices = vec![start, Vertex { at: to, span, joint, percent }];
                 let piece = self.piece_of_new_chain(start.span);
                 cap(&mut self.pieces[piece], self.feed);
+                let piece = Some(piece);
                 self.chains.push(Chain { piece, vertices, slit: false, lifted: false, no_overcut: false });
                 self.state = State::Cutting(self.chains.len() - 1);
             }
@@ -153,13 +174,14 @@ impl Knife {
 
     /// The piece that a chain which begins at `span` belongs to. Without N every contour is a piece.
     fn piece_of_new_chain(&mut self, span: Span) -> usize {
-        let piece = self.current.unwrap_or_else(|| {
-            let waiting = std::mem::take(&mut self.waiting);
-            self.pieces.push(Piece { number: self.pieces.len() as u32 + 1, span, ..waiting });
-            self.pieces.len() - 1
-        });
-        self.give_events(piece);
-        piece
+        if let Some(piece) = self.current {
+            self.give_events(piece);
+            return piece;
+        }
+        let mut piece = Piece { number: self.pieces.len() as u32 + 1, span, ..std::mem::take(&mut self.waiting) };
+        piece.events.append(&mut self.events);
+        self.pieces.push(piece);
+        self.pieces.len() - 1
     }
 
     /// What happens before a piece goes to the first one that is begun behind it; inside a piece it waits for the next.
@@ -168,7 +190,7 @@ impl Knife {
             return;
         }
         let begun = &self.pieces[piece];
-        let in_chains = self.chains.iter().any(|chain| chain.piece == piece);
+        let in_chains = self.chains.iter().rev().any(|chain| chain.piece == Some(piece));
         if !in_chains && begun.notches.is_empty() && begun.drills.is_empty() {
             self.pieces[piece].events.append(&mut self.events);
         }
@@ -205,7 +227,8 @@ impl Knife {
         match &self.state {
             State::Up => {}
             State::Plunged { .. } | State::Cutting(_) => {
-                out.push(Diagnostic::new(&code::ISO_KNIFE_DOWN_TWICE, "the knife is down already").at(span));
+                let finding = Diagnostic::new(&code::ISO_KNIFE_DOWN_TWICE, "the knife is down already").at(span);
+                out.push(finding.hint("an M15 may be missing before it: then two contours are joined by a cut"));
                 return;
             }
             State::Slit { .. } => {
@@ -214,7 +237,11 @@ impl Knife {
             }
         }
         let full_advance = std::mem::take(&mut self.advance);
-        if let Some(index) = self.open.remove(&key(self.at)) {
+        if let Some(index) = self.open.remove(&key(self.at)).or_else(|| self.take_spur()) {
+            if self.chains[index].piece.is_none() {
+                let start = self.chains[index].vertices[0].span;
+                self.chains[index].piece = Some(self.piece_of_new_chain(start));
+            }
             let chain = &mut self.chains[index];
             if let Some(last) = chain.vertices.last_mut() {
                 last.joint.lift |= chain.lifted;
@@ -222,11 +249,15 @@ impl Knife {
                 last.joint.no_overcut |= chain.no_overcut;
             }
             (chain.lifted, chain.no_overcut) = (false, false);
-            let piece = &mut self.pieces[chain.piece];
+            let piece = &mut self.pieces[chain.piece.expect("it was given one")];
             // Without N: what the file holds while it interrupts a contour belongs to that contour.
             piece.drills.append(&mut self.waiting.drills);
             piece.notches.append(&mut self.waiting.notches);
             cap(piece, self.waiting.feed.take());
+            if !chain.is_stroke() {
+                let piece = chain.piece;
+                self.claim_strokes(piece);
+            }
             self.state = State::Cutting(index);
         } else {
             self.state = State::Plunged { joint: Joint { full_advance, ..Joint::default() }, span };
@@ -258,10 +289,58 @@ impl Knife {
         let chain = &mut self.chains[index];
         (chain.lifted, chain.no_overcut) = (lifted, no_overcut);
         let (first, last) = chain.ends();
+        let piece = chain.piece;
+        let is_stroke = chain.is_stroke();
         if first != last || chain.is_point() {
             self.open.insert(key(last), index);
         }
         self.state = State::Up;
+        if !is_stroke {
+            self.left = Some(index);
+            self.claim_strokes(piece);
+        } else if self.current.is_none() {
+            self.let_wait(index);
+        }
+    }
+
+    /// In a file without N a stroke is no piece: it belongs to the contour that it interrupts, or to the next one, as
+    /// slits and drills do. (Whether it is a slit is for the passes to tell.)
+    fn let_wait(&mut self, index: usize) {
+        let chain = &mut self.chains[index];
+        let begun = self.pieces.pop_if(|piece| piece.span == chain.vertices[0].span);
+        if let Some(mut piece) = begun {
+            self.events.splice(..0, piece.events.drain(..));
+            self.waiting = piece;
+            chain.piece = None;
+            self.strokes.push(index);
+        }
+    }
+
+    /// Gives the strokes that wait to a piece.
+    fn claim_strokes(&mut self, piece: Option<usize>) {
+        for index in self.strokes.drain(..) {
+            // One that the knife went on from is a contour of its own by now.
+            self.chains[index].piece = self.chains[index].piece.or(piece);
+        }
+    }
+
+    /// A slit whose M19 is lost: the knife went on from here to a near place and came back through the air. Takes the slit
+    /// off its chain, which goes on from here.
+    fn take_spur(&mut self) -> Option<usize> {
+        let index = self.left?;
+        let chain = &mut self.chains[index];
+        let &[.., _, root, tip] = &chain.vertices[..] else { return None };
+        if root.at != self.at || root.at == tip.at || (tip.at - root.at).norm() > Notch::LONGEST {
+            return None;
+        }
+        // One that closed, or went on meanwhile, is not waiting.
+        self.open.get(&key(tip.at)).filter(|&&open| open == index)?;
+        self.open.remove(&key(tip.at));
+        chain.vertices.pop();
+        (chain.lifted, chain.no_overcut) = (false, false);
+        let notch = Notch { kind: NotchKind::Slit, root: root.at, tip: tip.at, percent: tip.percent, span: tip.span };
+        self.pieces[chain.piece?].notches.push(notch);
+        Some(index)
     }
 
     /// M19.
@@ -275,7 +354,7 @@ impl Knife {
             State::Plunged { .. } => None,
             State::Cutting(index) => {
                 self.leave(index, false, false);
-                Some(self.chains[index].piece)
+                self.chains[index].piece
             }
         };
         let root = Vertex { at: self.at, span, joint: Joint::default(), percent: self.percent() };
@@ -285,7 +364,8 @@ impl Knife {
     fn report_open_slit(&self, before: &str, at: Span, out: &mut Diagnostics) {
         if let State::Slit { span, .. } = &self.state {
             let message = format!("the slit that begins in block {} has no M15 before {before}", span.block);
-            out.push(Diagnostic::new(&code::ISO_OPEN_SLIT, message).at(at));
+            let finding = Diagnostic::new(&code::ISO_OPEN_SLIT, message).at(at);
+            out.push(finding.hint("an M15 belongs behind the tip of a slit; one may be lost"));
         }
     }
 
@@ -317,7 +397,7 @@ impl Knife {
                 target.notches.push(notch);
             }
             [first, ..] => {
-                let piece = piece.unwrap_or_else(|| self.piece_of_new_chain(first.span));
+                let piece = Some(piece.unwrap_or_else(|| self.piece_of_new_chain(first.span)));
                 for vertex in &mut points {
                     vertex.joint.no_overcut = true;
                 }
@@ -393,16 +473,18 @@ impl Knife {
     fn start_piece(&mut self, number: Option<u32>, span: Span) {
         (self.advance, self.no_overcut) = (false, false);
         (self.slow, self.of_piece) = (FULL_SPEED, FULL_SPEED);
-        self.finish_chains();
         let waiting = std::mem::take(&mut self.waiting);
         let number = number.unwrap_or(self.pieces.len() as u32 + 1);
         self.pieces.push(Piece { number, span, ..waiting });
         self.current = Some(self.pieces.len() - 1);
+        self.claim_strokes(self.current);
+        self.finish_chains();
     }
 
     /// Writes the chains into the list: first the slits, as they are cut before the outlines.
     fn finish_chains(&mut self) {
         self.open.clear();
+        self.left = None;
         for slit in [true, false] {
             for chain in self.chains.iter_mut().filter(|chain| chain.slit == slit && !chain.is_point()) {
                 // The joint of the first segment speaks for the plunge at the start and for the lift at the end.
@@ -419,7 +501,8 @@ impl Knife {
                     percent: pair[1].percent,
                 });
                 if let Some(range) = self.list.append(segments) {
-                    self.pieces[chain.piece].contours.push(Contour { range, closed: first == last });
+                    let piece = chain.piece.expect("every stroke was claimed");
+                    self.pieces[piece].contours.push(Contour { range, closed: first == last });
                 }
             }
         }
@@ -440,7 +523,8 @@ impl Knife {
         }
         self.deferred = None;
         self.up();
-        if !(self.waiting.drills.is_empty() && self.waiting.notches.is_empty() && self.waiting.labels.is_empty()) {
+        let Piece { drills, notches, labels, .. } = &self.waiting;
+        if !(drills.is_empty() && notches.is_empty() && labels.is_empty() && self.strokes.is_empty()) {
             let mut waiting = std::mem::take(&mut self.waiting);
             if let Some(piece) = self.pieces.last_mut() {
                 piece.drills.append(&mut waiting.drills);
@@ -450,6 +534,7 @@ impl Knife {
             } else {
                 self.pieces.push(Piece { number: 1, ..waiting });
             }
+            self.claim_strokes(Some(self.pieces.len() - 1));
         }
         self.finish_chains();
         for piece in &self.pieces {

@@ -418,7 +418,7 @@ mod tests {
     use crate::machine::FileUnit;
     use crate::machine::profile::CodeUse;
 
-    const SQUARE: &str = "H1*G71*M15*N1*X0Y0*M14*X1000Y0*X1000Y1000*M19*X900Y900*M15*X1000Y1000*M14*X0Y0*M15*M0*";
+    const SQUARE: &str = "H1*G71*M15*N1*X0Y0*M14*X1000Y0*X1000Y1000*M19*X800Y800*M15*X1000Y1000*M14*X0Y0*M15*M0*";
 
     /// Reads with a profile; gives the marker and the codes of what was found.
     fn check(text: &str, edit: impl Fn(&mut Job), found: &[&str]) -> Marker {

@@ -154,4 +154,21 @@ mod tests {
         assert_eq!(name(Code { letter: b'M', number: Some(0.0) }), "M0");
         assert_eq!(name(Code { letter: b'F', number: Some(12.0) }), "F");
     }
+
+    #[test]
+    fn the_profile_can_switch_every_code_that_has_a_meaning_and_no_other() {
+        let mut known: Vec<String> = Vec::new();
+        for letter in b'A'..=b'Z' {
+            for number in std::iter::once(None).chain((0..=200_u8).map(|number| Some(f64::from(number)))) {
+                let code = Code { letter, number };
+                if meaning(code) != Meaning::Unknown && !known.contains(&name(code)) {
+                    known.push(name(code));
+                }
+            }
+        }
+        known.sort();
+        let mut switches = crate::machine::keys::CODE_NAMES.to_vec();
+        switches.sort_unstable();
+        assert_eq!(known, switches);
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::meaning::{kind, name};
+use super::meaning::{Meaning, kind, meaning, name};
 use super::syntax::Code;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::source::Span;
@@ -49,18 +49,21 @@ impl Tally {
             let times = if count == 1 { "once".to_owned() } else { format!("{count} times") };
             let first_block = first.block;
             out.push(match what {
-                Some(what) => Diagnostic::new(
-                    &code::ISO_IGNORED_CODE,
-                    format!("{name} ({what}) is not obeyed: it stands {times}, first in block {first_block}"),
-                )
-                .at(first)
-                .hint(format!("`codes.{name} = \"ignore\"` in the profile silences this")),
+                Some(what) => {
+                    let message =
+                        format!("{name} ({what}) is not obeyed: it stands {times}, first in block {first_block}");
+                    let mut finding = Diagnostic::new(&code::ISO_IGNORED_CODE, message).at(first);
+                    if meaning(code) == Meaning::End {
+                        finding = finding.hint("two jobs may stand in one file, and both are cut: split it to cut one");
+                    }
+                    finding.hint(format!("`codes.{name} = \"ignore\"` in the profile silences this"))
+                }
                 None => Diagnostic::new(
                     &code::ISO_UNKNOWN_CODE,
                     format!("{name} is not known and was ignored: it stands {times}, first in block {first_block}"),
                 )
                 .at(first)
-                .hint(format!("`codes.{name} = \"ignore\"` in the profile silences this")),
+                .hint("if the cutter obeys it, see in its manual whether the pieces need it"),
             });
         }
     }

@@ -3,6 +3,8 @@
 //! A record goes to the piece that its L names, or, when it has none, to the one of its N. What stands before the first L
 //! belongs to the first record.
 
+use std::collections::BTreeMap;
+
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::ir::marker::{Field, Piece};
 use crate::source::{Source, Span};
@@ -11,8 +13,12 @@ use crate::source::{Source, Span};
 pub(super) fn read(source: &Source, offset: usize, block: u32, pieces: &mut [Piece], out: &mut Diagnostics) {
     let bytes = source.bytes();
     let mut record = Record::default();
+    let mut places: BTreeMap<u32, usize> = BTreeMap::new();
+    for (piece, place) in pieces.iter().zip(0..) {
+        places.entry(piece.number).or_insert(place); // of two jobs in one file, the first
+    }
+    let mut target = Target { pieces, places, lost: None };
     let mut at = offset.min(bytes.len());
-    let mut lost = None;
     while at < bytes.len() {
         let rest = &bytes[at..];
         let length = memchr::memchr(b'\n', rest).unwrap_or(rest.len());
@@ -30,7 +36,7 @@ pub(super) fn read(source: &Source, offset: usize, block: u32, pieces: &mut [Pie
                     _ => None,
                 };
                 if names.is_some() {
-                    record.close(pieces, &mut lost);
+                    record.close(&mut target);
                 }
                 let number = || std::str::from_utf8(source.slice(span)).ok()?.trim().parse().ok();
                 match letter {
@@ -43,11 +49,20 @@ pub(super) fn read(source: &Source, offset: usize, block: u32, pieces: &mut [Pie
             _ => {} // asterisks behind M0, blank lines
         }
     }
-    record.close(pieces, &mut lost);
-    if let Some(span) = lost {
+    record.close(&mut target);
+    if let Some(span) = target.lost {
         let message = "the list of labels behind M0 names a piece that the file does not hold";
         out.push(Diagnostic::new(&code::ISO_TRAILER_PIECE, message).at(span));
     }
+}
+
+/// Where the fields go.
+struct Target<'a> {
+    pieces: &'a mut [Piece],
+    /// The place of each number among the pieces.
+    places: BTreeMap<u32, usize>,
+    /// The first field that found no piece.
+    lost: Option<Span>,
 }
 
 #[derive(Debug, Default)]
@@ -58,14 +73,13 @@ struct Record {
 }
 
 impl Record {
-    /// Gives the fields to their piece and starts anew; `lost` is the first field that found none.
-    fn close(&mut self, pieces: &mut [Piece], lost: &mut Option<Span>) {
+    /// Gives the fields to their piece and starts anew.
+    fn close(&mut self, target: &mut Target<'_>) {
         let Self { by_l, by_n, mut fields } = std::mem::take(self);
         let Some(first) = fields.first() else { return };
-        let number = by_l.or(by_n);
-        match pieces.iter_mut().find(|piece| Some(piece.number) == number) {
-            Some(piece) => piece.fields.append(&mut fields),
-            None => *lost = lost.or(Some(first.span)),
+        match by_l.or(by_n).and_then(|number| target.places.get(&number)) {
+            Some(&place) => target.pieces[place].fields.append(&mut fields),
+            None => target.lost = target.lost.or(Some(first.span)),
         }
     }
 }

@@ -6,7 +6,9 @@ use crate::geom::Extent;
 use crate::machine::FileUnit;
 use crate::source::Span;
 
-/// The unit of a file that names none (1/100 inch), mm.
+/// The unit of a file that names none (1/100 inch), mm. That is no finding: the standard has it so, and most files of the
+/// older cutters name none. Where it is wrong the drawing fits neither its title nor a table, which [`check_plausible`]
+/// says with the unit that would fit.
 const DEFAULT_MM: f64 = crate::units::MM_PER_INCH / 100.0;
 
 /// The unit in force.

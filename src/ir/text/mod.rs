@@ -10,6 +10,7 @@
 //! feed-mm-s 300
 //! drill 40 30 tool 1 @50..60#9
 //! slit 20 0 to 20 5 @60..70#12 percent 75
+//! slit 30 0 to 30 5 @90..96#17 bar 28 5 to 32 5 @97..99#18
 //! contour closed
 //!   from 0 0 to 100 0 @4..9#2
 //!   to 100 80 @10..19#3 percent 75 lift full-advance no-overcut

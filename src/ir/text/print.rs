@@ -35,11 +35,12 @@ fn print_piece(out: &mut String, marker: &Marker, piece: &Piece) {
         line(out, format_args!("drill {} tool {}{}", Xy(drill.at), drill.tool, At(drill.span)));
     }
     for notch in &piece.notches {
-        let kind = match notch.kind {
-            NotchKind::Slit => "slit",
-        };
         let (root, tip) = (Xy(notch.root), Xy(notch.tip));
-        line(out, format_args!("{kind} {root} to {tip}{}{}", At(notch.span), Percent(notch.percent)));
+        push(out, format_args!("slit {root} to {tip}{}{}", At(notch.span), Percent(notch.percent)));
+        match notch.kind {
+            NotchKind::Slit => out.push('\n'),
+            NotchKind::T(bar) => line(out, format_args!(" bar {} to {}{}", Xy(bar.from), Xy(bar.to), At(bar.span))),
+        }
     }
     for contour in &piece.contours {
         line(out, format_args!("contour {}", if contour.closed { "closed" } else { "open" }));
@@ -105,13 +106,23 @@ pub fn print_toolpath(toolpath: &Toolpath) -> String {
 }
 
 fn print_run(out: &mut String, run: &Run) {
-    let feed = if run.feed == f64::INFINITY { "off".to_owned() } else { exact(run.feed) };
+    let greatest = run.feeds.iter().copied().fold(0.0, f64::max);
+    let feed = if greatest == f64::INFINITY { "off".to_owned() } else { exact(greatest) };
     let (shape, law) = (word(&SHAPES, run.shape), word(&LAWS, run.law));
     line(out, format_args!("run {shape} {law} front {} heel {} feed {feed}", exact(run.front), exact(run.heel)));
     line(out, format_args!("  ends {} {}", word(&ENDS, run.ends[0]), word(&ENDS, run.ends[1])));
     line(out, format_args!("  start {}", Placed(run.start)));
     line(out, format_args!("  end {}", Placed(run.end)));
-    print_points(out, &run.points, &run.spans, &run.joints);
+    for (i, &point) in run.points.iter().enumerate() {
+        // The first point has no chord before it, so neither span nor speed.
+        let chord = i.checked_sub(1);
+        let span = chord.map_or(Span::default(), |chord| run.spans[chord]);
+        push(out, format_args!("  point {}{}", Xy(point), At(span)));
+        if let Some(feed) = chord.map(|chord| run.feeds[chord]).filter(|&feed| feed < greatest) {
+            push(out, format_args!(" feed {}", exact(feed)));
+        }
+        line(out, format_args!("{}", Asked(run.joints[i])));
+    }
 }
 
 fn print_stab(out: &mut String, stab: &Stab) {
@@ -119,15 +130,9 @@ fn print_stab(out: &mut String, stab: &Stab) {
     line(out, format_args!("stab along {along} front {} heel {}", exact(stab.front), exact(stab.heel)));
     line(out, format_args!("  ends {} {}", word(&ENDS, stab.ends[0]), word(&ENDS, stab.ends[1])));
     line(out, format_args!("  pose {}", Placed(stab.pose)));
-    print_points(out, &stab.points, &stab.spans, &[]);
-}
-
-/// The first point has no chord before it, so no span; points of a stab have no joints.
-fn print_points(out: &mut String, points: &[Point], spans: &[Span], joints: &[Joint]) {
-    for (i, &point) in points.iter().enumerate() {
-        let span = i.checked_sub(1).and_then(|chord| spans.get(chord)).copied().unwrap_or_default();
-        let joint = joints.get(i).copied().unwrap_or_default();
-        line(out, format_args!("  point {}{}{}", Xy(point), At(span), Asked(joint)));
+    let spans = std::iter::once(Span::default()).chain(stab.spans.iter().copied());
+    for (&point, span) in stab.points.iter().zip(spans) {
+        line(out, format_args!("  point {}{}", Xy(point), At(span)));
     }
 }
 

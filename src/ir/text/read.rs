@@ -7,7 +7,7 @@ use thiserror::Error;
 use super::{ENDS, EVENTS, JOINTS, LAWS, SHAPES};
 use crate::geom::{Heading, Point, Vector};
 use crate::ir::list::{FULL_SPEED, Joint, Segment};
-use crate::ir::marker::{Contour, Drill, Event, Field, Label, Marker, Notch, NotchKind, Piece, Vee};
+use crate::ir::marker::{Contour, Drill, Event, Field, Label, Marker, Notch, NotchKind, Piece, Stroke, Vee};
 use crate::ir::toolpath::{self, Air, End, Pose, Run, Stab, Step, Toolpath};
 use crate::source::Span;
 
@@ -55,11 +55,10 @@ pub fn read_marker(text: &str) -> Read<Marker> {
                 piece.drills.push(Drill { at, tool, span });
             }
             "slit" => {
-                let root = line.point()?;
-                line.expect("to")?;
-                let tip = line.point()?;
-                let span = line.span()?;
-                piece.notches.push(Notch { kind: NotchKind::Slit, root, tip, percent: line.percent()?, span });
+                let Stroke { from: root, to: tip, span } = stroke(&mut line)?;
+                let percent = line.percent()?;
+                let kind = if line.has("bar") { NotchKind::T(stroke(&mut line)?) } else { NotchKind::Slit };
+                piece.notches.push(Notch { kind, root, tip, percent, span });
             }
             "contour" => {
                 let closed = line.choice(&[("closed", true), ("open", false)])?;
@@ -104,6 +103,12 @@ fn drill(line: &mut Line<'_>) -> Read<(Point, u8, Span)> {
     let at = line.point()?;
     line.expect("tool")?;
     Ok((at, line.whole("the number of a drill")?, line.span()?))
+}
+
+fn stroke(line: &mut Line<'_>) -> Read<Stroke> {
+    let from = line.point()?;
+    line.expect("to")?;
+    Ok(Stroke { from, to: line.point()?, span: line.span()? })
 }
 
 /// The segment lines that follow.
@@ -168,8 +173,31 @@ fn run(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Run> {
     let ends = ends(lines)?;
     let start = pose_line(lines, "start")?;
     let end = pose_line(lines, "end")?;
-    let Polyline { points, spans, joints } = points(lines, true)?;
-    Ok(Run { points, spans, joints, shape, law, front, heel, feed, ends, start, end })
+    let mut run = Run {
+        points: Vec::new(),
+        spans: Vec::new(),
+        joints: Vec::new(),
+        feeds: Vec::new(),
+        shape,
+        law,
+        front,
+        heel,
+        ends,
+        start,
+        end,
+    };
+    while run.points.len() < 2 || lines.is_next("point") {
+        let mut line = lines.next_or("point")?;
+        line.expect("point")?;
+        run.points.push(line.point()?);
+        if run.points.len() > 1 {
+            run.spans.push(line.span()?);
+            run.feeds.push(if line.has("feed") { line.number()? } else { feed });
+        }
+        run.joints.push(line.joint());
+        line.end()?;
+    }
+    Ok(run)
 }
 
 fn stab(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Stab> {
@@ -178,7 +206,16 @@ fn stab(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Stab> {
     let (front, heel) = overlaps(line)?;
     let ends = ends(lines)?;
     let pose = pose_line(lines, "pose")?;
-    let Polyline { points, spans, .. } = points(lines, false)?;
+    let (mut points, mut spans) = (Vec::new(), Vec::new());
+    while points.len() < 2 || lines.is_next("point") {
+        let mut line = lines.next_or("point")?;
+        line.expect("point")?;
+        points.push(line.point()?);
+        if points.len() > 1 {
+            spans.push(line.span()?);
+        }
+        line.end()?;
+    }
     Ok(Stab { points, spans, along, front, heel, ends, pose })
 }
 
@@ -203,32 +240,6 @@ fn pose_line(lines: &mut Lines<'_>, name: &str) -> Read<Pose> {
     let pose = line.pose()?;
     line.end()?;
     Ok(pose)
-}
-
-/// What point lines hold.
-#[derive(Default)]
-struct Polyline {
-    points: Vec<Point>,
-    spans: Vec<Span>,
-    joints: Vec<Joint>,
-}
-
-/// The point lines that follow: two at least, the first without a span.
-fn points(lines: &mut Lines<'_>, with_joints: bool) -> Read<Polyline> {
-    let mut held = Polyline::default();
-    while held.points.len() < 2 || lines.is_next("point") {
-        let mut line = lines.next_or("point")?;
-        line.expect("point")?;
-        held.points.push(line.point()?);
-        if held.points.len() > 1 {
-            held.spans.push(line.span()?);
-        }
-        if with_joints {
-            held.joints.push(line.joint());
-        }
-        line.end()?;
-    }
-    Ok(held)
 }
 
 /// The lines that hold something.

@@ -127,15 +127,18 @@ fn step(random: &mut Random) -> Step {
             Step::Run(Run {
                 joints: points.iter().map(|_| random.joint()).collect(),
                 points,
-                spans,
                 shape: SHAPES[random.below(2) as usize].1,
                 law: LAWS[random.below(2) as usize].1,
                 front: random.number(),
                 heel: random.number(),
-                feed: if random.flag() { f64::INFINITY } else { random.number() },
+                feeds: spans
+                    .iter()
+                    .map(|_| if random.flag() { f64::INFINITY } else { random.number().abs() + 1.0 })
+                    .collect(),
                 ends: [random.end(), random.end()],
                 start: random.pose(),
                 end: random.pose(),
+                spans,
             })
         }
         1 => {

@@ -8,6 +8,7 @@ mod inspect;
 mod notch;
 mod sanity;
 mod select;
+mod slit;
 mod weld;
 
 /// A pass over the marker: a row of [`MARKER_PASSES`].
@@ -22,4 +23,5 @@ pub struct MarkerPass {
 }
 
 /// Every pass over the marker, in order.
-pub const MARKER_PASSES: &[MarkerPass] = &[weld::PASS, inspect::PASS, notch::PASS, sanity::PASS, select::PASS];
+pub const MARKER_PASSES: &[MarkerPass] =
+    &[weld::PASS, slit::PASS, inspect::PASS, notch::PASS, sanity::PASS, select::PASS];

@@ -37,8 +37,8 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     let parts: Vec<Part> = (0..marker.pieces.len()).map(|piece| Part::of(marker, piece)).collect();
     let search = Search { marker, parts: &parts };
     let mut work = Work(MOST_WORK);
-    for (i, part) in parts.iter().enumerate() {
-        if let Some((place, span)) = search.self_crossing(part, &mut work) {
+    for i in 0..parts.len() {
+        if let Some((place, span)) = search.self_crossing(i, &mut work) {
             let message = format!("an outline of {} crosses itself at {}", search.name(i), at(place));
             diagnostics.push(Diagnostic::new(&code::MARKER_SELF_CROSSING, message).at(span));
         }
@@ -175,8 +175,8 @@ impl Search<'_> {
         segments.nth(point - part.contours[k].0).map(|(_, segment)| segment.span).unwrap_or_default()
     }
 
-    fn self_crossing(&self, part: &Part, work: &mut Work) -> Option<(Point, Span)> {
-        let piece = self.parts.iter().position(|other| std::ptr::eq(other, part))?;
+    fn self_crossing(&self, piece: usize, work: &mut Work) -> Option<(Point, Span)> {
+        let part = &self.parts[piece];
         let ends = |segment: usize| [part.points[segment], part.points[segment + 1]];
         let mut wanted = |crossing: &Crossing| {
             let [a, b] = crossing.segments;

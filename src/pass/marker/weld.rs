@@ -33,29 +33,8 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
             kept
         });
         join(&mut marker.list, piece);
-        drop_slits(piece, diagnostics);
     }
     dropped.report(diagnostics);
-}
-
-/// Takes out slits without length and slits that stand twice, whichever way round.
-fn drop_slits(piece: &mut Piece, diagnostics: &mut Diagnostics) {
-    let mut seen = BTreeSet::new();
-    let number = piece.number;
-    piece.notches.retain(|notch| {
-        let mut ends = [key(notch.root), key(notch.tip)];
-        ends.sort_unstable();
-        let finding = if ends[0] == ends[1] {
-            Diagnostic::new(&code::MARKER_SLIT_NO_LENGTH, format!("a slit of piece {number} has no length"))
-        } else if !seen.insert(ends) {
-            let message = format!("the same slit stands twice in piece {number}; it is cut once");
-            Diagnostic::new(&code::MARKER_SLIT_TWICE, message)
-        } else {
-            return true;
-        };
-        diagnostics.push(finding.at(notch.span));
-        false
-    });
 }
 
 /// Segments without length that were taken out.

@@ -49,8 +49,9 @@ fn split(mut run: Run, angle: f64) -> Vec<Run> {
         let points = run.points[from..=to].to_vec();
         let joints = run.joints[from..=to].to_vec();
         let spans = run.spans[from..to].to_vec();
+        let feeds = run.feeds[from..to].to_vec();
         let asked = &run.joints[asked_from..=from];
-        let mut part = Run { points, spans, joints, ..empty_like(&run) };
+        let mut part = Run { points, spans, joints, feeds, ..empty_like(&run) };
         part.ends = ends(&part, [from > 0, to < last], asked);
         runs.push(part);
         (asked_from, from) = (from + 1, to);
@@ -60,7 +61,7 @@ fn split(mut run: Run, angle: f64) -> Vec<Run> {
 
 /// A run without points that is otherwise the same.
 fn empty_like(run: &Run) -> Run {
-    Run { points: Vec::new(), spans: Vec::new(), joints: Vec::new(), ..*run }
+    Run { points: Vec::new(), spans: Vec::new(), joints: Vec::new(), feeds: Vec::new(), ..*run }
 }
 
 /// Whether the knife is lifted at a point; point 0 of a ring lies between its last and its first chord.
@@ -84,6 +85,7 @@ fn rotate(run: &mut Run, first: usize) {
     run.points.rotate_left(first);
     run.joints.rotate_left(first);
     run.spans.rotate_left(first);
+    run.feeds.rotate_left(first);
     run.points.push(run.points[0]);
     run.joints.push(run.joints[0]);
 }
@@ -115,7 +117,7 @@ mod tests {
             law: Law::Tangent,
             front: 0.0,
             heel: 0.0,
-            feed: 1.0,
+            feeds: vec![1.0; coordinates.len()],
             ends: [End::default(); 2],
             start: Pose::default(),
             end: Pose::default(),

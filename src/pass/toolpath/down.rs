@@ -80,6 +80,7 @@ impl Way {
             points: vec![at(chord, from - lap)],
             spans: Vec::new(),
             joints: vec![Joint::default()],
+            feeds: Vec::new(),
             shape: Shape::Open,
             ends,
             ..*run
@@ -94,6 +95,7 @@ impl Way {
             if part.points.last() != Some(&point) {
                 part.points.push(point);
                 part.spans.push(run.spans[chord]);
+                part.feeds.push(run.feeds[chord]);
                 part.joints.push(joint);
             }
             let over = chord + 1 == chords;

@@ -66,6 +66,7 @@ fn split(run: &Run, at: usize) -> (Run, Run) {
         points: run.points[..=at].to_vec(),
         spans: run.spans[..at].to_vec(),
         joints: run.joints[..=at].to_vec(),
+        feeds: run.feeds[..at].to_vec(),
         ends: [start, BEND],
         ..*run
     };
@@ -73,6 +74,7 @@ fn split(run: &Run, at: usize) -> (Run, Run) {
         points: run.points[at..].to_vec(),
         spans: run.spans[at..].to_vec(),
         joints: run.joints[at..].to_vec(),
+        feeds: run.feeds[at..].to_vec(),
         ends: [BEND, end],
         ..*run
     };

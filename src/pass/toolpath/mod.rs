@@ -8,6 +8,7 @@ mod entry;
 mod frame;
 mod overlap;
 mod place;
+mod slow;
 mod table;
 mod trace;
 
@@ -31,4 +32,4 @@ pub struct ToolpathPass {
 
 /// Every pass over a toolpath, in order.
 pub const TOOLPATH_PASSES: &[ToolpathPass] =
-    &[corner::PASS, down::PASS, entry::PASS, overlap::PASS, place::PASS, table::PASS];
+    &[corner::PASS, down::PASS, entry::PASS, slow::PASS, overlap::PASS, place::PASS, table::PASS];

@@ -1,11 +1,10 @@
 //! From the marker to raw toolpaths: events, drills, then notches, then contours of each piece, in cut order.
 //!
-//! The file's speeds become the cap of a run: the least that any of its segments asks for, so that a contour with a slow
-//! stretch is slow as a whole.
+//! The file's speeds become the caps of a run, chord by chord.
 
 use crate::ir::Marker;
 use crate::ir::list::{FULL_SPEED, Joint};
-use crate::ir::marker::{Contour, Event, Notch, Piece};
+use crate::ir::marker::{Contour, Event, Piece, Stroke};
 use crate::ir::toolpath::{Drill, End, Law, Pose, Run, Shape, Step, Toolpath};
 use crate::machine::{Follow, Job};
 
@@ -17,7 +16,9 @@ pub fn trace<'a>(marker: &'a Marker, job: &'a Job) -> impl Iterator<Item = Toolp
     let pieces = marker.pieces.iter().flat_map(move |piece| {
         let events = piece.events.iter().map(event);
         let drills = piece.drills.iter().map(|d| Step::Drill(Drill { at: d.at, tool: d.tool, span: d.span }));
-        let notches = piece.notches.iter().map(move |notch| Step::Run(notch_run(piece, notch, job)));
+        let strokes = piece.notches.iter().flat_map(|notch| notch.strokes().map(|stroke| (notch.percent, stroke)));
+        let notches =
+            strokes.map(move |(percent, stroke)| Step::Run(notch_run(&stroke, feed(piece, percent, job), job)));
         let contours = piece.contours.iter().map(move |contour| Step::Run(contour_run(marker, piece, contour, job)));
         events.chain(drills).chain(notches).chain(contours).map(move |step| toolpath(piece.number, tolerance, step))
     });
@@ -32,12 +33,11 @@ fn toolpath(piece: u32, tolerance: f64, step: Step) -> Toolpath {
     Toolpath { piece, tolerance, entry: Pose::default(), steps: vec![step] }
 }
 
-/// A slit is cut from the edge inwards, without overlap at either end.
-fn notch_run(piece: &Piece, notch: &Notch, job: &Job) -> Run {
+/// A slit is cut from the edge inwards, its crossbar as it is written, both without overlap at either end.
+fn notch_run(stroke: &Stroke, feed: f64, job: &Job) -> Run {
     let bare = Joint { lift: true, full_advance: true, no_overcut: true };
-    let feed = feed(piece, notch.percent, job);
-    let points = vec![notch.root, notch.tip];
-    Run { points, spans: vec![notch.span], joints: vec![bare; 2], feed, ..raw(Shape::Open, job) }
+    let points = vec![stroke.from, stroke.to];
+    Run { points, spans: vec![stroke.span], joints: vec![bare; 2], feeds: vec![feed], ..raw(Shape::Open, job) }
 }
 
 /// The cap of a cut, mm/s. A slowed cut needs something to be slower than: without any feed that is the slower of the two
@@ -53,18 +53,17 @@ fn feed(piece: &Piece, percent: u8, job: &Job) -> f64 {
 }
 
 fn contour_run(marker: &Marker, piece: &Piece, contour: &Contour, job: &Job) -> Run {
-    let mut percent = FULL_SPEED;
-    let (mut spans, mut joints) = (Vec::new(), Vec::new());
+    let (mut spans, mut joints, mut feeds) = (Vec::new(), Vec::new(), Vec::new());
     for (_, segment) in marker.list.walk(contour.range) {
         spans.push(segment.span);
         joints.push(segment.joint);
-        percent = percent.min(segment.percent);
+        feeds.push(feed(piece, segment.percent, job));
     }
     // The end of a contour, closed or not, shares the joint of its first segment: there is no segment behind it.
     joints
         .push(Joint { no_overcut: joints[0].no_overcut, ..if contour.closed { joints[0] } else { Joint::default() } });
     let shape = if contour.closed { Shape::Ring } else { Shape::Open };
-    Run { points: marker.points(contour), spans, joints, feed: feed(piece, percent, job), ..raw(shape, job) }
+    Run { points: marker.points(contour), spans, joints, feeds, ..raw(shape, job) }
 }
 
 fn raw(shape: Shape, job: &Job) -> Run {
@@ -79,7 +78,7 @@ fn raw(shape: Shape, job: &Job) -> Run {
         },
         front: 0.0,
         heel: 0.0,
-        feed: f64::INFINITY,
+        feeds: Vec::new(),
         ends: [End::default(); 2],
         start: Pose::default(),
         end: Pose::default(),

@@ -1,0 +1,208 @@
+//! The layer of labels: texts at their places, in their directions, as large as their pieces allow.
+//!
+//! Files give no height of letters. A label is as high as can be read, and lower where it would run out of its piece.
+//! Labels at one place stand one below the other: a cutter would print one over the other.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use super::markup::{blocks, escape, mm};
+use super::piece::Shape;
+use super::sheet::Sheet;
+use crate::back::Context;
+use crate::geom::{Heading, Point, Vector, left, ring};
+use crate::ir::marker::{Label, Piece};
+use crate::source::Span;
+use crate::units::deg;
+use crate::units::number::fixed;
+
+/// Largest height of letters, nominal pixels.
+const MOST_PX: f64 = 13.0;
+/// Least height of letters, mm: a text that has no room is read all the same when the piece is looked at.
+const LEAST: f64 = 1.5;
+/// Width of a letter and of an ideograph, in heights: a wide average, for text runs as the font of the viewer has it.
+const LETTER_WIDTH: f64 = 0.66;
+const IDEOGRAPH_WIDTH: f64 = 1.02;
+/// From here on a character is as wide as it is high: Hangul, kana, ideographs.
+const IDEOGRAPHS_FROM: char = '\u{1100}';
+/// How far letters reach above and below their line, and from line to line, in heights.
+const ASCENT: f64 = 0.78;
+const DESCENT: f64 = 0.24;
+const LINE: f64 = 1.2;
+/// Places of labels that are fitted into a piece, the others are small: bounds the work on files of nothing but labels.
+const MEASURED: usize = 64;
+/// Free space between a text and the lines around it, in heights.
+const GAP: f64 = 0.3;
+/// A point at most this far behind the place of a text is beside it, mm: far below what can be seen.
+const AHEAD_EPSILON: f64 = 1e-9;
+
+/// Texts at one place, one below the other.
+struct Block<'a> {
+    at: Point,
+    heading: Heading,
+    labels: Vec<(&'a Label, String)>,
+}
+
+/// The layer. The numbers of the pieces are then to keep off it.
+pub(super) fn layer(shapes: &mut [Shape], sheet: &Sheet, context: &Context) -> String {
+    let mut text = String::new();
+    for (shape, piece) in shapes.iter_mut().zip(&context.marker.pieces) {
+        for label in piece.labels.iter().filter(|label| label.at.is_none()) {
+            shape.say(&text_of(label.span, context));
+        }
+        let mut drawn = String::new();
+        for (i, block) in blocks_of(piece, context).iter().enumerate() {
+            if i >= MEASURED {
+                block.draw(LEAST, context, &mut drawn);
+                continue;
+            }
+            let height = block.height(shape, sheet);
+            block.draw(height, context, &mut drawn);
+            shape.keep_off(block.edges(height));
+        }
+        if !drawn.is_empty() {
+            let _infallible = writeln!(text, "<g inkscape:label=\"labels of piece {}\">\n{drawn}</g>", shape.number);
+        }
+    }
+    if text.is_empty() {
+        return text;
+    }
+    format!(
+        "<g id=\"labels\" inkscape:groupmode=\"layer\" inkscape:label=\"labels\" transform=\"scale(1,-1)\">\n{text}</g>\n"
+    )
+}
+
+fn text_of(span: Span, context: &Context) -> String {
+    context.job.profile.labels.text(context.source.slice(span))
+}
+
+/// The labels of a piece that have a place and something to read, by place and direction.
+fn blocks_of<'a>(piece: &'a Piece, context: &Context) -> Vec<Block<'a>> {
+    let mut found: Vec<Block> = Vec::new();
+    let mut places: BTreeMap<[u64; 3], usize> = BTreeMap::new();
+    for label in &piece.labels {
+        let Some(at) = label.at else { continue };
+        let text = text_of(label.span, context);
+        if text.trim().is_empty() {
+            continue;
+        }
+        let heading = label.heading.unwrap_or(Heading::new(0.0));
+        let next = found.len();
+        let index = *places.entry([at.x, at.y, heading.radians()].map(f64::to_bits)).or_insert(next);
+        if index == next {
+            found.push(Block { at, heading, labels: Vec::new() });
+        }
+        found[index].labels.push((label, text));
+    }
+    found
+}
+
+impl Block<'_> {
+    /// Reach of the texts along and across their direction, in heights: forward, up and down from their place.
+    fn reach(&self) -> [f64; 3] {
+        let width = |text: &str| text.chars().map(width).sum::<f64>();
+        let forward = self.labels.iter().map(|(_, text)| width(text)).fold(0.0, f64::max);
+        let lines = self.labels.len() as f64;
+        [forward + GAP, ASCENT + GAP, DESCENT + GAP + LINE * (lines - 1.0)]
+    }
+
+    /// Height of the letters, mm.
+    fn height(&self, shape: &Shape, sheet: &Sheet) -> f64 {
+        let inside = shape.rings().iter().filter(|ring| ring::contains(ring, self.at)).count() % 2 == 1;
+        let edge = sheet.edge();
+        let outlines: Vec<&[Point]> =
+            if inside { shape.contours.iter().map(|c| c.points.as_slice()).collect() } else { vec![&edge] };
+        let reach = self.reach();
+        let chords = outlines.iter().flat_map(|outline| outline.windows(2));
+        let free =
+            chords.map(|ends| touch([self.seen(ends[0]), self.seen(ends[1])], reach)).fold(f64::INFINITY, f64::min);
+        free.min(MOST_PX * sheet.px).max(LEAST)
+    }
+
+    /// A point as seen from the place of the texts: along and across their direction.
+    fn seen(&self, point: Point) -> Vector {
+        let (along, from) = (self.heading.unit(), point - self.at);
+        Vector::new(from.dot(&along), from.dot(&left(along)))
+    }
+
+    /// Points on the upper and lower edges of the texts, a height apart.
+    fn edges(&self, height: f64) -> Vec<Point> {
+        let [forward, ..] = self.reach();
+        let along = self.heading.unit();
+        let steps = forward.ceil() as usize;
+        let letters: Vec<Vector> = (0..=steps).map(|i| along * (height * (i as f64).min(forward))).collect();
+        let levels = (0..self.labels.len()).flat_map(|k| [ASCENT - LINE * k as f64, -DESCENT - LINE * k as f64]);
+        let lines = levels.map(|level| self.at + left(along) * (height * level));
+        lines.flat_map(|line| letters.iter().map(move |&letter| line + letter)).collect()
+    }
+
+    fn draw(&self, height: f64, context: &Context, out: &mut String) {
+        for (k, (label, text)) in self.labels.iter().enumerate() {
+            let mut title = format!("label{}", blocks([label.span]));
+            if let Some(mirrored) = label.mirrored {
+                let _infallible = write!(title, ", on mirrored pieces: {}", text_of(mirrored, context));
+            }
+            let _infallible = writeln!(
+                out,
+                "<text class=\"label\" transform=\"translate({},{}) rotate({}) scale(1,-1)\" y=\"{}\" font-size=\"{}\">{}\
+                 <title>{}</title></text>",
+                mm(self.at.x),
+                mm(self.at.y),
+                fixed(deg(self.heading.radians()), 3),
+                mm(LINE * height * k as f64),
+                mm(height),
+                escape(text),
+                escape(&title)
+            );
+        }
+    }
+}
+
+fn width(c: char) -> f64 {
+    if c >= IDEOGRAPHS_FROM { IDEOGRAPH_WIDTH } else { LETTER_WIDTH }
+}
+
+/// The height at which texts of some reach (in heights: forward, up, down) touch a chord as seen from their place;
+/// infinite when they never do.
+///
+/// The box of the texts grows with the height about their place, so a point is touched at the greatest of `x / forward`,
+/// `y / up` and `-y / down` (the gauge of a convex set: Rockafellar, Convex Analysis, 1970, section 4). Along a chord that
+/// is convex and straight in pieces: its least value stands at an end or where two of the three are equal.
+fn touch([a, b]: [Vector; 2], [forward, up, down]: [f64; 3]) -> f64 {
+    let chord = b - a;
+    // Where a linear function of the point is zero along the chord.
+    let zero = |at_a: f64, slope: f64| if slope == 0.0 { f64::NAN } else { -at_a / slope };
+    let against = |reach: f64| zero(a.x / forward - a.y / reach, chord.x / forward - chord.y / reach);
+    let shares = [0.0, 1.0, zero(a.x, chord.x), zero(a.y, chord.y), against(up), against(-down)];
+    let heights = shares.into_iter().filter(|share| (0.0..=1.0).contains(share)).map(|share| {
+        let point = a + chord * share;
+        // Behind their place there are no texts; what rounding leaves of a crossing counts as ahead.
+        if point.x < -AHEAD_EPSILON {
+            f64::INFINITY
+        } else {
+            (point.x / forward).max(point.y / up).max(-point.y / down)
+        }
+    });
+    heights.fold(f64::INFINITY, f64::min)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_grows_until_it_touches_a_line() {
+        let check = |a: (f64, f64), b: (f64, f64), expected: f64| {
+            let height = touch([Vector::new(a.0, a.1), Vector::new(b.0, b.1)], [10.0, 1.0, 0.5]);
+            assert!(height == expected || (height - expected).abs() < 1e-9, "{a:?} {b:?}: {height}");
+        };
+        // A wall ahead, a lid, a floor, a slope that the upper far corner meets.
+        check((30.0, -50.0), (30.0, 50.0), 3.0);
+        check((-50.0, 4.0), (50.0, 4.0), 4.0);
+        check((-50.0, -1.0), (50.0, -1.0), 2.0);
+        check((0.0, 2.0), (20.0, 0.0), 1.0);
+        // What lies behind is never touched; a line through the place leaves no room.
+        check((-1.0, -5.0), (-1.0, 5.0), f64::INFINITY);
+        check((-3.0, -3.0), (3.0, 3.0), 0.0);
+    }
+}

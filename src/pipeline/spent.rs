@@ -1,0 +1,113 @@
+//! Where the time of a program goes, and what keeps its cuts from being faster.
+
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
+
+use super::report::to_millionths;
+use crate::ir::motion::{BOUNDS, Bound, Kind, Motion, Shares};
+
+/// Time by what the machine does, s.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Spent {
+    /// Knife down, along the path.
+    pub cut: f64,
+    /// Knife up, from contour to contour.
+    pub travel: f64,
+    /// Knife up, at corners.
+    pub turn: f64,
+    /// Until the knife is through.
+    pub plunge: f64,
+    /// Until the knife is clear.
+    pub lift: f64,
+    /// Drilling.
+    pub drill: f64,
+    /// At rest for another reason: until the knife is all the way up, for an event, at the end.
+    pub wait: f64,
+    /// What bounds the cuts, each with its time; in the order of [`BOUNDS`], those without any left out.
+    pub bounds: Vec<(Bound, f64)>,
+}
+
+impl Spent {
+    /// All of it, s.
+    pub fn total(&self) -> f64 {
+        self.parts().iter().map(|(_, time)| time).sum()
+    }
+
+    /// What the machine does, in words, and its time, s.
+    pub fn parts(&self) -> [(&'static str, f64); 7] {
+        [
+            ("cut", self.cut),
+            ("travel", self.travel),
+            ("turn", self.turn),
+            ("plunge", self.plunge),
+            ("lift", self.lift),
+            ("drill", self.drill),
+            ("wait", self.wait),
+        ]
+    }
+}
+
+/// A bound as people call it.
+pub fn word(bound: Bound) -> String {
+    match bound {
+        Bound::Ends => "starts and stops".to_owned(),
+        Bound::Feed => "feed".to_owned(),
+        Bound::Axis { axis, order } => {
+            let (axis, order) = (usize::from(axis), usize::from(order));
+            format!("{} of {}", ["speed", "acceleration", "jerk"][order], ["x", "y", "c"][axis])
+        }
+    }
+}
+
+impl Serialize for Spent {
+    fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
+        let mut map = out.serialize_map(None)?;
+        for (name, time) in self.parts() {
+            map.serialize_entry(&format!("{name}_s"), &to_millionths(time))?;
+        }
+        let key = |bound| format!("{}_s", word(bound).replace(' ', "_"));
+        let bounds: serde_json::Map<String, serde_json::Value> =
+            self.bounds.iter().map(|&(bound, time)| (key(bound), to_millionths(time).into())).collect();
+        map.serialize_entry("cut_bound_by", &bounds)?;
+        map.end()
+    }
+}
+
+/// Counts ticks by what the machine does.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Clock {
+    ticks: [u64; 7],
+    shares: Shares,
+}
+
+impl Clock {
+    /// Counts the phases of a motion.
+    pub(super) fn add(&mut self, motion: &Motion) {
+        for phase in &motion.phases {
+            let part = match phase.kind {
+                Kind::Cut => 0,
+                Kind::Travel => 1,
+                Kind::Turn => 2,
+                Kind::Plunge => 3,
+                Kind::Lift => 4,
+                Kind::Drill(_) => 5,
+                Kind::Wait | Kind::Event(_) | Kind::Rest => 6,
+            };
+            self.ticks[part] += u64::from(phase.ticks);
+        }
+    }
+
+    /// Counts what bounds a cut.
+    pub(super) fn bind(&mut self, shares: &Shares) {
+        self.shares.merge(shares);
+    }
+
+    /// The times, s, of ticks of a period.
+    pub(super) fn spent(&self, period: f64) -> Spent {
+        let time = |ticks: u64| ticks as f64 * period;
+        let [cut, travel, turn, plunge, lift, drill, wait] = self.ticks.map(time);
+        let bounds =
+            BOUNDS.iter().map(|&bound| (bound, time(self.shares.of(bound)))).filter(|row| row.1 > 0.0).collect();
+        Spent { cut, travel, turn, plunge, lift, drill, wait, bounds }
+    }
+}

@@ -1,0 +1,82 @@
+//! What a stroke cuts: the body of the blade where it plunges, then the way of its tip.
+
+use super::follow::Foot;
+use super::read::Row;
+use super::reference::Line;
+use crate::geom::{Point, polyline};
+use crate::machine::Knife;
+
+/// Distance of two places at which the body of a plunged blade is looked at, mm.
+pub(super) const BODY_STEP: f64 = 0.25;
+
+/// What a stroke cuts: the body's places, then the tip's.
+pub(super) struct Cut {
+    pub(super) points: Vec<Point>,
+    /// Number of places of the body.
+    pub(super) body: usize,
+    /// The row of each place of the tip.
+    pub(super) rows: Vec<usize>,
+}
+
+impl Cut {
+    /// What the rows of a stroke cut, the tip being at `tips`.
+    pub(super) fn new(rows: &[Row], tips: &[Point], knife: &Knife) -> Self {
+        let steps = (knife.width_mm / BODY_STEP).ceil() as usize;
+        let tail = rows[0].centre - rows[0].along() * knife.back();
+        let body = (0..steps).map(|i| tail + (tips[0] - tail) * (i as f64 / steps as f64));
+        let mut points: Vec<Point> = body.collect();
+        // Rest rows repeat their place; a track of places that differ is enough.
+        let moves: Vec<usize> = (0..tips.len()).filter(|&i| i == 0 || tips[i] != tips[i - 1]).collect();
+        points.extend(moves.iter().map(|&i| tips[i]));
+        Self { points, body: steps, rows: moves }
+    }
+
+    /// Whether the blade plunges and lifts without a way.
+    pub(super) fn is_stab(&self) -> bool {
+        self.points.len() == self.body + 1
+    }
+}
+
+/// The body of a plunged blade: a chord of the path, which bows away from it.
+#[derive(Debug, Default)]
+pub(super) struct Body {
+    /// How far the path bows away from the blade, mm: what it does, and at the most w^2 k / 8 with k its mean curvature.
+    pub(super) sag: f64,
+    /// Turn of the path under the blade, rad, when the blade never moves: its surplus then goes off the line straight on.
+    turned: f64,
+}
+
+impl Body {
+    /// The body of a cut whose places stand at `feet` of a line; `allowed` is how far its ends may be off, mm.
+    pub(super) fn new(line: &Line, cut: &Cut, feet: &[Foot], allowed: f64) -> Self {
+        let (tail, tip) = (cut.points[0], cut.points[cut.body]);
+        let (a, b) = (feet[0].station, feet[cut.body].station);
+        let (low, high) = (a.min(b), a.max(b));
+        let mut body = Self::default();
+        let mut turned = 0.0;
+        for vertex in line.vertices(low, high) {
+            body.sag = body.sag.max(polyline::distance_to_segment(line.points[vertex], tail, tip));
+            turned += line.turn(vertex).abs();
+        }
+        body.turned = if cut.is_stab() { turned } else { 0.0 };
+        // The chord that is being left counts, too: a curve turns along its chords, not at its vertices.
+        let length = line.length();
+        let next = if b >= a {
+            line.vertices(high.next_up(), high + length).next()
+        } else {
+            line.vertices(low - length, low.next_down()).last()
+        };
+        turned += next.map_or(0.0, |vertex| line.turn(vertex).abs());
+        body.sag = body.sag.min((tip - tail).norm() * turned / 8.0);
+        let off = |i: usize| feet[i].deviation - body.turned * feet[i].beyond > allowed;
+        // A blade that does not lie along the line is no chord of it.
+        if off(0) || off(cut.body) { Self::default() } else { body }
+    }
+
+    /// How far place `i` of the body is off. The tail stands on the path or its extension; only between its ends the
+    /// blade cuts across.
+    pub(super) fn off(&self, i: usize, foot: &Foot) -> f64 {
+        let sag = if i == 0 { 0.0 } else { self.sag };
+        (foot.deviation - sag.max(self.turned * foot.beyond)).max(0.0)
+    }
+}

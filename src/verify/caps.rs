@@ -1,0 +1,148 @@
+//! How fast the tip may be along a line: the feed of the profile and of the piece, slowed cuts, and the way before a
+//! corner.
+
+use crate::ir::list::FULL_SPEED;
+use crate::ir::marker::Piece;
+use crate::machine::MachineProfile;
+
+/// The caps of a line by station.
+#[derive(Debug)]
+pub(super) struct Caps {
+    /// Station from which each cap holds, mm; the first is 0.
+    starts: Vec<f64>,
+    /// The caps, mm/s; infinite where nothing caps the tip. No two in a row are equal.
+    values: Vec<f64>,
+    /// Length of the line when it goes round and round.
+    lap: Option<f64>,
+}
+
+/// What caps are made from.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Source<'a> {
+    profile: &'a MachineProfile,
+    /// The feed of the profile and of the piece, mm/s.
+    feed: f64,
+}
+
+impl<'a> Source<'a> {
+    pub(super) fn new(profile: &'a MachineProfile, piece: &Piece) -> Self {
+        let feeds = [profile.knife.feed_mm_s, piece.feed];
+        Self { profile, feed: feeds.into_iter().flatten().fold(f64::INFINITY, f64::min) }
+    }
+
+    /// What a share is of where there is no feed: the speed that the tip can reach in every direction.
+    fn fastest(&self) -> f64 {
+        let [x, y, _] = self.profile.axes.limits();
+        self.feed.min(x.speed).min(y.speed)
+    }
+
+    /// The cap of a cut at a percentage of its speed.
+    pub(super) fn at(&self, percent: u8) -> f64 {
+        if percent < FULL_SPEED { self.fastest() * f64::from(percent) / 100.0 } else { self.feed }
+    }
+
+    /// The caps of chords between stations; slower before the end when there the knife is lifted at a corner.
+    pub(super) fn caps(&self, stations: &[f64], chords: Vec<f64>, to_corner: bool) -> Caps {
+        let (mut starts, mut caps) = (stations[..chords.len()].to_vec(), chords);
+        if let (Some(reach), true) = (self.profile.slow.before_corner_mm, to_corner) {
+            let from = (stations[stations.len() - 1] - reach).max(0.0);
+            let first = starts.partition_point(|&start| start < from);
+            if starts.get(first) != Some(&from) {
+                starts.insert(first, from);
+                caps.insert(first, caps[first - 1]);
+            }
+            let [x, y, _] = self.profile.axes.limits();
+            let share = self.profile.slow.before_corner_percent / 100.0;
+            caps[first..].iter_mut().for_each(|cap| *cap = cap.min(x.speed).min(y.speed) * share);
+        }
+        let mut whole = Caps { starts: Vec::new(), values: Vec::new(), lap: None };
+        for (start, cap) in starts.into_iter().zip(caps) {
+            if whole.values.last() != Some(&cap) {
+                whole.starts.push(start);
+                whole.values.push(cap);
+            }
+        }
+        whole
+    }
+}
+
+impl Caps {
+    /// One cap all along.
+    pub(super) fn all(cap: f64) -> Self {
+        Self { starts: vec![0.0], values: vec![cap], lap: None }
+    }
+
+    /// The same for a line that goes round and round.
+    pub(super) fn round(self, length: f64) -> Self {
+        Self { lap: Some(length), ..self }
+    }
+
+    /// The greatest cap between two stations; beyond the ends hold those of the ends.
+    pub(super) fn greatest(&self, low: f64, high: f64) -> f64 {
+        if let [cap] = self.values[..] {
+            return cap;
+        }
+        let Some(length) = self.lap else { return self.between(low, high) };
+        let from = low.rem_euclid(length);
+        let to = from + (high - low).min(length);
+        if to <= length {
+            self.between(from, to)
+        } else {
+            self.between(from, length).max(self.between(0.0, to - length))
+        }
+    }
+
+    fn between(&self, low: f64, high: f64) -> f64 {
+        let first = self.starts.partition_point(|&start| start <= low).max(1) - 1;
+        let end = self.starts.partition_point(|&start| start <= high).max(first + 1);
+        self.values[first..end].iter().copied().fold(0.0, f64::max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn caps(profile: &MachineProfile, feed: Option<f64>, percents: [u8; 3]) -> Caps {
+        let piece = Piece { feed, ..Piece::default() };
+        let source = Source::new(profile, &piece);
+        source.caps(&[0.0, 10.0, 20.0, 30.0], percents.map(|percent| source.at(percent)).to_vec(), true)
+    }
+
+    #[test]
+    fn the_least_of_all_that_asks_for_slowness_caps_the_tip() {
+        let mut profile = MachineProfile::default();
+        profile.knife.feed_mm_s = Some(400.0);
+        profile.slow.before_corner_mm = Some(5.0);
+        let caps = caps(&profile, Some(300.0), [100, 50, 100]);
+        let at = |station: f64| caps.greatest(station, station);
+        assert_eq!(
+            [-1.0, 9.0, 11.0, 21.0, 24.0, 26.0, 99.0].map(at),
+            [300.0, 300.0, 150.0, 300.0, 300.0, 150.0, 150.0]
+        );
+        assert_eq!(caps.greatest(9.0, 29.0), 300.0);
+    }
+
+    #[test]
+    fn without_any_feed_a_share_is_one_of_the_slower_axis() {
+        let mut profile = MachineProfile::default();
+        profile.knife.feed_mm_s = None;
+        profile.axes.y.speed_mm_s = 500.0;
+        let plain = caps(&profile, None, [100, 50, 100]);
+        assert_eq!([5.0, 15.0].map(|at| plain.greatest(at, at)), [f64::INFINITY, 250.0]);
+        profile.slow.before_corner_mm = Some(99.0);
+        assert_eq!([5.0, 15.0].map(|at| caps(&profile, None, [100, 50, 100]).greatest(at, at)), [250.0, 125.0]);
+    }
+
+    #[test]
+    fn a_line_that_goes_round_has_the_caps_of_its_start_behind_its_end() {
+        let profile = MachineProfile::default();
+        let piece = Piece { feed: Some(100.0), ..Piece::default() };
+        let source = Source::new(&profile, &piece);
+        let caps = source.caps(&[0.0, 10.0, 20.0], vec![100.0, 50.0], false).round(20.0);
+        assert_eq!(
+            [[12.0, 18.0], [18.0, 21.0], [32.0, 38.0], [-1.0, 0.5]].map(|[a, b]| caps.greatest(a, b)),
+            [50.0, 100.0, 50.0, 100.0]
+        );
+    }
+}

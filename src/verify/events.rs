@@ -1,0 +1,74 @@
+//! Events: what the controller or the operator is asked for comes as often, of the kind and in the order that the marker
+//! has it, with the knife up.
+
+use super::order::Order;
+use super::read::Row;
+use super::reference::Reference;
+use super::worst::Worst;
+use crate::geom::Point;
+use crate::ir::finding::Sighting;
+use crate::ir::toolpath::Event;
+use crate::ir::{Finding, Marker};
+
+/// An event of the marker.
+#[derive(Debug, Clone, Copy)]
+struct Asked {
+    /// Its number in a row.
+    number: u8,
+    /// Where it stands in the file.
+    block: u32,
+    /// Its rank among events, holes, slits and contours.
+    rank: usize,
+}
+
+/// Watches the column `event`.
+pub(super) struct Events {
+    asked: Vec<Asked>,
+    /// How many of them were told.
+    told: usize,
+    wrong: f64,
+    worst: Worst,
+}
+
+impl Events {
+    pub(super) fn new(reference: &Reference) -> Self {
+        let asked = asked(reference.marker).zip(&reference.events);
+        let asked = asked.map(|((number, block), &rank)| Asked { number, block, rank }).collect();
+        Self { asked, told: 0, wrong: 0.0, worst: Worst::new("verify/events", "events", Some(0.0)) }
+    }
+
+    /// Sees a row; each that tells an event tells one. What is told and not asked for is one too many.
+    pub(super) fn see(&mut self, row: &Row, order: &mut Order) {
+        if row.event == 0 {
+            return;
+        }
+        if let Some(asked) = self.asked.get(self.told).filter(|asked| asked.number == row.event && !row.knife) {
+            self.told += 1;
+            order.see(row.tick, asked.rank, row.sighting());
+        } else {
+            self.wrong += 1.0;
+            self.worst.see(self.wrong, || row.sighting());
+        }
+    }
+
+    /// What was found; what was asked for and never told is missing.
+    pub(super) fn finding(mut self) -> Finding {
+        for asked in &self.asked[self.told..] {
+            self.wrong += 1.0;
+            self.worst.see(self.wrong, || Sighting { time: None, point: Point::origin(), block: asked.block });
+        }
+        self.worst.finding()
+    }
+}
+
+/// The events of a marker in order, by their numbers in rows, and their blocks.
+fn asked(marker: &Marker) -> impl Iterator<Item = (u8, u32)> {
+    let events = marker.pieces.iter().flat_map(|piece| &piece.events).chain(&marker.closing);
+    events.map(|event| {
+        let number = match event.kind {
+            Event::Stop => 1,
+            Event::Advance => 2,
+        };
+        (number, event.span.block)
+    })
+}

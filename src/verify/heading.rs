@@ -1,0 +1,176 @@
+//! Which way the blade must point: along the way of its tip; at the plunge, and as long as it does not move, as a chord of
+//! its line.
+//!
+//! Under the tangent law the blade lies along the tip's way; after a plunge as a chord it fades from the chord to the
+//! tangent over the next blade width, by the step of degree 7.
+
+use std::f64::consts::PI;
+
+use super::follow::Foot;
+use super::joints::Joints;
+use super::read::Row;
+use super::reference::Line;
+use super::worst::Worst;
+use crate::geom::{Point, Vector, angle};
+
+/// Least way of the tip that shows a direction, mm: its rounding is then below 0.02 degrees.
+const WAY_MIN: f64 = 0.005;
+/// Smaller turns are none, rad.
+const TURN_EPSILON: f64 = 1e-6;
+/// Longest chord that counts as a chord of a curve, mm: along it the curve turns from the direction of the chord before
+/// to that of the chord behind.
+const CURVE_CHORD: f64 = 25.0;
+/// Farthest ahead that a bend is looked for, mm: a curve that far away does not bow the start of a way.
+const BEND_REACH: f64 = 100.0;
+
+/// Any lead is right: for a stroke that belongs to no line.
+pub(super) const ANY: [f64; 2] = [-PI, PI];
+/// None is: the blade plunges along its way.
+pub(super) const NONE: [f64; 2] = [0.0; 2];
+
+/// A stroke whose blade is compared with the way of its tip.
+pub(super) struct Moving<'a> {
+    pub(super) rows: &'a [Row],
+    /// The tip at each row.
+    pub(super) tips: &'a [Point],
+    /// Least and greatest turn from the blade to the tip's way at the plunge, rad.
+    pub(super) lead: [f64; 2],
+    /// Way of the tip over which that fades, mm.
+    pub(super) fade: f64,
+}
+
+impl Moving<'_> {
+    /// The blade against its law: along the way of the tip; before the tip has moved, along the way to come.
+    pub(super) fn check(&self, heading: &mut Worst) {
+        let Self { rows, tips, .. } = *self;
+        let last = rows.len() - 1;
+        let [least, greatest] = self.lead;
+        let is_clear = |i: usize, k: usize| (tips[k] - tips[i]).norm() >= WAY_MIN;
+        let (mut before, mut behind) = (0, 0);
+        let (mut lead, mut way) = (None, 0.0);
+        for i in 0..=last {
+            if i > 0 {
+                way += (tips[i] - tips[i - 1]).norm();
+            }
+            // The nearest rows on either side at which the tip is clearly elsewhere: where it rests its place is only noise.
+            // Neither ever goes back, so that a long rest costs no more than a way.
+            while before + 1 < i && is_clear(i, before + 1) {
+                before += 1;
+            }
+            behind = behind.max(i + 1).min(last);
+            while behind < last && !is_clear(i, behind) {
+                behind += 1;
+            }
+            let along = direction(tips[before], tips[i], tips[behind]);
+            if along.norm() < WAY_MIN {
+                // A blade that goes nowhere turns nowhere.
+                heading.see((rows[i].c_deg - rows[0].c_deg).abs(), || rows[i].sighting());
+                continue;
+            }
+            let ahead = angle::wrap(along.y.atan2(along.x) - rows[i].c_deg.to_radians());
+            let lead = *lead.get_or_insert(ahead.clamp(least, greatest));
+            let expected = if way < self.fade { lead * fading(way / self.fade) } else { 0.0 };
+            heading.see(angle::wrap(ahead - expected).abs().to_degrees(), || rows[i].sighting());
+        }
+    }
+}
+
+/// Direction of a way at the middle one of three places, to the second order: that of the parabola through them. A place
+/// too near to show a direction gives none.
+fn direction(before: Point, here: Point, behind: Point) -> Vector {
+    let (to, from) = (here - before, behind - here);
+    let (a, b) = (to.norm(), from.norm());
+    if a < WAY_MIN || b < WAY_MIN { to + from } else { to * (b / a) + from * (a / b) }
+}
+
+/// What is left of the lead at a fraction of the fade: 1 - (35 x^4 - 84 x^5 + 70 x^6 - 20 x^7).
+fn fading(x: f64) -> f64 {
+    let x4 = x * x * x * x;
+    1.0 - x4 * (35.0 - x * (84.0 - x * (70.0 - x * 20.0)))
+}
+
+/// A blade that plunges on a line: where its tail and its tip stand, and which way it goes from there.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Plunge<'a> {
+    pub(super) line: &'a Line,
+    pub(super) tail: Foot,
+    pub(super) tip: Foot,
+    /// +1 with the line, -1 against it.
+    pub(super) sign: f64,
+    /// Farthest that a way may lie off the line, mm: its tolerance and the bulge of a curve.
+    pub(super) tube: f64,
+}
+
+impl Plunge<'_> {
+    /// The blade as a chord of the line itself.
+    pub(super) fn chord(&self) -> Vector {
+        point_at(self.line, &self.tip) - point_at(self.line, &self.tail)
+    }
+
+    /// Least and greatest turn from the blade to the way of its tip, rad: by the chords of the line about the tip, and by as
+    /// much as a way may bow inside its tube. On a line without a bend the way is straight.
+    pub(super) fn lead(&self) -> [f64; 2] {
+        let line = self.line;
+        let chord = self.chord() * self.sign;
+        let width = chord.norm();
+        if width <= self.tube {
+            return ANY;
+        }
+        let at = on_lap(line, self.tip.station);
+        let count = line.chords();
+        let here = line.chord_at(at);
+        let mut lead = [f64::INFINITY, f64::NEG_INFINITY];
+        let mut add = |k: usize| {
+            let turn = angle::turn(chord, line.direction(k));
+            lead = [lead[0].min(turn), lead[1].max(turn)];
+        };
+        add(here);
+        if at - line.stations[here] <= CURVE_CHORD && (here > 0 || line.ring) {
+            add((here + count - 1) % count);
+        }
+        if line.stations[here + 1] - at <= CURVE_CHORD && (here + 1 < count || line.ring) {
+            add((here + 1) % count);
+        }
+        // A way that is straight for a length l may bow by twice its tube on it: its curvature is then 16 tube / l^2, and it
+        // leads the blade by half of that times the width.
+        let slack = self.straight().map_or(0.0, |length| 8.0 * self.tube * width / length.max(width).powi(2));
+        [lead[0] - slack, lead[1] + slack]
+    }
+
+    /// How far it is from the tail to the first bend; `None` when there is none within reach.
+    fn straight(&self) -> Option<f64> {
+        let Self { line, tail, sign, .. } = *self;
+        let from = tail.station;
+        let [low, high] = if sign > 0.0 { [from, from + BEND_REACH] } else { [from - BEND_REACH, from] };
+        let bends = line.vertices(low, high).filter(|&vertex| line.turn(vertex).abs() > TURN_EPSILON);
+        let length = line.length();
+        let away = |vertex: usize| {
+            let way = sign * (line.stations[vertex] - from);
+            tail.beyond + if line.ring { way.rem_euclid(length) } else { way }
+        };
+        bends.map(away).filter(|&way| way > self.tube).reduce(f64::min)
+    }
+}
+
+/// A station on the first lap.
+fn on_lap(line: &Line, station: f64) -> f64 {
+    if line.ring { station.rem_euclid(line.length()) } else { station }
+}
+
+/// The place of the line, or of its straight extension, at which something stands.
+fn point_at(line: &Line, foot: &Foot) -> Point {
+    let station = on_lap(line, foot.station);
+    let chord = line.chord_at(station);
+    let way = if station <= 0.0 { -foot.beyond } else { foot.beyond };
+    line.points[chord] + line.direction(chord) * (station - line.stations[chord] + way)
+}
+
+/// The directions that a blade may have which cuts a line from a joint to another without moving: as a chord from the one
+/// overlap to the other.
+pub(super) fn of_stab(line: &Line, [from, to]: [f64; 2], joints: &Joints) -> Vec<Vector> {
+    let (start, end) = (line.chord_at(from), line.chord_at(to.next_down()));
+    let at = |chord: usize, station: f64| line.points[chord] + line.direction(chord) * (station - line.stations[chord]);
+    let (first, last) = (at(start, from), at(end, to));
+    let led = |heel: f64, front: f64| last + line.direction(end) * front - (first - line.direction(start) * heel);
+    joints.heels.iter().flat_map(|&heel| joints.fronts.iter().map(move |&front| led(heel, front))).collect()
+}

@@ -1,0 +1,107 @@
+//! Where the strokes of a line may meet: at its ends, at bends that a plunged blade cannot follow, and where the knife is
+//! lifted because it was down for too long. Only there a blade may stand as a chord of a curve or be longer than what it
+//! cuts: elsewhere a curve could be cut as a polygon, and a part stabbed.
+
+use super::reference::Line;
+use crate::geom::{Point, polyline};
+use crate::machine::Knife;
+
+/// Part of a line on which a bend is looked at, in widths of the blade: more than it can lie on.
+const WIDTHS: f64 = 4.0;
+
+/// Finds joints.
+#[derive(Debug)]
+pub(super) struct Joints {
+    width: f64,
+    /// How far a tail may stand before an end of a line, mm.
+    pub(super) heels: [f64; 3],
+    /// How far a tip may stand past one, mm.
+    pub(super) fronts: [f64; 3],
+    longest: Option<f64>,
+}
+
+/// A stretch of a line on which a joint is looked for.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Around {
+    /// Station of its middle, mm.
+    pub(super) station: f64,
+    /// Half of its length, mm.
+    pub(super) slack: f64,
+    /// Width of the tube, mm: behind a slight bend a straight blade stays in it for a while.
+    pub(super) tube: f64,
+}
+
+impl Joints {
+    pub(super) fn new(knife: &Knife) -> Self {
+        Self {
+            width: knife.width_mm,
+            heels: [0.0, knife.heel_overlap_mm, knife.corner_heel_overlap_mm],
+            fronts: [0.0, knife.front_overlap_mm, knife.corner_front_overlap_mm],
+            longest: knife.max_down_mm,
+        }
+    }
+
+    /// The stations of the first and the last joint about a station; `None` when there is none.
+    pub(super) fn near(&self, line: &Line, around: Around) -> Option<[f64; 2]> {
+        let Around { station, slack, tube } = around;
+        let length = line.length();
+        if self.longest.is_some_and(|longest| length > longest) {
+            // The knife is lifted wherever it was down for long enough.
+            return Some([f64::NEG_INFINITY, f64::INFINITY]);
+        }
+        if line.ring {
+            return None;
+        }
+        let reach = |vertex: usize| slack + tube / line.turn(vertex).abs().sin();
+        let is_near = |vertex: usize| (line.stations[vertex] - station).abs() <= reach(vertex);
+        let bends = line.vertices(station - self.width, station + self.width);
+        let bends = bends.filter(|&v| is_near(v) && self.is_bend(line, v)).map(|v| line.stations[v]);
+        let ends = [0.0, length].into_iter().filter(|end| (end - station).abs() <= slack);
+        bends.chain(ends).fold(None, |found, joint| {
+            Some(found.map_or([joint; 2], |[first, last]: [f64; 2]| [first.min(joint), last.max(joint)]))
+        })
+    }
+
+    /// Whether a blade that plunges somewhere before a vertex, as a chord of the line, would pass the vertex farther away
+    /// than it would on a steady curve of the same turn: w^2 k / 8, k the mean curvature under it.
+    fn is_bend(&self, line: &Line, vertex: usize) -> bool {
+        if vertex == 0 || vertex == line.chords() {
+            return false;
+        }
+        let at = line.stations[vertex];
+        let end = line.stations.partition_point(|&s| s <= at + WIDTHS * self.width);
+        let points = &line.points[..(end + 1).min(line.points.len())];
+        let whole = points.len() == line.points.len();
+        let behind = |tail: usize| at - line.stations[tail] <= WIDTHS * self.width;
+        let within = |tail: usize| (points[vertex] - points[tail]).norm() < self.width;
+        let tails = (0..vertex).rev().take_while(|&tail| behind(tail)).filter(|&tail| within(tail));
+        let ends: &[f64] = if whole { &self.fronts } else { &[0.0] };
+        let heels = if behind(0) { &self.heels[..] } else { &[] };
+        let mut starts: Vec<(Vec<Point>, usize)> = tails.map(|tail| (points[tail..].to_vec(), vertex - tail)).collect();
+        starts.extend(heels.iter().filter(|&&heel| heel > 0.0).map(|&heel| {
+            let back = points[0] - line.direction(0) * heel;
+            (std::iter::once(back).chain(points.iter().copied()).collect(), vertex + 1)
+        }));
+        starts.into_iter().any(|(path, vertex)| ends.iter().any(|&front| self.misses(&led_on(&path, front), vertex)))
+    }
+
+    /// Whether the blade, its tail on the first point of a path, passes a vertex too far away.
+    fn misses(&self, path: &[Point], vertex: usize) -> bool {
+        let (tip, chord) =
+            polyline::first_at_distance(path, self.width).unwrap_or((path[path.len() - 1], path.len() - 2));
+        // The chord that is being left counts, too: a curve turns along its chords, not at its vertices.
+        let turned: f64 = path.windows(3).take(chord + 1).map(|w| polyline::turn_at(w[0], w[1], w[2]).abs()).sum();
+        let away = polyline::distance_to_segment(path[vertex], path[0], tip);
+        vertex <= chord && away > self.width * turned / 8.0
+    }
+}
+
+/// A path led straight on beyond its end.
+fn led_on(path: &[Point], front: f64) -> Vec<Point> {
+    let mut path = path.to_vec();
+    let [before, last] = [path[path.len() - 2], path[path.len() - 1]];
+    if let Some(along) = polyline::direction(before, last).filter(|_| front > 0.0) {
+        path.push(last + along * front);
+    }
+    path
+}

@@ -1,0 +1,76 @@
+//! What rows say beside poses and outputs: the block that is being cut, by which a program is resumed.
+
+use super::read::Row;
+use super::reference::Line;
+use super::worst::Worst;
+use crate::ir::Finding;
+
+/// How far from its chord, along the line, a block may be named, mm, beside the tolerance: a tip that takes a bend inside
+/// its tube passes the vertex early or late by less.
+const ASIDE: f64 = 0.5;
+
+/// Watches the column `block`.
+pub(super) struct Naming {
+    reach: f64,
+    block: Worst,
+}
+
+impl Naming {
+    /// For a tube of this tolerance, mm.
+    pub(super) fn new(tolerance: f64) -> Self {
+        let reach = tolerance + ASIDE;
+        Self { reach, block: Worst::new("verify/block", "mm", Some(reach)) }
+    }
+
+    /// Sees any row: in the air no block is cut.
+    pub(super) fn see(&mut self, row: &Row) {
+        if !row.knife && row.block != 0 {
+            self.block.see(f64::INFINITY, || row.sighting());
+        }
+    }
+
+    /// Sees a row that cuts a line at a station: how far from there the chord is that has its block.
+    pub(super) fn see_cut(&mut self, row: &Row, line: &Line, station: f64) {
+        self.block.see(self.away(row.block, line, station), || row.sighting());
+    }
+
+    fn away(&self, block: u32, line: &Line, station: f64) -> f64 {
+        let length = line.length();
+        let station = if line.ring { station.rem_euclid(length) } else { station };
+        let here = line.chord_at(station);
+        if line.blocks[here] == block {
+            return 0.0;
+        }
+        let count = line.chords();
+        let mut nearest = f64::INFINITY;
+        // Behind and before, as far as the chords begin within reach.
+        for i in 1..count {
+            let (at, over) = ((here + i) % count, here + i >= count);
+            let gap = line.stations[at] + if over { length } else { 0.0 } - station;
+            if gap > self.reach || over && !line.ring {
+                break;
+            }
+            if line.blocks[at] == block {
+                nearest = nearest.min(gap);
+                break;
+            }
+        }
+        for i in 1..count {
+            let (at, over) = ((here + count - i) % count, i > here);
+            let gap = station - line.stations[at + 1] + if over { length } else { 0.0 };
+            if gap > self.reach || over && !line.ring {
+                break;
+            }
+            if line.blocks[at] == block {
+                nearest = nearest.min(gap);
+                break;
+            }
+        }
+        nearest
+    }
+
+    /// What was found.
+    pub(super) fn finding(self) -> Finding {
+        self.block.finding()
+    }
+}
