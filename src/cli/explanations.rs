@@ -40,7 +40,7 @@ pub(super) const EXPLANATIONS: &[(&str, &str)] = &[
     ("hpgl/ends-pen-down", "The end of the file is missing, and with it the rest of an outline and perhaps more pieces. Transfer it again and compare the sizes."),
     ("hpgl/open-outline", "Only closed lines are taken for parts, with gaps up to a millimetre. A part whose outline has a wider gap would be missing on the table: close it in the CAD system, or cut every line.\n  cutc compile marker.plt --cut all"),
     ("hpgl/frame", "Frames are drawn around markers, to show the cloth. A rectangular part with holes that fill much of it looks the same: then ask for closed lines, or give its pen to the knife.\n  cutc compile marker.plt --cut closed"),
-    ("hpgl/too-many-outlines", "A cut-out that is taken for a part is cut all the same, but perhaps after the part around it, which is free by then. Split the plot."),
+    ("hpgl/too-many-lines", "A cut-out that is taken for a part is cut all the same, but perhaps after the part around it, which is free by then; a notch that is not recognised is not cut, and a letter may be. Split the plot."),
     ("hpgl/unit-doubtful", "Plots do not say their unit. 1/40 mm and 1/1000 inch differ by 1.6 percent, which nobody sees and every part would be wrong. Compare the extent with the marker.\n  cutc compile marker.plt --set hpgl.unit=0.0254"),
     ("hpgl/nothing-to-cut", "Its outlines may not close, or belong to a pen that is no knife. `cutc info` says what the lines were taken for; options decide otherwise.\n  cutc compile marker.plt --cut all"),
     ("csv/header", "The header tells a list of points from any other table, and says that the unit is mm. Write it above the rows.\n  x_mm,y_mm\n  0,0\n  100,0"),

@@ -113,7 +113,7 @@ mod table {
     /// A rectangle around all.
     pub static HPGL_FRAME: Code = warning("hpgl/frame", "A rectangle that holds all outlines of a plot is taken for the frame of the marker and is not cut.");
     /// A search that was ended.
-    pub static HPGL_TOO_MANY: Code = warning("hpgl/too-many-outlines", "A plot has so many outlines that the search for cut-outs was ended; some of them are taken for parts.");
+    pub static HPGL_TOO_MANY: Code = warning("hpgl/too-many-lines", "A plot has so many lines that the search for what belongs to what was ended; some cut-outs, notches and letters are not recognised.");
     /// Another size than the texts say, or than any table has.
     pub static HPGL_UNIT_DOUBTFUL: Code = warning("hpgl/unit-doubtful", "The extent of a plot, or a length that stands in its texts, suggests another unit; set `hpgl.unit` if it is.");
     /// No part.

@@ -7,7 +7,7 @@
 use super::chain;
 use super::drawing::{Drawing, Stroke};
 use super::nest::{self, Nest};
-use super::notch::{self, Found};
+use super::notch::{self, Found, Marks, Search};
 use super::piece;
 use super::shape::{Class, LONGEST_NOTCH, Mark, ROUNDING, Shape, Wanted, mark};
 use super::text;
@@ -73,27 +73,32 @@ pub(super) fn classify(mut drawing: Drawing, labels: Vec<Label>, job: &Job, out:
     let large: Vec<usize> =
         (0..shapes.len()).filter(|&i| is_free(&shapes[i]) && shapes[i].size() > LONGEST_NOTCH).collect();
     let marks = candidates(&shapes);
-    for found in notch::on_outlines((&drawing, &shapes, unit), marks.into_iter(), &large) {
+    let search = Search { drawing: &drawing, shapes: &shapes, unit, candidates: &marks, outlines: &large };
+    let Marks { found, mut is_cut_short } = notch::on_outlines(search);
+    for found in found {
         shapes[found.mark].class = Class::Notch;
     }
-    text::mark_letters(&mut shapes);
+    is_cut_short |= text::mark_letters(&mut shapes).is_cut_short;
     for shape in &mut shapes {
         if shape.is_outline() && shape.class == Class::Other && is_hole(shape, job) {
             shape.class = Class::Hole;
         }
     }
     let outlines: Vec<usize> = (0..shapes.len()).filter(|&i| is_free(&shapes[i])).collect();
-    let Nest { parents, is_cut_short } = nest::nest(&drawing, &shapes, &outlines, slack);
-    if is_cut_short {
-        let message = "there are too many outlines to tell which lies in which; some cut-outs are taken for parts";
-        out.push(Diagnostic::new(&code::HPGL_TOO_MANY, message).hint("split the plot"));
-    }
+    let Nest { parents, is_cut_short: is_nest_cut_short } = nest::nest(&drawing, &shapes, &outlines, slack);
     for (k, &outline) in outlines.iter().enumerate() {
         let depth = depth(&parents, k);
         shapes[outline].class = if depth % 2 == 0 { Class::Part } else { Class::CutOut };
     }
-    let marks = candidates(&shapes).into_iter().filter(|&i| shapes[i].class != Class::Text);
-    let notches = notch::on_outlines((&drawing, &shapes, unit), marks, &outlines);
+    let mut marks = candidates(&shapes);
+    marks.retain(|&i| shapes[i].class != Class::Text);
+    let search = Search { drawing: &drawing, shapes: &shapes, unit, candidates: &marks, outlines: &outlines };
+    let Marks { found: notches, is_cut_short: are_marks_cut_short } = notch::on_outlines(search);
+    if is_cut_short || is_nest_cut_short || are_marks_cut_short {
+        let message = "there are too many lines to tell what each belongs to; some cut-outs are taken for parts, and some \
+                       notches and letters are not recognised";
+        out.push(Diagnostic::new(&code::HPGL_TOO_MANY, message).hint("split the plot"));
+    }
     for shape in &mut shapes {
         // A line that lost its outline to the letters is what it was before.
         if shape.class == Class::Notch {

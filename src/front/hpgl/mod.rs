@@ -8,8 +8,9 @@
 //! [`reader`] makes statements of bytes with [`syntax`], [`escape`], [`label`] and [`encoded`]; [`instruction`] is the table
 //! of what they mean; [`lower`] follows them with the [`plotter`], its [`scale`] and [`curve`], into a [`drawing`].
 //! [`classify`] then decides what is cut: [`chain`] joins strokes, [`shape`] measures them, [`nest`], [`notch`] and [`text`]
-//! recognise, [`piece`] makes the marker. [`unit`] doubts the size; [`tally`] counts what was not obeyed.
+//! recognise, [`piece`] makes the marker with [`boxes`] to find its parts. [`unit`] doubts the size; [`tally`] counts what was not obeyed.
 
+mod boxes;
 mod chain;
 mod classify;
 mod curve;

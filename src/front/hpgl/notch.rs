@@ -27,14 +27,31 @@ struct End {
     on: [Option<(f64, usize)>; 2],
 }
 
-/// The marks among some shapes that stand on outlines; both are given as indices of shapes.
-pub(super) fn on_outlines(
-    (drawing, shapes, unit): (&Drawing, &[Shape], f64),
-    candidates: impl Iterator<Item = usize>,
-    outlines: &[usize],
-) -> Vec<Found> {
+/// What is searched for marks.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Search<'a> {
+    pub(super) drawing: &'a Drawing,
+    pub(super) shapes: &'a [Shape],
+    /// Length of a unit, mm.
+    pub(super) unit: f64,
+    /// Shapes that may be marks, and those that may be outlines, by their indices.
+    pub(super) candidates: &'a [usize],
+    pub(super) outlines: &'a [usize],
+}
+
+/// The marks that stand on outlines.
+#[derive(Debug)]
+pub(super) struct Marks {
+    pub(super) found: Vec<Found>,
+    /// Whether the search ended before its time.
+    pub(super) is_cut_short: bool,
+}
+
+/// The marks among some shapes that stand on outlines.
+pub(super) fn on_outlines(search: Search) -> Marks {
+    let Search { drawing, shapes, unit, candidates, outlines } = search;
     let marks: Vec<(usize, Mark)> =
-        candidates.filter_map(|i| Some((i, mark(shapes[i].vertices(drawing), unit)?))).collect();
+        candidates.iter().filter_map(|&i| Some((i, mark(shapes[i].vertices(drawing), unit)?))).collect();
     let mut ends: Vec<End> = Vec::with_capacity(2 * marks.len());
     for (_, mark) in &marks {
         let (Mark::Line(both) | Mark::Vee(both)) = mark;
@@ -46,7 +63,10 @@ pub(super) fn on_outlines(
     let touch = TOUCH + ROUNDING * unit;
     let mut work = MOST_WORK;
     for (k, &outline) in outlines.iter().enumerate() {
-        let near = within(&order, &ends, &grown(*shapes[outline].extent(), touch));
+        let extent = grown(*shapes[outline].extent(), touch);
+        let in_reach = in_reach(&order, &ends, &extent);
+        work = work.saturating_sub(in_reach.len());
+        let near: Vec<usize> = in_reach.iter().copied().filter(|&end| extent.holds(ends[end].at)).collect();
         if near.is_empty() {
             continue;
         }
@@ -76,7 +96,7 @@ pub(super) fn on_outlines(
         }
     }
     let outline_ring = |k: usize| -> Vec<Point> { shapes[outlines[k]].vertices(drawing).iter().map(|v| v.at).collect() };
-    marks
+    let found = marks
         .iter()
         .enumerate()
         .filter_map(|(n, (index, mark))| {
@@ -99,7 +119,8 @@ pub(super) fn on_outlines(
             };
             Some(Found { mark: *index, outline, cut })
         })
-        .collect()
+        .collect();
+    Marks { found, is_cut_short: work == 0 }
 }
 
 impl End {
@@ -132,11 +153,11 @@ fn grown(mut extent: Extent, by: f64) -> Extent {
     extent
 }
 
-/// The ends in a box, in their order.
-fn within(order: &[usize], ends: &[End], extent: &Extent) -> Vec<usize> {
+/// Of the ends in the order of their x those in the columns of a box.
+fn in_reach<'a>(order: &'a [usize], ends: &[End], extent: &Extent) -> &'a [usize] {
     let first = order.partition_point(|&end| ends[end].at.x < extent.min.x);
-    let in_reach = order[first..].iter().take_while(|&&end| ends[end].at.x <= extent.max.x);
-    in_reach.copied().filter(|&end| extent.holds(ends[end].at)).collect()
+    let last = order.partition_point(|&end| ends[end].at.x <= extent.max.x);
+    &order[first..last]
 }
 
 /// A spike that was taken out of an outline.

@@ -1,5 +1,6 @@
 //! Pieces from parts, cut-outs, notches, holes and lines, and the account of what was not cut.
 
+use super::boxes::Boxes;
 use super::classify::{Sorted, depth};
 use super::drawing::Vertex;
 use super::notch::{Pruned, prune};
@@ -13,7 +14,7 @@ use crate::source::Span;
 
 /// The drill that makes the holes.
 const DRILL: u8 = 1;
-/// Visits of vertices to find the pieces of labels, lines and holes: a guard against drawings that are made to be slow.
+/// Visits of boxes and vertices to find the pieces of labels, lines and holes: a guard against drawings that are made to be slow.
 const MOST_WORK: usize = 200_000_000;
 
 /// Makes the marker.
@@ -25,6 +26,7 @@ pub(super) fn marker(sorted: &Sorted, labels: Vec<Label>, job: &Job) -> Marker {
         list: SegmentList::default(),
         aside: Aside { points: 0, length: 0.0, bounds: Extent::EMPTY },
         parts: Vec::new(),
+        boxes: Boxes::new(&[]),
         pieces: Vec::new(),
         spikes: 0,
         spike_length: 0.0,
@@ -59,6 +61,8 @@ struct Making<'a> {
     aside: Aside,
     /// The outlines of parts, as indices in the list of outlines, in cut order; then their pieces in the same order.
     parts: Vec<usize>,
+    /// The boxes of the parts, by their index in that list.
+    boxes: Boxes,
     pieces: Vec<Piece>,
     /// Notches that were spikes of outlines, and their length, mm.
     spikes: usize,
@@ -85,6 +89,8 @@ impl Making<'_> {
             .collect();
         keys.sort_unstable();
         self.parts = keys.into_iter().map(|(_, _, k)| k).collect();
+        let extents: Vec<Extent> = self.parts.iter().map(|&k| *self.shape(k).extent()).collect();
+        self.boxes = Boxes::new(&extents);
         self.pieces =
             self.parts.iter().map(|&k| Piece { span: self.span(self.shape(k)), ..Piece::default() }).collect();
     }
@@ -193,22 +199,23 @@ impl Making<'_> {
         })
     }
 
-    /// The piece of the least part that holds a place.
+    /// The piece of the least part that holds a place; of equal ones the first.
     fn part_around(&mut self, at: Point) -> Option<usize> {
-        let sorted = self.sorted;
         let mut best: Option<(f64, usize)> = None;
-        for (piece, &outline) in self.parts.iter().enumerate() {
-            let shape = self.shape(outline);
-            let area = shape.area.abs();
-            if !shape.extent().holds(at) || best.is_some_and(|(least, _)| area >= least) {
+        for piece in self.boxes.near(at) {
+            let Some(left) = self.work.checked_sub(1) else { break };
+            self.work = left;
+            let shape = self.shape(self.parts[piece]);
+            let rank = (shape.area.abs(), piece);
+            if !shape.extent().holds(at) || best.is_some_and(|best| rank >= best) {
                 continue;
             }
-            let vertices = shape.vertices(&sorted.drawing);
+            let vertices = shape.vertices(&self.sorted.drawing);
             let Some(left) = self.work.checked_sub(vertices.len()) else { break };
             self.work = left;
             let points: Vec<Point> = vertices.iter().map(|vertex| vertex.at).collect();
             if ring::contains(&points, at) {
-                best = Some((area, piece));
+                best = Some(rank);
             }
         }
         best.map(|(_, piece)| piece)

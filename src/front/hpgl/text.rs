@@ -13,8 +13,15 @@ const CONCENTRIC: f64 = 0.1;
 /// Pairs of shapes that are compared at the most: a guard against drawings that are made to be slow.
 const MOST_WORK: usize = 50_000_000;
 
+/// How the search for letters went.
+#[derive(Debug)]
+pub(super) struct Letters {
+    /// Whether it ended before its time.
+    pub(super) is_cut_short: bool,
+}
+
 /// Marks the letters among the shapes that are not taken for anything yet.
-pub(super) fn mark_letters(shapes: &mut [Shape]) {
+pub(super) fn mark_letters(shapes: &mut [Shape]) -> Letters {
     let is_small = |shape: &Shape| shape.size() <= LARGEST && shape.wanted == Wanted::Guess && shape.class == Class::Other;
     // Closed ones by the cell of their middle, and open ones to begin with.
     let mut cells: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
@@ -47,13 +54,15 @@ pub(super) fn mark_letters(shapes: &mut [Shape]) {
             letters += 1;
         }
     }
+    let mut is_cut_short = next < pending.len() && !cells.is_empty();
     if letters > 0 {
-        open_letters(shapes, &pending);
+        is_cut_short |= open_letters(shapes, &pending).is_cut_short;
     }
+    Letters { is_cut_short }
 }
 
 /// Marks the open lines beside closed letters.
-fn open_letters(shapes: &mut [Shape], pending: &[usize]) {
+fn open_letters(shapes: &mut [Shape], pending: &[usize]) -> Letters {
     let mut cells: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
     for &i in pending.iter().filter(|&&i| !shapes[i].is_closed) {
         cells.entry(cell(&shapes[i])).or_default().push(i);
@@ -68,12 +77,13 @@ fn open_letters(shapes: &mut [Shape], pending: &[usize]) {
             let Some(open) = cells.get_mut(&near) else { continue };
             work += open.len();
             if work > MOST_WORK {
-                return;
+                return Letters { is_cut_short: true };
             }
             let found: Vec<usize> = open.extract_if(.., |&mut i| are_beside(&shapes[letter], &shapes[i])).collect();
             found.into_iter().for_each(|i| shapes[i].class = Class::Text);
         }
     }
+    Letters { is_cut_short: false }
 }
 
 fn middle(shape: &Shape) -> [f64; 2] {
