@@ -40,6 +40,23 @@ fn pen_down(plot: &str) -> f64 {
     way
 }
 
+/// Plots without texts that hp2xx 3.4.4 draws otherwise, and why.
+const OTHERWISE: [(&str, &str); 13] = [
+    ("arcs", "its arcs by three points are not numbers, its chords are others"),
+    ("beziers", "its chords are others"),
+    ("circle-with-a-cross", "its chords are others"),
+    ("circles", "its chords are others"),
+    ("rectangles-and-wedge", "its chords are others"),
+    ("encoded-and-saved-as-utf-8", "it repairs nothing"),
+    ("encoded-fractions", "it reads no fraction bits"),
+    ("fills-left-out", "it fills"),
+    ("junk-between", "it stops at junk"),
+    ("odd-coordinate", "it stops at a coordinate without its partner"),
+    ("pages", "it draws the first page alone"),
+    ("polygons", "it leaves out the edge that PM 1 adds"),
+    ("scaled-to-the-device", "its corners are those of another device"),
+];
+
 #[test]
 fn hp2xx_draws_the_same_way_of_the_pen() {
     // It has no option that ends well without a plot.
@@ -48,25 +65,18 @@ fn hp2xx_draws_the_same_way_of_the_pen() {
     }
     let folder = tempfile::tempdir().expect("a directory");
     let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/hpgl");
-    // Straight lines only: chords of curves differ from program to program. Texts are strokes there.
-    let plots = [
-        "parts-and-cut-out",
-        "no-terminators",
-        "no-pen-taken",
-        "beyond-sixteen-bits",
-        "marks-on-an-outline",
-        "spikes-in-an-outline",
-        "outline-in-strokes",
-        "frame-and-letters",
-        "two-pens",
-        "relative-and-absolute",
-        "scaled",
-        "turned",
-        "encoded-in-eight-bits",
-        "encoded-in-seven-bits",
-    ];
-    for name in plots {
-        let plot = fixtures.join(name).with_extension("plt");
+    let mut plots: Vec<_> =
+        std::fs::read_dir(fixtures).expect("a folder").map(|e| e.expect("readable").path()).collect();
+    plots.sort();
+    let mut compared = 0;
+    for plot in plots {
+        let name = plot.file_stem().and_then(|stem| stem.to_str()).expect("ASCII").to_owned();
+        // It letters texts, so that they are strokes.
+        let has_texts = std::fs::read(&plot).expect("readable").windows(2).any(|two| two == b"LB");
+        if has_texts || OTHERWISE.iter().any(|(other, _)| *other == name) {
+            continue;
+        }
+        compared += 1;
         let mut other = Command::new("hp2xx");
         other.args(["-q", "-t", "-m", "hpgl", "-f", "out.hpgl"]).arg(&plot).current_dir(folder.path());
         assert!(other.output().expect("hp2xx starts").status.success(), "{name}");
@@ -78,6 +88,7 @@ fn hp2xx_draws_the_same_way_of_the_pen() {
         let expected = pen_down(&drawn);
         assert!((found - expected).abs() <= 1e-3, "{name}: {found} mm instead of {expected}");
     }
+    assert!(compared >= 25, "only {compared} plots were compared");
 }
 
 #[test]

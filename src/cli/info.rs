@@ -83,6 +83,9 @@ impl Known {
 
     fn text(&self, source: &Source, diagnostics: &Diagnostics) -> String {
         let figures = summary::text(&self.report, source.name(), diagnostics);
-        figures + &drawn::text(&self.report) + &self.facts.text() + &self.labels_by_piece.as_deref().map_or(String::new(), labels::text)
+        figures
+            + &drawn::text(&self.report)
+            + &self.facts.text()
+            + &self.labels_by_piece.as_deref().map_or(String::new(), labels::text)
     }
 }

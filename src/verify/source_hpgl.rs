@@ -40,6 +40,7 @@ pub(super) fn scan(bytes: &[u8], read: &Census, profile: &MachineProfile) -> (Ce
         quarters: 0,
         polygon: Vec::new(),
         part: None,
+        is_fresh: false,
         census: Census { points: 0, drills: read.drills, length: 0.0, bounds: Extent::EMPTY, unit, works: Vec::new() },
         slack: Slack { sagitta, length: 0.0, bounds: 0.0 },
     };
@@ -76,8 +77,9 @@ struct Scan<'a> {
     scale: Option<[Place; 2]>,
     quarters: u8,
     polygon: Vec<Corner>,
-    /// Where the part of the polygon that is gathered starts.
+    /// Where the part of the polygon that is gathered starts, and whether the next place starts another.
     part: Option<usize>,
+    is_fresh: bool,
     census: Census,
     slack: Slack,
 }
@@ -138,6 +140,7 @@ impl Scan<'_> {
     fn reset(&mut self) {
         self.pen = Pen { at: self.pen.at, ..Pen::default() };
         (self.corners, self.scale, self.quarters, self.part) = (None, None, 0, None);
+        (self.terminator, self.is_fresh) = (3, false);
         self.polygon.clear();
     }
 
@@ -215,8 +218,7 @@ impl Scan<'_> {
             let cause = self.at;
             let (Some(x), Some(y)) = (self.number(), self.number()) else { return };
             let to = self.target([x, y], self.pen.is_relative);
-            let starts_part = self.part.is_some_and(|part| part > 0 && part + 1 == self.polygon.len());
-            if starts_part {
+            if self.part.is_some() && std::mem::take(&mut self.is_fresh) {
                 self.part = Some(self.polygon.len());
                 self.go(to, cause, false);
             } else {
@@ -378,7 +380,10 @@ impl Scan<'_> {
                     let first = self.polygon[part].0;
                     self.go(first, cause, true);
                     self.go(first, cause, false);
-                    self.part = if kind == 1.0 { Some(self.polygon.len() - 1) } else { None };
+                    (self.part, self.is_fresh) = (None, kind == 1.0);
+                    if self.is_fresh {
+                        self.part = Some(self.polygon.len() - 1);
+                    }
                 }
             },
             (b"EP", _) if self.part.is_none() => {

@@ -26,7 +26,8 @@ impl Arc {
         let sweep = sweep.clamp(-TAU, TAU);
         // The sagitta of a chord over the angle a is r (1 - cos(a / 2)).
         let step = 2.0 * (1.0 - (sagitta / radius).min(0.5)).acos();
-        let chords = if radius > 0.0 && sweep != 0.0 { (sweep.abs() / step).ceil().clamp(1.0, MOST_CHORDS) } else { 0.0 };
+        let chords =
+            if radius > 0.0 && sweep != 0.0 { (sweep.abs() / step).ceil().clamp(1.0, MOST_CHORDS) } else { 0.0 };
         let zero = start[1].atan2(start[0]);
         (1..=chords as u32).map(move |i| {
             if is_full && f64::from(i) == chords {

@@ -39,6 +39,11 @@ impl Stroke {
 }
 
 impl Drawing {
+    /// An empty drawing with room for so many vertices.
+    pub(super) fn with_room(vertices: usize) -> Self {
+        Self { vertices: Vec::with_capacity(vertices), ..Self::default() }
+    }
+
     /// Whether the next line starts a stroke, so that [`Drawing::begin`] comes first.
     pub(super) fn is_lifted(&self) -> bool {
         !self.is_drawing

@@ -43,6 +43,8 @@ struct Mode {
 
 const EIGHT_BIT: Mode = Mode { bits: 6, digit: 63, last: 191 };
 const SEVEN_BIT: Mode = Mode { bits: 5, digit: 63, last: 95 };
+/// A byte that is no digit of either mode, and none that a body may hold.
+const NO_DIGIT: u8 = u8::MAX;
 /// Bits of a number that are kept: more cannot be a place on any table.
 const MOST_BITS: u32 = 60;
 
@@ -135,7 +137,8 @@ impl<'a> Body<'a> {
         // Two bytes of UTF-8 hold what was one: 110000ab 10cdefgh.
         let second = *self.bytes.get(self.at)?;
         if !matches!(first, 0xc2 | 0xc3) || second & 0xc0 != 0x80 {
-            return Some(first);
+            // Another character, such as the one that stands for lost bytes: what it was nobody can tell.
+            return Some(NO_DIGIT);
         }
         self.at += 1;
         self.repaired = true;
@@ -161,7 +164,8 @@ mod tests {
     #[test]
     fn numbers_have_their_least_digit_first_and_their_sign_last() {
         // 100 = 200 / 2: 200 = 8 + 3 * 64, so the bytes 63 + 8 and 191 + 3.
-        let check = |bytes: &[u8], value: i64| assert_eq!(items(bytes, false), (vec![Item::Number(value)], Ending::Done));
+        let check =
+            |bytes: &[u8], value: i64| assert_eq!(items(bytes, false), (vec![Item::Number(value)], Ending::Done));
         check(&[71, 194, b';'], 100);
         // -100: 201 = 9 + 3 * 64.
         check(&[72, 194, b';'], -100);
@@ -191,5 +195,6 @@ mod tests {
         assert_eq!(items(b"G,1;", false).1, Ending::Damaged);
         assert_eq!(items(b"GGGGGGGGGGGGG\xc2;", false).1, Ending::Damaged);
         assert_eq!(items(b"GG", false).1, Ending::Damaged);
+        assert_eq!(items("G\u{fffd};".as_bytes(), true).1, Ending::Damaged);
     }
 }

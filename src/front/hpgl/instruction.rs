@@ -98,12 +98,12 @@ pub(super) fn instruction(mnemonic: [u8; 2]) -> Instruction {
         b"CS" | b"SS" => Instruction::LeftOut("a character set"),
         b"SM" => Instruction::LeftOut("a symbol at each point"),
         b"IW" => Instruction::LeftOut("a window that clips lines"),
-        b"AC" | b"AD" | b"AP" | b"AS" | b"CA" | b"CF" | b"CM" | b"CR" | b"CT" | b"CV" | b"DC" | b"DP" | b"DV" | b"EC"
-        | b"ES" | b"FI" | b"FN" | b"FR" | b"FS" | b"GC" | b"GM" | b"IM" | b"LA" | b"LM" | b"LO" | b"LT" | b"MC"
-        | b"MG" | b"MT" | b"NP" | b"NR" | b"OA" | b"OC" | b"OD" | b"OE" | b"OF" | b"OH" | b"OI" | b"OO" | b"OP"
-        | b"OS" | b"OT" | b"OW" | b"PB" | b"PC" | b"PP" | b"PT" | b"PW" | b"QL" | b"RF" | b"RP" | b"SA" | b"SB"
-        | b"SD" | b"SI" | b"SL" | b"SR" | b"ST" | b"SV" | b"TD" | b"TL" | b"TR" | b"UL" | b"VA" | b"VN" | b"VS"
-        | b"WD" | b"WU" | b"XT" | b"YT" => Instruction::Housekeeping,
+        b"AC" | b"AD" | b"AP" | b"AS" | b"CA" | b"CF" | b"CM" | b"CR" | b"CT" | b"CV" | b"DC" | b"DP" | b"DV"
+        | b"EC" | b"ES" | b"FI" | b"FN" | b"FR" | b"FS" | b"GC" | b"GM" | b"IM" | b"LA" | b"LM" | b"LO" | b"LT"
+        | b"MC" | b"MG" | b"MT" | b"NP" | b"NR" | b"OA" | b"OC" | b"OD" | b"OE" | b"OF" | b"OH" | b"OI" | b"OO"
+        | b"OP" | b"OS" | b"OT" | b"OW" | b"PB" | b"PC" | b"PP" | b"PT" | b"PW" | b"QL" | b"RF" | b"RP" | b"SA"
+        | b"SB" | b"SD" | b"SI" | b"SL" | b"SR" | b"ST" | b"SV" | b"TD" | b"TL" | b"TR" | b"UL" | b"VA" | b"VN"
+        | b"VS" | b"WD" | b"WU" | b"XT" | b"YT" => Instruction::Housekeeping,
         _ => Instruction::Unknown,
     }
 }

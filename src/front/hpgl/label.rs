@@ -53,7 +53,8 @@ impl Terminator {
 /// Where the file goes on behind the quoted text of CO; one without its second quote ends with its line or at a
 /// semicolon.
 pub(super) fn comment(bytes: &[u8], at: usize) -> usize {
-    let line = |from: usize| bytes[from..].iter().position(|byte| b";\r\n".contains(byte)).map_or(bytes.len(), |n| from + n);
+    let line =
+        |from: usize| bytes[from..].iter().position(|byte| b";\r\n".contains(byte)).map_or(bytes.len(), |n| from + n);
     match bytes.get(at) {
         Some(b'"') => {
             let window = &bytes[at + 1..bytes.len().min(at + 1 + LONGEST)];

@@ -37,7 +37,7 @@ pub(super) struct Measure {
 pub(super) fn lower(source: &Source, measure: Measure, out: &mut Diagnostics) -> Plot {
     let mut lowering = Lowering {
         reader: Reader::new(source.bytes()),
-        plotter: Plotter::new(measure.unit),
+        plotter: Plotter::new(measure.unit, Drawing::with_room(source.bytes().len() / BYTES_A_VERTEX)),
         sagitta: measure.sagitta / measure.unit,
         labels: Vec::new(),
         heading: None,
@@ -67,6 +67,8 @@ struct Lowering<'a> {
 
 /// A pen number beyond this is damage: it is taken as no pen.
 const MOST_PENS: f64 = 999.0;
+/// Bytes of a large plot for each of its vertices: more than most have, so that no memory is taken in vain.
+const BYTES_A_VERTEX: usize = 16;
 /// Fraction bits of PE beyond this are damage.
 const MOST_FRACTION_BITS: i64 = 52;
 
@@ -93,7 +95,9 @@ impl Lowering<'_> {
             && self.plotter.drawing.strokes.len() > drawn
         {
             let finding = Diagnostic::new(&code::HPGL_PAGES, "a page goes out here, and more is drawn behind it");
-            self.out.push(finding.at(span).hint("the pages lie on each other; if they do not belong together, split the file"));
+            self.out.push(
+                finding.at(span).hint("the pages lie on each other; if they do not belong together, split the file"),
+            );
         }
     }
 
@@ -101,7 +105,8 @@ impl Lowering<'_> {
     fn end(&mut self) {
         let drawing = &self.plotter.drawing;
         let stroke = drawing.strokes.last().filter(|stroke| !drawing.is_lifted() && stroke.range().len() > 1);
-        let ends = stroke.map(|stroke| [drawing.vertices[stroke.first as usize], drawing.vertices[stroke.end as usize - 1]]);
+        let ends =
+            stroke.map(|stroke| [drawing.vertices[stroke.first as usize], drawing.vertices[stroke.end as usize - 1]]);
         if let Some([first, last]) = ends.filter(|[first, last]| first.at != last.at) {
             let distance = fixed((last.at - first.at).norm(), 1);
             let message = format!("the file ends amid a line, {distance} mm from where the line starts");
@@ -130,7 +135,9 @@ impl Lowering<'_> {
                 self.take_pen(pen);
             }
             Instruction::Encoded => self.encoded(),
-            Instruction::ArcAbsolute | Instruction::ArcRelative => self.arc(instruction == Instruction::ArcRelative, span),
+            Instruction::ArcAbsolute | Instruction::ArcRelative => {
+                self.arc(instruction == Instruction::ArcRelative, span)
+            }
             Instruction::ArcThroughAbsolute | Instruction::ArcThroughRelative => {
                 self.arc_through(instruction == Instruction::ArcThroughRelative, span);
             }
@@ -247,7 +254,9 @@ impl Lowering<'_> {
             Err(Unknown::Range) => "SC scales from a range without width and is ignored",
         };
         let finding = Diagnostic::new(&code::HPGL_SCALE, message).at(span);
-        self.out.push(finding.hint("check the extent: the size of the drawing depends on the plotter that it was made for"));
+        self.out.push(
+            finding.hint("check the extent: the size of the drawing depends on the plotter that it was made for"),
+        );
     }
 
     /// PE.
@@ -302,11 +311,13 @@ impl Lowering<'_> {
         let span = self.reader.within(body.at.saturating_sub(1), body.at);
         match body.ending {
             Ending::Damaged => {
-                let finding = Diagnostic::new(&code::HPGL_PE_DAMAGED, "an encoded polyline (PE) is damaged here").at(span);
+                let finding =
+                    Diagnostic::new(&code::HPGL_PE_DAMAGED, "an encoded polyline (PE) is damaged here").at(span);
                 self.out.push(finding.hint("transfer the file again, as binary data"));
             }
             Ending::Open => {
-                let finding = Diagnostic::new(&code::HPGL_PE_OPEN, "an encoded polyline (PE) has no semicolon at its end");
+                let finding =
+                    Diagnostic::new(&code::HPGL_PE_OPEN, "an encoded polyline (PE) has no semicolon at its end");
                 self.out.push(finding.at(span).hint("the file may be cut short; compare its size with the original"));
             }
             Ending::Done | Ending::More => {}

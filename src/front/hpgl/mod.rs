@@ -107,7 +107,9 @@ fn check_syntax(source: &Source, out: &mut Diagnostics) {
                 }
                 reader.behind(&body);
             }
-            Statement::Junk => out.push(Diagnostic::new(&code::HPGL_JUNK, "what stands here is no instruction").at(span)),
+            Statement::Junk => {
+                out.push(Diagnostic::new(&code::HPGL_JUNK, "what stands here is no instruction").at(span))
+            }
             Statement::Instruction(..) | Statement::Reset => {}
         }
     }
@@ -126,13 +128,17 @@ fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker {
         extent.add(stroke.extent.max);
     }
     let is_blank = plot.drawing.strokes.is_empty();
-    unit::check_plausible(unit, &extent, (source, &plot.labels), out);
+    unit::check_plausible(unit::Sized { unit, extent: &extent, source, labels: &plot.labels }, out);
     let marker = classify::classify(plot.drawing, plot.labels, job, out);
     if marker.pieces.is_empty() && !out.has_errors() {
         let message =
             if is_blank { "the plot draws no line" } else { "no line of the plot is taken for something to cut" };
         let finding = Diagnostic::new(&code::HPGL_NOTHING_TO_CUT, message);
-        out.push(if is_blank { finding } else { finding.hint("`--cut all` cuts every line, `--cut-pens 1` those of a pen") });
+        out.push(if is_blank {
+            finding
+        } else {
+            finding.hint("`--cut all` cuts every line, `--cut-pens 1` those of a pen")
+        });
     }
     marker
 }

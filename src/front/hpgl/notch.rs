@@ -95,7 +95,8 @@ pub(super) fn on_outlines(search: Search) -> Marks {
             break;
         }
     }
-    let outline_ring = |k: usize| -> Vec<Point> { shapes[outlines[k]].vertices(drawing).iter().map(|v| v.at).collect() };
+    let outline_ring =
+        |k: usize| -> Vec<Point> { shapes[outlines[k]].vertices(drawing).iter().map(|v| v.at).collect() };
     let found = marks
         .iter()
         .enumerate()
@@ -108,12 +109,14 @@ pub(super) fn on_outlines(search: Search) -> Marks {
                     let (root, tip) = if distance(b) < distance(a) { (b, a) } else { (a, b) };
                     let [nearest, second] = root.on;
                     // On the edge of two parts the notch belongs to the one that it leads into.
-                    let leads_in = |on: Option<(f64, usize)>| on.filter(|on| ring::contains(&outline_ring(on.1), tip.at));
+                    let leads_in =
+                        |on: Option<(f64, usize)>| on.filter(|on| ring::contains(&outline_ring(on.1), tip.at));
                     // A line from edge to edge is a chord, such as the cross in a circle.
                     if root.common(tip).is_some() {
                         return None;
                     }
-                    let outline = if second.is_some() { leads_in(nearest).or(leads_in(second)).or(nearest) } else { nearest };
+                    let outline =
+                        if second.is_some() { leads_in(nearest).or(leads_in(second)).or(nearest) } else { nearest };
                     (outline?.1, Some([root.at, tip.at]))
                 }
             };
@@ -182,18 +185,21 @@ pub(super) struct Pruned {
 pub(super) fn prune(vertices: &[Vertex], unit: f64, longest: f64) -> Pruned {
     let mut pruned = Pruned { vertices: Vec::with_capacity(vertices.len()), ..Pruned::default() };
     for &vertex in vertices {
-        if let [.., root, tip] = pruned.vertices[..] {
-            let depth = (tip.at - root.at).norm();
-            if root.at == vertex.at {
+        // Few vertices come back to the last but one, so nothing is measured before that is known.
+        if let [.., root, tip] = &pruned.vertices[..]
+            && is_near(root.at, vertex.at, unit)
+        {
+            let (root, tip) = (root.at, *tip);
+            let depth = (tip.at - root).norm();
+            if root == vertex.at {
                 pruned.vertices.pop();
-                pruned.add(root.at, tip, depth);
+                pruned.add(root, tip, depth);
                 continue;
             }
-            let is_notch = (SHORTEST_NOTCH..=longest).contains(&depth);
-            if is_notch && is_near(root.at, vertex.at, unit) {
+            if (SHORTEST_NOTCH..=longest).contains(&depth) {
                 pruned.vertices.pop();
-                pruned.spikes.push(Spike { root: root.at, tip });
-                pruned.length += (vertex.at - tip.at).norm() - (vertex.at - root.at).norm();
+                pruned.spikes.push(Spike { root, tip });
+                pruned.length += (vertex.at - tip.at).norm() - (vertex.at - root).norm();
             }
         }
         pruned.vertices.push(vertex);

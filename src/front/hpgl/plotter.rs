@@ -23,6 +23,8 @@ pub(super) struct Plotter {
     at: Pair,
     /// Corners of the polygon that PM gathers, and where its last part starts; `None` outside PM.
     gathering: Option<usize>,
+    /// Whether the next place starts another part of it.
+    awaits_part: bool,
     polygon: Vec<Corner>,
 }
 
@@ -40,16 +42,18 @@ struct Corner {
 pub(super) struct TooFar;
 
 impl Plotter {
-    pub(super) fn new(unit: f64) -> Self {
+    /// A plotter whose unit is so many mm, and which draws into a drawing.
+    pub(super) fn new(unit: f64, drawing: Drawing) -> Self {
         Self {
             frame: Frame::new(),
-            drawing: Drawing::default(),
+            drawing,
             unit,
             pen: FIRST_PEN,
             is_down: false,
             is_relative: false,
             at: [0.0, 0.0],
             gathering: None,
+            awaits_part: false,
             polygon: Vec::new(),
         }
     }
@@ -58,7 +62,7 @@ impl Plotter {
     pub(super) fn reset(&mut self) {
         self.lift();
         self.frame.reset();
-        (self.is_relative, self.gathering) = (false, None);
+        (self.is_relative, self.gathering, self.awaits_part) = (false, None, false);
         self.polygon.clear();
     }
 
@@ -160,7 +164,7 @@ impl Plotter {
         self.drawing.lift();
         self.polygon.clear();
         self.polygon.push(Corner { at: self.at, span, is_edge: false });
-        self.gathering = Some(0);
+        (self.gathering, self.awaits_part) = (Some(0), false);
     }
 
     /// PM 1: the part is closed, and the next place starts another.
@@ -172,25 +176,25 @@ impl Plotter {
         }
         self.at = first;
         self.polygon.push(Corner { at: first, span, is_edge: false });
-        self.gathering = Some(self.polygon.len() - 1);
+        (self.gathering, self.awaits_part) = (Some(self.polygon.len() - 1), true);
     }
 
-    /// The first place behind PM 1 starts a part, pen up or down.
+    /// Whether the next place starts a part: the first one behind PM 1 does, pen up or down.
     pub(super) fn starts_part(&self) -> bool {
-        self.gathering.is_some_and(|start| start > 0 && start + 1 == self.polygon.len())
+        self.awaits_part
     }
 
     /// That place.
     pub(super) fn start_part(&mut self, to: Pair, span: Span) -> Result<(), TooFar> {
         self.jump(to, span)?;
-        self.gathering = Some(self.polygon.len() - 1);
+        (self.gathering, self.awaits_part) = (Some(self.polygon.len() - 1), false);
         Ok(())
     }
 
     /// PM 2: the polygon is whole.
     pub(super) fn end_polygon(&mut self, span: Span) {
         self.close_part(span);
-        self.gathering = None;
+        (self.gathering, self.awaits_part) = (None, false);
     }
 
     /// EP: draws the edges that the pen was down for.

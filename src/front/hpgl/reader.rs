@@ -78,6 +78,9 @@ impl<'a> Reader<'a> {
             };
             self.at = self.bytes.len() - next.len();
             if !passed_over {
+                if matches!(statement, Statement::Reset | Statement::Instruction(Instruction::Reset, _)) {
+                    self.terminator = Terminator::new();
+                }
                 self.block += 1;
                 return Some((statement, self.span(start)));
             }
@@ -245,6 +248,10 @@ mod tests {
         check(b"\xef\xbb\xbf\x1bE\x1b%0BIN;CO\"PU1,2\";DT#,1;PU;", "reset|IN|CO|DT|PU");
         check(b"@PJL ENTER LANGUAGE=HPGL2\nIN;", "IN");
         check(b"P;PU3;", "!|PU 3");
+        check(
+            b"DT#;LBa#IN;LBb#\x03PU;",
+            "DT|LB[Span { start: 6, end: 7, block: 2 }]|IN|LB[Span { start: 13, end: 15, block: 4 }]|PU",
+        );
         check(b"\x1b", "!");
     }
 

@@ -76,8 +76,12 @@ impl Frame {
             return Ok(());
         }
         let [length, width] = self.page.ok_or(Unknown::Page)?;
-        let units: arrayvec::ArrayVec<f64, 4> =
-            values.iter().take(4).zip([length, width].into_iter().cycle()).map(|(v, size)| v / HUNDRED * size).collect();
+        let units: arrayvec::ArrayVec<f64, 4> = values
+            .iter()
+            .take(4)
+            .zip([length, width].into_iter().cycle())
+            .map(|(v, size)| v / HUNDRED * size)
+            .collect();
         self.set_corners(&units);
         Ok(())
     }

@@ -171,7 +171,8 @@ impl Shape {
 
 /// Whether two places are one but for rounding.
 pub(super) fn is_near(a: Point, b: Point, unit: f64) -> bool {
-    (a - b).amax() <= ROUNDING * unit
+    let (reach, gap) = (ROUNDING * unit, a - b);
+    gap.x.abs() <= reach && gap.y.abs() <= reach
 }
 
 /// A mark that may be a notch: one line, or two that meet at its tip.

@@ -3,7 +3,7 @@
 //! What stands between instructions, and the bodies that follow rules of their own (labels, encoded polylines, escape
 //! sequences), are in [`super::reader`], [`super::label`], [`super::encoded`] and [`super::escape`].
 
-use nom::bytes::complete::{take_while, take_while1};
+use nom::bytes::complete::take_while;
 use nom::combinator::opt;
 use nom::error::{ErrorKind, ParseError};
 use nom::{Err, IResult, Parser};
@@ -34,8 +34,6 @@ impl<'a> ParseError<&'a [u8]> for Fault {
 /// whole numbers and their binary fractions to be exact.
 pub(super) const VALUE_MAX: f64 = 1e8;
 
-/// Digits of a number whose value a `u64` holds whatever they are.
-const SAFE_DIGITS: usize = 18;
 /// Decimals that count: with nine digits before them, all are exact in `f64`.
 const MOST_DECIMALS: usize = 6;
 const POWERS_OF_TEN: [f64; MOST_DECIMALS + 1] = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6];
@@ -52,8 +50,9 @@ pub(super) fn mnemonic(i: &[u8]) -> Out<'_, [u8; 2]> {
 
 /// `<parameter>`: a number behind commas, blanks or nothing. Its sign separates it, too.
 pub(super) fn parameter(i: &[u8]) -> Out<'_, f64> {
-    let (i, _) = take_while(is_separator).parse(i)?;
-    number(i)
+    // Nearly all of a plot is parameters: this loop is most of its reading.
+    let blanks = i.iter().position(|&byte| !is_separator(byte)).unwrap_or(i.len());
+    number(&i[blanks..])
 }
 
 fn is_separator(byte: u8) -> bool {
@@ -68,18 +67,17 @@ pub(super) fn number(i: &[u8]) -> Out<'_, f64> {
         _ => (false, i),
     };
     let (mut rest, whole) = opt(digits).parse(unsigned)?;
-    let mut magnitude = value(whole.unwrap_or_default()) as f64;
+    let mut magnitude = whole.unwrap_or_default() as f64;
     if let Some((b'.', after)) = rest.split_first() {
-        let (after, decimals) = opt(digits).parse(after)?;
-        if whole.is_none() && decimals.is_none() {
+        let count = after.iter().position(|byte| !byte.is_ascii_digit()).unwrap_or(after.len());
+        if whole.is_none() && count == 0 {
             return other();
         }
-        rest = after;
+        rest = &after[count..];
+        let (_, decimals) = opt(digits).parse(&after[..count.min(MOST_DECIMALS)])?;
         // One division of two exact integers, or nearly: the nearest number to what is written.
-        let decimals = decimals.unwrap_or_default();
-        let kept = &decimals[..decimals.len().min(MOST_DECIMALS)];
-        let scale = POWERS_OF_TEN[kept.len()];
-        magnitude = (magnitude * scale + value(kept) as f64) / scale;
+        let scale = POWERS_OF_TEN[count.min(MOST_DECIMALS)];
+        magnitude = (magnitude * scale + decimals.unwrap_or_default() as f64) / scale;
     } else if whole.is_none() {
         return other();
     }
@@ -90,18 +88,14 @@ pub(super) fn number(i: &[u8]) -> Out<'_, f64> {
     Ok((rest, if negative && magnitude > 0.0 { -magnitude } else { magnitude }))
 }
 
-/// The number of some digits; `u64::MAX` when it would not fit.
-fn value(digits: &[u8]) -> u64 {
-    if digits.len() > SAFE_DIGITS {
-        let significant = digits.iter().position(|&digit| digit != b'0').map_or(&[][..], |at| &digits[at..]);
-        return if significant.len() > SAFE_DIGITS { u64::MAX } else { value(significant) };
+/// `<digits>`: their number; `u64::MAX` when it would not fit.
+fn digits(i: &[u8]) -> Out<'_, u64> {
+    let (mut value, mut rest) = (0_u64, i);
+    while let [digit @ b'0'..=b'9', behind @ ..] = rest {
+        value = value.saturating_mul(10).saturating_add(u64::from(digit - b'0'));
+        rest = behind;
     }
-    digits.iter().fold(0, |value, digit| value * 10 + u64::from(digit - b'0'))
-}
-
-/// `<digits>`
-fn digits(i: &[u8]) -> Out<'_, &[u8]> {
-    take_while1(|byte: u8| byte.is_ascii_digit()).parse(i)
+    if rest.len() == i.len() { other() } else { Ok((rest, value)) }
 }
 
 /// `<end>`: a semicolon, behind blanks, or nothing: the next letter ends an instruction as well.

@@ -143,8 +143,7 @@ impl Tally {
             let names: Vec<String> = self.unknown.keys().take(SHOWN_NAMES).map(name).collect();
             let more = if self.unknown.len() > SHOWN_NAMES { " and others" } else { "" };
             let times = Count { count: self.unknown_total, first: Some(first) };
-            let message =
-                format!("{}{more}: not known and ignored; this happens {}", names.join(", "), times.times());
+            let message = format!("{}{more}: not known and ignored; this happens {}", names.join(", "), times.times());
             found.push(times.diagnostic(&code::HPGL_UNKNOWN, message));
         }
         for (mnemonic, (what, count)) in &self.left_out {

@@ -22,7 +22,8 @@ pub(super) struct Letters {
 
 /// Marks the letters among the shapes that are not taken for anything yet.
 pub(super) fn mark_letters(shapes: &mut [Shape]) -> Letters {
-    let is_small = |shape: &Shape| shape.size() <= LARGEST && shape.wanted == Wanted::Guess && shape.class == Class::Other;
+    let is_small =
+        |shape: &Shape| shape.size() <= LARGEST && shape.wanted == Wanted::Guess && shape.class == Class::Other;
     // Closed ones by the cell of their middle, and open ones to begin with.
     let mut cells: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
     let mut pending: Vec<usize> = Vec::new();

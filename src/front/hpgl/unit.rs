@@ -31,20 +31,27 @@ const LONGEST_TITLE: usize = 200;
 const MM_PER_YARD: f64 = 36.0 * MM_PER_INCH;
 const MM_PER_FOOT: f64 = 12.0 * MM_PER_INCH;
 
+/// What the size of a plot is judged by.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sized<'a> {
+    pub(super) unit: &'a PlotUnit,
+    /// The box around all lines.
+    pub(super) extent: &'a Extent,
+    pub(super) source: &'a Source,
+    pub(super) labels: &'a [Label],
+}
+
 /// Warns when the drawing fits neither a length in its texts nor any table, and names the unit that would fit.
-pub(super) fn check_plausible(
-    unit: &PlotUnit,
-    extent: &Extent,
-    (source, labels): (&Source, &[Label]),
-    out: &mut Diagnostics,
-) {
+pub(super) fn check_plausible(sized: Sized, out: &mut Diagnostics) {
+    let Sized { unit, extent, source, labels } = sized;
     if extent.is_empty() {
         return;
     }
     let (width, height) = extent.size();
     let (long, wide) = (width.max(height), width.min(height));
     let scale = |mm: f64| mm / unit.mm();
-    let drawn = format!("with a unit of {} mm the drawing is {} x {} mm", exact(unit.mm()), fixed(width, 1), fixed(height, 1));
+    let drawn =
+        format!("with a unit of {} mm the drawing is {} x {} mm", exact(unit.mm()), fixed(width, 1), fixed(height, 1));
     let fits_table = |mm: f64| wide * scale(mm) <= WIDEST && long * scale(mm) >= SMALLEST;
     let hint = |mut finding: Diagnostic, fits: &dyn Fn(f64) -> bool| {
         for (mm, key) in CANDIDATES {
