@@ -13,6 +13,8 @@ use crate::machine::MachineProfile;
 const FINER: f64 = 4.0;
 /// The most chords of a curve, as in the reader.
 const MOST_CHORDS: f64 = 100_000.0;
+/// The terminator of labels unless DT gives another: ETX.
+const ETX: u8 = 3;
 /// Longest label, bytes, before its terminator counts as lost.
 const LABEL_BYTES: usize = 1024;
 /// Most numbers of an instruction that is no list of places.
@@ -30,7 +32,7 @@ pub(super) fn scan(bytes: &[u8], read: &Census, profile: &MachineProfile) -> (Ce
         bytes,
         at: if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 },
         is_text: !bytes.is_ascii() && std::str::from_utf8(bytes).map_or_else(|e| e.error_len().is_none(), |_| true),
-        terminator: 3,
+        terminator: ETX,
         unit,
         sagitta: sagitta / unit,
         pen: Pen::default(),
@@ -140,7 +142,7 @@ impl Scan<'_> {
     fn reset(&mut self) {
         self.pen = Pen { at: self.pen.at, ..Pen::default() };
         (self.corners, self.scale, self.quarters, self.part) = (None, None, 0, None);
-        (self.terminator, self.is_fresh) = (3, false);
+        (self.terminator, self.is_fresh) = (ETX, false);
         self.polygon.clear();
     }
 
@@ -192,7 +194,7 @@ impl Scan<'_> {
             }
             b"DT" => {
                 let given = self.bytes.get(self.at).copied().filter(|&byte| byte != b';');
-                self.terminator = given.unwrap_or(3);
+                self.terminator = given.unwrap_or(ETX);
                 self.at += usize::from(given.is_some());
             }
             b"CO" => {
