@@ -19,6 +19,7 @@ mod profile;
 mod provenance;
 mod report;
 mod summary;
+mod times;
 mod verdict;
 mod verify;
 
