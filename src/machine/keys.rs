@@ -287,7 +287,7 @@ pub const KEYS: &[Key] = &[
     Key { name: "drill.dwell_ms", takes: Takes::Number(REST), about: "Time for one drill hole; the axes rest." },
     Key { name: "drill.offset_mm", takes: Takes::Point, about: "Where the drill stands, seen from the C axis." },
 
-    Key { name: "corner.angle_deg", takes: Takes::Number(between(0.0, 180.0)), about: "Lift and plunge corner angle: where the line turns by more than this the knife is lifted and\nturned in the air." },
+    Key { name: "corner.angle_deg", takes: Takes::Number(between(0.0, 75.0)), about: "Lift and plunge corner angle: where the line turns by more than this the knife is lifted and\nturned in the air; a blade in the cloth cannot follow sharper ones." },
 
     Key { name: "slow.before_corner_mm", takes: Takes::NumberOr(from(0.1, 1000.0), "off"), about: "How far before a corner the knife slows down." },
     Key { name: "slow.before_corner_percent", takes: Takes::Number(from(1.0, 100.0)), about: "Speed of the knife there, a part of what it would be." },
@@ -400,7 +400,7 @@ mod tests {
         let expects = |name: &str| find(name).expect("a key").expects();
         assert_eq!(expects("knife.width_mm"), "a number from 0 to 1000 mm");
         assert_eq!(expects("knife.feed_mm_s"), "a number from 1 to 1000000 mm/s, or \"off\"");
-        assert_eq!(expects("corner.angle_deg"), "a number between 0 and 180 degrees");
+        assert_eq!(expects("corner.angle_deg"), "a number between 0 and 75 degrees");
         assert_eq!(expects("knife.edges"), "1 or 2");
         assert_eq!(expects("knife.follow"), "\"tangent\" or \"chord\"");
         assert_eq!(expects("c.range_deg"), "two numbers [least, greatest] degrees, or \"unbounded\"");

@@ -2,6 +2,7 @@
 //!
 //! Medians over rounds in one process; README holds the figures.
 
+#[expect(dead_code, reason = "one of its shapes is enough here")]
 #[path = "garment.rs"]
 mod garment;
 
@@ -29,7 +30,8 @@ type Failure = Box<dyn Error>;
 
 fn main() -> Result<(), Failure> {
     let profile = fs::read(fixture("machines/score.toml"))?;
-    let profile = machine::load(Some(&Source::new("score.toml", profile)?), &[]).map_err(|_| "score.toml has faults")?;
+    let profile =
+        machine::load(Some(&Source::new("score.toml", profile)?), &[]).map_err(|_| "score.toml has faults")?;
     let score = Job { profile, ..Job::default() };
 
     let contour = points("contour2m_flat.csv")?;
