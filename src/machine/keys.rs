@@ -68,6 +68,10 @@ const ACCELERATION: Within = from(1.0, 1.0e9);
 const JERK: Within = from(1.0, 1.0e12);
 /// Places on a table and positions of C: farther ones would make programs of astronomic length, mm and degrees.
 const PLACE: Within = from(-1.0e6, 1.0e6);
+/// Encoder counts of a mm or a degree.
+const COUNTS: Within = from(1.0, 1.0e7);
+/// What a register of 32 bits holds, counts.
+const REGISTER: Within = from(-2_147_483_648.0, 2_147_483_647.0);
 /// Angles that may be anywhere within a turn, degrees.
 const TURN: Within = from(-360.0, 360.0);
 
@@ -143,7 +147,10 @@ impl fmt::Display for Within {
 impl Key {
     /// The unit of its numbers, from the end of its name; empty when they have none.
     pub fn unit(&self) -> &'static str {
-        const UNITS: [(&str, &str); 9] = [
+        const UNITS: [(&str, &str); 12] = [
+            ("per_mm", "counts/mm"),
+            ("per_deg", "counts/degree"),
+            (".offset", "counts"),
             ("_mm", "mm"),
             ("_mm_s", "mm/s"),
             ("_mm_s2", "mm/s2"),
@@ -324,6 +331,13 @@ pub const KEYS: &[Key] = &[
     Key { name: "table.strict", takes: Takes::Flag, about: "Whether a program that leaves the table is an error, not only a warning." },
 
     Key { name: "time.period_ms", takes: Takes::Number(from(0.1, 100.0)), about: "Time between two setpoints: the cycle of the controller." },
+    Key { name: "counts.x.per_mm", takes: Takes::Number(COUNTS), about: "Target counts: encoder counts of a millimetre along the table." },
+    Key { name: "counts.x.offset", takes: Takes::Number(REGISTER), about: "Target counts: what the encoder shows at X 0." },
+    Key { name: "counts.y.per_mm", takes: Takes::Number(COUNTS), about: "Target counts: encoder counts of a millimetre across the table." },
+    Key { name: "counts.y.offset", takes: Takes::Number(REGISTER), about: "Target counts: what the encoder shows at Y 0." },
+    Key { name: "counts.c.per_deg", takes: Takes::Number(COUNTS), about: "Target counts: encoder counts of a degree of the blade's turn." },
+    Key { name: "counts.c.offset", takes: Takes::Number(REGISTER), about: "Target counts: what the encoder shows at C 0 of the controller." },
+
     Key { name: "verify.max_uncut_mm", takes: Takes::Number(from(0.0, 10.0)), about: "Longest stretch that may be left uncut: what the rounding of setpoints can leave." },
     Key { name: "verify.max_heading_deg", takes: Takes::Number(from(0.01, 45.0)), about: "Greatest angle between the blade and its law while it cuts." },
     Key { name: "verify.max_body_mm", takes: Takes::NumberOr(from(0.0, 1000.0), "off"), about: "Farthest that the blade's body may leave the path on curves." },
