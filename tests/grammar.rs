@@ -270,7 +270,9 @@ fn plot_statements(bytes: &[u8]) -> Vec<(&'static str, String)> {
 /// Whether an instruction with numbers, or with nothing, comes first.
 fn leads_instruction(bytes: &[u8]) -> bool {
     let name = String::from_utf8_lossy(&bytes[..bytes.len().min(2)]).to_uppercase();
-    name.len() == 2 && name.bytes().all(|byte| byte.is_ascii_alphabetic()) && !["LB", "CO", "PE", "DT"].contains(&&*name)
+    name.len() == 2
+        && name.bytes().all(|byte| byte.is_ascii_alphabetic())
+        && !["LB", "CO", "PE", "DT"].contains(&&*name)
 }
 
 /// The same with a digit 1 for each run of digits.

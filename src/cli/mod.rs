@@ -20,6 +20,7 @@ mod profile;
 mod provenance;
 mod report;
 mod summary;
+mod times;
 mod verdict;
 mod verify;
 

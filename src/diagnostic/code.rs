@@ -176,6 +176,8 @@ mod table {
     pub static PLAN_CERTIFY: Code = error("plan/certify", "The samples of a run break a limit of the profile however far it is slowed down.");
 
     // Verification.
+    /// A target that cannot say it.
+    pub static TARGET_REFUSED: Code = error("target/refused", "The target cannot express something that the marker or the options ask for; the message says what.");
     /// A rule does not hold.
     pub static VERIFY_BROKEN: Code = error("verify/broken", "The program, read back, breaks a rule; the message names the rule, the worst value, the limit, the time and the place.");
 
@@ -257,6 +259,7 @@ pub static ALL: &[&Code] = &[
     &PLAN_SMOOTH,
     &PLAN_PROFILE,
     &PLAN_CERTIFY,
+    &TARGET_REFUSED,
     &VERIFY_BROKEN,
     &PROFILE_SYNTAX,
     &PROFILE_UNKNOWN_KEY,

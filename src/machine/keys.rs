@@ -71,6 +71,10 @@ const ACCELERATION: Within = from(1.0, 1.0e9);
 const JERK: Within = from(1.0, 1.0e12);
 /// Places on a table and positions of C: farther ones would make programs of astronomic length, mm and degrees.
 const PLACE: Within = from(-1.0e6, 1.0e6);
+/// Encoder counts of a mm or a degree.
+const COUNTS: Within = from(1.0, 1.0e7);
+/// What a register of 32 bits holds, counts.
+const REGISTER: Within = from(-2_147_483_648.0, 2_147_483_647.0);
 /// Angles that may be anywhere within a turn, degrees.
 const TURN: Within = from(-360.0, 360.0);
 
@@ -150,7 +154,10 @@ impl fmt::Display for Within {
 impl Key {
     /// The unit of its numbers, from the end of its name; empty when they have none.
     pub fn unit(&self) -> &'static str {
-        const UNITS: [(&str, &str); 9] = [
+        const UNITS: [(&str, &str); 12] = [
+            ("per_mm", "counts/mm"),
+            ("per_deg", "counts/degree"),
+            (".offset", "counts"),
             ("_mm", "mm"),
             ("_mm_s", "mm/s"),
             ("_mm_s2", "mm/s2"),
@@ -315,7 +322,7 @@ pub const KEYS: &[Key] = &[
     Key { name: "drill.dwell_ms", takes: Takes::Number(REST), about: "Time for one drill hole; the axes rest." },
     Key { name: "drill.offset_mm", takes: Takes::Point, about: "Where the drill stands, seen from the C axis." },
 
-    Key { name: "corner.angle_deg", takes: Takes::Number(between(0.0, 180.0)), about: "Lift and plunge corner angle: where the line turns by more than this the knife is lifted and\nturned in the air." },
+    Key { name: "corner.angle_deg", takes: Takes::Number(between(0.0, 75.0)), about: "Lift and plunge corner angle: where the line turns by more than this the knife is lifted and\nturned in the air; a blade in the cloth cannot follow sharper ones." },
 
     Key { name: "slow.before_corner_mm", takes: Takes::NumberOr(from(0.1, 1000.0), "off"), about: "How far before a corner the knife slows down." },
     Key { name: "slow.before_corner_percent", takes: Takes::Number(from(1.0, 100.0)), about: "Speed of the knife there, a part of what it would be." },
@@ -352,6 +359,13 @@ pub const KEYS: &[Key] = &[
     Key { name: "table.strict", takes: Takes::Flag, about: "Whether a program that leaves the table is an error, not only a warning." },
 
     Key { name: "time.period_ms", takes: Takes::Number(from(0.1, 100.0)), about: "Time between two setpoints: the cycle of the controller." },
+    Key { name: "counts.x.per_mm", takes: Takes::Number(COUNTS), about: "Target counts: encoder counts of a millimetre along the table." },
+    Key { name: "counts.x.offset", takes: Takes::Number(REGISTER), about: "Target counts: what the encoder shows at X 0." },
+    Key { name: "counts.y.per_mm", takes: Takes::Number(COUNTS), about: "Target counts: encoder counts of a millimetre across the table." },
+    Key { name: "counts.y.offset", takes: Takes::Number(REGISTER), about: "Target counts: what the encoder shows at Y 0." },
+    Key { name: "counts.c.per_deg", takes: Takes::Number(COUNTS), about: "Target counts: encoder counts of a degree of the blade's turn." },
+    Key { name: "counts.c.offset", takes: Takes::Number(REGISTER), about: "Target counts: what the encoder shows at C 0 of the controller." },
+
     Key { name: "verify.max_uncut_mm", takes: Takes::Number(from(0.0, 10.0)), about: "Longest stretch that may be left uncut: what the rounding of setpoints can leave." },
     Key { name: "verify.max_heading_deg", takes: Takes::Number(from(0.01, 45.0)), about: "Greatest angle between the blade and its law while it cuts." },
     Key { name: "verify.max_body_mm", takes: Takes::NumberOr(from(0.0, 1000.0), "off"), about: "Farthest that the blade's body may leave the path on curves." },
@@ -431,7 +445,7 @@ mod tests {
         let expects = |name: &str| find(name).expect("a key").expects();
         assert_eq!(expects("knife.width_mm"), "a number from 0 to 1000 mm");
         assert_eq!(expects("knife.feed_mm_s"), "a number from 1 to 1000000 mm/s, or \"off\"");
-        assert_eq!(expects("corner.angle_deg"), "a number between 0 and 180 degrees");
+        assert_eq!(expects("corner.angle_deg"), "a number between 0 and 75 degrees");
         assert_eq!(expects("knife.edges"), "1 or 2");
         assert_eq!(expects("knife.follow"), "\"tangent\" or \"chord\"");
         assert_eq!(expects("c.range_deg"), "two numbers [least, greatest] degrees, or \"unbounded\"");

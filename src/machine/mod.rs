@@ -4,6 +4,7 @@
 //! reports every fault in it; [`keys::KEYS`] says what each key means, once, for the commented profile, the messages
 //! and the README.
 
+pub mod controller;
 mod digest;
 mod encoding;
 pub mod keys;

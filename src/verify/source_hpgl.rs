@@ -255,6 +255,13 @@ impl Scan<'_> {
         }
     }
 
+    /// Along the chords of a curve, with the pen as it is.
+    fn follow(&mut self, points: Vec<Place>, cause: usize) {
+        for to in points {
+            self.go(to, cause, self.pen.is_down);
+        }
+    }
+
     fn point(&self, [x, y]: Place) -> Point {
         let [length, width] = self.page.unwrap_or_default();
         let [x, y] = match self.quarters {
@@ -343,14 +350,14 @@ impl Scan<'_> {
             (b"AA" | b"AR", &[x, y, degrees, ..]) => {
                 let centre = self.target([x, y], is_relative);
                 let points = self.arc(from, centre, degrees.to_radians());
-                points.into_iter().for_each(|to| self.go(to, cause, self.pen.is_down));
+                self.follow(points, cause);
             }
             (b"AT" | b"RT", &[x1, y1, x2, y2, ..]) => {
                 let middle = self.target([x1, y1], is_relative);
                 let to = self.target([x2, y2], is_relative);
                 if let Some((centre, sweep)) = circle(from, middle, to) {
                     let points = self.arc(from, centre, sweep);
-                    points.into_iter().for_each(|to| self.go(to, cause, self.pen.is_down));
+                    self.follow(points, cause);
                 }
                 self.go(to, cause, self.pen.is_down);
             }
@@ -509,7 +516,8 @@ fn circle(from: Place, middle: Place, to: Place) -> Option<(Place, f64)> {
     // The bisectors of the two chords from the start meet at the centre.
     let (a, b) = ([middle[0] - from[0], middle[1] - from[1]], [to[0] - from[0], to[1] - from[1]]);
     let cross = a[0] * b[1] - a[1] * b[0];
-    let (aa, bb) = ((a[0] * a[0] + a[1] * a[1]) / 2.0, (b[0] * b[0] + b[1] * b[1]) / 2.0);
+    let half_square = |v: Place| f64::midpoint(v[0] * v[0], v[1] * v[1]);
+    let (aa, bb) = (half_square(a), half_square(b));
     let seen = [(aa * b[1] - bb * a[1]) / cross, (bb * a[0] - aa * b[0]) / cross];
     if !(seen[0].is_finite() && seen[1].is_finite()) {
         return None;

@@ -88,7 +88,7 @@ pub(super) fn classify(mut drawing: Drawing, labels: Vec<Label>, job: &Job, out:
     let Nest { parents, is_cut_short: is_nest_cut_short } = nest::nest(&drawing, &shapes, &outlines, slack);
     for (k, &outline) in outlines.iter().enumerate() {
         let depth = depth(&parents, k);
-        shapes[outline].class = if depth % 2 == 0 { Class::Part } else { Class::CutOut };
+        shapes[outline].class = if depth.is_multiple_of(2) { Class::Part } else { Class::CutOut };
     }
     let mut marks = candidates(&shapes);
     marks.retain(|&i| shapes[i].class != Class::Text);

@@ -29,7 +29,7 @@ pub(super) struct Drawing {
     pub(super) vertices: Vec<Vertex>,
     pub(super) strokes: Vec<Stroke>,
     /// Whether the last stroke goes on.
-    is_drawing: bool,
+    goes_on: bool,
 }
 
 impl Stroke {
@@ -46,7 +46,7 @@ impl Drawing {
 
     /// Whether the next line starts a stroke, so that [`Drawing::begin`] comes first.
     pub(super) fn is_lifted(&self) -> bool {
-        !self.is_drawing
+        !self.goes_on
     }
 
     /// Starts a stroke.
@@ -56,7 +56,7 @@ impl Drawing {
         let mut extent = Extent::EMPTY;
         extent.add(at);
         self.strokes.push(Stroke { first, end: first + 1, pen, points: 0, extent });
-        self.is_drawing = true;
+        self.goes_on = true;
     }
 
     /// Draws on. A line without length changes nothing.
@@ -73,7 +73,7 @@ impl Drawing {
 
     /// Lifts the pen. A stroke without length is a dot, and none.
     pub(super) fn lift(&mut self) {
-        if !std::mem::take(&mut self.is_drawing) {
+        if !std::mem::take(&mut self.goes_on) {
             return;
         }
         if self.strokes.last().is_some_and(|stroke| stroke.end - stroke.first == 1) {

@@ -119,7 +119,7 @@ impl<'a> Body<'a> {
             }
             shift += bits;
             if is_last {
-                let magnitude = (value >> 1) as i64;
+                let magnitude = (value >> 1).cast_signed();
                 return Some(Item::Number(if value & 1 == 0 { magnitude } else { -magnitude }));
             }
         }

@@ -136,7 +136,7 @@ impl Lowering<'_> {
             }
             Instruction::Encoded => self.encoded(),
             Instruction::ArcAbsolute | Instruction::ArcRelative => {
-                self.arc(instruction == Instruction::ArcRelative, span)
+                self.arc(instruction == Instruction::ArcRelative, span);
             }
             Instruction::ArcThroughAbsolute | Instruction::ArcThroughRelative => {
                 self.arc_through(instruction == Instruction::ArcThroughRelative, span);
@@ -156,7 +156,7 @@ impl Lowering<'_> {
             },
             Instruction::EdgePolygon => {
                 let drawn = self.plotter.edge_polygon();
-                self.check(drawn, span);
+                self.check(&drawn, span);
             }
             Instruction::Page => {
                 let drawn = self.plotter.drawing.strokes.len();
@@ -208,8 +208,8 @@ impl Lowering<'_> {
         }
     }
 
-    fn check(&mut self, outcome: Result<(), TooFar>, span: Span) {
-        if outcome == Err(TooFar) {
+    fn check(&mut self, outcome: &Result<(), TooFar>, span: Span) {
+        if outcome.is_err() {
             self.tally.too_far(span);
         }
     }
@@ -220,7 +220,7 @@ impl Lowering<'_> {
             let to = self.plotter.target(pair);
             let outcome =
                 if self.plotter.starts_part() { self.plotter.start_part(to, span) } else { self.plotter.go(to, span) };
-            self.check(outcome, span);
+            self.check(&outcome, span);
         }
     }
 
@@ -302,7 +302,7 @@ impl Lowering<'_> {
                         self.plotter.lower();
                     }
                     let outcome = self.plotter.go(to, span);
-                    self.check(outcome, span);
+                    self.check(&outcome, span);
                     (is_absolute, is_up) = (false, false);
                 }
             }
@@ -349,12 +349,12 @@ impl Lowering<'_> {
             self.follow(arc, span);
         }
         let outcome = self.plotter.go(to, span);
-        self.check(outcome, span);
+        self.check(&outcome, span);
     }
 
     fn follow(&mut self, arc: Arc, span: Span) {
         let outcome = arc.flatten(self.sagitta).try_for_each(|to| self.plotter.go(to, span));
-        self.check(outcome, span);
+        self.check(&outcome, span);
     }
 
     /// CI: radius, around the place of the pen.
@@ -365,7 +365,7 @@ impl Lowering<'_> {
         let start = [across, centre[1]];
         let arc = Arc { from: start, centre, sweep: TAU };
         let outcome = self.plotter.figure(start, arc.flatten(self.sagitta), span);
-        self.check(outcome, span);
+        self.check(&outcome, span);
     }
 
     /// BZ, BR: three control points a curve; those of BR are relative to its start.
@@ -379,7 +379,7 @@ impl Lowering<'_> {
             let place = |pair| if is_relative { self.plotter.relative(pair) } else { self.plotter.absolute(pair) };
             let curve = Bezier([self.plotter.at(), place(first), place(second), place(third)]);
             let outcome = curve.flatten(self.sagitta).try_for_each(|to| self.plotter.go(to, span));
-            self.check(outcome, span);
+            self.check(&outcome, span);
         }
     }
 
@@ -392,7 +392,7 @@ impl Lowering<'_> {
         let to = if is_relative { self.plotter.relative(pair) } else { self.plotter.absolute(pair) };
         let corners = [[to[0], from[1]], to, [from[0], to[1]], from];
         let outcome = self.plotter.figure(from, corners, span);
-        self.check(outcome, span);
+        self.check(&outcome, span);
     }
 
     /// EW: radius, start and sweep in degrees; a negative radius counts the angles from the other side.
@@ -406,7 +406,7 @@ impl Lowering<'_> {
         let arc = Arc { from, centre, sweep: rad(degrees) }.flatten(self.sagitta);
         let points = std::iter::once(from).chain(arc).chain([centre]);
         let outcome = self.plotter.figure(centre, points, span);
-        self.check(outcome, span);
+        self.check(&outcome, span);
     }
 
     /// LB.

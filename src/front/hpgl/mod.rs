@@ -108,7 +108,7 @@ fn check_syntax(source: &Source, out: &mut Diagnostics) {
                 reader.behind(&body);
             }
             Statement::Junk => {
-                out.push(Diagnostic::new(&code::HPGL_JUNK, "what stands here is no instruction").at(span))
+                out.push(Diagnostic::new(&code::HPGL_JUNK, "what stands here is no instruction").at(span));
             }
             Statement::Instruction(..) | Statement::Reset => {}
         }

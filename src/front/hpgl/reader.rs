@@ -221,12 +221,12 @@ mod tests {
                 Statement::Instruction(instruction, mnemonic) => {
                     let mut word = String::from_utf8_lossy(&mnemonic).into_owned();
                     match instruction {
-                        Instruction::Label => word += &format!("[{:?}]", reader.text().0),
+                        Instruction::Label => word = format!("{word}[{:?}]", reader.text().0),
                         Instruction::Terminator => reader.define_terminator(),
                         Instruction::Comment => reader.comment(),
                         _ => {
                             while let Next::Some(value) = reader.value() {
-                                word += &format!(" {value}");
+                                word = format!("{word} {value}");
                             }
                         }
                     }

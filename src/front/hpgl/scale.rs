@@ -107,12 +107,9 @@ impl Frame {
 
     /// SC: ranges that lie between the corners; `Err` when the drawing then depends on the device or has no size.
     pub(super) fn set_scale(&mut self, values: &[f64]) -> Result<(), Unknown> {
-        let [x0, x1, y0, y1] = match *values {
-            [x0, x1, y0, y1, ..] => [x0, x1, y0, y1],
-            _ => {
-                self.scale = None;
-                return Ok(());
-            }
+        let [x0, x1, y0, y1, ..] = *values else {
+            self.scale = None;
+            return Ok(());
         };
         let [p1, p2] = self.corners.unwrap_or(USUAL_CORNERS);
         let kind = values.get(4).copied().unwrap_or(0.0);

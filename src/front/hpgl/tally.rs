@@ -140,21 +140,23 @@ impl Tally {
             found.push(finding.hint("look whether lines are missing: a text may have swallowed them"));
         }
         if let Some(first) = self.unknown.values().filter_map(|count| count.first).min() {
-            let names: Vec<String> = self.unknown.keys().take(SHOWN_NAMES).map(name).collect();
+            let names: Vec<String> = self.unknown.keys().take(SHOWN_NAMES).copied().map(name).collect();
             let more = if self.unknown.len() > SHOWN_NAMES { " and others" } else { "" };
             let times = Count { count: self.unknown_total, first: Some(first) };
             let message = format!("{}{more}: not known and ignored; this happens {}", names.join(", "), times.times());
             found.push(times.diagnostic(&code::HPGL_UNKNOWN, message));
         }
         for (mnemonic, (what, count)) in &self.left_out {
-            let message = format!("{} ({what}) is not obeyed: it stands {}", name(mnemonic), count.times());
+            let message = format!("{} ({what}) is not obeyed: it stands {}", name(*mnemonic), count.times());
             found.push(count.diagnostic(&code::HPGL_LEFT_OUT, message));
         }
         found.sort_by_key(|finding| finding.span);
-        found.into_iter().for_each(|finding| out.push(finding));
+        for finding in found {
+            out.push(finding);
+        }
     }
 }
 
-fn name(mnemonic: &[u8; 2]) -> String {
-    String::from_utf8_lossy(mnemonic).into_owned()
+fn name(mnemonic: [u8; 2]) -> String {
+    String::from_utf8_lossy(&mnemonic).into_owned()
 }

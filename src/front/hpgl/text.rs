@@ -81,7 +81,9 @@ fn open_letters(shapes: &mut [Shape], pending: &[usize]) -> Letters {
                 return Letters { is_cut_short: true };
             }
             let found: Vec<usize> = open.extract_if(.., |&mut i| are_beside(&shapes[letter], &shapes[i])).collect();
-            found.into_iter().for_each(|i| shapes[i].class = Class::Text);
+            for i in found {
+                shapes[i].class = Class::Text;
+            }
         }
     }
     Letters { is_cut_short: false }
