@@ -5,11 +5,16 @@
 
 use std::io::{self, Seek, Write};
 
+use crate::diagnostic::Diagnostics;
 use crate::ir::{Finding, Marker, Motion, Toolpath};
 use crate::machine::Job;
 use crate::source::Source;
 
+mod counts;
 mod csv;
+mod hal;
+mod halrun;
+mod iso;
 mod json;
 mod npy;
 mod svg;
@@ -48,8 +53,8 @@ pub struct Target {
 /// The form that a target needs; the pipeline goes no further.
 #[derive(Debug)]
 pub enum Emit {
-    /// From what the file says.
-    Marker(fn(&Context, &mut dyn Output) -> io::Result<()>),
+    /// From what the file says. What the target cannot express is a diagnostic, and then nothing is written.
+    Marker(fn(&Context, &mut dyn Output, &mut Diagnostics) -> io::Result<()>),
     /// From what the knife does, one toolpath at a time.
     Toolpath(Parts<Toolpath>),
     /// From the timed motion, one at a time.
@@ -81,7 +86,8 @@ pub enum Proof {
 }
 
 /// Every target; the first is the default.
-pub const TARGETS: &[Target] = &[csv::TARGET, npy::TARGET, json::TARGET, svg::TARGET];
+pub const TARGETS: &[Target] =
+    &[csv::TARGET, npy::TARGET, json::TARGET, svg::TARGET, iso::TARGET, counts::TARGET, hal::TARGET, halrun::TARGET];
 
 /// The timed setpoints that are made to be judged when a target's own bytes are none.
 pub const SETPOINTS: Parts<Motion> = csv::PARTS;

@@ -17,7 +17,7 @@ use crate::pipeline::{self, Verdict};
 /// is broken, the file is no program, or the cutter file has errors.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
-    /// Program to judge: timed setpoints, as `cutc compile` writes them with the targets csv and npy
+    /// Program to judge: what `cutc compile` writes with a target of timed setpoints, or a cut file of the target iso
     program: PathBuf,
 
     /// Cutter file that the program must cut
@@ -50,13 +50,13 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
             Format::Text => String::new(),
         };
         let not = failure(
-            format!("not a program: `{name}` does not begin as timed setpoints do"),
-            "name first what `cutc compile` wrote with the target csv or npy, then its cutter file as --source",
+            format!("not a program: `{name}` does not begin as what `cutc compile` writes"),
+            "name first what `cutc compile` wrote with a target that is judged, then its cutter file as --source",
         );
         return Ok(Finished::text(stdout, format!("error: {not}\n"), FAULTY));
     }
     let source = files::read(&arguments.source)?;
-    let job = match arguments.reading.machine.job()? {
+    let job = match arguments.reading.job()? {
         Ok(job) => arguments.choice.of(job),
         Err(refused) => return Ok(refused),
     };

@@ -4,11 +4,13 @@
 //! reports every fault in it; [`keys::KEYS`] says what each key means, once, for the commented profile, the messages
 //! and the README.
 
+pub mod controller;
 mod digest;
 mod encoding;
 pub mod keys;
 pub mod kinematics;
 mod load;
+pub mod plot;
 pub mod profile;
 mod selection;
 mod show;
@@ -31,4 +33,6 @@ pub struct Job {
     pub selection: Selection,
     /// What it does with the knife.
     pub mode: Mode,
+    /// Which lines of a plot it cuts.
+    pub lines: plot::Lines,
 }

@@ -7,9 +7,11 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use super::controller::Counts;
 use super::kinematics::Limits;
+use super::plot::Hpgl;
 use super::word::{Auto, Off, OrWord, Same, Stay, Unbounded, Unlimited};
-use crate::units::{MM_PER_INCH, MS_PER_S, rad};
+use crate::units::{MM_PER_INCH, MS_PER_S, deg, rad};
 
 /// Version of the profile's format that this program reads and writes.
 pub const PROFILE_VERSION: u32 = 1;
@@ -45,8 +47,12 @@ pub struct MachineProfile {
     pub table: Table,
     /// The clock of the controller.
     pub time: Time,
+    /// The encoders of the drives.
+    pub counts: Counts,
     /// What the verifier allows.
     pub verify: Verify,
+    /// How plots are read.
+    pub hpgl: Hpgl,
     /// The texts of labels.
     pub labels: Labels,
     /// Codes of the cutter file to ignore, by name (`M19`).
@@ -438,6 +444,12 @@ impl CAxis {
     pub fn range(&self) -> Option<[f64; 2]> {
         self.range_deg.map(|range| range.map(rad))
     }
+
+    /// What the controller shows at a position (rad), degrees.
+    pub fn shown_deg(&self, position: f64) -> f64 {
+        let away = deg(position) - self.offset_deg;
+        if self.reverse { -away } else { away }
+    }
 }
 
 /// The table.
@@ -491,7 +503,9 @@ impl Default for MachineProfile {
             c: CAxis::default(),
             table: Table::default(),
             time: Time::default(),
+            counts: Counts::default(),
             verify: Verify::default(),
+            hpgl: Hpgl::default(),
             labels: Labels::default(),
             codes: BTreeMap::new(),
         }

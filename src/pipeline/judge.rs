@@ -1,7 +1,7 @@
 //! Judging: a program is read back, and what is broken is said.
 
 use std::fmt::Write as _;
-use std::io::{self, BufReader};
+use std::io::{self, BufReader, Read as _};
 
 use super::report::significant;
 use super::{Input, Medium, read};
@@ -12,7 +12,7 @@ use crate::ir::{Finding, Marker};
 use crate::machine::{Job, Mode};
 use crate::source::{Source, Span};
 use crate::units::number::{exact, fixed};
-use crate::verify::{self, RULES, Verdict};
+use crate::verify::{self, Kind, RULES, Verdict};
 
 /// Bytes that are read back at a time.
 const BLOCK: usize = 1 << 16;
@@ -36,7 +36,7 @@ pub fn judge_program(
 /// Whether a file is a program that can be judged, by how it begins.
 pub fn is_program(file: &mut dyn Medium) -> io::Result<bool> {
     file.rewind()?;
-    Ok(verify::is_program(&mut BufReader::with_capacity(BLOCK, file)))
+    Ok(verify::kind(&mut BufReader::with_capacity(BLOCK, file)).is_some())
 }
 
 /// Reads a program back from its start and judges it, and what was read of the source against its bytes.
@@ -46,13 +46,19 @@ pub fn is_program(file: &mut dyn Medium) -> io::Result<bool> {
 pub(super) fn judge(source: &Source, input: &Input, job: &Job, program: &mut dyn Medium) -> io::Result<Verdict> {
     program.rewind()?;
     let marker = &input.marker;
-    let mut rows = BufReader::with_capacity(BLOCK, program);
-    let mut verdict = if job.mode.cuts() {
-        verify::setpoints(&mut rows, marker, job)
-    } else {
-        let mut verdict = verify::setpoints(&mut rows, &uncut(marker, job.mode), job);
-        verdict.findings.retain(|finding| !OF_CUTS.contains(&finding.rule));
-        verdict
+    let mut bytes_read = BufReader::with_capacity(BLOCK, program);
+    let mut verdict = match verify::kind(&mut bytes_read) {
+        Some(Kind::CutterFile) => {
+            let mut bytes = Vec::new();
+            bytes_read.read_to_end(&mut bytes)?;
+            verify::cutter_file(&bytes, marker, source, job)
+        }
+        Some(Kind::Setpoints) | None if job.mode.cuts() => verify::setpoints(&mut bytes_read, marker, job),
+        Some(Kind::Setpoints) | None => {
+            let mut verdict = verify::setpoints(&mut bytes_read, &uncut(marker, job.mode), job);
+            verdict.findings.retain(|finding| !OF_CUTS.contains(&finding.rule));
+            verdict
+        }
     };
     let audit = verify::source_audit(input.dialect.name, source.bytes(), &input.read, &job.profile);
     verdict.findings.extend(audit.into_iter().flatten());
@@ -88,6 +94,20 @@ const OF_CUTS: &[&str] = &[
     "verify/overcut-waste",
     "verify/drill-place",
 ];
+
+/// The verdict on two programs of one compile: of each rule the finding that is worse, the first of two that are alike.
+pub(super) fn both(first: Verdict, second: Verdict) -> Verdict {
+    let mut findings = first.findings;
+    for finding in second.findings {
+        match findings.iter_mut().find(|known| known.rule == finding.rule) {
+            Some(known) if known.holds() && !finding.holds() => *known = finding,
+            Some(_) => {}
+            None => findings.push(finding),
+        }
+    }
+    verify::sort(&mut findings);
+    Verdict { findings }
+}
 
 /// A diagnostic for each rule that does not hold.
 pub(super) fn report(verdict: &Verdict, marker: &Marker, diagnostics: &mut Diagnostics) {

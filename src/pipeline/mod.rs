@@ -6,7 +6,7 @@ mod report;
 mod spent;
 
 pub use judge::{about, figures, is_program, judge_program};
-pub use report::{Axes, Notches, Peak, Peaks, Program, Report, Sides, significant};
+pub use report::{Axes, Drawn, Lines, Notches, Peak, Peaks, Program, Report, Sides, significant};
 pub use spent::{Spent, word};
 
 pub use crate::verify::{RULES, Verdict};
@@ -151,15 +151,19 @@ pub fn compile_all(
     let marker = &input.marker;
     let mut report = Report::of(marker, input.dialect.name);
     let context = Context { source, job, marker };
-    let needs_toolpaths = verify || products.iter().any(|product| !matches!(product.target.emit, Emit::Marker(_)));
+    // A target that cannot be judged by its own bytes shows the verdict on setpoints.
+    let has = |products: &[Product], proof: Proof| products.iter().any(|product| product.target.proof == proof);
+    let wants_setpoints = verify && has(products, Proof::None);
+    let needs_toolpaths =
+        wants_setpoints || products.iter().any(|product| !matches!(product.target.emit, Emit::Marker(_)));
     let toolpaths = if needs_toolpaths { toolpaths(marker, job, diagnostics) } else { Vec::new() };
 
     // When no target's own bytes are setpoints, those are made beside them to be judged, so that a picture can show the
     // worst places.
     let mut scratch = SpooledTempFile::new(SCRATCH_BYTES);
-    let proven = products.iter().any(|product| product.target.proof == Proof::Setpoints);
+    let beside = wants_setpoints && !has(products, Proof::Setpoints);
     let mut sinks: Vec<Sink> = products.iter_mut().filter_map(Product::sink).collect();
-    if verify && !proven {
+    if beside {
         sinks.push(Sink { parts: &SETPOINTS, out: &mut scratch });
     }
     if !sinks.is_empty() {
@@ -168,23 +172,33 @@ pub fn compile_all(
     drop(sinks);
 
     let mut verdict: Option<Verdict> = None;
+    let mut judge = |program: &mut dyn Medium| -> io::Result<()> {
+        let next = judge::judge(source, &input, job, program)?;
+        verdict = Some(match verdict.take() {
+            Some(verdict) => judge::both(verdict, next),
+            None => next,
+        });
+        Ok(())
+    };
     if verify && !diagnostics.has_errors() {
-        let judged = products.iter_mut().filter(|product| product.target.proof == Proof::Setpoints);
-        let mut programs: Vec<&mut dyn Medium> = judged.map(|product| &mut *product.out as &mut dyn Medium).collect();
-        if !proven {
-            programs.push(&mut scratch);
+        for product in products.iter_mut().filter(|product| product.target.proof == Proof::Setpoints) {
+            judge(&mut *product.out)?;
         }
-        for program in programs {
-            let next = judge::judge(source, &input, job, program)?;
-            // Of several, the first that breaks a rule is told.
-            if verdict.as_ref().is_none_or(|verdict| verdict.passes() && !next.passes()) {
-                verdict = Some(next);
-            }
+        if beside {
+            judge(&mut scratch)?;
+        }
+    }
+    for Product { target, out } in products.iter_mut().filter(|product| product.target.proof == Proof::Marker) {
+        write_untimed(&target.emit, &toolpaths, &[], (&context, diagnostics), *out)?;
+        if verify && !diagnostics.has_errors() {
+            judge(&mut **out)?;
         }
     }
     let findings = verdict.as_ref().map_or(&[][..], |verdict| &verdict.findings);
     for Product { target, out } in products {
-        write_untimed(&target.emit, &toolpaths, findings, &context, *out)?;
+        if target.proof == Proof::None {
+            write_untimed(&target.emit, &toolpaths, findings, (&context, diagnostics), *out)?;
+        }
         out.flush()?;
     }
     if let Some(verdict) = &verdict {
@@ -193,23 +207,12 @@ pub fn compile_all(
     Ok((!diagnostics.has_errors()).then_some(Compiled { report, verdict }))
 }
 
-/// The figures of the program that a source would become, nothing written and nothing judged. `None` when the
-/// diagnostics hold errors.
-pub fn estimate(
-    source: &Source,
-    from: Option<&'static Dialect>,
-    job: &Job,
-    diagnostics: &mut Diagnostics,
-) -> io::Result<Option<Report>> {
-    let Some(input) = read(source, from, job, diagnostics) else { return Ok(None) };
-    if diagnostics.has_errors() {
-        return Ok(None);
-    }
-    let mut report = Report::of(&input.marker, input.dialect.name);
+/// The figures of the program that an input would become, nothing written and nothing judged; when it cannot be planned
+/// the diagnostics say why.
+pub fn estimate(input: &Input, source: &Source, job: &Job, diagnostics: &mut Diagnostics) -> io::Result<Program> {
     let toolpaths = toolpaths(&input.marker, job, diagnostics);
     let context = Context { job, marker: &input.marker, source };
-    report.program = program::write(&toolpaths, &mut [], &context, diagnostics)?;
-    Ok((!diagnostics.has_errors()).then_some(report))
+    program::write(&toolpaths, &mut [], &context, diagnostics)
 }
 
 /// Writes a target that needs no timed motion; those that do are written by then.
@@ -217,12 +220,12 @@ fn write_untimed(
     emit: &Emit,
     toolpaths: &[Toolpath],
     findings: &[Finding],
-    context: &Context,
+    (context, diagnostics): (&Context, &mut Diagnostics),
     out: &mut dyn Medium,
 ) -> io::Result<()> {
     let mut out = BufWriter::new(out);
     match emit {
-        Emit::Marker(emit) => emit(context, &mut out)?,
+        Emit::Marker(emit) => emit(context, &mut out, diagnostics)?,
         Emit::Toolpath(parts) => {
             (parts.head)(context, &mut out)?;
             for toolpath in toolpaths {

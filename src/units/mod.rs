@@ -6,6 +6,10 @@ pub mod number;
 pub const MM_PER_INCH: f64 = 25.4;
 /// Milliseconds in a second.
 pub const MS_PER_S: f64 = 1000.0;
+/// Nanoseconds in a second.
+pub const NS_PER_S: f64 = 1e9;
+/// Seconds in a minute.
+pub const S_PER_MIN: f64 = 60.0;
 /// Millimetres in a metre.
 pub const MM_PER_M: f64 = 1000.0;
 

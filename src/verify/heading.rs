@@ -8,13 +8,15 @@ use std::f64::consts::PI;
 
 use super::follow::Foot;
 use super::joints::Joints;
-use super::read::Row;
+use super::read::{Rounding, Row};
 use super::reference::Line;
 use super::worst::Worst;
 use crate::geom::{Point, Vector, angle};
 
-/// Least way of the tip that shows a direction, mm: its rounding is then below 0.02 degrees.
+/// Least way of the tip that shows a direction, mm: with six decimals its rounding is then below 0.02 degrees.
 const WAY_MIN: f64 = 0.005;
+/// The same where numbers are coarser, in roundings of an axis: longer ways would show no tight curve.
+const COARSE_WAY: f64 = 1000.0;
 /// Smaller turns are none, rad.
 const TURN_EPSILON: f64 = 1e-6;
 /// Longest chord that counts as a chord of a curve, mm: along it the curve turns from the direction of the chord before
@@ -23,10 +25,25 @@ const CURVE_CHORD: f64 = 25.0;
 /// Farthest ahead that a bend is looked for, mm: a curve that far away does not bow the start of a way.
 const BEND_REACH: f64 = 100.0;
 
+/// Radius of a curve that a knife follows, at the least, mm.
+const TIGHT: f64 = 5.0;
+
 /// Any lead is right: for a stroke that belongs to no line.
 pub(super) const ANY: [f64; 2] = [-PI, PI];
 /// None is: the blade plunges along its way.
 pub(super) const NONE: [f64; 2] = [0.0; 2];
+
+/// Least way of the tip that shows a direction, mm.
+pub(super) fn way_min(rounding: Rounding) -> f64 {
+    (COARSE_WAY * rounding.axis()).max(WAY_MIN)
+}
+
+/// By how much coarse numbers may turn a direction, degrees; none for those that leave it below what is judged.
+pub(super) fn noise_deg(rounding: Rounding) -> f64 {
+    let way = way_min(rounding);
+    // At the ends of a stroke the direction is that of a chord ahead or behind, which a curve bows away from.
+    if way > WAY_MIN { (rounding.place() / way + way / (2.0 * TIGHT)).to_degrees() } else { 0.0 }
+}
 
 /// A stroke whose blade is compared with the way of its tip.
 pub(super) struct Moving<'a> {
@@ -37,6 +54,8 @@ pub(super) struct Moving<'a> {
     pub(super) lead: [f64; 2],
     /// Way of the tip over which that fades, mm.
     pub(super) fade: f64,
+    /// Least way of the tip that shows a direction, mm.
+    pub(super) way_min: f64,
 }
 
 impl Moving<'_> {
@@ -45,7 +64,7 @@ impl Moving<'_> {
         let Self { rows, tips, .. } = *self;
         let last = rows.len() - 1;
         let [least, greatest] = self.lead;
-        let is_clear = |i: usize, k: usize| (tips[k] - tips[i]).norm() >= WAY_MIN;
+        let is_clear = |i: usize, k: usize| (tips[k] - tips[i]).norm() >= self.way_min;
         let (mut before, mut behind) = (0, 0);
         let (mut lead, mut way) = (None, 0.0);
         for i in 0..=last {
@@ -61,8 +80,8 @@ impl Moving<'_> {
             while behind < last && !is_clear(i, behind) {
                 behind += 1;
             }
-            let along = direction(tips[before], tips[i], tips[behind]);
-            if along.norm() < WAY_MIN {
+            let along = direction([tips[before], tips[i], tips[behind]], self.way_min);
+            if along.norm() < self.way_min {
                 // A blade that goes nowhere turns nowhere.
                 heading.see((rows[i].c_deg - rows[0].c_deg).abs(), || rows[i].sighting());
                 continue;
@@ -77,10 +96,10 @@ impl Moving<'_> {
 
 /// Direction of a way at the middle one of three places, to the second order: that of the parabola through them. A place
 /// too near to show a direction gives none.
-fn direction(before: Point, here: Point, behind: Point) -> Vector {
+fn direction([before, here, behind]: [Point; 3], way_min: f64) -> Vector {
     let (to, from) = (here - before, behind - here);
     let (a, b) = (to.norm(), from.norm());
-    if a < WAY_MIN || b < WAY_MIN { to + from } else { to * (b / a) + from * (a / b) }
+    if a < way_min || b < way_min { to + from } else { to * (b / a) + from * (a / b) }
 }
 
 /// What is left of the lead at a fraction of the fade: 1 - (35 x^4 - 84 x^5 + 70 x^6 - 20 x^7).

@@ -6,7 +6,7 @@
 //! The way from one row to the next belongs to a cut when the knife is commanded down at the first of them, and else to a
 //! travel, which may have limits of its own. A difference over ways of both kinds may reach the wider of the two.
 
-use super::read::{ROUNDING, Row, TIME_ROUNDING};
+use super::read::{Rounding, Row, TIME_ROUNDING};
 use super::worst::Worst;
 use crate::ir::Finding;
 use crate::machine::{self, MachineProfile};
@@ -41,23 +41,23 @@ pub(super) struct Limits {
 }
 
 /// What differences may reach, by order and axis, mm or degrees per s to the power of the order.
-fn allowed([x, y, c]: [machine::Limits; 3], period: f64) -> [[f64; 3]; 3] {
+fn allowed([x, y, c]: [machine::Limits; 3], period: f64, rounding: Rounding) -> [[f64; 3]; 3] {
     let limits = [
         [x.speed, y.speed, deg(c.speed)],
         [x.acceleration, y.acceleration, deg(c.acceleration)],
         [x.jerk, y.jerk, deg(c.jerk)],
     ];
     std::array::from_fn(|order| {
-        let rounding = ROUNDING * [1, 2, 3].map(|k| (2.0 / period).powi(k))[order];
-        limits[order].map(|limit| limit * (1.0 + LIMIT_EPSILON) + rounding)
+        let grown = [1, 2, 3].map(|k| (2.0 / period).powi(k))[order];
+        std::array::from_fn(|axis| limits[order][axis] * (1.0 + LIMIT_EPSILON) + rounding.axes[axis] * grown)
     })
 }
 
 impl Limits {
-    pub(super) fn new(profile: &MachineProfile) -> Self {
+    pub(super) fn new(profile: &MachineProfile, rounding: Rounding) -> Self {
         let period = profile.time.period();
-        let cut = allowed(profile.axes.limits(), period);
-        let air = allowed(profile.axes.travel_limits(), period);
+        let cut = allowed(profile.axes.limits(), period, rounding);
+        let air = allowed(profile.axes.travel_limits(), period, rounding);
         let wider = std::array::from_fn(|order| std::array::from_fn(|axis| cut[order][axis].max(air[order][axis])));
         let axes = std::array::from_fn(|order| {
             let worst = |axis: usize| Worst::new(RULES[order][axis], UNITS[order][axis], Some(cut[order][axis]));
@@ -71,7 +71,7 @@ impl Limits {
             down: 0,
             axes,
             time: Worst::new("verify/time", "s", Some(TIME_ROUNDING + TIME_EPSILON)),
-            c_range: Worst::new("verify/c-range", "deg", range.map(|_| ROUNDING)),
+            c_range: Worst::new("verify/c-range", "deg", range.map(|_| rounding.axes[2])),
             range,
         }
     }

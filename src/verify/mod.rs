@@ -9,10 +9,13 @@
 
 mod body;
 mod caps;
+mod counts;
 mod coverage;
+mod cutter_file;
 mod events;
 mod follow;
 mod grid;
+mod hal;
 mod heading;
 mod inside;
 mod joints;
@@ -26,10 +29,12 @@ mod read;
 mod reference;
 mod rest;
 mod source_audit;
+mod source_hpgl;
 mod stroke;
 mod table;
 mod worst;
 
+pub use cutter_file::cutter_file;
 pub use source_audit::{Census, source_audit, source_kept};
 
 use std::io::BufRead;
@@ -84,6 +89,11 @@ pub const RULES: &[(&str, &str)] = &[
     ("verify/drill-place", "every hole is where the marker has it"),
     ("verify/block", "rows that cut name the block that is cut there, and no others name one"),
     ("verify/events", "the events of the marker are told, each once and with the knife up, and no others"),
+    (
+        "verify/same",
+        "a cut file that is written says what the marker says: pieces, events, speeds, holes, slits, contours, texts, fields",
+    ),
+    ("verify/same-place", "every place of a cut file that is written is that of the marker"),
     ("source/points", "the marker has the points that the file cuts"),
     ("source/drills", "the marker has the holes of the file"),
     ("source/length", "the marker has the cut length of the file"),
@@ -116,9 +126,21 @@ impl Verdict {
     }
 }
 
-/// Whether bytes are a program that [`setpoints`] can judge, be it damaged: they begin as `csv` or `npy` do.
-pub fn is_program(bytes: &mut dyn BufRead) -> bool {
-    read::begins(bytes) || npy::begins(bytes)
+/// What bytes are meant as, by how they begin.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Timed setpoints, which [`setpoints`] judges.
+    Setpoints,
+    /// A cut file that was written from a marker, which [`cutter_file()`] judges.
+    CutterFile,
+}
+
+/// What kind of program bytes are, be it damaged; `None` when they are none.
+pub fn kind(bytes: &mut dyn BufRead) -> Option<Kind> {
+    if read::begins(bytes) || npy::begins(bytes) || counts::begins(bytes) || hal::begins(bytes) {
+        return Some(Kind::Setpoints);
+    }
+    bytes.fill_buf().is_ok_and(cutter_file::begins).then_some(Kind::CutterFile)
 }
 
 /// What was cut so far, as the strokes tell it.
@@ -128,17 +150,18 @@ struct Done<'a> {
     naming: Naming,
 }
 
-/// Judges timed setpoints, as the targets `csv` and `npy` write them, against what the marker says must be cut.
+/// Judges timed setpoints, as the targets `csv`, `npy`, `counts` and `hal` write them, against what the marker says must be cut.
 pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdict {
     let reference = Reference::new(marker, &job.profile);
-    let mut judge = Judge::new(&reference, &job.profile);
+    let mut rows = Rows::new(program, &job.profile);
+    let rounding = rows.rounding();
+    let mut judge = Judge::new(&reference, &job.profile, rounding);
     let mut done =
         Done { coverage: Coverage::new(&reference), order: Order::default(), naming: Naming::new(reference.tolerance) };
-    let mut limits = Limits::new(&job.profile);
+    let mut limits = Limits::new(&job.profile, rounding);
     let mut events = Events::new(&reference);
-    let mut rest = Rest::new(&reference, &job.profile);
-    let mut table = Table::new(&job.profile);
-    let mut rows = Rows::new(program);
+    let mut rest = Rest::new(&reference, &job.profile, rounding);
+    let mut table = Table::new(&job.profile, rounding);
     let mut stroke = Stroke::default();
     let mut last: Option<Row> = None;
     while let Some(row) = rows.next() {

@@ -11,7 +11,6 @@ use super::body::Cut;
 use super::follow::Foot;
 use super::grid::Grid;
 use super::inside::Inside;
-use super::read::ROUNDING;
 use super::reference::{Line, Reference};
 use super::worst::Worst;
 use crate::geom::{Point, Vector, polyline};
@@ -19,8 +18,6 @@ use crate::ir::Finding;
 use crate::ir::finding::Sighting;
 use crate::machine::MachineProfile;
 
-/// Rounding of a tip's place, mm.
-const PLACE_ROUNDING: f64 = 4.0 * ROUNDING;
 /// Distance of two places at which a way is looked at, mm.
 const STEP: f64 = 0.05;
 /// Halvings that find where a way enters a part: from a quarter of a millimetre to rounding.
@@ -30,6 +27,8 @@ const HALVINGS: usize = 20;
 #[derive(Debug)]
 pub(super) struct Overcut {
     inside: Inside,
+    /// Rounding of a tip's place, mm.
+    rounding: f64,
     tolerance: f64,
     width: f64,
     /// How far the profile lets the blade cut into the part at a reflex corner, mm.
@@ -68,11 +67,13 @@ enum Cloth {
 }
 
 impl Overcut {
-    pub(super) fn new(reference: &Reference, profile: &MachineProfile) -> Self {
+    /// For places that are rounded to `rounding` mm.
+    pub(super) fn new(reference: &Reference, profile: &MachineProfile, rounding: f64) -> Self {
         let (knife, verify) = (&profile.knife, &profile.verify);
         Self {
             inside: Inside::new(reference.marker),
-            tolerance: reference.tolerance + PLACE_ROUNDING,
+            rounding,
+            tolerance: reference.tolerance + rounding,
             width: knife.width_mm,
             reflex: knife.reflex_front_overlap_mm.max(knife.reflex_heel_overlap_mm),
             allowed: [verify.max_overcut_part_mm, verify.max_overcut_neighbour_mm],
@@ -94,13 +95,12 @@ impl Overcut {
     pub(super) fn see(&mut self, stroke: &Stroke, lines: Lines, seen: &impl Fn(usize) -> Sighting) {
         let joints = stroke.joints();
         let beyond: Vec<f64> = (0..stroke.feet.len()).map(|i| stroke.beyond(i, joints)).collect();
-        if beyond.iter().all(|&beyond| beyond <= PLACE_ROUNDING) {
+        if beyond.iter().all(|&beyond| beyond <= self.rounding) {
             return;
         }
         let points = &stroke.cut.points;
-        let cloth: Vec<Option<Cloth>> = (0..points.len())
-            .map(|i| (beyond[i] > PLACE_ROUNDING).then(|| self.at(points[i], stroke, lines)))
-            .collect();
+        let cloth: Vec<Option<Cloth>> =
+            (0..points.len()).map(|i| (beyond[i] > self.rounding).then(|| self.at(points[i], stroke, lines))).collect();
         let (mut sums, mut groups) = ([0.0; 2], [(0.0, 0); 2]);
         let mut from = 0;
         for group in cloth.chunk_by(|a, b| a == b) {

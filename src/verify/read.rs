@@ -2,14 +2,16 @@
 
 use std::io::{BufRead, Read as _};
 
-use super::npy;
+use super::counts::Counts;
 use super::worst::Worst;
+use super::{counts, hal, npy};
 use crate::geom::{Point, Vector};
 use crate::ir::Finding;
 use crate::ir::finding::Sighting;
+use crate::machine::MachineProfile;
 
 /// Half of the last decimal of positions, mm and degrees: by so much a value may differ from what was meant.
-pub(super) const ROUNDING: f64 = 0.5e-6;
+const ROUNDING: f64 = 0.5e-6;
 /// Half of the last decimal of the time, s.
 pub(super) const TIME_ROUNDING: f64 = 0.5e-6;
 
@@ -47,11 +49,42 @@ impl Row {
     }
 }
 
+/// How rows are written.
+#[derive(Debug)]
+enum Form<'a> {
+    /// Lines of fields between commas.
+    Table,
+    /// Records, so many of which are still to come.
+    Array(u64),
+    /// Records of encoder counts, likewise.
+    Counts(Counts, u64),
+    /// Lines of fields between blanks, for this machine.
+    Stream(&'a MachineProfile),
+}
+
+/// By how much the numbers of rows may differ from what was meant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Rounding {
+    /// Of X, Y (mm) and C (degrees).
+    pub(super) axes: [f64; 3],
+}
+
+impl Rounding {
+    /// Of an axis, whichever is coarsest.
+    pub(super) fn axis(self) -> f64 {
+        self.axes.into_iter().fold(0.0, f64::max)
+    }
+
+    /// Of a place that is computed from a row, mm: the tip's, from the axes and the turn of the blade.
+    pub(super) fn place(self) -> f64 {
+        4.0 * self.axis()
+    }
+}
+
 /// The rows of a program; stops at the first that cannot be read.
 pub(super) struct Rows<'a> {
     input: &'a mut dyn BufRead,
-    /// The records still to come; `None` when the rows are lines of text.
-    records: Option<u64>,
+    form: Form<'a>,
     /// The line or record that was read last.
     line: Vec<u8>,
     tick: u64,
@@ -73,19 +106,45 @@ pub(super) fn begins(input: &mut dyn BufRead) -> bool {
 }
 
 impl<'a> Rows<'a> {
-    pub(super) fn new(input: &'a mut dyn BufRead) -> Self {
+    pub(super) fn new(input: &'a mut dyn BufRead, profile: &'a MachineProfile) -> Self {
         let worst = Worst::new("verify/format", "bad rows", Some(0.0));
-        let records = npy::begins(input).then_some(0);
-        let mut rows = Self { input, records, line: Vec::new(), tick: 0, last: None, worst, ended: false };
-        if let Some(count) = &mut rows.records {
-            match npy::header(rows.input) {
-                Some(told) => *count = told,
-                None => rows.fail(),
+        let mut rows = Self { input, form: Form::Table, line: Vec::new(), tick: 0, last: None, worst, ended: false };
+        if npy::begins(rows.input) {
+            let told = npy::header(rows.input);
+            rows.form = Form::Array(told.unwrap_or(0));
+            rows.check(told.is_some());
+        } else if counts::begins(rows.input) {
+            let told = Counts::read(rows.input, profile);
+            let is_sound = told.is_some();
+            if let Some((counts, left)) = told {
+                rows.form = Form::Counts(counts, left);
             }
-        } else if rows.fetch() != Some(true) || rows.line != HEADER {
-            rows.fail();
+            rows.check(is_sound);
+        } else {
+            let is_stream = hal::begins(rows.input);
+            if is_stream {
+                rows.form = Form::Stream(profile);
+            }
+            let header = if is_stream { hal::HEADER } else { HEADER };
+            let is_there = rows.fetch() == Some(true) && rows.line == header;
+            rows.check(is_there);
         }
         rows
+    }
+
+    fn check(&mut self, is_sound: bool) {
+        if !is_sound {
+            self.fail();
+        }
+    }
+
+    /// By how much its numbers may differ from what was meant.
+    pub(super) fn rounding(&self) -> Rounding {
+        let axes = match &self.form {
+            Form::Counts(counts, _) => counts.rounding(),
+            Form::Table | Form::Array(_) | Form::Stream(_) => [ROUNDING; 3],
+        };
+        Rounding { axes }
     }
 
     /// The next row.
@@ -107,7 +166,12 @@ impl<'a> Rows<'a> {
                 return None;
             }
         }
-        let row = if self.records.is_some() { npy::row(&self.line, self.tick) } else { parse(&self.line, self.tick) };
+        let row = match &mut self.form {
+            Form::Table => parse(&self.line, self.tick),
+            Form::Array(_) => npy::row(&self.line, self.tick),
+            Form::Counts(counts, _) => counts.row(&self.line, self.tick),
+            Form::Stream(profile) => hal::row(&self.line, self.tick, profile),
+        };
         let Some(row) = row else {
             self.fail();
             return None;
@@ -126,8 +190,10 @@ impl<'a> Rows<'a> {
     /// line has no end, which is how a program cut short looks.
     fn fetch(&mut self) -> Option<bool> {
         self.line.clear();
-        if let Some(left) = &mut self.records {
-            return npy::record(self.input, left, &mut self.line);
+        match &mut self.form {
+            Form::Array(left) => return npy::record(self.input, left, &mut self.line),
+            Form::Counts(_, left) => return Counts::record(self.input, left, &mut self.line),
+            Form::Table | Form::Stream(_) => {}
         }
         let read = self.input.take(LINE_MAX).read_until(b'\n', &mut self.line).ok()?;
         if read == 0 {
@@ -169,7 +235,7 @@ fn parse(line: &[u8], tick: u64) -> Option<Row> {
 }
 
 /// A whole number below 2^32.
-fn whole(field: &[u8]) -> Option<u32> {
+pub(super) fn whole(field: &[u8]) -> Option<u32> {
     if field.is_empty() || field.len() > 10 {
         return None;
     }
@@ -182,7 +248,7 @@ const EXACT_DIGITS: usize = 15;
 const POWERS: [f64; 16] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
 
 /// A decimal number, correctly rounded: digits and a power of ten that are both exact give one rounding.
-fn decimal(field: &[u8]) -> Option<f64> {
+pub(super) fn decimal(field: &[u8]) -> Option<f64> {
     let (sign, digits) = match field {
         [b'-', rest @ ..] => (-1.0, rest),
         rest => (1.0, rest),
@@ -225,8 +291,8 @@ mod tests {
     fn a_last_line_without_its_end_is_a_fault() {
         let text =
             "t_s,x_mm,y_mm,c_deg,knife,drill,event,block\n0.000000,0.0,0.0,0.0,0,0,0,0\n0.001000,0.0,0.0,0.0,0,0,0,0";
-        let mut bytes = text.as_bytes();
-        let mut rows = Rows::new(&mut bytes);
+        let (mut bytes, profile) = (text.as_bytes(), MachineProfile::default());
+        let mut rows = Rows::new(&mut bytes, &profile);
         assert!(rows.next().is_some());
         assert!(rows.next().is_none());
         assert!(!rows.finding().holds());

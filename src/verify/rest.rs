@@ -1,7 +1,7 @@
 //! What happens at rest: start and end of the program, plunges, lifts, events, and the holes that are drilled.
 
 use super::order::Order;
-use super::read::{ROUNDING, Row};
+use super::read::{Rounding, Row};
 use super::reference::Reference;
 use super::worst::Worst;
 use crate::geom::{Point, Vector};
@@ -9,8 +9,6 @@ use crate::ir::Finding;
 use crate::ir::finding::Sighting;
 use crate::machine::MachineProfile;
 
-/// Two printed numbers of the same value may differ by this, mm and degrees.
-const SAME: f64 = 2.0 * ROUNDING;
 /// Part of a period that a dwell may seem to lack: rounding of its quotient.
 const PERIOD_EPSILON: f64 = 1e-6;
 
@@ -27,6 +25,8 @@ pub(super) struct Rest<'a> {
     offset: Vector,
     park: Option<[f64; 3]>,
     home: [f64; 3],
+    /// By how much two numbers of the same value may differ, mm and degrees.
+    same: f64,
     before: Option<Row>,
     /// The row at which the axes came to rest, and the tick until which they must.
     hold: Option<(Row, u64)>,
@@ -40,7 +40,9 @@ pub(super) struct Rest<'a> {
 }
 
 impl<'a> Rest<'a> {
-    pub(super) fn new(reference: &'a Reference, profile: &MachineProfile) -> Self {
+    pub(super) fn new(reference: &'a Reference, profile: &MachineProfile, rounding: Rounding) -> Self {
+        // Two printed numbers of the same value may differ by this, mm and degrees.
+        let same = 2.0 * rounding.axis();
         let period = profile.time.period();
         let ticks = |time: f64| (time / period - PERIOD_EPSILON).ceil().max(0.0) as u64;
         let [x, y] = profile.drill.offset_mm;
@@ -54,13 +56,14 @@ impl<'a> Rest<'a> {
             offset: Vector::new(x, y),
             park: profile.park,
             home: profile.home,
+            same,
             before: None,
             hold: None,
             up: 0,
             drilled: Vec::new(),
-            start: Worst::new("verify/start", "mm, deg", Some(SAME)),
-            end: Worst::new("verify/end", "mm, deg", Some(SAME)),
-            still: Worst::new("verify/rest", "mm, deg", Some(SAME)),
+            start: Worst::new("verify/start", "mm, deg", Some(same)),
+            end: Worst::new("verify/end", "mm, deg", Some(same)),
+            still: Worst::new("verify/rest", "mm, deg", Some(same)),
             dwell: Worst::new("verify/dwell", "s missing", Some(PERIOD_EPSILON * period)),
         }
     }
@@ -151,7 +154,7 @@ impl<'a> Rest<'a> {
     /// Compares the holes of the program with those of the marker: each takes the nearest one that is left.
     fn holes(&mut self, order: &mut Order) -> (Finding, Finding) {
         let mut wrong = Worst::new("verify/drills", "holes", Some(0.0));
-        let mut place = Worst::new("verify/drill-place", "mm", Some(HOLE));
+        let mut place = Worst::new("verify/drill-place", "mm", Some(2.0 * self.same));
         let mut left = std::mem::take(&mut self.drilled);
         // By tool and X, so that the holes near a place lie side by side.
         left.sort_by(|a, b| a.1.cmp(&b.1).then(a.0.x.total_cmp(&b.0.x)));
@@ -182,8 +185,7 @@ impl<'a> Rest<'a> {
     }
 }
 
-/// How far a hole may be from its place, mm: rounding of two numbers; and beyond which it is another hole.
-const HOLE: f64 = 2.0 * SAME;
+/// How far from its place a hole is another hole, mm.
 const HOLE_REACH: f64 = 5.0;
 
 /// Greatest difference of a row from a pose, mm and degrees.

@@ -13,7 +13,7 @@ use super::grid::Grid;
 use super::heading::{self, Moving, Plunge};
 use super::joints::{Around, Joints};
 use super::overcut::{self, Lines, Overcut};
-use super::read::{ROUNDING, Row};
+use super::read::{Rounding, Row};
 use super::reference::{Line, Reference};
 use super::worst::{Worst, at};
 use crate::geom::{Point, angle, polyline};
@@ -28,8 +28,6 @@ const TRIALS: usize = 8;
 /// How far from its chord, along the line, a cap may be obeyed, mm, beside the tolerance: a tip that takes a bend inside
 /// its tube passes the vertex early or late by less.
 const CAP_ASIDE: f64 = 0.5;
-/// Rounding of a tip's place, mm.
-const PLACE_ROUNDING: f64 = 4.0 * ROUNDING;
 
 /// The rows of a stroke.
 #[derive(Debug, Default)]
@@ -56,6 +54,10 @@ pub(super) struct Judge<'a> {
     reference: &'a Reference<'a>,
     knife: &'a Knife,
     period: f64,
+    /// Rounding of a tip's place, mm.
+    rounding: f64,
+    /// Least way of the tip that shows a direction, mm.
+    way_min: f64,
     grid: Grid,
     joints: Joints,
     /// Greatest overlap at one end, and of both ends together.
@@ -71,6 +73,30 @@ pub(super) struct Judge<'a> {
     body: Worst,
     feed: Worst,
     overcut: Overcut,
+}
+
+/// A place of a cut that is near a line.
+#[derive(Debug, Clone, Copy)]
+struct Candidate {
+    line: usize,
+    chord: usize,
+    /// Which point of the cut.
+    probe: usize,
+    /// Where on the line, mm.
+    station: f64,
+    /// How far off, mm.
+    away: f64,
+}
+
+impl Candidate {
+    /// Whether one who follows the line from `other` comes by here. Where a line ends at its own start the heel lies at its
+    /// end, and following from there leads nowhere.
+    fn continues(&self, other: &Self, cut: &Cut, line: &Line) -> bool {
+        let between = self.probe.min(other.probe)..=self.probe.max(other.probe);
+        let way = polyline::length(&cut.points[between]);
+        let apart = (self.station - other.station).abs();
+        apart <= way + 2.0 * REACH || line.ring && line.length() - apart <= way + 2.0 * REACH
+    }
 }
 
 /// A stroke followed along one line.
@@ -94,7 +120,9 @@ struct Trial {
 }
 
 impl<'a> Judge<'a> {
-    pub(super) fn new(reference: &'a Reference, profile: &'a MachineProfile) -> Self {
+    pub(super) fn new(reference: &'a Reference, profile: &'a MachineProfile, rounding: Rounding) -> Self {
+        let place = rounding.place();
+        let way_min = heading::way_min(rounding);
         let knife = &profile.knife;
         let verify = &profile.verify;
         let front = knife.front_overlap_mm.max(knife.corner_front_overlap_mm);
@@ -104,24 +132,26 @@ impl<'a> Judge<'a> {
         let joints = if knife.max_down_mm.is_some() || profile.c.range_deg.is_some() { 2.0 } else { 1.0 };
         let tolerance = reference.tolerance;
         let period = profile.time.period();
-        let feed = knife.feed_mm_s.map(|feed| feed + 4.0 * PLACE_ROUNDING / period);
+        let feed = knife.feed_mm_s.map(|feed| feed + 4.0 * place / period);
         Self {
             reference,
             knife,
             period,
+            rounding: place,
+            way_min,
             grid: Grid::new(reference),
             joints: Joints::new(knife),
             overlap: front.max(heel),
             overlaps,
             max_uncut: verify.max_uncut_mm,
             bulge: if profile.path.fit == Fit::Curve { profile.path.chord_sag_max_mm } else { 0.0 },
-            on_path: Worst::new("verify/on-path", "mm", Some(tolerance + PLACE_ROUNDING)),
+            on_path: Worst::new("verify/on-path", "mm", Some(tolerance + place)),
             stray: Worst::new("verify/stray", "mm", Some(0.0)),
             once: Worst::new("verify/once", "mm", Some(joints * overlaps + 2.0 * tolerance)),
-            heading: Worst::new("verify/heading", "deg", Some(verify.max_heading_deg)),
+            heading: Worst::new("verify/heading", "deg", Some(verify.max_heading_deg + heading::noise_deg(rounding))),
             body: Worst::new("verify/body", "mm", verify.max_body_mm),
             feed: Worst::new("verify/feed", "mm/s", feed),
-            overcut: Overcut::new(reference, profile),
+            overcut: Overcut::new(reference, profile, place),
         }
     }
 
@@ -135,8 +165,7 @@ impl<'a> Judge<'a> {
         let rows = &stroke.rows;
         let tips: Vec<Point> = rows.iter().map(|row| row.centre + row.along() * self.knife.radius()).collect();
         let cut = Cut::new(rows, &tips, self.knife);
-        let trials: Vec<Trial> =
-            self.candidates(&cut).into_iter().map(|(line, chord, at)| self.follow(&cut, line, chord, at)).collect();
+        let trials: Vec<Trial> = self.candidates(&cut).iter().map(|candidate| self.follow(&cut, candidate)).collect();
         let seen = |i: usize| {
             let row = &rows[cut.rows[i.saturating_sub(cut.body)]];
             at(row.t, cut.points[i], row.block)
@@ -174,7 +203,7 @@ impl<'a> Judge<'a> {
     fn fits(&self, trial: &Trial, coverage: &Coverage) -> Option<[[f64; 2]; 2]> {
         let line = &self.reference.lines[trial.line];
         let joints = |station: f64| {
-            let tube = 2.0 * (self.reference.tolerance + PLACE_ROUNDING);
+            let tube = 2.0 * (self.reference.tolerance + self.rounding);
             self.joints.near(line, Around { station, slack: BODY_STEP + tube, tube })
         };
         let [from, to] = coverage.uncut(trial.line, &trial.stretches)?;
@@ -222,7 +251,7 @@ impl<'a> Judge<'a> {
             cone = [cone[0].min(turned), cone[1].max(turned)];
         }
         let askew = angle::turn(line.direction(*chords.start()), blade);
-        let slack = (2.0 * (self.reference.tolerance + PLACE_ROUNDING) / width).atan();
+        let slack = (2.0 * (self.reference.tolerance + self.rounding) / width).atan();
         let beyond = (cone[0] - askew).max(askew - cone[1]) - slack;
         self.heading.see(beyond.to_degrees(), || seen(cut.body));
     }
@@ -263,8 +292,8 @@ impl<'a> Judge<'a> {
         })
     }
 
-    /// Lines that pass near the stroke: line, chord, and the place of the cut that is near it.
-    fn candidates(&self, cut: &Cut) -> Vec<(usize, usize, usize)> {
+    /// Where to begin following: the lines that pass near the stroke, the nearest first.
+    fn candidates(&self, cut: &Cut) -> Vec<Candidate> {
         let count = cut.points.len();
         let tips = count - cut.body;
         let mut probes: Vec<usize> = [1, 2, 3].iter().map(|part| cut.body + (tips - 1) * part / 4).collect();
@@ -272,30 +301,34 @@ impl<'a> Judge<'a> {
             // On a short line the tip may stand beyond its end all the time.
             probes.extend([0, 1, 2, 3].iter().map(|part| cut.body * part / 4));
         }
-        let mut found: Vec<(usize, usize, usize, f64)> = Vec::new();
+        let mut found: Vec<Candidate> = Vec::new();
         for probe in probes {
             let point = cut.points[probe];
             for (line, chord) in self.grid.near(point) {
                 let (line, chord) = (line as usize, chord as usize);
                 let foot = on_chord(&self.reference.lines[line], chord, point);
-                let away = foot.deviation.hypot(foot.beyond);
-                if away > REACH {
+                let next =
+                    Candidate { line, chord, probe, station: foot.station, away: foot.deviation.hypot(foot.beyond) };
+                if next.away > REACH {
                     continue;
                 }
-                match found.iter_mut().find(|f| f.0 == line) {
-                    Some(best) if away < best.3 => *best = (line, chord, probe, away),
+                match found
+                    .iter_mut()
+                    .find(|known| known.line == line && next.continues(known, cut, &self.reference.lines[line]))
+                {
+                    Some(known) if next.away < known.away => *known = next,
                     Some(_) => {}
-                    None => found.push((line, chord, probe, away)),
+                    None => found.push(next),
                 }
             }
         }
-        found.sort_by(|a, b| a.3.total_cmp(&b.3).then(a.0.cmp(&b.0)));
+        found.sort_by(|a, b| a.away.total_cmp(&b.away).then(a.line.cmp(&b.line)).then(a.probe.cmp(&b.probe)));
         found.truncate(TRIALS);
-        found.into_iter().map(|(line, chord, probe, _)| (line, chord, probe)).collect()
+        found
     }
 
-    /// Follows a cut along a line, from the place `from` beside chord `chord` both ways.
-    fn follow(&self, cut: &Cut, index: usize, chord: usize, from: usize) -> Trial {
+    /// Follows a cut along a line, from where it was found both ways.
+    fn follow(&self, cut: &Cut, &Candidate { line: index, chord, probe: from, .. }: &Candidate) -> Trial {
         let line = &self.reference.lines[index];
         let points = &cut.points;
         let ahead = points[(from + 1).min(points.len() - 1)] - points[from.saturating_sub(1)];
@@ -314,7 +347,7 @@ impl<'a> Judge<'a> {
         // The blade of a stroke that goes all the way round lies behind its start, where the end comes by again.
         let laps = line.ring && way > length - self.knife.width_mm.min(0.5 * length);
         let first = if laps { cut.body } else { 0 };
-        let allowed = self.reference.tolerance + PLACE_ROUNDING;
+        let allowed = self.reference.tolerance + self.rounding;
         let mut trial = Trial {
             line: index,
             feet,
@@ -384,7 +417,7 @@ impl<'a> Judge<'a> {
 
     /// Whether the path may bow away from a plunged blade: where a stroke begins at a joint, or a stab ends at one.
     fn may_bow(&self, cut: &Cut, line: &Line, feet: &[Foot]) -> bool {
-        let slack = 2.0 * (self.reference.tolerance + PLACE_ROUNDING);
+        let slack = 2.0 * (self.reference.tolerance + self.rounding);
         let is_joint =
             |foot: &Foot| self.joints.near(line, Around { station: foot.station, slack, tube: 0.0 }).is_some();
         is_joint(&feet[0]) || cut.is_stab() && is_joint(&feet[cut.body])
@@ -398,7 +431,7 @@ impl<'a> Judge<'a> {
             (cut, Some(trial)) => self.plunge(cut, trial).lead(),
         };
         let fade = self.knife.width_mm.min(polyline::length(tips));
-        Moving { rows, tips, lead, fade }.check(&mut self.heading);
+        Moving { rows, tips, lead, fade, way_min: self.way_min }.check(&mut self.heading);
     }
 
     fn plunge(&self, cut: &Cut, trial: &Trial) -> Plunge<'_> {
@@ -406,7 +439,7 @@ impl<'a> Judge<'a> {
         let last = trial.feet[cut.points.len() - 1];
         let line = &self.reference.lines[trial.line];
         let sign = if last.station < tail.station { -1.0 } else { 1.0 };
-        Plunge { line, tail, tip, sign, tube: self.reference.tolerance + PLACE_ROUNDING + self.bulge }
+        Plunge { line, tail, tip, sign, tube: self.reference.tolerance + self.rounding + self.bulge }
     }
 
     /// Beyond the ends of its line a stroke cuts overlaps and what the blade is longer than a short line, or than what was
@@ -435,7 +468,7 @@ impl<'a> Judge<'a> {
     /// The way of the tip from row to row against the greatest cap that holds anywhere on it.
     fn check_feed(&mut self, rows: &[Row], cut: &Cut, trial: Option<&Trial>) {
         let slack = self.reference.tolerance + CAP_ASIDE;
-        let rounding = 4.0 * PLACE_ROUNDING / self.period;
+        let rounding = 4.0 * self.rounding / self.period;
         for (i, ends) in cut.points[cut.body..].windows(2).enumerate() {
             let cap = trial.map_or(self.knife.feed_mm_s.unwrap_or(f64::INFINITY), |trial| {
                 let [a, b] = [0, 1].map(|k| trial.feet[cut.body + i + k].station);

@@ -1,12 +1,9 @@
 //! Whether the machine stays over its table.
 
-use super::read::{ROUNDING, Row};
+use super::read::{Rounding, Row};
 use super::worst::Worst;
 use crate::ir::Finding;
 use crate::machine::MachineProfile;
-
-/// Rounding of a place that is computed from a row, mm.
-const PLACE_ROUNDING: f64 = 4.0 * ROUNDING;
 
 /// Watches the rows.
 pub(super) struct Table {
@@ -20,7 +17,7 @@ pub(super) struct Table {
 }
 
 impl Table {
-    pub(super) fn new(profile: &MachineProfile) -> Self {
+    pub(super) fn new(profile: &MachineProfile, rounding: Rounding) -> Self {
         let down = [profile.table.x_mm, profile.table.y_mm];
         let poses = [Some(profile.home), profile.park];
         let up = std::array::from_fn(|axis| {
@@ -28,7 +25,7 @@ impl Table {
             down[axis].map(|range| poses.iter().flatten().fold(range, wider))
         });
         let blade = [profile.knife.radius(), -profile.knife.back()];
-        let limit = profile.table.strict.then_some(PLACE_ROUNDING);
+        let limit = profile.table.strict.then_some(rounding.place());
         Self { down, up, blade, off: Worst::new("verify/table", "mm", limit) }
     }
 

@@ -1,0 +1,111 @@
+//! Target `counts`: encoder counts of X, Y and C, a record a cycle, for drives in cyclic synchronous position mode.
+//!
+//! A header of one JSON line, padded with blanks to [`HEADER_BYTES`] bytes, then records of five little-endian `i32`:
+//! X, Y, C, outputs, block. A count is the absolute position times the scale, plus the offset, rounded: nothing adds up,
+//! so nothing drifts. Counts wrap as the 32-bit registers of drives do. C is that of the controller (`c.offset_deg`,
+//! `c.reverse`). In the outputs bit 0 is the knife, bits 4 to 6 are the drill (0 to 4), bits 8 and 9 the event.
+//!
+//! `numpy.memmap(file, "<i4", "r", 1024).reshape(-1, 5)` opens a program of any length at once.
+
+use std::io::{self, SeekFrom};
+
+use super::{Context, Emit, Output, Parts, Proof, Target};
+use crate::ir::{Finding, Motion};
+use crate::units::number::exact;
+
+pub(super) const TARGET: Target = Target {
+    name: "counts",
+    about: "encoder counts of X, Y and C as 32-bit integers, a record a cycle",
+    extension: "counts",
+    emit: Emit::Motion(Parts { head, body, tail }),
+    proof: Proof::Setpoints,
+};
+
+/// Bytes before the first record.
+const HEADER_BYTES: usize = 1024;
+/// Bytes of a record.
+const RECORD_BYTES: usize = 5 * 4;
+/// Where drill and event begin in the outputs.
+const DRILL_BIT: u32 = 4;
+const EVENT_BIT: u32 = 8;
+
+/// The header of a program of `count` records.
+fn header(context: &Context, count: u64) -> Vec<u8> {
+    let profile = &context.job.profile;
+    let [x, y] = [&profile.counts.x, &profile.counts.y]
+        .map(|axis| format!("{{\"per_mm\": {}, \"offset\": {}}}", exact(axis.per_mm), exact(axis.offset)));
+    let c = &profile.counts.c;
+    let text = format!(
+        "{{\"format\": \"cutc-counts\", \"version\": 1, \"rows\": {count}, \"period_s\": {}, \"type\": \"<i4\", \
+         \"columns\": [\"x\", \"y\", \"c\", \"outputs\", \"block\"], \"x\": {x}, \"y\": {y}, \
+         \"c\": {{\"per_deg\": {}, \"offset\": {}, \"zero_deg\": {}, \"reverse\": {}}}, \
+         \"outputs\": {{\"knife_bit\": 0, \"drill_bit\": {DRILL_BIT}, \"drill_bits\": 3, \"event_bit\": {EVENT_BIT}, \
+         \"event_bits\": 2}}}}",
+        exact(profile.time.period()),
+        exact(c.per_deg),
+        exact(c.offset),
+        exact(profile.c.offset_deg),
+        profile.c.reverse,
+    );
+    debug_assert!(text.len() < HEADER_BYTES, "numbers of a profile are short");
+    let mut bytes = text.into_bytes();
+    bytes.resize(HEADER_BYTES - 1, b' ');
+    bytes.push(b'\n');
+    bytes
+}
+
+fn head(context: &Context, out: &mut dyn Output) -> io::Result<()> {
+    out.write_all(&header(context, 0))
+}
+
+fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<()> {
+    let profile = &context.job.profile;
+    let (scales, turn) = (&profile.counts, &profile.c);
+    let mut records = Vec::with_capacity(RECORD_BYTES * motion.ticks() as usize);
+    for phase in &motion.phases {
+        let outputs = u32::from(phase.kind.knife_down())
+            | u32::from(phase.kind.drill()) << DRILL_BIT
+            | u32::from(phase.kind.event()) << EVENT_BIT;
+        for i in 0..phase.ticks {
+            let pose = phase.pose(i);
+            let counts = [
+                wrapped(pose.centre.x * scales.x.per_mm + scales.x.offset),
+                wrapped(pose.centre.y * scales.y.per_mm + scales.y.offset),
+                wrapped(turn.shown_deg(pose.c.0) * scales.c.per_deg + scales.c.offset),
+            ];
+            for count in &counts {
+                records.extend_from_slice(&count.to_le_bytes());
+            }
+            records.extend_from_slice(&outputs.to_le_bytes());
+            records.extend_from_slice(&phase.block(i).to_le_bytes());
+        }
+    }
+    out.write_all(&records)
+}
+
+/// The nearest whole number, as a register of 32 bits holds it.
+fn wrapped(counts: f64) -> i32 {
+    counts.round() as i64 as i32
+}
+
+/// Fills in the number of records that were written.
+fn tail(context: &Context, _: &[Finding], out: &mut dyn Output) -> io::Result<()> {
+    let end = out.stream_position()?;
+    let count = (end - HEADER_BYTES as u64) / RECORD_BYTES as u64;
+    out.seek(SeekFrom::Start(0))?;
+    out.write_all(&header(context, count))?;
+    out.seek(SeekFrom::Start(end))?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_are_rounded_and_wrap_as_registers_do() {
+        assert_eq!([0.4, 0.5, -0.5, -0.4].map(wrapped), [0, 1, -1, 0]);
+        assert_eq!(wrapped(2_147_483_648.0), i32::MIN);
+        assert_eq!(wrapped(-2_147_483_649.0), i32::MAX);
+    }
+}

@@ -1,0 +1,57 @@
+//! Target `hal`: timed setpoints as the text that `LinuxCNC`'s `halstreamer` takes, a row a servo period.
+//!
+//! `x_mm y_mm c_deg knife drill event block`, for `loadrt streamer cfg=fffbuuu`. C is that of the controller
+//! (`c.offset_deg`, `c.reverse`). Nine decimals: with three, an axis that keeps its limits lags by micrometres.
+//! halstreamer skips a bad row in silence and loses a last one without its line feed; a comment stands in column 0.
+//!
+//! Target [`halrun`](super::halrun) is the `.hal` file that plays it.
+
+use std::io;
+
+use super::{Context, Emit, Output, Parts, Proof, Target};
+use crate::ir::{Finding, Motion};
+use crate::units::number;
+
+pub(super) const TARGET: Target = Target {
+    name: "hal",
+    about: "timed setpoints for LinuxCNC's halstreamer, a row a servo period",
+    extension: "hal.txt",
+    emit: Emit::Motion(Parts { head, body, tail }),
+    proof: Proof::Setpoints,
+};
+
+/// Decimals of positions, in mm and degrees.
+const DECIMALS: u32 = 9;
+
+fn head(_: &Context, out: &mut dyn Output) -> io::Result<()> {
+    out.write_all(b"# cutc hal: x_mm y_mm c_deg knife drill event block\n")
+}
+
+fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<()> {
+    let turn = &context.job.profile.c;
+    let mut rows = Vec::new();
+    for phase in &motion.phases {
+        rows.clear();
+        let outputs = [phase.kind.knife_down().into(), phase.kind.drill(), phase.kind.event()];
+        for i in 0..phase.ticks {
+            let pose = phase.pose(i);
+            for value in [pose.centre.x, pose.centre.y, turn.shown_deg(pose.c.0)] {
+                number::push_fixed(&mut rows, value, DECIMALS);
+                rows.push(b' ');
+            }
+            for output in outputs {
+                number::push_integer(&mut rows, u64::from(output));
+                rows.push(b' ');
+            }
+            number::push_integer(&mut rows, u64::from(phase.block(i)));
+            rows.push(b'\n');
+        }
+        out.write_all(&rows)?;
+    }
+    Ok(())
+}
+
+#[allow(clippy::unnecessary_wraps, reason = "the signature is that of every target")]
+fn tail(_: &Context, _: &[Finding], _: &mut dyn Output) -> io::Result<()> {
+    Ok(())
+}
