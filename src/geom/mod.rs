@@ -26,6 +26,11 @@ pub fn left(v: Vector) -> Vector {
     Vector::new(-v.y, v.x)
 }
 
+/// The bits of a point's coordinates: the same for points that are equal, since zero has one sign here.
+pub fn bits(point: Point) -> [u64; 2] {
+    [(point.x + 0.0).to_bits(), (point.y + 0.0).to_bits()]
+}
+
 /// An axis-parallel box, mm. The empty box has `min > max`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extent {

@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use super::kept::{self, Work};
+use super::kept::{self, Works};
 use super::worst::Worst;
 use crate::geom::{Extent, Point, Vector};
 use crate::ir::{Finding, Marker};
@@ -29,7 +29,7 @@ pub struct Census {
     /// What the numbers of the file are multiples of, mm.
     pub unit: f64,
     /// What cuts or drills, block by block; a scan of the bytes does not tell.
-    works: Vec<Work>,
+    works: Works,
 }
 
 impl Census {
@@ -94,7 +94,7 @@ pub fn source_audit(dialect: &str, bytes: &[u8], read: &Census, profile: &Machin
 
 /// Scans a cut file. Only what moves the knife matters here; everything else is passed over.
 fn scan_iso(bytes: &[u8], unit: f64, profile: &MachineProfile) -> (Census, Slack) {
-    let mut census = Census { points: 0, drills: 0, length: 0.0, bounds: Extent::EMPTY, unit, works: Vec::new() };
+    let mut census = Census { points: 0, drills: 0, length: 0.0, bounds: Extent::EMPTY, unit, works: Works::default() };
     let mut slack = Slack { sagitta: profile.tolerance(unit) * ARC_SAGITTA, length: 0.0, bounds: 0.0 };
     let mut blocks = Blocks { bytes, at: 0 };
     let (mut at, mut down) = (Point::origin(), false);

@@ -86,6 +86,49 @@ fn what_a_pass_loses_is_seen_but_for_slits_that_stand_twice_and_pieces_not_chose
     assert!(source_kept(&Census::of(&twice), &read).holds());
 }
 
+/// What the scan and the comparison behind the passes find wrong with a cut file; `None` when it has errors.
+fn faults(bytes: &[u8], job: &Job) -> Option<Vec<Finding>> {
+    let source = Source::new("a.cut", bytes.to_vec()).expect("small");
+    let mut diagnostics = Diagnostics::default();
+    let input = pipeline::read(&source, None, job, &mut diagnostics).filter(|_| !diagnostics.has_errors())?;
+    let mut findings = source_audit("iso", bytes, &input.read, &job.profile)?;
+    findings.push(source_kept(&input.read, &input.marker));
+    findings.retain(|finding| !finding.holds());
+    Some(findings)
+}
+
+#[test]
+fn what_a_file_cuts_to_and_fro_or_twice_is_cut_once_and_nothing_is_lost() {
+    const SQUARE: &str = "X0Y0*M14*X1000Y0*X1000Y1000*X0Y1000*X0Y0*M15*";
+    let there = "X500Y0*M14*X500Y50*M15*";
+    let back = "X500Y50*M14*X500Y0*M15*";
+    let and_back = "X500Y0*M14*X500Y50*X500Y0*M15*";
+    let named = "X500Y0*M14*M19*X500Y50*M15*";
+    let bar = "X470Y50*M14*X530Y50*M15*";
+    let bar_and_back = "X470Y50*M14*X530Y50*X470Y50*M15*";
+    let slits: [&[&str]; 11] = [
+        &[and_back],
+        &[there, there],
+        &[there, back],
+        &[and_back, and_back],
+        &[named, there],
+        &[there, named],
+        &[named, and_back],
+        &[there, bar],
+        &[and_back, bar_and_back],
+        &[named, bar, bar],
+        &[there, bar_and_back, bar],
+    ];
+    for slits in slits {
+        for piece in ["N1*", ""] {
+            for blocks in [[SQUARE, &slits.concat()], [&slits.concat(), SQUARE]] {
+                let file = format!("H1*G71*M15*{piece}{}M0*", blocks.concat());
+                assert_eq!(faults(file.as_bytes(), &Job::default()), Some(Vec::new()), "{file}");
+            }
+        }
+    }
+}
+
 #[test]
 fn a_marker_that_lacks_something_of_the_file_is_refused() {
     type Loss = fn(&mut Marker) -> bool;

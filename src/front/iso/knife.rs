@@ -6,7 +6,7 @@
 use std::collections::HashMap;
 
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::{Extent, Point};
+use crate::geom::{Extent, Point, bits};
 use crate::ir::list::{FULL_SPEED, Joint, Segment, SegmentList};
 use crate::ir::marker::{Contour, Drill, Event, Label, Marker, Notch, NotchKind, Piece};
 use crate::source::Span;
@@ -103,11 +103,6 @@ impl Chain {
         (second - first).norm() <= Notch::LONGEST
             && self.vertices.iter().all(|vertex| vertex.at == first || vertex.at == second)
     }
-}
-
-/// Coordinates are whole units times one factor, without a negative zero: equal places have equal bits.
-fn key(at: Point) -> [u64; 2] {
-    [at.x.to_bits(), at.y.to_bits()]
 }
 
 impl Knife {
@@ -237,7 +232,7 @@ impl Knife {
             }
         }
         let full_advance = std::mem::take(&mut self.advance);
-        if let Some(index) = self.open.remove(&key(self.at)).or_else(|| self.take_spur()) {
+        if let Some(index) = self.open.remove(&bits(self.at)).or_else(|| self.take_spur()) {
             if self.chains[index].piece.is_none() {
                 let start = self.chains[index].vertices[0].span;
                 self.chains[index].piece = Some(self.piece_of_new_chain(start));
@@ -292,7 +287,7 @@ impl Knife {
         let piece = chain.piece;
         let is_stroke = chain.is_stroke();
         if first != last || chain.is_point() {
-            self.open.insert(key(last), index);
+            self.open.insert(bits(last), index);
         }
         self.state = State::Up;
         if !is_stroke {
@@ -334,8 +329,8 @@ impl Knife {
             return None;
         }
         // One that closed, or went on meanwhile, is not waiting.
-        self.open.get(&key(tip.at)).filter(|&&open| open == index)?;
-        self.open.remove(&key(tip.at));
+        self.open.get(&bits(tip.at)).filter(|&&open| open == index)?;
+        self.open.remove(&bits(tip.at));
         chain.vertices.pop();
         (chain.lifted, chain.no_overcut) = (false, false);
         let notch = Notch { kind: NotchKind::Slit, root: root.at, tip: tip.at, percent: tip.percent, span: tip.span };
@@ -374,11 +369,11 @@ impl Knife {
         (self.advance, self.no_overcut) = (false, false);
         let State::Slit { mut points, piece, .. } = std::mem::take(&mut self.state) else { return };
         // One that goes nowhere is kept as it stands in the file: dropping it is for the passes, which say so.
-        let damaged = points.len() > 1 && points.iter().all(|vertex| key(vertex.at) == key(points[0].at));
+        let damaged = points.len() > 1 && points.iter().all(|vertex| bits(vertex.at) == bits(points[0].at));
         if damaged {
             points.truncate(2);
         } else {
-            points.dedup_by_key(|vertex| key(vertex.at));
+            points.dedup_by_key(|vertex| bits(vertex.at));
         }
         match points[..] {
             [] | [_] => {}

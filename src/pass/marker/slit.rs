@@ -14,7 +14,7 @@ use std::collections::BTreeSet;
 
 use super::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::{Point, polyline};
+use crate::geom::{Point, bits, polyline};
 use crate::ir::list::SegmentList;
 use crate::ir::marker::{Contour, Marker, Notch, NotchKind, Piece, Stroke};
 use crate::machine::Job;
@@ -136,9 +136,9 @@ fn drop_doubles(piece: &mut Piece, diagnostics: &mut Diagnostics) {
     });
 }
 
-/// Two places, the same whichever comes first. Zero has one sign.
+/// Two places, the same whichever comes first.
 fn ends(a: Point, b: Point) -> [[u64; 2]; 2] {
-    let mut ends = [a, b].map(|point| [(point.x + 0.0).to_bits(), (point.y + 0.0).to_bits()]);
+    let mut ends = [a, b].map(bits);
     ends.sort_unstable();
     ends
 }
