@@ -4,7 +4,9 @@
 //! never knows what the geometry is for.
 
 pub mod angle;
+pub mod budget;
 pub mod monotone;
+pub mod near;
 pub mod polyline;
 pub mod ring;
 pub mod spline;

@@ -24,9 +24,11 @@ mod order;
 mod read;
 mod reference;
 mod rest;
+mod scan;
 mod source_audit;
 mod stroke;
 mod table;
+mod words;
 mod worst;
 
 pub use source_audit::{Census, source_audit, source_kept};
