@@ -27,10 +27,12 @@ mod order;
 mod read;
 mod reference;
 mod rest;
+mod scan;
 mod source_audit;
 mod source_hpgl;
 mod stroke;
 mod table;
+mod words;
 mod worst;
 
 pub use cutter_file::cutter_file;
