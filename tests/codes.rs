@@ -58,6 +58,7 @@ const ROWS: &[Row] = &[
     ("D1", BEFORE, "D1*", SILENT),
     ("D2", BEFORE, "D2*", SILENT),
     ("D4", BEFORE, "D4*", SILENT),
+    ("G0", CORNER, "G00*", REPORTED),
     ("G1", CORNER, "G01*", SILENT),
     ("G2", AT_START, "G02*", SILENT),
     ("G3", AT_START, "G03*", SILENT),
@@ -123,6 +124,8 @@ fn every_code_acts_or_is_reported_and_can_be_switched_off() {
         let has = |text: &str| text.lines().any(|line| line == effect);
         if effect == SILENT {
             assert_eq!(obeyed, plain, "{code}");
+            // What the blocks of a text or a place hold must not come to light when their code is ignored.
+            assert!(code == "A" || ignored == plain, "{code} is ignored:\n{ignored}");
         } else {
             assert!(has(&obeyed) && !has(&plain), "{code}: no `{effect}` in\n{obeyed}");
             assert!(!has(&ignored), "{code} is ignored, but there is `{effect}` in\n{ignored}");

@@ -124,6 +124,7 @@ impl Draft {
     /// Takes one value in, if its key exists and wants such a value.
     fn take(&mut self, entry: Entry<'_>) {
         let Entry { name, origin, text } = entry;
+        let name = keys::canonical(&name);
         if keys::find(&name).is_none() {
             if keys::is_section(&name) {
                 let message = format!("`{name}` is a table of keys, not a key");
@@ -300,18 +301,23 @@ mod tests {
 
     #[test]
     fn a_code_that_no_file_has_is_a_fault() {
-        let text = "[codes]\nX = \"ignore\"\nM019 = \"ignore\"\nM99 = \"use\"\n";
+        let text = "[codes]\nX = \"ignore\"\nM99 = \"use\"\n";
         let faults = load(Some(&source(text)), &["codes.m19=ignore".to_owned()]).expect_err("a faulty profile");
         let hints: Vec<&str> = faults.file.iter().chain(&faults.arguments).map(|d| d.hints[0].as_str()).collect();
         assert_eq!(
             hints,
             [
                 "near ones are `codes.A`, `codes.B`, `codes.E`; the README lists all codes",
-                "it is spelled `codes.M19`",
                 "near ones are `codes.M19`, `codes.M69`, `codes.G90`; the README lists all codes",
                 "it is spelled `codes.M19`",
             ]
         );
+    }
+
+    #[test]
+    fn a_code_may_be_spelled_as_files_spell_it() {
+        let profile = load(None, &["codes.M01=ignore".to_owned(), "codes.G091=ignore".to_owned()]).expect("two codes");
+        assert!(!profile.obeys("M1") && !profile.obeys("G91") && profile.obeys("M19"));
     }
 
     #[test]

@@ -208,7 +208,7 @@ struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     fn new(bytes: &'a [u8], job: &Job) -> Self {
-        let slowed = job.profile.knife.slow_percent.clamp(1.0, 100.0) as u8;
+        let slowed = job.profile.knife.slow_percent;
         Self {
             bytes,
             offset: 0,

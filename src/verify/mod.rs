@@ -28,10 +28,12 @@ mod overcut;
 mod read;
 mod reference;
 mod rest;
+mod scan;
 mod source_audit;
 mod source_hpgl;
 mod stroke;
 mod table;
+mod words;
 mod worst;
 
 pub use cutter_file::cutter_file;
