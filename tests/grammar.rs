@@ -61,6 +61,35 @@ fn a_sentence_of_the_grammar_is_accepted() {
 }
 
 #[test]
+fn a_sentence_with_a_sign_that_no_block_can_hold_is_refused_there() {
+    let iso = DIALECTS.iter().find(|dialect| dialect.name == "iso").expect("cut files are read");
+    let grammar = grammar(iso.name);
+    let mut refused = 0;
+    for seed in 0..SENTENCES {
+        let bytes = sentence(&grammar, seed);
+        // Texts may hold any sign.
+        if [b"M20*", b"M31*"].iter().any(|code| bytes.windows(4).any(|four| four == *code)) {
+            continue;
+        }
+        let at = fastrand::Rng::with_seed(seed.into()).usize(..bytes.len());
+        let damaged = [&bytes[..at], b"?", &bytes[at..]].concat();
+        let source = Source::new("a.cut", damaged.clone()).expect("small");
+        let mut found = Diagnostics::default();
+        (iso.syntax)(&source, &mut found);
+        let blamed = found.iter().filter_map(|finding| finding.span).map(|span| span.start as usize);
+        // At the sign, or at the axis whose number it took away.
+        assert!(blamed.clone().count() == 1, "{}", damaged.escape_ascii());
+        assert!(
+            blamed.clone().all(|start| start == at || start + 1 == at || start + 2 == at),
+            "{}",
+            damaged.escape_ascii()
+        );
+        refused += 1;
+    }
+    assert!(refused > SENTENCES / 10, "only {refused} sentences without texts");
+}
+
+#[test]
 fn a_sentence_with_a_damaged_byte_never_panics_and_is_blamed_within_its_bytes() {
     for dialect in DIALECTS {
         let grammar = grammar(dialect.name);

@@ -32,7 +32,7 @@ pub(super) fn scan_iso(bytes: &[u8], unit: f64, profile: &MachineProfile) -> (Ce
         way: STRAIGHT,
     };
     while let Some(block) = scan.blocks.next() {
-        if let Some(block) = block {
+        if let Ok(block) = block {
             scan.obey(&block);
         }
     }
@@ -153,7 +153,7 @@ impl Scan<'_> {
         if !ahead.skip_if(|block| block.codes.is_empty() && block.has_place()) {
             return false;
         }
-        while let Some(Some(block)) = ahead.next() {
+        while let Some(Ok(block)) = ahead.next() {
             if block.has_place() {
                 return true;
             }
@@ -179,7 +179,7 @@ impl Scan<'_> {
         self.blocks.skip_text();
         // The text for mirrored pieces is no codes, a second place with M31 follows it, and then codes again.
         let mut ahead = self.blocks.clone();
-        if ahead.next().is_none_or(|text| is_known(text.as_ref())) {
+        if ahead.next().is_none_or(|text| is_known(text.as_ref().ok())) {
             return;
         }
         let mut ahead = self.blocks.clone();
@@ -187,7 +187,7 @@ impl Scan<'_> {
         let is_second = |block: &Block| {
             block.is_whole_place() && block.codes.len() == 1 && block.codes.iter().all(|word| word.name() == "M31")
         };
-        if ahead.skip_if(is_second) && ahead.clone().next().is_none_or(|after| is_known(after.as_ref())) {
+        if ahead.skip_if(is_second) && ahead.clone().next().is_none_or(|after| is_known(after.as_ref().ok())) {
             self.blocks = ahead;
         }
     }

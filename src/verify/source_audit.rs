@@ -30,7 +30,7 @@ pub struct Census {
     /// What the numbers of the file are multiples of, mm.
     pub unit: f64,
     /// What cuts or drills, block by block; a scan of the bytes does not tell.
-    works: Works,
+    pub(super) works: Works,
 }
 
 impl Census {

@@ -83,6 +83,10 @@ fn number(text: &[u8]) -> Option<f64> {
     (value <= GREATEST).then_some(if text.starts_with('-') { -value } else { value })
 }
 
+/// A block that is none: damaged, or a text.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Unsound;
+
 /// The blocks of a file, one after the other. A clone looks ahead.
 #[derive(Debug, Clone)]
 pub(super) struct Blocks<'a> {
@@ -100,8 +104,8 @@ impl<'a> Blocks<'a> {
         Self { bytes: &bytes[start..end], at: 0 }
     }
 
-    /// The next block; `Some(None)` when it is no sound one. What stands between two slashes is deleted.
-    pub(super) fn next(&mut self) -> Option<Option<Block>> {
+    /// The next block. What stands between two slashes is deleted.
+    pub(super) fn next(&mut self) -> Option<Result<Block, Unsound>> {
         if self.at >= self.bytes.len() {
             return None;
         }
@@ -119,7 +123,7 @@ impl<'a> Blocks<'a> {
                 _ => text.push(byte),
             }
         }
-        Some(Block::read(&text).filter(|_| sound))
+        Some(Block::read(&text).filter(|_| sound).ok_or(Unsound))
     }
 
     /// Passes over a text, in which nothing is deleted.
@@ -131,7 +135,7 @@ impl<'a> Blocks<'a> {
     /// Passes over the next block if it is the one that is looked for.
     pub(super) fn skip_if(&mut self, wanted: impl Fn(&Block) -> bool) -> bool {
         let mut ahead = self.clone();
-        let is_wanted = ahead.next().flatten().is_some_and(|block| wanted(&block));
+        let is_wanted = ahead.next().is_some_and(|next| next.is_ok_and(|block| wanted(&block)));
         if is_wanted {
             *self = ahead;
         }

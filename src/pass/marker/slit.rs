@@ -26,16 +26,16 @@ pub(super) const PASS: MarkerPass =
 
 fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     let Marker { list, pieces, unit, .. } = marker;
-    let mut near = Near::on_grid(*unit);
+    let mut search = Search { list, near: Near::on_grid(*unit), diagnostics };
     for piece in pieces {
         let mut shorts: Vec<Short> = if *unit > 0.0 {
-            piece.contours.iter().zip(0..).filter_map(|(contour, i)| short(list, contour, i)).collect()
+            piece.contours.iter().zip(0..).filter_map(|(contour, i)| short(search.list, contour, i)).collect()
         } else {
             Vec::new()
         };
-        take_slits(list, piece, &mut shorts, &mut near);
-        drop_doubles(piece, diagnostics);
-        take_crossbars(list, piece, &mut shorts, (&mut near, diagnostics));
+        search.take_slits(piece, &mut shorts);
+        drop_doubles(piece, search.diagnostics);
+        search.take_crossbars(piece, &mut shorts);
         let mut taken = shorts.iter().filter(|short| short.taken).map(|short| short.contour).peekable();
         let mut place = 0..;
         piece.contours.retain(|_| taken.next_if_eq(&place.next().expect("it never ends")).is_none());
@@ -73,22 +73,6 @@ fn outlines<'a>(list: &'a SegmentList, piece: &'a Piece) -> impl Iterator<Item =
     outlines.flat_map(|contour| list.walk(contour.range)).map(|(_, segment)| [segment.from, segment.to])
 }
 
-/// Makes slits of the strokes that start on a closed contour.
-fn take_slits(list: &SegmentList, piece: &mut Piece, shorts: &mut [Short], near: &mut Near) {
-    if shorts.is_empty() {
-        return;
-    }
-    let starts = sorted(shorts.iter().map(|short| short.stroke.from));
-    for ends in outlines(list, piece) {
-        near.each(&starts, ends, |i| shorts[i].taken = true);
-    }
-    for Short { stroke, percent, .. } in shorts.iter().filter(|short| short.taken) {
-        let Stroke { from: root, to: tip, span } = *stroke;
-        piece.notches.push(Notch { kind: NotchKind::Slit, root, tip, percent: *percent, span });
-    }
-    piece.notches.sort_by_key(|notch| notch.span); // stable: what comes from no block keeps its order
-}
-
 /// What may be a crossbar.
 struct Bar {
     stroke: Stroke,
@@ -102,75 +86,96 @@ enum Origin {
     Shorts(usize),
 }
 
-/// The strokes that may be crossbars: slits that touch no outline, then contours.
-fn bars(list: &SegmentList, piece: &Piece, shorts: &[Short], near: &mut Near) -> Vec<Bar> {
-    let slits: Vec<(usize, &Notch)> = piece.notches.iter().enumerate().filter(|(_, n)| is_short_slit(n)).collect();
-    let mut touches = vec![false; slits.len()];
-    // A slit alone has none that could be its crossbar, or whose crossbar it could be.
-    if slits.len() > 1 {
-        let ends = sorted(slits.iter().flat_map(|(_, notch)| [notch.root, notch.tip]));
-        for segment in outlines(list, piece) {
-            near.each(&ends, segment, |i| touches[i / 2] = true);
-        }
-    }
-    let free = slits.iter().zip(touches).filter(|(_, touches)| slits.len() > 1 && !touches);
-    let notches = free.map(|((i, notch), _)| {
-        let stroke = Stroke { from: notch.root, to: notch.tip, span: notch.span };
-        Bar { stroke, percent: notch.percent, origin: Origin::Notches(*i) }
-    });
-    let shorts = shorts.iter().enumerate().filter(|(_, short)| !short.taken);
-    let contours =
-        shorts.map(|(i, short)| Bar { stroke: short.stroke, percent: short.percent, origin: Origin::Shorts(i) });
-    notches.chain(contours).collect()
-}
-
 fn is_short_slit(notch: &Notch) -> bool {
     notch.kind == NotchKind::Slit && notch.depth() <= Notch::LONGEST
 }
 
-/// Gives the strokes that the tip of a slit divides to that slit.
-fn take_crossbars(
-    list: &SegmentList,
-    piece: &mut Piece,
-    shorts: &mut [Short],
-    (near, diagnostics): (&mut Near, &mut Diagnostics),
-) {
-    let tips = sorted(piece.notches.iter().map(|notch| notch.tip));
-    let mut is_bar = vec![false; piece.notches.len()];
-    for Bar { stroke: bar, percent, origin } in bars(list, piece, shorts, near) {
-        if let Origin::Notches(i) = origin
-            && piece.notches[i].kind != NotchKind::Slit
-        {
-            continue; // it has a crossbar itself by now
+/// What the search in all pieces needs.
+struct Search<'a> {
+    list: &'a SegmentList,
+    near: Near,
+    diagnostics: &'a mut Diagnostics,
+}
+
+impl Search<'_> {
+    /// Makes slits of the strokes that start on a closed contour.
+    fn take_slits(&mut self, piece: &mut Piece, shorts: &mut [Short]) {
+        if shorts.is_empty() {
+            return;
         }
-        let slack = near.slack();
-        let mut taken = false;
-        near.each(&tips, [bar.from, bar.to], |i| {
-            let notch = &mut piece.notches[i];
-            let divides = (notch.tip - bar.from).norm().min((notch.tip - bar.to).norm()) > slack;
-            if taken || is_bar[i] || !divides {
-                return;
-            }
-            match notch.kind {
-                NotchKind::Slit => {
-                    (notch.kind, notch.percent) = (NotchKind::T(bar), notch.percent.min(percent));
-                    taken = true;
-                }
-                NotchKind::T(other) if ends(bar.from, bar.to) == ends(other.from, other.to) => {
-                    let message = format!("the same crossbar stands twice in piece {}; it is cut once", piece.number);
-                    diagnostics.push(Diagnostic::new(&code::MARKER_SLIT_TWICE, message).at(bar.span));
-                    taken = true;
-                }
-                NotchKind::T(_) => {}
-            }
-        });
-        match origin {
-            Origin::Notches(i) => is_bar[i] = taken,
-            Origin::Shorts(i) => shorts[i].taken = taken,
+        let starts = sorted(shorts.iter().map(|short| short.stroke.from));
+        for ends in outlines(self.list, piece) {
+            self.near.each(&starts, ends, |i| shorts[i].taken = true);
         }
+        for Short { stroke, percent, .. } in shorts.iter().filter(|short| short.taken) {
+            let Stroke { from: root, to: tip, span } = *stroke;
+            piece.notches.push(Notch { kind: NotchKind::Slit, root, tip, percent: *percent, span });
+        }
+        piece.notches.sort_by_key(|notch| notch.span); // stable: what comes from no block keeps its order
     }
-    let mut place = 0..;
-    piece.notches.retain(|_| !is_bar[place.next().expect("it never ends")]);
+
+    /// The strokes that may be crossbars: slits that touch no outline, then contours.
+    fn bars(&mut self, piece: &Piece, shorts: &[Short]) -> Vec<Bar> {
+        let slits: Vec<(usize, &Notch)> = piece.notches.iter().enumerate().filter(|(_, n)| is_short_slit(n)).collect();
+        let mut touches = vec![false; slits.len()];
+        // A slit alone has none that could be its crossbar, or whose crossbar it could be.
+        if slits.len() > 1 {
+            let ends = sorted(slits.iter().flat_map(|(_, notch)| [notch.root, notch.tip]));
+            for segment in outlines(self.list, piece) {
+                self.near.each(&ends, segment, |i| touches[i / 2] = true);
+            }
+        }
+        let free = slits.iter().zip(touches).filter(|(_, touches)| slits.len() > 1 && !touches);
+        let notches = free.map(|((i, notch), _)| {
+            let stroke = Stroke { from: notch.root, to: notch.tip, span: notch.span };
+            Bar { stroke, percent: notch.percent, origin: Origin::Notches(*i) }
+        });
+        let shorts = shorts.iter().enumerate().filter(|(_, short)| !short.taken);
+        let contours =
+            shorts.map(|(i, short)| Bar { stroke: short.stroke, percent: short.percent, origin: Origin::Shorts(i) });
+        notches.chain(contours).collect()
+    }
+
+    /// Gives the strokes that the tip of a slit divides to that slit.
+    fn take_crossbars(&mut self, piece: &mut Piece, shorts: &mut [Short]) {
+        let tips = sorted(piece.notches.iter().map(|notch| notch.tip));
+        let mut is_bar = vec![false; piece.notches.len()];
+        for Bar { stroke: bar, percent, origin } in self.bars(piece, shorts) {
+            if let Origin::Notches(i) = origin
+                && piece.notches[i].kind != NotchKind::Slit
+            {
+                continue; // it has a crossbar itself by now
+            }
+            let slack = self.near.slack();
+            let mut taken = false;
+            self.near.each(&tips, [bar.from, bar.to], |i| {
+                let notch = &mut piece.notches[i];
+                let divides = (notch.tip - bar.from).norm().min((notch.tip - bar.to).norm()) > slack;
+                if taken || is_bar[i] || !divides {
+                    return;
+                }
+                match notch.kind {
+                    NotchKind::Slit => {
+                        (notch.kind, notch.percent) = (NotchKind::T(bar), notch.percent.min(percent));
+                        taken = true;
+                    }
+                    NotchKind::T(other) if ends(bar.from, bar.to) == ends(other.from, other.to) => {
+                        let message =
+                            format!("the same crossbar stands twice in piece {}; it is cut once", piece.number);
+                        self.diagnostics.push(Diagnostic::new(&code::MARKER_SLIT_TWICE, message).at(bar.span));
+                        taken = true;
+                    }
+                    NotchKind::T(_) => {}
+                }
+            });
+            match origin {
+                Origin::Notches(i) => is_bar[i] = taken,
+                Origin::Shorts(i) => shorts[i].taken = taken,
+            }
+        }
+        let mut place = 0..;
+        piece.notches.retain(|_| !is_bar[place.next().expect("it never ends")]);
+    }
 }
 
 /// Takes out slits without length and slits that stand twice, whichever way round.
