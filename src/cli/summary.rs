@@ -48,7 +48,10 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
     if let Some(spent) = &program.spent {
         line("spent", shares(&spent.parts(), spent.total()));
         let bounds: Vec<(String, f64)> = spent.bounds.iter().map(|&(bound, time)| (word(bound), time)).collect();
-        line("limited by", shares(&bounds, spent.cut));
+        let limited = shares(&bounds, spent.cut);
+        if !limited.is_empty() {
+            line("limited by", limited);
+        }
     }
     if let Some(bulge) = program.bulge_mm.filter(|&bulge| fixed(bulge, 3) != "0.000") {
         line("bulge", format!("{} mm beyond the chords of flattened curves", fixed(bulge, 3)));
