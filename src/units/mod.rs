@@ -6,6 +6,8 @@ pub mod number;
 pub const MM_PER_INCH: f64 = 25.4;
 /// Milliseconds in a second.
 pub const MS_PER_S: f64 = 1000.0;
+/// Seconds in a minute.
+pub const S_PER_MIN: f64 = 60.0;
 /// Millimetres in a metre.
 pub const MM_PER_M: f64 = 1000.0;
 

@@ -13,6 +13,10 @@ use crate::machine::MachineProfile;
 const SAME: f64 = 2.0 * ROUNDING;
 /// Part of a period that a dwell may seem to lack: rounding of its quotient.
 const PERIOD_EPSILON: f64 = 1e-6;
+/// How far a hole may be from its place, mm: rounding of two numbers.
+const HOLE: f64 = 2.0 * SAME;
+/// Beyond this from its place it is another hole, mm.
+const HOLE_REACH: f64 = 5.0;
 
 /// Watches the rows.
 pub(super) struct Rest<'a> {
@@ -181,10 +185,6 @@ impl<'a> Rest<'a> {
         (wrong.finding(), place.finding())
     }
 }
-
-/// How far a hole may be from its place, mm: rounding of two numbers; and beyond which it is another hole.
-const HOLE: f64 = 2.0 * SAME;
-const HOLE_REACH: f64 = 5.0;
 
 /// Greatest difference of a row from a pose, mm and degrees.
 fn distance(row: &Row, [x, y, c_deg]: [f64; 3]) -> f64 {

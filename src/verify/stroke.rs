@@ -13,7 +13,7 @@ use super::grid::Grid;
 use super::heading::{self, Moving, Plunge};
 use super::inside::Inside;
 use super::joints::{Around, Joints};
-use super::read::{ROUNDING, Row};
+use super::read::{PLACE_ROUNDING, Row};
 use super::reference::{Line, Reference};
 use super::worst::{Worst, at};
 use crate::geom::{Point, angle, polyline};
@@ -28,8 +28,6 @@ const TRIALS: usize = 8;
 /// How far from its chord, along the line, a cap may be obeyed, mm, beside the tolerance: a tip that takes a bend inside
 /// its tube passes the vertex early or late by less.
 const CAP_ASIDE: f64 = 0.5;
-/// Rounding of a tip's place, mm.
-const PLACE_ROUNDING: f64 = 4.0 * ROUNDING;
 
 /// The rows of a stroke.
 #[derive(Debug, Default)]
@@ -499,7 +497,7 @@ impl Trial {
 fn skipped(line: &Line, points: &[Point], feet: &[Foot], i: usize) -> f64 {
     let (a, b) = (feet[i - 1].station, feet[i].station);
     let (low, high) = (a.min(b), a.max(b));
-    // The tip bows between two rows: a quarter of the second difference of neighbouring rows, at the most.
+    // The tip bows between two rows: as a parabola does, by an eighth of the second difference of neighbouring rows.
     let bow = |k: usize| {
         if k == 0 || k + 1 >= points.len() {
             return 0.0;

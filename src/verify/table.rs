@@ -1,12 +1,9 @@
 //! Whether the machine stays over its table.
 
-use super::read::{ROUNDING, Row};
+use super::read::{PLACE_ROUNDING, Row};
 use super::worst::Worst;
 use crate::ir::Finding;
 use crate::machine::MachineProfile;
-
-/// Rounding of a place that is computed from a row, mm.
-const PLACE_ROUNDING: f64 = 4.0 * ROUNDING;
 
 /// Watches the rows.
 pub(super) struct Table {
