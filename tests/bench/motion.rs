@@ -29,7 +29,8 @@ type Failure = Box<dyn Error>;
 
 fn main() -> Result<(), Failure> {
     let profile = fs::read(fixture("machines/score.toml"))?;
-    let profile = machine::load(Some(&Source::new("score.toml", profile)?), &[]).map_err(|_| "score.toml has faults")?;
+    let profile =
+        machine::load(Some(&Source::new("score.toml", profile)?), &[]).map_err(|_| "score.toml has faults")?;
     let score = Job { profile, ..Job::default() };
 
     let contour = points("contour2m_flat.csv")?;
