@@ -78,7 +78,7 @@ const COUNTS: Within = from(1.0, 1.0e7);
 /// What a register of 32 bits holds, counts.
 const REGISTER: Within = from(-2_147_483_648.0, 2_147_483_647.0);
 /// Speeds as parts of others: those of single segments are kept in whole percent.
-const PERCENT: std::ops::RangeInclusive<i64> = 1..=100;
+const PERCENT: Within = from(1.0, 100.0);
 /// Angles that may be anywhere within a turn, degrees.
 const TURN: Within = from(-360.0, 360.0);
 
@@ -102,7 +102,7 @@ impl Takes {
             Self::Number(within) => number(value).is_some_and(|v| within.holds(v)),
             Self::NumberOr(within, word) => is(word) || number(value).is_some_and(|v| within.holds(v)),
             Self::Whole(numbers) => value.as_integer().is_some_and(|v| numbers.contains(&v)),
-            Self::Percent => value.as_integer().is_some_and(|v| PERCENT.contains(&v)),
+            Self::Percent => number(value).is_some_and(|v| PERCENT.holds(v) && v.fract() == 0.0),
             Self::Point => places(2),
             Self::Pose => places(3),
             Self::PoseOr(word) => is(word) || places(3),

@@ -128,8 +128,8 @@ pub struct Knife {
     /// Greatest speed of the tip while cutting, mm/s.
     #[serde(with = "OrWord::<Off>")]
     pub feed_mm_s: Option<f64>,
-    /// Speed after L or M25, percent of the feed.
-    pub slow_percent: u8,
+    /// Speed after L or M25, percent of the feed, a whole number.
+    pub slow_percent: f64,
     /// From the plunge command until the blade is through, ms; the axes rest.
     pub plunge_ms: f64,
     /// From the lift command until the blade is up, ms; the axes rest.
@@ -209,7 +209,7 @@ impl Default for Knife {
             reflex_heel_overlap_mm: 0.0,
             clearance_mm: 0.1,
             feed_mm_s: Some(760.0),
-            slow_percent: 75,
+            slow_percent: 75.0,
             plunge_ms: 80.0,
             lift_ms: 60.0,
             clear_ms: None,

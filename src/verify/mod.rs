@@ -51,7 +51,7 @@ use self::reference::Reference;
 use self::rest::Rest;
 use self::stroke::{Judge, Stroke};
 use self::table::Table;
-use crate::ir::{Finding, Marker};
+use crate::ir::{Finding, Marker, finding};
 use crate::machine::Job;
 
 /// Every rule: its code and what it says. The order is that of reports.
@@ -108,6 +108,9 @@ pub const RULES: &[(&str, &str)] = &[
 pub struct Verdict {
     /// The worst value under each rule, in the order of [`RULES`].
     pub findings: Vec<Finding>,
+    /// What cannot be read, when something cannot: then nothing is said about what the program does, since all that
+    /// follows from a row that is missing would be wrong.
+    pub unread: Option<String>,
 }
 
 impl Verdict {
@@ -118,8 +121,7 @@ impl Verdict {
 
     /// How many rules have a limit, and how many only report.
     pub fn counts(&self) -> (usize, usize) {
-        let limited = self.findings.iter().filter(|finding| finding.limit.is_some()).count();
-        (limited, self.findings.len() - limited)
+        finding::counts(&self.findings)
     }
 
     /// The findings that do not hold.
@@ -143,6 +145,14 @@ pub fn kind(bytes: &mut dyn BufRead) -> Option<Kind> {
         return Some(Kind::Setpoints);
     }
     bytes.fill_buf().is_ok_and(cutter_file::begins).then_some(Kind::CutterFile)
+}
+
+/// Why bytes do not begin as a program that can be judged does, and what to do about it; `None` when they do.
+pub fn foreign(bytes: &mut dyn BufRead) -> std::io::Result<Option<[String; 2]>> {
+    if kind(bytes).is_some() {
+        return Ok(None);
+    }
+    Ok(read::foreign(bytes.fill_buf()?))
 }
 
 /// What was cut so far, as the strokes tell it.
@@ -187,7 +197,12 @@ pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdi
     if !stroke.is_empty() {
         judge.judge(&stroke, &mut done);
     }
-    let mut findings = vec![rows.finding()];
+    let is_broken = rows.is_broken();
+    let (format, unread) = rows.findings();
+    if is_broken {
+        return Verdict { findings: vec![format], unread };
+    }
+    let mut findings = vec![format];
     findings.extend(limits.findings(last.as_ref()));
     findings.extend(rest.findings(last.as_ref(), &mut done.order));
     findings.push(table.finding());
@@ -197,7 +212,7 @@ pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdi
     findings.push(events.finding());
     findings.push(done.order.finding());
     sort(&mut findings);
-    Verdict { findings }
+    Verdict { findings, unread }
 }
 
 /// Brings findings into the order of [`RULES`].

@@ -4,7 +4,7 @@
 
 use std::f64::consts::TAU;
 
-use super::caps::{Caps, Source};
+use super::caps::{Caps, End, Feeds};
 use crate::geom::{Point, Vector, angle, left, polyline};
 use crate::ir::Marker;
 use crate::ir::list::Segment;
@@ -69,13 +69,13 @@ impl<'a> Reference<'a> {
         for (index, piece) in marker.pieces.iter().enumerate() {
             events.extend(piece.events.iter().map(|_| rank()));
             holes.extend(piece.drills.iter().map(|_| rank()));
-            let source = Source::new(profile, piece);
+            let feeds = Feeds::new(profile, piece);
             for notch in &piece.notches {
-                let cap = source.at(notch.percent);
+                let cap = feeds.at(notch.percent);
                 lines.extend(notch.strokes().map(|stroke| slit(&stroke, [index, rank()], cap)));
             }
             for contour in &piece.contours {
-                let place = Place { owner: [index, rank()], source, profile };
+                let place = Place { owner: [index, rank()], feeds, profile };
                 lines.extend(contour_lines(marker, contour, place));
             }
         }
@@ -94,7 +94,7 @@ impl<'a> Reference<'a> {
 struct Place<'a> {
     /// Index of its piece, and its rank.
     owner: [usize; 2],
-    source: Source<'a>,
+    feeds: Feeds<'a>,
     profile: &'a MachineProfile,
 }
 
@@ -116,7 +116,7 @@ fn slit(stroke: &Stroke, [piece, rank]: [usize; 2], cap: f64) -> Line {
 
 /// Cuts a contour at its corners.
 fn contour_lines(marker: &Marker, contour: &Contour, place: Place) -> Vec<Line> {
-    let Place { owner, source, profile } = place;
+    let Place { owner, feeds, profile } = place;
     let mut lines = Vec::new();
     let mut segments: Vec<Segment> = marker.list.walk(contour.range).map(|(_, segment)| segment).collect();
     let count = segments.len();
@@ -154,13 +154,12 @@ fn contour_lines(marker: &Marker, contour: &Contour, place: Place) -> Vec<Line> 
             let chords = segments[from..i].iter();
             let [piece, rank] = owner;
             let stations = polyline::stations(&points);
-            let feeds: Vec<f64> = chords.clone().map(|s| source.at(s.percent)).collect();
-            let to_corner = !ring && !ends.contains(&(i % count));
-            let from_corner = !ring && !ends.contains(&(from % count));
+            let limits: Vec<f64> = chords.clone().map(|s| feeds.at(s.percent)).collect();
+            let end = |vertex: usize| if ring || ends.contains(&(vertex % count)) { End::Plain } else { End::AtCorner };
             let length = stations[stations.len() - 1];
             let back: Vec<f64> = stations.iter().rev().map(|station| length - station).collect();
-            let against = source.caps(&back, feeds.iter().rev().copied().collect(), from_corner);
-            let caps = [source.caps(&stations, feeds, to_corner), against];
+            let against = feeds.caps(&back, limits.iter().rev().copied().collect(), end(from));
+            let caps = [feeds.caps(&stations, limits, end(i)), against];
             lines.push(Line {
                 piece,
                 rank,

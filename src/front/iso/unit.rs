@@ -108,5 +108,9 @@ pub(super) fn check_plausible(unit: &Unit, extent: &Extent, title: Option<&Title
             finding = finding.hint(format!("`units = \"{key}\"` in the profile would fit"));
         }
     }
+    if finding.hints.is_empty() {
+        finding =
+            finding.hint("no unit of cut files would fit: check that the drawing is whole, and its title its own");
+    }
     out.push(finding);
 }
