@@ -247,7 +247,7 @@ impl Lowering<'_> {
                     self.turn = None;
                     self.tally.ignore(code, "rapid positioning", span);
                 }
-                Meaning::Slow => self.knife.slow(self.slow_percent()),
+                Meaning::Slow => self.knife.slow(self.job.profile.knife.slow()),
                 Meaning::Normal => self.knife.slow(FULL_SPEED),
                 Meaning::SpeedOfPiece(percent) => self.knife.speed_of_piece(percent),
                 Meaning::Feed => self.feed(code, span),
@@ -293,11 +293,6 @@ impl Lowering<'_> {
             }
         }
         ControlFlow::Continue(())
-    }
-
-    /// Speed of slowed cuts; the profile checks that it is a whole number from 1 to 100.
-    fn slow_percent(&self) -> u8 {
-        self.job.profile.knife.slow_percent.clamp(1.0, f64::from(FULL_SPEED)) as u8
     }
 
     fn obeys(&self, code: Code) -> bool {
