@@ -160,12 +160,12 @@ pub enum Follow {
 const DEFAULT_WIDTH_MM: f64 = 6.6;
 const DEFAULT_BACK_MM: f64 = 6.35;
 
-/// Speed of slowed cuts, percent: whole, and from 1 to 100 by its key.
-pub fn slow(&self) -> u8 {
-    self.slow_percent.clamp(1.0, 100.0) as u8
-}
-
 impl Knife {
+    /// Speed of slowed cuts, percent: whole, and from 1 to 100 by its key.
+    pub fn slow(&self) -> u8 {
+        self.slow_percent.clamp(1.0, 100.0) as u8
+    }
+
     /// Centre to tip, mm. A blade narrower than its back (the back is often left at its default) has the C axis at
     /// its tip; that covers the point, of width 0.
     pub fn radius(&self) -> f64 {
