@@ -161,9 +161,12 @@ struct Blocks<'a> {
 }
 
 impl Blocks<'_> {
-    /// Leaves out what is no block: a byte order mark, the list of labels behind M0, and a block that the excerpt cuts.
+    /// Leaves out what is no block: a byte order mark, a line of per cent signs, the list of labels behind M0, and a block that the excerpt cuts.
     fn take_end(&mut self) {
         self.at = if self.bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
+        while self.bytes.get(self.at).is_some_and(|&byte| byte == b'%' || byte.is_ascii_whitespace()) {
+            self.at += 1;
+        }
         let list = self.bytes.windows(5).position(|five| five == b"M0*\nN");
         let end = list.map(|at| at + 3).or_else(|| self.bytes.iter().rposition(|&byte| byte == b'*').map(|at| at + 1));
         self.bytes = &self.bytes[..end.unwrap_or(self.bytes.len())];

@@ -219,6 +219,8 @@ fn a_label_stands_at_its_place_in_its_direction_inside_its_piece() {
     let [high, low, below] = [0, 1, 2].map(|i| numbers(attribute(labels[i], "font-size"))[0]);
     assert!(high > 3.0 && low < 1.6 && low == below, "{labels:?}");
     assert!(numbers(attribute(labels[2], "y"))[0] > low);
+    // One without a place stands in the middle of its piece.
+    assert!(attribute(labels[3], "transform").ends_with("rotate(0.000) scale(1,-1)"), "{labels:?}");
     assert!(picture.contains(", label: A &lt; B &amp; &quot;C&quot;␍</title>"), "{picture}");
 }
 
