@@ -67,8 +67,6 @@ impl Scan<'_> {
                 "Q" | "Z" => moves = false,
                 "M20" => self.blocks.skip_text(),
                 "M31" => is_label = true,
-                // What stands behind the end in its own block is not read, but a second job is.
-                "M0" if !self.more_to_cut() => break,
                 name if !self.profile.obeys(name) => {}
                 "M14" | "B" => self.stroke = self.stroke.take().or_else(|| Some(Stroke::new(self.at))),
                 "M15" | "A" => self.up(),
@@ -95,18 +93,6 @@ impl Scan<'_> {
         } else if let Some(block) = place.filter(|_| !drills) {
             self.go(block, radius, turns);
         }
-    }
-
-    /// Whether anything is cut or drilled in the blocks ahead.
-    fn more_to_cut(&self) -> bool {
-        let mut ahead = self.blocks.clone();
-        let cuts = |block: &Block| {
-            block.codes.iter().any(|word| {
-                let name = word.name();
-                matches!(name.as_str(), "M14" | "B") || DRILLS.contains(&name.as_str())
-            })
-        };
-        std::iter::from_fn(|| ahead.next()).flatten().any(|block| cuts(&block))
     }
 
     /// The end of a stroke: one that never moves cuts nothing.

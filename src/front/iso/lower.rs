@@ -168,7 +168,10 @@ impl Lowering<'_> {
             self.out
                 .push(finding.hint("export the marker with its cut lines, or see what `codes` of the profile ignores"));
         }
-        check_plausible(&self.unit, &extent, self.title.as_ref(), self.out);
+        // A place that is a kilometre off says it all.
+        if self.far.is_none() {
+            check_plausible(&self.unit, &extent, self.title.as_ref(), self.out);
+        }
         marker
     }
 
