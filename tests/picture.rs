@@ -212,6 +212,8 @@ fn a_label_stands_at_its_place_in_its_direction_inside_its_piece() {
     elements(&picture);
     let labels: Vec<&str> = picture.lines().filter(|line| line.starts_with("<text class=\"label\"")).collect();
     assert_eq!(labels.len(), 4, "{labels:?}");
+    // The one without a place stands inside the piece, and off the others.
+    assert!(!attribute(labels[3], "transform").starts_with("translate(0.000,0.000)"), "{labels:?}");
     assert!(labels.iter().all(|line| line.contains(">A &lt; B &amp; &quot;C&quot;␍<title>label, block 7</title>")));
     assert_eq!(attribute(labels[0], "transform"), "translate(20.000,60.000) rotate(30.000) scale(1,-1)");
     let [high, low, below] = [0, 1, 2].map(|i| numbers(attribute(labels[i], "font-size"))[0]);

@@ -67,8 +67,6 @@ impl Scan<'_> {
                 "Q" | "Z" => moves = false,
                 "M20" => self.blocks.skip_text(),
                 "M31" => is_label = true,
-                // What stands behind the end in its own block is not read, but a second job is.
-                "M0" if !self.more_to_cut() => break,
                 name if !self.profile.obeys(name) => {}
                 "M14" | "B" => self.stroke = self.stroke.take().or_else(|| Some(Stroke::new(self.at))),
                 "M15" | "A" => self.up(),
@@ -82,25 +80,19 @@ impl Scan<'_> {
         }
         let place = Some(block).filter(|block| moves && block.has_place());
         if drills {
-            self.drill(place, is_label);
+            // Behind the end no place follows, and the one behind M31 is the label's.
+            let may_wait = !is_label && block.codes.iter().all(|word| word.name() != "M0");
+            if place.is_none() && may_wait && !self.fresh && self.place_follows() {
+                self.waiting = true;
+            } else {
+                self.drill(place);
+            }
         }
         if is_label {
             self.label(place);
         } else if let Some(block) = place.filter(|_| !drills) {
             self.go(block, radius, turns);
         }
-    }
-
-    /// Whether anything is cut or drilled in the blocks ahead.
-    fn more_to_cut(&self) -> bool {
-        let mut ahead = self.blocks.clone();
-        let cuts = |block: &Block| {
-            block.codes.iter().any(|word| {
-                let name = word.name();
-                matches!(name.as_str(), "M14" | "B") || DRILLS.contains(&name.as_str())
-            })
-        };
-        std::iter::from_fn(|| ahead.next()).flatten().any(|block| cuts(&block))
     }
 
     /// The end of a stroke: one that never moves cuts nothing.
@@ -150,13 +142,10 @@ impl Scan<'_> {
         self.fresh = false;
     }
 
-    /// A drill code: it drills at the place of its block, at the next place, or where the knife is.
-    fn drill(&mut self, place: Option<&Block>, is_label: bool) {
+    /// A hole at the place of its block, or where the knife is.
+    fn drill(&mut self, place: Option<&Block>) {
         if let Some(block) = place {
             self.at = self.place(block);
-        } else if !self.fresh && !is_label && self.place_follows() {
-            self.waiting = true;
-            return;
         }
         self.hole();
     }
