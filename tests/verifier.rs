@@ -211,9 +211,12 @@ fn a_damage_of_a_third_of_its_limit_is_accepted() {
 #[test]
 fn every_rule_with_a_limit_has_a_damage_that_aims_at_it() {
     let reported_only = ["verify/body", "verify/overcut-waste"];
+    // Of cut files that a target writes; `tests/rewritten.rs` damages those.
+    let of_cut_files = ["verify/same", "verify/same-place"];
     let aimed: BTreeSet<&str> = damages().iter().map(|damage| damage.rule).collect();
     for (rule, _) in RULES.iter().filter(|(rule, _)| rule.starts_with("verify/")) {
-        assert!(aimed.contains(rule) || reported_only.contains(rule), "{rule}");
+        let judged = aimed.contains(rule) || reported_only.contains(rule) || of_cut_files.contains(rule);
+        assert!(judged, "{rule}");
     }
     assert!(aimed.iter().all(|rule| RULES.iter().any(|(code, _)| code == rule)), "{aimed:?}");
 }

@@ -152,8 +152,10 @@ impl Asked<'_> {
             ));
         }
         let file = self.out.filter(|out| !is_dash(out) && !names_directory(out));
-        let extension = file.and_then(Path::extension).and_then(|extension| extension.to_str());
-        let told = TARGETS.iter().find(|target| extension.is_some_and(|e| e.eq_ignore_ascii_case(target.extension)));
+        let name = file.and_then(Path::file_name).map(|name| name.to_string_lossy().to_ascii_lowercase());
+        let ends =
+            |target: &&Target| name.as_ref().is_some_and(|name| name.ends_with(&format!(".{}", target.extension)));
+        let told = TARGETS.iter().find(ends);
         match (self.targets, told, file) {
             ([one], Some(told), Some(file)) if one.extension != told.extension => Err(failure(
                 format!(
@@ -192,7 +194,7 @@ impl Asked<'_> {
             None => PathBuf::from(&name),
             Some(out) if names_directory(out) => out.join(&name),
             // A file of that name would surprise whoever meant a directory, and the other way round.
-            Some(out) if out.extension().is_none() => {
+            Some(out) if out.extension().is_none() && !out.exists() => {
                 let shown = out.display();
                 return Err(failure(
                     format!("`-o {shown}` may be a file or a directory"),

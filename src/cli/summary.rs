@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::options::{counted, typed};
 use crate::diagnostic::{Diagnostics, Severity};
+use crate::machine::plot::Lines;
 use crate::machine::{Job, Mode};
 use crate::pipeline::{Axes, Peak, Peaks, Report, Sides, Verdict, word};
 use crate::units::S_PER_MIN;
@@ -93,6 +94,10 @@ pub(super) fn choice(job: &Job) -> String {
     if !job.selection.is_all() {
         let selection = typed(&Job { selection: job.selection.clone(), ..Job::default() });
         let _ = writeln!(out, "\n  selected   {selection}: the figures are those of these pieces");
+    }
+    if job.lines != Lines::default() {
+        let lines = typed(&Job { lines: job.lines.clone(), ..Job::default() });
+        let _ = writeln!(out, "{}  lines      {lines}: so they were chosen", if out.is_empty() { "\n" } else { "" });
     }
     let mode = match job.mode {
         Mode::Cut => return out,

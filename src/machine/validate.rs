@@ -2,7 +2,8 @@
 
 use super::encoding;
 use super::keys::{KEYS, Key, Takes, shown_value};
-use super::profile::{Follow, MachineProfile};
+use super::knife::Follow;
+use super::profile::MachineProfile;
 use crate::diagnostic::{Code, code};
 
 /// Something that a profile may not say.

@@ -208,7 +208,7 @@ struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     fn new(bytes: &'a [u8], job: &Job) -> Self {
-        let slowed = job.profile.knife.slow_percent;
+        let slowed = job.profile.knife.slow();
         Self {
             bytes,
             offset: 0,

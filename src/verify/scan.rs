@@ -80,7 +80,13 @@ impl Scan<'_> {
         }
         let place = Some(block).filter(|block| moves && block.has_place());
         if drills {
-            self.drill(place, is_label);
+            // Behind the end no place follows, and the one behind M31 is the label's.
+            let may_wait = !is_label && block.codes.iter().all(|word| word.name() != "M0");
+            if place.is_none() && may_wait && !self.fresh && self.place_follows() {
+                self.waiting = true;
+            } else {
+                self.drill(place);
+            }
         }
         if is_label {
             self.label(place);
@@ -136,13 +142,10 @@ impl Scan<'_> {
         self.fresh = false;
     }
 
-    /// A drill code: it drills at the place of its block, at the next place, or where the knife is.
-    fn drill(&mut self, place: Option<&Block>, is_label: bool) {
+    /// A hole at the place of its block, or where the knife is.
+    fn drill(&mut self, place: Option<&Block>) {
         if let Some(block) = place {
             self.at = self.place(block);
-        } else if !self.fresh && !is_label && self.place_follows() {
-            self.waiting = true;
-            return;
         }
         self.hole();
     }

@@ -397,12 +397,11 @@ impl<'a> Judge<'a> {
             }
             match (&mut open, joined) {
                 (Some([a, b]), true) => (*a, *b) = (a.min(station), b.max(station)),
-                (_, false) => {
+                (Some(_), false) | (None, _) => {
                     trial.stretches.extend(open.take());
                     let [low, high] = bend.unwrap_or([station; 2]);
                     open = (off <= allowed).then_some([station.min(low), station.max(high)]);
                 }
-                (None, true) => open = Some([station; 2]),
             }
         }
         trial.stretches.extend(open);

@@ -1,10 +1,12 @@
 //! Overlaps that go into parts: on the side that a program must spare.
 
+use cutc::geom::Vector;
+
 use crate::case::Case;
 use crate::harm::{Harm, Place};
 use crate::measure::DAMAGING;
-use crate::sketch::{along, edited, slit};
-use crate::{Damage, damage, scaled};
+use crate::sketch::{along, chain, contours, edited, redraw, slit};
+use crate::{Damage, damage, judge, scaled};
 
 const PART: &str = "verify/overcut-part";
 const NEIGHBOUR: &str = "verify/overcut-neighbour";
@@ -15,6 +17,8 @@ pub(crate) const RULES: [&str; 2] = [PART, NEIGHBOUR];
 const OVERLAP: f64 = 0.8;
 /// Part of an overlap by which it is seen to be in a part, at the least: it enters that at any angle.
 const ENTERED: f64 = 0.9;
+/// By how much an outline does not close, mm.
+const AJAR: f64 = 0.01;
 /// The gap between the parts of the marker that has narrow ones, mm.
 const GAP: f64 = 0.5;
 
@@ -33,17 +37,23 @@ pub(crate) const DAMAGES: &[Damage] = &[
     damage("overlaps as if there were no parts", NEIGHBOUR, |case, _| {
         let has_gaps = case.name == "narrow-gaps";
         has_gaps.then(|| {
-            // Lines that bound nothing leave room everywhere.
+            // Lines that do not close bound nothing and leave room everywhere.
             let program = edited(case, |marker| {
-                let contours = marker.pieces.iter_mut().flat_map(|piece| &mut piece.contours);
-                contours.for_each(|contour| contour.closed = false);
+                for (piece, contour) in contours(marker) {
+                    let mut segments = chain(marker, marker.pieces[piece].contours[contour]);
+                    segments.last_mut().expect("a contour has segments").to += Vector::new(AJAR, 0.0);
+                    redraw(marker, [piece, contour], segments);
+                }
             });
             Harm::anywhere(program, ENTERED * (OVERLAP - GAP))
         })
     }),
 ];
 
-/// Another program than that of the case; `None` when it is the same.
+/// Another program than that of the case; `None` when it is the same, or the case harms its parts as much, unavoidably.
 fn other(case: &Case, program: Vec<u8>) -> Option<Harm> {
-    (program != case.program).then(|| Harm::anywhere(program, ENTERED * OVERLAP))
+    let amount = ENTERED * OVERLAP;
+    let sound = judge(&case.program, &case.marker, &case.job);
+    let harmed = sound.findings.iter().any(|finding| finding.rule == PART && finding.worst >= amount);
+    (program != case.program && !harmed).then(|| Harm::anywhere(program, amount))
 }

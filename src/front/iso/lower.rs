@@ -168,7 +168,10 @@ impl Lowering<'_> {
             self.out
                 .push(finding.hint("export the marker with its cut lines, or see what `codes` of the profile ignores"));
         }
-        check_plausible(&self.unit, &extent, self.title.as_ref(), self.out);
+        // A place that is a kilometre off says it all.
+        if self.far.is_none() {
+            check_plausible(&self.unit, &extent, self.title.as_ref(), self.out);
+        }
         marker
     }
 
@@ -213,6 +216,8 @@ impl Lowering<'_> {
         let mut moves = true;
         let mut turn = None;
         let mut radius = None;
+        // What shares the block of the end is obeyed, too.
+        let mut flow = ControlFlow::Continue(());
         for &code in &words.codes {
             let obeyed = self.obeys(code);
             match meaning(code) {
@@ -247,7 +252,7 @@ impl Lowering<'_> {
                     self.turn = None;
                     self.tally.ignore(code, "rapid positioning", span);
                 }
-                Meaning::Slow => self.knife.slow(self.slow_percent()),
+                Meaning::Slow => self.knife.slow(self.job.profile.knife.slow()),
                 Meaning::Normal => self.knife.slow(FULL_SPEED),
                 Meaning::SpeedOfPiece(percent) => self.knife.speed_of_piece(percent),
                 Meaning::Feed => self.feed(code, span),
@@ -258,7 +263,7 @@ impl Lowering<'_> {
                 Meaning::NoOvercut => self.knife.no_overcut(),
                 Meaning::CornerLift => self.knife.corner_lift(),
                 Meaning::End if self.more_to_cut() => self.tally.ignore(code, "stop before the end", span),
-                Meaning::End => return ControlFlow::Break(()),
+                Meaning::End => flow = ControlFlow::Break(()),
                 Meaning::NotObeyed(what) => self.tally.ignore(code, what, span),
                 Meaning::Housekeeping => {}
                 Meaning::Unknown if code.letter == b'R' && words.point.is_some() => radius = Some(code),
@@ -273,6 +278,8 @@ impl Lowering<'_> {
         }
         if let Some(tool) = at_place {
             let hole = Hole { tool, span };
+            // Behind the end no place follows, and the one behind M31 is the label's.
+            let may_wait = label.is_none() && words.codes.iter().all(|&code| meaning(code) != Meaning::End);
             match point {
                 _ if self.knife.is_down() => self.refuse_hole(hole),
                 Some(point) => {
@@ -280,7 +287,7 @@ impl Lowering<'_> {
                     self.move_in_air(to, span);
                     self.drill(hole);
                 }
-                None if !self.fresh && label.is_none() && self.point_of_drill_follows() => self.waiting = Some(hole),
+                None if may_wait && !self.fresh && self.point_of_drill_follows() => self.waiting = Some(hole),
                 None => self.drill(hole),
             }
         }
@@ -292,12 +299,7 @@ impl Lowering<'_> {
                 None => self.go(point, span),
             }
         }
-        ControlFlow::Continue(())
-    }
-
-    /// Speed of slowed cuts; the profile checks that it is a whole number from 1 to 100.
-    fn slow_percent(&self) -> u8 {
-        self.job.profile.knife.slow_percent.clamp(1.0, f64::from(FULL_SPEED)) as u8
+        flow
     }
 
     fn obeys(&self, code: Code) -> bool {

@@ -104,7 +104,7 @@ mod tests {
     fn check(blocks: &[&str], expected: &[(usize, usize)]) {
         let file = format!("H1*G71*M15*{}M0*", blocks.concat());
         let source = Source::new("a", file.clone().into_bytes()).expect("small");
-        let marker = super::super::lower::lower(&source, &Job::default(), &mut Diagnostics::default());
+        let marker = crate::front::iso::lower::lower(&source, &Job::default(), &mut Diagnostics::default());
         let found: Vec<_> = marker.pieces.iter().map(|piece| (piece.notches.len(), piece.contours.len())).collect();
         assert_eq!(found, expected, "{file}");
     }

@@ -96,7 +96,7 @@ pub(super) fn check_plausible(unit: &Unit, extent: &Extent, title: Option<&Title
         _ => {
             let what = match () {
                 () if width > WIDEST => "wider than any table",
-                () if length > LONGEST => "longer than any cloth is spread",
+                () if length > LONGEST => "longer than any table",
                 () => "smaller than any part",
             };
             let message = format!("with a unit of {} mm the drawing is {drawn}: {what}", unit.mm);

@@ -12,6 +12,7 @@ mod place;
 mod scene;
 mod slow;
 mod stab;
+mod stretch;
 mod table;
 mod trace;
 mod turn;

@@ -21,6 +21,8 @@ pub(super) const PASS: ToolpathPass =
 
 /// A way that enters the part within this length begins in it, mm: rounding.
 const INSIDE_EPSILON: f64 = 1e-6;
+/// A shorter overlap is none, mm: rounding, which must not become a chord of the path.
+const OVERLAP_EPSILON: f64 = 1e-6;
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     let around = scene.around(toolpath);
@@ -90,7 +92,8 @@ impl Wanted {
         let room = around.room(&Ray { from, along, reach });
         let inside = room.own <= INSIDE_EPSILON;
         let (wanted, gap) = if inside { (self.part, room.other) } else { (self.waste, room.least()) };
-        let length = wanted.min((gap - clearance).max(0.0));
+        let length = wanted.min(gap - clearance);
+        let length = if length > OVERLAP_EPSILON { length } else { 0.0 };
         let side = match (inside, length < wanted) {
             (true, _) => Side::Part,
             (false, true) => Side::Gap,

@@ -1,14 +1,16 @@
 //! Pass `wind`: a run that winds C past `c.range_deg` is lifted where it would, and goes on with C unwound in the air.
 //!
-//! Needs runs split at corners. Leaves runs of which every chord can be cut at one equivalent of C inside the range,
-//! wherever the run starts; as few of them as that takes. A run is parted at a vertex, like at a corner, but its overlaps
-//! there are only so long that, straight on, they stay within a part of the tolerance of the path.
+//! Needs runs split at corners. Leaves runs that can be cut at one equivalent of C inside the range; as few of them as that
+//! takes. Each is led on along the contour by the overlaps of a corner.
+
+use std::f64::consts::TAU;
 
 use super::ToolpathPass;
 use super::scene::Scene;
+use super::stretch::{REJOINED, Way};
 use crate::diagnostic::Diagnostics;
-use crate::geom::{Heading, Point, polyline};
-use crate::ir::toolpath::{End, Run, Shape, Side, Step, Toolpath};
+use crate::geom::{Heading, polyline};
+use crate::ir::toolpath::{Run, Step, Toolpath};
 use crate::machine::Knife;
 
 pub(super) const PASS: ToolpathPass =
@@ -17,27 +19,19 @@ pub(super) const PASS: ToolpathPass =
 /// How far C stays away from the ends of its range where a run is parted, rad (5 degrees): smoothing turns the blade a
 /// little beyond the direction of its last chord. A range that is too narrow for that is used up to its ends.
 const MARGIN: f64 = 0.087_266_462_599_716_47;
-/// Part of the tolerance by which an overlap may leave the path; smoothing moves the tip by up to the rest.
-const SHARE: f64 = 0.4;
 /// Rounding of an angle, rad.
 const ANGLE_EPSILON: f64 = 1e-9;
-/// Where a run is parted: its overlap is drawn already.
-const PARTED: End = End { corner: true, bare: true, side: Side::Waste };
+/// Rounding of a station, mm.
+const STATION_EPSILON: f64 = 1e-9;
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
     let Some(range) = scene.job.profile.blade_range() else { return };
-    let (knife, allowance) = (&scene.job.profile.knife, SHARE * toolpath.tolerance);
     for step in std::mem::take(&mut toolpath.steps) {
         match step {
-            Step::Run(run) => {
-                let cuts = parts(&run, range);
-                if let [_] = cuts[..] {
-                    toolpath.steps.push(Step::Run(run));
-                } else {
-                    let part = |ends: &[usize; 2]| Step::Run(part(&run, *ends, &Overlap { knife, allowance }));
-                    toolpath.steps.extend(cuts.iter().map(part));
-                }
-            }
+            Step::Run(run) => match parts(&run, range, &scene.job.profile.knife) {
+                Some(parts) => toolpath.steps.extend(parts.into_iter().map(Step::Run)),
+                None => toolpath.steps.push(Step::Run(run)),
+            },
             Step::Stab(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {
                 toolpath.steps.push(step);
             }
@@ -45,108 +39,81 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
     }
 }
 
-/// The directions of the chords, unwrapped, rad.
-fn headings(run: &Run) -> Vec<f64> {
-    let mut heading = Heading::of(run.points[1] - run.points[0]).radians();
-    let turns = run.points.windows(3).map(|w| polyline::turn_at(w[0], w[1], w[2]));
-    let mut headings = vec![heading];
-    headings.extend(turns.map(|turn| {
-        heading += turn;
-        heading
-    }));
-    headings
-}
-
-/// The first chord of each part and the one behind its last; one part when the run need not be parted, or cannot.
-fn parts(run: &Run, range: [f64; 2]) -> Vec<[usize; 2]> {
-    let headings = headings(run);
-    let count = headings.len();
+/// The parts of a run that winds; `None` when it need not be parted, or cannot.
+fn parts(run: &Run, range: [f64; 2], knife: &Knife) -> Option<Vec<Run>> {
+    let way = Way::new(run);
+    let winding = Winding::new(run, &way);
+    let (chords, length) = (way.chords() as i64, way.length());
     // Round a ring the last chord turns on to the first one.
-    let lap = usize::from(run.shape == Shape::Ring);
-    let closing = polyline::turn_at(run.points[count - 1], run.points[0], run.points[1]);
-    let whole = [&headings[..], &[headings[count - 1] + closing][..lap]].concat();
-    if reach(&whole, range) == Some(whole.len()) {
-        return vec![[0, count]];
+    let whole = chords + i64::from(way.is_ring());
+    if winding.reach(0, whole, range) == Some(whole) {
+        return None;
     }
     let [least, greatest] = range;
     let inner = [least + MARGIN, greatest - MARGIN];
+    let (heel, front) = (knife.corner_heel_overlap_mm, knife.corner_front_overlap_mm);
+    let last = if way.is_ring() { length + front } else { length };
+    let mut from = if way.is_ring() { -heel } else { 0.0 };
+    let mut ends = run.ends;
+    if way.is_ring() {
+        ends = [REJOINED; 2];
+    }
     let mut parts = Vec::new();
-    let mut from = 0;
-    while from < count {
-        let Some(chords) = reach(&headings[from..], inner).or_else(|| reach(&headings[from..], range)) else {
-            return vec![[0, count]];
-        };
-        parts.push([from, from + chords]);
-        from += chords;
-    }
-    parts
-}
-
-/// How many chords can be cut before C leaves its range, from the equivalent of the first that goes on longest; `None` when
-/// not even the first is in the range.
-fn reach(headings: &[f64], [least, greatest]: [f64; 2]) -> Option<usize> {
-    let turn = std::f64::consts::TAU;
-    let first = ((least - headings[0]) / turn - ANGLE_EPSILON).ceil();
-    let last = ((greatest - headings[0]) / turn + ANGLE_EPSILON).floor();
-    let is_in = |c: f64| (least - ANGLE_EPSILON..=greatest + ANGLE_EPSILON).contains(&c);
-    // Of all equivalents the first or the last goes on longest, unless the way swings both ways; few are legal at all.
-    let turns = (0..=(last - first).max(-1.0) as i64).filter(|_| first <= last).map(|k| first + k as f64);
-    turns.map(|k| headings.iter().take_while(|&&heading| is_in(heading + k * turn)).count()).max()
-}
-
-/// How long overlaps are where a run is parted.
-struct Overlap<'a> {
-    knife: &'a Knife,
-    /// How far they may leave the path, mm.
-    allowance: f64,
-}
-
-impl Overlap<'_> {
-    /// The end of an overlap of `wanted` mm, straight on from `from` over `at`, where the path turns by `turn`.
-    fn beyond(&self, [from, at]: [Point; 2], turn: f64, wanted: f64) -> Option<Point> {
-        let length = wanted.min(self.allowance / turn.abs().sin());
-        let along = polyline::direction(from, at).filter(|_| length > 0.0);
-        along.map(|along| at + along * length)
+    let end = way.chord_at(last - STATION_EPSILON) + 1;
+    loop {
+        let first = way.chord_at(from);
+        let reached = winding.reach(first, end, inner).or_else(|| winding.reach(first, end, range))?;
+        let start = if parts.is_empty() { ends[0] } else { REJOINED };
+        if reached >= end {
+            parts.push(way.part(from, last, [start, ends[1]]));
+            return Some(parts);
+        }
+        let to = way.station(reached);
+        let next = to - front - heel;
+        // Where the blade turns more within the overlaps than C may, no number of lifts helps.
+        if next <= from + STATION_EPSILON {
+            return None;
+        }
+        parts.push(way.part(from, to, [start, REJOINED]));
+        from = next;
     }
 }
 
-/// The chords from one to another of a run.
-fn part(run: &Run, [from, to]: [usize; 2], overlap: &Overlap) -> Run {
-    let chords = run.points.len() - 1;
-    let is_ring = run.shape == Shape::Ring;
-    let turn = |vertex: usize| {
-        let before = if vertex == 0 { chords - 1 } else { vertex - 1 };
-        let behind = vertex % chords;
-        polyline::turn_at(run.points[before], run.points[behind], run.points[behind + 1])
-    };
-    let parted = [from > 0 || is_ring, to < chords || is_ring];
-    let mut part = Run {
-        points: run.points[from..=to].to_vec(),
-        spans: run.spans[from..to].to_vec(),
-        joints: run.joints[from..=to].to_vec(),
-        feeds: run.feeds[from..to].to_vec(),
-        shape: Shape::Open,
-        ends: [0, 1].map(|end| if parted[end] { PARTED } else { run.ends[end] }),
-        ..*run
-    };
-    let n = part.points.len();
-    let knife = overlap.knife;
-    if parted[1]
-        && let Some(tip) =
-            overlap.beyond([part.points[n - 2], part.points[n - 1]], turn(to), knife.corner_front_overlap_mm)
-    {
-        part.points.push(tip);
-        part.spans.push(part.spans[n - 2]);
-        part.feeds.push(part.feeds[n - 2]);
-        part.joints.push(part.joints[n - 1]);
+/// The directions of the chords of a run, unwrapped.
+struct Winding {
+    /// Of one lap, rad.
+    headings: Vec<f64>,
+    /// By how much a lap turns, rad.
+    lap: f64,
+}
+
+impl Winding {
+    fn new(run: &Run, way: &Way) -> Self {
+        let mut heading = Heading::of(run.points[1] - run.points[0]).radians();
+        let mut headings = vec![heading];
+        headings.extend(run.points.windows(3).map(|w| {
+            heading += polyline::turn_at(w[0], w[1], w[2]);
+            heading
+        }));
+        let closing = polyline::turn_at(run.points[way.chords() - 1], run.points[0], run.points[1]);
+        Self { lap: heading + closing - headings[0], headings }
     }
-    if parted[0]
-        && let Some(tail) = overlap.beyond([part.points[1], part.points[0]], turn(from), knife.corner_heel_overlap_mm)
-    {
-        part.points.insert(0, tail);
-        part.spans.insert(0, part.spans[0]);
-        part.feeds.insert(0, part.feeds[0]);
-        part.joints.insert(0, part.joints[0]);
+
+    /// The direction of a chord, which may be of another lap.
+    fn at(&self, chord: i64) -> f64 {
+        let chords = self.headings.len() as i64;
+        self.headings[chord.rem_euclid(chords) as usize] + self.lap * chord.div_euclid(chords) as f64
     }
-    part
+
+    /// The chord, up to `end`, before which C leaves its range, from the equivalent of chord `first` that goes on longest;
+    /// `None` when not even that is in the range.
+    fn reach(&self, first: i64, end: i64, [least, greatest]: [f64; 2]) -> Option<i64> {
+        let heading = self.at(first);
+        let low = ((least - heading) / TAU - ANGLE_EPSILON).ceil();
+        let high = ((greatest - heading) / TAU + ANGLE_EPSILON).floor();
+        let is_in = |c: f64| (least - ANGLE_EPSILON..=greatest + ANGLE_EPSILON).contains(&c);
+        // Of all equivalents the first or the last goes on longest, unless the way swings both ways; few are legal at all.
+        let turns = (0..=(high - low).max(-1.0) as i64).map(|k| (low + k as f64) * TAU);
+        turns.map(|turns| (first..end).find(|&chord| !is_in(self.at(chord) + turns)).unwrap_or(end)).max()
+    }
 }
