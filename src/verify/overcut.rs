@@ -187,12 +187,16 @@ impl Overcut {
             // The knife was lifted anywhere on the way.
             return [self.width; 2];
         }
-        let Some([start, end]) = stroke.joints() else { return [0.0; 2] };
-        let Some(along) = polyline::direction(start, end) else { return [0.0; 2] };
-        let rooms = [self.room(start, -along, stroke, lines), self.room(end, along, stroke, lines)];
-        let surplus = self.width - (end - start).norm();
-        let least = |room: [f64; 2]| room[0].min(room[1]);
-        [surplus - least(rooms[0]) - least(rooms[1]), surplus - rooms[0][1] - rooms[1][1]].map(|harm| harm.max(0.0))
+        // Behind a slight bend a blade stays in the tube for a while, so that it may have been meant to end at either.
+        let [inner, outer] = [innermost([from, to]), [from[0], to[1]]].map(|stations| {
+            let [start, end] = stations.map(|station| stroke.line.place(station));
+            let Some(along) = polyline::direction(start, end) else { return [0.0; 2] };
+            let rooms = [self.room(start, -along, stroke, lines), self.room(end, along, stroke, lines)];
+            let surplus = self.width - (end - start).norm();
+            let least = |room: [f64; 2]| room[0].min(room[1]);
+            [surplus - least(rooms[0]) - least(rooms[1]), surplus - rooms[0][1] - rooms[1][1]]
+        });
+        [0, 1].map(|i| inner[i].max(outer[i]).max(0.0))
     }
 
     /// How far a way from a place goes before it enters the part, and before it enters another, mm; the blade's width when
@@ -227,18 +231,17 @@ impl Overcut {
     }
 }
 
+/// Of the joints at which a stab may begin and those at which it may end, the two nearest to each other; the outermost
+/// when these are not in order.
+pub(super) fn innermost([from, to]: [[f64; 2]; 2]) -> [f64; 2] {
+    if from[1] < to[0] { [from[1], to[0]] } else { [from[0], to[1]] }
+}
+
 impl Stroke<'_> {
-    /// The joints between which it is a stab that fits what was left of its line.
+    /// The outermost joints between which it is a stab that fits what was left of its line.
     fn joints(&self) -> Option<[Point; 2]> {
-        let [from, to] = self.fits?;
-        if from.into_iter().chain(to).any(f64::is_infinite) {
-            return None;
-        }
-        let stations = if from[1] < to[0] { [from[1], to[0]] } else { [from[0], to[1]] };
-        Some(stations.map(|station| {
-            let chord = self.line.chord_at(station);
-            self.line.points[chord] + self.line.direction(chord) * (station - self.line.stations[chord])
-        }))
+        let [from, to] = self.fits.filter(|fits| fits.iter().flatten().all(|station| station.is_finite()))?;
+        Some([from[0], to[1]].map(|station| self.line.place(station)))
     }
 
     /// How far place `i` stands beyond the joints of a stab, an end of the line, or what is held to that, mm.

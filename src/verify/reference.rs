@@ -277,6 +277,12 @@ impl Line {
         if sign > 0.0 { self.caps[0].greatest(low, high) } else { self.caps[1].greatest(length - high, length - low) }
     }
 
+    /// The point at a station.
+    pub(super) fn place(&self, station: f64) -> Point {
+        let chord = self.chord_at(station);
+        self.points[chord] + self.direction(chord) * (station - self.stations[chord])
+    }
+
     /// The chord of a station.
     pub(super) fn chord_at(&self, station: f64) -> usize {
         self.stations.partition_point(|&s| s <= station).clamp(1, self.chords()) - 1

@@ -194,6 +194,7 @@ impl<'a> Judge<'a> {
             let here = rows[*ends.0..*ends.1].iter().filter(|row| row.knife);
             // What a stab is longer by than its cut is named like that.
             let station = best.feet[i.clamp(*best.held.start(), *best.held.end())].station;
+            let station = best.fits.map(overcut::innermost).map_or(station, |[from, to]| station.clamp(from, to));
             here.for_each(|row| done.naming.see_cut(row, line, station));
         }
     }
@@ -395,13 +396,12 @@ impl<'a> Judge<'a> {
             if let (Some([a, b]), false, Some([low, high])) = (&mut open, joined, bend) {
                 (*a, *b) = (a.min(low), b.max(high));
             }
-            match (&mut open, joined) {
-                (Some([a, b]), true) => (*a, *b) = (a.min(station), b.max(station)),
-                (Some(_), false) | (None, _) => {
-                    trial.stretches.extend(open.take());
-                    let [low, high] = bend.unwrap_or([station; 2]);
-                    open = (off <= allowed).then_some([station.min(low), station.max(high)]);
-                }
+            if let (Some([a, b]), true) = (&mut open, joined) {
+                (*a, *b) = (a.min(station), b.max(station));
+            } else {
+                trial.stretches.extend(open.take());
+                let [low, high] = bend.unwrap_or([station; 2]);
+                open = (off <= allowed).then_some([station.min(low), station.max(high)]);
             }
         }
         trial.stretches.extend(open);

@@ -36,15 +36,16 @@ impl<'a> Way<'a> {
     }
 
     /// The station at which a chord begins; on a ring chords are counted on over the laps, forwards and backwards.
-    pub(super) fn station(&self, chord: i64) -> f64 {
-        let chords = self.chords() as i64;
+    pub(super) fn station(&self, chord: isize) -> f64 {
+        let chords = self.chords().cast_signed();
         self.stations[chord.rem_euclid(chords) as usize] + self.length() * chord.div_euclid(chords) as f64
     }
 
     /// The chord that goes on from a station, counted like that.
-    pub(super) fn chord_at(&self, station: f64) -> i64 {
+    pub(super) fn chord_at(&self, station: f64) -> isize {
         let lap = if self.is_ring() { (station / self.length()).floor() } else { 0.0 };
-        spline::span(&self.stations, station - lap * self.length()) as i64 + lap as i64 * self.chords() as i64
+        spline::span(&self.stations, station - lap * self.length()).cast_signed()
+            + lap as isize * self.chords().cast_signed()
     }
 
     /// The stretch from one station to another; what an open run has not is not in it.
@@ -52,8 +53,8 @@ impl<'a> Way<'a> {
         let (run, chords) = (self.run, self.chords());
         let from = if self.is_ring() { from } else { from.max(0.0) };
         let first = self.chord_at(from);
-        let at = |chord: i64, station: f64| {
-            let i = chord.rem_euclid(chords as i64) as usize;
+        let at = |chord: isize, station: f64| {
+            let i = chord.rem_euclid(chords.cast_signed()) as usize;
             let (a, b) = (run.points[i], run.points[i + 1]);
             a + (b - a) * ((station - self.station(chord)) / (self.stations[i + 1] - self.stations[i]))
         };
@@ -67,7 +68,7 @@ impl<'a> Way<'a> {
             ..*run
         };
         for chord in first.. {
-            let i = chord.rem_euclid(chords as i64) as usize;
+            let i = chord.rem_euclid(chords.cast_signed()) as usize;
             let end = self.station(chord + 1);
             let (point, joint) =
                 if to < end { (at(chord, to), Joint::default()) } else { (run.points[i + 1], run.joints[i + 1]) };

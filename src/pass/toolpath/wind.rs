@@ -43,9 +43,9 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
 fn parts(run: &Run, range: [f64; 2], knife: &Knife) -> Option<Vec<Run>> {
     let way = Way::new(run);
     let winding = Winding::new(run, &way);
-    let (chords, length) = (way.chords() as i64, way.length());
+    let (chords, length) = (way.chords().cast_signed(), way.length());
     // Round a ring the last chord turns on to the first one.
-    let whole = chords + i64::from(way.is_ring());
+    let whole = chords + isize::from(way.is_ring());
     if winding.reach(0, whole, range) == Some(whole) {
         return None;
     }
@@ -100,20 +100,20 @@ impl Winding {
     }
 
     /// The direction of a chord, which may be of another lap.
-    fn at(&self, chord: i64) -> f64 {
-        let chords = self.headings.len() as i64;
+    fn at(&self, chord: isize) -> f64 {
+        let chords = self.headings.len().cast_signed();
         self.headings[chord.rem_euclid(chords) as usize] + self.lap * chord.div_euclid(chords) as f64
     }
 
     /// The chord, up to `end`, before which C leaves its range, from the equivalent of chord `first` that goes on longest;
     /// `None` when not even that is in the range.
-    fn reach(&self, first: i64, end: i64, [least, greatest]: [f64; 2]) -> Option<i64> {
+    fn reach(&self, first: isize, end: isize, [least, greatest]: [f64; 2]) -> Option<isize> {
         let heading = self.at(first);
         let low = ((least - heading) / TAU - ANGLE_EPSILON).ceil();
         let high = ((greatest - heading) / TAU + ANGLE_EPSILON).floor();
         let is_in = |c: f64| (least - ANGLE_EPSILON..=greatest + ANGLE_EPSILON).contains(&c);
         // Of all equivalents the first or the last goes on longest, unless the way swings both ways; few are legal at all.
-        let turns = (0..=(high - low).max(-1.0) as i64).map(|k| (low + k as f64) * TAU);
+        let turns = (0..=(high - low).max(-1.0) as isize).map(|k| (low + k as f64) * TAU);
         turns.map(|turns| (first..end).find(|&chord| !is_in(self.at(chord) + turns)).unwrap_or(end)).max()
     }
 }
