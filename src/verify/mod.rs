@@ -22,6 +22,7 @@ mod joints;
 mod kept;
 mod limits;
 mod naming;
+mod notches;
 mod npy;
 mod order;
 mod overcut;

@@ -5,10 +5,11 @@
 use std::f64::consts::TAU;
 
 use super::caps::{Caps, End, Feeds};
+use super::notches;
 use crate::geom::{Point, Vector, angle, left, polyline};
 use crate::ir::Marker;
 use crate::ir::list::Segment;
-use crate::ir::marker::{Contour, Stroke};
+use crate::ir::marker::Stroke;
 use crate::machine::{Fit, MachineProfile};
 
 /// Longest chord that counts as a chord of a curve, mm.
@@ -70,13 +71,21 @@ impl<'a> Reference<'a> {
             events.extend(piece.events.iter().map(|_| rank()));
             holes.extend(piece.drills.iter().map(|_| rank()));
             let feeds = Feeds::new(profile, piece);
-            for notch in &piece.notches {
-                let cap = feeds.at(notch.percent);
-                lines.extend(notch.strokes().map(|stroke| slit(&stroke, [index, rank()], cap)));
-            }
-            for contour in &piece.contours {
+            let mut replaced = Vec::new();
+            let outlines: Vec<Vec<Segment>> = piece
+                .contours
+                .iter()
+                .map(|contour| {
+                    let mut outline = marker.list.walk(contour.range).map(|(_, segment)| segment).collect();
+                    replaced.extend(notches::straighten(&mut outline, piece, profile.notch));
+                    outline
+                })
+                .collect();
+            let slits = notches::slits(piece, profile.notch, &replaced);
+            lines.extend(slits.iter().map(|(stroke, percent)| slit(stroke, [index, rank()], feeds.at(*percent))));
+            for (contour, outline) in piece.contours.iter().zip(outlines) {
                 let place = Place { owner: [index, rank()], feeds, profile };
-                lines.extend(contour_lines(marker, contour, place));
+                lines.extend(contour_lines(outline, contour.closed, place));
             }
         }
         if let Some(range) = profile.blade_range() {
@@ -115,10 +124,9 @@ fn slit(stroke: &Stroke, [piece, rank]: [usize; 2], cap: f64) -> Line {
 }
 
 /// Cuts a contour at its corners.
-fn contour_lines(marker: &Marker, contour: &Contour, place: Place) -> Vec<Line> {
+fn contour_lines(mut segments: Vec<Segment>, closed: bool, place: Place) -> Vec<Line> {
     let Place { owner, feeds, profile } = place;
     let mut lines = Vec::new();
-    let mut segments: Vec<Segment> = marker.list.walk(contour.range).map(|(_, segment)| segment).collect();
     let count = segments.len();
     let turn = |segments: &[Segment], i: usize| {
         let before = &segments[(i + count - 1) % count];
@@ -129,7 +137,7 @@ fn contour_lines(marker: &Marker, contour: &Contour, place: Place) -> Vec<Line> 
     let mut ring = false;
     // Where a contour ends no corner lies before the tip.
     let mut ends = vec![0];
-    if contour.closed {
+    if closed {
         let corners: Vec<usize> = (0..count).filter(|&i| is_corner(&segments, i)).collect();
         match corners.first() {
             Some(&first) => {
