@@ -63,12 +63,16 @@ impl Dropped {
 /// What the file asks for at a dropped segment it asks for at that point, where the next segment starts. The end of the
 /// contour has no segment of its own: its joint is the first segment's.
 fn drop_equal_points(list: &mut SegmentList, range: &mut Range, dropped: &mut Dropped) -> bool {
+    let mut before = None;
+    if list.points(*range).all(|point| before.replace(point) != Some(point)) {
+        return true; // as in nearly all of them
+    }
     let mut cursor = list.cursor(range);
     let mut carried = Joint::default();
     loop {
         let segment = cursor.segment();
         if segment.from != segment.to {
-            carry(&mut cursor.segment_mut().joint, carried);
+            carry(cursor.joint_mut(), carried);
             carried = Joint::default();
             if !cursor.advance() {
                 return true;
@@ -90,7 +94,7 @@ fn drop_equal_points(list: &mut SegmentList, range: &mut Range, dropped: &mut Dr
     let closed = first.segment().from == end;
     // At the end of an open contour the knife goes up anyway and does not come down again: only the overcut matters.
     carry(
-        &mut first.segment_mut().joint,
+        first.joint_mut(),
         if closed { carried } else { Joint { no_overcut: carried.no_overcut, ..Joint::default() } },
     );
     true
@@ -139,9 +143,9 @@ fn join(list: &mut SegmentList, piece: &mut Piece) {
 fn seam(list: &mut SegmentList, mut first: Range, mut second: Range) {
     let no_overcut = list.cursor(&mut second).segment().joint.no_overcut;
     let mut begin = list.cursor(&mut first);
-    let at_seam = std::mem::replace(&mut begin.segment_mut().joint.no_overcut, no_overcut);
+    let at_seam = std::mem::replace(&mut begin.joint_mut().no_overcut, no_overcut);
     let mut continued = list.cursor(&mut second);
-    let joint = &mut continued.segment_mut().joint;
+    let joint = continued.joint_mut();
     joint.lift = true;
     joint.no_overcut = at_seam;
 }
