@@ -164,6 +164,13 @@ impl SegmentList {
         })
     }
 
+    /// The two ends of each segment of a range, in its direction.
+    pub fn lines(&self, range: Range) -> impl Iterator<Item = [Point; 2]> {
+        let mut points = self.points(range);
+        let mut before = points.next();
+        points.filter_map(move |point| before.replace(point).map(|before| [before, point]))
+    }
+
     /// Where a range starts, in its direction.
     fn start(&self, range: Range) -> Point {
         let id = if range.backward { range.last.0 } else { self.links[range.first.0 as usize].prev };
@@ -420,6 +427,8 @@ mod tests {
             let ends = list.walk(range).map(|(_, segment)| (segment.to, segment.span));
             let expected: Vec<_> = std::iter::once((first.from, Span::default())).chain(ends).collect();
             assert_eq!(list.vertices(range).collect::<Vec<_>>(), expected);
+            let ends: Vec<_> = expected.windows(2).map(|pair| [pair[0].0, pair[1].0]).collect();
+            assert_eq!(list.lines(range).collect::<Vec<_>>(), ends);
         }
     }
 

@@ -63,8 +63,7 @@ impl Dropped {
 /// What the file asks for at a dropped segment it asks for at that point, where the next segment starts. The end of the
 /// contour has no segment of its own: its joint is the first segment's.
 fn drop_equal_points(list: &mut SegmentList, range: &mut Range, dropped: &mut Dropped) -> bool {
-    let mut before = None;
-    if list.points(*range).all(|point| before.replace(point) != Some(point)) {
+    if list.lines(*range).all(|[from, to]| from != to) {
         return true; // as in nearly all of them
     }
     let mut cursor = list.cursor(range);
