@@ -18,6 +18,8 @@ const CURVE_CHORD: f64 = 25.0;
 /// Ways along a contour that differ by less are the same, mm: rounding of their sums.
 const SAME_WAY: f64 = 1e-6;
 
+/// How far from the ends of its range C is kept on a line that turns it, rad (5 degrees).
+const CLEAR_OF_ENDS: f64 = 0.087_266_462_599_716_47;
 /// Smaller turns are none, rad.
 const TURN_EPSILON: f64 = 1e-6;
 
@@ -265,7 +267,8 @@ impl Line {
         angle::turn(self.direction((vertex + count - 1) % count), self.direction(vertex % count))
     }
 
-    /// Whether no equivalent of C lets the blade follow it inside a range, rad.
+    /// Whether no equivalent of C lets the blade follow it inside a range, rad, and stay clear of its ends by what smoothing
+    /// and a plunge as a chord may turn it more.
     fn winds_past(&self, [least, greatest]: [f64; 2]) -> bool {
         let first = self.direction(0);
         let mut heading = first.y.atan2(first.x);
@@ -275,6 +278,10 @@ impl Line {
             heading += self.turn(vertex);
             reach = [reach[0].min(heading), reach[1].max(heading)];
         }
+        if self.chords() == 1 {
+            return false;
+        }
+        let (least, greatest) = (least + CLEAR_OF_ENDS, greatest - CLEAR_OF_ENDS);
         let least_turn = ((least - reach[0]) / TAU - TURN_EPSILON).ceil();
         least_turn > ((greatest - reach[1]) / TAU + TURN_EPSILON).floor()
     }
