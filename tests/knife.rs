@@ -135,6 +135,15 @@ fn darts_hems_castles_and_parts_in_cut_outs_are_cut_by_every_blade_and_what_harm
 }
 
 #[test]
+fn a_cut_out_that_is_a_piece_of_its_own_spares_the_part_around_it() {
+    let job = Job::default();
+    let toolpaths = support::toolpaths(&read("knife/cut-out-without-pieces.cut"), &job);
+    let overlaps = |toolpath| support::runs(toolpath).iter().map(|run| run.front + run.heel).sum::<f64>();
+    assert_eq!(toolpaths.iter().map(overlaps).collect::<Vec<_>>(), [0.0, 4.0 * (0.8 + 0.5)]);
+    assert_eq!(compile("knife/cut-out-without-pieces.cut", &job), [""; 0]);
+}
+
+#[test]
 fn notches_are_cut_in_the_style_of_the_profile() {
     let cuts = |style: NotchStyle, depth: Option<f64>| {
         let mut job = Job::default();
