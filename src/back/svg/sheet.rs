@@ -281,9 +281,10 @@ enum Symbol {
     Target,
 }
 
-const ITEMS: [Item; 9] = [
+const ITEMS: [Item; 10] = [
     Item { class: "run", symbol: Symbol::Line, meaning: "cut, in the piece's colour" },
     Item { class: "over", symbol: Symbol::Bar, meaning: "overlap past an end" },
+    Item { class: "harm", symbol: Symbol::Bar, meaning: "stab into a part" },
     Item { class: "blade", symbol: Symbol::Bar, meaning: "blade at plunge and lift" },
     Item { class: "stab", symbol: Symbol::Bar, meaning: "stab: plunge only" },
     Item { class: "plunge", symbol: Symbol::Circle(4.0), meaning: "plunge, at the tip" },
