@@ -116,7 +116,9 @@ impl<'a> File<'a> {
     fn piece(&mut self, piece: &Piece, events: &[&Event], labels: &[&Label]) {
         self.block(&format!("N{}", piece.number));
         (self.slow, self.of_piece) = (FULL_SPEED, FULL_SPEED);
-        events.iter().for_each(|event| self.event(event));
+        for event in events {
+            self.event(event);
+        }
         self.set_feed(piece);
         for drill in &piece.drills {
             let code = match drill.tool {
@@ -127,7 +129,9 @@ impl<'a> File<'a> {
             };
             self.point(drill.at, code);
         }
-        labels.iter().for_each(|label| self.label(label));
+        for label in labels {
+            self.label(label);
+        }
         piece.notches.iter().for_each(|notch| self.notch(notch));
         piece.contours.iter().for_each(|contour| self.contour(contour));
     }
@@ -296,7 +300,9 @@ impl<'a> File<'a> {
     }
 
     fn blocks(&mut self, texts: &[&str]) {
-        texts.iter().for_each(|text| self.block(text));
+        for text in texts {
+            self.block(text);
+        }
     }
 
     fn block(&mut self, text: &str) {

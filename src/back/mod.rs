@@ -12,6 +12,7 @@ use crate::source::Source;
 
 mod counts;
 mod csv;
+mod gcode;
 mod hal;
 mod halrun;
 mod iso;
@@ -57,6 +58,8 @@ pub enum Emit {
     Marker(fn(&Context, &mut dyn Output, &mut Diagnostics) -> io::Result<()>),
     /// From what the knife does, one toolpath at a time.
     Toolpath(Parts<Toolpath>),
+    /// From what the knife does, all of it; what the target cannot express is a diagnostic.
+    Toolpaths(fn(&Context, &[Toolpath], &mut dyn Output, &mut Diagnostics) -> io::Result<()>),
     /// From the timed motion, one at a time.
     Motion(Parts<Motion>),
 }
@@ -86,8 +89,17 @@ pub enum Proof {
 }
 
 /// Every target; the first is the default.
-pub const TARGETS: &[Target] =
-    &[csv::TARGET, npy::TARGET, json::TARGET, svg::TARGET, iso::TARGET, counts::TARGET, hal::TARGET, halrun::TARGET];
+pub const TARGETS: &[Target] = &[
+    csv::TARGET,
+    npy::TARGET,
+    json::TARGET,
+    svg::TARGET,
+    iso::TARGET,
+    counts::TARGET,
+    hal::TARGET,
+    halrun::TARGET,
+    gcode::TARGET,
+];
 
 /// The timed setpoints that are made to be judged when a target's own bytes are none.
 pub const SETPOINTS: Parts<Motion> = csv::PARTS;

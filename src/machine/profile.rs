@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::controller::Counts;
+use super::controller::{Counts, Gcode};
 use super::kinematics::Limits;
 use super::word::{Auto, Off, OrWord, Same, Stay, Unbounded, Unlimited};
 use crate::units::{MM_PER_INCH, MS_PER_S, deg, rad};
@@ -48,6 +48,8 @@ pub struct MachineProfile {
     pub time: Time,
     /// The encoders of the drives.
     pub counts: Counts,
+    /// The controller that reads G-code.
+    pub gcode: Gcode,
     /// What the verifier allows.
     pub verify: Verify,
     /// The texts of labels.
@@ -493,6 +495,7 @@ impl Default for MachineProfile {
             table: Table::default(),
             time: Time::default(),
             counts: Counts::default(),
+            gcode: Gcode::default(),
             verify: Verify::default(),
             labels: Labels::default(),
             codes: BTreeMap::new(),

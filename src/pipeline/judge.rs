@@ -53,6 +53,17 @@ pub(super) fn judge(source: &Source, input: &Input, job: &Job, program: &mut dyn
             bytes_read.read_to_end(&mut bytes)?;
             verify::cutter_file(&bytes, marker, source, job)
         }
+        Some(Kind::Positions) => {
+            let mut verdict = if job.mode.cuts() {
+                verify::positions(&mut bytes_read, marker, job)
+            } else {
+                verify::positions(&mut bytes_read, &uncut(marker, job.mode), job)
+            };
+            if !job.mode.cuts() {
+                verdict.findings.retain(|finding| !OF_CUTS.contains(&finding.rule));
+            }
+            verdict
+        }
         Some(Kind::Setpoints) | None if job.mode.cuts() => verify::setpoints(&mut bytes_read, marker, job),
         Some(Kind::Setpoints) | None => {
             let mut verdict = verify::setpoints(&mut bytes_read, &uncut(marker, job.mode), job);

@@ -71,7 +71,7 @@ impl Product<'_> {
     fn sink(&mut self) -> Option<Sink<'_>> {
         match &self.target.emit {
             Emit::Motion(parts) => Some(Sink { parts, out: &mut *self.out }),
-            Emit::Marker(_) | Emit::Toolpath(_) => None,
+            Emit::Marker(_) | Emit::Toolpath(_) | Emit::Toolpaths(_) => None,
         }
     }
 }
@@ -188,7 +188,8 @@ pub fn compile_all(
             judge(&mut scratch)?;
         }
     }
-    for Product { target, out } in products.iter_mut().filter(|product| product.target.proof == Proof::Marker) {
+    let by_itself = |product: &&mut Product| matches!(product.target.proof, Proof::Marker | Proof::Positions);
+    for Product { target, out } in products.iter_mut().filter(by_itself) {
         write_untimed(&target.emit, &toolpaths, &[], (&context, diagnostics), *out)?;
         if verify && !diagnostics.has_errors() {
             judge(&mut **out)?;
@@ -244,6 +245,7 @@ fn write_untimed(
             }
             (parts.tail)(context, findings, &mut out)?;
         }
+        Emit::Toolpaths(emit) => emit(context, toolpaths, &mut out, diagnostics)?,
         Emit::Motion(_) => {}
     }
     out.flush()

@@ -79,12 +79,11 @@ pub fn cutter_file(bytes: &[u8], marker: &Marker, source: &Source, job: &Job) ->
     same.see(wrong, || nowhere);
     for (told, meant) in found.iter().zip(&expected) {
         let sighting = meant.sighting().unwrap_or(nowhere);
-        match told.away(meant) {
-            Some(away) => place.see(away, || sighting),
-            None => {
-                wrong += 1.0;
-                same.see(wrong, || sighting);
-            }
+        if let Some(away) = told.away(meant) {
+            place.see(away, || sighting);
+        } else {
+            wrong += 1.0;
+            same.see(wrong, || sighting);
         }
     }
     let mut findings = vec![format.finding(), same.finding(), place.finding()];
