@@ -21,6 +21,76 @@ fn python(script: &str, directory: &Path) -> Output {
     Command::new("python3").args(["-c", script]).current_dir(directory).output().expect("python3 starts")
 }
 
+/// Way of the pen while it is down, mm, in a plot of plain PU and PD in units of 1/40 mm.
+fn pen_down(plot: &str) -> f64 {
+    let (mut at, mut way) = ([0.0, 0.0], 0.0);
+    for command in plot.split(';') {
+        let (name, numbers) = command.trim().split_at(command.trim().len().min(2));
+        if !["PU", "PD"].contains(&name) {
+            continue;
+        }
+        let numbers: Vec<f64> = numbers.split(',').filter_map(|number| number.parse().ok()).collect();
+        for pair in numbers.chunks_exact(2) {
+            if name == "PD" {
+                way += (pair[0] - at[0]).hypot(pair[1] - at[1]) / 40.0;
+            }
+            at = [pair[0], pair[1]];
+        }
+    }
+    way
+}
+
+/// Plots without texts that hp2xx 3.4.4 draws otherwise, and why.
+const OTHERWISE: [(&str, &str); 13] = [
+    ("arcs", "its arcs by three points are not numbers, its chords are others"),
+    ("beziers", "its chords are others"),
+    ("circle-with-a-cross", "its chords are others"),
+    ("circles", "its chords are others"),
+    ("rectangles-and-wedge", "its chords are others"),
+    ("encoded-and-saved-as-utf-8", "it repairs nothing"),
+    ("encoded-fractions", "it reads no fraction bits"),
+    ("fills-left-out", "it fills"),
+    ("junk-between", "it stops at junk"),
+    ("odd-coordinate", "it stops at a coordinate without its partner"),
+    ("pages", "it draws the first page alone"),
+    ("polygons", "it leaves out the edge that PM 1 adds"),
+    ("scaled-to-the-device", "its corners are those of another device"),
+];
+
+#[test]
+fn hp2xx_draws_the_same_way_of_the_pen() {
+    // It has no option that ends well without a plot.
+    if !is_there("hp2xx", Command::new("sh").args(["-c", "command -v hp2xx"])) {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a directory");
+    let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/hpgl");
+    let mut plots: Vec<_> =
+        std::fs::read_dir(fixtures).expect("a folder").map(|e| e.expect("readable").path()).collect();
+    plots.sort();
+    let mut compared = 0;
+    for plot in plots {
+        let name = plot.file_stem().and_then(|stem| stem.to_str()).expect("ASCII").to_owned();
+        // It letters texts, so that they are strokes.
+        let has_texts = std::fs::read(&plot).expect("readable").windows(2).any(|two| two == b"LB");
+        if has_texts || OTHERWISE.iter().any(|(other, _)| *other == name) {
+            continue;
+        }
+        compared += 1;
+        let mut other = Command::new("hp2xx");
+        other.args(["-q", "-t", "-m", "hpgl", "-f", "out.hpgl"]).arg(&plot).current_dir(folder.path());
+        assert!(other.output().expect("hp2xx starts").status.success(), "{name}");
+        let drawn = std::fs::read_to_string(folder.path().join("out.hpgl")).expect("hp2xx writes text");
+        let mut info = Command::new(env!("CARGO_BIN_EXE_cutc"));
+        let said = info.args(["info", "--format", "json"]).arg(&plot).output().expect("the program starts");
+        let report: serde_json::Value = serde_json::from_slice(&said.stdout).expect("JSON");
+        let found = report["pen_down_mm"].as_f64().unwrap_or_else(|| panic!("{name}: {report}"));
+        let expected = pen_down(&drawn);
+        assert!((found - expected).abs() <= 1e-3, "{name}: {found} mm instead of {expected}");
+    }
+    assert!(compared >= 25, "only {compared} plots were compared");
+}
+
 #[test]
 fn numpy_maps_an_array_and_finds_the_numbers_of_the_table() {
     if !is_there("numpy", Command::new("python3").args(["-c", "import numpy"])) {

@@ -35,6 +35,8 @@ fn sentence(grammar: &Grammar, seed: u32) -> Vec<u8> {
     let ends = ["\n", "\r\n"];
     text.replace("TEXT", texts[seed as usize % texts.len()])
         .replace("END", ends[seed as usize % ends.len()])
+        .replace("ETX", "\u{3}")
+        .replace("ESC", "\u{1b}")
         .into_bytes()
 }
 
@@ -218,6 +220,83 @@ fn every_layout_of_a_label_is_a_sentence_of_the_iso_grammar() {
         ("message", "M20*TEXT*"),
     ];
     check("iso", &layouts.into_iter().map(|(rule, text)| (rule, text.to_owned())).collect());
+}
+
+/// Instructions with their numbers, labels and comments of a plot, cut by other means than the reader's, up to the first
+/// thing that is none of these. Numbers are made alike, since any digits may stand there.
+fn plot_statements(bytes: &[u8]) -> Vec<(&'static str, String)> {
+    let mut statements = Vec::new();
+    let mut rest = bytes;
+    while let [first, second, behind @ ..] = rest {
+        if first.is_ascii_whitespace() {
+            rest = &rest[1..];
+            continue;
+        }
+        let mnemonic = String::from_utf8_lossy(&[*first, *second]).to_uppercase();
+        match mnemonic.as_str() {
+            "LB" => {
+                let Some(length) = behind.iter().position(|&byte| byte == 3) else { break };
+                statements.push(("text", "LBTEXTETX".to_owned()));
+                rest = &behind[length + 1..];
+            }
+            "CO" if behind.first() == Some(&b'"') => {
+                let Some(length) = behind.iter().skip(1).position(|&byte| byte == b'"') else { break };
+                statements.push(("text", "CO\"TEXT\";".to_owned()));
+                rest = &behind[length + 2..];
+            }
+            // A semicolon leads an instruction, or is all that is left of a label or a comment.
+            _ if *first == b';' && !leads_instruction(&rest[1..]) => rest = &rest[1..],
+            "PE" | "DT" => break,
+            _ => {
+                let leads = usize::from(*first == b';');
+                let numbers = &rest[leads + 2..];
+                let is_mnemonic = rest[leads..leads + 2].iter().all(u8::is_ascii_alphabetic);
+                let is_number = |byte: &u8| byte.is_ascii_digit() || b"+-., \t\r\n".contains(byte);
+                let length = numbers.iter().position(|byte| !is_number(byte)).unwrap_or(numbers.len());
+                let end = length + usize::from(leads == 0 && numbers.get(length) == Some(&b';'));
+                if !is_mnemonic {
+                    break;
+                }
+                let text = String::from_utf8_lossy(&rest[..leads + 2 + end]).to_uppercase();
+                let text = text.replace("\r\n", "END").replace('\n', "END");
+                statements.push(("instruction", with_short_numbers(&text)));
+                rest = &numbers[end..];
+            }
+        }
+    }
+    statements
+}
+
+/// Whether an instruction with numbers, or with nothing, comes first.
+fn leads_instruction(bytes: &[u8]) -> bool {
+    let name = String::from_utf8_lossy(&bytes[..bytes.len().min(2)]).to_uppercase();
+    name.len() == 2
+        && name.bytes().all(|byte| byte.is_ascii_alphabetic())
+        && !["LB", "CO", "PE", "DT"].contains(&&*name)
+}
+
+/// The same with a digit 1 for each run of digits.
+fn with_short_numbers(text: &str) -> String {
+    let mut out = String::new();
+    for c in text.chars() {
+        if !c.is_ascii_digit() {
+            out.push(c);
+        } else if !out.ends_with('1') {
+            out.push('1');
+        }
+    }
+    out
+}
+
+#[test]
+fn excerpts_of_all_plots_are_sentences_of_the_hpgl_grammar() {
+    let mut texts = BTreeSet::new();
+    for entry in fs::read_dir(folder("fixtures/hpgl")).expect("a folder") {
+        let bytes = fs::read(entry.expect("readable").path()).expect("readable");
+        texts.extend(plot_statements(&bytes));
+    }
+    assert!(texts.len() >= 50, "only {} statements", texts.len());
+    check("hpgl", &texts);
 }
 
 #[test]

@@ -2,9 +2,16 @@
 
 mod support;
 
-use cutc::geom::Point;
+use std::f64::consts::{PI, TAU};
+use std::io::Cursor;
+
+use cutc::back::TARGETS;
+use cutc::diagnostic::{Diagnostics, render};
+use cutc::geom::{Heading, Point};
 use cutc::ir::toolpath::{Pose, Shape, Step};
 use cutc::machine::Job;
+use cutc::pipeline;
+use cutc::source::Source;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -92,4 +99,20 @@ fn a_smooth_ring_has_no_heel_and_goes_past_its_start() {
     assert_eq!((runs.len(), runs[0].shape), (1, Shape::Ring));
     assert!(near(runs[0].start.ahead(4.0), points[0], 1e-9));
     assert!((runs[0].end.c.0 - runs[0].start.c.0 - std::f64::consts::TAU).abs() < 0.1);
+}
+
+#[test]
+fn a_line_that_ends_in_a_circle_is_cut_and_proven() {
+    for radius in [10.0, 15.0, 20.0, 30.0] {
+        let centre = Point::new(90.0 + radius, 0.0);
+        let circle = (0..=90).map(|i| centre + Heading::new(PI + TAU * f64::from(i) / 90.0).unit() * radius);
+        let rows = std::iter::once(Point::origin()).chain(circle).map(|at| format!("{:.3},{:.3}\n", at.x, at.y));
+        let text = rows.collect::<Vec<_>>().concat();
+        let source = Source::new("circle.csv", format!("x_mm,y_mm\n{text}").into_bytes()).expect("it is small");
+        let target = TARGETS.iter().find(|target| target.name == "csv").expect("setpoints are a target");
+        let order = pipeline::Order { from: None, target, verify: true };
+        let (mut out, mut diagnostics) = (Cursor::new(Vec::new()), Diagnostics::default());
+        let compiled = pipeline::compile(&source, &Job::default(), order, &mut out, &mut diagnostics);
+        assert!(compiled.is_ok_and(|compiled| compiled.is_some()), "{radius} mm: {}", render(&diagnostics, &source));
+    }
 }

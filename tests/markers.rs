@@ -28,6 +28,13 @@ fn make(order: &Order) -> Source {
     Source::new("made.cut", bytes).expect("made markers are small")
 }
 
+/// The same as a plot.
+fn make_plot(order: &Order) -> Source {
+    let mut bytes = Vec::new();
+    garment::write_plot(order, &mut bytes).expect("memory takes what is written");
+    Source::new("made.plt", bytes).expect("made markers are small")
+}
+
 /// A knife whose C axis lies far from the middle of the blade.
 fn eccentric() -> Job {
     let mut job = Job::default();
@@ -108,6 +115,22 @@ fn inch_markers_with_slits_compile_and_keep_the_limits() {
 #[test]
 fn spaced_markers_with_corner_lifts_compile_and_keep_the_limits() {
     check(Dialect::Spaced);
+}
+
+#[test]
+fn plots_with_spikes_compile_and_keep_the_limits() {
+    for (cutouts, seed) in [(false, 1), (true, 2)] {
+        let order = Order { pieces: PIECES, cutouts, seed, ..Order::default() };
+        let mut job = eccentric();
+        job.profile.hpgl.drill_max_mm = Some(4.0);
+        let (Compiled { report, verdict }, program) = compile(&make_plot(&order), &job);
+        let contours = PIECES + if cutouts { CUTOUTS } else { 0 };
+        assert_eq!((report.contours, report.closed_contours, report.drills), (contours, contours, 2), "{order:?}");
+        assert_eq!(report.labels, PIECES);
+        let broken: Vec<Finding> = verdict.expect("it was asked for").broken().cloned().collect();
+        assert!(broken.is_empty(), "{order:?}: {broken:?}");
+        check_limits(&program, &job.profile);
+    }
 }
 
 #[test]

@@ -4,24 +4,28 @@ mod support;
 
 use std::f64::consts::{FRAC_PI_4, PI};
 
+use cutc::diagnostic::Diagnostics;
 use cutc::geom::{Point, angle, polyline};
 use cutc::ir::list::Joint;
 use cutc::ir::toolpath::{End, Law, Pose, Run, Shape, Step, Toolpath};
-use cutc::machine::{Fit, Job};
+use cutc::machine::{self, Job};
+use cutc::pipeline;
 use cutc::plan::{self, Cut};
-use cutc::source::Span;
+use cutc::source::{Source, Span};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
 
 const PERIOD: f64 = 1e-3;
+/// Tolerance of the score profile, mm.
+const TOLERANCE: f64 = 0.05;
 
-/// Knife a point, no overlaps, no feed cap, tolerance 0.05 mm.
-fn score_job(fit: Fit) -> Job {
-    let mut job = Job::default();
-    job.profile.knife.width_mm = 0.0;
-    job.profile.knife.feed_mm_s = None;
-    job.profile.path.fit = fit;
-    job
+/// The score profile, with changes.
+fn score_job(changes: &[&str]) -> Job {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/machines/score.toml");
+    let file = Source::new("score.toml", std::fs::read(path).expect("the score profile")).expect("it is small");
+    let changes: Vec<String> = changes.iter().map(|&change| change.to_owned()).collect();
+    Job { profile: machine::load(Some(&file), &changes).expect("a profile"), ..Job::default() }
 }
 
 fn run(points: Vec<Point>, job: &Job) -> Run {
@@ -46,9 +50,10 @@ fn solve(run: Run, tolerance: f64, job: &Job) -> Cut {
     plan::solve(&toolpath, job).expect("a motion").remove(0)
 }
 
-fn duration(points: Vec<Point>, fit: Fit) -> f64 {
-    let job = score_job(fit);
-    solve(run(points, &job), 0.05, &job).duration
+/// The score profile's motion along points: the duration before it is stretched to whole periods, s.
+fn duration(points: Vec<Point>, changes: &[&str]) -> f64 {
+    let job = score_job(changes);
+    solve(run(points, &job), TOLERANCE, &job).duration
 }
 
 /// A path as files have it: straights, flattened curves, kinks below the corner angle, rounded to a grid.
@@ -104,15 +109,83 @@ fn the_four_contours_come_near_their_references() {
     for (name, reference) in
         [("contour2m_flat", 2.2276), ("sleeve_flat", 0.7023), ("circle64_flat", 0.4051), ("rrect5_flat", 1.5324)]
     {
-        let time = duration(support::contour(name), Fit::Polygon);
+        let points = support::contour(name);
+        let job = score_job(&[]);
+        let cut = solve(run(points.clone(), &job), TOLERANCE, &job);
+        let time = cut.duration;
         assert!(time <= 1.01 * reference, "{name}: {time:.4} s against {reference} s");
+        let tips: Vec<Point> = cut.poses.iter().map(|pose| pose.centre).collect();
+        for (from, to, what) in [(&tips, &points, "the knife off the line"), (&points, &tips, "the line off the way")] {
+            let away = from.iter().map(|&point| distance(point, to)).fold(0.0, f64::max);
+            // Between two samples the way is no chord: at 1 mm a sample and a radius of 5 mm they differ by 25 um.
+            assert!(away <= TOLERANCE + 0.025, "{name}: {what} by {away} mm");
+        }
     }
+}
+
+/// From a point to the nearest of a polyline, mm.
+fn distance(point: Point, line: &[Point]) -> f64 {
+    line.windows(2).map(|w| polyline::distance_to_segment(point, w[0], w[1])).fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn the_circle_of_the_seed_file_is_cut_in_two_fifths_of_a_second() {
+    let job = score_job(&["path.fit=\"curve\""]);
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/iso/seed-circle.cut");
+    let source = Source::new("seed-circle.cut", std::fs::read(path).expect("the file")).expect("it is small");
+    let input = pipeline::read(&source, None, &job, &mut Diagnostics::default()).expect("a cut file");
+    let marker = &input.marker;
+    let segments: Vec<_> = marker.list.walk(marker.pieces[0].contours[0].range).map(|(_, segment)| segment).collect();
+    let points = std::iter::once(segments[0].from).chain(segments.iter().map(|segment| segment.to)).collect();
+    let cut = solve(run(points, &job), job.profile.tolerance(marker.unit), &job);
+    assert!(cut.duration <= 0.42, "{} s", cut.duration);
 }
 
 #[test]
 fn a_straight_line_takes_its_analytic_time() {
-    let time = duration(vec![Point::new(0.0, 0.0), Point::new(500.0, 0.0)], Fit::Polygon);
+    let time = duration(vec![Point::new(0.0, 0.0), Point::new(500.0, 0.0)], &[]);
     assert!((time - 0.606_67).abs() < 2e-4 * 0.606_67);
+}
+
+/// A path of straights and bends, 0.3 mm to 3 m long.
+fn path_of_any_length(random: &mut ChaCha8Rng) -> Vec<Point> {
+    let length = 0.3 * 10_f64.powf(random.random_range(0.0..4.0));
+    let chords = random.random_range(2..40);
+    let mut heading: f64 = random.random_range(-PI..PI);
+    let mut points = vec![Point::origin()];
+    for _ in 0..chords {
+        heading += random.random_range(-0.7..0.7) * random.random_range(0.0_f64..1.0).powi(3);
+        let share = random.random_range(0.2..1.8) * length / f64::from(chords);
+        points.push(points[points.len() - 1] + cutc::geom::Heading::new(heading).unit() * share);
+    }
+    points
+}
+
+#[test]
+fn a_thousand_runs_of_any_length_keep_the_limits_and_take_as_long_backward_and_turned() {
+    let point = score_job(&[]);
+    let mut eccentric = Job::default();
+    eccentric.profile.knife.back_mm = Some(2.2);
+    assert!((eccentric.profile.knife.radius() - 4.4).abs() < 1e-9);
+    (0..1000_u64).into_par_iter().for_each(|seed| {
+        let points = path_of_any_length(&mut ChaCha8Rng::seed_from_u64(seed));
+        let job = if seed % 2 == 0 { &point } else { &eccentric };
+        let width = job.profile.knife.width_mm;
+        if width > 0.0 && polyline::first_at_distance(&points, width + 1.0).is_none() {
+            return; // shorter than the blade: a stab, which is no run
+        }
+        let cut = solve(run(points.clone(), job), TOLERANCE, job);
+        let excess = excess(&cut.poses, job);
+        assert!(excess <= 1.001, "seed {seed}: {excess} of a limit");
+        if width == 0.0 {
+            let backward: Vec<Point> = points.iter().rev().copied().collect();
+            let turned: Vec<Point> = points.iter().map(|p| Point::new(-p.y, p.x)).collect();
+            for (points, what) in [(backward, "backward"), (turned, "turned")] {
+                let share = solve(run(points, job), TOLERANCE, job).duration / cut.duration;
+                assert!((share - 1.0).abs() < 0.002, "seed {seed}: {what} it takes {share} of the time");
+            }
+        }
+    });
 }
 
 #[test]

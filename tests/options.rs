@@ -171,3 +171,42 @@ fn explanations_completions_and_the_manual_are_printed() {
     let page = run(&room, "man", 0);
     assert!(page.contains(".TH cutc") && page.contains("cutc\\-compile") && page.contains("resume\\-from"), "{page}");
 }
+
+#[test]
+fn lines_of_a_plot_are_chosen_by_pen_and_kind_and_the_program_says_so() {
+    let room = room();
+    let plot = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/hpgl/two-pens.plt");
+    fs::copy(plot, room.path().join("p.plt")).expect("a copy");
+    let said = run(&room, "info p.plt", 0);
+    for line in [
+        "part                  2        670.000",
+        "cut-out               1         70.000",
+        "pen down                       740.000",
+    ] {
+        assert!(said.contains(line), "{line} in {said}");
+    }
+    let check = |choice: &str, code: i32, classes: &[(&str, u64, bool)]| {
+        let said = run(&room, &format!("info p.plt --format json {choice}"), code);
+        let text = said.split_inclusive("\n}\n").next().unwrap_or_default();
+        let value: serde_json::Value = serde_json::from_str(text).expect("JSON");
+        assert_eq!(value["pen_down_mm"].as_f64(), Some(740.0), "{choice}");
+        let lines = value["lines"].as_array().expect("classes");
+        let found: Vec<(&str, u64, bool)> = lines
+            .iter()
+            .map(|line| (line["class"].as_str(), line["count"].as_u64(), line["cut"].as_bool()))
+            .map(|(class, count, cut)| (class.expect("a name"), count.expect("a count"), cut.expect("a flag")))
+            .collect();
+        assert_eq!(found, classes, "{choice}");
+    };
+    check("", 0, &[("part", 2, true), ("cut-out", 1, true)]);
+    check("--cut closed", 0, &[("part", 2, true), ("cut-out", 1, true)]);
+    check("--cut-pens 2", 0, &[("part", 1, true), ("other pen", 2, false)]);
+    check("--cut-pens 1 --cut all", 0, &[("part", 2, true), ("other pen", 1, false)]);
+    check("--cut open", 1, &[("other line", 3, false)]);
+    let said = run(&room, "compile p.plt -o p.csv --cut-pens 2", 0);
+    assert!(said.contains("--cut-pens 2"), "{said}");
+    run(&room, "verify p.csv --source p.plt --cut-pens 2", 0);
+    run(&room, "verify p.csv --source p.plt", 1);
+    let said = run(&room, "info m.cut --cut-pens x", 2);
+    assert!(said.contains("--cut-pens"), "{said}");
+}

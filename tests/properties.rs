@@ -66,14 +66,15 @@ fn a_spaced_file_with_corner_lifts_and_no_pieces_is_read_as_the_marker_that_was_
     check(Shape::Spaced);
 }
 
-/// Every valid cut file of the fixtures, with its name, in order.
+/// Every valid cut file and plot of the fixtures, with its name, in order.
 fn fixtures() -> Vec<(String, Vec<u8>)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/iso");
-    let entries = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("readable").path());
+    let folder = |name| Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(name);
+    let entries = ["iso", "hpgl"].map(|name| fs::read_dir(folder(name)).expect("a folder"));
+    let entries = entries.into_iter().flatten().map(|entry| entry.expect("readable").path());
     let mut files: Vec<(String, Vec<u8>)> =
         entries.map(|path| (path.display().to_string(), fs::read(path).expect("readable"))).collect();
     files.sort();
-    assert!(files.len() >= 40, "only {} fixtures", files.len());
+    assert!(files.len() >= 80, "only {} fixtures", files.len());
     files
 }
 

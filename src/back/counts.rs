@@ -73,7 +73,7 @@ fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<
                 wrapped(pose.centre.y * scales.y.per_mm + scales.y.offset),
                 wrapped(turn.shown_deg(pose.c.0) * scales.c.per_deg + scales.c.offset),
             ];
-            for count in counts {
+            for count in &counts {
                 records.extend_from_slice(&count.to_le_bytes());
             }
             records.extend_from_slice(&outputs.to_le_bytes());

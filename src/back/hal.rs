@@ -1,4 +1,4 @@
-//! Target `hal`: timed setpoints as the text that LinuxCNC's `halstreamer` takes, a row a servo period.
+//! Target `hal`: timed setpoints as the text that `LinuxCNC`'s `halstreamer` takes, a row a servo period.
 //!
 //! `x_mm y_mm c_deg knife drill event block`, for `loadrt streamer cfg=fffbuuu`. C is that of the controller
 //! (`c.offset_deg`, `c.reverse`). Nine decimals: with three, an axis that keeps its limits lags by micrometres.

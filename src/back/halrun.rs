@@ -1,4 +1,4 @@
-//! Target `halrun`: the `.hal` file that plays the rows of the target `hal` on LinuxCNC's real-time layer.
+//! Target `halrun`: the `.hal` file that plays the rows of the target `hal` on `LinuxCNC`'s real-time layer.
 //!
 //! It expects the rows beside it under the name that they have by default. The signals `x-pos`, `y-pos`, `c-pos`,
 //! `knife`, `drill`, `event` and `block` are what the file of the machine connects to its drives and outputs.

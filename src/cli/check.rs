@@ -38,7 +38,7 @@ struct Verdict {
 }
 
 pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
-    let job = match arguments.reading.machine.job()? {
+    let job = match arguments.reading.job()? {
         Ok(job) => job,
         Err(refused) => return Ok(refused),
     };

@@ -5,6 +5,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use crate::back::{TARGETS, Target};
 use crate::front::{DIALECTS, Dialect};
+use crate::machine::plot::LineKind;
 use crate::pass::marker::MARKER_PASSES;
 use crate::pass::toolpath::TOOLPATH_PASSES;
 
@@ -15,6 +16,27 @@ pub(super) enum Format {
     Text,
     /// For programs: JSON on standard output
     Json,
+}
+
+/// Which lines of a plot are cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Cut {
+    /// Every line
+    All,
+    /// Lines that end where they start
+    Closed,
+    /// Lines that do not
+    Open,
+}
+
+impl From<Cut> for LineKind {
+    fn from(cut: Cut) -> Self {
+        match cut {
+            Cut::All => Self::All,
+            Cut::Closed => Self::Closed,
+            Cut::Open => Self::Open,
+        }
+    }
 }
 
 /// Reads the name of a target.

@@ -91,7 +91,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
         ));
     }
     let source = files::read(&arguments.file)?;
-    let job = match arguments.reading.machine.job()? {
+    let job = match arguments.reading.job()? {
         Ok(job) => arguments.choice.of(job),
         Err(mut refused) => {
             // A slip in an argument is no verdict on the program that is there.
@@ -116,7 +116,7 @@ fn move_aside(paths: &[PathBuf]) -> String {
 /// What `--dump-after` prints.
 fn dump(arguments: &Arguments, pass: &str) -> anyhow::Result<Finished> {
     let source = files::read(&arguments.file)?;
-    let job = match arguments.reading.machine.job()? {
+    let job = match arguments.reading.job()? {
         Ok(job) => arguments.choice.of(job),
         Err(refused) => return Ok(refused),
     };

@@ -9,7 +9,8 @@ use super::choices::Format;
 use super::facts::Facts;
 use super::labels::{self, Labelled};
 use super::options::Reading;
-use super::{DONE, FAULTY, Finished, files, report, summary};
+use super::times::{self, Timed};
+use super::{DONE, FAULTY, Finished, drawn, files, report, summary};
 use crate::diagnostic::{Diagnostics, render};
 use crate::ir::Marker;
 use crate::pipeline::{self, Report};
@@ -31,26 +32,40 @@ pub(super) struct Arguments {
     #[arg(long)]
     labels: bool,
 
+    /// Also plan the program: what it takes, piece by piece, and what keeps it from being faster
+    ///
+    /// Nothing is written and nothing is verified.
+    #[arg(long)]
+    time: bool,
+
     /// How to give the figures
     ///
     /// JSON has the keys of `cutc compile`, with null for what only planning knows, and `notch_depths`, `speeds` and
-    /// `events`; with --labels also `labels_by_piece`.
+    /// `events`; with --labels also `labels_by_piece`, with --time what planning knows, and `time_by_piece`.
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }
 
 pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     let source = files::read(&arguments.file)?;
-    let job = match arguments.reading.machine.job()? {
+    let job = match arguments.reading.job()? {
         Ok(job) => job,
         Err(refused) => return Ok(refused),
     };
     let mut diagnostics = Diagnostics::default();
     let input = pipeline::read(&source, arguments.reading.from, &job, &mut diagnostics);
-    let known = input.map(|input| {
-        let labels = arguments.labels.then(|| labels::of(&input.marker, &source, &job));
-        Known { labels_by_piece: labels, ..Known::of(&input.marker, input.dialect.name) }
-    });
+    let mut known = None;
+    if let Some(input) = input {
+        let mut all = Known::of(&input.marker, input.dialect.name);
+        if arguments.labels {
+            all.labels_by_piece = Some(labels::of(&input.marker, &source, &job));
+        }
+        if arguments.time && !diagnostics.has_errors() {
+            all.report.program = pipeline::estimate(&input, &source, &job, &mut diagnostics)?;
+            all.time_by_piece = Some(times::of(&all.report.program));
+        }
+        known = Some(all);
+    }
     let stdout = match (arguments.format, &known) {
         (Format::Json, Some(known)) => report::json_of(known, &diagnostics, &source),
         (Format::Json, None) => {
@@ -74,15 +89,31 @@ struct Known {
     /// Only when it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     labels_by_piece: Option<Vec<Labelled>>,
+    /// Likewise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    time_by_piece: Option<Vec<Timed>>,
 }
 
 impl Known {
     fn of(marker: &Marker, dialect: &'static str) -> Self {
-        Self { report: Report::of(marker, dialect), facts: Facts::of(marker), labels_by_piece: None }
+        Self {
+            report: Report::of(marker, dialect),
+            facts: Facts::of(marker),
+            labels_by_piece: None,
+            time_by_piece: None,
+        }
     }
 
     fn text(&self, source: &Source, diagnostics: &Diagnostics) -> String {
-        let figures = summary::text(&self.report, source.name(), diagnostics);
-        figures + &self.facts.text() + &self.labels_by_piece.as_deref().map_or(String::new(), labels::text)
+        let mut out = summary::text(&self.report, source.name(), diagnostics);
+        out += &drawn::text(&self.report);
+        out += &self.facts.text();
+        if let Some(labels) = &self.labels_by_piece {
+            out += &labels::text(labels);
+        }
+        if let Some(times) = &self.time_by_piece {
+            out += &times::text(times);
+        }
+        out
     }
 }

@@ -7,6 +7,7 @@ mod check;
 mod choices;
 mod compile;
 mod completions;
+mod drawn;
 mod explain;
 mod explanations;
 mod facts;
@@ -19,6 +20,7 @@ mod profile;
 mod provenance;
 mod report;
 mod summary;
+mod times;
 mod verdict;
 mod verify;
 

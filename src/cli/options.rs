@@ -7,6 +7,7 @@ use clap::Args;
 use super::{FAULTY, Finished, USAGE, choices, failure, files, say};
 use crate::diagnostic::{Severity, render};
 use crate::front::Dialect;
+use crate::machine::plot::{LineKind, Lines};
 use crate::machine::{Faults, Job, MachineProfile, Mode, NotNumbers, Numbers, Selection, load};
 use crate::source::Source;
 
@@ -35,7 +36,35 @@ pub(super) struct Reading {
     pub(super) from: Option<&'static Dialect>,
 
     #[command(flatten)]
+    lines: Plotted,
+
+    #[command(flatten)]
     pub(super) machine: Machine,
+}
+
+/// Which lines of a plot are cut.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Plots (HPGL)")]
+struct Plotted {
+    /// Of a plot, cut the lines of these pens only, as in `--cut-pens 4`
+    ///
+    /// Overrides `hpgl.pens` of the profile. `cutc info` shows what the lines of a plot were taken for.
+    #[arg(long, value_name = "NUMBERS", value_parser = numbers)]
+    cut_pens: Option<Numbers>,
+
+    /// Of a plot, cut every line, or all closed or all open ones, whatever their shapes say
+    ///
+    /// Without it closed outlines and their notches are cut; frames, texts and other lines are not.
+    #[arg(long, value_name = "LINES", value_enum)]
+    cut: Option<choices::Cut>,
+}
+
+impl Reading {
+    /// The job on this machine with these lines, or what is wrong with its profile.
+    pub(super) fn job(&self) -> anyhow::Result<Result<Job, Finished>> {
+        let lines = Lines { pens: self.lines.cut_pens.clone(), kind: self.lines.cut.map(Into::into) };
+        Ok(self.machine.job()?.map(|job| Job { lines, ..job }))
+    }
 }
 
 /// What of a marker is cut, and whether the knife goes down.
@@ -88,6 +117,15 @@ impl Choice {
 pub(super) fn typed(job: &Job) -> String {
     let Selection { pieces, skip, resume_from } = &job.selection;
     let mut words = Vec::new();
+    words.extend(job.lines.pens.iter().map(|numbers| format!("--cut-pens {numbers}")));
+    words.extend(job.lines.kind.iter().map(|kind| {
+        let name = match kind {
+            LineKind::All => "all",
+            LineKind::Closed => "closed",
+            LineKind::Open => "open",
+        };
+        format!("--cut {name}")
+    }));
     words.extend(pieces.iter().map(|numbers| format!("--pieces {numbers}")));
     words.extend(skip.iter().map(|numbers| format!("--skip {numbers}")));
     words.extend(resume_from.iter().map(|number| format!("--resume-from {number}")));

@@ -56,7 +56,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
         return Ok(Finished::text(stdout, format!("error: {not}\n"), FAULTY));
     }
     let source = files::read(&arguments.source)?;
-    let job = match arguments.reading.machine.job()? {
+    let job = match arguments.reading.job()? {
         Ok(job) => arguments.choice.of(job),
         Err(refused) => return Ok(refused),
     };

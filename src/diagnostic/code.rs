@@ -81,6 +81,44 @@ mod table {
     /// No contour, slit or drill.
     pub static ISO_NOTHING_TO_CUT: Code = error("iso/nothing-to-cut", "The file was read to its end and holds no contour, slit or drill.");
 
+    // HPGL plots.
+    /// Junk.
+    pub static HPGL_NOT_A_PLOT: Code = error("hpgl/not-a-plot", "Most of what stands in the file is no instruction of a plotter.");
+    /// A number too large to be a place on a table.
+    pub static HPGL_OVERFLOW: Code = error("hpgl/number-overflow", "A coordinate of a plot is beyond any table.");
+    /// Bytes of PE that mean nothing.
+    pub static HPGL_PE_DAMAGED: Code = error("hpgl/encoding-damaged", "An encoded polyline (PE) holds a byte that cannot stand there, or ends amid a number.");
+    /// PE without its end.
+    pub static HPGL_PE_OPEN: Code = warning("hpgl/encoding-open", "An encoded polyline (PE) has no semicolon, and the file ends with it.");
+    /// PE that became text.
+    pub static HPGL_PE_REPAIRED: Code = warning("hpgl/encoding-repaired", "The plot was saved again as UTF-8, which doubles bytes of encoded polylines (PE); they were put together again.");
+    /// LB without its end.
+    pub static HPGL_OPEN_LABEL: Code = warning("hpgl/open-label", "A label of a plot has no terminator; it ends with its line, or at a semicolon.");
+    /// Bytes between instructions.
+    pub static HPGL_JUNK: Code = warning("hpgl/junk", "Bytes of a plot begin no instruction and were passed over; the message gives their count and first place.");
+    /// X without Y.
+    pub static HPGL_ODD: Code = warning("hpgl/odd-coordinate", "A list of coordinates in a plot has an odd number of values; the last one is ignored.");
+    /// A mnemonic that is not in the table.
+    pub static HPGL_UNKNOWN: Code = warning("hpgl/unknown-instruction", "A plot has an instruction that cutc does not know; it is ignored, and the message gives its count and first place.");
+    /// What draws and is not cut.
+    pub static HPGL_LEFT_OUT: Code = warning("hpgl/instruction-not-obeyed", "A plot has an instruction that draws or moves and is not obeyed: fills, drawn characters, windows.");
+    /// A size that depends on the plotter.
+    pub static HPGL_SCALE: Code = warning("hpgl/scale-of-device", "A plot is scaled to corners or a page that it does not give; the corners of a plotter for A4 paper are taken.");
+    /// More than one page.
+    pub static HPGL_PAGES: Code = warning("hpgl/several-pages", "A plot draws on after a page went out; the pages lie on each other.");
+    /// The file ends amid a line.
+    pub static HPGL_ENDS_PEN_DOWN: Code = error("hpgl/ends-pen-down", "A plot ends while the pen draws a line that does not close: it is most likely cut short.");
+    /// An outline with a gap.
+    pub static HPGL_OPEN_OUTLINE: Code = warning("hpgl/open-outline", "A long line of a plot nearly closes, but not quite: it may be an outline, and is not cut.");
+    /// A rectangle around all.
+    pub static HPGL_FRAME: Code = warning("hpgl/frame", "A rectangle that holds all outlines of a plot is taken for the frame of the marker and is not cut.");
+    /// A search that was ended.
+    pub static HPGL_TOO_MANY: Code = warning("hpgl/too-many-lines", "A plot has so many lines that the search for what belongs to what was ended; some cut-outs, notches and letters are not recognised.");
+    /// Another size than the texts say, or than any table has.
+    pub static HPGL_UNIT_DOUBTFUL: Code = warning("hpgl/unit-doubtful", "The extent of a plot, or a length that stands in its texts, suggests another unit; set `hpgl.unit` if it is.");
+    /// No part.
+    pub static HPGL_NOTHING_TO_CUT: Code = error("hpgl/nothing-to-cut", "The plot was read to its end and no line of it is taken for something to cut.");
+
     // CSV polylines.
     /// The header is missing.
     pub static CSV_HEADER: Code = error("csv/header", "The first row must be `x_mm,y_mm`.");
@@ -180,6 +218,24 @@ pub static ALL: &[&Code] = &[
     &ISO_NO_POSITION,
     &ISO_DRILL_KNIFE_DOWN,
     &ISO_NOTHING_TO_CUT,
+    &HPGL_NOT_A_PLOT,
+    &HPGL_OVERFLOW,
+    &HPGL_PE_DAMAGED,
+    &HPGL_PE_OPEN,
+    &HPGL_PE_REPAIRED,
+    &HPGL_OPEN_LABEL,
+    &HPGL_JUNK,
+    &HPGL_ODD,
+    &HPGL_UNKNOWN,
+    &HPGL_LEFT_OUT,
+    &HPGL_SCALE,
+    &HPGL_PAGES,
+    &HPGL_ENDS_PEN_DOWN,
+    &HPGL_OPEN_OUTLINE,
+    &HPGL_FRAME,
+    &HPGL_TOO_MANY,
+    &HPGL_UNIT_DOUBTFUL,
+    &HPGL_NOTHING_TO_CUT,
     &CSV_HEADER,
     &CSV_ROW,
     &CSV_NO_LENGTH,

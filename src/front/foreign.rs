@@ -3,8 +3,21 @@
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::source::Source;
 
-/// Reports an empty or a foreign file; `true` when it is one.
+/// Reports an empty file, or one of another format, be it another dialect of ours; `true` when it is one.
 pub(super) fn refuse(source: &Source, out: &mut Diagnostics) -> bool {
+    if refuse_unread(source, out) {
+        return true;
+    }
+    let is_plot = is_hpgl(source.bytes());
+    if is_plot {
+        let message = "this is an HPGL plot, not a cutter file";
+        out.push(Diagnostic::new(&code::SOURCE_UNKNOWN, message).hint("leave out `--from`, or give `--from hpgl`"));
+    }
+    is_plot
+}
+
+/// Reports an empty file, or one of a format that no dialect reads; `true` when it is one.
+pub(super) fn refuse_unread(source: &Source, out: &mut Diagnostics) -> bool {
     let bytes = source.bytes();
     if bytes.iter().all(|&byte| byte.is_ascii_whitespace() || byte == 0 || byte == 0x1a) {
         let finding = Diagnostic::new(&code::SOURCE_EMPTY, "the file is empty");
@@ -42,7 +55,6 @@ const FORMATS: &[Format] = &[
         is: is_circuit_board,
     },
     Format { what: "a DXF drawing", hint: EXPORT_CUT, is: is_dxf },
-    Format { what: "an HPGL plot", hint: EXPORT_CUT, is: is_hpgl },
     Format {
         what: "G-code for a machine tool",
         hint: "its blocks end with the line; cutter files end them with `*`",
@@ -146,10 +158,17 @@ mod tests {
         check(b"PK\x03\x04\x14\0", Some("a zip archive"));
         check(b"G04 comment*\n%FSLAX24Y24*%\n%MOIN*%\nX0Y0D02*", Some("a Gerber file for circuit boards (RS-274X)"));
         check(b"%\nG21\nG0 X1 Y2\nM30\n", Some("G-code for a machine tool"));
-        check(b"IN;SP1;PU0,0;PD400,0;", Some("an HPGL plot"));
         check(b"  0\r\nSECTION\r\n  2\r\nHEADER\r\n", Some("a DXF drawing"));
         check(b"H\x001\0*\0M\x001\x005\0*\0", Some("text in UTF-16"));
         check(b"\x01\x02\x7f\x03abc\x04\x05", Some("binary data"));
+    }
+
+    #[test]
+    fn a_plot_is_foreign_to_other_dialects_only() {
+        let source = Source::new("a.cut", b"IN;SP1;PU0,0;PD400,0;".to_vec()).expect("small");
+        let mut found = Diagnostics::default();
+        assert!(!refuse_unread(&source, &mut found) && !found.has_errors());
+        assert!(refuse(&source, &mut found) && found.has_errors());
     }
 
     #[test]

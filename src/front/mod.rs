@@ -6,6 +6,7 @@
 
 mod csv;
 mod foreign;
+mod hpgl;
 mod iso;
 
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -42,7 +43,7 @@ pub enum Likeness {
 }
 
 /// Every dialect, the likelier ones first.
-pub const DIALECTS: &[Dialect] = &[iso::DIALECT, csv::DIALECT];
+pub const DIALECTS: &[Dialect] = &[iso::DIALECT, hpgl::DIALECT, csv::DIALECT];
 
 /// The dialect of that name.
 pub fn by_name(name: &str) -> Option<&'static Dialect> {
@@ -56,7 +57,7 @@ pub fn detect(
     name_extension: Option<&str>,
     diagnostics: &mut Diagnostics,
 ) -> Option<&'static Dialect> {
-    if foreign::refuse(source, diagnostics) {
+    if foreign::refuse_unread(source, diagnostics) {
         return None;
     }
     let named = |dialect: &Dialect| {
@@ -93,6 +94,10 @@ mod tests {
         check(b"x,y*\n", None, Some("iso"));
         check(b"x,y*\n", Some("CSV"), Some("csv"));
         check(b"1.5,2.5\n", None, Some("csv"));
+        check(b"IN;SP1;PU0,0;PD400,0;", Some("cut"), Some("hpgl"));
+        check(b";PU7,4\r\n;PD8,4,9,9\r\n;PU\r\n", Some("gbr"), Some("hpgl"));
+        check(b"\x1b%0BIN;LBa*b*c*d*\x03PU1,1;PD2,2;", Some("nc"), Some("hpgl"));
+        check(b"H1*G71*M15*N1*M20*IN;PU;PD*M0*", Some("plt"), Some("iso"));
         check(b"hello world\n", Some("cut"), None);
         check(b" \r\n\x1a", Some("cut"), None);
     }

@@ -87,20 +87,22 @@ pub struct SegmentList {
 }
 
 impl SegmentList {
+    /// Makes room for so many more segments.
+    pub fn reserve(&mut self, segments: usize) {
+        self.links.reserve(segments);
+        self.segments.reserve(segments);
+    }
+
     /// Appends a chain of segments as a range of its own; `None` when there are none.
     pub fn append(&mut self, chain: impl IntoIterator<Item = Segment>) -> Option<Range> {
         let first = self.segments.len() as u32;
-        for segment in chain {
-            let id = self.segments.len() as u32;
-            let prev = if id == first { NONE } else { id - 1 };
-            if prev != NONE {
-                self.links[prev as usize].next = id;
-            }
-            self.links.push(Links { prev, next: NONE });
-            self.segments.push(segment);
-        }
+        self.segments.extend(chain);
+        assert!(self.segments.len() < NONE as usize, "a source below 4 GiB holds fewer than 2^32 - 1 segments");
         let end = self.segments.len() as u32;
-        assert!(end < NONE, "a source below 4 GiB holds fewer than 2^32 - 1 segments");
+        self.links.extend((first..end).map(|id| Links {
+            prev: if id == first { NONE } else { id - 1 },
+            next: if id + 1 == end { NONE } else { id + 1 },
+        }));
         (end > first).then(|| Range { first: SegmentId(first), last: SegmentId(end - 1), backward: false })
     }
 

@@ -16,6 +16,43 @@ pub struct Marker {
     pub unit: f64,
     /// What happens behind the last piece.
     pub closing: Vec<Event>,
+    /// Of a plot: what all of its lines were taken for.
+    pub drawing: Option<Drawing>,
+}
+
+/// The lines of a plot. A plot does not say what is cut; the reader decides by pens and shapes, and keeps account of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drawing {
+    /// Way of the pen while it is down, mm; texts that the plotter letters are not in it.
+    pub pen_down: f64,
+    /// What the lines were taken for, in a fixed order.
+    pub classes: Vec<DrawnClass>,
+    /// What is drawn beyond what the marker cuts.
+    pub aside: Aside,
+}
+
+/// Lines of a plot that were taken for the same thing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DrawnClass {
+    /// What they were taken for, in a word or two.
+    pub name: &'static str,
+    /// Whether such lines are cut or drilled.
+    pub cut: bool,
+    /// How many there are.
+    pub count: usize,
+    /// Length as drawn, mm.
+    pub length: f64,
+}
+
+/// What is drawn and not cut: lines, the way back of notches, outlines of holes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Aside {
+    /// Places that the pen is led to; the chords of a curve are one.
+    pub points: usize,
+    /// Length, mm.
+    pub length: f64,
+    /// The box around it, mm.
+    pub bounds: Extent,
 }
 
 /// A piece of the garment, or what the file calls one.

@@ -6,6 +6,7 @@ use std::fmt;
 use std::ops::{Bound, RangeBounds as _};
 
 use super::encoding;
+use super::plot::{GREATEST_UNIT_MM, LEAST_UNIT_MM, PlotUnit};
 use crate::units::number::exact;
 
 /// A key of the profile: a row of [`KEYS`].
@@ -36,6 +37,8 @@ pub enum Takes {
     PoseOr(&'static str),
     /// Two numbers, the first one smaller, or a word.
     RangeOr(&'static str),
+    /// A number in a range, or a text that stands for one, such as "1/40 mm".
+    Length(Within),
     /// One of some words.
     Word(&'static [&'static str]),
     /// The name of an encoding of texts.
@@ -101,6 +104,10 @@ impl Takes {
             Self::Pose => places(3),
             Self::PoseOr(word) => is(word) || places(3),
             Self::RangeOr(word) => is(word) || (places(2) && list(2).is_some_and(|ends| ends[0] < ends[1])),
+            Self::Length(within) => {
+                let text = value.as_str().and_then(PlotUnit::parse).map(|unit| unit.mm());
+                text.or_else(|| number(value)).is_some_and(|v| within.holds(v))
+            }
             Self::Word(words) => words.iter().any(|word| is(word)),
             Self::Encoding => value.as_str().is_some_and(|name| encoding::find(name).is_some()),
             Self::Text => {
@@ -181,6 +188,9 @@ impl Key {
             Takes::Pose => "three numbers [x_mm, y_mm, c_deg]".to_owned(),
             Takes::PoseOr(word) => format!("three numbers [x_mm, y_mm, c_deg], or \"{word}\""),
             Takes::RangeOr(word) => format!("two numbers [least, greatest]{unit}, or \"{word}\""),
+            Takes::Length(within) => {
+                format!("a number {within} mm, or a text such as \"1/40 mm\", \"1/1000 in\", \"600 dpi\"")
+            }
             Takes::Word([words @ .., last]) if !words.is_empty() => {
                 let words: Vec<_> = words.iter().map(|word| format!("\"{word}\"")).collect();
                 format!("{} or \"{last}\"", words.join(", "))
@@ -192,6 +202,11 @@ impl Key {
         }
     }
 
+    /// Whether it stands for a key a code or a pen.
+    pub fn is_family(&self) -> bool {
+        self.name.ends_with('>')
+    }
+
     /// The part of its name before the last dot; empty for the keys at the top.
     pub fn section(&self) -> &'static str {
         self.name.rsplit_once('.').map_or("", |(section, _)| section)
@@ -201,10 +216,17 @@ impl Key {
 /// The start of the names of the keys that switch a code of the cutter file.
 pub const CODES: &str = "codes";
 
+/// The start of the names of the keys that say what a pen of a plot stands for.
+pub const PENS: &str = "hpgl.pens";
+
 /// The key of that dotted name.
 pub fn find(name: &str) -> Option<&'static Key> {
-    let code = name.strip_prefix(CODES).and_then(|rest| rest.strip_prefix('.'));
-    let name = if code.is_some_and(is_code) { "codes.<code>" } else { name };
+    let of = |family: &str| name.strip_prefix(family).and_then(|rest| rest.strip_prefix('.'));
+    let name = match (of(CODES), of(PENS)) {
+        (Some(code), _) if is_code(code) => "codes.<code>",
+        (_, Some(pen)) if is_pen(pen) => "hpgl.pens.<pen>",
+        _ => name,
+    };
     KEYS.iter().find(|key| key.name == name)
 }
 
@@ -244,6 +266,12 @@ pub fn near_codes(name: &str) -> Option<Vec<String>> {
     };
     codes.sort_by_key(|code| strsim::damerau_levenshtein(&typed, code)); // stable: the table's order among equals
     Some(codes.into_iter().take(NEAR_CODES).map(|code| format!("{CODES}.{code}")).collect())
+}
+
+/// Whether a word is the number of a pen: up to three digits, written in one way only.
+fn is_pen(word: &str) -> bool {
+    let is_number = !word.is_empty() && word.len() <= 3 && word.bytes().all(|byte| byte.is_ascii_digit());
+    is_number && (word == "0" || !word.starts_with('0'))
 }
 
 /// Whether the name is that of a table of keys, such as `axes.x`.
@@ -300,7 +328,7 @@ pub const KEYS: &[Key] = &[
     Key { name: "drill.dwell_ms", takes: Takes::Number(REST), about: "Time for one drill hole; the axes rest." },
     Key { name: "drill.offset_mm", takes: Takes::Point, about: "Where the drill stands, seen from the C axis." },
 
-    Key { name: "corner.angle_deg", takes: Takes::Number(between(0.0, 180.0)), about: "Lift and plunge corner angle: where the line turns by more than this the knife is lifted and\nturned in the air." },
+    Key { name: "corner.angle_deg", takes: Takes::Number(between(0.0, 75.0)), about: "Lift and plunge corner angle: where the line turns by more than this the knife is lifted and\nturned in the air; a blade in the cloth cannot follow sharper ones." },
 
     Key { name: "slow.before_corner_mm", takes: Takes::NumberOr(from(0.1, 1000.0), "off"), about: "How far before a corner the knife slows down." },
     Key { name: "slow.before_corner_percent", takes: Takes::Number(from(1.0, 100.0)), about: "Speed of the knife there, a part of what it would be." },
@@ -369,6 +397,9 @@ pub const KEYS: &[Key] = &[
     Key { name: "verify.max_overcut_neighbour_mm", takes: Takes::NumberOr(from(0.0, 1000.0), "off"), about: "Farthest overcut into another part." },
     Key { name: "verify.max_overcut_waste_mm", takes: Takes::NumberOr(from(0.0, 1000.0), "off"), about: "Farthest overcut into waste." },
 
+    Key { name: "hpgl.unit", takes: Takes::Length(from(LEAST_UNIT_MM, GREATEST_UNIT_MM)), about: "Unit of the numbers in plots, mm. Plotters count 1/40 mm; other programs write 0.0254, 0.1, 0.01\nor the dots of a printer. The extent is always printed: compare it with the cloth." },
+    Key { name: "hpgl.drill_max_mm", takes: Takes::NumberOr(from(0.0, 1000.0), "off"), about: "Closed squares and circles of a plot up to this size are holes to drill; \"off\" = they are cut." },
+    Key { name: "hpgl.pens.<pen>", takes: Takes::Word(&["knife", "pen", "ignore"]), about: "What a pen of a plot stands for: its lines are cut (\"knife\"), drawn only (\"pen\") or passed over\n(\"ignore\"). Of pens without a key the closed outlines and their notches are cut." },
     Key { name: "labels.encoding", takes: Takes::Encoding, about: "Encoding of label texts that are no UTF-8: \"windows-1251\" (Cyrillic), \"latin1\", \"gbk\" (Chinese),\n\"big5\", \"shift_jis\", \"euc-kr\" and more. What is no text in it is shown as \u{fffd}." },
 
     Key { name: "codes.<code>", takes: Takes::Word(&["use", "ignore"]), about: "A code of the cutter file to obey or to skip, as the USE/IGNORE switches of a cutter." },
@@ -438,7 +469,7 @@ mod tests {
         let expects = |name: &str| find(name).expect("a key").expects();
         assert_eq!(expects("knife.width_mm"), "a number from 0 to 1000 mm");
         assert_eq!(expects("knife.feed_mm_s"), "a number from 1 to 1000000 mm/s, or \"off\"");
-        assert_eq!(expects("corner.angle_deg"), "a number between 0 and 180 degrees");
+        assert_eq!(expects("corner.angle_deg"), "a number between 0 and 75 degrees");
         assert_eq!(expects("knife.edges"), "1 or 2");
         assert_eq!(expects("knife.follow"), "\"tangent\" or \"chord\"");
         assert_eq!(expects("c.range_deg"), "two numbers [least, greatest] degrees, or \"unbounded\"");

@@ -10,6 +10,7 @@ mod encoding;
 pub mod keys;
 pub mod kinematics;
 mod load;
+pub mod plot;
 pub mod profile;
 mod selection;
 mod show;
@@ -32,4 +33,6 @@ pub struct Job {
     pub selection: Selection,
     /// What it does with the knife.
     pub mode: Mode,
+    /// Which lines of a plot it cuts.
+    pub lines: plot::Lines,
 }

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::controller::{Counts, Gcode};
 use super::kinematics::Limits;
+use super::plot::Hpgl;
 use super::word::{Auto, Off, OrWord, Same, Stay, Unbounded, Unlimited};
 use crate::units::{MM_PER_INCH, MS_PER_S, deg, rad};
 
@@ -52,6 +53,8 @@ pub struct MachineProfile {
     pub gcode: Gcode,
     /// What the verifier allows.
     pub verify: Verify,
+    /// How plots are read.
+    pub hpgl: Hpgl,
     /// The texts of labels.
     pub labels: Labels,
     /// Codes of the cutter file to ignore, by name (`M19`).
@@ -497,6 +500,7 @@ impl Default for MachineProfile {
             counts: Counts::default(),
             gcode: Gcode::default(),
             verify: Verify::default(),
+            hpgl: Hpgl::default(),
             labels: Labels::default(),
             codes: BTreeMap::new(),
         }

@@ -49,17 +49,19 @@ impl MachineProfile {
                 }
                 let _ = writeln!(out, "# {}", key.expects());
             }
-            if section == CODES {
-                for (code, used) in &self.codes {
-                    let word = if *used == CodeUse::Ignore { "ignore" } else { "use" };
-                    let _ = writeln!(out, "{code} = \"{word}\"");
+            let of = |name: &str| name.split('.').try_fold(&table, |inner, part| inner.get(part));
+            if key.is_family() {
+                let family = of(section).and_then(toml::Value::as_table).expect("a family of keys is a table");
+                for (name, value) in family {
+                    let _ = writeln!(out, "{name} = {value}");
                 }
-                if self.codes.is_empty() && comments == Comments::Explained {
-                    out.push_str("# M19 = \"ignore\"\n");
+                if family.is_empty() && comments == Comments::Explained {
+                    let example = if section == CODES { "M19 = \"ignore\"" } else { "1 = \"knife\"" };
+                    let _ = writeln!(out, "# {example}");
                 }
                 continue;
             }
-            let value = key.name.split('.').try_fold(&table, |inner, part| inner.get(part));
+            let value = of(key.name);
             let name = key.name.rsplit('.').next().unwrap_or(key.name);
             let _ = writeln!(out, "{name} = {}", value.expect("a test compares the table with the profile"));
         }

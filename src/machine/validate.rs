@@ -1,7 +1,7 @@
 //! The rules between the values of a profile, and each value's own range.
 
 use super::encoding;
-use super::keys::{CODES, KEYS, Key, Takes, shown_value};
+use super::keys::{KEYS, Key, Takes, shown_value};
 use super::profile::{Follow, MachineProfile};
 use crate::diagnostic::{Code, code};
 
@@ -45,7 +45,8 @@ fn ranges(profile: &MachineProfile) -> Vec<Fault> {
             hint: hint(key, value),
         })
     };
-    KEYS.iter().filter(|key| key.section() != CODES).filter_map(fault).collect()
+    // A family of keys holds words, which reading has checked.
+    KEYS.iter().filter(|key| !key.is_family()).filter_map(fault).collect()
 }
 
 /// What to do about a value that is out of its range, where more can be said than what the key takes.

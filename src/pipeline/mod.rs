@@ -6,7 +6,7 @@ mod report;
 mod spent;
 
 pub use judge::{about, figures, is_program, judge_program};
-pub use report::{Axes, Notches, Peak, Peaks, Program, Report, significant};
+pub use report::{Axes, Drawn, Lines, Notches, Peak, Peaks, Program, Report, significant};
 pub use spent::{Spent, word};
 
 pub use crate::verify::{RULES, Verdict};
@@ -208,23 +208,12 @@ pub fn compile_all(
     Ok((!diagnostics.has_errors()).then_some(Compiled { report, verdict }))
 }
 
-/// The figures of the program that a source would become, nothing written and nothing judged. `None` when the
-/// diagnostics hold errors.
-pub fn estimate(
-    source: &Source,
-    from: Option<&'static Dialect>,
-    job: &Job,
-    diagnostics: &mut Diagnostics,
-) -> io::Result<Option<Report>> {
-    let Some(input) = read(source, from, job, diagnostics) else { return Ok(None) };
-    if diagnostics.has_errors() {
-        return Ok(None);
-    }
-    let mut report = Report::of(&input.marker, input.dialect.name);
+/// The figures of the program that an input would become, nothing written and nothing judged; when it cannot be planned
+/// the diagnostics say why.
+pub fn estimate(input: &Input, source: &Source, job: &Job, diagnostics: &mut Diagnostics) -> io::Result<Program> {
     let toolpaths = toolpaths(&input.marker, job, diagnostics);
     let context = Context { job, marker: &input.marker, source };
-    report.program = program::write(&toolpaths, &mut [], &context, diagnostics)?;
-    Ok((!diagnostics.has_errors()).then_some(report))
+    program::write(&toolpaths, &mut [], &context, diagnostics)
 }
 
 /// Writes a target that needs no timed motion; those that do are written by then.

@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 
 use super::spent::Spent;
 use crate::ir::Marker;
-use crate::ir::marker::NotchKind;
+use crate::ir::marker::{Drawing, DrawnClass, NotchKind};
 use crate::units::{MM_PER_M, deg};
 
 /// The figures of one file; `None` is what only planning knows.
@@ -36,9 +36,49 @@ pub struct Report {
     /// Length of contours and slits, without overlaps, m.
     #[serde(serialize_with = "micro")]
     pub cut_m: f64,
+    /// Of a plot: what its lines were taken for.
+    #[serde(flatten)]
+    pub drawn: Option<Drawn>,
     /// What planning adds.
     #[serde(flatten)]
     pub program: Program,
+}
+
+/// The lines of a plot.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Drawn {
+    /// Way of the pen while it is down, mm; lettered texts are not in it.
+    #[serde(serialize_with = "micro")]
+    pub pen_down_mm: f64,
+    /// What the lines were taken for; classes without any are left out.
+    pub lines: Vec<Lines>,
+}
+
+/// Lines of a plot that were taken for the same thing.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Lines {
+    /// What they were taken for.
+    pub class: &'static str,
+    /// Whether they are cut or drilled.
+    pub cut: bool,
+    /// How many there are.
+    pub count: usize,
+    /// Length as drawn, mm; that of notches which are spikes counts with their outline.
+    #[serde(serialize_with = "micro")]
+    pub length_mm: f64,
+}
+
+impl Drawn {
+    fn of(drawing: &Drawing) -> Self {
+        let lines = |class: &DrawnClass| Lines {
+            class: class.name,
+            cut: class.cut,
+            count: class.count,
+            length_mm: class.length,
+        };
+        let there = drawing.classes.iter().filter(|class| class.count > 0);
+        Self { pen_down_mm: drawing.pen_down, lines: there.map(lines).collect() }
+    }
 }
 
 /// Notches by kind.
@@ -142,6 +182,7 @@ impl Report {
             drills: marker.pieces.iter().map(|p| p.drills.len()).sum(),
             labels: marker.pieces.iter().map(|p| p.labels.len()).sum(),
             cut_m: marker.cut_length() / MM_PER_M,
+            drawn: marker.drawing.as_ref().map(Drawn::of),
             program: Program::default(),
         }
     }

@@ -16,9 +16,9 @@ const END_KNOTS: f64 = 1.2;
 const END_NEAREST: f64 = 1e-3;
 /// Nearest that grading goes towards a change of the speed cap, mm.
 const CHANGE_NEAREST: f64 = 0.1;
-/// Greatest spacing: a part of the length, but no finer than 0.5 mm.
+/// Greatest spacing: a part of the length, but no finer than 0.25 mm.
 const SPACING_SHARE: f64 = 1.0 / 60.0;
-const SPACING: f64 = 0.5;
+const SPACING: f64 = 0.25;
 /// Fewest knots.
 const KNOTS_MIN: usize = 24;
 /// Places at which the density of knots is taken, a span of the path, over all, and towards each end.

@@ -140,6 +140,9 @@ struct Problem<'a> {
     penalty: Band<BAND>,
     /// Bound on the deviation of the samples, mm.
     bound: f64,
+    /// The penalty of a curve that counts as smooth: 36 t^2 / L^5, that of r = t (u/L)^3 with the tolerance t and the
+    /// length L. A short run lies in its tube as a parabola, whose penalty is none: what is left is then the barrier's choice.
+    least: f64,
 }
 
 impl<'a> Problem<'a> {
@@ -179,7 +182,8 @@ impl<'a> Problem<'a> {
                 penalty.add_square(span, &ders[PENALTY_ORDER], half * weight);
             }
         }
-        Self { tube, breaks, samples, shares, squares, penalty, bound }
+        let least = 36.0 * tube.tolerance.powi(2) / tube.length().powi(5);
+        Self { tube, breaks, samples, shares, squares, penalty, bound, least }
     }
 
     fn median_span(&self) -> f64 {
@@ -291,10 +295,11 @@ impl barrier::Problem<2> for Problem<'_> {
         self.samples.len() as f64
     }
 
-    /// The integral of |r'''|^2.
+    /// The integral of |r'''|^2, on top of what counts as none.
     fn objective(&self, control: &[[f64; 2]]) -> f64 {
         let product = self.penalty.times(control);
-        product.iter().zip(control).map(|(p, c)| p[0] * c[0] + p[1] * c[1]).sum()
+        let penalty: f64 = product.iter().zip(control).map(|(p, c)| p[0] * c[0] + p[1] * c[1]).sum();
+        penalty + self.least
     }
 
     /// weight / 2 * penalty - sum of log(bound^2 - |deviation|^2).

@@ -1,4 +1,4 @@
-//! Reads timed setpoints from the rows of LinuxCNC's halstreamer: `x_mm y_mm c_deg knife drill event block`.
+//! Reads timed setpoints from the rows of `LinuxCNC`'s halstreamer: `x_mm y_mm c_deg knife drill event block`.
 
 use std::io::BufRead;
 

@@ -29,6 +29,7 @@ mod read;
 mod reference;
 mod rest;
 mod source_audit;
+mod source_hpgl;
 mod stroke;
 mod table;
 mod worst;

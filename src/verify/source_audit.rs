@@ -4,8 +4,10 @@
 use std::f64::consts::TAU;
 
 use super::kept::{self, Work};
+use super::source_hpgl;
 use super::worst::Worst;
 use crate::geom::{Extent, Point, Vector};
+use crate::ir::marker::Drawing;
 use crate::ir::{Finding, Marker};
 use crate::machine::MachineProfile;
 
@@ -13,7 +15,7 @@ use crate::machine::MachineProfile;
 const LENGTH_EPSILON: f64 = 1e-9;
 /// Farthest that the chords of an arc may lie off it, as a part of the tolerance: a curve that is drawn coarser leaves the
 /// knife no room.
-const ARC_SAGITTA: f64 = 0.25;
+pub(super) const ARC_SAGITTA: f64 = 0.25;
 
 /// What is cut: points reached with the knife down, holes, length and bounds.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,7 +31,7 @@ pub struct Census {
     /// What the numbers of the file are multiples of, mm.
     pub unit: f64,
     /// What cuts or drills, block by block; a scan of the bytes does not tell.
-    works: Vec<Work>,
+    pub(super) works: Vec<Work>,
 }
 
 impl Census {
@@ -47,13 +49,21 @@ impl Census {
             census.points += piece.notches.iter().filter(|notch| notch.root != notch.tip).count();
             census.drills += piece.drills.len();
             for contour in &piece.contours {
-                let mut block = None;
+                let mut span = None;
                 for (_, segment) in marker.list.walk(contour.range) {
-                    // The chords of an arc come from one block and are one point of the file.
-                    let is_new =
-                        segment.span.block == 0 || block.replace(segment.span.block) != Some(segment.span.block);
+                    // The chords of an arc come from one place and are one point of the file.
+                    let is_new = segment.span.block == 0 || span.replace(segment.span) != Some(segment.span);
                     census.points += usize::from(is_new && segment.from != segment.to);
                 }
+            }
+        }
+        // A plot draws more than is cut, and its marker keeps account of that.
+        if let Some(Drawing { aside, .. }) = &marker.drawing {
+            census.points += aside.points;
+            census.length += aside.length;
+            if !aside.bounds.is_empty() {
+                census.bounds.add(aside.bounds.min);
+                census.bounds.add(aside.bounds.max);
             }
         }
         census
@@ -69,6 +79,7 @@ pub fn source_kept(read: &Census, marker: &Marker) -> Finding {
 pub fn source_audit(dialect: &str, bytes: &[u8], read: &Census, profile: &MachineProfile) -> Option<Vec<Finding>> {
     let (scanned, slack) = match dialect {
         "iso" => scan_iso(bytes, read.unit, profile),
+        "hpgl" => source_hpgl::scan(bytes, read, profile),
         _ => return None,
     };
     let corner = |a: Point, b: Point| (a - b).amax();
@@ -161,11 +172,11 @@ fn scan_iso(bytes: &[u8], unit: f64, profile: &MachineProfile) -> (Census, Slack
 }
 
 /// What the chords of arcs may change, mm.
-struct Slack {
+pub(super) struct Slack {
     /// Farthest that a chord may lie off its arc.
-    sagitta: f64,
-    length: f64,
-    bounds: f64,
+    pub(super) sagitta: f64,
+    pub(super) length: f64,
+    pub(super) bounds: f64,
 }
 
 /// What the knife does between going down and up.

@@ -80,6 +80,30 @@ pub(super) struct Judge<'a> {
     overcut: [Worst; 3],
 }
 
+/// A place of a cut that is near a line.
+#[derive(Debug, Clone, Copy)]
+struct Candidate {
+    line: usize,
+    chord: usize,
+    /// Which point of the cut.
+    probe: usize,
+    /// Where on the line, mm.
+    station: f64,
+    /// How far off, mm.
+    away: f64,
+}
+
+impl Candidate {
+    /// Whether one who follows the line from `other` comes by here. Where a line ends at its own start the heel lies at its
+    /// end, and following from there leads nowhere.
+    fn continues(&self, other: &Self, cut: &Cut, line: &Line) -> bool {
+        let between = self.probe.min(other.probe)..=self.probe.max(other.probe);
+        let way = polyline::length(&cut.points[between]);
+        let apart = (self.station - other.station).abs();
+        apart <= way + 2.0 * REACH || line.ring && line.length() - apart <= way + 2.0 * REACH
+    }
+}
+
 /// A stroke followed along one line.
 struct Trial {
     line: usize,
@@ -157,8 +181,7 @@ impl<'a> Judge<'a> {
         let rows = &stroke.rows;
         let tips: Vec<Point> = rows.iter().map(|row| row.centre + row.along() * self.knife.radius()).collect();
         let cut = Cut::new(rows, &tips, self.knife);
-        let trials: Vec<Trial> =
-            self.candidates(&cut).into_iter().map(|(line, chord, at)| self.follow(&cut, line, chord, at)).collect();
+        let trials: Vec<Trial> = self.candidates(&cut).iter().map(|candidate| self.follow(&cut, candidate)).collect();
         let seen = |i: usize| {
             let row = &rows[cut.rows[i.saturating_sub(cut.body)]];
             at(row.t, cut.points[i], row.block)
@@ -284,8 +307,8 @@ impl<'a> Judge<'a> {
         })
     }
 
-    /// Lines that pass near the stroke: line, chord, and the place of the cut that is near it.
-    fn candidates(&self, cut: &Cut) -> Vec<(usize, usize, usize)> {
+    /// Where to begin following: the lines that pass near the stroke, the nearest first.
+    fn candidates(&self, cut: &Cut) -> Vec<Candidate> {
         let count = cut.points.len();
         let tips = count - cut.body;
         let mut probes: Vec<usize> = [1, 2, 3].iter().map(|part| cut.body + (tips - 1) * part / 4).collect();
@@ -293,30 +316,34 @@ impl<'a> Judge<'a> {
             // On a short line the tip may stand beyond its end all the time.
             probes.extend([0, 1, 2, 3].iter().map(|part| cut.body * part / 4));
         }
-        let mut found: Vec<(usize, usize, usize, f64)> = Vec::new();
+        let mut found: Vec<Candidate> = Vec::new();
         for probe in probes {
             let point = cut.points[probe];
             for (line, chord) in self.grid.near(point) {
                 let (line, chord) = (line as usize, chord as usize);
                 let foot = on_chord(&self.reference.lines[line], chord, point);
-                let away = foot.deviation.hypot(foot.beyond);
-                if away > REACH {
+                let next =
+                    Candidate { line, chord, probe, station: foot.station, away: foot.deviation.hypot(foot.beyond) };
+                if next.away > REACH {
                     continue;
                 }
-                match found.iter_mut().find(|f| f.0 == line) {
-                    Some(best) if away < best.3 => *best = (line, chord, probe, away),
+                match found
+                    .iter_mut()
+                    .find(|known| known.line == line && next.continues(known, cut, &self.reference.lines[line]))
+                {
+                    Some(known) if next.away < known.away => *known = next,
                     Some(_) => {}
-                    None => found.push((line, chord, probe, away)),
+                    None => found.push(next),
                 }
             }
         }
-        found.sort_by(|a, b| a.3.total_cmp(&b.3).then(a.0.cmp(&b.0)));
+        found.sort_by(|a, b| a.away.total_cmp(&b.away).then(a.line.cmp(&b.line)).then(a.probe.cmp(&b.probe)));
         found.truncate(TRIALS);
-        found.into_iter().map(|(line, chord, probe, _)| (line, chord, probe)).collect()
+        found
     }
 
-    /// Follows a cut along a line, from the place `from` beside chord `chord` both ways.
-    fn follow(&self, cut: &Cut, index: usize, chord: usize, from: usize) -> Trial {
+    /// Follows a cut along a line, from where it was found both ways.
+    fn follow(&self, cut: &Cut, &Candidate { line: index, chord, probe: from, .. }: &Candidate) -> Trial {
         let line = &self.reference.lines[index];
         let points = &cut.points;
         let ahead = points[(from + 1).min(points.len() - 1)] - points[from.saturating_sub(1)];

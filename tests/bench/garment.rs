@@ -1,4 +1,4 @@
-//! Made-up garment markers of any size, as cutter files in three dialect shapes.
+//! Made-up garment markers of any size, as cutter files in three dialect shapes and as plots.
 //!
 //! Pieces of clothes are drawn from straight lines and cubic curves, graded to a size, flattened to a chord tolerance as
 //! pattern systems do, and laid in rows across the cloth. Everything follows from the order: the same one gives the same
@@ -63,6 +63,16 @@ pub(crate) fn write(order: &Order, out: &mut impl Write) -> io::Result<()> {
         file.piece(&piece, number)?;
     }
     file.tail()
+}
+
+/// Writes the marker of an order as an HPGL plot, whatever its dialect: slits are spikes of the outlines, drills circles.
+pub(crate) fn write_plot(order: &Order, out: &mut impl Write) -> io::Result<()> {
+    let mut plot = Plot { out };
+    plot.out.write_all(b"IN;DT\x03,1;SP1;")?;
+    for piece in Layout::new(order) {
+        plot.piece(&piece)?;
+    }
+    plot.out.write_all(b"PU;SP0;")
 }
 
 /// A size of clothes: its name, and what the base size is scaled by.
@@ -471,5 +481,46 @@ impl<W: Write> CutFile<'_, W> {
             }
             Dialect::Spaced => self.out.write_all(b"M0*"),
         }
+    }
+}
+
+/// A plot in the making.
+struct Plot<'a, W> {
+    out: &'a mut W,
+}
+
+impl<W: Write> Plot<'_, W> {
+    /// Units of a plot in a millimetre.
+    const PER_MM: f64 = 40.0;
+    /// Radius of the circle that stands for a drill, mm.
+    const DRILL_RADIUS: f64 = 1.5;
+
+    /// A point in units of the plot.
+    fn coordinates(at: Point) -> String {
+        let whole = |value: f64| (value * Self::PER_MM).round() as i64;
+        format!("{},{}", whole(at.x), whole(at.y))
+    }
+
+    fn piece(&mut self, piece: &Piece) -> io::Result<()> {
+        write!(self.out, "PU{};LB{} {}\x03;", Self::coordinates(piece.centre), piece.size, piece.name)?;
+        for &drill in &piece.drills {
+            write!(self.out, "PU{};CI{};", Self::coordinates(drill), Self::DRILL_RADIUS * Self::PER_MM)?;
+        }
+        piece.holes.iter().try_for_each(|hole| self.contour(hole))?;
+        self.contour(&piece.outline)
+    }
+
+    fn contour(&mut self, contour: &[Vertex]) -> io::Result<()> {
+        let (start, rest) = contour.split_first().expect("a contour has vertices");
+        let start = Self::coordinates(start.at);
+        write!(self.out, "PU{start};PD")?;
+        for vertex in rest {
+            let edge = Self::coordinates(vertex.at);
+            write!(self.out, "{edge},")?;
+            if let Some(notch) = vertex.notch {
+                write!(self.out, "{},{edge},", Self::coordinates(notch.tip(vertex.at)))?;
+            }
+        }
+        write!(self.out, "{start};")
     }
 }

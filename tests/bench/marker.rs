@@ -19,7 +19,7 @@ struct Arguments {
     /// As many pieces as have this many vertices, in place of --pieces.
     #[arg(long, conflicts_with = "pieces")]
     vertices: Option<usize>,
-    /// Shape of the cutter file.
+    /// Shape of the file.
     #[arg(long, value_enum, default_value_t = Dialect::G71)]
     dialect: Dialect,
     /// Farthest of a curve from its chords, mm.
@@ -47,6 +47,8 @@ enum Dialect {
     Inch,
     /// 0.1 mm, blanks behind blocks, lifts at corners, no pieces.
     Spaced,
+    /// An HPGL plot in 1/40 mm, slits as spikes of the outlines.
+    Plot,
 }
 
 /// A number of a range.
@@ -63,7 +65,8 @@ fn main() -> io::Result<()> {
         dialect: match arguments.dialect {
             Dialect::G71 => garment::Dialect::G71,
             Dialect::Inch => garment::Dialect::Inch,
-            Dialect::Spaced => garment::Dialect::Spaced,
+            // A plot has a writer of its own.
+            Dialect::Spaced | Dialect::Plot => garment::Dialect::Spaced,
         },
         pieces: arguments.pieces,
         vertices: arguments.vertices,
@@ -74,7 +77,11 @@ fn main() -> io::Result<()> {
         seed: arguments.seed,
     };
     let mut out = BufWriter::new(io::stdout().lock());
-    match garment::write(&order, &mut out).and_then(|()| out.flush()) {
+    let written = match arguments.dialect {
+        Dialect::Plot => garment::write_plot(&order, &mut out),
+        Dialect::G71 | Dialect::Inch | Dialect::Spaced => garment::write(&order, &mut out),
+    };
+    match written.and_then(|()| out.flush()) {
         // The reader has seen enough, as `head` does: no error.
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         written => written,

@@ -544,7 +544,7 @@ impl Knife {
         let mut closing = Vec::new();
         let pieces = with_something_to_cut(self.pieces, &mut closing);
         closing.append(&mut self.events);
-        (Marker { list: self.list, pieces, unit: 0.0, closing }, self.extent)
+        (Marker { list: self.list, pieces, closing, ..Marker::default() }, self.extent)
     }
 }
 

@@ -1,0 +1,19 @@
+//! What the lines of a plot were taken for, for people.
+
+use std::fmt::Write as _;
+
+use crate::pipeline::Report;
+use crate::units::number::fixed;
+
+/// A line a class, and the way of the pen; empty for files that say themselves what is cut.
+pub(super) fn text(report: &Report) -> String {
+    let Some(drawn) = &report.drawn else { return String::new() };
+    let mut out = String::from("\n  lines taken for   count      length mm\n");
+    // Writing into a `String` cannot fail, so the results of `writeln!` are dropped throughout.
+    for lines in &drawn.lines {
+        let what = if lines.cut { "" } else { "  not cut" };
+        let _ = writeln!(out, "  {:14} {:>8} {:>14}{what}", lines.class, lines.count, fixed(lines.length_mm, 3));
+    }
+    let _ = writeln!(out, "  {:14} {:>8} {:>14}", "pen down", "", fixed(drawn.pen_down_mm, 3));
+    out
+}

@@ -1,0 +1,46 @@
+//! What each piece of a program takes, and what keeps it from being faster.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+
+use crate::pipeline::{Program, Spent, significant, word};
+use crate::units::number::fixed;
+
+/// Digits that are kept of times: far below a control period.
+const DIGITS: i32 = 9;
+
+/// The time of one piece, as JSON has it.
+#[derive(Debug, Serialize)]
+pub(super) struct Timed {
+    piece: u32,
+    time_s: f64,
+    spent: Spent,
+}
+
+/// The pieces of a program, in cut order. The way to a piece counts as its own.
+pub(super) fn of(program: &Program) -> Vec<Timed> {
+    let timed = |(piece, spent): &(u32, Spent)| Timed {
+        piece: *piece,
+        time_s: significant(spent.total(), DIGITS),
+        spent: spent.clone(),
+    };
+    program.by_piece.iter().map(timed).collect()
+}
+
+/// A row for each piece: its time, what the machine does in it, and what bounds most of its cutting.
+pub(super) fn text(pieces: &[Timed]) -> String {
+    let mut out = String::from("\n  piece    time s     cut  travel    turn  plunge    lift   other  limited by\n");
+    for Timed { piece, time_s, spent } in pieces {
+        let other = spent.drill + spent.wait;
+        let _ = write!(out, "  {piece:>5}  {:>8}", fixed(*time_s, 2)); // a `String` takes all
+        for part in [spent.cut, spent.travel, spent.turn, spent.plunge, spent.lift, other] {
+            let _ = write!(out, "  {:>6}", fixed(part, 2));
+        }
+        if let Some((bound, _)) = spent.bounds.iter().max_by(|a, b| a.1.total_cmp(&b.1)) {
+            let _ = write!(out, "  {}", word(*bound));
+        }
+        out.push('\n');
+    }
+    out
+}

@@ -1,0 +1,136 @@
+//! What is cut of a drawing: parts with their cut-outs, notches and holes.
+//!
+//! A plot draws frames, letters and grain lines with the same pen as parts. Pens and options decide where they say
+//! something; elsewhere shapes do: closed lines are parts or cut-outs, short marks and spikes on them are notches, small
+//! closed squares and circles are holes when the profile wants that; a rectangle around all others is the frame.
+
+use super::chain;
+use super::drawing::{Drawing, Stroke};
+use super::nest::{self, Nest};
+use super::notch::{self, Found, Marks, Search};
+use super::piece;
+use super::shape::{Class, LONGEST_NOTCH, Mark, ROUNDING, Shape, Wanted, mark};
+use super::text;
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::ir::Marker;
+use crate::ir::marker::Label;
+use crate::machine::Job;
+use crate::units::number::fixed;
+
+/// Everything that is known of a drawing before pieces are made.
+#[derive(Debug)]
+pub(super) struct Sorted {
+    pub(super) drawing: Drawing,
+    pub(super) shapes: Vec<Shape>,
+    /// The outlines of parts and cut-outs, as indices of shapes.
+    pub(super) outlines: Vec<usize>,
+    /// Of each outline the least one that holds it, as an index in their list.
+    pub(super) parents: Vec<Option<usize>>,
+    pub(super) notches: Vec<Found>,
+}
+
+/// Gap of an outline that is cut as it stands, mm; a line with a wider one may be something else.
+const LARGEST_GAP: f64 = 1.0;
+/// How much longer one side of a hole's box may be than the other.
+const HOLE_RATIO: f64 = 1.1;
+/// Share of its box that a circle of eight chords fills; a square fills all of it.
+const HOLE_FILL: f64 = 0.7;
+
+/// Decides what is cut, and makes the marker of it.
+pub(super) fn classify(mut drawing: Drawing, labels: Vec<Label>, job: &Job, out: &mut Diagnostics) -> Marker {
+    let unit = job.profile.hpgl.unit.mm();
+    let slack = ROUNDING * unit;
+    chain::join(&mut drawing, |drawing, stroke| is_mark(drawing, stroke, unit));
+    let strokes = std::mem::take(&mut drawing.strokes);
+    let mut shapes: Vec<Shape> = strokes.into_iter().map(|stroke| Shape::of(&drawing, stroke, job)).collect();
+    for frame in nest::frames(&mut shapes, slack) {
+        let (width, height) = shapes[frame].extent().size();
+        let message = format!(
+            "a rectangle of {} x {} mm holds all outlines: it is taken for the frame and not cut",
+            fixed(width, 1),
+            fixed(height, 1)
+        );
+        let finding = Diagnostic::new(&code::HPGL_FRAME, message).at(shapes[frame].vertices(&drawing)[1].span);
+        out.push(finding.hint("if it is a part, `--cut closed` cuts every closed line"));
+    }
+    for shape in &mut shapes {
+        shape.class = match shape.wanted {
+            _ if shape.class == Class::Frame => Class::Frame,
+            Wanted::Nothing => Class::Pen,
+            Wanted::All | Wanted::Open if !shape.is_closed => Class::Line,
+            Wanted::Guess if shape.gap(&drawing).is_some_and(|gap| gap <= LARGEST_GAP) => Class::Line,
+            Wanted::Guess | Wanted::All | Wanted::Closed | Wanted::Open => Class::Other,
+        };
+    }
+    // Marks first: what stands on an outline is no part of a letter.
+    let candidates = |shapes: &[Shape]| -> Vec<usize> {
+        let may_be = |shape: &Shape| {
+            !shape.is_closed && matches!(shape.wanted, Wanted::Guess | Wanted::All) && shape.class != Class::Pen
+        };
+        (0..shapes.len()).filter(|&i| may_be(&shapes[i])).collect()
+    };
+    let is_free = |shape: &Shape| shape.is_outline() && shape.class == Class::Other;
+    let large: Vec<usize> =
+        (0..shapes.len()).filter(|&i| is_free(&shapes[i]) && shapes[i].size() > LONGEST_NOTCH).collect();
+    let marks = candidates(&shapes);
+    let search = Search { drawing: &drawing, shapes: &shapes, unit, candidates: &marks, outlines: &large };
+    let Marks { found, mut is_cut_short } = notch::on_outlines(search);
+    for found in found {
+        shapes[found.mark].class = Class::Notch;
+    }
+    is_cut_short |= text::mark_letters(&mut shapes).is_cut_short;
+    for shape in &mut shapes {
+        if shape.is_outline() && shape.class == Class::Other && is_hole(shape, job) {
+            shape.class = Class::Hole;
+        }
+    }
+    let outlines: Vec<usize> = (0..shapes.len()).filter(|&i| is_free(&shapes[i])).collect();
+    let Nest { parents, is_cut_short: is_nest_cut_short } = nest::nest(&drawing, &shapes, &outlines, slack);
+    for (k, &outline) in outlines.iter().enumerate() {
+        let depth = depth(&parents, k);
+        shapes[outline].class = if depth.is_multiple_of(2) { Class::Part } else { Class::CutOut };
+    }
+    let mut marks = candidates(&shapes);
+    marks.retain(|&i| shapes[i].class != Class::Text);
+    let search = Search { drawing: &drawing, shapes: &shapes, unit, candidates: &marks, outlines: &outlines };
+    let Marks { found: notches, is_cut_short: are_marks_cut_short } = notch::on_outlines(search);
+    if is_cut_short || is_nest_cut_short || are_marks_cut_short {
+        let message = "there are too many lines to tell what each belongs to; some cut-outs are taken for parts, and some \
+                       notches and letters are not recognised";
+        out.push(Diagnostic::new(&code::HPGL_TOO_MANY, message).hint("split the plot"));
+    }
+    for shape in &mut shapes {
+        // A line that lost its outline to the letters is what it was before.
+        if shape.class == Class::Notch {
+            shape.class = if shape.wanted == Wanted::All { Class::Line } else { Class::Other };
+        }
+    }
+    for found in &notches {
+        shapes[found.mark].class = Class::Notch;
+    }
+    for shape in shapes.iter().filter(|shape| shape.class == Class::Other && shape.wanted == Wanted::Guess) {
+        let Some(gap) = shape.gap(&drawing) else { continue };
+        let (length, gap) = (fixed(shape.length, 1), fixed(gap, 1));
+        let message = format!("a line of {length} mm ends {gap} mm from where it starts: it is not cut");
+        let finding = Diagnostic::new(&code::HPGL_OPEN_OUTLINE, message).at(shape.vertices(&drawing)[1].span);
+        out.push(finding.hint("if it is an outline, close it; `--cut all` cuts every line as it stands"));
+    }
+    piece::marker(&Sorted { drawing, shapes, outlines, parents, notches }, labels, job)
+}
+
+/// How many outlines hold one.
+pub(super) fn depth(parents: &[Option<usize>], outline: usize) -> usize {
+    std::iter::successors(parents[outline], |&parent| parents[parent]).count()
+}
+
+fn is_mark(drawing: &Drawing, stroke: &Stroke, unit: f64) -> bool {
+    matches!(mark(&drawing.vertices[stroke.range()], unit), Some(Mark::Line(_) | Mark::Vee(_)))
+}
+
+/// Whether a closed line is a square or a circle of the size of a hole.
+fn is_hole(shape: &Shape, job: &Job) -> bool {
+    let (width, height) = shape.extent().size();
+    let (greater, less) = (width.max(height), width.min(height));
+    let is_small = job.profile.hpgl.drill_max_mm.is_some_and(|most| greater <= most);
+    is_small && greater <= HOLE_RATIO * less && shape.area.abs() >= HOLE_FILL * width * height
+}

@@ -1,0 +1,84 @@
+//! What the pen draws: strokes, each a chain of places that the pen was led to without being lifted.
+
+use crate::geom::{Extent, Point};
+use crate::source::Span;
+
+/// A place of a stroke, mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Vertex {
+    pub(super) at: Point,
+    /// What led the pen there.
+    pub(super) span: Span,
+}
+
+/// A line between two lifts: places of [`Drawing::vertices`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Stroke {
+    pub(super) first: u32,
+    /// One past the last.
+    pub(super) end: u32,
+    pub(super) pen: u16,
+    /// Places of the file that it was led to; the chords of a curve are one.
+    pub(super) points: u32,
+    pub(super) extent: Extent,
+}
+
+/// All strokes.
+#[derive(Debug, Default)]
+pub(super) struct Drawing {
+    pub(super) vertices: Vec<Vertex>,
+    pub(super) strokes: Vec<Stroke>,
+    /// Whether the last stroke goes on.
+    goes_on: bool,
+}
+
+impl Stroke {
+    pub(super) fn range(&self) -> std::ops::Range<usize> {
+        self.first as usize..self.end as usize
+    }
+}
+
+impl Drawing {
+    /// An empty drawing with room for so many vertices.
+    pub(super) fn with_room(vertices: usize) -> Self {
+        Self { vertices: Vec::with_capacity(vertices), ..Self::default() }
+    }
+
+    /// Whether the next line starts a stroke, so that [`Drawing::begin`] comes first.
+    pub(super) fn is_lifted(&self) -> bool {
+        !self.goes_on
+    }
+
+    /// Starts a stroke.
+    pub(super) fn begin(&mut self, at: Point, span: Span, pen: u16) {
+        let first = self.vertices.len() as u32;
+        self.vertices.push(Vertex { at, span });
+        let mut extent = Extent::EMPTY;
+        extent.add(at);
+        self.strokes.push(Stroke { first, end: first + 1, pen, points: 0, extent });
+        self.goes_on = true;
+    }
+
+    /// Draws on. A line without length changes nothing.
+    pub(super) fn line(&mut self, at: Point, span: Span) {
+        let (Some(last), Some(stroke)) = (self.vertices.last(), self.strokes.last_mut()) else { return };
+        if last.at == at {
+            return;
+        }
+        stroke.points += u32::from(stroke.end - stroke.first == 1 || last.span != span);
+        stroke.end += 1;
+        stroke.extent.add(at);
+        self.vertices.push(Vertex { at, span });
+    }
+
+    /// Lifts the pen. A stroke without length is a dot, and none.
+    pub(super) fn lift(&mut self) {
+        if !std::mem::take(&mut self.goes_on) {
+            return;
+        }
+        if self.strokes.last().is_some_and(|stroke| stroke.end - stroke.first == 1) {
+            self.strokes.pop();
+            self.vertices.pop();
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! Polylines in the compact encoding of PE.
+//!
+//! Numbers are digits of base 64 (seven-bit mode: 32), the least significant first, the last one marked by a higher range
+//! of bytes; the lowest bit of the whole is the sign. (Hewlett-Packard, "HP-GL/2 and HP RTL Reference Guide", PE.) Plots
+//! that an editor saved again as UTF-8 have two bytes where a last digit was: those are put together.
+
+/// What stands in the body of PE.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Item {
+    /// `:` the next number is a pen.
+    Pen,
+    /// `<` the next move is with the pen up.
+    Up,
+    /// `>` the next number is how many binary fraction bits follow.
+    Fraction,
+    /// `=` the next place is absolute.
+    Absolute,
+    /// A whole number, its fraction bits not yet divided off.
+    Number(i64),
+}
+
+/// How a body ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Ending {
+    /// It goes on.
+    More,
+    /// With its semicolon.
+    Done,
+    /// With the file, between two numbers.
+    Open,
+    /// Amid a number, or with a byte that cannot stand there.
+    Damaged,
+}
+
+/// Base and ranges of bytes of the two modes.
+#[derive(Debug, Clone, Copy)]
+struct Mode {
+    bits: u32,
+    /// First byte of a digit, and of a last digit.
+    digit: u8,
+    last: u8,
+}
+
+const EIGHT_BIT: Mode = Mode { bits: 6, digit: 63, last: 191 };
+const SEVEN_BIT: Mode = Mode { bits: 5, digit: 63, last: 95 };
+/// A byte that is no digit of either mode, and none that a body may hold.
+const NO_DIGIT: u8 = u8::MAX;
+/// Bits of a number that are kept: more cannot be a place on any table.
+const MOST_BITS: u32 = 60;
+
+/// Reads the body of one PE.
+#[derive(Debug)]
+pub(super) struct Body<'a> {
+    bytes: &'a [u8],
+    /// The next byte.
+    pub(super) at: usize,
+    mode: Mode,
+    /// Whether bytes above 127 come in pairs of UTF-8.
+    paired: bool,
+    /// Whether such a pair was met.
+    pub(super) repaired: bool,
+    pub(super) ending: Ending,
+}
+
+impl<'a> Body<'a> {
+    /// The body that starts at `at`; `paired` when the whole file is text in UTF-8.
+    pub(super) fn new(bytes: &'a [u8], at: usize, paired: bool) -> Self {
+        Self { bytes, at, mode: EIGHT_BIT, paired, repaired: false, ending: Ending::More }
+    }
+
+    /// The next item; `None` at the end, and then [`Body::ending`] says which.
+    pub(super) fn next(&mut self) -> Option<Item> {
+        loop {
+            let Some(&byte) = self.bytes.get(self.at) else {
+                self.ending = Ending::Open;
+                return None;
+            };
+            let item = match byte {
+                b';' => {
+                    self.at += 1;
+                    self.ending = Ending::Done;
+                    return None;
+                }
+                b':' => Item::Pen,
+                b'<' => Item::Up,
+                b'>' => Item::Fraction,
+                b'=' => Item::Absolute,
+                b'7' => {
+                    self.mode = SEVEN_BIT;
+                    self.at += 1;
+                    continue;
+                }
+                // Controls and blanks are passed over.
+                0..=b' ' | 127 => {
+                    self.at += 1;
+                    continue;
+                }
+                _ => return self.number(),
+            };
+            self.at += 1;
+            return Some(item);
+        }
+    }
+
+    fn number(&mut self) -> Option<Item> {
+        let Mode { bits, digit, last } = self.mode;
+        let (mut value, mut shift) = (0_u64, 0);
+        while let Some(byte) = self.byte() {
+            let (digit, is_last) = match byte {
+                _ if byte >= last && byte - last < (1 << bits) => (byte - last, true),
+                _ if byte >= digit && byte - digit < (1 << bits) => (byte - digit, false),
+                0..=b' ' | 127 => continue,
+                _ => break,
+            };
+            if shift < MOST_BITS {
+                value |= u64::from(digit) << shift;
+            } else if digit > 0 {
+                break;
+            }
+            shift += bits;
+            if is_last {
+                let magnitude = (value >> 1).cast_signed();
+                return Some(Item::Number(if value & 1 == 0 { magnitude } else { -magnitude }));
+            }
+        }
+        self.ending = Ending::Damaged;
+        None
+    }
+
+    /// The next byte as it was before an editor made text of it.
+    fn byte(&mut self) -> Option<u8> {
+        let first = *self.bytes.get(self.at)?;
+        self.at += 1;
+        if !self.paired || first < 0xc0 {
+            return Some(first);
+        }
+        // Two bytes of UTF-8 hold what was one: 110000ab 10cdefgh.
+        let second = *self.bytes.get(self.at)?;
+        if !matches!(first, 0xc2 | 0xc3) || second & 0xc0 != 0x80 {
+            // Another character, such as the one that stands for lost bytes: what it was nobody can tell.
+            return Some(NO_DIGIT);
+        }
+        self.at += 1;
+        self.repaired = true;
+        Some(((first & 0x03) << 6) | (second & 0x3f))
+    }
+}
+
+/// Whether bytes are text in UTF-8 with characters beyond ASCII; an end that is cut off does not matter.
+pub(super) fn is_paired(bytes: &[u8]) -> bool {
+    !bytes.is_ascii() && std::str::from_utf8(bytes).map_or_else(|fault| fault.error_len().is_none(), |_| true)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn items(bytes: &[u8], paired: bool) -> (Vec<Item>, Ending) {
+        let mut body = Body::new(bytes, 0, paired);
+        let items = std::iter::from_fn(|| body.next()).collect();
+        (items, body.ending)
+    }
+
+    #[test]
+    fn numbers_have_their_least_digit_first_and_their_sign_last() {
+        // 100 = 200 / 2: 200 = 8 + 3 * 64, so the bytes 63 + 8 and 191 + 3.
+        let check =
+            |bytes: &[u8], value: i64| assert_eq!(items(bytes, false), (vec![Item::Number(value)], Ending::Done));
+        check(&[71, 194, b';'], 100);
+        // -100: 201 = 9 + 3 * 64.
+        check(&[72, 194, b';'], -100);
+        check(&[191, b';'], 0);
+        // Seven bits: 200 = 8 + 6 * 32.
+        check(&[b'7', 71, 101, b';'], 100);
+        check(&[72, 10, 194, b';'], -100);
+    }
+
+    #[test]
+    fn flags_stand_between_numbers() {
+        let (found, ending) = items(b"7<=___:a>b", false);
+        let n = Item::Number;
+        assert_eq!(ending, Ending::Open);
+        assert_eq!(found, [Item::Up, Item::Absolute, n(0), n(0), n(0), Item::Pen, n(1), Item::Fraction, n(-1)]);
+    }
+
+    #[test]
+    fn pairs_of_utf_8_are_put_together_again() {
+        let saved = "G\u{c2};".as_bytes();
+        assert!(is_paired(saved) && !is_paired(b"G\xc2;") && !is_paired(b"IN;") && is_paired(&saved[..2]));
+        assert_eq!(items(saved, true), (vec![Item::Number(100)], Ending::Done));
+    }
+
+    #[test]
+    fn damage_is_seen() {
+        assert_eq!(items(b"G,1;", false).1, Ending::Damaged);
+        assert_eq!(items(b"GGGGGGGGGGGGG\xc2;", false).1, Ending::Damaged);
+        assert_eq!(items(b"GG", false).1, Ending::Damaged);
+        assert_eq!(items("G\u{fffd};".as_bytes(), true).1, Ending::Damaged);
+    }
+}

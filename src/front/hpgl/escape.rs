@@ -1,0 +1,77 @@
+//! Escape sequences of plotters and printers, and the job language around a plot: all of it is passed over but resets.
+
+use nom::bytes::complete::{take_while, take_while1};
+use nom::character::complete::{char, one_of, satisfy};
+use nom::combinator::{opt, recognize, value};
+use nom::sequence::{preceded, terminated};
+use nom::{AsChar, IResult, Parser, branch::alt};
+
+/// What a sequence does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Escape {
+    /// The plotter is as switched on.
+    Reset,
+    /// Nothing that matters for lines.
+    Other,
+}
+
+type Out<'a> = IResult<&'a [u8], Escape>;
+
+/// `<escape>`: what begins with the escape character.
+pub(super) fn escape(i: &[u8]) -> Out<'_> {
+    preceded(char('\u{1b}'), alt((value(Escape::Reset, char('E')), device, language, parametrised, two))).parse(i)
+}
+
+/// `<device>`: `.` and a letter, for interfaces. Numbers behind it end in a colon.
+fn device(i: &[u8]) -> Out<'_> {
+    let numbers = terminated(take_while(|byte: u8| byte.is_ascii_digit() || byte == b';' || byte == b','), char(':'));
+    value(Escape::Other, (char('.'), satisfy(|c| c.is_ascii_graphic()), opt(numbers))).parse(i)
+}
+
+/// `<language>`: `%`, a number and a letter: into HP-GL/2 (B), out of it (A), out of all (X).
+fn language(i: &[u8]) -> Out<'_> {
+    value(Escape::Other, (char('%'), opt(one_of("+-")), take_while1(AsChar::is_dec_digit), satisfy(AsChar::is_alpha)))
+        .parse(i)
+}
+
+/// `<parametrised>`: a mark, a group, then numbers that end in letters, the last one in upper case.
+fn parametrised(i: &[u8]) -> Out<'_> {
+    let body = take_while(|byte: u8| byte.is_ascii_digit() || byte.is_ascii_lowercase() || b"+-.".contains(&byte));
+    value(Escape::Other, (one_of("!\"#$&'()*+,/"), body, satisfy(|c| c.is_ascii_uppercase() || c == '@'))).parse(i)
+}
+
+/// `<two>`: any other letter or digit.
+fn two(i: &[u8]) -> Out<'_> {
+    value(Escape::Other, recognize(satisfy(|c| c.is_ascii_alphanumeric() || c == '='))).parse(i)
+}
+
+/// `<job>`: a line of the job language.
+pub(super) fn job(i: &[u8]) -> Out<'_> {
+    let (i, _) = nom::bytes::complete::tag(&b"@PJL"[..]).parse(i)?;
+    value(Escape::Other, take_while(|byte| byte != b'\n')).parse(i)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sequence_ends_where_its_kind_says() {
+        let check = |text: &'static [u8], left: &str| {
+            let (rest, _) = escape(text).expect("a sequence");
+            assert_eq!(String::from_utf8_lossy(rest), left, "{text:?}");
+        };
+        check(b"\x1bEIN;", "IN;");
+        check(b"\x1b%0BIN;", "IN;");
+        check(b"\x1b%-1BIN;", "IN;");
+        check(b"\x1b%-12345X@PJL", "@PJL");
+        check(b"\x1b.(IN;", "IN;");
+        check(b"\x1b.@;0:IN;", "IN;");
+        check(b"\x1b.I81;;17:IN;", "IN;");
+        check(b"\x1b&l1x0OIN;", "IN;");
+        check(b"\x1b9IN;", "IN;");
+        assert_eq!(escape(b"\x1bE").map(|found| found.1), Ok(Escape::Reset));
+        assert!(escape(b"\x1b").is_err() && escape(b"\x1b%").is_err());
+        assert_eq!(job(b"@PJL ENTER LANGUAGE=HPGL2\r\nIN").map(|found| found.0), Ok(&b"\nIN"[..]));
+    }
+}

@@ -1,0 +1,122 @@
+//! Every instruction that is known: a table.
+
+/// What an instruction does, as far as lines matter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Instruction {
+    /// IN, DF, BP: as switched on.
+    Reset,
+    /// PA, PR: places from here on are absolute or relative.
+    Absolute,
+    Relative,
+    /// PU, PD.
+    Up,
+    Down,
+    /// SP.
+    Pen,
+    /// PE.
+    Encoded,
+    /// AA, AR: an arc by its centre and sweep.
+    ArcAbsolute,
+    ArcRelative,
+    /// AT, RT: an arc through two points.
+    ArcThroughAbsolute,
+    ArcThroughRelative,
+    /// CI.
+    Circle,
+    /// BZ, BR.
+    BezierAbsolute,
+    BezierRelative,
+    /// EA, ER.
+    RectangleAbsolute,
+    RectangleRelative,
+    /// EW.
+    Wedge,
+    /// PM.
+    Polygon,
+    /// EP.
+    EdgePolygon,
+    /// SC, IP, IR, RO, PS.
+    Scale,
+    Corners,
+    CornersPercent,
+    Rotate,
+    PageSize,
+    /// PG, AF, AH: the page goes out.
+    Page,
+    /// LB, DT, CO.
+    Label,
+    Terminator,
+    Comment,
+    /// DI, DR: direction of labels.
+    Direction,
+    /// Something that draws, or moves, and is left out: what it is.
+    LeftOut(&'static str),
+    /// No effect on lines.
+    Housekeeping,
+    /// Not in the table.
+    Unknown,
+}
+
+/// The instruction of a mnemonic in upper case.
+pub(super) fn instruction(mnemonic: [u8; 2]) -> Instruction {
+    match &mnemonic {
+        b"PD" => Instruction::Down,
+        b"PU" => Instruction::Up,
+        b"PA" => Instruction::Absolute,
+        b"PR" => Instruction::Relative,
+        b"SP" => Instruction::Pen,
+        b"PE" => Instruction::Encoded,
+        b"IN" | b"DF" | b"BP" => Instruction::Reset,
+        b"AA" => Instruction::ArcAbsolute,
+        b"AR" => Instruction::ArcRelative,
+        b"AT" => Instruction::ArcThroughAbsolute,
+        b"RT" => Instruction::ArcThroughRelative,
+        b"CI" => Instruction::Circle,
+        b"BZ" => Instruction::BezierAbsolute,
+        b"BR" => Instruction::BezierRelative,
+        b"EA" => Instruction::RectangleAbsolute,
+        b"ER" => Instruction::RectangleRelative,
+        b"EW" => Instruction::Wedge,
+        b"PM" => Instruction::Polygon,
+        b"EP" => Instruction::EdgePolygon,
+        b"SC" => Instruction::Scale,
+        b"IP" => Instruction::Corners,
+        b"IR" => Instruction::CornersPercent,
+        b"RO" => Instruction::Rotate,
+        b"PS" => Instruction::PageSize,
+        b"PG" | b"AF" | b"AH" => Instruction::Page,
+        b"LB" => Instruction::Label,
+        b"DT" => Instruction::Terminator,
+        b"CO" => Instruction::Comment,
+        b"DI" | b"DR" => Instruction::Direction,
+        b"UC" => Instruction::LeftOut("a drawn character"),
+        b"CP" => Instruction::LeftOut("a move by characters"),
+        b"FT" => Instruction::LeftOut("a fill pattern"),
+        b"RA" | b"RR" => Instruction::LeftOut("a filled rectangle"),
+        b"WG" => Instruction::LeftOut("a filled wedge"),
+        b"FP" => Instruction::LeftOut("a filled polygon"),
+        b"CS" | b"SS" => Instruction::LeftOut("a character set"),
+        b"SM" => Instruction::LeftOut("a symbol at each point"),
+        b"IW" => Instruction::LeftOut("a window that clips lines"),
+        b"AC" | b"AD" | b"AP" | b"AS" | b"CA" | b"CF" | b"CM" | b"CR" | b"CT" | b"CV" | b"DC" | b"DP" | b"DV"
+        | b"EC" | b"ES" | b"FI" | b"FN" | b"FR" | b"FS" | b"GC" | b"GM" | b"IM" | b"LA" | b"LM" | b"LO" | b"LT"
+        | b"MC" | b"MG" | b"MT" | b"NP" | b"NR" | b"OA" | b"OC" | b"OD" | b"OE" | b"OF" | b"OH" | b"OI" | b"OO"
+        | b"OP" | b"OS" | b"OT" | b"OW" | b"PB" | b"PC" | b"PP" | b"PT" | b"PW" | b"QL" | b"RF" | b"RP" | b"SA"
+        | b"SB" | b"SD" | b"SI" | b"SL" | b"SR" | b"ST" | b"SV" | b"TD" | b"TL" | b"TR" | b"UL" | b"VA" | b"VN"
+        | b"VS" | b"WD" | b"WU" | b"XT" | b"YT" => Instruction::Housekeeping,
+        _ => Instruction::Unknown,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_draws_and_is_left_out_is_told_from_what_does_not_draw() {
+        assert_eq!(instruction(*b"PD"), Instruction::Down);
+        assert_eq!(instruction(*b"VS"), Instruction::Housekeeping);
+        assert!(matches!(instruction(*b"RA"), Instruction::LeftOut(_)));
+        assert_eq!(instruction(*b"QQ"), Instruction::Unknown);
+    }
+}

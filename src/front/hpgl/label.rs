@@ -1,0 +1,97 @@
+//! Texts: what stands between LB and its terminator, quoted comments, and the terminator that DT gives.
+
+/// The terminator of a label unless DT gives another: ETX.
+const ETX: u8 = 3;
+/// Longest text that a label has, bytes: a longer one has lost its terminator and would swallow what is drawn.
+const LONGEST: usize = 1024;
+
+/// The terminator in force.
+#[derive(Debug)]
+pub(super) struct Terminator {
+    byte: u8,
+    /// Where it stands in the file for the last time, once it was looked for.
+    last: Option<usize>,
+}
+
+/// A text, and where the file goes on.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct Text {
+    /// One past its last byte.
+    pub(super) end: usize,
+    /// The next byte behind its terminator.
+    pub(super) next: usize,
+    /// Whether its terminator is missing.
+    pub(super) is_open: bool,
+}
+
+impl Terminator {
+    pub(super) fn new() -> Self {
+        Self { byte: ETX, last: None }
+    }
+
+    /// DT: the byte behind it, whatever it is, but a semicolon; where the file goes on.
+    pub(super) fn define(&mut self, bytes: &[u8], at: usize) -> usize {
+        let given = bytes.get(at).copied().filter(|&byte| byte != b';');
+        *self = Self { byte: given.unwrap_or(ETX), last: None };
+        at + usize::from(given.is_some())
+    }
+
+    /// The text that starts at `at`. One whose terminator is missing ends with its line or at a semicolon.
+    pub(super) fn text(&mut self, bytes: &[u8], at: usize) -> Text {
+        // Looked for once, so that a file of labels without any is not searched to its end for each.
+        let last = *self.last.get_or_insert_with(|| memchr::memrchr(self.byte, bytes).unwrap_or(0));
+        let window = &bytes[at..bytes.len().min(at + LONGEST)];
+        let found = if last >= at { memchr::memchr(self.byte, window) } else { None };
+        if let Some(length) = found {
+            return Text { end: at + length, next: at + length + 1, is_open: false };
+        }
+        let length = window.iter().position(|byte| b";\r\n".contains(byte)).unwrap_or(window.len());
+        Text { end: at + length, next: at + length, is_open: true }
+    }
+}
+
+/// Where the file goes on behind the quoted text of CO; one without its second quote ends with its line or at a
+/// semicolon.
+pub(super) fn comment(bytes: &[u8], at: usize) -> usize {
+    let line =
+        |from: usize| bytes[from..].iter().position(|byte| b";\r\n".contains(byte)).map_or(bytes.len(), |n| from + n);
+    match bytes.get(at) {
+        Some(b'"') => {
+            let window = &bytes[at + 1..bytes.len().min(at + 1 + LONGEST)];
+            memchr::memchr(b'"', window).map_or_else(|| line(at), |length| at + length + 2)
+        }
+        _ => line(at),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_label_ends_at_its_terminator_and_at_nothing_else() {
+        let mut terminator = Terminator::new();
+        let bytes = b"LBA;PU1,2\x03PU";
+        assert_eq!(terminator.text(bytes, 2), Text { end: 9, next: 10, is_open: false });
+        let bytes = b"DT#,1;LBA\x03B#PU";
+        assert_eq!(terminator.define(bytes, 2), 3);
+        assert_eq!(terminator.text(bytes, 8), Text { end: 11, next: 12, is_open: false });
+        assert_eq!(terminator.define(b"DT;", 2), 2);
+        assert_eq!(terminator.byte, ETX);
+    }
+
+    #[test]
+    fn a_label_without_terminator_ends_with_its_line() {
+        let mut terminator = Terminator::new();
+        assert_eq!(terminator.text(b"LBSIZE M\nPU", 2), Text { end: 8, next: 8, is_open: true });
+        let far = [b"LBA;PU;".as_slice(), &[b' '; 2 * LONGEST], b"\x03"].concat();
+        assert_eq!(Terminator::new().text(&far, 2), Text { end: 3, next: 3, is_open: true });
+    }
+
+    #[test]
+    fn a_comment_ends_at_its_quote() {
+        assert_eq!(comment(b"CO\"a;b\";PU", 2), 7);
+        assert_eq!(comment(b"CO\"a;PU", 2), 4);
+        assert_eq!(comment(b"CO;PU", 2), 2);
+    }
+}

@@ -1,0 +1,423 @@
+//! The meaning of a plot: follows statement after statement and gathers strokes and texts.
+
+use std::f64::consts::TAU;
+
+use super::curve::{Arc, Bezier};
+use super::drawing::Drawing;
+use super::encoded::{Ending, Item};
+use super::instruction::Instruction;
+use super::plotter::{Plotter, TooFar};
+use super::reader::{Next, Reader, Statement};
+use super::scale::{Pair, Unknown};
+use super::tally::Tally;
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::{Heading, Vector};
+use crate::ir::marker::Label;
+use crate::source::{Source, Span};
+use crate::units::number::fixed;
+use crate::units::rad;
+
+/// What a plot draws and writes.
+#[derive(Debug, Default)]
+pub(super) struct Plot {
+    pub(super) drawing: Drawing,
+    pub(super) labels: Vec<Label>,
+}
+
+/// How a plot is measured.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Measure {
+    /// Length of a unit, mm.
+    pub(super) unit: f64,
+    /// Farthest that the chords of a curve may lie off it, mm.
+    pub(super) sagitta: f64,
+}
+
+/// Follows a plot to its end.
+pub(super) fn lower(source: &Source, measure: Measure, out: &mut Diagnostics) -> Plot {
+    let mut lowering = Lowering {
+        reader: Reader::new(source.bytes()),
+        plotter: Plotter::new(measure.unit, Drawing::with_room(source.bytes().len() / BYTES_A_VERTEX)),
+        sagitta: measure.sagitta / measure.unit,
+        labels: Vec::new(),
+        heading: None,
+        page_out: None,
+        tally: Tally::default(),
+        out,
+    };
+    lowering.run();
+    lowering.end();
+    lowering.tally.report(lowering.plotter.drawing.strokes.len(), lowering.out);
+    Plot { drawing: lowering.plotter.drawing, labels: lowering.labels }
+}
+
+struct Lowering<'a> {
+    reader: Reader<'a>,
+    plotter: Plotter,
+    /// Of curves, in units of the plotter.
+    sagitta: f64,
+    labels: Vec<Label>,
+    /// Direction of labels, when it is not along +X.
+    heading: Option<Heading>,
+    /// How much was drawn when a page went out, and where that stands.
+    page_out: Option<(usize, Span)>,
+    tally: Tally,
+    out: &'a mut Diagnostics,
+}
+
+/// A pen number beyond this is damage: it is taken as no pen.
+const MOST_PENS: f64 = 999.0;
+/// Bytes of a large plot for each of its vertices: more than most have, so that no memory is taken in vain.
+const BYTES_A_VERTEX: usize = 16;
+/// Fraction bits of PE beyond this are damage.
+const MOST_FRACTION_BITS: i64 = 52;
+
+impl Lowering<'_> {
+    fn run(&mut self) {
+        while let Some((statement, span)) = self.reader.next() {
+            match statement {
+                Statement::Instruction(Instruction::Unknown, mnemonic) => self.tally.unknown(mnemonic, span),
+                Statement::Instruction(Instruction::LeftOut(what), mnemonic) => {
+                    self.tally.left_out(mnemonic, what, span);
+                }
+                Statement::Instruction(instruction, _) => {
+                    self.tally.sound();
+                    self.obey(instruction, span);
+                }
+                Statement::Reset => self.plotter.reset(),
+                Statement::Junk => self.tally.junk(span),
+            }
+            if self.tally.is_hopeless() {
+                return;
+            }
+        }
+        if let Some((drawn, span)) = self.page_out
+            && self.plotter.drawing.strokes.len() > drawn
+        {
+            let finding = Diagnostic::new(&code::HPGL_PAGES, "a page goes out here, and more is drawn behind it");
+            self.out.push(
+                finding.at(span).hint("the pages lie on each other; if they do not belong together, split the file"),
+            );
+        }
+    }
+
+    /// The end of the file: a line that the pen is still drawing there is most likely cut short.
+    fn end(&mut self) {
+        let drawing = &self.plotter.drawing;
+        let stroke = drawing.strokes.last().filter(|stroke| !drawing.is_lifted() && stroke.range().len() > 1);
+        let ends =
+            stroke.map(|stroke| [drawing.vertices[stroke.first as usize], drawing.vertices[stroke.end as usize - 1]]);
+        if let Some([first, last]) = ends.filter(|[first, last]| first.at != last.at) {
+            let distance = fixed((last.at - first.at).norm(), 1);
+            let message = format!("the file ends amid a line, {distance} mm from where the line starts");
+            let finding = Diagnostic::new(&code::HPGL_ENDS_PEN_DOWN, message).at(last.span);
+            self.out.push(finding.hint("the file is most likely cut short; export it again"));
+        }
+        self.plotter.lift();
+    }
+
+    fn obey(&mut self, instruction: Instruction, span: Span) {
+        match instruction {
+            Instruction::Down => {
+                self.plotter.lower();
+                self.moves();
+            }
+            Instruction::Up => {
+                self.plotter.lift();
+                self.moves();
+            }
+            Instruction::Absolute | Instruction::Relative => {
+                self.plotter.set_relative(instruction == Instruction::Relative);
+                self.moves();
+            }
+            Instruction::Pen => {
+                let pen = self.values::<1>().first().copied().unwrap_or(0.0);
+                self.take_pen(pen);
+            }
+            Instruction::Encoded => self.encoded(),
+            Instruction::ArcAbsolute | Instruction::ArcRelative => {
+                self.arc(instruction == Instruction::ArcRelative, span);
+            }
+            Instruction::ArcThroughAbsolute | Instruction::ArcThroughRelative => {
+                self.arc_through(instruction == Instruction::ArcThroughRelative, span);
+            }
+            Instruction::Circle => self.circle(span),
+            Instruction::BezierAbsolute | Instruction::BezierRelative => {
+                self.beziers(instruction == Instruction::BezierRelative);
+            }
+            Instruction::RectangleAbsolute | Instruction::RectangleRelative => {
+                self.rectangle(instruction == Instruction::RectangleRelative, span);
+            }
+            Instruction::Wedge => self.wedge(span),
+            Instruction::Polygon => match self.values::<1>().first() {
+                None | Some(0.0) => self.plotter.begin_polygon(span),
+                Some(1.0) => self.plotter.close_part(span),
+                Some(_) => self.plotter.end_polygon(span),
+            },
+            Instruction::EdgePolygon => {
+                let drawn = self.plotter.edge_polygon();
+                self.check(&drawn, span);
+            }
+            Instruction::Page => {
+                let drawn = self.plotter.drawing.strokes.len();
+                if drawn > 0 {
+                    self.page_out.get_or_insert((drawn, span));
+                }
+            }
+            Instruction::Label => self.label(span),
+            Instruction::Terminator => self.reader.define_terminator(),
+            Instruction::Comment => self.reader.comment(),
+            Instruction::Direction => {
+                let values = self.values::<2>();
+                let way = values.get(1).map(|&rise| Vector::new(values[0], rise));
+                self.heading = way.filter(|way| way.norm() > 0.0).map(Heading::of).filter(|h| h.radians() != 0.0);
+            }
+            Instruction::Reset => {
+                self.plotter.reset();
+                self.heading = None;
+            }
+            Instruction::Scale
+            | Instruction::Corners
+            | Instruction::CornersPercent
+            | Instruction::Rotate
+            | Instruction::PageSize => self.frame(instruction, span),
+            Instruction::Housekeeping | Instruction::LeftOut(_) | Instruction::Unknown => {}
+        }
+    }
+
+    /// Some numbers of the instruction; one beyond any table ends them.
+    fn values<const MOST: usize>(&mut self) -> arrayvec::ArrayVec<f64, MOST> {
+        match self.reader.values() {
+            Ok(values) => values,
+            Err(span) => {
+                self.tally.too_far(span);
+                arrayvec::ArrayVec::new()
+            }
+        }
+    }
+
+    /// The next pair of the instruction; what is none is counted.
+    fn pair(&mut self) -> Option<(Pair, Span)> {
+        loop {
+            match self.reader.pair() {
+                Next::Some(pair) => return Some(pair),
+                Next::End => return None,
+                Next::Odd(span) => self.tally.odd(span),
+                Next::Overflow(span) => self.tally.too_far(span),
+            }
+        }
+    }
+
+    fn check(&mut self, outcome: &Result<(), TooFar>, span: Span) {
+        if outcome.is_err() {
+            self.tally.too_far(span);
+        }
+    }
+
+    /// The places behind PU, PD, PA and PR.
+    fn moves(&mut self) {
+        while let Some((pair, span)) = self.pair() {
+            let to = self.plotter.target(pair);
+            let outcome =
+                if self.plotter.starts_part() { self.plotter.start_part(to, span) } else { self.plotter.go(to, span) };
+            self.check(&outcome, span);
+        }
+    }
+
+    fn take_pen(&mut self, pen: f64) {
+        self.plotter.take_pen(if (0.0..=MOST_PENS).contains(&pen) { pen as u16 } else { 0 });
+    }
+
+    fn frame(&mut self, instruction: Instruction, span: Span) {
+        let values = self.values::<7>();
+        let frame = &mut self.plotter.frame;
+        let outcome = match instruction {
+            Instruction::Scale => frame.set_scale(&values),
+            Instruction::CornersPercent => frame.set_corners_percent(&values),
+            Instruction::Corners => {
+                frame.set_corners(&values);
+                Ok(())
+            }
+            Instruction::Rotate => {
+                frame.rotate(values.first().copied().unwrap_or(0.0));
+                Ok(())
+            }
+            _ => {
+                frame.set_page(&values);
+                Ok(())
+            }
+        };
+        let message = match outcome {
+            Ok(()) => return,
+            Err(Unknown::Corners) => "SC scales the drawing to corners that the file does not give (IP)",
+            Err(Unknown::Page) => "IR gives corners in percent of a page whose size the file does not give (PS)",
+            Err(Unknown::Range) => "SC scales from a range without width and is ignored",
+        };
+        let finding = Diagnostic::new(&code::HPGL_SCALE, message).at(span);
+        self.out.push(
+            finding.hint("check the extent: the size of the drawing depends on the plotter that it was made for"),
+        );
+    }
+
+    /// PE.
+    fn encoded(&mut self) {
+        let mut body = self.reader.body();
+        let (mut divisor, mut is_absolute, mut is_up) = (1.0, false, false);
+        // What the next number is, and the first of two coordinates with its place.
+        let mut flag = None;
+        let mut first: Option<(f64, usize)> = None;
+        loop {
+            let start = body.at;
+            let Some(item) = body.next() else { break };
+            let number = match item {
+                Item::Number(number) => number,
+                Item::Pen | Item::Fraction => {
+                    flag = Some(item);
+                    continue;
+                }
+                Item::Up => {
+                    is_up = true;
+                    continue;
+                }
+                Item::Absolute => {
+                    is_absolute = true;
+                    continue;
+                }
+            };
+            match flag.take() {
+                Some(Item::Pen) => self.take_pen(number as f64),
+                Some(_) => divisor = ((1_u64 << number.clamp(0, MOST_FRACTION_BITS)) as f64).max(1.0),
+                None => {
+                    let value = number as f64 / divisor;
+                    let Some((x, start)) = first.take() else {
+                        first = Some((value, start));
+                        continue;
+                    };
+                    let pair = [x, value];
+                    let to = if is_absolute { self.plotter.absolute(pair) } else { self.plotter.relative(pair) };
+                    let span = self.reader.within(start, body.at);
+                    if is_up {
+                        self.plotter.lift();
+                    } else {
+                        self.plotter.lower();
+                    }
+                    let outcome = self.plotter.go(to, span);
+                    self.check(&outcome, span);
+                    (is_absolute, is_up) = (false, false);
+                }
+            }
+        }
+        self.reader.behind(&body);
+        let span = self.reader.within(body.at.saturating_sub(1), body.at);
+        match body.ending {
+            Ending::Damaged => {
+                let finding =
+                    Diagnostic::new(&code::HPGL_PE_DAMAGED, "an encoded polyline (PE) is damaged here").at(span);
+                self.out.push(finding.hint("transfer the file again, as binary data"));
+            }
+            Ending::Open => {
+                let finding =
+                    Diagnostic::new(&code::HPGL_PE_OPEN, "an encoded polyline (PE) has no semicolon at its end");
+                self.out.push(finding.at(span).hint("the file may be cut short; compare its size with the original"));
+            }
+            Ending::Done | Ending::More => {}
+        }
+        if let Some((_, start)) = first {
+            self.tally.odd(self.reader.within(start, body.at));
+        }
+        if body.repaired {
+            self.tally.repaired(span);
+        }
+    }
+
+    /// AA, AR: centre, sweep in degrees, and a chord angle that the tolerance replaces.
+    fn arc(&mut self, is_relative: bool, span: Span) {
+        let values = self.values::<4>();
+        let [x, y, degrees, ..] = values[..] else { return };
+        let pair = [x, y];
+        let centre = if is_relative { self.plotter.relative(pair) } else { self.plotter.absolute(pair) };
+        self.follow(Arc { from: self.plotter.at(), centre, sweep: rad(degrees) }, span);
+    }
+
+    /// AT, RT: a middle and an end.
+    fn arc_through(&mut self, is_relative: bool, span: Span) {
+        let values = self.values::<5>();
+        let [x1, y1, x2, y2, ..] = values[..] else { return };
+        let place = |pair| if is_relative { self.plotter.relative(pair) } else { self.plotter.absolute(pair) };
+        let (middle, to) = (place([x1, y1]), place([x2, y2]));
+        if let Some(arc) = Arc::through(self.plotter.at(), middle, to) {
+            self.follow(arc, span);
+        }
+        let outcome = self.plotter.go(to, span);
+        self.check(&outcome, span);
+    }
+
+    fn follow(&mut self, arc: Arc, span: Span) {
+        let outcome = arc.flatten(self.sagitta).try_for_each(|to| self.plotter.go(to, span));
+        self.check(&outcome, span);
+    }
+
+    /// CI: radius, around the place of the pen.
+    fn circle(&mut self, span: Span) {
+        let Some(radius) = self.values::<2>().first().copied() else { return };
+        let centre = self.plotter.at();
+        let [across, _] = self.plotter.relative([radius, 0.0]);
+        let start = [across, centre[1]];
+        let arc = Arc { from: start, centre, sweep: TAU };
+        let outcome = self.plotter.figure(start, arc.flatten(self.sagitta), span);
+        self.check(&outcome, span);
+    }
+
+    /// BZ, BR: three control points a curve; those of BR are relative to its start.
+    fn beziers(&mut self, is_relative: bool) {
+        while let Some((first, start)) = self.pair() {
+            let (Some((second, _)), Some((third, end))) = (self.pair(), self.pair()) else {
+                self.tally.odd(start);
+                return;
+            };
+            let span = start.to(end);
+            let place = |pair| if is_relative { self.plotter.relative(pair) } else { self.plotter.absolute(pair) };
+            let curve = Bezier([self.plotter.at(), place(first), place(second), place(third)]);
+            let outcome = curve.flatten(self.sagitta).try_for_each(|to| self.plotter.go(to, span));
+            self.check(&outcome, span);
+        }
+    }
+
+    /// EA, ER: the opposite corner.
+    fn rectangle(&mut self, is_relative: bool, span: Span) {
+        let values = self.values::<2>();
+        let [x, y] = values[..] else { return };
+        let pair = [x, y];
+        let from = self.plotter.at();
+        let to = if is_relative { self.plotter.relative(pair) } else { self.plotter.absolute(pair) };
+        let corners = [[to[0], from[1]], to, [from[0], to[1]], from];
+        let outcome = self.plotter.figure(from, corners, span);
+        self.check(&outcome, span);
+    }
+
+    /// EW: radius, start and sweep in degrees; a negative radius counts the angles from the other side.
+    fn wedge(&mut self, span: Span) {
+        let values = self.values::<4>();
+        let [radius, start, degrees, ..] = values[..] else { return };
+        let centre = self.plotter.at();
+        let reach = self.plotter.relative([radius, 0.0])[0] - centre[0];
+        let (sin, cos) = rad(start).sin_cos();
+        let from = [centre[0] + reach * cos, centre[1] + reach * sin];
+        let arc = Arc { from, centre, sweep: rad(degrees) }.flatten(self.sagitta);
+        let points = std::iter::once(from).chain(arc).chain([centre]);
+        let outcome = self.plotter.figure(centre, points, span);
+        self.check(&outcome, span);
+    }
+
+    /// LB.
+    fn label(&mut self, span: Span) {
+        let (text, is_open) = self.reader.text();
+        if is_open {
+            self.tally.open_label(span);
+        }
+        if text.start < text.end {
+            let (at, heading) = (Some(self.plotter.place()), self.heading);
+            self.labels.push(Label { at, heading, span: text, mirrored: None });
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! HPGL plots: HP-GL and HP-GL/2 as garment CAD writes them (a subset is ASTM D6959).
+//!
+//! Receives bytes: instructions of two letters with numbers, in all the spellings that plotters tolerate, compact encodings,
+//! curves, scales. Promises a marker in mm like that of a cut file: parts with their cut-outs, slits as notches, equal
+//! places equal to the bit, texts never cut; and an account of every line, what it was taken for. Curves are chords within
+//! a quarter of the tolerance. Never closes an outline that the file leaves open.
+//!
+//! [`reader`] makes statements of bytes with [`syntax`], [`escape`], [`label`] and [`encoded`]; [`instruction`] is the table
+//! of what they mean; [`lower`] follows them with the [`plotter`], its [`scale`] and [`curve`], into a [`drawing`].
+//! [`classify`] then decides what is cut: [`chain`] joins strokes, [`shape`] measures them, [`nest`], [`notch`] and [`text`]
+//! recognise, [`piece`] makes the marker with [`boxes`] to find its parts. [`unit`] doubts the size; [`tally`] counts what was not obeyed.
+
+mod boxes;
+mod chain;
+mod classify;
+mod curve;
+mod drawing;
+mod encoded;
+mod escape;
+mod instruction;
+mod label;
+mod lower;
+mod nest;
+mod notch;
+mod piece;
+mod plotter;
+mod reader;
+mod scale;
+mod shape;
+mod syntax;
+mod tally;
+mod text;
+mod unit;
+
+use self::instruction::Instruction;
+use self::lower::{Measure, lower};
+use self::reader::{Reader, Statement};
+use super::{Dialect, Likeness, foreign};
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::Extent;
+use crate::ir::Marker;
+use crate::machine::Job;
+use crate::source::Source;
+
+pub(super) const DIALECT: Dialect = Dialect {
+    name: "hpgl",
+    about: "HPGL plot of garment CAD: `PU`, `PD` and coordinates; closed lines are cut",
+    extensions: &["plt", "hpgl", "hpg", "hgl"],
+    sniff,
+    syntax: check_syntax,
+    read,
+};
+
+/// Statements that are looked at to recognise a file, and bytes of it.
+const SNIFFED_STATEMENTS: usize = 64;
+const SNIFFED_BYTES: usize = 4096;
+/// Instructions that must be known for a file to be recognised without doubt.
+const SURE_INSTRUCTIONS: usize = 3;
+/// Farthest that the chords of a curve may lie off it, as a part of the tolerance.
+const SAGITTA: f64 = 0.25;
+
+fn sniff(bytes: &[u8]) -> Likeness {
+    let mut reader = Reader::new(&bytes[..bytes.len().min(SNIFFED_BYTES)]);
+    let (mut known, mut all, mut moves) = (0, 0, false);
+    while all < SNIFFED_STATEMENTS
+        && let Some((statement, _)) = reader.next()
+    {
+        all += 1;
+        let Statement::Instruction(instruction, _) = statement else { continue };
+        moves |= matches!(
+            instruction,
+            Instruction::Down | Instruction::Up | Instruction::Absolute | Instruction::Relative | Instruction::Encoded
+        );
+        match instruction {
+            Instruction::Label => _ = reader.text(),
+            Instruction::Terminator => reader.define_terminator(),
+            Instruction::Comment => reader.comment(),
+            Instruction::Encoded => {
+                let mut body = reader.body();
+                while body.next().is_some() {}
+                reader.behind(&body);
+            }
+            _ => {}
+        }
+        known += usize::from(instruction != Instruction::Unknown);
+    }
+    match known {
+        SURE_INSTRUCTIONS.. if moves && 2 * known > all => Likeness::Sure,
+        1.. if moves && 2 * known >= all => Likeness::Maybe,
+        _ => Likeness::No,
+    }
+}
+
+/// Whether the bytes are statements.
+fn check_syntax(source: &Source, out: &mut Diagnostics) {
+    let mut reader = Reader::new(source.bytes());
+    while let Some((statement, span)) = reader.next() {
+        match statement {
+            Statement::Instruction(Instruction::Label, _) => _ = reader.text(),
+            Statement::Instruction(Instruction::Terminator, _) => reader.define_terminator(),
+            Statement::Instruction(Instruction::Comment, _) => reader.comment(),
+            Statement::Instruction(Instruction::Encoded, _) => {
+                let mut body = reader.body();
+                while body.next().is_some() {}
+                if body.ending == encoded::Ending::Damaged {
+                    out.push(Diagnostic::new(&code::HPGL_PE_DAMAGED, "an encoded polyline is damaged").at(span));
+                }
+                reader.behind(&body);
+            }
+            Statement::Junk => {
+                out.push(Diagnostic::new(&code::HPGL_JUNK, "what stands here is no instruction").at(span));
+            }
+            Statement::Instruction(..) | Statement::Reset => {}
+        }
+    }
+}
+
+fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker {
+    if foreign::refuse_unread(source, out) {
+        return Marker::default();
+    }
+    let unit = &job.profile.hpgl.unit;
+    let sagitta = job.profile.tolerance(unit.mm()) * SAGITTA;
+    let plot = lower(source, Measure { unit: unit.mm(), sagitta }, out);
+    let mut extent = Extent::EMPTY;
+    for stroke in &plot.drawing.strokes {
+        extent.add(stroke.extent.min);
+        extent.add(stroke.extent.max);
+    }
+    let is_blank = plot.drawing.strokes.is_empty();
+    unit::check_plausible(unit::Sized { unit, extent: &extent, source, labels: &plot.labels }, out);
+    let marker = classify::classify(plot.drawing, plot.labels, job, out);
+    if marker.pieces.is_empty() && !out.has_errors() {
+        let message =
+            if is_blank { "the plot draws no line" } else { "no line of the plot is taken for something to cut" };
+        let finding = Diagnostic::new(&code::HPGL_NOTHING_TO_CUT, message);
+        out.push(if is_blank {
+            finding
+        } else {
+            finding.hint("`--cut all` cuts every line, `--cut-pens 1` those of a pen")
+        });
+    }
+    marker
+}

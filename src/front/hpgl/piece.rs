@@ -1,0 +1,256 @@
+//! Pieces from parts, cut-outs, notches, holes and lines, and the account of what was not cut.
+
+use super::boxes::Boxes;
+use super::classify::{Sorted, depth};
+use super::drawing::Vertex;
+use super::notch::{Pruned, prune};
+use super::shape::{CLASSES, Class, LONGEST_NOTCH, Shape};
+use crate::geom::{Extent, Point, Vector, cross, ring};
+use crate::ir::Marker;
+use crate::ir::list::{FULL_SPEED, Joint, Segment, SegmentList};
+use crate::ir::marker::{Aside, Contour, Drawing, DrawnClass, Drill, Label, Notch, NotchKind, Piece};
+use crate::machine::Job;
+use crate::source::Span;
+
+/// The drill that makes the holes.
+const DRILL: u8 = 1;
+/// Visits of boxes and vertices to find the pieces of labels, lines and holes: a guard against drawings that are made to be slow.
+const MOST_WORK: usize = 200_000_000;
+
+/// Makes the marker.
+pub(super) fn marker(sorted: &Sorted, labels: Vec<Label>, job: &Job) -> Marker {
+    let unit = job.profile.hpgl.unit.mm();
+    let mut making = Making {
+        sorted,
+        unit,
+        list: SegmentList::default(),
+        aside: Aside { points: 0, length: 0.0, bounds: Extent::EMPTY },
+        parts: Vec::new(),
+        boxes: Boxes::new(&[]),
+        pieces: Vec::new(),
+        spikes: 0,
+        spike_length: 0.0,
+        work: MOST_WORK,
+    };
+    let cut = sorted.shapes.iter().filter(|shape| shape.class.is_cut() && shape.class != Class::Hole);
+    making.list.reserve(cut.map(|shape| shape.stroke.range().len() - 1).sum());
+    making.begin_parts();
+    making.add_inner();
+    making.add_outlines();
+    making.add_labels(labels);
+    let drawing = making.account();
+    for (i, piece) in making.pieces.iter_mut().enumerate() {
+        piece.number = i as u32 + 1;
+    }
+    Marker { list: making.list, pieces: making.pieces, unit, drawing: Some(drawing), ..Marker::default() }
+}
+
+/// The centre of gravity of a closed line: that of a circle whatever its chords.
+fn centroid(shape: &Shape, vertices: &[Vertex]) -> Point {
+    let origin = vertices[0].at;
+    let part = |pair: &[Vertex]| {
+        let (a, b) = (pair[0].at - origin, pair[1].at - origin);
+        (a + b) * cross(a, b)
+    };
+    let sum = vertices.windows(2).map(part).fold(Vector::zeros(), |sum, part| sum + part);
+    origin + sum / (6.0 * shape.area)
+}
+
+struct Making<'a> {
+    sorted: &'a Sorted,
+    unit: f64,
+    list: SegmentList,
+    aside: Aside,
+    /// The outlines of parts, as indices in the list of outlines, in cut order; then their pieces in the same order.
+    parts: Vec<usize>,
+    /// The boxes of the parts, by their index in that list.
+    boxes: Boxes,
+    pieces: Vec<Piece>,
+    /// Notches that were spikes of outlines, and their length, mm.
+    spikes: usize,
+    spike_length: f64,
+    work: usize,
+}
+
+impl Making<'_> {
+    fn shape(&self, outline: usize) -> &Shape {
+        &self.sorted.shapes[self.sorted.outlines[outline]]
+    }
+
+    fn span(&self, shape: &Shape) -> Span {
+        shape.vertices(&self.sorted.drawing)[1].span
+    }
+
+    /// Parts in the order of the file; one that lies in the cut-out of another comes before that one.
+    fn begin_parts(&mut self) {
+        let parents = &self.sorted.parents;
+        let outermost = |k: usize| std::iter::successors(Some(k), |&k| parents[k]).last().unwrap_or(k);
+        let mut keys: Vec<(usize, usize, usize)> = (0..self.sorted.outlines.len())
+            .filter(|&k| self.shape(k).class == Class::Part)
+            .map(|k| (outermost(k), usize::MAX - depth(parents, k), k))
+            .collect();
+        keys.sort_unstable();
+        self.parts = keys.into_iter().map(|(_, _, k)| k).collect();
+        let extents: Vec<Extent> = self.parts.iter().map(|&k| *self.shape(k).extent()).collect();
+        self.boxes = Boxes::new(&extents);
+        self.pieces =
+            self.parts.iter().map(|&k| Piece { span: self.span(self.shape(k)), ..Piece::default() }).collect();
+    }
+
+    /// The piece of an outline: its own, or that of the part whose cut-out it is.
+    fn piece_of(&self, pieces: &[usize], outline: usize) -> usize {
+        let part = if self.shape(outline).class == Class::Part { None } else { self.sorted.parents[outline] };
+        pieces[part.unwrap_or(outline)]
+    }
+
+    /// The piece of each outline that is a part.
+    fn pieces_by_outline(&self) -> Vec<usize> {
+        let mut pieces = vec![0; self.sorted.outlines.len()];
+        for (piece, &outline) in self.parts.iter().enumerate() {
+            pieces[outline] = piece;
+        }
+        pieces
+    }
+
+    /// What is cut before the outlines: marks, holes, lines.
+    fn add_inner(&mut self) {
+        let sorted = self.sorted;
+        let by_outline = self.pieces_by_outline();
+        for found in &sorted.notches {
+            let piece = self.piece_of(&by_outline, found.outline);
+            let shape = &sorted.shapes[found.mark];
+            match found.cut {
+                Some([root, tip]) => {
+                    let span = self.span(shape);
+                    let notch = Notch { kind: NotchKind::Slit, root, tip, percent: FULL_SPEED, span };
+                    self.aside.points += shape.stroke.points as usize - 1;
+                    self.aside.length += shape.length - notch.depth();
+                    self.pieces[piece].notches.push(notch);
+                }
+                None => self.add_contour(piece, shape.vertices(&sorted.drawing)),
+            }
+        }
+        for shape in &sorted.shapes {
+            match shape.class {
+                Class::Hole => {
+                    let middle = centroid(shape, shape.vertices(&sorted.drawing));
+                    let span = self.span(shape);
+                    let piece = self.piece_around(middle, span);
+                    self.pieces[piece].drills.push(Drill { at: middle, tool: DRILL, span });
+                }
+                Class::Line => {
+                    let vertices = shape.vertices(&sorted.drawing);
+                    let piece = self.piece_around(vertices[0].at, self.span(shape));
+                    self.add_contour(piece, vertices);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Cut-outs, then the part itself, with the spikes among their notches.
+    fn add_outlines(&mut self) {
+        let sorted = self.sorted;
+        let by_outline = self.pieces_by_outline();
+        for class in [Class::CutOut, Class::Part] {
+            for outline in 0..sorted.outlines.len() {
+                let shape = self.shape(outline);
+                if shape.class != class {
+                    continue;
+                }
+                let (vertices, has_spikes) = (shape.vertices(&sorted.drawing), shape.has_spikes);
+                let piece = self.piece_of(&by_outline, outline);
+                if !has_spikes {
+                    self.add_contour(piece, vertices);
+                    continue;
+                }
+                let Pruned { vertices, spikes, points, length } = prune(vertices, self.unit, LONGEST_NOTCH);
+                self.aside.points += points;
+                self.aside.length += length;
+                self.spikes += spikes.len();
+                for spike in spikes {
+                    let (root, tip, span) = (spike.root, spike.tip.at, spike.tip.span);
+                    let notch = Notch { kind: NotchKind::Slit, root, tip, percent: FULL_SPEED, span };
+                    self.spike_length += notch.depth();
+                    self.pieces[piece].notches.push(notch);
+                }
+                self.add_contour(piece, &vertices);
+            }
+        }
+    }
+
+    fn add_contour(&mut self, piece: usize, vertices: &[Vertex]) {
+        let segments = vertices.windows(2).map(|pair| Segment {
+            from: pair[0].at,
+            to: pair[1].at,
+            span: pair[1].span,
+            joint: Joint::default(),
+            percent: FULL_SPEED,
+        });
+        let closed = vertices.first().map(|v| v.at) == vertices.last().map(|v| v.at);
+        if let Some(range) = self.list.append(segments) {
+            self.pieces[piece].contours.push(Contour { range, closed });
+        }
+    }
+
+    /// The piece whose part holds a place most closely; a new one when none does.
+    fn piece_around(&mut self, at: Point, span: Span) -> usize {
+        self.part_around(at).unwrap_or_else(|| {
+            self.pieces.push(Piece { span, ..Piece::default() });
+            self.pieces.len() - 1
+        })
+    }
+
+    /// The piece of the least part that holds a place; of equal ones the first.
+    fn part_around(&mut self, at: Point) -> Option<usize> {
+        let mut best: Option<(f64, usize)> = None;
+        for piece in self.boxes.near(at) {
+            let Some(left) = self.work.checked_sub(1) else { break };
+            self.work = left;
+            let shape = self.shape(self.parts[piece]);
+            let rank = (shape.area.abs(), piece);
+            if !shape.extent().holds(at) || best.is_some_and(|best| rank >= best) {
+                continue;
+            }
+            let vertices = shape.vertices(&self.sorted.drawing);
+            let Some(left) = self.work.checked_sub(vertices.len()) else { break };
+            self.work = left;
+            let points: Vec<Point> = vertices.iter().map(|vertex| vertex.at).collect();
+            if ring::contains(&points, at) {
+                best = Some(rank);
+            }
+        }
+        best.map(|(_, piece)| piece)
+    }
+
+    /// A label goes to the part that it stands in; titles beside the parts go to none.
+    fn add_labels(&mut self, labels: Vec<Label>) {
+        for label in labels {
+            if let Some(piece) = label.at.and_then(|at| self.part_around(at)) {
+                self.pieces[piece].labels.push(label);
+            }
+        }
+    }
+
+    /// What all lines were taken for, and what of them is not cut.
+    fn account(&mut self) -> Drawing {
+        let shapes = &self.sorted.shapes;
+        for shape in shapes.iter().filter(|shape| !shape.class.is_cut() || shape.class == Class::Hole) {
+            self.aside.points += shape.stroke.points as usize;
+            self.aside.length += shape.length;
+            self.aside.bounds.add(shape.extent().min);
+            self.aside.bounds.add(shape.extent().max);
+        }
+        let class = |&(class, name): &(Class, &'static str)| {
+            let of = || shapes.iter().filter(|shape| shape.class == class);
+            let (mut count, length) = (of().count(), of().map(|shape| shape.length).sum());
+            if class == Class::Notch {
+                count += self.spikes;
+            }
+            DrawnClass { name, cut: class.is_cut(), count, length }
+        };
+        let classes: Vec<DrawnClass> = CLASSES.iter().map(class).collect();
+        let pen_down = shapes.iter().map(|shape| shape.length).sum();
+        Drawing { pen_down, classes, aside: self.aside }
+    }
+}

@@ -1,0 +1,227 @@
+//! The state of the plotter: pen, mode, place, scale, polygon buffer. Makes strokes of moves.
+
+use super::drawing::Drawing;
+use super::scale::{Frame, Pair};
+use super::syntax::VALUE_MAX;
+use crate::geom::Point;
+use crate::source::Span;
+
+/// The pen that draws when the file takes none: many files do.
+const FIRST_PEN: u16 = 1;
+
+/// Follows the moves.
+#[derive(Debug)]
+pub(super) struct Plotter {
+    pub(super) frame: Frame,
+    pub(super) drawing: Drawing,
+    /// Length of a unit, mm.
+    unit: f64,
+    pen: u16,
+    is_down: bool,
+    is_relative: bool,
+    /// Where it is, in units of the plotter before RO.
+    at: Pair,
+    /// Corners of the polygon that PM gathers, and where its last part starts; `None` outside PM.
+    gathering: Option<usize>,
+    /// Whether the next place starts another part of it.
+    awaits_part: bool,
+    polygon: Vec<Corner>,
+}
+
+/// A corner of a polygon.
+#[derive(Debug, Clone, Copy)]
+struct Corner {
+    at: Pair,
+    span: Span,
+    /// Whether the edge that ends here is drawn.
+    is_edge: bool,
+}
+
+/// A place beyond any table.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct TooFar;
+
+impl Plotter {
+    /// A plotter whose unit is so many mm, and which draws into a drawing.
+    pub(super) fn new(unit: f64, drawing: Drawing) -> Self {
+        Self {
+            frame: Frame::new(),
+            drawing,
+            unit,
+            pen: FIRST_PEN,
+            is_down: false,
+            is_relative: false,
+            at: [0.0, 0.0],
+            gathering: None,
+            awaits_part: false,
+            polygon: Vec::new(),
+        }
+    }
+
+    /// IN, DF and the like.
+    pub(super) fn reset(&mut self) {
+        self.lift();
+        self.frame.reset();
+        (self.is_relative, self.gathering, self.awaits_part) = (false, None, false);
+        self.polygon.clear();
+    }
+
+    /// Where it is, mm.
+    pub(super) fn place(&self) -> Point {
+        self.point(self.at)
+    }
+
+    /// Where it is, in units of the plotter.
+    pub(super) fn at(&self) -> Pair {
+        self.at
+    }
+
+    pub(super) fn set_relative(&mut self, is_relative: bool) {
+        self.is_relative = is_relative;
+    }
+
+    /// PU.
+    pub(super) fn lift(&mut self) {
+        self.is_down = false;
+        self.drawing.lift();
+    }
+
+    /// PD.
+    pub(super) fn lower(&mut self) {
+        self.is_down = true;
+    }
+
+    /// SP.
+    pub(super) fn take_pen(&mut self, pen: u16) {
+        if pen != self.pen {
+            self.drawing.lift();
+            self.pen = pen;
+        }
+    }
+
+    /// Where two numbers lead in the mode in force.
+    pub(super) fn target(&self, pair: Pair) -> Pair {
+        if self.is_relative { self.relative(pair) } else { self.absolute(pair) }
+    }
+
+    pub(super) fn absolute(&self, pair: Pair) -> Pair {
+        if self.frame.is_plain() { pair } else { self.frame.place(pair) }
+    }
+
+    pub(super) fn relative(&self, pair: Pair) -> Pair {
+        let way = if self.frame.is_plain() { pair } else { self.frame.way(pair) };
+        [self.at[0] + way[0], self.at[1] + way[1]]
+    }
+
+    /// A move with the pen as it is.
+    pub(super) fn go(&mut self, to: Pair, span: Span) -> Result<(), TooFar> {
+        if self.is_down { self.draw(to, span) } else { self.jump(to, span) }
+    }
+
+    /// A move that draws.
+    pub(super) fn draw(&mut self, to: Pair, span: Span) -> Result<(), TooFar> {
+        check(to)?;
+        if self.gathering.is_some() {
+            self.polygon.push(Corner { at: to, span, is_edge: true });
+        } else {
+            if self.drawing.is_lifted() {
+                self.drawing.begin(self.point(self.at), span, self.pen);
+            }
+            self.drawing.line(self.point(to), span);
+        }
+        self.at = to;
+        Ok(())
+    }
+
+    /// A move that does not draw.
+    pub(super) fn jump(&mut self, to: Pair, span: Span) -> Result<(), TooFar> {
+        check(to)?;
+        if self.gathering.is_some() {
+            self.polygon.push(Corner { at: to, span, is_edge: false });
+        } else {
+            self.drawing.lift();
+        }
+        self.at = to;
+        Ok(())
+    }
+
+    /// A figure of its own, drawn whether the pen is up or down; the pen is then where it was.
+    pub(super) fn figure(
+        &mut self,
+        start: Pair,
+        points: impl IntoIterator<Item = Pair>,
+        span: Span,
+    ) -> Result<(), TooFar> {
+        let back = self.at;
+        self.jump(start, span)?;
+        let drawn = points.into_iter().try_for_each(|to| self.draw(to, span));
+        self.jump(back, span)?;
+        drawn
+    }
+
+    /// PM 0: what follows is gathered.
+    pub(super) fn begin_polygon(&mut self, span: Span) {
+        self.drawing.lift();
+        self.polygon.clear();
+        self.polygon.push(Corner { at: self.at, span, is_edge: false });
+        (self.gathering, self.awaits_part) = (Some(0), false);
+    }
+
+    /// PM 1: the part is closed, and the next place starts another.
+    pub(super) fn close_part(&mut self, span: Span) {
+        let Some(start) = self.gathering else { return };
+        let first = self.polygon[start].at;
+        if self.polygon.last().is_some_and(|last| last.at != first) {
+            self.polygon.push(Corner { at: first, span, is_edge: true });
+        }
+        self.at = first;
+        self.polygon.push(Corner { at: first, span, is_edge: false });
+        (self.gathering, self.awaits_part) = (Some(self.polygon.len() - 1), true);
+    }
+
+    /// Whether the next place starts a part: the first one behind PM 1 does, pen up or down.
+    pub(super) fn starts_part(&self) -> bool {
+        self.awaits_part
+    }
+
+    /// That place.
+    pub(super) fn start_part(&mut self, to: Pair, span: Span) -> Result<(), TooFar> {
+        self.jump(to, span)?;
+        (self.gathering, self.awaits_part) = (Some(self.polygon.len() - 1), false);
+        Ok(())
+    }
+
+    /// PM 2: the polygon is whole.
+    pub(super) fn end_polygon(&mut self, span: Span) {
+        self.close_part(span);
+        (self.gathering, self.awaits_part) = (None, false);
+    }
+
+    /// EP: draws the edges that the pen was down for.
+    pub(super) fn edge_polygon(&mut self) -> Result<(), TooFar> {
+        if self.gathering.is_some() {
+            return Ok(());
+        }
+        let back = self.at;
+        self.drawing.lift();
+        let polygon = std::mem::take(&mut self.polygon);
+        for corner in &polygon {
+            if corner.is_edge { self.draw(corner.at, corner.span)? } else { self.jump(corner.at, corner.span)? }
+        }
+        self.polygon = polygon;
+        self.drawing.lift();
+        self.at = back;
+        Ok(())
+    }
+
+    /// A place of the plotter, mm. One multiplication, so that equal places of the file are equal to the bit.
+    fn point(&self, at: Pair) -> Point {
+        let [x, y] = if self.frame.is_turned() { self.frame.turned(at) } else { at };
+        Point::new(x * self.unit, y * self.unit)
+    }
+}
+
+/// A place on a table; never true of what is not a number.
+fn check(to: Pair) -> Result<(), TooFar> {
+    if to[0].abs() <= VALUE_MAX && to[1].abs() <= VALUE_MAX { Ok(()) } else { Err(TooFar) }
+}

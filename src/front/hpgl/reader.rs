@@ -1,0 +1,272 @@
+//! The bytes of a plot as statements: instructions with their numbers, texts, escape sequences, and junk between them.
+
+use super::encoded::{self, Body};
+use super::escape::{Escape, escape, job};
+use super::instruction::{Instruction, instruction};
+use super::label::{self, Terminator};
+use super::syntax::{self, Fault};
+use crate::source::Span;
+
+/// What stands next in a plot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Statement {
+    /// An instruction; its numbers are taken with [`Reader::pair`] and [`Reader::value`], its text by the other methods.
+    Instruction(Instruction, [u8; 2]),
+    /// The plotter is reset from outside.
+    Reset,
+    /// Bytes that begin no statement.
+    Junk,
+}
+
+/// Two numbers, and where they stand.
+pub(super) type Pair = ([f64; 2], Span);
+
+/// What a list of numbers holds next.
+#[derive(Debug, PartialEq)]
+pub(super) enum Next<T> {
+    /// A value.
+    Some(T),
+    /// Nothing more.
+    End,
+    /// The first of two numbers, and no second.
+    Odd(Span),
+    /// A number beyond any table.
+    Overflow(Span),
+}
+
+/// Reads statement after statement.
+#[derive(Debug)]
+pub(super) struct Reader<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    /// Number of the instruction, from 1: the block of its spans.
+    block: u32,
+    terminator: Terminator,
+    /// Whether the file is text in UTF-8, once somebody asked.
+    paired: Option<bool>,
+}
+
+/// Begins the sequences of [`super::escape`].
+const ESCAPE: u8 = 0x1b;
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
+impl<'a> Reader<'a> {
+    pub(super) fn new(bytes: &'a [u8]) -> Self {
+        let at = if bytes.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 };
+        Self { bytes, at, block: 0, terminator: Terminator::new(), paired: None }
+    }
+
+    /// The next statement and where its first bytes stand.
+    pub(super) fn next(&mut self) -> Option<(Statement, Span)> {
+        self.finish();
+        loop {
+            while let Some(b';' | b' ' | b'\t' | b'\r' | b'\n' | 0 | 3 | 0x1a) = self.bytes.get(self.at) {
+                self.at += 1;
+            }
+            let start = self.at;
+            let i = &self.bytes[start..];
+            let &first = i.first()?;
+            let mut passed_over = false;
+            let (statement, next) = if let Ok((rest, mnemonic)) = syntax::mnemonic(i) {
+                (Statement::Instruction(instruction(mnemonic), mnemonic), rest)
+            } else if let Ok((rest, sequence)) = if first == ESCAPE { escape(i) } else { job(i) } {
+                passed_over = sequence == Escape::Other;
+                (Statement::Reset, rest)
+            } else {
+                let length = 1 + i[1..].iter().position(|&byte| begins(byte)).unwrap_or(i.len() - 1);
+                (Statement::Junk, &i[length..])
+            };
+            self.at = self.bytes.len() - next.len();
+            if !passed_over {
+                if matches!(statement, Statement::Reset | Statement::Instruction(Instruction::Reset, _)) {
+                    self.terminator = Terminator::new();
+                }
+                self.block += 1;
+                return Some((statement, self.span(start)));
+            }
+        }
+    }
+
+    /// Takes what is left of an instruction's numbers, and its end.
+    fn finish(&mut self) {
+        if self.block == 0 {
+            return;
+        }
+        while let Ok((rest, _)) = syntax::parameter(&self.bytes[self.at..]) {
+            self.at = self.bytes.len() - rest.len();
+        }
+        if let Ok((rest, ())) = syntax::end(&self.bytes[self.at..]) {
+            self.at = self.bytes.len() - rest.len();
+        }
+    }
+
+    /// From `start` to the next byte.
+    fn span(&self, start: usize) -> Span {
+        // A `Source` is below 4 GiB.
+        Span { start: start as u32, end: self.at as u32, block: self.block }
+    }
+
+    /// The next number of the instruction.
+    pub(super) fn value(&mut self) -> Next<f64> {
+        let start = self.at;
+        match syntax::parameter(&self.bytes[start..]) {
+            Ok((rest, value)) => {
+                self.at = self.bytes.len() - rest.len();
+                Next::Some(value)
+            }
+            Err(nom::Err::Failure(Fault::Overflow)) => {
+                let rest = &self.bytes[start..];
+                let digits = rest.iter().skip(1).position(|byte| !(byte.is_ascii_digit() || *byte == b'.'));
+                self.at = start + digits.map_or(rest.len(), |length| length + 1);
+                Next::Overflow(self.span(start))
+            }
+            Err(_) => Next::End,
+        }
+    }
+
+    /// The next two numbers of the instruction.
+    pub(super) fn pair(&mut self) -> Next<Pair> {
+        let i = &self.bytes[self.at..];
+        if let Ok((rest, x)) = syntax::parameter(i)
+            && let Ok((rest, y)) = syntax::parameter(rest)
+        {
+            // The comma before them is no part of their place.
+            let start = self.at + usize::from(i.first() == Some(&b','));
+            self.at = self.bytes.len() - rest.len();
+            return Next::Some(([x, y], self.span(start)));
+        }
+        let start = self.at;
+        match self.value() {
+            Next::Some(_) => match self.value() {
+                Next::Overflow(span) => Next::Overflow(span),
+                _ => Next::Odd(self.span(start)),
+            },
+            Next::Overflow(span) => {
+                // Its partner goes with it, so that the places behind it stay pairs.
+                self.value();
+                Next::Overflow(span)
+            }
+            Next::Odd(_) | Next::End => Next::End,
+        }
+    }
+
+    /// As many numbers as `most`, or fewer when the instruction has fewer.
+    pub(super) fn values<const MOST: usize>(&mut self) -> Result<arrayvec::ArrayVec<f64, MOST>, Span> {
+        let mut values = arrayvec::ArrayVec::new();
+        while !values.is_full() {
+            match self.value() {
+                Next::Some(value) => values.push(value),
+                Next::Overflow(span) => return Err(span),
+                Next::End | Next::Odd(_) => break,
+            }
+        }
+        Ok(values)
+    }
+
+    /// LB: the place of its text, and whether its terminator is missing.
+    pub(super) fn text(&mut self) -> (Span, bool) {
+        let start = self.at;
+        let text = self.terminator.text(self.bytes, start);
+        self.at = text.next;
+        (Span { end: text.end as u32, ..self.span(start) }, text.is_open)
+    }
+
+    /// DT.
+    pub(super) fn define_terminator(&mut self) {
+        self.at = self.terminator.define(self.bytes, self.at);
+    }
+
+    /// CO.
+    pub(super) fn comment(&mut self) {
+        self.at = label::comment(self.bytes, self.at);
+    }
+
+    /// The body of PE; hand it back with [`Reader::behind`].
+    pub(super) fn body(&mut self) -> Body<'a> {
+        let paired = *self.paired.get_or_insert_with(|| encoded::is_paired(self.bytes));
+        Body::new(self.bytes, self.at, paired)
+    }
+
+    /// The file goes on behind a body, or behind the semicolon that follows its damage.
+    pub(super) fn behind(&mut self, body: &Body<'a>) {
+        self.at = match body.ending {
+            encoded::Ending::Damaged => {
+                memchr::memchr(b';', &self.bytes[body.at..]).map_or(self.bytes.len(), |length| body.at + length)
+            }
+            encoded::Ending::More | encoded::Ending::Done | encoded::Ending::Open => body.at,
+        };
+    }
+
+    /// The span of an item of a body that started at `start`.
+    pub(super) fn within(&self, start: usize, end: usize) -> Span {
+        Span { start: start as u32, end: end as u32, block: self.block }
+    }
+}
+
+/// Whether a byte may begin a statement.
+fn begins(byte: u8) -> bool {
+    byte.is_ascii_alphabetic() || matches!(byte, b';' | ESCAPE | b'@')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The statements of a text: mnemonics with their numbers, `!` for junk.
+    fn check(text: &[u8], expected: &str) {
+        let mut reader = Reader::new(text);
+        let mut found = Vec::new();
+        while let Some((statement, _)) = reader.next() {
+            found.push(match statement {
+                Statement::Instruction(instruction, mnemonic) => {
+                    let mut word = String::from_utf8_lossy(&mnemonic).into_owned();
+                    match instruction {
+                        Instruction::Label => word = format!("{word}[{:?}]", reader.text().0),
+                        Instruction::Terminator => reader.define_terminator(),
+                        Instruction::Comment => reader.comment(),
+                        _ => {
+                            while let Next::Some(value) = reader.value() {
+                                word = format!("{word} {value}");
+                            }
+                        }
+                    }
+                    word
+                }
+                Statement::Reset => "reset".to_owned(),
+                Statement::Junk => "!".to_owned(),
+            });
+        }
+        assert_eq!(found.join("|"), expected, "{}", text.escape_ascii());
+    }
+
+    #[test]
+    fn statements_end_in_many_ways() {
+        check(b"IN;SP1;PU0,0;PD4,5;", "IN|SP 1|PU 0 0|PD 4 5");
+        check(b"INSP1PU0,0PD4 5pu", "IN|SP 1|PU 0 0|PD 4 5|PU");
+        check(b";PD7,4\r\n;PD8,4\r\n", "PD 7 4|PD 8 4");
+        check(b"!PG;PU1-2;", "!|PG|PU 1 -2");
+        check(b"\xef\xbb\xbf\x1bE\x1b%0BIN;CO\"PU1,2\";DT#,1;PU;", "reset|IN|CO|DT|PU");
+        check(b"@PJL ENTER LANGUAGE=HPGL2\nIN;", "IN");
+        check(b"P;PU3;", "!|PU 3");
+        check(
+            b"DT#;LBa#IN;LBb#\x03PU;",
+            "DT|LB[Span { start: 6, end: 7, block: 2 }]|IN|LB[Span { start: 13, end: 15, block: 4 }]|PU",
+        );
+        check(b"\x1b", "!");
+    }
+
+    #[test]
+    fn places_count_instructions_and_pairs() {
+        let mut reader = Reader::new(b"IN;PD10,20,30,40,5;");
+        reader.next();
+        reader.next();
+        assert_eq!(reader.pair(), Next::Some(([10.0, 20.0], Span { start: 5, end: 10, block: 2 })));
+        assert_eq!(reader.pair(), Next::Some(([30.0, 40.0], Span { start: 11, end: 16, block: 2 })));
+        assert_eq!(reader.pair(), Next::Odd(Span { start: 16, end: 18, block: 2 }));
+        assert_eq!(reader.pair(), Next::End);
+        let mut reader = Reader::new(b"PD2147483648,1,3,4;PU");
+        reader.next();
+        assert_eq!(reader.pair(), Next::Overflow(Span { start: 2, end: 12, block: 1 }));
+        assert_eq!(reader.pair(), Next::Some(([3.0, 4.0], Span { start: 15, end: 18, block: 1 })));
+    }
+}

@@ -1,0 +1,218 @@
+//! From the numbers of the file to units of the plotter: SC between the corners P1 and P2 of IP or IR, and RO.
+
+/// A place or a way, in units of the file or of the plotter.
+pub(super) type Pair = [f64; 2];
+
+/// How numbers become places.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Frame {
+    /// The corners P1 and P2, in units of the plotter; `None` as long as the file does not set them.
+    corners: Option<[Pair; 2]>,
+    /// Size of the page (PS), in units of the plotter.
+    page: Option<Pair>,
+    /// The scale in force; `None` = numbers are units of the plotter.
+    scale: Option<Scale>,
+    /// Quarter turns of RO, counter-clockwise.
+    quarters: u8,
+}
+
+/// `offset + number * factor`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Scale {
+    offset: Pair,
+    factor: Pair,
+}
+
+/// Something that the file leaves to the device.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Unknown {
+    /// SC without IP or IR: the corners differ from plotter to plotter.
+    Corners,
+    /// IR without PS.
+    Page,
+    /// A scale from a range without width.
+    Range,
+}
+
+/// Percent.
+const HUNDRED: f64 = 100.0;
+/// The corners of a plotter for A4 paper, in units of 1/40 mm, when the file gives none (HP 7475A).
+const USUAL_CORNERS: [Pair; 2] = [[250.0, 596.0], [10_250.0, 7796.0]];
+/// The third kind of SC: factors instead of ranges; the second keeps the two scales equal.
+const ISOTROPIC: f64 = 1.0;
+const FACTORS: f64 = 2.0;
+
+impl Frame {
+    /// As switched on.
+    pub(super) const fn new() -> Self {
+        Self { corners: None, page: None, scale: None, quarters: 0 }
+    }
+
+    /// IN, DF: a page size stays.
+    pub(super) fn reset(&mut self) {
+        *self = Self { page: self.page, ..Self::new() };
+    }
+
+    /// Whether numbers are places as they stand.
+    pub(super) fn is_plain(&self) -> bool {
+        self.scale.is_none()
+    }
+
+    /// IP: P1 and P2. With P1 alone the box moves; without any it is the usual one.
+    pub(super) fn set_corners(&mut self, values: &[f64]) {
+        let [p1, p2] = self.corners.unwrap_or(USUAL_CORNERS);
+        self.corners = match *values {
+            [] => None,
+            [x1, y1, x2, y2, ..] => Some([[x1, y1], [x2, y2]]),
+            [x1, y1, ..] => Some([[x1, y1], [x1 + p2[0] - p1[0], y1 + p2[1] - p1[1]]]),
+            [_] => self.corners,
+        };
+    }
+
+    /// IR: the same in percent of the page.
+    pub(super) fn set_corners_percent(&mut self, values: &[f64]) -> Result<(), Unknown> {
+        if values.is_empty() {
+            self.corners = None;
+            return Ok(());
+        }
+        let [length, width] = self.page.ok_or(Unknown::Page)?;
+        let units: arrayvec::ArrayVec<f64, 4> = values
+            .iter()
+            .take(4)
+            .zip([length, width].into_iter().cycle())
+            .map(|(v, size)| v / HUNDRED * size)
+            .collect();
+        self.set_corners(&units);
+        Ok(())
+    }
+
+    /// PS: length, then width; with one number both are equal.
+    pub(super) fn set_page(&mut self, values: &[f64]) {
+        self.page = match *values {
+            [length, width, ..] => Some([length, width]),
+            [length] => Some([length, length]),
+            [] => None,
+        };
+    }
+
+    /// RO, degrees; anything but quarter turns is ignored.
+    pub(super) fn rotate(&mut self, degrees: f64) {
+        self.quarters = match degrees {
+            90.0 => 1,
+            180.0 => 2,
+            270.0 => 3,
+            _ => 0,
+        };
+    }
+
+    /// SC: ranges that lie between the corners; `Err` when the drawing then depends on the device or has no size.
+    pub(super) fn set_scale(&mut self, values: &[f64]) -> Result<(), Unknown> {
+        let [x0, x1, y0, y1, ..] = *values else {
+            self.scale = None;
+            return Ok(());
+        };
+        let [p1, p2] = self.corners.unwrap_or(USUAL_CORNERS);
+        let kind = values.get(4).copied().unwrap_or(0.0);
+        if kind == FACTORS {
+            let factor = [x1, y1];
+            self.scale = Some(Scale { offset: [p1[0] - x0 * x1, p1[1] - y0 * y1], factor });
+        } else {
+            if x0 == x1 || y0 == y1 {
+                return Err(Unknown::Range);
+            }
+            let mut factor = [(p2[0] - p1[0]) / (x1 - x0), (p2[1] - p1[1]) / (y1 - y0)];
+            let mut offset = p1;
+            if kind == ISOTROPIC {
+                let least = factor[0].abs().min(factor[1].abs());
+                // What is left over lies below and left by these percents, half of it if nothing is said.
+                let share = [values.get(5), values.get(6)].map(|p| p.copied().unwrap_or(HUNDRED / 2.0) / HUNDRED);
+                for (axis, range) in [x1 - x0, y1 - y0].into_iter().enumerate() {
+                    let size = least.copysign(factor[axis]) * range;
+                    offset[axis] += (p2[axis] - p1[axis] - size) * share[axis];
+                    factor[axis] = least.copysign(factor[axis]);
+                }
+            }
+            let offset = [offset[0] - x0 * factor[0], offset[1] - y0 * factor[1]];
+            self.scale = Some(Scale { offset, factor });
+        }
+        if self.corners.is_none() { Err(Unknown::Corners) } else { Ok(()) }
+    }
+
+    /// A place of the file, in units of the plotter before RO.
+    pub(super) fn place(&self, [x, y]: Pair) -> Pair {
+        match self.scale {
+            None => [x, y],
+            Some(Scale { offset, factor }) => [offset[0] + x * factor[0], offset[1] + y * factor[1]],
+        }
+    }
+
+    /// A way of the file, likewise.
+    pub(super) fn way(&self, [x, y]: Pair) -> Pair {
+        match self.scale {
+            None => [x, y],
+            Some(Scale { factor, .. }) => [x * factor[0], y * factor[1]],
+        }
+    }
+
+    /// The same place after RO: turned about the origin, then moved so that a known page lies at the origin again.
+    pub(super) fn turned(&self, [x, y]: Pair) -> Pair {
+        let [length, width] = self.page.unwrap_or([0.0, 0.0]);
+        match self.quarters {
+            1 => [length - y, x],
+            2 => [length - x, width - y],
+            3 => [y, width - x],
+            _ => [x, y],
+        }
+    }
+
+    /// Whether RO turns places.
+    pub(super) fn is_turned(&self) -> bool {
+        self.quarters != 0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(corners: &[f64], scale: &[f64], place: Pair, expected: Pair) {
+        let mut frame = Frame::new();
+        frame.set_corners(corners);
+        assert_eq!(frame.set_scale(scale), Ok(()));
+        assert_eq!(frame.place(place), expected, "{corners:?} {scale:?}");
+    }
+
+    #[test]
+    fn ranges_lie_between_the_corners() {
+        check(&[0.0, 0.0, 4000.0, 2000.0], &[0.0, 100.0, 0.0, 100.0], [50.0, 50.0], [2000.0, 1000.0]);
+        check(&[100.0, 200.0, 4100.0, 2200.0], &[10.0, 110.0, 0.0, 100.0], [10.0, 0.0], [100.0, 200.0]);
+        check(&[0.0, 0.0, 4000.0, 2000.0], &[0.0, 100.0, 0.0, 100.0, 1.0], [0.0, 0.0], [1000.0, 0.0]);
+        check(&[0.0, 0.0, 4000.0, 2000.0], &[0.0, 100.0, 0.0, 100.0, 1.0, 0.0, 0.0], [100.0, 100.0], [2000.0, 2000.0]);
+        check(&[0.0, 0.0, 4000.0, 2000.0], &[5.0, 2.0, 5.0, 3.0, 2.0], [6.0, 6.0], [2.0, 3.0]);
+        check(&[0.0, 0.0, 4000.0, 2000.0], &[0.0, 100.0, 100.0, 0.0], [0.0, 0.0], [0.0, 2000.0]);
+        check(&[0.0, 0.0, 4000.0, 2000.0], &[], [7.0, 8.0], [7.0, 8.0]);
+    }
+
+    #[test]
+    fn what_depends_on_the_device_is_told() {
+        let mut frame = Frame::new();
+        assert_eq!(frame.set_scale(&[0.0, 1.0, 0.0, 1.0]), Err(Unknown::Corners));
+        assert_eq!(frame.set_corners_percent(&[0.0, 0.0, 50.0, 50.0]), Err(Unknown::Page));
+        frame.set_page(&[4000.0, 2000.0]);
+        assert_eq!(frame.set_corners_percent(&[0.0, 0.0, 50.0, 50.0]), Ok(()));
+        assert_eq!(frame.set_scale(&[0.0, 1.0, 0.0, 1.0]), Ok(()));
+        assert_eq!(frame.place([1.0, 1.0]), [2000.0, 1000.0]);
+        assert_eq!(frame.set_scale(&[0.0, 0.0, 0.0, 1.0]), Err(Unknown::Range));
+    }
+
+    #[test]
+    fn a_turned_page_stays_at_the_origin() {
+        let mut frame = Frame::new();
+        frame.rotate(90.0);
+        assert_eq!(frame.turned([3.0, 1.0]), [-1.0, 3.0]);
+        frame.set_page(&[40.0, 20.0]);
+        assert_eq!(frame.turned([3.0, 1.0]), [39.0, 3.0]);
+        frame.rotate(180.0);
+        assert_eq!(frame.turned([3.0, 1.0]), [37.0, 19.0]);
+    }
+}

@@ -1,0 +1,152 @@
+//! The grammar of an instruction, without meaning: one function a rule of `grammar/hpgl.bnf`, in its order.
+//!
+//! What stands between instructions, and the bodies that follow rules of their own (labels, encoded polylines, escape
+//! sequences), are in [`super::reader`], [`super::label`], [`super::encoded`] and [`super::escape`].
+
+use nom::bytes::complete::take_while;
+use nom::combinator::opt;
+use nom::error::{ErrorKind, ParseError};
+use nom::{Err, IResult, Parser};
+
+/// What a rule gives.
+pub(super) type Out<'a, T> = IResult<&'a [u8], T, Fault>;
+
+/// Why a rule does not match.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Fault {
+    /// Something else stands here.
+    Other,
+    /// A number is beyond [`VALUE_MAX`].
+    Overflow,
+}
+
+impl<'a> ParseError<&'a [u8]> for Fault {
+    fn from_error_kind(_: &'a [u8], _: ErrorKind) -> Self {
+        Self::Other
+    }
+
+    fn append(_: &'a [u8], _: ErrorKind, other: Self) -> Self {
+        other
+    }
+}
+
+/// Largest number that is read, in units of the file: 2.5 km of 1/40 mm, far beyond any table, and small enough for
+/// whole numbers and their binary fractions to be exact.
+pub(super) const VALUE_MAX: f64 = 1e8;
+
+/// Decimals that count: with nine digits before them, all are exact in `f64`.
+const MOST_DECIMALS: usize = 6;
+const POWERS_OF_TEN: [f64; MOST_DECIMALS + 1] = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6];
+
+/// `<mnemonic>`: two letters, in upper case.
+pub(super) fn mnemonic(i: &[u8]) -> Out<'_, [u8; 2]> {
+    match i {
+        [a, b, rest @ ..] if a.is_ascii_alphabetic() && b.is_ascii_alphabetic() => {
+            Ok((rest, [a.to_ascii_uppercase(), b.to_ascii_uppercase()]))
+        }
+        _ => other(),
+    }
+}
+
+/// `<parameter>`: a number behind commas, blanks or nothing. Its sign separates it, too.
+pub(super) fn parameter(i: &[u8]) -> Out<'_, f64> {
+    // Nearly all of a plot is parameters: this loop is most of its reading.
+    let blanks = i.iter().position(|&byte| !is_separator(byte)).unwrap_or(i.len());
+    number(&i[blanks..])
+}
+
+fn is_separator(byte: u8) -> bool {
+    matches!(byte, b',' | b' ' | b'\t' | b'\r' | b'\n')
+}
+
+/// `<number>`: decimals without exponents.
+pub(super) fn number(i: &[u8]) -> Out<'_, f64> {
+    let (negative, unsigned) = match i.split_first() {
+        Some((b'-', rest)) => (true, rest),
+        Some((b'+', rest)) => (false, rest),
+        _ => (false, i),
+    };
+    let (mut rest, whole) = opt(digits).parse(unsigned)?;
+    let mut magnitude = whole.unwrap_or_default() as f64;
+    if let Some((b'.', after)) = rest.split_first() {
+        let count = after.iter().position(|byte| !byte.is_ascii_digit()).unwrap_or(after.len());
+        if whole.is_none() && count == 0 {
+            return other();
+        }
+        rest = &after[count..];
+        let (_, decimals) = opt(digits).parse(&after[..count.min(MOST_DECIMALS)])?;
+        // One division of two exact integers, or nearly: the nearest number to what is written.
+        let scale = POWERS_OF_TEN[count.min(MOST_DECIMALS)];
+        magnitude = (magnitude * scale + decimals.unwrap_or_default() as f64) / scale;
+    } else if whole.is_none() {
+        return other();
+    }
+    if magnitude > VALUE_MAX {
+        return Err(Err::Failure(Fault::Overflow));
+    }
+    // The negative of zero is another bit pattern than zero, though the same place.
+    Ok((rest, if negative && magnitude > 0.0 { -magnitude } else { magnitude }))
+}
+
+/// `<digits>`: their number; `u64::MAX` when it would not fit.
+fn digits(i: &[u8]) -> Out<'_, u64> {
+    let (mut value, mut rest) = (0_u64, i);
+    while let [digit @ b'0'..=b'9', behind @ ..] = rest {
+        value = value.saturating_mul(10).saturating_add(u64::from(digit - b'0'));
+        rest = behind;
+    }
+    if rest.len() == i.len() { other() } else { Ok((rest, value)) }
+}
+
+/// `<end>`: a semicolon, behind blanks, or nothing: the next letter ends an instruction as well.
+pub(super) fn end(i: &[u8]) -> Out<'_, ()> {
+    let (i, _) = take_while(is_separator).parse(i)?;
+    Ok((i.strip_prefix(b";").unwrap_or(i), ()))
+}
+
+fn other<'a, T>() -> Out<'a, T> {
+    Err(Err::Error(Fault::Other))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(text: &str, expected: &[f64], left: &str) {
+        let mut rest = text.as_bytes();
+        let mut found = Vec::new();
+        while let Ok((after, value)) = parameter(rest) {
+            found.push(value);
+            rest = after;
+        }
+        assert_eq!(found, expected, "{text}");
+        assert_eq!(String::from_utf8_lossy(rest), left, "{text}");
+    }
+
+    #[test]
+    fn parameters_are_separated_by_commas_blanks_and_signs() {
+        check("1,2;", &[1.0, 2.0], ";");
+        check("1 2\t3\r\n4PU", &[1.0, 2.0, 3.0, 4.0], "PU");
+        check("10-20+30-.5", &[10.0, -20.0, 30.0, -0.5], "");
+        check("1.5,2.;", &[1.5, 2.0], ";");
+        check("718304,0000000000000000000012", &[718_304.0, 12.0], "");
+        check("-,4", &[], "-,4");
+        check(".;", &[], ".;");
+    }
+
+    #[test]
+    fn a_number_beyond_any_table_is_a_fault_and_zero_has_no_sign() {
+        assert_eq!(number(b"2147483648"), Err(Err::Failure(Fault::Overflow)));
+        assert_eq!(number(b"99999999999999999999999999"), Err(Err::Failure(Fault::Overflow)));
+        assert_eq!(number(b"100000000").map(|found| found.1), Ok(1e8));
+        assert!(number(b"-0.0").is_ok_and(|(_, zero)| zero.is_sign_positive()));
+    }
+
+    #[test]
+    fn a_mnemonic_is_two_letters_in_either_case() {
+        assert_eq!(mnemonic(b"pD1,2"), Ok((&b"1,2"[..], *b"PD")));
+        assert_eq!(mnemonic(b"P1"), Err(Err::Error(Fault::Other)));
+        assert_eq!(end(b" \r\n;PU"), Ok((&b"PU"[..], ())));
+        assert_eq!(end(b"PU"), Ok((&b"PU"[..], ())));
+    }
+}

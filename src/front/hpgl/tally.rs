@@ -1,0 +1,162 @@
+//! What is not obeyed, each thing reported once with its count and first place.
+
+use std::collections::BTreeMap;
+
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
+use crate::source::Span;
+
+/// Statements of junk that end the reading when there are more of them than of sound ones: the file is no plot.
+const MOST_JUNK: usize = 10_000;
+/// How many mnemonics are told apart: junk has hundreds.
+const MOST_NAMES: usize = 40;
+/// How many of them a message names.
+const SHOWN_NAMES: usize = 8;
+
+/// Counts what is not obeyed.
+#[derive(Debug, Default)]
+pub(super) struct Tally {
+    sound: usize,
+    junk: Count,
+    odd: Count,
+    unknown: BTreeMap<[u8; 2], Count>,
+    unknown_total: usize,
+    left_out: BTreeMap<[u8; 2], (&'static str, Count)>,
+    /// What was dropped because a number is beyond any table.
+    too_far: Count,
+    /// Encoded polylines that an editor made UTF-8 of.
+    repaired: Count,
+    open_labels: Count,
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+struct Count {
+    count: usize,
+    first: Option<Span>,
+}
+
+impl Count {
+    fn add(&mut self, span: Span) {
+        self.count += 1;
+        self.first.get_or_insert(span);
+    }
+
+    fn times(&self) -> String {
+        if self.count == 1 { "once".to_owned() } else { format!("{} times", self.count) }
+    }
+
+    fn diagnostic(&self, code: &'static Code, message: String) -> Diagnostic {
+        Diagnostic { span: self.first, ..Diagnostic::new(code, message) }
+    }
+}
+
+impl Tally {
+    /// A known instruction.
+    pub(super) fn sound(&mut self) {
+        self.sound += 1;
+    }
+
+    /// Bytes that begin no statement.
+    pub(super) fn junk(&mut self, span: Span) {
+        self.junk.add(span);
+    }
+
+    /// A number without its partner.
+    pub(super) fn odd(&mut self, span: Span) {
+        self.odd.add(span);
+    }
+
+    pub(super) fn unknown(&mut self, mnemonic: [u8; 2], span: Span) {
+        self.unknown_total += 1;
+        if self.unknown.len() < MOST_NAMES || self.unknown.contains_key(&mnemonic) {
+            self.unknown.entry(mnemonic).or_default().add(span);
+        }
+    }
+
+    /// A known instruction that draws and is not obeyed: `what` it is, in words.
+    pub(super) fn left_out(&mut self, mnemonic: [u8; 2], what: &'static str, span: Span) {
+        self.left_out.entry(mnemonic).or_insert((what, Count::default())).1.add(span);
+    }
+
+    /// A place or number beyond any table.
+    pub(super) fn too_far(&mut self, span: Span) {
+        self.too_far.add(span);
+    }
+
+    /// An encoded polyline whose bytes were put together again.
+    pub(super) fn repaired(&mut self, span: Span) {
+        self.repaired.add(span);
+    }
+
+    /// A label without terminator.
+    pub(super) fn open_label(&mut self, span: Span) {
+        self.open_labels.add(span);
+    }
+
+    /// Whether more is junk than not.
+    fn is_junk(&self) -> bool {
+        self.junk.count + self.unknown_total > self.sound
+    }
+
+    /// Whether this cannot be a plot, whatever follows.
+    pub(super) fn is_hopeless(&self) -> bool {
+        self.junk.count + self.unknown_total > MOST_JUNK && self.is_junk()
+    }
+
+    /// Reports all of it; `strokes` is how many lines were drawn.
+    pub(super) fn report(&self, strokes: usize, out: &mut Diagnostics) {
+        if self.is_hopeless() || (self.is_junk() && strokes == 0) {
+            let message = format!(
+                "this is no plot: of its first {} statements {} are none",
+                self.sound + self.junk.count + self.unknown_total,
+                self.junk.count + self.unknown_total
+            );
+            let finding = Diagnostic::new(&code::HPGL_NOT_A_PLOT, message);
+            out.push(finding.hint("leave out `--from`, and the content is recognised"));
+            return;
+        }
+        let mut found: Vec<Diagnostic> = Vec::new();
+        if self.too_far.count > 0 {
+            let message = format!("a coordinate is beyond any table; this happens {}", self.too_far.times());
+            let finding = self.too_far.diagnostic(&code::HPGL_OVERFLOW, message);
+            found.push(finding.hint("coordinates end at 100 million units; the file may be damaged here"));
+        }
+        if self.junk.count > 0 {
+            let message = format!("what stands here is no instruction; this happens {}", self.junk.times());
+            found.push(self.junk.diagnostic(&code::HPGL_JUNK, message));
+        }
+        if self.odd.count > 0 {
+            let message = format!("a coordinate has no partner and is ignored; this happens {}", self.odd.times());
+            found.push(self.odd.diagnostic(&code::HPGL_ODD, message));
+        }
+        if self.repaired.count > 0 {
+            let message = "the file was saved again as UTF-8; its encoded polylines (PE) were repaired".to_owned();
+            let finding = self.repaired.diagnostic(&code::HPGL_PE_REPAIRED, message);
+            found.push(finding.hint("compare the pieces with the original; transfer such files as binary data"));
+        }
+        if self.open_labels.count > 0 {
+            let message =
+                format!("a label has no terminator and ends with its line; this happens {}", self.open_labels.times());
+            let finding = self.open_labels.diagnostic(&code::HPGL_OPEN_LABEL, message);
+            found.push(finding.hint("look whether lines are missing: a text may have swallowed them"));
+        }
+        if let Some(first) = self.unknown.values().filter_map(|count| count.first).min() {
+            let names: Vec<String> = self.unknown.keys().take(SHOWN_NAMES).copied().map(name).collect();
+            let more = if self.unknown.len() > SHOWN_NAMES { " and others" } else { "" };
+            let times = Count { count: self.unknown_total, first: Some(first) };
+            let message = format!("{}{more}: not known and ignored; this happens {}", names.join(", "), times.times());
+            found.push(times.diagnostic(&code::HPGL_UNKNOWN, message));
+        }
+        for (mnemonic, (what, count)) in &self.left_out {
+            let message = format!("{} ({what}) is not obeyed: it stands {}", name(*mnemonic), count.times());
+            found.push(count.diagnostic(&code::HPGL_LEFT_OUT, message));
+        }
+        found.sort_by_key(|finding| finding.span);
+        for finding in found {
+            out.push(finding);
+        }
+    }
+}
+
+fn name(mnemonic: [u8; 2]) -> String {
+    String::from_utf8_lossy(&mnemonic).into_owned()
+}

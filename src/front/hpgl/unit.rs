@@ -1,0 +1,142 @@
+//! Whether the unit of the numbers is plausible: plots do not say it, and some programs write another one.
+
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::Extent;
+use crate::ir::marker::Label;
+use crate::machine::plot::PlotUnit;
+use crate::source::Source;
+use crate::units::MM_PER_INCH;
+use crate::units::number::{exact, fixed};
+
+/// Widest plot that a table takes, mm, and the smallest thing worth cutting, mm.
+const WIDEST: f64 = 3500.0;
+const SMALLEST: f64 = 5.0;
+/// Shortest length of a marker that a title states, mm.
+const SHORTEST_STATED: f64 = 500.0;
+/// How far the extent may be from the length that a title states, as a part of it: near enough to tell 1/40 mm from
+/// 1/1000 inch, which is 1.6 % more; and as far as another unit must be off before it is doubted.
+const AGREES: f64 = 0.005;
+const DIFFERS: f64 = 0.012;
+/// Units that plots are written in, with the value of the profile's key.
+const CANDIDATES: [(f64, &str); 5] = [
+    (0.025, "\"1/40 mm\""),
+    (0.0254, "\"1/1000 in\""),
+    (0.1, "0.1"),
+    (0.01, "0.01"),
+    (MM_PER_INCH / 300.0, "\"300 dpi\""),
+];
+/// Longest text that is searched for a length, bytes.
+const LONGEST_TITLE: usize = 200;
+/// A yard, a foot, mm.
+const MM_PER_YARD: f64 = 36.0 * MM_PER_INCH;
+const MM_PER_FOOT: f64 = 12.0 * MM_PER_INCH;
+
+/// What the size of a plot is judged by.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sized<'a> {
+    pub(super) unit: &'a PlotUnit,
+    /// The box around all lines.
+    pub(super) extent: &'a Extent,
+    pub(super) source: &'a Source,
+    pub(super) labels: &'a [Label],
+}
+
+/// Warns when the drawing fits neither a length in its texts nor any table, and names the unit that would fit.
+pub(super) fn check_plausible(sized: Sized, out: &mut Diagnostics) {
+    let Sized { unit, extent, source, labels } = sized;
+    if extent.is_empty() {
+        return;
+    }
+    let (width, height) = extent.size();
+    let (long, wide) = (width.max(height), width.min(height));
+    let scale = |mm: f64| mm / unit.mm();
+    let drawn =
+        format!("with a unit of {} mm the drawing is {} x {} mm", exact(unit.mm()), fixed(width, 1), fixed(height, 1));
+    let fits_table = |mm: f64| wide * scale(mm) <= WIDEST && long * scale(mm) >= SMALLEST;
+    let hint = |mut finding: Diagnostic, fits: &dyn Fn(f64) -> bool| {
+        for (mm, key) in CANDIDATES {
+            if fits(mm) && (mm - unit.mm()).abs() > f64::EPSILON {
+                finding = finding.hint(format!("`hpgl.unit = {key}` in the profile would fit"));
+            }
+        }
+        finding
+    };
+    if !fits_table(unit.mm()) {
+        let what = if wide > WIDEST { "wider than any table" } else { "smaller than any part" };
+        let finding = Diagnostic::new(&code::HPGL_UNIT_DOUBTFUL, format!("{drawn}: {what}"));
+        out.push(hint(finding, &fits_table));
+        return;
+    }
+    for label in labels {
+        for stated in lengths(source.slice(label.span)).filter(|&stated| stated >= SHORTEST_STATED) {
+            let miss = |mm: f64| (long * scale(mm) / stated - 1.0).abs();
+            let fits = |mm: f64| miss(mm) <= AGREES;
+            if miss(unit.mm()) > DIFFERS && CANDIDATES.iter().any(|&(mm, _)| fits(mm)) {
+                let message = format!("{drawn}, but a text in it says {} mm", fixed(stated, 1));
+                let finding = Diagnostic::new(&code::HPGL_UNIT_DOUBTFUL, message).at(label.span);
+                out.push(hint(finding, &fits));
+                return;
+            }
+        }
+    }
+}
+
+/// The lengths that a text states, mm: `7 yd 3.18 in`, `6.48 m`, `6481.6mm`.
+fn lengths(text: &[u8]) -> impl Iterator<Item = f64> {
+    let text = String::from_utf8_lossy(&text[..text.len().min(LONGEST_TITLE)]).to_ascii_lowercase();
+    let is_number = |c: char| c.is_ascii_digit() || c == '.';
+    // Numbers with the word behind each, and whether they follow the word before them directly.
+    let mut parts: Vec<(f64, String, bool)> = Vec::new();
+    let mut rest = text.as_str();
+    while let Some(start) = rest.find(|c: char| c.is_ascii_digit()) {
+        let follows = rest[..start].trim().is_empty();
+        rest = &rest[start..];
+        let end = rest.find(|c| !is_number(c)).unwrap_or(rest.len());
+        let (number, behind) = rest.split_at(end);
+        let word: String = behind.trim_start().chars().take_while(char::is_ascii_alphabetic).collect();
+        rest = behind.trim_start().strip_prefix(word.as_str()).unwrap_or(behind);
+        if let Ok(number) = number.trim_end_matches('.').parse() {
+            parts.push((number, word, follows));
+        }
+    }
+    let factor = |word: &str| match word {
+        "yd" | "yds" | "yard" | "yards" => Some(MM_PER_YARD),
+        "ft" | "feet" => Some(MM_PER_FOOT),
+        "in" | "inch" | "inches" => Some(MM_PER_INCH),
+        "mm" => Some(1.0),
+        "cm" | "cms" => Some(10.0),
+        "m" | "mt" | "mts" => Some(1000.0),
+        _ => None,
+    };
+    let mut lengths: Vec<f64> = Vec::new();
+    // A smaller unit directly behind a larger one adds to it.
+    let mut before: Option<f64> = None;
+    for (number, word, follows) in parts {
+        let unit = factor(&word);
+        if let Some(unit) = unit {
+            match (before.filter(|_| follows), lengths.last_mut()) {
+                (Some(larger), Some(last)) if unit < larger => *last += number * unit,
+                _ => lengths.push(number * unit),
+            }
+        }
+        before = unit;
+    }
+    lengths.into_iter()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_are_found_in_titles() {
+        let check = |text: &str, expected: &[f64]| {
+            let found: Vec<f64> = lengths(text.as_bytes()).map(|mm| (mm * 100.0).round() / 100.0).collect();
+            assert_eq!(found, expected, "{text}");
+        };
+        check("LENGTH 7 yd 3.18 in  WIDTH 66.93 in", &[6481.57, 1700.02]);
+        check("L=6.48m W=1700 mm 83.2%", &[6480.0, 1700.0]);
+        check("SIZE 12 FRONT x2", &[]);
+        check("2 m 35 cm", &[2350.0]);
+    }
+}

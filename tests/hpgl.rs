@@ -1,0 +1,414 @@
+//! Plots: the same marker as from a cut file, what pens and options decide, a second reading that agrees, and patience
+//! with bytes that are no plot.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use cutc::diagnostic::Diagnostics;
+use cutc::front::{self, by_name};
+use cutc::geom::Point;
+use cutc::ir::{Finding, Marker};
+use cutc::machine::plot::{LineKind, Lines, PenUse, PlotUnit};
+use cutc::machine::{Job, Numbers};
+use cutc::pipeline::{self, Report};
+use cutc::source::Source;
+use cutc::verify::{Census, source_audit};
+
+fn source(bytes: impl Into<Vec<u8>>) -> Source {
+    Source::new("a.plt", bytes.into()).expect("small")
+}
+
+/// Reads a plot and runs the passes: the marker and the codes of what was found.
+fn read(source: &Source, job: &Job) -> (Marker, Vec<&'static str>) {
+    let mut found = Diagnostics::default();
+    let input = pipeline::read(source, by_name("hpgl"), job, &mut found).expect("the dialect is given");
+    (input.marker, found.iter().map(|diagnostic| diagnostic.code.name).collect())
+}
+
+/// The marker as it was read, before any pass.
+fn as_read(source: &Source, job: &Job) -> Marker {
+    (by_name("hpgl").expect("a dialect").read)(source, job, &mut Diagnostics::default())
+}
+
+/// A closed rectangle, in units of the file.
+fn rectangle(x: i64, y: i64, width: i64, height: i64) -> String {
+    let (right, top) = (x + width, y + height);
+    format!("PU{x},{y};PD{right},{y},{right},{top},{x},{top},{x},{y};")
+}
+
+/// Pieces, contours, notches and drills.
+fn counts(marker: &Marker) -> [usize; 4] {
+    let report = Report::of(marker, "hpgl");
+    [report.pieces, report.contours, report.notches.slit, report.drills]
+}
+
+// ---- The same marker in both dialects.
+
+/// Units of the plot, 1/40 mm, in a unit of the cut file, 1/10 mm.
+const PLOT_UNITS: i64 = 4;
+
+/// In units of the plot.
+type Place = [i64; 2];
+
+/// A made-up part: its outline, and slits from some of its corners inwards.
+struct Part {
+    corners: Vec<Place>,
+    /// Index of the corner, and the tip.
+    slits: Vec<(usize, Place)>,
+}
+
+/// A part around a place, its corners on a grid of some units: a star, so that it does not cross itself.
+fn part(random: &mut fastrand::Rng, [x, y]: Place, grid: i64) -> Part {
+    let count = random.usize(8..40);
+    let corner = |k: usize, reach: f64| {
+        let angle = std::f64::consts::TAU * k as f64 / count as f64;
+        let on_grid = |way: f64| (reach * way / grid as f64).round() as i64 * grid;
+        [x + on_grid(angle.cos()), y + on_grid(angle.sin())]
+    };
+    let reaches: Vec<f64> = (0..count).map(|_| 3600.0 + 2000.0 * random.f64()).collect();
+    let corners: Vec<Place> = (0..count).map(|k| corner(k, reaches[k])).collect();
+    let slits = (1..count).filter(|_| random.u8(..5) == 0);
+    let slits: Vec<_> = slits.map(|k| (k, k)).map(|(k, _)| (k, corner(k, reaches[k] - 200.0))).collect();
+    Part { corners, slits }
+}
+
+fn cut_file(parts: &[Part]) -> String {
+    let mut out = String::from("H1*G71*M15*");
+    for (i, part) in parts.iter().enumerate() {
+        let rounded = |v: i64| (v as f64 / PLOT_UNITS as f64).round();
+        let at = |[x, y]: Place| format!("X{}Y{}*", rounded(x), rounded(y));
+        let first = at(part.corners[0]);
+        let _ = write!(out, "N{}*{first}M14*", i + 1);
+        for (k, &corner) in part.corners.iter().enumerate().skip(1) {
+            out += &at(corner);
+            if let Some((_, tip)) = part.slits.iter().find(|(root, _)| *root == k) {
+                let _ = write!(out, "M19*{}M15*{}M14*", at(*tip), at(corner));
+            }
+        }
+        let _ = write!(out, "{first}M15*");
+    }
+    out + "M0*"
+}
+
+/// How a plot draws notches.
+#[derive(Clone, Copy)]
+enum Drawn {
+    Spikes,
+    Marks,
+}
+
+fn plot(parts: &[Part], drawn: Drawn) -> String {
+    let at = |[x, y]: Place| format!("{x},{y}");
+    let mut out = String::from("IN;SP1;");
+    for part in parts {
+        let first = at(part.corners[0]);
+        let mut marks = String::new();
+        let _ = write!(out, "PU{first};PD");
+        for (k, &corner) in part.corners.iter().enumerate().skip(1) {
+            let _ = write!(out, "{},", at(corner));
+            let Some((_, tip)) = part.slits.iter().find(|(root, _)| *root == k) else { continue };
+            match drawn {
+                Drawn::Spikes => _ = write!(out, "{},{},", at(*tip), at(corner)),
+                Drawn::Marks => _ = write!(marks, "PU{};PD{};", at(corner), at(*tip)),
+            }
+        }
+        let _ = write!(out, "{first};{marks}");
+    }
+    out + "PU;SP0;"
+}
+
+/// A point in units of the plot, which divides the unit of the cut file.
+fn key(point: Point) -> Place {
+    [point.x, point.y].map(|mm| (mm * 40.0).round() as i64)
+}
+
+/// The outlines, and the roots and tips of the slits of each piece.
+fn shapes(marker: &Marker) -> (Vec<Vec<Place>>, Vec<Vec<[Place; 2]>>) {
+    let outlines = marker.contours().map(|(_, contour)| marker.points(contour).into_iter().map(key).collect());
+    let slits = |piece: &cutc::ir::marker::Piece| piece.notches.iter().map(|n| [key(n.root), key(n.tip)]).collect();
+    (outlines.collect(), marker.pieces.iter().map(slits).collect())
+}
+
+/// Whether two points are the same but for `most` units of the plot in each coordinate.
+fn is_near(p: Place, q: Place, most: u64) -> bool {
+    p[0].abs_diff(q[0]).max(p[1].abs_diff(q[1])) <= most
+}
+
+/// Whether outlines are the same, point by point.
+fn outlines_agree(a: &[Vec<Place>], b: &[Vec<Place>], most: u64) -> bool {
+    let near = |(p, q): (&Place, &Place)| is_near(*p, *q, most);
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.len() == b.len() && a.iter().zip(b).all(near))
+}
+
+/// Whether slits are the same, piece by piece; a plot may have them in another order.
+fn slits_agree(a: &[Vec<[Place; 2]>], b: &[Vec<[Place; 2]>], most: u64) -> bool {
+    let near = |a: &[Place; 2], b: &[Place; 2]| is_near(a[0], b[0], most) && is_near(a[1], b[1], most);
+    let all = |a: &[[Place; 2]], b: &[[Place; 2]]| a.len() == b.len() && a.iter().all(|a| b.iter().any(|b| near(a, b)));
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| all(a, b))
+}
+
+/// Writes markers with corners on a grid of some units of the plot in both dialects; what is read may differ by `most`.
+fn check_dialects(grid: i64, most: u64) {
+    let mut count = 0;
+    for seed in 0..200 {
+        let mut random = fastrand::Rng::with_seed(seed);
+        let parts: Vec<Part> = (0..5).map(|i| part(&mut random, [8000 + 12_000 * i, 8000], grid)).collect();
+        count += parts.iter().map(|part| part.slits.len()).sum::<usize>();
+        let cut = source(cut_file(&parts));
+        let mut found = Diagnostics::default();
+        let cut = pipeline::read(&cut, by_name("iso"), &Job::default(), &mut found).expect("a cut file").marker;
+        assert!(!found.has_errors(), "{found:?}");
+        let (outlines, slits) = shapes(&cut);
+        for drawn in [Drawn::Spikes, Drawn::Marks] {
+            let (plotted, found) = read(&source(plot(&parts, drawn)), &Job::default());
+            assert!(!found.iter().any(|code| code.starts_with("hpgl/")), "seed {seed}: {found:?}");
+            let (drawn_outlines, drawn_slits) = shapes(&plotted);
+            assert!(outlines_agree(&outlines, &drawn_outlines, most), "seed {seed}: {outlines:?} {drawn_outlines:?}");
+            assert!(slits_agree(&slits, &drawn_slits, most), "seed {seed}: {slits:?} {drawn_slits:?}");
+        }
+    }
+    assert!(count > 1000, "{count}");
+}
+
+#[test]
+fn a_marker_is_the_same_from_a_plot_and_from_a_cut_file() {
+    check_dialects(PLOT_UNITS, 0);
+}
+
+#[test]
+fn a_marker_that_each_dialect_rounds_to_its_unit_is_the_same_within_the_coarser_one() {
+    check_dialects(1, PLOT_UNITS as u64 / 2);
+}
+
+// ---- What pens and options decide.
+
+/// A part with a cut-out and a grain line of pen 1, a cut-out of pen 4.
+fn two_pens() -> Source {
+    let grain = "PU2000,3000;PD6000,3000;";
+    let text = [
+        &rectangle(0, 0, 8000, 8000),
+        &rectangle(1000, 1000, 1000, 1000),
+        grain,
+        "SP4;",
+        &rectangle(4000, 4000, 2000, 2000),
+    ];
+    source(format!("IN;SP1;{}PU;SP0;", text.concat()))
+}
+
+#[test]
+fn pens_and_options_decide_what_is_cut() {
+    let check = |edit: &dyn Fn(&mut Job), expected: [usize; 4]| {
+        let mut job = Job::default();
+        edit(&mut job);
+        let (marker, found) = read(&two_pens(), &job);
+        assert_eq!(counts(&marker), expected, "{found:?}");
+    };
+    let kind = |kind| move |job: &mut Job| job.lines.kind = Some(kind);
+    let pen = |pen: &'static str, usage| move |job: &mut Job| _ = job.profile.hpgl.pens.insert(pen.to_owned(), usage);
+    let only = |pens| move |job: &mut Job| job.lines.pens = Some(Numbers::parse(pens).expect("numbers"));
+    check(&|_| {}, [1, 3, 0, 0]);
+    check(&kind(LineKind::All), [1, 4, 0, 0]);
+    check(&kind(LineKind::Closed), [1, 3, 0, 0]);
+    check(&kind(LineKind::Open), [1, 1, 0, 0]);
+    check(&pen("4", PenUse::Pen), [1, 2, 0, 0]);
+    check(&pen("4", PenUse::Ignore), [1, 2, 0, 0]);
+    check(&pen("1", PenUse::Pen), [1, 1, 0, 0]);
+    check(&pen("1", PenUse::Knife), [1, 4, 0, 0]);
+    check(&only("4"), [1, 1, 0, 0]);
+    check(&only("1-4"), [1, 4, 0, 0]);
+    check(&|job| job.lines = Lines { pens: Numbers::parse("1").ok(), kind: Some(LineKind::Open) }, [1, 1, 0, 0]);
+}
+
+#[test]
+fn small_squares_and_circles_are_holes_when_the_profile_wants_that() {
+    let small = [rectangle(2000, 2000, 120, 120), "PU4000,4000;CI80;".to_owned(), rectangle(6000, 2000, 120, 400)];
+    let text = source(format!("IN;{}{}PU;", rectangle(0, 0, 8000, 8000), small.concat()));
+    let mut job = Job::default();
+    assert_eq!(counts(&read(&text, &job).0), [1, 4, 0, 0]);
+    job.profile.hpgl.drill_max_mm = Some(5.0);
+    let (marker, _) = read(&text, &job);
+    assert_eq!(counts(&marker), [1, 2, 0, 2]);
+    assert!((marker.pieces[0].drills[0].at - Point::new(51.5, 51.5)).norm() < 1e-9);
+    assert!((marker.pieces[0].drills[1].at - Point::new(100.0, 100.0)).norm() < 1e-9);
+}
+
+#[test]
+fn the_unit_is_that_of_the_profile() {
+    let text = source(format!("IN;{}PU;", rectangle(0, 0, 8000, 4000)));
+    for (unit, width) in [("1/40 mm", 200.0), ("1/1000 in", 203.2), ("0.1", 800.0), ("400 dpi", 508.0)] {
+        let mut job = Job::default();
+        job.profile.hpgl.unit = PlotUnit::parse(unit).expect("a unit");
+        let (width_found, _) = read(&text, &job).0.extent().size();
+        assert!((width_found - width).abs() < 1e-9, "{unit}: {width_found}");
+    }
+    let wide = source(format!("IN;{}PU;", rectangle(0, 0, 800_000, 400_000)));
+    assert_eq!(read(&wide, &Job::default()).1, ["hpgl/unit-doubtful"]);
+}
+
+// ---- Recognition.
+
+#[test]
+fn content_decides_whatever_the_extension() {
+    let iso = b"H1*G71*M15*N1*X0Y0*M14*X1000Y0*X1000Y1000*X0Y0*M15*M0*".to_vec();
+    let plot = format!("IN;SP1;{}PU;", rectangle(0, 0, 8000, 4000)).into_bytes();
+    let csv = b"x_mm,y_mm\n0,0\n1,0\n".to_vec();
+    for (bytes, expected) in [(iso, "iso"), (plot, "hpgl"), (csv, "csv")] {
+        for extension in ["plt", "cut", "gbr", "nc", "iso", "cam", "PLT"] {
+            let found = front::detect(&source(bytes.clone()), Some(extension), &mut Diagnostics::default());
+            assert_eq!(found.map(|dialect| dialect.name), Some(expected), "{extension}");
+        }
+    }
+}
+
+// ---- The second reading.
+
+fn audit(source: &Source, marker: &Marker, job: &Job) -> Vec<Finding> {
+    let found = source_audit("hpgl", source.bytes(), &Census::of(marker), &job.profile).expect("plots have a scan");
+    found.into_iter().filter(|finding| !finding.holds()).collect()
+}
+
+fn fixtures() -> Vec<(String, Source)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/hpgl");
+    let mut paths: Vec<_> =
+        fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("readable").path()).collect();
+    paths.sort();
+    let named = |path: std::path::PathBuf| (path.display().to_string(), source(fs::read(&path).expect("readable")));
+    paths.into_iter().map(named).collect()
+}
+
+#[test]
+fn a_second_reading_finds_what_the_reader_finds_in_every_plot_whatever_is_cut() {
+    let mut drilling = Job::default();
+    drilling.profile.hpgl.drill_max_mm = Some(8.0);
+    let mut jobs = vec![Job::default(), drilling];
+    for kind in [LineKind::All, LineKind::Closed, LineKind::Open] {
+        jobs.push(Job { lines: Lines { kind: Some(kind), ..Lines::default() }, ..Job::default() });
+    }
+    let mut differing = Vec::new();
+    for (name, source) in fixtures() {
+        for job in &jobs {
+            let broken = audit(&source, &as_read(&source, job), job);
+            if !broken.is_empty() {
+                differing.push(format!("{name}, {:?}: {broken:?}", job.lines));
+            }
+        }
+    }
+    assert!(differing.is_empty(), "{differing:#?}");
+}
+
+#[test]
+fn a_marker_that_lacks_a_contour_a_point_or_a_notch_is_refused() {
+    let job = Job::default();
+    let (mut contours, mut points, mut notches) = (0, 0, 0);
+    for (name, source) in fixtures() {
+        let marker = as_read(&source, &job);
+        let mut lacking = marker.clone();
+        if lacking.pieces[0].contours.pop().is_some() {
+            contours += 1;
+            assert!(!audit(&source, &lacking, &job).is_empty(), "{name}");
+        }
+        let mut lacking = marker.clone();
+        let contour = &mut lacking.pieces[0].contours[0];
+        points += 1;
+        lacking.list.cursor(&mut contour.range).segment_mut().to += cutc::geom::Vector::new(0.4, 0.3);
+        assert!(!audit(&source, &lacking, &job).is_empty(), "{name}");
+        let mut lacking = marker.clone();
+        if lacking.pieces[0].notches.pop().is_some() {
+            notches += 1;
+            assert!(!audit(&source, &lacking, &job).is_empty(), "{name}");
+        }
+    }
+    assert!(contours > 30 && points > 30 && notches >= 5, "{contours} {points} {notches}");
+}
+
+// ---- Patience.
+
+/// The longest that a hostile file may take in a test build, far above what it takes.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+fn within_patience(what: &str, bytes: Vec<u8>) -> Vec<&'static str> {
+    let source = source(bytes);
+    let mut found = Diagnostics::default();
+    let start = Instant::now();
+    (by_name("hpgl").expect("a dialect").read)(&source, &Job::default(), &mut found);
+    assert!(start.elapsed() < PATIENCE, "{what}: {:?}", start.elapsed());
+    found.iter().map(|diagnostic| diagnostic.code.name).collect()
+}
+
+#[test]
+fn a_hundred_megabytes_of_garbage_are_refused_quickly() {
+    const SIZE: usize = 100 << 20;
+    let mut random = fastrand::Rng::with_seed(8);
+    let mut garbage = |pick: &mut dyn FnMut(&mut fastrand::Rng) -> u8| -> Vec<u8> {
+        // A stretch is random, and repeated: making it must not take longer than reading it.
+        let stretch: Vec<u8> = (0..1 << 16).map(|_| pick(&mut random)).collect();
+        stretch.into_iter().cycle().take(SIZE).collect()
+    };
+    let bytes = garbage(&mut |random| random.u8(..));
+    assert_eq!(within_patience("bytes", bytes), ["source/unknown-format"]);
+    let text = garbage(&mut |random| random.u8(b' '..=b'~'));
+    let found = within_patience("text", text.clone());
+    assert!(found.iter().any(|code| ["hpgl/not-a-plot", "hpgl/encoding-damaged"].contains(code)), "{found:?}");
+    let start = Instant::now();
+    let detected = front::detect(&source(text), Some("plt"), &mut Diagnostics::default()).map(|dialect| dialect.name);
+    assert!(detected != Some("hpgl") && start.elapsed() < PATIENCE / 10);
+    for (what, word) in
+        [("numbers", "1,"), ("semicolons", ";"), ("labels", "LB"), ("escapes", "\u{1b}%0B"), ("junk", "!?")]
+    {
+        let bytes: Vec<u8> = word.bytes().cycle().take(SIZE).collect();
+        let found = within_patience(what, bytes);
+        let refused = ["hpgl/not-a-plot", "hpgl/nothing-to-cut", "source/unknown-format"];
+        assert!(found.iter().any(|code| refused.contains(code)), "{what}: {found:?}");
+    }
+}
+
+#[test]
+fn drawings_made_to_be_slow_are_read_in_time() {
+    let nested: String = (0..20_000).map(|i| rectangle(i, i, 100_000 - 2 * i, 100_000 - 2 * i)).collect();
+    within_patience("nested outlines", nested.into_bytes());
+    let specks: String = (0..60_000).map(|i| rectangle(i % 300, i / 300, 1, 1) + "PU5,5;PD6,6;").collect();
+    within_patience("specks", specks.into_bytes());
+    let comb: String = (0..40_000).map(|i| format!("PU{i},100;PD{i},200;")).collect();
+    within_patience("marks", format!("{}{comb}", rectangle(0, 100, 40_000, 10_000)).into_bytes());
+    let fan: String = (0..60_000).map(|i| format!("PU0,0;PD{i},900;")).collect();
+    within_patience("strokes that all meet", fan.into_bytes());
+    let curves = "CI99999999;".repeat(300);
+    within_patience("circles", format!("PU0,0;{curves}").into_bytes());
+}
+
+#[test]
+fn no_coordinate_wraps_around() {
+    for number in
+        ["2147483647", "2147483648", "4294967296", "4294971296", "18446744073709551616", "99999999999999999999999"]
+    {
+        for sign in ["", "-"] {
+            let text = format!("IN;PU0,0;PD{sign}{number},0,4000,4000,0,0;PU;");
+            let (_, found) = read(&source(text), &Job::default());
+            assert!(found.contains(&"hpgl/number-overflow"), "{sign}{number}: {found:?}");
+        }
+    }
+    let sums = format!("IN;PR;PD{}PU;", "99999999,1,".repeat(30) + "0,0;");
+    assert!(read(&source(sums), &Job::default()).1.contains(&"hpgl/number-overflow"));
+}
+
+#[test]
+fn an_outline_that_is_cut_short_is_never_cut_in_silence() {
+    let first = format!("IN;SP1;{}", rectangle(1000, 1000, 8000, 4000));
+    let whole = format!("{first}{}PU;SP0;", rectangle(10_000, 1000, 8000, 4000));
+    let complete = read(&source(whole.clone()), &Job::default()).0.cut_length();
+    for length in 1..whole.len() {
+        let (marker, found) = read(&source(&whole.as_bytes()[..length]), &Job::default());
+        let is_complete = (marker.cut_length() - complete).abs() < 1e-9;
+        // Where the pen is up or was just lowered, or an outline is whole, nobody can tell that a part should follow.
+        let is_whole = length + 1 >= first.len() && length <= first.len();
+        let pen_is_up =
+            !whole[..length].rsplit_once('P').is_some_and(|(_, last)| last.starts_with('D') && last.len() > 1);
+        assert!(
+            is_complete || is_whole || pen_is_up || !found.is_empty(),
+            "after {length} bytes: {}",
+            &whole[..length]
+        );
+    }
+}
