@@ -1,76 +1,18 @@
 //! The built program as a user meets it: exit codes, what is written and what is not, and what is said.
 
+#[path = "support/room.rs"]
+mod room;
+
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::Stdio;
 
 use cutc::back::TARGETS;
 use cutc::machine::{MachineProfile, sha256_hex};
 use cutc::pass::marker::MARKER_PASSES;
 use cutc::pass::toolpath::TOOLPATH_PASSES;
 use serde_json::Value;
-use tempfile::TempDir;
 
-const DONE: i32 = 0;
-const FAULTY: i32 = 1;
-const USAGE: i32 = 2;
-
-/// A room to work in, with the seed's circle and a file that nothing can read.
-struct Room(TempDir);
-
-impl Room {
-    fn new() -> Self {
-        let room = Self(tempfile::tempdir().expect("a directory"));
-        fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/iso/seed-circle.cut"), room.at("circle.cut"))
-            .expect("the seed's circle is a fixture");
-        room.write("junk.cut", &(0..2000_u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 13) as u8).collect::<Vec<_>>());
-        room
-    }
-
-    fn at(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn write(&self, name: &str, bytes: &[u8]) {
-        fs::write(self.at(name), bytes).expect("writable");
-    }
-
-    fn read(&self, name: &str) -> Vec<u8> {
-        fs::read(self.at(name)).unwrap_or_else(|error| panic!("{name}: {error}; there are {:?}", self.names()))
-    }
-
-    fn has(&self, name: &str) -> bool {
-        self.at(name).exists()
-    }
-
-    /// The names of all files, sorted.
-    fn names(&self) -> Vec<String> {
-        let entries = fs::read_dir(self.0.path()).expect("readable");
-        let mut names: Vec<_> =
-            entries.map(|entry| entry.expect("readable").file_name().to_string_lossy().into_owned()).collect();
-        names.sort();
-        names
-    }
-
-    fn command(&self, arguments: &str) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_cutc"));
-        command.current_dir(self.0.path()).args(arguments.split_whitespace());
-        command
-    }
-
-    fn run(&self, arguments: &str) -> Output {
-        self.command(arguments).output().expect("the program starts")
-    }
-
-    /// Runs and expects an exit code; gives standard output and standard error.
-    fn expect(&self, arguments: &str, code: i32) -> (String, String) {
-        let output = self.run(arguments);
-        let stdout = String::from_utf8_lossy(&output.stdout).into_owned();
-        let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(code), "cutc {arguments}\n{stdout}\n{stderr}");
-        (stdout, stderr)
-    }
-}
+use crate::room::{DONE, FAULTY, Room, USAGE};
 
 fn keys(value: &Value) -> Vec<&str> {
     let mut keys: Vec<_> = value.as_object().expect("an object").keys().map(String::as_str).collect();
@@ -304,7 +246,7 @@ fn files_that_cannot_be_used_are_named_with_what_to_do() {
     check("compile folder", "`folder` is a directory");
     check("info folder", "`folder` is a directory");
     check("compile circle.cut -o nowhere/x.csv", "there is no directory `nowhere`");
-    check("compile circle.cut -o nowhere/", "there is no directory `nowhere/`");
+    check("compile circle.cut -o nowhere/folder/", "there is no directory `nowhere/folder`");
     check("compile circle.cut -o junk.cut/x.csv", "there is no directory `junk.cut`");
     check("compile circle.cut -p nowhere.toml", "there is no profile `nowhere.toml`");
     check("profile check nowhere.toml", "there is no such file");

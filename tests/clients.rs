@@ -156,7 +156,7 @@ assert (counts[:, 3] & 1 == table["knife"]).all() and (counts[:, 4] == table["bl
 }
 
 /// Plays the rows of `halrun` through followers that obey our limits, and logs input and output.
-const FOLLOWERS: &str = r#"
+const FOLLOWERS: &str = r"
 loadrt threads name1=servo period1=PERIOD
 loadrt streamer depth=DEPTH cfg=fffbuuu
 loadrt sampler depth=DEPTH cfg=ffffffb
@@ -186,7 +186,7 @@ loadusr -w halstreamer ROWS
 setp sampler.0.enable 1
 setp streamer.0.enable 1
 loadusr -w timeout 120 halsampler -n SAMPLES log.txt
-"#;
+";
 
 #[test]
 fn a_whole_marker_is_followed_without_lag_by_the_real_time_layer_of_linuxcnc() {
@@ -242,7 +242,7 @@ fn a_whole_marker_is_followed_without_lag_by_the_real_time_layer_of_linuxcnc() {
     assert!(played.status.success(), "{}", String::from_utf8_lossy(&played.stderr));
 }
 
-/// Runs a file of HAL in a folder: as another user when this one is root, whom LinuxCNC refuses; one at a time, because
+/// Runs a file of HAL in a folder: as another user when this one is root, whom `LinuxCNC` refuses; one at a time, because
 /// HAL is one per machine.
 fn hal(file: &str, folder: &Path) -> Output {
     let is_root = Command::new("id").arg("-u").output().is_ok_and(|output| output.stdout == b"0\n");

@@ -1,10 +1,14 @@
 //! Every code of ISO cut files acts, or is said not to; every one can be switched off.
 
+use std::io::Cursor;
+
+use cutc::back::TARGETS;
 use cutc::diagnostic::Diagnostics;
+use cutc::ir::Finding;
 use cutc::ir::text::print_marker;
 use cutc::machine::profile::CodeUse;
 use cutc::machine::{Job, keys};
-use cutc::pipeline;
+use cutc::pipeline::{self, Order};
 use cutc::source::Source;
 
 /// What is read with the named codes ignored: the text of the marker without spans, then the codes of what was found, a
@@ -19,6 +23,20 @@ fn read(file: &str, ignored: &[&str]) -> String {
     let line = |line: &str| line.split(' ').filter(|word| !word.starts_with('@')).collect::<Vec<_>>().join(" ");
     let lines = text.lines().map(line).chain(found.iter().map(|finding| finding.code.name.to_owned()));
     lines.map(|line| line + "\n").collect()
+}
+
+/// What the verifier finds wrong with the program of a file, read with the named codes ignored; nothing when there is none
+/// because the file then has errors.
+fn faults(file: &str, ignored: &[&str]) -> Vec<Finding> {
+    let source = Source::new("a.cut", file.as_bytes().to_vec()).expect("small");
+    let mut job = Job::default();
+    job.profile.codes = ignored.iter().map(|name| ((*name).to_owned(), CodeUse::Ignore)).collect();
+    let target = TARGETS.iter().find(|target| target.name == "csv").expect("setpoints are a target");
+    let order = Order { from: None, target, verify: true };
+    let mut out = Cursor::new(Vec::new());
+    let compiled = pipeline::compile(&source, &job, order, &mut out, &mut Diagnostics::default());
+    let verdict = compiled.expect("memory takes everything").and_then(|compiled| compiled.verdict);
+    verdict.map_or_else(Vec::new, |verdict| verdict.broken().cloned().collect())
 }
 
 /// Blocks before the contour, at its start, at its last corner, behind it, and behind the last piece.
@@ -58,6 +76,7 @@ const ROWS: &[Row] = &[
     ("D1", BEFORE, "D1*", SILENT),
     ("D2", BEFORE, "D2*", SILENT),
     ("D4", BEFORE, "D4*", SILENT),
+    ("G0", CORNER, "G00*", REPORTED),
     ("G1", CORNER, "G01*", SILENT),
     ("G2", AT_START, "G02*", SILENT),
     ("G3", AT_START, "G03*", SILENT),
@@ -120,9 +139,13 @@ fn every_code_acts_or_is_reported_and_can_be_switched_off() {
         };
         // What the code's own blocks hold beside it goes on without it: only the effect must go.
         let (plain, obeyed, ignored) = (read(&with(""), &[]), read(&with(blocks), &[]), read(&with(blocks), &[code]));
+        assert_eq!(faults(&with(blocks), &[]), [], "{code}");
+        assert_eq!(faults(&with(blocks), &[code]), [], "{code} is ignored");
         let has = |text: &str| text.lines().any(|line| line == effect);
         if effect == SILENT {
             assert_eq!(obeyed, plain, "{code}");
+            // What the blocks of a text or a place hold must not come to light when their code is ignored.
+            assert_eq!(ignored, plain, "{code} is ignored");
         } else {
             assert!(has(&obeyed) && !has(&plain), "{code}: no `{effect}` in\n{obeyed}");
             assert!(!has(&ignored), "{code} is ignored, but there is `{effect}` in\n{ignored}");

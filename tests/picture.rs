@@ -211,12 +211,16 @@ fn a_label_stands_at_its_place_in_its_direction_inside_its_piece() {
     let picture = picture(&marker, &square_knife(), &[]);
     elements(&picture);
     let labels: Vec<&str> = picture.lines().filter(|line| line.starts_with("<text class=\"label\"")).collect();
-    assert_eq!(labels.len(), 3, "{labels:?}");
+    assert_eq!(labels.len(), 4, "{labels:?}");
+    // The one without a place stands inside the piece, and off the others.
+    assert!(!attribute(labels[3], "transform").starts_with("translate(0.000,0.000)"), "{labels:?}");
     assert!(labels.iter().all(|line| line.contains(">A &lt; B &amp; &quot;C&quot;␍<title>label, block 7</title>")));
     assert_eq!(attribute(labels[0], "transform"), "translate(20.000,60.000) rotate(30.000) scale(1,-1)");
     let [high, low, below] = [0, 1, 2].map(|i| numbers(attribute(labels[i], "font-size"))[0]);
     assert!(high > 3.0 && low < 1.6 && low == below, "{labels:?}");
     assert!(numbers(attribute(labels[2], "y"))[0] > low);
+    // One without a place stands in the middle of its piece.
+    assert!(attribute(labels[3], "transform").ends_with("rotate(0.000) scale(1,-1)"), "{labels:?}");
     assert!(picture.contains(", label: A &lt; B &amp; &quot;C&quot;␍</title>"), "{picture}");
 }
 

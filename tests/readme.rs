@@ -52,7 +52,6 @@ fn every_command_of_the_readme_runs() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     fs::copy(root().join("fixtures/pictures/marker.cut"), folder.path().join("marker.cut")).expect("a copy");
     fs::write(folder.path().join("machine.toml"), "knife.width_mm = 7.2\n").expect("a profile");
-    fs::create_dir(folder.path().join("pictures")).expect("a folder");
     let commands = commands("cutc ");
     assert!(commands.len() >= 6, "{commands:?}");
     for command in commands {
@@ -62,6 +61,19 @@ fn every_command_of_the_readme_runs() {
         let ran = shell(&command, folder.path());
         assert!(ran.status.success(), "`{command}`: {}", String::from_utf8_lossy(&ran.stderr));
     }
+}
+
+#[test]
+fn the_picture_is_what_the_program_draws() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    assert!(readme().contains("`cutc compile fixtures/pictures/marker.cut -t svg`"));
+    let line = format!("cutc compile fixtures/pictures/marker.cut -t svg -o {}", folder.path().display());
+    let ran = shell(&line, root());
+    assert!(ran.status.success(), "{}", String::from_utf8_lossy(&ran.stderr));
+    let drawn = fs::read_to_string(folder.path().join("marker.svg")).expect("a picture");
+    let shown = fs::read_to_string(root().join("fixtures/pictures/marker.svg")).expect("README's picture");
+    let differ = drawn.lines().zip(shown.lines()).position(|(drawn, shown)| drawn != shown);
+    assert!(drawn == shown, "marker.svg is stale from line {differ:?} on: write it anew with the command above it");
 }
 
 #[test]

@@ -160,7 +160,7 @@ impl<'a> File<'a> {
 
     /// M25, M26 and M60 to M67, so that the product of their speeds is `percent`.
     fn set_speed(&mut self, percent: u8, span: Span) {
-        let slowed = self.context.job.profile.knife.slow_percent.clamp(1.0, 100.0) as u8;
+        let slowed = self.context.job.profile.knife.slow();
         let product = |slow: u8, of_piece: u8| (u32::from(slow) * u32::from(of_piece) / u32::from(FULL_SPEED)).max(1);
         let is_it = |&(slow, of_piece): &(u8, u8)| product(slow, of_piece) == u32::from(percent);
         let slows = [self.slow, FULL_SPEED, slowed];

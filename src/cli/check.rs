@@ -16,7 +16,7 @@ use crate::pipeline;
 /// Arguments of `cutc check`.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
-    /// Cutter files to check
+    /// Cutter files to check; `-` for standard input
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
 

@@ -7,10 +7,11 @@ use clap::Args;
 use tempfile::SpooledTempFile;
 
 use super::choices::{self, Format};
-use super::files::{self, Destination, Draft};
+use super::files::{self, Asked, Destination, Draft, MadeDirectory, Place};
 use super::options::{Choice, Reading, counted};
-use super::{DONE, FAULTY, Finished, Stdout, USAGE, failure, provenance, report, say, summary};
-use crate::back::{TARGETS, Target};
+use super::provenance::{self, Made};
+use super::{DONE, FAULTY, Finished, Stdout, USAGE, failure, report, say, summary};
+use crate::back::Target;
 use crate::diagnostic::{Diagnostics, Severity, code, render};
 use crate::machine::Job;
 use crate::pipeline::{self, Compiled, Medium, Product};
@@ -19,12 +20,13 @@ use crate::source::Source;
 /// Arguments of `cutc compile`.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
-    /// Cutter file to compile
+    /// Cutter file to compile; `-` for standard input, then with -o
     file: PathBuf,
 
-    /// Where the program goes: a file, a directory, or `-` for standard output
+    /// Where the program goes: a file, a directory (made when it ends in `/`), or `-` for standard output
     ///
     /// By default `<stem of FILE>.<extension of the target>` in the current directory. The input is never overwritten.
+    /// A name without extension is taken for a directory that is there, else refused.
     /// Beside the program stands its `.meta.json`: what it was made from. A program is read back and judged before it
     /// is written (see `cutc verify`); when it fails, or the compile does, nothing is written and an older program of
     /// the same name is moved to `<name>.stale`.
@@ -32,13 +34,14 @@ pub(super) struct Arguments {
     out: Option<PathBuf>,
 
     /// What to write; several, as in `-t csv,svg`, are written together or not at all
+    ///
+    /// Without it the extension of -o chooses, as in `-o marker.svg`; else csv.
     #[arg(
         short,
         long = "target",
         value_name = "TARGET",
         value_parser = choices::targets(),
-        value_delimiter = ',',
-        default_value = TARGETS[0].name
+        value_delimiter = ','
     )]
     targets: Vec<&'static Target>,
 
@@ -67,6 +70,7 @@ const SPOOL_BYTES: usize = 64 << 20;
 /// One compile, ready to run.
 struct Compile<'a> {
     arguments: &'a Arguments,
+    targets: Vec<&'static Target>,
     source: Source,
     job: Job,
 }
@@ -76,15 +80,9 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
         return dump(arguments, pass);
     }
     let profile = arguments.reading.machine.profile.as_deref();
-    let extensions: Vec<&str> = arguments.targets.iter().map(|target| target.extension).collect();
-    if let Some(twice) = extensions.iter().enumerate().find_map(|(i, e)| extensions[..i].contains(e).then_some(e)) {
-        return Err(failure(
-            format!("two of the targets would write the same file, of extension `{twice}`"),
-            "name each target once",
-        ));
-    }
-    let destination = Destination::find(arguments.out.as_deref(), &arguments.file, profile, &extensions)?;
-    if destination == Destination::Stdout && arguments.format == Format::Json {
+    let asked = Asked { out: arguments.out.as_deref(), targets: &arguments.targets, input: &arguments.file, profile };
+    let Destination { targets, place } = asked.destination()?;
+    if place == Place::Stdout && arguments.format == Format::Json {
         return Err(failure(
             "`-o -` and `--format json` both want standard output",
             "write the program to a file with -o FILE, or leave --format out",
@@ -95,16 +93,16 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
         Ok(job) => arguments.choice.of(job),
         Err(mut refused) => {
             // A slip in an argument is no verdict on the program that is there.
-            if let (FAULTY, Destination::Files(paths)) = (refused.code, &destination) {
+            if let (FAULTY, Place::Files(paths)) = (refused.code, &place) {
                 refused.stderr.push_str(&move_aside(paths));
             }
             return Ok(refused);
         }
     };
-    let compile = Compile { arguments, source, job };
-    match destination {
-        Destination::Stdout => compile.to_stdout(),
-        Destination::Files(paths) => Ok(compile.to_files(&paths)),
+    let compile = Compile { arguments, targets, source, job };
+    match place {
+        Place::Stdout => compile.to_stdout(),
+        Place::Files(paths) => Ok(compile.to_files(&paths)),
     }
 }
 
@@ -162,6 +160,8 @@ impl Compile<'_> {
 
     /// Writes the programs and their provenance, all whole or none at all; `None` when the data has errors.
     fn write(&self, paths: &[PathBuf], diagnostics: &mut Diagnostics) -> anyhow::Result<Option<Compiled>> {
+        // Outlives the drafts in it.
+        let _made = MadeDirectory::of(&paths[0])?;
         let mut programs = paths.iter().map(|path| Draft::new(path)).collect::<anyhow::Result<Vec<_>>>()?;
         let outs = programs.iter_mut().map(|program| program.file() as &mut dyn Medium).collect();
         let Some(compiled) = self.emit(outs, diagnostics).map_err(|error| files::cannot_write(&paths[0], &error))?
@@ -169,10 +169,11 @@ impl Compile<'_> {
             return Ok(None);
         };
         let mut metas = Vec::new();
-        for (path, target) in paths.iter().zip(&self.arguments.targets) {
+        for (path, target) in paths.iter().zip(&self.targets) {
             let path = files::meta(path);
             let mut meta = Draft::new(&path)?;
-            let text = provenance::json(&self.source, &self.job, target, compiled.verdict.is_some());
+            let made = Made { source: &self.source, job: &self.job, target, verdict: compiled.verdict.as_ref() };
+            let text = provenance::json(&made);
             meta.file().write_all(text.as_bytes()).map_err(|error| files::cannot_write(&path, &error))?;
             metas.push(meta);
         }
@@ -183,9 +184,9 @@ impl Compile<'_> {
 
     /// Compiles into `outs`, one for each target, which are worth nothing unless something comes back.
     fn emit(&self, outs: Vec<&mut dyn Medium>, diagnostics: &mut Diagnostics) -> io::Result<Option<Compiled>> {
-        let Arguments { reading, targets, no_verify, .. } = self.arguments;
+        let Arguments { reading, no_verify, .. } = self.arguments;
         let mut products: Vec<Product> =
-            targets.iter().zip(outs).map(|(target, out)| Product { target, out }).collect();
+            self.targets.iter().zip(outs).map(|(target, out)| Product { target, out }).collect();
         pipeline::compile_all(&self.source, &self.job, (reading.from, !no_verify), &mut products, diagnostics)
     }
 

@@ -5,7 +5,7 @@ use std::io::{self, Write as _};
 use clap::{Args, CommandFactory as _};
 use clap_complete::Shell;
 
-use super::{DONE, Finished};
+use super::{DONE, Finished, failure, help};
 
 /// Arguments of `cutc completions`.
 #[derive(Debug, Args)]
@@ -22,22 +22,55 @@ pub(super) fn run(arguments: &Arguments) -> Finished {
     printed(&out)
 }
 
-/// The page of the program, and behind it one for each command.
-pub(super) fn man() -> anyhow::Result<Finished> {
-    let mut command = super::Arguments::command().disable_help_subcommand(true);
-    command.build();
+/// Arguments of `cutc man`.
+#[derive(Debug, Args)]
+pub(super) struct Page {
+    /// The command that the page is about, as in `cutc man profile show`; without one, the program
+    command: Vec<String>,
+}
+
+/// The page of the program or of one command; each names those below it as `cutc-compile(1)`.
+pub(super) fn man(page: &Page) -> anyhow::Result<Finished> {
+    let mut root = super::Arguments::command().disable_help_subcommand(true);
+    root.build();
+    let mut command = &root;
+    for word in &page.command {
+        command = command.find_subcommand(word).ok_or_else(|| {
+            let below: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
+            failure(
+                format!("there is no command `{}` with a page", page.command.join(" ")),
+                if below.is_empty() { "leave the last word out".to_owned() } else { below.join(", ") + " have one" },
+            )
+        })?;
+    }
     let mut out = Vec::new();
-    pages(&command, &mut out)?;
+    let man = clap_mangen::Man::new(command.clone());
+    if page.command.is_empty() {
+        man.render_title(&mut out)?;
+        man.render_name_section(&mut out)?;
+        man.render_synopsis_section(&mut out)?;
+        man.render_description_section(&mut out)?;
+        man.render_options_section(&mut out)?;
+        man.render_subcommands_section(&mut out)?;
+        verbatim("EXAMPLES", help::EXAMPLES, &mut out)?;
+        verbatim("NOTES", &help::reference(), &mut out)?;
+        man.render_version_section(&mut out)?;
+    } else {
+        man.render(&mut out)?;
+    }
     Ok(printed(&out))
 }
 
-fn pages(command: &clap::Command, out: &mut Vec<u8>) -> io::Result<()> {
-    clap_mangen::Man::new(command.clone()).render(out)?;
-    for inner in command.get_subcommands() {
-        out.write_all(b"\n")?;
-        pages(inner, out)?;
+/// A section whose lines stay as they are.
+fn verbatim(title: &str, text: &str, out: &mut Vec<u8>) -> io::Result<()> {
+    writeln!(out, ".SH {title}\n.nf")?;
+    for line in text.lines() {
+        let line = line.replace('\\', "\\e").replace('-', "\\-");
+        // What begins with a point or an apostrophe would be a command.
+        let guard = if line.starts_with(['.', '\'']) { "\\&" } else { "" };
+        writeln!(out, "{guard}{line}")?;
     }
-    Ok(())
+    writeln!(out, ".fi")
 }
 
 fn printed(bytes: &[u8]) -> Finished {

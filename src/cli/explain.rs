@@ -9,10 +9,17 @@ use super::{DONE, Finished, failure};
 use crate::diagnostic::{Severity, code};
 use crate::pipeline::RULES;
 
+/// Columns of an explanation.
+const COLUMNS: usize = 80;
+/// Where the codes of cut files are explained.
+const README: &str = include_str!("../../README.md");
+/// The heading above their table.
+const CODES_OF_FILES: &str = "Codes of ISO cut files";
+
 /// Arguments of `cutc explain`.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
-    /// A code as messages show it, `iso/open-slit`, or a rule of the verifier, `verify/on-path`
+    /// A code as messages show it, `iso/open-slit`, a rule of the verifier, `verify/on-path`, or a code of cut files, `M19`
     code: Option<String>,
 }
 
@@ -37,10 +44,45 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     if let Some(topic) = topics().find(|(name, _, _)| name == asked) {
         return Ok(Finished::text(explained(topic), String::new(), DONE));
     }
+    if let Some(text) = code_of_files(asked) {
+        return Ok(Finished::text(text, String::new(), DONE));
+    }
     let likeness = |name: &str| strsim::jaro_winkler(name, asked);
     let nearest = topics().map(|topic| topic.0).max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
     let hint = nearest.map_or_else(String::new, |name| format!("did you mean `{name}`? "));
     Err(failure(format!("there is no code `{asked}`"), format!("{hint}`cutc explain` lists them all")))
+}
+
+/// A code of cut files by letter and number, as `M014` or `n`; `None` when it is none.
+fn letter_and_number(word: &str) -> Option<(char, Option<u32>)> {
+    let letter = word.chars().next().filter(char::is_ascii_alphabetic)?.to_ascii_uppercase();
+    let digits = &word[1..];
+    let number = if digits.is_empty() { None } else { Some(digits.parse().ok()?) };
+    Some((letter, number))
+}
+
+/// What README's table says about a code of cut files.
+fn code_of_files(asked: &str) -> Option<String> {
+    let asked = letter_and_number(asked)?;
+    let section = README.split_once(CODES_OF_FILES)?.1.split("\n#").next()?;
+    let rows = section.lines().filter_map(|line| line.strip_prefix("| ")?.strip_suffix(" |")?.split_once(" | "));
+    let named = |codes: &str| {
+        let words: Vec<_> = codes.split('`').skip(1).step_by(2).filter_map(letter_and_number).collect();
+        let within = |first, last| first <= asked && asked <= last;
+        words.contains(&asked) || codes.contains(" to ") && words.len() == 2 && within(words[0], words[1])
+    };
+    let told: Vec<String> =
+        rows.filter(|(codes, _)| named(codes)).map(|(codes, about)| row_text(codes, about)).collect();
+    let ((letter, number), switch) = (asked, "The profile can switch a code off:");
+    let code = number.map_or_else(|| letter.to_string(), |number| format!("{letter}{number:02}"));
+    let kind = "code of ISO cut files; README has all of them";
+    (!told.is_empty())
+        .then(|| format!("{code}\n{kind}\n\n{}\n\n{switch}\n  codes.{code} = \"ignore\"\n", told.join("\n")))
+}
+
+/// A row of README's table as a paragraph.
+fn row_text(codes: &str, about: &str) -> String {
+    wrapped(&format!("{codes}: {}", sentence(about)))
 }
 
 fn list() -> String {
@@ -73,9 +115,6 @@ fn sentence(about: &str) -> String {
     let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
     format!("{first}{}{}", letters.as_str(), if about.ends_with('.') { "" } else { "." })
 }
-
-/// Columns of an explanation.
-const COLUMNS: usize = 80;
 
 /// Paragraphs stand on a line each; an indented line is an example and stays as it is.
 fn paragraphs(text: &str) -> String {
@@ -110,6 +149,23 @@ mod tests {
         let count = |name: &str| EXPLANATIONS.iter().filter(|(code, _)| *code == name).count();
         let wrong: Vec<_> = topics().map(|topic| topic.0).filter(|name| count(name) != 1).collect();
         assert!(wrong.is_empty(), "EXPLANATIONS must have one row for each of {wrong:?}");
+    }
+
+    #[test]
+    fn a_code_of_cut_files_is_explained_by_its_row() {
+        let check = |asked: &str, expected: &str| {
+            let text = code_of_files(asked).unwrap_or_else(|| panic!("{asked} is explained"));
+            assert!(text.contains(expected), "{text}");
+            assert!(text.lines().all(|line| line.chars().count() <= COLUMNS), "{text}");
+        };
+        check("M19", "a slit");
+        check("m019", "codes.M19 = \"ignore\"");
+        check("G1", "codes.G01");
+        check("M63", "percent");
+        check("N", "A piece begins");
+        for unknown in ["M99", "verify/nothing", "", "M", "é1"] {
+            assert_eq!(code_of_files(unknown), None, "{unknown}");
+        }
     }
 
     #[test]

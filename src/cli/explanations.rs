@@ -10,6 +10,8 @@ pub(super) const EXPLANATIONS: &[(&str, &str)] = &[
     ("source/unknown-format", "Cutting from a guess could ruin a lay. Export an ISO cut file, or name the dialect if the file has an unusual head.\n  cutc check odd.txt --from iso"),
     ("iso/syntax", "A damaged block may hide a coordinate, and a cut to the wrong place cannot be taken back. Look at the excerpt; export or transfer the file again.\n  X100Y200*M14*   is right; X100Y2#0* is not."),
     ("iso/no-value", "A coordinate without its number could be anything; taking it as 0 would cut across the lay. Export the file again, or write the number.\n  X100Y*   lacks the number of Y."),
+    ("iso/far-place", "No table is a kilometre long, so the motion would be nonsense. Look at the block: two numbers may have run together, or an export in another unit was mixed in.\n  X30000500Y0* instead of X3000500Y0*"),
+    ("iso/percent-frame", "Senders put such lines around programs for machine tools. In a cut file they mean nothing, but the file may have gone through the wrong sender."),
     ("iso/number-overflow", "Two coordinates have run together, most likely because an asterisk was lost on the way. Transfer the file again."),
     ("iso/open-slit", "M19 promises a notch, and its end says how deep it is. Without M15 the next outline would be cut as a part of the notch.\n  M19*X0Y100*M14*X5Y100*M15*"),
     ("iso/knife-down-twice", "Some systems repeat M14. The cut is the same, but an M15 may have been lost: see in the picture (-t svg) whether two lines are joined that should not be."),

@@ -2,16 +2,30 @@
 
 use std::ffi::OsString;
 use std::fs;
-use std::io;
+use std::io::{self, Read as _};
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
 use super::{failure, say};
+use crate::back::{TARGETS, Target};
 use crate::source::Source;
 
-/// Reads an input whole.
+/// What stands for standard input and output.
+const DASH: &str = "-";
+/// How messages name what was read from standard input.
+const STDIN: &str = "stdin";
+
+/// Whether a path means standard input or output.
+pub(super) fn is_dash(path: &Path) -> bool {
+    path == Path::new(DASH)
+}
+
+/// Reads an input whole; `-` is standard input.
 pub(super) fn read(path: &Path) -> anyhow::Result<Source> {
+    if is_dash(path) {
+        return read_stdin();
+    }
     let name = path.display().to_string();
     if path.is_dir() {
         return Err(failure(
@@ -30,7 +44,20 @@ pub(super) fn read(path: &Path) -> anyhow::Result<Source> {
         };
         failure(format!("cannot read `{name}`: {}", reason(&error)), hint)
     })?;
-    Source::new(name.as_str(), bytes)
+    sized(&name, bytes)
+}
+
+fn read_stdin() -> anyhow::Result<Source> {
+    let mut bytes = Vec::new();
+    io::stdin()
+        .lock()
+        .read_to_end(&mut bytes)
+        .map_err(|error| failure(format!("cannot read standard input: {error}"), "pipe a file into it, or name one"))?;
+    sized(STDIN, bytes)
+}
+
+fn sized(name: &str, bytes: Vec<u8>) -> anyhow::Result<Source> {
+    Source::new(name, bytes)
         .map_err(|error| failure(format!("cannot read `{name}`: {error}"), "split the marker into several files"))
 }
 
@@ -43,6 +70,9 @@ pub(super) fn open(path: &Path) -> anyhow::Result<fs::File> {
             "name a program that was compiled to a file, as `cutc compile marker.cut` does",
         )
     };
+    if is_dash(path) {
+        return Err(failure("a program is not judged from standard input", "write it to a file first"));
+    }
     // Asked first: opening a pipe would wait for its writer.
     if !fs::metadata(path).map_err(cannot)?.is_file() {
         let message = format!("`{name}` is not a regular file");
@@ -62,36 +92,138 @@ fn reason(error: &io::Error) -> String {
     }
 }
 
-/// Where a program goes.
+/// What a compile reads, and what the user said of where its programs go.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Asked<'a> {
+    /// The place as typed.
+    pub(super) out: Option<&'a Path>,
+    /// The targets as typed; none = what the place says.
+    pub(super) targets: &'a [&'static Target],
+    /// The cutter file.
+    pub(super) input: &'a Path,
+    /// The machine profile.
+    pub(super) profile: Option<&'a Path>,
+}
+
+/// The programs of a compile, and where they go.
+#[derive(Debug, Clone)]
+pub(super) struct Destination {
+    /// What is written, at least one.
+    pub(super) targets: Vec<&'static Target>,
+    /// Where.
+    pub(super) place: Place,
+}
+
+/// Where programs go.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum Destination {
+pub(super) enum Place {
     /// Standard output.
     Stdout,
     /// Files, one for each target, with their `.meta.json` beside them.
     Files(Vec<PathBuf>),
 }
 
-impl Destination {
-    /// Finds where the programs of `input` go, one for each of the `extensions`: `out` as typed, a directory for
-    /// `<stem>.<extension>`, or without it the current directory. Never the input itself, nor the profile.
-    pub(super) fn find(
-        out: Option<&Path>,
-        input: &Path,
-        profile: Option<&Path>,
-        extensions: &[&str],
-    ) -> anyhow::Result<Self> {
-        let is_stdout = out == Some(Path::new("-"));
-        if let Some(out) = out.filter(|out| extensions.len() > 1 && (is_stdout || !names_directory(out))) {
+impl Asked<'_> {
+    /// Finds what is written and where: `out` as typed, a directory for `<stem>.<extension>`, or without it the current
+    /// directory. Never over the input itself, nor the profile. Without a target the extension of `out` chooses it.
+    pub(super) fn destination(self) -> anyhow::Result<Destination> {
+        let targets = self.targets()?;
+        let is_stdout = self.out.is_some_and(is_dash);
+        if let Some(out) = self.out.filter(|out| targets.len() > 1 && (is_stdout || !names_directory(out))) {
             return Err(failure(
-                format!("`-o {}` is one place for {} programs", out.display(), extensions.len()),
-                "name a directory, or leave -o out: each gets a name of its own",
+                format!("`-o {}` is one place for {} programs", out.display(), targets.len()),
+                "name a directory, as in `-o out/`, or leave -o out: each gets a name of its own",
             ));
         }
         if is_stdout {
-            return Ok(Self::Stdout);
+            return Ok(Destination { targets, place: Place::Stdout });
         }
-        let paths = extensions.iter().map(|extension| place(out, input, profile, extension));
-        paths.collect::<anyhow::Result<_>>().map(Self::Files)
+        let paths: anyhow::Result<_> = targets.iter().map(|target| self.path(target)).collect();
+        Ok(Destination { targets, place: Place::Files(paths?) })
+    }
+
+    /// What is written: what was typed, else what the extension of the place says, else the default.
+    fn targets(&self) -> anyhow::Result<Vec<&'static Target>> {
+        let extensions: Vec<&str> = self.targets.iter().map(|target| target.extension).collect();
+        if let Some(twice) = extensions.iter().enumerate().find_map(|(i, e)| extensions[..i].contains(e).then_some(e)) {
+            return Err(failure(
+                format!("two of the targets would write the same file, of extension `{twice}`"),
+                "name each target once",
+            ));
+        }
+        let file = self.out.filter(|out| !is_dash(out) && !names_directory(out));
+        let name = file.and_then(Path::file_name).map(|name| name.to_string_lossy().to_ascii_lowercase());
+        let ends =
+            |target: &&Target| name.as_ref().is_some_and(|name| name.ends_with(&format!(".{}", target.extension)));
+        let told = TARGETS.iter().find(ends);
+        match (self.targets, told, file) {
+            ([one], Some(told), Some(file)) if one.extension != told.extension => Err(failure(
+                format!(
+                    "`-t {}` and `-o {}` disagree: the name is one of target {}",
+                    one.name,
+                    file.display(),
+                    told.name
+                ),
+                format!("leave -t out, or write to `-o {}`", file.with_extension(one.extension).display()),
+            )),
+            ([], Some(told), _) => Ok(vec![told]),
+            ([], None, _) => Ok(vec![&TARGETS[0]]),
+            (typed, _, _) => Ok(typed.to_vec()),
+        }
+    }
+
+    /// The file of one program.
+    fn path(&self, target: &Target) -> anyhow::Result<PathBuf> {
+        let Self { out, input, profile, .. } = *self;
+        let stem = if is_dash(input) { STDIN.as_ref() } else { input.file_stem().unwrap_or(input.as_os_str()) };
+        let mut name = OsString::from(stem);
+        name.push(format!(".{}", target.extension));
+        let path = match out {
+            None if is_dash(input) => {
+                return Err(failure(
+                    "a program that is made from standard input has no name",
+                    "say where it goes with -o FILE, -o DIRECTORY or `-o -`",
+                ));
+            }
+            None if input.file_name() == Some(&name) => {
+                return Err(failure(
+                    format!("the program would have the name of its input, `{}`", name.display()),
+                    "say where it goes with -o FILE or -o DIRECTORY",
+                ));
+            }
+            None => PathBuf::from(&name),
+            Some(out) if names_directory(out) => out.join(&name),
+            // A file of that name would surprise whoever meant a directory, and the other way round.
+            Some(out) if out.extension().is_none() && !out.exists() => {
+                let shown = out.display();
+                return Err(failure(
+                    format!("`-o {shown}` may be a file or a directory"),
+                    format!("write `-o {shown}/` for a directory, which is made, or `-o {shown}.{}`", target.extension),
+                ));
+            }
+            Some(out) => out.to_owned(),
+        };
+        let (shown, folder) = (path.display(), directory(&path));
+        // A directory that is not there yet is made where another holds it.
+        let is_made = || out.is_some_and(names_directory) && !folder.exists() && directory(folder).is_dir();
+        if !folder.is_dir() && !is_made() {
+            let message = format!("cannot write `{shown}`: there is no directory `{}`", folder.display());
+            return Err(failure(message, "create it first, or name another one"));
+        }
+        if fs::metadata(&path).is_ok_and(|target| !target.is_file()) {
+            return Err(failure(
+                format!("`{shown}` is not a regular file"),
+                "write to a file, or to a pipe with `-o -`",
+            ));
+        }
+        let inputs = [Some(input).filter(|input| !is_dash(input)), profile];
+        for made in [path.clone(), meta(&path), stale(&path), stale(&meta(&path))] {
+            if let Some(read) = inputs.into_iter().flatten().find(|read| same_file(&made, read)) {
+                let message = format!("`{}` is an input: it is never overwritten", read.display());
+                return Err(failure(message, "give the program another name with -o"));
+            }
+        }
+        Ok(path)
     }
 }
 
@@ -100,43 +232,27 @@ fn names_directory(path: &Path) -> bool {
     path.is_dir() || path.as_os_str().to_string_lossy().ends_with(MAIN_SEPARATOR)
 }
 
-/// The file of one program.
-fn place(out: Option<&Path>, input: &Path, profile: Option<&Path>, extension: &str) -> anyhow::Result<PathBuf> {
-    let stem = input.file_stem().unwrap_or(input.as_os_str());
-    let mut name = OsString::from(stem);
-    name.push(format!(".{extension}"));
-    let path = match out {
-        None if input.file_name() == Some(&name) => {
-            return Err(failure(
-                format!("the program would have the name of its input, `{}`", name.display()),
-                "say where it goes with -o FILE or -o DIRECTORY",
-            ));
+/// A directory that was made for programs; it goes when it is still empty in the end.
+#[derive(Debug)]
+pub(super) struct MadeDirectory(PathBuf);
+
+impl MadeDirectory {
+    /// Makes the directory of a file; `None` when it is there.
+    pub(super) fn of(path: &Path) -> anyhow::Result<Option<Self>> {
+        let folder = directory(path);
+        if folder.is_dir() {
+            return Ok(None);
         }
-        None => PathBuf::from(&name),
-        Some(out) if out.is_dir() => out.join(&name),
-        Some(out) if names_directory(out) => {
-            return Err(failure(
-                format!("there is no directory `{}`", out.display()),
-                "create it first, or name another one",
-            ));
-        }
-        Some(out) => out.to_owned(),
-    };
-    let shown = path.display();
-    if !directory(&path).is_dir() {
-        let message = format!("cannot write `{shown}`: there is no directory `{}`", directory(&path).display());
-        return Err(failure(message, "create it first, or name another one"));
+        fs::create_dir(folder).map_err(|error| cannot_write(path, &error))?;
+        Ok(Some(Self(folder.to_owned())))
     }
-    if fs::metadata(&path).is_ok_and(|target| !target.is_file()) {
-        return Err(failure(format!("`{shown}` is not a regular file"), "write to a file, or to a pipe with `-o -`"));
+}
+
+impl Drop for MadeDirectory {
+    fn drop(&mut self) {
+        // Only an empty one can be removed: that is what is meant.
+        let _ = fs::remove_dir(&self.0);
     }
-    for made in [path.clone(), meta(&path), stale(&path), stale(&meta(&path))] {
-        if let Some(read) = [Some(input), profile].into_iter().flatten().find(|read| same_file(&made, read)) {
-            let message = format!("`{}` is an input: it is never overwritten", read.display());
-            return Err(failure(message, "give the program another name with -o"));
-        }
-    }
-    Ok(path)
 }
 
 /// The directory of a file.
@@ -258,8 +374,9 @@ mod tests {
 
     use super::*;
 
-    fn find(out: Option<&Path>, input: &Path) -> Result<Destination, String> {
-        Destination::find(out, input, None, &["csv"]).map_err(|error| error.to_string())
+    fn find(out: Option<&Path>, input: &Path) -> Result<Place, String> {
+        let asked = Asked { out, targets: &[], input, profile: None };
+        asked.destination().map(|found| found.place).map_err(|error| error.to_string())
     }
 
     #[test]
@@ -267,10 +384,32 @@ mod tests {
         let directory = tempfile::tempdir().expect("a directory");
         let at = |name: &str| directory.path().join(name);
         let input = at("marker.one.cut");
-        assert_eq!(find(None, &input), Ok(Destination::Files(vec!["marker.one.csv".into()])));
-        assert_eq!(find(Some(directory.path()), &input), Ok(Destination::Files(vec![at("marker.one.csv")])));
-        assert_eq!(find(Some(&at("x.txt")), &input), Ok(Destination::Files(vec![at("x.txt")])));
-        assert_eq!(find(Some(Path::new("-")), &input), Ok(Destination::Stdout));
+        assert_eq!(find(None, &input), Ok(Place::Files(vec!["marker.one.csv".into()])));
+        assert_eq!(find(Some(directory.path()), &input), Ok(Place::Files(vec![at("marker.one.csv")])));
+        assert_eq!(find(Some(&at("x.txt")), &input), Ok(Place::Files(vec![at("x.txt")])));
+        assert_eq!(find(Some(Path::new("-")), &input), Ok(Place::Stdout));
+        assert_eq!(find(Some(directory.path()), Path::new("-")), Ok(Place::Files(vec![at("stdin.csv")])));
+        assert!(find(None, Path::new("-")).expect_err("refused").contains("-o FILE"));
+    }
+
+    #[test]
+    fn without_a_target_the_extension_chooses_it() {
+        let written = |out: &str, targets: &[&'static Target]| {
+            let asked = Asked { out: Some(Path::new(out)), targets, input: Path::new("a.cut"), profile: None };
+            let found = asked.destination().map_err(|error| error.to_string())?;
+            Ok::<_, String>(found.targets.iter().map(|target| target.name).collect::<Vec<_>>())
+        };
+        for target in TARGETS {
+            assert_eq!(written(&format!("x.{}", target.extension), &[]), Ok(vec![target.name]));
+            assert_eq!(written(&format!("x.{}", target.extension.to_uppercase()), &[]), Ok(vec![target.name]));
+            assert_eq!(written("x.txt", &[target]), Ok(vec![target.name]));
+        }
+        assert_eq!(written("x.txt", &[]), Ok(vec![TARGETS[0].name]));
+        let [first, second] = [&TARGETS[0], &TARGETS[1]];
+        let refused = written(&format!("x.{}", second.extension), &[first]).expect_err("refused");
+        assert!(refused.contains("disagree") && refused.contains("x.csv"), "{refused}");
+        assert!(written("x.csv", &[first, second]).expect_err("refused").contains("one place for 2"));
+        assert!(written("x", &[]).expect_err("refused").contains("`-o x/`"));
     }
 
     #[test]
@@ -291,9 +430,21 @@ mod tests {
         let directory = tempfile::tempdir().expect("a directory");
         let nowhere = directory.path().join("no").join("x.csv");
         assert!(find(Some(&nowhere), Path::new("x.cut")).expect_err("refused").contains("there is no directory"));
-        let slash = PathBuf::from(format!("{}{MAIN_SEPARATOR}", directory.path().join("no").display()));
+        let slash = PathBuf::from(format!("{}{MAIN_SEPARATOR}", directory.path().join("no").join("no").display()));
         assert!(find(Some(&slash), Path::new("x.cut")).expect_err("refused").contains("create it first"));
         assert!(read(directory.path()).expect_err("refused").to_string().contains("is a directory"));
+    }
+
+    #[test]
+    fn a_directory_that_was_made_stays_with_what_is_in_it() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let program = directory.path().join("out").join("x.csv");
+        drop(MadeDirectory::of(&program).expect("writable").expect("it was not there"));
+        assert!(!directory.path().join("out").exists());
+        let made = MadeDirectory::of(&program).expect("writable");
+        fs::write(&program, "t_s").expect("writable");
+        drop(made);
+        assert!(program.exists() && MadeDirectory::of(&program).expect("writable").is_none());
     }
 
     #[test]

@@ -5,15 +5,13 @@ use std::fmt::Write as _;
 use crate::back::TARGETS;
 use crate::front::DIALECTS;
 
-/// What stands below the list of commands.
-pub(super) fn overview() -> String {
-    let mut out = String::from(
-        "Examples:
-  cutc compile marker.cut                     writes marker.csv, prints a summary
+/// Commands to begin with.
+pub(super) const EXAMPLES: &str = "  cutc compile marker.cut                     writes marker.csv, prints a summary
   cutc compile marker.cut -p machine.toml     for the machine that machine.toml describes
   cutc compile marker.cut --set knife.width_mm=7.2 -o out/
                                               with one key changed, into a directory
-  cutc compile marker.cut -o - | less         the program on standard output
+  cutc compile marker.cut -o marker.svg       a picture: the extension chooses the target
+  cutc compile - -o - < marker.cut | less     from standard input to standard output
   cutc verify marker.csv --source marker.cut  judges a program, after an edit by hand too
   cutc check *.cut                            says all that is wrong, writes nothing
   cutc info marker.cut --labels               what is in a file, and what its labels say
@@ -23,13 +21,20 @@ pub(super) fn overview() -> String {
   cutc explain iso/open-slit                  what a message means and what to do
   cutc profile init -o machine.toml           every key of a machine with its default
   cutc profile show -p machine.toml           the values in effect
+";
 
-",
-    );
+/// What stands below the list of commands.
+pub(super) fn overview() -> String {
+    format!("Examples:\n{EXAMPLES}\n{}", reference())
+}
+
+/// Dialects, targets, where the profile is explained, exit codes.
+pub(super) fn reference() -> String {
+    let mut out = String::new();
     let dialects: Vec<_> = DIALECTS.iter().map(|dialect| (dialect.name, dialect.about)).collect();
     list(&mut out, "Dialects that are read (recognised by content; --from overrides):", &dialects);
     let targets: Vec<_> = TARGETS.iter().map(|target| (target.name, target.about)).collect();
-    list(&mut out, "Targets that are written (-t; the first is the default):", &targets);
+    list(&mut out, "Targets that are written (-t, or the extension of -o; else the first):", &targets);
     out.push_str(
         "The machine: without -p the defaults are a real cutter's, with a worn 6.6 mm knife.
 `cutc profile init` prints every key of a profile with its meaning, range and default.

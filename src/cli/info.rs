@@ -19,7 +19,7 @@ use crate::source::Source;
 /// Arguments of `cutc info`.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
-    /// Cutter file to look into
+    /// Cutter file to look into; `-` for standard input
     file: PathBuf,
 
     #[command(flatten)]

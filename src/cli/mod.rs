@@ -71,8 +71,8 @@ enum Command {
     Explain(explain::Arguments),
     /// Print completions of the command line for a shell
     Completions(completions::Arguments),
-    /// Print the manual page
-    Man,
+    /// Print the manual page of the program, or of a command
+    Man(completions::Page),
 }
 
 /// What a command leaves to print, and its exit code.
@@ -156,7 +156,7 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> Finished {
         Command::Profile(arguments) => profile::run(arguments),
         Command::Explain(arguments) => explain::run(arguments),
         Command::Completions(arguments) => Ok(completions::run(arguments)),
-        Command::Man => completions::man(),
+        Command::Man(page) => completions::man(page),
     };
     finished.unwrap_or_else(|error| Finished::text(String::new(), format!("error: {error:#}\n"), USAGE))
 }

@@ -169,7 +169,8 @@ pub(super) fn refuse(faults: &Faults, file: Option<&Source>) -> Finished {
     let arguments = Source::new("command line", Vec::new()).expect("nothing is small");
     said.push_str(&render(&faults.arguments, &arguments));
     let count = faults.file.count(Severity::Error) + faults.arguments.count(Severity::Error);
-    say(&mut said, format_args!("the machine profile has {}", counted(count, "error")));
+    let name = file.map_or_else(String::new, |file| format!(" `{}`", file.name()));
+    say(&mut said, format_args!("the machine profile{name} has {}", counted(count, "error")));
     Finished::text(String::new(), said, if faults.file.has_errors() { FAULTY } else { USAGE })
 }
 

@@ -10,6 +10,13 @@ use super::options::{Machine, refuse};
 use super::{DONE, Finished};
 use crate::machine::{Comments, MachineProfile, load};
 
+/// What stands above the keys of a new profile.
+const HEAD: &str = "\
+# Machine profile of cutc. Every key is here with its default: change what differs on your machine and
+# delete the rest. `cutc profile check FILE` says what is wrong, `cutc profile show -p FILE` what holds.
+
+";
+
 /// Arguments of `cutc profile`.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
@@ -26,7 +33,7 @@ enum Command {
     },
     /// Print a profile with every key, its meaning, range and default: a beginning for your machine
     Init {
-        /// File to write, instead of standard output; never overwritten
+        /// File to write, instead of standard output (`-`); never overwritten
         #[arg(short, long, value_name = "PROFILE.toml")]
         out: Option<PathBuf>,
     },
@@ -49,16 +56,9 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     }
 }
 
-/// What stands above the keys of a new profile.
-const HEAD: &str = "\
-# Machine profile of cutc. Every key is here with its default: change what differs on your machine and
-# delete the rest. `cutc profile check FILE` says what is wrong, `cutc profile show -p FILE` what holds.
-
-";
-
 fn init(out: Option<&PathBuf>) -> anyhow::Result<Finished> {
     let text = format!("{HEAD}{}", MachineProfile::default().to_toml(Comments::Explained));
-    let Some(path) = out else {
+    let Some(path) = out.filter(|out| !files::is_dash(out)) else {
         return Ok(Finished::text(text, String::new(), DONE));
     };
     let mut draft = Draft::new(path)?;

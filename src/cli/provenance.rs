@@ -11,6 +11,7 @@ use super::report::pretty;
 use super::say;
 use crate::back::Target;
 use crate::machine::{Job, sha256_hex};
+use crate::pipeline::Verdict;
 use crate::source::Source;
 
 /// Everything that made a program, for whoever finds it later. No date and no path: the same input gives the same bytes.
@@ -50,8 +51,18 @@ enum Verified {
     Yes,
 }
 
+/// What a program was made from.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Made<'a> {
+    pub(super) source: &'a Source,
+    pub(super) job: &'a Job,
+    pub(super) target: &'a Target,
+    /// What it is worth; `None` when nobody asked.
+    pub(super) verdict: Option<&'a Verdict>,
+}
+
 /// The provenance of a program as JSON.
-pub(super) fn json(source: &Source, job: &Job, target: &Target, verified: bool) -> String {
+pub(super) fn json(Made { source, job, target, verdict }: &Made) -> String {
     let name = Path::new(source.name()).file_name().map(|name| name.to_string_lossy().into_owned());
     pretty(&Provenance {
         version: env!("CARGO_PKG_VERSION"),
@@ -61,7 +72,7 @@ pub(super) fn json(source: &Source, job: &Job, target: &Target, verified: bool) 
         target: target.name,
         period_ms: job.profile.time.period_ms,
         units: Units { time: "s", length: "mm", angle: "deg" },
-        verified: if verified { Verified::Yes } else { Verified::No },
+        verified: verdict.map_or(Verified::No, |_| Verified::Yes),
         options: typed(job),
     })
 }

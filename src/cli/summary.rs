@@ -4,12 +4,18 @@ use std::fmt::Write as _;
 
 use super::options::{counted, typed};
 use crate::diagnostic::{Diagnostics, Severity};
+use crate::machine::plot::Lines;
 use crate::machine::{Job, Mode};
 use crate::pipeline::{Axes, Peak, Peaks, Report, Verdict, word};
+use crate::units::S_PER_MIN;
 use crate::units::number::{exact, fixed};
 
-/// Seconds in a minute.
-const S_PER_MIN: f64 = 60.0;
+/// The rule that says most about a cut.
+const ON_PATH: &str = "verify/on-path";
+/// Columns that a line of shares may take.
+const SHARES_WIDTH: usize = 66;
+/// Below this limit two decimals are shown, else none.
+const WHOLE_FROM: f64 = 100.0;
 
 /// The summary of a report; lines that only planning knows are left out where it did not run.
 pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> String {
@@ -48,7 +54,10 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
     if let Some(spent) = &program.spent {
         line("spent", shares(&spent.parts(), spent.total()));
         let bounds: Vec<(String, f64)> = spent.bounds.iter().map(|&(bound, time)| (word(bound), time)).collect();
-        line("limited by", shares(&bounds, spent.cut));
+        let limited = shares(&bounds, spent.cut);
+        if !limited.is_empty() {
+            line("limited by", limited);
+        }
     }
     if let Some(bulge) = program.bulge_mm.filter(|&bulge| fixed(bulge, 3) != "0.000") {
         line("bulge", format!("{} mm beyond the chords of flattened curves", fixed(bulge, 3)));
@@ -66,6 +75,10 @@ pub(super) fn choice(job: &Job) -> String {
     if !job.selection.is_all() {
         let selection = typed(&Job { selection: job.selection.clone(), ..Job::default() });
         let _ = writeln!(out, "\n  selected   {selection}: the figures are those of these pieces");
+    }
+    if job.lines != Lines::default() {
+        let lines = typed(&Job { lines: job.lines.clone(), ..Job::default() });
+        let _ = writeln!(out, "{}  lines      {lines}: so they were chosen", if out.is_empty() { "\n" } else { "" });
     }
     let mode = match job.mode {
         Mode::Cut => return out,
@@ -94,9 +107,6 @@ pub(super) fn verdict(verdict: Option<&Verdict>) -> String {
     out + "\n"
 }
 
-/// The rule that says most about a cut.
-const ON_PATH: &str = "verify/on-path";
-
 /// Shares of a whole in percent, the greatest first, those that round to nothing left out; in lines that fit.
 fn shares<T: AsRef<str>>(parts: &[(T, f64)], whole: f64) -> String {
     let percent = |time: f64| (100.0 * time / whole).round();
@@ -121,18 +131,15 @@ fn shares<T: AsRef<str>>(parts: &[(T, f64)], whole: f64) -> String {
     out
 }
 
-/// Columns that a line of shares may take.
-const SHARES_WIDTH: usize = 66;
-
 /// A duration as people say it.
 fn duration(seconds: f64) -> String {
     if seconds < S_PER_MIN {
         return format!("{} s", fixed(seconds, 2));
     }
     // Rounded first: 119.96 s are 2 min, not 1 min 60.0 s.
-    let tenths = (seconds * 10.0).round();
-    let minutes = (tenths / 600.0).floor();
-    format!("{} min {} s", fixed(minutes, 0), fixed((tenths - minutes * 600.0) / 10.0, 1))
+    let rounded = (seconds * 10.0).round() / 10.0;
+    let minutes = (rounded / S_PER_MIN).floor();
+    format!("{} min {} s", fixed(minutes, 0), fixed(rounded - minutes * S_PER_MIN, 1))
 }
 
 /// The greatest values of each axis beside its limit.
@@ -154,9 +161,6 @@ fn peaks(out: &mut String, axes: &Axes) {
         let _ = writeln!(out, "  {axis:9}{}", [0, 1, 2].map(cell).concat());
     }
 }
-
-/// Below this limit two decimals are shown, else none.
-const WHOLE_FROM: f64 = 100.0;
 
 fn cell(peak: Peak) -> (String, String) {
     let decimals = if peak.limit < WHOLE_FROM { 2 } else { 0 };
@@ -271,7 +275,7 @@ mod tests {
             finding("verify/stray", 0.0, Some(0.0)),
             finding("verify/body", 0.3, None),
         ];
-        let line = verdict(Some(&Verdict { findings }));
+        let line = verdict(Some(&Verdict { findings, unread: None }));
         assert_eq!(
             line,
             "\n  verified   2 rules hold; tip at most 0.061 mm off the path (0.071 allowed)\n             1 rule without a limit only reported\n"

@@ -10,12 +10,20 @@ use crate::machine::Mode;
 use crate::pipeline::{self, Verdict};
 use crate::units::number::fixed;
 
+/// Significant digits of worst values and limits in JSON.
+const DIGITS: i32 = 9;
+/// The columns of numbers, which stand at the right.
+const RIGHT: [bool; 9] = [false, false, true, true, false, true, true, true, true];
+
 /// A verdict as JSON.
 #[derive(Serialize)]
 struct Judged {
     verdict: Word,
     /// In the order of reports; none when the source has errors.
     rules: Vec<Rule>,
+    /// Which rows cannot be read; not there when all can.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unread: Option<String>,
 }
 
 #[derive(Serialize)]
@@ -49,9 +57,6 @@ struct Where {
     block: u32,
 }
 
-/// Significant digits of worst values and limits in JSON.
-const DIGITS: i32 = 9;
-
 /// The verdict as JSON; a program whose source has errors is proven by nothing: it fails, without rules.
 pub(super) fn json(verdict: Option<&Verdict>) -> String {
     let rule = |finding: &Finding| Rule {
@@ -71,17 +76,27 @@ pub(super) fn json(verdict: Option<&Verdict>) -> String {
     pretty(&Judged {
         verdict: if passes { Word::Pass } else { Word::Fail },
         rules: verdict.map_or_else(Vec::new, |verdict| verdict.findings.iter().map(rule).collect()),
+        unread: verdict.and_then(|verdict| verdict.unread.clone()),
     })
 }
 
 /// A row of the table: mark, rule, worst, limit, unit, time, x, y, block.
 type Cells = [String; 9];
 
-/// The columns of numbers, which stand at the right.
-const RIGHT: [bool; 9] = [false, false, true, true, false, true, true, true, true];
+/// A verdict, and what it is about.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Judgement<'a> {
+    pub(super) verdict: &'a Verdict,
+    pub(super) mode: Mode,
+    /// Name of the program.
+    pub(super) program: &'a str,
+    /// Name of the cutter file.
+    pub(super) source: &'a str,
+}
 
 /// The verdict as a table: what holds, then what is broken, then one line that says it all.
-pub(super) fn text(verdict: &Verdict, mode: Mode, program: &str, source: &str) -> String {
+pub(super) fn text(judgement: &Judgement) -> String {
+    let Judgement { verdict, mode, program, source } = *judgement;
     let broken: Vec<_> = verdict.broken().collect();
     let holding = verdict.findings.iter().filter(|finding| finding.holds());
     let titles = ["", "rule", "worst", "limit", "unit", "at s", "X mm", "Y mm", "block"].map(str::to_owned);
@@ -98,6 +113,9 @@ pub(super) fn text(verdict: &Verdict, mode: Mode, program: &str, source: &str) -
         if let Some(finding) = i.checked_sub(first_broken).map(|i| broken[i]) {
             say(&mut out, format_args!("      the rule: {}", pipeline::about(finding.rule)));
         }
+    }
+    if let Some(unread) = &verdict.unread {
+        say(&mut out, format_args!("\n{unread}\nNothing was judged that needs all rows: mend them first."));
     }
     let (limited, reported) = verdict.counts();
     let total = counted(limited, "rule");
@@ -162,12 +180,14 @@ mod tests {
                 finding("verify/complete", 0.000_12, Some(0.01), "mm", at(None, 5.0, 7)),
                 finding("verify/overcut-neighbour", 1.0 / 3.0, None, "mm", at(Some(80.0), 0.0, 9)),
             ],
+            unread: None,
         }
     }
 
     #[test]
     fn what_is_broken_stands_last_and_marked() {
-        let text = text(&verdict(), Mode::Cut, "a.csv", "a.cut");
+        let verdict = verdict();
+        let text = text(&Judgement { verdict: &verdict, mode: Mode::Cut, program: "a.csv", source: "a.cut" });
         assert!(text.lines().all(|line| line.len() <= 100), "{text}");
         insta::assert_snapshot!(text, @r"
               rule                         worst     limit  unit        at s    X mm  Y mm  block

@@ -6,7 +6,8 @@ use clap::Args;
 
 use super::choices::Format;
 use super::options::{Choice, Reading, counted};
-use super::{DONE, FAULTY, Finished, failure, files, provenance, say, verdict};
+use super::verdict::{self, Judgement};
+use super::{DONE, FAULTY, Finished, failure, files, provenance, say};
 use crate::diagnostic::{Diagnostics, Severity, render};
 use crate::pipeline::{self, Verdict};
 
@@ -20,7 +21,7 @@ pub(super) struct Arguments {
     /// Program to judge: what `cutc compile` writes with a target of timed setpoints, or a cut file of the target iso
     program: PathBuf,
 
-    /// Cutter file that the program must cut
+    /// Cutter file that the program must cut; `-` for standard input
     #[arg(long, value_name = "FILE")]
     source: PathBuf,
 
@@ -35,7 +36,8 @@ pub(super) struct Arguments {
     ///
     /// JSON has `verdict` ("pass" or "fail") and `rules`, each with `code`, `worst`, `limit`, `unit`, `where` and
     /// `holds`. A `worst` of null is beyond measure, a `limit` of null is only reported, a `block` of 0 is none. When
-    /// the cutter file has errors, or the program is none, the verdict is "fail" without rules.
+    /// the cutter file has errors, or the program is none, the verdict is "fail" without rules. When rows cannot be read,
+    /// `unread` says which, and no rule is there that needs them.
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }
@@ -44,15 +46,14 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     let name = arguments.program.display().to_string();
     let mut program = files::open(&arguments.program)?;
     let cannot = |error| failure(format!("cannot read `{name}`: {error}"), "check the disk that it is on");
-    if !pipeline::is_program(&mut program).map_err(cannot)? {
+    if let Some([what, hint]) = pipeline::foreign(&mut program).map_err(cannot)? {
         let stdout = match arguments.format {
             Format::Json => verdict::json(None),
             Format::Text => String::new(),
         };
-        let not = failure(
-            format!("not a program: `{name}` does not begin as what `cutc compile` writes"),
-            "name first what `cutc compile` wrote with a target that is judged, then its cutter file as --source",
-        );
+        let first =
+            "first comes what `cutc compile` wrote with a target that is judged, then its cutter file as --source";
+        let not = failure(format!("not a program: `{name}`: {what}"), format!("{hint}; {first}"));
         return Ok(Finished::text(stdout, format!("error: {not}\n"), FAULTY));
     }
     let source = files::read(&arguments.source)?;
@@ -71,7 +72,9 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     }
     let stdout = match (arguments.format, &judged) {
         (Format::Json, judged) => verdict::json(judged.as_ref()),
-        (Format::Text, Some(judged)) => verdict::text(judged, job.mode, &name, source.name()),
+        (Format::Text, Some(verdict)) => {
+            verdict::text(&Judgement { verdict, mode: job.mode, program: &name, source: source.name() })
+        }
         (Format::Text, None) => String::new(),
     };
     let code = if judged.is_some_and(|judged| Verdict::passes(&judged)) { DONE } else { FAULTY };

@@ -50,6 +50,10 @@ mod table {
     pub static ISO_SYNTAX: Code = error("iso/syntax", "A block does not follow the grammar: a word is a letter and, mostly, a number.");
     /// X or Y without a number.
     pub static ISO_NO_VALUE: Code = error("iso/no-value", "X, Y, I or J stands without its number.");
+    /// A place that no table reaches.
+    pub static ISO_FAR_PLACE: Code = error("iso/far-place", "A place lies more than a kilometre from the origin: a digit is doubled, or the unit is wrong.");
+    /// Lines of per cent signs.
+    pub static ISO_FRAME: Code = warning("iso/percent-frame", "A line that holds nothing but `%` stands at the start or the end of the file; it is passed over.");
     /// A number too large to be a place on a table.
     pub static ISO_OVERFLOW: Code = error("iso/number-overflow", "A number has more digits than a coordinate can have.");
     /// M19 that never ends.
@@ -149,7 +153,7 @@ mod table {
     /// A hole in no part.
     pub static MARKER_DRILL_OUTSIDE: Code = warning("marker/drill-outside", "A hole is drilled where no part is: in the waste or in a cut-out.");
     /// Numbers that start again.
-    pub static MARKER_NUMBER_TWICE: Code = warning("marker/piece-number-twice", "The numbers of the pieces start again: two jobs may stand in one file, and both are cut.");
+    pub static MARKER_NUMBER_TWICE: Code = warning("marker/piece-number-twice", "The number of a piece comes again: two jobs may stand in one file, and both are cut.");
 
     // The choice of pieces.
     /// A number that no piece has.
@@ -203,6 +207,8 @@ pub static ALL: &[&Code] = &[
     &SOURCE_UNKNOWN,
     &ISO_SYNTAX,
     &ISO_NO_VALUE,
+    &ISO_FAR_PLACE,
+    &ISO_FRAME,
     &ISO_OVERFLOW,
     &ISO_OPEN_SLIT,
     &ISO_KNIFE_DOWN_TWICE,

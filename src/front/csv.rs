@@ -145,7 +145,8 @@ fn read(source: &Source, _: &Job, out: &mut Diagnostics) -> Marker {
     }
     out.extend(if faults.has_errors() { faults } else { short });
     if marker.pieces.is_empty() && !out.has_errors() {
-        out.push(Diagnostic::new(&code::CSV_NOTHING_TO_CUT, "the file holds no contour"));
+        let finding = Diagnostic::new(&code::CSV_NOTHING_TO_CUT, "the file holds no contour");
+        out.push(finding.hint("export the points again: a row `x,y` each, below the header"));
     }
     marker
 }

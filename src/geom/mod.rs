@@ -4,7 +4,9 @@
 //! never knows what the geometry is for.
 
 pub mod angle;
+pub mod budget;
 pub mod monotone;
+pub mod near;
 pub mod polyline;
 pub mod ring;
 pub mod spline;
@@ -24,6 +26,11 @@ pub fn cross(a: Vector, b: Vector) -> f64 {
 /// The vector turned a quarter to the left.
 pub fn left(v: Vector) -> Vector {
     Vector::new(-v.y, v.x)
+}
+
+/// The bits of a point's coordinates: the same for points that are equal, since zero has one sign here.
+pub fn bits(point: Point) -> [u64; 2] {
+    [(point.x + 0.0).to_bits(), (point.y + 0.0).to_bits()]
 }
 
 /// An axis-parallel box, mm. The empty box has `min > max`.

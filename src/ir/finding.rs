@@ -34,3 +34,9 @@ impl Finding {
         self.limit.is_none_or(|limit| self.worst <= limit)
     }
 }
+
+/// How many findings have a limit, and how many are only reported.
+pub fn counts(findings: &[Finding]) -> (usize, usize) {
+    let limited = findings.iter().filter(|finding| finding.limit.is_some()).count();
+    (limited, findings.len() - limited)
+}

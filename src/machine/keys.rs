@@ -29,6 +29,8 @@ pub enum Takes {
     NumberOr(Within, &'static str),
     /// One of some whole numbers.
     Whole(&'static [i64]),
+    /// A whole number of percent, from 1 to 100.
+    Percent,
     /// Two numbers, `[x, y]`.
     Point,
     /// Three numbers, `[x_mm, y_mm, c_deg]`.
@@ -77,6 +79,8 @@ const PLACE: Within = from(-1.0e6, 1.0e6);
 const COUNTS: Within = from(1.0, 1.0e7);
 /// What a register of 32 bits holds, counts.
 const REGISTER: Within = from(-2_147_483_648.0, 2_147_483_647.0);
+/// Speeds as parts of others: those of single segments are kept in whole percent.
+const PERCENT: Within = from(1.0, 100.0);
 /// Angles that may be anywhere within a turn, degrees.
 const TURN: Within = from(-360.0, 360.0);
 
@@ -100,6 +104,7 @@ impl Takes {
             Self::Number(within) => number(value).is_some_and(|v| within.holds(v)),
             Self::NumberOr(within, word) => is(word) || number(value).is_some_and(|v| within.holds(v)),
             Self::Whole(numbers) => value.as_integer().is_some_and(|v| numbers.contains(&v)),
+            Self::Percent => number(value).is_some_and(|v| PERCENT.holds(v) && v.fract() == 0.0),
             Self::Point => places(2),
             Self::Pose => places(3),
             Self::PoseOr(word) => is(word) || places(3),
@@ -183,6 +188,7 @@ impl Key {
         match self.takes {
             Takes::Number(within) => format!("a number {within}{unit}"),
             Takes::NumberOr(within, word) => format!("a number {within}{unit}, or \"{word}\""),
+            Takes::Percent => "a whole number from 1 to 100 percent".to_owned(),
             Takes::Whole(numbers) => numbers.iter().map(ToString::to_string).collect::<Vec<_>>().join(" or "),
             Takes::Point => format!("two numbers [x, y]{unit}"),
             Takes::Pose => "three numbers [x_mm, y_mm, c_deg]".to_owned(),
@@ -235,7 +241,7 @@ pub fn find(name: &str) -> Option<&'static Key> {
 pub const CODE_NAMES: &[&str] = &[
     "A", "B", "E", "F", "H", "L", "N", "O", "Q", "R", "Z",
     "D1", "D2", "D4",
-    "G1", "G2", "G3", "G4", "G70", "G71", "G90", "G91",
+    "G0", "G1", "G2", "G3", "G4", "G70", "G71", "G90", "G91",
     "M0", "M1", "M14", "M15", "M17", "M18", "M19", "M20", "M23", "M25", "M26", "M30", "M31", "M40", "M41", "M42", "M43",
     "M44", "M45", "M46", "M47", "M48", "M51", "M60", "M61", "M62", "M63", "M64", "M65", "M66", "M67", "M68", "M69", "M70",
     "M72", "M73",
@@ -246,6 +252,18 @@ const NEAR_CODES: usize = 3;
 
 fn is_code(word: &str) -> bool {
     CODE_NAMES.contains(&word)
+}
+
+/// The name of a key as the table has it: a code is spelled without the leading zeros that files write (`M01` is `M1`).
+pub(super) fn canonical(name: &str) -> String {
+    let plain = || {
+        let code = name.strip_prefix(CODES)?.strip_prefix('.')?;
+        let digits = code.find(|c: char| c.is_ascii_digit())?;
+        let (letter, number) = code.split_at(digits);
+        let number: u32 = number.parse().ok()?;
+        Some(format!("{CODES}.{letter}{number}"))
+    };
+    plain().filter(|name| find(name).is_some()).unwrap_or_else(|| name.to_owned())
 }
 
 /// The keys of the codes that may be meant by one that does not exist, the likeliest first; `None` when the name is no
@@ -316,7 +334,7 @@ pub const KEYS: &[Key] = &[
     Key { name: "knife.reflex_front_overlap_mm", takes: Takes::Number(BLADE), about: "Overcut at corners where it would run into the part." },
     Key { name: "knife.reflex_heel_overlap_mm", takes: Takes::Number(BLADE), about: "Heel overlap at corners where it would run into the part." },
     Key { name: "knife.feed_mm_s", takes: Takes::NumberOr(SPEED, "off"), about: "Maximum cutting velocity of the tip; \"off\" = whatever the axes can do." },
-    Key { name: "knife.slow_percent", takes: Takes::Number(from(1.0, 100.0)), about: "Speed of slowed cuts (M25), a part of the cutting velocity." },
+    Key { name: "knife.slow_percent", takes: Takes::Percent, about: "Speed of slowed cuts (M25), a part of the cutting velocity." },
     Key { name: "knife.plunge_ms", takes: Takes::Number(REST), about: "How long the axes rest while the knife goes down." },
     Key { name: "knife.lift_ms", takes: Takes::Number(REST), about: "How long the axes rest while the knife comes up." },
     Key { name: "knife.clear_ms", takes: Takes::NumberOr(REST, "off"), about: "How long after the lift command the blade is clear of the cloth, so that the axes may move\nbefore it is all the way up; \"off\" = they wait for lift_ms." },

@@ -8,7 +8,7 @@ use toml::de::{DeTable, DeValue, ValueDeserializer};
 use super::keys::{self, CODES};
 use super::profile::MachineProfile;
 use super::validate::validate;
-use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::source::{Source, Span};
 
 /// What is wrong with a profile; at least one of the two has errors.
@@ -63,19 +63,14 @@ impl Draft {
             Ok(text) => text,
             Err(error) => {
                 let at = error.valid_up_to();
-                let message = "the profile is not UTF-8 text";
-                return self.fault(
-                    span(at..at + 1),
-                    &code::PROFILE_SYNTAX,
-                    message,
-                    Some("save it as plain UTF-8 text"),
-                );
+                let fault = Diagnostic::new(&code::PROFILE_SYNTAX, "the profile is not UTF-8 text");
+                return self.fault(span(at..at + 1), fault.hint("save it as plain UTF-8 text"));
             }
         };
         let (root, errors) = DeTable::parse_recoverable(text);
         for error in &errors {
             let at = error.span().unwrap_or(0..0);
-            self.fault(span(at), &code::PROFILE_SYNTAX, error.message().replace('\n', ", "), None);
+            self.fault(span(at), Diagnostic::new(&code::PROFILE_SYNTAX, error.message().replace('\n', ", ")));
         }
         // What is left of broken TOML is guesswork: its keys would only add faults that are none.
         if errors.is_empty() {
@@ -110,8 +105,8 @@ impl Draft {
     fn set(&mut self, argument: &str) {
         let origin = Origin::Argument(argument.to_owned());
         let Some((name, text)) = argument.split_once('=') else {
-            let hint = "write it as in `--set knife.width_mm=6.6`";
-            return self.fault(origin, &code::PROFILE_SYNTAX, "it is no key=value", Some(hint));
+            let fault = Diagnostic::new(&code::PROFILE_SYNTAX, "it is no key=value");
+            return self.fault(origin, fault.hint("write it as in `--set knife.width_mm=6.6`"));
         };
         let (name, text) = (name.trim().to_owned(), text.trim());
         if DeValue::parse(text).is_ok() {
@@ -124,15 +119,11 @@ impl Draft {
     /// Takes one value in, if its key exists and wants such a value.
     fn take(&mut self, entry: Entry<'_>) {
         let Entry { name, origin, text } = entry;
+        let name = keys::canonical(&name);
         if keys::find(&name).is_none() {
             if keys::is_section(&name) {
-                let message = format!("`{name}` is a table of keys, not a key");
-                return self.fault(
-                    origin,
-                    &code::PROFILE_TYPE,
-                    message,
-                    Some(&format!("write `[{name}]`, and its keys below it")),
-                );
+                let fault = Diagnostic::new(&code::PROFILE_TYPE, format!("`{name}` is a table of keys, not a key"));
+                return self.fault(origin, fault.hint(format!("write `[{name}]`, and its keys below it")));
             }
             return self.unknown(&name, origin);
         }
@@ -151,7 +142,7 @@ impl Draft {
     fn mistyped(&mut self, name: &str, origin: Origin, found: &str) {
         let expected = keys::find(name).map(keys::Key::expects).unwrap_or_default();
         let message = format!("`{name}` must be {expected}, but is {found}");
-        self.fault(origin, &code::PROFILE_TYPE, message, None);
+        self.fault(origin, Diagnostic::new(&code::PROFILE_TYPE, message));
     }
 
     fn unknown(&mut self, name: &str, origin: Origin) {
@@ -160,18 +151,17 @@ impl Draft {
             Some(codes) => format!("near ones are `{}`; the README lists all codes", codes.join("`, `")),
             None => format!("the nearest is `{}`; `cutc profile init` lists all keys", keys::nearest(name)),
         };
-        self.fault(origin, &code::PROFILE_UNKNOWN_KEY, format!("there is no key `{name}`"), Some(&hint));
+        let fault = Diagnostic::new(&code::PROFILE_UNKNOWN_KEY, format!("there is no key `{name}`"));
+        self.fault(origin, fault.hint(hint));
     }
 
-    fn fault(&mut self, origin: Origin, code: &'static Code, message: impl Into<String>, hint: Option<&str>) {
-        let message = message.into();
+    fn fault(&mut self, origin: Origin, diagnostic: Diagnostic) {
         let diagnostic = match &origin {
-            Origin::File(span) => Diagnostic::new(code, message).at(*span),
-            Origin::Argument(argument) => Diagnostic::new(code, format!("--set {argument}: {message}")),
-        };
-        let diagnostic = match hint {
-            Some(hint) => diagnostic.hint(hint),
-            None => diagnostic,
+            Origin::File(span) => diagnostic.at(*span),
+            Origin::Argument(argument) => {
+                let message = format!("--set {argument}: {}", diagnostic.message);
+                Diagnostic { message, ..diagnostic }
+            }
         };
         self.faults.push((origin, diagnostic));
     }
@@ -186,7 +176,8 @@ impl Draft {
             let origin =
                 given.iter().rev().find(|(name, _)| fault.keys.contains(name)).map(|(_, origin)| origin.clone());
             let origin = origin.unwrap_or(Origin::File(Span::default()));
-            self.fault(origin, fault.code, fault.message, fault.hint.as_deref());
+            let diagnostic = Diagnostic::new(fault.code, fault.message);
+            self.fault(origin, fault.hint.into_iter().fold(diagnostic, Diagnostic::hint));
         }
         if self.faults.is_empty() {
             return Ok(profile);
@@ -300,18 +291,23 @@ mod tests {
 
     #[test]
     fn a_code_that_no_file_has_is_a_fault() {
-        let text = "[codes]\nX = \"ignore\"\nM019 = \"ignore\"\nM99 = \"use\"\n";
+        let text = "[codes]\nX = \"ignore\"\nM99 = \"use\"\n";
         let faults = load(Some(&source(text)), &["codes.m19=ignore".to_owned()]).expect_err("a faulty profile");
         let hints: Vec<&str> = faults.file.iter().chain(&faults.arguments).map(|d| d.hints[0].as_str()).collect();
         assert_eq!(
             hints,
             [
                 "near ones are `codes.A`, `codes.B`, `codes.E`; the README lists all codes",
-                "it is spelled `codes.M19`",
                 "near ones are `codes.M19`, `codes.M69`, `codes.G90`; the README lists all codes",
                 "it is spelled `codes.M19`",
             ]
         );
+    }
+
+    #[test]
+    fn a_code_may_be_spelled_as_files_spell_it() {
+        let profile = load(None, &["codes.M01=ignore".to_owned(), "codes.G091=ignore".to_owned()]).expect("two codes");
+        assert!(!profile.obeys("M1") && !profile.obeys("G91") && profile.obeys("M19"));
     }
 
     #[test]

@@ -128,7 +128,7 @@ pub struct Knife {
     /// Greatest speed of the tip while cutting, mm/s.
     #[serde(with = "OrWord::<Off>")]
     pub feed_mm_s: Option<f64>,
-    /// Speed after L or M25, percent of the feed.
+    /// Speed after L or M25, percent of the feed, a whole number.
     pub slow_percent: f64,
     /// From the plunge command until the blade is through, ms; the axes rest.
     pub plunge_ms: f64,
@@ -163,6 +163,11 @@ const DEFAULT_WIDTH_MM: f64 = 6.6;
 const DEFAULT_BACK_MM: f64 = 6.35;
 
 impl Knife {
+    /// Speed of slowed cuts, percent: whole, and from 1 to 100 by its key.
+    pub fn slow(&self) -> u8 {
+        self.slow_percent.clamp(1.0, 100.0) as u8
+    }
+
     /// Centre to tip, mm. A blade narrower than its back (the back is often left at its default) has the C axis at
     /// its tip; that covers the point, of width 0.
     pub fn radius(&self) -> f64 {

@@ -14,8 +14,31 @@ use crate::source::{Source, Span};
 use crate::units::number::{exact, fixed};
 use crate::verify::{self, Kind, RULES, Verdict};
 
+/// The rule on what can be read.
+const FORMAT: &str = "verify/format";
 /// Bytes that are read back at a time.
 const BLOCK: usize = 1 << 16;
+/// Significant digits at which figures of findings are shown to people.
+const DIGITS: i32 = 4;
+/// Below this, in any unit, an allowed value is rounding of the computation.
+const NOISE_EPSILON: f64 = 0.99e-9;
+/// The most that are needed to tell a worst value from its limit; beyond, they differ by rounding alone.
+const MOST_DIGITS: i32 = 15;
+/// Rules on how something is cut or drilled: they say nothing about a program that does neither.
+const OF_CUTS: &[&str] = &[
+    "verify/feed",
+    "verify/dwell",
+    "verify/on-path",
+    "verify/order",
+    "verify/once",
+    "verify/complete",
+    "verify/heading",
+    "verify/body",
+    "verify/overcut-part",
+    "verify/overcut-neighbour",
+    "verify/overcut-waste",
+    "verify/drill-place",
+];
 
 /// Judges a program of timed setpoints, edited by hand or not, against a source. `None` when the source has errors: then
 /// the diagnostics say which. They are about the source alone; what the program breaks is in the verdict.
@@ -33,10 +56,10 @@ pub fn judge_program(
     judge(source, &input, job, program).map(Some)
 }
 
-/// Whether a file is a program that can be judged, by how it begins.
-pub fn is_program(file: &mut dyn Medium) -> io::Result<bool> {
+/// Why a file is no program that can be judged, by how it begins, and what to do about it; `None` when it is one.
+pub fn foreign(file: &mut dyn Medium) -> io::Result<Option<[String; 2]>> {
     file.rewind()?;
-    Ok(verify::kind(&mut BufReader::with_capacity(BLOCK, file)).is_some())
+    verify::foreign(&mut BufReader::with_capacity(BLOCK, file))
 }
 
 /// Reads a program back from its start and judges it, and what was read of the source against its bytes.
@@ -90,22 +113,6 @@ fn uncut(marker: &Marker, mode: Mode) -> Marker {
     }
 }
 
-/// Rules on how something is cut or drilled: they say nothing about a program that does neither.
-const OF_CUTS: &[&str] = &[
-    "verify/feed",
-    "verify/dwell",
-    "verify/on-path",
-    "verify/order",
-    "verify/once",
-    "verify/complete",
-    "verify/heading",
-    "verify/body",
-    "verify/overcut-part",
-    "verify/overcut-neighbour",
-    "verify/overcut-waste",
-    "verify/drill-place",
-];
-
 /// The verdict on two programs of one compile: of each rule the finding that is worse, the first of two that are alike.
 pub(super) fn both(first: Verdict, second: Verdict) -> Verdict {
     let mut findings = first.findings;
@@ -117,7 +124,7 @@ pub(super) fn both(first: Verdict, second: Verdict) -> Verdict {
         }
     }
     verify::sort(&mut findings);
-    Verdict { findings }
+    Verdict { findings, unread: first.unread.or(second.unread) }
 }
 
 /// A diagnostic for each rule that does not hold.
@@ -128,6 +135,9 @@ pub(super) fn report(verdict: &Verdict, marker: &Marker, diagnostics: &mut Diagn
         let mut message = format!("{}: {worst} {unit}", finding.rule);
         if let Some(limit) = limit {
             let _ = write!(message, " ({limit} allowed)");
+        }
+        if let (FORMAT, Some(unread)) = (finding.rule, &verdict.unread) {
+            let _ = write!(message, ": {unread}");
         }
         let mut span = None;
         if let Some(place) = finding.place {
@@ -164,13 +174,6 @@ fn key(rule: &str) -> Option<&'static str> {
         _ => return None,
     })
 }
-
-/// Significant digits at which figures of findings are shown to people.
-const DIGITS: i32 = 4;
-/// Below this, in any unit, an allowed value is rounding of the computation.
-const NOISE_EPSILON: f64 = 0.99e-9;
-/// The most that are needed to tell a worst value from its limit; beyond, they differ by rounding alone.
-const MOST_DIGITS: i32 = 15;
 
 /// The worst value and the limit of a finding for people: short, but told apart where the one breaks the other.
 pub fn figures(finding: &Finding) -> (String, Option<String>) {

@@ -5,7 +5,7 @@ mod program;
 mod report;
 mod spent;
 
-pub use judge::{about, figures, is_program, judge_program};
+pub use judge::{about, figures, foreign, judge_program};
 pub use report::{Axes, Drawn, Lines, Notches, Peak, Peaks, Program, Report, significant};
 pub use spent::{Spent, word};
 

@@ -10,6 +10,13 @@ use crate::ir::Marker;
 use crate::ir::marker::{Drawing, DrawnClass, NotchKind};
 use crate::units::{MM_PER_M, deg};
 
+/// Millionths that lengths and times are rounded to: micrometres of a metre, microseconds of a second.
+const MILLIONTHS: f64 = 1e6;
+/// Significant digits of a peak.
+const PEAK_DIGITS: i32 = 6;
+/// The most decimals that [`significant`] keeps: what is smaller is noise of the computation.
+const MOST_DECIMALS: i32 = 12;
+
 /// The figures of one file; `None` is what only planning knows.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Report {
@@ -187,13 +194,6 @@ impl Report {
         }
     }
 }
-
-/// Millionths that lengths and times are rounded to: micrometres of a metre, microseconds of a second.
-const MILLIONTHS: f64 = 1e6;
-/// Significant digits of a peak.
-const PEAK_DIGITS: i32 = 6;
-/// The most decimals that [`significant`] keeps: what is smaller is noise of the computation.
-const MOST_DECIMALS: i32 = 12;
 
 /// `value` to some significant digits, for output: the nearest number that prints as short as that.
 pub fn significant(value: f64, digits: i32) -> f64 {

@@ -23,7 +23,8 @@ pub struct Spent {
     pub drill: f64,
     /// At rest for another reason: until the knife is all the way up, for an event, at the end.
     pub wait: f64,
-    /// What bounds the cuts, each with its time; in the order of [`BOUNDS`], those without any left out.
+    /// What bounds the cuts, each with its time; in the order of [`BOUNDS`], those without any left out. None where
+    /// nothing is cut.
     pub bounds: Vec<(Bound, f64)>,
 }
 
@@ -106,8 +107,9 @@ impl Clock {
     pub(super) fn spent(&self, period: f64) -> Spent {
         let time = |ticks: u64| ticks as f64 * period;
         let [cut, travel, turn, plunge, lift, drill, wait] = self.ticks.map(time);
-        let bounds =
-            BOUNDS.iter().map(|&bound| (bound, time(self.shares.of(bound)))).filter(|row| row.1 > 0.0).collect();
+        // The same motion with the knife up is a travel: what bounds it keeps no cut from being faster.
+        let shares = |bound: &Bound| if cut > 0.0 { time(self.shares.of(*bound)) } else { 0.0 };
+        let bounds = BOUNDS.iter().map(|bound| (*bound, shares(bound))).filter(|row| row.1 > 0.0).collect();
         Spent { cut, travel, turn, plunge, lift, drill, wait, bounds }
     }
 }

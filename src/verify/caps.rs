@@ -16,15 +16,24 @@ pub(super) struct Caps {
     lap: Option<f64>,
 }
 
-/// What caps are made from.
+/// How a line ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum End {
+    /// The knife is lifted at a corner, before which the cut may have to be slower.
+    AtCorner,
+    /// It ends where the contour does, or goes round.
+    Plain,
+}
+
+/// What the tip may do in a piece, from which caps are made.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Source<'a> {
+pub(super) struct Feeds<'a> {
     profile: &'a MachineProfile,
     /// The feed of the profile and of the piece, mm/s.
     feed: f64,
 }
 
-impl<'a> Source<'a> {
+impl<'a> Feeds<'a> {
     pub(super) fn new(profile: &'a MachineProfile, piece: &Piece) -> Self {
         let feeds = [profile.knife.feed_mm_s, piece.feed];
         Self { profile, feed: feeds.into_iter().flatten().fold(f64::INFINITY, f64::min) }
@@ -41,10 +50,10 @@ impl<'a> Source<'a> {
         if percent < FULL_SPEED { self.fastest() * f64::from(percent) / 100.0 } else { self.feed }
     }
 
-    /// The caps of chords between stations; slower before the end when there the knife is lifted at a corner.
-    pub(super) fn caps(&self, stations: &[f64], chords: Vec<f64>, to_corner: bool) -> Caps {
+    /// The caps of chords between stations, up to the end of the line.
+    pub(super) fn caps(&self, stations: &[f64], chords: Vec<f64>, end: End) -> Caps {
         let (mut starts, mut caps) = (stations[..chords.len()].to_vec(), chords);
-        if let (Some(reach), true) = (self.profile.slow.before_corner_mm, to_corner) {
+        if let (Some(reach), End::AtCorner) = (self.profile.slow.before_corner_mm, end) {
             let from = (stations[stations.len() - 1] - reach).max(0.0);
             let first = starts.partition_point(|&start| start < from);
             if starts.get(first) != Some(&from) {
@@ -105,8 +114,8 @@ mod tests {
 
     fn caps(profile: &MachineProfile, feed: Option<f64>, percents: [u8; 3]) -> Caps {
         let piece = Piece { feed, ..Piece::default() };
-        let source = Source::new(profile, &piece);
-        source.caps(&[0.0, 10.0, 20.0, 30.0], percents.map(|percent| source.at(percent)).to_vec(), true)
+        let feeds = Feeds::new(profile, &piece);
+        feeds.caps(&[0.0, 10.0, 20.0, 30.0], percents.map(|percent| feeds.at(percent)).to_vec(), End::AtCorner)
     }
 
     #[test]
@@ -138,8 +147,8 @@ mod tests {
     fn a_line_that_goes_round_has_the_caps_of_its_start_behind_its_end() {
         let profile = MachineProfile::default();
         let piece = Piece { feed: Some(100.0), ..Piece::default() };
-        let source = Source::new(&profile, &piece);
-        let caps = source.caps(&[0.0, 10.0, 20.0], vec![100.0, 50.0], false).round(20.0);
+        let feeds = Feeds::new(&profile, &piece);
+        let caps = feeds.caps(&[0.0, 10.0, 20.0], vec![100.0, 50.0], End::Plain).round(20.0);
         assert_eq!(
             [[12.0, 18.0], [18.0, 21.0], [32.0, 38.0], [-1.0, 0.5]].map(|[a, b]| caps.greatest(a, b)),
             [50.0, 100.0, 50.0, 100.0]

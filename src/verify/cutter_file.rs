@@ -88,7 +88,7 @@ pub fn cutter_file(bytes: &[u8], marker: &Marker, source: &Source, job: &Job) ->
     }
     let mut findings = vec![format.finding(), same.finding(), place.finding()];
     sort(&mut findings);
-    Verdict { findings }
+    Verdict { findings, unread: None }
 }
 
 impl Said {
@@ -208,7 +208,7 @@ struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     fn new(bytes: &'a [u8], job: &Job) -> Self {
-        let slowed = job.profile.knife.slow_percent.clamp(1.0, 100.0) as u8;
+        let slowed = job.profile.knife.slow();
         Self {
             bytes,
             offset: 0,

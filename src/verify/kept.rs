@@ -1,65 +1,128 @@
 //! Whether what was read is still there behind the passes: every block that cuts or drills something in the marker as it
 //! was read does so in the marker that is cut, or a pass has lost it.
-
-use std::collections::BTreeSet;
+//!
+//! Passes may cut once what the file cuts twice: a slit that is written there and back becomes one cut, and of two that
+//! are the same one goes. So a stroke whose block is gone is no loss while another one of its piece cuts between the same
+//! two places.
 
 use super::worst::Worst;
-use crate::geom::Point;
+use crate::geom::{Point, bits};
 use crate::ir::finding::Sighting;
-use crate::ir::marker::{Notch, Piece, Stroke};
+use crate::ir::marker::{Notch, Piece};
 use crate::ir::{Finding, Marker};
 
-/// Something that a block cuts or drills.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Work {
-    /// Where its piece starts in the file, which no other does there.
-    piece: Name,
-    block: u32,
-    at: Point,
-    /// Both ends when it is a slit: of two that are the same one is enough.
-    slit: Option<Ends>,
+/// Block of a place to which nothing is cut.
+const NO_BLOCK: u32 = 0;
+
+/// All that a marker cuts or drills. One is made of every marker that is read, so it takes two dozen bytes a segment, and
+/// nothing is sorted before somebody asks.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Works {
+    pieces: Vec<OfPiece>,
 }
 
 /// A piece by its number and the byte at which it starts: numbers may come again.
 type Name = (u32, u32);
-/// The ends of a slit by the bits of their coordinates, whichever way round.
+/// The ends of a stroke by the bits of their coordinates, whichever way round.
 type Ends = [[u64; 2]; 2];
 
-/// All that a marker cuts or drills. A segment without length cuts nothing, and one without a block is from no file.
-pub(super) fn works(marker: &Marker) -> Vec<Work> {
-    let mut works = Vec::new();
-    for piece in &marker.pieces {
-        let name = name(piece);
-        let mut add = |block: u32, at: Point, slit: Option<Ends>| {
-            if block != 0 {
-                works.push(Work { piece: name, block, at, slit });
-            }
-        };
-        piece.drills.iter().for_each(|drill| add(drill.span.block, drill.at, None));
-        let strokes = piece.notches.iter().flat_map(Notch::strokes);
-        for stroke in strokes.filter(|stroke| stroke.from != stroke.to) {
-            add(stroke.span.block, stroke.to, Some(ends(&stroke)));
-        }
-        for contour in &piece.contours {
-            let segments = marker.list.walk(contour.range).map(|(_, segment)| segment);
-            segments.filter(|s| s.from != s.to).for_each(|s| add(s.span.block, s.to, None));
-        }
+#[derive(Debug, Clone, PartialEq)]
+struct OfPiece {
+    name: Name,
+    /// Where the knife or a drill comes to, in cut order: one line behind the other.
+    places: Vec<Place>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Place {
+    at: Point,
+    /// The block that cuts from the place before to this one, or that drills here when both are the same; [`NO_BLOCK`]
+    /// where a line begins.
+    block: u32,
+}
+
+/// A cut from one place to another; a hole goes from its place to the same.
+#[derive(Debug, Clone, Copy)]
+struct Stroke {
+    from: Point,
+    to: Point,
+    block: u32,
+}
+
+impl Stroke {
+    fn ends(&self) -> Ends {
+        let mut ends = [bits(self.from), bits(self.to)];
+        ends.sort_unstable();
+        ends
     }
-    works
+
+    fn is_hole(&self) -> bool {
+        self.from == self.to
+    }
+}
+
+impl OfPiece {
+    fn of(piece: &Piece, marker: &Marker) -> Self {
+        let mut places: Vec<Place> = Vec::new();
+        let mut add = |Stroke { from, to, block }: Stroke| {
+            if places.last().is_none_or(|last| last.at != from) {
+                places.push(Place { at: from, block: NO_BLOCK });
+            }
+            places.push(Place { at: to, block });
+        };
+        for drill in &piece.drills {
+            add(Stroke { from: drill.at, to: drill.at, block: drill.span.block });
+        }
+        // What has no length cuts nothing.
+        for stroke in piece.notches.iter().flat_map(Notch::strokes).filter(|stroke| stroke.from != stroke.to) {
+            add(Stroke { from: stroke.from, to: stroke.to, block: stroke.span.block });
+        }
+        let segments = piece.contours.iter().flat_map(|contour| marker.list.walk(contour.range));
+        for (_, segment) in segments.filter(|(_, segment)| segment.from != segment.to) {
+            add(Stroke { from: segment.from, to: segment.to, block: segment.span.block });
+        }
+        Self { name: name(piece), places }
+    }
+
+    /// What a block of the file cuts or drills: what has none is from no file.
+    fn strokes(&self) -> impl Iterator<Item = Stroke> {
+        let all = self.places.windows(2).map(|w| Stroke { from: w[0].at, to: w[1].at, block: w[1].block });
+        all.filter(|stroke| stroke.block != NO_BLOCK)
+    }
+
+    /// What is done here and no more in `cut`.
+    fn lost_in(&self, cut: &Self) -> Vec<Stroke> {
+        let mut blocks: Vec<u32> = cut.strokes().map(|stroke| stroke.block).collect();
+        blocks.sort_unstable();
+        let mut lost: Vec<Stroke> =
+            self.strokes().filter(|stroke| blocks.binary_search(&stroke.block).is_err()).collect();
+        if lost.is_empty() {
+            return lost;
+        }
+        let mut ends: Vec<Ends> = cut.strokes().map(|stroke| stroke.ends()).collect();
+        ends.sort_unstable();
+        lost.retain(|stroke| stroke.is_hole() || ends.binary_search(&stroke.ends()).is_err());
+        lost.dedup_by_key(|stroke| stroke.block); // the chords of an arc are one block
+        lost
+    }
+}
+
+/// All that a marker cuts or drills.
+pub(super) fn works(marker: &Marker) -> Works {
+    Works { pieces: marker.pieces.iter().map(|piece| OfPiece::of(piece, marker)).collect() }
 }
 
 /// Compares what was read with what is cut. Pieces that were not selected are gone as a whole.
-pub(super) fn kept(read: &[Work], marker: &Marker) -> Finding {
-    let cut = works(marker);
-    let pieces: BTreeSet<Name> = marker.pieces.iter().map(name).collect();
-    let blocks: BTreeSet<(Name, u32)> = cut.iter().map(|work| (work.piece, work.block)).collect();
-    let slits: BTreeSet<(Name, Ends)> = cut.iter().filter_map(|work| Some((work.piece, work.slit?))).collect();
+pub(super) fn kept(read: &Works, marker: &Marker) -> Finding {
+    let mut cut = works(marker).pieces;
+    cut.sort_by_key(|piece| piece.name);
     let mut worst = Worst::new("source/kept", "blocks", Some(0.0));
-    let mut lost = BTreeSet::new();
-    for work in read.iter().filter(|work| pieces.contains(&work.piece)) {
-        let has_twin = work.slit.is_some_and(|slit| slits.contains(&(work.piece, slit)));
-        if !has_twin && !blocks.contains(&(work.piece, work.block)) && lost.insert((work.piece, work.block)) {
-            worst.see(lost.len() as f64, || Sighting { time: None, point: work.at, block: work.block });
+    let mut count = 0;
+    for piece in &read.pieces {
+        let Ok(place) = cut.binary_search_by_key(&piece.name, |piece| piece.name) else { continue };
+        for lost in piece.lost_in(&cut[place]) {
+            count += 1;
+            worst.see(f64::from(count), || Sighting { time: None, point: lost.to, block: lost.block });
         }
     }
     worst.finding()
@@ -67,11 +130,4 @@ pub(super) fn kept(read: &[Work], marker: &Marker) -> Finding {
 
 fn name(piece: &Piece) -> Name {
     (piece.number, piece.span.start)
-}
-
-fn ends(stroke: &Stroke) -> Ends {
-    // Zero has one sign.
-    let mut ends = [stroke.from, stroke.to].map(|point| [(point.x + 0.0).to_bits(), (point.y + 0.0).to_bits()]);
-    ends.sort_unstable();
-    ends
 }

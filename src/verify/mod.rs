@@ -28,10 +28,12 @@ mod order;
 mod read;
 mod reference;
 mod rest;
+mod scan;
 mod source_audit;
 mod source_hpgl;
 mod stroke;
 mod table;
+mod words;
 mod worst;
 
 pub use cutter_file::cutter_file;
@@ -51,7 +53,7 @@ use self::rest::Rest;
 use self::stroke::{Judge, Stroke};
 use self::table::Table;
 use crate::geom::Vector;
-use crate::ir::{Finding, Marker};
+use crate::ir::{Finding, Marker, finding};
 use crate::machine::Job;
 
 /// Every rule: its code and what it says. The order is that of reports.
@@ -108,6 +110,9 @@ pub const RULES: &[(&str, &str)] = &[
 pub struct Verdict {
     /// The worst value under each rule, in the order of [`RULES`].
     pub findings: Vec<Finding>,
+    /// What cannot be read, when something cannot: then nothing is said about what the program does, since all that
+    /// follows from a row that is missing would be wrong.
+    pub unread: Option<String>,
 }
 
 impl Verdict {
@@ -118,8 +123,7 @@ impl Verdict {
 
     /// How many rules have a limit, and how many only report.
     pub fn counts(&self) -> (usize, usize) {
-        let limited = self.findings.iter().filter(|finding| finding.limit.is_some()).count();
-        (limited, self.findings.len() - limited)
+        finding::counts(&self.findings)
     }
 
     /// The findings that do not hold.
@@ -151,6 +155,14 @@ pub fn kind(bytes: &mut dyn BufRead) -> Option<Kind> {
     cutter_file::begins(bytes).then_some(Kind::CutterFile)
 }
 
+/// Why bytes do not begin as a program that can be judged does, and what to do about it; `None` when they do.
+pub fn foreign(bytes: &mut dyn BufRead) -> std::io::Result<Option<[String; 2]>> {
+    if kind(bytes).is_some() {
+        return Ok(None);
+    }
+    Ok(read::foreign(bytes.fill_buf()?))
+}
+
 /// What was cut so far, as the strokes tell it.
 struct Done<'a> {
     coverage: Coverage<'a>,
@@ -166,9 +178,14 @@ pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdi
     let judge = Judge::new(&reference, &job.profile, rows.rounding());
     let rounding = rows.rounding();
     let mut findings = simulate(|| Some((rows.next()?, None)), (&reference, judge, rounding), job);
-    findings.push(rows.finding());
+    let is_broken = rows.is_broken();
+    let (format, unread) = rows.findings();
+    if is_broken {
+        return Verdict { findings: vec![format], unread };
+    }
+    findings.push(format);
     sort(&mut findings);
-    Verdict { findings }
+    Verdict { findings, unread: None }
 }
 
 /// Judges positions without time, as the target `gcode` writes them, against what the marker says must be cut.
@@ -183,7 +200,7 @@ pub fn positions(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdi
     findings.retain(|finding| gcode::RULES.contains(&finding.rule));
     let mut findings: Vec<Finding> = findings.into_iter().map(gcode::timeless).collect();
     sort(&mut findings);
-    Verdict { findings }
+    Verdict { findings, unread: None }
 }
 
 /// Follows the rows of a program, each with the way of its tip where that is known exactly.

@@ -3,7 +3,6 @@
 use std::io::{BufRead, Read as _};
 
 use super::counts::Counts;
-use super::worst::Worst;
 use super::{counts, hal, npy};
 use crate::geom::{Point, Vector};
 use crate::ir::Finding;
@@ -11,9 +10,24 @@ use crate::ir::finding::Sighting;
 use crate::machine::MachineProfile;
 
 /// Half of the last decimal of positions, mm and degrees: by so much a value may differ from what was meant.
-const ROUNDING: f64 = 0.5e-6;
+pub(super) const ROUNDING: f64 = 0.5e-6;
+/// Rounding of a place that is computed from a row, mm.
+pub(super) const PLACE_ROUNDING: f64 = 4.0 * ROUNDING;
 /// Half of the last decimal of the time, s.
 pub(super) const TIME_ROUNDING: f64 = 0.5e-6;
+/// The longest line that is read, bytes: what is longer is no row, and must not fill the memory.
+const LINE_MAX: u64 = 1024;
+/// The first line of a text: the names of its fields.
+pub(super) const HEADER: &str = "t_s,x_mm,y_mm,c_deg,knife,drill,event,block";
+/// The same, one by one.
+const FIELDS: [&str; 8] = ["t_s", "x_mm", "y_mm", "c_deg", "knife", "drill", "event", "block"];
+/// The most characters of a field that a message quotes.
+const QUOTED_CHARS: usize = 24;
+/// The greatest values of knife, drill, event and block.
+const GREATEST: [u32; 4] = [1, 4, 2, u32::MAX];
+/// Largest number of digits that a whole number may have to be exact in `f64`.
+const EXACT_DIGITS: usize = 15;
+const POWERS: [f64; 16] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
 
 /// One setpoint.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -81,7 +95,7 @@ impl Rounding {
     }
 }
 
-/// The rows of a program; stops at the first that cannot be read.
+/// The rows of a program. What cannot be read is left out and counted.
 pub(super) struct Rows<'a> {
     input: &'a mut dyn BufRead,
     form: Form<'a>,
@@ -89,53 +103,51 @@ pub(super) struct Rows<'a> {
     line: Vec<u8>,
     tick: u64,
     last: Option<Row>,
-    worst: Worst,
+    bad: Bad,
     ended: bool,
 }
 
-/// The longest line that is read, bytes: what is longer is no row, and must not fill the memory.
-const LINE_MAX: u64 = 1024;
+/// What cannot be read.
+#[derive(Debug, Default)]
+struct Bad {
+    count: u64,
+    /// Where the first of it is, and why.
+    first: Option<(Sighting, String)>,
+}
 
-const HEADER: &[u8] = b"t_s,x_mm,y_mm,c_deg,knife,drill,event,block";
-/// How its first field ends.
-const FIRST_FIELD: &[u8] = b"t_s,";
-
-/// Whether a text is meant as rows, by its first field.
-pub(super) fn begins(input: &mut dyn BufRead) -> bool {
-    input.fill_buf().is_ok_and(|bytes| bytes.starts_with(FIRST_FIELD))
+/// A line or record that was fetched, or why there is none.
+enum Fetched {
+    Row,
+    End,
+    Bad(&'static str),
 }
 
 impl<'a> Rows<'a> {
     pub(super) fn new(input: &'a mut dyn BufRead, profile: &'a MachineProfile) -> Self {
-        let worst = Worst::new("verify/format", "bad rows", Some(0.0));
-        let mut rows = Self { input, form: Form::Table, line: Vec::new(), tick: 0, last: None, worst, ended: false };
+        let (form, bad) = (Form::Table, Bad::default());
+        let mut rows = Self { input, form, line: Vec::new(), tick: 0, last: None, bad, ended: false };
         if npy::begins(rows.input) {
             let told = npy::header(rows.input);
             rows.form = Form::Array(told.unwrap_or(0));
-            rows.check(told.is_some());
-        } else if counts::begins(rows.input) {
-            let told = Counts::read(rows.input, profile);
-            let is_sound = told.is_some();
-            if let Some((counts, left)) = told {
-                rows.form = Form::Counts(counts, left);
+            if told.is_none() {
+                rows.end("the header is none of setpoints");
             }
-            rows.check(is_sound);
+        } else if counts::begins(rows.input) {
+            match Counts::read(rows.input, profile) {
+                Some((counts, left)) => rows.form = Form::Counts(counts, left),
+                None => rows.end("the header is none of encoder counts of this machine"),
+            }
         } else {
             let is_stream = hal::begins(rows.input);
             if is_stream {
                 rows.form = Form::Stream(profile);
             }
-            let header = if is_stream { hal::HEADER } else { HEADER };
-            let is_there = rows.fetch() == Some(true) && rows.line == header;
-            rows.check(is_there);
+            let header = if is_stream { hal::HEADER } else { HEADER.as_bytes() };
+            if !matches!(rows.fetch(), Fetched::Row) || rows.line != header {
+                rows.end(&format!("line 1 is not the header `{}`", String::from_utf8_lossy(header)));
+            }
         }
         rows
-    }
-
-    fn check(&mut self, is_sound: bool) {
-        if !is_sound {
-            self.fail();
-        }
     }
 
     /// By how much its numbers may differ from what was meant.
@@ -147,82 +159,190 @@ impl<'a> Rows<'a> {
         Rounding { axes }
     }
 
-    /// The next row.
+    /// The next row that can be read.
     pub(super) fn next(&mut self) -> Option<Row> {
-        if self.ended {
-            return None;
-        }
-        match self.fetch() {
-            Some(true) => {}
-            Some(false) => {
-                self.ended = true;
-                if self.last.is_none() {
-                    self.fail();
-                }
-                return None;
+        while !self.ended {
+            match self.fetch() {
+                Fetched::Row => {}
+                Fetched::End if self.tick == 0 => self.end("there are no rows"),
+                Fetched::End => self.ended = true,
+                Fetched::Bad(why) => self.end(&format!("{} {why}", self.place())),
             }
-            None => {
-                self.fail();
-                return None;
+            if self.ended {
+                break;
+            }
+            let row = self.parsed();
+            if let Err(why) = &row {
+                self.fail(&format!("{} {why}", self.place()));
+            }
+            self.tick += 1;
+            if let Ok(row) = row {
+                self.last = Some(row);
+                return Some(row);
             }
         }
+        None
+    }
+
+    /// The row of the line or record that was read last, or why there is none.
+    fn parsed(&mut self) -> Result<Row, String> {
         let row = match &mut self.form {
-            Form::Table => parse(&self.line, self.tick),
+            Form::Table => return parse(&self.line, self.tick),
             Form::Array(_) => npy::row(&self.line, self.tick),
             Form::Counts(counts, _) => counts.row(&self.line, self.tick),
             Form::Stream(profile) => hal::row(&self.line, self.tick, profile),
         };
-        let Some(row) = row else {
-            self.fail();
-            return None;
-        };
-        self.tick += 1;
-        self.last = Some(row);
-        Some(row)
+        row.ok_or_else(|| "holds no finite numbers and legal outputs".to_owned())
     }
 
-    /// What was found about the format.
-    pub(super) fn finding(self) -> Finding {
-        self.worst.finding()
+    /// Whether something could not be read so far, so that nothing can be said about what the program does.
+    pub(super) fn is_broken(&self) -> bool {
+        self.bad.count > 0
     }
 
-    /// Reads a record, or a line without its end; `Some(false)` at the end of the program, `None` when it cannot be read or its last
-    /// line has no end, which is how a program cut short looks.
-    fn fetch(&mut self) -> Option<bool> {
-        self.line.clear();
-        match &mut self.form {
-            Form::Array(left) => return npy::record(self.input, left, &mut self.line),
-            Form::Counts(_, left) => return Counts::record(self.input, left, &mut self.line),
-            Form::Table | Form::Stream(_) => {}
+    /// What was found about the format, and what to say of it where it is broken.
+    pub(super) fn findings(self) -> (Finding, Option<String>) {
+        let Bad { count, first } = self.bad;
+        let (place, why) = first.unzip();
+        let rule = "verify/format";
+        let finding = Finding { rule, worst: count as f64, limit: Some(0.0), unit: "bad rows", place };
+        let why = why.map(|why| if count > 1 { format!("{count} rows cannot be read, the first: {why}") } else { why });
+        (finding, why)
+    }
+
+    /// The line or record that was read last, as people find it: lines count from 1, the first is the header.
+    fn place(&self) -> String {
+        match self.form {
+            Form::Array(_) | Form::Counts(..) => format!("record {}", self.tick),
+            Form::Table | Form::Stream(_) => format!("line {}", self.tick + 2),
         }
-        let read = self.input.take(LINE_MAX).read_until(b'\n', &mut self.line).ok()?;
+    }
+
+    /// Reads a record, or a line without its end. A last line that has none is how a program cut short looks.
+    fn fetch(&mut self) -> Fetched {
+        self.line.clear();
+        let record = match &mut self.form {
+            Form::Array(left) => Some(npy::record(self.input, left, &mut self.line)),
+            Form::Counts(_, left) => Some(Counts::record(self.input, left, &mut self.line)),
+            Form::Table | Form::Stream(_) => None,
+        };
+        if let Some(record) = record {
+            return match record {
+                Some(true) => Fetched::Row,
+                Some(false) => Fetched::End,
+                None => Fetched::Bad("is not what the header counts: bytes are missing or left over"),
+            };
+        }
+        let Ok(read) = self.input.take(LINE_MAX).read_until(b'\n', &mut self.line) else {
+            return Fetched::Bad("cannot be read");
+        };
         if read == 0 {
-            return Some(false);
+            return Fetched::End;
         }
         if self.line.pop() != Some(b'\n') {
-            return None;
+            return Fetched::Bad(if read as u64 == LINE_MAX {
+                "is too long for a row"
+            } else {
+                "has no end: the file is cut short"
+            });
         }
         if self.line.last() == Some(&b'\r') {
             self.line.pop();
         }
-        Some(true)
+        Fetched::Row
     }
 
-    fn fail(&mut self) {
+    fn fail(&mut self, why: &str) {
+        self.bad.count += 1;
+        if self.bad.first.is_none() {
+            let nowhere = Sighting { time: Some(0.0), point: Point::origin(), block: 0 };
+            self.bad.first = Some((self.last.map_or(nowhere, |row| row.sighting()), why.to_owned()));
+        }
+    }
+
+    fn end(&mut self, why: &str) {
+        self.fail(why);
         self.ended = true;
-        let place = self.last.map(|row| row.sighting());
-        let nowhere = Sighting { time: Some(0.0), point: Point::origin(), block: 0 };
-        self.worst.see(1.0, || place.unwrap_or(nowhere));
     }
 }
 
-fn parse(line: &[u8], tick: u64) -> Option<Row> {
+/// Whether a text is meant as rows: it begins with their header.
+pub(super) fn begins(input: &mut dyn BufRead) -> bool {
+    input.fill_buf().is_ok_and(|bytes| bytes.starts_with(HEADER.as_bytes()))
+}
+
+/// Why bytes do not begin as the text of a program does, and what to do about it; `None` when they do.
+pub(super) fn foreign(bytes: &[u8]) -> Option<[String; 2]> {
+    let first = bytes.split(|&b| b == b'\n').next().unwrap_or_default();
+    let first = first.strip_suffix(b"\r").unwrap_or(first);
+    if first == HEADER.as_bytes() {
+        return None;
+    }
+    let says = |what: &str, hint: &str| Some([what.to_owned(), hint.to_owned()]);
+    let as_compiled = format!("the first line of a program is `{HEADER}`");
+    if bytes.is_empty() {
+        return says("it is empty", "compile it anew");
+    }
+    if first.starts_with(b"\xef\xbb\xbf") {
+        return says("it begins with a byte order mark (BOM)", "save it as UTF-8 without BOM");
+    }
+    if bytes.contains(&0) {
+        return says("it is not plain text", "save it as UTF-8 or ASCII text, or name another file");
+    }
+    let text = String::from_utf8_lossy(first);
+    for separator in [';', '\t', ' '] {
+        if text.replace(separator, ",") == HEADER {
+            let message = format!("its fields are separated by `{}`, not by commas", separator.escape_default());
+            return says(&message, "save it with commas between the fields and points in the numbers");
+        }
+    }
+    if parse(first, 0).is_ok() {
+        return says("its header is missing: it begins with a row", &as_compiled);
+    }
+    let names: Vec<&str> = text.split(',').collect();
+    let known = names.iter().filter(|name| FIELDS.contains(name)).count();
+    if 2 * known < FIELDS.len() {
+        return says("it does not begin as timed setpoints do", &as_compiled);
+    }
+    let wrong = names.iter().zip(&FIELDS).find(|(name, expected)| name != expected);
+    let message = match wrong {
+        Some((name, expected)) => format!("its header says {} where `{expected}` belongs", quoted(name.as_bytes())),
+        None => format!("its header has {} fields, not {}", names.len(), FIELDS.len()),
+    };
+    says(&message, &as_compiled)
+}
+
+/// Reads a line; why it is no row is said as it goes on behind its number.
+fn parse(line: &[u8], tick: u64) -> Result<Row, String> {
+    let count = || line.split(|&b| b == b',').count();
+    row(line, tick).map_err(|why| match count() {
+        _ if line.is_empty() => "is blank".to_owned(),
+        8 => why,
+        1 => "has 1 field, not 8".to_owned(),
+        count => format!("has {count} fields, not 8"),
+    })
+}
+
+fn row(line: &[u8], tick: u64) -> Result<Row, String> {
     let mut fields = line.split(|&b| b == b',');
-    let mut field = || fields.next();
-    let (t, x, y, c_deg) = (decimal(field()?)?, decimal(field()?)?, decimal(field()?)?, decimal(field()?)?);
-    let (knife, drill, event, block) = (whole(field()?)?, whole(field()?)?, whole(field()?)?, whole(field()?)?);
-    let legal = knife <= 1 && drill <= 4 && event <= 2 && field().is_none();
-    legal.then(|| Row {
+    let mut field = || fields.next().unwrap_or_default();
+    let mut numbers = [0.0; 4];
+    for (number, name) in numbers.iter_mut().zip(&FIELDS[..4]) {
+        let field = field();
+        *number = decimal(field).ok_or_else(|| format!("has {} as {name}, which is no number", quoted(field)))?;
+    }
+    let mut outputs = [0; 4];
+    for (i, output) in outputs.iter_mut().enumerate() {
+        let (field, most) = (field(), GREATEST[i]);
+        let value = whole(field).filter(|value| *value <= most);
+        let name = FIELDS[4 + i];
+        *output = value.ok_or_else(|| format!("has {} as {name}, which must be 0 to {most}", quoted(field)))?;
+    }
+    if fields.next().is_some() {
+        return Err(String::new());
+    }
+    let ([t, x, y, c_deg], [knife, drill, event, block]) = (numbers, outputs);
+    Ok(Row {
         tick,
         t,
         centre: Point::new(x, y),
@@ -234,6 +354,12 @@ fn parse(line: &[u8], tick: u64) -> Option<Row> {
     })
 }
 
+/// A field as a message shows it.
+fn quoted(field: &[u8]) -> String {
+    let text: String = String::from_utf8_lossy(field).escape_debug().take(QUOTED_CHARS).collect();
+    if text.is_empty() { "nothing".to_owned() } else { format!("`{text}`") }
+}
+
 /// A whole number below 2^32.
 pub(super) fn whole(field: &[u8]) -> Option<u32> {
     if field.is_empty() || field.len() > 10 {
@@ -242,10 +368,6 @@ pub(super) fn whole(field: &[u8]) -> Option<u32> {
     let value = field.iter().try_fold(0_u64, |sum, b| b.is_ascii_digit().then(|| sum * 10 + u64::from(b - b'0')))?;
     u32::try_from(value).ok()
 }
-
-/// Largest number of digits that a whole number may have to be exact in `f64`.
-const EXACT_DIGITS: usize = 15;
-const POWERS: [f64; 16] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
 
 /// A decimal number, correctly rounded: digits and a power of ten that are both exact give one rounding.
 pub(super) fn decimal(field: &[u8]) -> Option<f64> {
@@ -288,6 +410,11 @@ mod tests {
     }
 
     #[test]
+    fn the_header_names_the_fields() {
+        assert_eq!(FIELDS.join(","), HEADER);
+    }
+
+    #[test]
     fn a_last_line_without_its_end_is_a_fault() {
         let text =
             "t_s,x_mm,y_mm,c_deg,knife,drill,event,block\n0.000000,0.0,0.0,0.0,0,0,0,0\n0.001000,0.0,0.0,0.0,0,0,0,0";
@@ -295,6 +422,54 @@ mod tests {
         let mut rows = Rows::new(&mut bytes, &profile);
         assert!(rows.next().is_some());
         assert!(rows.next().is_none());
-        assert!(!rows.finding().holds());
+        let (finding, why) = rows.findings();
+        assert!(!finding.holds());
+        assert_eq!(why.as_deref(), Some("line 3 has no end: the file is cut short"));
+    }
+
+    #[test]
+    fn the_first_line_that_is_no_row_is_named_with_the_reason_and_all_are_counted() {
+        let check = |line: &str, expected: &str| {
+            let text = format!("{HEADER}\n0.000,0,0,0,0,0,0,0\n{line}\n0.002,0,0,0,0,0,0,0\n");
+            let mut bytes = text.as_bytes();
+            let profile = MachineProfile::default();
+            let mut rows = Rows::new(&mut bytes, &profile);
+            assert_eq!([rows.next(), rows.next()].map(|row| row.map(|row| row.tick)), [Some(0), Some(2)], "{line}");
+            assert!(rows.next().is_none() && rows.is_broken());
+            let (finding, why) = rows.findings();
+            assert_eq!((finding.worst, why.as_deref()), (1.0, Some(expected)));
+        };
+        check("0.001,abc,0,0,0,0,0,0", "line 3 has `abc` as x_mm, which is no number");
+        check("0.001,0,,0,0,0,0,0", "line 3 has nothing as y_mm, which is no number");
+        check("0.001,0,0,0,2,0,0,0", "line 3 has `2` as knife, which must be 0 to 1");
+        check("0.001,0,0,0,0,5,0,0", "line 3 has `5` as drill, which must be 0 to 4");
+        check("0.001,0,0,0,0,0,0,-1", "line 3 has `-1` as block, which must be 0 to 4294967295");
+        check("0.001,0,0,0,0,0,0", "line 3 has 7 fields, not 8");
+        check("", "line 3 is blank");
+        let text = format!("{HEADER}\nx\ny\n");
+        let mut bytes = text.as_bytes();
+        let profile = MachineProfile::default();
+        let mut rows = Rows::new(&mut bytes, &profile);
+        assert!(rows.next().is_none());
+        assert_eq!(rows.findings().1.as_deref(), Some("2 rows cannot be read, the first: line 2 has 1 field, not 8"));
+    }
+
+    #[test]
+    fn what_is_no_program_is_told_apart() {
+        let check = |text: &str, expected: Option<&str>| {
+            let found = foreign(text.as_bytes()).map(|[what, _]| what);
+            assert!(found.is_some() == expected.is_some(), "{text}: {found:?}");
+            assert!(found.unwrap_or_default().contains(expected.unwrap_or_default()), "{text}");
+        };
+        check(&format!("{HEADER}\r\n"), None);
+        check("", Some("empty"));
+        check(&format!("\u{feff}{HEADER}\n"), Some("byte order mark"));
+        check(&HEADER.replace(',', ";"), Some("separated by `;`"));
+        check(&HEADER.replace(',', "\t"), Some("separated by `\\t`"));
+        check("0.000,0,0,0,0,0,0,0\n", Some("header is missing"));
+        check(&HEADER.replace("c_deg", "c_rad"), Some("says `c_rad` where `c_deg` belongs"));
+        check(&format!("{HEADER},more"), Some("has 9 fields"));
+        check("M14*X0Y0*", Some("does not begin"));
+        check("t\0_\0s\0", Some("not plain text"));
     }
 }

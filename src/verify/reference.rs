@@ -2,7 +2,7 @@
 //!
 //! Corners and the tube are found anew from the marker and the profile; see the module doc of the stage.
 
-use super::caps::{Caps, Source};
+use super::caps::{Caps, End, Feeds};
 use crate::geom::{Point, Vector, angle, left, polyline};
 use crate::ir::Marker;
 use crate::ir::list::Segment;
@@ -64,13 +64,13 @@ impl<'a> Reference<'a> {
         for (index, piece) in marker.pieces.iter().enumerate() {
             events.extend(piece.events.iter().map(|_| rank()));
             holes.extend(piece.drills.iter().map(|_| rank()));
-            let source = Source::new(profile, piece);
+            let feeds = Feeds::new(profile, piece);
             for notch in &piece.notches {
-                let cap = source.at(notch.percent);
+                let cap = feeds.at(notch.percent);
                 lines.extend(notch.strokes().map(|stroke| slit(&stroke, [index, rank()], Caps::all(cap))));
             }
             for contour in &piece.contours {
-                let place = Place { owner: [index, rank()], source, profile };
+                let place = Place { owner: [index, rank()], feeds, profile };
                 lines.extend(contour_lines(marker, contour, place));
             }
         }
@@ -84,7 +84,7 @@ impl<'a> Reference<'a> {
 struct Place<'a> {
     /// Index of its piece, and its rank.
     owner: [usize; 2],
-    source: Source<'a>,
+    feeds: Feeds<'a>,
     profile: &'a MachineProfile,
 }
 
@@ -104,7 +104,7 @@ fn slit(stroke: &Stroke, [piece, rank]: [usize; 2], caps: Caps) -> Line {
 
 /// Cuts a contour at its corners.
 fn contour_lines(marker: &Marker, contour: &Contour, place: Place) -> Vec<Line> {
-    let Place { owner, source, profile } = place;
+    let Place { owner, feeds, profile } = place;
     let mut lines = Vec::new();
     let mut segments: Vec<Segment> = marker.list.walk(contour.range).map(|(_, segment)| segment).collect();
     let count = segments.len();
@@ -142,9 +142,9 @@ fn contour_lines(marker: &Marker, contour: &Contour, place: Place) -> Vec<Line> 
             let chords = segments[from..i].iter();
             let [piece, rank] = owner;
             let stations = polyline::stations(&points);
-            let feeds = chords.clone().map(|s| source.at(s.percent)).collect();
-            let to_corner = !ring && !ends.contains(&(i % count));
-            let caps = source.caps(&stations, feeds, to_corner);
+            let limits = chords.clone().map(|s| feeds.at(s.percent)).collect();
+            let end = if ring || ends.contains(&(i % count)) { End::Plain } else { End::AtCorner };
+            let caps = feeds.caps(&stations, limits, end);
             lines.push(Line {
                 piece,
                 rank,

@@ -11,6 +11,8 @@ use crate::machine::MachineProfile;
 
 /// Part of a period that a dwell may seem to lack: rounding of its quotient.
 const PERIOD_EPSILON: f64 = 1e-6;
+/// Beyond this from its place it is another hole, mm.
+const HOLE_REACH: f64 = 5.0;
 
 /// Watches the rows.
 pub(super) struct Rest<'a> {
@@ -184,9 +186,6 @@ impl<'a> Rest<'a> {
         (wrong.finding(), place.finding())
     }
 }
-
-/// How far from its place a hole is another hole, mm.
-const HOLE_REACH: f64 = 5.0;
 
 /// Greatest difference of a row from a pose, mm and degrees.
 fn distance(row: &Row, [x, y, c_deg]: [f64; 3]) -> f64 {

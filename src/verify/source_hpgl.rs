@@ -5,8 +5,9 @@
 
 use std::f64::consts::TAU;
 
-use super::source_audit::{ARC_SAGITTA, Census, Slack};
-use crate::geom::{Extent, Point};
+use super::scan::Slack;
+use super::source_audit::{ARC_SAGITTA, Census};
+use crate::geom::Point;
 use crate::machine::MachineProfile;
 
 /// How much finer than the reader's the chords of curves are here.
@@ -43,7 +44,7 @@ pub(super) fn scan(bytes: &[u8], read: &Census, profile: &MachineProfile) -> (Ce
         polygon: Vec::new(),
         part: None,
         is_fresh: false,
-        census: Census { points: 0, drills: read.drills, length: 0.0, bounds: Extent::EMPTY, unit, works: Vec::new() },
+        census: Census { drills: read.drills, ..Census::empty(unit) },
         slack: Slack { sagitta, length: 0.0, bounds: 0.0 },
     };
     scan.run();

@@ -547,7 +547,7 @@ impl Trial {
 fn skipped(line: &Line, points: &[Point], feet: &[Foot], i: usize) -> f64 {
     let (a, b) = (feet[i - 1].station, feet[i].station);
     let (low, high) = (a.min(b), a.max(b));
-    // The tip bows between two rows: a quarter of the second difference of neighbouring rows, at the most.
+    // The tip bows between two rows: as a parabola does, by an eighth of the second difference of neighbouring rows.
     let bow = |k: usize| {
         if k == 0 || k + 1 >= points.len() {
             return 0.0;

@@ -4,6 +4,10 @@ use crate::geom::Point;
 use crate::ir::Finding;
 use crate::ir::finding::Sighting;
 
+/// Part of a value by which a later one must exceed it to be told in its place: of values that only rounding tells apart the
+/// first is the one to look at.
+const TIE_EPSILON: f64 = 1e-6;
+
 /// Collects values and keeps the worst.
 #[derive(Debug, Clone)]
 pub(super) struct Worst {
@@ -11,7 +15,8 @@ pub(super) struct Worst {
     unit: &'static str,
     limit: Option<f64>,
     value: f64,
-    place: Option<Sighting>,
+    /// Where the worst was seen first, and how bad it was there: against its limit when values have limits of their own.
+    place: Option<(Sighting, f64)>,
 }
 
 impl Worst {
@@ -25,7 +30,14 @@ impl Worst {
         let value = if value.is_nan() { f64::INFINITY } else { value };
         if value > self.value {
             self.value = value;
-            self.place = Some(place());
+            self.note(value, place);
+        }
+    }
+
+    /// Notes the place of what is the worst so far, unless that is no worse than at the place that is known.
+    fn note(&mut self, badness: f64, place: impl FnOnce() -> Sighting) {
+        if self.place.is_none_or(|(_, known)| badness > known * (1.0 + TIE_EPSILON)) {
+            self.place = Some((place(), badness));
         }
     }
 
@@ -41,18 +53,62 @@ impl Worst {
             (None, false) => value > self.value,
         };
         if is_worse {
+            if self.limit.is_some() != limit.is_finite() {
+                // Of the values so far none had a limit: they do not compare.
+                self.place = None;
+            }
             (self.value, self.limit) = (value, Some(limit).filter(|limit| limit.is_finite()));
-            self.place = Some(place());
+            // A limit of nothing is broken by any value alike.
+            self.note(if limit.is_finite() && limit > 0.0 { value / limit } else { value }, place);
         }
     }
 
     /// What was seen.
     pub(super) fn finding(self) -> Finding {
-        Finding { rule: self.rule, worst: self.value, limit: self.limit, unit: self.unit, place: self.place }
+        Finding {
+            rule: self.rule,
+            worst: self.value,
+            limit: self.limit,
+            unit: self.unit,
+            place: self.place.map(|known| known.0),
+        }
     }
 }
 
 /// A sighting in a program.
 pub(super) fn at(time: f64, point: Point, block: u32) -> Sighting {
     Sighting { time: Some(time), point, block }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(values: &[f64]) -> (f64, Option<f64>) {
+        let mut worst = Worst::new("verify/time", "s", Some(0.0));
+        for (&value, time) in values.iter().zip(0..) {
+            worst.see(value, || at(f64::from(time), Point::origin(), 0));
+        }
+        let finding = worst.finding();
+        (finding.worst, finding.place.and_then(|place| place.time))
+    }
+
+    #[test]
+    fn of_values_that_rounding_tells_apart_the_first_is_told() {
+        assert_eq!(told(&[0.0, 1e-12, 0.001, 0.001 + 1e-15, 0.000_9]), (0.001 + 1e-15, Some(2.0)));
+        assert_eq!(told(&[0.001, 0.002, 0.002]), (0.002, Some(1.0)));
+        assert_eq!(told(&[f64::NAN, f64::INFINITY]), (f64::INFINITY, Some(0.0)));
+        assert_eq!(told(&[0.0, 0.0]), (0.0, None));
+    }
+
+    #[test]
+    fn a_value_near_its_own_limit_is_worse_than_a_greater_one_far_from_its() {
+        let mut worst = Worst::new("verify/feed", "mm/s", Some(100.0));
+        for (value, limit, time) in [(50.0, 100.0, 0.0), (45.0, 50.0, 1.0), (80.0, 100.0, 2.0), (90.0, 100.0, 3.0)] {
+            worst.see_under(value, limit, || at(time, Point::origin(), 0));
+        }
+        let finding = worst.finding();
+        assert_eq!((finding.worst, finding.limit), (45.0, Some(50.0)));
+        assert_eq!(finding.place.and_then(|place| place.time), Some(1.0));
+    }
 }

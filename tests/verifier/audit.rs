@@ -6,12 +6,17 @@ use std::path::Path;
 use cutc::diagnostic::Diagnostics;
 use cutc::geom::Vector;
 use cutc::ir::{Finding, Marker};
+use cutc::machine::profile::CodeUse;
 use cutc::machine::{Job, MachineProfile};
 use cutc::pipeline;
 use cutc::source::Source;
 use cutc::verify::{Census, source_audit, source_kept};
 
 use crate::case;
+
+/// Single bytes that are damaged, and the largest file that is.
+const DAMAGES: usize = 10_000;
+const SMALL: usize = 4096;
 
 /// Every file that is read without errors, with its marker as read.
 fn sources() -> Vec<(Source, Marker)> {
@@ -84,6 +89,99 @@ fn what_a_pass_loses_is_seen_but_for_slits_that_stand_twice_and_pieces_not_chose
     (twin.root, twin.tip, twin.span.block) = (twin.tip, twin.root, 9999);
     twice.pieces[with_slits].notches.push(twin);
     assert!(source_kept(&Census::of(&twice), &read).holds());
+}
+
+/// A job that ignores some codes.
+fn ignoring(names: &[&str]) -> Job {
+    let mut job = Job::default();
+    job.profile.codes = names.iter().map(|name| ((*name).to_owned(), CodeUse::Ignore)).collect();
+    job
+}
+
+/// What the scan and the comparison behind the passes find wrong with a cut file; `None` when it has errors.
+fn faults(bytes: &[u8], job: &Job) -> Option<Vec<Finding>> {
+    let source = Source::new("a.cut", bytes.to_vec()).expect("small");
+    let mut diagnostics = Diagnostics::default();
+    let input = pipeline::read(&source, None, job, &mut diagnostics).filter(|_| !diagnostics.has_errors())?;
+    let mut findings = source_audit("iso", bytes, &input.read, &job.profile)?;
+    findings.push(source_kept(&input.read, &input.marker));
+    findings.retain(|finding| !finding.holds());
+    Some(findings)
+}
+
+#[test]
+fn what_a_file_cuts_to_and_fro_or_twice_is_cut_once_and_nothing_is_lost() {
+    const SQUARE: &str = "X0Y0*M14*X1000Y0*X1000Y1000*X0Y1000*X0Y0*M15*";
+    let there = "X500Y0*M14*X500Y50*M15*";
+    let back = "X500Y50*M14*X500Y0*M15*";
+    let and_back = "X500Y0*M14*X500Y50*X500Y0*M15*";
+    let named = "X500Y0*M14*M19*X500Y50*M15*";
+    let bar = "X470Y50*M14*X530Y50*M15*";
+    let bar_and_back = "X470Y50*M14*X530Y50*X470Y50*M15*";
+    let slits: [&[&str]; 11] = [
+        &[and_back],
+        &[there, there],
+        &[there, back],
+        &[and_back, and_back],
+        &[named, there],
+        &[there, named],
+        &[named, and_back],
+        &[there, bar],
+        &[and_back, bar_and_back],
+        &[named, bar, bar],
+        &[there, bar_and_back, bar],
+    ];
+    for slits in slits {
+        for piece in ["N1*", ""] {
+            for blocks in [[SQUARE, &slits.concat()], [&slits.concat(), SQUARE]] {
+                let file = format!("H1*G71*M15*{piece}{}M0*", blocks.concat());
+                assert_eq!(faults(file.as_bytes(), &Job::default()), Some(Vec::new()), "{file}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_scan_obeys_the_codes_that_the_reader_obeys() {
+    let body = "X0Y0*M14*X1000Y0*X1000Y1000*X0Y0*M15*";
+    let lettered = body.replace("M14", "B").replace("M15", "A");
+    let both = format!("H1*G71*M15*N1*{body}X2000Y0*B*X3000Y0*X3000Y900*X2000Y0*A*M31*4500Y500*FRONT 1*A1000Y1000*M0*");
+    let rest = format!("H1*G71*N1*{lettered}X800Y100*R*M43*X700Y100*M0*");
+    let arcs = "H1*G71*N1*X0Y0*M14*G02*X1000Y0I500*X0Y0R500*G00*X0Y900*X0Y0*M15*M0*";
+    let mirrored = format!("H1*G71*N1*X300Y300M31*FRONT*HTRUOF*X400Y300M31*{body}M0*");
+    for file in [both.as_str(), &rest, arcs, &mirrored] {
+        assert!(faults(file.as_bytes(), &Job::default()).is_some(), "{file}");
+        for codes in
+            [&[][..], &["B"], &["A"], &["M14"], &["M15"], &["M14", "M15"], &["A", "B"], &["R"], &["G2"], &["M31"]]
+        {
+            assert!(
+                faults(file.as_bytes(), &ignoring(codes)).is_none_or(|found| found.is_empty()),
+                "{codes:?}: {file}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_damaged_byte_that_leaves_no_error_leaves_no_difference_either() {
+    let sources = sources();
+    let small: Vec<&[u8]> = sources.iter().map(|(source, _)| source.bytes()).filter(|b| b.len() < SMALL).collect();
+    let codes = [&[][..], &["M14"], &["B"], &["M15"], &["M19"], &["M31"], &["R", "M43"], &["G2"], &["M0"]];
+    let mut random = fastrand::Rng::with_seed(7);
+    let mut judged = 0;
+    for i in 0..DAMAGES {
+        let bytes = small[i % small.len()];
+        let mut damaged = bytes.to_vec();
+        let at = random.usize(..bytes.len());
+        // Letters, digits and asterisks, as files have them, damage more than other bytes: those are mostly refused.
+        damaged[at] = if random.bool() { random.u8(..) } else { bytes[random.usize(..bytes.len())] };
+        let job = ignoring(codes[random.usize(..codes.len())]);
+        if let Some(found) = faults(&damaged, &job) {
+            judged += 1;
+            assert_eq!(found, [], "{:?}: {}", job.profile.codes.keys(), damaged.escape_ascii());
+        }
+    }
+    assert!(judged > DAMAGES / 4, "only {judged} were read without errors");
 }
 
 #[test]

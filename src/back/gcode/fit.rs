@@ -81,23 +81,16 @@ impl Arc {
             + Vector::new(self.along.x * cos - self.along.y * sin, self.along.x * sin + self.along.y * cos) * chord
     }
 
-    /// Distance from a point to it, mm.
-    fn distance(&self, point: Point) -> f64 {
+    /// How far a point beside it lies to its left, mm.
+    fn left_of(&self, point: Point) -> f64 {
         let away = point - self.from;
-        let ahead = away.dot(&self.along);
-        let end = self.at(self.length);
-        let ends = away.norm().min((point - end).norm());
         let side = cross(self.along, away);
         if self.curvature == 0.0 {
-            return if (0.0..=self.length).contains(&ahead) { side.abs() } else { ends };
+            return side;
         }
-        let radius = 1.0 / self.curvature;
-        let around = (ahead * self.curvature.signum()).atan2((radius - side) * self.curvature.signum());
-        let turned = around * self.curvature.signum();
-        let is_beside = turned >= 0.0 && turned <= self.turn().abs()
-            || (self.turn() * turned >= 0.0 && turned.abs() <= self.turn().abs());
-        // (ahead, radius - side) is the place as seen from the centre.
-        if is_beside { (ahead.hypot(radius - side) - radius.abs()).abs() } else { ends }
+        // |away - radius n| - radius, in a form that stays exact as the radius grows.
+        let bent = away.norm_squared() * self.curvature - 2.0 * side;
+        -bent / (1.0 + (1.0 + bent * self.curvature).max(0.0).sqrt())
     }
 }
 
@@ -185,7 +178,7 @@ fn nodes(tube: &Tube, ends: Ends) -> Vec<Node> {
         if before < 0.45 * length && !is_first {
             nodes.push(place(before, Vector::zeros()));
         }
-        nodes.push(place(0.5 * length, tube.bulges[chord]));
+        nodes.push(place(0.5 * length, tube.middle(chord)));
         if behind < 0.45 * length && !is_last {
             nodes.push(place(length - behind, Vector::zeros()));
         }
@@ -221,48 +214,63 @@ fn biarc(tube: &Tube, from: &Node, to: &Node) -> Option<Found> {
     let meet = first.along_at(first.length);
     let second = Arc::through(middle, meet, to.at)?;
     let station = f64::midpoint(from.station, to.station);
-    let chord = tube.stations.partition_point(|&s| s <= station).clamp(1, tube.chords()) - 1;
+    let chord = tube.chord_at(station);
     let arcs = [Some(Arc { chord, ..first }), Some(Arc { chord: to.chord, ..second })];
     stays(tube, &arcs, from, to).then_some(arcs)
 }
 
-/// Whether arcs stay in the tube: their places beside each chord, and each vertex that they pass.
+/// Whether arcs stay in the tube: beside every chord, and so past every vertex.
 fn stays(tube: &Tube, arcs: &Found, from: &Node, to: &Node) -> bool {
     let allowed = SHARE * tube.tolerance;
-    let total: f64 = arcs.iter().flatten().map(|arc| arc.length).sum();
-    let stretch = total / (to.station - from.station);
-    let place = |mut s: f64| {
-        for arc in arcs.iter().flatten() {
-            if s <= arc.length {
-                return arc.at(s);
-            }
-            s -= arc.length;
-        }
-        to.at
+    let [Some(first), second] = arcs else { return false };
+    let second = second.as_ref().unwrap_or(first);
+    if !stays_at_ends(tube, [first, second], [from, to]) {
+        return false;
+    }
+    let meet = first.at(first.length);
+    let along = first.along_at(first.length);
+    // Where the arcs run beside a vertex, left of it, and which of them does.
+    let beside = |vertex: usize| {
+        let point = tube.points[vertex];
+        let arc = if (point - meet).dot(&along) < 0.0 { first } else { second };
+        (-arc.left_of(point), arc.curvature)
     };
-    let mut chord = from.chord;
-    for beside in from.chord..=to.chord {
-        let low = tube.stations[beside].max(from.station);
-        let high = tube.stations[beside + 1].min(to.station);
-        if beside > from.chord {
-            let vertex = tube.points[beside];
-            let nearest = arcs.iter().flatten().map(|arc| arc.distance(vertex)).fold(f64::INFINITY, f64::min);
-            if nearest > allowed {
+    let mut before: Option<(f64, f64)> = None;
+    for vertex in from.chord + 1..=to.chord {
+        let (offset, curvature) = beside(vertex);
+        if offset.abs() > allowed {
+            return false;
+        }
+        if let Some((last, bent)) = before {
+            let chord = vertex - 1;
+            let length = tube.stations[vertex] - tube.stations[chord];
+            let ends = [last, offset];
+            if !tube.holds(chord, ends, -bent * length * length / 8.0, allowed)
+                || curvature != bent && !tube.holds(chord, ends, -curvature * length * length / 8.0, allowed)
+            {
                 return false;
             }
         }
-        for i in 0..SAMPLES {
-            let station = low + (high - low) * (i as f64 + 0.5) / SAMPLES as f64;
-            let at = place((station - from.station) * stretch);
-            // The station only says about where the place is: it may lie beside a neighbour.
-            let mut near = chord.min(beside);
-            if tube.deviation(at, &mut near) > allowed {
-                return false;
-            }
-            chord = chord.max(beside.saturating_sub(1));
-        }
+        before = Some((offset, curvature));
     }
     true
+}
+
+/// Whether arcs stay in the tube beside the parts of chords that they start and end on.
+fn stays_at_ends(tube: &Tube, [first, second]: [&Arc; 2], [from, to]: [&Node; 2]) -> bool {
+    let allowed = SHARE * tube.tolerance;
+    let alone = std::ptr::eq(first, second);
+    let total = first.length + if alone { 0.0 } else { second.length };
+    let at = |s: f64| if s <= first.length || alone { first.at(s) } else { second.at(s - first.length) };
+    let stays = |s: f64| {
+        let station = from.station + (to.station - from.station) * s / total;
+        tube.deviation(at(s), station) <= allowed
+    };
+    let [ahead, behind] = [tube.stations[from.chord + 1] - from.station, to.station - tube.stations[to.chord]];
+    (1..=SAMPLES).all(|i| {
+        let share = i as f64 / SAMPLES as f64;
+        stays(ahead.min(total) * share) && stays((total - behind * share).max(0.0))
+    })
 }
 
 #[cfg(test)]
@@ -271,7 +279,7 @@ mod tests {
     use crate::machine::MachineProfile;
 
     fn fitted(points: Vec<Point>) -> Vec<Arc> {
-        let tube = Tube::new(points, 0.05, &MachineProfile::default());
+        let tube = Tube::new(points, 0.05, ([0.0; 2], &MachineProfile::default()));
         let ends = Ends { start: tube.direction(0), end: tube.direction(tube.chords() - 1) };
         let arcs = fit(&tube, ends).expect("it fits");
         for pair in arcs.windows(2) {

@@ -42,9 +42,11 @@ const LEAD_EPSILON: f64 = 1e-6;
 pub(super) fn way(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Point> {
     let knife = &job.profile.knife;
     let (points, chords, tail) = tip_line(run, knife.width_mm);
-    let tube = Tube::new(points, tolerance, &job.profile);
-    let last = tube.chords() - 1;
     let ring = run.shape == Shape::Ring;
+    let turn = if ring { seam_turn(run) } else { 0.0 };
+    let seam = [turn, if run.front == 0.0 { turn } else { 0.0 }];
+    let tube = Tube::new(points, tolerance, (seam, &job.profile));
+    let last = tube.chords() - 1;
     let start = if ring { at_seam(run) } else { tube.direction(0) };
     let end = if ring && run.front == 0.0 { start } else { tube.direction(last) };
     let arcs = fit(&tube, Ends { start, end })?;
@@ -58,9 +60,10 @@ pub(super) fn way(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Point> {
     let mut c = run.start.c.nearest(first).0;
     let mut way = Way { start: pose(tube.points[0], c), pieces: Vec::with_capacity(arcs.len()) };
     let mut tangent = c + lead;
-    let mut done = 0.0;
+    let (mut done, mut beside) = (0.0, 0);
     for arc in &arcs {
-        let feed = (chord_range(&arcs, arc, &chords)).map(|chord| run.feeds[chord]).fold(f64::INFINITY, f64::min);
+        let feed = chords[beside..=arc.chord].iter().map(|&chord| run.feeds[chord]).fold(f64::INFINITY, f64::min);
+        beside = arc.chord;
         tangent += angle::wrap(angle::turn(Rotation(tangent).unit(), arc.along));
         let parts = parts(arc, (fade - done).max(0.0).min(arc.length), [lead, fade], job, tolerance);
         let mut from = 0.0;
@@ -114,18 +117,18 @@ fn left_of(x: f64) -> f64 {
     1.0 - x4 * (35.0 - x * (84.0 - x * (70.0 - x * 20.0)))
 }
 
-/// The chords of the run beside an arc.
-fn chord_range<'a>(arcs: &[Arc], arc: &Arc, chords: &'a [usize]) -> impl Iterator<Item = usize> + 'a {
-    let before = arcs.iter().take_while(|other| other.from != arc.from).last().map_or(0, |other| other.chord);
-    chords[before..=arc.chord].iter().copied()
-}
-
 /// Direction of a ring where it starts: that of the circle through its first point and both neighbours.
 fn at_seam(run: &Run) -> Vector {
     let n = run.points.len();
     let (to, from) = (run.points[0] - run.points[n - 2], run.points[1] - run.points[0]);
     let (a, b) = (to.norm(), from.norm());
     (to * (b / a) + from * (a / b)).normalize()
+}
+
+/// Turn of a ring where it starts, rad.
+fn seam_turn(run: &Run) -> f64 {
+    let n = run.points.len();
+    polyline::turn_at(run.points[n - 2], run.points[0], run.points[1])
 }
 
 /// The line of the tip from plunge to lift, the chord of the run that each of its chords lies on, and where the tail

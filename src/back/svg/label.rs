@@ -51,7 +51,7 @@ pub(super) fn layer(shapes: &mut [Shape], sheet: &Sheet, context: &Context) -> S
             shape.say(&text_of(label.span, context));
         }
         let mut drawn = String::new();
-        for (i, block) in blocks_of(piece, context).iter().enumerate() {
+        for (i, block) in blocks_of(piece, shape, context).iter().enumerate() {
             if i >= MEASURED {
                 block.draw(LEAST, context, &mut drawn);
                 continue;
@@ -76,12 +76,15 @@ fn text_of(span: Span, context: &Context) -> String {
     context.job.profile.labels.text(context.source.slice(span))
 }
 
-/// The labels of a piece that have a place and something to read, by place and direction.
-fn blocks_of<'a>(piece: &'a Piece, context: &Context) -> Vec<Block<'a>> {
+/// The labels of a piece that have something to read, by place and direction. Those without a place stand in the middle
+/// of the piece.
+fn blocks_of<'a>(piece: &'a Piece, shape: &Shape, context: &Context) -> Vec<Block<'a>> {
+    let has_lost = piece.labels.iter().any(|label| label.at.is_none());
+    let middle = if has_lost { shape.middle() } else { None };
     let mut found: Vec<Block> = Vec::new();
     let mut places: BTreeMap<[u64; 3], usize> = BTreeMap::new();
     for label in &piece.labels {
-        let Some(at) = label.at else { continue };
+        let Some(at) = label.at.or(middle) else { continue };
         let text = text_of(label.span, context);
         if text.trim().is_empty() {
             continue;

@@ -19,7 +19,7 @@ mod spot;
 use std::io::{self, SeekFrom};
 
 use super::{Context, Emit, Output, Parts, Proof, Target};
-use crate::ir::{Finding, Toolpath};
+use crate::ir::{Finding, Toolpath, finding};
 use sheet::Sheet;
 
 pub(super) const TARGET: Target = Target {
@@ -52,7 +52,7 @@ fn tail(context: &Context, found: &[Finding], out: &mut dyn Output) -> io::Resul
     let sheet = Sheet::of(context, &shown);
     let mut text = String::from("</g>\n");
     text.push_str(&findings::layer(&shown, &sheet, &context.job.profile.knife));
-    text.push_str(&sheet.legend(context, &shown, found.len()));
+    text.push_str(&sheet.legend(context, &shown, finding::counts(found)));
     text.push_str("</svg>\n");
     out.write_all(text.as_bytes())?;
     // The table of findings makes the sheet taller than the head could know.

@@ -68,6 +68,13 @@ impl Shape {
         self.taken.extend(places);
     }
 
+    /// Where a text stands that the file gives no place: where the number would, inside the piece.
+    pub(super) fn middle(&self) -> Option<Point> {
+        let Extent { min, max } = self.extent;
+        let middle = || (!self.extent.is_empty()).then(|| min + (max - min) / 2.0);
+        spot::find(&self.rings(), &self.taken).map(|spot| spot.at).or_else(middle)
+    }
+
     /// The contours that enclose something.
     pub(super) fn rings(&self) -> Vec<&[Point]> {
         self.contours.iter().filter(|c| c.closed).map(|c| c.points.as_slice()).collect()

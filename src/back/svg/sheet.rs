@@ -168,8 +168,9 @@ impl Sheet {
         text
     }
 
-    /// Scale bar, caption, symbols and the table of findings, below the drawing.
-    pub(super) fn legend(&self, context: &Context, found: &[Finding], rules: usize) -> String {
+    /// Scale bar, caption, symbols and the table of findings, below the drawing; with the numbers of rules that have a limit
+    /// and that only report.
+    pub(super) fn legend(&self, context: &Context, found: &[Finding], (limited, reported): (usize, usize)) -> String {
         let line = LINE_PX * self.px;
         let left = self.left + MARGIN_PX * self.px;
         let mut text = String::from("<g id=\"legend\" inkscape:groupmode=\"layer\" inkscape:label=\"legend\">\n");
@@ -186,12 +187,14 @@ impl Sheet {
             text.push_str(&self.text("", at + Vector::new((SYMBOL_PX + 8.0) * self.px, 0.0), item.meaning));
         }
         y += line * ITEMS.len().div_ceil(self.columns()) as f64;
-        if rules > 0 {
+        if limited + reported > 0 {
             let failing = found.iter().filter(|finding| !finding.holds()).count();
             let class = if failing == 0 { "verdict" } else { "fails-text" };
             let verdict = match failing {
-                0 => format!("verified: all {rules} rules hold; the worst places on the cloth:"),
-                n => format!("FAILED: {n} of {rules} rules are broken:"),
+                0 => {
+                    format!("verified: {limited} rules hold, {reported} only reported; the worst places on the cloth:")
+                }
+                n => format!("FAILED: {n} of {limited} rules are broken:"),
             };
             text.push_str(&self.text(class, Point::new(left, y), &verdict));
             for (n, finding) in found.iter().enumerate() {

@@ -6,9 +6,9 @@
 //! a quarter of the tolerance. Never closes an outline that the file leaves open.
 //!
 //! [`reader`] makes statements of bytes with [`syntax`], [`escape`], [`label`] and [`encoded`]; [`instruction`] is the table
-//! of what they mean; [`lower`] follows them with the [`plotter`], its [`scale`] and [`curve`], into a [`drawing`].
+//! of what they mean; [`mod@lower`] follows them with the [`plotter`], its [`scale`] and [`curve`], into a [`drawing`].
 //! [`classify`] then decides what is cut: [`chain`] joins strokes, [`shape`] measures them, [`nest`], [`notch`] and [`text`]
-//! recognise, [`piece`] makes the marker with [`boxes`] to find its parts. [`unit`] doubts the size; [`tally`] counts what was not obeyed.
+//! recognise, [`piece`] makes the marker with [`boxes`] to find its parts. [`mod@unit`] doubts the size; [`tally`] counts what was not obeyed.
 
 mod boxes;
 mod chain;

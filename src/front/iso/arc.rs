@@ -4,6 +4,9 @@ use std::f64::consts::TAU;
 
 use crate::geom::{Point, Vector, cross};
 
+/// Longest arc, mm: no table is as long, and the chords of a damaged number would fill the memory.
+const LONGEST: f64 = 100_000.0;
+
 /// Which way an arc goes round its centre.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Turn {
@@ -30,9 +33,6 @@ pub(super) struct Arc {
     pub(super) turn: Turn,
     pub(super) centre: Centre,
 }
-
-/// Longest arc, mm: no table is as long, and the chords of a damaged number would fill the memory.
-const LONGEST: f64 = 100_000.0;
 
 impl Arc {
     /// The ends of its chords, whose sagitta is below `sagitta`, its own end last and exact. What is wrong, in words, when

@@ -6,6 +6,8 @@ use super::syntax::{self, Fault, FaultKind, Point, Words};
 use crate::diagnostic::{Diagnostic, code};
 use crate::source::Span;
 
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
 /// Walks over the blocks of a file. A clone looks ahead.
 #[derive(Debug)]
 pub(super) struct Blocks<'a> {
@@ -13,6 +15,8 @@ pub(super) struct Blocks<'a> {
     at: usize,
     number: u32,
     ended: bool,
+    /// The first line of a file that says nothing but `%`, or the last.
+    frame: Option<Span>,
     /// Room for the block that is read, without its blanks, and for the offsets of its bytes.
     text: Vec<u8>,
     origins: Vec<usize>,
@@ -39,13 +43,33 @@ fn is_blank(byte: u8) -> bool {
     matches!(byte, b' ' | b'\t' | b'\r' | b'\n' | 0 | 0x1a)
 }
 
-const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
-
 impl<'a> Blocks<'a> {
     /// Starts before the first block.
     pub(super) fn new(bytes: &'a [u8]) -> Self {
-        let at = if bytes.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 };
-        Self { bytes, at, number: 0, ended: true, text: Vec::new(), origins: Vec::new() }
+        let mut at = if bytes.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 };
+        let mut frame = None;
+        let line = |start: usize, end: usize| Some(Span { start: start as u32, end: end as u32, block: 0 });
+        let is_break = |byte: &u8| matches!(byte, b'\r' | b'\n');
+        if let Some(first) = bytes[at..].iter().position(|&byte| !is_blank(byte)).map(|blanks| at + blanks)
+            && bytes[first] == b'%'
+            && bytes.get(first + 1).is_some_and(is_break)
+        {
+            frame = line(first, first + 1);
+            at = first + 1;
+        }
+        let end = bytes.iter().rposition(|&byte| !is_blank(byte)).unwrap_or(0);
+        let bytes = if end > at && bytes[end] == b'%' && is_break(&bytes[end - 1]) {
+            frame = frame.or(line(end, end + 1));
+            &bytes[..end]
+        } else {
+            bytes
+        };
+        Self { bytes, at, number: 0, ended: true, frame, text: Vec::new(), origins: Vec::new() }
+    }
+
+    /// A line at the start or the end of the file that holds nothing but `%`: senders put it there for other machines.
+    pub(super) fn frame(&self) -> Option<Span> {
+        self.frame
     }
 
     /// Offset of the next byte to read.
@@ -212,6 +236,15 @@ fn remedy(byte: Option<u8>) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn lines_of_per_cent_signs_around_the_file_are_no_blocks() {
+        assert_eq!(points("%\r\nX1*X2*\n%\n"), [(1, Some(1.0), None), (2, Some(2.0), None)]);
+        assert_eq!(Blocks::new(b"%\nX1*").frame().map(|span| span.start), Some(0));
+        assert_eq!(Blocks::new(b"X1*\n%").frame().map(|span| span.start), Some(4));
+        assert!(Blocks::new(b"X1*").frame().is_none());
+        assert!(Blocks::new(b"%X1*").next().is_some_and(|block| block.words.is_err()));
+    }
 
     fn points(text: &str) -> Vec<(u32, Option<f64>, Option<f64>)> {
         let mut blocks = Blocks::new(text.as_bytes());

@@ -4,9 +4,9 @@ use std::ops::ControlFlow;
 
 use super::arc::{Arc, Centre, Turn};
 use super::block::Blocks;
-use super::knife::{Knife, LabelId};
+use super::draft::{Draft, LabelId};
 use super::label;
-use super::meaning::{Meaning, meaning, name};
+use super::meaning::{Meaning, meaning, name, whole};
 use super::syntax::{Code, Point, Words};
 use super::tally::Tally;
 use super::title::Title;
@@ -19,7 +19,22 @@ use crate::ir::list::FULL_SPEED;
 use crate::ir::marker::{Event, Label};
 use crate::machine::Job;
 use crate::source::{Source, Span};
-use crate::units::MM_PER_INCH;
+use crate::units::{MM_PER_INCH, MM_PER_M};
+
+/// Farthest that the chords of an arc may lie off it, mm: far below what cloth shows, and coarse enough for few chords.
+const SAGITTA_MAX: f64 = 0.01;
+/// The chords of an arc may take this part of the tolerance: the rest is for the knife.
+const SAGITTA_SHARE: f64 = 0.25;
+const SECONDS_PER_MINUTE: f64 = 60.0;
+/// Farthest place from the origin, mm: a kilometre, far beyond any table.
+const FARTHEST: f64 = 1e6;
+
+/// Whether a label is obeyed, or only passed over because the profile ignores M31.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Texts {
+    Kept,
+    Ignored,
+}
 
 /// Reads a file as the job's profile asks.
 pub(super) fn lower(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker {
@@ -27,11 +42,13 @@ pub(super) fn lower(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker
         source,
         job,
         blocks: Blocks::new(source.bytes()),
-        knife: Knife::new(),
+        knife: Draft::new(),
         unit: Unit::new(job.profile.units),
         place: [None, None],
+        damaged: false,
+        far: None,
         fresh: false,
-        drill: None,
+        waiting: None,
         awaiting: None,
         second: None,
         title: None,
@@ -46,22 +63,29 @@ pub(super) fn lower(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker
     lowering.finish(last)
 }
 
-/// Farthest that the chords of an arc may lie off it, mm.
-const SAGITTA_MAX: f64 = 0.01;
-const SECONDS_PER_MINUTE: f64 = 60.0;
+/// A drill code: which drill, and its block.
+#[derive(Debug, Clone, Copy)]
+struct Hole {
+    tool: u8,
+    span: Span,
+}
 
 struct Lowering<'a> {
     source: &'a Source,
     job: &'a Job,
     blocks: Blocks<'a>,
-    knife: Knife,
+    knife: Draft,
     unit: Unit,
     /// The last X and Y, in units of the file: one that a block does not write keeps its value.
     place: [Option<f64>; 2],
+    /// Whether a block could not be read: it may have held the place that is missing.
+    damaged: bool,
+    /// The first place beyond [`FARTHEST`], mm, and its block.
+    far: Option<(geom::Point, Span)>,
     /// Whether the knife was moved here in the air and nothing was done here yet: a drill code without a point means here.
     fresh: bool,
     /// A drill code that waits for its point.
-    drill: Option<(u8, Span)>,
+    waiting: Option<Hole>,
     /// A label that may get a second point, and one that has got it if the knife does not go down there.
     awaiting: Option<LabelId>,
     second: Option<LabelId>,
@@ -98,11 +122,20 @@ impl Lowering<'_> {
                         break;
                     }
                 }
-                Err(fault) => self.out.push(fault),
+                Err(fault) => {
+                    self.damaged = true;
+                    self.out.push(fault);
+                }
             }
         }
         if !self.blocks.all_ended() {
-            self.out.push(Diagnostic::new(&code::ISO_NO_FINAL_ASTERISK, "the last block has no `*`").at(last));
+            let finding = Diagnostic::new(&code::ISO_NO_FINAL_ASTERISK, "the last block has no `*`").at(last);
+            self.out.push(finding.hint("check that the file is complete"));
+        }
+        if let Some(span) = self.blocks.frame() {
+            let finding =
+                Diagnostic::new(&code::ISO_FRAME, "a line of `%` frames the file; it is passed over").at(span);
+            self.out.push(finding.hint("cut files need none: check that the file is meant for this cutter"));
         }
         if !ended {
             let finding = Diagnostic::new(&code::ISO_NO_END, "the file has no M0 at its end").at(last);
@@ -114,8 +147,13 @@ impl Lowering<'_> {
     /// What was read, judged as a whole.
     fn finish(mut self, last: Span) -> Marker {
         self.settle_second_point();
-        let (mut marker, extent) = self.knife.finish(last, self.out);
-        marker.unit = self.unit.mm();
+        let (mut marker, extent) = self.knife.finish(last, self.unit.mm(), self.out);
+        if let Some((place, span)) = self.far {
+            let size = place.x.abs().max(place.y.abs()) / MM_PER_M;
+            let message = format!("the place is {size:.0} m from the origin, with a unit of {} mm", marker.unit);
+            let finding = Diagnostic::new(&code::ISO_FAR_PLACE, message).at(span);
+            self.out.push(finding.hint("a digit may be doubled; or set `units` in the profile if the unit is wrong"));
+        }
         if let Some(offset) = self.ended {
             trailer::read(self.source, offset, last.block, &mut marker.pieces, self.out);
         }
@@ -126,9 +164,14 @@ impl Lowering<'_> {
         }
         self.tally.report(self.out);
         if marker.pieces.is_empty() && !self.out.has_errors() {
-            self.out.push(Diagnostic::new(&code::ISO_NOTHING_TO_CUT, "the file holds no contour, slit or drill"));
+            let finding = Diagnostic::new(&code::ISO_NOTHING_TO_CUT, "the file holds no contour, slit or drill");
+            self.out
+                .push(finding.hint("export the marker with its cut lines, or see what `codes` of the profile ignores"));
         }
-        check_plausible(&self.unit, &extent, self.title.as_ref(), self.out);
+        // A place that is a kilometre off says it all.
+        if self.far.is_none() {
+            check_plausible(&self.unit, &extent, self.title.as_ref(), self.out);
+        }
         marker
     }
 
@@ -138,7 +181,7 @@ impl Lowering<'_> {
             self.arc(point, None, span);
             return;
         }
-        let to = self.locate(point);
+        let to = self.locate(point, span);
         if self.knife.is_down() {
             self.knife.go(to, span);
             return;
@@ -148,10 +191,9 @@ impl Lowering<'_> {
 
     /// A move with the knife up.
     fn land(&mut self, to: geom::Point, span: Span) {
-        if let Some((tool, code)) = self.drill.take() {
+        if let Some(hole) = self.waiting.take() {
             self.move_in_air(to, span);
-            self.fresh = false;
-            self.knife.drill(to, tool, code);
+            self.drill(hole);
             return;
         }
         let label = self.awaiting.take();
@@ -174,6 +216,8 @@ impl Lowering<'_> {
         let mut moves = true;
         let mut turn = None;
         let mut radius = None;
+        // What shares the block of the end is obeyed, too.
+        let mut flow = ControlFlow::Continue(());
         for &code in &words.codes {
             let obeyed = self.obeys(code);
             match meaning(code) {
@@ -184,7 +228,7 @@ impl Lowering<'_> {
                     self.bite = size.filter(|_| obeyed).map(|size| (code, size, span)).or(self.bite);
                 }
                 Meaning::Message => self.message(),
-                Meaning::Label => label = Some(obeyed),
+                Meaning::Label => label = Some(if obeyed { Texts::Kept } else { Texts::Ignored }),
                 _ if !obeyed => {}
                 Meaning::Down => self.down(span),
                 Meaning::Up => {
@@ -194,13 +238,21 @@ impl Lowering<'_> {
                 Meaning::Piece => {
                     self.settle_second_point();
                     self.awaiting = None;
-                    self.knife.begin_piece(code.number.map(|number| number as u32), span, self.out);
+                    let number = code.number.and_then(whole);
+                    if number.is_none() && code.number.is_some() {
+                        self.tally.ignore(code, "piece number that is not a whole one", span);
+                    }
+                    self.knife.begin_piece(number, span, self.out);
                 }
                 Meaning::Unit(unit) => self.unit.set(unit, span, self.out),
                 Meaning::Drill(tool) => at_place = Some(tool),
                 Meaning::Arc(way) => (turn, self.turn) = (Some(way), Some(way)),
                 Meaning::Line => self.turn = None,
-                Meaning::Slow => self.knife.slow(self.job.profile.knife.slow_percent.clamp(1.0, 100.0) as u8),
+                Meaning::Rapid => {
+                    self.turn = None;
+                    self.tally.ignore(code, "rapid positioning", span);
+                }
+                Meaning::Slow => self.knife.slow(self.job.profile.knife.slow()),
                 Meaning::Normal => self.knife.slow(FULL_SPEED),
                 Meaning::SpeedOfPiece(percent) => self.knife.speed_of_piece(percent),
                 Meaning::Feed => self.feed(code, span),
@@ -211,25 +263,43 @@ impl Lowering<'_> {
                 Meaning::NoOvercut => self.knife.no_overcut(),
                 Meaning::CornerLift => self.knife.corner_lift(),
                 Meaning::End if self.more_to_cut() => self.tally.ignore(code, "stop before the end", span),
-                Meaning::End => return ControlFlow::Break(()),
+                Meaning::End => flow = ControlFlow::Break(()),
                 Meaning::NotObeyed(what) => self.tally.ignore(code, what, span),
                 Meaning::Housekeeping => {}
-                Meaning::Unknown if code.letter == b'R' && words.point.is_some() => radius = code.number,
+                Meaning::Unknown if code.letter == b'R' && words.point.is_some() => radius = Some(code),
                 Meaning::Unknown => self.tally.unknown(code, span),
             }
         }
         let point = words.point.filter(|_| moves);
-        if let Some(obeyed) = label {
-            self.label(point, obeyed);
-        } else if let Some(tool) = at_place {
-            self.drill(tool, point, span);
-        } else if let Some(point) = point {
+        // G02 and G03 last, so a radius alone makes an arc as well as a centre does.
+        turn = turn.or(radius.and(self.turn));
+        if let Some(code) = radius.filter(|_| turn.is_none() || at_place.is_some() || label.is_some()) {
+            self.tally.unknown(code, span);
+        }
+        if let Some(tool) = at_place {
+            let hole = Hole { tool, span };
+            // Behind the end no place follows, and the one behind M31 is the label's.
+            let may_wait = label.is_none() && words.codes.iter().all(|&code| meaning(code) != Meaning::End);
+            match point {
+                _ if self.knife.is_down() => self.refuse_hole(hole),
+                Some(point) => {
+                    let to = self.locate(point, span);
+                    self.move_in_air(to, span);
+                    self.drill(hole);
+                }
+                None if may_wait && !self.fresh && self.point_of_drill_follows() => self.waiting = Some(hole),
+                None => self.drill(hole),
+            }
+        }
+        if let Some(texts) = label {
+            self.label(point, texts);
+        } else if let Some(point) = point.filter(|_| at_place.is_none()) {
             match turn {
-                Some(_) => self.arc(point, radius, span),
+                Some(_) => self.arc(point, radius.and_then(|code| code.number), span),
                 None => self.go(point, span),
             }
         }
-        ControlFlow::Continue(())
+        flow
     }
 
     fn obeys(&self, code: Code) -> bool {
@@ -237,9 +307,10 @@ impl Lowering<'_> {
     }
 
     fn down(&mut self, span: Span) {
-        if self.place.contains(&None) {
+        if self.place.contains(&None) && !self.damaged {
             let message = "the knife goes down before the file gave X and Y; what is missing is taken as 0";
-            self.out.push(Diagnostic::new(&code::ISO_NO_POSITION, message).at(span));
+            let finding = Diagnostic::new(&code::ISO_NO_POSITION, message).at(span);
+            self.out.push(finding.hint("look at the first contour in the picture (`-t svg`) before it is cut"));
         }
         // The place is where a contour starts, not the second point of a label.
         self.second = None;
@@ -268,7 +339,7 @@ impl Lowering<'_> {
     /// it is a move like any other.
     fn arc(&mut self, point: Point, radius: Option<f64>, span: Span) {
         let from = self.knife.at();
-        let to = self.locate(point);
+        let to = self.locate(point, span);
         if !self.knife.is_down() {
             self.land(to, span);
             return;
@@ -281,7 +352,7 @@ impl Lowering<'_> {
         };
         let chords = match (self.turn, centre) {
             (Some(turn), Some(centre)) => {
-                let sagitta = (self.job.profile.tolerance(unit) / 4.0).min(SAGITTA_MAX);
+                let sagitta = (self.job.profile.tolerance(unit) * SAGITTA_SHARE).min(SAGITTA_MAX);
                 Arc { from, to, turn, centre }.flatten(unit, sagitta)
             }
             (None, _) => Err("I or J stand in a block that no G02 or G03 makes an arc".to_owned()),
@@ -291,30 +362,26 @@ impl Lowering<'_> {
             Ok(chords) => chords.into_iter().for_each(|to| self.knife.go(to, span)),
             Err(message) => {
                 let finding = Diagnostic::new(&code::ISO_ARC_RADIUS, message).at(span);
-                self.out.push(finding.hint("I and J give the centre as seen from the start of the arc"));
+                self.out.push(finding.hint(match centre {
+                    Some(Centre::Radius(_)) => "R is in units of the file, and at least half the way to the arc's end",
+                    Some(Centre::At(_)) | None => "I and J give the centre as seen from the start of the arc",
+                }));
                 self.knife.go(to, span);
             }
         }
     }
 
-    /// A drill code: in a block with its point, before the block with its point, or at the place where the knife is.
-    fn drill(&mut self, tool: u8, point: Option<Point>, span: Span) {
-        if self.knife.is_down() {
-            let message = "a drill code stands where the knife is down";
-            let finding = Diagnostic::new(&code::ISO_DRILL_KNIFE_DOWN, message).at(span);
-            self.out.push(finding.hint("an M15 may be missing before it"));
-        } else if let Some(point) = point {
-            let to = self.locate(point);
-            self.move_in_air(to, span);
-            self.fresh = false;
-            self.knife.drill(to, tool, span);
-        } else if !self.fresh && self.point_of_drill_follows() {
-            self.drill = Some((tool, span));
-        } else {
-            self.second = None;
-            self.fresh = false;
-            self.knife.drill(self.knife.at(), tool, span);
-        }
+    /// A hole where the knife is.
+    fn drill(&mut self, Hole { tool, span }: Hole) {
+        self.second = None;
+        self.fresh = false;
+        self.knife.drill(self.knife.at(), tool, span);
+    }
+
+    fn refuse_hole(&mut self, hole: Hole) {
+        let message = "a drill code stands where the knife is down";
+        let finding = Diagnostic::new(&code::ISO_DRILL_KNIFE_DOWN, message).at(hole.span);
+        self.out.push(finding.hint("an M15 may be missing before it"));
     }
 
     /// Whether the next block is a point, and not the start of a contour.
@@ -330,7 +397,7 @@ impl Lowering<'_> {
             }
             for &code in &words.codes {
                 match meaning(code) {
-                    Meaning::Down => return false,
+                    Meaning::Down if self.obeys(code) => return false,
                     Meaning::Up | Meaning::Housekeeping | Meaning::FullAdvance | Meaning::NoOvercut => {}
                     _ => return true,
                 }
@@ -340,11 +407,11 @@ impl Lowering<'_> {
     }
 
     /// A label whose block holds `point`.
-    fn label(&mut self, point: Option<Point>, obeyed: bool) {
+    fn label(&mut self, point: Option<Point>, texts: Texts) {
         self.settle_second_point();
         self.awaiting = None;
         let text = label::read(&mut self.blocks, point);
-        let Some(span) = text.text.filter(|span| obeyed && span.start < span.end) else { return };
+        let Some(span) = text.text.filter(|span| texts == Texts::Kept && span.start < span.end) else { return };
         let at = text.at.map(|at| self.peek(at));
         let second = text.second.map(|second| self.peek(second));
         let heading = at.zip(second).and_then(|(at, second)| direction(at, second));
@@ -377,9 +444,13 @@ impl Lowering<'_> {
     }
 
     /// A point of the file, mm; the knife is there from now on.
-    fn locate(&mut self, point: Point) -> geom::Point {
+    fn locate(&mut self, point: Point, span: Span) -> geom::Point {
         self.place = [point.x.or(self.place[0]), point.y.or(self.place[1])];
-        self.peek(point)
+        let place = self.peek(point);
+        if place.coords.amax() > FARTHEST {
+            self.far = self.far.or(Some((place, span)));
+        }
+        place
     }
 
     /// A point of the file, mm. One multiplication, so that equal numbers of the file are equal to the bit.

@@ -5,6 +5,9 @@ use super::syntax::Code;
 use crate::ir::toolpath::Event;
 use crate::machine::FileUnit;
 
+/// Letters whose number is a value and not a part of the name.
+const VALUED: &[u8] = b"FHNZ";
+
 /// What a code asks for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Meaning {
@@ -40,6 +43,8 @@ pub(super) enum Meaning {
     Arc(Turn),
     /// Straight lines again.
     Line,
+    /// Straight lines again, as fast as the machine can: here the knife decides which are cut.
+    Rapid,
     /// Speed of the cut until normal speed or the next piece.
     Slow,
     /// Normal speed.
@@ -62,10 +67,12 @@ pub(super) enum Meaning {
 
 /// The meaning of a code.
 pub(super) fn meaning(code: Code) -> Meaning {
-    let number = match code.number {
+    let number = match kind(code).number {
         None => None,
-        Some(number) if number >= 0.0 && number.fract() == 0.0 => Some(number as u32),
-        Some(_) => return Meaning::Unknown,
+        Some(number) => match whole(number) {
+            None => return Meaning::Unknown,
+            whole => whole,
+        },
     };
     match (code.letter, number) {
         (b'M', Some(number)) => m_code(number),
@@ -75,6 +82,7 @@ pub(super) fn meaning(code: Code) -> Meaning {
         (b'G', Some(91)) => Meaning::Unit(FileUnit::HundredthInch),
         (b'G', Some(70)) => Meaning::Unit(FileUnit::ThousandthInch),
         (b'G', Some(71)) => Meaning::Unit(FileUnit::TenthMm),
+        (b'G', Some(0)) => Meaning::Rapid,
         (b'G', Some(1)) => Meaning::Line,
         (b'G', Some(2)) => Meaning::Arc(Turn::Clockwise),
         (b'G', Some(3)) => Meaning::Arc(Turn::Counterclockwise),
@@ -89,6 +97,11 @@ pub(super) fn meaning(code: Code) -> Meaning {
         (b'Z', _) => Meaning::BiteSize,
         _ => Meaning::Unknown,
     }
+}
+
+/// A number that is whole and not negative.
+pub(super) fn whole(number: f64) -> Option<u32> {
+    (number >= 0.0 && number.fract() == 0.0).then_some(number as u32)
 }
 
 fn m_code(number: u32) -> Meaning {
@@ -127,7 +140,7 @@ fn m_code(number: u32) -> Meaning {
 
 /// The code without its number where that is a value and not a part of the name.
 pub(super) fn kind(code: Code) -> Code {
-    let number = if matches!(code.letter, b'F' | b'H' | b'N' | b'Z') { None } else { code.number };
+    let number = if VALUED.contains(&code.letter) { None } else { code.number };
     Code { number, ..code }
 }
 
@@ -151,6 +164,8 @@ mod tests {
         assert_eq!(of(b'M', Some(43.0)), of(b'R', None));
         assert_eq!(of(b'M', Some(45.0)), of(b'M', Some(72.0)));
         assert_eq!(of(b'M', Some(14.5)), Meaning::Unknown);
+        assert_eq!(of(b'F', Some(12.5)), Meaning::Feed);
+        assert_eq!(of(b'N', Some(-1.0)), Meaning::Piece);
         assert_eq!(name(Code { letter: b'M', number: Some(0.0) }), "M0");
         assert_eq!(name(Code { letter: b'F', number: Some(12.0) }), "F");
     }

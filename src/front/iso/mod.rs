@@ -6,15 +6,18 @@
 //! Codes that are not obeyed are reported with their count. Never closes a contour that the file leaves open, and never
 //! recognises a notch by its shape: that is for the passes.
 //!
-//! Arcs are chords. [`block`] cuts the bytes into blocks, [`syntax`] is the grammar of one, [`mod@meaning`] the table of codes, [`label`] the
-//! layouts of text, [`trailer`] the list of labels at the end; [`lower`] follows the file and [`knife`] gathers what it cuts.
+//! Arcs are chords. [`block`] cuts the bytes into blocks, [`syntax`] is the grammar of one, [`mod@meaning`] the table of
+//! codes, [`label`] the layouts of text, [`trailer`] the list of labels at the end; [`lower`] follows the file, [`draft`]
+//! gathers what it cuts, and [`owner`] says whose slits are whose where pieces have no numbers.
 
 mod arc;
 mod block;
-mod knife;
+mod chain;
+mod draft;
 mod label;
 mod lower;
 mod meaning;
+mod owner;
 mod syntax;
 mod tally;
 mod title;
@@ -83,7 +86,8 @@ fn check_syntax(source: &Source, out: &mut Diagnostics) {
         }
     }
     if !blocks.all_ended() {
-        out.push(Diagnostic::new(&code::ISO_NO_FINAL_ASTERISK, "the last block has no `*`"));
+        let finding = Diagnostic::new(&code::ISO_NO_FINAL_ASTERISK, "the last block has no `*`");
+        out.push(finding.hint("check that the file is complete"));
     }
 }
 

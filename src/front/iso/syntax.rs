@@ -10,6 +10,17 @@ use nom::combinator::opt;
 use nom::error::{ErrorKind, ParseError};
 use nom::{Err, Parser};
 
+/// Codes that one block can hold; the standard asks for one, files have three (`H1G71D2`).
+const MOST_CODES: usize = 6;
+
+/// Largest number that is read, in units of the file: 25 km in the smallest unit, far beyond any table, and small
+/// enough for whole numbers to be exact.
+pub(super) const VALUE_MAX: f64 = 1e8;
+
+/// Decimals that count: with nine digits before them, all are exact in `f64`.
+const MOST_DECIMALS: usize = 6;
+const POWERS_OF_TEN: [f64; MOST_DECIMALS + 1] = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6];
+
 /// What a rule gives.
 pub(super) type Out<'a, T> = IResult<&'a [u8], T, Fault<'a>>;
 
@@ -42,13 +53,6 @@ impl<'a> ParseError<&'a [u8]> for Fault<'a> {
         other
     }
 }
-
-/// Codes that one block can hold; the standard asks for one, files have three (`H1G71D2`).
-const MOST_CODES: usize = 6;
-
-/// Largest number that is read, in units of the file: 25 km in the smallest unit, far beyond any table, and small
-/// enough for whole numbers to be exact.
-pub(super) const VALUE_MAX: f64 = 1e8;
 
 /// The words of a block.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -174,10 +178,6 @@ fn number(i: &[u8]) -> Out<'_, f64> {
     // The negative of zero is another bit pattern than zero, though the same place.
     Ok((rest, if negative && magnitude > 0.0 { -magnitude } else { magnitude }))
 }
-
-/// Decimals that count: with nine digits before them, all are exact in `f64`.
-const MOST_DECIMALS: usize = 6;
-const POWERS_OF_TEN: [f64; MOST_DECIMALS + 1] = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6];
 
 /// The number whose digits are those of `value` and then `digits`. Saturates: what is too large stays too large.
 fn append(value: u64, digits: &[u8]) -> u64 {

@@ -11,6 +11,19 @@ use crate::source::Span;
 /// says with the unit that would fit.
 const DEFAULT_MM: f64 = crate::units::MM_PER_INCH / 100.0;
 
+/// Widest marker that a table takes, longest one that is spread, and the smallest thing worth cutting, mm. Tables are up to
+/// some 3 m wide, and cloth is spread over a few dozen metres.
+const WIDEST: f64 = 3500.0;
+const LONGEST: f64 = 100_000.0;
+const SMALLEST: f64 = 5.0;
+/// A drawing fills between 40 % and 102 % of what its title says.
+const LEAST_FILL: f64 = 0.40;
+const MOST_FILL: f64 = 1.02;
+
+/// The units that a file can have, with the value of the profile's key.
+const CANDIDATES: [(FileUnit, &str); 3] =
+    [(FileUnit::TenthMm, "mm/10"), (FileUnit::HundredthInch, "in/100"), (FileUnit::ThousandthInch, "in/1000")];
+
 /// The unit in force.
 #[derive(Debug)]
 pub(super) struct Unit {
@@ -53,17 +66,6 @@ impl Unit {
     }
 }
 
-/// Widest marker that a table takes, mm, and the smallest thing worth cutting, mm.
-const WIDEST: f64 = 3500.0;
-const SMALLEST: f64 = 5.0;
-/// A drawing fills between 40 % and 102 % of what its title says.
-const LEAST_FILL: f64 = 0.40;
-const MOST_FILL: f64 = 1.02;
-
-/// The units that a file can have, with the value of the profile's key.
-const CANDIDATES: [(FileUnit, &str); 3] =
-    [(FileUnit::TenthMm, "mm/10"), (FileUnit::HundredthInch, "in/100"), (FileUnit::ThousandthInch, "in/1000")];
-
 /// Warns when the drawing fits neither its title nor any table, and names the unit that would fit.
 pub(super) fn check_plausible(unit: &Unit, extent: &Extent, title: Option<&Title>, out: &mut Diagnostics) {
     if extent.is_empty() {
@@ -76,6 +78,7 @@ pub(super) fn check_plausible(unit: &Unit, extent: &Extent, title: Option<&Title
         };
         title.is_none_or(|title| filled(length, title.length) && filled(width, title.width))
             && width * scale <= WIDEST
+            && length * scale <= LONGEST
             && length.max(width) * scale >= SMALLEST
     };
     if fits(1.0) {
@@ -83,7 +86,7 @@ pub(super) fn check_plausible(unit: &Unit, extent: &Extent, title: Option<&Title
     }
     let drawn = format!("{length:.0} x {width:.0} mm");
     let mut finding = match title {
-        Some(title) if width <= WIDEST && length.max(width) >= SMALLEST => {
+        Some(title) if width <= WIDEST && length <= LONGEST && length.max(width) >= SMALLEST => {
             let stated = |size: Option<f64>| size.map_or("any".to_owned(), |size| format!("{size:.0}"));
             let (l, w) = (stated(title.length), stated(title.width));
             let message =
@@ -91,7 +94,11 @@ pub(super) fn check_plausible(unit: &Unit, extent: &Extent, title: Option<&Title
             Diagnostic::new(&code::ISO_UNIT_DOUBTFUL, message).at(title.span)
         }
         _ => {
-            let what = if width > WIDEST { "wider than any table" } else { "smaller than any part" };
+            let what = match () {
+                () if width > WIDEST => "wider than any table",
+                () if length > LONGEST => "longer than any table",
+                () => "smaller than any part",
+            };
             let message = format!("with a unit of {} mm the drawing is {drawn}: {what}", unit.mm);
             Diagnostic::new(&code::ISO_UNIT_DOUBTFUL, message)
         }
@@ -100,6 +107,10 @@ pub(super) fn check_plausible(unit: &Unit, extent: &Extent, title: Option<&Title
         if candidate.mm().is_some_and(|mm| fits(mm / unit.mm)) {
             finding = finding.hint(format!("`units = \"{key}\"` in the profile would fit"));
         }
+    }
+    if finding.hints.is_empty() {
+        finding =
+            finding.hint("no unit of cut files would fit: check that the drawing is whole, and its title its own");
     }
     out.push(finding);
 }

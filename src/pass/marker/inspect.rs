@@ -8,7 +8,7 @@
 
 use super::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::Point;
+use crate::geom::{Point, bits};
 use crate::ir::list::{Range, Segment, SegmentList};
 use crate::ir::marker::{Contour, Marker};
 use crate::machine::Job;
@@ -107,11 +107,6 @@ fn edge(segment: &Segment) -> Edge {
     let mut edge = [bits(segment.from), bits(segment.to)];
     edge.sort_unstable();
     edge
-}
-
-/// Equal for equal points: zero has one sign.
-fn bits(point: Point) -> [u64; 2] {
-    [(point.x + 0.0).to_bits(), (point.y + 0.0).to_bits()]
 }
 
 /// Symmetric in the two ends. Coordinates on a grid differ in few bits, so their bits are mixed (the finaliser of

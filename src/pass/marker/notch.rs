@@ -15,6 +15,7 @@ use std::f64::consts::PI;
 
 use super::MarkerPass;
 use crate::diagnostic::Diagnostics;
+use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, Vector, angle, cross, ring};
 use crate::ir::marker::{Marker, Vee};
 use crate::machine::Job;
@@ -34,23 +35,24 @@ const MOUTH_TURN: f64 = PI / 6.0;
 const LEAST_OTHERS: usize = 3;
 /// How many vertices are looked at for the direction at a mouth: a guard against outlines that are a tangle.
 const MOST_STEPS: usize = 64;
-/// Outlines and vertices that are looked at to tell cut-outs from parts, in one marker: far more than real ones need. In a
-/// drawing made to be slow, what is left counts as a part.
-const MOST_WORK: usize = 100_000_000;
+/// What a vertex that is looked at to tell cut-outs from parts costs beside the comparison of two boxes. In a drawing made to
+/// be slow, what is left counts as a part.
+const VERTEX: usize = 4;
 /// How far the rounding of two points to a grid may move one against the other, in units of the grid: its diagonal.
 const ROUNDING: f64 = std::f64::consts::SQRT_2;
 
 fn run(marker: &mut Marker, _: &Job, _: &mut Diagnostics) {
     let outlines = outlines(marker);
     let mut found: Vec<(usize, Vee)> = Vec::new();
-    let mut work = MOST_WORK;
+    let mut work = Budget::of_a_marker();
     for (i, outline) in outlines.iter().enumerate() {
         if outline.apexes.is_empty() {
             continue;
         }
         let counter_clockwise = ring::area(&outline.points) > 0.0;
-        let part_is_left = counter_clockwise != is_cut_out(i, &outlines, &mut work);
-        found.extend(vees(outline, part_is_left).map(|vee| (outline.piece, vee)));
+        let is_left = counter_clockwise != is_cut_out(i, &outlines, &mut work);
+        let part = if is_left { Side::Left } else { Side::Right };
+        found.extend(vees(outline, part).map(|vee| (outline.piece, vee)));
     }
     for piece in &mut marker.pieces {
         piece.vees.clear();
@@ -58,6 +60,13 @@ fn run(marker: &mut Marker, _: &Job, _: &mut Diagnostics) {
     for (piece, vee) in found {
         marker.pieces[piece].vees.push(vee);
     }
+}
+
+/// The side of an outline, seen along it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Side {
+    Left,
+    Right,
 }
 
 /// A closed contour.
@@ -140,14 +149,17 @@ impl Around<'_> {
 }
 
 /// The notches of an outline whose part lies on the given side.
-fn vees(outline: &Outline, part_is_left: bool) -> impl Iterator<Item = Vee> {
+fn vees(outline: &Outline, part: Side) -> impl Iterator<Item = Vee> {
     let points = &outline.points;
     let count = points.len();
     let vee = |&(i, span): &(usize, Span)| {
         let at = Around { points, i };
         (i, Vee { apex: points[i], mouth: [at.back(1), at.ahead(1)], span })
     };
-    let is_inside = |vee: &Vee| (cross(vee.mouth[1] - vee.mouth[0], vee.apex - vee.mouth[0]) > 0.0) == part_is_left;
+    let is_inside = |vee: &Vee| {
+        let apex_is_left = cross(vee.mouth[1] - vee.mouth[0], vee.apex - vee.mouth[0]) > 0.0;
+        apex_is_left == (part == Side::Left)
+    };
     let all: Vec<(usize, Vee)> = outline.apexes.iter().map(vee).filter(|(_, vee)| is_inside(vee)).collect();
     // Whether the notch `k` and the next one, round the ring, are teeth in a row.
     let is_crowded = |k: usize| {
@@ -175,16 +187,17 @@ fn vees(outline: &Outline, part_is_left: bool) -> impl Iterator<Item = Vee> {
 
 /// Whether an outline bounds a hole: an odd number of others of its piece hold it. Other pieces do not matter, since two
 /// jobs in one file may lie on each other.
-fn is_cut_out(i: usize, outlines: &[Outline], work: &mut usize) -> bool {
+fn is_cut_out(i: usize, outlines: &[Outline], work: &mut Budget) -> bool {
     let point = outlines[i].points[0];
     let piece = outlines[i].piece;
     let first = outlines.partition_point(|outline| outline.piece < piece);
     let end = outlines.partition_point(|outline| outline.piece <= piece);
     let holds = |k: &usize| {
         let other = &outlines[*k];
-        let is_near = *work > 0 && *k != i && other.extent.holds(point);
-        *work = work.saturating_sub(if is_near { other.points.len() } else { 1 });
-        is_near && *work > 0 && ring::contains(&other.points, point)
+        let is_near = *k != i && other.extent.holds(point);
+        work.spend(VERTEX * if is_near { other.points.len() } else { 1 })
+            && is_near
+            && ring::contains(&other.points, point)
     };
     (first..end).filter(holds).count() % 2 == 1
 }

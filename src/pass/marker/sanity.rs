@@ -6,12 +6,13 @@
 //! - The outlines of two pieces overlap by more than the grid of the file rounds. Pieces that lie edge to edge, or one in
 //!   the other, do not.
 //! - A hole lies in no part. Where nothing is closed there are no parts to tell.
-//! - The numbers of the pieces start again.
+//! - The number of a piece comes again.
 
 use std::collections::BTreeSet;
 
 use super::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::budget::Budget;
 use crate::geom::monotone::{Chain, Crossing, chains, crossing};
 use crate::geom::{Extent, Point, cross, polyline, ring};
 use crate::ir::marker::{Drill, Marker};
@@ -22,9 +23,6 @@ use crate::units::number::fixed;
 pub(super) const PASS: MarkerPass =
     MarkerPass { name: "sanity", about: "warns of outlines that cross and of holes outside every part", run };
 
-/// Comparisons of boxes, and visits of vertices, that one marker may cost: some hundred times what the largest real
-/// markers need. Drawings made to be slow are not searched to the end.
-const MOST_WORK: usize = 400_000_000;
 /// How far a line is followed from a crossing to see whether it really leads to the other side, vertices.
 const MOST_STEPS: usize = 64;
 /// Places of an outline that are tried for lying in another.
@@ -36,7 +34,7 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     numbers(marker, diagnostics);
     let parts: Vec<Part> = (0..marker.pieces.len()).map(|piece| Part::of(marker, piece)).collect();
     let search = Search { marker, parts: &parts };
-    let mut work = Work(MOST_WORK);
+    let mut work = Budget::of_a_marker();
     for i in 0..parts.len() {
         if let Some((place, span)) = search.self_crossing(i, &mut work) {
             let message = format!("an outline of {} crosses itself at {}", search.name(i), at(place));
@@ -47,28 +45,23 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     search.drills(&mut work, diagnostics);
 }
 
-/// Numbers that start again from one that was there already.
+/// Numbers that start again from one that was there already, or stay.
 fn numbers(marker: &Marker, diagnostics: &mut Diagnostics) {
     let mut seen = BTreeSet::new();
+    let mut repeated = BTreeSet::new();
     let mut before = 0;
     for piece in &marker.pieces {
-        if !seen.insert(piece.number) && piece.number < before {
-            let message = format!("piece numbers start again: piece {} comes a second time", piece.number);
+        let is_new = seen.insert(piece.number);
+        if !is_new && piece.number <= before && repeated.insert(piece.number) {
+            let message = if piece.number < before {
+                format!("piece numbers start again: piece {} comes a second time", piece.number)
+            } else {
+                format!("piece {} comes twice in a row", piece.number)
+            };
             let finding = Diagnostic::new(&code::MARKER_NUMBER_TWICE, message).at(piece.span);
             diagnostics.push(finding.hint("if two jobs stand in one file, cut it in two"));
         }
         before = piece.number;
-    }
-}
-
-/// How much more may be done.
-struct Work(usize);
-
-impl Work {
-    /// Takes some; `false` when there is no more.
-    fn spend(&mut self, amount: usize) -> bool {
-        self.0 = self.0.saturating_sub(amount);
-        self.0 > 0
     }
 }
 
@@ -175,7 +168,7 @@ impl Search<'_> {
         segments.nth(point - part.contours[k].0).map(|(_, segment)| segment.span).unwrap_or_default()
     }
 
-    fn self_crossing(&self, piece: usize, work: &mut Work) -> Option<(Point, Span)> {
+    fn self_crossing(&self, piece: usize, work: &mut Budget) -> Option<(Point, Span)> {
         let part = &self.parts[piece];
         let ends = |segment: usize| [part.points[segment], part.points[segment + 1]];
         let mut wanted = |crossing: &Crossing| {
@@ -193,7 +186,7 @@ impl Search<'_> {
         found.map(|crossing| (crossing.at, self.span(piece, crossing.segments[1])))
     }
 
-    fn overlaps(&self, work: &mut Work, diagnostics: &mut Diagnostics) {
+    fn overlaps(&self, work: &mut Budget, diagnostics: &mut Diagnostics) {
         let boxes: Vec<Extent> = self.parts.iter().map(|part| part.extent).collect();
         let mut near: Vec<(usize, usize)> = Vec::new();
         pairs(&boxes, work, |i, k| {
@@ -211,7 +204,7 @@ impl Search<'_> {
     }
 
     /// A place where the outlines of two pieces overlap, and the span of the later one there.
-    fn overlap(&self, i: usize, k: usize, work: &mut Work) -> Option<(Point, Span)> {
+    fn overlap(&self, i: usize, k: usize, work: &mut Budget) -> Option<(Point, Span)> {
         let (a, b) = (&self.parts[i], &self.parts[k]);
         let common = |part: &Part, other: &Part| -> Vec<Chain> {
             part.chains.iter().filter(|(extent, ..)| extent.meets(&other.extent)).map(|chain| chain.1).collect()
@@ -241,7 +234,7 @@ impl Search<'_> {
 
     /// A place of `part` that lies well inside `other`, while another place of it lies well outside: they overlap though
     /// no two segments cross, since lines of the one run along lines of the other. With the point that starts it.
-    fn straddles(&self, part: &Part, other: &Part, work: &mut Work) -> Option<(Point, usize)> {
+    fn straddles(&self, part: &Part, other: &Part, work: &mut Budget) -> Option<(Point, usize)> {
         let ends: Vec<usize> = (0..part.points.len().saturating_sub(1)).collect();
         let stride = ends.len().div_ceil(PROBES).max(1);
         let (mut inside, mut outside) = (None, false);
@@ -263,7 +256,7 @@ impl Search<'_> {
         inside.filter(|_| outside)
     }
 
-    fn drills(&self, work: &mut Work, diagnostics: &mut Diagnostics) {
+    fn drills(&self, work: &mut Budget, diagnostics: &mut Diagnostics) {
         if self.parts.iter().all(|part| part.closed().next().is_none()) {
             return;
         }
@@ -275,12 +268,13 @@ impl Search<'_> {
                 more => format!(", and {more} more of this piece"),
             };
             let message = format!("a hole of {} at {} lies outside every part{more}", self.name(i), at(first.at));
-            diagnostics.push(Diagnostic::new(&code::MARKER_DRILL_OUTSIDE, message).at(first.span));
+            let finding = Diagnostic::new(&code::MARKER_DRILL_OUTSIDE, message).at(first.span);
+            diagnostics.push(finding.hint("look where it is in the picture (`-t svg`); its part may be missing"));
         }
     }
 
     /// Its own piece is the likeliest.
-    fn is_in_a_part(&self, piece: usize, drill: &Drill, work: &mut Work) -> bool {
+    fn is_in_a_part(&self, piece: usize, drill: &Drill, work: &mut Budget) -> bool {
         let own = std::iter::once(&self.parts[piece]);
         own.chain(self.parts).any(|part| {
             let near = part.extent.holds(drill.at);
@@ -295,7 +289,7 @@ fn at(place: Point) -> String {
 
 /// Calls `met` for each pair of boxes that have a point in common, until it says no: a sweep along the longer side of
 /// what they cover. Empty boxes meet none.
-fn pairs(boxes: &[Extent], work: &mut Work, mut met: impl FnMut(usize, usize) -> bool) {
+fn pairs(boxes: &[Extent], work: &mut Budget, mut met: impl FnMut(usize, usize) -> bool) {
     let mut all = Extent::EMPTY;
     let mut order: Vec<usize> = (0..boxes.len()).filter(|&i| !boxes[i].is_empty()).collect();
     for &i in &order {

@@ -4,7 +4,8 @@
 //! segment of it, or there and back. A stroke is a contour of two places that are [`Notch::LONGEST`] apart at most.
 //!
 //! - One that starts on an outline of its piece is a slit.
-//! - One that the tip of a slit divides is the crossbar of a T.
+//! - One that the tip of a slit divides is the crossbar of a T, also when the file calls it a slit: then it touches no
+//!   outline.
 //! - Any other stays an open contour, as do all longer ones: internal lines, darts, outlines with a gap.
 //!
 //! Leaves true: notches in the order of the file; none without length, and no slit twice, whichever way round. Plain
@@ -14,7 +15,8 @@ use std::collections::BTreeSet;
 
 use super::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::{Point, polyline};
+use crate::geom::near::{Near, sorted};
+use crate::geom::{Point, bits};
 use crate::ir::list::SegmentList;
 use crate::ir::marker::{Contour, Marker, Notch, NotchKind, Piece, Stroke};
 use crate::machine::Job;
@@ -22,24 +24,18 @@ use crate::machine::Job;
 pub(super) const PASS: MarkerPass =
     MarkerPass { name: "slit", about: "makes notches of short strokes at an outline, and cuts none twice", run };
 
-/// Distances that one marker may cost: far more than real ones need. In a drawing made to be slow, the strokes that are
-/// left stay open contours, which is how they are cut anyway.
-const MOST_WORK: usize = 20_000_000;
-/// How far the rounding of two points to a grid may move one against the other, in units of the grid: its diagonal.
-const ROUNDING: f64 = std::f64::consts::SQRT_2;
-
 fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     let Marker { list, pieces, unit, .. } = marker;
-    let mut near = Near { slack: ROUNDING * *unit, work: MOST_WORK };
+    let mut search = Search { list, near: Near::on_grid(*unit), diagnostics };
     for piece in pieces {
         let mut shorts: Vec<Short> = if *unit > 0.0 {
-            piece.contours.iter().zip(0..).filter_map(|(contour, i)| short(list, contour, i)).collect()
+            piece.contours.iter().zip(0..).filter_map(|(contour, i)| short(search.list, contour, i)).collect()
         } else {
             Vec::new()
         };
-        take_slits(list, piece, &mut shorts, &mut near);
-        drop_doubles(piece, diagnostics);
-        take_crossbars(piece, &mut shorts, &mut near, diagnostics);
+        search.take_slits(piece, &mut shorts);
+        drop_doubles(piece, search.diagnostics);
+        search.take_crossbars(piece, &mut shorts);
         let mut taken = shorts.iter().filter(|short| short.taken).map(|short| short.contour).peekable();
         let mut place = 0..;
         piece.contours.retain(|_| taken.next_if_eq(&place.next().expect("it never ends")).is_none());
@@ -71,48 +67,114 @@ fn short(list: &SegmentList, contour: &Contour, place: usize) -> Option<Short> {
     (stroke.length() <= Notch::LONGEST).then_some(Short { stroke, percent, contour: place, taken: false })
 }
 
-/// Makes slits of the strokes that start on a closed contour.
-fn take_slits(list: &SegmentList, piece: &mut Piece, shorts: &mut [Short], near: &mut Near) {
-    if shorts.is_empty() {
-        return;
-    }
-    let starts = sorted(shorts.iter().map(|short| short.stroke.from));
+/// The segments of the outlines of a piece.
+fn outlines<'a>(list: &'a SegmentList, piece: &'a Piece) -> impl Iterator<Item = [Point; 2]> {
     let outlines = piece.contours.iter().filter(|contour| contour.closed && short(list, contour, 0).is_none());
-    for (_, segment) in outlines.flat_map(|contour| list.walk(contour.range)) {
-        near.each(&starts, [segment.from, segment.to], |i| shorts[i].taken = true);
-    }
-    for Short { stroke, percent, .. } in shorts.iter().filter(|short| short.taken) {
-        let Stroke { from: root, to: tip, span } = *stroke;
-        piece.notches.push(Notch { kind: NotchKind::Slit, root, tip, percent: *percent, span });
-    }
-    piece.notches.sort_by_key(|notch| notch.span); // stable: what comes from no block keeps its order
+    outlines.flat_map(|contour| list.walk(contour.range)).map(|(_, segment)| [segment.from, segment.to])
 }
 
-/// Gives the strokes that the tip of a slit divides to that slit.
-fn take_crossbars(piece: &mut Piece, shorts: &mut [Short], near: &mut Near, diagnostics: &mut Diagnostics) {
-    let tips = sorted(piece.notches.iter().map(|notch| notch.tip));
-    for short in shorts.iter_mut().filter(|short| !short.taken) {
-        let Short { stroke: bar, percent, .. } = *short;
-        let slack = near.slack;
-        near.each(&tips, [bar.from, bar.to], |i| {
-            let notch = &mut piece.notches[i];
-            let divides = (notch.tip - bar.from).norm().min((notch.tip - bar.to).norm()) > slack;
-            if short.taken || !divides {
-                return;
+/// What may be a crossbar.
+struct Bar {
+    stroke: Stroke,
+    percent: u8,
+    origin: Origin,
+}
+
+/// Where a crossbar comes from: its place there.
+enum Origin {
+    Notches(usize),
+    Shorts(usize),
+}
+
+fn is_short_slit(notch: &Notch) -> bool {
+    notch.kind == NotchKind::Slit && notch.depth() <= Notch::LONGEST
+}
+
+/// What the search in all pieces needs.
+struct Search<'a> {
+    list: &'a SegmentList,
+    near: Near,
+    diagnostics: &'a mut Diagnostics,
+}
+
+impl Search<'_> {
+    /// Makes slits of the strokes that start on a closed contour.
+    fn take_slits(&mut self, piece: &mut Piece, shorts: &mut [Short]) {
+        if shorts.is_empty() {
+            return;
+        }
+        let starts = sorted(shorts.iter().map(|short| short.stroke.from));
+        for ends in outlines(self.list, piece) {
+            self.near.each(&starts, ends, |i| shorts[i].taken = true);
+        }
+        for Short { stroke, percent, .. } in shorts.iter().filter(|short| short.taken) {
+            let Stroke { from: root, to: tip, span } = *stroke;
+            piece.notches.push(Notch { kind: NotchKind::Slit, root, tip, percent: *percent, span });
+        }
+        piece.notches.sort_by_key(|notch| notch.span); // stable: what comes from no block keeps its order
+    }
+
+    /// The strokes that may be crossbars: slits that touch no outline, then contours.
+    fn bars(&mut self, piece: &Piece, shorts: &[Short]) -> Vec<Bar> {
+        let slits: Vec<(usize, &Notch)> = piece.notches.iter().enumerate().filter(|(_, n)| is_short_slit(n)).collect();
+        let mut touches = vec![false; slits.len()];
+        // A slit alone has none that could be its crossbar, or whose crossbar it could be.
+        if slits.len() > 1 {
+            let ends = sorted(slits.iter().flat_map(|(_, notch)| [notch.root, notch.tip]));
+            for segment in outlines(self.list, piece) {
+                self.near.each(&ends, segment, |i| touches[i / 2] = true);
             }
-            match notch.kind {
-                NotchKind::Slit => {
-                    (notch.kind, notch.percent) = (NotchKind::T(bar), notch.percent.min(percent));
-                    short.taken = true;
-                }
-                NotchKind::T(other) if ends(bar.from, bar.to) == ends(other.from, other.to) => {
-                    let message = format!("the same crossbar stands twice in piece {}; it is cut once", piece.number);
-                    diagnostics.push(Diagnostic::new(&code::MARKER_SLIT_TWICE, message).at(bar.span));
-                    short.taken = true;
-                }
-                NotchKind::T(_) => {}
-            }
+        }
+        let free = slits.iter().zip(touches).filter(|(_, touches)| slits.len() > 1 && !touches);
+        let notches = free.map(|((i, notch), _)| {
+            let stroke = Stroke { from: notch.root, to: notch.tip, span: notch.span };
+            Bar { stroke, percent: notch.percent, origin: Origin::Notches(*i) }
         });
+        let shorts = shorts.iter().enumerate().filter(|(_, short)| !short.taken);
+        let contours =
+            shorts.map(|(i, short)| Bar { stroke: short.stroke, percent: short.percent, origin: Origin::Shorts(i) });
+        notches.chain(contours).collect()
+    }
+
+    /// Gives the strokes that the tip of a slit divides to that slit.
+    fn take_crossbars(&mut self, piece: &mut Piece, shorts: &mut [Short]) {
+        let tips = sorted(piece.notches.iter().map(|notch| notch.tip));
+        let mut is_bar = vec![false; piece.notches.len()];
+        for Bar { stroke: bar, percent, origin } in self.bars(piece, shorts) {
+            if let Origin::Notches(i) = origin
+                && piece.notches[i].kind != NotchKind::Slit
+            {
+                continue; // it has a crossbar itself by now
+            }
+            let slack = self.near.slack();
+            let mut taken = false;
+            self.near.each(&tips, [bar.from, bar.to], |i| {
+                let notch = &mut piece.notches[i];
+                let divides = (notch.tip - bar.from).norm().min((notch.tip - bar.to).norm()) > slack;
+                if taken || is_bar[i] || !divides {
+                    return;
+                }
+                match notch.kind {
+                    NotchKind::Slit => {
+                        (notch.kind, notch.percent) = (NotchKind::T(bar), notch.percent.min(percent));
+                        taken = true;
+                    }
+                    NotchKind::T(other) if ends(bar.from, bar.to) == ends(other.from, other.to) => {
+                        let message =
+                            format!("the same crossbar stands twice in piece {}; it is cut once", piece.number);
+                        self.diagnostics.push(Diagnostic::new(&code::MARKER_SLIT_TWICE, message).at(bar.span));
+                        taken = true;
+                    }
+                    NotchKind::T(_) => {}
+                }
+            });
+            match origin {
+                Origin::Notches(i) => is_bar[i] = taken,
+                Origin::Shorts(i) => shorts[i].taken = taken,
+            }
+        }
+        let mut place = 0..;
+        piece.notches.retain(|_| !is_bar[place.next().expect("it never ends")]);
     }
 }
 
@@ -125,6 +187,7 @@ fn drop_doubles(piece: &mut Piece, diagnostics: &mut Diagnostics) {
         let is_new = seen.insert(ends);
         let finding = if ends[0] == ends[1] {
             Diagnostic::new(&code::MARKER_SLIT_NO_LENGTH, format!("a slit of piece {number} has no length"))
+                .hint("give it a depth in the CAD system if the sewer needs it")
         } else if !is_new && notch.kind == NotchKind::Slit {
             let message = format!("the same slit stands twice in piece {number}; it is cut once");
             Diagnostic::new(&code::MARKER_SLIT_TWICE, message)
@@ -136,41 +199,9 @@ fn drop_doubles(piece: &mut Piece, diagnostics: &mut Diagnostics) {
     });
 }
 
-/// Two places, the same whichever comes first. Zero has one sign.
+/// Two places, the same whichever comes first.
 fn ends(a: Point, b: Point) -> [[u64; 2]; 2] {
-    let mut ends = [a, b].map(|point| [(point.x + 0.0).to_bits(), (point.y + 0.0).to_bits()]);
+    let mut ends = [a, b].map(bits);
     ends.sort_unstable();
     ends
-}
-
-/// Points by their X, each with its place in the order that they came in.
-fn sorted(points: impl Iterator<Item = Point>) -> Vec<(Point, usize)> {
-    let mut points: Vec<(Point, usize)> = points.zip(0..).collect();
-    points.sort_by(|a, b| a.0.x.total_cmp(&b.0.x));
-    points
-}
-
-/// Looks for points near segments.
-struct Near {
-    /// Farthest from the segment, mm.
-    slack: f64,
-    /// Distances that may still be taken.
-    work: usize,
-}
-
-impl Near {
-    /// Calls `found` with the place of each point that lies on the segment between two ends.
-    fn each(&mut self, points: &[(Point, usize)], [a, b]: [Point; 2], mut found: impl FnMut(usize)) {
-        let (least, greatest) = (a.x.min(b.x) - self.slack, a.x.max(b.x) + self.slack);
-        let first = points.partition_point(|point| point.0.x < least);
-        for &(point, place) in points[first..].iter().take_while(|point| point.0.x <= greatest) {
-            self.work = self.work.saturating_sub(1);
-            if self.work == 0 {
-                return;
-            }
-            if polyline::distance_to_segment(point, a, b) <= self.slack {
-                found(place);
-            }
-        }
-    }
 }

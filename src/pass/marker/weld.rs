@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 
 use super::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::Point;
+use crate::geom::{Point, bits};
 use crate::ir::list::{Joint, Range, SegmentList};
 use crate::ir::marker::{Contour, Marker, Piece};
 use crate::machine::Job;
@@ -111,16 +111,16 @@ fn join(list: &mut SegmentList, piece: &mut Piece) {
     let chains: Vec<([Point; 2], Range)> = piece.contours.iter().map(|c| (ends(list, c.range), c.range)).collect();
     let open = |i: usize| chains[i].0[0] != chains[i].0[1];
     let mut starts: BTreeSet<Start> =
-        (0..chains.len()).filter(|&i| open(i)).map(|i| (key(chains[i].0[0]), i)).collect();
+        (0..chains.len()).filter(|&i| open(i)).map(|i| (bits(chains[i].0[0]), i)).collect();
     let mut taken = vec![false; chains.len()];
     piece.contours.clear();
     for (i, &([start, mut end], mut range)) in chains.iter().enumerate() {
         if taken[i] {
             continue;
         }
-        starts.remove(&(key(start), i));
+        starts.remove(&(bits(start), i));
         while start != end {
-            let here = key(end);
+            let here = bits(end);
             let Some(&(_, next)) = starts.range((here, i)..=(here, usize::MAX)).next() else { break };
             let Some(joined) = list.join(range, chains[next].1) else { break };
             seam(list, range, chains[next].1);
@@ -149,9 +149,4 @@ fn seam(list: &mut SegmentList, mut first: Range, mut second: Range) {
 fn ends(list: &SegmentList, range: Range) -> [Point; 2] {
     let start = |range: Range| list.walk(range).next().expect("a range is never empty").1.from;
     [start(range), start(range.reversed())]
-}
-
-/// The same for points that are equal: zero has one sign.
-fn key(point: Point) -> [u64; 2] {
-    [(point.x + 0.0).to_bits(), (point.y + 0.0).to_bits()]
 }

@@ -42,7 +42,8 @@ fn run(toolpath: &mut Toolpath, job: &Job, diagnostics: &mut Diagnostics) {
             let (x, y) = (fixed(points[i].x, 2), fixed(points[i].y, 2));
             let message = format!("the knife may leave the table by {} mm at X {x} Y {y} mm", fixed(by, 2));
             let span = spans.get(i).or(spans.last()).copied();
-            diagnostics.push(Diagnostic { span, ..Diagnostic::new(code, message) });
+            let finding = Diagnostic { span, ..Diagnostic::new(code, message) };
+            diagnostics.push(finding.hint("move the marker on the table, or check `table` and `knife` of the profile"));
         }
     }
 }

@@ -1,22 +1,21 @@
-//! What the knife of the file does, gathered into contours, slits and pieces.
+//! The marker in the making: what the knife of the file does, gathered into contours, slits and pieces.
 //!
 //! Files interrupt an outline for slit notches and corner lifts. When the knife goes down where an open chain of the
 //! same piece ends, that chain goes on; a map from end points makes that one look-up.
 
 use std::collections::HashMap;
 
+use super::chain::{Chain, Overcut, Vertex};
+use super::owner;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::{Extent, Point};
-use crate::ir::list::{FULL_SPEED, Joint, Segment, SegmentList};
+use crate::geom::{Extent, Point, bits};
+use crate::ir::list::{FULL_SPEED, Joint, SegmentList};
 use crate::ir::marker::{Contour, Drill, Event, Label, Marker, Notch, NotchKind, Piece};
 use crate::source::Span;
 
-/// Most vertices of a stroke: one that goes to and fro more often is no slit.
-const STROKE_VERTICES: usize = 8;
-
-/// Follows the knife and makes the marker.
+/// A marker in the making: follows the knife.
 #[derive(Debug)]
-pub(super) struct Knife {
+pub(super) struct Draft {
     state: State,
     /// Where the knife is, mm.
     at: Point,
@@ -61,56 +60,7 @@ enum State {
     Slit { points: Vec<Vertex>, piece: Option<usize>, span: Span },
 }
 
-#[derive(Debug, Clone, Copy)]
-struct Vertex {
-    at: Point,
-    span: Span,
-    joint: Joint,
-    /// Speed of the way to it, percent.
-    percent: u8,
-}
-
-#[derive(Debug)]
-struct Chain {
-    /// In a file without N, a stroke has none before a contour claims it.
-    piece: Option<usize>,
-    vertices: Vec<Vertex>,
-    /// Whether it is a slit: those are cut before the outlines.
-    slit: bool,
-    /// Whether it was left by a lift that is meant, not for a slit.
-    lifted: bool,
-    /// Whether the lift at its end goes without overcut.
-    no_overcut: bool,
-}
-
-impl Chain {
-    /// Whether it has no extent: all of its points are equal.
-    fn is_point(&self) -> bool {
-        self.vertices.iter().all(|vertex| vertex.at == self.vertices[0].at)
-    }
-
-    fn ends(&self) -> (Point, Point) {
-        (self.vertices[0].at, self.vertices[self.vertices.len() - 1].at)
-    }
-
-    /// Whether it goes between two near places only, as slits and crossbars do.
-    fn is_stroke(&self) -> bool {
-        if self.vertices.len() > STROKE_VERTICES {
-            return false;
-        }
-        let first = self.vertices[0].at;
-        let Some(second) = self.vertices.iter().map(|vertex| vertex.at).find(|&at| at != first) else { return false };
-        (second - first).norm() <= Notch::LONGEST
-            && self.vertices.iter().all(|vertex| vertex.at == first || vertex.at == second)
-    }
-}
-
-/// Coordinates are whole units times one factor, without a negative zero: equal places have equal bits.
-fn key(at: Point) -> [u64; 2] {
-    [at.x.to_bits(), at.y.to_bits()]
-}
-
-impl Knife {
+impl Draft {
     /// Up, at the origin.
     pub(super) fn new() -> Self {
         Self {
@@ -165,7 +115,7 @@ impl Knife {
                 let piece = self.piece_of_new_chain(start.span);
                 cap(&mut self.pieces[piece], self.feed);
                 let piece = Some(piece);
-                self.chains.push(Chain { piece, vertices, slit: false, lifted: false, no_overcut: false });
+                self.chains.push(Chain { piece, vertices, slit: false, lift: None });
                 self.state = State::Cutting(self.chains.len() - 1);
             }
         }
@@ -237,18 +187,18 @@ impl Knife {
             }
         }
         let full_advance = std::mem::take(&mut self.advance);
-        if let Some(index) = self.open.remove(&key(self.at)).or_else(|| self.take_spur()) {
+        if let Some(index) = self.open.remove(&bits(self.at)).or_else(|| self.take_spur()) {
             if self.chains[index].piece.is_none() {
                 let start = self.chains[index].vertices[0].span;
                 self.chains[index].piece = Some(self.piece_of_new_chain(start));
             }
             let chain = &mut self.chains[index];
             if let Some(last) = chain.vertices.last_mut() {
-                last.joint.lift |= chain.lifted;
+                last.joint.lift |= chain.lift.is_some();
                 last.joint.full_advance |= full_advance;
-                last.joint.no_overcut |= chain.no_overcut;
+                last.joint.no_overcut |= chain.lift == Some(Overcut::Forbidden);
             }
-            (chain.lifted, chain.no_overcut) = (false, false);
+            chain.lift = None;
             let piece = &mut self.pieces[chain.piece.expect("it was given one")];
             // Without N: what the file holds while it interrupts a contour belongs to that contour.
             piece.drills.append(&mut self.waiting.drills);
@@ -273,8 +223,8 @@ impl Knife {
                 self.state = State::Up;
             }
             State::Cutting(index) => {
-                let no_overcut = std::mem::take(&mut self.no_overcut);
-                self.leave(index, true, no_overcut);
+                let overcut = if std::mem::take(&mut self.no_overcut) { Overcut::Forbidden } else { Overcut::Usual };
+                self.leave(index, Some(overcut));
             }
             State::Slit { .. } => self.end_slit(),
         }
@@ -284,15 +234,16 @@ impl Knife {
         }
     }
 
-    /// The knife leaves the chain. One that closed on itself is finished; any other may go on where it ends.
-    fn leave(&mut self, index: usize, lifted: bool, no_overcut: bool) {
+    /// The knife leaves the chain, by a lift that is meant or (`None`) for a slit. One that closed on itself is finished;
+    /// any other may go on where it ends.
+    fn leave(&mut self, index: usize, lift: Option<Overcut>) {
         let chain = &mut self.chains[index];
-        (chain.lifted, chain.no_overcut) = (lifted, no_overcut);
+        chain.lift = lift;
         let (first, last) = chain.ends();
         let piece = chain.piece;
         let is_stroke = chain.is_stroke();
         if first != last || chain.is_point() {
-            self.open.insert(key(last), index);
+            self.open.insert(bits(last), index);
         }
         self.state = State::Up;
         if !is_stroke {
@@ -334,10 +285,10 @@ impl Knife {
             return None;
         }
         // One that closed, or went on meanwhile, is not waiting.
-        self.open.get(&key(tip.at)).filter(|&&open| open == index)?;
-        self.open.remove(&key(tip.at));
+        self.open.get(&bits(tip.at)).filter(|&&open| open == index)?;
+        self.open.remove(&bits(tip.at));
         chain.vertices.pop();
-        (chain.lifted, chain.no_overcut) = (false, false);
+        chain.lift = None;
         let notch = Notch { kind: NotchKind::Slit, root: root.at, tip: tip.at, percent: tip.percent, span: tip.span };
         self.pieces[chain.piece?].notches.push(notch);
         Some(index)
@@ -353,7 +304,7 @@ impl Knife {
             State::Slit { .. } => return,
             State::Plunged { .. } => None,
             State::Cutting(index) => {
-                self.leave(index, false, false);
+                self.leave(index, None);
                 self.chains[index].piece
             }
         };
@@ -374,11 +325,11 @@ impl Knife {
         (self.advance, self.no_overcut) = (false, false);
         let State::Slit { mut points, piece, .. } = std::mem::take(&mut self.state) else { return };
         // One that goes nowhere is kept as it stands in the file: dropping it is for the passes, which say so.
-        let damaged = points.len() > 1 && points.iter().all(|vertex| key(vertex.at) == key(points[0].at));
+        let damaged = points.len() > 1 && points.iter().all(|vertex| bits(vertex.at) == bits(points[0].at));
         if damaged {
             points.truncate(2);
         } else {
-            points.dedup_by_key(|vertex| key(vertex.at));
+            points.dedup_by_key(|vertex| bits(vertex.at));
         }
         match points[..] {
             [] | [_] => {}
@@ -402,7 +353,8 @@ impl Knife {
                     vertex.joint.no_overcut = true;
                 }
                 points[0].joint.full_advance = true;
-                self.chains.push(Chain { piece, vertices: points, slit: true, lifted: false, no_overcut: true });
+                let lift = Some(Overcut::Forbidden);
+                self.chains.push(Chain { piece, vertices: points, slit: true, lift });
             }
         }
     }
@@ -487,19 +439,11 @@ impl Knife {
         self.left = None;
         for slit in [true, false] {
             for chain in self.chains.iter_mut().filter(|chain| chain.slit == slit && !chain.is_point()) {
-                // The joint of the first segment speaks for the plunge at the start and for the lift at the end.
-                chain.vertices[0].joint.no_overcut |= chain.no_overcut;
                 for vertex in &chain.vertices {
                     self.extent.add(vertex.at);
                 }
                 let (first, last) = chain.ends();
-                let segments = chain.vertices.windows(2).map(|pair| Segment {
-                    from: pair[0].at,
-                    to: pair[1].at,
-                    span: pair[1].span,
-                    joint: pair[0].joint,
-                    percent: pair[1].percent,
-                });
+                let segments = chain.segments();
                 if let Some(range) = self.list.append(segments) {
                     let piece = chain.piece.expect("every stroke was claimed");
                     self.pieces[piece].contours.push(Contour { range, closed: first == last });
@@ -510,8 +454,8 @@ impl Knife {
     }
 
     /// The end of the file: what was cut, and the box around it. (The box that a marker can give of itself would cost
-    /// another walk over all segments.)
-    pub(super) fn finish(mut self, last: Span, out: &mut Diagnostics) -> (Marker, Extent) {
+    /// another walk over all segments.) Its numbers are multiples of `unit` mm.
+    pub(super) fn finish(mut self, last: Span, unit: f64, out: &mut Diagnostics) -> (Marker, Extent) {
         match &self.state {
             State::Up => {}
             State::Slit { .. } => self.report_open_slit("the end of the file", last, out),
@@ -541,10 +485,13 @@ impl Knife {
             piece.notches.iter().flat_map(|notch| [notch.root, notch.tip]).for_each(|at| self.extent.add(at));
             piece.drills.iter().for_each(|drill| self.extent.add(drill.at));
         }
+        if self.current.is_none() {
+            owner::settle(&self.list, &mut self.pieces, unit);
+        }
         let mut closing = Vec::new();
         let pieces = with_something_to_cut(self.pieces, &mut closing);
         closing.append(&mut self.events);
-        (Marker { list: self.list, pieces, closing, ..Marker::default() }, self.extent)
+        (Marker { list: self.list, pieces, unit, closing, ..Marker::default() }, self.extent)
     }
 }
 

@@ -1,0 +1,22 @@
+//! Bounds on searches that a drawing made to be slow would keep busy for ever.
+
+/// Comparisons of boxes, and visits of vertices, that one search over one marker may cost: some hundred times what the
+/// largest real markers need, and about a second. What is left then stays unsearched.
+const MOST_WORK: usize = 400_000_000;
+
+/// How much more a search may do.
+#[derive(Debug, Clone)]
+pub struct Budget(usize);
+
+impl Budget {
+    /// What a search over one marker may do.
+    pub fn of_a_marker() -> Self {
+        Self(MOST_WORK)
+    }
+
+    /// Takes some, in comparisons of boxes; `false` when there is no more.
+    pub fn spend(&mut self, amount: usize) -> bool {
+        self.0 = self.0.saturating_sub(amount);
+        self.0 > 0
+    }
+}
