@@ -51,6 +51,10 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
     if let Some(time) = program.time_s {
         line("time", duration(time));
     }
+    if let Some(controller) = report.controller {
+        let time = duration(controller.time_s);
+        line("controller", format!("about {time} by its own planning, for {} arcs and lines", controller.moves));
+    }
     if let Some(spent) = &program.spent {
         line("spent", shares(&spent.parts(), spent.total()));
         let bounds: Vec<(String, f64)> = spent.bounds.iter().map(|&(bound, time)| (word(bound), time)).collect();

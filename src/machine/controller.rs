@@ -89,6 +89,13 @@ pub struct Gcode {
     pub advance: String,
 }
 
+impl Gcode {
+    /// The step of the last decimal, mm and degrees.
+    pub fn step(&self) -> f64 {
+        10_f64.powi(-(self.decimals as i32))
+    }
+}
+
 /// Name of a rotary axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum AxisName {

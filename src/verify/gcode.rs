@@ -19,10 +19,10 @@ const HEAD: &[u8] = b"G17 G21 G40 G80 G90";
 /// The longest line that is read, bytes.
 const LINE_MAX: u64 = 1024;
 /// Farthest that a straight step may leave an arc, mm.
-const SAGITTA: f64 = 5e-4;
+const SAGITTA: f64 = 5e-3;
 /// Longest step, mm, and greatest turn of C on one, degrees.
 const STEP_MM: f64 = 8.0;
-const STEP_DEG: f64 = 3.0;
+const STEP_DEG: f64 = 5.0;
 /// Most steps of a line of a program: more are no way of a machine.
 const STEPS_MAX: f64 = 1e5;
 /// A whole turn, degrees, and what is none.

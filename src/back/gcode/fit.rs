@@ -12,6 +12,8 @@ use crate::geom::{Point, Vector, angle, cross};
 const SHARE: f64 = 0.92;
 /// Part of the tolerance that a bend alone is rounded by.
 const ROUNDING_SHARE: f64 = 0.75;
+/// Part of a chord that a shoulder may take, so that the middle stands between two of them.
+const SHOULDER_SHARE: f64 = 0.45;
 /// Smaller turns need no shoulder of their own, rad.
 const TURN_EPSILON: f64 = 1e-9;
 /// Greatest turn of an arc, rad: controllers confuse the ways of longer ones.
@@ -173,13 +175,11 @@ fn nodes(tube: &Tube, ends: Ends) -> Vec<Node> {
             chord,
         };
         let (before, behind) = (shoulder(chord), shoulder(chord + 1));
-        let is_first = chord == 0;
-        let is_last = chord + 1 == last;
-        if before < 0.45 * length && !is_first {
+        if before < SHOULDER_SHARE * length {
             nodes.push(place(before, Vector::zeros()));
         }
         nodes.push(place(0.5 * length, tube.middle(chord)));
-        if behind < 0.45 * length && !is_last {
+        if behind < SHOULDER_SHARE * length {
             nodes.push(place(length - behind, Vector::zeros()));
         }
     }

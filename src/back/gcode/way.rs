@@ -1,54 +1,126 @@
 //! What the axes do while a run is cut: pieces of the centre's way, each an arc or a line with C linear along it.
 
-use super::fit::{Arc, Ends, fit};
+use super::fit::{Ends, fit};
 use super::tube::Tube;
-use crate::geom::{Heading, Point, Rotation, Vector, angle, polyline};
+use crate::geom::{Heading, Point, Rotation, Vector, angle, left, polyline};
 use crate::ir::toolpath::{Pose, Run, Shape};
 use crate::machine::Job;
+use crate::units::rad;
+
+/// Part of the permitted angle by which C may be off where it turns evenly; the rest is for decimals.
+const TURN_SHARE: f64 = 0.9;
+/// Greatest second derivative of the step by which the blade fades from chord to tangent, over its length squared.
+const FADE_BEND: f64 = 7.6;
+/// Shorter ways are none, mm.
+const LENGTH_EPSILON: f64 = 1e-3;
+/// An arc that bows by less is a line, mm.
+const BOW_MIN: f64 = 1e-5;
+/// Smaller leads are none, rad.
+const LEAD_EPSILON: f64 = 1e-6;
+/// Shortest piece that is written, in steps of the last decimal: rounding turns its direction by less than a fifth of a
+/// degree.
+const STEPS_MIN: f64 = 400.0;
 
 /// A piece of the centre's way.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Piece {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::back) struct Piece {
     /// Where it ends.
     pub(super) to: Pose,
     /// The centre of its arc and how far it turns, rad; `None` = straight.
     pub(super) arc: Option<(Point, f64)>,
-    /// Way of the centre, mm.
+    /// Way of the C axis, mm.
     pub(super) length: f64,
-    /// Greatest speed of the tip, mm/s.
-    pub(super) feed: f64,
+    /// Greatest speed of the C axis that lets the tip keep its own, mm/s; infinite when nothing caps it.
+    pub(super) speed: f64,
+}
+
+impl Piece {
+    /// The piece from a pose along which the tip goes a way that turns.
+    fn from(from: Pose, to: Pose, tip: Tip) -> Self {
+        let chord = to.centre - from.centre;
+        let (width, half) = (chord.norm(), 0.5 * tip.turn);
+        let is_arc = width > LENGTH_EPSILON && width * half.abs() / 4.0 > BOW_MIN;
+        let (arc, length) = if is_arc {
+            let centre = from.centre + chord * 0.5 + left(chord) * (0.5 / half.tan());
+            (Some((centre, tip.turn)), width * half / half.sin())
+        } else {
+            (None, width)
+        };
+        Self { to, arc, length, speed: tip.feed * length / tip.length }
+    }
+}
+
+/// A way of the tip.
+#[derive(Debug, Clone, Copy)]
+struct Tip {
+    /// How far it turns, rad.
+    turn: f64,
+    /// mm.
+    length: f64,
+    /// Its greatest speed, mm/s.
+    feed: f64,
 }
 
 /// The way of a run.
-#[derive(Debug)]
-pub(super) struct Way {
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::back) struct Way {
     /// Where the axes plunge.
     pub(super) start: Pose,
     pub(super) pieces: Vec<Piece>,
 }
 
-/// Part of the tolerance by which a straight piece may stand for a curved one.
-const CHORD_SHARE: f64 = 0.03;
-/// Part of the permitted angle that a straight piece of C may be off.
-const TURN_SHARE: f64 = 0.3;
-/// Greatest second derivative of the step by which the blade fades from chord to tangent, over its length squared.
-const FADE_BEND: f64 = 7.6;
-/// Shorter pieces vanish in the decimals, mm.
-const LENGTH_MIN: f64 = 1e-3;
-/// Smaller leads are none, rad.
-const LEAD_EPSILON: f64 = 1e-6;
+/// Joins what is too short to be told with what comes behind it, or at the end with what is before it.
+struct Pieces {
+    way: Way,
+    /// Where the last piece begins, and what the tip does on it.
+    last: Option<(Pose, Tip)>,
+    /// Where the next piece begins, and what the tip did since.
+    next: (Pose, Option<Tip>),
+    length_min: f64,
+}
+
+impl Pieces {
+    fn new(start: Pose, length_min: f64) -> Self {
+        Self { way: Way { start, pieces: Vec::new() }, last: None, next: (start, None), length_min }
+    }
+
+    fn push(&mut self, to: Pose, tip: Tip) {
+        let (from, before) = self.next;
+        let tip = before.map_or(tip, |before| before.and(tip));
+        if (to.centre - from.centre).norm() < self.length_min {
+            self.next.1 = Some(tip);
+        } else {
+            self.way.pieces.push(Piece::from(from, to, tip));
+            (self.last, self.next) = (Some((from, tip)), (to, None));
+        }
+    }
+
+    fn finish(mut self, to: Pose) -> Way {
+        if let (_, Some(tip)) = self.next {
+            let (from, tip) = self.last.map_or((self.next.0, tip), |(from, last)| (from, last.and(tip)));
+            self.way.pieces.pop();
+            self.way.pieces.push(Piece::from(from, to, tip));
+        }
+        self.way
+    }
+}
+
+impl Tip {
+    fn and(self, next: Self) -> Self {
+        Self { turn: self.turn + next.turn, length: self.length + next.length, feed: self.feed.min(next.feed) }
+    }
+}
 
 /// The way of a run; otherwise the point at which no arc stays in the tube.
 pub(super) fn way(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Point> {
-    let knife = &job.profile.knife;
+    let (knife, keys) = (&job.profile.knife, &job.profile.gcode);
     let (points, chords, tail) = tip_line(run, knife.width_mm);
     let ring = run.shape == Shape::Ring;
     let turn = if ring { seam_turn(run) } else { 0.0 };
     let seam = [turn, if run.front == 0.0 { turn } else { 0.0 }];
     let tube = Tube::new(points, tolerance, (seam, &job.profile));
-    let last = tube.chords() - 1;
     let start = if ring { at_seam(run) } else { tube.direction(0) };
-    let end = if ring && run.front == 0.0 { start } else { tube.direction(last) };
+    let end = if ring && run.front == 0.0 { start } else { tube.direction(tube.chords() - 1) };
     let arcs = fit(&tube, Ends { start, end })?;
     // Plunged as a chord, the blade lags behind its way and fades into it over its width.
     let length: f64 = arcs.iter().map(|arc| arc.length).sum();
@@ -58,56 +130,43 @@ pub(super) fn way(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Point> {
     let radius = knife.radius();
     let pose = |tip: Point, c: f64| Pose { centre: tip - Rotation(c).unit() * radius, c: Rotation(c) };
     let mut c = run.start.c.nearest(first).0;
-    let mut way = Way { start: pose(tube.points[0], c), pieces: Vec::with_capacity(arcs.len()) };
+    let mut at = pose(tube.points[0], c);
+    let mut pieces = Pieces::new(at, STEPS_MIN * keys.step());
+    let permitted = TURN_SHARE * rad(keys.heading_tolerance_deg);
     let mut tangent = c + lead;
     let (mut done, mut beside) = (0.0, 0);
     for arc in &arcs {
         let feed = chords[beside..=arc.chord].iter().map(|&chord| run.feeds[chord]).fold(f64::INFINITY, f64::min);
         beside = arc.chord;
-        tangent += angle::wrap(angle::turn(Rotation(tangent).unit(), arc.along));
-        let parts = parts(arc, (fade - done).max(0.0).min(arc.length), [lead, fade], job, tolerance);
+        tangent += angle::turn(Rotation(tangent).unit(), arc.along);
         let mut from = 0.0;
-        for part in parts {
-            let to = from + part;
+        let (count, part) = parts((fade - done).clamp(0.0, arc.length), [lead, fade], permitted);
+        for i in 1..=count + 1 {
+            let to = part * i as f64;
+            let to = if i > count || arc.length - to < LENGTH_EPSILON { arc.length } else { to };
+            if to - from < LENGTH_EPSILON && i > 1 {
+                continue;
+            }
             let lag = if fade > 0.0 { lead * left_of((done + to) / fade) } else { 0.0 };
-            let before = pose(arc.at(from), c);
             c = tangent + arc.curvature * to - lag;
-            let after = pose(arc.at(to), c);
-            let turn = arc.curvature * part;
-            let is_arc = done + from >= fade && arc.curvature != 0.0 && part > LENGTH_MIN;
-            let centre = arc.from + crate::geom::left(arc.along) / arc.curvature;
-            let chord = (after.centre - before.centre).norm();
-            way.pieces.push(Piece {
-                to: after,
-                arc: is_arc.then_some((centre, turn)),
-                length: if is_arc { turn.abs() * (before.centre - centre).norm() } else { chord },
-                feed,
-            });
+            at = pose(arc.at(to), c);
+            pieces.push(at, Tip { turn: arc.curvature * (to - from), length: to - from, feed });
             from = to;
         }
         tangent += arc.turn();
         done += arc.length;
     }
-    Ok(way)
+    Ok(pieces.finish(at))
 }
 
-/// The lengths into which an arc is cut: short ones while the blade fades, so that straight pieces serve.
-fn parts(arc: &Arc, fading: f64, [lead, fade]: [f64; 2], job: &Job, tolerance: f64) -> Vec<f64> {
-    if fading <= LENGTH_MIN {
-        return vec![arc.length];
+/// How many parts of what length the blade fades on, so that C may turn evenly along each.
+fn parts(fading: f64, [lead, fade]: [f64; 2], permitted: f64) -> (usize, f64) {
+    if fading < LENGTH_EPSILON {
+        return (0, 0.0);
     }
-    let permitted = TURN_SHARE * crate::units::rad(job.profile.gcode.heading_tolerance_deg);
-    let by_turn = fade * (8.0 * permitted / (FADE_BEND * lead.abs())).sqrt();
-    let by_bow =
-        if arc.curvature == 0.0 { f64::INFINITY } else { (8.0 * CHORD_SHARE * tolerance / arc.curvature.abs()).sqrt() };
-    let count = (fading / by_turn.min(by_bow)).ceil().max(1.0) as usize;
-    let mut parts = vec![fading / count as f64; count];
-    if arc.length - fading > LENGTH_MIN {
-        parts.push(arc.length - fading);
-    } else {
-        parts[count - 1] += arc.length - fading;
-    }
-    parts
+    let longest = fade * (8.0 * permitted / (FADE_BEND * lead.abs())).sqrt();
+    let count = (fading / longest).ceil().max(1.0);
+    (count as usize, fading / count)
 }
 
 /// What is left of the lead at a part of the fade: 1 less the step of degree 7.
@@ -116,7 +175,6 @@ fn left_of(x: f64) -> f64 {
     let x4 = x * x * x * x;
     1.0 - x4 * (35.0 - x * (84.0 - x * (70.0 - x * 20.0)))
 }
-
 /// Direction of a ring where it starts: that of the circle through its first point and both neighbours.
 fn at_seam(run: &Run) -> Vector {
     let n = run.points.len();
@@ -141,7 +199,7 @@ fn tip_line(run: &Run, width: f64) -> (Vec<Point>, Vec<usize>, Option<Point>) {
             let mut chords: Vec<usize> = (0..n - 1).collect();
             let mut left = run.front;
             let mut chord = 0;
-            while left > LENGTH_MIN {
+            while left > LENGTH_EPSILON {
                 let (a, b) = (run.points[chord], run.points[chord + 1]);
                 let length = (b - a).norm();
                 points.push(if left < length { a + (b - a) * (left / length) } else { b });
@@ -165,7 +223,7 @@ fn tip_line(run: &Run, width: f64) -> (Vec<Point>, Vec<usize>, Option<Point>) {
             let mut points = vec![tip];
             let mut chords = Vec::new();
             for (i, &point) in extended.iter().enumerate().skip(first + 1) {
-                if (point - points[points.len() - 1]).norm() > LENGTH_MIN {
+                if (point - points[points.len() - 1]).norm() > LENGTH_EPSILON {
                     points.push(point);
                     chords.push(chord_of(i - 1));
                 }
@@ -173,7 +231,7 @@ fn tip_line(run: &Run, width: f64) -> (Vec<Point>, Vec<usize>, Option<Point>) {
             if points.len() < 2 {
                 // The tip stands at its end already: a way too short to be told from none.
                 let along = polyline::direction(extended[last - 1], extended[last]).unwrap_or(Vector::new(1.0, 0.0));
-                points.push(tip + along * LENGTH_MIN);
+                points.push(tip + along * LENGTH_EPSILON);
                 chords.push(chord_of(last - 1));
             }
             (points, chords, Some(tail))
