@@ -108,6 +108,9 @@ pub(super) fn verdict(verdict: Option<&Verdict>) -> String {
     if reported > 0 {
         let _ = write!(out, "\n             {} without a limit only reported", counted(reported, "rule"));
     }
+    if !verdict.untimed.is_empty() {
+        let _ = write!(out, "\n             {} on times not judged: the program tells none", counted(verdict.untimed.len(), "rule"));
+    }
     out + "\n"
 }
 
@@ -279,10 +282,10 @@ mod tests {
             finding("verify/stray", 0.0, Some(0.0)),
             finding("verify/body", 0.3, None),
         ];
-        let line = verdict(Some(&Verdict { findings, unread: None }));
+        let line = verdict(Some(&Verdict { findings, unread: None, untimed: vec!["verify/feed"] }));
         assert_eq!(
             line,
-            "\n  verified   2 rules hold; tip at most 0.061 mm off the path (0.071 allowed)\n             1 rule without a limit only reported\n"
+            "\n  verified   2 rules hold; tip at most 0.061 mm off the path (0.071 allowed)\n             1 rule without a limit only reported\n             1 rule on times not judged: the program tells none\n"
         );
         assert!(verdict(None).contains("no: --no-verify"));
     }

@@ -124,7 +124,10 @@ pub(super) fn both(first: Verdict, second: Verdict) -> Verdict {
         }
     }
     verify::sort(&mut findings);
-    Verdict { findings, unread: first.unread.or(second.unread) }
+    let mut untimed = first.untimed;
+    untimed.extend(second.untimed);
+    untimed.retain(|rule| findings.iter().all(|finding| finding.rule != *rule));
+    Verdict { findings, unread: first.unread.or(second.unread), untimed }
 }
 
 /// A diagnostic for each rule that does not hold.

@@ -1,24 +1,26 @@
 //! Reads G-code as places along the way of the axes: no time, but at each place the exact direction of the tip.
 //!
-//! Knows the words of the target alone: G0 to G4 with full coordinates, the lines of the profile for knife, drill and
-//! operator, comments. Arcs are followed as a controller does: around the centre that I and J give, with C linear in
-//! their angle.
+//! Knows the words of the target alone: G0 to G4 with full coordinates, the lines of the profile for head, knife, drill,
+//! operator and end, comments. Arcs are followed as a controller does: around the centre that I and J give, with C linear
+//! in their angle. Where a line cannot be read nothing is said about the rest: all that follows from it would be wrong.
 
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
 use std::io::{BufRead, Read as _};
 
-use super::read::{Rounding, Row, decimal};
+use super::read::{QUOTED_CHARS, Rounding, Row, decimal};
 use super::worst::{Worst, at};
 use crate::geom::{Point, Vector};
 use crate::ir::Finding;
+use crate::ir::finding::Sighting;
 use crate::machine::MachineProfile;
+use crate::units::number::exact;
 
 /// How every such program begins, behind the number of its line.
 const HEAD: &[u8] = b"G17 G21 G40 G80 G90";
 /// The longest line that is read, bytes.
 const LINE_MAX: u64 = 1024;
-/// Farthest that a straight step may leave an arc, mm.
+/// Farthest that a straight step may leave an arc, mm: a tenth of the least tolerance of a path.
 const SAGITTA: f64 = 5e-3;
 /// Longest step, mm, and greatest turn of C on one, degrees.
 const STEP_MM: f64 = 8.0;
@@ -30,11 +32,15 @@ const TURN_DEG: f64 = 360.0;
 const TURN_EPSILON: f64 = 1e-6;
 /// Radii of both ends of an arc may differ by this many steps of the last decimal.
 const RADIUS_STEPS: f64 = 8.0;
+/// What is wrong with a line that does something when all is over.
+const BEHIND_END: &str = "comes behind the end of the program";
+/// Drills of a machine.
+const DRILLS: std::ops::RangeInclusive<u8> = 1..=4;
 
 /// Whether bytes are meant as such a program.
 pub(super) fn begins(bytes: &[u8]) -> bool {
     let line = bytes.split(|&byte| byte == b'\n').next().unwrap_or_default();
-    unnumbered(line) == HEAD
+    unnumbered(line.strip_suffix(b"\r").unwrap_or(line)) == HEAD
 }
 
 /// A line without the number that it may begin with.
@@ -44,25 +50,39 @@ fn unnumbered(line: &[u8]) -> &[u8] {
     rest[digits..].strip_prefix(b" ").unwrap_or(line)
 }
 
-/// What a line of the profile does.
+/// What lines of the profile do.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Meaning {
+    Head,
     Down,
     Up,
     Drill(u8),
     Event(u8),
-    Nothing,
+    End,
+}
+
+/// Lines of the profile that belong together.
+struct Text {
+    lines: Vec<String>,
+    meaning: Meaning,
 }
 
 /// The places of a program.
 pub(super) struct Places<'a> {
     input: &'a mut dyn BufRead,
     profile: &'a MachineProfile,
-    texts: Vec<(String, Meaning)>,
+    texts: Vec<Text>,
+    /// Lines that must come next: the rest of a text.
+    due: VecDeque<String>,
+    /// How many lines were read.
+    lines: u64,
     now: Row,
     queue: VecDeque<(Row, Vector)>,
     last_way: Vector,
-    worst: Worst,
+    /// Whether the lines at the end were read.
+    over: bool,
+    /// Why a line cannot be read, and where the axes stood.
+    bad: Option<(Sighting, String)>,
     ended: bool,
 }
 
@@ -70,85 +90,126 @@ impl<'a> Places<'a> {
     pub(super) fn new(input: &'a mut dyn BufRead, profile: &'a MachineProfile) -> Self {
         let [x, y, c_deg] = profile.home;
         let now = Row { tick: 0, t: 0.0, centre: Point::new(x, y), c_deg, knife: false, drill: 0, event: 0, block: 0 };
-        let worst = Worst::new("verify/format", "bad lines", Some(0.0));
-        let mut places = Self {
+        let texts = texts(profile);
+        Self {
             input,
             profile,
-            texts: texts(profile),
+            over: texts.iter().all(|text| text.meaning != Meaning::End),
+            due: texts[0].lines.iter().cloned().collect(),
+            texts,
+            lines: 0,
             now,
-            queue: VecDeque::new(),
+            queue: VecDeque::from([(now, Vector::zeros())]),
             last_way: Vector::zeros(),
-            worst,
+            bad: None,
             ended: false,
-        };
-        places.queue.push_back((now, Vector::zeros()));
-        places
+        }
     }
 
     /// By how much its numbers may differ from what was meant.
     pub(super) fn rounding(profile: &MachineProfile) -> Rounding {
-        Rounding { axes: [0.5 * step(profile); 3] }
+        Rounding { axes: [0.5 * profile.gcode.step(); 3] }
     }
 
     /// The next place, and the way of the tip there, of any length; none where it rests.
     pub(super) fn next(&mut self) -> Option<(Row, Vector)> {
         while self.queue.is_empty() && !self.ended {
-            let mut line = Vec::new();
-            let read = (&mut *self.input).take(LINE_MAX).read_until(b'\n', &mut line).unwrap_or(0);
-            if read == 0 {
+            if let Err(why) = self.read() {
                 self.ended = true;
-            } else if line.pop() != Some(b'\n') || self.line(unnumbered(&line)).is_none() {
-                self.ended = true;
-                let place = self.now.sighting();
-                self.worst.see(1.0, || place);
+                let line = self.lines;
+                self.bad = Some((self.now.sighting(), format!("line {line} {why}")));
             }
         }
         self.queue.pop_front()
     }
 
-    /// What was found about the format.
-    pub(super) fn finding(self) -> Finding {
-        self.worst.finding()
+    /// Whether a line could not be read, so that nothing can be said about what the program does.
+    pub(super) fn is_broken(&self) -> bool {
+        self.bad.is_some()
     }
 
-    /// Obeys a line; `None` when it is none that the target writes.
-    fn line(&mut self, line: &[u8]) -> Option<()> {
-        if let Some((_, meaning)) = self.texts.iter().find(|(text, _)| text.as_bytes() == line) {
-            self.obey(*meaning);
-            return Some(());
+    /// What was found about the format, and what to say of it where it is broken.
+    pub(super) fn findings(self) -> (Finding, Option<String>) {
+        let mut worst = Worst::new("verify/format", "bad lines", Some(0.0));
+        let (place, why) = self.bad.unzip();
+        if let Some(place) = place {
+            worst.see(1.0, || place);
         }
-        if line.starts_with(b"(") {
-            let mut words = line.split(|&byte| byte == b' ').skip_while(|word| *word != b"block").skip(1);
-            self.now.block = words.next().and_then(|word| std::str::from_utf8(word).ok()?.parse().ok()).unwrap_or(0);
-            return line.ends_with(b")").then_some(());
+        (worst.finding(), why)
+    }
+
+    /// Reads a line and obeys it; otherwise says what is wrong with it.
+    fn read(&mut self) -> Result<(), String> {
+        let mut line = Vec::new();
+        let read = (&mut *self.input).take(LINE_MAX).read_until(b'\n', &mut line).map_err(|_| "cannot be read")?;
+        self.lines += 1;
+        if read == 0 {
+            self.ended = true;
+            return match self.due.front() {
+                Some(due) => Err(format!("is missing: `{due}` belongs there")),
+                None if !self.over => Err("is missing: the program has no end".to_owned()),
+                None => Ok(()),
+            };
         }
-        let mut words = Words::default();
-        for word in line.split(|&byte| byte == b' ') {
-            let (&letter, number) = word.split_first()?;
-            *words.place(letter, self.profile)? = Some(decimal(number)?);
+        if line.pop() != Some(b'\n') {
+            let is_long = read as u64 == LINE_MAX;
+            return Err(if is_long { "is too long" } else { "has no end: the file is cut short" }.to_owned());
         }
-        match words.g? as u32 {
-            4 => words.p.map(|_| ()),
-            code @ 0..=3 => self.go(code, &words),
-            _ => None,
+        if line.last() == Some(&b'\r') {
+            line.pop();
+        }
+        self.line(unnumbered(&line))
+    }
+
+    /// Obeys a line.
+    fn line(&mut self, line: &[u8]) -> Result<(), String> {
+        if let Some(due) = self.due.pop_front() {
+            let is_due = due.as_bytes() == line;
+            return is_due.then_some(()).ok_or_else(|| format!("is {} where `{due}` belongs", quoted(line)));
+        }
+        if matches!(line, [b'G', b'0'..=b'3', b' ', b'X', ..]) {
+            return self.go(&Words::of(line, self.profile)?);
+        }
+        if let Some(text) = self.texts.iter().find(|text| text.lines[0].as_bytes() == line) {
+            self.due.extend(text.lines[1..].iter().cloned());
+            let meaning = text.meaning;
+            return self.obey(meaning);
+        }
+        if let Some(comment) = line.strip_prefix(b"(").and_then(|rest| rest.strip_suffix(b")")) {
+            let mut words = comment.split(|&byte| byte == b' ').skip_while(|word| *word != b"block").skip(1);
+            let number = words.next().and_then(super::read::whole);
+            self.now.block = number.unwrap_or(0);
+            return Ok(());
+        }
+        match &Words::of(line, self.profile)? {
+            Words { g: Some(4.0), p: Some(time), .. } if *time >= 0.0 => Ok(()),
+            Words { .. } => Err(format!("is {}, which is no line of the target gcode with this profile", quoted(line))),
         }
     }
 
-    fn obey(&mut self, meaning: Meaning) {
+    fn obey(&mut self, meaning: Meaning) -> Result<(), String> {
+        if self.over && meaning != Meaning::End {
+            return Err(BEHIND_END.to_owned());
+        }
         let was_down = self.now.knife;
         match meaning {
+            Meaning::Head => return Err("is the head of a program again".to_owned()),
+            Meaning::End => {
+                self.over = true;
+                return Ok(());
+            }
+            Meaning::Event(event) => {
+                self.push(Row { event, ..self.now }, Vector::zeros());
+                return Ok(());
+            }
             Meaning::Down => self.now.knife = true,
             Meaning::Up => self.now.knife = false,
             Meaning::Drill(tool) => self.now.drill = tool,
-            Meaning::Event(_) | Meaning::Nothing => {}
         }
-        if let Meaning::Event(event) = meaning {
-            self.push(Row { event, ..self.now }, Vector::zeros());
-        } else if meaning != Meaning::Nothing {
-            let way = if was_down { self.last_way } else { Vector::zeros() };
-            self.last_way = Vector::zeros();
-            self.push(self.now, way);
-        }
+        let way = if was_down { self.last_way } else { Vector::zeros() };
+        self.last_way = Vector::zeros();
+        self.push(self.now, way);
+        Ok(())
     }
 
     fn push(&mut self, row: Row, way: Vector) {
@@ -158,23 +219,32 @@ impl<'a> Places<'a> {
     }
 
     /// A move: all of its places.
-    fn go(&mut self, code: u32, words: &Words) -> Option<()> {
-        let from = self.now;
-        let to = Point::new(words.x?, words.y?);
-        let c_to = self.turned_to(words.c?);
-        if code != 0 && words.f? <= 0.0 {
-            return None;
+    fn go(&mut self, words: &Words) -> Result<(), String> {
+        if self.over {
+            return Err(BEHIND_END.to_owned());
         }
+        let from = self.now;
+        let needed = |word: Option<f64>, letter: char| word.ok_or_else(|| format!("has no {letter}"));
+        let code = needed(words.g, 'G')?;
+        let to = Point::new(needed(words.x, 'X')?, needed(words.y, 'Y')?);
+        let c_to = self.turned_to(needed(words.c, self.profile.gcode.axis.letter().into())?);
+        if code != 0.0 && needed(words.f, 'F')? <= 0.0 {
+            return Err("has an F that is no speed".to_owned());
+        }
+        // Of an axis that goes round the whole turns are not told: in the air it is where it would be without any.
+        let c_to = if self.profile.gcode.wrapped && !from.knife { self.near_rest(c_to) } else { c_to };
         let turned = c_to - from.c_deg;
-        let arc = match code {
-            2 | 3 => Some(self.arc(to, [words.i?, words.j?], if code == 3 { 1.0 } else { -1.0 })?),
-            _ => None,
+        let arc = if code > 1.0 {
+            let [i, j] = [needed(words.i, 'I')?, needed(words.j, 'J')?];
+            Some(self.arc(to, [i, j], if code == 3.0 { 1.0 } else { -1.0 })?)
+        } else {
+            None
         };
         let length = arc.map_or((to - from.centre).norm(), |arc| arc.sweep.abs() * arc.start.norm());
         let by_bow = arc.map_or(0.0, |arc| arc.sweep.abs() * (arc.start.norm() / (8.0 * SAGITTA)).sqrt());
         let steps = by_bow.max(length / STEP_MM).max(turned.abs() / STEP_DEG).ceil().max(1.0);
         if steps > STEPS_MAX {
-            return None;
+            return Err("is a way that no machine goes".to_owned());
         }
         let radius = self.profile.knife.radius();
         // In the air only the ends matter.
@@ -194,7 +264,7 @@ impl<'a> Places<'a> {
             self.push(Row { centre, c_deg, ..self.now }, way);
         }
         (self.now.centre, self.now.c_deg) = (to, c_to);
-        Some(())
+        Ok(())
     }
 
     /// The unwrapped geometric position that a word of the axis means.
@@ -211,23 +281,25 @@ impl<'a> Places<'a> {
         self.now.c_deg + sign * if back { -way } else { way }
     }
 
-    fn arc(&self, to: Point, [i, j]: [f64; 2], way: f64) -> Option<Arc> {
+    /// The position of C that differs by whole turns and is nearest to where it rests at the end.
+    fn near_rest(&self, c_deg: f64) -> f64 {
+        let [.., rest] = self.profile.park.unwrap_or(self.profile.home);
+        c_deg - ((c_deg - rest) / TURN_DEG).round() * TURN_DEG
+    }
+
+    fn arc(&self, to: Point, [i, j]: [f64; 2], way: f64) -> Result<Arc, String> {
         let start = Vector::new(-i, -j);
         let centre = self.now.centre - start;
         let end = to - centre;
-        if (start.norm() - end.norm()).abs() > RADIUS_STEPS * step(self.profile) || start.norm() == 0.0 {
-            return None;
+        let radii = [start.norm(), end.norm()];
+        if radii[0] == 0.0 || (radii[0] - radii[1]).abs() > RADIUS_STEPS * self.profile.gcode.step() {
+            return Err(format!("is an arc whose ends lie {} and {} mm from its centre", exact(radii[0]), exact(radii[1])));
         }
         let angle = |v: Vector| v.y.atan2(v.x);
         let turned = (way * (angle(end) - angle(start))).rem_euclid(TAU);
         let sweep = way * if turned == 0.0 { TAU } else { turned };
-        Some(Arc { centre, start, grown: end.norm() / start.norm(), sweep })
+        Ok(Arc { centre, start, grown: radii[1] / radii[0], sweep })
     }
-}
-
-/// The step of the last decimal, mm and degrees.
-fn step(profile: &MachineProfile) -> f64 {
-    10_f64.powi(-(profile.gcode.decimals as i32))
 }
 
 /// A way around a centre.
@@ -265,9 +337,23 @@ struct Words {
 }
 
 impl Words {
-    /// Where the number of a letter goes; `None` when there is one already, or none such.
+    fn of(line: &[u8], profile: &MachineProfile) -> Result<Self, String> {
+        let mut words = Self::default();
+        let foreign = |word| format!("has {}, which is no word of the target gcode with this profile", quoted(word));
+        for word in line.split(|&byte| byte == b' ') {
+            let (&letter, number) = word.split_first().ok_or_else(|| foreign(word))?;
+            let place = words.place(letter, profile).ok_or_else(|| foreign(word))?;
+            if place.is_some() {
+                return Err(format!("has two words {}", char::from(letter)));
+            }
+            *place = Some(decimal(number).ok_or_else(|| foreign(word))?);
+        }
+        Ok(words)
+    }
+
+    /// Where the number of a letter goes; `None` when there is none such.
     fn place(&mut self, letter: u8, profile: &MachineProfile) -> Option<&mut Option<f64>> {
-        let place = match letter {
+        Some(match letter {
             b'G' => &mut self.g,
             b'X' => &mut self.x,
             b'Y' => &mut self.y,
@@ -277,37 +363,39 @@ impl Words {
             b'P' => &mut self.p,
             letter if letter == profile.gcode.axis.letter() => &mut self.c,
             _ => return None,
-        };
-        place.is_none().then_some(place)
+        })
     }
 }
 
-/// The lines of a profile and what they do: of several behind each other the first acts.
-fn texts(profile: &MachineProfile) -> Vec<(String, Meaning)> {
+/// Part of a line as a message shows it.
+fn quoted(part: &[u8]) -> String {
+    let text: String = String::from_utf8_lossy(part).escape_debug().take(QUOTED_CHARS).collect();
+    if text.is_empty() { "blank".to_owned() } else { format!("`{text}`") }
+}
+
+/// The lines of a profile and what they do; the head first.
+fn texts(profile: &MachineProfile) -> Vec<Text> {
     let keys = &profile.gcode;
+    let blend = keys.blend_mm.map_or(String::new(), |blend| format!("G64 P{} Q0", exact(blend)));
+    let head = String::from_utf8_lossy(HEAD);
     let mut texts = Vec::new();
     let mut add = |text: &str, meaning: Meaning| {
-        let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
-        for (i, line) in lines.enumerate() {
-            texts.push((line.to_owned(), if i == 0 { meaning } else { Meaning::Nothing }));
+        let lines: Vec<String> =
+            text.lines().map(|line| line.trim().to_owned()).filter(|line| !line.is_empty()).collect();
+        if !lines.is_empty() {
+            texts.push(Text { lines, meaning });
         }
     };
+    add(&format!("{head}\n{blend}\n{}\n{}", keys.header, keys.feed_mode.code()), Meaning::Head);
     add(&keys.knife_down, Meaning::Down);
     add(&keys.knife_up, Meaning::Up);
-    for tool in 1..=4 {
+    for tool in DRILLS {
         add(&keys.drill_down.replace('#', &tool.to_string()), Meaning::Drill(tool));
         add(&keys.drill_up.replace('#', &tool.to_string()), Meaning::Drill(0));
     }
     add(&keys.stop, Meaning::Event(1));
     add(&keys.advance, Meaning::Event(2));
-    for text in [&keys.header, &keys.footer] {
-        add(text, Meaning::Nothing);
-    }
-    add(std::str::from_utf8(HEAD).unwrap_or_default(), Meaning::Nothing);
-    add(keys.feed_mode.code(), Meaning::Nothing);
-    if let Some(blend) = keys.blend_mm {
-        add(&format!("G64 P{blend}"), Meaning::Nothing);
-    }
+    add(&keys.footer, Meaning::End);
     texts
 }
 
@@ -334,11 +422,6 @@ pub(super) const RULES: &[&str] = &[
 
 /// A finding as a program without time has it.
 pub(super) fn timeless(finding: Finding) -> Finding {
-    Finding {
-        place: finding
-            .place
-            .map(|place| at(0.0, place.point, place.block))
-            .map(|p| crate::ir::finding::Sighting { time: None, ..p }),
-        ..finding
-    }
+    let timeless = |place: Sighting| Sighting { time: None, ..at(0.0, place.point, place.block) };
+    Finding { place: finding.place.map(timeless), ..finding }
 }

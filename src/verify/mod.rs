@@ -113,6 +113,8 @@ pub struct Verdict {
     /// What cannot be read, when something cannot: then nothing is said about what the program does, since all that
     /// follows from a row that is missing would be wrong.
     pub unread: Option<String>,
+    /// Rules that say nothing about this program, because it tells no times.
+    pub untimed: Vec<&'static str>,
 }
 
 impl Verdict {
@@ -181,11 +183,11 @@ pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdi
     let is_broken = rows.is_broken();
     let (format, unread) = rows.findings();
     if is_broken {
-        return Verdict { findings: vec![format], unread };
+        return Verdict { findings: vec![format], unread, untimed: Vec::new() };
     }
     findings.push(format);
     sort(&mut findings);
-    Verdict { findings, unread: None }
+    Verdict { findings, unread: None, untimed: Vec::new() }
 }
 
 /// Judges positions without time, as the target `gcode` writes them, against what the marker says must be cut.
@@ -196,11 +198,17 @@ pub fn positions(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdi
     let judge = Judge::new(&reference, &job.profile, rounding).with_exact_directions(&job.profile);
     let next = || places.next().map(|(row, way)| (row, Some(way)));
     let mut findings = simulate(next, (&reference, judge, rounding), job);
-    findings.push(places.finding());
-    findings.retain(|finding| gcode::RULES.contains(&finding.rule));
-    let mut findings: Vec<Finding> = findings.into_iter().map(gcode::timeless).collect();
+    let is_broken = places.is_broken();
+    let (format, unread) = places.findings();
+    if is_broken {
+        return Verdict { findings: vec![gcode::timeless(format)], unread, untimed: Vec::new() };
+    }
+    findings.push(format);
+    let untimed = |finding: &Finding| !gcode::RULES.contains(&finding.rule);
+    let (left, judged): (Vec<Finding>, Vec<Finding>) = findings.into_iter().partition(untimed);
+    let mut findings: Vec<Finding> = judged.into_iter().map(gcode::timeless).collect();
     sort(&mut findings);
-    Verdict { findings, unread: None }
+    Verdict { findings, unread: None, untimed: left.iter().map(|finding| finding.rule).collect() }
 }
 
 /// Follows the rows of a program, each with the way of its tip where that is known exactly.

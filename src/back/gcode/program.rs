@@ -12,6 +12,8 @@ use crate::units::{S_PER_MIN, rad};
 
 /// Decimals of F and of dwells.
 const FEED_DECIMALS: u32 = 3;
+/// Part of the permitted angle by which a straight line may be off the arc that it stands for.
+const LINE_SHARE: f64 = 0.45;
 /// A whole turn, degrees.
 const TURN_DEG: f64 = 360.0;
 
@@ -41,7 +43,8 @@ impl<'a> Program<'a> {
         let keys = &self.job.profile.gcode;
         self.say("G17 G21 G40 G80 G90");
         if let Some(blend) = keys.blend_mm {
-            self.say(&format!("G64 P{}", exact(blend)));
+            // Q0: arcs stay arcs; flat ones would become pairs of lines that kink.
+            self.say(&format!("G64 P{} Q0", exact(blend)));
         }
         self.say(&keys.header);
         self.say(keys.feed_mode.code());
@@ -189,7 +192,7 @@ impl<'a> Program<'a> {
         let keys = &self.job.profile.gcode;
         piece.arc.map_or(1, |(_, turn)| {
             // A chord of turn t is off its arc by t / 2 in direction at its ends, and by l t / 8 in the middle.
-            let by_heading = turn.abs() / (2.0 * rad(keys.heading_tolerance_deg));
+            let by_heading = turn.abs() / (2.0 * LINE_SHARE * rad(keys.heading_tolerance_deg));
             let by_bow = (piece.length * turn.abs() / (8.0 * keys.chord_mm)).sqrt();
             // Rounding by d turns a chord of length l by d / l: shorter than sqrt(2 d l / t) it turns more than the arc.
             let by_decimals = (piece.length * turn.abs() / (2.0 * keys.step())).sqrt();

@@ -7,8 +7,10 @@ use crate::ir::toolpath::{Pose, Run, Shape};
 use crate::machine::Job;
 use crate::units::rad;
 
-/// Part of the permitted angle by which C may be off where it turns evenly; the rest is for decimals.
+/// Part of the permitted angle by which C may be off where it turns evenly along arcs; the rest is for decimals.
 const TURN_SHARE: f64 = 0.9;
+/// The same where lines stand for arcs, which are off by as much again.
+const LINE_SHARE: f64 = 0.45;
 /// Greatest second derivative of the step by which the blade fades from chord to tangent, over its length squared.
 const FADE_BEND: f64 = 7.6;
 /// Shorter ways are none, mm.
@@ -132,7 +134,7 @@ pub(super) fn way(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Point> {
     let mut c = run.start.c.nearest(first).0;
     let mut at = pose(tube.points[0], c);
     let mut pieces = Pieces::new(at, STEPS_MIN * keys.step());
-    let permitted = TURN_SHARE * rad(keys.heading_tolerance_deg);
+    let permitted = if keys.arcs { TURN_SHARE } else { LINE_SHARE } * rad(keys.heading_tolerance_deg);
     let mut tangent = c + lead;
     let (mut done, mut beside) = (0.0, 0);
     for arc in &arcs {
