@@ -21,7 +21,7 @@ fn keys(value: &Value) -> Vec<&str> {
 }
 
 /// The keys of the figures as JSON, sorted.
-const FIGURES: [&str; 19] = [
+const FIGURES: [&str; 20] = [
     "axes",
     "closed_contours",
     "contours",
@@ -35,6 +35,7 @@ const FIGURES: [&str; 19] = [
     "notches",
     "pieces",
     "runs",
+    "sides",
     "spent",
     "stabs",
     "time_s",

@@ -101,6 +101,36 @@ fn a_smooth_ring_has_no_heel_and_goes_past_its_start() {
     assert!((runs[0].end.c.0 - runs[0].start.c.0 - std::f64::consts::TAU).abs() < 0.1);
 }
 
+/// Compiles a fixture to setpoints; gives what was said about it, by code.
+fn compile(name: &str, job: &Job) -> Vec<&'static str> {
+    let path = format!("{}/fixtures/{name}", env!("CARGO_MANIFEST_DIR"));
+    let source = Source::new(name, std::fs::read(path).expect("a fixture")).expect("small");
+    let target = TARGETS.iter().find(|target| target.name == "csv").expect("setpoints are a target");
+    let mut diagnostics = Diagnostics::default();
+    let order = pipeline::Order { from: None, target, verify: true };
+    let mut out = Cursor::new(Vec::new());
+    let compiled = pipeline::compile(&source, job, order, &mut out, &mut diagnostics).expect("memory takes everything");
+    assert!(compiled.is_some(), "{}", render(&diagnostics, &source));
+    diagnostics.iter().map(|diagnostic| diagnostic.code.name).collect()
+}
+
+#[test]
+fn darts_hems_castles_and_parts_in_cut_outs_are_cut_by_every_blade_and_what_harms_is_warned_of() {
+    for (width, back) in [(6.6, 6.35), (6.6, 2.2), (8.89, 6.35)] {
+        let mut job = Job::default();
+        (job.profile.knife.width_mm, job.profile.knife.back_mm) = (width, Some(back));
+        let said = compile("knife/hard-cases.cut", &job);
+        assert!(!said.is_empty() && said.iter().all(|&code| code == "path/overcut"), "{width} {back}: {said:?}");
+    }
+}
+
+#[test]
+fn a_run_that_winds_past_the_range_of_c_is_cut_in_parts() {
+    let mut job = Job::default();
+    job.profile.c.range_deg = Some([-200.0, 200.0]);
+    assert_eq!(compile("iso/seed-circle.cut", &job), ["iso/no-end"]);
+}
+
 #[test]
 fn a_line_that_ends_in_a_circle_is_cut_and_proven() {
     for radius in [10.0, 15.0, 20.0, 30.0] {

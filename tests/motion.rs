@@ -40,13 +40,14 @@ fn run(points: Vec<Point>, job: &Job) -> Run {
         front: 0.0,
         heel: 0.0,
         ends: [End::default(); 2],
+        turned: false,
         start: Pose::default(),
         end: Pose::default(),
     }
 }
 
 fn solve(run: Run, tolerance: f64, job: &Job) -> Cut {
-    let toolpath = Toolpath { piece: 1, tolerance, entry: Pose::default(), steps: vec![Step::Run(run)] };
+    let toolpath = Toolpath { piece: 1, part: 0, tolerance, entry: Pose::default(), steps: vec![Step::Run(run)] };
     plan::solve(&toolpath, job).expect("a motion").remove(0)
 }
 

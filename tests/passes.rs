@@ -10,7 +10,7 @@ use cutc::ir::marker::{Contour, Marker, Piece};
 use cutc::ir::{check, text};
 use cutc::machine::Job;
 use cutc::pass::marker::{MARKER_PASSES, MarkerPass};
-use cutc::pass::toolpath::TOOLPATH_PASSES;
+use cutc::pass::toolpath::{Scene, TOOLPATH_PASSES};
 use cutc::source::Span;
 use cutc::units::number::fixed;
 
@@ -41,8 +41,12 @@ fn passed(name: &str, input: &str) -> String {
     } else {
         let pass = TOOLPATH_PASSES.iter().find(|pass| pass.name == name);
         let pass = pass.unwrap_or_else(|| panic!("fixtures/pass/{name} belongs to no pass"));
+        // A marker before the toolpath is the cloth around it.
+        let (cloth, input) = input.find("\ntoolpath").map_or(("", input), |at| input.split_at(at));
+        let cloth = if cloth.contains("\nmarker") { text::read_marker(cloth) } else { Ok(Marker::default()) };
+        let cloth = cloth.unwrap_or_else(|error| panic!("{error}"));
         let mut toolpath = text::read_toolpath(input).unwrap_or_else(|error| panic!("{error}"));
-        (pass.run)(&mut toolpath, &job, &mut found);
+        (pass.run)(&mut toolpath, &Scene::new(&cloth, &job), &mut found);
         (text::print_toolpath(&toolpath), check::toolpath(&toolpath))
     };
     for diagnostic in &found {

@@ -5,6 +5,10 @@
 //! very end. Every run has every key; what a kind does not have is 0, as block 0 is none. Lengths and poses have the
 //! decimals of `csv`.
 //!
+//! `front_side` and `heel_side` say where the overlaps go: into the "waste", into the "part" itself, or into a "gap" that is
+//! narrower than they should be long; `turned` whether a cut goes the other way round than the file has it, `overcut_mm`
+//! how far the blade of a stab cuts into parts because nothing else holds what it is longer by.
+//!
 //! Two clocks are given. `duration_s` is what the axes need from rest to rest, not rounded; `dwell_s` how long they rest
 //! for plunge and lift, or a drill; all of both add up to the program's `time_s`. A controller has whole periods only, so
 //! each motion and each rest is stretched to the next one, and at least one: `ticks` says how many a run really takes, and
@@ -16,7 +20,7 @@ use std::io;
 
 use super::{Context, Emit, Output, Parts, Proof, Target};
 use crate::ir::motion::{Kind, Phase, Task};
-use crate::ir::toolpath::Pose;
+use crate::ir::toolpath::{Pose, Side};
 use crate::ir::{Finding, Motion};
 use crate::units::deg;
 use crate::units::number::{exact, fixed};
@@ -120,11 +124,12 @@ fn object(run: &Run, index: u64, piece: u32) -> String {
         let [x, y, c] = [pose.centre.x, pose.centre.y, deg(pose.c.0)].map(mm);
         format!("{{\"x_mm\": {x}, \"y_mm\": {y}, \"c_deg\": {c}}}")
     };
-    let Task { blocks: [first, last], front, heel } = run.task;
+    let Task { blocks: [first, last], front, heel, sides: [start, end], turned, harm } = run.task;
     format!(
         "{{\"index\": {index}, \"kind\": \"{}\", \"piece\": {piece}, \"block_first\": {first}, \"block_last\": {last}, \
          \"length_mm\": {}, \"duration_s\": {}, \"dwell_s\": {}, \"ticks\": {}, \"start\": {}, \"end\": {}, \
-         \"front_overlap_mm\": {}, \"heel_overlap_mm\": {}}}",
+         \"front_overlap_mm\": {}, \"heel_overlap_mm\": {}, \"front_side\": \"{}\", \"heel_side\": \"{}\", \
+         \"turned\": {turned}, \"overcut_mm\": {}}}",
         run.kind,
         mm(run.length),
         exact(run.duration),
@@ -134,7 +139,19 @@ fn object(run: &Run, index: u64, piece: u32) -> String {
         pose(run.end),
         mm(front),
         mm(heel),
+        side(end),
+        side(start),
+        mm(harm),
     )
+}
+
+/// Where an overlap goes, in a word.
+fn side(side: Side) -> &'static str {
+    match side {
+        Side::Waste => "waste",
+        Side::Part => "part",
+        Side::Gap => "gap",
+    }
 }
 
 /// The end of the runs and the object that sums them up.

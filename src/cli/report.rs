@@ -63,7 +63,7 @@ mod tests {
     use super::*;
     use crate::diagnostic::{Diagnostic, code};
 
-    const KEYS: [&str; 19] = [
+    const KEYS: [&str; 20] = [
         "dialect",
         "unit_mm",
         "extent_mm",
@@ -83,6 +83,7 @@ mod tests {
         "axes",
         "warnings",
         "errors",
+        "sides",
     ];
 
     #[test]

@@ -6,7 +6,7 @@ use super::options::{counted, typed};
 use crate::diagnostic::{Diagnostics, Severity};
 use crate::machine::plot::Lines;
 use crate::machine::{Job, Mode};
-use crate::pipeline::{Axes, Peak, Peaks, Report, Verdict, word};
+use crate::pipeline::{Axes, Peak, Peaks, Report, Sides, Verdict, word};
 use crate::units::S_PER_MIN;
 use crate::units::number::{exact, fixed};
 
@@ -45,6 +45,9 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
     if let (Some(runs), Some(stabs)) = (program.runs, program.stabs) {
         line("runs", format!("{runs}, of which {}", counted(stabs, "stab")));
     }
+    if let Some(sides) = program.sides {
+        line("overlaps", overlaps(&sides));
+    }
     if let Some(lifts) = program.lifts {
         line("lifts", lifts.to_string());
     }
@@ -69,6 +72,22 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
     line("warnings", diagnostics.count(Severity::Warning).to_string());
     if let Some(axes) = &program.axes {
         peaks(&mut out, axes);
+    }
+    out
+}
+
+/// What was done so that no overlap harms a part.
+fn overlaps(sides: &Sides) -> String {
+    let Sides { inside, shortened, turned, harmful, overcut_mm } = *sides;
+    let mut out = format!("{} inside parts, {shortened} shortened", counted(inside, "end"));
+    let _ = write!(out, "; {} turned round", counted(turned, "cut"));
+    if harmful > 0 {
+        let _ = write!(
+            out,
+            "\n             {} cut into a part, at most {} mm",
+            counted(harmful, "stab"),
+            fixed(overcut_mm, 2)
+        );
     }
     out
 }
@@ -179,7 +198,7 @@ mod tests {
     use super::*;
     use crate::ir::motion::Bound;
     use crate::ir::{Finding, Marker};
-    use crate::pipeline::{Notches, Program, Spent};
+    use crate::pipeline::{Notches, Program, Sides, Spent};
 
     fn report() -> Report {
         let peak = |worst, limit| Peak { worst, limit };
@@ -199,6 +218,7 @@ mod tests {
                 travel_m: Some(8.2),
                 runs: Some(101),
                 stabs: Some(1),
+                sides: Some(Sides { inside: 8, shortened: 3, turned: 1, harmful: 1, overcut_mm: 1.55 }),
                 lifts: Some(101),
                 time_s: Some(119.96),
                 bulge_mm: Some(0.138_2),
@@ -241,6 +261,8 @@ mod tests {
           cut        20.123 m
           travel     8.200 m
           runs       101, of which 1 stab
+          overlaps   8 ends inside parts, 3 shortened; 1 cut turned round
+                     1 stab cut into a part, at most 1.55 mm
           lifts      101
           time       2 min 0.0 s
           spent      cut 50 %, travel 17 %, turn 13 %, plunge 12 %, lift 9 %

@@ -164,8 +164,12 @@ mod table {
     // The knife's way.
     /// A smooth closed contour too small for the blade.
     pub static PATH_TIGHT: Code = warning("path/tight-contour", "A smooth closed contour is narrower than the blade; it is cut all the same.");
+    /// Overlaps that the gap between parts does not hold.
+    pub static PATH_SHORTENED: Code = warning("path/overlap-shortened", "The gap beside a part is narrower than the overlaps; they are shortened so that they stay out of the next part.");
+    /// A blade longer than its cut, with nowhere to go.
+    pub static PATH_OVERCUT: Code = warning("path/overcut", "The blade is longer than a short cut and there is no waste at its ends: it cuts past them, where that harms least.");
     /// A run that winds C past its range.
-    pub static PATH_C_RANGE: Code = error("path/c-range", "A run winds the C axis past `c.range_deg` however it is entered.");
+    pub static PATH_C_RANGE: Code = error("path/c-range", "A run winds the C axis past `c.range_deg` however it is entered and wherever it is parted.");
     /// Off the table.
     pub static PATH_OFF_TABLE: Code = warning("path/off-table", "The knife, its swing included, leaves the table of the profile.");
     /// Off the table, and the profile is strict.
@@ -259,6 +263,8 @@ pub static ALL: &[&Code] = &[
     &SELECT_UNKNOWN_PIECE,
     &SELECT_NOTHING_LEFT,
     &PATH_TIGHT,
+    &PATH_SHORTENED,
+    &PATH_OVERCUT,
     &PATH_C_RANGE,
     &PATH_OFF_TABLE,
     &PATH_OFF_TABLE_STRICT,

@@ -8,6 +8,7 @@ pub mod budget;
 pub mod monotone;
 pub mod near;
 pub mod polyline;
+pub mod region;
 pub mod ring;
 pub mod spline;
 

@@ -69,6 +69,9 @@ pub fn toolpath(toolpath: &Toolpath) -> Faults {
                 if stab.points.len() < 2 || stab.spans.len() + 1 != stab.points.len() {
                     faults.push(wrong("a stab needs a span a chord"));
                 }
+                if !(stab.front >= 0.0 && stab.heel >= 0.0 && stab.harm >= 0.0) {
+                    faults.push(wrong("an overlap is negative"));
+                }
                 if (stab.along.norm() - 1.0).abs() > UNIT_EPSILON || !pose_finite(stab.pose) {
                     faults.push(wrong("a stab needs a unit direction and a finite pose"));
                 }

@@ -3,7 +3,7 @@
 //! A motion holds the phases of one toolpath. A phase lasts a whole number of periods and says what the outputs are
 //! from its first tick until the next phase begins; the pose at tick `i` is that at time `i * period`.
 
-use super::toolpath::{Event, Pose};
+use super::toolpath::{Event, Pose, Side};
 
 /// The phases of one toolpath, in order.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -31,6 +31,12 @@ pub struct Task {
     pub front: f64,
     /// How far the tail starts before the start, mm; 0 for a drill.
     pub heel: f64,
+    /// Where the overlaps of start and end go.
+    pub sides: [Side; 2],
+    /// Whether it is cut the other way round than the file has it.
+    pub turned: bool,
+    /// How far the blade of a stab cuts into parts beyond the ends, mm.
+    pub harm: f64,
 }
 
 /// A stretch of time in which the outputs do not change.

@@ -39,6 +39,8 @@ impl Default for Pose {
 pub struct Toolpath {
     /// The number of the piece that it belongs to.
     pub piece: u32,
+    /// The place of that piece in the marker, from 0: numbers may come again.
+    pub part: u32,
     /// Permitted deviation of the tip, mm.
     pub tolerance: f64,
     /// Where the axes stand before the first step, as far as it is known before planning.
@@ -107,6 +109,8 @@ pub struct Run {
     pub feeds: Vec<f64>,
     /// What its two ends are.
     pub ends: [End; 2],
+    /// Whether it is cut the other way round than the file has it.
+    pub turned: bool,
     /// Where the axes stand at the plunge, as the polyline has it; smoothing moves it a little.
     pub start: Pose,
     /// Where they stand at the lift.
@@ -156,6 +160,20 @@ pub struct End {
     pub corner: bool,
     /// The file forbids the overlap here (M17, M18, M19, a slit).
     pub bare: bool,
+    /// Where its overlap goes.
+    pub side: Side,
+}
+
+/// Where an overlap goes that leads straight on beyond an end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Side {
+    /// Into the waste, as far as the profile wants it.
+    #[default]
+    Waste,
+    /// Into the part itself: only as far as the profile wants it there.
+    Part,
+    /// Into a gap that is narrower than the overlap: it is shortened.
+    Gap,
 }
 
 /// One plunge without motion: the blade is as long as what it has to cut, or longer.
@@ -173,6 +191,10 @@ pub struct Stab {
     pub heel: f64,
     /// What the two ends of the cut are.
     pub ends: [End; 2],
+    /// Whether it is cut the other way round than the file has it.
+    pub turned: bool,
+    /// How far the blade cuts into parts beyond the ends, both together, mm: it is longer than the cut, and there is no room.
+    pub harm: f64,
     /// Where the axes stand at the plunge; `place` turns C.
     pub pose: Pose,
 }

@@ -9,6 +9,7 @@ mod digest;
 mod encoding;
 pub mod keys;
 pub mod kinematics;
+pub mod knife;
 mod load;
 pub mod plot;
 pub mod profile;
@@ -19,8 +20,9 @@ mod word;
 
 pub use digest::sha256_hex;
 pub use kinematics::Limits;
+pub use knife::{Follow, Knife};
 pub use load::{Faults, load};
-pub use profile::{FileUnit, Fit, Follow, Knife, MachineProfile};
+pub use profile::{FileUnit, Fit, MachineProfile};
 pub use selection::{Mode, NotNumbers, Numbers, Selection};
 pub use show::Comments;
 

@@ -2,7 +2,8 @@
 
 use super::encoding;
 use super::keys::{KEYS, Key, Takes, shown_value};
-use super::profile::{Follow, MachineProfile};
+use super::knife::Follow;
+use super::profile::MachineProfile;
 use crate::diagnostic::{Code, code};
 
 /// Something that a profile may not say.
@@ -102,7 +103,6 @@ fn unsupported(profile: &MachineProfile) -> Vec<Fault> {
     let list = [
         (knife.follow == Follow::Chord, "knife.follow", "\"tangent\"", "lays the blade along the tangent only"),
         (knife.edges == 2, "knife.edges", "1", "plans blades with one edge only"),
-        (knife.yaw_deg != 0.0, "knife.yaw_deg", "0", "applies no yaw correction"),
     ];
     let fault = |(_, key, value, reason): (bool, &str, &str, &str)| Fault {
         code: &code::PROFILE_UNSUPPORTED,

@@ -6,7 +6,9 @@ mod report;
 mod spent;
 
 pub use judge::{about, figures, foreign, judge_program};
-pub use report::{Axes, Controller, Drawn, Lines, Notches, Peak, Peaks, Program, Report, significant};
+pub use report::{
+    Axes, Controller, Drawn, Lines, Notches, Peak, Peaks, Program, Report, Sides, significant,
+};
 pub use spent::{Spent, word};
 
 pub use crate::verify::{RULES, Verdict};
@@ -24,7 +26,7 @@ use crate::front::{self, Dialect};
 use crate::ir::{Finding, Marker, Toolpath, check, text};
 use crate::machine::{Job, Mode};
 use crate::pass::marker::MARKER_PASSES;
-use crate::pass::toolpath::{TOOLPATH_PASSES, frame, trace};
+use crate::pass::toolpath::{Scene, TOOLPATH_PASSES, frame, trace};
 use crate::plan;
 use crate::source::Source;
 use crate::verify::Census;
@@ -274,11 +276,12 @@ pub fn dump(
     }
     let last = TOOLPATH_PASSES.iter().position(|p| p.name == pass)?;
     let mut text = String::new();
+    let scene = Scene::new(&input.marker, job);
     let mut pose = plan::home(job);
     for mut toolpath in trace(&input.marker, job) {
         toolpath.entry = pose;
         for toolpath_pass in &TOOLPATH_PASSES[..=last] {
-            (toolpath_pass.run)(&mut toolpath, job, diagnostics);
+            (toolpath_pass.run)(&mut toolpath, &scene, diagnostics);
         }
         pose = toolpath.exit();
         text.push_str(&text::print_toolpath(&toolpath));
@@ -297,10 +300,11 @@ fn toolpaths(marker: &Marker, job: &Job, diagnostics: &mut Diagnostics) -> Vec<T
             return vec![frame];
         }
     }
+    let scene = Scene::new(marker, job);
     let pass = |mut toolpath: Toolpath| {
         toolpath.entry = pose;
         for pass in TOOLPATH_PASSES {
-            (pass.run)(&mut toolpath, job, diagnostics);
+            (pass.run)(&mut toolpath, &scene, diagnostics);
             assert_sound(pass.name, || check::toolpath(&toolpath));
         }
         pose = toolpath.exit();

@@ -5,10 +5,11 @@ use std::io::{self, BufWriter, Write};
 use rayon::prelude::*;
 
 use super::spent::Clock;
-use super::{Axes, Medium, Program};
+use super::{Axes, Medium, Program, Sides};
 use crate::back::{Context, Parts};
 use crate::diagnostic::Diagnostics;
-use crate::ir::motion::Kind;
+use crate::ir::motion::{Kind, Task};
+use crate::ir::toolpath::Side;
 use crate::ir::{Motion, Toolpath};
 use crate::machine::Job;
 use crate::plan::{self, Cut, Planner};
@@ -77,9 +78,21 @@ struct Tally {
     lifts: usize,
     ticks: u64,
     bulge: f64,
+    sides: Sides,
     /// Where the time goes, in all and piece by piece.
     clock: Clock,
     by_piece: Vec<(u32, Clock)>,
+}
+
+impl Sides {
+    fn add(&mut self, task: &Task) {
+        let ends = |side: Side| task.sides.iter().filter(|&&other| other == side).count();
+        self.inside += ends(Side::Part);
+        self.shortened += ends(Side::Gap);
+        self.turned += usize::from(task.turned);
+        self.harmful += usize::from(task.harm > 0.0);
+        self.overcut_mm = self.overcut_mm.max(task.harm);
+    }
 }
 
 impl Tally {
@@ -105,6 +118,7 @@ impl Tally {
         self.ticks += motion.ticks();
         self.clock.add(motion);
         self.clock_of(motion.piece).add(motion);
+        motion.tasks.iter().for_each(|task| self.sides.add(task));
         let mut before = None;
         for phase in &motion.phases {
             match phase.kind {
@@ -129,6 +143,7 @@ impl Tally {
             lifts: Some(self.lifts),
             // The last setpoint stands at the last tick, and rows count from tick 0.
             time_s: Some((self.ticks - 1) as f64 * period),
+            sides: Some(self.sides),
             spent: Some(self.clock.spent(period)),
             by_piece: self.by_piece.iter().map(|(piece, clock)| (*piece, clock.spent(period))).collect(),
             bulge_mm: Some(self.bulge),

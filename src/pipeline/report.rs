@@ -134,6 +134,8 @@ pub struct Program {
     /// Duration of the program, s.
     #[serde(serialize_with = "micro_known")]
     pub time_s: Option<f64>,
+    /// Where the blade goes beyond the ends of its cuts.
+    pub sides: Option<Sides>,
     /// Where that time goes.
     pub spent: Option<Spent>,
     /// The same for each piece by its number, in cut order.
@@ -144,6 +146,22 @@ pub struct Program {
     pub bulge_mm: Option<f64>,
     /// The greatest speed, acceleration and jerk of each axis beside its limit.
     pub axes: Option<Axes>,
+}
+
+/// What was done so that the blade cuts beyond the ends of its cuts where it harms nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Sides {
+    /// Ends behind which the part itself lies.
+    pub inside: usize,
+    /// Overlaps that a gap shortens.
+    pub shortened: usize,
+    /// Cuts that go the other way round than the file has them.
+    pub turned: usize,
+    /// Stabs that cut into a part.
+    pub harmful: usize,
+    /// The farthest that one of them does, mm.
+    #[serde(serialize_with = "micro")]
+    pub overcut_mm: f64,
 }
 
 /// Peaks of the three axes; mm for x and y, degrees for c.

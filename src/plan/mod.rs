@@ -26,8 +26,9 @@ use self::air::Air;
 use self::certify::{Allowed, Differences, EXCESS_EPSILON, Regime};
 use self::run::whole_periods;
 use crate::diagnostic::{Diagnostic, code};
+use crate::geom::Rotation;
 use crate::ir::motion::{Kind, Motion, Phase, Task};
-use crate::ir::toolpath::{Pose, Step, Toolpath};
+use crate::ir::toolpath::{Pose, Stab, Step, Toolpath};
 use crate::machine::Job;
 use crate::source::Span;
 use crate::units::number::fixed;
@@ -87,16 +88,21 @@ impl<'a> Planner<'a> {
                     }
                 }
                 Step::Run(run) => {
-                    motion.tasks.push(Task { blocks: ends(&run.spans), front: run.front, heel: run.heel });
-                    let cut = cuts.next().expect("solve gives a cut for each run");
+                    let sides = run.ends.map(|end| end.side);
+                    let (front, heel, turned) = (run.front, run.heel, run.turned);
+                    motion.tasks.push(Task { blocks: ends(&run.spans), front, heel, sides, turned, harm: 0.0 });
+                    let mut cut = cuts.next().expect("solve gives a cut for each run");
+                    cut.poses.iter_mut().for_each(|pose| *pose = yawed(*pose, self.job));
                     self.go(kind, cut.poses[0], &mut motion);
                     self.plunge(cut.blocks[0], &mut motion);
                     self.cut(cut, &mut motion);
                     self.lift(&mut motion);
                 }
                 Step::Stab(stab) => {
-                    motion.tasks.push(Task { blocks: ends(&stab.spans), front: stab.front, heel: stab.heel });
-                    self.go(kind, stab.pose, &mut motion);
+                    let sides = stab.ends.map(|end| end.side);
+                    let Stab { front, heel, turned, harm, .. } = *stab;
+                    motion.tasks.push(Task { blocks: ends(&stab.spans), front, heel, sides, turned, harm });
+                    self.go(kind, yawed(stab.pose, self.job), &mut motion);
                     let block = stab.spans.last().map_or(0, |span| span.block);
                     self.plunge(block, &mut motion);
                     self.lift(&mut motion);
@@ -231,6 +237,11 @@ impl<'a> Planner<'a> {
 /// The first and the last block of a chain.
 fn ends(spans: &[Span]) -> [u32; 2] {
     [spans.first(), spans.last()].map(|span| span.map_or(0, |span| span.block))
+}
+
+/// The pose of the axes that puts the blade into a pose: C is corrected by the yaw.
+fn yawed(pose: Pose, job: &Job) -> Pose {
+    Pose { c: Rotation(pose.c.0 + job.profile.knife.yaw()), ..pose }
 }
 
 /// The pose at which programs start.

@@ -246,7 +246,7 @@ impl<'a> Places<'a> {
         if steps > STEPS_MAX {
             return Err("is a way that no machine goes".to_owned());
         }
-        let radius = self.profile.knife.radius();
+        let (radius, yaw) = (self.profile.knife.radius(), self.profile.knife.yaw_deg);
         // In the air only the ends matter.
         let first = if from.knife { 0 } else { steps as usize };
         for i in first..=steps as usize {
@@ -256,7 +256,7 @@ impl<'a> Places<'a> {
                 None => (from.centre + (to - from.centre) * share, to - from.centre),
             };
             let c_deg = from.c_deg + turned * share;
-            let (sin, cos) = c_deg.to_radians().sin_cos();
+            let (sin, cos) = (c_deg - yaw).to_radians().sin_cos();
             // The tip swings about the centre as the blade turns.
             let way = pace + Vector::new(-sin, cos) * (radius * turned.to_radians());
             let centre = if i as f64 == steps { to } else { centre };

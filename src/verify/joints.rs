@@ -45,8 +45,8 @@ impl Joints {
     pub(super) fn near(&self, line: &Line, around: Around) -> Option<[f64; 2]> {
         let Around { station, slack, tube } = around;
         let length = line.length();
-        if self.longest.is_some_and(|longest| length > longest) {
-            // The knife is lifted wherever it was down for long enough.
+        if line.winds || self.longest.is_some_and(|longest| length > longest) {
+            // The knife is lifted wherever it was down for long enough, or C has to unwind.
             return Some([f64::NEG_INFINITY, f64::INFINITY]);
         }
         if line.ring {

@@ -25,6 +25,7 @@ mod limits;
 mod naming;
 mod npy;
 mod order;
+mod overcut;
 mod read;
 mod reference;
 mod rest;
@@ -228,14 +229,16 @@ fn simulate(
     while let Some((row, way)) = next() {
         limits.see(&row);
         rest.see(&row);
-        table.see(&row);
+        // The axis stands askew to the blade by the yaw: what is cut is judged by the blade.
+        let blade = Row { c_deg: row.c_deg - job.profile.knife.yaw_deg, ..row };
+        table.see(&blade);
         done.naming.see(&row);
         events.see(&row, &mut done.order);
         if row.knife {
-            stroke.push(&row, way);
+            stroke.push(&blade, way);
         } else if !stroke.is_empty() {
             // The row of the lift command still holds the pose at the end of the cut.
-            stroke.push(&row, way);
+            stroke.push(&blade, way);
             judge.judge(&stroke, &mut done);
             stroke.clear();
         }

@@ -2,6 +2,8 @@
 //!
 //! Corners and the tube are found anew from the marker and the profile; see the module doc of the stage.
 
+use std::f64::consts::TAU;
+
 use super::caps::{Caps, End, Feeds};
 use crate::geom::{Point, Vector, angle, left, polyline};
 use crate::ir::Marker;
@@ -31,12 +33,15 @@ pub(super) struct Line {
     pub(super) stations: Vec<f64>,
     /// Source block of each chord.
     pub(super) blocks: Vec<u32>,
-    /// How fast the tip may be.
-    pub(super) caps: Caps,
+    /// How fast the tip may be, with the line and, by the way from its end, against it: before a corner it may have to be
+    /// slower.
+    caps: [Caps; 2],
     /// Outward bulge of each chord in its middle.
     bulges: Vec<Vector>,
     /// Whether it is a closed contour without a corner.
     pub(super) ring: bool,
+    /// Whether it turns the blade past the range of C wherever that starts: then the knife is lifted amid it.
+    pub(super) winds: bool,
 }
 
 /// All lines of a marker.
@@ -67,11 +72,16 @@ impl<'a> Reference<'a> {
             let feeds = Feeds::new(profile, piece);
             for notch in &piece.notches {
                 let cap = feeds.at(notch.percent);
-                lines.extend(notch.strokes().map(|stroke| slit(&stroke, [index, rank()], Caps::all(cap))));
+                lines.extend(notch.strokes().map(|stroke| slit(&stroke, [index, rank()], cap)));
             }
             for contour in &piece.contours {
                 let place = Place { owner: [index, rank()], feeds, profile };
                 lines.extend(contour_lines(marker, contour, place));
+            }
+        }
+        if let Some(range) = profile.blade_range() {
+            for line in &mut lines {
+                line.winds = line.winds_past(range);
             }
         }
         events.extend(marker.closing.iter().map(|_| rank()));
@@ -88,10 +98,11 @@ struct Place<'a> {
     profile: &'a MachineProfile,
 }
 
-fn slit(stroke: &Stroke, [piece, rank]: [usize; 2], caps: Caps) -> Line {
+/// The line of a slit, `cap` mm/s being the greatest speed of the tip.
+fn slit(stroke: &Stroke, [piece, rank]: [usize; 2], cap: f64) -> Line {
     let points = vec![stroke.from, stroke.to];
     Line {
-        caps,
+        caps: [Caps::all(cap), Caps::all(cap)],
         piece,
         rank,
         stations: polyline::stations(&points),
@@ -99,6 +110,7 @@ fn slit(stroke: &Stroke, [piece, rank]: [usize; 2], caps: Caps) -> Line {
         blocks: vec![stroke.span.block],
         bulges: vec![Vector::zeros()],
         ring: false,
+        winds: false,
     }
 }
 
@@ -142,18 +154,22 @@ fn contour_lines(marker: &Marker, contour: &Contour, place: Place) -> Vec<Line> 
             let chords = segments[from..i].iter();
             let [piece, rank] = owner;
             let stations = polyline::stations(&points);
-            let limits = chords.clone().map(|s| feeds.at(s.percent)).collect();
-            let end = if ring || ends.contains(&(i % count)) { End::Plain } else { End::AtCorner };
-            let caps = feeds.caps(&stations, limits, end);
+            let limits: Vec<f64> = chords.clone().map(|s| feeds.at(s.percent)).collect();
+            let end = |vertex: usize| if ring || ends.contains(&(vertex % count)) { End::Plain } else { End::AtCorner };
+            let length = stations[stations.len() - 1];
+            let back: Vec<f64> = stations.iter().rev().map(|station| length - station).collect();
+            let against = feeds.caps(&back, limits.iter().rev().copied().collect(), end(from));
+            let caps = [feeds.caps(&stations, limits, end(i)), against];
             lines.push(Line {
                 piece,
                 rank,
-                caps: if ring { caps.round(stations[stations.len() - 1]) } else { caps },
+                caps: if ring { caps.map(|caps| caps.round(length)) } else { caps },
                 stations,
                 points,
                 blocks: chords.clone().map(|s| s.span.block).collect(),
                 bulges: chords.zip(turns.windows(2)).map(|(s, t)| bulge(s, t, profile)).collect(),
                 ring,
+                winds: false,
             });
             from = i;
         }
@@ -239,6 +255,32 @@ impl Line {
             return 0.0;
         }
         angle::turn(self.direction((vertex + count - 1) % count), self.direction(vertex % count))
+    }
+
+    /// Whether no equivalent of C lets the blade follow it inside a range, rad.
+    fn winds_past(&self, [least, greatest]: [f64; 2]) -> bool {
+        let first = self.direction(0);
+        let mut heading = first.y.atan2(first.x);
+        let mut reach = [heading; 2];
+        // Round a ring the blade turns on to the first chord.
+        for vertex in 1..self.chords() + usize::from(self.ring) {
+            heading += self.turn(vertex);
+            reach = [reach[0].min(heading), reach[1].max(heading)];
+        }
+        let least_turn = ((least - reach[0]) / TAU - TURN_EPSILON).ceil();
+        least_turn > ((greatest - reach[1]) / TAU + TURN_EPSILON).floor()
+    }
+
+    /// The greatest speed of the tip between two stations, mm/s; `sign` is +1 with the line, -1 against it.
+    pub(super) fn cap(&self, [low, high]: [f64; 2], sign: f64) -> f64 {
+        let length = self.length();
+        if sign > 0.0 { self.caps[0].greatest(low, high) } else { self.caps[1].greatest(length - high, length - low) }
+    }
+
+    /// The point at a station.
+    pub(super) fn place(&self, station: f64) -> Point {
+        let chord = self.chord_at(station);
+        self.points[chord] + self.direction(chord) * (station - self.stations[chord])
     }
 
     /// The chord of a station.

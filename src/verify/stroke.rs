@@ -11,8 +11,8 @@ use super::coverage::Coverage;
 use super::follow::{Follower, Foot, on_chord};
 use super::grid::Grid;
 use super::heading::{self, Moving, Plunge};
-use super::inside::Inside;
 use super::joints::{Around, Joints};
+use super::overcut::{self, Lines, Overcut};
 use super::read::{Rounding, Row};
 use super::reference::{Line, Reference};
 use super::worst::{Worst, at};
@@ -63,7 +63,6 @@ pub(super) struct Judge<'a> {
     /// Least way of the tip that shows a direction, mm.
     way_min: f64,
     grid: Grid,
-    inside: Inside,
     joints: Joints,
     /// Greatest overlap at one end, and of both ends together.
     overlap: f64,
@@ -77,7 +76,7 @@ pub(super) struct Judge<'a> {
     heading: Worst,
     body: Worst,
     feed: Worst,
-    overcut: [Worst; 3],
+    overcut: Overcut,
 }
 
 /// A place of a cut that is near a line.
@@ -133,8 +132,8 @@ impl<'a> Judge<'a> {
         let front = knife.front_overlap_mm.max(knife.corner_front_overlap_mm);
         let heel = knife.heel_overlap_mm.max(knife.corner_heel_overlap_mm);
         let overlaps = front + heel;
-        // A part of a long run overlaps with the one before and, on a closed contour, with the one behind.
-        let joints = if knife.max_down_mm.is_some() { 2.0 } else { 1.0 };
+        // A part of a long or winding run overlaps with the one before and, on a closed contour, with the one behind.
+        let joints = if knife.max_down_mm.is_some() || profile.c.range_deg.is_some() { 2.0 } else { 1.0 };
         let tolerance = reference.tolerance;
         let period = profile.time.period();
         let feed = knife.feed_mm_s.map(|feed| feed + 4.0 * place / period);
@@ -145,7 +144,6 @@ impl<'a> Judge<'a> {
             rounding: place,
             way_min,
             grid: Grid::new(reference),
-            inside: Inside::new(reference.marker),
             joints: Joints::new(knife),
             overlap: front.max(heel),
             overlaps,
@@ -157,11 +155,7 @@ impl<'a> Judge<'a> {
             heading: Worst::new("verify/heading", "deg", Some(verify.max_heading_deg + heading::noise_deg(rounding))),
             body: Worst::new("verify/body", "mm", verify.max_body_mm),
             feed: Worst::new("verify/feed", "mm/s", feed),
-            overcut: [
-                Worst::new("verify/overcut-part", "mm", verify.max_overcut_part_mm),
-                Worst::new("verify/overcut-neighbour", "mm", verify.max_overcut_neighbour_mm),
-                Worst::new("verify/overcut-waste", "mm", verify.max_overcut_waste_mm),
-            ],
+            overcut: Overcut::new(reference, profile, place),
         }
     }
 
@@ -173,7 +167,7 @@ impl<'a> Judge<'a> {
 
     pub(super) fn findings(self) -> Vec<Finding> {
         let one = [self.on_path, self.stray, self.once, self.heading, self.body, self.feed];
-        one.into_iter().chain(self.overcut).map(Worst::finding).collect()
+        one.into_iter().map(Worst::finding).chain(self.overcut.findings()).collect()
     }
 
     /// Judges one stroke and marks what it cut.
@@ -212,7 +206,10 @@ impl<'a> Judge<'a> {
         self.check_body(rows, &cut, &best);
         for (i, ends) in (cut.body..).zip(cut.rows.iter().zip(cut.rows[1..].iter().chain([&rows.len()]))) {
             let here = rows[*ends.0..*ends.1].iter().filter(|row| row.knife);
-            here.for_each(|row| done.naming.see_cut(row, line, best.feet[i].station));
+            // What a stab is longer by than its cut is named like that.
+            let station = best.feet[i.clamp(*best.held.start(), *best.held.end())].station;
+            let station = best.fits.map(overcut::innermost).map_or(station, |[from, to]| station.clamp(from, to));
+            here.for_each(|row| done.naming.see_cut(row, line, station));
         }
     }
 
@@ -252,8 +249,11 @@ impl<'a> Judge<'a> {
             let blade = if with { blade } else { -blade };
             let ends = from.into_iter().flat_map(|from| to.map(|to| [from, to])).filter(|[from, to]| from < to);
             let directions = ends.flat_map(|ends| heading::of_stab(line, ends, &self.joints));
-            let askew = directions.map(|direction| angle::turn(direction, blade).abs()).fold(f64::INFINITY, f64::min);
-            self.heading.see(askew.to_degrees(), || seen(cut.body));
+            let askew = directions.map(|direction| angle::turn(direction, blade));
+            let [least, greatest] =
+                askew.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], turn| [a.min(turn), b.max(turn)]);
+            // Overlaps that are shortened lie between none and whole ones, and so does the blade.
+            self.heading.see(least.max(-greatest).max(0.0).to_degrees(), || seen(cut.body));
             return;
         }
         // Where the knife may have been lifted anywhere the blade lies between the directions of the chords that it cuts; the tube turns a blade by a little.
@@ -401,13 +401,21 @@ impl<'a> Judge<'a> {
                 joined = skipped <= allowed;
             }
             let station = foot.station;
-            match (&mut open, joined) {
-                (Some([a, b]), true) => (*a, *b) = (a.min(station), b.max(station)),
-                (_, false) => {
-                    trial.stretches.extend(open.take());
-                    open = (off <= allowed).then_some([station; 2]);
-                }
-                (None, true) => open = Some([station; 2]),
+            // A straight blade that leaves the line at a bend cuts up to the bend, which may lie between two places.
+            let bend = if i > first && i <= cut.body {
+                passed(line, &points[i - 1..=i], &trial.feet[i - 1..=i], allowed)
+            } else {
+                None
+            };
+            if let (Some([a, b]), false, Some([low, high])) = (&mut open, joined, bend) {
+                (*a, *b) = (a.min(low), b.max(high));
+            }
+            if let (Some([a, b]), true) = (&mut open, joined) {
+                (*a, *b) = (a.min(station), b.max(station));
+            } else {
+                trial.stretches.extend(open.take());
+                let [low, high] = bend.unwrap_or([station; 2]);
+                open = (off <= allowed).then_some([station.min(low), station.max(high)]);
             }
         }
         trial.stretches.extend(open);
@@ -478,7 +486,7 @@ impl<'a> Judge<'a> {
         for (i, ends) in cut.points[cut.body..].windows(2).enumerate() {
             let cap = trial.map_or(self.knife.feed_mm_s.unwrap_or(f64::INFINITY), |trial| {
                 let [a, b] = [0, 1].map(|k| trial.feet[cut.body + i + k].station);
-                self.reference.lines[trial.line].caps.greatest(a.min(b) - slack, a.max(b) + slack)
+                self.reference.lines[trial.line].cap([a.min(b) - slack, a.max(b) + slack], trial.sign(cut))
             });
             let speed = (ends[1] - ends[0]).norm() / self.period;
             self.feed.see_under(speed, cap + rounding, || rows[cut.rows[i + 1] - 1].sighting());
@@ -487,26 +495,12 @@ impl<'a> Judge<'a> {
 
     /// How far the blade goes beyond the ends of its line, and into what.
     fn check_overcut(&mut self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting) {
-        let line = &self.reference.lines[trial.line];
         if trial.laps {
             return;
         }
-        for (i, foot) in trial.feet.iter().enumerate() {
-            let edge = i.clamp(*trial.held.start(), *trial.held.end());
-            let beyond = foot.beyond.max((cut.points[i] - cut.points[edge]).norm());
-            if beyond <= self.rounding {
-                continue;
-            }
-            let pieces = self.inside.pieces_at(cut.points[i]);
-            let into = if pieces.contains(&line.piece) {
-                0
-            } else if pieces.is_empty() {
-                2
-            } else {
-                1
-            };
-            self.overcut[into].see(beyond, || seen(i));
-        }
+        let Trial { feet, held, fits, .. } = trial;
+        let stroke = overcut::Stroke { cut, feet, held, line: &self.reference.lines[trial.line], fits: *fits };
+        self.overcut.see(&stroke, Lines { reference: self.reference, grid: &self.grid }, seen);
     }
 
     /// How far the path bows away from the plunged blade, and the tail leaves it while the blade moves.
@@ -536,6 +530,11 @@ impl<'a> Judge<'a> {
 }
 
 impl Trial {
+    /// +1 when the tip goes with the line, -1 when it goes against it.
+    fn sign(&self, cut: &Cut) -> f64 {
+        if self.feet[cut.points.len() - 1].station < self.feet[cut.body].station { -1.0 } else { 1.0 }
+    }
+
     fn note(&mut self, deviation: f64, place: usize) {
         if deviation > self.worst.0 {
             self.worst = (deviation, place);
@@ -556,6 +555,19 @@ fn skipped(line: &Line, points: &[Point], feet: &[Foot], i: usize) -> f64 {
     };
     let away = |vertex: usize| polyline::distance_to_segment(line.points[vertex], points[i - 1], points[i]);
     line.vertices(low.next_up(), high.next_down()).map(away).fold(0.0, f64::max) - bow(i).max(bow(i - 1))
+}
+
+/// The stations of the first and the last vertex between two places of a straight blade that it cuts; `None` when there are
+/// none.
+fn passed(line: &Line, places: &[Point], feet: &[Foot], allowed: f64) -> Option<[f64; 2]> {
+    let (a, b) = (feet[0].station, feet[1].station);
+    let (low, high) = (a.min(b), a.max(b));
+    let is_cut = |vertex: &usize| polyline::distance_to_segment(line.points[*vertex], places[0], places[1]) <= allowed;
+    let lap = if line.ring { (low / line.length()).floor() * line.length() } else { 0.0 };
+    let cut = line.vertices(low, high).filter(is_cut).map(|vertex| line.stations[vertex] + lap);
+    cut.filter(|station| (low..=high).contains(station)).fold(None, |found, station| {
+        Some(found.map_or([station; 2], |[first, last]: [f64; 2]| [first.min(station), last.max(station)]))
+    })
 }
 
 /// The longest stretch of places that hold; the first of two alike.

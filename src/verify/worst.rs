@@ -46,8 +46,10 @@ impl Worst {
     pub(super) fn see_under(&mut self, value: f64, limit: f64, place: impl FnOnce() -> Sighting) {
         let value = if value.is_nan() { f64::INFINITY } else { value };
         let is_worse = match (self.limit, limit.is_finite()) {
-            // As a product, because nothing may have been seen yet.
-            (Some(own), true) => value * own > self.value * limit,
+            (Some(own), true) => {
+                let (bad, known) = (badness(value, limit), badness(self.value, own));
+                bad > known || bad.is_infinite() && value > self.value
+            }
             (Some(_), false) => false,
             (None, true) => value > 0.0,
             (None, false) => value > self.value,
@@ -57,9 +59,12 @@ impl Worst {
                 // Of the values so far none had a limit: they do not compare.
                 self.place = None;
             }
+            if self.value < value && limit == 0.0 {
+                // Any value is beyond it alike: the greatest has the place.
+                self.place = None;
+            }
             (self.value, self.limit) = (value, Some(limit).filter(|limit| limit.is_finite()));
-            // A limit of nothing is broken by any value alike.
-            self.note(if limit.is_finite() && limit > 0.0 { value / limit } else { value }, place);
+            self.note(if limit.is_finite() { badness(value, limit) } else { value }, place);
         }
     }
 
@@ -73,6 +78,11 @@ impl Worst {
             place: self.place.map(|known| known.0),
         }
     }
+}
+
+/// How bad a value is against a limit: 1 = just allowed; any value is infinitely beyond a limit of nothing.
+fn badness(value: f64, limit: f64) -> f64 {
+    if value > 0.0 { value / limit } else { 0.0 }
 }
 
 /// A sighting in a program.
@@ -110,5 +120,17 @@ mod tests {
         let finding = worst.finding();
         assert_eq!((finding.worst, finding.limit), (45.0, Some(50.0)));
         assert_eq!(finding.place.and_then(|place| place.time), Some(1.0));
+    }
+    #[test]
+    fn beyond_a_limit_of_nothing_the_greatest_value_is_told() {
+        let mut worst = Worst::new("verify/overcut-neighbour", "mm", Some(0.0));
+        for (value, limit, time) in
+            [(0.0, 0.0, 0.0), (0.1, 0.0, 1.0), (0.3, 0.0, 2.0), (0.2, 0.0, 3.0), (0.4, 0.5, 4.0)]
+        {
+            worst.see_under(value, limit, || at(time, Point::origin(), 0));
+        }
+        let finding = worst.finding();
+        assert_eq!((finding.worst, finding.limit), (0.3, Some(0.0)));
+        assert_eq!(finding.place.and_then(|place| place.time), Some(2.0));
     }
 }

@@ -101,10 +101,12 @@ fn plan_run(points: &[Point], job: &Job) {
         front: 0.0,
         heel: 0.0,
         ends: [End::default(); 2],
+        turned: false,
         start: Pose::default(),
         end: Pose::default(),
     };
-    let toolpath = Toolpath { piece: 1, tolerance: TOLERANCE, entry: Pose::default(), steps: vec![Step::Run(run)] };
+    let toolpath =
+        Toolpath { piece: 1, part: 0, tolerance: TOLERANCE, entry: Pose::default(), steps: vec![Step::Run(run)] };
     assert!(plan::solve(&toolpath, job).is_ok(), "it has a motion");
 }
 

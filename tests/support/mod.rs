@@ -7,7 +7,7 @@ use cutc::ir::list::{Joint, Segment};
 use cutc::ir::marker::{Contour, Marker, Piece};
 use cutc::ir::toolpath::{Run, Step, Toolpath};
 use cutc::machine::Job;
-use cutc::pass::toolpath::{TOOLPATH_PASSES, trace};
+use cutc::pass::toolpath::{Scene, TOOLPATH_PASSES, trace};
 use cutc::plan;
 use cutc::source::Span;
 
@@ -33,11 +33,12 @@ pub(crate) fn marker(points: &[Point]) -> Marker {
 pub(crate) fn toolpaths(marker: &Marker, job: &Job) -> Vec<Toolpath> {
     let mut diagnostics = Diagnostics::default();
     let mut pose = plan::home(job);
+    let scene = Scene::new(marker, job);
     let mut toolpaths: Vec<Toolpath> = trace(marker, job).collect();
     for toolpath in &mut toolpaths {
         toolpath.entry = pose;
         for pass in TOOLPATH_PASSES {
-            (pass.run)(toolpath, job, &mut diagnostics);
+            (pass.run)(toolpath, &scene, &mut diagnostics);
         }
         pose = toolpath.exit();
     }

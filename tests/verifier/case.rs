@@ -64,6 +64,7 @@ const CASES: &[(&str, Change)] = &[
     ("spaced-four-pieces", |job| job.profile.time.period_ms = 2.0),
     ("metric-six-pieces", |job| job.profile.home = [20.0, -10.0, 90.0]),
     ("speeds-and-events", |_| {}),
+    ("narrow-gaps", |_| {}),
 ];
 
 pub(crate) fn all() -> Vec<Case> {

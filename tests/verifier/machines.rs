@@ -31,6 +31,9 @@ const TURN_MORE_DEG: f64 = 0.01;
 const BLUNT_DEG: f64 = 75.0;
 
 pub(crate) const DAMAGES: &[Damage] = &[
+    damage("the yaw forgotten", "verify/heading", |case, _| {
+        Some(Harm::anywhere(case.on(|job| job.profile.knife.yaw_deg = 2.0), 2.0 - 0.5))
+    }),
     damage("another home", "verify/start", |case, _| home(case, 0)),
     damage("another heading at home", "verify/start", |case, _| home(case, 2)),
     damage("never parked", "verify/end", |case, _| {

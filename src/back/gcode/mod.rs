@@ -37,13 +37,15 @@ const PLACE_DECIMALS: u32 = 3;
 /// The way of each run and stab of a toolpath, in order.
 fn ways(toolpath: &Toolpath, job: &Job) -> Result<Ways, Vec<Diagnostic>> {
     let (mut ways, mut refused) = (Vec::new(), Vec::new());
+    // The axis stands askew to the blade by that.
+    let yaw = job.profile.knife.yaw();
     for step in &toolpath.steps {
         match step {
             Step::Run(run) => match way_of(run, toolpath.tolerance, job) {
-                Ok(way) => ways.push(way),
+                Ok(way) => ways.push(way.turned(yaw)),
                 Err(diagnostic) => refused.push(diagnostic),
             },
-            Step::Stab(stab) => ways.push(Way { start: stab.pose, pieces: Vec::new() }),
+            Step::Stab(stab) => ways.push(Way { start: stab.pose, pieces: Vec::new() }.turned(yaw)),
             Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {}
         }
     }

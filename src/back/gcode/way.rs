@@ -113,6 +113,17 @@ impl Tip {
     }
 }
 
+impl Way {
+    /// The same with C corrected by an angle, rad.
+    #[must_use]
+    pub(super) fn turned(mut self, by: f64) -> Self {
+        for pose in std::iter::once(&mut self.start).chain(self.pieces.iter_mut().map(|piece| &mut piece.to)) {
+            pose.c.0 += by;
+        }
+        self
+    }
+}
+
 /// The way of a run; otherwise the point at which no arc stays in the tube.
 pub(super) fn way(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Point> {
     let (knife, keys) = (&job.profile.knife, &job.profile.gcode);

@@ -32,6 +32,7 @@ struct Group<'a> {
     cuts: String,
     air: PathData,
     over: PathData,
+    harm: PathData,
     blade: PathData,
     plunge: PathData,
     lift: PathData,
@@ -45,6 +46,7 @@ pub(super) fn group(toolpath: &Toolpath, knife: &Knife) -> String {
         cuts: String::new(),
         air: PathData::default(),
         over: PathData::default(),
+        harm: PathData::default(),
         blade: PathData::default(),
         plunge: PathData::default(),
         lift: PathData::default(),
@@ -69,9 +71,13 @@ pub(super) fn group(toolpath: &Toolpath, knife: &Knife) -> String {
     );
     text.push_str(&group.air.element("air"));
     text.push_str(&group.cuts);
-    for (data, class) in
-        [(&group.over, "over"), (&group.blade, "blade"), (&group.plunge, "plunge"), (&group.lift, "lift")]
-    {
+    for (data, class) in [
+        (&group.over, "over"),
+        (&group.harm, "harm"),
+        (&group.blade, "blade"),
+        (&group.plunge, "plunge"),
+        (&group.lift, "lift"),
+    ] {
         text.push_str(&data.element(class));
     }
     text.push_str("</g>\n");
@@ -87,9 +93,12 @@ impl Group<'_> {
                 let mut data = PathData::default();
                 data.polygon(self.blade_outline(&stab.pose));
                 let length = polyline::length(&stab.points);
-                self.cuts.push_str(&data.titled("stab", &cut_title("stab", length, &stab.spans)));
-                self.overlap(&[tail, stab.points[0]], stab.heel);
-                self.overlap(&[stab.points[stab.points.len() - 1], tip], stab.front);
+                let title = cut_title("stab", length, &stab.spans) + &way_round(stab.turned) + &harm(stab.harm);
+                self.cuts.push_str(&data.titled("stab", &title));
+                let class = if stab.harm > 0.0 { &mut self.harm } else { &mut self.over };
+                let half = OVERLAP_HALF_THICKNESS * self.unit;
+                overlap(class, &[tail, stab.points[0]], [stab.heel, half]);
+                overlap(class, &[stab.points[stab.points.len() - 1], tip], [stab.front, half]);
                 self.plunge.circle(tip, PLUNGE_RADIUS * self.unit);
                 self.lift.circle(tip, LIFT_RADIUS * self.unit);
             }
@@ -124,7 +133,8 @@ impl Group<'_> {
             Shape::Ring => data.polygon(run.points[..run.points.len() - 1].iter().copied()),
         }
         let length = polyline::length(&run.points);
-        self.cuts.push_str(&data.titled("run", &cut_title("cut", length, &run.spans)));
+        let title = cut_title("cut", length, &run.spans) + &way_round(run.turned);
+        self.cuts.push_str(&data.titled("run", &title));
         let (start, end) = (self.ends(&run.start), self.ends(&run.end));
         if self.knife.width_mm > 0.0 {
             for pose in [&run.start, &run.end] {
@@ -158,10 +168,25 @@ impl Group<'_> {
 
     /// The band along an overlap that is `length` mm long.
     fn overlap(&mut self, points: &[Point], length: f64) {
-        if length > OVERLAP_EPSILON {
-            self.over.polygon(band(points, OVERLAP_HALF_THICKNESS * self.unit));
-        }
+        overlap(&mut self.over, points, [length, OVERLAP_HALF_THICKNESS * self.unit]);
     }
+}
+
+/// Adds the band along an overlap, by its length and half of its thickness, mm.
+fn overlap(data: &mut PathData, points: &[Point], [length, half]: [f64; 2]) {
+    if length > OVERLAP_EPSILON {
+        data.polygon(band(points, half));
+    }
+}
+
+/// Said of a cut that goes the other way round than the file has it.
+fn way_round(turned: bool) -> String {
+    if turned { ", turned round".to_owned() } else { String::new() }
+}
+
+/// Said of a stab that cuts into a part.
+fn harm(harm: f64) -> String {
+    if harm > 0.0 { format!(", {} mm too far into a part", fixed(harm, 2)) } else { String::new() }
 }
 
 /// The outline of a band along a polyline: its left side forth, its right side back.

@@ -45,6 +45,7 @@ path{vector-effect:non-scaling-stroke;fill:none;stroke-linejoin:round}
 .run{stroke:currentColor;stroke-width:1.5}
 .air{stroke:#8c8c8c;stroke-width:.7;stroke-dasharray:5 4}
 .over{fill:#d6006c;stroke:#d6006c;stroke-width:1.3}
+.harm{fill:#ff7a00;stroke:#ff7a00;stroke-width:1.6}
 .blade{fill:#222;fill-opacity:.25;stroke:#222;stroke-width:.6}
 .stab{fill:#222;stroke:#222;stroke-width:1.1}
 .plunge{fill:#fff;stroke:#222;stroke-width:.6}

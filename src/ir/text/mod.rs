@@ -31,8 +31,9 @@
 //!   point 0 0 full-advance
 //!   point 60 0 @4..9#2
 //!   point 100 0 @10..19#3 lift no-overcut
-//! stab along 1 0 front 1 heel 0.5
+//! stab along 1 0 front 1 heel 0.5 turned harm 0.5
 //!   ends corner corner
+//!   sides part gap
 //!   pose 3 0 c-rad 0
 //!   point 0 0
 //!   point 4 0 @4..9#2
@@ -45,6 +46,7 @@
 //! before it ends, so `from` stands where a contour starts or, in a broken one, jumps. The words behind a segment are
 //! what the file asks for where it starts, those behind a point what it asks for there. A contour is printed in the
 //! direction that it is walked in and read as one that is walked in list order: the same segments, the same joints.
+//! `sides` stands where an end has another than `waste`, `part` behind the number of a piece that is not the first.
 
 mod print;
 mod read;
@@ -53,7 +55,7 @@ pub use print::{print_marker, print_toolpath};
 pub use read::{ReadError, read_marker, read_toolpath};
 
 use super::list::Joint;
-use super::toolpath::{End, Event, Law, Shape};
+use super::toolpath::{End, Event, Law, Shape, Side};
 
 /// Picks one flag of a joint.
 type Flag = fn(&mut Joint) -> &mut bool;
@@ -70,11 +72,13 @@ const SHAPES: [(&str, Shape); 2] = [("open", Shape::Open), ("ring", Shape::Ring)
 const LAWS: [(&str, Law); 2] = [("tangent", Law::Tangent), ("chord", Law::Chord)];
 
 const ENDS: [(&str, End); 4] = [
-    ("path", End { corner: false, bare: false }),
-    ("path-bare", End { corner: false, bare: true }),
-    ("corner", End { corner: true, bare: false }),
-    ("corner-bare", End { corner: true, bare: true }),
+    ("path", End { corner: false, bare: false, side: Side::Waste }),
+    ("path-bare", End { corner: false, bare: true, side: Side::Waste }),
+    ("corner", End { corner: true, bare: false, side: Side::Waste }),
+    ("corner-bare", End { corner: true, bare: true, side: Side::Waste }),
 ];
+
+const SIDES: [(&str, Side); 3] = [("waste", Side::Waste), ("part", Side::Part), ("gap", Side::Gap)];
 
 const EVENTS: [(&str, Event); 2] = [("stop", Event::Stop), ("advance", Event::Advance)];
 

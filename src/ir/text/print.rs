@@ -2,11 +2,11 @@
 
 use std::fmt::{self, Display, Formatter, Write as _};
 
-use super::{ENDS, EVENTS, JOINTS, LAWS, SHAPES};
+use super::{ENDS, EVENTS, JOINTS, LAWS, SHAPES, SIDES};
 use crate::geom::Point;
 use crate::ir::list::{FULL_SPEED, Joint, Segment};
 use crate::ir::marker::{Label, Marker, NotchKind, Piece, Vee};
-use crate::ir::toolpath::{Pose, Run, Stab, Step, Toolpath};
+use crate::ir::toolpath::{End, Pose, Run, Side, Stab, Step, Toolpath};
 use crate::source::Span;
 use crate::units::number::exact;
 
@@ -88,8 +88,12 @@ fn print_label(out: &mut String, label: &Label) {
 /// The text of a sound toolpath; [`read_toolpath`](super::read_toolpath) reads it back.
 pub fn print_toolpath(toolpath: &Toolpath) -> String {
     let mut out = String::new();
-    let Toolpath { piece, tolerance, entry, steps } = toolpath;
-    line(&mut out, format_args!("toolpath piece {piece} tolerance-mm {} entry {}", exact(*tolerance), Placed(*entry)));
+    let Toolpath { piece, part, tolerance, entry, steps } = toolpath;
+    push(&mut out, format_args!("toolpath piece {piece}"));
+    if *part > 0 {
+        push(&mut out, format_args!(" part {part}"));
+    }
+    line(&mut out, format_args!(" tolerance-mm {} entry {}", exact(*tolerance), Placed(*entry)));
     for step in steps {
         match step {
             Step::Run(run) => print_run(&mut out, run),
@@ -109,8 +113,9 @@ fn print_run(out: &mut String, run: &Run) {
     let greatest = run.feeds.iter().copied().fold(0.0, f64::max);
     let feed = if greatest == f64::INFINITY { "off".to_owned() } else { exact(greatest) };
     let (shape, law) = (word(&SHAPES, run.shape), word(&LAWS, run.law));
-    line(out, format_args!("run {shape} {law} front {} heel {} feed {feed}", exact(run.front), exact(run.heel)));
-    line(out, format_args!("  ends {} {}", word(&ENDS, run.ends[0]), word(&ENDS, run.ends[1])));
+    push(out, format_args!("run {shape} {law} front {} heel {} feed {feed}", exact(run.front), exact(run.heel)));
+    line(out, format_args!("{}", if run.turned { " turned" } else { "" }));
+    print_ends(out, run.ends);
     line(out, format_args!("  start {}", Placed(run.start)));
     line(out, format_args!("  end {}", Placed(run.end)));
     for (i, &point) in run.points.iter().enumerate() {
@@ -127,12 +132,26 @@ fn print_run(out: &mut String, run: &Run) {
 
 fn print_stab(out: &mut String, stab: &Stab) {
     let along = Xy(Point::from(stab.along));
-    line(out, format_args!("stab along {along} front {} heel {}", exact(stab.front), exact(stab.heel)));
-    line(out, format_args!("  ends {} {}", word(&ENDS, stab.ends[0]), word(&ENDS, stab.ends[1])));
+    push(out, format_args!("stab along {along} front {} heel {}", exact(stab.front), exact(stab.heel)));
+    out.push_str(if stab.turned { " turned" } else { "" });
+    if stab.harm > 0.0 {
+        push(out, format_args!(" harm {}", exact(stab.harm)));
+    }
+    out.push('\n');
+    print_ends(out, stab.ends);
     line(out, format_args!("  pose {}", Placed(stab.pose)));
     let spans = std::iter::once(Span::default()).chain(stab.spans.iter().copied());
     for (&point, span) in stab.points.iter().zip(spans) {
         line(out, format_args!("  point {}{}", Xy(point), At(span)));
+    }
+}
+
+fn print_ends(out: &mut String, ends: [End; 2]) {
+    let [first, second] = ends.map(|end| word(&ENDS, End { side: Side::Waste, ..end }));
+    line(out, format_args!("  ends {first} {second}"));
+    if ends.iter().any(|end| end.side != Side::Waste) {
+        let [first, second] = ends.map(|end| word(&SIDES, end.side));
+        line(out, format_args!("  sides {first} {second}"));
     }
 }
 

@@ -4,7 +4,7 @@ use std::str::{FromStr, SplitWhitespace};
 
 use thiserror::Error;
 
-use super::{ENDS, EVENTS, JOINTS, LAWS, SHAPES};
+use super::{ENDS, EVENTS, JOINTS, LAWS, SHAPES, SIDES};
 use crate::geom::{Heading, Point, Vector};
 use crate::ir::list::{FULL_SPEED, Joint, Segment};
 use crate::ir::marker::{Contour, Drill, Event, Field, Label, Marker, Notch, NotchKind, Piece, Stroke, Vee};
@@ -133,6 +133,7 @@ pub fn read_toolpath(text: &str) -> Read<Toolpath> {
     head.expect("toolpath")?;
     head.expect("piece")?;
     let piece = head.whole("a piece number")?;
+    let part = if head.has("part") { head.whole("the place of a piece")? } else { 0 };
     head.expect("tolerance-mm")?;
     let tolerance = head.number()?;
     head.expect("entry")?;
@@ -155,7 +156,7 @@ pub fn read_toolpath(text: &str) -> Read<Toolpath> {
         line.end()?;
         steps.push(step);
     }
-    Ok(Toolpath { piece, tolerance, entry, steps })
+    Ok(Toolpath { piece, part, tolerance, entry, steps })
 }
 
 fn air(line: &mut Line<'_>) -> Read<Air> {
@@ -170,6 +171,7 @@ fn run(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Run> {
     let (front, heel) = overlaps(line)?;
     line.expect("feed")?;
     let feed = if line.has("off") { f64::INFINITY } else { line.number()? };
+    let turned = line.has("turned");
     let ends = ends(lines)?;
     let start = pose_line(lines, "start")?;
     let end = pose_line(lines, "end")?;
@@ -183,6 +185,7 @@ fn run(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Run> {
         front,
         heel,
         ends,
+        turned,
         start,
         end,
     };
@@ -204,6 +207,8 @@ fn stab(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Stab> {
     line.expect("along")?;
     let along = Vector::new(line.number()?, line.number()?);
     let (front, heel) = overlaps(line)?;
+    let turned = line.has("turned");
+    let harm = if line.has("harm") { line.number()? } else { 0.0 };
     let ends = ends(lines)?;
     let pose = pose_line(lines, "pose")?;
     let (mut points, mut spans) = (Vec::new(), Vec::new());
@@ -216,7 +221,7 @@ fn stab(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Stab> {
         }
         line.end()?;
     }
-    Ok(Stab { points, spans, along, front, heel, ends, pose })
+    Ok(Stab { points, spans, along, front, heel, ends, turned, harm, pose })
 }
 
 fn overlaps(line: &mut Line<'_>) -> Read<(f64, f64)> {
@@ -229,8 +234,16 @@ fn overlaps(line: &mut Line<'_>) -> Read<(f64, f64)> {
 fn ends(lines: &mut Lines<'_>) -> Read<[End; 2]> {
     let mut line = lines.next_or("ends")?;
     line.expect("ends")?;
-    let ends = [line.choice(&ENDS)?, line.choice(&ENDS)?];
+    let mut ends = [line.choice(&ENDS)?, line.choice(&ENDS)?];
     line.end()?;
+    if lines.is_next("sides") {
+        let mut line = lines.next_or("sides")?;
+        line.expect("sides")?;
+        for end in &mut ends {
+            end.side = line.choice(&SIDES)?;
+        }
+        line.end()?;
+    }
     Ok(ends)
 }
 

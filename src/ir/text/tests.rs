@@ -62,7 +62,7 @@ impl Random {
     }
 
     fn end(&mut self) -> End {
-        End { corner: self.flag(), bare: self.flag() }
+        End { corner: self.flag(), bare: self.flag(), side: SIDES[self.below(3) as usize].1 }
     }
 
     fn some<T>(&mut self, most: u64, mut make: impl FnMut(&mut Self) -> T) -> Vec<T> {
@@ -136,6 +136,7 @@ fn step(random: &mut Random) -> Step {
                     .map(|_| if random.flag() { f64::INFINITY } else { random.number().abs() + 1.0 })
                     .collect(),
                 ends: [random.end(), random.end()],
+                turned: random.flag(),
                 start: random.pose(),
                 end: random.pose(),
                 spans,
@@ -150,6 +151,8 @@ fn step(random: &mut Random) -> Step {
                 front: random.number(),
                 heel: random.number(),
                 ends: [random.end(), random.end()],
+                turned: random.flag(),
+                harm: if random.flag() { random.number().abs() } else { 0.0 },
                 pose: random.pose(),
             })
         }
@@ -190,6 +193,7 @@ fn a_toolpath_survives_the_round_trip_to_the_bit() {
         let mut random = Random(seed);
         let before = Toolpath {
             piece: random.below(99) as u32,
+            part: random.below(3) as u32,
             tolerance: random.number(),
             entry: random.pose(),
             steps: random.some(8, step),

@@ -6,6 +6,7 @@ use crate::machine::Job;
 
 mod inspect;
 mod notch;
+mod order;
 mod sanity;
 mod select;
 mod slit;
@@ -24,4 +25,4 @@ pub struct MarkerPass {
 
 /// Every pass over the marker, in order.
 pub const MARKER_PASSES: &[MarkerPass] =
-    &[weld::PASS, slit::PASS, inspect::PASS, notch::PASS, sanity::PASS, select::PASS];
+    &[weld::PASS, slit::PASS, inspect::PASS, order::PASS, notch::PASS, sanity::PASS, select::PASS];

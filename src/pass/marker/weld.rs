@@ -37,6 +37,9 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     dropped.report(diagnostics);
 }
 
+/// Longest segment without length, mm: rounding of places that were computed, as of the ends of arcs.
+const LENGTH_EPSILON: f64 = 1e-6;
+
 /// Segments without length that were taken out.
 #[derive(Default)]
 struct Dropped {
@@ -67,7 +70,7 @@ fn drop_equal_points(list: &mut SegmentList, range: &mut Range, dropped: &mut Dr
     let mut carried = Joint::default();
     loop {
         let segment = cursor.segment();
-        if segment.from != segment.to {
+        if segment.length() > LENGTH_EPSILON {
             carry(&mut cursor.segment_mut().joint, carried);
             carried = Joint::default();
             if !cursor.advance() {
@@ -81,9 +84,12 @@ fn drop_equal_points(list: &mut SegmentList, range: &mut Range, dropped: &mut Dr
         if !cursor.remove() {
             return false;
         }
+        // What is left still hangs together.
         if was_last {
+            cursor.segment_mut().to = segment.to;
             break;
         }
+        cursor.segment_mut().from = segment.from;
     }
     let end = cursor.segment().to;
     let mut first = list.cursor(range);

@@ -4,15 +4,16 @@
 //! starts at the one nearest to the file's start, a closed contour without any stays a ring.
 
 use super::ToolpathPass;
+use super::scene::Scene;
 use crate::diagnostic::Diagnostics;
 use crate::geom::polyline;
 use crate::ir::toolpath::{End, Run, Shape, Step, Toolpath};
-use crate::machine::Job;
 
 pub(super) const PASS: ToolpathPass =
     ToolpathPass { name: "corner", about: "splits contours at corners and at lifts that the file asks for", run };
 
-fn run(toolpath: &mut Toolpath, job: &Job, _: &mut Diagnostics) {
+fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
+    let job = scene.job;
     let angle = job.profile.corner.angle();
     let steps = std::mem::take(&mut toolpath.steps);
     for step in steps {
@@ -95,7 +96,8 @@ fn rotate(run: &mut Run, first: usize) {
 fn ends(run: &Run, corner: [bool; 2], asked: &[crate::ir::list::Joint]) -> [End; 2] {
     let full_advance = run.joints[0].full_advance || asked.iter().any(|j| j.full_advance);
     let no_overcut = run.joints[1..].iter().any(|j| j.no_overcut);
-    [End { corner: corner[0], bare: full_advance }, End { corner: corner[1], bare: no_overcut }]
+    let end = |corner: bool, bare: bool| End { corner, bare, ..End::default() };
+    [end(corner[0], full_advance), end(corner[1], no_overcut)]
 }
 
 #[cfg(test)]
@@ -119,6 +121,7 @@ mod tests {
             heel: 0.0,
             feeds: vec![1.0; coordinates.len()],
             ends: [End::default(); 2],
+            turned: false,
             start: Pose::default(),
             end: Pose::default(),
         }

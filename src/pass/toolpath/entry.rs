@@ -4,11 +4,11 @@
 //! of the path, k the mean curvature under it. A sharper bend that near to a start, though no corner, is cut as one: up to
 //! it, and on from it, without overlaps, because they would leave the path.
 
+use super::scene::{Around, Scene};
 use super::{ToolpathPass, overlap};
 use crate::diagnostic::Diagnostics;
 use crate::geom::polyline;
-use crate::ir::toolpath::{End, Run, Shape, Step, Toolpath};
-use crate::machine::{Job, Knife};
+use crate::ir::toolpath::{End, Run, Shape, Side, Step, Toolpath};
 
 pub(super) const PASS: ToolpathPass =
     ToolpathPass { name: "entry", about: "splits runs at bends that a plunged blade cannot follow", run };
@@ -16,18 +16,18 @@ pub(super) const PASS: ToolpathPass =
 /// Part of the tolerance that the polyline may take here; smoothing moves the tip by up to the rest.
 const SHARE: f64 = 0.45;
 /// What a bend is cut as.
-const BEND: End = End { corner: true, bare: true };
+const BEND: End = End { corner: true, bare: true, side: Side::Waste };
 
-fn run(toolpath: &mut Toolpath, job: &Job, _: &mut Diagnostics) {
-    let knife = &job.profile.knife;
-    if knife.width_mm == 0.0 {
+fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
+    let around = scene.around(toolpath);
+    if around.knife().width_mm == 0.0 {
         return;
     }
     let allowance = SHARE * toolpath.tolerance;
     for step in std::mem::take(&mut toolpath.steps) {
         match step {
             Step::Run(mut run) if run.shape == Shape::Open => {
-                while let Some(bend) = bend(&run, knife, allowance) {
+                while let Some(bend) = bend(&run, &around, allowance) {
                     let (before, behind) = split(&run, bend);
                     toolpath.steps.push(Step::Run(before));
                     run = behind;
@@ -42,9 +42,10 @@ fn run(toolpath: &mut Toolpath, job: &Job, _: &mut Diagnostics) {
 }
 
 /// The first point at which the path must be split so that the blade can enter it; `None` when it can.
-fn bend(run: &Run, knife: &Knife, allowance: f64) -> Option<usize> {
+fn bend(run: &Run, around: &Around, allowance: f64) -> Option<usize> {
     let mut run = run.clone();
-    overlap::give(&mut run, knife);
+    overlap::give(&mut run, around);
+    let knife = around.knife();
     let path = run.extended();
     let skipped = usize::from(run.heel > 0.0);
     let (tip, chord) =

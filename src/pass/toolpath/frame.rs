@@ -1,5 +1,6 @@
 //! The frame of a marker: once around its box with the knife up, to see on the cloth where it will lie.
 
+use super::scene::Scene;
 use super::table;
 use crate::diagnostic::Diagnostics;
 use crate::geom::Point;
@@ -12,7 +13,7 @@ use crate::machine::Job;
 pub fn frame(marker: &Marker, home: Pose, job: &Job, diagnostics: &mut Diagnostics) -> Toolpath {
     let extent = marker.extent();
     let tolerance = job.profile.tolerance(marker.unit);
-    let mut toolpath = Toolpath { piece: 0, tolerance, entry: home, steps: Vec::new() };
+    let mut toolpath = Toolpath { piece: 0, part: 0, tolerance, entry: home, steps: Vec::new() };
     if extent.is_empty() {
         return toolpath;
     }
@@ -26,6 +27,6 @@ pub fn frame(marker: &Marker, home: Pose, job: &Job, diagnostics: &mut Diagnosti
             from = to;
         }
     }
-    (table::PASS.run)(&mut toolpath, job, diagnostics);
+    (table::PASS.run)(&mut toolpath, &Scene::bare(job), diagnostics);
     toolpath
 }

@@ -1,6 +1,7 @@
 //! Passes over the toolpath of one contour, notch or drill.
 //!
-//! [`trace()`] makes it: one run as the file has it. The passes split it at corners, give it overlaps, and place it.
+//! [`trace()`] makes it: one run as the file has it. The passes split it at corners, give it overlaps, and place it. They
+//! look at the cloth around it, the [`Scene`]: an overlap goes into the waste.
 
 mod corner;
 mod down;
@@ -8,16 +9,21 @@ mod entry;
 mod frame;
 mod overlap;
 mod place;
+mod scene;
 mod slow;
+mod stab;
+mod stretch;
 mod table;
 mod trace;
+mod turn;
+mod wind;
 
 pub use frame::frame;
+pub use scene::Scene;
 pub use trace::trace;
 
 use crate::diagnostic::Diagnostics;
 use crate::ir::Toolpath;
-use crate::machine::Job;
 
 /// A pass over a toolpath: a row of [`TOOLPATH_PASSES`].
 #[derive(Debug)]
@@ -27,9 +33,19 @@ pub struct ToolpathPass {
     /// What it does, in a line.
     pub about: &'static str,
     /// Does it.
-    pub run: fn(&mut Toolpath, &Job, &mut Diagnostics),
+    pub run: fn(&mut Toolpath, &Scene, &mut Diagnostics),
 }
 
 /// Every pass over a toolpath, in order.
-pub const TOOLPATH_PASSES: &[ToolpathPass] =
-    &[corner::PASS, down::PASS, entry::PASS, slow::PASS, overlap::PASS, place::PASS, table::PASS];
+pub const TOOLPATH_PASSES: &[ToolpathPass] = &[
+    corner::PASS,
+    down::PASS,
+    wind::PASS,
+    entry::PASS,
+    turn::PASS,
+    slow::PASS,
+    overlap::PASS,
+    stab::PASS,
+    place::PASS,
+    table::PASS,
+];

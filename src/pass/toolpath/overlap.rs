@@ -1,80 +1,139 @@
-//! Pass `overlap`: how far the blade goes past the ends of each run, and which runs are one plunge without motion.
+//! Pass `overlap`: how far the blade goes past the ends of each run.
 //!
-//! Needs runs split at corners. Leaves every run with its overlaps; a run on which the blade has nowhere to go between
-//! plunge and lift has become a stab. After Wang, Zhang & Zhao, *Research on Cutter Knife Tangent Following and
-//! Compensating Algorithm*, 2013, doi 10.7690/bgzdh.2013.02.026.
+//! Needs runs split at corners. Leaves every run with its overlaps, each straight on beyond its end: as far as the profile
+//! wants where that is waste, by `knife.reflex_front_overlap_mm` and `knife.reflex_heel_overlap_mm` where it is the part
+//! itself (a reflex corner, the inner end of a slit), and shortened to the gap less `knife.clearance_mm` where a part lies
+//! ahead. After Wang, Zhang & Zhao, *Research on Cutter Knife Tangent Following and Compensating Algorithm*, 2013,
+//! doi 10.7690/bgzdh.2013.02.026.
 
 use super::ToolpathPass;
+use super::scene::{Around, Scene};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::{Extent, polyline};
-use crate::ir::toolpath::{Pose, Run, Shape, Stab, Step, Toolpath};
-use crate::machine::{Job, Knife};
+use crate::geom::region::Ray;
+use crate::geom::{Extent, Point, Vector, polyline};
+use crate::ir::toolpath::{Run, Shape, Side, Step, Toolpath};
+use crate::machine::Knife;
+use crate::source::Span;
 use crate::units::number::fixed;
 
 pub(super) const PASS: ToolpathPass =
-    ToolpathPass { name: "overlap", about: "gives runs their overlaps and makes stabs of the short ones", run };
+    ToolpathPass { name: "overlap", about: "gives runs their overlaps, as far as there is waste for them", run };
 
-fn run(toolpath: &mut Toolpath, job: &Job, diagnostics: &mut Diagnostics) {
-    let knife = &job.profile.knife;
+/// A way that enters the part within this length begins in it, mm: rounding.
+const INSIDE_EPSILON: f64 = 1e-6;
+/// A shorter overlap is none, mm: rounding, which must not become a chord of the path.
+const OVERLAP_EPSILON: f64 = 1e-6;
+
+fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
+    let around = scene.around(toolpath);
+    let mut shortened = Shortened::default();
     for step in &mut toolpath.steps {
         match step {
             Step::Run(run) => {
-                give(run, knife);
-                match run.shape {
-                    Shape::Ring => warn_if_tight(run, knife, diagnostics),
-                    Shape::Open => {
-                        if let Some(stab) = stab(run, knife) {
-                            *step = Step::Stab(stab);
-                        }
-                    }
+                let missing = give(run, &around);
+                shortened.add(missing[0], run.spans[0]);
+                shortened.add(missing[1], run.spans[run.spans.len() - 1]);
+                if run.shape == Shape::Ring {
+                    warn_if_tight(run, around.knife(), diagnostics);
                 }
             }
             Step::Stab(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {}
         }
     }
+    shortened.report(toolpath.piece, diagnostics);
 }
 
-/// Gives a run the overlaps that the profile has for its ends.
-pub(super) fn give(run: &mut Run, knife: &Knife) {
+/// Gives a run the overlaps that the profile has for its ends, as far as there is room; how much is missing at each, mm.
+pub(super) fn give(run: &mut Run, around: &Around) -> [f64; 2] {
+    let knife = around.knife();
     let [start, end] = run.ends;
     let heel = if start.corner { knife.corner_heel_overlap_mm } else { knife.heel_overlap_mm };
     let front = if end.corner { knife.corner_front_overlap_mm } else { knife.front_overlap_mm };
-    run.heel = if start.bare || run.shape == Shape::Ring { 0.0 } else { heel };
-    run.front = match run.shape {
-        Shape::Open => front,
+    if run.shape == Shape::Ring {
         // Once more round would cut nothing new.
-        Shape::Ring => front.min(polyline::length(&run.points)),
+        (run.heel, run.front) = (0.0, if end.bare { 0.0 } else { front.min(polyline::length(&run.points)) });
+        return [0.0; 2];
+    }
+    let n = run.points.len();
+    let direction = |a: usize, b: usize| {
+        polyline::direction(run.points[a], run.points[b]).expect("no chord of a run has length zero")
     };
-    if end.bare {
-        run.front = 0.0;
+    let ahead = |bare: bool, wanted: Wanted, [at, before]: [usize; 2]| {
+        if bare { Given::default() } else { wanted.give(run.points[at], direction(before, at), around) }
+    };
+    let heel = ahead(start.bare, Wanted { waste: heel, part: knife.reflex_heel_overlap_mm }, [0, 1]);
+    let front = ahead(end.bare, Wanted { waste: front, part: knife.reflex_front_overlap_mm }, [n - 1, n - 2]);
+    (run.heel, run.front) = (heel.length, front.length);
+    (run.ends[0].side, run.ends[1].side) = (heel.side, front.side);
+    [heel.missing, front.missing]
+}
+
+/// How long an overlap should be, mm: in the waste and in the part.
+struct Wanted {
+    waste: f64,
+    part: f64,
+}
+
+/// How long an overlap is, mm, where it goes, and how much is missing for want of room.
+#[derive(Default)]
+struct Given {
+    length: f64,
+    side: Side,
+    missing: f64,
+}
+
+impl Wanted {
+    fn give(&self, from: Point, along: Vector, around: &Around) -> Given {
+        let clearance = around.knife().clearance_mm;
+        let reach = self.waste.max(self.part) + clearance;
+        if reach == 0.0 {
+            return Given::default();
+        }
+        let room = around.room(&Ray { from, along, reach });
+        let inside = room.own <= INSIDE_EPSILON;
+        let (wanted, gap) = if inside { (self.part, room.other) } else { (self.waste, room.least()) };
+        let length = wanted.min(gap - clearance);
+        let length = if length > OVERLAP_EPSILON { length } else { 0.0 };
+        let side = match (inside, length < wanted) {
+            (true, _) => Side::Part,
+            (false, true) => Side::Gap,
+            (false, false) => Side::Waste,
+        };
+        Given { length, side, missing: wanted - length }
     }
 }
 
-/// The stab that a run is, when the blade reaches from the heel overlap to the end or beyond: L + F + H <= w on a straight
-/// run, no path point at the distance w on a curved one. The surplus lies behind the start, unless only there nothing may
-/// be cut.
-fn stab(run: &Run, knife: &Knife) -> Option<Stab> {
-    let extended = run.extended();
-    let reached = polyline::first_at_distance(&extended, knife.width_mm);
-    let (first, last) = (extended[0], extended[extended.len() - 1]);
-    // Exactly as long as the blade is a stab, too.
-    if reached.is_some_and(|(point, _)| point != last) || knife.width_mm == 0.0 {
-        return None;
+/// The overlaps of a toolpath that are shorter than the profile wants them.
+#[derive(Default)]
+struct Shortened {
+    count: usize,
+    worst: f64,
+    span: Span,
+}
+
+impl Shortened {
+    fn add(&mut self, missing: f64, span: Span) {
+        if missing > 0.0 {
+            self.count += 1;
+            if missing > self.worst {
+                (self.worst, self.span) = (missing, span);
+            }
+        }
     }
-    let along = polyline::direction(first, last)?;
-    let surplus = (knife.width_mm - (last - first).norm()).max(0.0);
-    let [start, end] = run.ends;
-    let ahead = start.bare && !end.bare;
-    let tip = last + along * if ahead { surplus } else { 0.0 };
-    Some(Stab {
-        points: run.points.clone(),
-        spans: run.spans.clone(),
-        along,
-        front: run.front + if ahead { surplus } else { 0.0 },
-        heel: run.heel + if ahead { 0.0 } else { surplus },
-        ends: run.ends,
-        pose: Pose { centre: tip - along * knife.radius(), ..Pose::default() },
-    })
+
+    fn report(&self, piece: u32, diagnostics: &mut Diagnostics) {
+        let by = fixed(self.worst, 2);
+        let message = match self.count {
+            0 => return,
+            1 => format!("an overlap of piece {piece} is shortened by {by} mm: the next part is too near"),
+            n => format!("{n} overlaps of piece {piece} are shortened, the most by {by} mm: the next part is too near"),
+        };
+        diagnostics.push(
+            Diagnostic::new(&code::PATH_SHORTENED, message)
+                .at(self.span)
+                .hint("leave more room between the parts, or take smaller overlaps"),
+        );
+    }
 }
 
 fn warn_if_tight(run: &Run, knife: &Knife, diagnostics: &mut Diagnostics) {

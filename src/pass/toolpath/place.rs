@@ -5,6 +5,7 @@
 //! that starts elsewhere. Smoothing moves the headings of runs a little; `plan` goes by what the runs really have.
 
 use super::ToolpathPass;
+use super::scene::Scene;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Heading, Point, Rotation, Vector, angle, polyline};
 use crate::ir::toolpath::{Air, Pose, Run, Shape, Stab, Step, Toolpath};
@@ -14,7 +15,8 @@ use crate::units::{deg, number::fixed};
 pub(super) const PASS: ToolpathPass =
     ToolpathPass { name: "place", about: "gives steps their poses and joins them through the air", run };
 
-fn run(toolpath: &mut Toolpath, job: &Job, diagnostics: &mut Diagnostics) {
+fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
+    let job = scene.job;
     let mut pose = toolpath.entry;
     let mut at_corner = false;
     let mut placed = Vec::with_capacity(2 * toolpath.steps.len());
@@ -119,7 +121,7 @@ fn chord_lag(run: &Run, knife: &Knife, first: Vector) -> f64 {
 /// leaving `c.range_deg`; `None` when there is none.
 fn equivalent(before: Rotation, heading: Heading, range: [f64; 2], job: &Job) -> Option<Rotation> {
     let nearest = before.nearest(heading);
-    let Some([least, greatest]) = job.profile.c.range() else { return Some(nearest) };
+    let Some([least, greatest]) = job.profile.blade_range() else { return Some(nearest) };
     let turn = std::f64::consts::TAU;
     let up = ((least - range[0] - nearest.0) / turn - RANGE_EPSILON).ceil();
     let down = ((greatest - range[1] - nearest.0) / turn + RANGE_EPSILON).floor();

@@ -4,16 +4,17 @@
 //! `slow.before_corner_percent` of the speed that holds there, with a point where that stretch begins.
 
 use super::ToolpathPass;
+use super::scene::Scene;
 use crate::diagnostic::Diagnostics;
 use crate::geom::polyline;
 use crate::ir::list::Joint;
 use crate::ir::toolpath::{Run, Step, Toolpath};
-use crate::machine::Job;
 
 pub(super) const PASS: ToolpathPass =
     ToolpathPass { name: "slow", about: "slows the knife down before corners, when the profile says so", run };
 
-fn run(toolpath: &mut Toolpath, job: &Job, _: &mut Diagnostics) {
+fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
+    let job = scene.job;
     let Some(reach) = job.profile.slow.before_corner_mm else { return };
     // A slowed cut needs something to be slower than: without any feed, what the tip can always reach.
     let [x, y, _] = job.profile.axes.limits();

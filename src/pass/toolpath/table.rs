@@ -3,17 +3,19 @@
 //! Needs placed steps. Changes nothing.
 
 use super::ToolpathPass;
+use super::scene::Scene;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
 use crate::ir::toolpath::{Step, Toolpath};
-use crate::machine::{Job, Mode};
+use crate::machine::Mode;
 use crate::source::Span;
 use crate::units::number::fixed;
 
 pub(super) const PASS: ToolpathPass =
     ToolpathPass { name: "table", about: "finds where the knife would leave the table", run };
 
-fn run(toolpath: &mut Toolpath, job: &Job, diagnostics: &mut Diagnostics) {
+fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
+    let job = scene.job;
     let table = &job.profile.table;
     if table.x_mm.is_none() && table.y_mm.is_none() {
         return;

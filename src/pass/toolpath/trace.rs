@@ -13,24 +13,29 @@ use crate::machine::{Follow, Job};
 pub fn trace<'a>(marker: &'a Marker, job: &'a Job) -> impl Iterator<Item = Toolpath> + 'a {
     let tolerance = job.profile.tolerance(marker.unit);
     let last = marker.pieces.last().map_or(0, |piece| piece.number);
-    let pieces = marker.pieces.iter().flat_map(move |piece| {
+    let pieces = marker.pieces.iter().zip(0..).flat_map(move |(piece, part)| {
         let events = piece.events.iter().map(event);
         let drills = piece.drills.iter().map(|d| Step::Drill(Drill { at: d.at, tool: d.tool, span: d.span }));
         let strokes = piece.notches.iter().flat_map(|notch| notch.strokes().map(|stroke| (notch.percent, stroke)));
         let notches =
             strokes.map(move |(percent, stroke)| Step::Run(notch_run(&stroke, feed(piece, percent, job), job)));
         let contours = piece.contours.iter().map(move |contour| Step::Run(contour_run(marker, piece, contour, job)));
-        events.chain(drills).chain(notches).chain(contours).map(move |step| toolpath(piece.number, tolerance, step))
+        events
+            .chain(drills)
+            .chain(notches)
+            .chain(contours)
+            .map(move |step| toolpath([piece.number, part], tolerance, step))
     });
-    pieces.chain(marker.closing.iter().map(move |closing| toolpath(last, tolerance, event(closing))))
+    pieces.chain(marker.closing.iter().map(move |closing| toolpath([last, 0], tolerance, event(closing))))
 }
 
 fn event(event: &Event) -> Step {
     Step::Event(event.kind)
 }
 
-fn toolpath(piece: u32, tolerance: f64, step: Step) -> Toolpath {
-    Toolpath { piece, tolerance, entry: Pose::default(), steps: vec![step] }
+/// The toolpath of a piece, by its number and its place in the marker.
+fn toolpath([piece, part]: [u32; 2], tolerance: f64, step: Step) -> Toolpath {
+    Toolpath { piece, part, tolerance, entry: Pose::default(), steps: vec![step] }
 }
 
 /// A slit is cut from the edge inwards, its crossbar as it is written, both without overlap at either end.
@@ -80,6 +85,7 @@ fn raw(shape: Shape, job: &Job) -> Run {
         heel: 0.0,
         feeds: Vec::new(),
         ends: [End::default(); 2],
+        turned: false,
         start: Pose::default(),
         end: Pose::default(),
     }

@@ -1,0 +1,131 @@
+//! Pass `stab`: runs on which the blade has nowhere to go between plunge and lift become one plunge without motion.
+//!
+//! Needs runs with their overlaps. Leaves no run that the blade covers where it plunges: L + F + H <= w on a straight one, no
+//! point of the path at the distance w from its start on a curved one. What the blade is longer by, the surplus, goes into
+//! the waste: behind the start as far as there is room, then past the end. What finds no room cuts into the part, never
+//! into another one that can be spared, with a warning.
+
+use super::ToolpathPass;
+use super::scene::{Around, Scene};
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::polyline;
+use crate::geom::region::{Ray, Room};
+use crate::ir::toolpath::{Pose, Run, Shape, Stab, Step, Toolpath};
+use crate::units::number::fixed;
+
+pub(super) const PASS: ToolpathPass =
+    ToolpathPass { name: "stab", about: "makes stabs of short runs, what the blade is longer by in the waste", run };
+
+/// A shorter surplus harms nobody, mm: rounding.
+const HARM_EPSILON: f64 = 1e-6;
+
+fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
+    let around = scene.around(toolpath);
+    for step in &mut toolpath.steps {
+        match step {
+            Step::Run(run) if run.shape == Shape::Open => {
+                if let Some(stab) = stab(run, &around) {
+                    if stab.harm > around.tolerance() {
+                        diagnostics.push(harm(&stab, &around));
+                    }
+                    *step = Step::Stab(stab);
+                }
+            }
+            Step::Run(_) | Step::Stab(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {}
+        }
+    }
+}
+
+/// The stab that a run is; `None` when the blade has a way to go.
+fn stab(run: &Run, around: &Around) -> Option<Stab> {
+    let width = around.knife().width_mm;
+    let extended = run.extended();
+    let reached = polyline::first_at_distance(&extended, width);
+    let (first, last) = (extended[0], extended[extended.len() - 1]);
+    // Exactly as long as the blade is a stab, too.
+    if reached.is_some_and(|(point, _)| point != last) || width == 0.0 {
+        return None;
+    }
+    let along = polyline::direction(first, last)?;
+    let surplus = (width - (last - first).norm()).max(0.0);
+    let reach = surplus + around.knife().clearance_mm;
+    let behind = around.room(&Ray { from: first, along: -along, reach });
+    let ahead = around.room(&Ray { from: last, along, reach });
+    let [start, end] = run.ends;
+    let split = if start.bare && !end.bare {
+        let [front, heel] = split(surplus, [ahead, behind], around);
+        [heel, front]
+    } else {
+        split(surplus, [behind, ahead], around)
+    };
+    let [heel, front] = split.map(|share| share.length);
+    let tip = last + along * front;
+    Some(Stab {
+        points: run.points.clone(),
+        spans: run.spans.clone(),
+        along,
+        front: run.front + front,
+        heel: run.heel + heel,
+        ends: run.ends,
+        turned: run.turned,
+        harm: split.iter().map(|share| share.harm).sum(),
+        pose: Pose { centre: tip - along * around.knife().radius(), ..Pose::default() },
+    })
+}
+
+/// What of a surplus goes beyond one end, mm, and how much of that lies in a part.
+#[derive(Debug, Clone, Copy)]
+struct Share {
+    length: f64,
+    harm: f64,
+}
+
+/// Shares a surplus out to two ends, of which the first is preferred: to the waste; then into the part itself, alike at both
+/// ends so that the greater is least; and only what is left into another part.
+fn split(surplus: f64, rooms: [Room; 2], around: &Around) -> [Share; 2] {
+    let clearance = around.knife().clearance_mm;
+    let clear = |gap: f64| (gap - clearance).max(0.0);
+    let mut shares = [Share { length: 0.0, harm: 0.0 }; 2];
+    let mut left = surplus;
+    for (share, room) in shares.iter_mut().zip(rooms) {
+        share.length = left.min(clear(room.least()));
+        left -= share.length;
+    }
+    // A clearance is worth less than a whole part.
+    for (share, room) in shares.iter_mut().zip(rooms) {
+        let more = left.min((room.least() - share.length).max(0.0));
+        share.length += more;
+        left -= more;
+    }
+    if left <= HARM_EPSILON {
+        shares[0].length += left;
+        return shares;
+    }
+    // Where nothing but the part itself lies ahead it may be cut, up to the next part.
+    let spare =
+        [0, 1].map(|i| if rooms[i].own < rooms[i].other { clear(rooms[i].other) - shares[i].length } else { 0.0 });
+    let spare = spare.map(|spare| spare.max(0.0));
+    let first = (left / 2.0).min(spare[0]).max(left - spare[1]).min(spare[0]);
+    let second = (left - first).min(spare[1]);
+    // The rest enters another part whichever end it leaves by.
+    let rest = left - first - second;
+    for (share, more) in shares.iter_mut().zip([first + rest / 2.0, second + rest / 2.0]) {
+        share.length += more;
+        share.harm += more;
+    }
+    shares
+}
+
+fn harm(stab: &Stab, around: &Around) -> Diagnostic {
+    let length = fixed(polyline::length(&stab.points), 2);
+    let (width, harm) = (fixed(around.knife().width_mm, 2), fixed(stab.harm, 2));
+    let block = stab.spans[stab.spans.len() - 1].block;
+    Diagnostic::new(
+        &code::PATH_OVERCUT,
+        format!(
+            "block {block}: the blade of {width} mm is longer than this cut of {length} mm: it cuts {harm} mm too far into a part"
+        ),
+    )
+    .at(stab.spans[stab.spans.len() - 1])
+    .hint("a narrower blade cuts less far")
+}

@@ -1,0 +1,276 @@
+//! What the blade cuts beyond the ends of its line, and of what: its own part, another one, or waste.
+//!
+//! A place counts as cut into a part when it lies deeper in it than the tolerance, away from all that is cut anyway. The
+//! own part may be cut as far as the profile has it for reflex corners. A blade that never moves and is longer than its
+//! cut may harm what no other place for it would spare: then the compile has warned. How much that is, is found here
+//! anew, from the room that there is at both ends.
+
+use std::ops::RangeInclusive;
+
+use super::body::Cut;
+use super::follow::Foot;
+use super::grid::Grid;
+use super::inside::Inside;
+use super::reference::{Line, Reference};
+use super::worst::Worst;
+use crate::geom::{Point, Vector, polyline};
+use crate::ir::Finding;
+use crate::ir::finding::Sighting;
+use crate::machine::MachineProfile;
+
+/// Distance of two places at which a way is looked at, mm.
+const STEP: f64 = 0.05;
+/// Halvings that find where a way enters a part: from a quarter of a millimetre to rounding.
+const HALVINGS: usize = 20;
+
+/// Judges overcuts.
+#[derive(Debug)]
+pub(super) struct Overcut {
+    inside: Inside,
+    /// Rounding of a tip's place, mm.
+    rounding: f64,
+    tolerance: f64,
+    width: f64,
+    /// How far the profile lets the blade cut into the part at a reflex corner, mm.
+    reflex: f64,
+    /// What the profile allows in the part itself and in others, mm.
+    allowed: [Option<f64>; 2],
+    part: Worst,
+    neighbour: Worst,
+    waste: Worst,
+}
+
+/// A stroke on its line.
+pub(super) struct Stroke<'a> {
+    pub(super) cut: &'a Cut,
+    pub(super) feet: &'a [Foot],
+    /// The places that are held to the line.
+    pub(super) held: &'a RangeInclusive<usize>,
+    pub(super) line: &'a Line,
+    /// The joints between which it is a stab that fits what was left of its line.
+    pub(super) fits: Option<[[f64; 2]; 2]>,
+}
+
+/// All lines, and those near a place.
+#[derive(Clone, Copy)]
+pub(super) struct Lines<'a> {
+    pub(super) reference: &'a Reference<'a>,
+    pub(super) grid: &'a Grid,
+}
+
+/// What lies at a place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Cloth {
+    Part,
+    Neighbour,
+    Waste,
+}
+
+impl Overcut {
+    /// For places that are rounded to `rounding` mm.
+    pub(super) fn new(reference: &Reference, profile: &MachineProfile, rounding: f64) -> Self {
+        let (knife, verify) = (&profile.knife, &profile.verify);
+        Self {
+            inside: Inside::new(reference.marker),
+            rounding,
+            tolerance: reference.tolerance + rounding,
+            width: knife.width_mm,
+            reflex: knife.reflex_front_overlap_mm.max(knife.reflex_heel_overlap_mm),
+            allowed: [verify.max_overcut_part_mm, verify.max_overcut_neighbour_mm],
+            part: Worst::new(
+                "verify/overcut-part",
+                "mm",
+                verify.max_overcut_part_mm.map(|most| most + reference.tolerance),
+            ),
+            neighbour: Worst::new("verify/overcut-neighbour", "mm", verify.max_overcut_neighbour_mm),
+            waste: Worst::new("verify/overcut-waste", "mm", verify.max_overcut_waste_mm),
+        }
+    }
+
+    pub(super) fn findings(self) -> [Finding; 3] {
+        [self.part.finding(), self.neighbour.finding(), self.waste.finding()]
+    }
+
+    /// Judges what a stroke cuts beyond the ends of its line.
+    pub(super) fn see(&mut self, stroke: &Stroke, lines: Lines, seen: &impl Fn(usize) -> Sighting) {
+        let joints = stroke.joints();
+        let beyond: Vec<f64> = (0..stroke.feet.len()).map(|i| stroke.beyond(i, joints)).collect();
+        if beyond.iter().all(|&beyond| beyond <= self.rounding) {
+            return;
+        }
+        let points = &stroke.cut.points;
+        let cloth: Vec<Option<Cloth>> =
+            (0..points.len()).map(|i| (beyond[i] > self.rounding).then(|| self.at(points[i], stroke, lines))).collect();
+        let (mut sums, mut groups) = ([0.0; 2], [(0.0, 0); 2]);
+        let mut from = 0;
+        for group in cloth.chunk_by(|a, b| a == b) {
+            let range = from..from + group.len();
+            from = range.end;
+            let far = range.clone().max_by(|&a, &b| beyond[a].total_cmp(&beyond[b])).expect("a chunk is never empty");
+            let kind = match group[0] {
+                None => continue,
+                Some(Cloth::Waste) => {
+                    self.waste.see(beyond[far], || seen(far));
+                    continue;
+                }
+                Some(Cloth::Part) => 0,
+                Some(Cloth::Neighbour) => 1,
+            };
+            if !range.clone().any(|i| lines.is_away(points[i], self.tolerance)) {
+                continue;
+            }
+            // Where it comes from: the place beside the stretch that is less far beyond.
+            let sides = [(range.start, range.start.checked_sub(1)), (range.end - 1, Some(range.end))];
+            let sides =
+                sides.into_iter().filter_map(|(near, before)| Some((near, before.filter(|&i| i < points.len())?)));
+            let (near, before) = sides
+                .filter(|&(near, before)| beyond[before] < beyond[near])
+                .min_by(|a, b| beyond[a.1].total_cmp(&beyond[b.1]))
+                .unwrap_or((far, far));
+            let entry = if cloth[before].is_some() && before != near {
+                beyond[near] - self.entered([points[before], points[near]], group[0], stroke, lines)
+            } else {
+                0.0
+            };
+            let length = beyond[far] - entry.clamp(0.0, beyond[far]);
+            sums[kind] += length;
+            if length > groups[kind].0 {
+                groups[kind] = (length, far);
+            }
+        }
+        let stab = stroke.cut.is_stab();
+        let spared =
+            if stab && groups.iter().any(|group| group.0 > 0.0) { self.unavoidable(stroke, lines) } else { [0.0; 2] };
+        let [(part, at_part), (neighbour, at_neighbour)] = groups;
+        let [part, neighbour] = if stab { sums } else { [part, neighbour] };
+        let [of_part, of_neighbour] = self.allowed.map(|allowed| allowed.unwrap_or(f64::INFINITY));
+        let reflex = if stab { 2.0 * self.reflex } else { self.reflex };
+        if part > 0.0 {
+            self.part.see_under(part, of_part + self.tolerance + reflex.max(spared[0]), || seen(at_part));
+        }
+        if neighbour > 0.0 {
+            let unspared = if spared[1] > 0.0 { spared[1] + self.tolerance } else { 0.0 };
+            self.neighbour.see_under(neighbour, of_neighbour + unspared, || seen(at_neighbour));
+        }
+    }
+
+    /// What lies at a place beyond an end of a line. A part in which the line itself lies is no neighbour: so it is drawn.
+    fn at(&self, point: Point, stroke: &Stroke, lines: Lines) -> Cloth {
+        let pieces = self.inside.pieces_at(point);
+        if pieces.contains(&stroke.line.piece) {
+            return Cloth::Part;
+        }
+        let is_drawn_in = |piece: &usize| {
+            let ends = [stroke.line.points[0], stroke.line.points[stroke.line.points.len() - 1]];
+            ends.into_iter().any(|end| {
+                self.inside.pieces_at(end).contains(piece) && lines.is_away_from(end, *piece, self.tolerance)
+            })
+        };
+        if pieces.iter().all(is_drawn_in) { Cloth::Waste } else { Cloth::Neighbour }
+    }
+
+    /// How far before the second of two places, between which a way enters some cloth, it does so, mm.
+    fn entered(&self, [mut before, behind]: [Point; 2], cloth: Option<Cloth>, stroke: &Stroke, lines: Lines) -> f64 {
+        let mut after = behind;
+        for _ in 0..HALVINGS {
+            let middle = before + (after - before) / 2.0;
+            if Some(self.at(middle, stroke, lines)) == cloth { after = middle } else { before = middle }
+        }
+        (behind - after).norm()
+    }
+
+    /// What a blade that does not move must cut of its own part and, even if it may cut that, of others, mm: what it is
+    /// longer by than its cut and the room at both ends.
+    fn unavoidable(&self, stroke: &Stroke, lines: Lines) -> [f64; 2] {
+        let Some([from, to]) = stroke.fits else { return [0.0; 2] };
+        if from.into_iter().chain(to).any(f64::is_infinite) {
+            // The knife was lifted anywhere on the way.
+            return [self.width; 2];
+        }
+        // Behind a slight bend a blade stays in the tube for a while, so that it may have been meant to end at either.
+        let [inner, outer] = [innermost([from, to]), [from[0], to[1]]].map(|stations| {
+            let [start, end] = stations.map(|station| stroke.line.place(station));
+            let Some(along) = polyline::direction(start, end) else { return [0.0; 2] };
+            let rooms = [self.room(start, -along, stroke, lines), self.room(end, along, stroke, lines)];
+            let surplus = self.width - (end - start).norm();
+            let least = |room: [f64; 2]| room[0].min(room[1]);
+            [surplus - least(rooms[0]) - least(rooms[1]), surplus - rooms[0][1] - rooms[1][1]]
+        });
+        [0, 1].map(|i| inner[i].max(outer[i]).max(0.0))
+    }
+
+    /// How far a way from a place goes before it enters the part, and before it enters another, mm; the blade's width when
+    /// it does not.
+    fn room(&self, from: Point, along: Vector, stroke: &Stroke, lines: Lines) -> [f64; 2] {
+        let mut room = [self.width; 2];
+        let mut entry: Option<(Cloth, f64)> = None;
+        let steps = (self.width / STEP).ceil() as usize;
+        for i in 1..=steps {
+            let way = STEP * i as f64;
+            let (place, before) = (from + along * way, from + along * (way - STEP));
+            let cloth = self.at(place, stroke, lines);
+            let kind = match cloth {
+                Cloth::Waste => {
+                    entry = None;
+                    continue;
+                }
+                Cloth::Part => 0,
+                Cloth::Neighbour => 1,
+            };
+            let entered = match entry {
+                Some((same, entered)) if same == cloth => entered,
+                Some(_) | None if i == 1 => 0.0,
+                Some(_) | None => way - self.entered([before, place], Some(cloth), stroke, lines),
+            };
+            entry = Some((cloth, entered));
+            if lines.is_away(place, self.tolerance) {
+                room[kind] = room[kind].min(entered);
+            }
+        }
+        room
+    }
+}
+
+/// Of the joints at which a stab may begin and those at which it may end, the two nearest to each other; the outermost
+/// when these are not in order.
+pub(super) fn innermost([from, to]: [[f64; 2]; 2]) -> [f64; 2] {
+    if from[1] < to[0] { [from[1], to[0]] } else { [from[0], to[1]] }
+}
+
+impl Stroke<'_> {
+    /// The outermost joints between which it is a stab that fits what was left of its line.
+    fn joints(&self) -> Option<[Point; 2]> {
+        let [from, to] = self.fits.filter(|fits| fits.iter().flatten().all(|station| station.is_finite()))?;
+        Some([from[0], to[1]].map(|station| self.line.place(station)))
+    }
+
+    /// How far place `i` stands beyond the joints of a stab, an end of the line, or what is held to that, mm.
+    fn beyond(&self, i: usize, joints: Option<[Point; 2]>) -> f64 {
+        if let Some(([start, end], along)) =
+            joints.and_then(|ends| Some((ends, polyline::direction(ends[0], ends[1])?)))
+        {
+            let point = self.cut.points[i];
+            return (start - point).dot(&along).max((point - end).dot(&along)).max(0.0);
+        }
+        let edge = i.clamp(*self.held.start(), *self.held.end());
+        self.feet[i].beyond.max((self.cut.points[i] - self.cut.points[edge]).norm())
+    }
+}
+
+impl Lines<'_> {
+    /// Whether a place is farther than `slack` mm from all that is cut.
+    fn is_away(self, point: Point, slack: f64) -> bool {
+        self.grid.near(point).all(|chord| self.distance(chord, point) > slack)
+    }
+
+    /// Whether it is from what is cut of a piece.
+    fn is_away_from(self, point: Point, piece: usize, slack: f64) -> bool {
+        let mut near = self.grid.near(point).filter(|chord| self.reference.lines[chord.0 as usize].piece == piece);
+        near.all(|chord| self.distance(chord, point) > slack)
+    }
+
+    fn distance(self, (line, chord): (u32, u32), point: Point) -> f64 {
+        let (points, chord) = (&self.reference.lines[line as usize].points, chord as usize);
+        polyline::distance_to_segment(point, points[chord], points[chord + 1])
+    }
+}
