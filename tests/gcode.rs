@@ -254,7 +254,8 @@ fn ready_tables_of_controllers_give_programs_that_pass() {
 #[test]
 fn a_wavy_contour_is_at_most_a_quarter_as_many_moves_as_chords() {
     let (program, compiled) = compile(&fixture("motion/wavy751.csv"), &machine("wavy"));
-    let moves = program.lines().filter(|line| line.starts_with("G1 ") || line.starts_with("G2 ") || line.starts_with("G3 "));
+    let moves =
+        program.lines().filter(|line| line.starts_with("G1 ") || line.starts_with("G2 ") || line.starts_with("G3 "));
     let controller = compiled.report.controller.expect("it is estimated");
     assert_eq!(moves.count(), controller.moves);
     assert!(4 * controller.moves <= 500, "{} moves", controller.moves);

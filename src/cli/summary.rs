@@ -128,7 +128,11 @@ pub(super) fn verdict(verdict: Option<&Verdict>) -> String {
         let _ = write!(out, "\n             {} without a limit only reported", counted(reported, "rule"));
     }
     if !verdict.untimed.is_empty() {
-        let _ = write!(out, "\n             {} on times not judged: the program tells none", counted(verdict.untimed.len(), "rule"));
+        let _ = write!(
+            out,
+            "\n             {} on times not judged: the program tells none",
+            counted(verdict.untimed.len(), "rule")
+        );
     }
     out + "\n"
 }

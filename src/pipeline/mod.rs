@@ -6,9 +6,7 @@ mod report;
 mod spent;
 
 pub use judge::{about, figures, foreign, judge_program};
-pub use report::{
-    Axes, Controller, Drawn, Lines, Notches, Peak, Peaks, Program, Report, Sides, significant,
-};
+pub use report::{Axes, Controller, Drawn, Lines, Notches, Peak, Peaks, Program, Report, Sides, significant};
 pub use spent::{Spent, word};
 
 pub use crate::verify::{RULES, Verdict};

@@ -293,7 +293,11 @@ impl<'a> Places<'a> {
         let end = to - centre;
         let radii = [start.norm(), end.norm()];
         if radii[0] == 0.0 || (radii[0] - radii[1]).abs() > RADIUS_STEPS * self.profile.gcode.step() {
-            return Err(format!("is an arc whose ends lie {} and {} mm from its centre", exact(radii[0]), exact(radii[1])));
+            return Err(format!(
+                "is an arc whose ends lie {} and {} mm from its centre",
+                exact(radii[0]),
+                exact(radii[1])
+            ));
         }
         let angle = |v: Vector| v.y.atan2(v.x);
         let turned = (way * (angle(end) - angle(start))).rem_euclid(TAU);

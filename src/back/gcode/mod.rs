@@ -65,12 +65,7 @@ fn way_of(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Diagnostic> {
 }
 
 /// Writes toolpaths with their ways.
-fn write(
-    context: &Context,
-    toolpaths: &[Toolpath],
-    ways: &[Ways],
-    out: &mut dyn Output,
-) -> io::Result<Estimate> {
+fn write(context: &Context, toolpaths: &[Toolpath], ways: &[Ways], out: &mut dyn Output) -> io::Result<Estimate> {
     let mut program = Program::new(context.job);
     program.head();
     for (toolpath, Ways(ways)) in toolpaths.iter().zip(ways) {

@@ -103,8 +103,11 @@ impl Pace {
         }
         let slowest = |limit: fn(&Limits) -> f64| {
             let along_arc = || length / limit(&limits[0]).min(limit(&limits[1]));
-            let linear =
-                if straight { (step.ways[0] / limit(&limits[0])).max(step.ways[1] / limit(&limits[1])) } else { along_arc() };
+            let linear = if straight {
+                (step.ways[0] / limit(&limits[0])).max(step.ways[1] / limit(&limits[1]))
+            } else {
+                along_arc()
+            };
             length / linear.max(step.ways[2] / limit(&limits[2]))
         };
         let (mut most, mut acceleration) = (slowest(|l| l.speed), slowest(|l| l.acceleration));

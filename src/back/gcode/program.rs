@@ -266,4 +266,3 @@ impl<'a> Program<'a> {
         push_fixed(&mut self.text, value, self.job.profile.gcode.decimals);
     }
 }
-

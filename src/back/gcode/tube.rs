@@ -105,8 +105,7 @@ impl Tube {
     /// chord's ends by `ends`, and in the middle by `bow` more than straight between these, mm.
     pub(super) fn holds(&self, chord: usize, ends: [f64; 2], bow: f64, allowed: f64) -> bool {
         let bulge = self.heights[chord];
-        highest(ends, bow - bulge.max(0.0)) <= allowed
-            && highest(ends.map(|end| -end), bulge.min(0.0) - bow) <= allowed
+        highest(ends, bow - bulge.max(0.0)) <= allowed && highest(ends.map(|end| -end), bulge.min(0.0) - bow) <= allowed
     }
 }
 
