@@ -52,8 +52,8 @@ impl Default for RotaryCounts {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Gcode {
-    /// Name of the blade's axis.
-    pub axis: AxisName,
+    /// Letter of the axis that turns the blade.
+    pub letter: Letter,
     /// Whether the axis counts from 0 to 360 degrees only.
     pub wrapped: bool,
     /// Whether the controller knows arcs with a rotary axis.
@@ -96,9 +96,9 @@ impl Gcode {
     }
 }
 
-/// Name of a rotary axis.
+/// Letter of a rotary axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum AxisName {
+pub enum Letter {
     /// A.
     A,
     /// B.
@@ -107,9 +107,9 @@ pub enum AxisName {
     C,
 }
 
-impl AxisName {
-    /// The letter of its words.
-    pub fn letter(self) -> u8 {
+impl Letter {
+    /// As it stands in words.
+    pub fn byte(self) -> u8 {
         match self {
             Self::A => b'A',
             Self::B => b'B',
@@ -140,7 +140,7 @@ impl FeedMode {
 impl Default for Gcode {
     fn default() -> Self {
         Self {
-            axis: AxisName::C,
+            letter: Letter::C,
             wrapped: false,
             arcs: true,
             feed_mode: FeedMode::G94,

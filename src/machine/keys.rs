@@ -391,7 +391,7 @@ pub const KEYS: &[Key] = &[
     Key { name: "counts.c.per_deg", takes: Takes::Number(COUNTS), about: "Target counts: encoder counts of a degree of the blade's turn." },
     Key { name: "counts.c.offset", takes: Takes::Number(REGISTER), about: "Target counts: what the encoder shows at C 0 of the controller." },
 
-    Key { name: "gcode.axis", takes: Takes::Word(&["A", "B", "C"]), about: "Target gcode: name of the axis that turns the blade." },
+    Key { name: "gcode.letter", takes: Takes::Word(&["A", "B", "C"]), about: "Target gcode: letter of the axis that turns the blade." },
     Key { name: "gcode.wrapped", takes: Takes::Flag, about: "Whether that axis counts from 0 to 360 degrees only; a negative number then means to turn back." },
     Key { name: "gcode.arcs", takes: Takes::Flag, about: "Whether the controller knows arcs (G2, G3) on which that axis turns, too." },
     Key { name: "gcode.feed_mode", takes: Takes::Word(&["G93", "G94"]), about: "What F says: the speed of X and Y (G94), or one over the time of each move (G93), for controllers\nthat would count degrees as mm." },

@@ -227,7 +227,7 @@ impl<'a> Places<'a> {
         let needed = |word: Option<f64>, letter: char| word.ok_or_else(|| format!("has no {letter}"));
         let code = needed(words.g, 'G')?;
         let to = Point::new(needed(words.x, 'X')?, needed(words.y, 'Y')?);
-        let c_to = self.turned_to(needed(words.c, self.profile.gcode.axis.letter().into())?);
+        let c_to = self.turned_to(needed(words.c, self.profile.gcode.letter.byte().into())?);
         if code != 0.0 && needed(words.f, 'F')? <= 0.0 {
             return Err("has an F that is no speed".to_owned());
         }
@@ -365,7 +365,7 @@ impl Words {
             b'J' => &mut self.j,
             b'F' => &mut self.f,
             b'P' => &mut self.p,
-            letter if letter == profile.gcode.axis.letter() => &mut self.c,
+            letter if letter == profile.gcode.letter.byte() => &mut self.c,
             _ => return None,
         })
     }

@@ -93,7 +93,7 @@ fn the_interpreter_of_linuxcnc_takes_every_program_and_means_the_same_places() {
     for machine in ["linuxcnc", "fluidnc", "eccentric"] {
         let keys = profile(machine).gcode;
         // Where the blade's axis stands among A, B and C.
-        let axis = (keys.axis.letter() - b'A') as usize;
+        let axis = (keys.letter.byte() - b'A') as usize;
         // One table takes all; of the others the markers and cut files show what differs.
         let is_asked = |input: &&PathBuf| machine == "linuxcnc" || input.extension().is_some_and(|end| end == "cut");
         for input in inputs.iter().filter(is_asked) {
@@ -107,7 +107,7 @@ fn the_interpreter_of_linuxcnc_takes_every_program_and_means_the_same_places() {
             assert!(ran.status.success(), "{name}: {}", String::from_utf8_lossy(&ran.stderr));
             let read = |file: &str| std::fs::read_to_string(folder.path().join(file)).expect("text");
             let (program, commands) = (read("program.ngc"), read("canon.txt"));
-            let (moves, commands) = (moves(&program, keys.axis.letter().into()), canon(&commands));
+            let (moves, commands) = (moves(&program, keys.letter.byte().into()), canon(&commands));
             assert_eq!(moves.len(), commands.len(), "{name}");
             for (step, (command, numbers)) in moves.iter().zip(&commands) {
                 let (places, kind): (Vec<f64>, &str) = match step.code {

@@ -24,6 +24,8 @@ const OPPOSED: f64 = -0.7;
 const LINE_EPSILON: f64 = 1e-5;
 /// Two arcs whose directions at the end differ by less than this from that of one arc through both ends are one, rad.
 const SAME_EPSILON: f64 = 2e-4;
+/// Arcs that turn less beside a chord bow as parabolas do, rad.
+const FLAT_TURN: f64 = 0.5;
 /// Samples a chord.
 const SAMPLES: usize = 4;
 /// Lengths below this are none, mm.
@@ -104,6 +106,8 @@ struct Node {
     station: f64,
     /// The chord that it lies on.
     chord: usize,
+    /// Whether it lies on the curve that the polyline stands for; else it is a shoulder of a bend.
+    is_aim: bool,
 }
 
 /// The ends of a way: a direction where it starts and one where it ends, unit vectors.
@@ -116,42 +120,52 @@ pub(super) struct Ends {
 /// The arcs along a tube; otherwise the point at which none stays inside.
 pub(super) fn fit(tube: &Tube, ends: Ends) -> Result<Vec<Arc>, Point> {
     let nodes = nodes(tube, ends);
+    let aims: Vec<usize> = (1..nodes.len()).filter(|&i| nodes[i].is_aim).collect();
     let mut arcs = Vec::new();
-    let mut i = 0;
+    let (mut i, mut ahead) = (0, 0);
     while i + 1 < nodes.len() {
-        let try_to = |j: usize| biarc(tube, &nodes[i], &nodes[j]);
-        let mut best: Option<(usize, Found)> = None;
-        let (mut step, mut bad) = (1, nodes.len());
-        // Twice as far each time, then halving between what fits and what does not.
-        while i + step < bad {
-            match try_to(i + step) {
-                Some(found) => best = Some((i + step, found)),
-                None if best.is_none() && step < FIRST_TRIES => {
-                    step += 1;
-                    continue;
-                }
-                None => {
-                    bad = i + step;
-                    break;
-                }
-            }
-            step *= 2;
+        while aims[ahead] <= i {
+            ahead += 1;
         }
-        let Some((mut good, mut found)) = best else { return Err(nodes[i].at) };
-        while bad - good > 1 {
-            let middle = usize::midpoint(good, bad);
-            match try_to(middle) {
-                Some(next) => (good, found) = (middle, next),
-                None => bad = middle,
-            }
-        }
+        let (to, found) = farthest(tube, &nodes, (i, &aims[ahead..])).ok_or(nodes[i].at)?;
         arcs.extend(found.into_iter().flatten());
-        i = good;
+        i = to;
     }
     Ok(arcs)
 }
 
-/// Neighbouring places that are tried when the next one cannot be reached.
+/// The farthest place that a biarc from place `i` reaches, and that biarc; `aims` are those behind it that lie on the curve.
+fn farthest(tube: &Tube, nodes: &[Node], (i, aims): (usize, &[usize])) -> Option<(usize, Found)> {
+    let try_to = |j: usize| biarc(tube, &nodes[i], &nodes[j]);
+    let mut best: Option<(usize, Found)> = None;
+    // Twice as far each time, then halving between what fits and what does not.
+    let (mut reached, mut bad) = (0, aims.len() + 1);
+    let mut step = 1;
+    while step < bad {
+        match try_to(aims[step - 1]) {
+            Some(found) => (best, reached) = (Some((aims[step - 1], found)), step),
+            None => bad = step,
+        }
+        step = if step == aims.len() { bad } else { (2 * step).min(aims.len()) };
+    }
+    while bad - reached > 1 {
+        let middle = usize::midpoint(reached, bad);
+        match try_to(aims[middle - 1]) {
+            Some(found) => (best, reached) = (Some((aims[middle - 1], found)), middle),
+            None => bad = middle,
+        }
+    }
+    // A shoulder behind it, if there is one, ends a straight line at the bend.
+    let from = best.map_or(i, |(reached, _)| reached);
+    let next = aims.get(reached).copied().unwrap_or(from);
+    let beyond = (from + 1..next.max(from + 1)).rev().find_map(|j| Some((j, try_to(j)?)));
+    beyond.or(best).or_else(|| {
+        let last = (i + FIRST_TRIES).min(nodes.len() - 1);
+        (i + 1..=last).rev().find_map(|j| Some((j, try_to(j)?)))
+    })
+}
+
+/// Neighbouring places that are tried when no aim can be reached.
 const FIRST_TRIES: usize = 4;
 
 type Found = [Option<Arc>; 2];
@@ -159,32 +173,31 @@ type Found = [Option<Arc>; 2];
 /// The places along a tube.
 fn nodes(tube: &Tube, ends: Ends) -> Vec<Node> {
     let last = tube.chords();
-    let mut nodes = vec![Node { at: tube.points[0], along: ends.start, station: 0.0, chord: 0 }];
-    // A bend of turn t whose rounding touches both chords a way w off its vertex leaves the vertex by w tan(t / 4).
-    let shoulder = |vertex: usize| {
+    let node =
+        |chord: usize, (at, along): (Point, Vector), station: f64| Node { at, along, station, chord, is_aim: true };
+    let mut nodes = vec![node(0, (tube.points[0], ends.start), 0.0)];
+    // A bend of turn t whose rounding touches both chords a way w off its vertex leaves the vertex by w tan(t / 4). On a
+    // curve it is none.
+    let shoulder = |chord: usize, vertex: usize| {
         let turn = tube.turns[vertex].abs();
-        if turn < TURN_EPSILON { f64::INFINITY } else { ROUNDING_SHARE * tube.tolerance / (turn / 4.0).tan() }
+        let is_bend = turn > TURN_EPSILON && tube.is_bend(chord, vertex);
+        if is_bend { ROUNDING_SHARE * tube.tolerance / (turn / 4.0).tan() } else { f64::INFINITY }
     };
     for chord in 0..last {
         let (a, length) = (tube.points[chord], tube.stations[chord + 1] - tube.stations[chord]);
         let along = tube.direction(chord);
-        let place = |way: f64, aside: Vector| Node {
-            at: a + along * way + aside,
-            along,
-            station: tube.stations[chord] + way,
-            chord,
-        };
-        let (before, behind) = (shoulder(chord), shoulder(chord + 1));
+        let place = |way: f64| node(chord, (a + along * way, along), tube.stations[chord] + way);
+        let (before, behind) = (shoulder(chord, chord), shoulder(chord, chord + 1));
         if before < SHOULDER_SHARE * length {
-            nodes.push(place(before, Vector::zeros()));
+            nodes.push(Node { is_aim: false, ..place(before) });
         }
-        nodes.push(place(0.5 * length, tube.middle(chord)));
+        let middle = place(0.5 * length);
+        nodes.push(Node { at: middle.at + tube.middle(chord), ..middle });
         if behind < SHOULDER_SHARE * length {
-            nodes.push(place(length - behind, Vector::zeros()));
+            nodes.push(Node { is_aim: false, ..place(length - behind) });
         }
     }
-    let end = tube.stations[last];
-    nodes.push(Node { at: tube.points[last], along: ends.end, station: end, chord: last - 1 });
+    nodes.push(node(last - 1, (tube.points[last], ends.end), tube.stations[last]));
     nodes
 }
 
@@ -267,9 +280,23 @@ fn stays_at_ends(tube: &Tube, [first, second]: [&Arc; 2], [from, to]: [&Node; 2]
         tube.deviation(at(s), station) <= allowed
     };
     let [ahead, behind] = [tube.stations[from.chord + 1] - from.station, to.station - tube.stations[to.chord]];
+    // On a straight chord an arc that starts along it only leaves it, so that the vertex at its end says all.
+    let is_plain = |node: &Node, turn: f64| {
+        let is_along = cross(tube.direction(node.chord), node.along).abs() < TURN_EPSILON;
+        tube.is_plain(node.chord) && turn.abs() < FLAT_TURN && is_along
+    };
+    let [is_plain_ahead, is_plain_behind] = if alone && from.chord == to.chord {
+        [false; 2]
+    } else {
+        [
+            ahead <= first.length && is_plain(from, first.curvature * ahead),
+            behind <= second.length && is_plain(to, second.curvature * behind),
+        ]
+    };
     (1..=SAMPLES).all(|i| {
         let share = i as f64 / SAMPLES as f64;
-        stays(ahead.min(total) * share) && stays((total - behind * share).max(0.0))
+        (is_plain_ahead || stays(ahead.min(total) * share))
+            && (is_plain_behind || stays((total - behind * share).max(0.0)))
     })
 }
 

@@ -235,7 +235,7 @@ impl<'a> Program<'a> {
         self.word(b'Y', to.centre.y);
         let profile = &self.job.profile;
         let keys = &profile.gcode;
-        self.text.extend_from_slice(&[b' ', keys.axis.letter()]);
+        self.text.extend_from_slice(&[b' ', keys.letter.byte()]);
         let shown = profile.c.shown_deg(to.c.0);
         if keys.wrapped {
             let was = profile.c.shown_deg(self.pose.c.0);

@@ -6,6 +6,8 @@ use crate::machine::{Fit, MachineProfile};
 
 /// Longest chord that is taken for one of a flattened curve, mm.
 const CURVE_CHORD_MAX: f64 = 25.0;
+/// Turns of a curve differ by less than this factor from one vertex to the next.
+const ALIKE: f64 = 2.0;
 /// Smaller turns are none, rad.
 const TURN_EPSILON: f64 = 1e-6;
 
@@ -99,6 +101,17 @@ impl Tube {
         }
         let outward = bulge / height;
         (away - outward * away.dot(&outward).clamp(0.0, height)).norm()
+    }
+
+    /// Whether a vertex at an end of a chord is a bend of its own: on a curve neighbouring turns are alike.
+    pub(super) fn is_bend(&self, chord: usize, vertex: usize) -> bool {
+        let [before, after] = [self.turns[chord].abs(), self.turns[chord + 1].abs()];
+        self.is_plain(chord) || self.turns[vertex].abs() > ALIKE * before.min(after)
+    }
+
+    /// Whether only the chord itself counts as on the path.
+    pub(super) fn is_plain(&self, chord: usize) -> bool {
+        self.heights[chord] == 0.0
     }
 
     /// Whether a way beside a chord stays within an allowed distance of what counts as on the path. It runs left of the
