@@ -14,10 +14,14 @@ fn is_there(name: &str, probe: &mut Command) -> bool {
     }
     let required = std::env::var("CUTC_REQUIRE_CLIENTS").is_ok_and(|value| value == "1");
     assert!(!required, "{name} is not installed, and CUTC_REQUIRE_CLIENTS=1 asks for it");
-    // Written to the handle: what a test prints otherwise is not shown when it passes.
-    let line = format!("skipped: {name} is not installed\n");
-    std::io::Write::write_all(&mut std::io::stderr(), line.as_bytes()).expect("standard error is open");
+    tell(&format!("skipped: {name} is not installed"));
     false
+}
+
+/// Says a line on standard error, written to the handle: what a test prints otherwise is not shown when it passes.
+fn tell(line: &str) {
+    let line = format!("{line}\n");
+    std::io::Write::write_all(&mut std::io::stderr(), line.as_bytes()).expect("standard error is open");
 }
 
 fn python(script: &str, directory: &Path) -> Output {

@@ -81,7 +81,16 @@ pub struct Fit {
     /// What the axes do along a toolpath; what the target cannot express is refused. One may be made beside another.
     pub ways: fn(&Toolpath, &Job) -> Result<Ways, Vec<Diagnostic>>,
     /// Writes all toolpaths, each with its ways.
-    pub write: fn(&Context, &[Toolpath], &[Ways], &mut dyn Output) -> io::Result<Estimate>,
+    pub write: fn(&Context, &Fitted, &mut dyn Output) -> io::Result<Estimate>,
+}
+
+/// Toolpaths and what the axes do along each.
+#[derive(Debug)]
+pub struct Fitted<'a> {
+    /// What the knife does, in order.
+    pub toolpaths: &'a [Toolpath],
+    /// As many.
+    pub ways: &'a [Ways],
 }
 
 /// What the axes do along a toolpath, for a controller that plans for itself.

@@ -29,7 +29,7 @@ struct Judged {
     unread: Option<String>,
     /// Rules on times, of a program that tells none; not there when all are judged.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    not_judged: Vec<&'static str>,
+    untimed: Vec<&'static str>,
 }
 
 #[derive(Serialize)]
@@ -83,7 +83,7 @@ pub(super) fn json(verdict: Option<&Verdict>) -> String {
         verdict: if passes { Word::Pass } else { Word::Fail },
         rules: verdict.map_or_else(Vec::new, |verdict| verdict.findings.iter().map(rule).collect()),
         unread: verdict.and_then(|verdict| verdict.unread.clone()),
-        not_judged: verdict.map_or_else(Vec::new, |verdict| verdict.untimed.clone()),
+        untimed: verdict.map_or_else(Vec::new, |verdict| verdict.untimed.clone()),
     })
 }
 

@@ -256,7 +256,9 @@ impl Regions {
 impl Region {
     fn new(edges: &[Edge], first: usize) -> Self {
         let mut extent = Extent::EMPTY;
-        edges.iter().for_each(|edge| extent.add(edge.from));
+        for edge in edges {
+            extent.add(edge.from);
+        }
         let (width, height) = extent.size();
         let count = (edges.len() / EDGES_A_BAND).max(1);
         let band = [width, height / count as f64].map(|size| size.max(f64::MIN_POSITIVE));

@@ -92,7 +92,7 @@ pub struct Gcode {
 impl Gcode {
     /// The step of the last decimal, mm and degrees.
     pub fn step(&self) -> f64 {
-        10_f64.powi(-(self.decimals as i32))
+        10_f64.powi(-self.decimals.cast_signed())
     }
 }
 

@@ -18,7 +18,7 @@ use rayon::prelude::*;
 use tempfile::SpooledTempFile;
 
 use self::program::Sink;
-use crate::back::{Context, Emit, Estimate, Proof, SETPOINTS, Target};
+use crate::back::{Context, Emit, Estimate, Fitted, Proof, SETPOINTS, Target};
 use crate::diagnostic::Diagnostics;
 use crate::front::{self, Dialect};
 use crate::ir::{Finding, Marker, Toolpath, check, text};
@@ -248,7 +248,7 @@ fn write_untimed(
                 }
             }
             if sound.len() == toolpaths.len() {
-                estimate = Some((fit.write)(context, toolpaths, &sound, &mut out)?);
+                estimate = Some((fit.write)(context, &Fitted { toolpaths, ways: &sound }, &mut out)?);
             }
         }
         Emit::Motion(_) => {}

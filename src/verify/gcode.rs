@@ -425,7 +425,7 @@ pub(super) const RULES: &[&str] = &[
 ];
 
 /// A finding as a program without time has it.
-pub(super) fn timeless(finding: Finding) -> Finding {
+pub(super) fn timeless(finding: &Finding) -> Finding {
     let timeless = |place: Sighting| Sighting { time: None, ..at(0.0, place.point, place.block) };
-    Finding { place: finding.place.map(timeless), ..finding }
+    Finding { place: finding.place.map(timeless), ..*finding }
 }

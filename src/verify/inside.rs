@@ -89,7 +89,9 @@ impl Inside {
 impl Part {
     fn new(piece: usize, edges: &[[Point; 2]]) -> Self {
         let mut extent = Extent::EMPTY;
-        edges.iter().for_each(|edge| extent.add(edge[0]));
+        for edge in edges {
+            extent.add(edge[0]);
+        }
         let count = (edges.len() / EDGES_A_BAND).max(1);
         let height = (extent.size().1 / count as f64).max(f64::MIN_POSITIVE);
         let mut part = Self { piece, extent, height, bands: vec![Vec::new(); count] };

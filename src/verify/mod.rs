@@ -202,12 +202,12 @@ pub fn positions(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdi
     let is_broken = places.is_broken();
     let (format, unread) = places.findings();
     if is_broken {
-        return Verdict { findings: vec![gcode::timeless(format)], unread, untimed: Vec::new() };
+        return Verdict { findings: vec![gcode::timeless(&format)], unread, untimed: Vec::new() };
     }
     findings.push(format);
     let untimed = |finding: &Finding| !gcode::RULES.contains(&finding.rule);
     let (left, judged): (Vec<Finding>, Vec<Finding>) = findings.into_iter().partition(untimed);
-    let mut findings: Vec<Finding> = judged.into_iter().map(gcode::timeless).collect();
+    let mut findings: Vec<Finding> = judged.iter().map(gcode::timeless).collect();
     sort(&mut findings);
     Verdict { findings, unread: None, untimed: left.iter().map(|finding| finding.rule).collect() }
 }

@@ -321,7 +321,8 @@ mod tests {
     fn a_flattened_circle_is_few_arcs_again() {
         let around = |i: i32| f64::from(i) * std::f64::consts::TAU / 40.0;
         let arcs = fitted((0..=40).map(|i| Point::new(30.0 * around(i).cos(), 30.0 * around(i).sin())).collect());
-        assert!(arcs.len() <= 10, "{} arcs", arcs.len());
+        // Two at each end, where the direction is that of the chord.
+        assert!(arcs.len() <= 8, "{} arcs", arcs.len());
     }
 
     #[test]

@@ -16,7 +16,7 @@ use std::io;
 
 use self::program::Program;
 pub(in crate::back) use self::way::Way;
-use super::{Context, Emit, Estimate, Fit, Output, Proof, Target, Ways};
+use super::{Context, Emit, Estimate, Fit, Fitted, Output, Proof, Target, Ways};
 use crate::diagnostic::{Diagnostic, code};
 use crate::ir::Toolpath;
 use crate::ir::toolpath::{Event, Law, Run, Step};
@@ -65,10 +65,10 @@ fn way_of(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Diagnostic> {
 }
 
 /// Writes toolpaths with their ways.
-fn write(context: &Context, toolpaths: &[Toolpath], ways: &[Ways], out: &mut dyn Output) -> io::Result<Estimate> {
+fn write(context: &Context, fitted: &Fitted, out: &mut dyn Output) -> io::Result<Estimate> {
     let mut program = Program::new(context.job);
     program.head();
-    for (toolpath, Ways(ways)) in toolpaths.iter().zip(ways) {
+    for (toolpath, Ways(ways)) in fitted.toolpaths.iter().zip(fitted.ways) {
         write_toolpath(&mut program, toolpath, ways, context.job);
         out.write_all(&program.text)?;
         program.text.clear();

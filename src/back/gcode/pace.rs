@@ -191,7 +191,9 @@ mod tests {
 
     fn time(moves: &[Move]) -> f64 {
         let mut pace = Pace::new(&Job::default());
-        moves.iter().for_each(|step| pace.go(step));
+        for step in moves {
+            pace.go(step);
+        }
         pace.finish()
     }
 
@@ -209,7 +211,7 @@ mod tests {
         let long = time(&[line(100.0, along); 10]);
         assert!((5.0..5.2).contains(&long), "{long}");
         // Half the acceleration: no faster than sqrt(4000 * 1) = 63 mm/s.
-        let short = time(&[line(1.0, along); 1000]);
+        let short = time(&vec![line(1.0, along); 1000]);
         assert!((12.0..18.0).contains(&short), "{short}");
     }
 

@@ -81,7 +81,7 @@ impl Tube {
     pub(super) fn deviation(&self, point: Point, station: f64) -> f64 {
         let here = self.chord_at(station);
         let chords = here.saturating_sub(1)..=(here + 1).min(self.chords() - 1);
-        chords.map(|chord| self.from_chord(point, chord)).fold(f64::INFINITY, f64::min)
+        chords.map(|chord| self.beside_chord(point, chord)).fold(f64::INFINITY, f64::min)
     }
 
     /// The chord at a station.
@@ -89,7 +89,7 @@ impl Tube {
         self.stations.partition_point(|&s| s <= station).clamp(1, self.chords()) - 1
     }
 
-    fn from_chord(&self, point: Point, chord: usize) -> f64 {
+    fn beside_chord(&self, point: Point, chord: usize) -> f64 {
         let (a, b) = (self.points[chord], self.points[chord + 1]);
         let along = b - a;
         let x = ((point - a).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
