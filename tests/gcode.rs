@@ -171,7 +171,7 @@ const DAMAGES: &[Damage] = &[
 fn aside(lines: &Lines, word: &str) -> Option<Vec<String>> {
     let once = Lines(lines.by(word, "X", 1.3)?);
     // The same line again: the words that it had are those of the middle one still.
-    Some(once.by(word, "Y", 1.7)?)
+    once.by(word, "Y", 1.7)
 }
 
 /// Where the parts of a program are that a comment names.
