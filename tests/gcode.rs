@@ -237,6 +237,18 @@ fn a_line_that_cannot_be_read_is_named_with_the_reason() {
 }
 
 #[test]
+fn g_code_of_others_is_told_apart() {
+    let foreign = |text: &str| verify::foreign(&mut text.as_bytes()).expect("memory is readable");
+    for text in ["%\nO1000\n", "G21\nG0 X1\n", "(a comment)\nG90\n", "N10 G90\n"] {
+        let [what, _] = foreign(text).expect("it is none");
+        assert!(what.contains("not `G17 G21 G40 G80 G90`"), "{what}");
+    }
+    assert!(foreign("G17 G21 G40 G80 G90\nG94\n").is_none() && foreign("N1 G17 G21 G40 G80 G90\r\n").is_none());
+    let [cut, _] = foreign("N1*G71*M15*X0Y0*").expect("a cut file is no program");
+    assert!(!cut.contains("G17"), "{cut}");
+}
+
+#[test]
 fn ready_tables_of_controllers_give_programs_that_pass() {
     for name in ["linuxcnc", "fluidnc"] {
         let job = machine(name);

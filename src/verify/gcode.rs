@@ -43,6 +43,20 @@ pub(super) fn begins(bytes: &[u8]) -> bool {
     unnumbered(line.strip_suffix(b"\r").unwrap_or(line)) == HEAD
 }
 
+/// Why G-code is none that can be judged, and what to do about it; `None` when bytes do not look like G-code.
+pub(super) fn foreign(bytes: &[u8]) -> Option<[String; 2]> {
+    let line = bytes.split(|&byte| byte == b'\n').next().unwrap_or_default();
+    // Cut files end blocks by an asterisk.
+    let is_code = matches!(line, [b'G' | b'N', b'0'..=b'9', ..] | [b'%' | b'(', ..]) && !line.contains(&b'*');
+    is_code.then(|| {
+        let head = String::from_utf8_lossy(HEAD);
+        [
+            format!("its first line is {}, not `{head}`", quoted(line)),
+            "G-code of the target gcode alone is judged".to_owned(),
+        ]
+    })
+}
+
 /// A line without the number that it may begin with.
 fn unnumbered(line: &[u8]) -> &[u8] {
     let Some(rest) = line.strip_prefix(b"N") else { return line };

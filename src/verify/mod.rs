@@ -163,7 +163,8 @@ pub fn foreign(bytes: &mut dyn BufRead) -> std::io::Result<Option<[String; 2]>> 
     if kind(bytes).is_some() {
         return Ok(None);
     }
-    Ok(read::foreign(bytes.fill_buf()?))
+    let bytes = bytes.fill_buf()?;
+    Ok(gcode::foreign(bytes).or_else(|| read::foreign(bytes)))
 }
 
 /// What was cut so far, as the strokes tell it.
