@@ -1,6 +1,9 @@
 //! Programs of others open what is written here. One that is not installed is named on standard error and left out;
 //! with `CUTC_REQUIRE_CLIENTS=1` that is a failure.
 
+#[path = "clients/linuxcnc.rs"]
+mod linuxcnc;
+
 use std::path::Path;
 use std::process::{Command, Output};
 
@@ -11,10 +14,14 @@ fn is_there(name: &str, probe: &mut Command) -> bool {
     }
     let required = std::env::var("CUTC_REQUIRE_CLIENTS").is_ok_and(|value| value == "1");
     assert!(!required, "{name} is not installed, and CUTC_REQUIRE_CLIENTS=1 asks for it");
-    // Written to the handle: what a test prints otherwise is not shown when it passes.
-    let line = format!("skipped: {name} is not installed\n");
-    std::io::Write::write_all(&mut std::io::stderr(), line.as_bytes()).expect("standard error is open");
+    tell(&format!("skipped: {name} is not installed"));
     false
+}
+
+/// Says a line on standard error, written to the handle: what a test prints otherwise is not shown when it passes.
+fn tell(line: &str) {
+    let line = format!("{line}\n");
+    std::io::Write::write_all(&mut std::io::stderr(), line.as_bytes()).expect("standard error is open");
 }
 
 fn python(script: &str, directory: &Path) -> Output {
@@ -242,11 +249,16 @@ fn a_whole_marker_is_followed_without_lag_by_the_real_time_layer_of_linuxcnc() {
     assert!(played.status.success(), "{}", String::from_utf8_lossy(&played.stderr));
 }
 
-/// Runs a file of HAL in a folder: as another user when this one is root, whom `LinuxCNC` refuses; one at a time, because
-/// HAL is one per machine.
+/// Runs a file of HAL in a folder.
 fn hal(file: &str, folder: &Path) -> Output {
+    unprivileged(&format!("halrun {file}"), folder)
+}
+
+/// Runs a line in a folder: as another user when this one is root, whom `LinuxCNC` refuses; one at a time, because HAL is
+/// one per machine.
+fn unprivileged(line: &str, folder: &Path) -> Output {
     let is_root = Command::new("id").arg("-u").output().is_ok_and(|output| output.stdout == b"0\n");
-    let run = format!("flock -w 300 /tmp/cutc-hal.lock halrun {file}");
+    let run = format!("flock -w 600 /tmp/cutc-hal.lock {line}");
     let line = if is_root {
         format!(
             "id cutc-hal >/dev/null 2>&1 || useradd -m cutc-hal; chown -R cutc-hal . && touch /tmp/cutc-hal.lock && \

@@ -5,13 +5,14 @@
 
 use std::io::{self, Seek, Write};
 
-use crate::diagnostic::Diagnostics;
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::ir::{Finding, Marker, Motion, Toolpath};
 use crate::machine::Job;
 use crate::source::Source;
 
 mod counts;
 mod csv;
+mod gcode;
 mod hal;
 mod halrun;
 mod iso;
@@ -57,6 +58,8 @@ pub enum Emit {
     Marker(fn(&Context, &mut dyn Output, &mut Diagnostics) -> io::Result<()>),
     /// From what the knife does, one toolpath at a time.
     Toolpath(Parts<Toolpath>),
+    /// From what the knife does, in two steps: each toolpath by itself, then all of them in order.
+    Fit(Fit),
     /// From the timed motion, one at a time.
     Motion(Parts<Motion>),
 }
@@ -70,6 +73,37 @@ pub struct Parts<T> {
     pub body: fn(&T, &Context, &mut dyn Output) -> io::Result<()>,
     /// Written last, with what the verifier found in the setpoints of the same compile; may go back to the head.
     pub tail: fn(&Context, &[Finding], &mut dyn Output) -> io::Result<()>,
+}
+
+/// A target whose controller plans for itself.
+#[derive(Debug)]
+pub struct Fit {
+    /// What the axes do along a toolpath; what the target cannot express is refused. One may be made beside another.
+    pub ways: fn(&Toolpath, &Job) -> Result<Ways, Vec<Diagnostic>>,
+    /// Writes all toolpaths, each with its ways.
+    pub write: fn(&Context, &Fitted, &mut dyn Output) -> io::Result<Estimate>,
+}
+
+/// Toolpaths and what the axes do along each.
+#[derive(Debug)]
+pub struct Fitted<'a> {
+    /// What the knife does, in order.
+    pub toolpaths: &'a [Toolpath],
+    /// As many.
+    pub ways: &'a [Ways],
+}
+
+/// What the axes do along a toolpath, for a controller that plans for itself.
+#[derive(Debug)]
+pub struct Ways(Vec<gcode::Way>);
+
+/// What a controller that plans for itself makes of a program.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// Its duration, s.
+    pub time: f64,
+    /// Arcs and lines with the knife down.
+    pub moves: usize,
 }
 
 /// How the verifier judges a target's bytes.
@@ -86,8 +120,17 @@ pub enum Proof {
 }
 
 /// Every target; the first is the default.
-pub const TARGETS: &[Target] =
-    &[csv::TARGET, npy::TARGET, json::TARGET, svg::TARGET, iso::TARGET, counts::TARGET, hal::TARGET, halrun::TARGET];
+pub const TARGETS: &[Target] = &[
+    csv::TARGET,
+    npy::TARGET,
+    json::TARGET,
+    svg::TARGET,
+    iso::TARGET,
+    counts::TARGET,
+    hal::TARGET,
+    halrun::TARGET,
+    gcode::TARGET,
+];
 
 /// The timed setpoints that are made to be judged when a target's own bytes are none.
 pub const SETPOINTS: Parts<Motion> = csv::PARTS;

@@ -59,6 +59,10 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
     if let Some(time) = program.time_s {
         line("time", duration(time));
     }
+    if let Some(controller) = report.controller {
+        let time = duration(controller.time_s);
+        line("controller", format!("about {time} by its own planning, for {} arcs and lines", controller.moves));
+    }
     if let Some(spent) = &program.spent {
         line("spent", shares(&spent.parts(), spent.total()));
         let bounds: Vec<(String, f64)> = spent.bounds.iter().map(|&(bound, time)| (word(bound), time)).collect();
@@ -127,6 +131,13 @@ pub(super) fn verdict(verdict: Option<&Verdict>) -> String {
     }
     if reported > 0 {
         let _ = write!(out, "\n             {} without a limit only reported", counted(reported, "rule"));
+    }
+    if !verdict.untimed.is_empty() {
+        let _ = write!(
+            out,
+            "\n             {} on times not judged: the program tells none",
+            counted(verdict.untimed.len(), "rule")
+        );
     }
     out + "\n"
 }
@@ -303,10 +314,10 @@ mod tests {
             finding("verify/stray", 0.0, Some(0.0)),
             finding("verify/body", 0.3, None),
         ];
-        let line = verdict(Some(&Verdict { findings, unread: None }));
+        let line = verdict(Some(&Verdict { findings, unread: None, untimed: vec!["verify/feed"] }));
         assert_eq!(
             line,
-            "\n  verified   2 rules hold; tip at most 0.061 mm off the path (0.071 allowed)\n             1 rule without a limit only reported\n"
+            "\n  verified   2 rules hold; tip at most 0.061 mm off the path (0.071 allowed)\n             1 rule without a limit only reported\n             1 rule on times not judged: the program tells none\n"
         );
         assert!(verdict(None).contains("no: --no-verify"));
     }

@@ -15,6 +15,9 @@ const DIGITS: i32 = 9;
 /// The columns of numbers, which stand at the right.
 const RIGHT: [bool; 9] = [false, false, true, true, false, true, true, true, true];
 
+/// Rules that are not judged, so many a line.
+const RULES_A_LINE: usize = 4;
+
 /// A verdict as JSON.
 #[derive(Serialize)]
 struct Judged {
@@ -24,6 +27,9 @@ struct Judged {
     /// Which rows cannot be read; not there when all can.
     #[serde(skip_serializing_if = "Option::is_none")]
     unread: Option<String>,
+    /// Rules on times, of a program that tells none; not there when all are judged.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    untimed: Vec<&'static str>,
 }
 
 #[derive(Serialize)]
@@ -77,6 +83,7 @@ pub(super) fn json(verdict: Option<&Verdict>) -> String {
         verdict: if passes { Word::Pass } else { Word::Fail },
         rules: verdict.map_or_else(Vec::new, |verdict| verdict.findings.iter().map(rule).collect()),
         unread: verdict.and_then(|verdict| verdict.unread.clone()),
+        untimed: verdict.map_or_else(Vec::new, |verdict| verdict.untimed.clone()),
     })
 }
 
@@ -116,6 +123,12 @@ pub(super) fn text(judgement: &Judgement) -> String {
     }
     if let Some(unread) = &verdict.unread {
         say(&mut out, format_args!("\n{unread}\nNothing was judged that needs all rows: mend them first."));
+    }
+    if !verdict.untimed.is_empty() {
+        say(&mut out, format_args!("\nnot judged, because the program tells no times:"));
+        for rules in verdict.untimed.chunks(RULES_A_LINE) {
+            say(&mut out, format_args!("      {}", rules.join(" ")));
+        }
     }
     let (limited, reported) = verdict.counts();
     let total = counted(limited, "rule");
@@ -181,6 +194,7 @@ mod tests {
                 finding("verify/overcut-neighbour", 1.0 / 3.0, None, "mm", at(Some(80.0), 0.0, 9)),
             ],
             unread: None,
+            untimed: Vec::new(),
         }
     }
 

@@ -18,7 +18,7 @@ use crate::pipeline::{self, Verdict};
 /// is broken, the file is no program, or the cutter file has errors.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
-    /// Program to judge: what `cutc compile` writes with a target of timed setpoints, or a cut file of the target iso
+    /// Program to judge: what `cutc compile` writes with a target of timed setpoints, with gcode or with iso
     program: PathBuf,
 
     /// Cutter file that the program must cut; `-` for standard input
@@ -37,7 +37,8 @@ pub(super) struct Arguments {
     /// JSON has `verdict` ("pass" or "fail") and `rules`, each with `code`, `worst`, `limit`, `unit`, `where` and
     /// `holds`. A `worst` of null is beyond measure, a `limit` of null is only reported, a `block` of 0 is none. When
     /// the cutter file has errors, or the program is none, the verdict is "fail" without rules. When rows cannot be read,
-    /// `unread` says which, and no rule is there that needs them.
+    /// `unread` says which, and no rule is there that needs them. G-code tells no times: `untimed` then lists the
+    /// rules on these.
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }

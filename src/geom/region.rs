@@ -3,9 +3,11 @@
 
 use super::{Extent, Point, Vector, cross, polyline};
 
-/// Edges that a band holds on average, at the least; and the most bands.
+/// Edges that a band of a region holds on average, at the least.
 const EDGES_A_BAND: usize = 8;
-const BANDS_MAX: usize = 65_536;
+/// Regions that a cell of the lattice of boxes holds on average, at the least; and the most cells along a side.
+const REGIONS_A_BOX: usize = 2;
+const BOXES_MAX: usize = 1024;
 /// Least size of a cell, mm, and the most cells along a side.
 const CELL_MIN: f64 = 4.0;
 const CELLS_MAX: f64 = 2048.0;
@@ -17,9 +19,12 @@ const PROBES: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 /// Regions, indexed.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Regions {
+    /// Those of one owner side by side.
     edges: Vec<Edge>,
-    /// Edges by the band along Y that they reach into: all that a ray along X can meet.
-    bands: Lattice,
+    /// Each owner's region, in order.
+    owners: Vec<Region>,
+    /// Regions by the cells that their boxes meet.
+    boxes: Lattice,
     /// Edges by the cell that they pass.
     cells: Lattice,
 }
@@ -68,30 +73,60 @@ struct Lattice {
     items: Vec<u32>,
 }
 
+/// The region of one owner.
+#[derive(Debug, Clone, PartialEq)]
+struct Region {
+    owner: u32,
+    extent: Extent,
+    /// Where its edges begin.
+    first: usize,
+    /// Its edges by the band along Y that they reach into: all that a ray along X can meet.
+    bands: Lattice,
+}
+
 impl Lattice {
     /// Puts each edge into the cells that it passes.
     fn new(edges: &[Edge], origin: Point, size: [f64; 2], count: [usize; 2]) -> Self {
-        let mut lattice = Self { origin, size, count, starts: vec![0; count[0] * count[1] + 1], items: Vec::new() };
+        Self::of(edges.len(), (origin, size, count), |lattice, i, see| lattice.passed(&edges[i], see))
+    }
+
+    /// Puts each box into the cells that it meets.
+    fn of_boxes(boxes: &[Region], origin: Point, size: [f64; 2], count: [usize; 2]) -> Self {
+        Self::of(boxes.len(), (origin, size, count), |lattice, i, see| lattice.met(boxes[i].extent).for_each(see))
+    }
+
+    /// Puts each item into cells, which `cells` calls out.
+    fn of(
+        items: usize,
+        (origin, size, count): (Point, [f64; 2], [usize; 2]),
+        cells: impl Fn(&Self, usize, &mut dyn FnMut(usize)),
+    ) -> Self {
+        let mut lattice = Self { origin, size, count, starts: Vec::new(), items: Vec::new() };
         // Counting sort: first how many, then where.
         let mut counts = vec![0_u32; count[0] * count[1] + 1];
-        for edge in edges {
-            lattice.passed(edge, |cell| counts[cell + 1] += 1);
+        for i in 0..items {
+            cells(&lattice, i, &mut |cell| counts[cell + 1] += 1);
         }
         for i in 1..counts.len() {
             counts[i] += counts[i - 1];
         }
-        lattice.items = vec![0; counts[count[0] * count[1]] as usize];
+        let mut placed = vec![0; counts[count[0] * count[1]] as usize];
         let mut next = counts.clone();
-        for (i, edge) in edges.iter().enumerate() {
-            let mut cells = Vec::new();
-            lattice.passed(edge, |cell| cells.push(cell));
-            for cell in cells {
-                lattice.items[next[cell] as usize] = i as u32;
+        for i in 0..items {
+            cells(&lattice, i, &mut |cell| {
+                placed[next[cell] as usize] = i as u32;
                 next[cell] += 1;
-            }
+            });
         }
-        lattice.starts = counts;
+        (lattice.starts, lattice.items) = (counts, placed);
         lattice
+    }
+
+    /// The cells that a box meets.
+    fn met(&self, extent: Extent) -> impl Iterator<Item = usize> + '_ {
+        let rows = self.place(extent.min.y, 1)..=self.place(extent.max.y, 1);
+        let columns = self.place(extent.min.x, 0)..=self.place(extent.max.x, 0);
+        rows.flat_map(move |row| columns.clone().map(move |column| row * self.count[0] + column))
     }
 
     fn place(&self, value: f64, axis: usize) -> usize {
@@ -117,12 +152,7 @@ impl Lattice {
 
     /// The items of all cells that a box meets; some more than once.
     fn near(&self, extent: Extent) -> impl Iterator<Item = usize> + '_ {
-        let passed = |low: f64, high: f64, axis: usize| {
-            if self.items.is_empty() { 0..0 } else { self.place(low, axis)..self.place(high, axis) + 1 }
-        };
-        let rows = passed(extent.min.y, extent.max.y, 1);
-        let columns = passed(extent.min.x, extent.max.x, 0);
-        let cells = rows.flat_map(move |row| columns.clone().map(move |column| row * self.count[0] + column));
+        let cells = (!self.items.is_empty()).then(|| self.met(extent)).into_iter().flatten();
         cells
             .flat_map(|cell| &self.items[self.starts[cell] as usize..self.starts[cell + 1] as usize])
             .map(|&i| i as usize)
@@ -147,13 +177,26 @@ impl Regions {
         if edges.is_empty() {
             return Self::default();
         }
+        edges.sort_by_key(|edge| edge.owner); // stable: the rings of an owner keep their order
+        let mut first = 0;
+        let owners: Vec<Region> = edges
+            .chunk_by(|a, b| a.owner == b.owner)
+            .map(|edges| {
+                first += edges.len();
+                Region::new(edges, first - edges.len())
+            })
+            .collect();
         let (width, height) = extent.size();
-        let count = (edges.len() / EDGES_A_BAND).clamp(1, BANDS_MAX);
-        let band = (height / count as f64).max(f64::MIN_POSITIVE);
+        let wanted = (owners.len() / REGIONS_A_BOX).max(1) as f64;
+        // As many cells as that, about as high as wide.
+        let side = (width * height / wanted).sqrt().max(f64::MIN_POSITIVE);
+        let count = [width, height].map(|length| ((length / side) as usize).clamp(1, BOXES_MAX));
+        let size = [width / count[0] as f64, height / count[1] as f64].map(|size| size.max(f64::MIN_POSITIVE));
         let cell = CELL_MIN.max(width.max(height) / CELLS_MAX);
         let cells = [width, height].map(|side| (side / cell) as usize + 1);
         Self {
-            bands: Lattice::new(&edges, extent.min, [width.max(f64::MIN_POSITIVE), band], [1, count]),
+            boxes: Lattice::of_boxes(&owners, extent.min, size, count),
+            owners,
             cells: Lattice::new(&edges, extent.min, [cell; 2], cells),
             edges,
         }
@@ -161,21 +204,11 @@ impl Regions {
 
     /// The owners in whose region a point lies, in order. A point on an edge may count either way.
     pub fn owners_at(&self, point: Point) -> Vec<u32> {
-        let mut odd: Vec<u32> = Vec::new();
-        for i in self.bands.near(Extent { min: point, max: point }) {
-            let Edge { from, to, owner } = self.edges[i];
-            if (from.y > point.y) == (to.y > point.y) {
-                continue;
-            }
-            if from.x + (to.x - from.x) * (point.y - from.y) / (to.y - from.y) > point.x {
-                match odd.iter().position(|&other| other == owner) {
-                    Some(place) => drop(odd.swap_remove(place)),
-                    None => odd.push(owner),
-                }
-            }
-        }
-        odd.sort_unstable();
-        odd
+        let near = self.boxes.near(Extent { min: point, max: point }).map(|i| &self.owners[i]);
+        let mut owners: Vec<u32> =
+            near.filter(|region| region.holds(point, &self.edges)).map(|region| region.owner).collect();
+        owners.sort_unstable();
+        owners
     }
 
     /// Whether a point that lies in an owner's region is farther than `slack` mm from its edges.
@@ -217,6 +250,33 @@ impl Regions {
             }
         }
         room
+    }
+}
+
+impl Region {
+    fn new(edges: &[Edge], first: usize) -> Self {
+        let mut extent = Extent::EMPTY;
+        for edge in edges {
+            extent.add(edge.from);
+        }
+        let (width, height) = extent.size();
+        let count = (edges.len() / EDGES_A_BAND).max(1);
+        let band = [width, height / count as f64].map(|size| size.max(f64::MIN_POSITIVE));
+        Self { owner: edges[0].owner, extent, first, bands: Lattice::new(edges, extent.min, band, [1, count]) }
+    }
+
+    /// Whether a ray to the right of a point crosses its edges an odd number of times.
+    fn holds(&self, point: Point, edges: &[Edge]) -> bool {
+        let Extent { min, max } = self.extent;
+        if point.x < min.x || point.x > max.x || point.y < min.y || point.y > max.y {
+            return false;
+        }
+        let crossed = self.bands.near(Extent { min: point, max: point }).filter(|&i| {
+            let Edge { from, to, .. } = edges[self.first + i];
+            (from.y > point.y) != (to.y > point.y)
+                && from.x + (to.x - from.x) * (point.y - from.y) / (to.y - from.y) > point.x
+        });
+        crossed.count() % 2 == 1
     }
 }
 

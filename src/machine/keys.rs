@@ -45,6 +45,8 @@ pub enum Takes {
     Word(&'static [&'static str]),
     /// The name of an encoding of texts.
     Encoding,
+    /// Lines of text.
+    Text,
     /// True or false.
     Flag,
 }
@@ -115,6 +117,9 @@ impl Takes {
             }
             Self::Word(words) => words.iter().any(|word| is(word)),
             Self::Encoding => value.as_str().is_some_and(|name| encoding::find(name).is_some()),
+            Self::Text => {
+                value.as_str().is_some_and(|text| text.chars().all(|c| c == '\n' || (' '..='~').contains(&c)))
+            }
             Self::Flag => value.is_bool(),
         }
     }
@@ -200,6 +205,7 @@ impl Key {
             }
             Takes::Word(words) => format!("\"{}\"", words.concat()),
             Takes::Encoding => "the name of an encoding, such as \"windows-1251\"".to_owned(),
+            Takes::Text => "text, a line or several".to_owned(),
             Takes::Flag => "true or false".to_owned(),
         }
     }
@@ -388,6 +394,24 @@ pub const KEYS: &[Key] = &[
     Key { name: "counts.y.offset", takes: Takes::Number(REGISTER), about: "Target counts: what the encoder shows at Y 0." },
     Key { name: "counts.c.per_deg", takes: Takes::Number(COUNTS), about: "Target counts: encoder counts of a degree of the blade's turn." },
     Key { name: "counts.c.offset", takes: Takes::Number(REGISTER), about: "Target counts: what the encoder shows at C 0 of the controller." },
+
+    Key { name: "gcode.letter", takes: Takes::Word(&["A", "B", "C"]), about: "Target gcode: letter of the axis that turns the blade." },
+    Key { name: "gcode.wrapped", takes: Takes::Flag, about: "Whether that axis counts from 0 to 360 degrees only; a negative number then means to turn back." },
+    Key { name: "gcode.arcs", takes: Takes::Flag, about: "Whether the controller knows arcs (G2, G3) on which that axis turns, too." },
+    Key { name: "gcode.feed_mode", takes: Takes::Word(&["G93", "G94"]), about: "What F says: the speed of X and Y (G94), or one over the time of each move (G93), for controllers\nthat would count degrees as mm." },
+    Key { name: "gcode.blend_mm", takes: Takes::NumberOr(from(0.0, 10.0), "off"), about: "How far the controller may leave the path to keep its speed (G64 P), beside path.tolerance_mm;\n\"off\" = no G64 is written." },
+    Key { name: "gcode.decimals", takes: Takes::Whole(&[3, 4, 5, 6]), about: "Decimals of positions." },
+    Key { name: "gcode.line_numbers", takes: Takes::Flag, about: "Whether lines are numbered (N)." },
+    Key { name: "gcode.heading_tolerance_deg", takes: Takes::Number(from(0.001, 10.0)), about: "How far the blade may be turned from its law where the axis turns evenly along a piece." },
+    Key { name: "gcode.chord_mm", takes: Takes::Number(from(0.0001, 1.0)), about: "Without arcs: how far a straight piece may leave its arc." },
+    Key { name: "gcode.header", takes: Takes::Text, about: "Lines behind the first one, which chooses mm and absolute positions." },
+    Key { name: "gcode.footer", takes: Takes::Text, about: "Lines at the end." },
+    Key { name: "gcode.knife_down", takes: Takes::Text, about: "Lines that put the knife down: an M code, a digital output or a move of Z." },
+    Key { name: "gcode.knife_up", takes: Takes::Text, about: "Lines that lift it." },
+    Key { name: "gcode.drill_down", takes: Takes::Text, about: "Lines that put a drill down; # stands for its number, 1 to 4." },
+    Key { name: "gcode.drill_up", takes: Takes::Text, about: "Lines that lift it." },
+    Key { name: "gcode.stop", takes: Takes::Text, about: "Lines that wait for the operator (event 1)." },
+    Key { name: "gcode.advance", takes: Takes::Text, about: "Lines that advance the cloth (event 2)." },
 
     Key { name: "verify.max_uncut_mm", takes: Takes::Number(from(0.0, 10.0)), about: "Longest stretch that may be left uncut: what the rounding of setpoints can leave." },
     Key { name: "verify.max_heading_deg", takes: Takes::Number(from(0.01, 45.0)), about: "Greatest angle between the blade and its law while it cuts." },

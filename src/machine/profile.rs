@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::controller::Counts;
+use super::controller::{Counts, Gcode};
 use super::kinematics::Limits;
 use super::knife::Knife;
 use super::notches::Notches;
@@ -53,6 +53,8 @@ pub struct MachineProfile {
     pub time: Time,
     /// The encoders of the drives.
     pub counts: Counts,
+    /// The controller that reads G-code.
+    pub gcode: Gcode,
     /// What the verifier allows.
     pub verify: Verify,
     /// How plots are read.
@@ -387,6 +389,7 @@ impl Default for MachineProfile {
             table: Table::default(),
             time: Time::default(),
             counts: Counts::default(),
+            gcode: Gcode::default(),
             verify: Verify::default(),
             hpgl: Hpgl::default(),
             labels: Labels::default(),

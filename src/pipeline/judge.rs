@@ -78,6 +78,17 @@ pub(super) fn judge(source: &Source, judged: &Judged, job: &Job, program: &mut d
             bytes_read.read_to_end(&mut bytes)?;
             verify::cutter_file(&bytes, marker, source, job)
         }
+        Some(Kind::Positions) => {
+            let mut verdict = if job.mode.cuts() {
+                verify::positions(&mut bytes_read, marker, job)
+            } else {
+                verify::positions(&mut bytes_read, &uncut(marker, job.mode), job)
+            };
+            if !job.mode.cuts() {
+                verdict.findings.retain(|finding| !OF_CUTS.contains(&finding.rule));
+            }
+            verdict
+        }
         Some(Kind::Setpoints) | None if job.mode.cuts() => verify::setpoints(&mut bytes_read, marker, job),
         Some(Kind::Setpoints) | None => {
             let mut verdict = verify::setpoints(&mut bytes_read, &uncut(marker, job.mode), job);
@@ -115,7 +126,10 @@ pub(super) fn both(first: Verdict, second: Verdict) -> Verdict {
         }
     }
     verify::sort(&mut findings);
-    Verdict { findings, unread: first.unread.or(second.unread) }
+    let mut untimed = first.untimed;
+    untimed.extend(second.untimed);
+    untimed.retain(|rule| findings.iter().all(|finding| finding.rule != *rule));
+    Verdict { findings, unread: first.unread.or(second.unread), untimed }
 }
 
 /// A diagnostic for each rule that does not hold.

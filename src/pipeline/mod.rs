@@ -6,7 +6,7 @@ mod report;
 mod spent;
 
 pub use judge::{about, figures, foreign, judge_program};
-pub use report::{Axes, Drawn, Lines, Notches, Peak, Peaks, Program, Report, Sides, significant};
+pub use report::{Axes, Controller, Drawn, Lines, Notches, Peak, Peaks, Program, Report, Sides, significant};
 pub use spent::{Spent, word};
 
 pub use crate::verify::{RULES, Verdict};
@@ -14,10 +14,11 @@ pub use crate::verify::{RULES, Verdict};
 use std::io::{self, BufWriter, Read, Seek, Write};
 use std::path::Path;
 
+use rayon::prelude::*;
 use tempfile::SpooledTempFile;
 
 use self::program::Sink;
-use crate::back::{Context, Emit, Proof, SETPOINTS, Target};
+use crate::back::{Context, Emit, Estimate, Fitted, Proof, SETPOINTS, Target};
 use crate::diagnostic::Diagnostics;
 use crate::front::{self, Dialect};
 use crate::ir::{Finding, Marker, Toolpath, check, text};
@@ -78,7 +79,7 @@ impl Product<'_> {
     fn sink(&mut self) -> Option<Sink<'_>> {
         match &self.target.emit {
             Emit::Motion(parts) => Some(Sink { parts, out: &mut *self.out }),
-            Emit::Marker(_) | Emit::Toolpath(_) => None,
+            Emit::Marker(_) | Emit::Toolpath(_) | Emit::Fit(_) => None,
         }
     }
 }
@@ -211,8 +212,10 @@ pub fn compile_all(
             judge(&mut scratch)?;
         }
     }
-    for Product { target, out } in products.iter_mut().filter(|product| product.target.proof == Proof::Marker) {
-        write_untimed(&target.emit, &toolpaths, &[], (&context, diagnostics), *out)?;
+    let by_itself = |product: &&mut Product| matches!(product.target.proof, Proof::Marker | Proof::Positions);
+    for Product { target, out } in products.iter_mut().filter(by_itself) {
+        let estimate = write_untimed(&target.emit, &toolpaths, &[], (&context, diagnostics), *out)?;
+        report.controller = estimate.map(Controller::from).or(report.controller);
         if verify && !diagnostics.has_errors() {
             judge(&mut **out)?;
         }
@@ -238,15 +241,17 @@ pub fn estimate(input: &Input, source: &Source, job: &Job, diagnostics: &mut Dia
     program::write(&toolpaths, &mut [], &context, diagnostics)
 }
 
-/// Writes a target that needs no timed motion; those that do are written by then.
+/// Writes a target that needs no timed motion; those that do are written by then. Says what a controller that plans for
+/// itself makes of it.
 fn write_untimed(
     emit: &Emit,
     toolpaths: &[Toolpath],
     findings: &[Finding],
     (context, diagnostics): (&Context, &mut Diagnostics),
     out: &mut dyn Medium,
-) -> io::Result<()> {
+) -> io::Result<Option<Estimate>> {
     let mut out = BufWriter::new(out);
+    let mut estimate = None;
     match emit {
         Emit::Marker(emit) => emit(context, &mut out, diagnostics)?,
         Emit::Toolpath(parts) => {
@@ -256,9 +261,23 @@ fn write_untimed(
             }
             (parts.tail)(context, findings, &mut out)?;
         }
+        Emit::Fit(fit) => {
+            let ways: Vec<_> = toolpaths.par_iter().map(|toolpath| (fit.ways)(toolpath, context.job)).collect();
+            let mut sound = Vec::with_capacity(ways.len());
+            for ways in ways {
+                match ways {
+                    Ok(ways) => sound.push(ways),
+                    Err(refused) => refused.into_iter().for_each(|diagnostic| diagnostics.push(diagnostic)),
+                }
+            }
+            if sound.len() == toolpaths.len() {
+                estimate = Some((fit.write)(context, &Fitted { toolpaths, ways: &sound }, &mut out)?);
+            }
+        }
         Emit::Motion(_) => {}
     }
-    out.flush()
+    out.flush()?;
+    Ok(estimate)
 }
 
 /// The form after a pass, as text; `None` when no pass has that name or nothing could be read.

@@ -6,6 +6,7 @@
 use serde::{Serialize, Serializer};
 
 use super::spent::Spent;
+use crate::back::Estimate;
 use crate::ir::Marker;
 use crate::ir::marker::{Drawing, DrawnClass, NotchKind};
 use crate::machine::NotchStyle;
@@ -50,6 +51,25 @@ pub struct Report {
     /// What planning adds.
     #[serde(flatten)]
     pub program: Program,
+    /// What a controller that plans for itself makes of the program; not there without such a target.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub controller: Option<Controller>,
+}
+
+/// A program on a controller that plans for itself.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Controller {
+    /// How long that is likely to take, s.
+    #[serde(serialize_with = "micro")]
+    pub time_s: f64,
+    /// Arcs and lines with the knife down.
+    pub moves: usize,
+}
+
+impl From<Estimate> for Controller {
+    fn from(Estimate { time, moves }: Estimate) -> Self {
+        Self { time_s: time, moves }
+    }
 }
 
 /// The lines of a plot.
@@ -212,6 +232,7 @@ impl Report {
             cut_m: marker.cut_length() / MM_PER_M,
             drawn: marker.drawing.as_ref().map(Drawn::of),
             program: Program::default(),
+            controller: None,
         }
     }
 }

@@ -88,7 +88,7 @@ pub fn cutter_file(bytes: &[u8], marker: &Marker, source: &Source, job: &Job) ->
     }
     let mut findings = vec![format.finding(), same.finding(), place.finding()];
     sort(&mut findings);
-    Verdict { findings, unread: None }
+    Verdict { findings, unread: None, untimed: Vec::new() }
 }
 
 impl Said {

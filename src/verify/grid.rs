@@ -1,11 +1,13 @@
 //! A grid over the chords of all lines, to find those near a point.
 
-use super::reference::Reference;
+use super::reference::{Line, Reference};
 use crate::geom::{Extent, Point};
 
-/// Bounds on the size of a cell, mm, and the most cells along a side.
+/// Least size of a cell, mm.
 const CELL_MIN: f64 = 4.0;
-const CELLS_MAX: f64 = 2048.0;
+/// Cells for each chord, at the most; and the least and greatest number of all.
+const CELLS_A_CHORD: f64 = 4.0;
+const CELLS: [f64; 2] = [4096.0, 4_194_304.0];
 
 /// For each cell the chords that pass it: (line, chord), laid out one cell after the other.
 #[derive(Debug)]
@@ -29,7 +31,11 @@ impl Grid {
             extent.add(Point::origin());
         }
         let (width, height) = extent.size();
-        let cell = CELL_MIN.max(width.max(height) / CELLS_MAX);
+        let chords: usize = reference.lines.iter().map(Line::chords).sum();
+        let [least, most] = CELLS;
+        let count = (CELLS_A_CHORD * chords as f64).clamp(least, most);
+        // What is long and narrow has as many cells as it is long.
+        let cell = CELL_MIN.max((width * height / count).sqrt()).max(width.max(height) / count);
         let (columns, rows) = ((width / cell) as usize + 1, (height / cell) as usize + 1);
         let mut grid = Self { origin: extent.min, cell, columns, rows, starts: Vec::new(), chords: Vec::new() };
         // Counting sort: first how many, then where.

@@ -48,6 +48,8 @@ pub(super) fn noise_deg(rounding: Rounding) -> f64 {
 /// A stroke whose blade is compared with the way of its tip.
 pub(super) struct Moving<'a> {
     pub(super) rows: &'a [Row],
+    /// The way of the tip at each row where that is known exactly; else none.
+    pub(super) ways: &'a [Vector],
     /// The tip at each row.
     pub(super) tips: &'a [Point],
     /// Least and greatest turn from the blade to the tip's way at the plunge, rad.
@@ -71,16 +73,21 @@ impl Moving<'_> {
             if i > 0 {
                 way += (tips[i] - tips[i - 1]).norm();
             }
-            // The nearest rows on either side at which the tip is clearly elsewhere: where it rests its place is only noise.
-            // Neither ever goes back, so that a long rest costs no more than a way.
-            while before + 1 < i && is_clear(i, before + 1) {
-                before += 1;
-            }
-            behind = behind.max(i + 1).min(last);
-            while behind < last && !is_clear(i, behind) {
-                behind += 1;
-            }
-            let along = direction([tips[before], tips[i], tips[behind]], self.way_min);
+            let along = if let Some(&way) = self.ways.get(i) {
+                // Of any length: what matters is where it points.
+                way.try_normalize(0.0).unwrap_or_default()
+            } else {
+                // The nearest rows on either side at which the tip is clearly elsewhere: where it rests its place is only noise.
+                // Neither ever goes back, so that a long rest costs no more than a way.
+                while before + 1 < i && is_clear(i, before + 1) {
+                    before += 1;
+                }
+                behind = behind.max(i + 1).min(last);
+                while behind < last && !is_clear(i, behind) {
+                    behind += 1;
+                }
+                direction([tips[before], tips[i], tips[behind]], self.way_min)
+            };
             if along.norm() < self.way_min {
                 // A blade that goes nowhere turns nowhere.
                 heading.see((rows[i].c_deg - rows[0].c_deg).abs(), || rows[i].sighting());

@@ -4,92 +4,145 @@ use crate::geom::nest::{self, Shape};
 use crate::geom::{Extent, Point};
 use crate::ir::Marker;
 
-/// Edges a band holds on average, at the least; and the most bands.
+/// Edges that a band of a part holds on average, at the least.
 const EDGES_A_BAND: usize = 8;
-const BANDS_MAX: usize = 65_536;
+/// Parts that a cell holds on average, at the least; and the most cells along a side.
+const PARTS_A_CELL: usize = 2;
+const CELLS_MAX: usize = 1024;
 
-/// The edges of all closed contours, in bands along Y.
+/// The parts, each by the cells that its box touches.
 #[derive(Debug)]
 pub(super) struct Inside {
-    bottom: f64,
-    height: f64,
-    bands: Vec<Vec<Edge>>,
-    part_of: Vec<u32>,
+    extent: Extent,
+    /// Size of a cell along X and Y, mm.
+    cell: [f64; 2],
+    columns: usize,
+    cells: Vec<Vec<u32>>,
+    parts: Vec<Part>,
+    /// The part to which each piece belongs.
+    part_of: Vec<usize>,
 }
 
-#[derive(Debug, Clone, Copy)]
-struct Edge {
-    from: Point,
-    to: Point,
-    piece: u32,
+/// The edges of a piece's closed contours, in bands along Y.
+#[derive(Debug)]
+struct Part {
+    piece: usize,
+    extent: Extent,
+    height: f64,
+    bands: Vec<Vec<[Point; 2]>>,
 }
 
 impl Inside {
     /// The index of a marker.
     pub(super) fn new(marker: &Marker) -> Self {
-        let mut edges = Vec::new();
+        let mut edges: Vec<(usize, Vec<[Point; 2]>)> = Vec::new();
         let mut shapes = vec![Shape::default(); marker.pieces.len()];
         for (piece, contour) in marker.contours().filter(|(_, contour)| contour.closed) {
+            if edges.last().is_none_or(|(last, _)| *last != piece) {
+                edges.push((piece, Vec::new()));
+            }
             let points = marker.points(contour);
-            edges.extend(points.windows(2).map(|w| Edge { from: w[0], to: w[1], piece: piece as u32 }));
+            let of_piece = &mut edges.last_mut().expect("one was pushed").1;
+            of_piece.extend(points.windows(2).map(|w| [w[0], w[1]]));
             shapes[piece].add(points);
         }
-        let mut inside = Self::of(edges);
-        inside.part_of = nest::regions(&shapes, |point| inside.pieces_at(point).iter().map(|&p| p as u32).collect());
-        // What lies in a piece is a cut-out of it, whoever it belongs to.
-        for edge in inside.bands.iter_mut().flatten() {
-            edge.piece = inside.part_of[edge.piece as usize];
-        }
-        inside
-    }
-
-    fn of(edges: Vec<Edge>) -> Self {
+        let parts: Vec<Part> = edges.into_iter().map(|(piece, edges)| Part::new(piece, &edges)).collect();
         let mut extent = Extent::EMPTY;
-        for edge in &edges {
-            extent.add(edge.from);
+        for part in &parts {
+            extent.add(part.extent.min);
+            extent.add(part.extent.max);
         }
-        if edges.is_empty() {
+        if extent.is_empty() {
             extent.add(Point::origin());
         }
-        let count = (edges.len() / EDGES_A_BAND).clamp(1, BANDS_MAX);
-        let height = (extent.size().1 / count as f64).max(f64::MIN_POSITIVE);
-        let bands = vec![Vec::new(); count];
-        let mut inside = Self { bottom: extent.min.y, height, bands, part_of: Vec::new() };
-        for edge in edges {
-            let (low, high) = (inside.band(edge.from.y.min(edge.to.y)), inside.band(edge.from.y.max(edge.to.y)));
-            for band in &mut inside.bands[low..=high] {
-                band.push(edge);
+        let (width, height) = extent.size();
+        let count = (parts.len() / PARTS_A_CELL).max(1) as f64;
+        // As many cells as that, about as high as wide.
+        let side = (width * height / count).sqrt().max(f64::MIN_POSITIVE);
+        let along = |length: f64| ((length / side) as usize).clamp(1, CELLS_MAX);
+        let (columns, rows) = (along(width), along(height));
+        let cell = [width / columns as f64, height / rows as f64].map(|size| size.max(f64::MIN_POSITIVE));
+        let cells = vec![Vec::new(); columns * rows];
+        let mut inside = Self { extent, cell, columns, cells, parts, part_of: Vec::new() };
+        for i in 0..inside.parts.len() {
+            let [low, high] = [inside.parts[i].extent.min, inside.parts[i].extent.max].map(|at| inside.place(at));
+            for row in low[1]..=high[1] {
+                for column in low[0]..=high[0] {
+                    inside.cells[row * columns + column].push(i as u32);
+                }
             }
         }
+        // What lies in a piece is a cut-out of it, whoever it belongs to.
+        let holders = |point| inside.rings_at(point).map(|piece| piece as u32).collect();
+        inside.part_of = nest::regions(&shapes, holders).into_iter().map(|part| part as usize).collect();
         inside
     }
 
     /// The part to which a piece belongs: itself, or the one of which it is a cut-out.
     pub(super) fn part_of(&self, piece: usize) -> usize {
-        self.part_of[piece] as usize
+        self.part_of[piece]
     }
 
-    fn band(&self, y: f64) -> usize {
-        (((y - self.bottom) / self.height).max(0.0) as usize).min(self.bands.len() - 1)
+    /// Column and row of a point; what lies outside belongs to the outermost.
+    fn place(&self, point: Point) -> [usize; 2] {
+        let away = point - self.extent.min;
+        let counts = [self.columns, self.cells.len() / self.columns];
+        std::array::from_fn(|i| ((away[i] / self.cell[i]).max(0.0) as usize).min(counts[i] - 1))
     }
 
     /// The parts whose cloth lies at a point: inside their outline, not inside a cut-out.
     pub(super) fn pieces_at(&self, point: Point) -> Vec<usize> {
         let mut odd: Vec<usize> = Vec::new();
-        for edge in &self.bands[self.band(point.y)] {
-            let Edge { from, to, piece } = *edge;
-            if (from.y > point.y) == (to.y > point.y) {
-                continue;
-            }
-            let x = from.x + (to.x - from.x) * (point.y - from.y) / (to.y - from.y);
-            if x > point.x {
-                match odd.iter().position(|&p| p == piece as usize) {
-                    Some(i) => drop(odd.swap_remove(i)),
-                    None => odd.push(piece as usize),
-                }
+        for part in self.rings_at(point).map(|piece| self.part_of[piece]) {
+            match odd.iter().position(|&other| other == part) {
+                Some(place) => drop(odd.swap_remove(place)),
+                None => odd.push(part),
             }
         }
         odd.sort_unstable();
         odd
+    }
+
+    /// The pieces in whose own rings a point lies.
+    fn rings_at(&self, point: Point) -> impl Iterator<Item = usize> + '_ {
+        let [column, row] = self.place(point);
+        let near = self.cells[row * self.columns + column].iter().map(|&part| &self.parts[part as usize]);
+        near.filter(move |part| part.holds(point)).map(|part| part.piece)
+    }
+}
+
+impl Part {
+    fn new(piece: usize, edges: &[[Point; 2]]) -> Self {
+        let mut extent = Extent::EMPTY;
+        for edge in edges {
+            extent.add(edge[0]);
+        }
+        let count = (edges.len() / EDGES_A_BAND).max(1);
+        let height = (extent.size().1 / count as f64).max(f64::MIN_POSITIVE);
+        let mut part = Self { piece, extent, height, bands: vec![Vec::new(); count] };
+        for &edge in edges {
+            let [a, b] = edge.map(|end| part.band(end.y));
+            for band in &mut part.bands[a.min(b)..=a.max(b)] {
+                band.push(edge);
+            }
+        }
+        part
+    }
+
+    fn band(&self, y: f64) -> usize {
+        (((y - self.extent.min.y) / self.height).max(0.0) as usize).min(self.bands.len() - 1)
+    }
+
+    /// Whether a ray to the right of a point crosses the edges an odd number of times.
+    fn holds(&self, point: Point) -> bool {
+        let Extent { min, max } = self.extent;
+        if point.y < min.y || point.y > max.y || point.x < min.x || point.x > max.x {
+            return false;
+        }
+        let is_crossed = |[from, to]: &&[Point; 2]| {
+            (from.y > point.y) != (to.y > point.y)
+                && from.x + (to.x - from.x) * (point.y - from.y) / (to.y - from.y) > point.x
+        };
+        self.bands[self.band(point.y)].iter().filter(is_crossed).count() % 2 == 1
     }
 }

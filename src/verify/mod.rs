@@ -14,6 +14,7 @@ mod coverage;
 mod cutter_file;
 mod events;
 mod follow;
+mod gcode;
 mod grid;
 mod hal;
 mod heading;
@@ -44,14 +45,16 @@ use std::io::BufRead;
 
 use self::coverage::Coverage;
 use self::events::Events;
+use self::gcode::Places;
 use self::limits::Limits;
 use self::naming::Naming;
 use self::order::Order;
-use self::read::{Row, Rows};
+use self::read::{Rounding, Row, Rows};
 use self::reference::Reference;
 use self::rest::Rest;
 use self::stroke::{Judge, Stroke};
 use self::table::Table;
+use crate::geom::Vector;
 use crate::ir::{Finding, Marker, finding};
 use crate::machine::Job;
 
@@ -113,6 +116,8 @@ pub struct Verdict {
     /// What cannot be read, when something cannot: then nothing is said about what the program does, since all that
     /// follows from a row that is missing would be wrong.
     pub unread: Option<String>,
+    /// Rules that say nothing about this program, because it tells no times.
+    pub untimed: Vec<&'static str>,
 }
 
 impl Verdict {
@@ -137,6 +142,8 @@ impl Verdict {
 pub enum Kind {
     /// Timed setpoints, which [`setpoints`] judges.
     Setpoints,
+    /// Positions without time, which [`positions`] judges.
+    Positions,
     /// A cut file that was written from a marker, which [`cutter_file()`] judges.
     CutterFile,
 }
@@ -146,7 +153,11 @@ pub fn kind(bytes: &mut dyn BufRead) -> Option<Kind> {
     if read::begins(bytes) || npy::begins(bytes) || counts::begins(bytes) || hal::begins(bytes) {
         return Some(Kind::Setpoints);
     }
-    bytes.fill_buf().is_ok_and(cutter_file::begins).then_some(Kind::CutterFile)
+    let bytes = bytes.fill_buf().unwrap_or_default();
+    if gcode::begins(bytes) {
+        return Some(Kind::Positions);
+    }
+    cutter_file::begins(bytes).then_some(Kind::CutterFile)
 }
 
 /// Why bytes do not begin as a program that can be judged does, and what to do about it; `None` when they do.
@@ -154,7 +165,8 @@ pub fn foreign(bytes: &mut dyn BufRead) -> std::io::Result<Option<[String; 2]>> 
     if kind(bytes).is_some() {
         return Ok(None);
     }
-    Ok(read::foreign(bytes.fill_buf()?))
+    let bytes = bytes.fill_buf()?;
+    Ok(gcode::foreign(bytes).or_else(|| read::foreign(bytes)))
 }
 
 /// What was cut so far, as the strokes tell it.
@@ -164,21 +176,60 @@ struct Done<'a> {
     naming: Naming,
 }
 
-/// Judges timed setpoints, as the targets `csv`, `npy`, `counts` and `hal` write them, against what the marker says must be cut.
+/// Judges timed setpoints, as the targets `csv`, `npy`, `counts` and `hal` write them, against what the marker says must
+/// be cut.
 pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdict {
     let reference = Reference::new(marker, &job.profile);
     let mut rows = Rows::new(program, &job.profile);
+    let judge = Judge::new(&reference, &job.profile, rows.rounding());
     let rounding = rows.rounding();
-    let mut judge = Judge::new(&reference, &job.profile, rounding);
+    let mut findings = simulate(|| Some((rows.next()?, None)), (&reference, judge, rounding), job);
+    let is_broken = rows.is_broken();
+    let (format, unread) = rows.findings();
+    if is_broken {
+        return Verdict { findings: vec![format], unread, untimed: Vec::new() };
+    }
+    findings.push(format);
+    sort(&mut findings);
+    Verdict { findings, unread: None, untimed: Vec::new() }
+}
+
+/// Judges positions without time, as the target `gcode` writes them, against what the marker says must be cut.
+pub fn positions(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdict {
+    let reference = Reference::new(marker, &job.profile);
+    let mut places = Places::new(program, &job.profile);
+    let rounding = Places::rounding(&job.profile);
+    let judge = Judge::new(&reference, &job.profile, rounding).with_exact_directions(&job.profile);
+    let next = || places.next().map(|(row, way)| (row, Some(way)));
+    let mut findings = simulate(next, (&reference, judge, rounding), job);
+    let is_broken = places.is_broken();
+    let (format, unread) = places.findings();
+    if is_broken {
+        return Verdict { findings: vec![gcode::timeless(&format)], unread, untimed: Vec::new() };
+    }
+    findings.push(format);
+    let untimed = |finding: &Finding| !gcode::RULES.contains(&finding.rule);
+    let (left, judged): (Vec<Finding>, Vec<Finding>) = findings.into_iter().partition(untimed);
+    let mut findings: Vec<Finding> = judged.iter().map(gcode::timeless).collect();
+    sort(&mut findings);
+    Verdict { findings, unread: None, untimed: left.iter().map(|finding| finding.rule).collect() }
+}
+
+/// Follows the rows of a program, each with the way of its tip where that is known exactly.
+fn simulate(
+    mut next: impl FnMut() -> Option<(Row, Option<Vector>)>,
+    (reference, mut judge, rounding): (&Reference, Judge, Rounding),
+    job: &Job,
+) -> Vec<Finding> {
     let mut done =
-        Done { coverage: Coverage::new(&reference), order: Order::default(), naming: Naming::new(reference.tolerance) };
+        Done { coverage: Coverage::new(reference), order: Order::default(), naming: Naming::new(reference.tolerance) };
     let mut limits = Limits::new(&job.profile, rounding);
-    let mut events = Events::new(&reference);
-    let mut rest = Rest::new(&reference, &job.profile, rounding);
+    let mut events = Events::new(reference);
+    let mut rest = Rest::new(reference, &job.profile, rounding);
     let mut table = Table::new(&job.profile, rounding);
     let mut stroke = Stroke::default();
     let mut last: Option<Row> = None;
-    while let Some(row) = rows.next() {
+    while let Some((row, way)) = next() {
         limits.see(&row);
         rest.see(&row);
         // The axis stands askew to the blade by the yaw: what is cut is judged by the blade.
@@ -187,10 +238,10 @@ pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdi
         done.naming.see(&row);
         events.see(&row, &mut done.order);
         if row.knife {
-            stroke.push(&blade);
+            stroke.push(&blade, way);
         } else if !stroke.is_empty() {
             // The row of the lift command still holds the pose at the end of the cut.
-            stroke.push(&blade);
+            stroke.push(&blade, way);
             judge.judge(&stroke, &mut done);
             stroke.clear();
         }
@@ -199,13 +250,7 @@ pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdi
     if !stroke.is_empty() {
         judge.judge(&stroke, &mut done);
     }
-    let is_broken = rows.is_broken();
-    let (format, unread) = rows.findings();
-    if is_broken {
-        return Verdict { findings: vec![format], unread };
-    }
-    let mut findings = vec![format];
-    findings.extend(limits.findings(last.as_ref()));
+    let mut findings = limits.findings(last.as_ref());
     findings.extend(rest.findings(last.as_ref(), &mut done.order));
     findings.push(table.finding());
     findings.extend(judge.findings());
@@ -213,8 +258,7 @@ pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdi
     findings.push(done.naming.finding());
     findings.push(events.finding());
     findings.push(done.order.finding());
-    sort(&mut findings);
-    Verdict { findings, unread }
+    findings
 }
 
 /// Brings findings into the order of [`RULES`].

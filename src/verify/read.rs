@@ -22,7 +22,7 @@ pub(super) const HEADER: &str = "t_s,x_mm,y_mm,c_deg,knife,drill,event,block";
 /// The same, one by one.
 const FIELDS: [&str; 8] = ["t_s", "x_mm", "y_mm", "c_deg", "knife", "drill", "event", "block"];
 /// The most characters of a field that a message quotes.
-const QUOTED_CHARS: usize = 24;
+pub(super) const QUOTED_CHARS: usize = 24;
 /// The greatest values of knife, drill, event and block.
 const GREATEST: [u32; 4] = [1, 4, 2, u32::MAX];
 /// Largest number of digits that a whole number may have to be exact in `f64`.

@@ -16,7 +16,7 @@ use super::overcut::{self, Lines, Overcut};
 use super::read::{Rounding, Row};
 use super::reference::{Line, Reference};
 use super::worst::{Worst, at};
-use crate::geom::{Point, angle, polyline};
+use crate::geom::{Point, Vector, angle, polyline};
 use crate::ir::Finding;
 use crate::ir::finding::Sighting;
 use crate::machine::{Fit, Knife, MachineProfile};
@@ -33,11 +33,14 @@ const CAP_ASIDE: f64 = 0.5;
 #[derive(Debug, Default)]
 pub(super) struct Stroke {
     rows: Vec<Row>,
+    /// The way of the tip at each row, when that is known exactly; then the rows have no time.
+    ways: Vec<Vector>,
 }
 
 impl Stroke {
-    pub(super) fn push(&mut self, row: &Row) {
+    pub(super) fn push(&mut self, row: &Row, way: Option<Vector>) {
         self.rows.push(*row);
+        self.ways.extend(way);
     }
 
     pub(super) fn is_empty(&self) -> bool {
@@ -46,6 +49,7 @@ impl Stroke {
 
     pub(super) fn clear(&mut self) {
         self.rows.clear();
+        self.ways.clear();
     }
 }
 
@@ -159,6 +163,12 @@ impl<'a> Judge<'a> {
         }
     }
 
+    /// The same for programs that tell the way of the tip at each place: rounding then turns no direction.
+    pub(super) fn with_exact_directions(mut self, profile: &MachineProfile) -> Self {
+        self.heading = Worst::new("verify/heading", "deg", Some(profile.verify.max_heading_deg));
+        self
+    }
+
     pub(super) fn findings(self) -> Vec<Finding> {
         let one = [self.on_path, self.stray, self.once, self.heading, self.down, self.body, self.feed];
         one.into_iter().map(Worst::finding).chain(self.overcut.findings()).collect()
@@ -176,17 +186,21 @@ impl<'a> Judge<'a> {
             at(row.t, cut.points[i], row.block)
         };
         let Some(mut best) = self.choose(trials, rows[0].block, &done.coverage) else {
-            self.check_feed(rows, &cut, None);
-            self.check_heading(rows, &tips, (&cut, None));
+            if stroke.ways.is_empty() {
+                self.check_feed(rows, &cut, None);
+            }
+            self.check_heading(stroke, &tips, (&cut, None));
             self.stray.see(polyline::length(&cut.points).max(self.knife.width_mm).max(REACH), || seen(cut.body));
             return;
         };
-        self.check_feed(rows, &cut, Some(&best));
+        if stroke.ways.is_empty() {
+            self.check_feed(rows, &cut, Some(&best));
+        }
         let line = &self.reference.lines[best.line];
         if let (true, Some(hull)) = (cut.is_stab(), done.coverage.uncut(best.line, &best.stretches)) {
             (best.hull, best.fits) = (hull, self.fits(line, hull));
         }
-        self.check_heading(rows, &tips, (&cut, Some(&best)));
+        self.check_heading(stroke, &tips, (&cut, Some(&best)));
         if cut.is_stab() {
             self.check_stab(&cut, &best, &seen);
         }
@@ -432,14 +446,15 @@ impl<'a> Judge<'a> {
     }
 
     /// The blade against its law, along the way of its tip; `trial` is the line that it cuts, if any.
-    fn check_heading(&mut self, rows: &[Row], tips: &[Point], cut: (&Cut, Option<&Trial>)) {
+    fn check_heading(&mut self, stroke: &Stroke, tips: &[Point], cut: (&Cut, Option<&Trial>)) {
         let lead = match cut {
             (_, None) => heading::ANY,
             (_, Some(trial)) if trial.laps => heading::NONE,
             (cut, Some(trial)) => self.plunge(cut, trial).lead(),
         };
         let fade = self.knife.width_mm.min(polyline::length(tips));
-        Moving { rows, tips, lead, fade, way_min: self.way_min }.check(&mut self.heading);
+        Moving { rows: &stroke.rows, ways: &stroke.ways, tips, lead, fade, way_min: self.way_min }
+            .check(&mut self.heading);
     }
 
     fn plunge(&self, cut: &Cut, trial: &Trial) -> Plunge<'_> {

@@ -1,0 +1,339 @@
+//! A polyline as few arcs and lines that meet without a kink, inside its tube.
+//!
+//! Between two places with known directions lies a biarc: two arcs of one tangent where they meet (K. M. Bolton,
+//! *Biarc curves*, Computer-Aided Design 7, 1975; here with tangents of equal length at both ends). The places are
+//! the middles of chords, where the direction of the curve is that of the chord, and the shoulders of bends that a
+//! rounding takes inside the tube. From each place the farthest one is taken whose biarc stays in the tube.
+
+use super::tube::Tube;
+use crate::geom::{Point, Vector, angle, cross};
+
+/// Part of the tolerance that the fit may use: the rest is for decimals and for what lies between samples.
+const SHARE: f64 = 0.92;
+/// Part of the tolerance that a bend alone is rounded by.
+const ROUNDING_SHARE: f64 = 0.75;
+/// Part of a chord that a shoulder may take, so that the middle stands between two of them.
+const SHOULDER_SHARE: f64 = 0.45;
+/// Smaller turns need no shoulder of their own, rad.
+const TURN_EPSILON: f64 = 1e-9;
+/// Greatest turn of an arc, rad: controllers confuse the ways of longer ones.
+const SWEEP_MAX: f64 = 2.8;
+/// Least scalar product of the directions at both ends of a biarc.
+const OPPOSED: f64 = -0.7;
+/// An arc that leaves its chord by less is a line, mm.
+const LINE_EPSILON: f64 = 1e-5;
+/// Two arcs whose directions at the end differ by less than this from that of one arc through both ends are one, rad.
+const SAME_EPSILON: f64 = 2e-4;
+/// Arcs that turn less beside a chord bow as parabolas do, rad.
+const FLAT_TURN: f64 = 0.5;
+/// Samples a chord.
+const SAMPLES: usize = 4;
+/// Lengths below this are none, mm.
+const LENGTH_EPSILON: f64 = 1e-9;
+
+/// An arc, or a line when its curvature is 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Arc {
+    /// Where it starts.
+    pub(super) from: Point,
+    /// Unit vector along it there.
+    pub(super) along: Vector,
+    /// Its length, mm.
+    pub(super) length: f64,
+    /// Left positive, per mm.
+    pub(super) curvature: f64,
+    /// The last chord that it lies beside.
+    pub(super) chord: usize,
+}
+
+impl Arc {
+    /// The arc from a point and direction through another point; `None` when it would turn too far.
+    fn through(from: Point, along: Vector, to: Point) -> Option<Self> {
+        let way = to - from;
+        let chord = way.norm();
+        if chord < LENGTH_EPSILON {
+            return None;
+        }
+        let half = angle::turn(along, way);
+        if 2.0 * half.abs() > SWEEP_MAX {
+            return None;
+        }
+        if chord * half.abs() / 4.0 < LINE_EPSILON {
+            return Some(Self { from, along: way / chord, length: chord, curvature: 0.0, chord: 0 });
+        }
+        let length = chord * half / half.sin();
+        Some(Self { from, along, length, curvature: 2.0 * half / length, chord: 0 })
+    }
+
+    /// How far it turns, rad.
+    pub(super) fn turn(&self) -> f64 {
+        self.curvature * self.length
+    }
+
+    /// Unit vector along it at a length.
+    pub(super) fn along_at(&self, s: f64) -> Vector {
+        let (sin, cos) = (self.curvature * s).sin_cos();
+        Vector::new(self.along.x * cos - self.along.y * sin, self.along.x * sin + self.along.y * cos)
+    }
+
+    /// The point at a length.
+    pub(super) fn at(&self, s: f64) -> Point {
+        let half = 0.5 * self.curvature * s;
+        let chord = if half == 0.0 { s } else { s * half.sin() / half };
+        let (sin, cos) = half.sin_cos();
+        self.from
+            + Vector::new(self.along.x * cos - self.along.y * sin, self.along.x * sin + self.along.y * cos) * chord
+    }
+
+    /// How far a point beside it lies to its left, mm.
+    fn left_of(&self, point: Point) -> f64 {
+        let away = point - self.from;
+        let side = cross(self.along, away);
+        if self.curvature == 0.0 {
+            return side;
+        }
+        // |away - radius n| - radius, in a form that stays exact as the radius grows.
+        let bent = away.norm_squared() * self.curvature - 2.0 * side;
+        -bent / (1.0 + (1.0 + bent * self.curvature).max(0.0).sqrt())
+    }
+}
+
+/// A place that an arc may start or end at.
+#[derive(Debug, Clone, Copy)]
+struct Node {
+    at: Point,
+    along: Vector,
+    station: f64,
+    /// The chord that it lies on.
+    chord: usize,
+    /// Whether it lies on the curve that the polyline stands for; else it is a shoulder of a bend.
+    is_aim: bool,
+}
+
+/// The ends of a way: a direction where it starts and one where it ends, unit vectors.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ends {
+    pub(super) start: Vector,
+    pub(super) end: Vector,
+}
+
+/// The arcs along a tube; otherwise the point at which none stays inside.
+pub(super) fn fit(tube: &Tube, ends: Ends) -> Result<Vec<Arc>, Point> {
+    let nodes = nodes(tube, ends);
+    let aims: Vec<usize> = (1..nodes.len()).filter(|&i| nodes[i].is_aim).collect();
+    let mut arcs = Vec::new();
+    let (mut i, mut ahead) = (0, 0);
+    while i + 1 < nodes.len() {
+        while aims[ahead] <= i {
+            ahead += 1;
+        }
+        let (to, found) = farthest(tube, &nodes, (i, &aims[ahead..])).ok_or(nodes[i].at)?;
+        arcs.extend(found.into_iter().flatten());
+        i = to;
+    }
+    Ok(arcs)
+}
+
+/// The farthest place that a biarc from place `i` reaches, and that biarc; `aims` are those behind it that lie on the curve.
+fn farthest(tube: &Tube, nodes: &[Node], (i, aims): (usize, &[usize])) -> Option<(usize, Found)> {
+    let try_to = |j: usize| biarc(tube, &nodes[i], &nodes[j]);
+    let mut best: Option<(usize, Found)> = None;
+    // Twice as far each time, then halving between what fits and what does not.
+    let (mut reached, mut bad) = (0, aims.len() + 1);
+    let mut step = 1;
+    while step < bad {
+        match try_to(aims[step - 1]) {
+            Some(found) => (best, reached) = (Some((aims[step - 1], found)), step),
+            None => bad = step,
+        }
+        step = if step == aims.len() { bad } else { (2 * step).min(aims.len()) };
+    }
+    while bad - reached > 1 {
+        let middle = usize::midpoint(reached, bad);
+        match try_to(aims[middle - 1]) {
+            Some(found) => (best, reached) = (Some((aims[middle - 1], found)), middle),
+            None => bad = middle,
+        }
+    }
+    // A shoulder behind it, if there is one, ends a straight line at the bend.
+    let from = best.map_or(i, |(reached, _)| reached);
+    let next = aims.get(reached).copied().unwrap_or(from);
+    let beyond = (from + 1..next.max(from + 1)).rev().find_map(|j| Some((j, try_to(j)?)));
+    beyond.or(best).or_else(|| {
+        let last = (i + FIRST_TRIES).min(nodes.len() - 1);
+        (i + 1..=last).rev().find_map(|j| Some((j, try_to(j)?)))
+    })
+}
+
+/// Neighbouring places that are tried when no aim can be reached.
+const FIRST_TRIES: usize = 4;
+
+type Found = [Option<Arc>; 2];
+
+/// The places along a tube.
+fn nodes(tube: &Tube, ends: Ends) -> Vec<Node> {
+    let last = tube.chords();
+    let node =
+        |chord: usize, (at, along): (Point, Vector), station: f64| Node { at, along, station, chord, is_aim: true };
+    let mut nodes = vec![node(0, (tube.points[0], ends.start), 0.0)];
+    // A bend of turn t whose rounding touches both chords a way w off its vertex leaves the vertex by w tan(t / 4). On a
+    // curve it is none.
+    let shoulder = |chord: usize, vertex: usize| {
+        let turn = tube.turns[vertex].abs();
+        let is_bend = turn > TURN_EPSILON && tube.is_bend(chord, vertex);
+        if is_bend { ROUNDING_SHARE * tube.tolerance / (turn / 4.0).tan() } else { f64::INFINITY }
+    };
+    for chord in 0..last {
+        let (a, length) = (tube.points[chord], tube.stations[chord + 1] - tube.stations[chord]);
+        let along = tube.direction(chord);
+        let place = |way: f64| node(chord, (a + along * way, along), tube.stations[chord] + way);
+        let (before, behind) = (shoulder(chord, chord), shoulder(chord, chord + 1));
+        if before < SHOULDER_SHARE * length {
+            nodes.push(Node { is_aim: false, ..place(before) });
+        }
+        let middle = place(0.5 * length);
+        nodes.push(Node { at: middle.at + tube.middle(chord), ..middle });
+        if behind < SHOULDER_SHARE * length {
+            nodes.push(Node { is_aim: false, ..place(length - behind) });
+        }
+    }
+    nodes.push(node(last - 1, (tube.points[last], ends.end), tube.stations[last]));
+    nodes
+}
+
+/// The arcs between two places, when they stay in the tube.
+fn biarc(tube: &Tube, from: &Node, to: &Node) -> Option<Found> {
+    let way = to.at - from.at;
+    let (t0, t1) = (from.along, to.along);
+    let dot = t0.dot(&t1);
+    if dot < OPPOSED || way.dot(&(t0 + t1)) <= 0.0 {
+        return None;
+    }
+    if let Some(one) = Arc::through(from.at, t0, to.at)
+        && angle::turn(one.along_at(one.length), t1).abs() + angle::turn(t0, one.along).abs() < SAME_EPSILON
+    {
+        let arcs = [Some(Arc { chord: to.chord, ..one }), None];
+        return stays(tube, &arcs, from, to).then_some(arcs);
+    }
+    let ahead = way.dot(&(t0 + t1));
+    let open = 2.0 * (1.0 - dot);
+    let reach = if open < 1e-12 {
+        way.norm_squared() / (2.0 * ahead)
+    } else {
+        (-ahead + (ahead * ahead + open * way.norm_squared()).sqrt()) / open
+    };
+    let middle = from.at + ((way) + (t0 - t1) * reach) * 0.5;
+    let first = Arc::through(from.at, t0, middle)?;
+    let meet = first.along_at(first.length);
+    let second = Arc::through(middle, meet, to.at)?;
+    let station = f64::midpoint(from.station, to.station);
+    let chord = tube.chord_at(station);
+    let arcs = [Some(Arc { chord, ..first }), Some(Arc { chord: to.chord, ..second })];
+    stays(tube, &arcs, from, to).then_some(arcs)
+}
+
+/// Whether arcs stay in the tube: beside every chord, and so past every vertex.
+fn stays(tube: &Tube, arcs: &Found, from: &Node, to: &Node) -> bool {
+    let allowed = SHARE * tube.tolerance;
+    let [Some(first), second] = arcs else { return false };
+    let second = second.as_ref().unwrap_or(first);
+    if !stays_at_ends(tube, [first, second], [from, to]) {
+        return false;
+    }
+    let meet = first.at(first.length);
+    let along = first.along_at(first.length);
+    // Where the arcs run beside a vertex, left of it, and which of them does.
+    let beside = |vertex: usize| {
+        let point = tube.points[vertex];
+        let arc = if (point - meet).dot(&along) < 0.0 { first } else { second };
+        (-arc.left_of(point), arc.curvature)
+    };
+    let mut before: Option<(f64, f64)> = None;
+    for vertex in from.chord + 1..=to.chord {
+        let (offset, curvature) = beside(vertex);
+        if offset.abs() > allowed {
+            return false;
+        }
+        if let Some((last, bent)) = before {
+            let chord = vertex - 1;
+            let length = tube.stations[vertex] - tube.stations[chord];
+            let ends = [last, offset];
+            if !tube.holds(chord, ends, -bent * length * length / 8.0, allowed)
+                || curvature != bent && !tube.holds(chord, ends, -curvature * length * length / 8.0, allowed)
+            {
+                return false;
+            }
+        }
+        before = Some((offset, curvature));
+    }
+    true
+}
+
+/// Whether arcs stay in the tube beside the parts of chords that they start and end on.
+fn stays_at_ends(tube: &Tube, [first, second]: [&Arc; 2], [from, to]: [&Node; 2]) -> bool {
+    let allowed = SHARE * tube.tolerance;
+    let alone = std::ptr::eq(first, second);
+    let total = first.length + if alone { 0.0 } else { second.length };
+    let at = |s: f64| if s <= first.length || alone { first.at(s) } else { second.at(s - first.length) };
+    let stays = |s: f64| {
+        let station = from.station + (to.station - from.station) * s / total;
+        tube.deviation(at(s), station) <= allowed
+    };
+    let [ahead, behind] = [tube.stations[from.chord + 1] - from.station, to.station - tube.stations[to.chord]];
+    // On a straight chord an arc that starts along it only leaves it, so that the vertex at its end says all.
+    let is_plain = |node: &Node, turn: f64| {
+        let is_along = cross(tube.direction(node.chord), node.along).abs() < TURN_EPSILON;
+        tube.is_plain(node.chord) && turn.abs() < FLAT_TURN && is_along
+    };
+    let [is_plain_ahead, is_plain_behind] = if alone && from.chord == to.chord {
+        [false; 2]
+    } else {
+        [
+            ahead <= first.length && is_plain(from, first.curvature * ahead),
+            behind <= second.length && is_plain(to, second.curvature * behind),
+        ]
+    };
+    (1..=SAMPLES).all(|i| {
+        let share = i as f64 / SAMPLES as f64;
+        (is_plain_ahead || stays(ahead.min(total) * share))
+            && (is_plain_behind || stays((total - behind * share).max(0.0)))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::MachineProfile;
+
+    fn fitted(points: Vec<Point>) -> Vec<Arc> {
+        let tube = Tube::new(points, 0.05, ([0.0; 2], &MachineProfile::default()));
+        let ends = Ends { start: tube.direction(0), end: tube.direction(tube.chords() - 1) };
+        let arcs = fit(&tube, ends).expect("it fits");
+        for pair in arcs.windows(2) {
+            assert!((pair[0].at(pair[0].length) - pair[1].from).norm() < 1e-9, "no gap");
+            let kink = angle::turn(pair[0].along_at(pair[0].length), pair[1].along).abs();
+            assert!(kink < 3.0 * SAME_EPSILON, "no kink: {kink}");
+        }
+        arcs
+    }
+
+    #[test]
+    fn a_flattened_circle_is_few_arcs_again() {
+        let around = |i: i32| f64::from(i) * std::f64::consts::TAU / 40.0;
+        let arcs = fitted((0..=40).map(|i| Point::new(30.0 * around(i).cos(), 30.0 * around(i).sin())).collect());
+        // Two at each end, where the direction is that of the chord.
+        assert!(arcs.len() <= 8, "{} arcs", arcs.len());
+    }
+
+    #[test]
+    fn a_slight_corner_is_rounded_between_two_lines() {
+        let arcs = fitted(vec![Point::new(0.0, 0.0), Point::new(100.0, 0.0), Point::new(180.0, 50.0)]);
+        let curved = arcs.iter().filter(|arc| arc.curvature != 0.0).count();
+        assert!(arcs.len() <= 4 && curved <= 2, "{arcs:?}");
+    }
+
+    #[test]
+    fn a_straight_line_of_many_points_is_one_piece() {
+        assert_eq!(fitted((0..50).map(|i| Point::new(f64::from(i), 2.0)).collect()).len(), 1);
+    }
+}

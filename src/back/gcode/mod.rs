@@ -1,0 +1,109 @@
+//! Target `gcode`: arcs and lines for controllers of the kind of `LinuxCNC` that have a C axis.
+//!
+//! From the toolpath, not from the planned motion: such a controller plans for itself. Runs become few arcs and lines
+//! inside the tube ([`fit`]), because planners crawl over many short ones where a rotary axis moves. C is linear along
+//! each piece, so that the blade lies along the tangent everywhere; with the C axis behind the tip by r the centre goes
+//! on an arc of radius sqrt(R^2 + r^2) around the same centre ([`way`]). How knife, drill and operator are told stands
+//! under `gcode.` in the profile. How long the controller takes is estimated ([`pace`]).
+
+mod fit;
+mod pace;
+mod program;
+mod tube;
+mod way;
+
+use std::io;
+
+use self::program::Program;
+pub(in crate::back) use self::way::Way;
+use super::{Context, Emit, Estimate, Fit, Fitted, Output, Proof, Target, Ways};
+use crate::diagnostic::{Diagnostic, code};
+use crate::ir::Toolpath;
+use crate::ir::toolpath::{Event, Law, Run, Step};
+use crate::machine::Job;
+use crate::units::number::fixed;
+
+pub(super) const TARGET: Target = Target {
+    name: "gcode",
+    about: "G-code of arcs and lines with C, for LinuxCNC and its like",
+    extension: "ngc",
+    emit: Emit::Fit(Fit { ways, write }),
+    proof: Proof::Positions,
+};
+
+/// Decimals of places in messages.
+const PLACE_DECIMALS: u32 = 3;
+
+/// The way of each run and stab of a toolpath, in order.
+fn ways(toolpath: &Toolpath, job: &Job) -> Result<Ways, Vec<Diagnostic>> {
+    let (mut ways, mut refused) = (Vec::new(), Vec::new());
+    // The axis stands askew to the blade by that.
+    let yaw = job.profile.knife.yaw();
+    for step in &toolpath.steps {
+        match step {
+            Step::Run(run) => match way_of(run, toolpath.tolerance, job) {
+                Ok(way) => ways.push(way.turned(yaw)),
+                Err(diagnostic) => refused.push(diagnostic),
+            },
+            Step::Stab(stab) => ways.push(Way { start: stab.pose, pieces: Vec::new() }.turned(yaw)),
+            Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {}
+        }
+    }
+    if refused.is_empty() { Ok(Ways(ways)) } else { Err(refused) }
+}
+
+fn way_of(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Diagnostic> {
+    let refused = |message: &str| Diagnostic::new(&code::TARGET_REFUSED, message).at(run.spans[0]);
+    match run.law {
+        Law::Tangent => way::way(run, tolerance, job).map_err(|at| {
+            let (x, y) = (fixed(at.x, PLACE_DECIMALS), fixed(at.y, PLACE_DECIMALS));
+            refused(&format!("no arc or line stays within the tolerance at X {x} Y {y} mm"))
+                .hint("a larger path.tolerance_mm or a smaller corner.angle_deg helps; the target csv needs no arcs")
+        }),
+        Law::Chord => Err(refused("the target gcode lays the blade along the tangent only, not as a chord of curves")),
+    }
+}
+
+/// Writes toolpaths with their ways.
+fn write(context: &Context, fitted: &Fitted, out: &mut dyn Output) -> io::Result<Estimate> {
+    let mut program = Program::new(context.job);
+    program.head();
+    for (toolpath, Ways(ways)) in fitted.toolpaths.iter().zip(fitted.ways) {
+        write_toolpath(&mut program, toolpath, ways, context.job);
+        out.write_all(&program.text)?;
+        program.text.clear();
+    }
+    let time = program.tail();
+    out.write_all(&program.text)?;
+    Ok(Estimate { time, moves: program.moves })
+}
+
+fn write_toolpath(program: &mut Program, toolpath: &Toolpath, ways: &[Way], job: &Job) {
+    let keys = &job.profile.gcode;
+    let mut ways = ways.iter();
+    let mut next_way = || ways.next().expect("every run and stab has its way");
+    for (i, step) in toolpath.steps.iter().enumerate() {
+        match step {
+            // What follows decides where a move in the air ends.
+            Step::Turn(air) | Step::Travel(air) => {
+                if matches!(toolpath.steps.get(i + 1), None | Some(Step::Turn(_) | Step::Travel(_))) {
+                    program.rapid(air.to);
+                }
+            }
+            Step::Run(run) => {
+                program.name(toolpath.piece, &run.spans);
+                program.cut(next_way());
+            }
+            Step::Stab(stab) => {
+                program.name(toolpath.piece, &stab.spans);
+                program.cut(next_way());
+            }
+            Step::Drill(drill) => {
+                program.name(toolpath.piece, &[drill.span]);
+                program.drill(drill);
+            }
+            Step::Event(Event::Stop) => program.order(&keys.stop, 0.0),
+            Step::Event(Event::Advance) => program.order(&keys.advance, 0.0),
+        }
+    }
+}

@@ -1,0 +1,224 @@
+//! How long a controller takes: the trapezoidal planner of `LinuxCNC` 2.9 where a rotary axis moves.
+//!
+//! It plans each move from rest to rest and lets the next one begin while the last one slows down (a parabolic blend). For
+//! that it halves the acceleration, and it slows down at kinks so that the way is left by no more than G64 P. It makes no
+//! blend arcs there, so that a piece is never faster than sqrt(a l). What counts as a kink is the acceleration: that of an
+//! arc leans towards its centre where it begins, the more the higher its F. The rules are those of its planner (`tp.c`,
+//! `tc.c`, `blendmath.c`, `emccanon.cc`) as formulas in closed form; cycles are not simulated.
+
+use crate::geom::{Vector, left};
+use crate::machine::{Job, Limits};
+
+/// Part of an acceleration that an arc may take towards its centre, and what is then left along it.
+const NORMAL_SHARE: f64 = 0.866_025_403_784_438_6;
+const ALONG_SHARE: f64 = 0.5;
+/// Half of the acceleration is for the move that blends in.
+const BLEND_SHARE: f64 = 0.5;
+/// Speed at which the direction of an arc's acceleration is compared, as a part of what F asks.
+const LEAN_SPEED_SHARE: f64 = 0.5;
+/// Kinks whose half angle has a smaller cosine slow nothing down.
+const KINK_MIN: f64 = 1e-3;
+/// Cycles that a move takes at the least.
+const CYCLES_MIN: f64 = 3.0;
+
+/// A move of the axes, as the program tells it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Move {
+    /// Way of X, Y (mm) and turn of C (rad), without sign.
+    pub(super) ways: [f64; 3],
+    /// Way of the C axis over the table, mm.
+    pub(super) length: f64,
+    /// What F asks for, mm/s; infinite for rapid moves.
+    pub(super) speed: f64,
+    /// Unit vectors along it at its ends; zero when only C moves.
+    pub(super) along: [Vector; 2],
+    /// Curvature, left positive, per mm; 0 = straight.
+    pub(super) curvature: f64,
+}
+
+/// Sums up the time of moves.
+#[derive(Debug)]
+pub(super) struct Pace {
+    /// Limits of X, Y, C: while the knife is down, and while it is up.
+    limits: [[Limits; 3]; 2],
+    blend: Option<f64>,
+    cycle: f64,
+    /// Since when all axes rested, s.
+    time: f64,
+    /// The moves that blend into each other.
+    moves: Vec<Planned>,
+}
+
+/// A move with what the machine lets it have.
+#[derive(Debug, Clone, Copy)]
+struct Planned {
+    length: f64,
+    /// Greatest speed, mm/s.
+    speed: f64,
+    /// Acceleration along the way, half of it for the moves that blend in, mm/s2.
+    acceleration: f64,
+    /// Directions of the acceleration at its ends.
+    directions: [Vector; 2],
+}
+
+impl Pace {
+    pub(super) fn new(job: &Job) -> Self {
+        let profile = &job.profile;
+        Self {
+            limits: [profile.axes.limits(), profile.axes.travel_limits()],
+            blend: profile.gcode.blend_mm,
+            cycle: profile.time.period(),
+            time: 0.0,
+            moves: Vec::new(),
+        }
+    }
+
+    /// Adds a move.
+    pub(super) fn go(&mut self, step: &Move) {
+        if let Some(planned) = self.planned(step) {
+            self.moves.push(planned);
+        }
+    }
+
+    /// The axes come to rest, and something else takes a time, s.
+    pub(super) fn wait(&mut self, time: f64) {
+        self.rest();
+        self.time += time;
+    }
+
+    /// The time of all, s.
+    pub(super) fn finish(mut self) -> f64 {
+        self.rest();
+        self.time
+    }
+
+    /// What the slowest axis makes of a move.
+    fn planned(&self, step: &Move) -> Option<Planned> {
+        let limits = &self.limits[usize::from(step.speed.is_infinite())];
+        let straight = step.curvature == 0.0;
+        // A move of C alone is measured in what C turns.
+        let length = if step.length > 0.0 { step.length } else { step.ways[2] };
+        if length == 0.0 {
+            return None;
+        }
+        let slowest = |limit: fn(&Limits) -> f64| {
+            let along_arc = || length / limit(&limits[0]).min(limit(&limits[1]));
+            let linear = if straight {
+                (step.ways[0] / limit(&limits[0])).max(step.ways[1] / limit(&limits[1]))
+            } else {
+                along_arc()
+            };
+            length / linear.max(step.ways[2] / limit(&limits[2]))
+        };
+        let (mut most, mut acceleration) = (slowest(|l| l.speed), slowest(|l| l.acceleration));
+        if self.blend.is_some() {
+            acceleration *= BLEND_SHARE;
+        }
+        let mut lean = 0.0;
+        if !straight {
+            most = most.min((NORMAL_SHARE * slowest(|l| l.acceleration) / step.curvature.abs()).sqrt());
+            lean = (LEAN_SPEED_SHARE * step.speed.min(most)).powi(2) * step.curvature / acceleration;
+            acceleration *= ALONG_SHARE;
+        }
+        let speed = step.speed.min(most).min(length / (CYCLES_MIN * self.cycle));
+        let [start, end] = step.along;
+        let start = (start + left(start) * lean).try_normalize(0.0).unwrap_or_default();
+        Some(Planned { length, speed, acceleration, directions: [start, end] })
+    }
+
+    /// The F at which an arc takes the least time, mm/s: what it reaches between two others. Asked for more, it would slow
+    /// down where it begins.
+    pub(super) fn best_speed(&self, length: f64, curvature: f64) -> f64 {
+        let Some(tolerance) = self.blend.filter(|&tolerance| tolerance > 0.0) else { return f64::INFINITY };
+        let [x, y, _] = self.limits[0];
+        let whole = x.acceleration.min(y.acceleration);
+        let acceleration = ALONG_SHARE * BLEND_SHARE * whole;
+        // At a speed v the arc leans by v^2 k / (2 a), so that it may begin at 2 a sqrt(t / k) / v: this is their product.
+        let product = 2.0 * whole * (tolerance / curvature.abs()).sqrt();
+        // The move then takes (v - product / v) / a + l / v.
+        let reached = acceleration * length;
+        if reached <= product { reached.sqrt() } else { (reached - product).max(product).sqrt() }
+    }
+
+    /// Sums up the moves up to a rest.
+    fn rest(&mut self) {
+        // Where the move before has taken this one already: its speed and its way.
+        let (mut begun, mut way) = (0.0, 0.0);
+        for (i, now) in self.moves.iter().enumerate() {
+            let accel = now.acceleration;
+            let left = (now.length - way).max(0.0);
+            let reached = (accel * left + 0.5 * begun * begun).sqrt();
+            let top = reached.min(now.speed.max(begun));
+            let ramps = (2.0 * top * top - begun * begun) / (2.0 * accel);
+            self.time += (top - begun) / accel + (left - ramps).max(0.0) / top + top / accel;
+            (begun, way) = (0.0, 0.0);
+            if let (Some(next), Some(blend)) = (self.moves.get(i + 1), self.blend) {
+                // It begins as this one falls below the blend speed, and speeds up while this one slows down.
+                let time = top.min(blended([now, next], blend)) / accel;
+                begun = (time * next.acceleration).min(next.speed).min((next.acceleration * next.length).sqrt());
+                way = (0.5 * begun * time).min(0.5 * next.length);
+            }
+        }
+        self.moves.clear();
+    }
+}
+
+/// Speed of a move below which the next one begins, mm/s.
+fn blended([this, next]: [&Planned; 2], tolerance: f64) -> f64 {
+    let reached = |planned: &Planned| (planned.acceleration * planned.length).sqrt().min(planned.speed);
+    let [now, then] = [this, next].map(reached);
+    let longest = (this.length / now).min(next.length / then);
+    let time = longest.min((now / this.acceleration).max(then / next.acceleration));
+    let speed = now.min(time * this.acceleration);
+    // Half the angle between the one direction and the other turned back: a right angle when there is no kink.
+    let straight = this.directions[1].dot(&next.directions[0]).clamp(-1.0, 1.0);
+    let cosine = (0.5 * (1.0 - straight)).sqrt();
+    if tolerance > 0.0 && cosine > KINK_MIN {
+        // Slowing down from v takes v^2 / (2 a), of which it may leave the corner by the tolerance.
+        return speed.min(2.0 * (this.acceleration * tolerance / cosine).sqrt());
+    }
+    speed
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(length: f64, along: Vector) -> Move {
+        let ways = [length * along.x.abs(), length * along.y.abs(), 1e-9];
+        Move { ways, length, speed: 200.0, along: [along; 2], curvature: 0.0 }
+    }
+
+    fn time(moves: &[Move]) -> f64 {
+        let mut pace = Pace::new(&Job::default());
+        for step in moves {
+            pace.go(step);
+        }
+        pace.finish()
+    }
+
+    #[test]
+    fn a_lone_move_is_a_trapezoid() {
+        let along = Vector::new(1.0, 0.0);
+        // Half the acceleration, though nothing blends in.
+        assert!((time(&[line(100.0, along)]) - (100.0 / 200.0 + 200.0 / 4000.0)).abs() < 1e-9);
+        assert!((time(&[line(2.0, along)]) - 2.0 * (2.0_f64 / 4000.0).sqrt()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn long_moves_that_go_on_straight_lose_little_and_short_ones_crawl() {
+        let along = Vector::new(0.6, 0.8);
+        let long = time(&[line(100.0, along); 10]);
+        assert!((5.0..5.2).contains(&long), "{long}");
+        // Half the acceleration: no faster than sqrt(4000 * 1) = 63 mm/s.
+        let short = time(&vec![line(1.0, along); 1000]);
+        assert!((12.0..18.0).contains(&short), "{short}");
+    }
+
+    #[test]
+    fn a_kink_slows_down_as_far_as_the_tolerance_asks() {
+        let corner = [line(100.0, Vector::new(1.0, 0.0)), line(100.0, Vector::new(0.0, 1.0))];
+        let (rounded, straight) = (time(&corner), time(&[corner[0]; 2]));
+        assert!(rounded > straight + 0.02, "{rounded} {straight}");
+    }
+}

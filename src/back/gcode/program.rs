@@ -1,0 +1,268 @@
+//! The text of a program: lines of moves, and those of the profile for knife, drills and operator.
+
+use super::pace::{Move, Pace};
+use super::way::{Piece, Way};
+use crate::geom::{Rotation, Vector, left};
+use crate::ir::toolpath::{Drill, Pose};
+use crate::machine::Job;
+use crate::machine::controller::FeedMode;
+use crate::source::Span;
+use crate::units::number::{exact, push_fixed, push_integer};
+use crate::units::{S_PER_MIN, rad};
+
+/// Decimals of F and of dwells.
+const FEED_DECIMALS: u32 = 3;
+/// Part of the permitted angle by which a straight line may be off the arc that it stands for.
+const LINE_SHARE: f64 = 0.45;
+/// A whole turn, degrees.
+const TURN_DEG: f64 = 360.0;
+
+/// A program in the making.
+pub(super) struct Program<'a> {
+    job: &'a Job,
+    /// The lines that were not taken yet.
+    pub(super) text: Vec<u8>,
+    /// Where the axes stand.
+    pose: Pose,
+    /// Numbers of lines that were given.
+    lines: u64,
+    /// Moves with the knife down.
+    pub(super) moves: usize,
+    pace: Pace,
+}
+
+impl<'a> Program<'a> {
+    pub(super) fn new(job: &'a Job) -> Self {
+        let [x, y, c] = job.profile.home;
+        let pose = Pose::new(x, y, rad(c));
+        Self { job, text: Vec::new(), pose, lines: 0, moves: 0, pace: Pace::new(job) }
+    }
+
+    /// What comes before the first move.
+    pub(super) fn head(&mut self) {
+        let keys = &self.job.profile.gcode;
+        self.say("G17 G21 G40 G80 G90");
+        if let Some(blend) = keys.blend_mm {
+            // Q0: arcs stay arcs; flat ones would become pairs of lines that kink.
+            self.say(&format!("G64 P{} Q0", exact(blend)));
+        }
+        self.say(&keys.header);
+        self.say(keys.feed_mode.code());
+    }
+
+    /// What comes behind the last one; the time of the program, s.
+    pub(super) fn tail(&mut self) -> f64 {
+        if let Some([x, y, c]) = self.job.profile.park {
+            self.rapid(Pose::new(x, y, rad(c)));
+        }
+        self.say(&self.job.profile.gcode.footer);
+        std::mem::replace(&mut self.pace, Pace::new(self.job)).finish()
+    }
+
+    /// Which piece and block comes.
+    pub(super) fn name(&mut self, piece: u32, spans: &[Span]) {
+        self.number();
+        let text = &mut self.text;
+        text.extend_from_slice(b"(piece ");
+        push_integer(text, piece.into());
+        for (word, span) in [(&b" block "[..], spans.first()), (b" to ", spans.last())] {
+            text.extend_from_slice(word);
+            push_integer(text, span.map_or(0, |span| span.block).into());
+        }
+        text.extend_from_slice(b")\n");
+    }
+
+    /// A cut: plunge, the pieces of a way, lift.
+    pub(super) fn cut(&mut self, way: &Way) {
+        let job = self.job;
+        let (keys, knife) = (&job.profile.gcode, &job.profile.knife);
+        self.rapid(way.start);
+        if job.mode.cuts() {
+            self.order(&keys.knife_down, knife.plunge());
+        }
+        for piece in &way.pieces {
+            self.feed(piece);
+        }
+        if job.mode.cuts() {
+            self.order(&keys.knife_up, knife.lift());
+        }
+    }
+
+    /// A hole.
+    pub(super) fn drill(&mut self, drill: &Drill) {
+        let job = self.job;
+        let keys = &job.profile.gcode;
+        let [x, y] = job.profile.drill.offset_mm;
+        self.rapid(Pose { centre: drill.at - Vector::new(x, y), c: self.pose.c });
+        if job.mode.cuts() {
+            let tool = drill.tool.to_string();
+            self.order(&keys.drill_down.replace('#', &tool), job.profile.drill.dwell());
+            self.order(&keys.drill_up.replace('#', &tool), 0.0);
+        }
+    }
+
+    /// Lines of text from the profile that wait for the axes, and a dwell behind them, s.
+    pub(super) fn order(&mut self, text: &str, dwell: f64) {
+        self.say(text);
+        self.pace.wait(0.0);
+        if dwell > 0.0 {
+            self.number();
+            self.text.extend_from_slice(b"G4 P");
+            push_fixed(&mut self.text, dwell, FEED_DECIMALS);
+            self.text.push(b'\n');
+            self.pace.wait(dwell);
+        }
+    }
+
+    /// A move in the air.
+    pub(super) fn rapid(&mut self, to: Pose) {
+        let way = to.centre - self.pose.centre;
+        self.pace.go(&Move {
+            ways: [way.x.abs(), way.y.abs(), (to.c.0 - self.pose.c.0).abs()],
+            length: way.norm(),
+            speed: f64::INFINITY,
+            along: [way.try_normalize(0.0).unwrap_or_default(); 2],
+            curvature: 0.0,
+        });
+        self.number();
+        self.text.extend_from_slice(b"G0");
+        self.axes(to);
+        self.text.push(b'\n');
+    }
+
+    fn feed(&mut self, piece: &Piece) {
+        let [x, y, _] = self.job.profile.axes.limits();
+        let speed = piece.speed.min(x.speed).min(y.speed);
+        let from = self.pose;
+        match piece.arc {
+            Some((centre, turn)) if self.job.profile.gcode.arcs => {
+                self.number();
+                self.text.extend_from_slice(if turn > 0.0 { b"G3" } else { b"G2" });
+                let away = centre - from.centre;
+                let speed = speed.min(self.pace.best_speed(piece.length, turn / piece.length));
+                self.plan(piece.to, (piece.length, turn, speed), Some(-away));
+                self.axes(piece.to);
+                self.word(b'I', away.x);
+                self.word(b'J', away.y);
+                self.push_feed(speed, piece.length);
+            }
+            _ => {
+                let parts = self.chords(piece);
+                for i in 1..=parts {
+                    let share = i as f64 / parts as f64;
+                    let c = Rotation(from.c.0 + (piece.to.c.0 - from.c.0) * share);
+                    let centre = match piece.arc {
+                        Some((around, turn)) if i < parts => {
+                            let (sin, cos) = (turn * share).sin_cos();
+                            let arm = from.centre - around;
+                            around + Vector::new(arm.x * cos - arm.y * sin, arm.x * sin + arm.y * cos)
+                        }
+                        Some(_) | None => piece.to.centre,
+                    };
+                    let to = Pose { centre, c };
+                    let length = (centre - self.pose.centre).norm();
+                    self.number();
+                    self.text.extend_from_slice(b"G1");
+                    self.plan(to, (length, 0.0, speed), None);
+                    self.axes(to);
+                    self.push_feed(speed, length);
+                }
+            }
+        }
+    }
+
+    /// Counts a move with the knife down: its length, turn and speed, and of an arc its start as seen from its centre.
+    fn plan(&mut self, to: Pose, (length, turn, speed): (f64, f64, f64), arm: Option<Vector>) {
+        self.moves += 1;
+        let way = to.centre - self.pose.centre;
+        let along = arm.map_or(way, |arm| left(arm) * turn.signum()).try_normalize(0.0).unwrap_or_default();
+        let (sin, cos) = turn.sin_cos();
+        let end = Vector::new(along.x * cos - along.y * sin, along.x * sin + along.y * cos);
+        self.pace.go(&Move {
+            ways: [way.x.abs(), way.y.abs(), (to.c.0 - self.pose.c.0).abs()],
+            length,
+            speed,
+            along: [along, end],
+            curvature: if arm.is_some() { turn / length } else { 0.0 },
+        });
+    }
+
+    /// How many straight lines stand for a piece.
+    fn chords(&self, piece: &Piece) -> usize {
+        let keys = &self.job.profile.gcode;
+        piece.arc.map_or(1, |(_, turn)| {
+            // A chord of turn t is off its arc by t / 2 in direction at its ends, and by l t / 8 in the middle.
+            let by_heading = turn.abs() / (2.0 * LINE_SHARE * rad(keys.heading_tolerance_deg));
+            let by_bow = (piece.length * turn.abs() / (8.0 * keys.chord_mm)).sqrt();
+            // Rounding by d turns a chord of length l by d / l: shorter than sqrt(2 d l / t) it turns more than the arc.
+            let by_decimals = (piece.length * turn.abs() / (2.0 * keys.step())).sqrt();
+            by_heading.max(by_bow).min(by_decimals).ceil().max(1.0) as usize
+        })
+    }
+
+    /// Lines of text.
+    fn say(&mut self, text: &str) {
+        for line in text.lines().map(str::trim).filter(|line| !line.is_empty()) {
+            self.number();
+            self.text.extend_from_slice(line.as_bytes());
+            self.text.push(b'\n');
+        }
+    }
+
+    /// The number of the line that begins, when the controller wants one.
+    fn number(&mut self) {
+        if self.job.profile.gcode.line_numbers {
+            self.lines += 1;
+            self.text.push(b'N');
+            push_integer(&mut self.text, self.lines);
+            self.text.push(b' ');
+        }
+    }
+
+    /// The word F of a move at a speed along a length.
+    fn push_feed(&mut self, speed: f64, length: f64) {
+        let feed = match self.job.profile.gcode.feed_mode {
+            FeedMode::G94 => speed * S_PER_MIN,
+            FeedMode::G93 => speed / length * S_PER_MIN,
+        };
+        self.text.extend_from_slice(b" F");
+        push_fixed(&mut self.text, feed, FEED_DECIMALS);
+        self.text.push(b'\n');
+    }
+
+    fn axes(&mut self, to: Pose) {
+        self.word(b'X', to.centre.x);
+        self.word(b'Y', to.centre.y);
+        let profile = &self.job.profile;
+        let keys = &profile.gcode;
+        self.text.extend_from_slice(&[b' ', keys.letter.byte()]);
+        let shown = profile.c.shown_deg(to.c.0);
+        if keys.wrapped {
+            let was = profile.c.shown_deg(self.pose.c.0);
+            self.wrapped(shown, was);
+        } else {
+            push_fixed(&mut self.text, shown, keys.decimals);
+        }
+        self.pose = to;
+    }
+
+    /// A position of an axis that goes round: from 0 to below 360, negative = reached by turning back. `was` is where it
+    /// stands, degrees.
+    fn wrapped(&mut self, shown: f64, was: f64) {
+        let (step, decimals) = (self.job.profile.gcode.step(), self.job.profile.gcode.decimals);
+        let round = |value: f64| {
+            let within = ((value / step).round() * step).rem_euclid(TURN_DEG);
+            if TURN_DEG - within < 0.5 * step { 0.0 } else { within }
+        };
+        let within = round(shown);
+        // To turn back to where it stands would be a whole turn; and there is no negative zero: the nearest place that
+        // has a sign stands for it.
+        let is_back = shown < was && (within - round(was)).abs() > 0.5 * step;
+        push_fixed(&mut self.text, if is_back { -within.max(step) } else { within }, decimals);
+    }
+
+    fn word(&mut self, letter: u8, value: f64) {
+        self.text.extend_from_slice(&[b' ', letter]);
+        push_fixed(&mut self.text, value, self.job.profile.gcode.decimals);
+    }
+}

@@ -1,0 +1,134 @@
+//! Where the tip may run beside a polyline: within a part of the tolerance, and on chords of a flattened curve also
+//! outside of them, by the sagitta that the turns at their ends suggest.
+
+use crate::geom::{Point, Vector, left, polyline};
+use crate::machine::{Fit, MachineProfile};
+
+/// Longest chord that is taken for one of a flattened curve, mm.
+const CURVE_CHORD_MAX: f64 = 25.0;
+/// Turns of a curve differ by less than this factor from one vertex to the next.
+const ALIKE: f64 = 2.0;
+/// Smaller turns are none, rad.
+const TURN_EPSILON: f64 = 1e-6;
+
+/// A polyline and what counts as on it.
+#[derive(Debug)]
+pub(super) struct Tube {
+    /// Its points, no two in a row equal.
+    pub(super) points: Vec<Point>,
+    /// Chord length from the first point to each point, mm.
+    pub(super) stations: Vec<f64>,
+    /// Turn at each point, rad; 0 at the ends.
+    pub(super) turns: Vec<f64>,
+    /// Outward bulge in the middle of each chord.
+    pub(super) bulges: Vec<Vector>,
+    /// The same as heights, to the left of the chord, mm.
+    heights: Vec<f64>,
+    /// Permitted deviation, mm.
+    pub(super) tolerance: f64,
+}
+
+impl Tube {
+    /// The tube of a polyline that turns by `seam` (rad) before its first and behind its last chord: at the seam of a
+    /// smooth closed contour; else 0.
+    pub(super) fn new(points: Vec<Point>, tolerance: f64, (seam, profile): ([f64; 2], &MachineProfile)) -> Self {
+        let stations = polyline::stations(&points);
+        let mut turns = vec![0.0; points.len()];
+        for i in 1..points.len().saturating_sub(1) {
+            turns[i] = polyline::turn_at(points[i - 1], points[i], points[i + 1]);
+        }
+        let [first, last] = seam;
+        let end = turns.len() - 1;
+        (turns[0], turns[end]) = (first, last);
+        let corner = profile.corner.angle();
+        let is_turn = |turn: f64| turn.abs() > TURN_EPSILON && turn.abs() < corner;
+        let height = |i: usize| {
+            let [before, after] = [turns[i], turns[i + 1]];
+            let length = stations[i + 1] - stations[i];
+            let is_curve = before * after > 0.0 && is_turn(before) && is_turn(after) && length <= CURVE_CHORD_MAX;
+            if profile.path.fit == Fit::Polygon || !is_curve {
+                return 0.0;
+            }
+            let mean = f64::midpoint(before, after);
+            // A path that turns left bulges to the right of its chords.
+            -mean.signum() * (length * mean.abs() / 8.0).min(profile.path.chord_sag_max_mm)
+        };
+        let heights: Vec<f64> = (0..end).map(height).collect();
+        let bulge = |i: usize| left(points[i + 1] - points[i]) * (heights[i] / (stations[i + 1] - stations[i]));
+        let bulges = (0..end).map(bulge).collect();
+        Self { points, stations, turns, bulges, heights, tolerance }
+    }
+
+    /// Number of chords.
+    pub(super) fn chords(&self) -> usize {
+        self.bulges.len()
+    }
+
+    /// Unit vector along a chord.
+    pub(super) fn direction(&self, chord: usize) -> Vector {
+        (self.points[chord + 1] - self.points[chord]) / (self.stations[chord + 1] - self.stations[chord])
+    }
+
+    /// From the middle of a chord to where the curve is likely to run: by the smaller of the turns at its ends, because the
+    /// greater one may be a bend of its own.
+    pub(super) fn middle(&self, chord: usize) -> Vector {
+        let [before, after] = [self.turns[chord].abs(), self.turns[chord + 1].abs()];
+        let mean = f64::midpoint(before, after);
+        if self.heights[chord] == 0.0 { Vector::zeros() } else { self.bulges[chord] * (before.min(after) / mean) }
+    }
+
+    /// How far a point is from what counts as on the path, mm, beside the chord at a station or one of its neighbours.
+    pub(super) fn deviation(&self, point: Point, station: f64) -> f64 {
+        let here = self.chord_at(station);
+        let chords = here.saturating_sub(1)..=(here + 1).min(self.chords() - 1);
+        chords.map(|chord| self.beside_chord(point, chord)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The chord at a station.
+    pub(super) fn chord_at(&self, station: f64) -> usize {
+        self.stations.partition_point(|&s| s <= station).clamp(1, self.chords()) - 1
+    }
+
+    fn beside_chord(&self, point: Point, chord: usize) -> f64 {
+        let (a, b) = (self.points[chord], self.points[chord + 1]);
+        let along = b - a;
+        let x = ((point - a).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+        let away = point - (a + along * x);
+        let bulge = self.bulges[chord] * (4.0 * x * (1.0 - x));
+        let height = bulge.norm();
+        if height == 0.0 {
+            return away.norm();
+        }
+        let outward = bulge / height;
+        (away - outward * away.dot(&outward).clamp(0.0, height)).norm()
+    }
+
+    /// Whether a vertex at an end of a chord is a bend of its own: on a curve neighbouring turns are alike.
+    pub(super) fn is_bend(&self, chord: usize, vertex: usize) -> bool {
+        let [before, after] = [self.turns[chord].abs(), self.turns[chord + 1].abs()];
+        self.is_plain(chord) || self.turns[vertex].abs() > ALIKE * before.min(after)
+    }
+
+    /// Whether only the chord itself counts as on the path.
+    pub(super) fn is_plain(&self, chord: usize) -> bool {
+        self.heights[chord] == 0.0
+    }
+
+    /// Whether a way beside a chord stays within an allowed distance of what counts as on the path. It runs left of the
+    /// chord's ends by `ends`, and in the middle by `bow` more than straight between these, mm.
+    pub(super) fn holds(&self, chord: usize, ends: [f64; 2], bow: f64, allowed: f64) -> bool {
+        let bulge = self.heights[chord];
+        highest(ends, bow - bulge.max(0.0)) <= allowed && highest(ends.map(|end| -end), bulge.min(0.0) - bow) <= allowed
+    }
+}
+
+/// The greatest value on [0, 1] of the parabola with these ends that is `bow` above the straight line in the middle.
+fn highest([a, b]: [f64; 2], bow: f64) -> f64 {
+    // Its top lies at 1/2 + (b - a) / (8 bow).
+    if bow > 0.0 && (b - a).abs() < 4.0 * bow {
+        let x = 0.5 + (b - a) / (8.0 * bow);
+        a + (b - a) * x + 4.0 * bow * x * (1.0 - x)
+    } else {
+        a.max(b)
+    }
+}

@@ -1,0 +1,445 @@
+//! Reads G-code as places along the way of the axes: no time, but at each place the exact direction of the tip.
+//!
+//! Knows the words of the target alone: G0 to G4 with full coordinates, the lines of the profile for head, knife, drill,
+//! operator and end, comments. Arcs are followed as a controller does: around the centre that I and J give, with C linear
+//! in their angle. Where a line cannot be read nothing is said about the rest: all that follows from it would be wrong.
+
+use std::collections::VecDeque;
+use std::f64::consts::TAU;
+use std::io::{BufRead, Read as _};
+
+use super::read::{QUOTED_CHARS, Rounding, Row, decimal};
+use super::worst::{Worst, at};
+use crate::geom::{Point, Vector};
+use crate::ir::Finding;
+use crate::ir::finding::Sighting;
+use crate::machine::MachineProfile;
+use crate::units::number::exact;
+
+/// How every such program begins, behind the number of its line.
+const HEAD: &[u8] = b"G17 G21 G40 G80 G90";
+/// The longest line that is read, bytes.
+const LINE_MAX: u64 = 1024;
+/// Farthest that a straight step may leave an arc, mm: a tenth of the least tolerance of a path.
+const SAGITTA: f64 = 5e-3;
+/// Longest step, mm, and greatest turn of C on one, degrees.
+const STEP_MM: f64 = 8.0;
+const STEP_DEG: f64 = 5.0;
+/// Most steps of a line of a program: more are no way of a machine.
+const STEPS_MAX: f64 = 1e5;
+/// A whole turn, degrees, and what is none.
+const TURN_DEG: f64 = 360.0;
+const TURN_EPSILON: f64 = 1e-6;
+/// Radii of both ends of an arc may differ by this many steps of the last decimal.
+const RADIUS_STEPS: f64 = 8.0;
+/// What is wrong with a line that does something when all is over.
+const BEHIND_END: &str = "comes behind the end of the program";
+/// Drills of a machine.
+const DRILLS: std::ops::RangeInclusive<u8> = 1..=4;
+
+/// Whether bytes are meant as such a program.
+pub(super) fn begins(bytes: &[u8]) -> bool {
+    let line = bytes.split(|&byte| byte == b'\n').next().unwrap_or_default();
+    unnumbered(line.strip_suffix(b"\r").unwrap_or(line)) == HEAD
+}
+
+/// Why G-code is none that can be judged, and what to do about it; `None` when bytes do not look like G-code.
+pub(super) fn foreign(bytes: &[u8]) -> Option<[String; 2]> {
+    let line = bytes.split(|&byte| byte == b'\n').next().unwrap_or_default();
+    // Cut files end blocks by an asterisk.
+    let is_code = matches!(line, [b'G' | b'N', b'0'..=b'9', ..] | [b'%' | b'(', ..]) && !line.contains(&b'*');
+    is_code.then(|| {
+        let head = String::from_utf8_lossy(HEAD);
+        [
+            format!("its first line is {}, not `{head}`", quoted(line)),
+            "G-code of the target gcode alone is judged".to_owned(),
+        ]
+    })
+}
+
+/// A line without the number that it may begin with.
+fn unnumbered(line: &[u8]) -> &[u8] {
+    let Some(rest) = line.strip_prefix(b"N") else { return line };
+    let digits = rest.iter().take_while(|byte| byte.is_ascii_digit()).count();
+    rest[digits..].strip_prefix(b" ").unwrap_or(line)
+}
+
+/// What lines of the profile do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Meaning {
+    Head,
+    Down,
+    Up,
+    Drill(u8),
+    Event(u8),
+    End,
+}
+
+/// Lines of the profile that belong together.
+struct Text {
+    lines: Vec<String>,
+    meaning: Meaning,
+}
+
+/// The places of a program.
+pub(super) struct Places<'a> {
+    input: &'a mut dyn BufRead,
+    profile: &'a MachineProfile,
+    texts: Vec<Text>,
+    /// Lines that must come next: the rest of a text.
+    due: VecDeque<String>,
+    /// How many lines were read.
+    lines: u64,
+    now: Row,
+    queue: VecDeque<(Row, Vector)>,
+    last_way: Vector,
+    /// Whether the lines at the end were read.
+    over: bool,
+    /// Why a line cannot be read, and where the axes stood.
+    bad: Option<(Sighting, String)>,
+    ended: bool,
+}
+
+impl<'a> Places<'a> {
+    pub(super) fn new(input: &'a mut dyn BufRead, profile: &'a MachineProfile) -> Self {
+        let [x, y, c_deg] = profile.home;
+        let now = Row { tick: 0, t: 0.0, centre: Point::new(x, y), c_deg, knife: false, drill: 0, event: 0, block: 0 };
+        let texts = texts(profile);
+        Self {
+            input,
+            profile,
+            over: texts.iter().all(|text| text.meaning != Meaning::End),
+            due: texts[0].lines.iter().cloned().collect(),
+            texts,
+            lines: 0,
+            now,
+            queue: VecDeque::from([(now, Vector::zeros())]),
+            last_way: Vector::zeros(),
+            bad: None,
+            ended: false,
+        }
+    }
+
+    /// By how much its numbers may differ from what was meant.
+    pub(super) fn rounding(profile: &MachineProfile) -> Rounding {
+        Rounding { axes: [0.5 * profile.gcode.step(); 3] }
+    }
+
+    /// The next place, and the way of the tip there, of any length; none where it rests.
+    pub(super) fn next(&mut self) -> Option<(Row, Vector)> {
+        while self.queue.is_empty() && !self.ended {
+            if let Err(why) = self.read() {
+                self.ended = true;
+                let line = self.lines;
+                self.bad = Some((self.now.sighting(), format!("line {line} {why}")));
+            }
+        }
+        self.queue.pop_front()
+    }
+
+    /// Whether a line could not be read, so that nothing can be said about what the program does.
+    pub(super) fn is_broken(&self) -> bool {
+        self.bad.is_some()
+    }
+
+    /// What was found about the format, and what to say of it where it is broken.
+    pub(super) fn findings(self) -> (Finding, Option<String>) {
+        let mut worst = Worst::new("verify/format", "bad lines", Some(0.0));
+        let (place, why) = self.bad.unzip();
+        if let Some(place) = place {
+            worst.see(1.0, || place);
+        }
+        (worst.finding(), why)
+    }
+
+    /// Reads a line and obeys it; otherwise says what is wrong with it.
+    fn read(&mut self) -> Result<(), String> {
+        let mut line = Vec::new();
+        let read = (&mut *self.input).take(LINE_MAX).read_until(b'\n', &mut line).map_err(|_| "cannot be read")?;
+        self.lines += 1;
+        if read == 0 {
+            self.ended = true;
+            return match self.due.front() {
+                Some(due) => Err(format!("is missing: `{due}` belongs there")),
+                None if !self.over => Err("is missing: the program has no end".to_owned()),
+                None => Ok(()),
+            };
+        }
+        if line.pop() != Some(b'\n') {
+            let is_long = read as u64 == LINE_MAX;
+            return Err(if is_long { "is too long" } else { "has no end: the file is cut short" }.to_owned());
+        }
+        if line.last() == Some(&b'\r') {
+            line.pop();
+        }
+        self.line(unnumbered(&line))
+    }
+
+    /// Obeys a line.
+    fn line(&mut self, line: &[u8]) -> Result<(), String> {
+        if let Some(due) = self.due.pop_front() {
+            let is_due = due.as_bytes() == line;
+            return is_due.then_some(()).ok_or_else(|| format!("is {} where `{due}` belongs", quoted(line)));
+        }
+        if matches!(line, [b'G', b'0'..=b'3', b' ', b'X', ..]) {
+            return self.go(&Words::of(line, self.profile)?);
+        }
+        if let Some(text) = self.texts.iter().find(|text| text.lines[0].as_bytes() == line) {
+            self.due.extend(text.lines[1..].iter().cloned());
+            let meaning = text.meaning;
+            return self.obey(meaning);
+        }
+        if let Some(comment) = line.strip_prefix(b"(").and_then(|rest| rest.strip_suffix(b")")) {
+            let mut words = comment.split(|&byte| byte == b' ').skip_while(|word| *word != b"block").skip(1);
+            let number = words.next().and_then(super::read::whole);
+            self.now.block = number.unwrap_or(0);
+            return Ok(());
+        }
+        match &Words::of(line, self.profile)? {
+            Words { g: Some(4.0), p: Some(time), .. } if *time >= 0.0 => Ok(()),
+            Words { .. } => Err(format!("is {}, which is no line of the target gcode with this profile", quoted(line))),
+        }
+    }
+
+    fn obey(&mut self, meaning: Meaning) -> Result<(), String> {
+        if self.over && meaning != Meaning::End {
+            return Err(BEHIND_END.to_owned());
+        }
+        let was_down = self.now.knife;
+        match meaning {
+            Meaning::Head => return Err("is the head of a program again".to_owned()),
+            Meaning::End => {
+                self.over = true;
+                return Ok(());
+            }
+            Meaning::Event(event) => {
+                self.push(Row { event, ..self.now }, Vector::zeros());
+                return Ok(());
+            }
+            Meaning::Down => self.now.knife = true,
+            Meaning::Up => self.now.knife = false,
+            Meaning::Drill(tool) => self.now.drill = tool,
+        }
+        let way = if was_down { self.last_way } else { Vector::zeros() };
+        self.last_way = Vector::zeros();
+        self.push(self.now, way);
+        Ok(())
+    }
+
+    fn push(&mut self, row: Row, way: Vector) {
+        self.now.tick += 1;
+        self.now.t = self.now.tick as f64;
+        self.queue.push_back((Row { tick: self.now.tick, t: self.now.t, ..row }, way));
+    }
+
+    /// A move: all of its places.
+    fn go(&mut self, words: &Words) -> Result<(), String> {
+        if self.over {
+            return Err(BEHIND_END.to_owned());
+        }
+        let from = self.now;
+        let needed = |word: Option<f64>, letter: char| word.ok_or_else(|| format!("has no {letter}"));
+        let code = needed(words.g, 'G')?;
+        let to = Point::new(needed(words.x, 'X')?, needed(words.y, 'Y')?);
+        let c_to = self.turned_to(needed(words.c, self.profile.gcode.letter.byte().into())?);
+        if code != 0.0 && needed(words.f, 'F')? <= 0.0 {
+            return Err("has an F that is no speed".to_owned());
+        }
+        // Of an axis that goes round the whole turns are not told: in the air it is where it would be without any.
+        let c_to = if self.profile.gcode.wrapped && !from.knife { self.near_rest(c_to) } else { c_to };
+        let turned = c_to - from.c_deg;
+        let arc = if code > 1.0 {
+            let [i, j] = [needed(words.i, 'I')?, needed(words.j, 'J')?];
+            Some(self.arc(to, [i, j], if code == 3.0 { 1.0 } else { -1.0 })?)
+        } else {
+            None
+        };
+        let length = arc.map_or((to - from.centre).norm(), |arc| arc.sweep.abs() * arc.start.norm());
+        let by_bow = arc.map_or(0.0, |arc| arc.sweep.abs() * (arc.start.norm() / (8.0 * SAGITTA)).sqrt());
+        let steps = by_bow.max(length / STEP_MM).max(turned.abs() / STEP_DEG).ceil().max(1.0);
+        if steps > STEPS_MAX {
+            return Err("is a way that no machine goes".to_owned());
+        }
+        let (radius, yaw) = (self.profile.knife.radius(), self.profile.knife.yaw_deg);
+        // In the air only the ends matter.
+        let first = if from.knife { 0 } else { steps as usize };
+        for i in first..=steps as usize {
+            let share = i as f64 / steps;
+            let (centre, pace) = match arc {
+                Some(arc) => arc.at(share),
+                None => (from.centre + (to - from.centre) * share, to - from.centre),
+            };
+            let c_deg = from.c_deg + turned * share;
+            let (sin, cos) = (c_deg - yaw).to_radians().sin_cos();
+            // The tip swings about the centre as the blade turns.
+            let way = pace + Vector::new(-sin, cos) * (radius * turned.to_radians());
+            let centre = if i as f64 == steps { to } else { centre };
+            self.last_way = way;
+            self.push(Row { centre, c_deg, ..self.now }, way);
+        }
+        (self.now.centre, self.now.c_deg) = (to, c_to);
+        Ok(())
+    }
+
+    /// The unwrapped geometric position that a word of the axis means.
+    fn turned_to(&self, told: f64) -> f64 {
+        let c = &self.profile.c;
+        let sign = if c.reverse { -1.0 } else { 1.0 };
+        if !self.profile.gcode.wrapped {
+            return c.offset_deg + sign * told;
+        }
+        let shown = sign * (self.now.c_deg - c.offset_deg);
+        let back = told.is_sign_negative();
+        let way = if back { shown - told.abs() } else { told - shown }.rem_euclid(TURN_DEG);
+        let way = if TURN_DEG - way < TURN_EPSILON { way - TURN_DEG } else { way };
+        self.now.c_deg + sign * if back { -way } else { way }
+    }
+
+    /// The position of C that differs by whole turns and is nearest to where it rests at the end.
+    fn near_rest(&self, c_deg: f64) -> f64 {
+        let [.., rest] = self.profile.park.unwrap_or(self.profile.home);
+        c_deg - ((c_deg - rest) / TURN_DEG).round() * TURN_DEG
+    }
+
+    fn arc(&self, to: Point, [i, j]: [f64; 2], way: f64) -> Result<Arc, String> {
+        let start = Vector::new(-i, -j);
+        let centre = self.now.centre - start;
+        let end = to - centre;
+        let radii = [start.norm(), end.norm()];
+        if radii[0] == 0.0 || (radii[0] - radii[1]).abs() > RADIUS_STEPS * self.profile.gcode.step() {
+            return Err(format!(
+                "is an arc whose ends lie {} and {} mm from its centre",
+                exact(radii[0]),
+                exact(radii[1])
+            ));
+        }
+        let angle = |v: Vector| v.y.atan2(v.x);
+        let turned = (way * (angle(end) - angle(start))).rem_euclid(TAU);
+        let sweep = way * if turned == 0.0 { TAU } else { turned };
+        Ok(Arc { centre, start, grown: radii[1] / radii[0], sweep })
+    }
+}
+
+/// A way around a centre.
+#[derive(Debug, Clone, Copy)]
+struct Arc {
+    centre: Point,
+    /// Its start as seen from the centre.
+    start: Vector,
+    /// Radius at the end, in radii at the start.
+    grown: f64,
+    sweep: f64,
+}
+
+impl Arc {
+    /// The place at a share of the angle, and the way there as the share grows.
+    fn at(&self, share: f64) -> (Point, Vector) {
+        let (sin, cos) = (self.sweep * share).sin_cos();
+        let arm = Vector::new(self.start.x * cos - self.start.y * sin, self.start.x * sin + self.start.y * cos)
+            * (1.0 + (self.grown - 1.0) * share);
+        (self.centre + arm, Vector::new(-arm.y, arm.x) * self.sweep)
+    }
+}
+
+/// The words of a line.
+#[derive(Debug, Default)]
+struct Words {
+    g: Option<f64>,
+    x: Option<f64>,
+    y: Option<f64>,
+    c: Option<f64>,
+    i: Option<f64>,
+    j: Option<f64>,
+    f: Option<f64>,
+    p: Option<f64>,
+}
+
+impl Words {
+    fn of(line: &[u8], profile: &MachineProfile) -> Result<Self, String> {
+        let mut words = Self::default();
+        let foreign = |word| format!("has {}, which is no word of the target gcode with this profile", quoted(word));
+        for word in line.split(|&byte| byte == b' ') {
+            let (&letter, number) = word.split_first().ok_or_else(|| foreign(word))?;
+            let place = words.place(letter, profile).ok_or_else(|| foreign(word))?;
+            if place.is_some() {
+                return Err(format!("has two words {}", char::from(letter)));
+            }
+            *place = Some(decimal(number).ok_or_else(|| foreign(word))?);
+        }
+        Ok(words)
+    }
+
+    /// Where the number of a letter goes; `None` when there is none such.
+    fn place(&mut self, letter: u8, profile: &MachineProfile) -> Option<&mut Option<f64>> {
+        Some(match letter {
+            b'G' => &mut self.g,
+            b'X' => &mut self.x,
+            b'Y' => &mut self.y,
+            b'I' => &mut self.i,
+            b'J' => &mut self.j,
+            b'F' => &mut self.f,
+            b'P' => &mut self.p,
+            letter if letter == profile.gcode.letter.byte() => &mut self.c,
+            _ => return None,
+        })
+    }
+}
+
+/// Part of a line as a message shows it.
+fn quoted(part: &[u8]) -> String {
+    let text: String = String::from_utf8_lossy(part).escape_debug().take(QUOTED_CHARS).collect();
+    if text.is_empty() { "blank".to_owned() } else { format!("`{text}`") }
+}
+
+/// The lines of a profile and what they do; the head first.
+fn texts(profile: &MachineProfile) -> Vec<Text> {
+    let keys = &profile.gcode;
+    let blend = keys.blend_mm.map_or(String::new(), |blend| format!("G64 P{} Q0", exact(blend)));
+    let head = String::from_utf8_lossy(HEAD);
+    let mut texts = Vec::new();
+    let mut add = |text: &str, meaning: Meaning| {
+        let lines: Vec<String> =
+            text.lines().map(|line| line.trim().to_owned()).filter(|line| !line.is_empty()).collect();
+        if !lines.is_empty() {
+            texts.push(Text { lines, meaning });
+        }
+    };
+    add(&format!("{head}\n{blend}\n{}\n{}", keys.header, keys.feed_mode.code()), Meaning::Head);
+    add(&keys.knife_down, Meaning::Down);
+    add(&keys.knife_up, Meaning::Up);
+    for tool in DRILLS {
+        add(&keys.drill_down.replace('#', &tool.to_string()), Meaning::Drill(tool));
+        add(&keys.drill_up.replace('#', &tool.to_string()), Meaning::Drill(0));
+    }
+    add(&keys.stop, Meaning::Event(1));
+    add(&keys.advance, Meaning::Event(2));
+    add(&keys.footer, Meaning::End);
+    texts
+}
+
+/// Rules that need no time; of the others a program without any says nothing.
+pub(super) const RULES: &[&str] = &[
+    "verify/format",
+    "verify/end",
+    "verify/c-range",
+    "verify/table",
+    "verify/on-path",
+    "verify/stray",
+    "verify/order",
+    "verify/once",
+    "verify/complete",
+    "verify/heading",
+    "verify/body",
+    "verify/overcut-part",
+    "verify/overcut-neighbour",
+    "verify/overcut-waste",
+    "verify/drills",
+    "verify/drill-place",
+    "verify/events",
+];
+
+/// A finding as a program without time has it.
+pub(super) fn timeless(finding: &Finding) -> Finding {
+    let timeless = |place: Sighting| Sighting { time: None, ..at(0.0, place.point, place.block) };
+    Finding { place: finding.place.map(timeless), ..*finding }
+}

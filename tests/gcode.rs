@@ -1,0 +1,288 @@
+//! What the target `gcode` promises: few arcs and lines in the tube, every controller table obeyed, and a verifier that
+//! refuses damaged programs under the right rule.
+
+mod support;
+
+use std::collections::BTreeMap;
+use std::io::{BufReader, Cursor};
+use std::path::Path;
+
+use cutc::back::{TARGETS, Target};
+use cutc::diagnostic::Diagnostics;
+use cutc::machine::{Job, load};
+use cutc::pipeline::{self, Compiled, Order, Verdict};
+use cutc::source::Source;
+use cutc::verify;
+
+fn fixture(name: &str) -> Source {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(name);
+    let bytes = std::fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    Source::new(name, bytes).expect("fixtures are small")
+}
+
+/// The job of a machine table.
+fn machine(name: &str) -> Job {
+    let profile = load(Some(&fixture(&format!("machines/{name}.toml"))), &[]);
+    Job { profile: profile.unwrap_or_else(|faults| panic!("{name}: {faults:?}")), ..Job::default() }
+}
+
+fn target() -> &'static Target {
+    TARGETS.iter().find(|target| target.name == "gcode").expect("a target")
+}
+
+/// The program of a source, which must be sound.
+fn compile(source: &Source, job: &Job) -> (String, Compiled) {
+    let mut out = Cursor::new(Vec::new());
+    let mut diagnostics = Diagnostics::default();
+    let order = Order { from: None, target: target(), verify: true };
+    let compiled = pipeline::compile(source, job, order, &mut out, &mut diagnostics).expect("memory takes it");
+    let compiled = compiled.unwrap_or_else(|| panic!("{}: {diagnostics:?}", source.name()));
+    (String::from_utf8(out.into_inner()).expect("ASCII"), compiled)
+}
+
+fn judge(program: &str, source: &Source, job: &Job) -> Verdict {
+    let mut diagnostics = Diagnostics::default();
+    let input = pipeline::read(source, None, job, &mut diagnostics).expect("it is read");
+    verify::positions(&mut BufReader::new(program.as_bytes()), &input.marker, job)
+}
+
+/// The markers that are damaged, each with a machine of its own.
+fn cases() -> Vec<(&'static str, Job)> {
+    let with = |change: fn(&mut Job)| {
+        let mut job = Job::default();
+        job.profile.park = Some([5.0, 5.0, 0.0]);
+        change(&mut job);
+        job
+    };
+    vec![
+        ("markers/drills-and-slits.cut", with(|job| job.profile.drill.offset_mm = [12.0, -5.0])),
+        ("markers/metric-four-pieces.cut", with(|job| job.profile.knife.yaw_deg = 1.5)),
+        ("markers/inch-four-pieces.cut", with(|job| job.profile.knife.back_mm = Some(2.2))),
+        ("markers/tight-curves-and-short-runs.cut", with(|job| job.profile.gcode.line_numbers = true)),
+        ("markers/circles.cut", with(|job| (job.profile.c.offset_deg, job.profile.c.reverse) = (30.0, true))),
+        ("iso/speeds-and-events.cut", with(|job| job.profile.gcode.wrapped = true)),
+    ]
+}
+
+/// A damage: what it is, the rule that must see it, and how a line is changed; `None` leaves a line alone.
+type Damage = (&'static str, &'static str, fn(&Lines) -> Option<Vec<String>>);
+
+/// The lines of a program.
+struct Lines(Vec<String>);
+
+impl Lines {
+    /// The lines with a change of one line in the middle of those that hold a word.
+    fn with(&self, word: &str, change: impl Fn(&str) -> Vec<String>) -> Option<Vec<String>> {
+        let places: Vec<usize> = (0..self.0.len()).filter(|&i| self.0[i].contains(word)).collect();
+        let place = *places.get(places.len() / 2)?;
+        let mut lines = self.0.clone();
+        lines.splice(place..=place, change(&self.0[place]));
+        Some(lines)
+    }
+
+    /// The same, of the number behind a letter.
+    fn by(&self, word: &str, letter: &str, by: f64) -> Option<Vec<String>> {
+        self.with(word, |line| {
+            let words = line.split(' ').map(|word| match word.strip_prefix(letter) {
+                Some(number) => format!("{letter}{:.4}", number.parse::<f64>().expect("a number") + by),
+                None => word.to_owned(),
+            });
+            vec![words.collect::<Vec<_>>().join(" ")]
+        })
+    }
+
+    fn without(&self, word: &str) -> Option<Vec<String>> {
+        self.with(word, |_| Vec::new())
+    }
+}
+
+const DAMAGES: &[Damage] = &[
+    ("a cut that ends aside", "verify/on-path", |lines| aside(lines, "G1 ")),
+    ("an arc that ends aside", "verify/format", |lines| lines.by("G3 ", "X", 0.4)),
+    ("an arc around another centre", "verify/format", |lines| {
+        lines.with("G2 ", |line| vec![line.replace(" I", " I-").replace("--", "")])
+    }),
+    ("an arc the other way", "verify/on-path", |lines| lines.with("G2 ", |line| vec![line.replace("G2 ", "G3 ")])),
+    ("a blade that is turned", "verify/heading", |lines| lines.by("G1 ", "C", 3.0)),
+    ("a blade that turns on an arc", "verify/heading", |lines| lines.by("G3 ", "C", 2.0)),
+    ("a plunge left out", "verify/complete", |lines| lines.without("M64 P0")),
+    ("a lift left out", "verify/on-path", |lines| lines.without("M65 P0")),
+    ("a move left out", "verify/complete", |lines| lines.without("G1 ")),
+    ("a stroke cut again", "verify/once", again),
+    ("a hole left out", "verify/drills", |lines| lines.without("M64 P1")),
+    ("a hole aside", "verify/drill-place", |lines| {
+        let at = lines.0.iter().position(|line| line.ends_with("M64 P1"))?;
+        let mut moved = lines.0.clone();
+        moved[at - 1] = Lines(vec![moved[at - 1].clone()]).by("G0 ", "X", 0.3)?.remove(0);
+        Some(moved)
+    }),
+    ("a hole by another drill", "verify/drills", |lines| {
+        Some(lines.0.iter().map(|line| line.replace("M64 P1", "M64 P3").replace("M65 P1", "M65 P3")).collect())
+            .filter(|changed| *changed != lines.0)
+    }),
+    ("an event left out", "verify/events", |lines| {
+        lines.0.iter().any(|line| line.ends_with("M0")).then(|| lines.without("M0"))?
+    }),
+    ("an event told twice", "verify/events", |lines| {
+        let at = lines.0.iter().position(|line| line.ends_with("M0"))?;
+        let mut twice = lines.0.clone();
+        twice.insert(at, lines.0[at].clone());
+        Some(twice)
+    }),
+    ("another place to park", "verify/end", |lines| {
+        let at = lines.0.iter().rposition(|line| line.contains("G0 "))?;
+        let mut moved = lines.0.clone();
+        moved[at] = Lines(vec![moved[at].clone()]).by("G0 ", "X", 1.0)?.remove(0);
+        Some(moved)
+    }),
+    ("the order of two cuts", "verify/order", |lines| {
+        let parts = parts(lines);
+        (parts.len() > 3).then(|| {
+            let (a, b) = (parts[1].clone(), parts[parts.len() - 1].clone());
+            let mut swapped = lines.0[..a.start].to_vec();
+            for range in [b.clone(), a.end..b.start, a] {
+                swapped.extend_from_slice(&lines.0[range]);
+            }
+            swapped.extend_from_slice(&lines.0[b.end..]);
+            swapped
+        })
+    }),
+    ("no end", "verify/format", |lines| lines.without("M2")),
+    ("something behind the end", "verify/format", |lines| {
+        lines.with("M2", |line| vec![line.to_owned(), "M64 P0".to_owned()])
+    }),
+    ("the end of a line lost", "verify/format", |lines| {
+        let mut cut = lines.0.clone();
+        let last = cut.last_mut()?;
+        last.push_str("...");
+        Some(cut)
+    }),
+    ("a number that is none", "verify/format", |lines| lines.with("G1 ", |line| vec![line.replace("G1 X", "G1 Xa")])),
+    ("an axis that is none", "verify/format", |lines| lines.with("G1 ", |line| vec![line.replace(" C", " B")])),
+    ("a feed left out", "verify/format", |lines| {
+        lines.with("G1 ", |line| vec![line.split(" F").next().unwrap_or_default().to_owned()])
+    }),
+    ("inches", "verify/format", |lines| lines.with("G21", |line| vec![line.to_owned(), "G20".to_owned()])),
+    ("another speed mode", "verify/format", |lines| lines.with("G94", |line| vec![line.replace("G94", "G93")])),
+    ("a relative place", "verify/format", |lines| lines.with("G0 ", |line| vec!["G91".to_owned(), line.to_owned()])),
+];
+
+/// The axes shifted by more than any tolerance, at right angles to nothing in particular.
+fn aside(lines: &Lines, word: &str) -> Option<Vec<String>> {
+    let once = Lines(lines.by(word, "X", 1.3)?);
+    // The same line again: the words that it had are those of the middle one still.
+    once.by(word, "Y", 1.7)
+}
+
+/// Where the parts of a program are that a comment names.
+fn parts(lines: &Lines) -> Vec<std::ops::Range<usize>> {
+    let starts: Vec<usize> = (0..lines.0.len()).filter(|&i| lines.0[i].contains("(piece")).collect();
+    starts.windows(2).map(|w| w[0]..w[1]).collect()
+}
+
+/// The longest part again behind itself.
+fn again(lines: &Lines) -> Option<Vec<String>> {
+    let part = parts(lines).into_iter().max_by_key(std::ops::Range::len)?;
+    let mut twice = lines.0[..part.end].to_vec();
+    twice.extend_from_slice(&lines.0[part.start..]);
+    Some(twice)
+}
+
+#[test]
+fn every_damage_is_refused_under_its_rule() {
+    let mut seen: BTreeMap<&str, usize> = DAMAGES.iter().map(|(name, ..)| (*name, 0)).collect();
+    let mut survived = Vec::new();
+    for (name, job) in cases() {
+        let source = fixture(name);
+        let (program, _) = compile(&source, &job);
+        assert!(judge(&program, &source, &job).passes(), "{name}");
+        let lines = Lines(program.lines().map(str::to_owned).collect());
+        for (damage, rule, run) in DAMAGES {
+            let Some(damaged) = run(&lines) else { continue };
+            assert!(damaged != lines.0, "{name}: {damage} changes nothing");
+            let verdict = judge(&(damaged.join("\n") + "\n"), &source, &job);
+            let broken: Vec<_> = verdict.broken().map(|finding| finding.rule).collect();
+            if !broken.contains(rule) {
+                survived.push(format!("{name}: {damage}: not {rule} but {broken:?}, {:?}", verdict.unread));
+            }
+            *seen.get_mut(damage).expect("it is counted") += 1;
+        }
+    }
+    assert!(survived.is_empty(), "{survived:#?}");
+    let unseen: Vec<_> = seen.iter().filter(|(_, count)| **count == 0).collect();
+    assert!(unseen.is_empty(), "nothing was damaged by {unseen:?}");
+}
+
+#[test]
+fn a_line_that_cannot_be_read_is_named_with_the_reason() {
+    let (source, job) = (fixture("iso/seed-circle.cut"), Job::default());
+    let (program, _) = compile(&source, &job);
+    let check = |from: &str, to: &str, expected: &str| {
+        let verdict = judge(&program.replacen(from, to, 1), &source, &job);
+        let unread = verdict.unread.unwrap_or_default();
+        assert!(unread.contains(expected), "{from} -> {to}: {unread}");
+        assert_eq!(verdict.findings.len(), 1, "nothing is said about the rest");
+    };
+    check("G94\n", "G93\n", "line 3 is `G93` where `G94` belongs");
+    check("G64 P0.05 Q0\n", "", "line 2 is `G94` where `G64 P0.05 Q0` belongs");
+    check("M64 P0\n", "M3\n", "line 6 has `M3`, which is no word of the target gcode with this profile");
+    check("G4 P", "G4 X", "line 7 is `G4 X0.080`, which is no line of the target gcode with this profile");
+    check("G0 X", "G0 Xx", "which is no word");
+    check(" C", " C1 C", "has two words C");
+    check("M2\n", "", "is missing: the program has no end");
+    check("M2\n", "M2", "has no end: the file is cut short");
+    check("M2\n", "M2\nG0 X0 Y0 C0\n", "comes behind the end of the program");
+    check("G94\n", "G94\nG17 G21 G40 G80 G90\n", "is the head of a program again");
+    check(" I", " I1 J1 F1\n(", "is an arc whose ends lie");
+}
+
+#[test]
+fn g_code_of_others_is_told_apart() {
+    let foreign = |text: &str| verify::foreign(&mut text.as_bytes()).expect("memory is readable");
+    for text in ["%\nO1000\n", "G21\nG0 X1\n", "(a comment)\nG90\n", "N10 G90\n"] {
+        let [what, _] = foreign(text).expect("it is none");
+        assert!(what.contains("not `G17 G21 G40 G80 G90`"), "{what}");
+    }
+    assert!(foreign("G17 G21 G40 G80 G90\nG94\n").is_none() && foreign("N1 G17 G21 G40 G80 G90\r\n").is_none());
+    let [cut, _] = foreign("N1*G71*M15*X0Y0*").expect("a cut file is no program");
+    assert!(!cut.contains("G17"), "{cut}");
+}
+
+#[test]
+fn ready_tables_of_controllers_give_programs_that_pass() {
+    for name in ["linuxcnc", "fluidnc"] {
+        let job = machine(name);
+        for file in ["markers/metric-six-pieces.cut", "markers/inch-four-pieces.cut", "iso/speeds-and-events.cut"] {
+            let (program, compiled) = compile(&fixture(file), &job);
+            let keys = &job.profile.gcode;
+            assert!(keys.arcs || !program.contains("\nG3 "), "{name}: {file}");
+            assert_eq!(program.contains("\nG93\n"), name == "fluidnc", "{name}: {file}");
+            let verdict = compiled.verdict.expect("it was judged");
+            assert!(verdict.untimed.contains(&"verify/speed-x") && verdict.untimed.contains(&"verify/feed"));
+        }
+    }
+}
+
+#[test]
+fn a_wavy_contour_is_at_most_a_quarter_as_many_moves_as_chords() {
+    let (program, compiled) = compile(&fixture("motion/wavy751.csv"), &machine("wavy"));
+    let moves =
+        program.lines().filter(|line| line.starts_with("G1 ") || line.starts_with("G2 ") || line.starts_with("G3 "));
+    let controller = compiled.report.controller.expect("it is estimated");
+    assert_eq!(moves.count(), controller.moves);
+    assert!(4 * controller.moves <= 500, "{} moves", controller.moves);
+    assert!(controller.time_s < 8.5, "{} s", controller.time_s);
+}
+
+#[test]
+fn a_dry_run_moves_and_tells_events_and_nothing_else() {
+    let job = Job { mode: cutc::machine::Mode::Dry, ..Job::default() };
+    let (program, _) = compile(&fixture("iso/speeds-and-events.cut"), &job);
+    assert!(!program.contains("M64") && program.contains("G1 ") && program.contains("\nM0\n"));
+}
+
+#[test]
+fn a_small_program_reads_well() {
+    let (program, _) = compile(&fixture("iso/seed-circle.cut"), &Job::default());
+    insta::assert_snapshot!(program);
+}
