@@ -64,6 +64,7 @@ const NO_GRAMMAR: &[(&str, &str)] = &[];
 const BESIDE_A_TABLE: &[(&str, &str)] = &[
     ("foreign", "names the formats that are no dialect of ours"),
     ("frame", "makes the one toolpath that no pass edits"),
+    ("notches", "draws notches in the style of the profile, before a pass edits them"),
     ("scene", "holds what passes look at beside a toolpath"),
     ("stretch", "parts runs for the passes that lift the knife amid one"),
     ("trace", "makes the toolpaths that the passes edit"),

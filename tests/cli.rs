@@ -21,7 +21,7 @@ fn keys(value: &Value) -> Vec<&str> {
 }
 
 /// The keys of the figures as JSON, sorted.
-const FIGURES: [&str; 20] = [
+const FIGURES: [&str; 21] = [
     "axes",
     "closed_contours",
     "contours",
@@ -32,6 +32,7 @@ const FIGURES: [&str; 20] = [
     "extent_mm",
     "labels",
     "lifts",
+    "notch_style",
     "notches",
     "pieces",
     "runs",

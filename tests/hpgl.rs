@@ -312,7 +312,7 @@ fn a_marker_that_lacks_a_contour_a_point_or_a_notch_is_refused() {
         let mut lacking = marker.clone();
         let contour = &mut lacking.pieces[0].contours[0];
         points += 1;
-        lacking.list.cursor(&mut contour.range).segment_mut().to += cutc::geom::Vector::new(0.4, 0.3);
+        *lacking.list.cursor(&mut contour.range).from_mut() += cutc::geom::Vector::new(4.0, 3.0);
         assert!(!audit(&source, &lacking, &job).is_empty(), "{name}");
         let mut lacking = marker.clone();
         if lacking.pieces[0].notches.pop().is_some() {

@@ -8,8 +8,9 @@ use std::io::Cursor;
 use cutc::back::TARGETS;
 use cutc::diagnostic::{Diagnostics, render};
 use cutc::geom::{Heading, Point};
+use cutc::ir::Marker;
 use cutc::ir::toolpath::{Pose, Shape, Step};
-use cutc::machine::Job;
+use cutc::machine::{Job, NotchStyle};
 use cutc::pipeline;
 use cutc::source::Source;
 use rand::{RngExt, SeedableRng};
@@ -101,10 +102,19 @@ fn a_smooth_ring_has_no_heel_and_goes_past_its_start() {
     assert!((runs[0].end.c.0 - runs[0].start.c.0 - std::f64::consts::TAU).abs() < 0.1);
 }
 
+/// A cutter file of the fixtures.
+fn source(name: &str) -> Source {
+    let path = format!("{}/fixtures/{name}", env!("CARGO_MANIFEST_DIR"));
+    Source::new(name, std::fs::read(path).expect("a fixture")).expect("small")
+}
+
+fn read(name: &str) -> Marker {
+    pipeline::read(&source(name), None, &Job::default(), &mut Diagnostics::default()).expect("a marker").marker
+}
+
 /// Compiles a fixture to setpoints; gives what was said about it, by code.
 fn compile(name: &str, job: &Job) -> Vec<&'static str> {
-    let path = format!("{}/fixtures/{name}", env!("CARGO_MANIFEST_DIR"));
-    let source = Source::new(name, std::fs::read(path).expect("a fixture")).expect("small");
+    let source = source(name);
     let target = TARGETS.iter().find(|target| target.name == "csv").expect("setpoints are a target");
     let mut diagnostics = Diagnostics::default();
     let order = pipeline::Order { from: None, target, verify: true };
@@ -122,6 +132,35 @@ fn darts_hems_castles_and_parts_in_cut_outs_are_cut_by_every_blade_and_what_harm
         let said = compile("knife/hard-cases.cut", &job);
         assert!(!said.is_empty() && said.iter().all(|&code| code == "path/overcut"), "{width} {back}: {said:?}");
     }
+}
+
+#[test]
+fn a_cut_out_that_is_a_piece_of_its_own_spares_the_part_around_it() {
+    let job = Job::default();
+    let toolpaths = support::toolpaths(&read("knife/cut-out-without-pieces.cut"), &job);
+    let overlaps = |toolpath| support::runs(toolpath).iter().map(|run| run.front + run.heel).sum::<f64>();
+    assert_eq!(toolpaths.iter().map(overlaps).collect::<Vec<_>>(), [0.0, 4.0 * (0.8 + 0.5)]);
+    assert_eq!(compile("knife/cut-out-without-pieces.cut", &job), [""; 0]);
+}
+
+#[test]
+fn notches_are_cut_in_the_style_of_the_profile() {
+    let cuts = |style: NotchStyle, depth: Option<f64>| {
+        let mut job = Job::default();
+        (job.profile.notch.style, job.profile.notch.depth_mm) = (style, depth);
+        assert_eq!(compile("markers/metric-four-pieces.cut", &job), [""; 0], "{style:?} {depth:?}");
+        let marker = read("markers/metric-four-pieces.cut");
+        let steps = support::toolpaths(&marker, &job).into_iter().flat_map(|toolpath| toolpath.steps);
+        steps.filter(|step| matches!(step, Step::Run(_) | Step::Stab(_))).count()
+    };
+    let marker = read("markers/metric-four-pieces.cut");
+    let vees = marker.pieces.iter().map(|piece| piece.vees.len()).sum::<usize>();
+    let drawn = cuts(NotchStyle::AsDrawn, None);
+    assert!(vees > 0);
+    // Two legs and two parts of the edge become one cut over the mouth, and a slit.
+    assert_eq!(cuts(NotchStyle::Slit, None), drawn - 2 * vees);
+    assert_eq!(cuts(NotchStyle::Slit, Some(3.0)), drawn - 2 * vees);
+    assert_eq!(cuts(NotchStyle::Skip, None), drawn - 3 * vees);
 }
 
 #[test]

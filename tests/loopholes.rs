@@ -422,7 +422,7 @@ fn angle() -> Marker {
     let Marker { list, pieces, .. } = &mut marker;
     let mut cursor = list.cursor(&mut pieces[0].contours[0].range);
     assert!(cursor.advance());
-    cursor.segment_mut().percent = 50;
+    *cursor.percent_mut() = 50;
     marker
 }
 

@@ -101,6 +101,7 @@ pub(super) const EXPLANATIONS: &[(&str, &str)] = &[
     ("verify/once", "A second cut along the same line frays the edge and takes time. Look for a contour that stands twice in the file (marker/contour-twice)."),
     ("verify/complete", "A stretch left uncut holds the part in the cloth, and it is torn when lifted off. The allowance is verify.max_uncut_mm, what rounding can leave."),
     ("verify/heading", "A blade askew to its way bends and pushes the plies aside: upper and lower parts come out different. The limit is verify.max_heading_deg."),
+    ("verify/down", "The tip goes farther between a plunge and a lift than knife.max_down_mm allows: the program was made with another profile, or a lift was taken out."),
     ("verify/body", "On a curve the body of a wide blade leaves the line although its tip is on it, and widens the cut. A narrower knife helps; verify.max_body_mm makes it a limit."),
     ("verify/overcut-part", "A cut past a corner into the part weakens the seam allowance there. Only what a compile warned of (path/overcut) may go farther than the tolerance; verify.max_overcut_part_mm allows more."),
     ("verify/overcut-neighbour", "A cut past a corner reaches into the part beside it. Leave more room in the marker or take smaller overlaps; verify.max_overcut_neighbour_mm allows more."),

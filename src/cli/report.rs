@@ -63,7 +63,7 @@ mod tests {
     use super::*;
     use crate::diagnostic::{Diagnostic, code};
 
-    const KEYS: [&str; 20] = [
+    const KEYS: [&str; 21] = [
         "dialect",
         "unit_mm",
         "extent_mm",
@@ -84,6 +84,7 @@ mod tests {
         "warnings",
         "errors",
         "sides",
+        "notch_style",
     ];
 
     #[test]

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::options::{counted, typed};
 use crate::diagnostic::{Diagnostics, Severity};
 use crate::machine::plot::Lines;
-use crate::machine::{Job, Mode};
+use crate::machine::{Job, Mode, NotchStyle};
 use crate::pipeline::{Axes, Peak, Peaks, Report, Sides, Verdict, word};
 use crate::units::S_PER_MIN;
 use crate::units::number::{exact, fixed};
@@ -34,7 +34,12 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
     let notches = report.notches;
     let all = notches.slit + notches.t + notches.v;
     let with_t = if notches.t > 0 { format!("{} t, ", notches.t) } else { String::new() };
-    line("notches", format!("{all} ({} slit, {with_t}{} v)", notches.slit, notches.v));
+    let style = match report.program.notch_style {
+        Some(NotchStyle::Slit) => ", all cut as slits",
+        Some(NotchStyle::Skip) => ", none is cut",
+        Some(NotchStyle::AsDrawn) | None => "",
+    };
+    line("notches", format!("{all} ({} slit, {with_t}{} v){style}", notches.slit, notches.v));
     line("drills", report.drills.to_string());
     line("labels", report.labels.to_string());
     line("cut", format!("{} m", fixed(report.cut_m, 3)));
@@ -221,6 +226,7 @@ mod tests {
             program: Program {
                 travel_m: Some(8.2),
                 runs: Some(101),
+                notch_style: Some(NotchStyle::Slit),
                 stabs: Some(1),
                 sides: Some(Sides { inside: 8, shortened: 3, turned: 1, harmful: 1, overcut_mm: 1.55 }),
                 lifts: Some(101),
@@ -259,7 +265,7 @@ mod tests {
           extent     1234.6 x 789.0 mm
           pieces     12
           contours   14 (13 closed, 1 open)
-          notches    31 (31 slit, 0 v)
+          notches    31 (31 slit, 0 v), all cut as slits
           drills     2
           labels     12
           cut        20.123 m

@@ -7,6 +7,7 @@ pub mod angle;
 pub mod budget;
 pub mod monotone;
 pub mod near;
+pub mod nest;
 pub mod polyline;
 pub mod region;
 pub mod ring;
@@ -34,6 +35,16 @@ pub fn bits(point: Point) -> [u64; 2] {
     [(point.x + 0.0).to_bits(), (point.y + 0.0).to_bits()]
 }
 
+/// The lesser of two coordinates. Of numbers alone, which coordinates are, it takes one instruction; `f64::min` takes four.
+fn lesser(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
+}
+
+/// The greater of two coordinates, likewise.
+fn greater(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
+}
+
 /// An axis-parallel box, mm. The empty box has `min > max`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extent {
@@ -50,13 +61,19 @@ impl Extent {
 
     /// Grows the box to hold `point`.
     pub fn add(&mut self, point: Point) {
-        self.min = Point::new(self.min.x.min(point.x), self.min.y.min(point.y));
-        self.max = Point::new(self.max.x.max(point.x), self.max.y.max(point.y));
+        self.min = Point::new(lesser(self.min.x, point.x), lesser(self.min.y, point.y));
+        self.max = Point::new(greater(self.max.x, point.x), greater(self.max.y, point.y));
     }
 
-    /// Whether the two boxes have a point in common, their edges included.
-    pub fn meets(&self, other: &Self) -> bool {
-        self.min.x <= other.max.x && other.min.x <= self.max.x && self.min.y <= other.max.y && other.min.y <= self.max.y
+    /// Whether the two boxes have more than a part of their edges in common: only then a line in the one may cross a line
+    /// in the other. (Lines in boxes that touch at an edge meet along it at most.)
+    pub fn overlaps(&self, other: &Self) -> bool {
+        self.min.x < other.max.x && other.min.x < self.max.x && self.min.y < other.max.y && other.min.y < self.max.y
+    }
+
+    /// Whether another box lies in this one.
+    pub fn covers(&self, other: &Self) -> bool {
+        self.holds(other.min) && self.holds(other.max)
     }
 
     /// Whether a point lies in the box or on its edge.

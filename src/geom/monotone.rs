@@ -68,7 +68,7 @@ pub fn crossing(
     wanted: &mut impl FnMut(&Crossing) -> bool,
 ) -> Option<Crossing> {
     let [a, b] = chains;
-    if !a.extent(points[0]).meets(&b.extent(points[1])) {
+    if !a.extent(points[0]).overlaps(&b.extent(points[1])) {
         return None;
     }
     let (long_a, long_b) = (a.last - a.first, b.last - b.first);

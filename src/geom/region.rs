@@ -161,12 +161,12 @@ impl Lattice {
 
 impl Regions {
     /// The regions that rings bound, each ring with its owner; whether a ring repeats its first point does not matter.
-    pub fn new(rings: impl IntoIterator<Item = (u32, Vec<Point>)>) -> Self {
+    pub fn new<'a>(rings: impl IntoIterator<Item = (u32, &'a [Point])>) -> Self {
         let (mut edges, mut extent) = (Vec::new(), Extent::EMPTY);
         for (owner, ring) in rings {
             let Some(&last) = ring.last() else { continue };
             let mut from = last;
-            for to in ring {
+            for &to in ring {
                 extent.add(to);
                 if from != to {
                     edges.push(Edge { from, to, owner });
@@ -317,7 +317,7 @@ mod tests {
     fn a_cut_out_belongs_to_no_region_and_what_lies_in_it_to_its_own() {
         let mut turned = square(10.0, 10.0, 30.0);
         turned.reverse();
-        let regions = Regions::new([(1, square(0.0, 0.0, 50.0)), (1, turned), (2, square(20.0, 20.0, 10.0))]);
+        let regions = Regions::new([(1, &square(0.0, 0.0, 50.0)[..]), (1, &turned), (2, &square(20.0, 20.0, 10.0))]);
         let owners = |x: f64, y: f64| regions.owners_at(Point::new(x, y));
         assert_eq!([owners(5.0, 5.0), owners(15.0, 15.0), owners(25.0, 25.0)], [vec![1], vec![], vec![2]]);
         assert_eq!([owners(-5.0, 25.0), owners(55.0, 25.0), owners(25.0, 99.0)].concat(), Vec::<u32>::new());
@@ -325,7 +325,7 @@ mod tests {
 
     #[test]
     fn a_way_ends_where_it_enters_a_region() {
-        let regions = Regions::new([(1, square(0.0, 0.0, 10.0)), (2, square(10.5, 0.0, 10.0))]);
+        let regions = Regions::new([(1, &square(0.0, 0.0, 10.0)[..]), (2, &square(10.5, 0.0, 10.0))]);
         let room = |ray: &Ray, owner| regions.room(ray, owner, 0.05);
         let from_corner = room(&east(10.0, 5.0), 1);
         assert!((from_corner.other - 0.5).abs() < 1e-9 && from_corner.own == f64::INFINITY);

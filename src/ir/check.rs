@@ -31,9 +31,6 @@ pub fn marker(marker: &Marker) -> Faults {
                     faults.push(format!("{name}: a segment has no length"));
                 }
             }
-            if segments.windows(2).any(|w| w[0].1.to != w[1].1.from) {
-                faults.push(format!("{name}: two segments do not join"));
-            }
             let meets = segments.first().map(|s| s.1.from) == segments.last().map(|s| s.1.to);
             if meets != contour.closed {
                 faults.push(format!(

@@ -1,6 +1,7 @@
 //! The doubly linked segment list: order as `prev`/`next` ids in a vector, data beside it.
 //!
-//! Ids are never reused. Nobody outside this file sees a link; others walk a [`Range`] or edit through a [`Cursor`],
+//! The segments of a range join, since each is kept as its end alone: forty bytes, for large markers are as slow to read
+//! as they are large in memory. Ids are never reused. Nobody outside this file sees a link; others walk a [`Range`] or edit through a [`Cursor`],
 //! whose every operation takes constant time.
 
 use crate::geom::Point;
@@ -58,6 +59,28 @@ struct Links {
     next: u32,
 }
 
+/// What is kept of a segment: where it starts, the one before it ends. In front of the first segment of a range stands a
+/// node that is none: its end is where the range starts, and nothing is before it.
+#[derive(Debug, Clone, Copy)]
+struct Node {
+    to: Point,
+    span: Span,
+    joint: Joint,
+    percent: u8,
+}
+
+impl Node {
+    fn of(segment: Segment) -> Self {
+        let Segment { to, span, joint, percent, .. } = segment;
+        Self { to, span, joint, percent }
+    }
+
+    /// The one in front of a range that starts at `at`.
+    fn start(at: Point) -> Self {
+        Self { to: at, span: Span::default(), joint: Joint::default(), percent: FULL_SPEED }
+    }
+}
+
 /// A contour's part of the list: from its first segment to its last, walked in one of two directions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Range {
@@ -83,39 +106,84 @@ impl Range {
 #[derive(Debug, Clone, Default)]
 pub struct SegmentList {
     links: Vec<Links>,
-    segments: Vec<Segment>,
+    nodes: Vec<Node>,
 }
 
 impl SegmentList {
-    /// Makes room for so many more segments.
-    pub fn reserve(&mut self, segments: usize) {
-        self.links.reserve(segments);
-        self.segments.reserve(segments);
+    /// Makes room for so many more segments in so many ranges.
+    pub fn reserve(&mut self, segments: usize, ranges: usize) {
+        self.links.reserve(segments + ranges);
+        self.nodes.reserve(segments + ranges);
     }
 
-    /// Appends a chain of segments as a range of its own; `None` when there are none.
+    /// Appends a chain of segments, each of which starts where the one before it ends, as a range of its own; `None` when
+    /// there are none.
     pub fn append(&mut self, chain: impl IntoIterator<Item = Segment>) -> Option<Range> {
-        let first = self.segments.len() as u32;
-        self.segments.extend(chain);
-        assert!(self.segments.len() < NONE as usize, "a source below 4 GiB holds fewer than 2^32 - 1 segments");
-        let end = self.segments.len() as u32;
-        self.links.extend((first..end).map(|id| Links {
-            prev: if id == first { NONE } else { id - 1 },
-            next: if id + 1 == end { NONE } else { id + 1 },
+        let mut chain = chain.into_iter();
+        let segment = chain.next()?;
+        let start = self.nodes.len() as u32;
+        self.nodes.extend([Node::start(segment.from), Node::of(segment)]);
+        let mut end = segment.to;
+        self.nodes.extend(chain.map(|segment| {
+            debug_assert!(segment.from == end, "the segments of a chain join");
+            end = segment.to;
+            Node::of(segment)
         }));
-        (end > first).then(|| Range { first: SegmentId(first), last: SegmentId(end - 1), backward: false })
+        assert!(self.nodes.len() < NONE as usize, "a source below 4 GiB holds fewer than 2^32 - 1 segments");
+        let (first, last) = (start + 1, self.nodes.len() as u32 - 1);
+        self.links.push(Links { prev: NONE, next: first });
+        self.links.extend((first..last).map(|id| Links { prev: id - 1, next: id + 1 }));
+        self.links.push(Links { prev: last - 1, next: NONE });
+        Some(Range { first: SegmentId(first), last: SegmentId(last), backward: false })
     }
 
     /// Walks a range in its direction. A segment that is walked backward comes out turned round.
     pub fn walk(&self, range: Range) -> Walk<'_> {
         let (at, end) = if range.backward { (range.last, range.first) } else { (range.first, range.last) };
-        Walk { list: self, range, at: Some(at), end }
+        Walk { list: self, range, at: Some(at), from: self.start(range), end }
+    }
+
+    /// The points of a range in its direction: one more than its segments.
+    pub fn points(&self, range: Range) -> impl Iterator<Item = Point> {
+        self.vertices(range).map(|(point, _)| point)
+    }
+
+    /// The points of a range in its direction, each with the span of the segment that leads there; to the first none does.
+    pub fn vertices(&self, range: Range) -> impl Iterator<Item = (Point, Span)> {
+        let front = self.links[range.first.0 as usize].prev;
+        let (start, end) = if range.backward { (range.last.0, front) } else { (front, range.last.0) };
+        let follow = move |&id: &u32| {
+            let Links { prev, next } = self.links[id as usize];
+            (id != end).then_some(if range.backward { prev } else { next })
+        };
+        let mut before = Span::default();
+        std::iter::successors(Some(start), follow).map(move |id| {
+            let Node { to, span, .. } = self.nodes[id as usize];
+            let after = std::mem::replace(&mut before, span);
+            (to, if range.backward { after } else { span })
+        })
+    }
+
+    /// The two ends of each segment of a range, in its direction.
+    pub fn lines(&self, range: Range) -> impl Iterator<Item = [Point; 2]> {
+        let mut points = self.points(range);
+        let mut before = points.next();
+        points.filter_map(move |point| before.replace(point).map(|before| [before, point]))
+    }
+
+    /// Where a range starts, in its direction.
+    fn start(&self, range: Range) -> Point {
+        let id = if range.backward { range.last.0 } else { self.links[range.first.0 as usize].prev };
+        self.nodes[id as usize].to
     }
 
     /// Makes one range of two: `first`, then `second`, in the direction that both are walked in. `None`, and nothing
-    /// changed, when their directions differ or they are the same range.
+    /// changed, when their directions differ, they are the same range or do not meet.
     pub fn join(&mut self, first: Range, second: Range) -> Option<Range> {
         if first.backward != second.backward || first.first == second.first {
+            return None;
+        }
+        if self.start(first.reversed()) != self.start(second) {
             return None;
         }
         let (ahead, behind) = if first.backward { (second, first) } else { (first, second) };
@@ -130,15 +198,11 @@ impl SegmentList {
         Cursor { list: self, range, at }
     }
 
-    /// Number of segments ever made; an upper bound of those in use.
-    pub fn capacity_used(&self) -> usize {
-        self.segments.len()
-    }
-
     /// Whether the links between the ends of a range agree in both directions and end at its ends.
     pub fn is_linked(&self, range: Range) -> bool {
         let mut at = range.first.0;
-        if self.links[at as usize].prev != NONE {
+        let front = self.links[at as usize].prev;
+        if front == NONE || self.links[front as usize].prev != NONE || self.links[front as usize].next != at {
             return false;
         }
         for _ in 0..self.links.len() {
@@ -161,6 +225,8 @@ pub struct Walk<'a> {
     list: &'a SegmentList,
     range: Range,
     at: Option<SegmentId>,
+    /// Where that one starts.
+    from: Point,
     end: SegmentId,
 }
 
@@ -169,18 +235,27 @@ impl Iterator for Walk<'_> {
 
     fn next(&mut self) -> Option<Self::Item> {
         let id = self.at?;
-        let links = self.list.links[id.0 as usize];
-        let segment = self.list.segments[id.0 as usize];
-        let follow = if self.range.backward { links.prev } else { links.next };
-        self.at = (id != self.end && follow != NONE).then_some(SegmentId(follow));
-        if !self.range.backward {
-            return Some((id, segment));
+        if self.range.backward {
+            return Some((id, self.turned_round(id)));
         }
-        // Walked backward, a segment starts at the joint that its successor in the list starts with; the contour's
-        // own end, which has no successor, shares its joint with the start.
-        let after = if links.next == NONE { self.range.first.0 } else { links.next };
-        let joint = self.list.segments[after as usize].joint;
-        Some((id, Segment { from: segment.to, to: segment.from, joint, ..segment }))
+        let Node { to, span, joint, percent } = self.list.nodes[id.0 as usize];
+        let next = self.list.links[id.0 as usize].next;
+        self.at = (id != self.end && next != NONE).then_some(SegmentId(next));
+        let from = std::mem::replace(&mut self.from, to);
+        Some((id, Segment { from, to, span, joint, percent }))
+    }
+}
+
+impl Walk<'_> {
+    /// A segment walked backward. It starts at the joint that its successor in the list starts with; the contour's own
+    /// end, which has no successor, shares its joint with the start.
+    fn turned_round(&mut self, id: SegmentId) -> Segment {
+        let Links { prev, next } = self.list.links[id.0 as usize];
+        let after = if next == NONE { self.range.first.0 } else { next };
+        let Node { span, percent, .. } = self.list.nodes[id.0 as usize];
+        let (to, joint) = (self.list.nodes[prev as usize].to, self.list.nodes[after as usize].joint);
+        self.at = (id != self.end).then_some(SegmentId(prev));
+        Segment { from: std::mem::replace(&mut self.from, to), to, span, joint, percent }
     }
 }
 
@@ -195,12 +270,30 @@ pub struct Cursor<'a> {
 impl Cursor<'_> {
     /// The segment under the cursor.
     pub fn segment(&self) -> Segment {
-        self.list.segments[self.at.0 as usize]
+        let Node { to, span, joint, percent } = self.list.nodes[self.at.0 as usize];
+        let before = self.list.links[self.at.0 as usize].prev;
+        Segment { from: self.list.nodes[before as usize].to, to, span, joint, percent }
     }
 
-    /// The segment under the cursor, to change.
-    pub fn segment_mut(&mut self) -> &mut Segment {
-        &mut self.list.segments[self.at.0 as usize]
+    /// Where the segment under the cursor starts and the one before it ends, to change.
+    pub fn from_mut(&mut self) -> &mut Point {
+        let before = self.list.links[self.at.0 as usize].prev;
+        &mut self.list.nodes[before as usize].to
+    }
+
+    /// Where the segment under the cursor ends and the next one starts, to change.
+    pub fn to_mut(&mut self) -> &mut Point {
+        &mut self.list.nodes[self.at.0 as usize].to
+    }
+
+    /// What the file asks for where the segment under the cursor starts, to change.
+    pub fn joint_mut(&mut self) -> &mut Joint {
+        &mut self.list.nodes[self.at.0 as usize].joint
+    }
+
+    /// The speed of the segment under the cursor, to change.
+    pub fn percent_mut(&mut self) -> &mut u8 {
+        &mut self.list.nodes[self.at.0 as usize].percent
     }
 
     /// Moves to the next segment in list order; `false` at the last.
@@ -219,12 +312,15 @@ impl Cursor<'_> {
         self.list.links[self.at.0 as usize].next == NONE
     }
 
-    /// Puts a segment behind the one under the cursor; the cursor stays.
-    pub fn insert_after(&mut self, segment: Segment) -> SegmentId {
-        let id = self.list.segments.len() as u32;
+    /// Splits the segment under the cursor at `point`; the cursor stays on the first part.
+    pub fn split(&mut self, point: Point) -> SegmentId {
+        let id = self.list.nodes.len() as u32;
         assert!(id < NONE, "a source below 4 GiB holds fewer than 2^32 - 1 segments");
+        let node = &mut self.list.nodes[self.at.0 as usize];
+        let behind = Node { joint: Joint::default(), ..*node };
+        node.to = point;
         let next = self.list.links[self.at.0 as usize].next;
-        self.list.segments.push(segment);
+        self.list.nodes.push(behind);
         self.list.links.push(Links { prev: self.at.0, next });
         self.list.links[self.at.0 as usize].next = id;
         match next {
@@ -234,24 +330,19 @@ impl Cursor<'_> {
         SegmentId(id)
     }
 
-    /// Splits the segment under the cursor at `point`; the cursor stays on the first part.
-    pub fn split(&mut self, point: Point) -> SegmentId {
-        let whole = self.segment();
-        self.segment_mut().to = point;
-        self.insert_after(Segment { from: point, joint: Joint::default(), ..whole })
-    }
-
-    /// Takes the segment under the cursor out and moves to the next one, or to the one before when it was the last.
-    /// `false`, and nothing changed, when it is the only one.
+    /// Takes the segment under the cursor out and moves to the next one, or to the one before when it was the last. One
+    /// that others stand around is bridged by the next. `false`, and nothing changed, when it is the only one.
     pub fn remove(&mut self) -> bool {
         let Links { prev, next } = self.list.links[self.at.0 as usize];
-        if prev == NONE && next == NONE {
+        let was_first = self.at == self.range.first;
+        if was_first && next == NONE {
             return false;
         }
-        match prev {
-            NONE => self.range.first = SegmentId(next),
-            prev => self.list.links[prev as usize].next = next,
+        if was_first {
+            self.list.nodes[prev as usize].to = self.list.nodes[self.at.0 as usize].to;
+            self.range.first = SegmentId(next);
         }
+        self.list.links[prev as usize].next = next;
         match next {
             NONE => self.range.last = SegmentId(prev),
             next => self.list.links[next as usize].prev = prev,
@@ -262,15 +353,18 @@ impl Cursor<'_> {
 
     /// Makes the segment under the cursor the first of a closed range: the ones before it go behind the last.
     pub fn make_first(&mut self) {
-        let prev = self.list.links[self.at.0 as usize].prev;
-        if prev == NONE {
+        if self.at == self.range.first {
             return;
         }
         let (first, last) = (self.range.first, self.range.last);
+        let prev = self.list.links[self.at.0 as usize].prev;
+        let front = self.list.links[first.0 as usize].prev;
+        self.list.nodes[front as usize].to = self.list.nodes[prev as usize].to;
+        self.list.links[front as usize].next = self.at.0;
+        self.list.links[self.at.0 as usize].prev = front;
         self.list.links[last.0 as usize].next = first.0;
         self.list.links[first.0 as usize].prev = last.0;
         self.list.links[prev as usize].next = NONE;
-        self.list.links[self.at.0 as usize].prev = NONE;
         self.range.first = self.at;
         self.range.last = SegmentId(prev);
     }
@@ -300,7 +394,7 @@ mod tests {
 
     #[test]
     fn a_segment_stays_small() {
-        assert!(size_of::<Segment>() + size_of::<Links>() <= 64);
+        assert!(size_of::<Node>() + size_of::<Links>() <= 40);
     }
 
     #[test]
@@ -321,6 +415,24 @@ mod tests {
     }
 
     #[test]
+    fn vertices_are_the_ends_of_the_segments_in_either_direction() {
+        let mut list = SegmentList::default();
+        let mut segments = chain(&[0.0, 1.0, 2.0, 3.0]);
+        for (segment, block) in segments.iter_mut().zip(1..) {
+            segment.span.block = block;
+        }
+        let range = list.append(segments).expect("three segments");
+        for range in [range, range.reversed()] {
+            let (_, first) = list.walk(range).next().expect("three segments");
+            let ends = list.walk(range).map(|(_, segment)| (segment.to, segment.span));
+            let expected: Vec<_> = std::iter::once((first.from, Span::default())).chain(ends).collect();
+            assert_eq!(list.vertices(range).collect::<Vec<_>>(), expected);
+            let ends: Vec<_> = expected.windows(2).map(|pair| [pair[0].0, pair[1].0]).collect();
+            assert_eq!(list.lines(range).collect::<Vec<_>>(), ends);
+        }
+    }
+
+    #[test]
     fn a_closed_range_starts_anywhere() {
         let mut list = SegmentList::default();
         let mut range = list.append(chain(&[0.0, 1.0, 2.0, 0.0])).expect("three segments");
@@ -337,10 +449,13 @@ mod tests {
             let mut list = SegmentList::default();
             let turned = |range: Range| if backward { range.reversed() } else { range };
             let a = turned(list.append(chain(&[0.0, 1.0, 2.0])).expect("two segments"));
-            let b = turned(list.append(chain(&[7.0, 8.0])).expect("one segment"));
+            let next: &[f64] = if backward { &[-1.0, 0.0] } else { &[2.0, 3.0] };
+            let b = turned(list.append(chain(next)).expect("one segment"));
+            let apart = turned(list.append(chain(&[7.0, 8.0])).expect("one segment"));
             let expected: Vec<_> = list.walk(a).chain(list.walk(b)).collect();
             assert_eq!(list.join(a, b.reversed()), None);
             assert_eq!(list.join(a, a), None);
+            assert_eq!(list.join(a, apart), None);
             let joined = list.join(a, b).expect("the same direction");
             assert_eq!(list.walk(joined).collect::<Vec<_>>(), expected);
             assert!(list.is_linked(joined));

@@ -236,14 +236,7 @@ impl Marker {
 
     /// The points of a contour: one more than its segments; a closed one ends with its first point.
     pub fn points(&self, contour: &Contour) -> Vec<Point> {
-        let mut points = Vec::new();
-        for (_, segment) in self.list.walk(contour.range) {
-            if points.is_empty() {
-                points.push(segment.from);
-            }
-            points.push(segment.to);
-        }
-        points
+        self.list.points(contour.range).collect()
     }
 
     /// Length of all contours and slits, mm, without overlaps.

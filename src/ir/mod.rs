@@ -4,7 +4,7 @@
 //! Invariants, checked by [`check`] after every pass in tests and debug builds:
 //!
 //! - every number is finite; every contour has a segment at least; no segment has length zero
-//! - the segments of a contour join: each starts where the one before it ends, to the bit
+//! - the segments of a contour join: each starts where the one before it ends, to the bit (the list keeps no starts)
 //! - a closed contour ends where it starts, to the bit; an open one does not
 //! - links of the list agree in both directions; no segment belongs to two contours
 //! - steps of a toolpath come in an order that a machine can run: the knife is down in runs and stabs alone

@@ -65,6 +65,8 @@ const fn between(least: f64, greatest: f64) -> Within {
 
 /// Blades and what belongs to them, mm: longer ones are a slip of the unit.
 const BLADE: Within = from(0.0, 1000.0);
+/// Depths of notches, mm: deeper ones would cut into the part.
+const DEPTH: Within = from(0.5, 15.0);
 /// Rests of the axes, ms: longer ones are a slip of the unit.
 const REST: Within = from(0.0, 10_000.0);
 /// Greatest speeds, per s: slower axes would make programs of astronomic length.
@@ -344,6 +346,8 @@ pub const KEYS: &[Key] = &[
     Key { name: "knife.edges", takes: Takes::Whole(&[1, 2]), about: "Cutting edges: a blade with 2 may run either way round." },
     Key { name: "knife.yaw_deg", takes: Takes::Number(from(-45.0, 45.0)), about: "C yaw: a constant correction of the blade's angle, which is added to C in every cut." },
 
+    Key { name: "notch.style", takes: Takes::Word(&["as-drawn", "slit", "skip"]), about: "How notches are cut: \"as-drawn\"; \"slit\" = V and T notches as slits, too; \"skip\" = none is cut,\nthe outline runs straight over the mouths of V notches." },
+    Key { name: "notch.depth_mm", takes: Takes::NumberOr(DEPTH, "as-drawn"), about: "How deep slits go into the part; V notches that stay what they are keep their depth." },
     Key { name: "drill.dwell_ms", takes: Takes::Number(REST), about: "Time for one drill hole; the axes rest." },
     Key { name: "drill.offset_mm", takes: Takes::Point, about: "Where the drill stands, seen from the C axis." },
 

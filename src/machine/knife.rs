@@ -69,6 +69,18 @@ const DEFAULT_WIDTH_MM: f64 = 6.6;
 const DEFAULT_BACK_MM: f64 = 6.35;
 
 impl Knife {
+    /// How far the blade may go beyond both ends of a cut together, mm.
+    pub fn overlaps(&self) -> f64 {
+        let heel = self.heel_overlap_mm.max(self.corner_heel_overlap_mm);
+        heel + self.front_overlap_mm.max(self.corner_front_overlap_mm)
+    }
+
+    /// Longest cut that need not be lifted amid it, mm: with its overlaps it is no longer than the knife may stay down;
+    /// `None` = any.
+    pub fn longest_cut(&self) -> Option<f64> {
+        self.max_down_mm.map(|longest| longest - self.overlaps())
+    }
+
     /// Speed of slowed cuts, percent: whole, and from 1 to 100 by its key.
     pub fn slow(&self) -> u8 {
         self.slow_percent.clamp(1.0, 100.0) as u8

@@ -318,7 +318,7 @@ mod tests {
                 "profile/syntax: --set knife: it is no key=value",
                 "profile/type: --set park=home: `park` must be three numbers [x_mm, y_mm, c_deg], or \"stay\", but is \"home\"",
                 "profile/range: --set knife.width_mm=nan: `knife.width_mm` must be a number from 0 to 1000 mm, but is NaN",
-                "profile/range: --set c.range_deg=[0, 90]: `c.range_deg` spans 90 degrees, less than 360",
+                "profile/range: --set c.range_deg=[0, 90]: `c.range_deg` spans 90 degrees, less than 370",
             ]
         );
     }

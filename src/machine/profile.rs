@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::controller::{Counts, Gcode};
 use super::kinematics::Limits;
 use super::knife::Knife;
+use super::notches::Notches;
 use super::plot::Hpgl;
 use super::word::{Auto, Off, OrWord, Same, Stay, Unbounded, Unlimited};
 use crate::units::{MM_PER_INCH, MS_PER_S, deg, rad};
@@ -32,6 +33,8 @@ pub struct MachineProfile {
     pub park: Option<[f64; 3]>,
     /// The blade and how it is used.
     pub knife: Knife,
+    /// Notches.
+    pub notch: Notches,
     /// The drill.
     pub drill: Drill,
     /// Corners.
@@ -376,6 +379,7 @@ impl Default for MachineProfile {
             home: [0.0; 3],
             park: None,
             knife: Knife::default(),
+            notch: Notches::default(),
             drill: Drill::default(),
             corner: Corner::default(),
             slow: Slow::default(),

@@ -21,8 +21,10 @@ pub(super) struct Fault {
 
 /// How much `back_mm` and `radius_mm` together may miss the width, mm: they are read off a gauge in hundredths.
 const BLADE_EPSILON: f64 = 0.005;
-/// A whole turn and half of one, degrees.
+/// A whole turn, degrees.
 const TURN_DEG: f64 = 360.0;
+/// How much more than all headings C must reach, degrees: on curves it stays clear of the ends of its range.
+const REACH_DEG: f64 = 10.0;
 
 /// All faults of a profile. `is_given` tells the keys that the user gave: only those can contradict each other.
 pub(super) fn validate(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault> {
@@ -89,10 +91,22 @@ fn rules(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault
         let message = format!("`knife.clear_ms` is {clear} ms, more than `knife.lift_ms`, {} ms", knife.lift_ms);
         broken(&["knife.clear_ms", "knife.lift_ms"], message, "the blade is clear before it is all the way up");
     }
-    let turn = TURN_DEG / f64::from(knife.edges.clamp(1, 2));
-    if let Some([least, greatest]) = profile.c.range_deg.filter(|[least, greatest]| greatest - least < turn) {
-        let message = format!("`c.range_deg` spans {} degrees, less than {turn}", greatest - least);
-        broken(&["c.range_deg"], message, "the blade must reach every heading");
+    if let Some(longest) = knife.max_down_mm.filter(|&longest| longest <= knife.overlaps()) {
+        let message =
+            format!("`knife.max_down_mm` is {longest} mm, no more than the overlaps, {} mm", knife.overlaps());
+        broken(&["knife.max_down_mm"], message, "a cut is rejoined with its overlaps, which count");
+    }
+    let reach = TURN_DEG / f64::from(knife.edges.clamp(1, 2)) + REACH_DEG;
+    if let Some([least, greatest]) = profile.c.range_deg.filter(|[least, greatest]| greatest - least < reach) {
+        let message = format!("`c.range_deg` spans {} degrees, less than {reach}", greatest - least);
+        broken(&["c.range_deg"], message, "the blade must reach every heading, and go on from it a little either way");
+    }
+    for (key, c) in [("home", Some(profile.home[2])), ("park", profile.park.map(|park| park[2]))] {
+        let outside = |[least, greatest]: &[f64; 2]| c.is_some_and(|c| c < *least || c > *greatest);
+        if let (Some([least, greatest]), Some(c)) = (profile.c.range_deg.filter(outside), c) {
+            let message = format!("C of `{key}` is {c} degrees, outside `c.range_deg`, {least} to {greatest}");
+            broken(&[key, "c.range_deg"], message, "C stands there, too");
+        }
     }
     faults
 }

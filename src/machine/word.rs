@@ -44,6 +44,8 @@ impl<W: Word> OrWord<W> {
 
 /// `"off"`: the feature is not used.
 pub(super) struct Off;
+/// `"as-drawn"`: what the file says.
+pub(super) struct AsDrawn;
 /// `"auto"`: found from other values.
 pub(super) struct Auto;
 /// `"stay"`: no move.
@@ -54,6 +56,10 @@ pub(super) struct Unbounded;
 pub(super) struct Same;
 /// `"unlimited"`: a table without edges.
 pub(super) struct Unlimited;
+
+impl Word for AsDrawn {
+    const WORD: &'static str = "as-drawn";
+}
 
 impl Word for Off {
     const WORD: &'static str = "off";

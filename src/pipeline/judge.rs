@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::io::{self, BufReader, Read as _};
 
 use super::report::significant;
-use super::{Input, Medium, read};
+use super::{Judged, Medium, read_to_judge};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::Dialect;
 use crate::ir::marker::{Notch, Piece};
@@ -33,6 +33,7 @@ const OF_CUTS: &[&str] = &[
     "verify/once",
     "verify/complete",
     "verify/heading",
+    "verify/down",
     "verify/body",
     "verify/overcut-part",
     "verify/overcut-neighbour",
@@ -49,11 +50,11 @@ pub fn judge_program(
     job: &Job,
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Option<Verdict>> {
-    let Some(input) = read(source, from, job, diagnostics) else { return Ok(None) };
+    let Some(judged) = read_to_judge(source, from, job, diagnostics) else { return Ok(None) };
     if diagnostics.has_errors() {
         return Ok(None);
     }
-    judge(source, &input, job, program).map(Some)
+    judge(source, &judged, job, program).map(Some)
 }
 
 /// Why a file is no program that can be judged, by how it begins, and what to do about it; `None` when it is one.
@@ -66,8 +67,9 @@ pub fn foreign(file: &mut dyn Medium) -> io::Result<Option<[String; 2]>> {
 ///
 /// Where the knife stays up nothing may be cut: the program is judged against a marker without lines, so that every
 /// stroke is one too many, and the rules on how something is cut say nothing.
-pub(super) fn judge(source: &Source, input: &Input, job: &Job, program: &mut dyn Medium) -> io::Result<Verdict> {
+pub(super) fn judge(source: &Source, judged: &Judged, job: &Job, program: &mut dyn Medium) -> io::Result<Verdict> {
     program.rewind()?;
+    let Judged { input, read } = judged;
     let marker = &input.marker;
     let mut bytes_read = BufReader::with_capacity(BLOCK, program);
     let mut verdict = match verify::kind(&mut bytes_read) {
@@ -94,9 +96,9 @@ pub(super) fn judge(source: &Source, input: &Input, job: &Job, program: &mut dyn
             verdict
         }
     };
-    let audit = verify::source_audit(input.dialect.name, source.bytes(), &input.read, &job.profile);
+    let audit = verify::source_audit(input.dialect.name, source.bytes(), read, &job.profile);
     verdict.findings.extend(audit.into_iter().flatten());
-    verdict.findings.push(verify::source_kept(&input.read, marker));
+    verdict.findings.push(verify::source_kept(read, marker));
     verify::sort(&mut verdict.findings);
     Ok(verdict)
 }
@@ -170,6 +172,7 @@ fn key(rule: &str) -> Option<&'static str> {
     Some(match rule {
         "verify/complete" => "verify.max_uncut_mm",
         "verify/heading" => "verify.max_heading_deg",
+        "verify/down" => "knife.max_down_mm",
         "verify/body" => "verify.max_body_mm",
         "verify/overcut-part" => "verify.max_overcut_part_mm",
         "verify/overcut-neighbour" => "verify.max_overcut_neighbour_mm",
@@ -225,7 +228,7 @@ mod tests {
     #[test]
     fn every_rule_with_a_key_of_its_own_stands_in_the_table() {
         let keyed = RULES.iter().filter(|(rule, _)| key(rule).is_some()).count();
-        assert_eq!(keyed, 6);
+        assert_eq!(keyed, 7);
         assert!(RULES.iter().all(|(rule, _)| !about(rule).is_empty()));
     }
 }

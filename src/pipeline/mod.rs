@@ -44,6 +44,13 @@ pub struct Input {
     pub dialect: &'static Dialect,
     /// What it says, as far as the job wants it cut.
     pub marker: Marker,
+}
+
+/// An input that programs are judged against.
+#[derive(Debug)]
+pub struct Judged {
+    /// What is cut.
+    pub input: Input,
     /// What the file says in all, as it was read: before any pass.
     pub read: Census,
 }
@@ -94,32 +101,48 @@ pub fn read(
     job: &Job,
     diagnostics: &mut Diagnostics,
 ) -> Option<Input> {
-    read_until(source, from, job, None, diagnostics)
+    let mut input = read_alone(source, from, job, diagnostics)?;
+    run_passes(&mut input.marker, job, None, diagnostics);
+    Some(input)
 }
 
-/// The same, up to and with the pass `last`; `None` = all.
-fn read_until(
+/// The same, with what it takes to judge a program.
+pub fn read_to_judge(
     source: &Source,
     from: Option<&'static Dialect>,
     job: &Job,
-    last: Option<&str>,
+    diagnostics: &mut Diagnostics,
+) -> Option<Judged> {
+    let mut input = read_alone(source, from, job, diagnostics)?;
+    let read = Census::of(&input.marker);
+    run_passes(&mut input.marker, job, None, diagnostics);
+    Some(Judged { input, read })
+}
+
+/// The marker as the source says it, before any pass.
+fn read_alone(
+    source: &Source,
+    from: Option<&'static Dialect>,
+    job: &Job,
     diagnostics: &mut Diagnostics,
 ) -> Option<Input> {
     let extension = Path::new(source.name()).extension().and_then(|e| e.to_str());
     let dialect = from.or_else(|| front::detect(source, extension, diagnostics))?;
-    let mut marker = (dialect.read)(source, job, diagnostics);
-    let read = Census::of(&marker);
+    Some(Input { dialect, marker: (dialect.read)(source, job, diagnostics) })
+}
+
+/// Runs the marker passes up to and with `last`; `None` = all.
+fn run_passes(marker: &mut Marker, job: &Job, last: Option<&str>, diagnostics: &mut Diagnostics) {
     for pass in MARKER_PASSES {
         if diagnostics.has_errors() {
             break;
         }
-        (pass.run)(&mut marker, job, diagnostics);
-        assert_sound(pass.name, || check::marker(&marker));
+        (pass.run)(marker, job, diagnostics);
+        assert_sound(pass.name, || check::marker(marker));
         if last == Some(pass.name) {
             break;
         }
     }
-    Some(Input { dialect, marker, read })
 }
 
 /// Compiles a source to a program in `out`, reads that back and judges it. `None` when the diagnostics hold errors: what
@@ -145,12 +168,12 @@ pub fn compile_all(
     products: &mut [Product],
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Option<Compiled>> {
-    let Some(input) = read(source, from, job, diagnostics) else { return Ok(None) };
+    let Some(judged) = read_to_judge(source, from, job, diagnostics) else { return Ok(None) };
     if diagnostics.has_errors() {
         return Ok(None);
     }
-    let marker = &input.marker;
-    let mut report = Report::of(marker, input.dialect.name);
+    let Input { dialect, marker } = &judged.input;
+    let mut report = Report::of(marker, dialect.name);
     let context = Context { source, job, marker };
     // A target that cannot be judged by its own bytes shows the verdict on setpoints.
     let has = |products: &[Product], proof: Proof| products.iter().any(|product| product.target.proof == proof);
@@ -174,7 +197,7 @@ pub fn compile_all(
 
     let mut verdict: Option<Verdict> = None;
     let mut judge = |program: &mut dyn Medium| -> io::Result<()> {
-        let next = judge::judge(source, &input, job, program)?;
+        let next = judge::judge(source, &judged, job, program)?;
         verdict = Some(match verdict.take() {
             Some(verdict) => judge::both(verdict, next),
             None => next,
@@ -265,7 +288,8 @@ pub fn dump(
     pass: &str,
     diagnostics: &mut Diagnostics,
 ) -> Option<String> {
-    let input = read_until(source, from, job, Some(pass), diagnostics)?;
+    let mut input = read_alone(source, from, job, diagnostics)?;
+    run_passes(&mut input.marker, job, Some(pass), diagnostics);
     if diagnostics.has_errors() {
         return None;
     }

@@ -139,6 +139,7 @@ impl Tally {
         Program {
             travel_m: Some(self.travel / MM_PER_M),
             runs: Some(self.plunges),
+            notch_style: Some(job.profile.notch.style),
             stabs: Some(self.stabs),
             lifts: Some(self.lifts),
             // The last setpoint stands at the last tick, and rows count from tick 0.

@@ -9,6 +9,7 @@ use super::spent::Spent;
 use crate::back::Estimate;
 use crate::ir::Marker;
 use crate::ir::marker::{Drawing, DrawnClass, NotchKind};
+use crate::machine::NotchStyle;
 use crate::units::{MM_PER_M, deg};
 
 /// Millionths that lengths and times are rounded to: micrometres of a metre, microseconds of a second.
@@ -127,6 +128,8 @@ pub struct Program {
     pub travel_m: Option<f64>,
     /// Times that the knife goes down: runs and stabs.
     pub runs: Option<usize>,
+    /// How notches are cut.
+    pub notch_style: Option<NotchStyle>,
     /// Plunges without motion.
     pub stabs: Option<usize>,
     /// Times that the knife goes up.

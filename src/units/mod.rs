@@ -1,5 +1,6 @@
 //! Units. Inside, lengths are mm, times s, angles rad; every conversion factor stands here.
 
+pub mod digits;
 pub mod number;
 
 /// Millimetres in an inch (exact).

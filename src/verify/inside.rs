@@ -1,5 +1,6 @@
 //! Which parts a point lies in: even-odd containment in the closed contours of each piece.
 
+use crate::geom::nest::{self, Shape};
 use crate::geom::{Extent, Point};
 use crate::ir::Marker;
 
@@ -18,6 +19,8 @@ pub(super) struct Inside {
     columns: usize,
     cells: Vec<Vec<u32>>,
     parts: Vec<Part>,
+    /// Of each piece the part to which it belongs.
+    part_of: Vec<u32>,
 }
 
 /// The edges of a piece's closed contours, in bands along Y.
@@ -32,15 +35,27 @@ struct Part {
 impl Inside {
     /// The index of a marker.
     pub(super) fn new(marker: &Marker) -> Self {
-        let mut edges: Vec<(usize, Vec<[Point; 2]>)> = Vec::new();
+        let mut edges: Vec<Vec<[Point; 2]>> = vec![Vec::new(); marker.pieces.len()];
+        let mut shapes = vec![Shape::default(); marker.pieces.len()];
         for (piece, contour) in marker.contours().filter(|(_, contour)| contour.closed) {
-            if edges.last().is_none_or(|(last, _)| *last != piece) {
-                edges.push((piece, Vec::new()));
-            }
-            let of_piece = &mut edges.last_mut().expect("one was pushed").1;
-            of_piece.extend(marker.list.walk(contour.range).map(|(_, segment)| [segment.from, segment.to]));
+            let points = marker.points(contour);
+            edges[piece].extend(points.windows(2).map(|w| [w[0], w[1]]));
+            shapes[piece].add(points);
         }
-        let parts: Vec<Part> = edges.into_iter().map(|(piece, edges)| Part::new(piece, &edges)).collect();
+        let pieces = Self::of(&edges);
+        let part_of = nest::regions(&shapes, |point| pieces.pieces_at(point).iter().map(|&p| p as u32).collect());
+        // What lies in a piece is a cut-out of it, whoever it belongs to.
+        let mut parts: Vec<Vec<[Point; 2]>> = vec![Vec::new(); edges.len()];
+        for (edges, &part) in edges.into_iter().zip(&part_of) {
+            parts[part as usize].extend(edges);
+        }
+        Self { part_of, ..Self::of(&parts) }
+    }
+
+    /// The index of parts, each by its edges.
+    fn of(edges: &[Vec<[Point; 2]>]) -> Self {
+        let there = edges.iter().enumerate().filter(|(_, edges)| !edges.is_empty());
+        let parts: Vec<Part> = there.map(|(piece, edges)| Part::new(piece, edges)).collect();
         let mut extent = Extent::EMPTY;
         for part in &parts {
             extent.add(part.extent.min);
@@ -57,7 +72,7 @@ impl Inside {
         let (columns, rows) = (along(width), along(height));
         let cell = [width / columns as f64, height / rows as f64].map(|size| size.max(f64::MIN_POSITIVE));
         let cells = vec![Vec::new(); columns * rows];
-        let mut inside = Self { extent, cell, columns, cells, parts };
+        let mut inside = Self { extent, cell, columns, cells, parts, part_of: Vec::new() };
         for i in 0..inside.parts.len() {
             let [low, high] = [inside.parts[i].extent.min, inside.parts[i].extent.max].map(|at| inside.place(at));
             for row in low[1]..=high[1] {
@@ -76,7 +91,12 @@ impl Inside {
         std::array::from_fn(|i| ((away[i] / self.cell[i]).max(0.0) as usize).min(counts[i] - 1))
     }
 
-    /// The pieces whose cloth lies at a point: inside their outline, not inside a cut-out.
+    /// The part to which a piece belongs: itself, or the one of which it is a cut-out.
+    pub(super) fn part_of(&self, piece: usize) -> usize {
+        self.part_of[piece] as usize
+    }
+
+    /// The parts whose cloth lies at a point: inside their outline, not inside a cut-out.
     pub(super) fn pieces_at(&self, point: Point) -> Vec<usize> {
         let [column, row] = self.place(point);
         let near = self.cells[row * self.columns + column].iter().map(|&part| &self.parts[part as usize]);

@@ -37,16 +37,20 @@ impl Joints {
             width: knife.width_mm,
             heels: [0.0, knife.heel_overlap_mm, knife.corner_heel_overlap_mm],
             fronts: [0.0, knife.front_overlap_mm, knife.corner_front_overlap_mm],
-            longest: knife.max_down_mm,
+            longest: knife.longest_cut(),
         }
+    }
+
+    /// Whether the knife may be lifted anywhere on a line: it would be down for too long, or C has to unwind.
+    pub(super) fn are_anywhere(&self, line: &Line) -> bool {
+        line.winds || self.longest.is_some_and(|longest| line.length() > longest)
     }
 
     /// The stations of the first and the last joint about a station; `None` when there is none.
     pub(super) fn near(&self, line: &Line, around: Around) -> Option<[f64; 2]> {
         let Around { station, slack, tube } = around;
         let length = line.length();
-        if line.winds || self.longest.is_some_and(|longest| length > longest) {
-            // The knife is lifted wherever it was down for long enough, or C has to unwind.
+        if self.are_anywhere(line) {
             return Some([f64::NEG_INFINITY, f64::INFINITY]);
         }
         if line.ring {

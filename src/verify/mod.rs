@@ -23,6 +23,7 @@ mod joints;
 mod kept;
 mod limits;
 mod naming;
+mod notches;
 mod npy;
 mod order;
 mod overcut;
@@ -86,6 +87,7 @@ pub const RULES: &[(&str, &str)] = &[
     ("verify/once", "nothing is cut twice beyond the overlaps"),
     ("verify/complete", "no stretch of a contour or slit is left uncut"),
     ("verify/heading", "the blade points along its law while it cuts"),
+    ("verify/down", "how far the tip goes while the knife is down"),
     ("verify/body", "how far the blade's body leaves the path on curves"),
     ("verify/overcut-part", "how far the blade cuts into its own part beyond ends and corners"),
     ("verify/overcut-neighbour", "how far the blade cuts into another part beyond ends and corners"),

@@ -20,6 +20,9 @@ use crate::machine::MachineProfile;
 
 /// Distance of two places at which a way is looked at, mm.
 const STEP: f64 = 0.05;
+/// Part of the tolerance by which a way that is thought to be free may lie in a part: less than by which any cut may, so that
+/// what a blade was placed by is never taken for more room than it was.
+const ROOM_SHARE: f64 = 0.5;
 /// Halvings that find where a way enters a part: from a quarter of a millimetre to rounding.
 const HALVINGS: usize = 20;
 
@@ -31,6 +34,8 @@ pub(super) struct Overcut {
     rounding: f64,
     tolerance: f64,
     width: f64,
+    /// How far a blade that has the choice stays away from parts, mm.
+    clearance: f64,
     /// How far the profile lets the blade cut into the part at a reflex corner, mm.
     reflex: f64,
     /// What the profile allows in the part itself and in others, mm.
@@ -47,7 +52,8 @@ pub(super) struct Stroke<'a> {
     /// The places that are held to the line.
     pub(super) held: &'a RangeInclusive<usize>,
     pub(super) line: &'a Line,
-    /// The joints between which it is a stab that fits what was left of its line.
+    /// The joints between which it is a stab that fits what was left of its line; where the knife may have been lifted
+    /// anywhere, the ends of what it cuts anew.
     pub(super) fits: Option<[[f64; 2]; 2]>,
 }
 
@@ -75,6 +81,7 @@ impl Overcut {
             rounding,
             tolerance: reference.tolerance + rounding,
             width: knife.width_mm,
+            clearance: knife.clearance_mm,
             reflex: knife.reflex_front_overlap_mm.max(knife.reflex_heel_overlap_mm),
             allowed: [verify.max_overcut_part_mm, verify.max_overcut_neighbour_mm],
             part: Worst::new(
@@ -157,7 +164,7 @@ impl Overcut {
     /// What lies at a place beyond an end of a line. A part in which the line itself lies is no neighbour: so it is drawn.
     fn at(&self, point: Point, stroke: &Stroke, lines: Lines) -> Cloth {
         let pieces = self.inside.pieces_at(point);
-        if pieces.contains(&stroke.line.piece) {
+        if pieces.contains(&self.inside.part_of(stroke.line.piece)) {
             return Cloth::Part;
         }
         let is_drawn_in = |piece: &usize| {
@@ -183,18 +190,16 @@ impl Overcut {
     /// longer by than its cut and the room at both ends.
     fn unavoidable(&self, stroke: &Stroke, lines: Lines) -> [f64; 2] {
         let Some([from, to]) = stroke.fits else { return [0.0; 2] };
-        if from.into_iter().chain(to).any(f64::is_infinite) {
-            // The knife was lifted anywhere on the way.
-            return [self.width; 2];
-        }
         // Behind a slight bend a blade stays in the tube for a while, so that it may have been meant to end at either.
         let [inner, outer] = [innermost([from, to]), [from[0], to[1]]].map(|stations| {
             let [start, end] = stations.map(|station| stroke.line.place(station));
             let Some(along) = polyline::direction(start, end) else { return [0.0; 2] };
             let rooms = [self.room(start, -along, stroke, lines), self.room(end, along, stroke, lines)];
             let surplus = self.width - (end - start).norm();
-            let least = |room: [f64; 2]| room[0].min(room[1]);
-            [surplus - least(rooms[0]) - least(rooms[1]), surplus - rooms[0][1] - rooms[1][1]]
+            let clear = |gap: f64| (gap - self.clearance).max(0.0);
+            let least = |room: [f64; 2]| clear(room[0].min(room[1]));
+            let other = |room: [f64; 2]| clear(room[1]);
+            [surplus - least(rooms[0]) - least(rooms[1]), surplus - other(rooms[0]) - other(rooms[1])]
         });
         [0, 1].map(|i| inner[i].max(outer[i]).max(0.0))
     }
@@ -223,7 +228,7 @@ impl Overcut {
                 Some(_) | None => way - self.entered([before, place], Some(cloth), stroke, lines),
             };
             entry = Some((cloth, entered));
-            if lines.is_away(place, self.tolerance) {
+            if lines.is_away(place, ROOM_SHARE * self.tolerance) {
                 room[kind] = room[kind].min(entered);
             }
         }
@@ -240,7 +245,7 @@ pub(super) fn innermost([from, to]: [[f64; 2]; 2]) -> [f64; 2] {
 impl Stroke<'_> {
     /// The outermost joints between which it is a stab that fits what was left of its line.
     fn joints(&self) -> Option<[Point; 2]> {
-        let [from, to] = self.fits.filter(|fits| fits.iter().flatten().all(|station| station.is_finite()))?;
+        let [from, to] = self.fits?;
         Some([from[0], to[1]].map(|station| self.line.place(station)))
     }
 

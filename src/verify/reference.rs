@@ -5,10 +5,11 @@
 use std::f64::consts::TAU;
 
 use super::caps::{Caps, End, Feeds};
+use super::notches;
 use crate::geom::{Point, Vector, angle, left, polyline};
 use crate::ir::Marker;
 use crate::ir::list::Segment;
-use crate::ir::marker::{Contour, Stroke};
+use crate::ir::marker::Stroke;
 use crate::machine::{Fit, MachineProfile};
 
 /// Longest chord that counts as a chord of a curve, mm.
@@ -17,6 +18,8 @@ const CURVE_CHORD: f64 = 25.0;
 /// Ways along a contour that differ by less are the same, mm: rounding of their sums.
 const SAME_WAY: f64 = 1e-6;
 
+/// How far from the ends of its range C is kept on a line that turns it, rad (5 degrees).
+const CLEAR_OF_ENDS: f64 = 0.087_266_462_599_716_47;
 /// Smaller turns are none, rad.
 const TURN_EPSILON: f64 = 1e-6;
 
@@ -70,13 +73,21 @@ impl<'a> Reference<'a> {
             events.extend(piece.events.iter().map(|_| rank()));
             holes.extend(piece.drills.iter().map(|_| rank()));
             let feeds = Feeds::new(profile, piece);
-            for notch in &piece.notches {
-                let cap = feeds.at(notch.percent);
-                lines.extend(notch.strokes().map(|stroke| slit(&stroke, [index, rank()], cap)));
-            }
-            for contour in &piece.contours {
+            let mut replaced = Vec::new();
+            let outlines: Vec<Vec<Segment>> = piece
+                .contours
+                .iter()
+                .map(|contour| {
+                    let mut outline = marker.list.walk(contour.range).map(|(_, segment)| segment).collect();
+                    replaced.extend(notches::straighten(&mut outline, piece, profile.notch));
+                    outline
+                })
+                .collect();
+            let slits = notches::slits(piece, profile.notch, &replaced);
+            lines.extend(slits.iter().map(|(stroke, percent)| slit(stroke, [index, rank()], feeds.at(*percent))));
+            for (contour, outline) in piece.contours.iter().zip(outlines) {
                 let place = Place { owner: [index, rank()], feeds, profile };
-                lines.extend(contour_lines(marker, contour, place));
+                lines.extend(contour_lines(outline, contour.closed, place));
             }
         }
         if let Some(range) = profile.blade_range() {
@@ -115,10 +126,9 @@ fn slit(stroke: &Stroke, [piece, rank]: [usize; 2], cap: f64) -> Line {
 }
 
 /// Cuts a contour at its corners.
-fn contour_lines(marker: &Marker, contour: &Contour, place: Place) -> Vec<Line> {
+fn contour_lines(mut segments: Vec<Segment>, closed: bool, place: Place) -> Vec<Line> {
     let Place { owner, feeds, profile } = place;
     let mut lines = Vec::new();
-    let mut segments: Vec<Segment> = marker.list.walk(contour.range).map(|(_, segment)| segment).collect();
     let count = segments.len();
     let turn = |segments: &[Segment], i: usize| {
         let before = &segments[(i + count - 1) % count];
@@ -129,7 +139,7 @@ fn contour_lines(marker: &Marker, contour: &Contour, place: Place) -> Vec<Line> 
     let mut ring = false;
     // Where a contour ends no corner lies before the tip.
     let mut ends = vec![0];
-    if contour.closed {
+    if closed {
         let corners: Vec<usize> = (0..count).filter(|&i| is_corner(&segments, i)).collect();
         match corners.first() {
             Some(&first) => {
@@ -257,7 +267,8 @@ impl Line {
         angle::turn(self.direction((vertex + count - 1) % count), self.direction(vertex % count))
     }
 
-    /// Whether no equivalent of C lets the blade follow it inside a range, rad.
+    /// Whether no equivalent of C lets the blade follow it inside a range, rad, and stay clear of its ends by what smoothing
+    /// and a plunge as a chord may turn it more.
     fn winds_past(&self, [least, greatest]: [f64; 2]) -> bool {
         let first = self.direction(0);
         let mut heading = first.y.atan2(first.x);
@@ -267,6 +278,10 @@ impl Line {
             heading += self.turn(vertex);
             reach = [reach[0].min(heading), reach[1].max(heading)];
         }
+        if self.chords() == 1 {
+            return false;
+        }
+        let (least, greatest) = (least + CLEAR_OF_ENDS, greatest - CLEAR_OF_ENDS);
         let least_turn = ((least - reach[0]) / TAU - TURN_EPSILON).ceil();
         least_turn > ((greatest - reach[1]) / TAU + TURN_EPSILON).floor()
     }

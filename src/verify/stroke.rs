@@ -74,6 +74,7 @@ pub(super) struct Judge<'a> {
     stray: Worst,
     once: Worst,
     heading: Worst,
+    down: Worst,
     body: Worst,
     feed: Worst,
     overcut: Overcut,
@@ -121,6 +122,8 @@ struct Trial {
     held: RangeInclusive<usize>,
     /// The joints between which it is a stab that fits what was left of its line: its blade may then be longer.
     fits: Option<[[f64; 2]; 2]>,
+    /// From where to where it cuts what was not cut before.
+    hull: [f64; 2],
 }
 
 impl<'a> Judge<'a> {
@@ -153,6 +156,7 @@ impl<'a> Judge<'a> {
             stray: Worst::new("verify/stray", "mm", Some(0.0)),
             once: Worst::new("verify/once", "mm", Some(joints * overlaps + 2.0 * tolerance)),
             heading: Worst::new("verify/heading", "deg", Some(verify.max_heading_deg + heading::noise_deg(rounding))),
+            down: Worst::new("verify/down", "mm", knife.max_down_mm.map(|longest| longest + tolerance)),
             body: Worst::new("verify/body", "mm", verify.max_body_mm),
             feed: Worst::new("verify/feed", "mm/s", feed),
             overcut: Overcut::new(reference, profile, place),
@@ -166,7 +170,7 @@ impl<'a> Judge<'a> {
     }
 
     pub(super) fn findings(self) -> Vec<Finding> {
-        let one = [self.on_path, self.stray, self.once, self.heading, self.body, self.feed];
+        let one = [self.on_path, self.stray, self.once, self.heading, self.down, self.body, self.feed];
         one.into_iter().map(Worst::finding).chain(self.overcut.findings()).collect()
     }
 
@@ -175,6 +179,7 @@ impl<'a> Judge<'a> {
         let rows = &stroke.rows;
         let tips: Vec<Point> = rows.iter().map(|row| row.centre + row.along() * self.knife.radius()).collect();
         let cut = Cut::new(rows, &tips, self.knife);
+        self.down.see(polyline::length(&tips), || rows[rows.len() - 1].sighting());
         let trials: Vec<Trial> = self.candidates(&cut).iter().map(|candidate| self.follow(&cut, candidate)).collect();
         let seen = |i: usize| {
             let row = &rows[cut.rows[i.saturating_sub(cut.body)]];
@@ -192,7 +197,9 @@ impl<'a> Judge<'a> {
             self.check_feed(rows, &cut, Some(&best));
         }
         let line = &self.reference.lines[best.line];
-        best.fits = if cut.is_stab() { self.fits(&best, &done.coverage) } else { None };
+        if let (true, Some(hull)) = (cut.is_stab(), done.coverage.uncut(best.line, &best.stretches)) {
+            (best.hull, best.fits) = (hull, self.fits(line, hull));
+        }
         self.check_heading(stroke, &tips, (&cut, Some(&best)));
         if cut.is_stab() {
             self.check_stab(&cut, &best, &seen);
@@ -215,13 +222,11 @@ impl<'a> Judge<'a> {
 
     /// The joints of its line from one of which to another that reaches which a stab cuts anew, the first and the last at
     /// either end; `None` when there are none: only between joints its blade may be longer than what it cuts.
-    fn fits(&self, trial: &Trial, coverage: &Coverage) -> Option<[[f64; 2]; 2]> {
-        let line = &self.reference.lines[trial.line];
+    fn fits(&self, line: &Line, [from, to]: [f64; 2]) -> Option<[[f64; 2]; 2]> {
         let joints = |station: f64| {
             let tube = 2.0 * (self.reference.tolerance + self.rounding);
             self.joints.near(line, Around { station, slack: BODY_STEP + tube, tube })
         };
-        let [from, to] = coverage.uncut(trial.line, &trial.stretches)?;
         let ends = [joints(from)?, joints(to)?];
         (ends[0][0] < ends[1][1]).then_some(ends)
     }
@@ -279,6 +284,9 @@ impl<'a> Judge<'a> {
             twice += self.overlaps + self.knife.width_mm.max(REACH);
         } else if trial.fits.is_some() {
             twice -= self.knife.width_mm - trial.fresh;
+        } else if self.joints.are_anywhere(&self.reference.lines[trial.line]) {
+            // What the blade of a stab beside it was longer by.
+            twice -= self.knife.width_mm;
         }
         self.once.see(twice, || seen(cut.body));
     }
@@ -373,6 +381,7 @@ impl<'a> Judge<'a> {
             laps,
             held: first..=points.len() - 1,
             fits: None,
+            hull: [0.0; 2],
         };
         let mut body = if laps { Body::default() } else { Body::new(line, cut, &trial.feet, allowed) };
         if body.sag > allowed && !self.may_bow(cut, line, &trial.feet) {
@@ -498,8 +507,10 @@ impl<'a> Judge<'a> {
         if trial.laps {
             return;
         }
-        let Trial { feet, held, fits, .. } = trial;
-        let stroke = overcut::Stroke { cut, feet, held, line: &self.reference.lines[trial.line], fits: *fits };
+        let Trial { feet, held, fits, hull, .. } = trial;
+        let is_known = |ends: &[[f64; 2]; 2]| ends.iter().flatten().all(|station| station.is_finite());
+        let fits = fits.map(|ends| if is_known(&ends) { ends } else { hull.map(|station| [station; 2]) });
+        let stroke = overcut::Stroke { cut, feet, held, line: &self.reference.lines[trial.line], fits };
         self.overcut.see(&stroke, Lines { reference: self.reference, grid: &self.grid }, seen);
     }
 

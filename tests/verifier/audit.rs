@@ -8,7 +8,7 @@ use cutc::geom::Vector;
 use cutc::ir::{Finding, Marker};
 use cutc::machine::profile::CodeUse;
 use cutc::machine::{Job, MachineProfile};
-use cutc::pipeline;
+use cutc::pipeline::{self, Judged};
 use cutc::source::Source;
 use cutc::verify::{Census, source_audit, source_kept};
 
@@ -102,9 +102,10 @@ fn ignoring(names: &[&str]) -> Job {
 fn faults(bytes: &[u8], job: &Job) -> Option<Vec<Finding>> {
     let source = Source::new("a.cut", bytes.to_vec()).expect("small");
     let mut diagnostics = Diagnostics::default();
-    let input = pipeline::read(&source, None, job, &mut diagnostics).filter(|_| !diagnostics.has_errors())?;
-    let mut findings = source_audit("iso", bytes, &input.read, &job.profile)?;
-    findings.push(source_kept(&input.read, &input.marker));
+    let judged = pipeline::read_to_judge(&source, None, job, &mut diagnostics);
+    let Judged { input, read } = judged.filter(|_| !diagnostics.has_errors())?;
+    let mut findings = source_audit("iso", bytes, &read, &job.profile)?;
+    findings.push(source_kept(&read, &input.marker));
     findings.retain(|finding| !finding.holds());
     Some(findings)
 }
@@ -201,8 +202,8 @@ fn a_marker_that_lacks_something_of_the_file_is_refused() {
             for contour in pieces.iter_mut().flat_map(|piece| &mut piece.contours) {
                 let mut cursor = list.cursor(&mut contour.range);
                 loop {
-                    shifted(&mut cursor.segment_mut().from);
-                    shifted(&mut cursor.segment_mut().to);
+                    shifted(cursor.from_mut());
+                    shifted(cursor.to_mut());
                     if !cursor.advance() {
                         break;
                     }
@@ -214,7 +215,7 @@ fn a_marker_that_lacks_something_of_the_file_is_refused() {
             let Marker { list, pieces, .. } = marker;
             let Some(contour) = pieces.iter_mut().find_map(|piece| piece.contours.first_mut()) else { return false };
             let mut cursor = list.cursor(&mut contour.range);
-            cursor.segment_mut().to += Vector::new(0.3, 0.1);
+            *cursor.from_mut() += Vector::new(0.3, 0.1);
             true
         }),
         ("source/points", |marker| {

@@ -62,7 +62,10 @@ const CASES: &[(&str, Change)] = &[
     ("metric-four-pieces", |_| {}),
     ("inch-four-pieces", |job| job.profile.knife.back_mm = Some(2.2)),
     ("spaced-four-pieces", |job| job.profile.time.period_ms = 2.0),
-    ("metric-six-pieces", |job| job.profile.home = [20.0, -10.0, 90.0]),
+    ("metric-six-pieces", |job| {
+        job.profile.home = [20.0, -10.0, 90.0];
+        job.profile.knife.max_down_mm = Some(300.0);
+    }),
     ("speeds-and-events", |_| {}),
     ("narrow-gaps", |_| {}),
 ];

@@ -1,6 +1,7 @@
 //! Programs that were made for another machine.
 
-use cutc::machine::{Job, MachineProfile};
+use cutc::ir::marker::{Notch, Vee};
+use cutc::machine::{Job, MachineProfile, NotchStyle};
 
 use crate::case::Case;
 use crate::harm::{Harm, Place};
@@ -22,6 +23,10 @@ const ELSEWHERE: f64 = DAMAGING * SAME + SAME;
 /// clearly seen is taken.
 const THOUGHT_AHEAD_MM: std::ops::Range<i32> = 4..16;
 const SHORTER: i32 = 20;
+/// By how much too far a knife goes that is never lifted, at the least, as a part of what it may.
+const LONGER: f64 = 1.1;
+/// By how much slits are cut too little, mm.
+const SHALLOWER: f64 = 1.0;
 /// Roundings of the tip's place that its speed allows for, which is computed from three numbers a row.
 const PLACES_ROUNDING: f64 = 8.0;
 /// What the end of a short line may be off beside the amount, mm: the blade rounds the corner.
@@ -31,6 +36,24 @@ const TURN_MORE_DEG: f64 = 0.01;
 const BLUNT_DEG: f64 = 75.0;
 
 pub(crate) const DAMAGES: &[Damage] = &[
+    damage("V notches passed over", "verify/complete", |case, _| {
+        let depth = case.marker.pieces.iter().flat_map(|piece| &piece.vees).map(Vee::depth).reduce(f64::min)?;
+        Some(Harm::anywhere(case.on(|job| job.profile.notch.style = NotchStyle::Skip), depth))
+    }),
+    damage("V notches cut as slits", "verify/complete", |case, _| {
+        let depth = case.marker.pieces.iter().flat_map(|piece| &piece.vees).map(Vee::depth).reduce(f64::min)?;
+        Some(Harm::anywhere(case.on(|job| job.profile.notch.style = NotchStyle::Slit), depth / 2.0))
+    }),
+    damage("slits of another depth", "verify/complete", |case, _| {
+        let depth = case.marker.pieces.iter().flat_map(|piece| &piece.notches).map(Notch::depth).reduce(f64::max)?;
+        let program = case.on(|job| job.profile.notch.depth_mm = Some(depth - SHALLOWER));
+        Some(Harm::anywhere(program, SHALLOWER - case.tolerance()))
+    }),
+    damage("a knife that is never lifted amid a cut", "verify/down", |case, _| {
+        let longest = case.job.profile.knife.max_down_mm?;
+        let program = case.on(|job| job.profile.knife.max_down_mm = None);
+        (program != case.program).then(|| Harm::anywhere(program, LONGER * longest))
+    }),
     damage("the yaw forgotten", "verify/heading", |case, _| {
         Some(Harm::anywhere(case.on(|job| job.profile.knife.yaw_deg = 2.0), 2.0 - 0.5))
     }),

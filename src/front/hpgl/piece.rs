@@ -32,8 +32,8 @@ pub(super) fn marker(sorted: &Sorted, labels: Vec<Label>, job: &Job) -> Marker {
         spike_length: 0.0,
         work: MOST_WORK,
     };
-    let cut = sorted.shapes.iter().filter(|shape| shape.class.is_cut() && shape.class != Class::Hole);
-    making.list.reserve(cut.map(|shape| shape.stroke.range().len() - 1).sum());
+    let cut = || sorted.shapes.iter().filter(|shape| shape.class.is_cut() && shape.class != Class::Hole);
+    making.list.reserve(cut().map(|shape| shape.stroke.range().len() - 1).sum(), cut().count());
     making.begin_parts();
     making.add_inner();
     making.add_outlines();

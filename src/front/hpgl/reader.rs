@@ -127,13 +127,16 @@ impl<'a> Reader<'a> {
     /// The next two numbers of the instruction.
     pub(super) fn pair(&mut self) -> Next<Pair> {
         let i = &self.bytes[self.at..];
-        if let Ok((rest, x)) = syntax::parameter(i)
-            && let Ok((rest, y)) = syntax::parameter(rest)
-        {
+        let pair = syntax::plain_pair(i).or_else(|| {
+            let (rest, x) = syntax::parameter(i).ok()?;
+            let (rest, y) = syntax::parameter(rest).ok()?;
+            Some((rest, [x, y]))
+        });
+        if let Some((rest, pair)) = pair {
             // The comma before them is no part of their place.
             let start = self.at + usize::from(i.first() == Some(&b','));
             self.at = self.bytes.len() - rest.len();
-            return Next::Some(([x, y], self.span(start)));
+            return Next::Some((pair, self.span(start)));
         }
         let start = self.at;
         match self.value() {

@@ -88,26 +88,36 @@ impl<'a> Blocks<'a> {
         let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
         // Nearly every block has no blanks inside and is read where it stands.
         if let Ok((after, words)) = syntax::block(rest) {
-            let end = self.bytes.len() - after.len();
-            self.number += 1;
-            let span = Span { start: self.at as u32, end: end as u32 - 1, block: self.number };
-            self.at = end;
-            return Some(Block { span, words: Ok(words) });
+            return Some(Block { span: self.step_to(after), words: Ok(words) });
         }
         self.next_with_blanks()
     }
 
-    /// The next block if it is a point alone, as nearly all are; otherwise it stays the next one. Reads what [`Self::next`]
-    /// reads, without making room for codes and faults.
+    /// The next block if it is X and Y alone, as nearly all are: what [`Self::next`] reads, with far fewer steps. Otherwise
+    /// it stays the next one.
+    #[inline]
+    pub(super) fn next_plain(&mut self) -> Option<([f64; 2], Span)> {
+        self.skip_blanks();
+        let (after, place) = syntax::plain_block(self.bytes.get(self.at..)?)?;
+        Some((place, self.step_to(after)))
+    }
+
+    /// The next block if it is a point alone; otherwise it stays the next one. Reads what [`Self::next`] reads, without
+    /// making room for codes and faults.
     pub(super) fn next_point(&mut self) -> Option<(Point, Span)> {
         self.skip_blanks();
         let (after, point) = syntax::point(self.bytes.get(self.at..)?).ok()?;
         let (b'*', after) = after.split_first()? else { return None };
+        Some((point, self.step_to(after)))
+    }
+
+    /// The span of the next block, which ends where `after` begins. Goes there.
+    fn step_to(&mut self, after: &[u8]) -> Span {
         let end = self.bytes.len() - after.len();
         self.number += 1;
         let span = Span { start: self.at as u32, end: end as u32 - 1, block: self.number };
         self.at = end;
-        Some((point, span))
+        span
     }
 
     /// The next block as text; `None` at the end of the file.

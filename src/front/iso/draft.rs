@@ -26,12 +26,16 @@ pub(super) struct Draft {
     /// Speeds in percent, both until the next piece: M25's and that of M60 to M67.
     slow: u8,
     of_piece: u8,
+    /// Both together: the speed of a cut that is made now, percent of the feed.
+    percent: u8,
     /// The feed of F, mm/s, from there on.
     feed: Option<f64>,
     /// What happens before the next piece that is cut.
     events: Vec<Event>,
     /// Chains of the pieces that are not finished.
     chains: Vec<Chain>,
+    /// Room of those that are, for the next ones: it need not grow again for each.
+    room: Vec<Vec<Vertex>>,
     /// The open ones, by the bits of their end.
     open: HashMap<[u64; 2], usize>,
     /// The piece that N began; `None` in a file without N.
@@ -61,8 +65,10 @@ enum State {
 }
 
 impl Draft {
-    /// Up, at the origin.
-    pub(super) fn new() -> Self {
+    /// Up, at the origin, with room for so many segments.
+    pub(super) fn with_room(segments: usize) -> Self {
+        let mut list = SegmentList::default();
+        list.reserve(segments, 0);
         Self {
             state: State::Up,
             at: Point::origin(),
@@ -71,9 +77,11 @@ impl Draft {
             corner_lift: false,
             slow: FULL_SPEED,
             of_piece: FULL_SPEED,
+            percent: FULL_SPEED,
             feed: None,
             events: Vec::new(),
             chains: Vec::new(),
+            room: Vec::new(),
             open: HashMap::new(),
             current: None,
             waiting: Piece::default(),
@@ -81,7 +89,7 @@ impl Draft {
             left: None,
             deferred: None,
             pieces: Vec::new(),
-            list: SegmentList::default(),
+            list,
             extent: Extent::EMPTY,
         }
     }
@@ -98,20 +106,24 @@ impl Draft {
 
     /// A move, mm.
     pub(super) fn go(&mut self, to: Point, span: Span) {
-        let percent = self.percent();
+        let percent = self.percent;
         match &mut self.state {
             State::Up => {}
             State::Cutting(chain) => {
                 let joint = Joint { lift: std::mem::take(&mut self.corner_lift), ..Joint::default() };
-                self.chains[*chain].vertices.push(Vertex { at: to, span, joint, percent });
-                let piece = self.chains[*chain].piece.expect("what is being cut has a piece");
-                cap(&mut self.pieces[piece], self.feed);
+                let chain = &mut self.chains[*chain];
+                chain.vertices.push(Vertex { at: to, span, joint, percent });
+                if let Some(feed) = self.feed {
+                    let piece = chain.piece.expect("what is being cut has a piece");
+                    cap(&mut self.pieces[piece], Some(feed));
+                }
             }
             State::Slit { points, .. } => points.push(Vertex { at: to, span, joint: Joint::default(), percent }),
             State::Plunged { joint, span: from } => {
                 let start = Vertex { at: self.at, span: *from, joint: *joint, percent };
                 let joint = Joint { lift: std::mem::take(&mut self.corner_lift), ..Joint::default() };
-                let vertices = vec![start, Vertex { at: to, span, joint, percent }];
+                let mut vertices = self.room.pop().unwrap_or_default();
+                vertices.extend([start, Vertex { at: to, span, joint, percent }]);
                 let piece = self.piece_of_new_chain(start.span);
                 cap(&mut self.pieces[piece], self.feed);
                 let piece = Some(piece);
@@ -146,20 +158,20 @@ impl Draft {
         }
     }
 
-    /// The speed of a cut that is made now, percent of the feed.
-    fn percent(&self) -> u8 {
-        let product = u32::from(self.slow) * u32::from(self.of_piece) / u32::from(FULL_SPEED);
-        product.max(1) as u8
-    }
-
     /// M25 with its percent, or M26 with full speed.
     pub(super) fn slow(&mut self, percent: u8) {
-        self.slow = percent;
+        self.set_speed(percent, self.of_piece);
     }
 
     /// M60 to M67.
     pub(super) fn speed_of_piece(&mut self, percent: u8) {
-        self.of_piece = percent;
+        self.set_speed(self.slow, percent);
+    }
+
+    fn set_speed(&mut self, slow: u8, of_piece: u8) {
+        (self.slow, self.of_piece) = (slow, of_piece);
+        let product = u32::from(slow) * u32::from(of_piece) / u32::from(FULL_SPEED);
+        self.percent = product.max(1) as u8;
     }
 
     /// F, mm/s.
@@ -308,7 +320,7 @@ impl Draft {
                 self.chains[index].piece
             }
         };
-        let root = Vertex { at: self.at, span, joint: Joint::default(), percent: self.percent() };
+        let root = Vertex { at: self.at, span, joint: Joint::default(), percent: self.percent };
         self.state = State::Slit { points: vec![root], piece, span };
     }
 
@@ -424,7 +436,7 @@ impl Draft {
 
     fn start_piece(&mut self, number: Option<u32>, span: Span) {
         (self.advance, self.no_overcut) = (false, false);
-        (self.slow, self.of_piece) = (FULL_SPEED, FULL_SPEED);
+        self.set_speed(FULL_SPEED, FULL_SPEED);
         let waiting = std::mem::take(&mut self.waiting);
         let number = number.unwrap_or(self.pieces.len() as u32 + 1);
         self.pieces.push(Piece { number, span, ..waiting });
@@ -450,7 +462,10 @@ impl Draft {
                 }
             }
         }
-        self.chains.clear();
+        for Chain { mut vertices, .. } in self.chains.drain(..) {
+            vertices.clear();
+            self.room.push(vertices);
+        }
     }
 
     /// The end of the file: what was cut, and the box around it. (The box that a marker can give of itself would cost

@@ -26,6 +26,8 @@ const SAGITTA_MAX: f64 = 0.01;
 /// The chords of an arc may take this part of the tolerance: the rest is for the knife.
 const SAGITTA_SHARE: f64 = 0.25;
 const SECONDS_PER_MINUTE: f64 = 60.0;
+/// Bytes of a large file for each of its segments: more than most have, so that no memory is taken in vain.
+const BYTES_A_SEGMENT: usize = 16;
 /// Farthest place from the origin, mm: a kilometre, far beyond any table.
 const FARTHEST: f64 = 1e6;
 
@@ -42,7 +44,7 @@ pub(super) fn lower(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker
         source,
         job,
         blocks: Blocks::new(source.bytes()),
-        knife: Draft::new(),
+        knife: Draft::with_room(source.bytes().len() / BYTES_A_SEGMENT),
         unit: Unit::new(job.profile.units),
         place: [None, None],
         damaged: false,
@@ -108,9 +110,16 @@ impl Lowering<'_> {
         let mut ended = false;
         let mut last = Span::default();
         loop {
-            while let Some((point, span)) = self.blocks.next_point() {
+            while let Some((place, span)) = self.blocks.next_plain() {
+                last = span;
+                self.place = place.map(Some);
+                let to = self.convert(place, span);
+                self.go_to(to, span);
+            }
+            if let Some((point, span)) = self.blocks.next_point() {
                 last = span;
                 self.go(point, span);
+                continue;
             }
             let Some(block) = self.blocks.next() else { break };
             last = block.span;
@@ -182,11 +191,16 @@ impl Lowering<'_> {
             return;
         }
         let to = self.locate(point, span);
+        self.go_to(to, span);
+    }
+
+    /// A move in a straight line.
+    fn go_to(&mut self, to: geom::Point, span: Span) {
         if self.knife.is_down() {
             self.knife.go(to, span);
-            return;
+        } else {
+            self.land(to, span);
         }
-        self.land(to, span);
     }
 
     /// A move with the knife up.
@@ -446,19 +460,27 @@ impl Lowering<'_> {
     /// A point of the file, mm; the knife is there from now on.
     fn locate(&mut self, point: Point, span: Span) -> geom::Point {
         self.place = [point.x.or(self.place[0]), point.y.or(self.place[1])];
-        let place = self.peek(point);
-        if place.coords.amax() > FARTHEST {
-            self.far = self.far.or(Some((place, span)));
-        }
-        place
+        self.convert(self.place.map(Option::unwrap_or_default), span)
     }
 
-    /// A point of the file, mm. One multiplication, so that equal numbers of the file are equal to the bit.
+    /// A place of the file, mm; one that is too far is reported in the end.
+    fn convert(&mut self, place: [f64; 2], span: Span) -> geom::Point {
+        let to = self.scale(place);
+        if to.x.abs().max(to.y.abs()) > FARTHEST {
+            self.far = self.far.or(Some((to, span)));
+        }
+        to
+    }
+
+    /// A point of the file, mm.
     fn peek(&mut self, point: Point) -> geom::Point {
+        self.scale([point.x.or(self.place[0]), point.y.or(self.place[1])].map(Option::unwrap_or_default))
+    }
+
+    /// One multiplication, so that equal numbers of the file are equal to the bit.
+    fn scale(&mut self, place: [f64; 2]) -> geom::Point {
         let unit = self.unit.convert();
-        let x = point.x.or(self.place[0]).unwrap_or(0.0);
-        let y = point.y.or(self.place[1]).unwrap_or(0.0);
-        geom::Point::new(x * unit, y * unit)
+        geom::Point::new(place[0] * unit, place[1] * unit)
     }
 }
 

@@ -33,8 +33,8 @@ pub(super) fn settle(list: &SegmentList, pieces: &mut [Piece], unit: f64) {
     let roots = sorted(loose.iter().map(|loose| loose.stroke.from));
     for (i, piece) in pieces.iter().enumerate() {
         let outlines = piece.contours.iter().filter(|contour| stroke(list, contour).is_none());
-        for (_, segment) in outlines.flat_map(|contour| list.walk(contour.range)) {
-            near.each(&roots, [segment.from, segment.to], |k| {
+        for ends in outlines.flat_map(|contour| list.lines(contour.range)) {
+            near.each(&roots, ends, |k| {
                 let Loose { piece, owner, .. } = &mut loose[k];
                 if owner.is_none() || i == *piece {
                     *owner = Some(i);

@@ -43,9 +43,9 @@
 //! ```
 //!
 //! `@start..end#block` is a span; one that is left out is that of no block. A segment line `to` starts where the line
-//! before it ends, so `from` stands where a contour starts or, in a broken one, jumps. The words behind a segment are
-//! what the file asks for where it starts, those behind a point what it asks for there. A contour is printed in the
-//! direction that it is walked in and read as one that is walked in list order: the same segments, the same joints.
+//! before it ends, so `from` stands where a contour starts. The words behind a segment are what the file asks for where it
+//! starts, those behind a point what it asks for there. A contour is printed in the direction that it is walked in and
+//! read as one that is walked in list order: the same segments, the same joints.
 //! `sides` stands where an end has another than `waste`, `part` behind the number of a piece that is not the first.
 
 mod print;

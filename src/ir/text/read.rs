@@ -116,8 +116,12 @@ fn segments(lines: &mut Lines<'_>) -> Read<Vec<Segment>> {
     let mut chain: Vec<Segment> = Vec::new();
     while let Some(mut line) = lines.take_if(&["from", "to"]) {
         let before = chain.last().map(|segment| segment.to);
-        let from = if line.has("from") { Some(line.point()?) } else { before };
-        let from = from.ok_or_else(|| line.error("from"))?;
+        let from = match (before, line.has("from")) {
+            (None, true) => line.point()?,
+            (Some(before), false) => before,
+            (None, false) => return Err(line.error("from")),
+            (Some(_), true) => return Err(line.error("to, since a segment starts where the one before it ends")),
+        };
         line.expect("to")?;
         let (to, span) = (line.point()?, line.span()?);
         chain.push(Segment { from, to, span, percent: line.percent()?, joint: line.joint() });

@@ -98,8 +98,7 @@ fn marker(random: &mut Random) -> Marker {
         for _ in 0..random.below(3) {
             let mut at = random.point();
             let mut chain = random.some(5, |r| {
-                // Most segments start where the one before ends; a broken chain must survive as well.
-                let from = if r.below(8) == 0 { r.point() } else { at };
+                let from = at;
                 at = r.point();
                 Segment { from, to: at, span: r.span(), joint: r.joint(), percent: r.percent() }
             });
@@ -236,6 +235,10 @@ fn an_error_names_the_line_and_what_was_expected() {
     assert_eq!(marker(&format!("{head}piece 1\ncontour round")), "line 3: expected closed or open");
     assert_eq!(marker(&format!("{head}piece 1\ncontour open\n to 1 1")), "line 4: expected from");
     assert_eq!(marker(&format!("{head}piece 1\ncontour open\n from 1 1 to 2 NaN")), "line 4: expected a finite number");
+    assert_eq!(
+        marker(&format!("{head}piece 1\ncontour open\n from 1 1 to 2 2\n from 3 3 to 4 4")),
+        "line 5: expected to, since a segment starts where the one before it ends"
+    );
     assert_eq!(
         marker(&format!("{head}piece 1\ncontour open\n from 1 1 to 2 2 @3..4 lift")),
         "line 4: expected a span @start..end#block"

@@ -8,7 +8,7 @@
 
 use super::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::{Point, bits};
+use crate::geom::{Extent, bits};
 use crate::ir::list::{Range, Segment, SegmentList};
 use crate::ir::marker::{Contour, Marker};
 use crate::machine::Job;
@@ -48,27 +48,34 @@ fn open_contour(marker: &Marker, piece: usize, contour: &Contour, diagnostics: &
     }
 }
 
-/// A contour by what is the same for all that cut the same segments.
+/// A contour by what is the same for all that cut the same segments, wherever they start and whichever way they go.
 struct Print {
-    /// Sum over the segments, so that neither start nor direction matters.
-    sum: u64,
+    /// The bits of the corners of its box, and its number of points.
+    key: ([[u64; 2]; 2], usize),
     /// The piece's place in the marker.
     piece: usize,
     range: Range,
 }
 
-fn twice(marker: &Marker, diagnostics: &mut Diagnostics) {
-    let mut prints: Vec<Print> = Vec::new();
-    for (piece, contour) in marker.contours() {
-        let segments = marker.list.walk(contour.range);
-        let sum = segments.fold(0_u64, |sum, (_, segment)| sum.wrapping_add(hash(&segment)));
-        prints.push(Print { sum, piece, range: contour.range });
+impl Print {
+    fn of(list: &SegmentList, piece: usize, range: Range) -> Self {
+        let (mut extent, mut points) = (Extent::EMPTY, 0);
+        for point in list.points(range) {
+            extent.add(point);
+            points += 1;
+        }
+        Self { key: ([extent.min, extent.max].map(bits), points), piece, range }
     }
+}
+
+fn twice(marker: &Marker, diagnostics: &mut Diagnostics) {
+    let prints: Vec<Print> =
+        marker.contours().map(|(piece, contour)| Print::of(&marker.list, piece, contour.range)).collect();
     let mut order: Vec<usize> = (0..prints.len()).collect();
-    order.sort_by_key(|&i| prints[i].sum); // stable: equal ones stay in cut order
+    order.sort_by_key(|&i| prints[i].key); // stable: equal ones stay in cut order
     let mut repeats: Vec<(usize, usize)> = Vec::new();
-    for alike in order.chunk_by(|&a, &b| prints[a].sum == prints[b].sum).filter(|alike| alike.len() > 1) {
-        // Equal sums are a hint only; the segments themselves decide.
+    for alike in order.chunk_by(|&a, &b| prints[a].key == prints[b].key).filter(|alike| alike.len() > 1) {
+        // Equal boxes are a hint only; the segments themselves decide.
         let mut exact: Vec<(Vec<Edge>, usize)> =
             alike.iter().map(|&i| (edges(&marker.list, prints[i].range), i)).collect();
         exact.sort();
@@ -107,22 +114,6 @@ fn edge(segment: &Segment) -> Edge {
     let mut edge = [bits(segment.from), bits(segment.to)];
     edge.sort_unstable();
     edge
-}
-
-/// Symmetric in the two ends. Coordinates on a grid differ in few bits, so their bits are mixed (the finaliser of
-/// `splitmix64`, Steele, Lea & Flood 2014) before they are added and again after.
-fn hash(segment: &Segment) -> u64 {
-    let end = |point: Point| {
-        let [x, y] = bits(point);
-        mix(x.wrapping_add(mix(y)))
-    };
-    mix(end(segment.from).wrapping_add(end(segment.to)))
-}
-
-fn mix(mut z: u64) -> u64 {
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }
 
 fn first(list: &SegmentList, range: Range) -> Segment {

@@ -12,6 +12,7 @@
 //! So the point of a dart (too deep, or too wide), a corner, a row of teeth and a triangular cut-out are none.
 
 use std::f64::consts::PI;
+use std::ops::Range;
 
 use super::MarkerPass;
 use crate::diagnostic::Diagnostics;
@@ -42,23 +43,18 @@ const VERTEX: usize = 4;
 const ROUNDING: f64 = std::f64::consts::SQRT_2;
 
 fn run(marker: &mut Marker, _: &Job, _: &mut Diagnostics) {
-    let outlines = outlines(marker);
-    let mut found: Vec<(usize, Vee)> = Vec::new();
+    let mut outlines = Outlines::default();
     let mut work = Budget::of_a_marker();
-    for (i, outline) in outlines.iter().enumerate() {
-        if outline.apexes.is_empty() {
-            continue;
+    for i in 0..marker.pieces.len() {
+        outlines.gather(marker, i);
+        let vees = &mut marker.pieces[i].vees;
+        vees.clear();
+        for (k, outline) in outlines.all.iter().enumerate().filter(|(_, outline)| !outline.apexes.is_empty()) {
+            let counter_clockwise = ring::area(outlines.points(outline)) > 0.0;
+            let is_left = counter_clockwise != outlines.is_cut_out(k, &mut work);
+            let part = if is_left { Side::Left } else { Side::Right };
+            vees.extend(outlines.vees(outline, part));
         }
-        let counter_clockwise = ring::area(&outline.points) > 0.0;
-        let is_left = counter_clockwise != is_cut_out(i, &outlines, &mut work);
-        let part = if is_left { Side::Left } else { Side::Right };
-        found.extend(vees(outline, part).map(|vee| (outline.piece, vee)));
-    }
-    for piece in &mut marker.pieces {
-        piece.vees.clear();
-    }
-    for (piece, vee) in found {
-        marker.pieces[piece].vees.push(vee);
     }
 }
 
@@ -69,48 +65,129 @@ enum Side {
     Right,
 }
 
+/// The closed contours of a piece.
+#[derive(Default)]
+struct Outlines {
+    /// The vertices, those of one contour behind those of the other, the first of each not repeated.
+    points: Vec<Point>,
+    /// The blocks that they came from.
+    spans: Vec<Span>,
+    all: Vec<Outline>,
+}
+
 /// A closed contour.
 struct Outline {
-    /// Index of its piece.
-    piece: usize,
-    /// Its vertices, the first not repeated.
-    points: Vec<Point>,
+    /// Its vertices among all.
+    vertices: Range<usize>,
     extent: Extent,
-    /// Vertices that may be an apex, whichever side the part is on, with their spans.
-    apexes: Vec<(usize, Span)>,
+    /// Vertices that may be an apex, whichever side the part is on, counted from its own first.
+    apexes: Vec<usize>,
 }
 
-fn outlines(marker: &Marker) -> Vec<Outline> {
-    let mut outlines = Vec::new();
-    for (piece, contour) in marker.contours().filter(|(_, contour)| contour.closed) {
-        let mut outline = Outline { piece, points: Vec::new(), extent: Extent::EMPTY, apexes: Vec::new() };
-        let mut spans = Vec::new();
-        for (_, segment) in marker.list.walk(contour.range) {
-            outline.points.push(segment.from);
-            outline.extent.add(segment.from);
-            spans.push(segment.span);
+impl Outlines {
+    /// Takes the outlines of a piece in place of those that are here.
+    fn gather(&mut self, marker: &Marker, piece: usize) {
+        let Self { points, spans, all } = self;
+        points.clear();
+        spans.clear();
+        all.clear();
+        for contour in marker.pieces[piece].contours.iter().filter(|contour| contour.closed) {
+            let first = points.len();
+            let mut extent = Extent::EMPTY;
+            for (point, span) in marker.list.vertices(contour.range) {
+                points.push(point);
+                spans.push(span);
+                extent.add(point);
+            }
+            // The last vertex is the first one, and knows what led there.
+            points.pop();
+            spans.swap_remove(first);
+            let apexes = apexes(&points[first..], marker.unit);
+            all.push(Outline { vertices: first..points.len(), extent, apexes });
         }
-        let count = outline.points.len();
-        if count >= 3 + LEAST_OTHERS {
-            // A vertex came from the block of the segment that ends there.
-            let apexes = (0..count).filter(|&i| is_apex(&outline.points, i, marker.unit));
-            outline.apexes = apexes.map(|i| (i, spans[(i + count - 1) % count])).collect();
-        }
-        outlines.push(outline);
     }
-    outlines
+
+    fn points(&self, outline: &Outline) -> &[Point] {
+        &self.points[outline.vertices.clone()]
+    }
+
+    /// The notches of an outline whose part lies on the given side.
+    fn vees(&self, outline: &Outline, part: Side) -> impl Iterator<Item = Vee> + use<> {
+        let (points, spans) = (self.points(outline), &self.spans[outline.vertices.clone()]);
+        let count = points.len();
+        let vee = |&i: &usize| {
+            let at = Around { points, i };
+            (i, Vee { apex: points[i], mouth: [at.back(1), at.ahead(1)], span: spans[i] })
+        };
+        let is_inside = |vee: &Vee| {
+            let apex_is_left = cross(vee.mouth[1] - vee.mouth[0], vee.apex - vee.mouth[0]) > 0.0;
+            apex_is_left == (part == Side::Left)
+        };
+        let all: Vec<(usize, Vee)> = outline.apexes.iter().map(vee).filter(|(_, vee)| is_inside(vee)).collect();
+        // Whether the notch `k` and the next one, round the ring, are teeth in a row.
+        let is_crowded = |k: usize| {
+            let ((i, vee), (next, following)) = (all[k], all[(k + 1) % all.len()]);
+            let steps = (next + count - i - 1) % count + 1;
+            let width = vee.width().max(following.width());
+            // The flat between them has `steps - 2` segments; a notch alone has the whole ring before itself.
+            let at = Around { points, i };
+            let flat = (1..steps.saturating_sub(1)).map(|s| (at.ahead(s + 1) - at.ahead(s)).norm());
+            flat.scan(0.0, |sum, length| {
+                *sum += length;
+                Some(*sum)
+            })
+            .all(|length| length < width)
+        };
+        let crowded: Vec<bool> = (0..all.len()).map(is_crowded).collect();
+        let alone = |k: usize| !crowded[k] && !crowded[(k + all.len() - 1) % all.len()];
+        let mut kept: Vec<Vee> = (0..all.len()).filter(|&k| alone(k)).map(|k| all[k].1).collect();
+        // Notches that stand apart share no vertex.
+        if 3 * kept.len() + LEAST_OTHERS > count {
+            kept.clear();
+        }
+        kept.into_iter()
+    }
+
+    /// Whether an outline bounds a hole: an odd number of others of the piece hold it. Other pieces do not matter, since two
+    /// jobs in one file may lie on each other.
+    fn is_cut_out(&self, k: usize, work: &mut Budget) -> bool {
+        let point = self.points(&self.all[k])[0];
+        let holds = |(i, other): &(usize, &Outline)| {
+            let is_near = *i != k && other.extent.holds(point);
+            work.spend(VERTEX * if is_near { other.vertices.len() } else { 1 })
+                && is_near
+                && ring::contains(self.points(other), point)
+        };
+        self.all.iter().enumerate().filter(holds).count() % 2 == 1
+    }
 }
 
-/// Whether a vertex has the shape of an apex.
+/// The vertices of a ring that have the shape of an apex.
+fn apexes(points: &[Point], unit: f64) -> Vec<usize> {
+    let count = points.len();
+    if count < 3 + LEAST_OTHERS {
+        return Vec::new();
+    }
+    let mut apexes = Vec::new();
+    let mut before = (points[0] - points[count - 1]).norm_squared();
+    for i in 0..count {
+        let next = if i + 1 == count { 0 } else { i + 1 };
+        let after = (points[next] - points[i]).norm_squared();
+        // Squares of the legs first, the cheapest test: nearly all vertices end there.
+        let (shorter, longer) = if before < after { (before, after) } else { (after, before) };
+        let are_alike = longer <= LEG_RATIO * LEG_RATIO * shorter && shorter >= LEAST_DEPTH * LEAST_DEPTH;
+        if are_alike && is_apex(points, i, unit) {
+            apexes.push(i);
+        }
+        before = after;
+    }
+    apexes
+}
+
+/// Whether a vertex whose legs are alike has the shape of an apex.
 fn is_apex(points: &[Point], i: usize, unit: f64) -> bool {
     let at = Around { points, i };
     let (before, apex, after) = (at.back(1), points[i], at.ahead(1));
-    let legs = [(apex - before).norm_squared(), (after - apex).norm_squared()];
-    // Squares, and the cheapest test first: nearly all vertices end here.
-    let (shorter, longer) = (legs[0].min(legs[1]), legs[0].max(legs[1]));
-    if longer > LEG_RATIO * LEG_RATIO * shorter || shorter < LEAST_DEPTH * LEAST_DEPTH {
-        return false;
-    }
     let vee = Vee { apex, mouth: [before, after], span: Span::default() };
     let (depth, width) = (vee.depth(), vee.width());
     if !(LEAST_DEPTH..=GREATEST_DEPTH).contains(&depth) || width > depth || width == 0.0 {
@@ -146,58 +223,4 @@ impl Around<'_> {
     fn back(&self, steps: usize) -> Point {
         self.points[(self.i + self.points.len() - steps) % self.points.len()]
     }
-}
-
-/// The notches of an outline whose part lies on the given side.
-fn vees(outline: &Outline, part: Side) -> impl Iterator<Item = Vee> {
-    let points = &outline.points;
-    let count = points.len();
-    let vee = |&(i, span): &(usize, Span)| {
-        let at = Around { points, i };
-        (i, Vee { apex: points[i], mouth: [at.back(1), at.ahead(1)], span })
-    };
-    let is_inside = |vee: &Vee| {
-        let apex_is_left = cross(vee.mouth[1] - vee.mouth[0], vee.apex - vee.mouth[0]) > 0.0;
-        apex_is_left == (part == Side::Left)
-    };
-    let all: Vec<(usize, Vee)> = outline.apexes.iter().map(vee).filter(|(_, vee)| is_inside(vee)).collect();
-    // Whether the notch `k` and the next one, round the ring, are teeth in a row.
-    let is_crowded = |k: usize| {
-        let ((i, vee), (next, following)) = (all[k], all[(k + 1) % all.len()]);
-        let steps = (next + count - i - 1) % count + 1;
-        let width = vee.width().max(following.width());
-        // The flat between them has `steps - 2` segments; a notch alone has the whole ring before itself.
-        let at = Around { points, i };
-        let flat = (1..steps.saturating_sub(1)).map(|s| (at.ahead(s + 1) - at.ahead(s)).norm());
-        flat.scan(0.0, |sum, length| {
-            *sum += length;
-            Some(*sum)
-        })
-        .all(|length| length < width)
-    };
-    let crowded: Vec<bool> = (0..all.len()).map(is_crowded).collect();
-    let alone = |k: usize| !crowded[k] && !crowded[(k + all.len() - 1) % all.len()];
-    let mut kept: Vec<Vee> = (0..all.len()).filter(|&k| alone(k)).map(|k| all[k].1).collect();
-    // Notches that stand apart share no vertex.
-    if 3 * kept.len() + LEAST_OTHERS > count {
-        kept.clear();
-    }
-    kept.into_iter()
-}
-
-/// Whether an outline bounds a hole: an odd number of others of its piece hold it. Other pieces do not matter, since two
-/// jobs in one file may lie on each other.
-fn is_cut_out(i: usize, outlines: &[Outline], work: &mut Budget) -> bool {
-    let point = outlines[i].points[0];
-    let piece = outlines[i].piece;
-    let first = outlines.partition_point(|outline| outline.piece < piece);
-    let end = outlines.partition_point(|outline| outline.piece <= piece);
-    let holds = |k: &usize| {
-        let other = &outlines[*k];
-        let is_near = *k != i && other.extent.holds(point);
-        work.spend(VERTEX * if is_near { other.points.len() } else { 1 })
-            && is_near
-            && ring::contains(&other.points, point)
-    };
-    (first..end).filter(holds).count() % 2 == 1
 }

@@ -8,13 +8,14 @@
 //! - A hole lies in no part. Where nothing is closed there are no parts to tell.
 //! - The number of a piece comes again.
 
+use std::cell::OnceCell;
 use std::collections::BTreeSet;
 
 use super::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::budget::Budget;
-use crate::geom::monotone::{Chain, Crossing, chains, crossing};
-use crate::geom::{Extent, Point, cross, polyline, ring};
+use crate::geom::monotone::{Chain, Crossing, crossing};
+use crate::geom::{Extent, Point, cross, monotone, polyline, ring};
 use crate::ir::marker::{Drill, Marker};
 use crate::machine::Job;
 use crate::source::Span;
@@ -32,17 +33,29 @@ const PLACE_DECIMALS: u32 = 1;
 
 fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     numbers(marker, diagnostics);
-    let parts: Vec<Part> = (0..marker.pieces.len()).map(|piece| Part::of(marker, piece)).collect();
-    let search = Search { marker, parts: &parts };
+    let mut search = Search::new(marker);
     let mut work = Budget::of_a_marker();
-    for i in 0..parts.len() {
-        if let Some((place, span)) = search.self_crossing(i, &mut work) {
+    let mut part = Part::default();
+    let mut loose: Vec<(usize, Drill)> = Vec::new();
+    let mut any_closed = false;
+    for (i, piece) in marker.pieces.iter().enumerate() {
+        part.gather(marker, i);
+        if let Some((place, span)) = search.self_crossing(i, &part, &mut work) {
             let message = format!("an outline of {} crosses itself at {}", search.name(i), at(place));
             diagnostics.push(Diagnostic::new(&code::MARKER_SELF_CROSSING, message).at(span));
         }
+        // Its own piece is the likeliest.
+        let outside = piece.drills.iter().filter(|drill| !part.may_hold(drill, &mut work));
+        loose.extend(outside.map(|drill| (i, *drill)));
+        any_closed |= part.closed().next().is_some();
+        search.boxes.push(part.extent);
     }
     search.overlaps(&mut work, diagnostics);
-    search.drills(&mut work, diagnostics);
+    // Where nothing is closed there are no parts to tell.
+    if any_closed {
+        loose.retain(|(_, drill)| !search.is_in_a_part(drill, &mut work));
+        search.report_drills(&loose, diagnostics);
+    }
 }
 
 /// Numbers that start again from one that was there already, or stay.
@@ -66,6 +79,7 @@ fn numbers(marker: &Marker, diagnostics: &mut Diagnostics) {
 }
 
 /// The outlines of a piece.
+#[derive(Debug)]
 struct Part {
     /// Its points, one contour behind the other; a closed one ends with its first point.
     points: Vec<Point>,
@@ -76,27 +90,38 @@ struct Part {
     extent: Extent,
 }
 
+impl Default for Part {
+    fn default() -> Self {
+        Self { points: Vec::new(), contours: Vec::new(), chains: Vec::new(), extent: Extent::EMPTY }
+    }
+}
+
 impl Part {
     fn of(marker: &Marker, piece: usize) -> Self {
-        let mut part = Self { points: Vec::new(), contours: Vec::new(), chains: Vec::new(), extent: Extent::EMPTY };
+        let mut part = Self::default();
+        part.gather(marker, piece);
+        part
+    }
+
+    /// Takes the outlines of a piece in place of those that are here: one part serves all pieces of a marker in turn.
+    fn gather(&mut self, marker: &Marker, piece: usize) {
+        let Self { points, contours, chains, extent } = self;
+        points.clear();
+        contours.clear();
+        chains.clear();
+        *extent = Extent::EMPTY;
         for (k, contour) in marker.pieces[piece].contours.iter().enumerate() {
-            let start = part.points.len();
-            part.contours.push((start, contour.closed));
-            for (_, segment) in marker.list.walk(contour.range) {
-                if part.points.len() == start {
-                    part.points.push(segment.from);
-                }
-                part.points.push(segment.to);
-            }
-            for chain in chains(&part.points[start..]) {
+            let start = points.len();
+            contours.push((start, contour.closed));
+            marker.list.points(contour.range).for_each(|point| points.push(point));
+            for chain in monotone::chains(&points[start..]) {
                 let chain = Chain { first: chain.first + start as u32, last: chain.last + start as u32 };
-                let extent = chain.extent(&part.points);
-                part.extent.add(extent.min);
-                part.extent.add(extent.max);
-                part.chains.push((extent, chain, k));
+                let of_chain = chain.extent(points);
+                extent.add(of_chain.min);
+                extent.add(of_chain.max);
+                chains.push((of_chain, chain, k));
             }
         }
-        part
     }
 
     /// The points of a contour.
@@ -112,6 +137,12 @@ impl Part {
     /// Whether a point lies in the part: within its outline and in no cut-out.
     fn holds(&self, point: Point) -> bool {
         self.extent.holds(point) && self.closed().filter(|points| ring::contains(points, point)).count() % 2 == 1
+    }
+
+    /// Whether a hole is in the part, or could not be looked for.
+    fn may_hold(&self, drill: &Drill, work: &mut Budget) -> bool {
+        let near = self.extent.holds(drill.at);
+        !work.spend(if near { self.points.len() } else { 1 }) || (near && self.holds(drill.at))
     }
 
     /// Distance of a point from the outlines, mm.
@@ -147,12 +178,24 @@ impl Part {
 /// What all searches look at.
 struct Search<'a> {
     marker: &'a Marker,
-    parts: &'a [Part],
+    /// The boxes of the pieces.
+    boxes: Vec<Extent>,
+    /// The outlines of pieces, as far as they are looked at beside others: most pieces of a marker lie apart.
+    parts: Vec<OnceCell<Part>>,
 }
 
-impl Search<'_> {
+impl<'a> Search<'a> {
+    fn new(marker: &'a Marker) -> Self {
+        let parts = marker.pieces.iter().map(|_| OnceCell::new()).collect();
+        Self { marker, boxes: Vec::with_capacity(marker.pieces.len()), parts }
+    }
+
     fn name(&self, piece: usize) -> String {
         format!("piece {}", self.marker.pieces[piece].number)
+    }
+
+    fn part(&self, piece: usize) -> &Part {
+        self.parts[piece].get_or_init(|| Part::of(self.marker, piece))
     }
 
     /// What rounding to the grid of the file may have done to two points, mm: its diagonal.
@@ -161,15 +204,13 @@ impl Search<'_> {
     }
 
     /// The span of the segment of a piece that starts at one of its points.
-    fn span(&self, piece: usize, point: usize) -> Span {
-        let part = &self.parts[piece];
+    fn span(&self, piece: usize, part: &Part, point: usize) -> Span {
         let k = part.contour_of(point);
         let mut segments = self.marker.list.walk(self.marker.pieces[piece].contours[k].range);
         segments.nth(point - part.contours[k].0).map(|(_, segment)| segment.span).unwrap_or_default()
     }
 
-    fn self_crossing(&self, piece: usize, work: &mut Budget) -> Option<(Point, Span)> {
-        let part = &self.parts[piece];
+    fn self_crossing(&self, piece: usize, part: &Part, work: &mut Budget) -> Option<(Point, Span)> {
         let ends = |segment: usize| [part.points[segment], part.points[segment + 1]];
         let mut wanted = |crossing: &Crossing| {
             let [a, b] = crossing.segments;
@@ -183,31 +224,35 @@ impl Search<'_> {
             found = found.or_else(|| crossing([&part.points, &part.points], both, &mut wanted));
             found.is_none()
         });
-        found.map(|crossing| (crossing.at, self.span(piece, crossing.segments[1])))
+        found.map(|crossing| (crossing.at, self.span(piece, part, crossing.segments[1])))
     }
 
-    fn overlaps(&self, work: &mut Budget, diagnostics: &mut Diagnostics) {
-        let boxes: Vec<Extent> = self.parts.iter().map(|part| part.extent).collect();
+    fn overlaps(&mut self, work: &mut Budget, diagnostics: &mut Diagnostics) {
         let mut near: Vec<(usize, usize)> = Vec::new();
-        pairs(&boxes, work, |i, k| {
+        pairs(&self.boxes, work, |i, k| {
             near.push((i.min(k), i.max(k)));
             true
         });
         near.sort_unstable();
-        for (i, k) in near {
-            if let Some((place, span)) = self.overlap(i, k, work) {
-                let message = format!("the outlines of {} and {} overlap at {}", self.name(i), self.name(k), at(place));
-                let finding = Diagnostic::new(&code::MARKER_OVERLAPPING, message).at(span);
-                diagnostics.push(finding.hint("move one of the two in the marker"));
+        for of_one in near.chunk_by(|one, other| one.0 == other.0) {
+            for &(i, k) in of_one {
+                if let Some((place, span)) = self.overlap(i, k, work) {
+                    let message =
+                        format!("the outlines of {} and {} overlap at {}", self.name(i), self.name(k), at(place));
+                    let finding = Diagnostic::new(&code::MARKER_OVERLAPPING, message).at(span);
+                    diagnostics.push(finding.hint("move one of the two in the marker"));
+                }
             }
+            // Behind its pairs as the earlier one it has no others: those as the later one came before.
+            self.parts[of_one[0].0].take();
         }
     }
 
     /// A place where the outlines of two pieces overlap, and the span of the later one there.
     fn overlap(&self, i: usize, k: usize, work: &mut Budget) -> Option<(Point, Span)> {
-        let (a, b) = (&self.parts[i], &self.parts[k]);
+        let (a, b) = (self.part(i), self.part(k));
         let common = |part: &Part, other: &Part| -> Vec<Chain> {
-            part.chains.iter().filter(|(extent, ..)| extent.meets(&other.extent)).map(|chain| chain.1).collect()
+            part.chains.iter().filter(|(extent, ..)| extent.overlaps(&other.extent)).map(|chain| chain.1).collect()
         };
         let (of_a, of_b) = (common(a, b), common(b, a));
         if of_a.is_empty() || of_b.is_empty() || !work.spend(a.chains.len() + b.chains.len()) {
@@ -224,11 +269,11 @@ impl Search<'_> {
                     return None;
                 }
                 if let Some(found) = crossing([&a.points, &b.points], [of_a, of_b], &mut wanted) {
-                    return Some((found.at, self.span(k, found.segments[1])));
+                    return Some((found.at, self.span(k, b, found.segments[1])));
                 }
             }
         }
-        let place = self.straddles(b, a, work).map(|(place, point)| (place, self.span(k, point)));
+        let place = self.straddles(b, a, work).map(|(place, point)| (place, self.span(k, b, point)));
         place.or_else(|| self.straddles(a, b, work).map(|(place, _)| (place, self.marker.pieces[k].span)))
     }
 
@@ -256,30 +301,26 @@ impl Search<'_> {
         inside.filter(|_| outside)
     }
 
-    fn drills(&self, work: &mut Budget, diagnostics: &mut Diagnostics) {
-        if self.parts.iter().all(|part| part.closed().next().is_none()) {
-            return;
-        }
-        for (i, piece) in self.marker.pieces.iter().enumerate() {
-            let mut outside = piece.drills.iter().filter(|drill| !self.is_in_a_part(i, drill, work));
-            let Some(first) = outside.next() else { continue };
-            let more = match outside.count() {
+    /// Whether a hole lies in any part.
+    fn is_in_a_part(&self, drill: &Drill, work: &mut Budget) -> bool {
+        (0..self.boxes.len()).any(|piece| {
+            let near = self.boxes[piece].holds(drill.at);
+            if near { self.part(piece).may_hold(drill, work) } else { !work.spend(1) }
+        })
+    }
+
+    /// Holes outside all parts, with their pieces.
+    fn report_drills(&self, loose: &[(usize, Drill)], diagnostics: &mut Diagnostics) {
+        for of_one in loose.chunk_by(|one, other| one.0 == other.0) {
+            let (piece, first) = of_one[0];
+            let more = match of_one.len() - 1 {
                 0 => String::new(),
                 more => format!(", and {more} more of this piece"),
             };
-            let message = format!("a hole of {} at {} lies outside every part{more}", self.name(i), at(first.at));
+            let message = format!("a hole of {} at {} lies outside every part{more}", self.name(piece), at(first.at));
             let finding = Diagnostic::new(&code::MARKER_DRILL_OUTSIDE, message).at(first.span);
             diagnostics.push(finding.hint("look where it is in the picture (`-t svg`); its part may be missing"));
         }
-    }
-
-    /// Its own piece is the likeliest.
-    fn is_in_a_part(&self, piece: usize, drill: &Drill, work: &mut Budget) -> bool {
-        let own = std::iter::once(&self.parts[piece]);
-        own.chain(self.parts).any(|part| {
-            let near = part.extent.holds(drill.at);
-            !work.spend(if near { part.points.len() } else { 1 }) || (near && part.holds(drill.at))
-        })
     }
 }
 
@@ -287,32 +328,31 @@ fn at(place: Point) -> String {
     format!("X {} Y {} mm", fixed(place.x, PLACE_DECIMALS), fixed(place.y, PLACE_DECIMALS))
 }
 
-/// Calls `met` for each pair of boxes that have a point in common, until it says no: a sweep along the longer side of
-/// what they cover. Empty boxes meet none.
+/// Calls `met` for each pair of boxes that overlap, until it says no: a sweep along the longer side of what they cover.
+/// Empty boxes overlap none.
 fn pairs(boxes: &[Extent], work: &mut Budget, mut met: impl FnMut(usize, usize) -> bool) {
     let mut all = Extent::EMPTY;
-    let mut order: Vec<usize> = (0..boxes.len()).filter(|&i| !boxes[i].is_empty()).collect();
-    for &i in &order {
-        all.add(boxes[i].min);
-        all.add(boxes[i].max);
+    for extent in boxes.iter().filter(|extent| !extent.is_empty()) {
+        all.add(extent.min);
+        all.add(extent.max);
     }
     let (width, height) = all.size();
-    let side = |i: usize| {
-        let Extent { min, max } = boxes[i];
-        if width >= height { [min.x, max.x] } else { [min.y, max.y] }
-    };
-    order.sort_by(|&a, &b| side(a)[0].total_cmp(&side(b)[0]).then(a.cmp(&b)));
-    let mut active: Vec<usize> = Vec::new();
-    for &i in &order {
+    let side = |&Extent { min, max }: &Extent| if width >= height { [min.x, max.x] } else { [min.y, max.y] };
+    let sides = boxes.iter().enumerate().filter(|(_, extent)| !extent.is_empty());
+    let mut order: Vec<([f64; 2], usize)> = sides.map(|(i, extent)| (side(extent), i)).collect();
+    order.sort_unstable_by(|(a, i), (b, k)| a[0].total_cmp(&b[0]).then(i.cmp(k)));
+    // Boxes that are not left behind yet: where they end, and which they are.
+    let mut active: Vec<(f64, usize)> = Vec::new();
+    for ([start, end], i) in order {
         if !work.spend(active.len()) {
             return;
         }
-        active.retain(|&k| side(k)[1] >= side(i)[0]);
-        for &k in &active {
-            if boxes[i].meets(&boxes[k]) && !met(k, i) {
+        active.retain(|&(end, _)| end >= start);
+        for &(_, k) in &active {
+            if boxes[i].overlaps(&boxes[k]) && !met(k, i) {
                 return;
             }
         }
-        active.push(i);
+        active.push((end, i));
     }
 }

@@ -70,7 +70,7 @@ fn short(list: &SegmentList, contour: &Contour, place: usize) -> Option<Short> {
 /// The segments of the outlines of a piece.
 fn outlines<'a>(list: &'a SegmentList, piece: &'a Piece) -> impl Iterator<Item = [Point; 2]> {
     let outlines = piece.contours.iter().filter(|contour| contour.closed && short(list, contour, 0).is_none());
-    outlines.flat_map(|contour| list.walk(contour.range)).map(|(_, segment)| [segment.from, segment.to])
+    outlines.flat_map(|contour| list.lines(contour.range))
 }
 
 /// What may be a crossbar.

@@ -66,12 +66,15 @@ impl Dropped {
 /// What the file asks for at a dropped segment it asks for at that point, where the next segment starts. The end of the
 /// contour has no segment of its own: its joint is the first segment's.
 fn drop_equal_points(list: &mut SegmentList, range: &mut Range, dropped: &mut Dropped) -> bool {
+    if list.lines(*range).all(|[from, to]| (to - from).norm() > LENGTH_EPSILON) {
+        return true; // as in nearly all of them
+    }
     let mut cursor = list.cursor(range);
     let mut carried = Joint::default();
     loop {
         let segment = cursor.segment();
         if segment.length() > LENGTH_EPSILON {
-            carry(&mut cursor.segment_mut().joint, carried);
+            carry(cursor.joint_mut(), carried);
             carried = Joint::default();
             if !cursor.advance() {
                 return true;
@@ -86,17 +89,17 @@ fn drop_equal_points(list: &mut SegmentList, range: &mut Range, dropped: &mut Dr
         }
         // What is left still hangs together.
         if was_last {
-            cursor.segment_mut().to = segment.to;
+            *cursor.to_mut() = segment.to;
             break;
         }
-        cursor.segment_mut().from = segment.from;
+        *cursor.from_mut() = segment.from;
     }
     let end = cursor.segment().to;
     let mut first = list.cursor(range);
     let closed = first.segment().from == end;
     // At the end of an open contour the knife goes up anyway and does not come down again: only the overcut matters.
     carry(
-        &mut first.segment_mut().joint,
+        first.joint_mut(),
         if closed { carried } else { Joint { no_overcut: carried.no_overcut, ..Joint::default() } },
     );
     true
@@ -145,9 +148,9 @@ fn join(list: &mut SegmentList, piece: &mut Piece) {
 fn seam(list: &mut SegmentList, mut first: Range, mut second: Range) {
     let no_overcut = list.cursor(&mut second).segment().joint.no_overcut;
     let mut begin = list.cursor(&mut first);
-    let at_seam = std::mem::replace(&mut begin.segment_mut().joint.no_overcut, no_overcut);
+    let at_seam = std::mem::replace(&mut begin.joint_mut().no_overcut, no_overcut);
     let mut continued = list.cursor(&mut second);
-    let joint = &mut continued.segment_mut().joint;
+    let joint = continued.joint_mut();
     joint.lift = true;
     joint.no_overcut = at_seam;
 }

@@ -1,7 +1,7 @@
 //! Pass `down`: no run is longer than the knife may stay down.
 //!
-//! Needs runs split at corners. Leaves none longer than `knife.max_down_mm`, when that is set: a longer one is lifted
-//! after equal parts and rejoined with the overlaps of a corner, which here lie along the contour.
+//! Needs runs split at corners. Leaves none that with its overlaps is longer than `knife.max_down_mm`, when that is set: a
+//! longer one is lifted after equal parts and rejoined with the overlaps of a corner, which here lie along the contour.
 
 use super::ToolpathPass;
 use super::scene::Scene;
@@ -15,7 +15,7 @@ pub(super) const PASS: ToolpathPass =
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
     let job = scene.job;
-    let Some(longest) = job.profile.knife.max_down_mm else { return };
+    let Some(longest) = job.profile.knife.longest_cut() else { return };
     let steps = std::mem::take(&mut toolpath.steps);
     for step in steps {
         match step {

@@ -7,6 +7,7 @@ mod corner;
 mod down;
 mod entry;
 mod frame;
+mod notches;
 mod overlap;
 mod place;
 mod scene;

@@ -6,6 +6,7 @@
 
 use super::ToolpathPass;
 use super::scene::Scene;
+use super::wind;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Heading, Point, Rotation, Vector, angle, polyline};
 use crate::ir::toolpath::{Air, Pose, Run, Shape, Stab, Step, Toolpath};
@@ -118,10 +119,18 @@ fn chord_lag(run: &Run, knife: &Knife, first: Vector) -> f64 {
 }
 
 /// The position of C nearest to `before` that shows `heading` and from which C may move through `range` (rad) without
-/// leaving `c.range_deg`; `None` when there is none.
+/// leaving `c.range_deg`, by a margin if it turns; `None` when there is none.
 fn equivalent(before: Rotation, heading: Heading, range: [f64; 2], job: &Job) -> Option<Rotation> {
     let nearest = before.nearest(heading);
-    let Some([least, greatest]) = job.profile.blade_range() else { return Some(nearest) };
+    let Some(ends) = job.profile.blade_range() else { return Some(nearest) };
+    let [low, high] = range;
+    let wide = [low - wind::MARGIN, high + wind::MARGIN];
+    let turns = |range: [f64; 2]| whole_turns(nearest, range, ends);
+    (high > low).then(|| turns(wide)).flatten().or_else(|| turns(range))
+}
+
+/// The equivalent of C by the fewest whole turns from which it may move through `range` between two ends, rad.
+fn whole_turns(nearest: Rotation, range: [f64; 2], [least, greatest]: [f64; 2]) -> Option<Rotation> {
     let turn = std::f64::consts::TAU;
     let up = ((least - range[0] - nearest.0) / turn - RANGE_EPSILON).ceil();
     let down = ((greatest - range[1] - nearest.0) / turn + RANGE_EPSILON).floor();

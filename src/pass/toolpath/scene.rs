@@ -1,5 +1,6 @@
 //! What passes look at beside a toolpath: the job, and the cloth around it.
 
+use crate::geom::nest::{self, Shape};
 use crate::geom::region::{Ray, Regions, Room};
 use crate::ir::{Marker, Toolpath};
 use crate::machine::{Job, Knife};
@@ -15,23 +16,36 @@ pub struct Scene<'a> {
     pub job: &'a Job,
     /// The parts: inside their outlines, not inside their cut-outs, whichever way round these are drawn.
     parts: Regions,
+    /// The part to which each piece belongs: one that lies in another is a cut-out of that.
+    part_of: Vec<u32>,
 }
 
 impl<'a> Scene<'a> {
     /// The scene of a marker. Contours that do not close bound nothing.
     pub fn new(marker: &Marker, job: &'a Job) -> Self {
-        let closed = marker.contours().filter(|(_, contour)| contour.closed);
-        Self { job, parts: Regions::new(closed.map(|(piece, contour)| (piece as u32, marker.points(contour)))) }
+        let mut shapes = vec![Shape::default(); marker.pieces.len()];
+        for (piece, contour) in marker.contours().filter(|(_, contour)| contour.closed) {
+            shapes[piece].add(marker.points(contour));
+        }
+        let rings = |part_of: &dyn Fn(u32) -> u32| {
+            let rings = shapes.iter().zip(0..).flat_map(|(shape, piece)| shape.rings().iter().map(move |r| (piece, r)));
+            Regions::new(rings.map(|(piece, ring)| (part_of(piece), &ring[..])))
+        };
+        let pieces = rings(&|piece| piece);
+        let part_of = nest::regions(&shapes, |point| pieces.owners_at(point));
+        let parts = if part_of.iter().copied().eq(0..) { pieces } else { rings(&|piece| part_of[piece as usize]) };
+        Self { job, parts, part_of }
     }
 
     /// A scene without parts.
     pub(super) fn bare(job: &'a Job) -> Self {
-        Self { job, parts: Regions::default() }
+        Self { job, parts: Regions::default(), part_of: Vec::new() }
     }
 
     /// The scene as the cuts of a toolpath see it.
     pub(super) fn around(&self, toolpath: &Toolpath) -> Around<'_> {
-        Around { scene: self, part: toolpath.part, tolerance: toolpath.tolerance }
+        let part = self.part_of.get(toolpath.part as usize).copied().unwrap_or(toolpath.part);
+        Around { scene: self, part, tolerance: toolpath.tolerance }
     }
 }
 

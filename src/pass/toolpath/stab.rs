@@ -10,7 +10,7 @@ use super::scene::{Around, Scene};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::polyline;
 use crate::geom::region::{Ray, Room};
-use crate::ir::toolpath::{Pose, Run, Shape, Stab, Step, Toolpath};
+use crate::ir::toolpath::{End, Pose, Run, Shape, Side, Stab, Step, Toolpath};
 use crate::units::number::fixed;
 
 pub(super) const PASS: ToolpathPass =
@@ -66,7 +66,10 @@ fn stab(run: &Run, around: &Around) -> Option<Stab> {
         along,
         front: run.front + front,
         heel: run.heel + heel,
-        ends: run.ends,
+        ends: [0, 1].map(|end| {
+            let harms = split[end].harm > HARM_EPSILON;
+            End { side: if harms { Side::Part } else { run.ends[end].side }, ..run.ends[end] }
+        }),
         turned: run.turned,
         harm: split.iter().map(|share| share.harm).sum(),
         pose: Pose { centre: tip - along * around.knife().radius(), ..Pose::default() },
@@ -90,12 +93,6 @@ fn split(surplus: f64, rooms: [Room; 2], around: &Around) -> [Share; 2] {
     for (share, room) in shares.iter_mut().zip(rooms) {
         share.length = left.min(clear(room.least()));
         left -= share.length;
-    }
-    // A clearance is worth less than a whole part.
-    for (share, room) in shares.iter_mut().zip(rooms) {
-        let more = left.min((room.least() - share.length).max(0.0));
-        share.length += more;
-        left -= more;
     }
     if left <= HARM_EPSILON {
         shares[0].length += left;

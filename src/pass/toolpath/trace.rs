@@ -2,11 +2,12 @@
 //!
 //! The file's speeds become the caps of a run, chord by chord.
 
+use super::notches;
 use crate::ir::Marker;
-use crate::ir::list::{FULL_SPEED, Joint};
-use crate::ir::marker::{Contour, Event, Piece, Stroke};
+use crate::ir::list::{FULL_SPEED, Joint, Segment};
+use crate::ir::marker::{Contour, Event, Notch, Piece, Stroke, Vee};
 use crate::ir::toolpath::{Drill, End, Law, Pose, Run, Shape, Step, Toolpath};
-use crate::machine::{Follow, Job};
+use crate::machine::{Follow, Job, NotchStyle, Notches};
 
 /// The raw toolpath of each drill, notch and contour, in cut order: a contour is one run, not yet split, without
 /// overlaps and without poses. An event stands alone, between the pieces or behind the last.
@@ -16,10 +17,23 @@ pub fn trace<'a>(marker: &'a Marker, job: &'a Job) -> impl Iterator<Item = Toolp
     let pieces = marker.pieces.iter().zip(0..).flat_map(move |(piece, part)| {
         let events = piece.events.iter().map(event);
         let drills = piece.drills.iter().map(|d| Step::Drill(Drill { at: d.at, tool: d.tool, span: d.span }));
-        let strokes = piece.notches.iter().flat_map(|notch| notch.strokes().map(|stroke| (notch.percent, stroke)));
+        let style = job.profile.notch;
+        let strokes = move |notch: &Notch| {
+            notches::strokes(notch, style).map({
+                let percent = notch.percent;
+                move |stroke| (percent, stroke)
+            })
+        };
+        let drawn = piece.contours.iter().map(|contour| outline(marker, piece, contour, style));
+        let (outlines, vees): (Vec<_>, Vec<_>) = drawn.unzip();
+        let slits = vees.into_iter().flatten().map(move |(vee, percent)| (percent, notches::slit(&vee, style)));
+        let slits = slits.filter(move |_| style.style == NotchStyle::Slit);
+        let notches = piece.notches.iter().flat_map(strokes).chain(slits);
         let notches =
-            strokes.map(move |(percent, stroke)| Step::Run(notch_run(&stroke, feed(piece, percent, job), job)));
-        let contours = piece.contours.iter().map(move |contour| Step::Run(contour_run(marker, piece, contour, job)));
+            notches.map(move |(percent, stroke)| Step::Run(notch_run(&stroke, feed(piece, percent, job), job)));
+        let contours = outlines.into_iter().zip(&piece.contours);
+        let contours =
+            contours.map(move |(outline, contour)| Step::Run(contour_run(&outline, contour.closed, piece, job)));
         events
             .chain(drills)
             .chain(notches)
@@ -57,18 +71,30 @@ fn feed(piece: &Piece, percent: u8, job: &Job) -> f64 {
     feed.min(x.speed).min(y.speed) * f64::from(percent) / f64::from(FULL_SPEED)
 }
 
-fn contour_run(marker: &Marker, piece: &Piece, contour: &Contour, job: &Job) -> Run {
-    let (mut spans, mut joints, mut feeds) = (Vec::new(), Vec::new(), Vec::new());
-    for (_, segment) in marker.list.walk(contour.range) {
-        spans.push(segment.span);
-        joints.push(segment.joint);
-        feeds.push(feed(piece, segment.percent, job));
-    }
+/// A contour in the style of the profile, with the V notches that it no longer has and their speed in percent.
+fn outline(marker: &Marker, piece: &Piece, contour: &Contour, style: Notches) -> (Vec<Segment>, Vec<(Vee, u8)>) {
+    let mut outline: Vec<Segment> = marker.list.walk(contour.range).map(|(_, segment)| segment).collect();
+    let bridged = match style.style {
+        NotchStyle::AsDrawn => Vec::new(),
+        NotchStyle::Slit | NotchStyle::Skip => notches::bridge(&mut outline, &piece.vees),
+    };
+    (outline, bridged)
+}
+
+/// The run of a contour, each segment with its greatest speed.
+fn contour_run(outline: &[Segment], closed: bool, piece: &Piece, job: &Job) -> Run {
+    let mut points = vec![outline[0].from];
+    points.extend(outline.iter().map(|segment| segment.to));
+    let mut joints: Vec<Joint> = outline.iter().map(|segment| segment.joint).collect();
     // The end of a contour, closed or not, shares the joint of its first segment: there is no segment behind it.
-    joints
-        .push(Joint { no_overcut: joints[0].no_overcut, ..if contour.closed { joints[0] } else { Joint::default() } });
-    let shape = if contour.closed { Shape::Ring } else { Shape::Open };
-    Run { points: marker.points(contour), spans, joints, feeds, ..raw(shape, job) }
+    joints.push(Joint { no_overcut: joints[0].no_overcut, ..if closed { joints[0] } else { Joint::default() } });
+    Run {
+        points,
+        spans: outline.iter().map(|segment| segment.span).collect(),
+        joints,
+        feeds: outline.iter().map(|segment| feed(piece, segment.percent, job)).collect(),
+        ..raw(if closed { Shape::Ring } else { Shape::Open }, job)
+    }
 }
 
 fn raw(shape: Shape, job: &Job) -> Run {

@@ -18,7 +18,9 @@ pub(super) const PASS: ToolpathPass =
 
 /// How far C stays away from the ends of its range where a run is parted, rad (5 degrees): smoothing turns the blade a
 /// little beyond the direction of its last chord. A range that is too narrow for that is used up to its ends.
-const MARGIN: f64 = 0.087_266_462_599_716_47;
+pub(super) const MARGIN: f64 = 0.087_266_462_599_716_47;
+/// In widths of the blade, what is too short for a part of its own.
+const SHORT: f64 = 3.0;
 /// Rounding of an angle, rad.
 const ANGLE_EPSILON: f64 = 1e-9;
 /// Rounding of a station, mm.
@@ -46,11 +48,11 @@ fn parts(run: &Run, range: [f64; 2], knife: &Knife) -> Option<Vec<Run>> {
     let (chords, length) = (way.chords().cast_signed(), way.length());
     // Round a ring the last chord turns on to the first one.
     let whole = chords + isize::from(way.is_ring());
-    if winding.reach(0, whole, range) == Some(whole) {
-        return None;
-    }
     let [least, greatest] = range;
     let inner = [least + MARGIN, greatest - MARGIN];
+    if chords == 1 || winding.reach(0, whole, inner) == Some(whole) {
+        return None;
+    }
     let (heel, front) = (knife.corner_heel_overlap_mm, knife.corner_front_overlap_mm);
     let last = if way.is_ring() { length + front } else { length };
     let mut from = if way.is_ring() { -heel } else { 0.0 };
@@ -60,20 +62,30 @@ fn parts(run: &Run, range: [f64; 2], knife: &Knife) -> Option<Vec<Run>> {
     }
     let mut parts = Vec::new();
     let end = way.chord_at(last - STATION_EPSILON) + 1;
-    loop {
+    let reach = |from: f64| {
         let first = way.chord_at(from);
-        let reached = winding.reach(first, end, inner).or_else(|| winding.reach(first, end, range))?;
+        winding.reach(first, end, inner).or_else(|| winding.reach(first, end, range))
+    };
+    loop {
+        let reached = reach(from)?;
         let start = if parts.is_empty() { ends[0] } else { REJOINED };
         if reached >= end {
             parts.push(way.part(from, last, [start, ends[1]]));
             return Some(parts);
         }
-        let to = way.station(reached);
-        let next = to - front - heel;
-        // Where the blade turns more within the overlaps than C may, no number of lifts helps.
-        if next <= from + STATION_EPSILON {
+        // A rest that the blade hardly fits on is cut better with half of what is before it.
+        let half = way.station(way.chord_at(f64::midpoint(from, last)));
+        let is_short = last - way.station(reached) < SHORT * knife.width_mm;
+        let rest = |to: f64| winding.reach(way.chord_at(to - front - heel), end, inner);
+        let halves = is_short && half > from + front + heel && rest(half) == Some(end);
+        let to = if halves { half } else { way.station(reached) };
+        if to <= from + STATION_EPSILON {
             return None;
         }
+        // Over a bend at which C must unwind no overlap can lead on along the contour.
+        let overlapped = to - front - heel;
+        let leads_on = overlapped > from && reach(overlapped).is_some_and(|reached| way.station(reached) > to);
+        let next = if leads_on { overlapped } else { to };
         parts.push(way.part(from, to, [start, REJOINED]));
         from = next;
     }
