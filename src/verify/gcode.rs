@@ -429,6 +429,7 @@ pub(super) const RULES: &[&str] = &[
     "verify/once",
     "verify/complete",
     "verify/heading",
+    "verify/down",
     "verify/body",
     "verify/overcut-part",
     "verify/overcut-neighbour",
