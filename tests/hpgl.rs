@@ -323,6 +323,64 @@ fn a_marker_that_lacks_a_contour_a_point_or_a_notch_is_refused() {
     assert!(contours > 30 && points > 30 && notches >= 5, "{contours} {points} {notches}");
 }
 
+#[test]
+fn arcs_through_places_on_a_line_are_lines_whatever_the_scale() {
+    let mut random = fastrand::Rng::with_seed(3);
+    for _ in 0..2000 {
+        let corners = [(); 2].map(|()| random.i32(3000..9000));
+        let range = random.i32(7..500);
+        let (x, y) = (f64::from(range) * 0.1, f64::from(range) * 0.3);
+        let (way, rise) = (f64::from(random.i32(1..9)) / 10.0, f64::from(random.i32(-9..9)) / 10.0);
+        let at = |k: i32| format!("{:.1},{:.1}", x + way * f64::from(k), y + rise * f64::from(k));
+        let (from, middle, to) = (random.i32(-3..3), random.i32(-9..9), random.i32(3..9));
+        let text = format!(
+            "IN;IP0,0,{},{};SC0,{range},0,{range};PU{};PD;AT{},{};PA0,0,{};PU;",
+            corners[0],
+            corners[1],
+            at(from),
+            at(middle),
+            at(to),
+            at(from)
+        );
+        let source = source(text.clone());
+        let job = Job { lines: Lines { kind: Some(LineKind::All), ..Lines::default() }, ..Job::default() };
+        let marker = as_read(&source, &job);
+        assert!(marker.pieces.iter().flat_map(|p| &p.contours).all(|c| marker.points(c).len() <= 4), "{text}");
+        assert_eq!(audit(&source, &marker, &job), [], "{text}");
+    }
+}
+
+#[test]
+fn a_mirrored_scale_gives_the_mirror_image_curves_and_all() {
+    let drawing = "SP1;PU20,20;PD100,20;AA100,60,180;AR0,10,-90;PD20,100,20,20;PU40,60;EW10,0,90;PU80,60;EW10,30,-200;\
+                   PU60,40;AT70,50,60,60;PD60,40;PU150,150;CI20;PU;";
+    let job = Job::default();
+    let plain = source(format!("IN;IP0,0,8000,8000;SC0,200,0,200;{drawing}"));
+    let whole = read(&plain, &job).0;
+    for (scale, is_turned) in [("0,200,200,0", false), ("200,0,0,200", true)] {
+        let mirrored = source(format!("IN;IP0,0,8000,8000;SC{scale};{drawing}"));
+        let marker = read(&mirrored, &job).0;
+        assert_eq!(audit(&mirrored, &as_read(&mirrored, &job), &job), []);
+        let points =
+            |marker: &Marker| -> Vec<Point> { marker.contours().flat_map(|(_, c)| marker.points(c)).collect() };
+        let (points, mirrored) = (points(&whole), points(&marker));
+        assert_eq!(points.len(), mirrored.len());
+        let image = |p: &Point| if is_turned { Point::new(200.0 - p.x, p.y) } else { Point::new(p.x, 200.0 - p.y) };
+        assert!(points.iter().zip(&mirrored).all(|(p, q)| (image(p) - q).norm() < 1e-9), "{scale}");
+    }
+}
+
+#[test]
+fn a_marker_of_another_unit_than_the_profile_is_refused() {
+    let plot = two_pens();
+    let mut marker = as_read(&plot, &Job::default());
+    marker.unit = 0.0254;
+    assert!(!audit(&plot, &marker, &Job::default()).is_empty());
+    let mut job = Job::default();
+    job.profile.hpgl.unit = PlotUnit::of_mm(0.0254);
+    assert!(!audit(&plot, &as_read(&plot, &Job::default()), &job).is_empty());
+}
+
 // ---- Patience.
 
 /// The longest that a hostile file may take in a test build, far above what it takes.
@@ -375,7 +433,13 @@ fn drawings_made_to_be_slow_are_read_in_time() {
     let fan = (0..60_000).fold(String::new(), |fan, i| fan + &format!("PU0,0;PD{i},900;"));
     within_patience("strokes that all meet", fan.into_bytes());
     let curves = "CI99999999;".repeat(300);
-    within_patience("circles", format!("PU0,0;{curves}").into_bytes());
+    assert_eq!(within_patience("circles", format!("PU0,0;{curves}").into_bytes()), ["hpgl/far-place"]);
+    let curves = "CI30000000;".repeat(3000);
+    let found = within_patience("near circles", format!("PU0,0;{curves}").into_bytes());
+    assert!(found.contains(&"hpgl/too-many-chords"), "{found:?}");
+    let polygons = format!("PM0;PD{}PM2;{}", "9,9,5,5,".repeat(10_000), "EP;".repeat(100_000));
+    let found = within_patience("polygons", polygons.into_bytes());
+    assert!(found.contains(&"hpgl/too-many-chords"), "{found:?}");
 }
 
 #[test]
@@ -390,7 +454,7 @@ fn no_coordinate_wraps_around() {
         }
     }
     let sums = format!("IN;PR;PD{}PU;", "99999999,1,".repeat(30) + "0,0;");
-    assert!(read(&source(sums), &Job::default()).1.contains(&"hpgl/number-overflow"));
+    assert!(read(&source(sums), &Job::default()).1.contains(&"hpgl/far-place"));
 }
 
 #[test]

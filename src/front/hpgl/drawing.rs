@@ -11,6 +11,9 @@ pub(super) struct Vertex {
     pub(super) span: Span,
 }
 
+/// The number that stands for no pen (SP0).
+pub(super) const NO_PEN: u16 = 0;
+
 /// A line between two lifts: places of [`Drawing::vertices`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Stroke {

@@ -34,7 +34,7 @@ mod unit;
 
 use self::instruction::Instruction;
 use self::lower::{Measure, lower};
-use self::reader::{Reader, Statement};
+use self::reader::{Flaw, Reader, Statement};
 use super::{Dialect, Likeness, foreign};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Extent;
@@ -71,17 +71,7 @@ fn sniff(bytes: &[u8]) -> Likeness {
             instruction,
             Instruction::Down | Instruction::Up | Instruction::Absolute | Instruction::Relative | Instruction::Encoded
         );
-        match instruction {
-            Instruction::Label => _ = reader.text(),
-            Instruction::Terminator => reader.define_terminator(),
-            Instruction::Comment => reader.comment(),
-            Instruction::Encoded => {
-                let mut body = reader.body();
-                while body.next().is_some() {}
-                reader.behind(&body);
-            }
-            _ => {}
-        }
+        reader.pass_over(instruction.tail());
         known += usize::from(instruction != Instruction::Unknown);
     }
     match known {
@@ -95,23 +85,26 @@ fn sniff(bytes: &[u8]) -> Likeness {
 fn check_syntax(source: &Source, out: &mut Diagnostics) {
     let mut reader = Reader::new(source.bytes());
     while let Some((statement, span)) = reader.next() {
-        match statement {
-            Statement::Instruction(Instruction::Label, _) => _ = reader.text(),
-            Statement::Instruction(Instruction::Terminator, _) => reader.define_terminator(),
-            Statement::Instruction(Instruction::Comment, _) => reader.comment(),
-            Statement::Instruction(Instruction::Encoded, _) => {
-                let mut body = reader.body();
-                while body.next().is_some() {}
-                if body.ending == encoded::Ending::Damaged {
-                    out.push(Diagnostic::new(&code::HPGL_PE_DAMAGED, "an encoded polyline is damaged").at(span));
+        let finding = match statement {
+            Statement::Instruction(Instruction::Unknown, _) => {
+                Diagnostic::new(&code::HPGL_UNKNOWN, "this instruction is not known").at(span)
+            }
+            Statement::Instruction(instruction, _) => match reader.pass_over(instruction.tail()) {
+                None => continue,
+                Some(Flaw::Overflow(at)) => {
+                    Diagnostic::new(&code::HPGL_OVERFLOW, "a number is beyond any table").at(at)
                 }
-                reader.behind(&body);
-            }
-            Statement::Junk => {
-                out.push(Diagnostic::new(&code::HPGL_JUNK, "what stands here is no instruction").at(span));
-            }
-            Statement::Instruction(..) | Statement::Reset => {}
-        }
+                Some(Flaw::Damaged(at)) => {
+                    Diagnostic::new(&code::HPGL_PE_DAMAGED, "an encoded polyline is damaged").at(at)
+                }
+                Some(Flaw::Open(at)) => {
+                    Diagnostic::new(&code::HPGL_PE_OPEN, "an encoded polyline has no semicolon").at(at)
+                }
+            },
+            Statement::Junk => Diagnostic::new(&code::HPGL_JUNK, "what stands here is no instruction").at(span),
+            Statement::Reset => continue,
+        };
+        out.push(finding);
     }
 }
 

@@ -1,6 +1,6 @@
 //! Strokes with their measures, what a user or a profile says of them, and what they are taken for.
 
-use super::drawing::{Drawing, Stroke, Vertex};
+use super::drawing::{Drawing, NO_PEN, Stroke, Vertex};
 use crate::geom::{Extent, Point, cross};
 use crate::machine::Job;
 use crate::machine::plot::{LineKind, PenUse};
@@ -73,7 +73,7 @@ pub(super) fn wanted(pen: u16, job: &Job) -> Wanted {
         (Some(_), _) | (None, Some(PenUse::Pen | PenUse::Ignore)) => return Wanted::Nothing,
         (None, Some(PenUse::Knife)) => true,
         // Pen 0 is no pen: what the plotter does then draws nothing.
-        (None, None) if pen == 0 => return Wanted::Nothing,
+        (None, None) if pen == NO_PEN => return Wanted::Nothing,
         (None, None) => false,
     };
     match job.lines.kind {
