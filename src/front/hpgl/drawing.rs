@@ -26,11 +26,28 @@ pub(super) struct Stroke {
     pub(super) extent: Extent,
 }
 
+/// What places had that were moved.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Moved {
+    /// How much longer lines were, mm; negative when they were shorter.
+    pub(super) length: f64,
+    /// The box around the places as they were.
+    pub(super) bounds: Extent,
+}
+
+impl Default for Moved {
+    fn default() -> Self {
+        Self { length: 0.0, bounds: Extent::EMPTY }
+    }
+}
+
 /// All strokes.
 #[derive(Debug, Default)]
 pub(super) struct Drawing {
     pub(super) vertices: Vec<Vertex>,
     pub(super) strokes: Vec<Stroke>,
+    /// What was drawn beyond them before ends that miss each other by rounding were moved together.
+    pub(super) moved: Moved,
     /// Whether the last stroke goes on.
     goes_on: bool,
 }
