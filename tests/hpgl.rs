@@ -235,6 +235,27 @@ fn small_squares_and_circles_are_holes_when_the_profile_wants_that() {
 }
 
 #[test]
+fn an_outline_is_whole_when_its_strokes_miss_each_other_by_a_unit_and_named_when_by_more() {
+    let strokes = |gap: i64| {
+        let miss = 4000 + gap;
+        format!("IN;PU0,0;PD4000,0;PU{miss},0;PD4000,4000;PU4000,{miss};PD0,4000;PU{},4000;PD0,{gap};PU;", -gap)
+    };
+    let (marker, found) = read(&source(strokes(1)), &Job::default());
+    assert_eq!((counts(&marker), found), ([1, 1, 0, 0], vec![]));
+    assert!(marker.contours().all(|(_, contour)| contour.closed));
+    for gap in [3, 39] {
+        let (_, found) = read(&source(strokes(gap)), &Job::default());
+        assert_eq!(found, ["hpgl/open-outline", "hpgl/nothing-to-cut"], "{gap}");
+    }
+}
+
+#[test]
+fn a_nesting_that_was_cut_short_is_an_error() {
+    let nested: String = (0..20_000).map(|i| rectangle(i, i, 100_000 - 2 * i, 100_000 - 2 * i)).collect();
+    assert!(within_patience("nested outlines", nested.into_bytes()).contains(&"hpgl/too-many-lines"));
+}
+
+#[test]
 fn the_unit_is_that_of_the_profile() {
     let text = source(format!("IN;{}PU;", rectangle(0, 0, 8000, 4000)));
     for (unit, width) in [("1/40 mm", 200.0), ("1/1000 in", 203.2), ("0.1", 800.0), ("400 dpi", 508.0)] {
@@ -245,6 +266,70 @@ fn the_unit_is_that_of_the_profile() {
     }
     let wide = source(format!("IN;{}PU;", rectangle(0, 0, 800_000, 400_000)));
     assert_eq!(read(&wide, &Job::default()).1, ["hpgl/unit-doubtful"]);
+}
+
+/// What is found in a plot with these options, as people read it.
+fn said(text: &str, job: &Job) -> String {
+    let source = source(text);
+    let mut found = Diagnostics::default();
+    pipeline::read(&source, by_name("hpgl"), job, &mut found);
+    cutc::diagnostic::render(&found, &source)
+}
+
+#[test]
+fn when_nothing_is_cut_the_hint_names_the_pens_and_what_left_them_out() {
+    let open = "IN;SP3;PU0,0;PD4000,0,4000,4000;SP5;PU0,500;PD900,500;PU;";
+    let check = |edit: &dyn Fn(&mut Job), expected: &str| {
+        let mut job = Job::default();
+        edit(&mut job);
+        let said = said(open, &job);
+        assert!(said.contains("hpgl/nothing-to-cut") && said.contains(expected), "{expected}: {said}");
+    };
+    check(&|_| {}, "the file draws with pens 3,5");
+    check(&|job| job.lines.pens = Numbers::parse("7").ok(), "`--cut-pens 7` leaves all lines out");
+    check(&|job| job.lines.kind = Some(LineKind::Closed), "`--cut closed` leaves out every open line");
+    let ignore = |job: &mut Job| {
+        let pens = ["3", "5"].map(|pen| (pen.to_owned(), PenUse::Ignore));
+        job.profile.hpgl.pens.extend(pens);
+    };
+    check(&ignore, "`hpgl.pens` of the profile leaves them out; the file draws with pens 3,5; `--cut-pens 3,5`");
+    let without = open.replace("SP3", "SP0").replace("SP5", "SP0");
+    assert!(said(&without, &Job::default()).contains("let the CAD take pen 1"));
+}
+
+#[test]
+fn an_outline_whose_halves_cancel_is_cut_when_asked_for_and_named_otherwise() {
+    let bow_tie = format!("IN;SP1;{}PU0,0;PD4000,0,0,4000,4000,4000,0,0;PU;", rectangle(10_000, 0, 4000, 4000));
+    let (marker, found) = read(&source(bow_tie.clone()), &Job::default());
+    assert_eq!((counts(&marker), found), ([1, 1, 0, 0], vec!["hpgl/crossed-outline"]));
+    for kind in [LineKind::Closed, LineKind::All] {
+        let job = Job { lines: Lines { kind: Some(kind), ..Lines::default() }, ..Job::default() };
+        let (marker, found) = read(&source(bow_tie.clone()), &job);
+        assert_eq!((counts(&marker), found), ([2, 2, 0, 0], vec!["marker/self-crossing"]));
+    }
+    // A line that goes out and back goes around nothing, straight or not.
+    for line in ["PU0,0;PD4000,0,1000,0,0,0;PU;", "PU0,0;PD4000,0,4000,4000,4000,0,0,0;PU;"] {
+        let job = Job { lines: Lines { kind: Some(LineKind::Closed), ..Lines::default() }, ..Job::default() };
+        assert_eq!(counts(&read(&source(format!("{line}{}", rectangle(9000, 0, 400, 400))), &job).0), [1, 1, 0, 0]);
+    }
+}
+
+#[test]
+fn letters_are_told_from_small_parts_by_the_row_that_they_stand_in() {
+    let check = |drawn: &str, contours: usize, is_text: bool| {
+        let text = format!("IN;{}{drawn}PU;", rectangle(0, 0, 8000, 8000));
+        let (marker, found) = read(&source(text), &Job::default());
+        assert_eq!(counts(&marker)[1], contours, "{drawn}");
+        assert_eq!(found.contains(&"hpgl/taken-for-text"), is_text, "{drawn}: {found:?}");
+    };
+    let small = rectangle(2000, 2000, 100, 200);
+    check(&small, 2, false);
+    // Digits of one height; another line; a grain line in a part; a third shape makes a row.
+    check(&format!("{small}PU1950,2000;PD1950,2200;"), 1, true);
+    check(&format!("{small}PU1950,2000;PD1950,2150;"), 2, false);
+    check(&format!("{small}PU2050,2050;PD2050,2150;PU1950,2000;PD1950,2200;"), 2, false);
+    check(&format!("{small}PU1950,2000;PD1950,2150;PU2150,2000;PD2150,2150;"), 1, true);
+    check(&format!("{small}PU1990,1800;PD2390,1900;PU1990,2300;PD2390,2400;"), 2, false);
 }
 
 // ---- Recognition.

@@ -8,6 +8,7 @@ pub(super) const EXPLANATIONS: &[(&str, &str)] = &[
     ("source/empty", "Nothing arrived: an export was cancelled, or the copy to the cutter failed. Export the marker again and compare the sizes of the files."),
     ("source/too-large", "Places in a file are kept as 32-bit numbers. No marker needs this much: most likely it is another file. Split a real one by pieces in the CAD system."),
     ("source/unknown-format", "Cutting from a guess could ruin a lay. Export an ISO cut file, or name the dialect if the file has an unusual head.\n  cutc check odd.txt --from iso"),
+    ("source/no-plot", "A cut file says itself what is cut, so there is nothing to choose by pens and shapes. To cut some of its pieces name them.\n  cutc compile marker.cut --pieces 3,7-12"),
     ("iso/syntax", "A damaged block may hide a coordinate, and a cut to the wrong place cannot be taken back. Look at the excerpt; export or transfer the file again.\n  X100Y200*M14*   is right; X100Y2#0* is not."),
     ("iso/no-value", "A coordinate without its number could be anything; taking it as 0 would cut across the lay. Export the file again, or write the number.\n  X100Y*   lacks the number of Y."),
     ("iso/far-place", "No table is a kilometre long, so the motion would be nonsense. Look at the block: two numbers may have run together, or an export in another unit was mixed in.\n  X30000500Y0* instead of X3000500Y0*"),

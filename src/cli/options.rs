@@ -31,7 +31,9 @@ pub(super) struct Machine {
 /// How an input is read.
 #[derive(Debug, Args)]
 pub(super) struct Reading {
-    /// Read the file as this dialect, whatever it looks like
+    /// Read the file as this dialect; do not guess from its content
+    ///
+    /// What is plainly something else, such as a plot given as a cut file, is refused all the same.
     #[arg(long, value_name = "DIALECT", value_parser = choices::dialects())]
     pub(super) from: Option<&'static Dialect>,
 

@@ -44,6 +44,8 @@ mod table {
     pub static SOURCE_TOO_LARGE: Code = error("source/too-large", "The file has 4 GiB or more; split the marker.");
     /// No dialect recognises the content.
     pub static SOURCE_UNKNOWN: Code = error("source/unknown-format", "The content is none of the dialects that cutc reads; the message names what it looks like.");
+    /// Options for plots, and no plot.
+    pub static SOURCE_NO_PLOT: Code = warning("source/no-plot", "`--cut` or `--cut-pens` is given for a file that is no plot; they change nothing.");
 
     // ISO cut files.
     /// A block that is not words.
@@ -113,7 +115,7 @@ mod table {
     /// The file ends amid a line.
     pub static HPGL_ENDS_PEN_DOWN: Code = error("hpgl/ends-pen-down", "A plot ends while the pen draws a line that does not close: it is most likely cut short.");
     /// An outline with a gap.
-    pub static HPGL_OPEN_OUTLINE: Code = warning("hpgl/open-outline", "A long line of a plot nearly closes, but not quite: it may be an outline, and is not cut.");
+    pub static HPGL_OPEN_OUTLINE: Code = warning("hpgl/open-outline", "A line of a plot, or several in a ring, nearly close, but not quite: they may be an outline, and are not cut.");
     /// A rectangle around all.
     pub static HPGL_FRAME: Code = warning("hpgl/frame", "A rectangle that holds all outlines of a plot is taken for the frame of the marker and is not cut.");
     /// A place that no table reaches.
@@ -219,6 +221,7 @@ pub static ALL: &[&Code] = &[
     &SOURCE_EMPTY,
     &SOURCE_TOO_LARGE,
     &SOURCE_UNKNOWN,
+    &SOURCE_NO_PLOT,
     &ISO_SYNTAX,
     &ISO_NO_VALUE,
     &ISO_FAR_PLACE,

@@ -59,7 +59,8 @@ impl Arc {
         // The product of the sides is four times the area by the radius; an arc bows out of its chord b by b2 / (8 r).
         let bow = square_b * doubled.abs() / (8.0 * (square_a * square_b * square_c).sqrt());
         let is_between = (0.0..=square_b).contains(&along);
-        if !(height > LINE_EPSILON) || is_between && bow <= sagitta {
+        // Three equal places have no height at all.
+        if height.is_nan() || height <= LINE_EPSILON || is_between && bow <= sagitta {
             return None;
         }
         let centre = [

@@ -177,7 +177,7 @@ impl Lowering<'_> {
             },
             Instruction::EdgePolygon => {
                 let drawn = self.plotter.edge_polygon();
-                self.check(&drawn, span);
+                self.check(drawn, span);
             }
             Instruction::Page => {
                 let drawn = self.plotter.drawing.strokes.len();
@@ -202,7 +202,10 @@ impl Lowering<'_> {
             Instruction::Corners => self.frame(Frame::set_corners, span),
             Instruction::CornersPercent => self.frame(Frame::set_corners_percent, span),
             Instruction::Rotate => self.frame(Frame::rotate, span),
-            Instruction::PageSize => self.frame(Frame::set_page, span),
+            Instruction::PageSize => {
+                let values = self.values::<2>();
+                self.plotter.frame.set_page(&values);
+            }
             Instruction::Housekeeping | Instruction::LeftOut(_) | Instruction::Letters(_) | Instruction::Unknown => {}
         }
     }
@@ -230,9 +233,9 @@ impl Lowering<'_> {
         }
     }
 
-    fn check(&mut self, outcome: &Result<(), Refusal>, span: Span) {
+    fn check(&mut self, outcome: Result<(), Refusal>, span: Span) {
         if let Err(refusal) = outcome {
-            self.tally.refused(*refusal, span);
+            self.tally.refused(refusal, span);
         }
     }
 
@@ -242,7 +245,7 @@ impl Lowering<'_> {
             let to = self.plotter.target(pair);
             let outcome =
                 if self.plotter.starts_part() { self.plotter.start_part(to, span) } else { self.plotter.go(to, span) };
-            self.check(&outcome, span);
+            self.check(outcome, span);
             self.plotter.settle_by_mode();
         }
     }
@@ -251,7 +254,7 @@ impl Lowering<'_> {
         self.plotter.take_pen(if (0.0..=MOST_PENS).contains(&pen) { pen as u16 } else { NO_PEN });
     }
 
-    /// SC, IP, IR, RO, PS.
+    /// SC, IP, IR, RO.
     fn frame(&mut self, set: fn(&mut Frame, &[f64]) -> Result<(), Unknown>, span: Span) {
         let values = self.values::<7>();
         let Err(doubt) = set(&mut self.plotter.frame, &values) else { return };
@@ -319,7 +322,7 @@ impl Lowering<'_> {
                         self.plotter.lower();
                     }
                     let outcome = self.plotter.go(to, span);
-                    self.check(&outcome, span);
+                    self.check(outcome, span);
                     if is_absolute {
                         self.plotter.settle();
                     }
@@ -374,7 +377,7 @@ impl Lowering<'_> {
             self.follow(arc, span);
         }
         let outcome = self.plotter.go(to, span);
-        self.check(&outcome, span);
+        self.check(outcome, span);
         if !is_relative {
             self.plotter.settle();
         }
@@ -382,7 +385,7 @@ impl Lowering<'_> {
 
     fn follow(&mut self, arc: Arc, span: Span) {
         let outcome = arc.flatten(self.sagitta).try_for_each(|to| self.plotter.go(to, span));
-        self.check(&outcome, span);
+        self.check(outcome, span);
     }
 
     /// CI: radius, around the place of the pen.
@@ -393,7 +396,7 @@ impl Lowering<'_> {
         let start = [across, centre[1]];
         let arc = Arc { from: start, centre, sweep: self.sweep(TAU) };
         let outcome = self.plotter.figure(start, arc.flatten(self.sagitta), span);
-        self.check(&outcome, span);
+        self.check(outcome, span);
     }
 
     /// BZ, BR: three control points a curve; those of BR are relative to its start.
@@ -407,7 +410,7 @@ impl Lowering<'_> {
             let place = |pair| if is_relative { self.plotter.relative(pair) } else { self.plotter.absolute(pair) };
             let curve = Bezier([self.plotter.at(), place(first), place(second), place(third)]);
             let outcome = curve.flatten(self.sagitta).try_for_each(|to| self.plotter.go(to, span));
-            self.check(&outcome, span);
+            self.check(outcome, span);
             if !is_relative {
                 self.plotter.settle();
             }
@@ -423,7 +426,7 @@ impl Lowering<'_> {
         let to = if is_relative { self.plotter.relative(pair) } else { self.plotter.absolute(pair) };
         let corners = [[to[0], from[1]], to, [from[0], to[1]], from];
         let outcome = self.plotter.figure(from, corners, span);
-        self.check(&outcome, span);
+        self.check(outcome, span);
     }
 
     /// EW: radius, start and sweep in degrees; a negative radius counts the angles from the other side. A full turn is a
@@ -440,7 +443,7 @@ impl Lowering<'_> {
         } else {
             self.plotter.figure(centre, std::iter::once(from).chain(arc).chain([centre]), span)
         };
-        self.check(&outcome, span);
+        self.check(outcome, span);
     }
 
     /// LB.

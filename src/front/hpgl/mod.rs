@@ -3,12 +3,13 @@
 //! Receives bytes: instructions of two letters with numbers, in all the spellings that plotters tolerate, compact encodings,
 //! curves, scales. Promises a marker in mm like that of a cut file: parts with their cut-outs, slits as notches, equal
 //! places equal to the bit, texts never cut; and an account of every line, what it was taken for. Curves are chords within
-//! a quarter of the tolerance. Never closes an outline that the file leaves open.
+//! a quarter of the tolerance. Never closes an outline that the file leaves open, but for what rounding has parted.
 //!
 //! [`reader`] makes statements of bytes with [`syntax`], [`escape`], [`label`] and [`encoded`]; [`instruction`] is the table
 //! of what they mean; [`mod@lower`] follows them with the [`plotter`], its [`scale`] and [`curve`], into a [`drawing`].
 //! [`classify`] then decides what is cut: [`chain`] joins strokes, [`shape`] measures them, [`nest`], [`notch`] and [`text`]
-//! recognise, [`piece`] makes the marker with [`boxes`] to find its parts. [`mod@unit`] doubts the size; [`tally`] counts what was not obeyed.
+//! recognise, [`piece`] makes the marker with [`boxes`] to find its parts. [`mod@unit`] doubts the size; [`tally`]
+//! counts what was not obeyed; [`nothing`] says why nothing is cut.
 
 mod boxes;
 mod chain;
@@ -22,6 +23,7 @@ mod label;
 mod lower;
 mod nest;
 mod notch;
+mod nothing;
 mod piece;
 mod plotter;
 mod reader;
@@ -120,18 +122,11 @@ fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker {
         extent.add(stroke.extent.min);
         extent.add(stroke.extent.max);
     }
-    let is_blank = plot.drawing.strokes.is_empty();
+    let pens = nothing::pens(&plot.drawing);
     unit::check_plausible(unit::Sized { unit, extent: &extent, source, labels: &plot.labels }, out);
     let marker = classify::classify(plot.drawing, plot.labels, job, out);
     if marker.pieces.is_empty() && !out.has_errors() {
-        let message =
-            if is_blank { "the plot draws no line" } else { "no line of the plot is taken for something to cut" };
-        let finding = Diagnostic::new(&code::HPGL_NOTHING_TO_CUT, message);
-        out.push(if is_blank {
-            finding
-        } else {
-            finding.hint("`--cut all` cuts every line, `--cut-pens 1` those of a pen")
-        });
+        out.push(nothing::finding(&pens, job));
     }
     marker
 }

@@ -121,23 +121,20 @@ impl Making<'_> {
         for found in &sorted.notches {
             let piece = self.piece_of(&by_outline, found.outline);
             let shape = &sorted.shapes[found.mark];
-            match found.cut {
-                Some([root, tip]) => {
-                    let span = self.span(shape);
-                    let notch = Notch { kind: NotchKind::Slit, root, tip, percent: FULL_SPEED, span };
-                    self.aside.points += shape.stroke.points as usize - 1;
-                    self.aside.length += shape.length - notch.depth();
-                    self.pieces[piece].notches.push(notch);
-                }
-                // The knife cuts a V from both sides of its mouth: two slits that meet at the tip.
-                None => {
-                    let vertices = shape.vertices(&sorted.drawing);
-                    for (root, tip, span) in [(0, 1, 1), (2, 1, 2)] {
-                        let (root, tip, span) = (vertices[root].at, vertices[tip].at, vertices[span].span);
-                        let notch = Notch { kind: NotchKind::Slit, root, tip, percent: FULL_SPEED, span };
-                        self.pieces[piece].notches.push(notch);
-                    }
-                }
+            if let Some([root, tip]) = found.cut {
+                let span = self.span(shape);
+                let notch = Notch { kind: NotchKind::Slit, root, tip, percent: FULL_SPEED, span };
+                self.aside.points += shape.stroke.points as usize - 1;
+                self.aside.length += shape.length - notch.depth();
+                self.pieces[piece].notches.push(notch);
+                continue;
+            }
+            // The knife cuts a V from both sides of its mouth: two slits that meet at the tip.
+            let vertices = shape.vertices(&sorted.drawing);
+            for (root, tip, drawn_by) in [(0, 1, 1), (2, 1, 2)] {
+                let (root, tip, span) = (vertices[root].at, vertices[tip].at, vertices[drawn_by].span);
+                let notch = Notch { kind: NotchKind::Slit, root, tip, percent: FULL_SPEED, span };
+                self.pieces[piece].notches.push(notch);
             }
         }
         for shape in &sorted.shapes {
@@ -178,7 +175,9 @@ impl Making<'_> {
                 let Pruned { vertices, spikes, points, length, dropped } = prune(vertices, self.unit, LONGEST_NOTCH);
                 self.aside.points += points;
                 self.aside.length += length;
-                dropped.into_iter().for_each(|tip| self.aside.bounds.add(tip));
+                for tip in dropped {
+                    self.aside.bounds.add(tip);
+                }
                 self.spikes += spikes.len();
                 for spike in spikes {
                     let (root, tip, span) = (spike.root, spike.tip.at, spike.tip.span);
@@ -256,14 +255,15 @@ impl Making<'_> {
         }
         let class = |&(class, name): &(Class, &'static str)| {
             let of = || shapes.iter().filter(|shape| shape.class == class);
-            let (mut count, length) = (of().count(), of().map(|shape| shape.length).sum());
+            // The sum of no numbers would be the negative of zero.
+            let (mut count, length) = (of().count(), of().fold(0.0, |sum, shape| sum + shape.length));
             if class == Class::Notch {
                 count += self.spikes;
             }
             DrawnClass { name, cut: class.is_cut(), count, length }
         };
         let classes: Vec<DrawnClass> = CLASSES.iter().map(class).collect();
-        let drawn: f64 = shapes.iter().map(|shape| shape.length).sum();
+        let drawn = shapes.iter().fold(0.0, |sum, shape| sum + shape.length);
         let pen_down = drawn + self.sorted.drawing.moved.length;
         Drawing { pen_down, classes, texts_outside: self.texts_outside, aside: self.aside }
     }

@@ -25,8 +25,7 @@ pub(super) struct Plotter {
     /// Farthest place from the origin, units.
     farthest: f64,
     most_vertices: usize,
-    /// Whether a text was written since the last absolute place: where the pen is then depends on the letters.
-    is_adrift: bool,
+    standing: Standing,
     /// Lines that were drawn from such a place.
     pub(super) adrift: Count,
     pen: u16,
@@ -48,6 +47,15 @@ struct Corner {
     span: Span,
     /// Whether the edge that ends here is drawn.
     is_edge: bool,
+}
+
+/// Whether the file says where the pen is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Standing {
+    /// It does.
+    Known,
+    /// A text was written since the last absolute place: it depends on the letters.
+    Lettered,
 }
 
 /// Why a move is refused.
@@ -80,7 +88,7 @@ impl Plotter {
             unit,
             farthest: (FARTHEST / unit).min(VALUE_MAX),
             most_vertices: bytes + MOST_CURVED,
-            is_adrift: false,
+            standing: Standing::Known,
             adrift: Count::default(),
             pen: FIRST_PEN,
             is_down: false,
@@ -98,7 +106,7 @@ impl Plotter {
         self.frame.reset();
         (self.is_relative, self.gathering, self.awaits_part) = (false, None, false);
         self.polygon.clear();
-        (self.at, self.is_adrift) = ([0.0, 0.0], false);
+        (self.at, self.standing) = ([0.0, 0.0], Standing::Known);
         self.take_pen(FIRST_PEN);
     }
 
@@ -110,17 +118,19 @@ impl Plotter {
 
     /// The pen moves by letters, whose size is not known.
     pub(super) fn drift(&mut self) {
-        self.is_adrift = true;
+        self.standing = Standing::Lettered;
     }
 
     /// An absolute move ends that.
     pub(super) fn settle(&mut self) {
-        self.is_adrift = false;
+        self.standing = Standing::Known;
     }
 
     /// What a move in the mode in force does to that.
     pub(super) fn settle_by_mode(&mut self) {
-        self.is_adrift &= self.is_relative;
+        if !self.is_relative {
+            self.settle();
+        }
     }
 
     /// Where it is, mm.
@@ -181,7 +191,7 @@ impl Plotter {
         if self.drawing.vertices.len() + self.polygon.len() >= self.most_vertices {
             return Err(Refusal::TooMany);
         }
-        if self.is_adrift {
+        if self.standing == Standing::Lettered {
             self.adrift.add(span);
         }
         if self.gathering.is_some() {

@@ -97,13 +97,12 @@ impl Frame {
     }
 
     /// PS: length, then width; with one number both are equal.
-    pub(super) fn set_page(&mut self, values: &[f64]) -> Result<(), Unknown> {
+    pub(super) fn set_page(&mut self, values: &[f64]) {
         self.page = match *values {
             [length, width, ..] => Some([length, width]),
             [length] => Some([length, length]),
             [] => None,
         };
-        Ok(())
     }
 
     /// RO, degrees; anything but quarter turns is ignored, as plotters do.
@@ -220,7 +219,7 @@ mod tests {
         let mut frame = Frame::new();
         assert_eq!(frame.set_scale(&[0.0, 1.0, 0.0, 1.0]), Err(Unknown::Corners));
         assert_eq!(frame.set_corners_percent(&[0.0, 0.0, 50.0, 50.0]), Err(Unknown::Page));
-        assert_eq!(frame.set_page(&[4000.0, 2000.0]), Ok(()));
+        frame.set_page(&[4000.0, 2000.0]);
         assert_eq!(frame.set_corners_percent(&[0.0, 0.0, 50.0, 50.0]), Ok(()));
         assert_eq!(frame.set_scale(&[0.0, 1.0, 0.0, 1.0]), Ok(()));
         assert_eq!(frame.place([1.0, 1.0]), [2000.0, 1000.0]);
@@ -257,7 +256,7 @@ mod tests {
         let mut frame = Frame::new();
         assert_eq!(frame.rotate(&[90.0]), Ok(()));
         assert_eq!(frame.turned([3.0, 1.0]), [-1.0, 3.0]);
-        assert_eq!(frame.set_page(&[40.0, 20.0]), Ok(()));
+        frame.set_page(&[40.0, 20.0]);
         assert_eq!(frame.turned([3.0, 1.0]), [39.0, 3.0]);
         assert_eq!(frame.rotate(&[180.0]), Ok(()));
         assert_eq!(frame.turned([3.0, 1.0]), [37.0, 19.0]);

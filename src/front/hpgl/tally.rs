@@ -133,7 +133,7 @@ impl Tally {
                 self.junk.count + self.unknown_total
             );
             let finding = Diagnostic::new(&code::HPGL_NOT_A_PLOT, message);
-            out.push(finding.hint("leave out `--from`, and the content is recognised"));
+            out.push(finding.hint("it is of another kind, or damaged: look at its first bytes"));
             return;
         }
         let mut found: Vec<Diagnostic> = Vec::new();

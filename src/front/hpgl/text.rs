@@ -45,13 +45,17 @@ pub(super) fn mark_letters(shapes: &mut [Shape]) -> Letters {
         return letters;
     }
     let mut search = Search { shapes, cells: BTreeMap::new(), work: MOST_WORK };
-    small.iter().for_each(|&i| search.cells.entry(cell(&shapes[i])).or_default().push(i));
+    for &i in &small {
+        search.cells.entry(cell(&shapes[i])).or_default().push(i);
+    }
     // A closed line around an open one is a part with its grain line or marks.
     let may_be: Vec<usize> = small.iter().copied().filter(|&i| shapes[i].is_closed && !search.holds_open(i)).collect();
     // Those are no letters of a row that others make, either.
     let holders: Vec<usize> =
         small.iter().copied().filter(|i| shapes[*i].is_closed && may_be.binary_search(i).is_err()).collect();
-    holders.into_iter().for_each(|i| search.take(i));
+    for i in holders {
+        search.take(i);
+    }
     let mut rows = Vec::new();
     for &first in &may_be {
         rows.extend(search.row(first));
