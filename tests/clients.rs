@@ -48,7 +48,7 @@ fn pen_down(plot: &str) -> f64 {
 }
 
 /// Plots without texts that hp2xx 3.4.4 draws otherwise, and why.
-const OTHERWISE: [(&str, &str); 13] = [
+const OTHERWISE: [(&str, &str); 19] = [
     ("arcs", "its arcs by three points are not numbers, its chords are others"),
     ("beziers", "its chords are others"),
     ("circle-with-a-cross", "its chords are others"),
@@ -56,12 +56,18 @@ const OTHERWISE: [(&str, &str); 13] = [
     ("rectangles-and-wedge", "its chords are others"),
     ("encoded-and-saved-as-utf-8", "it repairs nothing"),
     ("encoded-fractions", "it reads no fraction bits"),
+    ("encoded-fractions-of-both-signs", "it reads no fraction bits"),
     ("fills-left-out", "it fills"),
     ("junk-between", "it stops at junk"),
     ("odd-coordinate", "it stops at a coordinate without its partner"),
     ("pages", "it draws the first page alone"),
     ("polygons", "it leaves out the edge that PM 1 adds"),
+    ("scaled-arcs-on-a-line", "its arcs by three points are not numbers"),
+    ("scaled-from-a-moved-corner", "its corners are those of another device"),
+    ("scaled-mirrored", "its chords are others"),
     ("scaled-to-the-device", "its corners are those of another device"),
+    ("scales-that-are-broken", "it stops at a scale that is broken"),
+    ("wedge-of-a-full-turn", "it draws the radii of a full turn as well"),
 ];
 
 #[test]

@@ -90,6 +90,21 @@ fn a_sentence_with_a_sign_that_no_block_can_hold_is_refused_there() {
 }
 
 #[test]
+fn a_plot_with_a_fault_of_grammar_is_refused_there() {
+    let hpgl = DIALECTS.iter().find(|dialect| dialect.name == "hpgl").expect("plots are read");
+    for (text, code) in [
+        (&b"IN;QX1,2;"[..], "hpgl/unknown-instruction"),
+        (b"IN;PD1,99999999999;", "hpgl/number-overflow"),
+        (b"SP99999999999;", "hpgl/number-overflow"),
+        (b"PE7<=__", "hpgl/encoding-open"),
+        (b"PE<=,_;", "hpgl/encoding-damaged"),
+        (b"PU!;", "hpgl/junk"),
+    ] {
+        assert!(syntax(hpgl, text).contains(code), "{}: {}", text.escape_ascii(), syntax(hpgl, text));
+    }
+}
+
+#[test]
 fn a_sentence_with_a_damaged_byte_never_panics_and_is_blamed_within_its_bytes() {
     for dialect in DIALECTS {
         let grammar = grammar(dialect.name);

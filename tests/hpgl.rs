@@ -235,6 +235,27 @@ fn small_squares_and_circles_are_holes_when_the_profile_wants_that() {
 }
 
 #[test]
+fn an_outline_is_whole_when_its_strokes_miss_each_other_by_a_unit_and_named_when_by_more() {
+    let strokes = |gap: i64| {
+        let miss = 4000 + gap;
+        format!("IN;PU0,0;PD4000,0;PU{miss},0;PD4000,4000;PU4000,{miss};PD0,4000;PU{},4000;PD0,{gap};PU;", -gap)
+    };
+    let (marker, found) = read(&source(strokes(1)), &Job::default());
+    assert_eq!((counts(&marker), found), ([1, 1, 0, 0], vec![]));
+    assert!(marker.contours().all(|(_, contour)| contour.closed));
+    for gap in [3, 39] {
+        let (_, found) = read(&source(strokes(gap)), &Job::default());
+        assert_eq!(found, ["hpgl/open-outline", "hpgl/nothing-to-cut"], "{gap}");
+    }
+}
+
+#[test]
+fn a_nesting_that_was_cut_short_is_an_error() {
+    let nested: String = (0..20_000).map(|i| rectangle(i, i, 100_000 - 2 * i, 100_000 - 2 * i)).collect();
+    assert!(within_patience("nested outlines", nested.into_bytes()).contains(&"hpgl/too-many-lines"));
+}
+
+#[test]
 fn the_unit_is_that_of_the_profile() {
     let text = source(format!("IN;{}PU;", rectangle(0, 0, 8000, 4000)));
     for (unit, width) in [("1/40 mm", 200.0), ("1/1000 in", 203.2), ("0.1", 800.0), ("400 dpi", 508.0)] {
@@ -245,6 +266,70 @@ fn the_unit_is_that_of_the_profile() {
     }
     let wide = source(format!("IN;{}PU;", rectangle(0, 0, 800_000, 400_000)));
     assert_eq!(read(&wide, &Job::default()).1, ["hpgl/unit-doubtful"]);
+}
+
+/// What is found in a plot with these options, as people read it.
+fn said(text: &str, job: &Job) -> String {
+    let source = source(text);
+    let mut found = Diagnostics::default();
+    pipeline::read(&source, by_name("hpgl"), job, &mut found);
+    cutc::diagnostic::render(&found, &source)
+}
+
+#[test]
+fn when_nothing_is_cut_the_hint_names_the_pens_and_what_left_them_out() {
+    let open = "IN;SP3;PU0,0;PD4000,0,4000,4000;SP5;PU0,500;PD900,500;PU;";
+    let check = |edit: &dyn Fn(&mut Job), expected: &str| {
+        let mut job = Job::default();
+        edit(&mut job);
+        let said = said(open, &job);
+        assert!(said.contains("hpgl/nothing-to-cut") && said.contains(expected), "{expected}: {said}");
+    };
+    check(&|_| {}, "the file draws with pens 3,5");
+    check(&|job| job.lines.pens = Numbers::parse("7").ok(), "`--cut-pens 7` leaves all lines out");
+    check(&|job| job.lines.kind = Some(LineKind::Closed), "`--cut closed` leaves out every open line");
+    let ignore = |job: &mut Job| {
+        let pens = ["3", "5"].map(|pen| (pen.to_owned(), PenUse::Ignore));
+        job.profile.hpgl.pens.extend(pens);
+    };
+    check(&ignore, "`hpgl.pens` of the profile leaves them out; the file draws with pens 3,5; `--cut-pens 3,5`");
+    let without = open.replace("SP3", "SP0").replace("SP5", "SP0");
+    assert!(said(&without, &Job::default()).contains("let the CAD take pen 1"));
+}
+
+#[test]
+fn an_outline_whose_halves_cancel_is_cut_when_asked_for_and_named_otherwise() {
+    let bow_tie = format!("IN;SP1;{}PU0,0;PD4000,0,0,4000,4000,4000,0,0;PU;", rectangle(10_000, 0, 4000, 4000));
+    let (marker, found) = read(&source(bow_tie.clone()), &Job::default());
+    assert_eq!((counts(&marker), found), ([1, 1, 0, 0], vec!["hpgl/crossed-outline"]));
+    for kind in [LineKind::Closed, LineKind::All] {
+        let job = Job { lines: Lines { kind: Some(kind), ..Lines::default() }, ..Job::default() };
+        let (marker, found) = read(&source(bow_tie.clone()), &job);
+        assert_eq!((counts(&marker), found), ([2, 2, 0, 0], vec!["marker/self-crossing"]));
+    }
+    // A line that goes out and back goes around nothing, straight or not.
+    for line in ["PU0,0;PD4000,0,1000,0,0,0;PU;", "PU0,0;PD4000,0,4000,4000,4000,0,0,0;PU;"] {
+        let job = Job { lines: Lines { kind: Some(LineKind::Closed), ..Lines::default() }, ..Job::default() };
+        assert_eq!(counts(&read(&source(format!("{line}{}", rectangle(9000, 0, 400, 400))), &job).0), [1, 1, 0, 0]);
+    }
+}
+
+#[test]
+fn letters_are_told_from_small_parts_by_the_row_that_they_stand_in() {
+    let check = |drawn: &str, contours: usize, is_text: bool| {
+        let text = format!("IN;{}{drawn}PU;", rectangle(0, 0, 8000, 8000));
+        let (marker, found) = read(&source(text), &Job::default());
+        assert_eq!(counts(&marker)[1], contours, "{drawn}");
+        assert_eq!(found.contains(&"hpgl/taken-for-text"), is_text, "{drawn}: {found:?}");
+    };
+    let small = rectangle(2000, 2000, 100, 200);
+    check(&small, 2, false);
+    // Digits of one height; another line; a grain line in a part; a third shape makes a row.
+    check(&format!("{small}PU1950,2000;PD1950,2200;"), 1, true);
+    check(&format!("{small}PU1950,2000;PD1950,2150;"), 2, false);
+    check(&format!("{small}PU2050,2050;PD2050,2150;PU1950,2000;PD1950,2200;"), 2, false);
+    check(&format!("{small}PU1950,2000;PD1950,2150;PU2150,2000;PD2150,2150;"), 1, true);
+    check(&format!("{small}PU1990,1800;PD2390,1900;PU1990,2300;PD2390,2400;"), 2, false);
 }
 
 // ---- Recognition.
@@ -323,6 +408,64 @@ fn a_marker_that_lacks_a_contour_a_point_or_a_notch_is_refused() {
     assert!(contours > 30 && points > 30 && notches >= 5, "{contours} {points} {notches}");
 }
 
+#[test]
+fn arcs_through_places_on_a_line_are_lines_whatever_the_scale() {
+    let mut random = fastrand::Rng::with_seed(3);
+    for _ in 0..2000 {
+        let corners = [(); 2].map(|()| random.i32(3000..9000));
+        let range = random.i32(7..500);
+        let (x, y) = (f64::from(range) * 0.1, f64::from(range) * 0.3);
+        let (way, rise) = (f64::from(random.i32(1..9)) / 10.0, f64::from(random.i32(-9..9)) / 10.0);
+        let at = |k: i32| format!("{:.1},{:.1}", x + way * f64::from(k), y + rise * f64::from(k));
+        let (from, middle, to) = (random.i32(-3..3), random.i32(-9..9), random.i32(3..9));
+        let text = format!(
+            "IN;IP0,0,{},{};SC0,{range},0,{range};PU{};PD;AT{},{};PA0,0,{};PU;",
+            corners[0],
+            corners[1],
+            at(from),
+            at(middle),
+            at(to),
+            at(from)
+        );
+        let source = source(text.clone());
+        let job = Job { lines: Lines { kind: Some(LineKind::All), ..Lines::default() }, ..Job::default() };
+        let marker = as_read(&source, &job);
+        assert!(marker.pieces.iter().flat_map(|p| &p.contours).all(|c| marker.points(c).len() <= 4), "{text}");
+        assert_eq!(audit(&source, &marker, &job), [], "{text}");
+    }
+}
+
+#[test]
+fn a_mirrored_scale_gives_the_mirror_image_curves_and_all() {
+    let drawing = "SP1;PU20,20;PD100,20;AA100,60,180;AR0,10,-90;PD20,100,20,20;PU40,60;EW10,0,90;PU80,60;EW10,30,-200;\
+                   PU60,40;AT70,50,60,60;PD60,40;PU150,150;CI20;PU;";
+    let job = Job::default();
+    let plain = source(format!("IN;IP0,0,8000,8000;SC0,200,0,200;{drawing}"));
+    let whole = read(&plain, &job).0;
+    for (scale, is_turned) in [("0,200,200,0", false), ("200,0,0,200", true)] {
+        let mirrored = source(format!("IN;IP0,0,8000,8000;SC{scale};{drawing}"));
+        let marker = read(&mirrored, &job).0;
+        assert_eq!(audit(&mirrored, &as_read(&mirrored, &job), &job), []);
+        let points =
+            |marker: &Marker| -> Vec<Point> { marker.contours().flat_map(|(_, c)| marker.points(c)).collect() };
+        let (points, mirrored) = (points(&whole), points(&marker));
+        assert_eq!(points.len(), mirrored.len());
+        let image = |p: &Point| if is_turned { Point::new(200.0 - p.x, p.y) } else { Point::new(p.x, 200.0 - p.y) };
+        assert!(points.iter().zip(&mirrored).all(|(p, q)| (image(p) - q).norm() < 1e-9), "{scale}");
+    }
+}
+
+#[test]
+fn a_marker_of_another_unit_than_the_profile_is_refused() {
+    let plot = two_pens();
+    let mut marker = as_read(&plot, &Job::default());
+    marker.unit = 0.0254;
+    assert!(!audit(&plot, &marker, &Job::default()).is_empty());
+    let mut job = Job::default();
+    job.profile.hpgl.unit = PlotUnit::of_mm(0.0254);
+    assert!(!audit(&plot, &as_read(&plot, &Job::default()), &job).is_empty());
+}
+
 // ---- Patience.
 
 /// The longest that a hostile file may take in a test build, far above what it takes.
@@ -375,7 +518,13 @@ fn drawings_made_to_be_slow_are_read_in_time() {
     let fan = (0..60_000).fold(String::new(), |fan, i| fan + &format!("PU0,0;PD{i},900;"));
     within_patience("strokes that all meet", fan.into_bytes());
     let curves = "CI99999999;".repeat(300);
-    within_patience("circles", format!("PU0,0;{curves}").into_bytes());
+    assert_eq!(within_patience("circles", format!("PU0,0;{curves}").into_bytes()), ["hpgl/far-place"]);
+    let curves = "CI30000000;".repeat(3000);
+    let found = within_patience("near circles", format!("PU0,0;{curves}").into_bytes());
+    assert!(found.contains(&"hpgl/too-many-chords"), "{found:?}");
+    let polygons = format!("PM0;PD{}PM2;{}", "9,9,5,5,".repeat(10_000), "EP;".repeat(100_000));
+    let found = within_patience("polygons", polygons.into_bytes());
+    assert!(found.contains(&"hpgl/too-many-chords"), "{found:?}");
 }
 
 #[test]
@@ -390,7 +539,7 @@ fn no_coordinate_wraps_around() {
         }
     }
     let sums = format!("IN;PR;PD{}PU;", "99999999,1,".repeat(30) + "0,0;");
-    assert!(read(&source(sums), &Job::default()).1.contains(&"hpgl/number-overflow"));
+    assert!(read(&source(sums), &Job::default()).1.contains(&"hpgl/far-place"));
 }
 
 #[test]

@@ -210,5 +210,27 @@ fn lines_of_a_plot_are_chosen_by_pen_and_kind_and_the_program_says_so() {
     run(&room, "verify p.csv --source p.plt --cut-pens 2", 0);
     run(&room, "verify p.csv --source p.plt", 1);
     let said = run(&room, "info m.cut --cut-pens x", 2);
-    assert!(said.contains("--cut-pens"), "{said}");
+    assert!(said.contains("--cut-pens") && !said.contains("piece"), "{said}");
+    for pens in ["0", "0-3"] {
+        let said = run(&room, &format!("info p.plt --cut-pens {pens}"), 2);
+        assert!(said.contains("pen 0 stands for none"), "{said}");
+    }
+    let said = run(&room, "info p.plt --set hpgl.pens.0=knife", 2);
+    assert!(said.contains("profile/unknown-key") && said.contains("pen 0 is none"), "{said}");
+    for choice in ["--cut closed", "--cut-pens 1"] {
+        assert!(run(&room, &format!("info m.cut {choice}"), 0).contains("source/no-plot"), "{choice}");
+    }
+    assert!(!run(&room, "info m.cut", 0).contains("source/no-plot"));
+}
+
+#[test]
+fn figures_of_a_plot_count_its_texts_beside_the_parts_and_have_no_negative_zeros() {
+    let room = room();
+    for name in ["labels.plt", "spikes-in-an-outline.plt"] {
+        let plot = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/hpgl").join(name);
+        fs::copy(plot, room.path().join(name)).expect("a copy");
+    }
+    assert!(run(&room, "info labels.plt", 0).contains("texts beside          1"));
+    let said = run(&room, "info spikes-in-an-outline.plt --format json", 0);
+    assert!(said.contains("\"notch\"") && !said.contains("-0.0"), "{said}");
 }

@@ -15,5 +15,8 @@ pub(super) fn text(report: &Report) -> String {
         let _ = writeln!(out, "  {:14} {:>8} {:>14}{what}", lines.class, lines.count, fixed(lines.length_mm, 3));
     }
     let _ = writeln!(out, "  {:14} {:>8} {:>14}", "pen down", "", fixed(drawn.pen_down_mm, 3));
+    if drawn.texts_outside > 0 {
+        let _ = writeln!(out, "  {:14} {:>8}", "texts beside", drawn.texts_outside);
+    }
     out
 }

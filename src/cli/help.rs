@@ -32,7 +32,7 @@ pub(super) fn overview() -> String {
 pub(super) fn reference() -> String {
     let mut out = String::new();
     let dialects: Vec<_> = DIALECTS.iter().map(|dialect| (dialect.name, dialect.about)).collect();
-    list(&mut out, "Dialects that are read (recognised by content; --from overrides):", &dialects);
+    list(&mut out, "Dialects that are read (recognised by content; --from names one instead):", &dialects);
     let targets: Vec<_> = TARGETS.iter().map(|target| (target.name, target.about)).collect();
     list(&mut out, "Targets that are written (-t, or the extension of -o; else the first):", &targets);
     out.push_str(

@@ -31,7 +31,9 @@ pub(super) struct Machine {
 /// How an input is read.
 #[derive(Debug, Args)]
 pub(super) struct Reading {
-    /// Read the file as this dialect, whatever it looks like
+    /// Read the file as this dialect; do not guess from its content
+    ///
+    /// What is plainly something else, such as a plot given as a cut file, is refused all the same.
     #[arg(long, value_name = "DIALECT", value_parser = choices::dialects())]
     pub(super) from: Option<&'static Dialect>,
 
@@ -49,7 +51,7 @@ struct Plotted {
     /// Of a plot, cut the lines of these pens only, as in `--cut-pens 4`
     ///
     /// Overrides `hpgl.pens` of the profile. `cutc info` shows what the lines of a plot were taken for.
-    #[arg(long, value_name = "NUMBERS", value_parser = numbers)]
+    #[arg(long, value_name = "NUMBERS", value_parser = pens)]
     cut_pens: Option<Numbers>,
 
     /// Of a plot, cut every line, or all closed or all open ones, whatever their shapes say
@@ -97,6 +99,13 @@ pub(super) struct Choice {
 
 fn numbers(text: &str) -> Result<Numbers, NotNumbers> {
     Numbers::parse(text)
+}
+
+/// Numbers of pens: any but 0, which stands for none.
+fn pens(text: &str) -> anyhow::Result<Numbers> {
+    let numbers = numbers(text)?;
+    anyhow::ensure!(!numbers.has(0), "pen 0 stands for none: nothing is drawn with it; give others, as in 1,3-4");
+    Ok(numbers)
 }
 
 impl Choice {

@@ -44,6 +44,8 @@ mod table {
     pub static SOURCE_TOO_LARGE: Code = error("source/too-large", "The file has 4 GiB or more; split the marker.");
     /// No dialect recognises the content.
     pub static SOURCE_UNKNOWN: Code = error("source/unknown-format", "The content is none of the dialects that cutc reads; the message names what it looks like.");
+    /// Options for plots, and no plot.
+    pub static SOURCE_NO_PLOT: Code = warning("source/no-plot", "`--cut` or `--cut-pens` is given for a file that is no plot; they change nothing.");
 
     // ISO cut files.
     /// A block that is not words.
@@ -107,17 +109,31 @@ mod table {
     /// What draws and is not cut.
     pub static HPGL_LEFT_OUT: Code = warning("hpgl/instruction-not-obeyed", "A plot has an instruction that draws or moves and is not obeyed: fills, drawn characters, windows.");
     /// A size that depends on the plotter.
-    pub static HPGL_SCALE: Code = warning("hpgl/scale-of-device", "A plot is scaled to corners or a page that it does not give; the corners of a plotter for A4 paper are taken.");
+    pub static HPGL_SCALE: Code = warning("hpgl/scale-of-device", "The size of a plot depends on the plotter: it is scaled to corners or a page that it does not give, or its SC, IP, IR or RO is broken and ignored.");
     /// More than one page.
     pub static HPGL_PAGES: Code = warning("hpgl/several-pages", "A plot draws on after a page went out; the pages lie on each other.");
     /// The file ends amid a line.
     pub static HPGL_ENDS_PEN_DOWN: Code = error("hpgl/ends-pen-down", "A plot ends while the pen draws a line that does not close: it is most likely cut short.");
     /// An outline with a gap.
-    pub static HPGL_OPEN_OUTLINE: Code = warning("hpgl/open-outline", "A long line of a plot nearly closes, but not quite: it may be an outline, and is not cut.");
+    pub static HPGL_OPEN_OUTLINE: Code = warning("hpgl/open-outline", "A line of a plot, or several in a ring, nearly close, but not quite: they may be an outline, and are not cut.");
     /// A rectangle around all.
     pub static HPGL_FRAME: Code = warning("hpgl/frame", "A rectangle that holds all outlines of a plot is taken for the frame of the marker and is not cut.");
-    /// A search that was ended.
-    pub static HPGL_TOO_MANY: Code = warning("hpgl/too-many-lines", "A plot has so many lines that the search for what belongs to what was ended; some cut-outs, notches and letters are not recognised.");
+    /// A place that no table reaches.
+    pub static HPGL_FAR_PLACE: Code = error("hpgl/far-place", "A place of a plot lies more than a kilometre from the origin: a digit is doubled, or the unit is wrong.");
+    /// Curves that fill the memory.
+    pub static HPGL_CURVES: Code = error("hpgl/too-many-chords", "The curves of a plot, or polygons that are drawn again and again, have more chords than a plot can need.");
+    /// Drawing from where letters left the pen.
+    pub static HPGL_PLACE_UNKNOWN: Code = warning("hpgl/place-unknown", "A plot draws from where a text has left the pen, which depends on the letters of the plotter.");
+    /// Drawing with SP0.
+    pub static HPGL_NO_PEN: Code = warning("hpgl/no-pen", "A plot draws lines while no pen is taken (SP0); they are not cut.");
+    /// Letters in strokes.
+    pub static HPGL_TEXT: Code = warning("hpgl/taken-for-text", "Small closed lines of a plot that stand in a row with open ones of their height are taken for letters and are not cut; the message gives their count and first place.");
+    /// Marks or letters that were not looked for to the end.
+    pub static HPGL_SEARCH_ENDED: Code = warning("hpgl/search-ended", "A plot has so many lines that the search for notches and letters was ended; some are not recognised.");
+    /// A figure of eight.
+    pub static HPGL_CROSSED: Code = warning("hpgl/crossed-outline", "A closed line of a plot crosses itself so that its halves cancel each other: it may be an outline, and is not cut.");
+    /// Parts that cannot be told from cut-outs.
+    pub static HPGL_TOO_MANY: Code = error("hpgl/too-many-lines", "A plot has so many closed lines that the search for which lies in which was ended: cut-outs would be cut as parts.");
     /// Another size than the texts say, or than any table has.
     pub static HPGL_UNIT_DOUBTFUL: Code = warning("hpgl/unit-doubtful", "The extent of a plot, or a length that stands in its texts, suggests another unit; set `hpgl.unit` if it is.");
     /// No part.
@@ -209,6 +225,7 @@ pub static ALL: &[&Code] = &[
     &SOURCE_EMPTY,
     &SOURCE_TOO_LARGE,
     &SOURCE_UNKNOWN,
+    &SOURCE_NO_PLOT,
     &ISO_SYNTAX,
     &ISO_NO_VALUE,
     &ISO_FAR_PLACE,
@@ -243,6 +260,13 @@ pub static ALL: &[&Code] = &[
     &HPGL_ENDS_PEN_DOWN,
     &HPGL_OPEN_OUTLINE,
     &HPGL_FRAME,
+    &HPGL_FAR_PLACE,
+    &HPGL_CURVES,
+    &HPGL_PLACE_UNKNOWN,
+    &HPGL_NO_PEN,
+    &HPGL_TEXT,
+    &HPGL_SEARCH_ENDED,
+    &HPGL_CROSSED,
     &HPGL_TOO_MANY,
     &HPGL_UNIT_DOUBTFUL,
     &HPGL_NOTHING_TO_CUT,

@@ -27,6 +27,8 @@ pub struct Drawing {
     pub pen_down: f64,
     /// What the lines were taken for, in a fixed order.
     pub classes: Vec<DrawnClass>,
+    /// Texts that stand in no part: they belong to no piece.
+    pub texts_outside: usize,
     /// What is drawn beyond what the marker cuts.
     pub aside: Aside,
 }

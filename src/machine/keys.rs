@@ -226,6 +226,8 @@ pub const CODES: &str = "codes";
 
 /// The start of the names of the keys that say what a pen of a plot stands for.
 pub const PENS: &str = "hpgl.pens";
+/// What some take for such a key: with pen 0 plotters draw nothing.
+pub const NO_PEN: &str = "hpgl.pens.0";
 
 /// The key of that dotted name.
 pub fn find(name: &str) -> Option<&'static Key> {
@@ -288,10 +290,10 @@ pub fn near_codes(name: &str) -> Option<Vec<String>> {
     Some(codes.into_iter().take(NEAR_CODES).map(|code| format!("{CODES}.{code}")).collect())
 }
 
-/// Whether a word is the number of a pen: up to three digits, written in one way only.
+/// Whether a word is the number of a pen: up to three digits, written in one way only. Pen 0 is none.
 fn is_pen(word: &str) -> bool {
     let is_number = !word.is_empty() && word.len() <= 3 && word.bytes().all(|byte| byte.is_ascii_digit());
-    is_number && (word == "0" || !word.starts_with('0'))
+    is_number && !word.starts_with('0')
 }
 
 /// Whether the name is that of a table of keys, such as `axes.x`.

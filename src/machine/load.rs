@@ -149,6 +149,7 @@ impl Draft {
         let hint = match keys::near_codes(name).as_deref() {
             Some([code]) => format!("it is spelled `{code}`"),
             Some(codes) => format!("near ones are `{}`; the README lists all codes", codes.join("`, `")),
+            None if name == keys::NO_PEN => "pen 0 is none: plotters draw nothing with it, nor is it cut".to_owned(),
             None => format!("the nearest is `{}`; `cutc profile init` lists all keys", keys::nearest(name)),
         };
         let fault = Diagnostic::new(&code::PROFILE_UNKNOWN_KEY, format!("there is no key `{name}`"));

@@ -39,7 +39,7 @@ pub struct Numbers {
 #[derive(Debug, Error, PartialEq, Eq)]
 pub enum NotNumbers {
     /// Something else than a whole number stands there.
-    #[error("`{0}` is no piece number; give numbers and ranges, as in 3,7-12")]
+    #[error("`{0}` is no number; give numbers and ranges, as in 3,7-12")]
     Word(String),
     /// A range that runs down.
     #[error("the range {0}-{1} runs backward; did you mean {1}-{0}?")]

@@ -19,10 +19,10 @@ use tempfile::SpooledTempFile;
 
 use self::program::Sink;
 use crate::back::{Context, Emit, Estimate, Fitted, Proof, SETPOINTS, Target};
-use crate::diagnostic::Diagnostics;
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::{self, Dialect};
 use crate::ir::{Finding, Marker, Toolpath, check, text};
-use crate::machine::{Job, Mode};
+use crate::machine::{Job, Mode, plot};
 use crate::pass::marker::MARKER_PASSES;
 use crate::pass::toolpath::{Scene, TOOLPATH_PASSES, frame, trace};
 use crate::plan;
@@ -128,7 +128,14 @@ fn read_alone(
 ) -> Option<Input> {
     let extension = Path::new(source.name()).extension().and_then(|e| e.to_str());
     let dialect = from.or_else(|| front::detect(source, extension, diagnostics))?;
-    Some(Input { dialect, marker: (dialect.read)(source, job, diagnostics) })
+    let marker = (dialect.read)(source, job, diagnostics);
+    // Only a plot leaves it to others which of its lines are cut.
+    if marker.drawing.is_none() && job.lines != plot::Lines::default() && !diagnostics.has_errors() {
+        let message = "`--cut` and `--cut-pens` choose among the lines of a plot, and this is none: all of it is cut";
+        let finding = Diagnostic::new(&code::SOURCE_NO_PLOT, message);
+        diagnostics.push(finding.hint("leave them out; `--pieces` and `--skip` choose pieces of any file"));
+    }
+    Some(Input { dialect, marker })
 }
 
 /// Runs the marker passes up to and with `last`; `None` = all.

@@ -78,6 +78,8 @@ pub struct Drawn {
     /// Way of the pen while it is down, mm; lettered texts are not in it.
     #[serde(serialize_with = "micro")]
     pub pen_down_mm: f64,
+    /// Texts that stand in no part, and so belong to no piece.
+    pub texts_outside: usize,
     /// What the lines were taken for; classes without any are left out.
     pub lines: Vec<Lines>,
 }
@@ -105,7 +107,8 @@ impl Drawn {
             length_mm: class.length,
         };
         let there = drawing.classes.iter().filter(|class| class.count > 0);
-        Self { pen_down_mm: drawing.pen_down, lines: there.map(lines).collect() }
+        let texts_outside = drawing.texts_outside;
+        Self { pen_down_mm: drawing.pen_down, texts_outside, lines: there.map(lines).collect() }
     }
 }
 

@@ -99,7 +99,9 @@ pub fn source_audit(dialect: &str, bytes: &[u8], read: &Census, profile: &Machin
         worst.see(value, nowhere);
         Finding { place: None, ..worst.finding() }
     };
-    let length = (read.length - scanned.length).abs();
+    // A length in another unit is another length.
+    let is_same_unit = read.unit.to_bits() == scanned.unit.to_bits();
+    let length = if is_same_unit { (read.length - scanned.length).abs() } else { f64::INFINITY };
     Some(vec![
         finding("source/points", "points", read.points.abs_diff(scanned.points) as f64, 0.0),
         finding("source/drills", "holes", read.drills.abs_diff(scanned.drills) as f64, 0.0),

@@ -23,11 +23,14 @@ const MOST_NUMBERS: usize = 8;
 /// Corners of the scale where the file gives none, in units of the file.
 const CORNERS: [f64; 4] = [250.0, 596.0, 10_250.0, 7796.0];
 
+/// Height of a triangle, in units of the file, below which its corners lie on a line.
+const STRAIGHT: f64 = 1e-6;
+
 type Place = [f64; 2];
 
 /// Scans a plot.
 pub(super) fn scan(bytes: &[u8], read: &Census, profile: &MachineProfile) -> (Census, Slack) {
-    let unit = read.unit;
+    let unit = profile.hpgl.unit.mm();
     let sagitta = profile.tolerance(unit) * ARC_SAGITTA;
     let mut scan = Scan {
         bytes,
@@ -140,8 +143,9 @@ impl Scan<'_> {
         self.at += 1 + length;
     }
 
+    /// IN; DF leaves the pen, the corners and the turn alone.
     fn reset(&mut self) {
-        self.pen = Pen { at: self.pen.at, ..Pen::default() };
+        self.pen = Pen::default();
         (self.corners, self.scale, self.quarters, self.part) = (None, None, 0, None);
         (self.terminator, self.is_fresh) = (ETX, false);
         self.polygon.clear();
@@ -175,7 +179,8 @@ impl Scan<'_> {
     fn instruction(&mut self, mnemonic: [u8; 2]) {
         let cause = self.at;
         match &mnemonic {
-            b"IN" | b"DF" | b"BP" => self.reset(),
+            b"IN" | b"BP" => self.reset(),
+            b"DF" => (self.pen.is_relative, self.scale, self.terminator) = (false, None, ETX),
             b"PU" | b"PD" | b"PA" | b"PR" => {
                 match &mnemonic {
                     b"PU" => self.lift(),
@@ -342,6 +347,12 @@ impl Scan<'_> {
         }
     }
 
+    /// Degrees of the file as they turn on the table, rad.
+    fn turn(&self, degrees: f64) -> f64 {
+        let mirrors = |[_, factor]: [Place; 2]| factor[0].signum() != factor[1].signum();
+        if self.scale.is_some_and(mirrors) { -degrees.to_radians() } else { degrees.to_radians() }
+    }
+
     /// Figures and arcs.
     fn figure(&mut self, mnemonic: [u8; 2], numbers: &[f64], cause: usize) {
         let from = self.pen.at;
@@ -350,7 +361,7 @@ impl Scan<'_> {
         match (&mnemonic, numbers) {
             (b"AA" | b"AR", &[x, y, degrees, ..]) => {
                 let centre = self.target([x, y], is_relative);
-                let points = self.arc(from, centre, degrees.to_radians());
+                let points = self.arc(from, centre, self.turn(degrees));
                 self.follow(points, cause);
             }
             (b"AT" | b"RT", &[x1, y1, x2, y2, ..]) => {
@@ -372,12 +383,16 @@ impl Scan<'_> {
                 self.closed(from, [[to[0], from[1]], to, [from[0], to[1]], from], cause);
             }
             (b"EW", &[radius, start, degrees, ..]) => {
-                let (reach, angle) = (across(self, radius), start.to_radians());
-                let start = [from[0] + reach * angle.cos(), from[1] + reach * angle.sin()];
-                let mut points = vec![start];
-                points.extend(self.arc(start, from, degrees.to_radians()));
-                points.push(from);
-                self.closed(from, points, cause);
+                let angle = start.to_radians();
+                let start = self.target([radius * angle.cos(), radius * angle.sin()], true);
+                let mut points = self.arc(start, from, self.turn(degrees));
+                if degrees.abs() < 360.0 {
+                    points.insert(0, start);
+                    points.push(from);
+                    self.closed(from, points, cause);
+                } else {
+                    self.closed(start, points, cause);
+                }
             }
             (b"PM", numbers) => match numbers.first().copied().unwrap_or(0.0) {
                 0.0 => {
@@ -415,7 +430,7 @@ impl Scan<'_> {
             scan.corners = match *numbers {
                 [] => None,
                 [x1, y1, x2, y2, ..] => Some([x1, y1, x2, y2]),
-                [x, y, ..] => Some([x, y, x + c - a, y + d - b]),
+                [x, y] => Some([x, y, x + c - a, y + d - b]),
                 _ => scan.corners,
             };
         };
@@ -432,7 +447,8 @@ impl Scan<'_> {
             (b"PS", numbers) => self.page = numbers.first().map(|&x| [x, numbers.get(1).copied().unwrap_or(x)]),
             (b"RO", numbers) => {
                 let degrees = numbers.first().copied().unwrap_or(0.0);
-                self.quarters = [0.0, 90.0, 180.0, 270.0].iter().position(|&d| d == degrees).unwrap_or(0) as u8;
+                let quarters = [0.0, 90.0, 180.0, 270.0, 360.0].iter().position(|&d| d == degrees);
+                self.quarters = quarters.map_or(self.quarters, |quarters| quarters as u8 % 4);
             }
             (b"SC", &[x0, x1, y0, y1, ref kind @ ..]) => self.set_scale([x0, x1, y0, y1], kind),
             (b"SC", _) => self.scale = None,
@@ -445,6 +461,7 @@ impl Scan<'_> {
         let mut factor = [(c - a) / (x1 - x0), (d - b) / (y1 - y0)];
         let mut least = [a, b];
         match kind.first() {
+            Some(2.0) if x1 == 0.0 || y1 == 0.0 => return,
             Some(2.0) => factor = [x1, y1],
             _ if x0 == x1 || y0 == y1 => return,
             Some(1.0) => {
@@ -508,11 +525,12 @@ impl Scan<'_> {
     }
 }
 
-/// Centre and sweep of the arc by way of `middle`; `None` on a line.
+/// Centre and sweep of the arc by way of `middle`; `None` on a line, or where rounding cannot be told from a bend.
 fn circle(from: Place, middle: Place, to: Place) -> Option<(Place, f64)> {
-    if from == to {
+    let far = |p: Place, q: Place| (p[0] - q[0]).hypot(p[1] - q[1]);
+    if far(from, to) < STRAIGHT {
         let centre = [f64::midpoint(from[0], middle[0]), f64::midpoint(from[1], middle[1])];
-        return (middle != from).then_some((centre, TAU));
+        return (far(from, middle) > STRAIGHT).then_some((centre, TAU));
     }
     // The bisectors of the two chords from the start meet at the centre.
     let (a, b) = ([middle[0] - from[0], middle[1] - from[1]], [to[0] - from[0], to[1] - from[1]]);
@@ -520,7 +538,8 @@ fn circle(from: Place, middle: Place, to: Place) -> Option<(Place, f64)> {
     let half_square = |v: Place| f64::midpoint(v[0] * v[0], v[1] * v[1]);
     let (aa, bb) = (half_square(a), half_square(b));
     let seen = [(aa * b[1] - bb * a[1]) / cross, (bb * a[0] - aa * b[0]) / cross];
-    if !(seen[0].is_finite() && seen[1].is_finite()) {
+    let longest = far(from, middle).max(far(from, to)).max(far(middle, to));
+    if !seen[0].is_finite() || !seen[1].is_finite() || cross.abs() < STRAIGHT * longest {
         return None;
     }
     let angle = |p: Place| (p[1] - seen[1]).atan2(p[0] - seen[0]);

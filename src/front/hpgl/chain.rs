@@ -1,8 +1,13 @@
 //! Open strokes that continue each other become one: plots lift the pen inside an outline, and some write every line by
 //! itself, in any direction.
 
+use std::collections::BTreeMap;
+
 use super::drawing::{Drawing, Stroke, Vertex};
 use crate::geom::{Extent, Point};
+
+/// Places of the shortest line that goes around something and comes back: a triangle's.
+const LEAST_RING: usize = 4;
 
 /// An end of a stroke.
 #[derive(Debug, Clone, Copy)]
@@ -49,6 +54,100 @@ pub(super) fn join(drawing: &mut Drawing, is_spur: impl Fn(&Drawing, &Stroke) ->
             }
             at = next;
         }
+    }
+}
+
+/// Moves ends of strokes together that miss each other by no more than `reach` in each coordinate, mm, where exactly two
+/// are so near: one place that was rounded twice. The two ends of one stroke count when it may go around something.
+pub(super) fn snap(drawing: &mut Drawing, reach: f64) {
+    for [kept, moved] in near_pairs(&drawing.vertices, &drawing.strokes, reach) {
+        let stroke = drawing.strokes[moved.stroke as usize];
+        if kept.stroke == moved.stroke && stroke.range().len() < LEAST_RING {
+            continue;
+        }
+        let to = drawing.vertices[kept.vertex(&drawing.strokes)].at;
+        let at = moved.vertex(&drawing.strokes);
+        let neighbour = drawing.vertices[if moved.is_last { at - 1 } else { at + 1 }].at;
+        if neighbour == to {
+            continue;
+        }
+        let from = std::mem::replace(&mut drawing.vertices[at].at, to);
+        drawing.moved.length += (neighbour - from).norm() - (neighbour - to).norm();
+        drawing.moved.bounds.add(from);
+        drawing.strokes[moved.stroke as usize].extent.add(to);
+    }
+}
+
+/// Rings of several strokes whose ends nearly meet, as their indices: outlines that do not close.
+pub(super) fn near_rings(vertices: &[Vertex], strokes: &[Stroke], reach: f64) -> Vec<Vec<u32>> {
+    let mut links: BTreeMap<u32, [Option<End>; 2]> = BTreeMap::new();
+    for [a, b] in near_pairs(vertices, strokes, reach).into_iter().filter(|[a, b]| a.stroke != b.stroke) {
+        links.entry(a.stroke).or_default()[usize::from(a.is_last)] = Some(b);
+        links.entry(b.stroke).or_default()[usize::from(b.is_last)] = Some(a);
+    }
+    let mut rings = Vec::new();
+    while let Some((&first, _)) = links.first_key_value() {
+        let mut ring = Vec::new();
+        let mut at = End { stroke: first, is_last: false };
+        while let Some(ends) = links.remove(&at.stroke) {
+            ring.push(at.stroke);
+            let Some(next) = ends[usize::from(!at.is_last)] else { break };
+            if next.stroke == first && !next.is_last {
+                rings.push(std::mem::take(&mut ring));
+                break;
+            }
+            at = next;
+        }
+    }
+    rings
+}
+
+/// Pairs of ends that are near each other and no third one.
+fn near_pairs(vertices: &[Vertex], strokes: &[Stroke], reach: f64) -> Vec<[End; 2]> {
+    let mut ends: Vec<(Cell, End)> = Vec::new();
+    for (i, stroke) in strokes.iter().enumerate() {
+        let [first, last] = [stroke.first, stroke.end - 1].map(|k| vertices[k as usize].at);
+        if first == last {
+            continue;
+        }
+        for (at, is_last) in [(first, false), (last, true)] {
+            let cell = [at.x, at.y].map(|mm| (mm / reach).floor() as i64);
+            ends.push(((stroke.pen, cell), End { stroke: i as u32, is_last }));
+        }
+    }
+    ends.sort_unstable_by_key(|(cell, end)| (*cell, end.stroke, end.is_last));
+    let place = |end: &End| vertices[end.vertex(strokes)].at;
+    // The only end near one, as an index; nothing when there are more.
+    let only = |k: usize| -> Option<usize> {
+        let ((pen, [x, y]), end) = ends[k];
+        let column = |x: i64, from: i64, to: i64| {
+            let start = ends.partition_point(|(cell, _)| *cell < (pen, [x, from]));
+            start..start + ends[start..].partition_point(|(cell, _)| *cell <= (pen, [x, to]))
+        };
+        // Its own cell first: where many meet, the search ends there.
+        let own = column(x, y, y);
+        if own.len() > 2 {
+            return None;
+        }
+        let columns = [column(x - 1, y - 1, y + 1), column(x, y - 1, y + 1), column(x + 1, y - 1, y + 1)];
+        let at = place(&end);
+        let is_near = |other: &usize| *other != k && (place(&ends[*other].1) - at).amax() <= reach;
+        let mut near = columns.into_iter().flatten().filter(is_near);
+        near.next().filter(|_| near.next().is_none())
+    };
+    let pair =
+        |k: usize| only(k).filter(|&other| k < other && only(other) == Some(k)).map(|other| [ends[k].1, ends[other].1]);
+    (0..ends.len()).filter_map(pair).collect()
+}
+
+/// The pen, and the cell of a grid.
+type Cell = (u16, [i64; 2]);
+
+impl End {
+    /// The index of its place.
+    fn vertex(self, strokes: &[Stroke]) -> usize {
+        let stroke = &strokes[self.stroke as usize];
+        (if self.is_last { stroke.end - 1 } else { stroke.first }) as usize
     }
 }
 
@@ -189,6 +288,25 @@ mod tests {
     fn a_ring_of_strokes_closes() {
         check(&[&[(0., 0.), (1., 0.)], &[(1., 1.), (1., 0.)], &[(1., 1.), (0., 0.)]], &[&[0., 1., 1., 0.]]);
         check(&[&[(0., 0.), (1., 0.)], &[(1., 0.), (1., 1.), (0., 0.)]], &[&[0., 1., 1., 0.]]);
+    }
+
+    #[test]
+    fn ends_that_miss_each_other_by_rounding_are_moved_together() {
+        let strokes: [&[(f64, f64)]; 2] = [&[(0., 0.), (50., 0.), (50., 50.)], &[(50.01, 50.), (0., 50.), (0., 0.01)]];
+        let mut moved = drawing(&strokes);
+        snap(&mut moved, 0.02);
+        join(&mut moved, |_, _| false);
+        assert_eq!(moved.strokes.len(), 1);
+        let [first, last] = ends_of(&moved, &moved.strokes[0]);
+        assert_eq!(first, last);
+        assert!((moved.moved.length - 0.0).abs() < 1e-9, "{}", moved.moved.length);
+        assert!(moved.moved.bounds.max.x == 50.01 && moved.moved.bounds.min.y == 0.01);
+        let mut apart = drawing(&strokes);
+        snap(&mut apart, 0.005);
+        join(&mut apart, |_, _| false);
+        assert_eq!(apart.strokes.len(), 2);
+        assert_eq!(near_rings(&apart.vertices, &apart.strokes, 1.0), [[0, 1]]);
+        assert!(near_rings(&apart.vertices, &apart.strokes[..1], 1.0).is_empty());
     }
 
     #[test]

@@ -9,7 +9,7 @@ use super::drawing::{Drawing, Stroke};
 use super::nest::{self, Nest};
 use super::notch::{self, Found, Marks, Search};
 use super::piece;
-use super::shape::{Class, LONGEST_NOTCH, Mark, ROUNDING, Shape, Wanted, mark};
+use super::shape::{Class, LONGEST_NOTCH, Mark, ROUNDING, SHORTEST_NAMED, SHORTEST_OUTLINE, Shape, Wanted, mark};
 use super::text;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::ir::Marker;
@@ -40,7 +40,10 @@ const HOLE_FILL: f64 = 0.7;
 pub(super) fn classify(mut drawing: Drawing, labels: Vec<Label>, job: &Job, out: &mut Diagnostics) -> Marker {
     let unit = job.profile.hpgl.unit.mm();
     let slack = ROUNDING * unit;
-    chain::join(&mut drawing, |drawing, stroke| is_mark(drawing, stroke, unit));
+    let is_spur = |drawing: &Drawing, stroke: &Stroke| is_mark(drawing, stroke, unit);
+    chain::join(&mut drawing, is_spur);
+    chain::snap(&mut drawing, slack);
+    chain::join(&mut drawing, is_spur);
     let strokes = std::mem::take(&mut drawing.strokes);
     let mut shapes: Vec<Shape> = strokes.into_iter().map(|stroke| Shape::of(&drawing, stroke, job)).collect();
     for frame in nest::frames(&mut shapes, slack) {
@@ -58,7 +61,7 @@ pub(super) fn classify(mut drawing: Drawing, labels: Vec<Label>, job: &Job, out:
             _ if shape.class == Class::Frame => Class::Frame,
             Wanted::Nothing => Class::Pen,
             Wanted::All | Wanted::Open if !shape.is_closed => Class::Line,
-            Wanted::Guess if shape.gap(&drawing).is_some_and(|gap| gap <= LARGEST_GAP) => Class::Line,
+            Wanted::Guess if shape.length >= SHORTEST_OUTLINE && has_small_gap(shape, &drawing) => Class::Line,
             Wanted::Guess | Wanted::All | Wanted::Closed | Wanted::Open => Class::Other,
         };
     }
@@ -78,7 +81,20 @@ pub(super) fn classify(mut drawing: Drawing, labels: Vec<Label>, job: &Job, out:
     for found in found {
         shapes[found.mark].class = Class::Notch;
     }
-    is_cut_short |= text::mark_letters(&mut shapes).is_cut_short;
+    let letters = text::mark_letters(&mut shapes);
+    is_cut_short |= letters.is_cut_short;
+    if let Some(&first) = letters.closed.first() {
+        let count = letters.closed.len();
+        let lines = if count == 1 {
+            "a small closed line stands".to_owned()
+        } else {
+            format!("{count} small closed lines stand")
+        };
+        let message =
+            format!("{lines} in a row with open ones of like height, the first one here: taken for letters, not cut");
+        let finding = Diagnostic::new(&code::HPGL_TEXT, message).at(shapes[first].vertices(&drawing)[1].span);
+        out.push(finding.hint("if they are parts or cut-outs, `--cut closed` cuts every closed line"));
+    }
     for shape in &mut shapes {
         if shape.is_outline() && shape.class == Class::Other && is_hole(shape, job) {
             shape.class = Class::Hole;
@@ -94,10 +110,15 @@ pub(super) fn classify(mut drawing: Drawing, labels: Vec<Label>, job: &Job, out:
     marks.retain(|&i| shapes[i].class != Class::Text);
     let search = Search { drawing: &drawing, shapes: &shapes, unit, candidates: &marks, outlines: &outlines };
     let Marks { found: notches, is_cut_short: are_marks_cut_short } = notch::on_outlines(search);
-    if is_cut_short || is_nest_cut_short || are_marks_cut_short {
-        let message = "there are too many lines to tell what each belongs to; some cut-outs are taken for parts, and some \
-                       notches and letters are not recognised";
-        out.push(Diagnostic::new(&code::HPGL_TOO_MANY, message).hint("split the plot"));
+    if is_nest_cut_short {
+        let message = "there are too many closed lines to tell which lies in which: cut-outs would be cut as parts";
+        out.push(
+            Diagnostic::new(&code::HPGL_TOO_MANY, message).hint("split the plot, or leave out fills and hatchings"),
+        );
+    }
+    if is_cut_short || are_marks_cut_short {
+        let message = "there are too many lines to find every notch and letter among them: some are not recognised";
+        out.push(Diagnostic::new(&code::HPGL_SEARCH_ENDED, message).hint("split the plot, or leave texts out"));
     }
     for shape in &mut shapes {
         // A line that lost its outline to the letters is what it was before.
@@ -108,14 +129,47 @@ pub(super) fn classify(mut drawing: Drawing, labels: Vec<Label>, job: &Job, out:
     for found in &notches {
         shapes[found.mark].class = Class::Notch;
     }
-    for shape in shapes.iter().filter(|shape| shape.class == Class::Other && shape.wanted == Wanted::Guess) {
-        let Some(gap) = shape.gap(&drawing) else { continue };
-        let (length, gap) = (fixed(shape.length, 1), fixed(gap, 1));
-        let message = format!("a line of {length} mm ends {gap} mm from where it starts: it is not cut");
-        let finding = Diagnostic::new(&code::HPGL_OPEN_OUTLINE, message).at(shape.vertices(&drawing)[1].span);
-        out.push(finding.hint("if it is an outline, close it; `--cut all` cuts every line as it stands"));
-    }
+    name_near_outlines(&drawing, &shapes, out);
     piece::marker(&Sorted { drawing, shapes, outlines, parents, notches }, labels, job)
+}
+
+fn has_small_gap(shape: &Shape, drawing: &Drawing) -> bool {
+    shape.gap(drawing).is_some_and(|gap| gap <= LARGEST_GAP)
+}
+
+/// Names lines that are not cut and may be outlines: they nearly close, alone or with others, or they cross themselves.
+fn name_near_outlines(drawing: &Drawing, shapes: &[Shape], out: &mut Diagnostics) {
+    let is_left = |shape: &&Shape| shape.class == Class::Other && shape.wanted == Wanted::Guess;
+    let left: Vec<&Shape> = shapes.iter().filter(is_left).collect();
+    let name = |code, message, shape: &Shape| Diagnostic::new(code, message).at(shape.vertices(drawing)[1].span);
+    for shape in &left {
+        let length = fixed(shape.length, 1);
+        if let Some(gap) = shape.gap(drawing) {
+            let message =
+                format!("a line of {length} mm ends {} mm from where it starts: it is not cut", fixed(gap, 1));
+            let finding = name(&code::HPGL_OPEN_OUTLINE, message, shape);
+            out.push(finding.hint("if it is an outline, close it; `--cut all` cuts every line as it stands"));
+        } else if shape.is_crossed && shape.length >= SHORTEST_OUTLINE {
+            let message = format!("a closed line of {length} mm crosses itself, and its halves cancel: it is not cut");
+            let finding = name(&code::HPGL_CROSSED, message, shape);
+            out.push(finding.hint("if it is an outline, repair it; `--cut closed` cuts it as it is drawn"));
+        }
+    }
+    let strokes: Vec<Stroke> = left.iter().map(|shape| shape.stroke).collect();
+    for ring in chain::near_rings(&drawing.vertices, &strokes, LARGEST_GAP) {
+        let length: f64 = ring.iter().map(|&k| left[k as usize].length).sum();
+        if length >= SHORTEST_NAMED {
+            let (count, length) = (ring.len(), fixed(length, 1));
+            let message = format!(
+                "{count} lines of {length} mm in all go around, but their ends miss each other by up to {LARGEST_GAP} mm: \
+                 they are not cut"
+            );
+            let finding = name(&code::HPGL_OPEN_OUTLINE, message, left[ring[0] as usize]);
+            out.push(
+                finding.hint("if they are an outline, let the CAD join them; `--cut all` cuts them as they stand"),
+            );
+        }
+    }
 }
 
 /// How many outlines hold one.

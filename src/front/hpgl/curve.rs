@@ -6,6 +6,9 @@ use super::scale::Pair;
 
 /// The most chords of one curve: a damaged number must not fill the memory.
 const MOST_CHORDS: f64 = 100_000.0;
+/// Three places whose triangle is lower than this, in units of the plotter, lie on a line: hundred times what rounding
+/// leaves of places within a kilometre.
+const LINE_EPSILON: f64 = 1e-6;
 
 /// An arc.
 #[derive(Debug, Clone, Copy)]
@@ -38,28 +41,45 @@ impl Arc {
         })
     }
 
-    /// The arc from `from` by way of `middle` to `to`; `None` when the three lie on a line.
-    pub(super) fn through(from: Pair, middle: Pair, to: Pair) -> Option<Self> {
-        if from == to && middle != from {
+    /// The arc by way of some places; `None` when they lie on a line, or the arc bows out of its chord by no more than
+    /// `sagitta`: the chord stands for it.
+    pub(super) fn through(Through { from, middle, to }: Through, sagitta: f64) -> Option<Self> {
+        let (a, b) = ([middle[0] - from[0], middle[1] - from[1]], [to[0] - from[0], to[1] - from[1]]);
+        let (square_a, square_b) = (a[0] * a[0] + a[1] * a[1], b[0] * b[0] + b[1] * b[1]);
+        if square_b.sqrt() <= LINE_EPSILON && square_a.sqrt() > LINE_EPSILON {
             // A full circle: the middle lies opposite.
             let centre = [f64::midpoint(from[0], middle[0]), f64::midpoint(from[1], middle[1])];
             return Some(Self { from, centre, sweep: TAU });
         }
-        let (a, b) = ([middle[0] - from[0], middle[1] - from[1]], [to[0] - from[0], to[1] - from[1]]);
         let doubled = 2.0 * (a[0] * b[1] - a[1] * b[0]);
-        let (square_a, square_b) = (a[0] * a[0] + a[1] * a[1], b[0] * b[0] + b[1] * b[1]);
+        let along = a[0] * b[0] + a[1] * b[1];
+        let square_c = square_a + square_b - 2.0 * along;
+        // Twice the area of the triangle is its longest side by its height on it.
+        let height = doubled.abs() / 2.0 / square_a.max(square_b).max(square_c).sqrt();
+        // The product of the sides is four times the area by the radius; an arc bows out of its chord b by b2 / (8 r).
+        let bow = square_b * doubled.abs() / (8.0 * (square_a * square_b * square_c).sqrt());
+        let is_between = (0.0..=square_b).contains(&along);
+        // Three equal places have no height at all.
+        if height.is_nan() || height <= LINE_EPSILON || is_between && bow <= sagitta {
+            return None;
+        }
         let centre = [
             from[0] + (b[1] * square_a - a[1] * square_b) / doubled,
             from[1] + (a[0] * square_b - b[0] * square_a) / doubled,
         ];
-        if !(centre[0].is_finite() && centre[1].is_finite()) {
-            return None;
-        }
         let angle = |p: Pair| (p[1] - centre[1]).atan2(p[0] - centre[0]);
         let turned = (angle(to) - angle(from)).rem_euclid(TAU);
         // Counter-clockwise when the end lies left of the way from the start to the middle.
         Some(Self { from, centre, sweep: if doubled > 0.0 { turned } else { turned - TAU } })
     }
+}
+
+/// The places that an arc is led through, in their order.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Through {
+    pub(super) from: Pair,
+    pub(super) middle: Pair,
+    pub(super) to: Pair,
 }
 
 /// A cubic Bezier curve by its four control points.
@@ -125,11 +145,37 @@ mod tests {
 
     #[test]
     fn three_points_make_an_arc() {
-        let arc = Arc::through([1000.0, 0.0], [0.0, 1000.0], [-1000.0, 0.0]).expect("an arc");
+        let through = |from, middle, to| Arc::through(Through { from, middle, to }, SAGITTA);
+        let arc = through([1000.0, 0.0], [0.0, 1000.0], [-1000.0, 0.0]).expect("an arc");
         assert!(arc.centre[0].hypot(arc.centre[1]) < 1e-9 && (arc.sweep - TAU / 2.0).abs() < 1e-9, "{arc:?}");
-        let arc = Arc::through([1000.0, 0.0], [0.0, -1000.0], [0.0, 1000.0]).expect("an arc");
+        let arc = through([1000.0, 0.0], [0.0, -1000.0], [0.0, 1000.0]).expect("an arc");
         assert!((arc.sweep + 0.75 * TAU).abs() < 1e-9, "{arc:?}");
-        assert!(Arc::through([0.0, 0.0], [1.0, 1.0], [2.0, 2.0]).is_none());
+        let arc = through([1000.0, 0.0], [-1000.0, 0.0], [1000.0, 0.0]).expect("a circle");
+        assert!((arc.sweep - TAU).abs() < 1e-9 && arc.centre == [0.0, 0.0], "{arc:?}");
+    }
+
+    #[test]
+    fn places_on_a_line_make_no_arc_however_they_are_rounded() {
+        let through = |from, middle, to| Arc::through(Through { from, middle, to }, SAGITTA);
+        assert!(through([0.0, 0.0], [1.0, 1.0], [2.0, 2.0]).is_none());
+        assert!(through([0.0, 0.0], [0.0, 0.0], [0.0, 0.0]).is_none());
+        assert!(through([0.0, 0.0], [500.0, 0.4], [1000.0, 0.0]).is_none());
+        assert!(through([0.0, 0.0], [500.0, 0.6], [1000.0, 0.0]).is_some());
+        let mut random = fastrand::Rng::with_seed(1);
+        for _ in 0..10_000 {
+            let (scale, offset) = (40.0 * random.f64(), 10_000.0 * random.f64());
+            let [x, y, way, rise] = std::array::from_fn(|_| f64::from(random.i32(-1000..1000)));
+            let at = |i: i32| [offset + (x + way * f64::from(i)) * scale, offset + (y + rise * f64::from(i)) * scale];
+            let [from, middle] = [random.i32(-9..9), random.i32(-9..9)];
+            let to = loop {
+                let to = random.i32(-9..9);
+                if to != from {
+                    break to;
+                }
+            };
+            let [from, middle, to] = [from, middle, to].map(at);
+            assert!(through(from, middle, to).is_none(), "{from:?} {middle:?} {to:?}");
+        }
     }
 
     #[test]

@@ -11,6 +11,9 @@ pub(super) struct Vertex {
     pub(super) span: Span,
 }
 
+/// The number that stands for no pen (SP0).
+pub(super) const NO_PEN: u16 = 0;
+
 /// A line between two lifts: places of [`Drawing::vertices`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Stroke {
@@ -23,11 +26,28 @@ pub(super) struct Stroke {
     pub(super) extent: Extent,
 }
 
+/// What places had that were moved.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Moved {
+    /// How much longer lines were, mm; negative when they were shorter.
+    pub(super) length: f64,
+    /// The box around the places as they were.
+    pub(super) bounds: Extent,
+}
+
+impl Default for Moved {
+    fn default() -> Self {
+        Self { length: 0.0, bounds: Extent::EMPTY }
+    }
+}
+
 /// All strokes.
 #[derive(Debug, Default)]
 pub(super) struct Drawing {
     pub(super) vertices: Vec<Vertex>,
     pub(super) strokes: Vec<Stroke>,
+    /// What was drawn beyond them before ends that miss each other by rounding were moved together.
+    pub(super) moved: Moved,
     /// Whether the last stroke goes on.
     goes_on: bool,
 }

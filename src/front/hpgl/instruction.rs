@@ -3,8 +3,10 @@
 /// What an instruction does, as far as lines matter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Instruction {
-    /// IN, DF, BP: as switched on.
-    Reset,
+    /// IN, BP: as switched on.
+    Initialize,
+    /// DF: modes as switched on; pen, place, corners and turn stay.
+    Default,
     /// PA, PR: places from here on are absolute or relative.
     Absolute,
     Relative,
@@ -49,12 +51,71 @@ pub(super) enum Instruction {
     Comment,
     /// DI, DR: direction of labels.
     Direction,
-    /// Something that draws, or moves, and is left out: what it is.
+    /// Something that draws and is left out: what it is.
     LeftOut(&'static str),
+    /// The same, and it moves the pen by the size of letters, which nobody knows.
+    Letters(&'static str),
     /// No effect on lines.
     Housekeeping,
     /// Not in the table.
     Unknown,
+}
+
+/// What stands behind a mnemonic.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Tail {
+    /// Numbers, or nothing.
+    Numbers,
+    /// A text up to the terminator.
+    Text,
+    /// A byte.
+    Terminator,
+    /// A text in quotes.
+    Comment,
+    /// Numbers in digits of base 64 or 32.
+    Encoded,
+}
+
+impl Instruction {
+    /// What stands behind its mnemonic.
+    pub(super) fn tail(self) -> Tail {
+        match self {
+            Self::Label => Tail::Text,
+            Self::Terminator => Tail::Terminator,
+            Self::Comment => Tail::Comment,
+            Self::Encoded => Tail::Encoded,
+            Self::Initialize
+            | Self::Default
+            | Self::Absolute
+            | Self::Relative
+            | Self::Up
+            | Self::Down
+            | Self::Pen
+            | Self::ArcAbsolute
+            | Self::ArcRelative
+            | Self::ArcThroughAbsolute
+            | Self::ArcThroughRelative
+            | Self::Circle
+            | Self::BezierAbsolute
+            | Self::BezierRelative
+            | Self::RectangleAbsolute
+            | Self::RectangleRelative
+            | Self::Wedge
+            | Self::Polygon
+            | Self::EdgePolygon
+            | Self::Scale
+            | Self::Corners
+            | Self::CornersPercent
+            | Self::Rotate
+            | Self::PageSize
+            | Self::Page
+            | Self::Direction
+            | Self::LeftOut(_)
+            | Self::Letters(_)
+            | Self::Housekeeping
+            | Self::Unknown => Tail::Numbers,
+        }
+    }
 }
 
 /// The instruction of a mnemonic in upper case.
@@ -66,7 +127,8 @@ pub(super) fn instruction(mnemonic: [u8; 2]) -> Instruction {
         b"PR" => Instruction::Relative,
         b"SP" => Instruction::Pen,
         b"PE" => Instruction::Encoded,
-        b"IN" | b"DF" | b"BP" => Instruction::Reset,
+        b"IN" | b"BP" => Instruction::Initialize,
+        b"DF" => Instruction::Default,
         b"AA" => Instruction::ArcAbsolute,
         b"AR" => Instruction::ArcRelative,
         b"AT" => Instruction::ArcThroughAbsolute,
@@ -89,8 +151,8 @@ pub(super) fn instruction(mnemonic: [u8; 2]) -> Instruction {
         b"DT" => Instruction::Terminator,
         b"CO" => Instruction::Comment,
         b"DI" | b"DR" => Instruction::Direction,
-        b"UC" => Instruction::LeftOut("a drawn character"),
-        b"CP" => Instruction::LeftOut("a move by characters"),
+        b"UC" => Instruction::Letters("a drawn character"),
+        b"CP" => Instruction::Letters("a move by characters"),
         b"FT" => Instruction::LeftOut("a fill pattern"),
         b"RA" | b"RR" => Instruction::LeftOut("a filled rectangle"),
         b"WG" => Instruction::LeftOut("a filled wedge"),

@@ -2,13 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use super::curve::{Arc, Bezier};
-use super::drawing::Drawing;
+use super::curve::{Arc, Bezier, Through};
+use super::drawing::{Drawing, NO_PEN};
 use super::encoded::{Ending, Item};
 use super::instruction::Instruction;
-use super::plotter::{Plotter, TooFar};
+use super::plotter::{Plotter, Refusal, Sheet};
 use super::reader::{Next, Reader, Statement};
-use super::scale::{Pair, Unknown};
+use super::scale::{Frame, Pair, Unknown};
 use super::tally::Tally;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Heading, Vector};
@@ -37,11 +37,12 @@ pub(super) struct Measure {
 pub(super) fn lower(source: &Source, measure: Measure, out: &mut Diagnostics) -> Plot {
     let mut lowering = Lowering {
         reader: Reader::new(source.bytes()),
-        plotter: Plotter::new(measure.unit, Drawing::with_room(source.bytes().len() / BYTES_A_VERTEX)),
+        plotter: Plotter::new(Sheet { unit: measure.unit, bytes: source.bytes().len() }),
         sagitta: measure.sagitta / measure.unit,
         labels: Vec::new(),
         heading: None,
         page_out: None,
+        doubts: Vec::new(),
         tally: Tally::default(),
         out,
     };
@@ -61,16 +62,18 @@ struct Lowering<'a> {
     heading: Option<Heading>,
     /// How much was drawn when a page went out, and where that stands.
     page_out: Option<(usize, Span)>,
+    /// What was said of scales, each thing once.
+    doubts: Vec<Unknown>,
     tally: Tally,
     out: &'a mut Diagnostics,
 }
 
 /// A pen number beyond this is damage: it is taken as no pen.
 const MOST_PENS: f64 = 999.0;
-/// Bytes of a large plot for each of its vertices: more than most have, so that no memory is taken in vain.
-const BYTES_A_VERTEX: usize = 16;
-/// Fraction bits of PE beyond this are damage.
-const MOST_FRACTION_BITS: i64 = 52;
+/// Fraction bits of PE, of either sign; more are damage. (Hewlett-Packard, "HP-GL/2 and HP RTL Reference Guide", PE.)
+const FRACTION_BITS: std::ops::RangeInclusive<i64> = -26..=26;
+/// Degrees of a full turn.
+const FULL_TURN: f64 = 360.0;
 
 impl Lowering<'_> {
     fn run(&mut self) {
@@ -80,11 +83,15 @@ impl Lowering<'_> {
                 Statement::Instruction(Instruction::LeftOut(what), mnemonic) => {
                     self.tally.left_out(mnemonic, what, span);
                 }
+                Statement::Instruction(Instruction::Letters(what), mnemonic) => {
+                    self.tally.left_out(mnemonic, what, span);
+                    self.plotter.drift();
+                }
                 Statement::Instruction(instruction, _) => {
                     self.tally.sound();
                     self.obey(instruction, span);
                 }
-                Statement::Reset => self.plotter.reset(),
+                Statement::Reset => self.reset(),
                 Statement::Junk => self.tally.junk(span),
             }
             if self.tally.is_hopeless() {
@@ -114,6 +121,20 @@ impl Lowering<'_> {
             self.out.push(finding.hint("the file is most likely cut short; export it again"));
         }
         self.plotter.lift();
+        self.tally.adrift(self.plotter.adrift);
+        let pens = || self.plotter.drawing.strokes.iter().filter(|stroke| stroke.pen == NO_PEN);
+        if let Some(first) = pens().next() {
+            let lines = if pens().count() == 1 { "a line is" } else { &format!("{} lines are", pens().count()) };
+            let message = format!("{lines} drawn while no pen is taken (SP0), the first one here: not cut");
+            let span = self.plotter.drawing.vertices[first.first as usize + 1].span;
+            let finding = Diagnostic::new(&code::HPGL_NO_PEN, message).at(span);
+            self.out.push(finding.hint("plotters draw nothing there; if they are outlines, let the CAD take pen 1"));
+        }
+    }
+
+    fn reset(&mut self) {
+        self.plotter.reset();
+        self.heading = None;
     }
 
     fn obey(&mut self, instruction: Instruction, span: Span) {
@@ -156,7 +177,7 @@ impl Lowering<'_> {
             },
             Instruction::EdgePolygon => {
                 let drawn = self.plotter.edge_polygon();
-                self.check(&drawn, span);
+                self.check(drawn, span);
             }
             Instruction::Page => {
                 let drawn = self.plotter.drawing.strokes.len();
@@ -172,16 +193,20 @@ impl Lowering<'_> {
                 let way = values.get(1).map(|&rise| Vector::new(values[0], rise));
                 self.heading = way.filter(|way| way.norm() > 0.0).map(Heading::of).filter(|h| h.radians() != 0.0);
             }
-            Instruction::Reset => {
-                self.plotter.reset();
+            Instruction::Initialize => self.reset(),
+            Instruction::Default => {
+                self.plotter.set_default();
                 self.heading = None;
             }
-            Instruction::Scale
-            | Instruction::Corners
-            | Instruction::CornersPercent
-            | Instruction::Rotate
-            | Instruction::PageSize => self.frame(instruction, span),
-            Instruction::Housekeeping | Instruction::LeftOut(_) | Instruction::Unknown => {}
+            Instruction::Scale => self.frame(Frame::set_scale, span),
+            Instruction::Corners => self.frame(Frame::set_corners, span),
+            Instruction::CornersPercent => self.frame(Frame::set_corners_percent, span),
+            Instruction::Rotate => self.frame(Frame::rotate, span),
+            Instruction::PageSize => {
+                let values = self.values::<2>();
+                self.plotter.frame.set_page(&values);
+            }
+            Instruction::Housekeeping | Instruction::LeftOut(_) | Instruction::Letters(_) | Instruction::Unknown => {}
         }
     }
 
@@ -190,7 +215,7 @@ impl Lowering<'_> {
         match self.reader.values() {
             Ok(values) => values,
             Err(span) => {
-                self.tally.too_far(span);
+                self.tally.overflow(span);
                 arrayvec::ArrayVec::new()
             }
         }
@@ -203,14 +228,14 @@ impl Lowering<'_> {
                 Next::Some(pair) => return Some(pair),
                 Next::End => return None,
                 Next::Odd(span) => self.tally.odd(span),
-                Next::Overflow(span) => self.tally.too_far(span),
+                Next::Overflow(span) => self.tally.overflow(span),
             }
         }
     }
 
-    fn check(&mut self, outcome: &Result<(), TooFar>, span: Span) {
-        if outcome.is_err() {
-            self.tally.too_far(span);
+    fn check(&mut self, outcome: Result<(), Refusal>, span: Span) {
+        if let Err(refusal) = outcome {
+            self.tally.refused(refusal, span);
         }
     }
 
@@ -220,38 +245,29 @@ impl Lowering<'_> {
             let to = self.plotter.target(pair);
             let outcome =
                 if self.plotter.starts_part() { self.plotter.start_part(to, span) } else { self.plotter.go(to, span) };
-            self.check(&outcome, span);
+            self.check(outcome, span);
+            self.plotter.settle_by_mode();
         }
     }
 
     fn take_pen(&mut self, pen: f64) {
-        self.plotter.take_pen(if (0.0..=MOST_PENS).contains(&pen) { pen as u16 } else { 0 });
+        self.plotter.take_pen(if (0.0..=MOST_PENS).contains(&pen) { pen as u16 } else { NO_PEN });
     }
 
-    fn frame(&mut self, instruction: Instruction, span: Span) {
+    /// SC, IP, IR, RO.
+    fn frame(&mut self, set: fn(&mut Frame, &[f64]) -> Result<(), Unknown>, span: Span) {
         let values = self.values::<7>();
-        let frame = &mut self.plotter.frame;
-        let outcome = match instruction {
-            Instruction::Scale => frame.set_scale(&values),
-            Instruction::CornersPercent => frame.set_corners_percent(&values),
-            Instruction::Corners => {
-                frame.set_corners(&values);
-                Ok(())
-            }
-            Instruction::Rotate => {
-                frame.rotate(values.first().copied().unwrap_or(0.0));
-                Ok(())
-            }
-            _ => {
-                frame.set_page(&values);
-                Ok(())
-            }
-        };
-        let message = match outcome {
-            Ok(()) => return,
-            Err(Unknown::Corners) => "SC scales the drawing to corners that the file does not give (IP)",
-            Err(Unknown::Page) => "IR gives corners in percent of a page whose size the file does not give (PS)",
-            Err(Unknown::Range) => "SC scales from a range without width and is ignored",
+        let Err(doubt) = set(&mut self.plotter.frame, &values) else { return };
+        if self.doubts.contains(&doubt) {
+            return;
+        }
+        self.doubts.push(doubt);
+        let message = match doubt {
+            Unknown::Corners => "SC scales the drawing to corners that the file does not give (IP)",
+            Unknown::Page => "IR gives corners in percent of a page whose size the file does not give (PS)",
+            Unknown::Range => "SC scales from a range without width and is ignored",
+            Unknown::Incomplete => "numbers are missing here: SC needs four of them, IP and IR two or four",
+            Unknown::Angle => "RO turns by quarters only; another angle is ignored",
         };
         let finding = Diagnostic::new(&code::HPGL_SCALE, message).at(span);
         self.out.push(
@@ -262,7 +278,7 @@ impl Lowering<'_> {
     /// PE.
     fn encoded(&mut self) {
         let mut body = self.reader.body();
-        let (mut divisor, mut is_absolute, mut is_up) = (1.0, false, false);
+        let (mut factor, mut is_absolute, mut is_up) = (1.0, false, false);
         // What the next number is, and the first of two coordinates with its place.
         let mut flag = None;
         let mut first: Option<(f64, usize)> = None;
@@ -286,9 +302,13 @@ impl Lowering<'_> {
             };
             match flag.take() {
                 Some(Item::Pen) => self.take_pen(number as f64),
-                Some(_) => divisor = ((1_u64 << number.clamp(0, MOST_FRACTION_BITS)) as f64).max(1.0),
+                Some(_) if FRACTION_BITS.contains(&number) => factor = 2.0_f64.powi(-number as i32),
+                Some(_) => {
+                    body.ending = Ending::Damaged;
+                    break;
+                }
                 None => {
-                    let value = number as f64 / divisor;
+                    let value = number as f64 * factor;
                     let Some((x, start)) = first.take() else {
                         first = Some((value, start));
                         continue;
@@ -302,7 +322,10 @@ impl Lowering<'_> {
                         self.plotter.lower();
                     }
                     let outcome = self.plotter.go(to, span);
-                    self.check(&outcome, span);
+                    self.check(outcome, span);
+                    if is_absolute {
+                        self.plotter.settle();
+                    }
                     (is_absolute, is_up) = (false, false);
                 }
             }
@@ -336,7 +359,12 @@ impl Lowering<'_> {
         let [x, y, degrees, ..] = values[..] else { return };
         let pair = [x, y];
         let centre = if is_relative { self.plotter.relative(pair) } else { self.plotter.absolute(pair) };
-        self.follow(Arc { from: self.plotter.at(), centre, sweep: rad(degrees) }, span);
+        self.follow(Arc { from: self.plotter.at(), centre, sweep: self.sweep(rad(degrees)) }, span);
+    }
+
+    /// An angle of the file as the plotter turns, rad: a mirrored scale turns it round.
+    fn sweep(&self, angle: f64) -> f64 {
+        if self.plotter.frame.is_mirrored() { -angle } else { angle }
     }
 
     /// AT, RT: a middle and an end.
@@ -345,16 +373,19 @@ impl Lowering<'_> {
         let [x1, y1, x2, y2, ..] = values[..] else { return };
         let place = |pair| if is_relative { self.plotter.relative(pair) } else { self.plotter.absolute(pair) };
         let (middle, to) = (place([x1, y1]), place([x2, y2]));
-        if let Some(arc) = Arc::through(self.plotter.at(), middle, to) {
+        if let Some(arc) = Arc::through(Through { from: self.plotter.at(), middle, to }, self.sagitta) {
             self.follow(arc, span);
         }
         let outcome = self.plotter.go(to, span);
-        self.check(&outcome, span);
+        self.check(outcome, span);
+        if !is_relative {
+            self.plotter.settle();
+        }
     }
 
     fn follow(&mut self, arc: Arc, span: Span) {
         let outcome = arc.flatten(self.sagitta).try_for_each(|to| self.plotter.go(to, span));
-        self.check(&outcome, span);
+        self.check(outcome, span);
     }
 
     /// CI: radius, around the place of the pen.
@@ -363,9 +394,9 @@ impl Lowering<'_> {
         let centre = self.plotter.at();
         let [across, _] = self.plotter.relative([radius, 0.0]);
         let start = [across, centre[1]];
-        let arc = Arc { from: start, centre, sweep: TAU };
+        let arc = Arc { from: start, centre, sweep: self.sweep(TAU) };
         let outcome = self.plotter.figure(start, arc.flatten(self.sagitta), span);
-        self.check(&outcome, span);
+        self.check(outcome, span);
     }
 
     /// BZ, BR: three control points a curve; those of BR are relative to its start.
@@ -379,7 +410,10 @@ impl Lowering<'_> {
             let place = |pair| if is_relative { self.plotter.relative(pair) } else { self.plotter.absolute(pair) };
             let curve = Bezier([self.plotter.at(), place(first), place(second), place(third)]);
             let outcome = curve.flatten(self.sagitta).try_for_each(|to| self.plotter.go(to, span));
-            self.check(&outcome, span);
+            self.check(outcome, span);
+            if !is_relative {
+                self.plotter.settle();
+            }
         }
     }
 
@@ -392,21 +426,24 @@ impl Lowering<'_> {
         let to = if is_relative { self.plotter.relative(pair) } else { self.plotter.absolute(pair) };
         let corners = [[to[0], from[1]], to, [from[0], to[1]], from];
         let outcome = self.plotter.figure(from, corners, span);
-        self.check(&outcome, span);
+        self.check(outcome, span);
     }
 
-    /// EW: radius, start and sweep in degrees; a negative radius counts the angles from the other side.
+    /// EW: radius, start and sweep in degrees; a negative radius counts the angles from the other side. A full turn is a
+    /// circle without radii.
     fn wedge(&mut self, span: Span) {
         let values = self.values::<4>();
         let [radius, start, degrees, ..] = values[..] else { return };
         let centre = self.plotter.at();
-        let reach = self.plotter.relative([radius, 0.0])[0] - centre[0];
         let (sin, cos) = rad(start).sin_cos();
-        let from = [centre[0] + reach * cos, centre[1] + reach * sin];
-        let arc = Arc { from, centre, sweep: rad(degrees) }.flatten(self.sagitta);
-        let points = std::iter::once(from).chain(arc).chain([centre]);
-        let outcome = self.plotter.figure(centre, points, span);
-        self.check(&outcome, span);
+        let from = self.plotter.relative([radius * cos, radius * sin]);
+        let arc = Arc { from, centre, sweep: self.sweep(rad(degrees)) }.flatten(self.sagitta);
+        let outcome = if degrees.abs() >= FULL_TURN {
+            self.plotter.figure(from, arc, span)
+        } else {
+            self.plotter.figure(centre, std::iter::once(from).chain(arc).chain([centre]), span)
+        };
+        self.check(outcome, span);
     }
 
     /// LB.
@@ -418,6 +455,7 @@ impl Lowering<'_> {
         if text.start < text.end {
             let (at, heading) = (Some(self.plotter.place()), self.heading);
             self.labels.push(Label { at, heading, span: text, mirrored: None });
+            self.plotter.drift();
         }
     }
 }

@@ -3,12 +3,13 @@
 //! Receives bytes: instructions of two letters with numbers, in all the spellings that plotters tolerate, compact encodings,
 //! curves, scales. Promises a marker in mm like that of a cut file: parts with their cut-outs, slits as notches, equal
 //! places equal to the bit, texts never cut; and an account of every line, what it was taken for. Curves are chords within
-//! a quarter of the tolerance. Never closes an outline that the file leaves open.
+//! a quarter of the tolerance. Never closes an outline that the file leaves open, but for what rounding has parted.
 //!
 //! [`reader`] makes statements of bytes with [`syntax`], [`escape`], [`label`] and [`encoded`]; [`instruction`] is the table
 //! of what they mean; [`mod@lower`] follows them with the [`plotter`], its [`scale`] and [`curve`], into a [`drawing`].
 //! [`classify`] then decides what is cut: [`chain`] joins strokes, [`shape`] measures them, [`nest`], [`notch`] and [`text`]
-//! recognise, [`piece`] makes the marker with [`boxes`] to find its parts. [`mod@unit`] doubts the size; [`tally`] counts what was not obeyed.
+//! recognise, [`piece`] makes the marker with [`boxes`] to find its parts. [`mod@unit`] doubts the size; [`tally`]
+//! counts what was not obeyed; [`nothing`] says why nothing is cut.
 
 mod boxes;
 mod chain;
@@ -22,6 +23,7 @@ mod label;
 mod lower;
 mod nest;
 mod notch;
+mod nothing;
 mod piece;
 mod plotter;
 mod reader;
@@ -34,7 +36,7 @@ mod unit;
 
 use self::instruction::Instruction;
 use self::lower::{Measure, lower};
-use self::reader::{Reader, Statement};
+use self::reader::{Flaw, Reader, Statement};
 use super::{Dialect, Likeness, foreign};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Extent;
@@ -71,17 +73,7 @@ fn sniff(bytes: &[u8]) -> Likeness {
             instruction,
             Instruction::Down | Instruction::Up | Instruction::Absolute | Instruction::Relative | Instruction::Encoded
         );
-        match instruction {
-            Instruction::Label => _ = reader.text(),
-            Instruction::Terminator => reader.define_terminator(),
-            Instruction::Comment => reader.comment(),
-            Instruction::Encoded => {
-                let mut body = reader.body();
-                while body.next().is_some() {}
-                reader.behind(&body);
-            }
-            _ => {}
-        }
+        reader.pass_over(instruction.tail());
         known += usize::from(instruction != Instruction::Unknown);
     }
     match known {
@@ -95,23 +87,26 @@ fn sniff(bytes: &[u8]) -> Likeness {
 fn check_syntax(source: &Source, out: &mut Diagnostics) {
     let mut reader = Reader::new(source.bytes());
     while let Some((statement, span)) = reader.next() {
-        match statement {
-            Statement::Instruction(Instruction::Label, _) => _ = reader.text(),
-            Statement::Instruction(Instruction::Terminator, _) => reader.define_terminator(),
-            Statement::Instruction(Instruction::Comment, _) => reader.comment(),
-            Statement::Instruction(Instruction::Encoded, _) => {
-                let mut body = reader.body();
-                while body.next().is_some() {}
-                if body.ending == encoded::Ending::Damaged {
-                    out.push(Diagnostic::new(&code::HPGL_PE_DAMAGED, "an encoded polyline is damaged").at(span));
+        let finding = match statement {
+            Statement::Instruction(Instruction::Unknown, _) => {
+                Diagnostic::new(&code::HPGL_UNKNOWN, "this instruction is not known").at(span)
+            }
+            Statement::Instruction(instruction, _) => match reader.pass_over(instruction.tail()) {
+                None => continue,
+                Some(Flaw::Overflow(at)) => {
+                    Diagnostic::new(&code::HPGL_OVERFLOW, "a number is beyond any table").at(at)
                 }
-                reader.behind(&body);
-            }
-            Statement::Junk => {
-                out.push(Diagnostic::new(&code::HPGL_JUNK, "what stands here is no instruction").at(span));
-            }
-            Statement::Instruction(..) | Statement::Reset => {}
-        }
+                Some(Flaw::Damaged(at)) => {
+                    Diagnostic::new(&code::HPGL_PE_DAMAGED, "an encoded polyline is damaged").at(at)
+                }
+                Some(Flaw::Open(at)) => {
+                    Diagnostic::new(&code::HPGL_PE_OPEN, "an encoded polyline has no semicolon").at(at)
+                }
+            },
+            Statement::Junk => Diagnostic::new(&code::HPGL_JUNK, "what stands here is no instruction").at(span),
+            Statement::Reset => continue,
+        };
+        out.push(finding);
     }
 }
 
@@ -127,18 +122,11 @@ fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker {
         extent.add(stroke.extent.min);
         extent.add(stroke.extent.max);
     }
-    let is_blank = plot.drawing.strokes.is_empty();
+    let pens = nothing::pens(&plot.drawing);
     unit::check_plausible(unit::Sized { unit, extent: &extent, source, labels: &plot.labels }, out);
     let marker = classify::classify(plot.drawing, plot.labels, job, out);
     if marker.pieces.is_empty() && !out.has_errors() {
-        let message =
-            if is_blank { "the plot draws no line" } else { "no line of the plot is taken for something to cut" };
-        let finding = Diagnostic::new(&code::HPGL_NOTHING_TO_CUT, message);
-        out.push(if is_blank {
-            finding
-        } else {
-            finding.hint("`--cut all` cuts every line, `--cut-pens 1` those of a pen")
-        });
+        out.push(nothing::finding(&pens, job));
     }
     marker
 }

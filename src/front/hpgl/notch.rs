@@ -1,5 +1,7 @@
 //! Notches: marks that stand on an outline, and spikes in it that go out and straight back.
 
+use std::collections::BTreeMap;
+
 use super::drawing::{Drawing, Vertex};
 use super::shape::{Mark, ROUNDING, SHORTEST_NOTCH, Shape, is_near, mark};
 use crate::geom::{Extent, Point, polyline, ring};
@@ -16,7 +18,7 @@ pub(super) struct Found {
     pub(super) mark: usize,
     /// Index of the outline in the list that was searched.
     pub(super) outline: usize,
-    /// The cut from the edge; `None` for two legs, which are cut as they are drawn.
+    /// The cut from the edge; `None` for two legs.
     pub(super) cut: Option<[Point; 2]>,
 }
 
@@ -95,8 +97,14 @@ pub(super) fn on_outlines(search: Search) -> Marks {
             break;
         }
     }
-    let outline_ring =
-        |k: usize| -> Vec<Point> { shapes[outlines[k]].vertices(drawing).iter().map(|v| v.at).collect() };
+    let mut rings: BTreeMap<usize, Vec<Point>> = BTreeMap::new();
+    let mut is_in = |k: usize, at: Point| {
+        let ring = rings
+            .entry(k)
+            .or_insert_with(|| shapes[outlines[k]].vertices(drawing).iter().map(|vertex| vertex.at).collect());
+        work = work.saturating_sub(ring.len());
+        work > 0 && ring::contains(ring, at)
+    };
     let found = marks
         .iter()
         .enumerate()
@@ -109,14 +117,16 @@ pub(super) fn on_outlines(search: Search) -> Marks {
                     let (root, tip) = if distance(b) < distance(a) { (b, a) } else { (a, b) };
                     let [nearest, second] = root.on;
                     // On the edge of two parts the notch belongs to the one that it leads into.
-                    let leads_in =
-                        |on: Option<(f64, usize)>| on.filter(|on| ring::contains(&outline_ring(on.1), tip.at));
+                    let mut leads_in = |on: Option<(f64, usize)>| on.filter(|on| is_in(on.1, tip.at));
                     // A line from edge to edge is a chord, such as the cross in a circle.
                     if root.common(tip).is_some() {
                         return None;
                     }
-                    let outline =
-                        if second.is_some() { leads_in(nearest).or(leads_in(second)).or(nearest) } else { nearest };
+                    let outline = if second.is_some() {
+                        leads_in(nearest).or_else(|| leads_in(second)).or(nearest)
+                    } else {
+                        nearest
+                    };
                     (outline?.1, Some([root.at, tip.at]))
                 }
             };
@@ -178,10 +188,13 @@ pub(super) struct Pruned {
     /// Drawn beyond what is left and one cut a spike: places, and length, mm.
     pub(super) points: usize,
     pub(super) length: f64,
+    /// Tips that are too near to be notches: they are dropped.
+    pub(super) dropped: Vec<Point>,
 }
 
 /// Takes the spikes out of a closed line. A way that comes back to its root to the bit is a spike however long it is;
-/// one that misses it by rounding is bridged, and is a spike when it is as long as a notch.
+/// one that misses it by rounding is bridged, and is a spike when it is as long as a notch. Shorter ones are the jitter of
+/// a digitiser and are dropped.
 pub(super) fn prune(vertices: &[Vertex], unit: f64, longest: f64) -> Pruned {
     let mut pruned = Pruned { vertices: Vec::with_capacity(vertices.len()), ..Pruned::default() };
     for &vertex in vertices {
@@ -221,6 +234,12 @@ pub(super) fn prune(vertices: &[Vertex], unit: f64, longest: f64) -> Pruned {
 impl Pruned {
     /// A spike whose way back is drawn beside its cut.
     fn add(&mut self, root: Point, tip: Vertex, depth: f64) {
+        if depth < SHORTEST_NOTCH {
+            self.dropped.push(tip.at);
+            self.points += 2;
+            self.length += 2.0 * depth;
+            return;
+        }
         self.spikes.push(Spike { root, tip });
         self.points += 1;
         self.length += depth;
@@ -269,5 +288,16 @@ mod tests {
         check(&drawn, &bridged, &[(25., 5.)]);
         let wide = [(0., 0.), (25., 0.), (25., 5.), (25.1, 0.), (50., 0.), (50., 50.), (0., 0.)];
         check(&wide, &wide, &[]);
+    }
+
+    #[test]
+    fn a_step_out_and_back_that_is_shorter_than_a_notch_is_dropped() {
+        let left = [(0., 0.), (25., 0.), (50., 0.), (50., 50.), (0., 0.)];
+        check(&[(0., 0.), (25., 0.), (25., 0.025), (25., 0.), (50., 0.), (50., 50.), (0., 0.)], &left, &[]);
+        check(
+            &[(25., 0.9), (25., 0.), (50., 0.), (50., 50.), (0., 0.), (25., 0.), (25., 0.9)],
+            &[(25., 0.), (50., 0.), (50., 50.), (0., 0.), (25., 0.)],
+            &[],
+        );
     }
 }

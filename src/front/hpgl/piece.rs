@@ -24,12 +24,13 @@ pub(super) fn marker(sorted: &Sorted, labels: Vec<Label>, job: &Job) -> Marker {
         sorted,
         unit,
         list: SegmentList::default(),
-        aside: Aside { points: 0, length: 0.0, bounds: Extent::EMPTY },
+        aside: Aside { points: 0, length: sorted.drawing.moved.length, bounds: sorted.drawing.moved.bounds },
         parts: Vec::new(),
         boxes: Boxes::new(&[]),
         pieces: Vec::new(),
         spikes: 0,
         spike_length: 0.0,
+        texts_outside: 0,
         work: MOST_WORK,
     };
     let cut = || sorted.shapes.iter().filter(|shape| shape.class.is_cut() && shape.class != Class::Hole);
@@ -69,6 +70,7 @@ struct Making<'a> {
     /// Notches that were spikes of outlines, and their length, mm.
     spikes: usize,
     spike_length: f64,
+    texts_outside: usize,
     work: usize,
 }
 
@@ -119,15 +121,20 @@ impl Making<'_> {
         for found in &sorted.notches {
             let piece = self.piece_of(&by_outline, found.outline);
             let shape = &sorted.shapes[found.mark];
-            match found.cut {
-                Some([root, tip]) => {
-                    let span = self.span(shape);
-                    let notch = Notch { kind: NotchKind::Slit, root, tip, percent: FULL_SPEED, span };
-                    self.aside.points += shape.stroke.points as usize - 1;
-                    self.aside.length += shape.length - notch.depth();
-                    self.pieces[piece].notches.push(notch);
-                }
-                None => self.add_contour(piece, shape.vertices(&sorted.drawing)),
+            if let Some([root, tip]) = found.cut {
+                let span = self.span(shape);
+                let notch = Notch { kind: NotchKind::Slit, root, tip, percent: FULL_SPEED, span };
+                self.aside.points += shape.stroke.points as usize - 1;
+                self.aside.length += shape.length - notch.depth();
+                self.pieces[piece].notches.push(notch);
+                continue;
+            }
+            // The knife cuts a V from both sides of its mouth: two slits that meet at the tip.
+            let vertices = shape.vertices(&sorted.drawing);
+            for (root, tip, drawn_by) in [(0, 1, 1), (2, 1, 2)] {
+                let (root, tip, span) = (vertices[root].at, vertices[tip].at, vertices[drawn_by].span);
+                let notch = Notch { kind: NotchKind::Slit, root, tip, percent: FULL_SPEED, span };
+                self.pieces[piece].notches.push(notch);
             }
         }
         for shape in &sorted.shapes {
@@ -143,7 +150,8 @@ impl Making<'_> {
                     let piece = self.piece_around(vertices[0].at, self.span(shape));
                     self.add_contour(piece, vertices);
                 }
-                _ => {}
+                Class::Part | Class::CutOut | Class::Notch | Class::Frame | Class::Text | Class::Other | Class::Pen => {
+                }
             }
         }
     }
@@ -164,9 +172,12 @@ impl Making<'_> {
                     self.add_contour(piece, vertices);
                     continue;
                 }
-                let Pruned { vertices, spikes, points, length } = prune(vertices, self.unit, LONGEST_NOTCH);
+                let Pruned { vertices, spikes, points, length, dropped } = prune(vertices, self.unit, LONGEST_NOTCH);
                 self.aside.points += points;
                 self.aside.length += length;
+                for tip in dropped {
+                    self.aside.bounds.add(tip);
+                }
                 self.spikes += spikes.len();
                 for spike in spikes {
                     let (root, tip, span) = (spike.root, spike.tip.at, spike.tip.span);
@@ -223,11 +234,12 @@ impl Making<'_> {
         best.map(|(_, piece)| piece)
     }
 
-    /// A label goes to the part that it stands in; titles beside the parts go to none.
+    /// A label goes to the part that it stands in; titles beside the parts go to none and are counted.
     fn add_labels(&mut self, labels: Vec<Label>) {
         for label in labels {
-            if let Some(piece) = label.at.and_then(|at| self.part_around(at)) {
-                self.pieces[piece].labels.push(label);
+            match label.at.and_then(|at| self.part_around(at)) {
+                Some(piece) => self.pieces[piece].labels.push(label),
+                None => self.texts_outside += 1,
             }
         }
     }
@@ -243,14 +255,16 @@ impl Making<'_> {
         }
         let class = |&(class, name): &(Class, &'static str)| {
             let of = || shapes.iter().filter(|shape| shape.class == class);
-            let (mut count, length) = (of().count(), of().map(|shape| shape.length).sum());
+            // The sum of no numbers would be the negative of zero.
+            let (mut count, length) = (of().count(), of().fold(0.0, |sum, shape| sum + shape.length));
             if class == Class::Notch {
                 count += self.spikes;
             }
             DrawnClass { name, cut: class.is_cut(), count, length }
         };
         let classes: Vec<DrawnClass> = CLASSES.iter().map(class).collect();
-        let pen_down = shapes.iter().map(|shape| shape.length).sum();
-        Drawing { pen_down, classes, aside: self.aside }
+        let drawn = shapes.iter().fold(0.0, |sum, shape| sum + shape.length);
+        let pen_down = drawn + self.sorted.drawing.moved.length;
+        Drawing { pen_down, classes, texts_outside: self.texts_outside, aside: self.aside }
     }
 }

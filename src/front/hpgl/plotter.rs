@@ -3,11 +3,17 @@
 use super::drawing::Drawing;
 use super::scale::{Frame, Pair};
 use super::syntax::VALUE_MAX;
+use super::tally::Count;
 use crate::geom::Point;
 use crate::source::Span;
 
 /// The pen that draws when the file takes none: many files do.
 const FIRST_PEN: u16 = 1;
+/// Farthest place from the origin, mm: no table is a kilometre long.
+const FARTHEST: f64 = 1e6;
+/// Vertices that curves and repeated polygons may have beyond the bytes of the file: a hundred times what the largest
+/// plots need, and no more than the memory of a small computer holds.
+const MOST_CURVED: usize = 5_000_000;
 
 /// Follows the moves.
 #[derive(Debug)]
@@ -16,6 +22,12 @@ pub(super) struct Plotter {
     pub(super) drawing: Drawing,
     /// Length of a unit, mm.
     unit: f64,
+    /// Farthest place from the origin, units.
+    farthest: f64,
+    most_vertices: usize,
+    standing: Standing,
+    /// Lines that were drawn from such a place.
+    pub(super) adrift: Count,
     pen: u16,
     is_down: bool,
     is_relative: bool,
@@ -37,17 +49,47 @@ struct Corner {
     is_edge: bool,
 }
 
-/// A place beyond any table.
-#[derive(Debug, PartialEq, Eq)]
-pub(super) struct TooFar;
+/// Whether the file says where the pen is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Standing {
+    /// It does.
+    Known,
+    /// A text was written since the last absolute place: it depends on the letters.
+    Lettered,
+}
+
+/// Why a move is refused.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Refusal {
+    /// The place is beyond any table.
+    TooFar,
+    /// Curves have filled the memory that a plot may take.
+    TooMany,
+}
+
+/// What is drawn by a plotter.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sheet {
+    /// Length of a unit, mm.
+    pub(super) unit: f64,
+    /// Bytes of the file.
+    pub(super) bytes: usize,
+}
+
+/// Bytes of a large plot for each of its vertices: more than most have, so that no memory is taken in vain.
+const BYTES_A_VERTEX: usize = 16;
 
 impl Plotter {
-    /// A plotter whose unit is so many mm, and which draws into a drawing.
-    pub(super) fn new(unit: f64, drawing: Drawing) -> Self {
+    /// A plotter as switched on.
+    pub(super) fn new(Sheet { unit, bytes }: Sheet) -> Self {
         Self {
             frame: Frame::new(),
-            drawing,
+            drawing: Drawing::with_room(bytes / BYTES_A_VERTEX),
             unit,
+            farthest: (FARTHEST / unit).min(VALUE_MAX),
+            most_vertices: bytes + MOST_CURVED,
+            standing: Standing::Known,
+            adrift: Count::default(),
             pen: FIRST_PEN,
             is_down: false,
             is_relative: false,
@@ -58,12 +100,37 @@ impl Plotter {
         }
     }
 
-    /// IN, DF and the like.
+    /// IN and the like: as switched on, the pen up at the origin.
     pub(super) fn reset(&mut self) {
         self.lift();
         self.frame.reset();
         (self.is_relative, self.gathering, self.awaits_part) = (false, None, false);
         self.polygon.clear();
+        (self.at, self.standing) = ([0.0, 0.0], Standing::Known);
+        self.take_pen(FIRST_PEN);
+    }
+
+    /// DF: places are absolute and not scaled; the pen stays where and as it is.
+    pub(super) fn set_default(&mut self) {
+        self.is_relative = false;
+        self.frame.set_default();
+    }
+
+    /// The pen moves by letters, whose size is not known.
+    pub(super) fn drift(&mut self) {
+        self.standing = Standing::Lettered;
+    }
+
+    /// An absolute move ends that.
+    pub(super) fn settle(&mut self) {
+        self.standing = Standing::Known;
+    }
+
+    /// What a move in the mode in force does to that.
+    pub(super) fn settle_by_mode(&mut self) {
+        if !self.is_relative {
+            self.settle();
+        }
     }
 
     /// Where it is, mm.
@@ -114,13 +181,19 @@ impl Plotter {
     }
 
     /// A move with the pen as it is.
-    pub(super) fn go(&mut self, to: Pair, span: Span) -> Result<(), TooFar> {
+    pub(super) fn go(&mut self, to: Pair, span: Span) -> Result<(), Refusal> {
         if self.is_down { self.draw(to, span) } else { self.jump(to, span) }
     }
 
     /// A move that draws.
-    pub(super) fn draw(&mut self, to: Pair, span: Span) -> Result<(), TooFar> {
-        check(to)?;
+    pub(super) fn draw(&mut self, to: Pair, span: Span) -> Result<(), Refusal> {
+        self.check(to)?;
+        if self.drawing.vertices.len() + self.polygon.len() >= self.most_vertices {
+            return Err(Refusal::TooMany);
+        }
+        if self.standing == Standing::Lettered {
+            self.adrift.add(span);
+        }
         if self.gathering.is_some() {
             self.polygon.push(Corner { at: to, span, is_edge: true });
         } else {
@@ -134,8 +207,8 @@ impl Plotter {
     }
 
     /// A move that does not draw.
-    pub(super) fn jump(&mut self, to: Pair, span: Span) -> Result<(), TooFar> {
-        check(to)?;
+    pub(super) fn jump(&mut self, to: Pair, span: Span) -> Result<(), Refusal> {
+        self.check(to)?;
         if self.gathering.is_some() {
             self.polygon.push(Corner { at: to, span, is_edge: false });
         } else {
@@ -151,7 +224,7 @@ impl Plotter {
         start: Pair,
         points: impl IntoIterator<Item = Pair>,
         span: Span,
-    ) -> Result<(), TooFar> {
+    ) -> Result<(), Refusal> {
         let back = self.at;
         self.jump(start, span)?;
         let drawn = points.into_iter().try_for_each(|to| self.draw(to, span));
@@ -185,7 +258,7 @@ impl Plotter {
     }
 
     /// That place.
-    pub(super) fn start_part(&mut self, to: Pair, span: Span) -> Result<(), TooFar> {
+    pub(super) fn start_part(&mut self, to: Pair, span: Span) -> Result<(), Refusal> {
         self.jump(to, span)?;
         (self.gathering, self.awaits_part) = (Some(self.polygon.len() - 1), false);
         Ok(())
@@ -198,7 +271,7 @@ impl Plotter {
     }
 
     /// EP: draws the edges that the pen was down for.
-    pub(super) fn edge_polygon(&mut self) -> Result<(), TooFar> {
+    pub(super) fn edge_polygon(&mut self) -> Result<(), Refusal> {
         if self.gathering.is_some() {
             return Ok(());
         }
@@ -219,9 +292,10 @@ impl Plotter {
         let [x, y] = if self.frame.is_turned() { self.frame.turned(at) } else { at };
         Point::new(x * self.unit, y * self.unit)
     }
-}
 
-/// A place on a table; never true of what is not a number.
-fn check(to: Pair) -> Result<(), TooFar> {
-    if to[0].abs() <= VALUE_MAX && to[1].abs() <= VALUE_MAX { Ok(()) } else { Err(TooFar) }
+    /// A place on a table; never true of what is not a number.
+    fn check(&self, to: Pair) -> Result<(), Refusal> {
+        let is_near = to[0].abs() <= self.farthest && to[1].abs() <= self.farthest;
+        if is_near { Ok(()) } else { Err(Refusal::TooFar) }
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::encoded::{self, Body};
 use super::escape::{Escape, escape, job};
-use super::instruction::{Instruction, instruction};
+use super::instruction::{Instruction, Tail, instruction};
 use super::label::{self, Terminator};
 use super::syntax::{self, Fault};
 use crate::source::Span;
@@ -32,6 +32,17 @@ pub(super) enum Next<T> {
     Odd(Span),
     /// A number beyond any table.
     Overflow(Span),
+}
+
+/// What is wrong behind a mnemonic, and where.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Flaw {
+    /// A number beyond any table.
+    Overflow(Span),
+    /// An encoded polyline holds a byte that cannot stand there.
+    Damaged(Span),
+    /// An encoded polyline has no semicolon.
+    Open(Span),
 }
 
 /// Reads statement after statement.
@@ -78,7 +89,10 @@ impl<'a> Reader<'a> {
             };
             self.at = self.bytes.len() - next.len();
             if !passed_over {
-                if matches!(statement, Statement::Reset | Statement::Instruction(Instruction::Reset, _)) {
+                if matches!(
+                    statement,
+                    Statement::Reset | Statement::Instruction(Instruction::Initialize | Instruction::Default, _)
+                ) {
                     self.terminator = Terminator::new();
                 }
                 self.block += 1;
@@ -182,6 +196,34 @@ impl<'a> Reader<'a> {
     /// CO.
     pub(super) fn comment(&mut self) {
         self.at = label::comment(self.bytes, self.at);
+    }
+
+    /// Passes over what stands behind a mnemonic; a fault in it.
+    pub(super) fn pass_over(&mut self, tail: Tail) -> Option<Flaw> {
+        match tail {
+            Tail::Text => _ = self.text(),
+            Tail::Terminator => self.define_terminator(),
+            Tail::Comment => self.comment(),
+            Tail::Numbers => loop {
+                match self.value() {
+                    Next::Some(_) => {}
+                    Next::Overflow(span) => return Some(Flaw::Overflow(span)),
+                    Next::End | Next::Odd(_) => return None,
+                }
+            },
+            Tail::Encoded => {
+                let mut body = self.body();
+                while body.next().is_some() {}
+                self.behind(&body);
+                let end = self.within(body.at.saturating_sub(1), body.at);
+                return match body.ending {
+                    encoded::Ending::Damaged => Some(Flaw::Damaged(end)),
+                    encoded::Ending::Open => Some(Flaw::Open(end)),
+                    encoded::Ending::More | encoded::Ending::Done => None,
+                };
+            }
+        }
+        None
     }
 
     /// The body of PE; hand it back with [`Reader::behind`].

@@ -6,8 +6,10 @@ pub(super) type Pair = [f64; 2];
 /// How numbers become places.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Frame {
-    /// The corners P1 and P2, in units of the plotter; `None` as long as the file does not set them.
-    corners: Option<[Pair; 2]>,
+    /// The corners P1 and P2, in units of the plotter.
+    corners: [Pair; 2],
+    /// Whether the file says how far they are apart; without that the plotter does.
+    are_corners_given: bool,
     /// Size of the page (PS), in units of the plotter.
     page: Option<Pair>,
     /// The scale in force; `None` = numbers are units of the plotter.
@@ -32,6 +34,10 @@ pub(super) enum Unknown {
     Page,
     /// A scale from a range without width.
     Range,
+    /// SC with fewer than four numbers, IP or IR with one or three.
+    Incomplete,
+    /// RO by another angle than quarter turns.
+    Angle,
 }
 
 /// Percent.
@@ -45,12 +51,17 @@ const FACTORS: f64 = 2.0;
 impl Frame {
     /// As switched on.
     pub(super) const fn new() -> Self {
-        Self { corners: None, page: None, scale: None, quarters: 0 }
+        Self { corners: USUAL_CORNERS, are_corners_given: false, page: None, scale: None, quarters: 0 }
     }
 
-    /// IN, DF: a page size stays.
+    /// IN: a page size stays.
     pub(super) fn reset(&mut self) {
         *self = Self { page: self.page, ..Self::new() };
+    }
+
+    /// DF: the scale ends; corners, page and turn stay.
+    pub(super) fn set_default(&mut self) {
+        self.scale = None;
     }
 
     /// Whether numbers are places as they stand.
@@ -59,21 +70,21 @@ impl Frame {
     }
 
     /// IP: P1 and P2. With P1 alone the box moves; without any it is the usual one.
-    pub(super) fn set_corners(&mut self, values: &[f64]) {
-        let [p1, p2] = self.corners.unwrap_or(USUAL_CORNERS);
-        self.corners = match *values {
-            [] => None,
-            [x1, y1, x2, y2, ..] => Some([[x1, y1], [x2, y2]]),
-            [x1, y1, ..] => Some([[x1, y1], [x1 + p2[0] - p1[0], y1 + p2[1] - p1[1]]]),
-            [_] => self.corners,
-        };
+    pub(super) fn set_corners(&mut self, values: &[f64]) -> Result<(), Unknown> {
+        let [p1, p2] = self.corners;
+        match *values {
+            [] => (self.corners, self.are_corners_given) = (USUAL_CORNERS, false),
+            [x1, y1, x2, y2, ..] => (self.corners, self.are_corners_given) = ([[x1, y1], [x2, y2]], true),
+            [x1, y1] => self.corners = [[x1, y1], [x1 + p2[0] - p1[0], y1 + p2[1] - p1[1]]],
+            [_] | [_, _, _] => return Err(Unknown::Incomplete),
+        }
+        Ok(())
     }
 
     /// IR: the same in percent of the page.
     pub(super) fn set_corners_percent(&mut self, values: &[f64]) -> Result<(), Unknown> {
         if values.is_empty() {
-            self.corners = None;
-            return Ok(());
+            return self.set_corners(values);
         }
         let [length, width] = self.page.ok_or(Unknown::Page)?;
         let units: arrayvec::ArrayVec<f64, 4> = values
@@ -82,8 +93,7 @@ impl Frame {
             .zip([length, width].into_iter().cycle())
             .map(|(v, size)| v / HUNDRED * size)
             .collect();
-        self.set_corners(&units);
-        Ok(())
+        self.set_corners(&units)
     }
 
     /// PS: length, then width; with one number both are equal.
@@ -95,26 +105,31 @@ impl Frame {
         };
     }
 
-    /// RO, degrees; anything but quarter turns is ignored.
-    pub(super) fn rotate(&mut self, degrees: f64) {
-        self.quarters = match degrees {
+    /// RO, degrees; anything but quarter turns is ignored, as plotters do.
+    pub(super) fn rotate(&mut self, values: &[f64]) -> Result<(), Unknown> {
+        self.quarters = match values.first().copied().unwrap_or(0.0) {
+            0.0 | 360.0 => 0,
             90.0 => 1,
             180.0 => 2,
             270.0 => 3,
-            _ => 0,
+            _ => return Err(Unknown::Angle),
         };
+        Ok(())
     }
 
     /// SC: ranges that lie between the corners; `Err` when the drawing then depends on the device or has no size.
     pub(super) fn set_scale(&mut self, values: &[f64]) -> Result<(), Unknown> {
         let [x0, x1, y0, y1, ..] = *values else {
             self.scale = None;
-            return Ok(());
+            return if values.is_empty() { Ok(()) } else { Err(Unknown::Incomplete) };
         };
-        let [p1, p2] = self.corners.unwrap_or(USUAL_CORNERS);
+        let [p1, p2] = self.corners;
         let kind = values.get(4).copied().unwrap_or(0.0);
         if kind == FACTORS {
             let factor = [x1, y1];
+            if x1 == 0.0 || y1 == 0.0 {
+                return Err(Unknown::Range);
+            }
             self.scale = Some(Scale { offset: [p1[0] - x0 * x1, p1[1] - y0 * y1], factor });
         } else {
             if x0 == x1 || y0 == y1 {
@@ -135,7 +150,13 @@ impl Frame {
             let offset = [offset[0] - x0 * factor[0], offset[1] - y0 * factor[1]];
             self.scale = Some(Scale { offset, factor });
         }
-        if self.corners.is_none() { Err(Unknown::Corners) } else { Ok(()) }
+        // Factors move the drawing to the corners, but its size is theirs alone.
+        if self.are_corners_given || kind == FACTORS { Ok(()) } else { Err(Unknown::Corners) }
+    }
+
+    /// Whether the scale turns left into right, so that angles of the file run the other way.
+    pub(super) fn is_mirrored(&self) -> bool {
+        self.scale.is_some_and(|Scale { factor: [x, y], .. }| x * y < 0.0)
     }
 
     /// A place of the file, in units of the plotter before RO.
@@ -177,7 +198,7 @@ mod tests {
 
     fn check(corners: &[f64], scale: &[f64], place: Pair, expected: Pair) {
         let mut frame = Frame::new();
-        frame.set_corners(corners);
+        assert_eq!(frame.set_corners(corners), Ok(()));
         assert_eq!(frame.set_scale(scale), Ok(()));
         assert_eq!(frame.place(place), expected, "{corners:?} {scale:?}");
     }
@@ -206,13 +227,38 @@ mod tests {
     }
 
     #[test]
+    fn what_is_broken_is_told_and_changes_nothing() {
+        let mut frame = Frame::new();
+        for broken in [&[1.0][..], &[1.0, 2.0, 3.0]] {
+            assert_eq!(frame.set_corners(broken), Err(Unknown::Incomplete));
+            assert_eq!(frame.set_scale(broken), Err(Unknown::Incomplete));
+        }
+        assert_eq!(frame.rotate(&[45.0]), Err(Unknown::Angle));
+        assert_eq!(frame, Frame::new());
+        // P1 alone moves the box of the plotter, whose size nobody knows.
+        assert_eq!(frame.set_corners(&[0.0, 0.0]), Ok(()));
+        assert_eq!(frame.set_scale(&[0.0, 1.0, 0.0, 1.0]), Err(Unknown::Corners));
+    }
+
+    #[test]
+    fn a_default_keeps_corners_and_turn_and_ends_the_scale() {
+        let mut frame = Frame::new();
+        assert_eq!(frame.set_corners(&[0.0, 0.0, 400.0, 400.0]), Ok(()));
+        assert_eq!(frame.set_scale(&[0.0, 1.0, 1.0, 0.0]), Ok(()));
+        assert!(frame.is_mirrored());
+        frame.set_default();
+        assert!(frame.is_plain() && !frame.is_mirrored());
+        assert_eq!(frame.set_scale(&[0.0, 1.0, 0.0, 1.0]), Ok(()));
+    }
+
+    #[test]
     fn a_turned_page_stays_at_the_origin() {
         let mut frame = Frame::new();
-        frame.rotate(90.0);
+        assert_eq!(frame.rotate(&[90.0]), Ok(()));
         assert_eq!(frame.turned([3.0, 1.0]), [-1.0, 3.0]);
         frame.set_page(&[40.0, 20.0]);
         assert_eq!(frame.turned([3.0, 1.0]), [39.0, 3.0]);
-        frame.rotate(180.0);
+        assert_eq!(frame.rotate(&[180.0]), Ok(()));
         assert_eq!(frame.turned([3.0, 1.0]), [37.0, 19.0]);
     }
 }

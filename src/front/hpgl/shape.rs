@@ -1,6 +1,7 @@
 //! Strokes with their measures, what a user or a profile says of them, and what they are taken for.
 
-use super::drawing::{Drawing, Stroke, Vertex};
+use super::drawing::{Drawing, NO_PEN, Stroke, Vertex};
+use super::notch::prune;
 use crate::geom::{Extent, Point, cross};
 use crate::machine::Job;
 use crate::machine::plot::{LineKind, PenUse};
@@ -73,7 +74,7 @@ pub(super) fn wanted(pen: u16, job: &Job) -> Wanted {
         (Some(_), _) | (None, Some(PenUse::Pen | PenUse::Ignore)) => return Wanted::Nothing,
         (None, Some(PenUse::Knife)) => true,
         // Pen 0 is no pen: what the plotter does then draws nothing.
-        (None, None) if pen == 0 => return Wanted::Nothing,
+        (None, None) if pen == NO_PEN => return Wanted::Nothing,
         (None, None) => false,
     };
     match job.lines.kind {
@@ -92,6 +93,8 @@ pub(super) struct Shape {
     pub(super) wanted: Wanted,
     /// Whether it ends where it starts and has an inside.
     pub(super) is_closed: bool,
+    /// Whether it goes around something and crosses itself so that the halves cancel each other, like an eight.
+    pub(super) is_crossed: bool,
     /// Whether it goes out and straight back somewhere.
     pub(super) has_spikes: bool,
     /// mm.
@@ -105,8 +108,12 @@ pub(super) struct Shape {
 pub(super) const ROUNDING: f64 = std::f64::consts::SQRT_2;
 /// An area below this share of the squared length is the rounding of a line that goes out and back.
 const FLAT_EPSILON: f64 = 1e-9;
+/// Places of a triangle, its start twice: fewer go around nothing.
+const LEAST_CORNERS: usize = 4;
 /// Shortest line that may be an outline with a gap, mm: shorter ones are letters.
-const SHORTEST_OUTLINE: f64 = 100.0;
+pub(super) const SHORTEST_OUTLINE: f64 = 100.0;
+/// Shortest line that is named for its gap, mm.
+pub(super) const SHORTEST_NAMED: f64 = 40.0;
 /// A gap below this share of its length looks like one.
 const GAP_SHARE: f64 = 0.05;
 /// Longest notch, mm.
@@ -132,9 +139,15 @@ impl Shape {
         let ends_meet = origin == vertices[vertices.len() - 1].at;
         has_spikes |= ends_meet && is_near(vertices[vertices.len() - 2].at, vertices[1].at, unit);
         let is_flat = doubled.abs() <= FLAT_EPSILON * length * length;
-        let is_closed = ends_meet && !is_flat;
         let wanted = wanted(stroke.pen, job);
-        Self { stroke, wanted, is_closed, has_spikes, length, area: doubled / 2.0, class: Class::Other }
+        let is_crossed = ends_meet && is_flat && !is_retraced(vertices, unit);
+        // Nobody can tell whether an eight is an outline or a digit, so somebody must ask for it.
+        let is_asked = match wanted {
+            Wanted::All | Wanted::Closed => true,
+            Wanted::Guess | Wanted::Open | Wanted::Nothing => false,
+        };
+        let is_closed = ends_meet && (!is_flat || is_crossed && is_asked);
+        Self { stroke, wanted, is_closed, is_crossed, has_spikes, length, area: doubled / 2.0, class: Class::Other }
     }
 
     pub(super) fn vertices<'a>(&self, drawing: &'a Drawing) -> &'a [Vertex] {
@@ -151,11 +164,11 @@ impl Shape {
         width.max(height)
     }
 
-    /// Distance of its ends, mm, when it looks like an outline that was meant to close.
+    /// Distance of its ends, mm, when it may be an outline that was meant to close.
     pub(super) fn gap(&self, drawing: &Drawing) -> Option<f64> {
         let vertices = self.vertices(drawing);
         let gap = (vertices[vertices.len() - 1].at - vertices[0].at).norm();
-        let is_outline = !self.is_closed && gap > 0.0 && self.length >= SHORTEST_OUTLINE && vertices.len() > 3;
+        let is_outline = !self.is_closed && gap > 0.0 && self.length >= SHORTEST_NAMED && vertices.len() > 3;
         (is_outline && gap < GAP_SHARE * self.length).then_some(gap)
     }
 
@@ -167,6 +180,15 @@ impl Shape {
         };
         may_close && self.is_closed
     }
+}
+
+/// Whether a line without area goes out and back the same way, on one straight line or along others.
+fn is_retraced(vertices: &[Vertex], unit: f64) -> bool {
+    let origin = vertices[0].at;
+    let far = vertices.iter().map(|vertex| vertex.at - origin).max_by(|a, b| a.norm().total_cmp(&b.norm()));
+    let way = far.unwrap_or_default();
+    let is_straight = vertices.iter().all(|v| cross(way, v.at - origin).abs() <= ROUNDING * unit * way.norm());
+    is_straight || prune(vertices, unit, f64::INFINITY).vertices.len() < LEAST_CORNERS
 }
 
 /// Whether two places are one but for rounding.

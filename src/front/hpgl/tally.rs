@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::plotter::Refusal;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
 use crate::source::Span;
 
@@ -21,21 +22,29 @@ pub(super) struct Tally {
     unknown: BTreeMap<[u8; 2], Count>,
     unknown_total: usize,
     left_out: BTreeMap<[u8; 2], (&'static str, Count)>,
-    /// What was dropped because a number is beyond any table.
+    /// Numbers beyond any table.
+    overflow: Count,
+    /// Places beyond any table.
     too_far: Count,
+    /// Moves that were dropped because curves have filled the memory.
+    too_many: Count,
+    /// Lines that start where only the plotter knows.
+    adrift: Count,
     /// Encoded polylines that an editor made UTF-8 of.
     repaired: Count,
     open_labels: Count,
 }
 
+/// How often something happens, and where first.
 #[derive(Debug, Clone, Copy, Default)]
-struct Count {
+pub(super) struct Count {
     count: usize,
     first: Option<Span>,
 }
 
 impl Count {
-    fn add(&mut self, span: Span) {
+    /// Once more.
+    pub(super) fn add(&mut self, span: Span) {
         self.count += 1;
         self.first.get_or_insert(span);
     }
@@ -77,9 +86,22 @@ impl Tally {
         self.left_out.entry(mnemonic).or_insert((what, Count::default())).1.add(span);
     }
 
-    /// A place or number beyond any table.
-    pub(super) fn too_far(&mut self, span: Span) {
-        self.too_far.add(span);
+    /// A number beyond any table.
+    pub(super) fn overflow(&mut self, span: Span) {
+        self.overflow.add(span);
+    }
+
+    /// A move that the plotter refuses.
+    pub(super) fn refused(&mut self, refusal: Refusal, span: Span) {
+        match refusal {
+            Refusal::TooFar => self.too_far.add(span),
+            Refusal::TooMany => self.too_many.add(span),
+        }
+    }
+
+    /// Lines that were drawn from a place that only the plotter knows.
+    pub(super) fn adrift(&mut self, lines: Count) {
+        self.adrift = lines;
     }
 
     /// An encoded polyline whose bytes were put together again.
@@ -111,14 +133,33 @@ impl Tally {
                 self.junk.count + self.unknown_total
             );
             let finding = Diagnostic::new(&code::HPGL_NOT_A_PLOT, message);
-            out.push(finding.hint("leave out `--from`, and the content is recognised"));
+            out.push(finding.hint("it is of another kind, or damaged: look at its first bytes"));
             return;
         }
         let mut found: Vec<Diagnostic> = Vec::new();
+        if self.overflow.count > 0 {
+            let message = format!("a number is beyond any table; this happens {}", self.overflow.times());
+            let finding = self.overflow.diagnostic(&code::HPGL_OVERFLOW, message);
+            found.push(finding.hint("numbers end at 100 million; the file may be damaged here"));
+        }
         if self.too_far.count > 0 {
-            let message = format!("a coordinate is beyond any table; this happens {}", self.too_far.times());
-            let finding = self.too_far.diagnostic(&code::HPGL_OVERFLOW, message);
-            found.push(finding.hint("coordinates end at 100 million units; the file may be damaged here"));
+            let message =
+                format!("a place lies more than a kilometre from the origin; this happens {}", self.too_far.times());
+            let finding = self.too_far.diagnostic(&code::HPGL_FAR_PLACE, message);
+            found.push(finding.hint("a digit may be doubled; or set `hpgl.unit` in the profile if the unit is wrong"));
+        }
+        if self.too_many.count > 0 {
+            let message = "the curves of the plot have more chords than a plot can need; no more is read from here on";
+            let finding = self.too_many.diagnostic(&code::HPGL_CURVES, message.to_owned());
+            found.push(finding.hint("a radius may be damaged, or the tolerance of the profile be far too fine"));
+        }
+        if self.adrift.count > 0 {
+            let message = format!(
+                "a line is drawn from where a text has left the pen, which only the plotter knows; this happens {}",
+                self.adrift.times()
+            );
+            let finding = self.adrift.diagnostic(&code::HPGL_PLACE_UNKNOWN, message);
+            found.push(finding.hint("look at the picture (-t svg): it may lie beside its place"));
         }
         if self.junk.count > 0 {
             let message = format!("what stands here is no instruction; this happens {}", self.junk.times());
@@ -134,8 +175,10 @@ impl Tally {
             found.push(finding.hint("compare the pieces with the original; transfer such files as binary data"));
         }
         if self.open_labels.count > 0 {
-            let message =
-                format!("a label has no terminator and ends with its line; this happens {}", self.open_labels.times());
+            let message = format!(
+                "a label has no terminator and ends with its line or at a semicolon; this happens {}",
+                self.open_labels.times()
+            );
             let finding = self.open_labels.diagnostic(&code::HPGL_OPEN_LABEL, message);
             found.push(finding.hint("look whether lines are missing: a text may have swallowed them"));
         }

@@ -1,114 +1,166 @@
-//! Letters drawn as lines: a small closed line with an open one of its size beside it is an O or a B, no hole.
+//! Letters drawn as lines: small closed lines that stand in a row with open ones of their height are an O or an 8, no
+//! holes.
 
 use std::collections::BTreeMap;
 
 use super::shape::{Class, Shape, Wanted};
+use crate::geom::Extent;
 
 /// Largest letter, mm: a larger closed line is a part, whatever stands beside it.
 const LARGEST: f64 = 15.0;
-/// How many times larger than another a letter of the same text may be.
-const RATIO: f64 = 4.0;
-/// Two shapes whose middles are nearer than this share of their size stand for one symbol, such as a circle with a cross.
-const CONCENTRIC: f64 = 0.1;
+/// How many times higher than another a letter of the same text may be: a capital beside a small letter.
+const RATIO: f64 = 2.0;
+/// Share of its height that a letter stands beside another, at least, and of its width that it stands over it, at the most.
+const BESIDE: f64 = 0.5;
+/// Shapes that make a row of letters; fewer do when they stand on one line and are of one height but for this share, as
+/// the digits of a size do.
+const ROW: usize = 3;
+const ALIKE: f64 = 0.05;
 /// Pairs of shapes that are compared at the most: a guard against drawings that are made to be slow.
 const MOST_WORK: usize = 50_000_000;
 
 /// How the search for letters went.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Letters {
+    /// The closed lines among them, as indices of shapes in their order.
+    pub(super) closed: Vec<usize>,
     /// Whether it ended before its time.
     pub(super) is_cut_short: bool,
+}
+
+/// Small shapes by the cell of their middle.
+struct Search<'a> {
+    shapes: &'a [Shape],
+    cells: BTreeMap<[i64; 2], Vec<usize>>,
+    work: usize,
 }
 
 /// Marks the letters among the shapes that are not taken for anything yet.
 pub(super) fn mark_letters(shapes: &mut [Shape]) -> Letters {
     let is_small =
         |shape: &Shape| shape.size() <= LARGEST && shape.wanted == Wanted::Guess && shape.class == Class::Other;
-    // Closed ones by the cell of their middle, and open ones to begin with.
-    let mut cells: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
-    let mut pending: Vec<usize> = Vec::new();
-    for (i, shape) in shapes.iter().enumerate().filter(|(_, shape)| is_small(shape)) {
-        if shape.is_closed {
-            cells.entry(cell(shape)).or_default().push(i);
-        } else {
-            pending.push(i);
-        }
+    let small: Vec<usize> = (0..shapes.len()).filter(|&i| is_small(&shapes[i])).collect();
+    let mut letters = Letters::default();
+    if small.iter().all(|&i| shapes[i].is_closed) || !small.iter().any(|&i| shapes[i].is_closed) {
+        return letters;
     }
-    let mut work = 0;
-    let mut next = 0;
-    while next < pending.len() && work < MOST_WORK && !cells.is_empty() {
-        let letter = pending[next];
-        next += 1;
-        let (column, row) = cell(&shapes[letter]);
-        for near in (column - 2..=column + 2).flat_map(|c| (row - 2..=row + 2).map(move |r| (c, r))) {
-            let Some(closed) = cells.get_mut(&near) else { continue };
-            work += closed.len();
-            let found = closed.extract_if(.., |&mut i| are_beside(&shapes[letter], &shapes[i]));
-            pending.extend(found);
-        }
+    let mut search = Search { shapes, cells: BTreeMap::new(), work: MOST_WORK };
+    for &i in &small {
+        search.cells.entry(cell(&shapes[i])).or_default().push(i);
     }
-    let mut letters = 0;
-    for &i in &pending {
-        // An open line by itself is a letter only beside another shape of its size.
+    // A closed line around an open one is a part with its grain line or marks.
+    let may_be: Vec<usize> = small.iter().copied().filter(|&i| shapes[i].is_closed && !search.holds_open(i)).collect();
+    // Those are no letters of a row that others make, either.
+    let holders: Vec<usize> =
+        small.iter().copied().filter(|i| shapes[*i].is_closed && may_be.binary_search(i).is_err()).collect();
+    for i in holders {
+        search.take(i);
+    }
+    let mut rows = Vec::new();
+    for &first in &may_be {
+        rows.extend(search.row(first));
+    }
+    letters.is_cut_short = search.work == 0;
+    for i in rows {
+        shapes[i].class = Class::Text;
         if shapes[i].is_closed {
-            shapes[i].class = Class::Text;
-            letters += 1;
+            letters.closed.push(i);
         }
     }
-    let mut is_cut_short = next < pending.len() && !cells.is_empty();
-    if letters > 0 {
-        is_cut_short |= open_letters(shapes, &pending).is_cut_short;
-    }
-    Letters { is_cut_short }
+    letters.closed.sort_unstable();
+    letters
 }
 
-/// Marks the open lines beside closed letters.
-fn open_letters(shapes: &mut [Shape], pending: &[usize]) -> Letters {
-    let mut cells: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
-    for &i in pending.iter().filter(|&&i| !shapes[i].is_closed) {
-        cells.entry(cell(&shapes[i])).or_default().push(i);
-    }
-    let mut work = 0;
-    for &letter in pending {
-        if !shapes[letter].is_closed {
-            continue;
+impl Search<'_> {
+    /// The shapes around one that `is` holds for.
+    fn around(&mut self, i: usize, is: impl Fn(&Shape, &Shape) -> bool) -> Vec<usize> {
+        let [column, row] = cell(&self.shapes[i]);
+        let mut found = Vec::new();
+        for near in (column - 2..=column + 2).flat_map(|c| (row - 2..=row + 2).map(move |r| [c, r])) {
+            let Some(there) = self.cells.get(&near) else { continue };
+            let Some(left) = self.work.checked_sub(there.len()) else {
+                self.work = 0;
+                return found;
+            };
+            self.work = left;
+            found.extend(there.iter().copied().filter(|&k| k != i && is(&self.shapes[i], &self.shapes[k])));
         }
-        let (column, row) = cell(&shapes[letter]);
-        for near in (column - 2..=column + 2).flat_map(|c| (row - 2..=row + 2).map(move |r| (c, r))) {
-            let Some(open) = cells.get_mut(&near) else { continue };
-            work += open.len();
-            if work > MOST_WORK {
-                return Letters { is_cut_short: true };
+        found
+    }
+
+    fn take(&mut self, i: usize) {
+        if let Some(there) = self.cells.get_mut(&cell(&self.shapes[i])) {
+            self.work = self.work.saturating_sub(there.len());
+            there.retain(|&k| k != i);
+        }
+    }
+
+    fn holds_open(&mut self, i: usize) -> bool {
+        let is_inside = |outer: &Shape, inner: &Shape| {
+            let (outer, inner) = (outer.extent(), inner.extent());
+            outer.holds(inner.min) && outer.holds(inner.max)
+        };
+        !self.around(i, |outer, inner| !inner.is_closed && is_inside(outer, inner)).is_empty()
+    }
+
+    /// The text that a closed line stands in; empty when it is none.
+    fn row(&mut self, first: usize) -> Vec<usize> {
+        if !self.cells.get(&cell(&self.shapes[first])).is_some_and(|there| there.contains(&first)) {
+            return Vec::new();
+        }
+        self.take(first);
+        let mut row = vec![first];
+        let mut next = 0;
+        while let Some(&letter) = row.get(next) {
+            next += 1;
+            for found in self.around(letter, |a, b| are_beside(a, b).is_some()) {
+                self.take(found);
+                row.push(found);
             }
-            let found: Vec<usize> = open.extract_if(.., |&mut i| are_beside(&shapes[letter], &shapes[i])).collect();
-            for i in found {
-                shapes[i].class = Class::Text;
-            }
         }
+        let has_open = row.iter().any(|&i| !self.shapes[i].is_closed);
+        let are_alike = || match row[..] {
+            [a, b] => are_beside(&self.shapes[a], &self.shapes[b]) == Some(Row::OneLine),
+            _ => false,
+        };
+        if has_open && (row.len() >= ROW || are_alike()) { row } else { Vec::new() }
     }
-    Letters { is_cut_short: false }
 }
 
-fn middle(shape: &Shape) -> [f64; 2] {
-    let extent = shape.extent();
-    [f64::midpoint(extent.min.x, extent.max.x), f64::midpoint(extent.min.y, extent.max.y)]
+/// How two letters stand beside each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Row {
+    /// In a row.
+    Rough,
+    /// On one line, and of one height.
+    OneLine,
 }
 
-fn cell(shape: &Shape) -> (i64, i64) {
-    let [x, y] = middle(shape);
-    ((x / LARGEST).floor() as i64, (y / LARGEST).floor() as i64)
+fn cell(shape: &Shape) -> [i64; 2] {
+    let Extent { min, max } = *shape.extent();
+    [f64::midpoint(min.x, max.x), f64::midpoint(min.y, max.y)].map(|mm| (mm / LARGEST).floor() as i64)
 }
 
-/// Whether two shapes stand as letters of a text do.
-fn are_beside(a: &Shape, b: &Shape) -> bool {
-    let (greater, less) = (a.size().max(b.size()), a.size().min(b.size()));
-    let ([ax, ay], [bx, by]) = (middle(a), middle(b));
-    if greater > RATIO * less || (ax - bx).abs().max((ay - by).abs()) < CONCENTRIC * greater {
-        return false;
-    }
-    let (a, b) = (a.extent(), b.extent());
-    a.min.x - greater <= b.max.x
-        && b.min.x - greater <= a.max.x
-        && a.min.y - greater <= b.max.y
-        && b.min.y - greater <= a.max.y
+/// Whether two shapes stand as letters of a text do that runs along X or along Y.
+fn are_beside(a: &Shape, b: &Shape) -> Option<Row> {
+    let spans = |shape: &Shape| {
+        let Extent { min, max } = *shape.extent();
+        [[min.x, max.x], [min.y, max.y]]
+    };
+    let ([ax, ay], [bx, by]) = (spans(a), spans(b));
+    along([ax, ay], [bx, by]).max(along([ay, ax], [by, bx]))
+}
+
+/// The same for a text in one direction: the spans of each shape along it and across it.
+fn along([a, a_across]: [[f64; 2]; 2], [b, b_across]: [[f64; 2]; 2]) -> Option<Row> {
+    let size = |span: [f64; 2]| span[1] - span[0];
+    let common = |a: [f64; 2], b: [f64; 2]| a[1].min(b[1]) - a[0].max(b[0]);
+    let (less, greater) = (size(a_across).min(size(b_across)), size(a_across).max(size(b_across)));
+    let is_row = less > 0.0
+        && greater <= RATIO * less
+        && common(a_across, b_across) >= BESIDE * less
+        && common(a, b) >= -greater
+        && common(a, b) <= BESIDE * size(a).min(size(b));
+    let is_one_line = common(a_across, b_across) >= (1.0 - ALIKE) * greater;
+    is_row.then_some(if is_one_line { Row::OneLine } else { Row::Rough })
 }
