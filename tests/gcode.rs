@@ -106,7 +106,7 @@ const DAMAGES: &[Damage] = &[
     ("a blade that is turned", "verify/heading", |lines| lines.by("G1 ", "C", 3.0)),
     ("a blade that turns on an arc", "verify/heading", |lines| lines.by("G3 ", "C", 2.0)),
     ("a plunge left out", "verify/complete", |lines| lines.without("M64 P0")),
-    ("a lift left out", "verify/on-path", |lines| lines.without("M65 P0")),
+    ("a lift left out", "verify/format", |lines| lines.without("M65 P0")),
     ("a move left out", "verify/complete", |lines| lines.without("G1 ")),
     ("a stroke cut again", "verify/once", again),
     ("a hole left out", "verify/drills", |lines| lines.without("M64 P1")),
@@ -225,8 +225,12 @@ fn a_line_that_cannot_be_read_is_named_with_the_reason() {
     };
     check("G94\n", "G93\n", "line 3 is `G93` where `G94` belongs");
     check("G64 P0.05 Q0\n", "", "line 2 is `G94` where `G64 P0.05 Q0` belongs");
-    check("M64 P0\n", "M3\n", "line 6 has `M3`, which is no word of the target gcode with this profile");
-    check("G4 P", "G4 X", "line 7 is `G4 X0.080`, which is no line of the target gcode with this profile");
+    check("M64 P0\n", "M3\n", "line 8 has `M3`, which is no word of the target gcode with this profile");
+    check("G4 P", "G4 X", "line 5 is `G4 X0.060` where a rest of 0.06 s belongs");
+    check("G4 P0.080", "G4 P0.010", "where a rest of 0.08 s belongs");
+    check("\nG2 ", "\n(x) G1 X500 Y500 C0 F60 (y)\nG2 ", "has `(x)`, which is no word");
+    check("\nG2 ", "\nG0 X0 Y0 C0\nG2 ", "is a rapid move while the knife is down");
+    check(" I", " P2 I", "has P, which such a move has not");
     check("G0 X", "G0 Xx", "which is no word");
     check(" C", " C1 C", "has two words C");
     check("M2\n", "", "is missing: the program has no end");

@@ -30,6 +30,8 @@ const STEPS_MAX: f64 = 1e5;
 /// A whole turn, degrees, and what is none.
 const TURN_DEG: f64 = 360.0;
 const TURN_EPSILON: f64 = 1e-6;
+/// By how much a rest may be shorter than it should be, s: rounding of the text.
+const REST_EPSILON: f64 = 1e-3;
 /// Radii of both ends of an arc may differ by this many steps of the last decimal.
 const RADIUS_STEPS: f64 = 8.0;
 /// What is wrong with a line that does something when all is over.
@@ -88,6 +90,8 @@ pub(super) struct Places<'a> {
     texts: Vec<Text>,
     /// Lines that must come next: the rest of a text.
     due: VecDeque<String>,
+    /// The rest that must come behind them, s.
+    rest_due: Option<f64>,
     /// How many lines were read.
     lines: u64,
     now: Row,
@@ -111,6 +115,7 @@ impl<'a> Places<'a> {
             over: texts.iter().all(|text| text.meaning != Meaning::End),
             due: texts[0].lines.iter().cloned().collect(),
             texts,
+            rest_due: None,
             lines: 0,
             now,
             queue: VecDeque::from([(now, Vector::zeros())]),
@@ -181,6 +186,12 @@ impl<'a> Places<'a> {
             let is_due = due.as_bytes() == line;
             return is_due.then_some(()).ok_or_else(|| format!("is {} where `{due}` belongs", quoted(line)));
         }
+        if let Some(rest) = self.rest_due.take() {
+            let words = Words::of(line, self.profile).unwrap_or_default();
+            let rests = words.g == Some(4.0) && words.p.is_some_and(|time| time >= rest - REST_EPSILON);
+            let why = || format!("is {} where a rest of {} s belongs", quoted(line), exact(rest));
+            return rests.then_some(()).ok_or_else(why);
+        }
         if matches!(line, [b'G', b'0'..=b'3', b' ', b'X', ..]) {
             return self.go(&Words::of(line, self.profile)?);
         }
@@ -189,7 +200,9 @@ impl<'a> Places<'a> {
             let meaning = text.meaning;
             return self.obey(meaning);
         }
-        if let Some(comment) = line.strip_prefix(b"(").and_then(|rest| rest.strip_suffix(b")")) {
+        // A comment ends at its first bracket: what stands behind that is obeyed.
+        let comment = line.strip_prefix(b"(").and_then(|rest| rest.strip_suffix(b")"));
+        if let Some(comment) = comment.filter(|text| !text.iter().any(|byte| matches!(byte, b'(' | b')'))) {
             let mut words = comment.split(|&byte| byte == b' ').skip_while(|word| *word != b"block").skip(1);
             let number = words.next().and_then(super::read::whole);
             self.now.block = number.unwrap_or(0);
@@ -220,6 +233,14 @@ impl<'a> Places<'a> {
             Meaning::Up => self.now.knife = false,
             Meaning::Drill(tool) => self.now.drill = tool,
         }
+        let knife = &self.profile.knife;
+        let rest = match meaning {
+            Meaning::Down => knife.plunge(),
+            Meaning::Up => knife.lift(),
+            Meaning::Drill(1..) => self.profile.drill.dwell(),
+            Meaning::Drill(_) | Meaning::Head | Meaning::Event(_) | Meaning::End => 0.0,
+        };
+        self.rest_due = Some(rest).filter(|&rest| rest > 0.0);
         let way = if was_down { self.last_way } else { Vector::zeros() };
         self.last_way = Vector::zeros();
         self.push(self.now, way);
@@ -242,6 +263,12 @@ impl<'a> Places<'a> {
         let code = needed(words.g, 'G')?;
         let to = Point::new(needed(words.x, 'X')?, needed(words.y, 'Y')?);
         let c_to = self.turned_to(needed(words.c, self.profile.gcode.letter.byte().into())?);
+        if code == 0.0 && from.knife {
+            return Err("is a rapid move while the knife is down".to_owned());
+        }
+        if let Some(letter) = words.foreign_to(code) {
+            return Err(format!("has {letter}, which such a move has not"));
+        }
         if code != 0.0 && needed(words.f, 'F')? <= 0.0 {
             return Err("has an F that is no speed".to_owned());
         }
@@ -364,9 +391,22 @@ impl Words {
             if place.is_some() {
                 return Err(format!("has two words {}", char::from(letter)));
             }
-            *place = Some(decimal(number).ok_or_else(|| foreign(word))?);
+            let is_plain = number.iter().all(|byte| matches!(byte, b'0'..=b'9' | b'.' | b'-'));
+            *place = Some(decimal(number).filter(|_| is_plain).ok_or_else(|| foreign(word))?);
         }
         Ok(words)
+    }
+
+    /// A letter that has no business on a line of motion: P on an arc is a number of turns.
+    fn foreign_to(&self, code: f64) -> Option<char> {
+        let is_arc = code > 1.0;
+        let there = [
+            ('I', self.i.is_some() && !is_arc),
+            ('J', self.j.is_some() && !is_arc),
+            ('F', self.f.is_some() && code == 0.0),
+            ('P', self.p.is_some()),
+        ];
+        there.into_iter().find(|(_, is_foreign)| *is_foreign).map(|(letter, _)| letter)
     }
 
     /// Where the number of a letter goes; `None` when there is none such.

@@ -48,6 +48,8 @@ impl<'a> Program<'a> {
         }
         self.say(&keys.header);
         self.say(keys.feed_mode.code());
+        // Whatever ran before may have left the knife in the cloth.
+        self.order(&keys.knife_up, self.job.profile.knife.lift());
     }
 
     /// What comes behind the last one; the time of the program, s.
@@ -250,15 +252,15 @@ impl<'a> Program<'a> {
     /// stands, degrees.
     fn wrapped(&mut self, shown: f64, was: f64) {
         let (step, decimals) = (self.job.profile.gcode.step(), self.job.profile.gcode.decimals);
+        // There is no negative zero, so there is none at all: the nearest place that has a sign stands for it.
         let round = |value: f64| {
             let within = ((value / step).round() * step).rem_euclid(TURN_DEG);
-            if TURN_DEG - within < 0.5 * step { 0.0 } else { within }
+            if within < 0.5 * step || TURN_DEG - within < 0.5 * step { step } else { within }
         };
         let within = round(shown);
-        // To turn back to where it stands would be a whole turn; and there is no negative zero: the nearest place that
-        // has a sign stands for it.
+        // To turn back to where it stands would be a whole turn.
         let is_back = shown < was && (within - round(was)).abs() > 0.5 * step;
-        push_fixed(&mut self.text, if is_back { -within.max(step) } else { within }, decimals);
+        push_fixed(&mut self.text, if is_back { -within } else { within }, decimals);
     }
 
     fn word(&mut self, letter: u8, value: f64) {
