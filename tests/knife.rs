@@ -164,6 +164,24 @@ fn notches_are_cut_in_the_style_of_the_profile() {
 }
 
 #[test]
+fn a_slit_that_the_profile_would_lead_out_of_its_part_is_refused() {
+    let band = "G71*N1*X0Y0*M14*X1500Y0*M19*X1500Y40*M15*X1500Y0*M14*X3000Y0*X3000Y100*X0Y100*X0Y0*M15*M0*";
+    let source = Source::new("band.cut", band.as_bytes().to_vec()).expect("small");
+    let found = |depth: f64| {
+        let mut job = Job::default();
+        job.profile.notch.depth_mm = Some(depth);
+        let target = TARGETS.iter().find(|target| target.name == "csv").expect("setpoints are a target");
+        let order = pipeline::Order { from: None, target, verify: true };
+        let mut found = Diagnostics::default();
+        let compiled = pipeline::compile(&source, &job, order, &mut Cursor::new(Vec::new()), &mut found);
+        let has_program = compiled.expect("memory takes everything").is_some();
+        (has_program, found.iter().map(|diagnostic| diagnostic.code.name).collect::<Vec<_>>())
+    };
+    assert_eq!(found(9.0), (true, Vec::new()));
+    assert_eq!(found(12.0), (false, vec!["path/notch-through"]));
+}
+
+#[test]
 fn a_run_that_winds_past_the_range_of_c_is_cut_in_parts() {
     let mut job = Job::default();
     job.profile.c.range_deg = Some([-200.0, 200.0]);

@@ -184,6 +184,8 @@ mod table {
     pub static PATH_SHORTENED: Code = warning("path/overlap-shortened", "The gap beside a part is narrower than the overlaps; they are shortened so that they stay out of the next part.");
     /// A blade longer than its cut, with nowhere to go.
     pub static PATH_OVERCUT: Code = warning("path/overcut", "The blade is longer than a short cut and there is no waste at its ends: it cuts past them, where that harms least.");
+    /// A slit that the profile makes deeper than its part is wide.
+    pub static PATH_NOTCH_THROUGH: Code = error("path/notch-through", "A slit that `notch.depth_mm` makes deeper than it is drawn would cut through its part.");
     /// A run that winds C past its range.
     pub static PATH_C_RANGE: Code = error("path/c-range", "A run winds the C axis past `c.range_deg` however it is entered and wherever it is parted.");
     /// Off the table.
@@ -289,6 +291,7 @@ pub static ALL: &[&Code] = &[
     &PATH_TIGHT,
     &PATH_SHORTENED,
     &PATH_OVERCUT,
+    &PATH_NOTCH_THROUGH,
     &PATH_C_RANGE,
     &PATH_OFF_TABLE,
     &PATH_OFF_TABLE_STRICT,

@@ -10,6 +10,7 @@ mod encoding;
 pub mod keys;
 pub mod kinematics;
 pub mod knife;
+mod lines;
 mod load;
 pub mod notches;
 pub mod plot;

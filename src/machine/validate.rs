@@ -3,6 +3,7 @@
 use super::encoding;
 use super::keys::{KEYS, Key, Takes, shown_value};
 use super::knife::Follow;
+use super::lines;
 use super::profile::MachineProfile;
 use crate::diagnostic::{Code, code};
 
@@ -107,6 +108,12 @@ fn rules(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault
             let message = format!("C of `{key}` is {c} degrees, outside `c.range_deg`, {least} to {greatest}");
             broken(&[key, "c.range_deg"], message, "C stands there, too");
         }
+    }
+    for (key, word) in lines::harmful(&profile.gcode) {
+        let message = format!("`{key}` has {word}, which undoes what the program says");
+        let hint =
+            "modes, moves of the axes and the end are the program's own; only `gcode.footer` may move, and end it";
+        broken(&[key], message, hint);
     }
     faults
 }

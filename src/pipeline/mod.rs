@@ -24,7 +24,7 @@ use crate::front::{self, Dialect};
 use crate::ir::{Finding, Marker, Toolpath, check, text};
 use crate::machine::{Job, Mode, plot};
 use crate::pass::marker::MARKER_PASSES;
-use crate::pass::toolpath::{Scene, TOOLPATH_PASSES, frame, trace};
+use crate::pass::toolpath::{Scene, TOOLPATH_PASSES, check_depths, frame, trace};
 use crate::plan;
 use crate::source::Source;
 use crate::verify::Census;
@@ -330,6 +330,7 @@ fn toolpaths(marker: &Marker, job: &Job, diagnostics: &mut Diagnostics) -> Vec<T
         }
     }
     let scene = Scene::new(marker, job);
+    check_depths(marker, &scene, diagnostics);
     let pass = |mut toolpath: Toolpath| {
         toolpath.entry = pose;
         for pass in TOOLPATH_PASSES {

@@ -20,6 +20,7 @@ mod turn;
 mod wind;
 
 pub use frame::frame;
+pub use notches::check_depths;
 pub use scene::Scene;
 pub use trace::trace;
 

@@ -5,10 +5,18 @@
 
 use std::collections::BTreeMap;
 
+use super::scene::Scene;
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::bits;
+use crate::ir::Marker;
 use crate::ir::list::Segment;
 use crate::ir::marker::{Notch, NotchKind, Stroke, Vee};
 use crate::machine::{NotchStyle, Notches};
+use crate::units::number::fixed;
+
+/// Places along a slit are looked at this far from each other, mm, the first so far behind its tip.
+const STEP: f64 = 0.25;
+const INSIDE: f64 = 0.05;
 
 /// The cuts of a notch that is drawn as a slit.
 pub(super) fn strokes(notch: &Notch, notches: Notches) -> impl Iterator<Item = Stroke> + use<> {
@@ -19,6 +27,31 @@ pub(super) fn strokes(notch: &Notch, notches: Notches) -> impl Iterator<Item = S
         NotchStyle::Skip => 0,
     };
     notch.strokes().take(count)
+}
+
+/// Finds slits that the profile makes so deep that they lead out of their part.
+pub fn check_depths(marker: &Marker, scene: &Scene, diagnostics: &mut Diagnostics) {
+    let notches = scene.job.profile.notch;
+    let Some(depth) = notches.depth_mm.filter(|_| notches.style != NotchStyle::Skip) else { return };
+    for (index, piece) in marker.pieces.iter().enumerate() {
+        let slits = piece.notches.iter().map(|notch| Stroke { from: notch.root, to: notch.tip, span: notch.span });
+        let vees = piece.vees.iter().filter(|_| notches.style == NotchStyle::Slit);
+        let vees = vees.map(|vee| slit(vee, Notches { depth_mm: None, ..notches }));
+        for drawn in slits.chain(vees).filter(|drawn| drawn.length() < depth) {
+            let along = (drawn.to - drawn.from) / drawn.length();
+            let deeper = depth - drawn.length();
+            let steps = (deeper / STEP).ceil();
+            let is_in = |i: usize| scene.is_in_part(index, drawn.to + along * (deeper * i as f64 / steps).max(INSIDE));
+            // A slit that is drawn outside of all parts is nobody's.
+            if is_in(0) && !(1..=steps as usize).all(is_in) {
+                let (block, depth) = (drawn.span.block, fixed(depth, 2));
+                let message =
+                    format!("block {block}: a slit of {depth} mm leads out of its part, which is narrower here");
+                let hint = "take a smaller notch.depth_mm, or give the piece a profile of its own";
+                diagnostics.push(Diagnostic::new(&code::PATH_NOTCH_THROUGH, message).at(drawn.span).hint(hint));
+            }
+        }
+    }
 }
 
 /// A notch of another depth; its crossbar stays at its tip.

@@ -1,5 +1,6 @@
 //! What passes look at beside a toolpath: the job, and the cloth around it.
 
+use crate::geom::Point;
 use crate::geom::nest::{self, Shape};
 use crate::geom::region::{Ray, Regions, Room};
 use crate::ir::{Marker, Toolpath};
@@ -35,6 +36,11 @@ impl<'a> Scene<'a> {
         let part_of = nest::regions(&shapes, |point| pieces.owners_at(point));
         let parts = if part_of.iter().copied().eq(0..) { pieces } else { rings(&|piece| part_of[piece as usize]) };
         Self { job, parts, part_of }
+    }
+
+    /// Whether a place lies in the part to which a piece belongs.
+    pub(super) fn is_in_part(&self, piece: usize, place: Point) -> bool {
+        self.parts.owners_at(place).contains(&self.part_of[piece])
     }
 
     /// A scene without parts.

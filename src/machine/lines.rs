@@ -1,0 +1,65 @@
+//! Lines of G-code that a profile gives: which of their words would undo what the program around them says.
+
+use super::controller::Gcode;
+
+/// Words that change what every number behind them means.
+const MODES: &[&str] = &["G18", "G19", "G20", "G70", "G91", "G90.1", "G92", "G10"];
+/// Words that end the program.
+const ENDS: &[&str] = &["M2", "M02", "M30", "%"];
+
+/// The lines of a profile by their keys, and the first word of each that has no business there.
+pub(super) fn harmful(gcode: &Gcode) -> Vec<(&'static str, String)> {
+    let texts = [
+        ("gcode.header", &gcode.header),
+        ("gcode.knife_down", &gcode.knife_down),
+        ("gcode.knife_up", &gcode.knife_up),
+        ("gcode.drill_down", &gcode.drill_down),
+        ("gcode.drill_up", &gcode.drill_up),
+        ("gcode.stop", &gcode.stop),
+        ("gcode.advance", &gcode.advance),
+        ("gcode.footer", &gcode.footer),
+    ];
+    let axes = [b'X', b'Y', gcode.letter.byte()];
+    let found = texts.into_iter().filter_map(|(key, text)| {
+        let is_last = key == "gcode.footer";
+        let harms = |word: &String| {
+            let is_axis = axes.contains(&word.as_bytes()[0]) && word.len() > 1;
+            MODES.contains(&word.as_str()) || !is_last && (is_axis || ENDS.contains(&word.as_str()))
+        };
+        Some((key, text.lines().flat_map(words).find(harms)?))
+    });
+    found.collect()
+}
+
+/// The words of a line: letters with their numbers, upper case, whatever blanks stand between; comments are none.
+fn words(line: &str) -> Vec<String> {
+    let mut words: Vec<String> = Vec::new();
+    let mut is_comment = false;
+    for c in line.chars().take_while(|&c| c != ';') {
+        match c {
+            '(' => is_comment = true,
+            ')' => is_comment = false,
+            _ if is_comment || c.is_whitespace() => {}
+            _ if c.is_ascii_alphabetic() || c == '%' => words.push(c.to_ascii_uppercase().to_string()),
+            _ => words.last_mut().into_iter().for_each(|word| word.push(c)),
+        }
+    }
+    words
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_that_undo_the_program_are_found_in_any_spelling() {
+        let found = |header: &str, footer: &str| {
+            harmful(&Gcode { header: header.to_owned(), footer: footer.to_owned(), ..Gcode::default() })
+        };
+        assert_eq!(found("G54\n(G20 X5) T1 M6", "M65 P0\nG0 X0 Y0\nM2"), []);
+        for (header, word) in [("g20", "G20"), ("G54 G 92 X10", "G92"), ("M30", "M30"), ("G0X5", "X5"), ("%", "%")] {
+            assert_eq!(found(header, "M2"), [("gcode.header", word.to_owned())], "{header}");
+        }
+        assert_eq!(found("", "G91\nM2"), [("gcode.footer", "G91".to_owned())]);
+    }
+}
