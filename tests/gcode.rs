@@ -256,7 +256,8 @@ fn g_code_of_others_is_told_apart() {
 fn ready_tables_of_controllers_give_programs_that_pass() {
     for name in ["linuxcnc", "fluidnc"] {
         let job = machine(name);
-        for file in ["markers/metric-six-pieces.cut", "markers/inch-four-pieces.cut", "iso/speeds-and-events.cut"] {
+        let markers = ["markers/metric-six-pieces.cut", "markers/inch-four-pieces.cut", "iso/speeds-and-events.cut"];
+        for file in markers.into_iter().chain(["motion/contour2m_flat.csv"]) {
             let (program, compiled) = compile(&fixture(file), &job);
             let keys = &job.profile.gcode;
             assert!(keys.arcs || !program.contains("\nG3 "), "{name}: {file}");

@@ -11,6 +11,8 @@ use crate::units::rad;
 const TURN_SHARE: f64 = 0.9;
 /// The same where lines stand for arcs, which are off by as much again.
 const LINE_SHARE: f64 = 0.45;
+/// The most of the tolerance that the bow of a chord may take.
+const BOW_SHARE: f64 = 0.5;
 /// Greatest second derivative of the step by which the blade fades from chord to tangent, over its length squared.
 const FADE_BEND: f64 = 7.6;
 /// Shorter ways are none, mm.
@@ -131,7 +133,9 @@ pub(super) fn way(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Point> {
     let ring = run.shape == Shape::Ring;
     let turn = if ring { seam_turn(run) } else { 0.0 };
     let seam = [turn, if run.front == 0.0 { turn } else { 0.0 }];
-    let tube = Tube::new(points, tolerance, (seam, &job.profile));
+    // Chords that stand for arcs leave them by a bow, which is taken from the tube.
+    let bow = if keys.arcs { 0.0 } else { keys.chord_mm.min(BOW_SHARE * tolerance) };
+    let tube = Tube::new(points, tolerance - bow, (seam, &job.profile));
     let start = if ring { at_seam(run) } else { tube.direction(0) };
     let end = if ring && run.front == 0.0 { start } else { tube.direction(tube.chords() - 1) };
     let arcs = fit(&tube, Ends { start, end })?;
