@@ -1,49 +1,17 @@
 //! What the targets `counts`, `hal` and `halrun` promise: the setpoints of `csv`, in the form that drives take.
 
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+#[path = "support/room.rs"]
+mod room;
 
+use std::fs;
+
+use crate::room::Room;
 use serde_json::Value;
-use tempfile::TempDir;
 
 const SMALL: &str = "H1*G71*N1*X0Y0*M14*X400Y0*X400Y400*X0Y400*X0Y0*M15*N2*X600Y0*M14*X640Y0*M15*X600Y200*M43*M01*M0*";
 
 /// Half of the last decimal of `csv`.
 const CSV_ROUNDING: f64 = 0.500_001e-6;
-
-struct Room(TempDir);
-
-impl Room {
-    fn new() -> Self {
-        let room = Self(tempfile::tempdir().expect("a directory"));
-        fs::write(room.at("small.cut"), SMALL).expect("writable");
-        let circle = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/iso/seed-circle.cut");
-        fs::copy(circle, room.at("circle.cut")).expect("the seed's circle is a fixture");
-        room
-    }
-
-    fn at(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn read(&self, name: &str) -> Vec<u8> {
-        fs::read(self.at(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
-    }
-
-    fn text(&self, name: &str) -> String {
-        String::from_utf8(self.read(name)).expect("UTF-8")
-    }
-
-    fn run(&self, arguments: &str, code: i32) -> String {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_cutc"));
-        let output = command.current_dir(self.0.path()).args(arguments.split_whitespace()).output().expect("it starts");
-        let said = [output.stdout, output.stderr].concat();
-        let said = String::from_utf8_lossy(&said).into_owned();
-        assert_eq!(output.status.code(), Some(code), "cutc {arguments}\n{said}");
-        said
-    }
-}
 
 /// The numbers of a `csv` program.
 fn csv(text: &str) -> Vec<Vec<f64>> {
@@ -61,11 +29,11 @@ fn counts(bytes: &[u8]) -> (Value, Vec<[i32; 5]>) {
 
 #[test]
 fn counts_are_the_absolute_positions_and_never_drift() {
-    let room = Room::new();
+    let room = Room::with("small.cut", SMALL);
     let profile = "--set c.offset_deg=30 --set c.reverse=true --set counts.x.per_mm=4096 --set counts.x.offset=-77 \
                    --set counts.c.per_deg=2500.5";
     for name in ["small", "circle"] {
-        room.run(&format!("compile {name}.cut -t csv,counts {profile}"), 0);
+        room.says(&format!("compile {name}.cut -t csv,counts {profile}"), 0);
         let (head, records) = counts(&room.read(&format!("{name}.counts")));
         let rows = csv(&room.text(&format!("{name}.csv")));
         assert_eq!(head["rows"], rows.len());
@@ -83,9 +51,9 @@ fn counts_are_the_absolute_positions_and_never_drift() {
 
 #[test]
 fn counts_are_judged_by_their_own_bytes() {
-    let room = Room::new();
-    room.run("compile circle.cut -t counts", 0);
-    room.run("verify circle.counts --source circle.cut", 0);
+    let room = Room::with("small.cut", SMALL);
+    room.says("compile circle.cut -t counts", 0);
+    room.says("verify circle.counts --source circle.cut", 0);
     let sound = room.read("circle.counts");
     let middle = 1024 + (sound.len() - 1024) / 20 / 2 * 20;
     let edited = |at: usize, with: &[u8]| {
@@ -95,7 +63,7 @@ fn counts_are_judged_by_their_own_bytes() {
     };
     let broken = |name: &str, bytes: &[u8], rule: &str| {
         fs::write(room.at("broken.counts"), bytes).expect("writable");
-        let said = room.run("verify broken.counts --source circle.cut", 1);
+        let said = room.says("verify broken.counts --source circle.cut", 1);
         assert!(said.lines().any(|line| line.starts_with("FAIL") && line.contains(rule)), "{name}: {said}");
     };
     broken("cut short", &sound[..sound.len() - 1], "verify/format");
@@ -103,22 +71,22 @@ fn counts_are_judged_by_their_own_bytes() {
     broken("an output that is none", &edited(middle + 12, &[0xff]), "verify/format");
     broken("a jump", &edited(middle, &2_000_000_i32.to_le_bytes()), "verify/speed-x");
     broken("a record lost", &[&sound[..middle], &sound[middle + 20..]].concat(), "verify/format");
-    let said = room.run("verify circle.counts --source circle.cut --set counts.x.per_mm=5000", 1);
+    let said = room.says("verify circle.counts --source circle.cut --set counts.x.per_mm=5000", 1);
     assert!(said.contains("verify/format"), "another machine: {said}");
 }
 
 #[test]
 fn a_drive_whose_register_goes_round_is_followed() {
-    let room = Room::new();
-    room.run("compile circle.cut -t counts --set counts.c.offset=2147483000 --set counts.x.offset=2147483640", 0);
+    let room = Room::with("small.cut", SMALL);
+    room.says("compile circle.cut -t counts --set counts.c.offset=2147483000 --set counts.x.offset=2147483640", 0);
     let (_, records) = counts(&room.read("circle.counts"));
     assert!(records.windows(2).any(|pair| pair[0][0].abs_diff(pair[1][0]) > 1 << 31), "it goes round");
 }
 
 #[test]
 fn hal_rows_are_the_setpoints_as_halstreamer_takes_them() {
-    let room = Room::new();
-    room.run("compile small.cut -t csv,hal,halrun --set c.offset_deg=-90", 0);
+    let room = Room::with("small.cut", SMALL);
+    room.says("compile small.cut -t csv,hal,halrun --set c.offset_deg=-90", 0);
     let text = room.text("small.hal.txt");
     assert!(text.starts_with("# cutc hal") && text.ends_with('\n'));
     let rows = csv(&room.text("small.csv"));
@@ -133,8 +101,8 @@ fn hal_rows_are_the_setpoints_as_halstreamer_takes_them() {
     let file = room.text("small.hal");
     assert!(file.contains(&format!("depth={} cfg=fffbuuu", rows.len() + 2)), "{file}");
     assert!(file.contains("halstreamer small.hal.txt") && file.contains("period1=1000000\n"), "{file}");
-    room.run("verify small.hal.txt --source small.cut --set c.offset_deg=-90", 0);
+    room.says("verify small.hal.txt --source small.cut --set c.offset_deg=-90", 0);
     fs::write(room.at("small.hal.txt"), text.replace(" 1 0 0 ", " 2 0 0 ")).expect("writable");
-    let said = room.run("verify small.hal.txt --source small.cut --set c.offset_deg=-90", 1);
+    let said = room.says("verify small.hal.txt --source small.cut --set c.offset_deg=-90", 1);
     assert!(said.contains("verify/format"), "{said}");
 }

@@ -1,57 +1,18 @@
 //! What the targets `npy` and `json` promise, and several targets in one compile.
 
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+#[path = "support/room.rs"]
+mod room;
 
+use std::fs;
+
+use crate::room::Room;
 use serde_json::Value;
-use tempfile::TempDir;
 
 /// A square, a short line and a drill: every kind of run but an event.
 const SMALL: &str = "H1*G71*N1*X0Y0*M14*X400Y0*X400Y400*X0Y400*X0Y0*M15*N2*X600Y0*M14*X640Y0*M15*X600Y200*M43*M0*";
 
 /// Half of the last decimal that `csv` prints, and what the sum of both roundings to f64 adds.
 const ROUNDING: f64 = 0.500_001e-6;
-
-struct Room(TempDir);
-
-impl Room {
-    fn new() -> Self {
-        let room = Self(tempfile::tempdir().expect("a directory"));
-        fs::write(room.at("small.cut"), SMALL).expect("writable");
-        let circle = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/iso/seed-circle.cut");
-        fs::copy(circle, room.at("circle.cut")).expect("the seed's circle is a fixture");
-        room
-    }
-
-    fn at(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn read(&self, name: &str) -> Vec<u8> {
-        fs::read(self.at(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
-    }
-
-    fn text(&self, name: &str) -> String {
-        String::from_utf8(self.read(name)).expect("UTF-8")
-    }
-
-    fn run(&self, arguments: &str) -> Output {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_cutc"));
-        command.current_dir(self.0.path()).args(arguments.split_whitespace()).output().expect("the program starts")
-    }
-
-    fn expect(&self, arguments: &str, code: i32) -> String {
-        let output = self.run(arguments);
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(code), "cutc {arguments}\n{said}");
-        said
-    }
-
-    fn has(&self, name: &str) -> bool {
-        self.at(name).exists()
-    }
-}
 
 /// The rows of a `csv` program: four decimals, four whole numbers.
 fn csv_rows(text: &str) -> Vec<[f64; 8]> {
@@ -82,9 +43,9 @@ fn npy_rows(bytes: &[u8]) -> Vec<[f64; 8]> {
 
 #[test]
 fn an_array_holds_the_numbers_of_the_table_before_rounding() {
-    let room = Room::new();
+    let room = Room::with("small.cut", SMALL);
     for name in ["small", "circle"] {
-        room.expect(&format!("compile {name}.cut -t csv,npy"), 0);
+        room.says(&format!("compile {name}.cut -t csv,npy"), 0);
         let (table, array) =
             (csv_rows(&room.text(&format!("{name}.csv"))), npy_rows(&room.read(&format!("{name}.npy"))));
         assert_eq!(table.len(), array.len());
@@ -98,9 +59,9 @@ fn an_array_holds_the_numbers_of_the_table_before_rounding() {
 
 #[test]
 fn an_array_is_judged_by_its_own_bytes() {
-    let room = Room::new();
-    room.expect("compile circle.cut -t npy", 0);
-    room.expect("verify circle.npy --source circle.cut", 0);
+    let room = Room::with("small.cut", SMALL);
+    room.says("compile circle.cut -t npy", 0);
+    room.says("verify circle.npy --source circle.cut", 0);
     let sound = room.read("circle.npy");
     let broken = |name: &str, bytes: &[u8], rule: &str| {
         fs::write(room.at("broken.npy"), bytes).expect("writable");
@@ -129,13 +90,13 @@ fn an_array_is_judged_by_its_own_bytes() {
 
 /// A compiled `json` program.
 fn steps(room: &Room, name: &str) -> Value {
-    room.expect(&format!("compile {name}.cut -t csv,json"), 0);
+    room.says(&format!("compile {name}.cut -t csv,json"), 0);
     serde_json::from_slice(&room.read(&format!("{name}.json"))).expect("JSON")
 }
 
 #[test]
 fn the_times_of_the_runs_add_up_to_the_program() {
-    let room = Room::new();
+    let room = Room::with("small.cut", SMALL);
     for name in ["small", "circle"] {
         let json = steps(&room, name);
         let (runs, program) = (json["runs"].as_array().expect("a list"), &json["program"]);
@@ -169,46 +130,46 @@ fn reviewed(text: &str) -> String {
 
 #[test]
 fn the_runs_of_a_small_program_read_well() {
-    let room = Room::new();
+    let room = Room::with("small.cut", SMALL);
     steps(&room, "small");
     insta::assert_snapshot!(reviewed(&room.text("small.json")));
 }
 
 #[test]
 fn several_targets_give_what_each_gives_alone() {
-    let room = Room::new();
+    let room = Room::with("small.cut", SMALL);
     fs::create_dir(room.at("all")).expect("writable");
-    let said = room.expect("compile small.cut -t csv,npy,json,svg -o all", 0);
+    let said = room.says("compile small.cut -t csv,npy,json,svg -o all", 0);
     for end in ["csv", "npy", "json", "svg"] {
-        room.expect(&format!("compile small.cut -t {end}"), 0);
+        room.says(&format!("compile small.cut -t {end}"), 0);
         for name in [format!("small.{end}"), format!("small.{end}.meta.json")] {
             assert!(room.read(&name) == room.read(&format!("all/{name}")), "{name}");
         }
         assert!(said.contains(&format!("small.{end}`")), "{said}");
     }
-    room.expect("compile small.cut -t svg,json --no-verify -o all", 0);
+    room.says("compile small.cut -t svg,json --no-verify -o all", 0);
     assert!(room.text("all/small.svg.meta.json").contains("\"verified\": \"no\""));
 }
 
 #[test]
 fn several_targets_need_several_places() {
-    let room = Room::new();
+    let room = Room::with("small.cut", SMALL);
     for arguments in ["-t csv,svg -o one.csv", "-t csv,svg -o -", "-t csv,csv", "-t csv -t csv", "-t csv,nothing"] {
-        room.expect(&format!("compile small.cut {arguments}"), 2);
+        room.says(&format!("compile small.cut {arguments}"), 2);
     }
-    assert_eq!(fs::read_dir(room.0.path()).expect("readable").count(), 2, "nothing is written");
+    assert_eq!(room.names(), ["circle.cut", "junk.cut", "small.cut"], "nothing is written");
 }
 
 #[test]
 fn of_several_targets_none_is_written_when_one_cannot_be() {
-    let room = Room::new();
-    room.expect("compile small.cut -t csv,npy", 0);
-    let said = room.expect("compile small.cut -t csv,npy --set verify.max_overcut_waste_mm=0", 1);
+    let room = Room::with("small.cut", SMALL);
+    room.says("compile small.cut -t csv,npy", 0);
+    let said = room.says("compile small.cut -t csv,npy --set verify.max_overcut_waste_mm=0", 1);
     for end in ["csv", "npy"] {
         assert!(!room.has(&format!("small.{end}")) && room.has(&format!("small.{end}.stale")), "{said}");
         assert!(room.has(&format!("small.{end}.meta.json.stale")));
     }
     fs::create_dir(room.at("small.json")).expect("writable");
-    room.expect("compile small.cut -t csv,json", 2);
+    room.says("compile small.cut -t csv,json", 2);
     assert!(!room.has("small.csv"));
 }

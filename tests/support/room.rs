@@ -24,6 +24,13 @@ impl Room {
         room
     }
 
+    /// A room that also has a cut file.
+    pub(crate) fn with(name: &str, cut: &str) -> Self {
+        let room = Self::new();
+        room.write(name, cut.as_bytes());
+        room
+    }
+
     pub(crate) fn at(&self, name: &str) -> PathBuf {
         self.0.path().join(name)
     }
@@ -34,6 +41,10 @@ impl Room {
 
     pub(crate) fn read(&self, name: &str) -> Vec<u8> {
         fs::read(self.at(name)).unwrap_or_else(|error| panic!("{name}: {error}; there are {:?}", self.names()))
+    }
+
+    pub(crate) fn text(&self, name: &str) -> String {
+        String::from_utf8(self.read(name)).expect("UTF-8")
     }
 
     pub(crate) fn has(&self, name: &str) -> bool {
@@ -66,6 +77,12 @@ impl Room {
         let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
         assert_eq!(output.status.code(), Some(code), "cutc {arguments}\n{stdout}\n{stderr}");
         (stdout, stderr)
+    }
+
+    /// Runs and expects an exit code; gives all that was said.
+    pub(crate) fn says(&self, arguments: &str, code: i32) -> String {
+        let (stdout, stderr) = self.expect(arguments, code);
+        stdout + &stderr
     }
 
     /// Runs with some bytes on standard input, and expects an exit code; gives standard output and standard error.
