@@ -68,39 +68,36 @@ pub fn foreign(file: &mut dyn Medium) -> io::Result<Option<[String; 2]>> {
 /// Where the knife stays up nothing may be cut: the program is judged against a marker without lines, so that every
 /// stroke is one too many, and the rules on how something is cut say nothing.
 pub(super) fn judge(source: &Source, judged: &Judged, job: &Job, program: &mut dyn Medium) -> io::Result<Verdict> {
-    program.rewind()?;
-    let Judged { input, read } = judged;
-    let marker = &input.marker;
-    let mut bytes_read = BufReader::with_capacity(BLOCK, program);
-    let mut verdict = match verify::kind(&mut bytes_read) {
-        Some(Kind::CutterFile) => {
+    let marker = &judged.input.marker;
+    let mut audit = Vec::new();
+    let verdict: io::Result<Verdict> = rayon::in_place_scope(|scope| {
+        scope.spawn(|_| audit = audited(source, judged, job));
+        program.rewind()?;
+        let mut input = BufReader::with_capacity(BLOCK, program);
+        let kind = verify::kind(&mut input);
+        if kind == Some(Kind::CutterFile) {
             let mut bytes = Vec::new();
-            bytes_read.read_to_end(&mut bytes)?;
-            verify::cutter_file(&bytes, marker, source, job)
+            input.read_to_end(&mut bytes)?;
+            return Ok(verify::cutter_file(&bytes, marker, source, job));
         }
-        Some(Kind::Positions) => {
-            let mut verdict = if job.mode.cuts() {
-                verify::positions(&mut bytes_read, marker, job)
-            } else {
-                verify::positions(&mut bytes_read, &uncut(marker, job.mode), job)
-            };
-            if !job.mode.cuts() {
-                verdict.findings.retain(|finding| !OF_CUTS.contains(&finding.rule));
-            }
-            verdict
+        let judge_motion = if kind == Some(Kind::Positions) { verify::positions } else { verify::setpoints };
+        if job.mode.cuts() {
+            return Ok(judge_motion(&mut input, marker, job));
         }
-        Some(Kind::Setpoints) | None if job.mode.cuts() => verify::setpoints(&mut bytes_read, marker, job),
-        Some(Kind::Setpoints) | None => {
-            let mut verdict = verify::setpoints(&mut bytes_read, &uncut(marker, job.mode), job);
-            verdict.findings.retain(|finding| !OF_CUTS.contains(&finding.rule));
-            verdict
-        }
-    };
-    let audit = verify::source_audit(input.dialect.name, source.bytes(), read, &job.profile);
-    verdict.findings.extend(audit.into_iter().flatten());
-    verdict.findings.push(verify::source_kept(read, marker));
+        let mut verdict = judge_motion(&mut input, &uncut(marker, job.mode), job);
+        verdict.findings.retain(|finding| !OF_CUTS.contains(&finding.rule));
+        Ok(verdict)
+    });
+    let mut verdict = verdict?;
+    verdict.findings.extend(audit);
     verify::sort(&mut verdict.findings);
     Ok(verdict)
+}
+
+/// What was read of the source against its bytes, and what the passes kept of that.
+fn audited(source: &Source, Judged { input, read }: &Judged, job: &Job) -> Vec<Finding> {
+    let audit = verify::source_audit(input.dialect.name, source.bytes(), read, &job.profile);
+    audit.into_iter().flatten().chain([verify::source_kept(read, &input.marker)]).collect()
 }
 
 /// What is left of a marker where the knife stays up: the events of a dry run, and nothing of a frame.

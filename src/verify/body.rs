@@ -1,7 +1,6 @@
 //! What a stroke cuts: the body of the blade where it plunges, then the way of its tip.
 
 use super::follow::Foot;
-use super::read::Row;
 use super::reference::Line;
 use crate::geom::{Point, polyline};
 use crate::machine::Knife;
@@ -19,10 +18,9 @@ pub(super) struct Cut {
 }
 
 impl Cut {
-    /// What the rows of a stroke cut, the tip being at `tips`.
-    pub(super) fn new(rows: &[Row], tips: &[Point], knife: &Knife) -> Self {
+    /// What a stroke cuts whose tip comes by `tips` and whose tail plunges at `tail`.
+    pub(super) fn new(tips: &[Point], tail: Point, knife: &Knife) -> Self {
         let steps = (knife.width_mm / BODY_STEP).ceil() as usize;
-        let tail = rows[0].centre - rows[0].along() * knife.back();
         let body = (0..steps).map(|i| tail + (tips[0] - tail) * (i as f64 / steps as f64));
         let mut points: Vec<Point> = body.collect();
         // Rest rows repeat their place; a track of places that differ is enough.

@@ -9,6 +9,9 @@ const CELL_MIN: f64 = 4.0;
 const CELLS_A_CHORD: f64 = 4.0;
 const CELLS: [f64; 2] = [4096.0, 4_194_304.0];
 
+/// By how much rounding may shift an edge of a cell, mm: markers are shorter than a thousand kilometres.
+const EDGE: f64 = 1e-6;
+
 /// For each cell the chords that pass it: (line, chord), laid out one cell after the other.
 #[derive(Debug)]
 pub(super) struct Grid {
@@ -54,39 +57,38 @@ impl Grid {
         grid
     }
 
-    /// Calls `see` for each cell of each chord.
+    /// Calls `see` for each cell that a chord passes, of each chord: column by column, the rows between which it lies there.
     fn each(&self, reference: &Reference, mut see: impl FnMut(usize, (u32, u32))) {
         for (l, line) in reference.lines.iter().enumerate() {
             for (c, ends) in line.points.windows(2).enumerate() {
-                // Steps of half a cell: what they miss lies within a cell of what they find.
-                let steps = ((ends[1] - ends[0]).norm() / (0.5 * self.cell)).ceil().max(1.0) as usize;
-                let mut last = usize::MAX;
-                for i in 0..=steps {
-                    let here = self.cell_of(ends[0] + (ends[1] - ends[0]) * (i as f64 / steps as f64));
-                    if here != last {
-                        see(here, (l as u32, c as u32));
-                        last = here;
-                    }
+                let [from, to] = if ends[0].x <= ends[1].x { [ends[0], ends[1]] } else { [ends[1], ends[0]] };
+                let [first, last] = [from.x, to.x].map(|x| self.column(x));
+                for column in first..=last {
+                    let edge = |column: usize| self.origin.x + self.cell * column as f64;
+                    let y_at = |x: f64| from.y + (to.y - from.y) * ((x - from.x) / (to.x - from.x));
+                    let enters = if column == first { from.y } else { y_at(edge(column)) };
+                    let leaves = if column == last { to.y } else { y_at(edge(column + 1)) };
+                    let [low, high] = [enters.min(leaves) - EDGE, enters.max(leaves) + EDGE].map(|y| self.row(y));
+                    (low..=high).for_each(|row| see(row * self.columns + column, (l as u32, c as u32)));
                 }
             }
         }
     }
 
-    fn column_row(&self, point: Point) -> (usize, usize) {
-        let place = |value: f64, count: usize| ((value / self.cell).max(0.0) as usize).min(count - 1);
-        (place(point.x - self.origin.x, self.columns), place(point.y - self.origin.y, self.rows))
+    fn column(&self, x: f64) -> usize {
+        (((x - self.origin.x) / self.cell).max(0.0) as usize).min(self.columns - 1)
     }
 
-    fn cell_of(&self, point: Point) -> usize {
-        let (column, row) = self.column_row(point);
-        row * self.columns + column
+    fn row(&self, y: f64) -> usize {
+        (((y - self.origin.y) / self.cell).max(0.0) as usize).min(self.rows - 1)
     }
 
-    /// The chords in the cell of a point and the eight around it: all that come nearer than half a cell, and others.
-    pub(super) fn near(&self, point: Point) -> impl Iterator<Item = (u32, u32)> + '_ {
-        let (column, row) = self.column_row(point);
-        let rows = row.saturating_sub(1)..=(row + 1).min(self.rows - 1);
-        let columns = column.saturating_sub(1)..=(column + 1).min(self.columns - 1);
+    /// The chords that come nearer to a point than `reach` mm, and others; one that passes several cells comes several
+    /// times.
+    pub(super) fn near(&self, point: Point, reach: f64) -> impl Iterator<Item = (u32, u32)> + '_ {
+        let reach = reach + EDGE;
+        let rows = self.row(point.y - reach)..=self.row(point.y + reach);
+        let columns = self.column(point.x - reach)..=self.column(point.x + reach);
         rows.flat_map(move |r| columns.clone().map(move |c| r * self.columns + c))
             .flat_map(|cell| &self.chords[self.starts[cell] as usize..self.starts[cell + 1] as usize])
             .copied()

@@ -35,13 +35,17 @@ mod source_audit;
 mod source_hpgl;
 mod stroke;
 mod table;
+mod trial;
 mod words;
 mod worst;
+mod worsts;
 
 pub use cutter_file::cutter_file;
 pub use source_audit::{Census, source_audit, source_kept};
 
 use std::io::BufRead;
+
+use rayon::prelude::*;
 
 use self::coverage::Coverage;
 use self::events::Events;
@@ -52,11 +56,16 @@ use self::order::Order;
 use self::read::{Rounding, Row, Rows};
 use self::reference::Reference;
 use self::rest::Rest;
-use self::stroke::{Judge, Stroke};
+use self::stroke::{Judge, Strokes, Traced};
 use self::table::Table;
+use self::worst::Worst;
+use self::worsts::Worsts;
 use crate::geom::Vector;
 use crate::ir::{Finding, Marker, finding};
 use crate::machine::Job;
+
+/// Rows of strokes that are judged at a time: enough to keep all cores busy, few enough to keep memory small.
+const ROWS_AT_A_TIME: usize = 16_384;
 
 /// Every rule: its code and what it says. The order is that of reports.
 pub const RULES: &[(&str, &str)] = &[
@@ -173,7 +182,70 @@ pub fn foreign(bytes: &mut dyn BufRead) -> std::io::Result<Option<[String; 2]>> 
 struct Done<'a> {
     coverage: Coverage<'a>,
     order: Order,
-    naming: Naming,
+    worsts: Worsts,
+}
+
+impl Done<'_> {
+    /// Judges strokes, in their order: on all cores, but for what depends on the strokes before.
+    fn see(&mut self, strokes: &Strokes, judge: &Judge) {
+        let mut traced: Vec<Traced> = strokes.all().into_par_iter().map(|stroke| judge.trace(stroke)).collect();
+        for stroke in &mut traced {
+            judge.settle(stroke, self);
+        }
+        let worsts: Vec<Worsts> = traced.par_iter().map(|stroke| judge.check(stroke)).collect();
+        worsts.into_iter().for_each(|worsts| self.worsts.add(worsts));
+    }
+}
+
+/// What watches rows as they come, whatever is cut.
+struct Watch<'a> {
+    limits: Limits,
+    rest: Rest<'a>,
+    table: Table,
+    events: Events,
+    order: Order,
+    block: Worst,
+    yaw_deg: f64,
+    last: Option<Row>,
+}
+
+impl Watch<'_> {
+    /// Sees rows until enough of them belong to strokes, or none comes any more, and gathers these. Each row may come with
+    /// the way of its tip.
+    fn gather(&mut self, next: &mut impl FnMut() -> Option<(Row, Option<Vector>)>) -> Strokes {
+        let mut strokes = Strokes::default();
+        while strokes.rows() < ROWS_AT_A_TIME || strokes.are_open() {
+            let Some((row, way)) = next() else { break };
+            self.limits.see(&row);
+            self.rest.see(&row);
+            // The axis stands askew to the blade by the yaw: what is cut is judged by the blade.
+            let blade = Row { c_deg: row.c_deg - self.yaw_deg, ..row };
+            self.table.see(&blade);
+            self.block.see(Naming::in_air(&row), || row.sighting());
+            self.events.see(&row, &mut self.order);
+            if row.knife || strokes.are_open() {
+                // The row of the lift command still holds the pose at the end of the cut.
+                strokes.push(&blade, way);
+            }
+            if !row.knife && strokes.are_open() {
+                strokes.end();
+            }
+            self.last = Some(row);
+        }
+        if strokes.are_open() {
+            strokes.end();
+        }
+        strokes
+    }
+
+    fn findings(self, done: &mut Done) -> Vec<Finding> {
+        done.order.add(self.order);
+        done.worsts.block.add(&self.block);
+        let mut findings = self.limits.findings(self.last.as_ref());
+        findings.extend(self.rest.findings(self.last.as_ref(), &mut done.order));
+        findings.extend([self.table.finding(), self.events.finding()]);
+        findings
+    }
 }
 
 /// Judges timed setpoints, as the targets `csv`, `npy`, `counts` and `hal` write them, against what the marker says must
@@ -215,48 +287,36 @@ pub fn positions(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdi
     Verdict { findings, unread: None, untimed: left.iter().map(|finding| finding.rule).collect() }
 }
 
-/// Follows the rows of a program, each with the way of its tip where that is known exactly.
+/// Follows the rows of a program, each with the way of its tip where that is known exactly: while strokes are judged, the
+/// next ones are read.
 fn simulate(
     mut next: impl FnMut() -> Option<(Row, Option<Vector>)>,
-    (reference, mut judge, rounding): (&Reference, Judge, Rounding),
+    (reference, judge, rounding): (&Reference, Judge, Rounding),
     job: &Job,
 ) -> Vec<Finding> {
-    let mut done =
-        Done { coverage: Coverage::new(reference), order: Order::default(), naming: Naming::new(reference.tolerance) };
-    let mut limits = Limits::new(&job.profile, rounding);
-    let mut events = Events::new(reference);
-    let mut rest = Rest::new(reference, &job.profile, rounding);
-    let mut table = Table::new(&job.profile, rounding);
-    let mut stroke = Stroke::default();
-    let mut last: Option<Row> = None;
-    while let Some((row, way)) = next() {
-        limits.see(&row);
-        rest.see(&row);
-        // The axis stands askew to the blade by the yaw: what is cut is judged by the blade.
-        let blade = Row { c_deg: row.c_deg - job.profile.knife.yaw_deg, ..row };
-        table.see(&blade);
-        done.naming.see(&row);
-        events.see(&row, &mut done.order);
-        if row.knife {
-            stroke.push(&blade, way);
-        } else if !stroke.is_empty() {
-            // The row of the lift command still holds the pose at the end of the cut.
-            stroke.push(&blade, way);
-            judge.judge(&stroke, &mut done);
-            stroke.clear();
-        }
-        last = Some(row);
+    let profile = &job.profile;
+    let mut watch = Watch {
+        limits: Limits::new(profile, rounding),
+        rest: Rest::new(reference, profile, rounding),
+        table: Table::new(profile, rounding),
+        events: Events::new(reference),
+        order: Order::default(),
+        block: judge.worsts().block,
+        yaw_deg: profile.knife.yaw_deg,
+        last: None,
+    };
+    let mut done = Done { coverage: Coverage::new(reference), order: Order::default(), worsts: judge.worsts() };
+    let mut strokes = watch.gather(&mut next);
+    while strokes.rows() > 0 {
+        let ready = std::mem::take(&mut strokes);
+        rayon::in_place_scope(|scope| {
+            scope.spawn(|_| done.see(&ready, &judge));
+            strokes = watch.gather(&mut next);
+        });
     }
-    if !stroke.is_empty() {
-        judge.judge(&stroke, &mut done);
-    }
-    let mut findings = limits.findings(last.as_ref());
-    findings.extend(rest.findings(last.as_ref(), &mut done.order));
-    findings.push(table.finding());
-    findings.extend(judge.findings());
-    findings.extend(done.coverage.findings(&job.profile));
-    findings.push(done.naming.finding());
-    findings.push(events.finding());
+    let mut findings = watch.findings(&mut done);
+    findings.extend(done.worsts.findings());
+    findings.extend(done.coverage.findings(profile));
     findings.push(done.order.finding());
     findings
 }

@@ -3,38 +3,35 @@
 use super::read::Row;
 use super::reference::Line;
 use super::worst::Worst;
-use crate::ir::Finding;
 
 /// How far from its chord, along the line, a block may be named, mm, beside the tolerance: a tip that takes a bend inside
 /// its tube passes the vertex early or late by less.
 const ASIDE: f64 = 0.5;
 
-/// Watches the column `block`.
+/// Judges the column `block`.
 pub(super) struct Naming {
+    /// How far a block may be named from its chord, mm.
     reach: f64,
-    block: Worst,
 }
 
 impl Naming {
     /// For a tube of this tolerance, mm.
     pub(super) fn new(tolerance: f64) -> Self {
-        let reach = tolerance + ASIDE;
-        Self { reach, block: Worst::new("verify/block", "mm", Some(reach)) }
+        Self { reach: tolerance + ASIDE }
     }
 
-    /// Sees any row: in the air no block is cut.
-    pub(super) fn see(&mut self, row: &Row) {
-        if !row.knife && row.block != 0 {
-            self.block.see(f64::INFINITY, || row.sighting());
-        }
+    /// The worst of nothing.
+    pub(super) fn worst(&self) -> Worst {
+        Worst::new("verify/block", "mm", Some(self.reach))
     }
 
-    /// Sees a row that cuts a line at a station: how far from there the chord is that has its block.
-    pub(super) fn see_cut(&mut self, row: &Row, line: &Line, station: f64) {
-        self.block.see(self.away(row.block, line, station), || row.sighting());
+    /// How far a row in the air is from what it should name: there no block is cut.
+    pub(super) fn in_air(row: &Row) -> f64 {
+        if !row.knife && row.block != 0 { f64::INFINITY } else { 0.0 }
     }
 
-    fn away(&self, block: u32, line: &Line, station: f64) -> f64 {
+    /// How far a row that cuts a line at a station is from the chord that has its block, mm.
+    pub(super) fn away(&self, block: u32, line: &Line, station: f64) -> f64 {
         let length = line.length();
         let station = if line.ring { station.rem_euclid(length) } else { station };
         let here = line.chord_at(station);
@@ -67,10 +64,5 @@ impl Naming {
             }
         }
         nearest
-    }
-
-    /// What was found.
-    pub(super) fn finding(self) -> Finding {
-        self.block.finding()
     }
 }

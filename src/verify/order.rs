@@ -23,6 +23,11 @@ impl Order {
         self.seen.push(Seen { tick, rank, place });
     }
 
+    /// Takes what another saw of the same program.
+    pub(super) fn add(&mut self, other: Self) {
+        self.seen.extend(other.seen);
+    }
+
     /// How many come behind a later one. Holes are known only when the program is over, so all are brought into time first.
     pub(super) fn finding(mut self) -> Finding {
         let mut worst = Worst::new("verify/order", "operations", Some(0.0));

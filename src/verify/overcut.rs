@@ -14,7 +14,6 @@ use super::inside::Inside;
 use super::reference::{Line, Reference};
 use super::worst::Worst;
 use crate::geom::{Point, Vector, polyline};
-use crate::ir::Finding;
 use crate::ir::finding::Sighting;
 use crate::machine::MachineProfile;
 
@@ -40,9 +39,27 @@ pub(super) struct Overcut {
     reflex: f64,
     /// What the profile allows in the part itself and in others, mm.
     allowed: [Option<f64>; 2],
-    part: Worst,
-    neighbour: Worst,
-    waste: Worst,
+}
+
+/// The worst overcuts, by what they go into.
+#[derive(Debug, Clone)]
+pub(super) struct Harm {
+    pub(super) part: Worst,
+    pub(super) neighbour: Worst,
+    pub(super) waste: Worst,
+}
+
+impl Harm {
+    /// None yet; the tip may leave its line by `tolerance` mm.
+    pub(super) fn new(profile: &MachineProfile, tolerance: f64) -> Self {
+        let verify = &profile.verify;
+        let in_part = verify.max_overcut_part_mm.map(|most| most + tolerance);
+        Self {
+            part: Worst::new("verify/overcut-part", "mm", in_part),
+            neighbour: Worst::new("verify/overcut-neighbour", "mm", verify.max_overcut_neighbour_mm),
+            waste: Worst::new("verify/overcut-waste", "mm", verify.max_overcut_waste_mm),
+        }
+    }
 }
 
 /// A stroke on its line.
@@ -84,22 +101,11 @@ impl Overcut {
             clearance: knife.clearance_mm,
             reflex: knife.reflex_front_overlap_mm.max(knife.reflex_heel_overlap_mm),
             allowed: [verify.max_overcut_part_mm, verify.max_overcut_neighbour_mm],
-            part: Worst::new(
-                "verify/overcut-part",
-                "mm",
-                verify.max_overcut_part_mm.map(|most| most + reference.tolerance),
-            ),
-            neighbour: Worst::new("verify/overcut-neighbour", "mm", verify.max_overcut_neighbour_mm),
-            waste: Worst::new("verify/overcut-waste", "mm", verify.max_overcut_waste_mm),
         }
     }
 
-    pub(super) fn findings(self) -> [Finding; 3] {
-        [self.part.finding(), self.neighbour.finding(), self.waste.finding()]
-    }
-
     /// Judges what a stroke cuts beyond the ends of its line.
-    pub(super) fn see(&mut self, stroke: &Stroke, lines: Lines, seen: &impl Fn(usize) -> Sighting) {
+    pub(super) fn see(&self, stroke: &Stroke, lines: Lines, seen: &impl Fn(usize) -> Sighting, harm: &mut Harm) {
         let joints = stroke.joints();
         let beyond: Vec<f64> = (0..stroke.feet.len()).map(|i| stroke.beyond(i, joints)).collect();
         if beyond.iter().all(|&beyond| beyond <= self.rounding) {
@@ -117,7 +123,7 @@ impl Overcut {
             let kind = match group[0] {
                 None => continue,
                 Some(Cloth::Waste) => {
-                    self.waste.see(beyond[far], || seen(far));
+                    harm.waste.see(beyond[far], || seen(far));
                     continue;
                 }
                 Some(Cloth::Part) => 0,
@@ -153,11 +159,11 @@ impl Overcut {
         let [of_part, of_neighbour] = self.allowed.map(|allowed| allowed.unwrap_or(f64::INFINITY));
         let reflex = if stab { 2.0 * self.reflex } else { self.reflex };
         if part > 0.0 {
-            self.part.see_under(part, of_part + self.tolerance + reflex.max(spared[0]), || seen(at_part));
+            harm.part.see_under(part, of_part + self.tolerance + reflex.max(spared[0]), || seen(at_part));
         }
         if neighbour > 0.0 {
             let unspared = if spared[1] > 0.0 { spared[1] + self.tolerance } else { 0.0 };
-            self.neighbour.see_under(neighbour, of_neighbour + unspared, || seen(at_neighbour));
+            harm.neighbour.see_under(neighbour, of_neighbour + unspared, || seen(at_neighbour));
         }
     }
 
@@ -265,12 +271,12 @@ impl Stroke<'_> {
 impl Lines<'_> {
     /// Whether a place is farther than `slack` mm from all that is cut.
     fn is_away(self, point: Point, slack: f64) -> bool {
-        self.grid.near(point).all(|chord| self.distance(chord, point) > slack)
+        self.grid.near(point, slack).all(|chord| self.distance(chord, point) > slack)
     }
 
     /// Whether it is from what is cut of a piece.
     fn is_away_from(self, point: Point, piece: usize, slack: f64) -> bool {
-        let mut near = self.grid.near(point).filter(|chord| self.reference.lines[chord.0 as usize].piece == piece);
+        let mut near = self.grid.near(point, slack).filter(|chord| self.reference.lines[chord.0 as usize].piece == piece);
         near.all(|chord| self.distance(chord, point) > slack)
     }
 

@@ -68,6 +68,13 @@ impl Worst {
         }
     }
 
+    /// Takes what was seen later.
+    pub(super) fn add(&mut self, later: &Self) {
+        if let Some((place, _)) = later.place {
+            self.see_under(later.value, later.limit.unwrap_or(f64::INFINITY), || place);
+        }
+    }
+
     /// What was seen.
     pub(super) fn finding(self) -> Finding {
         Finding {

@@ -1,0 +1,321 @@
+//! A stroke followed along the lines near it: what it cuts of each, and how far off it is there.
+
+use std::ops::RangeInclusive;
+
+use super::body::{Body, Cut};
+use super::coverage::Coverage;
+use super::follow::{Follower, Foot, on_chord};
+use super::grid::Grid;
+use super::joints::{Around, Joints};
+use super::reference::{Line, Reference};
+use crate::geom::{Point, polyline};
+
+/// How far from a line a stroke may lie and still be taken for a bad cut of it, mm.
+pub(super) const REACH: f64 = 2.0;
+/// Lines that a stroke is tried on, at the most.
+const TRIALS: usize = 8;
+
+/// A place of a cut that is near a line.
+#[derive(Debug, Clone, Copy)]
+struct Candidate {
+    line: usize,
+    chord: usize,
+    /// Which point of the cut.
+    probe: usize,
+    /// Where on the line, mm.
+    station: f64,
+    /// How far off, mm.
+    away: f64,
+}
+
+impl Candidate {
+    /// Whether one who follows the line from `other` comes by here. Where a line ends at its own start the heel lies at its
+    /// end, and following from there leads nowhere.
+    fn continues(&self, other: &Self, cut: &Cut, line: &Line) -> bool {
+        let between = self.probe.min(other.probe)..=self.probe.max(other.probe);
+        let way = polyline::length(&cut.points[between]);
+        let apart = (self.station - other.station).abs();
+        apart <= way + 2.0 * REACH || line.ring && line.length() - apart <= way + 2.0 * REACH
+    }
+}
+
+/// A stroke followed along one line.
+pub(super) struct Trial {
+    pub(super) line: usize,
+    pub(super) feet: Vec<Foot>,
+    /// Stations that were cut.
+    pub(super) stretches: Vec<[f64; 2]>,
+    /// How much of them was not cut before, mm.
+    pub(super) fresh: f64,
+    /// How much of the line is then still uncut, mm.
+    left: f64,
+    /// Greatest deviation, mm, and the index of its place.
+    pub(super) worst: (f64, usize),
+    /// Whether it goes all the way round a closed line.
+    pub(super) laps: bool,
+    /// The places that are held to the line: of a stab its longest stretch on it; its surplus lies before and behind.
+    pub(super) held: RangeInclusive<usize>,
+    /// The joints between which it is a stab that fits what was left of its line: its blade may then be longer.
+    pub(super) fits: Option<[[f64; 2]; 2]>,
+    /// From where to where it cuts what was not cut before.
+    pub(super) hull: [f64; 2],
+}
+
+/// Finds the lines near strokes, and follows strokes along them.
+pub(super) struct Tracer<'a> {
+    pub(super) reference: &'a Reference<'a>,
+    pub(super) grid: Grid,
+    pub(super) joints: Joints,
+    /// Width of the blade, mm.
+    pub(super) width: f64,
+    /// How far a cut may be off its line, mm.
+    pub(super) allowed: f64,
+    /// Longest stretch that may be left uncut, mm.
+    pub(super) max_uncut: f64,
+    /// How much a stroke may cut that is not of its line, mm: overlaps, and the surplus of the blade.
+    pub(super) slack: f64,
+}
+
+/// A stroke followed along the line that its row names, and where else it may be followed.
+pub(super) struct Trace {
+    trials: Vec<Trial>,
+    others: Vec<Candidate>,
+    /// How much it cuts of whatever, mm.
+    way: f64,
+}
+
+impl Tracer<'_> {
+    /// Follows a cut along the line that has `block`; only where none has, along all that are near it.
+    pub(super) fn trace(&self, cut: &Cut, block: u32) -> Trace {
+        let is_named = |candidate: &Candidate| self.is_named(candidate.line, block);
+        let (named, others): (Vec<_>, Vec<_>) = self.candidates(cut).into_iter().partition(is_named);
+        let trials = named.iter().map(|candidate| self.follow(cut, candidate)).collect();
+        Trace { trials, others, way: polyline::length(&cut.points) }
+    }
+
+    fn is_named(&self, line: usize, block: u32) -> bool {
+        self.reference.lines[line].blocks.contains(&block)
+    }
+
+    /// The line that a stroke was meant for: of those on which it cuts the most, but for overlaps and the surplus of the
+    /// blade, which may lie on a neighbour, the one that its row names as the block being cut, else the one that it
+    /// completes best. The name decides between equals only: what is cut is seen on the cloth.
+    pub(super) fn choose(&self, trace: &mut Trace, (cut, block): (&Cut, u32), coverage: &Coverage) -> Option<Trial> {
+        let tolerance = self.reference.tolerance;
+        let mut trials = std::mem::take(&mut trace.trials);
+        self.weigh(&mut trials, coverage);
+        // What a stroke cuts of the line that it names cannot be much exceeded by what it cuts of another when it is about
+        // all that it cuts: nearly always, and then the others need not be looked at.
+        let enough = tolerance.max(trace.way - self.slack);
+        if !trials.iter().any(|trial| trial.fresh >= enough) {
+            let mut others: Vec<Trial> = trace.others.iter().map(|candidate| self.follow(cut, candidate)).collect();
+            self.weigh(&mut others, coverage);
+            trials.append(&mut others);
+        }
+        let most = trials.iter().map(|trial| trial.fresh).fold(0.0, f64::max);
+        trials.retain(|trial| trial.fresh >= tolerance.min(most));
+        trials.retain(|trial| trial.fresh >= most - self.slack);
+        trials.into_iter().min_by(|a, b| {
+            let by_name = self.is_named(b.line, block).cmp(&self.is_named(a.line, block));
+            by_name
+                .then(a.left.total_cmp(&b.left))
+                .then(b.fresh.total_cmp(&a.fresh))
+                .then(a.worst.0.total_cmp(&b.worst.0))
+                .then(a.line.cmp(&b.line))
+        })
+    }
+
+    /// How much of what trials cut was not cut before, and what that leaves.
+    fn weigh(&self, trials: &mut [Trial], coverage: &Coverage) {
+        for trial in trials {
+            trial.fresh = coverage.fresh(trial.line, &trial.stretches);
+            let left = self.reference.lines[trial.line].length() - coverage.length(trial.line) - trial.fresh;
+            trial.left = (left - 2.0 * self.reference.tolerance).max(0.0);
+        }
+    }
+
+    /// Where to begin following: the lines that pass near the stroke, the nearest first.
+    fn candidates(&self, cut: &Cut) -> Vec<Candidate> {
+        let count = cut.points.len();
+        let tips = count - cut.body;
+        let mut probes: Vec<usize> = [1, 2, 3].iter().map(|part| cut.body + (tips - 1) * part / 4).collect();
+        if cut.body > 0 {
+            // On a short line the tip may stand beyond its end all the time.
+            probes.extend([0, 1, 2, 3].iter().map(|part| cut.body * part / 4));
+        }
+        let mut found: Vec<Candidate> = Vec::new();
+        for probe in probes {
+            let point = cut.points[probe];
+            for (line, chord) in self.grid.near(point, REACH) {
+                let (line, chord) = (line as usize, chord as usize);
+                let foot = on_chord(&self.reference.lines[line], chord, point);
+                let next =
+                    Candidate { line, chord, probe, station: foot.station, away: foot.deviation.hypot(foot.beyond) };
+                if next.away > REACH {
+                    continue;
+                }
+                match found
+                    .iter_mut()
+                    .find(|known| known.line == line && next.continues(known, cut, &self.reference.lines[line]))
+                {
+                    Some(known) if next.away < known.away => *known = next,
+                    Some(_) => {}
+                    None => found.push(next),
+                }
+            }
+        }
+        found.sort_by(|a, b| a.away.total_cmp(&b.away).then(a.line.cmp(&b.line)).then(a.probe.cmp(&b.probe)));
+        found.truncate(TRIALS);
+        found
+    }
+
+    /// Follows a cut along a line, from where it was found both ways.
+    fn follow(&self, cut: &Cut, &Candidate { line: index, chord, probe: from, .. }: &Candidate) -> Trial {
+        let line = &self.reference.lines[index];
+        let points = &cut.points;
+        let ahead = points[(from + 1).min(points.len() - 1)] - points[from.saturating_sub(1)];
+        let sign = if ahead.dot(&line.direction(chord)) < 0.0 { -1.0 } else { 1.0 };
+        let mut forward = Follower::new(line, chord, points[from], sign);
+        let mut backward = forward.turned();
+        let mut feet = vec![forward.foot(); points.len()];
+        for i in from + 1..points.len() {
+            feet[i] = forward.step(points[i]);
+        }
+        for i in (0..from).rev() {
+            feet[i] = backward.step(points[i]);
+        }
+        let length = line.length();
+        let way = (feet[points.len() - 1].station - feet[cut.body].station).abs();
+        // The blade of a stroke that goes all the way round lies behind its start, where the end comes by again.
+        let laps = line.ring && way > length - self.width.min(0.5 * length);
+        let first = if laps { cut.body } else { 0 };
+        let allowed = self.allowed;
+        let mut trial = Trial {
+            line: index,
+            feet,
+            stretches: Vec::new(),
+            fresh: 0.0,
+            left: 0.0,
+            worst: (0.0, cut.body),
+            laps,
+            held: first..=points.len() - 1,
+            fits: None,
+            hull: [0.0; 2],
+        };
+        let mut body = if laps { Body::default() } else { Body::new(line, cut, &trial.feet, allowed) };
+        if body.sag > allowed && !self.may_bow(cut, line, &trial.feet) {
+            body.sag = 0.0;
+        }
+        let off = |i: usize, foot: &Foot| if i < cut.body { body.off(i, foot) } else { foot.deviation };
+        if cut.is_stab() {
+            // A blade that never moves is often longer than what it cuts: what it is longer by leaves the line straight on,
+            // at corners as at bends. That is overcut, not a bad way.
+            let on: Vec<bool> = (0..points.len()).map(|i| i >= first && off(i, &trial.feet[i]) <= allowed).collect();
+            if let Some(held) = longest(&on) {
+                trial.held = held;
+            }
+        }
+        let mut open: Option<[f64; 2]> = None;
+        for i in first..points.len() {
+            let foot = trial.feet[i];
+            let off = off(i, &foot);
+            if trial.held.contains(&i) {
+                trial.note(off, i);
+            }
+            let mut joined = i > first && off <= allowed;
+            if joined && i > cut.body {
+                let skipped = skipped(line, points, &trial.feet, i);
+                trial.note(skipped, i);
+                joined = skipped <= allowed;
+            }
+            let station = foot.station;
+            // A straight blade that leaves the line at a bend cuts up to the bend, which may lie between two places.
+            let bend = if i > first && i <= cut.body {
+                passed(line, &points[i - 1..=i], &trial.feet[i - 1..=i], allowed)
+            } else {
+                None
+            };
+            if let (Some([a, b]), false, Some([low, high])) = (&mut open, joined, bend) {
+                (*a, *b) = (a.min(low), b.max(high));
+            }
+            if let (Some([a, b]), true) = (&mut open, joined) {
+                (*a, *b) = (a.min(station), b.max(station));
+            } else {
+                trial.stretches.extend(open.take());
+                let [low, high] = bend.unwrap_or([station; 2]);
+                open = (off <= allowed).then_some([station.min(low), station.max(high)]);
+            }
+        }
+        trial.stretches.extend(open);
+        if let ([[a, b]], true) = (&mut trial.stretches[..], laps) {
+            // The feet of one place may differ on both sides of a vertex.
+            if (points[points.len() - 1] - points[cut.body]).norm() <= self.max_uncut {
+                *b = b.max(*a + length);
+            }
+        }
+        trial
+    }
+
+    /// Whether the path may bow away from a plunged blade: where a stroke begins at a joint, or a stab ends at one.
+    fn may_bow(&self, cut: &Cut, line: &Line, feet: &[Foot]) -> bool {
+        let slack = 2.0 * self.allowed;
+        let is_joint =
+            |foot: &Foot| self.joints.near(line, Around { station: foot.station, slack, tube: 0.0 }).is_some();
+        is_joint(&feet[0]) || cut.is_stab() && is_joint(&feet[cut.body])
+    }
+}
+
+impl Trial {
+    /// +1 when the tip goes with the line, -1 when it goes against it.
+    pub(super) fn sign(&self, cut: &Cut) -> f64 {
+        if self.feet[cut.points.len() - 1].station < self.feet[cut.body].station { -1.0 } else { 1.0 }
+    }
+
+    fn note(&mut self, deviation: f64, place: usize) {
+        if deviation > self.worst.0 {
+            self.worst = (deviation, place);
+        }
+    }
+}
+
+/// How far the tip's way from place `i - 1` to place `i` passes by the vertices between their stations, mm.
+fn skipped(line: &Line, points: &[Point], feet: &[Foot], i: usize) -> f64 {
+    let (a, b) = (feet[i - 1].station, feet[i].station);
+    let (low, high) = (a.min(b), a.max(b));
+    // The tip bows between two rows: as a parabola does, by an eighth of the second difference of neighbouring rows.
+    let bow = |k: usize| {
+        if k == 0 || k + 1 >= points.len() {
+            return 0.0;
+        }
+        ((points[k + 1] - points[k]) - (points[k] - points[k - 1])).norm() / 8.0
+    };
+    let away = |vertex: usize| polyline::distance_to_segment(line.points[vertex], points[i - 1], points[i]);
+    line.vertices(low.next_up(), high.next_down()).map(away).fold(0.0, f64::max) - bow(i).max(bow(i - 1))
+}
+
+/// The stations of the first and the last vertex between two places of a straight blade that it cuts; `None` when there are
+/// none.
+fn passed(line: &Line, places: &[Point], feet: &[Foot], allowed: f64) -> Option<[f64; 2]> {
+    let (a, b) = (feet[0].station, feet[1].station);
+    let (low, high) = (a.min(b), a.max(b));
+    let is_cut = |vertex: &usize| polyline::distance_to_segment(line.points[*vertex], places[0], places[1]) <= allowed;
+    let lap = if line.ring { (low / line.length()).floor() * line.length() } else { 0.0 };
+    let cut = line.vertices(low, high).filter(is_cut).map(|vertex| line.stations[vertex] + lap);
+    cut.filter(|station| (low..=high).contains(station)).fold(None, |found, station| {
+        Some(found.map_or([station; 2], |[first, last]: [f64; 2]| [first.min(station), last.max(station)]))
+    })
+}
+
+/// The longest stretch of places that hold; the first of two alike.
+fn longest(on: &[bool]) -> Option<RangeInclusive<usize>> {
+    let mut best: Option<RangeInclusive<usize>> = None;
+    let mut from = 0;
+    for (i, &holds) in on.iter().enumerate() {
+        if !holds {
+            from = i + 1;
+        } else if best.as_ref().is_none_or(|b| i - from > b.end() - b.start()) {
+            best = Some(from..=i);
+        }
+    }
+    best
+}
