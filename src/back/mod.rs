@@ -80,17 +80,18 @@ pub struct Parts<T> {
 pub struct Fit {
     /// What the axes do along a toolpath; what the target cannot express is refused. One may be made beside another.
     pub ways: fn(&Toolpath, &Job) -> Result<Ways, Vec<Diagnostic>>,
-    /// Writes all toolpaths, each with its ways.
-    pub write: fn(&Context, &Fitted, &mut dyn Output) -> io::Result<Estimate>,
+    /// Begins a program.
+    pub begin: for<'a> fn(&Context<'a>) -> Box<dyn Fitting + 'a>,
 }
 
-/// Toolpaths and what the axes do along each.
-#[derive(Debug)]
-pub struct Fitted<'a> {
-    /// What the knife does, in order.
-    pub toolpaths: &'a [Toolpath],
-    /// As many.
-    pub ways: &'a [Ways],
+/// A program that takes toolpaths, each with its ways, in order.
+pub trait Fitting {
+    /// Writes what comes first.
+    fn head(&mut self, out: &mut dyn Output) -> io::Result<()>;
+    /// Writes a toolpath.
+    fn body(&mut self, toolpath: &Toolpath, ways: &Ways, out: &mut dyn Output) -> io::Result<()>;
+    /// Writes what comes last, and says what the controller makes of all.
+    fn tail(&mut self, out: &mut dyn Output) -> io::Result<Estimate>;
 }
 
 /// What the axes do along a toolpath, for a controller that plans for itself.

@@ -14,6 +14,12 @@ impl Budget {
         Self(MOST_WORK)
     }
 
+    /// The share of one of `parts` parts of a marker that are searched side by side: whichever is done first, each finds the
+    /// same.
+    pub fn of_a_part(parts: usize) -> Self {
+        Self(MOST_WORK / parts.max(1))
+    }
+
     /// Takes some, in comparisons of boxes; `false` when there is no more.
     pub fn spend(&mut self, amount: usize) -> bool {
         self.0 = self.0.saturating_sub(amount);

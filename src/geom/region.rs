@@ -1,6 +1,8 @@
 //! Regions of the plane, each bounded by the rings of one owner by the even-odd rule, and how far one may go straight on
 //! before entering one. Every question looks at what is near only, so that asking it everywhere is nearly linear.
 
+use rayon::prelude::*;
+
 use super::{Extent, Point, Vector, cross, polyline};
 
 /// Edges that a band of a region holds on average, at the least.
@@ -159,6 +161,14 @@ impl Lattice {
     }
 }
 
+/// The region of each owner of edges, which lie side by side.
+fn regions(edges: &[Edge]) -> Vec<Region> {
+    let by_owner: Vec<&[Edge]> = edges.chunk_by(|a, b| a.owner == b.owner).collect();
+    let starts = by_owner.iter().scan(0, |next, edges| Some(std::mem::replace(next, *next + edges.len())));
+    let starts: Vec<usize> = starts.collect();
+    by_owner.into_par_iter().zip(starts).map(|(edges, first)| Region::new(edges, first)).collect()
+}
+
 impl Regions {
     /// The regions that rings bound, each ring with its owner; whether a ring repeats its first point does not matter.
     pub fn new<'a>(rings: impl IntoIterator<Item = (u32, &'a [Point])>) -> Self {
@@ -178,28 +188,16 @@ impl Regions {
             return Self::default();
         }
         edges.sort_by_key(|edge| edge.owner); // stable: the rings of an owner keep their order
-        let mut first = 0;
-        let owners: Vec<Region> = edges
-            .chunk_by(|a, b| a.owner == b.owner)
-            .map(|edges| {
-                first += edges.len();
-                Region::new(edges, first - edges.len())
-            })
-            .collect();
         let (width, height) = extent.size();
+        let cell = CELL_MIN.max(width.max(height) / CELLS_MAX);
+        let cells = [width, height].map(|side| (side / cell) as usize + 1);
+        let (owners, cells) = rayon::join(|| regions(&edges), || Lattice::new(&edges, extent.min, [cell; 2], cells));
         let wanted = (owners.len() / REGIONS_A_BOX).max(1) as f64;
         // As many cells as that, about as high as wide.
         let side = (width * height / wanted).sqrt().max(f64::MIN_POSITIVE);
         let count = [width, height].map(|length| ((length / side) as usize).clamp(1, BOXES_MAX));
         let size = [width / count[0] as f64, height / count[1] as f64].map(|size| size.max(f64::MIN_POSITIVE));
-        let cell = CELL_MIN.max(width.max(height) / CELLS_MAX);
-        let cells = [width, height].map(|side| (side / cell) as usize + 1);
-        Self {
-            boxes: Lattice::of_boxes(&owners, extent.min, size, count),
-            owners,
-            cells: Lattice::new(&edges, extent.min, [cell; 2], cells),
-            edges,
-        }
+        Self { boxes: Lattice::of_boxes(&owners, extent.min, size, count), owners, cells, edges }
     }
 
     /// The owners in whose region a point lies, in order. A point on an edge may count either way.

@@ -4,6 +4,7 @@ mod judge;
 mod program;
 mod report;
 mod spent;
+mod toolpaths;
 
 pub use judge::{about, figures, foreign, judge_program};
 pub use report::{Axes, Controller, Drawn, Lines, Notches, Peak, Peaks, Program, Report, Sides, significant};
@@ -14,17 +15,17 @@ pub use crate::verify::{RULES, Verdict};
 use std::io::{self, BufWriter, Read, Seek, Write};
 use std::path::Path;
 
-use rayon::prelude::*;
 use tempfile::SpooledTempFile;
 
 use self::program::Sink;
-use crate::back::{Context, Emit, Estimate, Fitted, Proof, SETPOINTS, Target};
+use self::toolpaths::Toolpaths;
+use crate::back::{Context, Emit, Proof, SETPOINTS, Target};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::{self, Dialect};
-use crate::ir::{Finding, Marker, Toolpath, check, text};
-use crate::machine::{Job, Mode, plot};
+use crate::ir::{Marker, check, text};
+use crate::machine::{Job, plot};
 use crate::pass::marker::MARKER_PASSES;
-use crate::pass::toolpath::{Scene, TOOLPATH_PASSES, check_depths, frame, trace};
+use crate::pass::toolpath::{Scene, TOOLPATH_PASSES, trace};
 use crate::plan;
 use crate::source::Source;
 use crate::verify::Census;
@@ -72,16 +73,6 @@ pub struct Product<'a> {
     pub target: &'static Target,
     /// Where it goes.
     pub out: &'a mut dyn Medium,
-}
-
-impl Product<'_> {
-    /// The way in for motion, when the target is made from that.
-    fn sink(&mut self) -> Option<Sink<'_>> {
-        match &self.target.emit {
-            Emit::Motion(parts) => Some(Sink { parts, out: &mut *self.out }),
-            Emit::Marker(_) | Emit::Toolpath(_) | Emit::Fit(_) => None,
-        }
-    }
 }
 
 /// What a compile gives.
@@ -182,55 +173,52 @@ pub fn compile_all(
     let Input { dialect, marker } = &judged.input;
     let mut report = Report::of(marker, dialect.name);
     let context = Context { source, job, marker };
-    // A target that cannot be judged by its own bytes shows the verdict on setpoints.
     let has = |products: &[Product], proof: Proof| products.iter().any(|product| product.target.proof == proof);
-    let wants_setpoints = verify && has(products, Proof::None);
-    let needs_toolpaths =
-        wants_setpoints || products.iter().any(|product| !matches!(product.target.emit, Emit::Marker(_)));
-    let toolpaths = if needs_toolpaths { toolpaths(marker, job, diagnostics) } else { Vec::new() };
-
-    // When no target's own bytes are setpoints, those are made beside them to be judged, so that a picture can show the
-    // worst places.
+    // A target that cannot be judged by its own bytes shows the verdict on setpoints. When no target's own bytes are
+    // those, they are made beside the others to be judged, so that a picture can show the worst places.
+    let beside = verify && has(products, Proof::None) && !has(products, Proof::Setpoints);
     let mut scratch = SpooledTempFile::new(SCRATCH_BYTES);
-    let beside = wants_setpoints && !has(products, Proof::Setpoints);
-    let mut sinks: Vec<Sink> = products.iter_mut().filter_map(Product::sink).collect();
+    let mut sinks: Vec<Sink> = products
+        .iter_mut()
+        .filter_map(|product| Sink::new(&product.target.emit, &context, &mut *product.out))
+        .collect();
     if beside {
-        sinks.push(Sink { parts: &SETPOINTS, out: &mut scratch });
+        sinks.push(Sink::of_motion(&SETPOINTS, &mut scratch));
     }
     if !sinks.is_empty() {
-        report.program = program::write(&toolpaths, &mut sinks, &context, diagnostics)?;
+        let toolpaths = Toolpaths::new(marker, job, diagnostics);
+        let written = program::write(toolpaths, &mut sinks, (&context, false), diagnostics)?;
+        report.program = written.program;
+        report.controller = written.estimate.map(Controller::from);
     }
     drop(sinks);
-
-    let mut verdict: Option<Verdict> = None;
-    let mut judge = |program: &mut dyn Medium| -> io::Result<()> {
-        let next = judge::judge(source, &judged, job, program)?;
-        verdict = Some(match verdict.take() {
-            Some(verdict) => judge::both(verdict, next),
-            None => next,
-        });
-        Ok(())
-    };
-    if verify && !diagnostics.has_errors() {
-        for product in products.iter_mut().filter(|product| product.target.proof == Proof::Setpoints) {
-            judge(&mut *product.out)?;
-        }
-        if beside {
-            judge(&mut scratch)?;
+    for Product { target, out } in &mut *products {
+        if let Emit::Marker(emit) = target.emit {
+            let mut out = BufWriter::new(&mut **out);
+            emit(&context, &mut out, diagnostics)?;
+            out.flush()?;
         }
     }
-    let by_itself = |product: &&mut Product| matches!(product.target.proof, Proof::Marker | Proof::Positions);
-    for Product { target, out } in products.iter_mut().filter(by_itself) {
-        let estimate = write_untimed(&target.emit, &toolpaths, &[], (&context, diagnostics), *out)?;
-        report.controller = estimate.map(Controller::from).or(report.controller);
-        if verify && !diagnostics.has_errors() {
-            judge(&mut **out)?;
+
+    let mut verdict: Option<Verdict> = None;
+    if verify && !diagnostics.has_errors() {
+        let judged_alone = products.iter_mut().filter(|product| product.target.proof != Proof::None);
+        let programs = judged_alone.map(|product| &mut *product.out);
+        let scratch: Option<&mut dyn Medium> = if beside { Some(&mut scratch) } else { None };
+        for program in programs.chain(scratch) {
+            let next = judge::judge(source, &judged, job, program)?;
+            verdict = Some(match verdict {
+                Some(verdict) => judge::both(verdict, next),
+                None => next,
+            });
         }
     }
     let findings = verdict.as_ref().map_or(&[][..], |verdict| &verdict.findings);
     for Product { target, out } in products {
-        if target.proof == Proof::None {
-            write_untimed(&target.emit, &toolpaths, findings, (&context, diagnostics), *out)?;
+        if let Emit::Toolpath(parts) = &target.emit {
+            let mut out = BufWriter::new(&mut **out);
+            (parts.tail)(&context, findings, &mut out)?;
+            out.flush()?;
         }
         out.flush()?;
     }
@@ -243,48 +231,9 @@ pub fn compile_all(
 /// The figures of the program that an input would become, nothing written and nothing judged; when it cannot be planned
 /// the diagnostics say why.
 pub fn estimate(input: &Input, source: &Source, job: &Job, diagnostics: &mut Diagnostics) -> io::Result<Program> {
-    let toolpaths = toolpaths(&input.marker, job, diagnostics);
+    let toolpaths = Toolpaths::new(&input.marker, job, diagnostics);
     let context = Context { job, marker: &input.marker, source };
-    program::write(&toolpaths, &mut [], &context, diagnostics)
-}
-
-/// Writes a target that needs no timed motion; those that do are written by then. Says what a controller that plans for
-/// itself makes of it.
-fn write_untimed(
-    emit: &Emit,
-    toolpaths: &[Toolpath],
-    findings: &[Finding],
-    (context, diagnostics): (&Context, &mut Diagnostics),
-    out: &mut dyn Medium,
-) -> io::Result<Option<Estimate>> {
-    let mut out = BufWriter::new(out);
-    let mut estimate = None;
-    match emit {
-        Emit::Marker(emit) => emit(context, &mut out, diagnostics)?,
-        Emit::Toolpath(parts) => {
-            (parts.head)(context, &mut out)?;
-            for toolpath in toolpaths {
-                (parts.body)(toolpath, context, &mut out)?;
-            }
-            (parts.tail)(context, findings, &mut out)?;
-        }
-        Emit::Fit(fit) => {
-            let ways: Vec<_> = toolpaths.par_iter().map(|toolpath| (fit.ways)(toolpath, context.job)).collect();
-            let mut sound = Vec::with_capacity(ways.len());
-            for ways in ways {
-                match ways {
-                    Ok(ways) => sound.push(ways),
-                    Err(refused) => refused.into_iter().for_each(|diagnostic| diagnostics.push(diagnostic)),
-                }
-            }
-            if sound.len() == toolpaths.len() {
-                estimate = Some((fit.write)(context, &Fitted { toolpaths, ways: &sound }, &mut out)?);
-            }
-        }
-        Emit::Motion(_) => {}
-    }
-    out.flush()?;
-    Ok(estimate)
+    Ok(program::write(toolpaths, &mut [], (&context, true), diagnostics)?.program)
 }
 
 /// The form after a pass, as text; `None` when no pass has that name or nothing could be read.
@@ -316,31 +265,6 @@ pub fn dump(
         text.push_str(&text::print_toolpath(&toolpath));
     }
     Some(text)
-}
-
-/// The toolpath of every drill, notch and contour after all passes, in cut order.
-fn toolpaths(marker: &Marker, job: &Job, diagnostics: &mut Diagnostics) -> Vec<Toolpath> {
-    let mut pose = plan::home(job);
-    match job.mode {
-        Mode::Cut | Mode::Dry => {}
-        Mode::Frame => {
-            let frame = frame(marker, pose, job, diagnostics);
-            assert_sound("frame", || check::toolpath(&frame));
-            return vec![frame];
-        }
-    }
-    let scene = Scene::new(marker, job);
-    check_depths(marker, &scene, diagnostics);
-    let pass = |mut toolpath: Toolpath| {
-        toolpath.entry = pose;
-        for pass in TOOLPATH_PASSES {
-            (pass.run)(&mut toolpath, &scene, diagnostics);
-            assert_sound(pass.name, || check::toolpath(&toolpath));
-        }
-        pose = toolpath.exit();
-        toolpath
-    };
-    trace(marker, job).map(pass).collect()
 }
 
 /// In tests and debug builds a pass that breaks an invariant is found at once.

@@ -1,13 +1,15 @@
-//! Planning and writing: toolpaths become motion, a window of them at a time on all cores, written in order.
+//! Planning and writing: toolpaths come a window at a time and are planned on all cores; while they are written, in
+//! order, the next ones are made.
 
 use std::io::{self, BufWriter, Write};
 
 use rayon::prelude::*;
 
 use super::spent::Clock;
+use super::toolpaths::Toolpaths;
 use super::{Axes, Medium, Program, Sides};
-use crate::back::{Context, Parts};
-use crate::diagnostic::Diagnostics;
+use crate::back::{Context, Emit, Estimate, Fit, Fitting, Parts, Ways};
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::ir::motion::{Kind, Task};
 use crate::ir::toolpath::Side;
 use crate::ir::{Motion, Toolpath};
@@ -15,58 +17,194 @@ use crate::machine::Job;
 use crate::plan::{self, Cut, Planner};
 use crate::units::MM_PER_M;
 
-/// Toolpaths that are planned at a time: enough to keep all cores busy, few enough to keep memory small.
-const WINDOW: usize = 128;
-
-/// A program that takes the motion as it is planned.
+/// A program that is written as toolpaths come.
 pub(super) struct Sink<'a> {
-    /// How its target writes motion.
-    pub(super) parts: &'static Parts<Motion>,
-    /// Where it goes.
-    pub(super) out: &'a mut dyn Medium,
+    form: Form<'a>,
+    out: BufWriter<&'a mut dyn Medium>,
 }
 
-/// Plans toolpaths and writes their motion to every sink. Runs that cannot be planned are diagnostics; what was written is
-/// then worth nothing.
-pub(super) fn write(
-    toolpaths: &[Toolpath],
-    sinks: &mut [Sink],
-    context: &Context,
-    diagnostics: &mut Diagnostics,
-) -> io::Result<Program> {
-    let mut outs: Vec<_> = sinks.iter_mut().map(|sink| (sink.parts, BufWriter::new(&mut *sink.out))).collect();
-    let mut tally = Tally::default();
-    let mut planner = Planner::new(context.job);
-    for (parts, out) in &mut outs {
-        (parts.head)(context, out)?;
+/// What a program is made from.
+enum Form<'a> {
+    Toolpath(&'static Parts<Toolpath>),
+    Motion(&'static Parts<Motion>),
+    Fit(&'static Fit, Box<dyn Fitting + 'a>),
+}
+
+impl<'a> Sink<'a> {
+    /// A target's program; `None` when the target needs no toolpaths.
+    pub(super) fn new(emit: &'static Emit, context: &Context<'a>, out: &'a mut dyn Medium) -> Option<Self> {
+        let form = match emit {
+            Emit::Marker(_) => return None,
+            Emit::Toolpath(parts) => Form::Toolpath(parts),
+            Emit::Motion(parts) => Form::Motion(parts),
+            Emit::Fit(fit) => Form::Fit(fit, (fit.begin)(context)),
+        };
+        Some(Self { form, out: BufWriter::new(out) })
     }
-    for window in toolpaths.chunks(WINDOW) {
-        let solved: Vec<_> = window.par_iter().map(|toolpath| plan::solve(toolpath, context.job)).collect();
-        for (toolpath, cuts) in window.iter().zip(solved) {
+
+    /// Timed motion as `parts` write it.
+    pub(super) fn of_motion(parts: &'static Parts<Motion>, out: &'a mut dyn Medium) -> Self {
+        Self { form: Form::Motion(parts), out: BufWriter::new(out) }
+    }
+
+    /// Whether it needs timed motion.
+    pub(super) fn needs_motion(&self) -> bool {
+        matches!(self.form, Form::Motion(_))
+    }
+
+    fn fit(&self) -> Option<&'static Fit> {
+        match self.form {
+            Form::Fit(fit, _) => Some(fit),
+            Form::Toolpath(_) | Form::Motion(_) => None,
+        }
+    }
+}
+
+/// What is known of programs when they are written.
+#[derive(Default)]
+pub(super) struct Written {
+    /// What the planned motion does; nothing where none was planned.
+    pub(super) program: Program,
+    /// What a controller that plans for itself makes of its program.
+    pub(super) estimate: Option<Estimate>,
+}
+
+/// Toolpaths, and what was made of them side by side.
+struct Window {
+    toolpaths: Vec<Toolpath>,
+    /// The planned cuts of each; none where no motion is wanted.
+    cuts: Vec<Result<Vec<Cut>, Vec<Diagnostic>>>,
+    /// For each target that fits: the ways of each.
+    ways: Vec<Vec<Result<Ways, Vec<Diagnostic>>>>,
+    findings: Diagnostics,
+}
+
+/// What is made of toolpaths beside each other.
+struct Wanted<'a> {
+    job: &'a Job,
+    motion: bool,
+    fits: Vec<&'static Fit>,
+}
+
+impl Wanted<'_> {
+    fn next(&self, toolpaths: &mut Toolpaths) -> Window {
+        let mut findings = Diagnostics::default();
+        let toolpaths = toolpaths.window(&mut findings);
+        let planned = if self.motion { &toolpaths[..] } else { &[] };
+        let cuts = planned.par_iter().map(|toolpath| plan::solve(toolpath, self.job)).collect();
+        let ways = |fit: &&'static Fit| toolpaths.par_iter().map(|toolpath| (fit.ways)(toolpath, self.job)).collect();
+        let ways = self.fits.iter().map(ways).collect();
+        Window { toolpaths, cuts, ways, findings }
+    }
+}
+
+/// Writes toolpaths to every sink, but for the tails of those that wait for a verdict. `motion` asks for the planned motion
+/// where no sink does. What cannot be planned or written is a diagnostic; what was written is then worth nothing.
+pub(super) fn write(
+    mut toolpaths: Toolpaths,
+    sinks: &mut [Sink],
+    (context, motion): (&Context, bool),
+    diagnostics: &mut Diagnostics,
+) -> io::Result<Written> {
+    let fits = sinks.iter().filter_map(Sink::fit).collect();
+    let wanted = Wanted { job: context.job, motion: motion || sinks.iter().any(Sink::needs_motion), fits };
+    for Sink { form, out } in &mut *sinks {
+        match form {
+            Form::Toolpath(parts) => (parts.head)(context, out)?,
+            Form::Motion(parts) => (parts.head)(context, out)?,
+            Form::Fit(_, fitting) => fitting.head(out)?,
+        }
+    }
+    let mut writer = Writer { sinks, context, planner: Planner::new(context.job), tally: Tally::default() };
+    let mut window = wanted.next(&mut toolpaths);
+    while !window.toolpaths.is_empty() {
+        let mut next = None;
+        let written = rayon::in_place_scope(|scope| {
+            scope.spawn(|_| next = Some(wanted.next(&mut toolpaths)));
+            writer.take(window, diagnostics)
+        });
+        written?;
+        window = next.expect("the scope waits for it");
+    }
+    diagnostics.extend(window.findings);
+    writer.finish(wanted.motion, diagnostics)
+}
+
+/// Writes windows in order.
+struct Writer<'w, 's, 'c> {
+    sinks: &'w mut [Sink<'s>],
+    context: &'w Context<'c>,
+    planner: Planner<'c>,
+    tally: Tally,
+}
+
+impl Writer<'_, '_, '_> {
+    fn take(&mut self, window: Window, diagnostics: &mut Diagnostics) -> io::Result<()> {
+        let Window { toolpaths, cuts, ways, findings } = window;
+        diagnostics.extend(findings);
+        let mut refuse = |refused: Vec<Diagnostic>| refused.into_iter().for_each(|finding| diagnostics.push(finding));
+        for (toolpath, cuts) in toolpaths.iter().zip(cuts) {
             match cuts {
-                Err(refused) => refused.into_iter().for_each(|diagnostic| diagnostics.push(diagnostic)),
+                Err(refused) => refuse(refused),
                 Ok(cuts) => {
-                    tally.take(toolpath.piece, &cuts);
-                    let motion = planner.join(toolpath, cuts);
-                    tally.add(&motion);
-                    for (parts, out) in &mut outs {
-                        (parts.body)(&motion, context, out)?;
+                    self.tally.take(toolpath.piece, &cuts);
+                    let motion = self.planner.join(toolpath, cuts);
+                    self.motion(&motion)?;
+                }
+            }
+        }
+        let mut ways = ways.into_iter();
+        for Sink { form, out } in &mut *self.sinks {
+            match form {
+                Form::Motion(_) => {}
+                Form::Toolpath(parts) => {
+                    for toolpath in &toolpaths {
+                        (parts.body)(toolpath, self.context, out)?;
+                    }
+                }
+                Form::Fit(_, fitting) => {
+                    for (toolpath, ways) in toolpaths.iter().zip(ways.next().expect("every fit has its ways")) {
+                        match ways {
+                            Err(refused) => refuse(refused),
+                            Ok(ways) => fitting.body(toolpath, &ways, out)?,
+                        }
                     }
                 }
             }
         }
+        Ok(())
     }
-    let end = planner.finish();
-    tally.add(&end);
-    for (parts, out) in &mut outs {
-        (parts.body)(&end, context, out)?;
-        (parts.tail)(context, &[], out)?;
-        out.flush()?;
+
+    fn motion(&mut self, motion: &Motion) -> io::Result<()> {
+        self.tally.add(motion);
+        for Sink { form, out } in &mut *self.sinks {
+            if let Form::Motion(parts) = form {
+                (parts.body)(motion, self.context, out)?;
+            }
+        }
+        Ok(())
     }
-    if let Err(diagnostic) = planner.certify() {
-        diagnostics.push(diagnostic);
+
+    fn finish(mut self, is_planned: bool, diagnostics: &mut Diagnostics) -> io::Result<Written> {
+        let mut written = Written::default();
+        if is_planned {
+            let end = self.planner.finish();
+            self.motion(&end)?;
+            if let Err(diagnostic) = self.planner.certify() {
+                diagnostics.push(diagnostic);
+            }
+            written.program = self.tally.program(&self.planner, self.context.job);
+        }
+        for Sink { form, out } in &mut *self.sinks {
+            match form {
+                Form::Toolpath(_) => {}
+                Form::Motion(parts) => (parts.tail)(self.context, &[], out)?,
+                Form::Fit(_, fitting) => written.estimate = Some(fitting.tail(out)?),
+            }
+            out.flush()?;
+        }
+        Ok(written)
     }
-    Ok(tally.program(&planner, context.job))
 }
 
 /// Counts what a program does.

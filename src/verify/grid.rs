@@ -6,7 +6,7 @@ use crate::geom::{Extent, Point};
 /// Least size of a cell, mm.
 const CELL_MIN: f64 = 4.0;
 /// Cells for each chord, at the most; and the least and greatest number of all.
-const CELLS_A_CHORD: f64 = 4.0;
+const CELLS_A_CHORD: f64 = 1.0;
 const CELLS: [f64; 2] = [4096.0, 4_194_304.0];
 
 /// By how much rounding may shift an edge of a cell, mm: markers are shorter than a thousand kilometres.

@@ -50,6 +50,7 @@ use rayon::prelude::*;
 use self::coverage::Coverage;
 use self::events::Events;
 use self::gcode::Places;
+use self::inside::Inside;
 use self::limits::Limits;
 use self::naming::Naming;
 use self::order::Order;
@@ -193,7 +194,9 @@ impl Done<'_> {
             judge.settle(stroke, self);
         }
         let worsts: Vec<Worsts> = traced.par_iter().map(|stroke| judge.check(stroke)).collect();
-        worsts.into_iter().for_each(|worsts| self.worsts.add(worsts));
+        for later in worsts {
+            self.worsts.add(later);
+        }
     }
 }
 
@@ -251,9 +254,9 @@ impl Watch<'_> {
 /// Judges timed setpoints, as the targets `csv`, `npy`, `counts` and `hal` write them, against what the marker says must
 /// be cut.
 pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdict {
-    let reference = Reference::new(marker, &job.profile);
+    let (reference, inside) = rayon::join(|| Reference::new(marker, &job.profile), || Inside::new(marker));
     let mut rows = Rows::new(program, &job.profile);
-    let judge = Judge::new(&reference, &job.profile, rows.rounding());
+    let judge = Judge::new((&reference, inside), &job.profile, rows.rounding());
     let rounding = rows.rounding();
     let mut findings = simulate(|| Some((rows.next()?, None)), (&reference, judge, rounding), job);
     let is_broken = rows.is_broken();
@@ -268,10 +271,10 @@ pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdi
 
 /// Judges positions without time, as the target `gcode` writes them, against what the marker says must be cut.
 pub fn positions(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdict {
-    let reference = Reference::new(marker, &job.profile);
+    let (reference, inside) = rayon::join(|| Reference::new(marker, &job.profile), || Inside::new(marker));
     let mut places = Places::new(program, &job.profile);
     let rounding = Places::rounding(&job.profile);
-    let judge = Judge::new(&reference, &job.profile, rounding).with_exact_directions(&job.profile);
+    let judge = Judge::new((&reference, inside), &job.profile, rounding).with_exact_directions(&job.profile);
     let next = || places.next().map(|(row, way)| (row, Some(way)));
     let mut findings = simulate(next, (&reference, judge, rounding), job);
     let is_broken = places.is_broken();

@@ -90,13 +90,14 @@ enum Cloth {
 }
 
 impl Overcut {
-    /// For places that are rounded to `rounding` mm.
-    pub(super) fn new(reference: &Reference, profile: &MachineProfile, rounding: f64) -> Self {
+    /// For parts in which places lie, a tip that may leave its line by `tolerance` mm, and places that are rounded to
+    /// `rounding` mm.
+    pub(super) fn new((tolerance, inside): (f64, Inside), profile: &MachineProfile, rounding: f64) -> Self {
         let (knife, verify) = (&profile.knife, &profile.verify);
         Self {
-            inside: Inside::new(reference.marker),
+            inside,
             rounding,
-            tolerance: reference.tolerance + rounding,
+            tolerance: tolerance + rounding,
             width: knife.width_mm,
             clearance: knife.clearance_mm,
             reflex: knife.reflex_front_overlap_mm.max(knife.reflex_heel_overlap_mm),
@@ -276,7 +277,8 @@ impl Lines<'_> {
 
     /// Whether it is from what is cut of a piece.
     fn is_away_from(self, point: Point, piece: usize, slack: f64) -> bool {
-        let mut near = self.grid.near(point, slack).filter(|chord| self.reference.lines[chord.0 as usize].piece == piece);
+        let mut near =
+            self.grid.near(point, slack).filter(|chord| self.reference.lines[chord.0 as usize].piece == piece);
         near.all(|chord| self.distance(chord, point) > slack)
     }
 

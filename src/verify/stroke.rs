@@ -10,6 +10,7 @@ use super::body::{BODY_STEP, Cut};
 use super::follow::Follower;
 use super::grid::Grid;
 use super::heading::{self, Moving, Plunge};
+use super::inside::Inside;
 use super::joints::{Around, Joints};
 use super::naming::Naming;
 use super::overcut::{self, Harm, Lines, Overcut};
@@ -113,7 +114,12 @@ pub(super) struct Judge<'a> {
 }
 
 impl<'a> Judge<'a> {
-    pub(super) fn new(reference: &'a Reference, profile: &'a MachineProfile, rounding: Rounding) -> Self {
+    /// Judges by what must be cut and the parts in which places lie, a program whose rows are rounded.
+    pub(super) fn new(
+        (reference, inside): (&'a Reference, Inside),
+        profile: &'a MachineProfile,
+        rounding: Rounding,
+    ) -> Self {
         let place = rounding.place();
         let knife = &profile.knife;
         let front = knife.front_overlap_mm.max(knife.corner_front_overlap_mm);
@@ -139,7 +145,7 @@ impl<'a> Judge<'a> {
             overlap: front.max(heel),
             overlaps,
             bulge: if profile.path.fit == Fit::Curve { profile.path.chord_sag_max_mm } else { 0.0 },
-            overcut: Overcut::new(reference, profile, place),
+            overcut: Overcut::new((reference.tolerance, inside), profile, place),
             naming: Naming::new(tolerance),
             worsts: Worsts::new(profile, tolerance, rounding),
         }
@@ -288,8 +294,7 @@ impl<'a> Judge<'a> {
             (cut, Some(trial)) => self.plunge(cut, trial).lead(),
         };
         let fade = self.knife.width_mm.min(polyline::length(tips));
-        Moving { rows: stroke.rows, ways: stroke.ways, tips, lead, fade, way_min: self.way_min }
-            .check(heading);
+        Moving { rows: stroke.rows, ways: stroke.ways, tips, lead, fade, way_min: self.way_min }.check(heading);
     }
 
     fn plunge(&self, cut: &Cut, trial: &Trial) -> Plunge<'_> {

@@ -16,10 +16,10 @@ use std::io;
 
 use self::program::Program;
 pub(in crate::back) use self::way::Way;
-use super::{Context, Emit, Estimate, Fit, Fitted, Output, Proof, Target, Ways};
+use super::{Context, Emit, Estimate, Fit, Fitting, Output, Proof, Target, Ways};
 use crate::diagnostic::{Diagnostic, code};
 use crate::ir::Toolpath;
-use crate::ir::toolpath::{Event, Law, Run, Step};
+use crate::ir::toolpath::{Law, Run, Step};
 use crate::machine::Job;
 use crate::units::number::fixed;
 
@@ -27,7 +27,7 @@ pub(super) const TARGET: Target = Target {
     name: "gcode",
     about: "G-code of arcs and lines with C, for LinuxCNC and its like",
     extension: "ngc",
-    emit: Emit::Fit(Fit { ways, write }),
+    emit: Emit::Fit(Fit { ways, begin }),
     proof: Proof::Positions,
 };
 
@@ -64,22 +64,29 @@ fn way_of(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Diagnostic> {
     }
 }
 
-/// Writes toolpaths with their ways.
-fn write(context: &Context, fitted: &Fitted, out: &mut dyn Output) -> io::Result<Estimate> {
-    let mut program = Program::new(context.job);
-    program.head();
-    for (toolpath, Ways(ways)) in fitted.toolpaths.iter().zip(fitted.ways) {
-        write_toolpath(&mut program, toolpath, ways, context.job);
-        out.write_all(&program.text)?;
-        program.text.clear();
-    }
-    let time = program.tail();
-    out.write_all(&program.text)?;
-    Ok(Estimate { time, moves: program.moves })
+fn begin<'a>(context: &Context<'a>) -> Box<dyn Fitting + 'a> {
+    Box::new(Program::new(context.job))
 }
 
-fn write_toolpath(program: &mut Program, toolpath: &Toolpath, ways: &[Way], job: &Job) {
-    let keys = &job.profile.gcode;
+impl Fitting for Program<'_> {
+    fn head(&mut self, out: &mut dyn Output) -> io::Result<()> {
+        self.start();
+        self.drain(out)
+    }
+
+    fn body(&mut self, toolpath: &Toolpath, Ways(ways): &Ways, out: &mut dyn Output) -> io::Result<()> {
+        write_toolpath(self, toolpath, ways);
+        self.drain(out)
+    }
+
+    fn tail(&mut self, out: &mut dyn Output) -> io::Result<Estimate> {
+        let time = self.finish();
+        self.drain(out)?;
+        Ok(Estimate { time, moves: self.moves })
+    }
+}
+
+fn write_toolpath(program: &mut Program, toolpath: &Toolpath, ways: &[Way]) {
     let mut ways = ways.iter();
     let mut next_way = || ways.next().expect("every run and stab has its way");
     for (i, step) in toolpath.steps.iter().enumerate() {
@@ -102,8 +109,7 @@ fn write_toolpath(program: &mut Program, toolpath: &Toolpath, ways: &[Way], job:
                 program.name(toolpath.piece, &[drill.span]);
                 program.drill(drill);
             }
-            Step::Event(Event::Stop) => program.order(&keys.stop, 0.0),
-            Step::Event(Event::Advance) => program.order(&keys.advance, 0.0),
+            Step::Event(event) => program.event(*event),
         }
     }
 }

@@ -1,9 +1,12 @@
 //! The text of a program: lines of moves, and those of the profile for knife, drills and operator.
 
+use std::io;
+
+use super::super::Output;
 use super::pace::{Move, Pace};
 use super::way::{Piece, Way};
 use crate::geom::{Rotation, Vector, left};
-use crate::ir::toolpath::{Drill, Pose};
+use crate::ir::toolpath::{Drill, Event, Pose};
 use crate::machine::Job;
 use crate::machine::controller::FeedMode;
 use crate::source::Span;
@@ -20,8 +23,8 @@ const TURN_DEG: f64 = 360.0;
 /// A program in the making.
 pub(super) struct Program<'a> {
     job: &'a Job,
-    /// The lines that were not taken yet.
-    pub(super) text: Vec<u8>,
+    /// The lines that were not written yet.
+    text: Vec<u8>,
     /// Where the axes stand.
     pose: Pose,
     /// Numbers of lines that were given.
@@ -39,7 +42,7 @@ impl<'a> Program<'a> {
     }
 
     /// What comes before the first move.
-    pub(super) fn head(&mut self) {
+    pub(super) fn start(&mut self) {
         let keys = &self.job.profile.gcode;
         self.say("G17 G21 G40 G80 G90");
         if let Some(blend) = keys.blend_mm {
@@ -53,12 +56,25 @@ impl<'a> Program<'a> {
     }
 
     /// What comes behind the last one; the time of the program, s.
-    pub(super) fn tail(&mut self) -> f64 {
+    pub(super) fn finish(&mut self) -> f64 {
         if let Some([x, y, c]) = self.job.profile.park {
             self.rapid(Pose::new(x, y, rad(c)));
         }
         self.say(&self.job.profile.gcode.footer);
         std::mem::replace(&mut self.pace, Pace::new(self.job)).finish()
+    }
+
+    /// Writes the lines so far.
+    pub(super) fn drain(&mut self, out: &mut dyn Output) -> io::Result<()> {
+        out.write_all(&self.text)?;
+        self.text.clear();
+        Ok(())
+    }
+
+    /// What the controller or the operator is asked for.
+    pub(super) fn event(&mut self, event: Event) {
+        let keys = &self.job.profile.gcode;
+        self.order(if event == Event::Stop { &keys.stop } else { &keys.advance }, 0.0);
     }
 
     /// Which piece and block comes.

@@ -6,6 +6,8 @@
 //!   worth a look; plain polylines may well be open, so there only a gap that is small beside the contour is.
 //! - A contour stands twice: the same segments, wherever it starts and whichever way it goes. It would be cut twice.
 
+use rayon::prelude::*;
+
 use super::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Extent, bits};
@@ -69,8 +71,9 @@ impl Print {
 }
 
 fn twice(marker: &Marker, diagnostics: &mut Diagnostics) {
+    let contours: Vec<(usize, &Contour)> = marker.contours().collect();
     let prints: Vec<Print> =
-        marker.contours().map(|(piece, contour)| Print::of(&marker.list, piece, contour.range)).collect();
+        contours.par_iter().map(|&(piece, contour)| Print::of(&marker.list, piece, contour.range)).collect();
     let mut order: Vec<usize> = (0..prints.len()).collect();
     order.sort_by_key(|&i| prints[i].key); // stable: equal ones stay in cut order
     let mut repeats: Vec<(usize, usize)> = Vec::new();

@@ -1,6 +1,7 @@
 //! Passes over the marker.
 
 use crate::diagnostic::Diagnostics;
+use crate::geom::budget::Budget;
 use crate::ir::Marker;
 use crate::machine::Job;
 
@@ -26,3 +27,27 @@ pub struct MarkerPass {
 /// Every pass over the marker, in order.
 pub const MARKER_PASSES: &[MarkerPass] =
     &[weld::PASS, slit::PASS, inspect::PASS, order::PASS, notch::PASS, sanity::PASS, select::PASS];
+
+/// Parts in which the pieces of a marker are looked at side by side: more than any machine that compiles has cores.
+const PARTS: usize = 16;
+
+/// How the pieces of a marker are shared out.
+#[derive(Debug, Clone, Copy)]
+struct Parts {
+    /// Pieces in a part.
+    size: usize,
+    count: usize,
+}
+
+/// Shares out pieces; their number alone decides, so that every machine finds the same.
+fn in_parts(pieces: usize) -> Parts {
+    let size = pieces.div_ceil(PARTS).max(1);
+    Parts { size, count: pieces.div_ceil(size) }
+}
+
+impl Parts {
+    /// What a search over one of them may do.
+    fn budget(self) -> Budget {
+        Budget::of_a_part(self.count)
+    }
+}

@@ -14,11 +14,14 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
-use super::MarkerPass;
+use rayon::prelude::*;
+
+use super::{MarkerPass, in_parts};
 use crate::diagnostic::Diagnostics;
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, Vector, angle, cross, ring};
-use crate::ir::marker::{Marker, Vee};
+use crate::ir::list::SegmentList;
+use crate::ir::marker::{Marker, Piece, Vee};
 use crate::machine::Job;
 use crate::source::Span;
 
@@ -43,19 +46,22 @@ const VERTEX: usize = 4;
 const ROUNDING: f64 = std::f64::consts::SQRT_2;
 
 fn run(marker: &mut Marker, _: &Job, _: &mut Diagnostics) {
-    let mut outlines = Outlines::default();
-    let mut work = Budget::of_a_marker();
-    for i in 0..marker.pieces.len() {
-        outlines.gather(marker, i);
-        let vees = &mut marker.pieces[i].vees;
-        vees.clear();
-        for (k, outline) in outlines.all.iter().enumerate().filter(|(_, outline)| !outline.apexes.is_empty()) {
-            let counter_clockwise = ring::area(outlines.points(outline)) > 0.0;
-            let is_left = counter_clockwise != outlines.is_cut_out(k, &mut work);
-            let part = if is_left { Side::Left } else { Side::Right };
-            vees.extend(outlines.vees(outline, part));
+    let Marker { pieces, list, unit, .. } = marker;
+    let parts = in_parts(pieces.len());
+    pieces.par_chunks_mut(parts.size).for_each(|pieces| {
+        let mut outlines = Outlines::default();
+        let mut work = parts.budget();
+        for piece in pieces {
+            outlines.gather(list, piece, *unit);
+            piece.vees.clear();
+            for (k, outline) in outlines.all.iter().enumerate().filter(|(_, outline)| !outline.apexes.is_empty()) {
+                let counter_clockwise = ring::area(outlines.points(outline)) > 0.0;
+                let is_left = counter_clockwise != outlines.is_cut_out(k, &mut work);
+                let part = if is_left { Side::Left } else { Side::Right };
+                piece.vees.extend(outlines.vees(outline, part));
+            }
         }
-    }
+    });
 }
 
 /// The side of an outline, seen along it.
@@ -86,15 +92,15 @@ struct Outline {
 
 impl Outlines {
     /// Takes the outlines of a piece in place of those that are here.
-    fn gather(&mut self, marker: &Marker, piece: usize) {
+    fn gather(&mut self, list: &SegmentList, piece: &Piece, unit: f64) {
         let Self { points, spans, all } = self;
         points.clear();
         spans.clear();
         all.clear();
-        for contour in marker.pieces[piece].contours.iter().filter(|contour| contour.closed) {
+        for contour in piece.contours.iter().filter(|contour| contour.closed) {
             let first = points.len();
             let mut extent = Extent::EMPTY;
-            for (point, span) in marker.list.vertices(contour.range) {
+            for (point, span) in list.vertices(contour.range) {
                 points.push(point);
                 spans.push(span);
                 extent.add(point);
@@ -102,7 +108,7 @@ impl Outlines {
             // The last vertex is the first one, and knows what led there.
             points.pop();
             spans.swap_remove(first);
-            let apexes = apexes(&points[first..], marker.unit);
+            let apexes = apexes(&points[first..], unit);
             all.push(Outline { vertices: first..points.len(), extent, apexes });
         }
     }

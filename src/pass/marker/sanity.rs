@@ -10,8 +10,11 @@
 
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
+use std::ops::Range;
 
-use super::MarkerPass;
+use rayon::prelude::*;
+
+use super::{MarkerPass, in_parts};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::budget::Budget;
 use crate::geom::monotone::{Chain, Crossing, crossing};
@@ -33,28 +36,58 @@ const PLACE_DECIMALS: u32 = 1;
 
 fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     numbers(marker, diagnostics);
+    let parts = in_parts(marker.pieces.len());
+    let alone: Vec<Alone> = marker
+        .pieces
+        .par_chunks(parts.size)
+        .enumerate()
+        .map(|(k, pieces)| Alone::of(marker, k * parts.size..k * parts.size + pieces.len(), parts.budget()))
+        .collect();
     let mut search = Search::new(marker);
-    let mut work = Budget::of_a_marker();
-    let mut part = Part::default();
     let mut loose: Vec<(usize, Drill)> = Vec::new();
     let mut any_closed = false;
-    for (i, piece) in marker.pieces.iter().enumerate() {
-        part.gather(marker, i);
-        if let Some((place, span)) = search.self_crossing(i, &part, &mut work) {
-            let message = format!("an outline of {} crosses itself at {}", search.name(i), at(place));
-            diagnostics.push(Diagnostic::new(&code::MARKER_SELF_CROSSING, message).at(span));
-        }
-        // Its own piece is the likeliest.
-        let outside = piece.drills.iter().filter(|drill| !part.may_hold(drill, &mut work));
-        loose.extend(outside.map(|drill| (i, *drill)));
-        any_closed |= part.closed().next().is_some();
-        search.boxes.push(part.extent);
+    for part in alone {
+        part.findings.into_iter().for_each(|finding| diagnostics.push(finding));
+        loose.extend(part.loose);
+        any_closed |= part.any_closed;
+        search.boxes.extend(part.boxes);
     }
+    let mut work = Budget::of_a_marker();
     search.overlaps(&mut work, diagnostics);
     // Where nothing is closed there are no parts to tell.
     if any_closed {
         loose.retain(|(_, drill)| !search.is_in_a_part(drill, &mut work));
         search.report_drills(&loose, diagnostics);
+    }
+}
+
+/// What is found of pieces by themselves.
+#[derive(Default)]
+struct Alone {
+    findings: Vec<Diagnostic>,
+    /// Holes outside their own piece, and its place in the marker.
+    loose: Vec<(usize, Drill)>,
+    any_closed: bool,
+    boxes: Vec<Extent>,
+}
+
+impl Alone {
+    fn of(marker: &Marker, pieces: Range<usize>, mut work: Budget) -> Self {
+        let mut alone = Self::default();
+        let mut part = Part::default();
+        for i in pieces {
+            part.gather(marker, i);
+            if let Some((place, span)) = part.self_crossing((marker, i), &mut work) {
+                let message = format!("an outline of {} crosses itself at {}", name(marker, i), at(place));
+                alone.findings.push(Diagnostic::new(&code::MARKER_SELF_CROSSING, message).at(span));
+            }
+            // Its own piece is the likeliest.
+            let outside = marker.pieces[i].drills.iter().filter(|drill| !part.may_hold(drill, &mut work));
+            alone.loose.extend(outside.map(|drill| (i, *drill)));
+            alone.any_closed |= part.closed().next().is_some();
+            alone.boxes.push(part.extent);
+        }
+        alone
     }
 }
 
@@ -173,6 +206,41 @@ impl Part {
         };
         departs(&|k| start + 1 + k) && departs(&|k| start + count - k)
     }
+
+    /// Where its outlines cross themselves or each other, and the span there.
+    fn self_crossing(&self, (marker, piece): (&Marker, usize), work: &mut Budget) -> Option<(Point, Span)> {
+        let ends = |segment: usize| [self.points[segment], self.points[segment + 1]];
+        let mut wanted = |crossing: &Crossing| {
+            let [a, b] = crossing.segments;
+            self.leads_across(a, ends(b), slack(marker)) && self.leads_across(b, ends(a), slack(marker))
+        };
+        let boxes: Vec<Extent> = self.chains.iter().map(|chain| chain.0).collect();
+        let mut found: Option<Crossing> = None;
+        pairs(&boxes, work, |i, k| {
+            let (earlier, later) = (i.min(k), i.max(k));
+            let both = [self.chains[earlier].1, self.chains[later].1];
+            found = found.or_else(|| crossing([&self.points, &self.points], both, &mut wanted));
+            found.is_none()
+        });
+        found.map(|crossing| (crossing.at, span(marker, (piece, self), crossing.segments[1])))
+    }
+}
+
+/// A piece as messages name it.
+fn name(marker: &Marker, piece: usize) -> String {
+    format!("piece {}", marker.pieces[piece].number)
+}
+
+/// What rounding to the grid of the file may have done to two points, mm: its diagonal.
+fn slack(marker: &Marker) -> f64 {
+    marker.unit * std::f64::consts::SQRT_2
+}
+
+/// The span of the segment of a piece that starts at one of its points.
+fn span(marker: &Marker, (piece, part): (usize, &Part), point: usize) -> Span {
+    let k = part.contour_of(point);
+    let mut segments = marker.list.walk(marker.pieces[piece].contours[k].range);
+    segments.nth(point - part.contours[k].0).map(|(_, segment)| segment.span).unwrap_or_default()
 }
 
 /// What all searches look at.
@@ -190,41 +258,8 @@ impl<'a> Search<'a> {
         Self { marker, boxes: Vec::with_capacity(marker.pieces.len()), parts }
     }
 
-    fn name(&self, piece: usize) -> String {
-        format!("piece {}", self.marker.pieces[piece].number)
-    }
-
     fn part(&self, piece: usize) -> &Part {
         self.parts[piece].get_or_init(|| Part::of(self.marker, piece))
-    }
-
-    /// What rounding to the grid of the file may have done to two points, mm: its diagonal.
-    fn slack(&self) -> f64 {
-        self.marker.unit * std::f64::consts::SQRT_2
-    }
-
-    /// The span of the segment of a piece that starts at one of its points.
-    fn span(&self, piece: usize, part: &Part, point: usize) -> Span {
-        let k = part.contour_of(point);
-        let mut segments = self.marker.list.walk(self.marker.pieces[piece].contours[k].range);
-        segments.nth(point - part.contours[k].0).map(|(_, segment)| segment.span).unwrap_or_default()
-    }
-
-    fn self_crossing(&self, piece: usize, part: &Part, work: &mut Budget) -> Option<(Point, Span)> {
-        let ends = |segment: usize| [part.points[segment], part.points[segment + 1]];
-        let mut wanted = |crossing: &Crossing| {
-            let [a, b] = crossing.segments;
-            part.leads_across(a, ends(b), self.slack()) && part.leads_across(b, ends(a), self.slack())
-        };
-        let boxes: Vec<Extent> = part.chains.iter().map(|chain| chain.0).collect();
-        let mut found: Option<Crossing> = None;
-        pairs(&boxes, work, |i, k| {
-            let (earlier, later) = (i.min(k), i.max(k));
-            let both = [part.chains[earlier].1, part.chains[later].1];
-            found = found.or_else(|| crossing([&part.points, &part.points], both, &mut wanted));
-            found.is_none()
-        });
-        found.map(|crossing| (crossing.at, self.span(piece, part, crossing.segments[1])))
     }
 
     fn overlaps(&mut self, work: &mut Budget, diagnostics: &mut Diagnostics) {
@@ -237,8 +272,12 @@ impl<'a> Search<'a> {
         for of_one in near.chunk_by(|one, other| one.0 == other.0) {
             for &(i, k) in of_one {
                 if let Some((place, span)) = self.overlap(i, k, work) {
-                    let message =
-                        format!("the outlines of {} and {} overlap at {}", self.name(i), self.name(k), at(place));
+                    let message = format!(
+                        "the outlines of {} and {} overlap at {}",
+                        name(self.marker, i),
+                        name(self.marker, k),
+                        at(place)
+                    );
                     let finding = Diagnostic::new(&code::MARKER_OVERLAPPING, message).at(span);
                     diagnostics.push(finding.hint("move one of the two in the marker"));
                 }
@@ -260,8 +299,8 @@ impl<'a> Search<'a> {
         }
         let mut wanted = |crossing: &Crossing| {
             let [s, t] = crossing.segments;
-            a.leads_across(s, [b.points[t], b.points[t + 1]], self.slack())
-                && b.leads_across(t, [a.points[s], a.points[s + 1]], self.slack())
+            a.leads_across(s, [b.points[t], b.points[t + 1]], slack(self.marker))
+                && b.leads_across(t, [a.points[s], a.points[s + 1]], slack(self.marker))
         };
         for &of_b in &of_b {
             for &of_a in &of_a {
@@ -269,11 +308,11 @@ impl<'a> Search<'a> {
                     return None;
                 }
                 if let Some(found) = crossing([&a.points, &b.points], [of_a, of_b], &mut wanted) {
-                    return Some((found.at, self.span(k, b, found.segments[1])));
+                    return Some((found.at, span(self.marker, (k, b), found.segments[1])));
                 }
             }
         }
-        let place = self.straddles(b, a, work).map(|(place, point)| (place, self.span(k, b, point)));
+        let place = self.straddles(b, a, work).map(|(place, point)| (place, span(self.marker, (k, b), point)));
         place.or_else(|| self.straddles(a, b, work).map(|(place, _)| (place, self.marker.pieces[k].span)))
     }
 
@@ -289,7 +328,7 @@ impl<'a> Search<'a> {
             }
             let place = part.points[start] + (part.points[start + 1] - part.points[start]) / 2.0;
             let holds = other.holds(place);
-            if (holds && inside.is_some()) || (!holds && outside) || other.distance(place) <= self.slack() {
+            if (holds && inside.is_some()) || (!holds && outside) || other.distance(place) <= slack(self.marker) {
                 continue;
             }
             if holds {
@@ -317,7 +356,8 @@ impl<'a> Search<'a> {
                 0 => String::new(),
                 more => format!(", and {more} more of this piece"),
             };
-            let message = format!("a hole of {} at {} lies outside every part{more}", self.name(piece), at(first.at));
+            let message =
+                format!("a hole of {} at {} lies outside every part{more}", name(self.marker, piece), at(first.at));
             let finding = Diagnostic::new(&code::MARKER_DRILL_OUTSIDE, message).at(first.span);
             diagnostics.push(finding.hint("look where it is in the picture (`-t svg`); its part may be missing"));
         }

@@ -9,8 +9,12 @@ use crate::diagnostic::Diagnostics;
 use crate::geom::polyline;
 use crate::ir::toolpath::{End, Run, Shape, Step, Toolpath};
 
-pub(super) const PASS: ToolpathPass =
-    ToolpathPass { name: "corner", about: "splits contours at corners and at lifts that the file asks for", run };
+pub(super) const PASS: ToolpathPass = ToolpathPass {
+    name: "corner",
+    about: "splits contours at corners and at lifts that the file asks for",
+    run,
+    chained: false,
+};
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
     let job = scene.job;

@@ -11,7 +11,7 @@ use crate::ir::toolpath::{Run, Step, Toolpath};
 use crate::machine::Knife;
 
 pub(super) const PASS: ToolpathPass =
-    ToolpathPass { name: "down", about: "lifts runs that are longer than knife.max_down_mm", run };
+    ToolpathPass { name: "down", about: "lifts runs that are longer than knife.max_down_mm", run, chained: false };
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
     let job = scene.job;

@@ -10,8 +10,12 @@ use crate::diagnostic::Diagnostics;
 use crate::geom::polyline;
 use crate::ir::toolpath::{End, Run, Shape, Side, Step, Toolpath};
 
-pub(super) const PASS: ToolpathPass =
-    ToolpathPass { name: "entry", about: "splits runs at bends that a plunged blade cannot follow", run };
+pub(super) const PASS: ToolpathPass = ToolpathPass {
+    name: "entry",
+    about: "splits runs at bends that a plunged blade cannot follow",
+    run,
+    chained: false,
+};
 
 /// Part of the tolerance that the polyline may take here; smoothing moves the tip by up to the rest.
 const SHARE: f64 = 0.45;

@@ -36,6 +36,8 @@ pub struct ToolpathPass {
     pub about: &'static str,
     /// Does it.
     pub run: fn(&mut Toolpath, &Scene, &mut Diagnostics),
+    /// Whether it looks at where the toolpath before ends: it and all behind it see one toolpath after the other.
+    pub chained: bool,
 }
 
 /// Every pass over a toolpath, in order.

@@ -16,8 +16,12 @@ use crate::machine::Knife;
 use crate::source::Span;
 use crate::units::number::fixed;
 
-pub(super) const PASS: ToolpathPass =
-    ToolpathPass { name: "overlap", about: "gives runs their overlaps, as far as there is waste for them", run };
+pub(super) const PASS: ToolpathPass = ToolpathPass {
+    name: "overlap",
+    about: "gives runs their overlaps, as far as there is waste for them",
+    run,
+    chained: false,
+};
 
 /// A way that enters the part within this length begins in it, mm: rounding.
 const INSIDE_EPSILON: f64 = 1e-6;

@@ -14,7 +14,7 @@ use crate::machine::{Job, Knife};
 use crate::units::{deg, number::fixed};
 
 pub(super) const PASS: ToolpathPass =
-    ToolpathPass { name: "place", about: "gives steps their poses and joins them through the air", run };
+    ToolpathPass { name: "place", about: "gives steps their poses and joins them through the air", run, chained: true };
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     let job = scene.job;

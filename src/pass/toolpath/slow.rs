@@ -10,8 +10,12 @@ use crate::geom::polyline;
 use crate::ir::list::Joint;
 use crate::ir::toolpath::{Run, Step, Toolpath};
 
-pub(super) const PASS: ToolpathPass =
-    ToolpathPass { name: "slow", about: "slows the knife down before corners, when the profile says so", run };
+pub(super) const PASS: ToolpathPass = ToolpathPass {
+    name: "slow",
+    about: "slows the knife down before corners, when the profile says so",
+    run,
+    chained: false,
+};
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
     let job = scene.job;

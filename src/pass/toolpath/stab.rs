@@ -13,8 +13,12 @@ use crate::geom::region::{Ray, Room};
 use crate::ir::toolpath::{End, Pose, Run, Shape, Side, Stab, Step, Toolpath};
 use crate::units::number::fixed;
 
-pub(super) const PASS: ToolpathPass =
-    ToolpathPass { name: "stab", about: "makes stabs of short runs, what the blade is longer by in the waste", run };
+pub(super) const PASS: ToolpathPass = ToolpathPass {
+    name: "stab",
+    about: "makes stabs of short runs, what the blade is longer by in the waste",
+    run,
+    chained: false,
+};
 
 /// A shorter surplus harms nobody, mm: rounding.
 const HARM_EPSILON: f64 = 1e-6;

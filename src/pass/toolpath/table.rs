@@ -12,7 +12,7 @@ use crate::source::Span;
 use crate::units::number::fixed;
 
 pub(super) const PASS: ToolpathPass =
-    ToolpathPass { name: "table", about: "finds where the knife would leave the table", run };
+    ToolpathPass { name: "table", about: "finds where the knife would leave the table", run, chained: false };
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     let job = scene.job;

@@ -14,7 +14,7 @@ use crate::ir::marker::Notch;
 use crate::ir::toolpath::{Run, Shape, Step, Toolpath};
 
 pub(super) const PASS: ToolpathPass =
-    ToolpathPass { name: "turn", about: "turns short cuts round that lead out of the part", run };
+    ToolpathPass { name: "turn", about: "turns short cuts round that lead out of the part", run, chained: false };
 
 /// How far beyond an end the side is looked at, mm: farther than rounding, nearer than any notch is wide.
 const LOOK: f64 = 0.5;

@@ -13,8 +13,12 @@ use crate::geom::{Heading, polyline};
 use crate::ir::toolpath::{Run, Step, Toolpath};
 use crate::machine::Knife;
 
-pub(super) const PASS: ToolpathPass =
-    ToolpathPass { name: "wind", about: "lifts runs that wind C past its range, to unwind in the air", run };
+pub(super) const PASS: ToolpathPass = ToolpathPass {
+    name: "wind",
+    about: "lifts runs that wind C past its range, to unwind in the air",
+    run,
+    chained: false,
+};
 
 /// How far C stays away from the ends of its range where a run is parted, rad (5 degrees): smoothing turns the blade a
 /// little beyond the direction of its last chord. A range that is too narrow for that is used up to its ends.
