@@ -236,7 +236,7 @@ fn a_line_that_cannot_be_read_is_named_with_the_reason() {
     check("M2\n", "", "is missing: the program has no end");
     check("M2\n", "M2", "has no end: the file is cut short");
     check("M2\n", "M2\nG0 X0 Y0 C0\n", "comes behind the end of the program");
-    check("G94\n", "G94\nG17 G21 G40 G80 G90\n", "is the head of a program again");
+    check("G94\n", "G94\nG17 G21 G40 G80 G90 G91.1\n", "is the head of a program again");
     check(" I", " I1 J1 F1\n(", "is an arc whose ends lie");
 }
 
@@ -245,9 +245,9 @@ fn g_code_of_others_is_told_apart() {
     let foreign = |text: &str| verify::foreign(&mut text.as_bytes()).expect("memory is readable");
     for text in ["%\nO1000\n", "G21\nG0 X1\n", "(a comment)\nG90\n", "N10 G90\n"] {
         let [what, _] = foreign(text).expect("it is none");
-        assert!(what.contains("not `G17 G21 G40 G80 G90`"), "{what}");
+        assert!(what.contains("not `G17 G21 G40 G80 G90 G91.1`"), "{what}");
     }
-    assert!(foreign("G17 G21 G40 G80 G90\nG94\n").is_none() && foreign("N1 G17 G21 G40 G80 G90\r\n").is_none());
+    assert!(foreign("G17 G21 G40 G80 G90 G91.1\nG94\n").is_none() && foreign("N1 G17 G21 G40 G80 G90 G91.1\r\n").is_none());
     let [cut, _] = foreign("N1*G71*M15*X0Y0*").expect("a cut file is no program");
     assert!(!cut.contains("G17"), "{cut}");
 }

@@ -7,6 +7,8 @@ use clap::Args;
 use super::explanations::EXPLANATIONS;
 use super::{DONE, Finished, failure};
 use crate::diagnostic::{Severity, code};
+use crate::machine::MachineProfile;
+use crate::machine::keys::{self, KEYS, Key};
 use crate::pipeline::RULES;
 
 /// Columns of an explanation.
@@ -19,7 +21,8 @@ const CODES_OF_FILES: &str = "Codes of ISO cut files";
 /// Arguments of `cutc explain`.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
-    /// A code as messages show it, `iso/open-slit`, a rule of the verifier, `verify/on-path`, or a code of cut files, `M19`
+    /// A code as messages show it, `iso/open-slit`, a rule of the verifier, `verify/on-path`, a code of cut files, `M19`, or
+    /// a key of the profile, `knife.width_mm`
     code: Option<String>,
 }
 
@@ -44,11 +47,12 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     if let Some(topic) = topics().find(|(name, _, _)| name == asked) {
         return Ok(Finished::text(explained(topic), String::new(), DONE));
     }
-    if let Some(text) = code_of_files(asked) {
+    if let Some(text) = code_of_files(asked).or_else(|| Some(key_text(keys::find(asked)?))) {
         return Ok(Finished::text(text, String::new(), DONE));
     }
     let likeness = |name: &str| strsim::jaro_winkler(name, asked);
-    let nearest = topics().map(|topic| topic.0).max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
+    let names = topics().map(|topic| topic.0).chain(KEYS.iter().map(|key| key.name));
+    let nearest = names.max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
     let hint = nearest.map_or_else(String::new, |name| format!("did you mean `{name}`? "));
     Err(failure(format!("there is no code `{asked}`"), format!("{hint}`cutc explain` lists them all")))
 }
@@ -78,6 +82,15 @@ fn code_of_files(asked: &str) -> Option<String> {
     let kind = "code of ISO cut files; README has all of them";
     (!told.is_empty())
         .then(|| format!("{code}\n{kind}\n\n{}\n\n{switch}\n  codes.{code} = \"ignore\"\n", told.join("\n")))
+}
+
+/// What a key of the profile means, what it takes, and what it is when nothing is said.
+fn key_text(key: &Key) -> String {
+    let table = toml::Value::try_from(MachineProfile::default()).expect("a profile holds numbers, words and named tables");
+    let default = key.name.split('.').try_fold(&table, |inner, part| inner.get(part));
+    let default = default.map_or_else(String::new, |value| format!(" Its default is {}.", keys::shown_value(value)));
+    let takes = format!("It must be {}.{default}", key.expects());
+    format!("{}\nkey of the profile\n\n{}\n\n{}\n", key.name, wrapped(&key.about.replace('\n', " ")), wrapped(&takes))
 }
 
 /// A row of README's table as a paragraph.

@@ -7,9 +7,9 @@ const MODES: &[&str] = &["G18", "G19", "G20", "G70", "G91", "G90.1", "G92", "G10
 /// Words that end the program.
 const ENDS: &[&str] = &["M2", "M02", "M30", "%"];
 
-/// The lines of a profile by their keys, and the first word of each that has no business there.
-pub(super) fn harmful(gcode: &Gcode) -> Vec<(&'static str, String)> {
-    let texts = [
+/// The lines of a profile by their keys.
+fn texts(gcode: &Gcode) -> [(&'static str, &String); 8] {
+    [
         ("gcode.header", &gcode.header),
         ("gcode.knife_down", &gcode.knife_down),
         ("gcode.knife_up", &gcode.knife_up),
@@ -18,9 +18,13 @@ pub(super) fn harmful(gcode: &Gcode) -> Vec<(&'static str, String)> {
         ("gcode.stop", &gcode.stop),
         ("gcode.advance", &gcode.advance),
         ("gcode.footer", &gcode.footer),
-    ];
+    ]
+}
+
+/// The lines of a profile by their keys, and the first word of each that has no business there.
+pub(super) fn harmful(gcode: &Gcode) -> Vec<(&'static str, String)> {
     let axes = [b'X', b'Y', gcode.letter.byte()];
-    let found = texts.into_iter().filter_map(|(key, text)| {
+    let found = texts(gcode).into_iter().filter_map(|(key, text)| {
         let is_last = key == "gcode.footer";
         let harms = |word: &String| {
             let is_axis = axes.contains(&word.as_bytes()[0]) && word.len() > 1;
@@ -29,6 +33,22 @@ pub(super) fn harmful(gcode: &Gcode) -> Vec<(&'static str, String)> {
         Some((key, text.lines().flat_map(words).find(harms)?))
     });
     found.collect()
+}
+
+/// The keys that must say something: without them nothing would move the knife, or end the program.
+pub(super) fn blank(gcode: &Gcode) -> Vec<&'static str> {
+    let texts = [
+        ("gcode.knife_down", &gcode.knife_down),
+        ("gcode.knife_up", &gcode.knife_up),
+        ("gcode.footer", &gcode.footer),
+    ];
+    texts.into_iter().filter(|(_, text)| text.lines().flat_map(words).next().is_none()).map(|(key, _)| key).collect()
+}
+
+/// The first character of lines that no controller reads: they are plain ASCII.
+pub(super) fn foreign(gcode: &Gcode) -> Vec<(&'static str, char)> {
+    let is_foreign = |c: &char| !matches!(c, ' '..='~' | '\t' | '\n' | '\r');
+    texts(gcode).into_iter().filter_map(|(key, text)| Some((key, text.chars().find(is_foreign)?))).collect()
 }
 
 /// The words of a line: letters with their numbers, upper case, whatever blanks stand between; comments are none.

@@ -115,6 +115,14 @@ fn rules(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault
             "modes, moves of the axes and the end are the program's own; only `gcode.footer` may move, and end it";
         broken(&[key], message, hint);
     }
+    for key in lines::blank(&profile.gcode) {
+        let message = format!("`{key}` says nothing");
+        broken(&[key], message, "give the lines that the controller needs, such as M3 and M5 for the knife, M2 for the end");
+    }
+    for (key, character) in lines::foreign(&profile.gcode) {
+        let message = format!("`{key}` has {character:?}, which no controller reads");
+        broken(&[key], message, "lines of G-code are plain ASCII, comments too");
+    }
     faults
 }
 

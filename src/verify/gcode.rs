@@ -1,4 +1,5 @@
-//! Reads G-code as places along the way of the axes: no time, but at each place the exact direction of the tip.
+//! Reads G-code as places along the way of the axes: no time, but at each place the exact direction of the tip, and the
+//! speed that F asks for.
 //!
 //! Knows the words of the target alone: G0 to G4 with full coordinates, the lines of the profile for head, knife, drill,
 //! operator and end, comments. Arcs are followed as a controller does: around the centre that I and J give, with C linear
@@ -14,10 +15,12 @@ use crate::geom::{Point, Vector};
 use crate::ir::Finding;
 use crate::ir::finding::Sighting;
 use crate::machine::MachineProfile;
-use crate::units::number::exact;
+use crate::machine::controller::FeedMode;
+use crate::units::S_PER_MIN;
+use crate::units::number::{exact, fixed};
 
 /// How every such program begins, behind the number of its line.
-const HEAD: &[u8] = b"G17 G21 G40 G80 G90";
+const HEAD: &[u8] = b"G17 G21 G40 G80 G90 G91.1";
 /// The longest line that is read, bytes.
 const LINE_MAX: u64 = 1024;
 /// Farthest that a straight step may leave an arc, mm: a tenth of the least tolerance of a path.
@@ -130,7 +133,7 @@ impl<'a> Places<'a> {
         Rounding { axes: [0.5 * profile.gcode.step(); 3] }
     }
 
-    /// The next place, and the way of the tip there, of any length; none where it rests.
+    /// The next place, and the way of the tip there a second, mm, as F asks for; none where it rests.
     pub(super) fn next(&mut self) -> Option<(Row, Vector)> {
         while self.queue.is_empty() && !self.ended {
             if let Err(why) = self.read() {
@@ -269,7 +272,8 @@ impl<'a> Places<'a> {
         if let Some(letter) = words.foreign_to(code) {
             return Err(format!("has {letter}, which such a move has not"));
         }
-        if code != 0.0 && needed(words.f, 'F')? <= 0.0 {
+        let feed = if code == 0.0 { f64::INFINITY } else { needed(words.f, 'F')? };
+        if feed <= 0.0 {
             return Err("has an F that is no speed".to_owned());
         }
         // Of an axis that goes round the whole turns are not told: in the air it is where it would be without any.
@@ -288,24 +292,42 @@ impl<'a> Places<'a> {
             return Err("is a way that no machine goes".to_owned());
         }
         let (radius, yaw) = (self.profile.knife.radius(), self.profile.knife.yaw_deg);
+        let pace = self.pace(feed, length, turned);
         // In the air only the ends matter.
         let first = if from.knife { 0 } else { steps as usize };
         for i in first..=steps as usize {
             let share = i as f64 / steps;
-            let (centre, pace) = match arc {
+            let (centre, ahead) = match arc {
                 Some(arc) => arc.at(share),
                 None => (from.centre + (to - from.centre) * share, to - from.centre),
             };
             let c_deg = from.c_deg + turned * share;
             let (sin, cos) = (c_deg - yaw).to_radians().sin_cos();
             // The tip swings about the centre as the blade turns.
-            let way = pace + Vector::new(-sin, cos) * (radius * turned.to_radians());
+            let way = (ahead + Vector::new(-sin, cos) * (radius * turned.to_radians())) * pace;
             let centre = if i as f64 == steps { to } else { centre };
             self.last_way = way;
             self.push(Row { centre, c_deg, ..self.now }, way);
         }
         (self.now.centre, self.now.c_deg) = (to, c_to);
         Ok(())
+    }
+
+    /// Moves a second of which F asks, of this length (mm) and turn of C (degrees); as few as the rounding of their ends
+    /// lets it mean. A rapid one counts as one a second.
+    fn pace(&self, feed: f64, length: f64, turned: f64) -> f64 {
+        if feed.is_infinite() {
+            return 1.0;
+        }
+        let rounding = 2.0 * Self::rounding(self.profile).axis();
+        let size = if length > 0.0 { length } else { turned.abs() };
+        let sure = (size - rounding).max(0.0) / size.max(f64::MIN_POSITIVE);
+        let pace = match self.profile.gcode.feed_mode {
+            FeedMode::G93 => feed / S_PER_MIN,
+            FeedMode::G94 => feed / S_PER_MIN / size.max(f64::MIN_POSITIVE),
+        };
+        // Where it points matters even of what may be no way at all.
+        pace * sure.max(f64::EPSILON)
     }
 
     /// The unwrapped geometric position that a word of the axis means.
@@ -336,8 +358,8 @@ impl<'a> Places<'a> {
         if radii[0] == 0.0 || (radii[0] - radii[1]).abs() > RADIUS_STEPS * self.profile.gcode.step() {
             return Err(format!(
                 "is an arc whose ends lie {} and {} mm from its centre",
-                exact(radii[0]),
-                exact(radii[1])
+                fixed(radii[0], self.profile.gcode.decimals + 1),
+                fixed(radii[1], self.profile.gcode.decimals + 1)
             ));
         }
         let angle = |v: Vector| v.y.atan2(v.x);
@@ -463,6 +485,7 @@ pub(super) const RULES: &[&str] = &[
     "verify/end",
     "verify/c-range",
     "verify/table",
+    "verify/feed",
     "verify/on-path",
     "verify/stray",
     "verify/order",

@@ -58,6 +58,8 @@ pub(super) struct Moving<'a> {
     pub(super) fade: f64,
     /// Least way of the tip that shows a direction, mm.
     pub(super) way_min: f64,
+    /// By how much rounding may turn the direction of a shorter one, degrees.
+    pub(super) noise_deg: f64,
 }
 
 impl Moving<'_> {
@@ -73,7 +75,11 @@ impl Moving<'_> {
             if i > 0 {
                 way += (tips[i] - tips[i - 1]).norm();
             }
-            let along = if let Some(&way) = self.ways.get(i) {
+            // The end of a move and the start of the next are two rows at one place.
+            let step = |a: usize, b: usize| (tips[b.min(last)] - tips[a]).norm();
+            let is_sure = |&i: &usize| step(i.saturating_sub(1), i).max(step(i, i + 1)) >= self.way_min;
+            let exact = self.ways.get(i).filter(|way| is_sure(&i) || **way == Vector::zeros());
+            let along = if let Some(&way) = exact {
                 // Of any length: what matters is where it points.
                 way.try_normalize(0.0).unwrap_or_default()
             } else {
@@ -96,7 +102,9 @@ impl Moving<'_> {
             let ahead = angle::wrap(along.y.atan2(along.x) - rows[i].c_deg.to_radians());
             let lead = *lead.get_or_insert(ahead.clamp(least, greatest));
             let expected = if way < self.fade { lead * fading(way / self.fade) } else { 0.0 };
-            heading.see(angle::wrap(ahead - expected).abs().to_degrees(), || rows[i].sighting());
+            let askew = angle::wrap(ahead - expected).abs().to_degrees();
+            let noise = if exact.is_some() || self.ways.is_empty() { 0.0 } else { self.noise_deg };
+            heading.see((askew - noise).max(0.0), || rows[i].sighting());
         }
     }
 }

@@ -27,11 +27,14 @@ use crate::machine::{Fit, Knife, MachineProfile};
 /// its tube passes the vertex early or late by less.
 const CAP_ASIDE: f64 = 0.5;
 
+/// Rounding of F, as a part of it.
+const FEED_EPSILON: f64 = 1e-5;
+
 /// The rows of strokes, one stroke behind the other.
 #[derive(Debug, Default)]
 pub(super) struct Strokes {
     rows: Vec<Row>,
-    /// The way of the tip at each row, when that is known exactly; then the rows have no time.
+    /// The way of the tip a second at each row, mm, when the rows have no time but tell that.
     ways: Vec<Vector>,
     /// Where each stroke ends among them; the last one may not have ended yet.
     ends: Vec<usize>,
@@ -100,8 +103,9 @@ pub(super) struct Judge<'a> {
     period: f64,
     /// Rounding of a tip's place, mm.
     rounding: f64,
-    /// Least way of the tip that shows a direction, mm.
+    /// Least way of the tip that shows a direction, mm, and by how much rounding may turn a shorter one, degrees.
     way_min: f64,
+    noise_deg: f64,
     tracer: Tracer<'a>,
     /// Greatest overlap at one end, and of both ends together.
     overlap: f64,
@@ -141,6 +145,7 @@ impl<'a> Judge<'a> {
             period: profile.time.period(),
             rounding: place,
             way_min: heading::way_min(rounding),
+            noise_deg: heading::noise_deg(rounding),
             tracer,
             overlap: front.max(heel),
             overlaps,
@@ -195,9 +200,7 @@ impl<'a> Judge<'a> {
         let rows = stroke.rows;
         let seen = |i: usize| stroke.sighting(cut, i);
         worsts.down.see(polyline::length(tips), || rows[rows.len() - 1].sighting());
-        if stroke.ways.is_empty() {
-            self.check_feed(rows, cut, best.as_ref(), &mut worsts.feed);
-        }
+        self.check_feed(*stroke, cut, best.as_ref(), &mut worsts.feed);
         self.check_heading(*stroke, tips, (cut, best.as_ref()), &mut worsts.heading);
         let Some(best) = best else {
             worsts.stray.see(polyline::length(&cut.points).max(self.knife.width_mm).max(REACH), || seen(cut.body));
@@ -294,7 +297,8 @@ impl<'a> Judge<'a> {
             (cut, Some(trial)) => self.plunge(cut, trial).lead(),
         };
         let fade = self.knife.width_mm.min(polyline::length(tips));
-        Moving { rows: stroke.rows, ways: stroke.ways, tips, lead, fade, way_min: self.way_min }.check(heading);
+        let (way_min, noise_deg) = (self.way_min, self.noise_deg);
+        Moving { rows: stroke.rows, ways: stroke.ways, tips, lead, fade, way_min, noise_deg }.check(heading);
     }
 
     fn plunge(&self, cut: &Cut, trial: &Trial) -> Plunge<'_> {
@@ -328,17 +332,26 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// The way of the tip from row to row against the greatest cap that holds anywhere on it.
-    fn check_feed(&self, rows: &[Row], cut: &Cut, trial: Option<&Trial>, feed: &mut Worst) {
+    /// The way of the tip from row to row, or what F asks for there, against the greatest cap that holds anywhere on it.
+    fn check_feed(&self, stroke: Stroke, cut: &Cut, trial: Option<&Trial>, feed: &mut Worst) {
+        let Stroke { rows, ways } = stroke;
         let slack = self.reference.tolerance + CAP_ASIDE;
-        let rounding = 4.0 * self.rounding / self.period;
-        for (i, ends) in cut.points[cut.body..].windows(2).enumerate() {
-            let cap = trial.map_or(self.knife.feed_mm_s.unwrap_or(f64::INFINITY), |trial| {
+        let cap = |i: usize| {
+            trial.map_or(self.knife.feed_mm_s.unwrap_or(f64::INFINITY), |trial| {
                 let [a, b] = [0, 1].map(|k| trial.feet[cut.body + i + k].station);
                 self.reference.lines[trial.line].cap([a.min(b) - slack, a.max(b) + slack], trial.sign(cut))
-            });
-            let speed = (ends[1] - ends[0]).norm() / self.period;
-            feed.see_under(speed, cap + rounding, || rows[cut.rows[i + 1] - 1].sighting());
+            })
+        };
+        let rounding = 4.0 * self.rounding / self.period;
+        for (i, ends) in cut.points[cut.body..].windows(2).enumerate() {
+            let last = cut.rows[i + 1];
+            if ways.is_empty() {
+                let speed = (ends[1] - ends[0]).norm() / self.period;
+                feed.see_under(speed, cap(i) + rounding, || rows[last - 1].sighting());
+            } else {
+                let speed = ways[last].norm() * (1.0 - FEED_EPSILON);
+                feed.see_under(speed, cap(i), || rows[last].sighting());
+            }
         }
     }
 

@@ -65,7 +65,7 @@ fn way_of(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Diagnostic> {
 }
 
 fn begin<'a>(context: &Context<'a>) -> Box<dyn Fitting + 'a> {
-    Box::new(Program::new(context.job))
+    Box::new(Program::new(context))
 }
 
 impl Fitting for Program<'_> {

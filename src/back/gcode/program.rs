@@ -2,7 +2,7 @@
 
 use std::io;
 
-use super::super::Output;
+use super::super::{Context, Output};
 use super::pace::{Move, Pace};
 use super::way::{Piece, Way};
 use crate::geom::{Rotation, Vector, left};
@@ -20,9 +20,18 @@ const LINE_SHARE: f64 = 0.45;
 /// A whole turn, degrees.
 const TURN_DEG: f64 = 360.0;
 
+/// A text as a comment may hold it: plain letters, no brackets.
+fn comment(text: &str) -> String {
+    let is_plain = |c: char| matches!(c, ' '..='~') && !matches!(c, '(' | ')' | ';');
+    let name = text.rsplit(['/', '\\']).next().unwrap_or_default();
+    name.chars().map(|c| if is_plain(c) { c } else { '_' }).collect()
+}
+
 /// A program in the making.
 pub(super) struct Program<'a> {
     job: &'a Job,
+    /// The name of what it was made from.
+    source: &'a str,
     /// The lines that were not written yet.
     text: Vec<u8>,
     /// Where the axes stand.
@@ -35,22 +44,24 @@ pub(super) struct Program<'a> {
 }
 
 impl<'a> Program<'a> {
-    pub(super) fn new(job: &'a Job) -> Self {
+    pub(super) fn new(context: &Context<'a>) -> Self {
+        let job = context.job;
         let [x, y, c] = job.profile.home;
-        let pose = Pose::new(x, y, rad(c));
-        Self { job, text: Vec::new(), pose, lines: 0, moves: 0, pace: Pace::new(job) }
+        let (pose, source) = (Pose::new(x, y, rad(c)), context.source.name());
+        Self { job, source, text: Vec::new(), pose, lines: 0, moves: 0, pace: Pace::new(job) }
     }
 
     /// What comes before the first move.
     pub(super) fn start(&mut self) {
         let keys = &self.job.profile.gcode;
-        self.say("G17 G21 G40 G80 G90");
+        self.say("G17 G21 G40 G80 G90 G91.1");
         if let Some(blend) = keys.blend_mm {
             // Q0: arcs stay arcs; flat ones would become pairs of lines that kink.
             self.say(&format!("G64 P{} Q0", exact(blend)));
         }
         self.say(&keys.header);
         self.say(keys.feed_mode.code());
+        self.say(&format!("(from {})", comment(self.source)));
         // Whatever ran before may have left the knife in the cloth.
         self.order(&keys.knife_up, self.job.profile.knife.lift());
     }
@@ -83,9 +94,11 @@ impl<'a> Program<'a> {
         let text = &mut self.text;
         text.extend_from_slice(b"(piece ");
         push_integer(text, piece.into());
-        for (word, span) in [(&b" block "[..], spans.first()), (b" to ", spans.last())] {
+        let [first, last] = [spans.first(), spans.last()].map(|span| span.map_or(0, |span| span.block));
+        // A run that is turned round is named like any other.
+        for (word, block) in [(&b" block "[..], first.min(last)), (b" to ", first.max(last))] {
             text.extend_from_slice(word);
-            push_integer(text, span.map_or(0, |span| span.block).into());
+            push_integer(text, block.into());
         }
         text.extend_from_slice(b")\n");
     }
