@@ -41,8 +41,9 @@ const NAMED_ONLY_IN: &[(&str, &[&str])] = &[
     ("nom::", &["front"]),
     ("clap::", &["cli"]),
     ("anyhow::", &["cli", "main"]),
-    // Stages are pure: threads, files, clocks and the environment are for those who call them.
-    ("rayon::", &["cli", "pipeline"]),
+    // What gives the same on any number of threads may be shared out; what writes, reads and plans goes in order.
+    ("rayon::", &["cli", "geom", "pass", "pipeline", "verify"]),
+    // Stages are pure: files, clocks and the environment are for those who call them.
     ("tempfile::", &["cli", "pipeline"]),
     ("std::thread", &["cli", "pipeline", "main"]),
     ("std::fs", &["cli", "pipeline", "main"]),

@@ -247,7 +247,9 @@ fn g_code_of_others_is_told_apart() {
         let [what, _] = foreign(text).expect("it is none");
         assert!(what.contains("not `G17 G21 G40 G80 G90 G91.1`"), "{what}");
     }
-    assert!(foreign("G17 G21 G40 G80 G90 G91.1\nG94\n").is_none() && foreign("N1 G17 G21 G40 G80 G90 G91.1\r\n").is_none());
+    assert!(
+        foreign("G17 G21 G40 G80 G90 G91.1\nG94\n").is_none() && foreign("N1 G17 G21 G40 G80 G90 G91.1\r\n").is_none()
+    );
     let [cut, _] = foreign("N1*G71*M15*X0Y0*").expect("a cut file is no program");
     assert!(!cut.contains("G17"), "{cut}");
 }

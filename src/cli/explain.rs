@@ -86,7 +86,8 @@ fn code_of_files(asked: &str) -> Option<String> {
 
 /// What a key of the profile means, what it takes, and what it is when nothing is said.
 fn key_text(key: &Key) -> String {
-    let table = toml::Value::try_from(MachineProfile::default()).expect("a profile holds numbers, words and named tables");
+    let table =
+        toml::Value::try_from(MachineProfile::default()).expect("a profile holds numbers, words and named tables");
     let default = key.name.split('.').try_fold(&table, |inner, part| inner.get(part));
     let default = default.map_or_else(String::new, |value| format!(" Its default is {}.", keys::shown_value(value)));
     let takes = format!("It must be {}.{default}", key.expects());

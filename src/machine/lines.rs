@@ -37,11 +37,8 @@ pub(super) fn harmful(gcode: &Gcode) -> Vec<(&'static str, String)> {
 
 /// The keys that must say something: without them nothing would move the knife, or end the program.
 pub(super) fn blank(gcode: &Gcode) -> Vec<&'static str> {
-    let texts = [
-        ("gcode.knife_down", &gcode.knife_down),
-        ("gcode.knife_up", &gcode.knife_up),
-        ("gcode.footer", &gcode.footer),
-    ];
+    let texts =
+        [("gcode.knife_down", &gcode.knife_down), ("gcode.knife_up", &gcode.knife_up), ("gcode.footer", &gcode.footer)];
     texts.into_iter().filter(|(_, text)| text.lines().flat_map(words).next().is_none()).map(|(key, _)| key).collect()
 }
 

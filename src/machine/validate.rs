@@ -117,7 +117,11 @@ fn rules(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault
     }
     for key in lines::blank(&profile.gcode) {
         let message = format!("`{key}` says nothing");
-        broken(&[key], message, "give the lines that the controller needs, such as M3 and M5 for the knife, M2 for the end");
+        broken(
+            &[key],
+            message,
+            "give the lines that the controller needs, such as M3 and M5 for the knife, M2 for the end",
+        );
     }
     for (key, character) in lines::foreign(&profile.gcode) {
         let message = format!("`{key}` has {character:?}, which no controller reads");

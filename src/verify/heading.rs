@@ -11,7 +11,7 @@ use super::joints::Joints;
 use super::read::{Rounding, Row};
 use super::reference::Line;
 use super::worst::Worst;
-use crate::geom::{Point, Vector, angle};
+use crate::geom::{Point, Vector, angle, polyline};
 
 /// Least way of the tip that shows a direction, mm: with six decimals its rounding is then below 0.02 degrees.
 const WAY_MIN: f64 = 0.005;
@@ -69,17 +69,11 @@ impl Moving<'_> {
         let last = rows.len() - 1;
         let [least, greatest] = self.lead;
         let is_clear = |i: usize, k: usize| (tips[k] - tips[i]).norm() >= self.way_min;
+        let stations = polyline::stations(tips);
         let (mut before, mut behind) = (0, 0);
-        let (mut lead, mut way) = (None, 0.0);
+        let mut lead = None;
         for i in 0..=last {
-            if i > 0 {
-                way += (tips[i] - tips[i - 1]).norm();
-            }
-            // The end of a move and the start of the next are two rows at one place.
-            let step = |a: usize, b: usize| (tips[b.min(last)] - tips[a]).norm();
-            let is_sure = |&i: &usize| step(i.saturating_sub(1), i).max(step(i, i + 1)) >= self.way_min;
-            let exact = self.ways.get(i).filter(|way| is_sure(&i) || **way == Vector::zeros());
-            let along = if let Some(&way) = exact {
+            let along = if let Some(&way) = self.ways.get(i) {
                 // Of any length: what matters is where it points.
                 way.try_normalize(0.0).unwrap_or_default()
             } else {
@@ -99,13 +93,34 @@ impl Moving<'_> {
                 heading.see((rows[i].c_deg - rows[0].c_deg).abs(), || rows[i].sighting());
                 continue;
             }
-            let ahead = angle::wrap(along.y.atan2(along.x) - rows[i].c_deg.to_radians());
-            let lead = *lead.get_or_insert(ahead.clamp(least, greatest));
+            let ahead = |along: Vector| angle::wrap(along.y.atan2(along.x) - rows[i].c_deg.to_radians());
+            let lead = *lead.get_or_insert(ahead(along).clamp(least, greatest));
+            let way = stations[i];
             let expected = if way < self.fade { lead * fading(way / self.fade) } else { 0.0 };
-            let askew = angle::wrap(ahead - expected).abs().to_degrees();
-            let noise = if exact.is_some() || self.ways.is_empty() { 0.0 } else { self.noise_deg };
-            heading.see((askew - noise).max(0.0), || rows[i].sighting());
+            let askew = |along: Vector| angle::wrap(ahead(along) - expected).abs().to_degrees();
+            // Rounding turns the direction of a short move, but not by as much that of the way which it is part of.
+            let of_way = self.around(i, &stations).map_or(f64::INFINITY, |along| askew(along) - self.noise_deg);
+            heading.see(askew(along).min(of_way.max(0.0)), || rows[i].sighting());
         }
+    }
+
+    /// Where the way points that lies about a row of a move which is told but too short to show a direction by itself;
+    /// `None` for any other.
+    fn around(&self, i: usize, stations: &[f64]) -> Option<Vector> {
+        let last = stations.len() - 1;
+        // The end of a move and the start of the next are two rows at one place.
+        let step = (stations[i] - stations[i.saturating_sub(1)]).max(stations[(i + 1).min(last)] - stations[i]);
+        if self.ways.is_empty() || step >= self.way_min {
+            return None;
+        }
+        let at = |station: f64| {
+            let next = stations.partition_point(|&s| s < station).clamp(1, last);
+            let (low, high) = (stations[next - 1], stations[next]);
+            let share = if high > low { ((station - low) / (high - low)).clamp(0.0, 1.0) } else { 0.0 };
+            self.tips[next - 1] + (self.tips[next] - self.tips[next - 1]) * share
+        };
+        let half = 0.5 * self.way_min;
+        polyline::direction(at(stations[i] - half), at(stations[i] + half))
     }
 }
 

@@ -27,8 +27,9 @@ use crate::machine::{Fit, Knife, MachineProfile};
 /// its tube passes the vertex early or late by less.
 const CAP_ASIDE: f64 = 0.5;
 
-/// Rounding of F, as a part of it.
-const FEED_EPSILON: f64 = 1e-5;
+/// Part of a feed that F may ask for too much: rounding, and where a line stands for an arc its ends are a little faster
+/// than its middle.
+const FEED_EPSILON: f64 = 1e-3;
 
 /// The rows of strokes, one stroke behind the other.
 #[derive(Debug, Default)]

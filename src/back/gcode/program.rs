@@ -2,9 +2,9 @@
 
 use std::io;
 
-use super::super::{Context, Output};
 use super::pace::{Move, Pace};
 use super::way::{Piece, Way};
+use super::{Context, Output};
 use crate::geom::{Rotation, Vector, left};
 use crate::ir::toolpath::{Drill, Event, Pose};
 use crate::machine::Job;
