@@ -16,6 +16,9 @@ use crate::verify::{self, Kind, RULES, Verdict};
 
 /// The rule on what can be read.
 const FORMAT: &str = "verify/format";
+/// Rules that a run may break which is parted where the blade has no room for that.
+const OF_PARTS: &[&str] =
+    &["verify/on-path", "verify/stray", "verify/once", "verify/complete", "verify/heading", "verify/body"];
 /// Bytes that are read back at a time.
 const BLOCK: usize = 1 << 16;
 /// Significant digits at which figures of findings are shown to people.
@@ -130,7 +133,7 @@ pub(super) fn both(first: Verdict, second: Verdict) -> Verdict {
 }
 
 /// A diagnostic for each rule that does not hold.
-pub(super) fn report(verdict: &Verdict, marker: &Marker, diagnostics: &mut Diagnostics) {
+pub(super) fn report(verdict: &Verdict, (marker, job): (&Marker, &Job), diagnostics: &mut Diagnostics) {
     for finding in verdict.broken() {
         let (worst, limit) = figures(finding);
         let unit = finding.unit;
@@ -150,12 +153,25 @@ pub(super) fn report(verdict: &Verdict, marker: &Marker, diagnostics: &mut Diagn
             span = span_of(marker, place.block);
         }
         let rule = format!("the rule: {}", about(finding.rule));
-        let hint = match key(finding.rule) {
-            Some(key) => format!("the limit is the profile's `{key}`"),
-            None => "no setting should lead here: please report it, with the cutter file and the profile".to_owned(),
+        let hint = match (key(finding.rule), parting_keys(job)) {
+            (_, Some(keys)) if OF_PARTS.contains(&finding.rule) => {
+                format!("{keys} parts this cut into pieces that the blade is too wide for: give it more")
+            }
+            (Some(key), _) => format!("the limit is the profile's `{key}`"),
+            (None, _) => "no setting should lead here: please report it, with the cutter file and the profile".to_owned(),
         };
         let diagnostic = Diagnostic { span, ..Diagnostic::new(&code::VERIFY_BROKEN, message) };
         diagnostics.push(diagnostic.hint(rule).hint(hint));
+    }
+}
+
+/// The keys of the profile by which runs are parted amid a line, as a sentence begins with them; `None` when none does.
+fn parting_keys(job: &Job) -> Option<&'static str> {
+    match (job.profile.knife.max_down_mm, job.profile.c.range_deg) {
+        (Some(_), Some(_)) => Some("`knife.max_down_mm` or `c.range_deg`"),
+        (Some(_), None) => Some("`knife.max_down_mm`"),
+        (None, Some(_)) => Some("`c.range_deg`"),
+        (None, None) => None,
     }
 }
 

@@ -223,7 +223,7 @@ pub fn compile_all(
         out.flush()?;
     }
     if let Some(verdict) = &verdict {
-        judge::report(verdict, marker, diagnostics);
+        judge::report(verdict, (marker, job), diagnostics);
     }
     Ok((!diagnostics.has_errors()).then_some(Compiled { report, verdict }))
 }

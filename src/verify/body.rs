@@ -11,6 +11,8 @@ pub(super) const BODY_STEP: f64 = 0.25;
 /// What a stroke cuts: the body's places, then the tip's.
 pub(super) struct Cut {
     pub(super) points: Vec<Point>,
+    /// Length of the way from the first place to each, mm.
+    pub(super) stations: Vec<f64>,
     /// Number of places of the body.
     pub(super) body: usize,
     /// The row of each place of the tip.
@@ -26,7 +28,17 @@ impl Cut {
         // Rest rows repeat their place; a track of places that differ is enough.
         let moves: Vec<usize> = (0..tips.len()).filter(|&i| i == 0 || tips[i] != tips[i - 1]).collect();
         points.extend(moves.iter().map(|&i| tips[i]));
-        Self { points, body: steps, rows: moves }
+        Self { stations: polyline::stations(&points), points, body: steps, rows: moves }
+    }
+
+    /// Length of all that it cuts, mm: of the body, and of the tip's way.
+    pub(super) fn length(&self) -> f64 {
+        self.stations[self.stations.len() - 1]
+    }
+
+    /// Length of the tip's way, mm.
+    pub(super) fn way(&self) -> f64 {
+        self.length() - self.stations[self.body]
     }
 
     /// Whether the blade plunges and lifts without a way.

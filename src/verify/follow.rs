@@ -118,11 +118,11 @@ fn preceding(line: &Line, chord: usize) -> Option<(usize, f64)> {
 pub(super) fn on_chord(line: &Line, chord: usize, point: Point) -> Foot {
     let (deviation, station) = line.deviation(chord, point);
     let plain = Foot { station, deviation, beyond: 0.0 };
-    if line.ring {
+    let last = line.points.len() - 1;
+    if line.ring || chord > 0 && chord + 1 < last {
         return plain;
     }
     let along = line.direction(chord);
-    let last = line.points.len() - 1;
     let ahead = |end: usize, sign: f64| {
         let away = point - line.points[end];
         let beyond = sign * away.dot(&along);

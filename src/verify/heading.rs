@@ -52,6 +52,8 @@ pub(super) struct Moving<'a> {
     pub(super) ways: &'a [Vector],
     /// The tip at each row.
     pub(super) tips: &'a [Point],
+    /// Unit vector from the tail to the tip at each row.
+    pub(super) blades: &'a [Vector],
     /// Least and greatest turn from the blade to the tip's way at the plunge, rad.
     pub(super) lead: [f64; 2],
     /// Way of the tip over which that fades, mm.
@@ -93,7 +95,7 @@ impl Moving<'_> {
                 heading.see((rows[i].c_deg - rows[0].c_deg).abs(), || rows[i].sighting());
                 continue;
             }
-            let ahead = |along: Vector| angle::wrap(along.y.atan2(along.x) - rows[i].c_deg.to_radians());
+            let ahead = |along: Vector| angle::turn(self.blades[i], along);
             let lead = *lead.get_or_insert(ahead(along).clamp(least, greatest));
             let way = stations[i];
             let expected = if way < self.fade { lead * fading(way / self.fade) } else { 0.0 };

@@ -76,11 +76,16 @@ impl Limits {
         }
     }
 
+    /// Sees a row, whether it has a time or not.
     pub(super) fn see(&mut self, row: &Row) {
-        self.time.see((row.t - row.tick as f64 * self.period).abs(), || row.sighting());
         if let Some([least, greatest]) = self.range {
             self.c_range.see((least - row.c_deg).max(row.c_deg - greatest), || row.sighting());
         }
+    }
+
+    /// Sees a row that has a time.
+    pub(super) fn see_timed(&mut self, row: &Row) {
+        self.time.see((row.t - row.tick as f64 * self.period).abs(), || row.sighting());
         let here = [row.centre.x, row.centre.y, row.c_deg];
         let down = self.down;
         self.down = down << 1 | u8::from(row.knife);
@@ -113,7 +118,7 @@ impl Limits {
         if let Some(last) = last {
             for i in 1..=3 {
                 let tick = last.tick + i;
-                self.see(&Row { tick, t: tick as f64 * period, ..*last });
+                self.see_timed(&Row { tick, t: tick as f64 * period, ..*last });
             }
         }
         let mut findings = vec![self.time.finding(), self.c_range.finding()];

@@ -220,6 +220,9 @@ impl Watch<'_> {
         while strokes.rows() < ROWS_AT_A_TIME || strokes.are_open() {
             let Some((row, way)) = next() else { break };
             self.limits.see(&row);
+            if way.is_none() {
+                self.limits.see_timed(&row);
+            }
             self.rest.see(&row);
             // The axis stands askew to the blade by the yaw: what is cut is judged by the blade.
             let blade = Row { c_deg: row.c_deg - self.yaw_deg, ..row };

@@ -232,19 +232,27 @@ impl Line {
     /// Distance of a point from the tube's core beside a chord, mm, and the station of the foot. The core at a place of
     /// the chord is the segment from the chord to its bulge there.
     pub(super) fn deviation(&self, chord: usize, point: Point) -> (f64, f64) {
-        let (a, b) = (self.points[chord], self.points[chord + 1]);
-        let share = polyline::foot(point, a, b);
-        let foot = a + (b - a) * share;
-        let station = self.stations[chord] + (self.stations[chord + 1] - self.stations[chord]) * share;
-        let away = point - foot;
-        let reach = self.bulges[chord] * (4.0 * share * (1.0 - share));
+        let (start, length) = (self.stations[chord], self.stations[chord + 1] - self.stations[chord]);
+        let from = point - self.points[chord];
+        if length == 0.0 {
+            return (from.norm(), start);
+        }
+        let along = (self.points[chord + 1] - self.points[chord]) / length;
+        let way = from.dot(&along).clamp(0.0, length);
+        let away = from - along * way;
+        let bulge = self.bulges[chord];
+        if bulge == Vector::zeros() {
+            return (away.norm(), start + way);
+        }
+        let share = way / length;
+        let reach = bulge * (4.0 * share * (1.0 - share));
         let height = reach.norm();
         if height == 0.0 {
-            return (away.norm(), station);
+            return (away.norm(), start + way);
         }
         let outward = reach / height;
         let used = away.dot(&outward).clamp(0.0, height);
-        ((away - outward * used).norm(), station)
+        ((away - outward * used).norm(), start + way)
     }
 
     /// The vertices between two stations; on a ring these may lie on any lap, and its last point is left to its first.

@@ -19,7 +19,7 @@ use super::reference::{Line, Reference};
 use super::trial::{REACH, Trace, Tracer, Trial};
 use super::worst::{Worst, at};
 use super::worsts::Worsts;
-use crate::geom::{Point, Vector, angle, polyline};
+use crate::geom::{Point, Vector, angle};
 use crate::ir::finding::Sighting;
 use crate::machine::{Fit, Knife, MachineProfile};
 
@@ -89,9 +89,10 @@ impl Stroke<'_> {
 /// What a stroke cut, and the line that it was meant for once that is known.
 pub(super) struct Traced<'s> {
     stroke: Stroke<'s>,
-    /// The tip and the tail at each row.
+    /// The tip, the tail and the direction from that to this, at each row.
     tips: Vec<Point>,
     tails: Vec<Point>,
+    blades: Vec<Vector>,
     cut: Cut,
     trace: Trace,
     best: Option<Trial>,
@@ -170,14 +171,13 @@ impl<'a> Judge<'a> {
 
     /// What a stroke cut, of the lines near it.
     pub(super) fn trace<'s>(&self, stroke: Stroke<'s>) -> Traced<'s> {
-        let ends = |row: &Row| {
-            let along = row.along();
-            (row.centre + along * self.knife.radius(), row.centre - along * self.knife.back())
-        };
-        let (tips, tails): (Vec<Point>, Vec<Point>) = stroke.rows.iter().map(ends).unzip();
+        let (radius, back) = (self.knife.radius(), self.knife.back());
+        let blades: Vec<Vector> = stroke.rows.iter().map(Row::along).collect();
+        let at = |sign: f64| stroke.rows.iter().zip(&blades).map(move |(row, &along)| row.centre + along * sign).collect();
+        let (tips, tails): (Vec<Point>, Vec<Point>) = (at(radius), at(-back));
         let cut = Cut::new(&tips, tails[0], self.knife);
         let trace = self.tracer.trace(&cut, stroke.rows[0].block);
-        Traced { stroke, tips, tails, cut, trace, best: None }
+        Traced { stroke, tips, tails, blades, cut, trace, best: None }
     }
 
     /// Finds the line that a stroke was meant for, which depends on what was cut before, and marks what it cut.
@@ -197,14 +197,14 @@ impl<'a> Judge<'a> {
     /// Judges a stroke whose line is known.
     pub(super) fn check(&self, traced: &Traced) -> Worsts {
         let mut worsts = self.worsts();
-        let Traced { stroke, tips, cut, best, .. } = traced;
+        let Traced { stroke, cut, best, .. } = traced;
         let rows = stroke.rows;
         let seen = |i: usize| stroke.sighting(cut, i);
-        worsts.down.see(polyline::length(tips), || rows[rows.len() - 1].sighting());
+        worsts.down.see(cut.way(), || rows[rows.len() - 1].sighting());
         self.check_feed(*stroke, cut, best.as_ref(), &mut worsts.feed);
-        self.check_heading(*stroke, tips, (cut, best.as_ref()), &mut worsts.heading);
+        self.check_heading(traced, &mut worsts.heading);
         let Some(best) = best else {
-            worsts.stray.see(polyline::length(&cut.points).max(self.knife.width_mm).max(REACH), || seen(cut.body));
+            worsts.stray.see(cut.length().max(self.knife.width_mm).max(REACH), || seen(cut.body));
             return worsts;
         };
         if cut.is_stab() {
@@ -291,15 +291,17 @@ impl<'a> Judge<'a> {
     }
 
     /// The blade against its law, along the way of its tip; `trial` is the line that it cuts, if any.
-    fn check_heading(&self, stroke: Stroke, tips: &[Point], cut: (&Cut, Option<&Trial>), heading: &mut Worst) {
-        let lead = match cut {
-            (_, None) => heading::ANY,
-            (_, Some(trial)) if trial.laps => heading::NONE,
-            (cut, Some(trial)) => self.plunge(cut, trial).lead(),
+    fn check_heading(&self, traced: &Traced, heading: &mut Worst) {
+        let Traced { stroke, tips, blades, cut, best, .. } = traced;
+        let lead = match best {
+            None => heading::ANY,
+            Some(trial) if trial.laps => heading::NONE,
+            Some(trial) => self.plunge(cut, trial).lead(),
         };
-        let fade = self.knife.width_mm.min(polyline::length(tips));
+        let fade = self.knife.width_mm.min(cut.way());
         let (way_min, noise_deg) = (self.way_min, self.noise_deg);
-        Moving { rows: stroke.rows, ways: stroke.ways, tips, lead, fade, way_min, noise_deg }.check(heading);
+        let Stroke { rows, ways } = *stroke;
+        Moving { rows, ways, tips, blades, lead, fade, way_min, noise_deg }.check(heading);
     }
 
     fn plunge(&self, cut: &Cut, trial: &Trial) -> Plunge<'_> {

@@ -32,8 +32,7 @@ impl Candidate {
     /// Whether one who follows the line from `other` comes by here. Where a line ends at its own start the heel lies at its
     /// end, and following from there leads nowhere.
     fn continues(&self, other: &Self, cut: &Cut, line: &Line) -> bool {
-        let between = self.probe.min(other.probe)..=self.probe.max(other.probe);
-        let way = polyline::length(&cut.points[between]);
+        let way = (cut.stations[self.probe] - cut.stations[other.probe]).abs();
         let apart = (self.station - other.station).abs();
         apart <= way + 2.0 * REACH || line.ring && line.length() - apart <= way + 2.0 * REACH
     }
@@ -90,7 +89,7 @@ impl Tracer<'_> {
         let is_named = |candidate: &Candidate| self.is_named(candidate.line, block);
         let (named, others): (Vec<_>, Vec<_>) = self.candidates(cut).into_iter().partition(is_named);
         let trials = named.iter().map(|candidate| self.follow(cut, candidate)).collect();
-        Trace { trials, others, way: polyline::length(&cut.points) }
+        Trace { trials, others, way: cut.length() }
     }
 
     fn is_named(&self, line: usize, block: u32) -> bool {

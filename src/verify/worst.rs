@@ -46,6 +46,7 @@ impl Worst {
     pub(super) fn see_under(&mut self, value: f64, limit: f64, place: impl FnOnce() -> Sighting) {
         let value = if value.is_nan() { f64::INFINITY } else { value };
         let is_worse = match (self.limit, limit.is_finite()) {
+            (Some(own), true) if own > 0.0 && limit > 0.0 => value * own > self.value * limit,
             (Some(own), true) => {
                 let (bad, known) = (badness(value, limit), badness(self.value, own));
                 bad > known || bad.is_infinite() && value > self.value
