@@ -48,7 +48,7 @@ fn pen_down(plot: &str) -> f64 {
 }
 
 /// Plots without texts that hp2xx 3.4.4 draws otherwise, and why.
-const OTHERWISE: [(&str, &str); 19] = [
+const OTHERWISE: [(&str, &str); 21] = [
     ("arcs", "its arcs by three points are not numbers, its chords are others"),
     ("beziers", "its chords are others"),
     ("circle-with-a-cross", "its chords are others"),
@@ -66,6 +66,8 @@ const OTHERWISE: [(&str, &str); 19] = [
     ("scaled-from-a-moved-corner", "its corners are those of another device"),
     ("scaled-mirrored", "its chords are others"),
     ("scaled-to-the-device", "its corners are those of another device"),
+    ("scaled-unequally", "its arcs by three points are not numbers, its chords are others"),
+    ("scaled-unequally-mirrored-and-turned", "its arcs by three points are not numbers, its chords are others"),
     ("scales-that-are-broken", "it stops at a scale that is broken"),
     ("wedge-of-a-full-turn", "it draws the radii of a full turn as well"),
 ];

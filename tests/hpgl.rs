@@ -1,20 +1,25 @@
 //! Plots: the same marker as from a cut file, what pens and options decide, a second reading that agrees, and patience
 //! with bytes that are no plot.
 
+#[path = "hpgl/audit.rs"]
+mod audit;
+#[path = "hpgl/curves.rs"]
+mod curves;
+#[path = "hpgl/notches.rs"]
+mod notches;
+#[path = "hpgl/patience.rs"]
+mod patience;
+
 use std::fmt::Write as _;
-use std::fs;
-use std::path::Path;
-use std::time::{Duration, Instant};
 
 use cutc::diagnostic::Diagnostics;
 use cutc::front::{self, by_name};
 use cutc::geom::Point;
-use cutc::ir::{Finding, Marker};
+use cutc::ir::Marker;
 use cutc::machine::plot::{LineKind, Lines, PenUse, PlotUnit};
 use cutc::machine::{Job, Numbers};
 use cutc::pipeline::{self, Report};
 use cutc::source::Source;
-use cutc::verify::{Census, source_audit};
 
 fn source(bytes: impl Into<Vec<u8>>) -> Source {
     Source::new("a.plt", bytes.into()).expect("small")
@@ -250,12 +255,6 @@ fn an_outline_is_whole_when_its_strokes_miss_each_other_by_a_unit_and_named_when
 }
 
 #[test]
-fn a_nesting_that_was_cut_short_is_an_error() {
-    let nested: String = (0..20_000).map(|i| rectangle(i, i, 100_000 - 2 * i, 100_000 - 2 * i)).collect();
-    assert!(within_patience("nested outlines", nested.into_bytes()).contains(&"hpgl/too-many-lines"));
-}
-
-#[test]
 fn the_unit_is_that_of_the_profile() {
     let text = source(format!("IN;{}PU;", rectangle(0, 0, 8000, 4000)));
     for (unit, width) in [("1/40 mm", 200.0), ("1/1000 in", 203.2), ("0.1", 800.0), ("400 dpi", 508.0)] {
@@ -344,220 +343,5 @@ fn content_decides_whatever_the_extension() {
             let found = front::detect(&source(bytes.clone()), Some(extension), &mut Diagnostics::default());
             assert_eq!(found.map(|dialect| dialect.name), Some(expected), "{extension}");
         }
-    }
-}
-
-// ---- The second reading.
-
-fn audit(source: &Source, marker: &Marker, job: &Job) -> Vec<Finding> {
-    let found = source_audit("hpgl", source.bytes(), &Census::of(marker), &job.profile).expect("plots have a scan");
-    found.into_iter().filter(|finding| !finding.holds()).collect()
-}
-
-fn fixtures() -> Vec<(String, Source)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/hpgl");
-    let mut paths: Vec<_> =
-        fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("readable").path()).collect();
-    paths.sort();
-    let named = |path: std::path::PathBuf| (path.display().to_string(), source(fs::read(&path).expect("readable")));
-    paths.into_iter().map(named).collect()
-}
-
-#[test]
-fn a_second_reading_finds_what_the_reader_finds_in_every_plot_whatever_is_cut() {
-    let mut drilling = Job::default();
-    drilling.profile.hpgl.drill_max_mm = Some(8.0);
-    let mut jobs = vec![Job::default(), drilling];
-    for kind in [LineKind::All, LineKind::Closed, LineKind::Open] {
-        jobs.push(Job { lines: Lines { kind: Some(kind), ..Lines::default() }, ..Job::default() });
-    }
-    let mut differing = Vec::new();
-    for (name, source) in fixtures() {
-        for job in &jobs {
-            let broken = audit(&source, &as_read(&source, job), job);
-            if !broken.is_empty() {
-                differing.push(format!("{name}, {:?}: {broken:?}", job.lines));
-            }
-        }
-    }
-    assert!(differing.is_empty(), "{differing:#?}");
-}
-
-#[test]
-fn a_marker_that_lacks_a_contour_a_point_or_a_notch_is_refused() {
-    let job = Job::default();
-    let (mut contours, mut points, mut notches) = (0, 0, 0);
-    for (name, source) in fixtures() {
-        let marker = as_read(&source, &job);
-        let mut lacking = marker.clone();
-        if lacking.pieces[0].contours.pop().is_some() {
-            contours += 1;
-            assert!(!audit(&source, &lacking, &job).is_empty(), "{name}");
-        }
-        let mut lacking = marker.clone();
-        let contour = &mut lacking.pieces[0].contours[0];
-        points += 1;
-        *lacking.list.cursor(&mut contour.range).from_mut() += cutc::geom::Vector::new(4.0, 3.0);
-        assert!(!audit(&source, &lacking, &job).is_empty(), "{name}");
-        let mut lacking = marker.clone();
-        if lacking.pieces[0].notches.pop().is_some() {
-            notches += 1;
-            assert!(!audit(&source, &lacking, &job).is_empty(), "{name}");
-        }
-    }
-    assert!(contours > 30 && points > 30 && notches >= 5, "{contours} {points} {notches}");
-}
-
-#[test]
-fn arcs_through_places_on_a_line_are_lines_whatever_the_scale() {
-    let mut random = fastrand::Rng::with_seed(3);
-    for _ in 0..2000 {
-        let corners = [(); 2].map(|()| random.i32(3000..9000));
-        let range = random.i32(7..500);
-        let (x, y) = (f64::from(range) * 0.1, f64::from(range) * 0.3);
-        let (way, rise) = (f64::from(random.i32(1..9)) / 10.0, f64::from(random.i32(-9..9)) / 10.0);
-        let at = |k: i32| format!("{:.1},{:.1}", x + way * f64::from(k), y + rise * f64::from(k));
-        let (from, middle, to) = (random.i32(-3..3), random.i32(-9..9), random.i32(3..9));
-        let text = format!(
-            "IN;IP0,0,{},{};SC0,{range},0,{range};PU{};PD;AT{},{};PA0,0,{};PU;",
-            corners[0],
-            corners[1],
-            at(from),
-            at(middle),
-            at(to),
-            at(from)
-        );
-        let source = source(text.clone());
-        let job = Job { lines: Lines { kind: Some(LineKind::All), ..Lines::default() }, ..Job::default() };
-        let marker = as_read(&source, &job);
-        assert!(marker.pieces.iter().flat_map(|p| &p.contours).all(|c| marker.points(c).len() <= 4), "{text}");
-        assert_eq!(audit(&source, &marker, &job), [], "{text}");
-    }
-}
-
-#[test]
-fn a_mirrored_scale_gives_the_mirror_image_curves_and_all() {
-    let drawing = "SP1;PU20,20;PD100,20;AA100,60,180;AR0,10,-90;PD20,100,20,20;PU40,60;EW10,0,90;PU80,60;EW10,30,-200;\
-                   PU60,40;AT70,50,60,60;PD60,40;PU150,150;CI20;PU;";
-    let job = Job::default();
-    let plain = source(format!("IN;IP0,0,8000,8000;SC0,200,0,200;{drawing}"));
-    let whole = read(&plain, &job).0;
-    for (scale, is_turned) in [("0,200,200,0", false), ("200,0,0,200", true)] {
-        let mirrored = source(format!("IN;IP0,0,8000,8000;SC{scale};{drawing}"));
-        let marker = read(&mirrored, &job).0;
-        assert_eq!(audit(&mirrored, &as_read(&mirrored, &job), &job), []);
-        let points =
-            |marker: &Marker| -> Vec<Point> { marker.contours().flat_map(|(_, c)| marker.points(c)).collect() };
-        let (points, mirrored) = (points(&whole), points(&marker));
-        assert_eq!(points.len(), mirrored.len());
-        let image = |p: &Point| if is_turned { Point::new(200.0 - p.x, p.y) } else { Point::new(p.x, 200.0 - p.y) };
-        assert!(points.iter().zip(&mirrored).all(|(p, q)| (image(p) - q).norm() < 1e-9), "{scale}");
-    }
-}
-
-#[test]
-fn a_marker_of_another_unit_than_the_profile_is_refused() {
-    let plot = two_pens();
-    let mut marker = as_read(&plot, &Job::default());
-    marker.unit = 0.0254;
-    assert!(!audit(&plot, &marker, &Job::default()).is_empty());
-    let mut job = Job::default();
-    job.profile.hpgl.unit = PlotUnit::of_mm(0.0254);
-    assert!(!audit(&plot, &as_read(&plot, &Job::default()), &job).is_empty());
-}
-
-// ---- Patience.
-
-/// The longest that a hostile file may take in a test build, far above what it takes.
-const PATIENCE: Duration = Duration::from_secs(20);
-
-fn within_patience(what: &str, bytes: Vec<u8>) -> Vec<&'static str> {
-    let source = source(bytes);
-    let mut found = Diagnostics::default();
-    let start = Instant::now();
-    (by_name("hpgl").expect("a dialect").read)(&source, &Job::default(), &mut found);
-    assert!(start.elapsed() < PATIENCE, "{what}: {:?}", start.elapsed());
-    found.iter().map(|diagnostic| diagnostic.code.name).collect()
-}
-
-#[test]
-fn a_hundred_megabytes_of_garbage_are_refused_quickly() {
-    const SIZE: usize = 100 << 20;
-    let mut random = fastrand::Rng::with_seed(8);
-    let mut garbage = |pick: &mut dyn FnMut(&mut fastrand::Rng) -> u8| -> Vec<u8> {
-        // A stretch is random, and repeated: making it must not take longer than reading it.
-        let stretch: Vec<u8> = (0..1 << 16).map(|_| pick(&mut random)).collect();
-        stretch.into_iter().cycle().take(SIZE).collect()
-    };
-    let bytes = garbage(&mut |random| random.u8(..));
-    assert_eq!(within_patience("bytes", bytes), ["source/unknown-format"]);
-    let text = garbage(&mut |random| random.u8(b' '..=b'~'));
-    let found = within_patience("text", text.clone());
-    assert!(found.iter().any(|code| ["hpgl/not-a-plot", "hpgl/encoding-damaged"].contains(code)), "{found:?}");
-    let start = Instant::now();
-    let detected = front::detect(&source(text), Some("plt"), &mut Diagnostics::default()).map(|dialect| dialect.name);
-    assert!(detected != Some("hpgl") && start.elapsed() < PATIENCE / 10);
-    for (what, word) in
-        [("numbers", "1,"), ("semicolons", ";"), ("labels", "LB"), ("escapes", "\u{1b}%0B"), ("junk", "!?")]
-    {
-        let bytes: Vec<u8> = word.bytes().cycle().take(SIZE).collect();
-        let found = within_patience(what, bytes);
-        let refused = ["hpgl/not-a-plot", "hpgl/nothing-to-cut", "source/unknown-format"];
-        assert!(found.iter().any(|code| refused.contains(code)), "{what}: {found:?}");
-    }
-}
-
-#[test]
-fn drawings_made_to_be_slow_are_read_in_time() {
-    let nested: String = (0..20_000).map(|i| rectangle(i, i, 100_000 - 2 * i, 100_000 - 2 * i)).collect();
-    within_patience("nested outlines", nested.into_bytes());
-    let specks: String = (0..60_000).map(|i| rectangle(i % 300, i / 300, 1, 1) + "PU5,5;PD6,6;").collect();
-    within_patience("specks", specks.into_bytes());
-    let comb = (0..40_000).fold(String::new(), |comb, i| comb + &format!("PU{i},100;PD{i},200;"));
-    within_patience("marks", format!("{}{comb}", rectangle(0, 100, 40_000, 10_000)).into_bytes());
-    let fan = (0..60_000).fold(String::new(), |fan, i| fan + &format!("PU0,0;PD{i},900;"));
-    within_patience("strokes that all meet", fan.into_bytes());
-    let curves = "CI99999999;".repeat(300);
-    assert_eq!(within_patience("circles", format!("PU0,0;{curves}").into_bytes()), ["hpgl/far-place"]);
-    let curves = "CI30000000;".repeat(3000);
-    let found = within_patience("near circles", format!("PU0,0;{curves}").into_bytes());
-    assert!(found.contains(&"hpgl/too-many-chords"), "{found:?}");
-    let polygons = format!("PM0;PD{}PM2;{}", "9,9,5,5,".repeat(10_000), "EP;".repeat(100_000));
-    let found = within_patience("polygons", polygons.into_bytes());
-    assert!(found.contains(&"hpgl/too-many-chords"), "{found:?}");
-}
-
-#[test]
-fn no_coordinate_wraps_around() {
-    for number in
-        ["2147483647", "2147483648", "4294967296", "4294971296", "18446744073709551616", "99999999999999999999999"]
-    {
-        for sign in ["", "-"] {
-            let text = format!("IN;PU0,0;PD{sign}{number},0,4000,4000,0,0;PU;");
-            let (_, found) = read(&source(text), &Job::default());
-            assert!(found.contains(&"hpgl/number-overflow"), "{sign}{number}: {found:?}");
-        }
-    }
-    let sums = format!("IN;PR;PD{}PU;", "99999999,1,".repeat(30) + "0,0;");
-    assert!(read(&source(sums), &Job::default()).1.contains(&"hpgl/far-place"));
-}
-
-#[test]
-fn an_outline_that_is_cut_short_is_never_cut_in_silence() {
-    let first = format!("IN;SP1;{}", rectangle(1000, 1000, 8000, 4000));
-    let whole = format!("{first}{}PU;SP0;", rectangle(10_000, 1000, 8000, 4000));
-    let complete = read(&source(whole.clone()), &Job::default()).0.cut_length();
-    for length in 1..whole.len() {
-        let (marker, found) = read(&source(&whole.as_bytes()[..length]), &Job::default());
-        let is_complete = (marker.cut_length() - complete).abs() < 1e-9;
-        // Where the pen is up or was just lowered, or an outline is whole, nobody can tell that a part should follow.
-        let is_whole = length + 1 >= first.len() && length <= first.len();
-        let pen_is_up =
-            !whole[..length].rsplit_once('P').is_some_and(|(_, last)| last.starts_with('D') && last.len() > 1);
-        assert!(
-            is_complete || is_whole || pen_is_up || !found.is_empty(),
-            "after {length} bytes: {}",
-            &whole[..length]
-        );
     }
 }

@@ -50,6 +50,7 @@ pub(super) const EXPLANATIONS: &[(&str, &str)] = &[
     ("hpgl/taken-for-text", "Small closed lines in a row with open ones of their height look like an O or an 8 among letters. If they are parts or cut-outs, ask for every closed line, or give their pen to the knife.\n  cutc compile marker.plt --cut closed"),
     ("hpgl/search-ended", "A mark that is not recognised as a notch is not cut, and a letter may be. Leave texts and clutter out of the export, or split the plot."),
     ("hpgl/crossed-outline", "A figure of eight has no side that is clearly inside, and digits are drawn so. If it is an outline, repair it in the CAD system; it can be cut as it is drawn.\n  cutc compile marker.plt --cut closed"),
+    ("hpgl/dividing-line", "Outlines that share an edge have it once in the plot: the line around both closes, and nothing says which part the edge is of. Let the CAD draw every piece whole, or cut every line.\n  cutc compile marker.plt --cut all"),
     ("hpgl/too-many-lines", "Nobody could tell which outline lies in which any more: a cut-out would be cut as a part, behind the part around it, which is free by then. Split the plot, or leave fills and hatchings out of the export."),
     ("hpgl/unit-doubtful", "Plots do not say their unit. 1/40 mm and 1/1000 inch differ by 1.6 percent, which nobody sees and every part would be wrong. Compare the extent with the marker.\n  cutc compile marker.plt --set hpgl.unit=0.0254"),
     ("hpgl/nothing-to-cut", "Its outlines may not close, or belong to a pen that is no knife. `cutc info` says what the lines were taken for; options decide otherwise.\n  cutc compile marker.plt --cut all"),
@@ -125,5 +126,6 @@ pub(super) const EXPLANATIONS: &[(&str, &str)] = &[
     ("source/drills", "The reader and a second scan of the same bytes must count the same holes. Please report the file if they do not."),
     ("source/length", "The reader and a second scan of the same bytes must find the same way of the knife. Please report the file if they do not."),
     ("source/bounds", "The reader and a second scan of the same bytes must find the same box: a piece displaced or of another size would be seen here. Please report the file."),
+    ("source/moments", "The reader and a second scan of the same plot must find its lines in the same places: a part that is moved, turned or mirrored within the bounds would be seen here. Please report the file."),
     ("source/kept", "Between reading and cutting lines are joined, points and slits that stand twice are dropped, pieces are chosen. A block that is lost on that way would leave a line uncut. Please report the file."),
 ];

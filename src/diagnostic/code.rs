@@ -132,6 +132,8 @@ mod table {
     pub static HPGL_SEARCH_ENDED: Code = warning("hpgl/search-ended", "A plot has so many lines that the search for notches and letters was ended; some are not recognised.");
     /// A figure of eight.
     pub static HPGL_CROSSED: Code = warning("hpgl/crossed-outline", "A closed line of a plot crosses itself so that its halves cancel each other: it may be an outline, and is not cut.");
+    /// A line from joint to joint.
+    pub static HPGL_DIVIDING: Code = warning("hpgl/dividing-line", "A line of a plot leads between places where three lines meet, and is in no outline: it may part two pieces, and is not cut.");
     /// Parts that cannot be told from cut-outs.
     pub static HPGL_TOO_MANY: Code = error("hpgl/too-many-lines", "A plot has so many closed lines that the search for which lies in which was ended: cut-outs would be cut as parts.");
     /// Another size than the texts say, or than any table has.
@@ -269,6 +271,7 @@ pub static ALL: &[&Code] = &[
     &HPGL_TEXT,
     &HPGL_SEARCH_ENDED,
     &HPGL_CROSSED,
+    &HPGL_DIVIDING,
     &HPGL_TOO_MANY,
     &HPGL_UNIT_DOUBTFUL,
     &HPGL_NOTHING_TO_CUT,

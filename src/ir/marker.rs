@@ -2,6 +2,7 @@
 
 use super::list::{Range, SegmentList};
 use super::toolpath;
+use crate::geom::moments::Moments;
 use crate::geom::{Extent, Heading, Point, Vector};
 use crate::source::Span;
 
@@ -49,10 +50,11 @@ pub struct DrawnClass {
 /// What is drawn and not cut: lines, the way back of notches, outlines of holes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Aside {
-    /// Places that the pen is led to; the chords of a curve are one.
-    pub points: usize,
-    /// Length, mm.
-    pub length: f64,
+    /// Places that the pen is led to; the chords of a curve are one. Negative when there are more in what is cut: an outline
+    /// that goes into a mark is divided where the mark begins and ends.
+    pub points: isize,
+    /// Its moments, and so its length, mm.
+    pub moments: Moments,
     /// The box around it, mm.
     pub bounds: Extent,
 }
@@ -186,6 +188,23 @@ pub struct Vee {
 }
 
 impl Vee {
+    /// Least and greatest depth, mm.
+    pub const LEAST_DEPTH: f64 = 2.0;
+    const GREATEST_DEPTH: f64 = 15.0;
+    /// How much longer than the other a leg may be.
+    pub const LEG_RATIO: f64 = 1.25;
+
+    /// Whether it has the shape of a V notch: 2 to 15 mm deep, no wider than that, the legs equal within a quarter. What
+    /// is wider or deeper is a corner, or the point of a dart.
+    pub fn has_shape(&self) -> bool {
+        let (depth, width) = (self.depth(), self.width());
+        let legs = self.mouth.map(|end| (self.apex - end).norm());
+        (Self::LEAST_DEPTH..=Self::GREATEST_DEPTH).contains(&depth)
+            && width <= depth
+            && width > 0.0
+            && legs[0].max(legs[1]) <= Self::LEG_RATIO * legs[0].min(legs[1])
+    }
+
     /// From the middle of the mouth to the apex, mm.
     pub fn depth(&self) -> f64 {
         self.inward().norm()

@@ -115,6 +115,7 @@ pub const RULES: &[(&str, &str)] = &[
     ("source/drills", "the marker has the holes of the file"),
     ("source/length", "the marker has the cut length of the file"),
     ("source/bounds", "the marker has the bounds of the file"),
+    ("source/moments", "the lines of a plot lie where the file draws them"),
     ("source/kept", "every block that cuts or drills in the file as read does so in the marker that is cut"),
 ];
 

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use super::source_audit::{ARC_SAGITTA, Census};
 use super::words::{Block, Blocks};
+use crate::geom::moments::Moments;
 use crate::geom::{Extent, Point, Vector};
 use crate::machine::MachineProfile;
 use crate::machine::keys::CODE_NAMES;
@@ -24,7 +25,12 @@ pub(super) fn scan_iso(bytes: &[u8], unit: f64, profile: &MachineProfile) -> (Ce
         unit,
         profile,
         census: Census::empty(unit),
-        slack: Slack { sagitta: profile.tolerance(unit) * ARC_SAGITTA, length: 0.0, bounds: 0.0 },
+        slack: Slack {
+            sagitta: profile.tolerance(unit) * ARC_SAGITTA,
+            length: 0.0,
+            bounds: 0.0,
+            moments: Moments::default(),
+        },
         stroke: None,
         at: Point::origin(),
         fresh: false,
@@ -207,6 +213,8 @@ pub(super) struct Slack {
     pub(super) sagitta: f64,
     pub(super) length: f64,
     pub(super) bounds: f64,
+    /// What moments may differ; compared for plots.
+    pub(super) moments: Moments,
 }
 
 /// What the knife does between going down and up.

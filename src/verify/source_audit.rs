@@ -5,6 +5,7 @@ use super::kept::{self, Works};
 use super::scan::scan_iso;
 use super::source_hpgl;
 use super::worst::Worst;
+use crate::geom::moments::{Allowance, Difference, Moments};
 use crate::geom::{Extent, Point};
 use crate::ir::marker::{Drawing, Notch};
 use crate::ir::{Finding, Marker};
@@ -12,6 +13,8 @@ use crate::machine::MachineProfile;
 
 /// Rounding of sums of lengths, as a part of them.
 const LENGTH_EPSILON: f64 = 1e-9;
+/// Rounding of sums of moments, as a part of them: sums of a million lines agree to a thousandth of that.
+const MOMENT_EPSILON: f64 = 1e-10;
 /// Farthest that the chords of an arc may lie off it, as a part of the tolerance: a curve that is drawn coarser leaves the
 /// knife no room.
 pub(super) const ARC_SAGITTA: f64 = 0.25;
@@ -29,6 +32,8 @@ pub struct Census {
     pub bounds: Extent,
     /// What the numbers of the file are multiples of, mm.
     pub unit: f64,
+    /// Where it lies: a stroke that is moved within the box keeps all of the above. Compared for plots.
+    pub(super) moments: Moments,
     /// What cuts or drills, block by block; a scan of the bytes does not tell.
     pub(super) works: Works,
 }
@@ -36,7 +41,15 @@ pub struct Census {
 impl Census {
     /// Nothing yet of a file whose numbers are multiples of that many mm.
     pub(super) fn empty(unit: f64) -> Self {
-        Self { points: 0, drills: 0, length: 0.0, bounds: Extent::EMPTY, unit, works: Works::default() }
+        Self {
+            points: 0,
+            drills: 0,
+            length: 0.0,
+            bounds: Extent::EMPTY,
+            unit,
+            moments: Moments::default(),
+            works: Works::default(),
+        }
     }
 
     /// The census of a marker as it was read, before any pass.
@@ -48,11 +61,13 @@ impl Census {
                 census.points += 1;
                 census.bounds.add(stroke.from);
                 census.bounds.add(stroke.to);
+                census.moments += Moments::line(stroke.from, stroke.to);
             }
             piece.drills.iter().for_each(|drill| census.bounds.add(drill.at));
             census.drills += piece.drills.len();
             for contour in &piece.contours {
                 let mut span = None;
+                census.moments += Moments::of(marker.list.points(contour.range));
                 for (_, segment) in marker.list.walk(contour.range) {
                     census.bounds.add(segment.from);
                     census.bounds.add(segment.to);
@@ -64,8 +79,9 @@ impl Census {
         }
         // A plot draws more than is cut, and its marker keeps account of that.
         if let Some(Drawing { aside, .. }) = &marker.drawing {
-            census.points += aside.points;
-            census.length += aside.length;
+            census.points = census.points.saturating_add_signed(aside.points);
+            census.length += aside.moments.length();
+            census.moments += aside.moments;
             if !aside.bounds.is_empty() {
                 census.bounds.add(aside.bounds.min);
                 census.bounds.add(aside.bounds.max);
@@ -102,10 +118,18 @@ pub fn source_audit(dialect: &str, bytes: &[u8], read: &Census, profile: &Machin
     // A length in another unit is another length.
     let is_same_unit = read.unit.to_bits() == scanned.unit.to_bits();
     let length = if is_same_unit { (read.length - scanned.length).abs() } else { f64::INFINITY };
-    Some(vec![
+    let mut findings = vec![
         finding("source/points", "points", read.points.abs_diff(scanned.points) as f64, 0.0),
         finding("source/drills", "holes", read.drills.abs_diff(scanned.drills) as f64, 0.0),
         finding("source/length", "mm", length, LENGTH_EPSILON * (1.0 + read.length) + slack.length),
         finding("source/bounds", "mm", bounds, LENGTH_EPSILON + slack.bounds),
-    ])
+    ];
+    if dialect == "hpgl" {
+        let corners = [read.bounds.min, read.bounds.max, scanned.bounds.min, scanned.bounds.max];
+        let reach = corners.iter().map(|corner| corner.coords.amax()).fold(0.0, f64::max);
+        let allowance = Allowance { reach, epsilon: MOMENT_EPSILON, slack: &slack.moments };
+        let Difference { distance, limit } = read.moments.compare(&scanned.moments, allowance);
+        findings.push(finding("source/moments", "mm", distance, limit));
+    }
+    Some(findings)
 }

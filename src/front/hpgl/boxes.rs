@@ -19,6 +19,7 @@ pub(super) struct Boxes {
 }
 
 impl Boxes {
+    /// Boxes, each known by its index.
     pub(super) fn new(extents: &[Extent]) -> Self {
         let size = |extent: &Extent| {
             let (width, height) = extent.size();

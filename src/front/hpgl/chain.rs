@@ -1,34 +1,21 @@
 //! Open strokes that continue each other become one: plots lift the pen inside an outline, and some write every line by
 //! itself, in any direction.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::drawing::{Drawing, Stroke, Vertex};
-use crate::geom::{Extent, Point};
+use super::joint::{self, End, Links};
+use crate::geom::moments::Moments;
 
 /// Places of the shortest line that goes around something and comes back: a triangle's.
 const LEAST_RING: usize = 4;
 
-/// An end of a stroke.
-#[derive(Debug, Clone, Copy)]
-struct End {
-    stroke: u32,
-    /// Whether it is the last place, not the first.
-    is_last: bool,
-}
-
-/// Joins strokes of one pen where the ends of exactly two meet to the bit. Where three or more meet nobody can tell
-/// which belong together, unless all others are `spurs`: short marks whose far end is free.
-pub(super) fn join(drawing: &mut Drawing, is_spur: impl Fn(&Drawing, &Stroke) -> bool) {
-    let meetings = meetings(drawing, is_spur);
-    if meetings.is_empty() {
-        return;
-    }
-    // Both ends of each stroke: the end that it meets.
-    let mut links: Vec<[Option<End>; 2]> = vec![[None; 2]; drawing.strokes.len()];
-    for [a, b] in meetings {
-        links[a.stroke as usize][usize::from(a.is_last)] = Some(b);
-        links[b.stroke as usize][usize::from(b.is_last)] = Some(a);
+/// Joins strokes of one pen where their ends meet to the bit, as [`joint`] pairs them, and gives the places where three or
+/// more lines meet. Marks with a free end, for which `is_spur` holds, stay by themselves there.
+pub(super) fn join(drawing: &mut Drawing, is_spur: impl Fn(&Drawing, &Stroke) -> bool) -> BTreeSet<[u64; 2]> {
+    let links = joint::links(drawing, is_spur);
+    if links.is_empty() {
+        return links.joints;
     }
     let strokes = std::mem::take(&mut drawing.strokes);
     let mut taken = vec![false; strokes.len()];
@@ -36,25 +23,29 @@ pub(super) fn join(drawing: &mut Drawing, is_spur: impl Fn(&Drawing, &Stroke) ->
         if taken[i] {
             continue;
         }
-        taken[i] = true;
-        if links[i] == [None; 2] {
+        if [End::first(i), End::last(i)].iter().all(|end| links.at(*end).is_none()) {
             drawing.strokes.push(*stroke);
             continue;
         }
-        let (start, is_turned) = start(i, &links);
-        let joined = begin(drawing, stroke.pen);
-        let mut at = End { stroke: start as u32, is_last: is_turned };
+        let start = start(i, &links);
+        drawing.open(stroke.pen);
+        let mut at = start;
         loop {
             let k = at.stroke as usize;
             taken[k] = true;
-            append(drawing, joined, &strokes[k], at.is_last);
-            let Some(next) = links[k][usize::from(!at.is_last)] else { break };
-            if next.stroke as usize == start {
+            if at.is_last {
+                drawing.append_turned(&strokes[k]);
+            } else {
+                drawing.append(&strokes[k]);
+            }
+            let Some(next) = links.at(at.other()) else { break };
+            if next.stroke == start.stroke {
                 break;
             }
             at = next;
         }
     }
+    links.joints
 }
 
 /// Moves ends of strokes together that miss each other by no more than `reach` in each coordinate, mm, where exactly two
@@ -72,7 +63,7 @@ pub(super) fn snap(drawing: &mut Drawing, reach: f64) {
             continue;
         }
         let from = std::mem::replace(&mut drawing.vertices[at].at, to);
-        drawing.moved.length += (neighbour - from).norm() - (neighbour - to).norm();
+        drawing.moved.moments += Moments::line(neighbour, from) - Moments::line(neighbour, to);
         drawing.moved.bounds.add(from);
         drawing.strokes[moved.stroke as usize].extent.add(to);
     }
@@ -143,111 +134,22 @@ fn near_pairs(vertices: &[Vertex], strokes: &[Stroke], reach: f64) -> Vec<[End; 
 /// The pen, and the cell of a grid.
 type Cell = (u16, [i64; 2]);
 
-impl End {
-    /// The index of its place.
-    fn vertex(self, strokes: &[Stroke]) -> usize {
-        let stroke = &strokes[self.stroke as usize];
-        (if self.is_last { stroke.end - 1 } else { stroke.first }) as usize
-    }
-}
-
-impl PartialEq for End {
-    fn eq(&self, other: &Self) -> bool {
-        (self.stroke, self.is_last) == (other.stroke, other.is_last)
-    }
-}
-
-/// Where a chain that holds stroke `i` starts: the stroke, and whether it is walked from its last place. A chain that
-/// closes starts with `i` itself.
-fn start(i: usize, links: &[[Option<End>; 2]]) -> (usize, bool) {
-    let mut at = End { stroke: i as u32, is_last: false };
-    while let Some(before) = links[at.stroke as usize][usize::from(at.is_last)] {
-        if before.stroke as usize == i {
-            return (i, false);
-        }
-        at = End { stroke: before.stroke, is_last: !before.is_last };
-    }
-    (at.stroke as usize, at.is_last)
-}
-
-/// The pairs of ends that meet, each pair once.
-fn meetings(drawing: &Drawing, is_spur: impl Fn(&Drawing, &Stroke) -> bool) -> Vec<[End; 2]> {
-    type Key = (u16, u64, u64);
-    let mut ends: Vec<(Key, End)> = Vec::new();
-    for (i, stroke) in drawing.strokes.iter().enumerate() {
-        let [first, last] = ends_of(drawing, stroke);
-        if first == last {
-            continue;
-        }
-        for (at, is_last) in [(first, false), (last, true)] {
-            // Zero has one sign among coordinates, so equal places have equal bits.
-            let key = (stroke.pen, (at.x + 0.0).to_bits(), (at.y + 0.0).to_bits());
-            ends.push((key, End { stroke: i as u32, is_last }));
+/// Where a chain that holds a stroke starts. One that closes starts with that stroke itself.
+fn start(stroke: usize, links: &Links) -> End {
+    let mut at = End::first(stroke);
+    while let Some(before) = links.at(at) {
+        at = before.other();
+        if at.stroke as usize == stroke {
+            return End::first(stroke);
         }
     }
-    ends.sort_unstable_by_key(|(key, end)| (*key, end.stroke, end.is_last));
-    let is_alone: Vec<bool> = {
-        let mut alone = vec![false; drawing.strokes.len()];
-        for group in ends.chunk_by(|a, b| a.0 == b.0).filter(|group| group.len() == 1) {
-            alone[group[0].1.stroke as usize] = true;
-        }
-        alone
-    };
-    let mut meetings = Vec::new();
-    for group in ends.chunk_by(|a, b| a.0 == b.0).filter(|group| group.len() > 1) {
-        let through = |end: &End| {
-            let stroke = end.stroke as usize;
-            group.len() == 2 || !(is_alone[stroke] && is_spur(drawing, &drawing.strokes[stroke]))
-        };
-        let mut kept = group.iter().map(|(_, end)| *end).filter(through);
-        if let (Some(a), Some(b), None) = (kept.next(), kept.next(), kept.next())
-            && a.stroke != b.stroke
-        {
-            meetings.push([a, b]);
-        }
-    }
-    meetings
-}
-
-fn ends_of(drawing: &Drawing, stroke: &Stroke) -> [Point; 2] {
-    [drawing.vertices[stroke.first as usize].at, drawing.vertices[stroke.end as usize - 1].at]
-}
-
-/// A new stroke without places; its index.
-fn begin(drawing: &mut Drawing, pen: u16) -> usize {
-    let first = drawing.vertices.len() as u32;
-    drawing.strokes.push(Stroke { first, end: first, pen, points: 0, extent: Extent::EMPTY });
-    drawing.strokes.len() - 1
-}
-
-/// Adds the places of a stroke to another one that is the last of all; turned round, each line keeps what drew it.
-fn append(drawing: &mut Drawing, to: usize, stroke: &Stroke, is_turned: bool) {
-    let vertices = &mut drawing.vertices;
-    let joined = &mut drawing.strokes[to];
-    let count = stroke.range().len();
-    for k in 0..count {
-        // Where two strokes meet the place is there already.
-        if k == 0 && joined.end > joined.first {
-            continue;
-        }
-        let vertex = if is_turned {
-            let at = stroke.end as usize - 1 - k;
-            let span = vertices[(at + 1).min(stroke.end as usize - 1)].span;
-            Vertex { at: vertices[at].at, span }
-        } else {
-            vertices[stroke.first as usize + k]
-        };
-        vertices.push(vertex);
-        joined.end += 1;
-    }
-    joined.points += stroke.points;
-    joined.extent.add(stroke.extent.min);
-    joined.extent.add(stroke.extent.max);
+    at
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geom::Point;
     use crate::source::Span;
 
     fn drawing(strokes: &[&[(f64, f64)]]) -> Drawing {
@@ -297,9 +199,9 @@ mod tests {
         snap(&mut moved, 0.02);
         join(&mut moved, |_, _| false);
         assert_eq!(moved.strokes.len(), 1);
-        let [first, last] = ends_of(&moved, &moved.strokes[0]);
-        assert_eq!(first, last);
-        assert!((moved.moved.length - 0.0).abs() < 1e-9, "{}", moved.moved.length);
+        let joined = &moved.vertices[moved.strokes[0].range()];
+        assert_eq!(joined[0].at, joined[joined.len() - 1].at);
+        assert!((moved.moved.moments.length()).abs() < 1e-9, "{:?}", moved.moved);
         assert!(moved.moved.bounds.max.x == 50.01 && moved.moved.bounds.min.y == 0.01);
         let mut apart = drawing(&strokes);
         snap(&mut apart, 0.005);
@@ -309,11 +211,111 @@ mod tests {
         assert!(near_rings(&apart.vertices, &apart.strokes[..1], 1.0).is_empty());
     }
 
+    /// The closed strokes after joining, each as its sorted places; every line is still there, whatever the order of the
+    /// strokes and the way that they run.
+    fn check_rings(strokes: &[&[(f64, f64)]], expected: &[&[(f64, f64)]]) {
+        let mut random = fastrand::Rng::with_seed(4);
+        for _ in 0..50 {
+            let mut mixed: Vec<Vec<(f64, f64)>> = strokes.iter().map(|stroke| stroke.to_vec()).collect();
+            random.shuffle(&mut mixed);
+            for stroke in &mut mixed {
+                if random.bool() {
+                    stroke.reverse();
+                }
+            }
+            let mixed: Vec<&[(f64, f64)]> = mixed.iter().map(Vec::as_slice).collect();
+            let mut joined = drawing(&mixed);
+            let moments = |drawing: &Drawing| {
+                let of = |stroke: &Stroke| Moments::of(drawing.vertices[stroke.range()].iter().map(|v| v.at)).length();
+                drawing.strokes.iter().map(of).sum::<f64>()
+            };
+            let before = moments(&joined);
+            let joints = join(&mut joined, |_, stroke| stroke.points == 1 && stroke.extent.size().0 < 10.0);
+            assert!((moments(&joined) - before).abs() < 1e-9);
+            assert!(!joints.is_empty());
+            let mut rings = Vec::new();
+            for stroke in &joined.strokes {
+                let places: Vec<(f64, f64)> =
+                    joined.vertices[stroke.range()].iter().map(|v| (v.at.x, v.at.y)).collect();
+                if places[0] == places[places.len() - 1] {
+                    let mut ring = places[1..].to_vec();
+                    ring.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
+                    rings.push(ring);
+                }
+            }
+            rings.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
+            assert_eq!(rings, expected);
+        }
+    }
+
     #[test]
-    fn where_three_meet_nothing_is_joined_unless_one_is_a_mark() {
-        let long: &[(f64, f64)] = &[(0., 0.), (1., 0.), (2., 0.)];
-        let on: &[(f64, f64)] = &[(2., 0.), (3., 0.), (4., 0.)];
-        check(&[long, on, &[(2., 0.), (2., 1.), (2., 2.)]], &[&[0., 1., 2.], &[2., 3., 4.], &[2., 2., 2.]]);
+    fn a_mark_where_three_meet_stays_by_itself() {
+        let (long, on): (&[_], &[_]) = (&[(0., 0.), (1., 0.), (2., 0.)], &[(2., 0.), (3., 0.), (4., 0.)]);
         check(&[long, on, &[(2., 0.), (2.5, 1.)]], &[&[0., 1., 2., 3., 4.], &[2., 2.5]]);
+    }
+
+    #[test]
+    fn where_three_meet_a_line_goes_straight_on() {
+        let (long, on): (&[_], &[_]) = (&[(0., 0.), (1., 0.), (2., 0.)], &[(2., 0.), (3., 0.), (4., 0.)]);
+        let side: &[_] = &[(2., 0.), (2., 1.), (2., 2.)];
+        check(&[long, on, side], &[&[0., 1., 2., 3., 4.], &[2., 2., 2.]]);
+        check(&[side, long, on], &[&[2., 2., 2.], &[0., 1., 2., 3., 4.]]);
+        // None of those turns back.
+        let back: &[_] = &[(2., 0.), (1., 0.5), (0., 0.5)];
+        check(&[long, back, &[(2., 0.), (1., -0.5), (0., -0.5)]], &[&[0., 1., 2.], &[2., 1., 0.], &[2., 1., 0.]]);
+    }
+
+    #[test]
+    fn where_three_meet_an_outline_closes_before_a_line_goes_straight_on() {
+        // A line that runs on from an edge leads nowhere, though it is the straighter one.
+        let outline: [&[_]; 2] = [&[(0., 0.), (50., 0.)], &[(50., 0.), (50., 50.), (0., 50.), (0., 0.)]];
+        let ring: &[_] = &[(0., 0.), (0., 50.), (50., 0.), (50., 50.)];
+        check_rings(&[outline[0], outline[1], &[(50., 0.), (70., 0.), (90., 30.)]], &[ring]);
+        // A line from edge to edge divides the part; the outline goes straight on past it.
+        let halves: [&[_]; 2] =
+            [&[(25., 0.), (50., 0.), (50., 50.), (25., 50.)], &[(25., 50.), (0., 50.), (0., 0.), (25., 0.)]];
+        let whole: &[_] = &[(0., 0.), (0., 50.), (25., 0.), (25., 50.), (50., 0.), (50., 50.)];
+        check_rings(&[halves[0], halves[1], &[(25., 0.), (25., 50.)]], &[whole]);
+        // Two parts that touch at a corner, each in two strokes.
+        let corner: [&[_]; 4] = [
+            &[(0., 0.), (50., 0.), (50., 50.)],
+            &[(50., 50.), (0., 50.), (0., 0.)],
+            &[(50., 50.), (100., 50.), (100., 100.)],
+            &[(100., 100.), (50., 100.), (50., 50.)],
+        ];
+        let other: &[_] = &[(50., 50.), (50., 100.), (100., 50.), (100., 100.)];
+        check_rings(&corner, &[ring, other]);
+    }
+
+    #[test]
+    fn an_outline_passes_the_mouth_of_a_mark_and_does_not_go_round_it() {
+        let strokes: [&[_]; 4] = [
+            &[(0., 0.), (20., 0.)],
+            &[(20., 0.), (24., 0.)],
+            &[(24., 0.), (50., 0.), (50., 50.), (0., 50.), (0., 0.)],
+            &[(20., 0.), (22., 5.), (24., 0.)],
+        ];
+        check_rings(&strokes, &[&[(0., 0.), (0., 50.), (20., 0.), (24., 0.), (50., 0.), (50., 50.)]]);
+        // The head of an arrow is no outline.
+        let arrow: [&[_]; 4] =
+            [&[(0., 0.), (80., 0.)], &[(80., 0.), (70., 5.)], &[(70., 5.), (70., -5.)], &[(70., -5.), (80., 0.)]];
+        check_rings(&arrow, &[]);
+    }
+
+    #[test]
+    fn four_parts_that_share_their_edges_have_their_common_outline() {
+        let places = |x: f64, y: f64| [(x, y), (x + 50., y), (x + 50., y + 50.), (x, y + 50.), (x, y)];
+        let mut edges: Vec<[(f64, f64); 2]> = Vec::new();
+        for square in [places(0., 0.), places(50., 0.), places(0., 50.), places(50., 50.)] {
+            for pair in square.windows(2) {
+                if !edges.iter().any(|edge| *edge == [pair[0], pair[1]] || *edge == [pair[1], pair[0]]) {
+                    edges.push([pair[0], pair[1]]);
+                }
+            }
+        }
+        let edges: Vec<&[(f64, f64)]> = edges.iter().map(<[_; 2]>::as_slice).collect();
+        let ring: &[_] =
+            &[(0., 0.), (0., 50.), (0., 100.), (50., 0.), (50., 100.), (100., 0.), (100., 50.), (100., 100.)];
+        check_rings(&edges, &[ring]);
     }
 }

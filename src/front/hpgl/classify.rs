@@ -4,14 +4,17 @@
 //! something; elsewhere shapes do: closed lines are parts or cut-outs, short marks and spikes on them are notches, small
 //! closed squares and circles are holes when the profile wants that; a rectangle around all others is the frame.
 
+use std::collections::BTreeSet;
+
 use super::chain;
-use super::drawing::{Drawing, Stroke};
+use super::drawing::{Drawing, Stroke, Vertex};
 use super::nest::{self, Nest};
 use super::notch::{self, Found, Marks, Search};
 use super::piece;
-use super::shape::{Class, LONGEST_NOTCH, Mark, ROUNDING, SHORTEST_NAMED, SHORTEST_OUTLINE, Shape, Wanted, mark};
+use super::shape::{Class, LONGEST_NOTCH, ROUNDING, SHORTEST_NAMED, SHORTEST_OUTLINE, Shape, Wanted, mark};
 use super::text;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::bits;
 use crate::ir::Marker;
 use crate::ir::marker::Label;
 use crate::machine::Job;
@@ -41,9 +44,9 @@ pub(super) fn classify(mut drawing: Drawing, labels: Vec<Label>, job: &Job, out:
     let unit = job.profile.hpgl.unit.mm();
     let slack = ROUNDING * unit;
     let is_spur = |drawing: &Drawing, stroke: &Stroke| is_mark(drawing, stroke, unit);
-    chain::join(&mut drawing, is_spur);
+    let mut joints = chain::join(&mut drawing, is_spur);
     chain::snap(&mut drawing, slack);
-    chain::join(&mut drawing, is_spur);
+    joints.append(&mut chain::join(&mut drawing, is_spur));
     let strokes = std::mem::take(&mut drawing.strokes);
     let mut shapes: Vec<Shape> = strokes.into_iter().map(|stroke| Shape::of(&drawing, stroke, job)).collect();
     for frame in nest::frames(&mut shapes, slack) {
@@ -130,6 +133,7 @@ pub(super) fn classify(mut drawing: Drawing, labels: Vec<Label>, job: &Job, out:
         shapes[found.mark].class = Class::Notch;
     }
     name_near_outlines(&drawing, &shapes, out);
+    name_dividing(Divided { drawing: &drawing, shapes: &shapes, joints: &joints }, out);
     piece::marker(&Sorted { drawing, shapes, outlines, parents, notches }, labels, job)
 }
 
@@ -172,13 +176,44 @@ fn name_near_outlines(drawing: &Drawing, shapes: &[Shape], out: &mut Diagnostics
     }
 }
 
+/// Lines, and the places where three or more of them met before they were joined.
+#[derive(Debug, Clone, Copy)]
+struct Divided<'a> {
+    drawing: &'a Drawing,
+    shapes: &'a [Shape],
+    joints: &'a BTreeSet<[u64; 2]>,
+}
+
+/// Names lines that are not cut and lead from one such place to another: they may part two pieces.
+fn name_dividing(Divided { drawing, shapes, joints }: Divided, out: &mut Diagnostics) {
+    let is_joint = |vertex: &Vertex| joints.contains(&bits(vertex.at));
+    let divides = |shape: &&Shape| {
+        let vertices = shape.vertices(drawing);
+        let is_left = shape.class == Class::Other && shape.wanted == Wanted::Guess && !shape.is_closed;
+        is_left && shape.length >= SHORTEST_NAMED && is_joint(&vertices[0]) && is_joint(&vertices[vertices.len() - 1])
+    };
+    let all: Vec<&Shape> = shapes.iter().filter(divides).collect();
+    let Some(first) = all.first() else { return };
+    let length = fixed(all.iter().map(|shape| shape.length).sum(), 1);
+    let lines = if all.len() == 1 {
+        format!("a line of {length} mm leads")
+    } else {
+        format!("{} lines of {length} mm in all lead", all.len())
+    };
+    let message = format!("{lines} between places where three lines meet, the first one here: in no outline, not cut");
+    let finding = Diagnostic::new(&code::HPGL_DIVIDING, message).at(first.vertices(drawing)[1].span);
+    out.push(
+        finding.hint("if it parts two pieces, let the CAD draw each whole; `--cut all` cuts every line as it stands"),
+    );
+}
+
 /// How many outlines hold one.
 pub(super) fn depth(parents: &[Option<usize>], outline: usize) -> usize {
     std::iter::successors(parents[outline], |&parent| parents[parent]).count()
 }
 
 fn is_mark(drawing: &Drawing, stroke: &Stroke, unit: f64) -> bool {
-    matches!(mark(&drawing.vertices[stroke.range()], unit), Some(Mark::Line(_) | Mark::Vee(_)))
+    mark(&drawing.vertices[stroke.range()], unit).is_some()
 }
 
 /// Whether a closed line is a square or a circle of the size of a hole.

@@ -1,4 +1,7 @@
 //! Arcs and Bezier curves as chords, in units of the plotter.
+//!
+//! Arcs are circular in the units of the file: a scale with two factors makes ellipses of them. (Hewlett-Packard, "HP-GL/2
+//! and HP RTL Reference Guide", CI: with anisotropic scaling the figure drawn is an ellipse.)
 
 use std::f64::consts::TAU;
 
@@ -10,20 +13,41 @@ const MOST_CHORDS: f64 = 100_000.0;
 /// leaves of places within a kilometre.
 const LINE_EPSILON: f64 = 1e-6;
 
-/// An arc.
+/// An arc of a circle, or of the ellipse that a scale makes of it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Arc {
     pub(super) from: Pair,
     pub(super) centre: Pair,
-    /// rad, counter-clockwise positive; more than a full turn is a full turn.
+    /// rad, counter-clockwise positive before it is stretched; more than a full turn is a full turn.
     pub(super) sweep: f64,
+    pub(super) stretch: Stretch,
+}
+
+/// How far a unit of a circle goes along each axis of the plotter; no more than 1 along either, negative where the axis is
+/// mirrored. So what lies off the circle by some units lies off the ellipse by no more.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Stretch(pub(super) Pair);
+
+impl Stretch {
+    /// A circle stays one.
+    pub(super) const NONE: Self = Self([1.0, 1.0]);
+
+    /// The way between two places of the plotter as it was before.
+    fn undone(self, from: Pair, to: Pair) -> Pair {
+        [(to[0] - from[0]) / self.0[0], (to[1] - from[1]) / self.0[1]]
+    }
+
+    /// How much more than others the ways along one axis were stretched, so that their rounding is, too.
+    fn unevenness(self) -> f64 {
+        1.0 / self.0[0].abs().min(self.0[1].abs())
+    }
 }
 
 impl Arc {
     /// The ends of its chords, none farther from it than `sagitta`. A full turn ends where it starts, to the bit.
     pub(super) fn flatten(&self, sagitta: f64) -> impl Iterator<Item = Pair> + use<> {
-        let Self { from, centre, sweep } = *self;
-        let start = [from[0] - centre[0], from[1] - centre[1]];
+        let Self { from, centre, sweep, stretch } = *self;
+        let start = stretch.undone(centre, from);
         let radius = start[0].hypot(start[1]);
         let is_full = sweep.abs() >= TAU;
         let sweep = sweep.clamp(-TAU, TAU);
@@ -37,19 +61,20 @@ impl Arc {
                 return from;
             }
             let (sin, cos) = (zero + sweep * f64::from(i) / chords).sin_cos();
-            [centre[0] + radius * cos, centre[1] + radius * sin]
+            [centre[0] + stretch.0[0] * radius * cos, centre[1] + stretch.0[1] * radius * sin]
         })
     }
 
     /// The arc by way of some places; `None` when they lie on a line, or the arc bows out of its chord by no more than
     /// `sagitta`: the chord stands for it.
-    pub(super) fn through(Through { from, middle, to }: Through, sagitta: f64) -> Option<Self> {
-        let (a, b) = ([middle[0] - from[0], middle[1] - from[1]], [to[0] - from[0], to[1] - from[1]]);
+    pub(super) fn through(Through { from, middle, to, stretch }: Through, sagitta: f64) -> Option<Self> {
+        let (a, b) = (stretch.undone(from, middle), stretch.undone(from, to));
         let (square_a, square_b) = (a[0] * a[0] + a[1] * a[1], b[0] * b[0] + b[1] * b[1]);
-        if square_b.sqrt() <= LINE_EPSILON && square_a.sqrt() > LINE_EPSILON {
+        let epsilon = LINE_EPSILON * stretch.unevenness();
+        if square_b.sqrt() <= epsilon && square_a.sqrt() > epsilon {
             // A full circle: the middle lies opposite.
             let centre = [f64::midpoint(from[0], middle[0]), f64::midpoint(from[1], middle[1])];
-            return Some(Self { from, centre, sweep: TAU });
+            return Some(Self { from, centre, sweep: TAU, stretch });
         }
         let doubled = 2.0 * (a[0] * b[1] - a[1] * b[0]);
         let along = a[0] * b[0] + a[1] * b[1];
@@ -60,17 +85,15 @@ impl Arc {
         let bow = square_b * doubled.abs() / (8.0 * (square_a * square_b * square_c).sqrt());
         let is_between = (0.0..=square_b).contains(&along);
         // Three equal places have no height at all.
-        if height.is_nan() || height <= LINE_EPSILON || is_between && bow <= sagitta {
+        if height.is_nan() || height <= epsilon || is_between && bow <= sagitta {
             return None;
         }
-        let centre = [
-            from[0] + (b[1] * square_a - a[1] * square_b) / doubled,
-            from[1] + (a[0] * square_b - b[0] * square_a) / doubled,
-        ];
-        let angle = |p: Pair| (p[1] - centre[1]).atan2(p[0] - centre[0]);
-        let turned = (angle(to) - angle(from)).rem_euclid(TAU);
+        let seen = [(b[1] * square_a - a[1] * square_b) / doubled, (a[0] * square_b - b[0] * square_a) / doubled];
+        let angle = |p: Pair| (p[1] - seen[1]).atan2(p[0] - seen[0]);
+        let turned = (angle(b) - angle([0.0, 0.0])).rem_euclid(TAU);
+        let centre = [from[0] + stretch.0[0] * seen[0], from[1] + stretch.0[1] * seen[1]];
         // Counter-clockwise when the end lies left of the way from the start to the middle.
-        Some(Self { from, centre, sweep: if doubled > 0.0 { turned } else { turned - TAU } })
+        Some(Self { from, centre, sweep: if doubled > 0.0 { turned } else { turned - TAU }, stretch })
     }
 }
 
@@ -80,6 +103,7 @@ pub(super) struct Through {
     pub(super) from: Pair,
     pub(super) middle: Pair,
     pub(super) to: Pair,
+    pub(super) stretch: Stretch,
 }
 
 /// A cubic Bezier curve by its four control points.
@@ -136,16 +160,41 @@ mod tests {
             assert!((found - around).abs() < 1e-2 * around && found <= around, "{found} instead of {around}");
         };
         let from = [1000.0, 0.0];
-        check(Arc { from, centre: [0.0, 0.0], sweep: TAU / 4.0 }, 1000.0 * TAU / 4.0);
-        check(Arc { from, centre: [0.0, 0.0], sweep: -3.0 * TAU }, 1000.0 * TAU);
-        let full: Vec<Pair> = Arc { from, centre: [0.0, 0.0], sweep: TAU }.flatten(SAGITTA).collect();
+        let arc = |centre, sweep| Arc { from, centre, sweep, stretch: Stretch::NONE };
+        check(arc([0.0, 0.0], TAU / 4.0), 1000.0 * TAU / 4.0);
+        check(arc([0.0, 0.0], -3.0 * TAU), 1000.0 * TAU);
+        let full: Vec<Pair> = arc([0.0, 0.0], TAU).flatten(SAGITTA).collect();
         assert_eq!(full.last(), Some(&from));
-        assert_eq!(Arc { from, centre: from, sweep: 1.0 }.flatten(SAGITTA).count(), 0);
+        assert_eq!(arc(from, 1.0).flatten(SAGITTA).count(), 0);
+    }
+
+    #[test]
+    fn a_stretched_arc_is_an_ellipse_and_its_chords_keep_to_it() {
+        let through = [[1000.0, 0.0], [0.0, -250.0], [-1000.0, 0.0]];
+        for stretch in [[1.0, 0.25], [1.0, -0.25], [-1.0, 0.25]] {
+            let (from, stretch) = ([1000.0, 0.0], Stretch(stretch));
+            let [_, middle, to] = through;
+            let arc = Arc::through(Through { from, middle, to, stretch }, SAGITTA).expect("an arc");
+            assert!(arc.centre[0].hypot(arc.centre[1]) < 1e-9 && (arc.sweep.abs() - TAU / 2.0).abs() < 1e-9, "{arc:?}");
+            let mut before = from;
+            for to in arc.flatten(SAGITTA) {
+                assert!(((to[0] / 1000.0).hypot(to[1] / 250.0) - 1.0).abs() < 1e-12 && to[1] < 1e-9, "{to:?}");
+                // The farthest place of an ellipse from its chord is where the angles of its ends are halved.
+                let (sin, cos) = (before[1] / 250.0 + to[1] / 250.0, before[0] / 1000.0 + to[0] / 1000.0);
+                let (sin, cos) = (sin / sin.hypot(cos), cos / sin.hypot(cos));
+                let (way, bow) =
+                    ([to[0] - before[0], to[1] - before[1]], [1000.0 * cos - before[0], 250.0 * sin - before[1]]);
+                let off = (way[0] * bow[1] - way[1] * bow[0]).abs() / way[0].hypot(way[1]);
+                assert!(off <= SAGITTA + 1e-9, "{off}");
+                before = to;
+            }
+            assert!((before[0] + 1000.0).abs() < 1e-9);
+        }
     }
 
     #[test]
     fn three_points_make_an_arc() {
-        let through = |from, middle, to| Arc::through(Through { from, middle, to }, SAGITTA);
+        let through = |from, middle, to| Arc::through(Through { from, middle, to, stretch: Stretch::NONE }, SAGITTA);
         let arc = through([1000.0, 0.0], [0.0, 1000.0], [-1000.0, 0.0]).expect("an arc");
         assert!(arc.centre[0].hypot(arc.centre[1]) < 1e-9 && (arc.sweep - TAU / 2.0).abs() < 1e-9, "{arc:?}");
         let arc = through([1000.0, 0.0], [0.0, -1000.0], [0.0, 1000.0]).expect("an arc");
@@ -156,7 +205,7 @@ mod tests {
 
     #[test]
     fn places_on_a_line_make_no_arc_however_they_are_rounded() {
-        let through = |from, middle, to| Arc::through(Through { from, middle, to }, SAGITTA);
+        let through = |from, middle, to| Arc::through(Through { from, middle, to, stretch: Stretch::NONE }, SAGITTA);
         assert!(through([0.0, 0.0], [1.0, 1.0], [2.0, 2.0]).is_none());
         assert!(through([0.0, 0.0], [0.0, 0.0], [0.0, 0.0]).is_none());
         assert!(through([0.0, 0.0], [500.0, 0.4], [1000.0, 0.0]).is_none());

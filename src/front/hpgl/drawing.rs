@@ -1,5 +1,6 @@
 //! What the pen draws: strokes, each a chain of places that the pen was led to without being lifted.
 
+use crate::geom::moments::Moments;
 use crate::geom::{Extent, Point};
 use crate::source::Span;
 
@@ -29,15 +30,15 @@ pub(super) struct Stroke {
 /// What places had that were moved.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Moved {
-    /// How much longer lines were, mm; negative when they were shorter.
-    pub(super) length: f64,
+    /// What lines had more than they have now; less than nothing where they were shorter.
+    pub(super) moments: Moments,
     /// The box around the places as they were.
     pub(super) bounds: Extent,
 }
 
 impl Default for Moved {
     fn default() -> Self {
-        Self { length: 0.0, bounds: Extent::EMPTY }
+        Self { moments: Moments::default(), bounds: Extent::EMPTY }
     }
 }
 
@@ -53,6 +54,7 @@ pub(super) struct Drawing {
 }
 
 impl Stroke {
+    /// Its places among the vertices.
     pub(super) fn range(&self) -> std::ops::Range<usize> {
         self.first as usize..self.end as usize
     }
@@ -89,6 +91,50 @@ impl Drawing {
         stroke.end += 1;
         stroke.extent.add(at);
         self.vertices.push(Vertex { at, span });
+    }
+
+    /// Starts a stroke without places, for others to be put together in it.
+    pub(super) fn open(&mut self, pen: u16) {
+        let first = self.vertices.len() as u32;
+        self.strokes.push(Stroke { first, end: first, pen, points: 0, extent: Extent::EMPTY });
+    }
+
+    /// Adds the places of a stroke to the last one of all.
+    pub(super) fn append(&mut self, stroke: &Stroke) {
+        for k in stroke.range() {
+            self.put(self.vertices[k]);
+        }
+        self.account(stroke);
+    }
+
+    /// The same the other way round: each line keeps what drew it.
+    pub(super) fn append_turned(&mut self, stroke: &Stroke) {
+        let range = stroke.range();
+        let last = range.end - 1;
+        for k in range.rev() {
+            let span = self.vertices[(k + 1).min(last)].span;
+            self.put(Vertex { span, ..self.vertices[k] });
+        }
+        self.account(stroke);
+    }
+
+    /// A place of the last stroke; where two strokes meet it is there already.
+    fn put(&mut self, vertex: Vertex) {
+        let Some(stroke) = self.strokes.last_mut() else { return };
+        let goes_on = stroke.end > stroke.first;
+        if goes_on && self.vertices.last().is_some_and(|last| last.at == vertex.at) {
+            return;
+        }
+        stroke.end += 1;
+        self.vertices.push(vertex);
+    }
+
+    fn account(&mut self, stroke: &Stroke) {
+        if let Some(joined) = self.strokes.last_mut() {
+            joined.points += stroke.points;
+            joined.extent.add(stroke.extent.min);
+            joined.extent.add(stroke.extent.max);
+        }
     }
 
     /// Lifts the pen. A stroke without length is a dot, and none.

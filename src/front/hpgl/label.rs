@@ -25,6 +25,7 @@ pub(super) struct Text {
 }
 
 impl Terminator {
+    /// As switched on.
     pub(super) fn new() -> Self {
         Self { byte: ETX, last: None }
     }

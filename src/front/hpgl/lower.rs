@@ -265,7 +265,7 @@ impl Lowering<'_> {
         let message = match doubt {
             Unknown::Corners => "SC scales the drawing to corners that the file does not give (IP)",
             Unknown::Page => "IR gives corners in percent of a page whose size the file does not give (PS)",
-            Unknown::Range => "SC scales from a range without width and is ignored",
+            Unknown::Range => "SC scales from or to a range without width and is ignored",
             Unknown::Incomplete => "numbers are missing here: SC needs four of them, IP and IR two or four",
             Unknown::Angle => "RO turns by quarters only; another angle is ignored",
         };
@@ -359,12 +359,8 @@ impl Lowering<'_> {
         let [x, y, degrees, ..] = values[..] else { return };
         let pair = [x, y];
         let centre = if is_relative { self.plotter.relative(pair) } else { self.plotter.absolute(pair) };
-        self.follow(Arc { from: self.plotter.at(), centre, sweep: self.sweep(rad(degrees)) }, span);
-    }
-
-    /// An angle of the file as the plotter turns, rad: a mirrored scale turns it round.
-    fn sweep(&self, angle: f64) -> f64 {
-        if self.plotter.frame.is_mirrored() { -angle } else { angle }
+        let (from, stretch) = (self.plotter.at(), self.plotter.frame.stretch());
+        self.follow(Arc { from, centre, sweep: rad(degrees), stretch }, span);
     }
 
     /// AT, RT: a middle and an end.
@@ -373,7 +369,8 @@ impl Lowering<'_> {
         let [x1, y1, x2, y2, ..] = values[..] else { return };
         let place = |pair| if is_relative { self.plotter.relative(pair) } else { self.plotter.absolute(pair) };
         let (middle, to) = (place([x1, y1]), place([x2, y2]));
-        if let Some(arc) = Arc::through(Through { from: self.plotter.at(), middle, to }, self.sagitta) {
+        let (from, stretch) = (self.plotter.at(), self.plotter.frame.stretch());
+        if let Some(arc) = Arc::through(Through { from, middle, to, stretch }, self.sagitta) {
             self.follow(arc, span);
         }
         let outcome = self.plotter.go(to, span);
@@ -394,7 +391,7 @@ impl Lowering<'_> {
         let centre = self.plotter.at();
         let [across, _] = self.plotter.relative([radius, 0.0]);
         let start = [across, centre[1]];
-        let arc = Arc { from: start, centre, sweep: self.sweep(TAU) };
+        let arc = Arc { from: start, centre, sweep: TAU, stretch: self.plotter.frame.stretch() };
         let outcome = self.plotter.figure(start, arc.flatten(self.sagitta), span);
         self.check(outcome, span);
     }
@@ -437,7 +434,8 @@ impl Lowering<'_> {
         let centre = self.plotter.at();
         let (sin, cos) = rad(start).sin_cos();
         let from = self.plotter.relative([radius * cos, radius * sin]);
-        let arc = Arc { from, centre, sweep: self.sweep(rad(degrees)) }.flatten(self.sagitta);
+        let stretch = self.plotter.frame.stretch();
+        let arc = Arc { from, centre, sweep: rad(degrees), stretch }.flatten(self.sagitta);
         let outcome = if degrees.abs() >= FULL_TURN {
             self.plotter.figure(from, arc, span)
         } else {

@@ -7,8 +7,8 @@
 //!
 //! [`reader`] makes statements of bytes with [`syntax`], [`escape`], [`label`] and [`encoded`]; [`instruction`] is the table
 //! of what they mean; [`mod@lower`] follows them with the [`plotter`], its [`scale`] and [`curve`], into a [`drawing`].
-//! [`classify`] then decides what is cut: [`chain`] joins strokes, [`shape`] measures them, [`nest`], [`notch`] and [`text`]
-//! recognise, [`piece`] makes the marker with [`boxes`] to find its parts. [`mod@unit`] doubts the size; [`tally`]
+//! [`classify`] then decides what is cut: [`chain`] joins strokes as [`joint`] pairs their ends, [`shape`] measures them, [`nest`], [`notch`] and [`text`]
+//! recognise, [`piece`] makes the marker with [`boxes`] to find its parts and [`vee`] to lead outlines into V notches. [`mod@unit`] doubts the size; [`tally`]
 //! counts what was not obeyed; [`nothing`] says why nothing is cut.
 
 mod boxes;
@@ -19,6 +19,7 @@ mod drawing;
 mod encoded;
 mod escape;
 mod instruction;
+mod joint;
 mod label;
 mod lower;
 mod nest;
@@ -33,6 +34,7 @@ mod syntax;
 mod tally;
 mod text;
 mod unit;
+mod vee;
 
 use self::instruction::Instruction;
 use self::lower::{Measure, lower};

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::drawing::{Drawing, Vertex};
 use super::shape::{Mark, ROUNDING, SHORTEST_NOTCH, Shape, is_near, mark};
+use crate::geom::moments::Moments;
 use crate::geom::{Extent, Point, polyline, ring};
 
 /// How far from an outline a mark may end and still stand on it, mm, beside what rounding does.
@@ -56,8 +57,7 @@ pub(super) fn on_outlines(search: Search) -> Marks {
         candidates.iter().filter_map(|&i| Some((i, mark(shapes[i].vertices(drawing), unit)?))).collect();
     let mut ends: Vec<End> = Vec::with_capacity(2 * marks.len());
     for (_, mark) in &marks {
-        let (Mark::Line(both) | Mark::Vee(both)) = mark;
-        ends.extend(both.map(|at| End { at, on: [None; 2] }));
+        ends.extend(mark.ends().map(|at| End { at, on: [None; 2] }));
     }
     // Ends by x, so that the few beside a segment are found fast.
     let mut order: Vec<usize> = (0..ends.len()).collect();
@@ -110,24 +110,21 @@ pub(super) fn on_outlines(search: Search) -> Marks {
         .enumerate()
         .filter_map(|(n, (index, mark))| {
             let [a, b] = [&ends[2 * n], &ends[2 * n + 1]];
-            let (outline, cut) = match mark {
-                Mark::Vee(_) => (a.common(b)?, None),
+            // On the edge of two parts the notch belongs to the one that it leads into.
+            let mut belongs = |[nearest, second]: [Option<usize>; 2], tip: Point| {
+                let mut leads_in = |outline: Option<usize>| outline.filter(|&outline| is_in(outline, tip));
+                if second.is_some() { leads_in(nearest).or_else(|| leads_in(second)).or(nearest) } else { nearest }
+            };
+            let (outline, cut) = match *mark {
+                Mark::Vee { apex, .. } => (belongs(a.common(b), apex)?, None),
                 Mark::Line(_) => {
                     let distance = |end: &End| end.on[0].map_or(f64::INFINITY, |on| on.0);
                     let (root, tip) = if distance(b) < distance(a) { (b, a) } else { (a, b) };
-                    let [nearest, second] = root.on;
-                    // On the edge of two parts the notch belongs to the one that it leads into.
-                    let mut leads_in = |on: Option<(f64, usize)>| on.filter(|on| is_in(on.1, tip.at));
                     // A line from edge to edge is a chord, such as the cross in a circle.
-                    if root.common(tip).is_some() {
+                    if root.common(tip) != [None; 2] {
                         return None;
                     }
-                    let outline = if second.is_some() {
-                        leads_in(nearest).or_else(|| leads_in(second)).or(nearest)
-                    } else {
-                        nearest
-                    };
-                    (outline?.1, Some([root.at, tip.at]))
+                    (belongs(root.on.map(|on| on.map(|on| on.1)), tip.at)?, Some([root.at, tip.at]))
                 }
             };
             Some(Found { mark: *index, outline, cut })
@@ -153,10 +150,11 @@ impl End {
         }
     }
 
-    /// The outline that both ends stand on.
-    fn common(&self, other: &Self) -> Option<usize> {
-        let mut outlines = self.on.iter().flatten().map(|on| on.1);
-        outlines.find(|outline| other.on.iter().flatten().any(|on| on.1 == *outline))
+    /// The outlines that both ends stand on.
+    fn common(&self, other: &Self) -> [Option<usize>; 2] {
+        let is_shared = |outline: &usize| other.on.iter().flatten().any(|on| on.1 == *outline);
+        let mut shared = self.on.iter().flatten().map(|on| on.1).filter(is_shared);
+        [shared.next(), shared.next()]
     }
 }
 
@@ -185,9 +183,9 @@ pub(super) struct Spike {
 pub(super) struct Pruned {
     pub(super) vertices: Vec<Vertex>,
     pub(super) spikes: Vec<Spike>,
-    /// Drawn beyond what is left and one cut a spike: places, and length, mm.
-    pub(super) points: usize,
-    pub(super) length: f64,
+    /// Drawn beyond what is left and one cut a spike: places, and moments.
+    pub(super) points: isize,
+    pub(super) moments: Moments,
     /// Tips that are too near to be notches: they are dropped.
     pub(super) dropped: Vec<Point>,
 }
@@ -206,13 +204,13 @@ pub(super) fn prune(vertices: &[Vertex], unit: f64, longest: f64) -> Pruned {
             let depth = (tip.at - root).norm();
             if root == vertex.at {
                 pruned.vertices.pop();
-                pruned.add(root, tip, depth);
+                pruned.add(root, tip);
                 continue;
             }
             if (SHORTEST_NOTCH..=longest).contains(&depth) {
                 pruned.vertices.pop();
                 pruned.spikes.push(Spike { root, tip });
-                pruned.length += (vertex.at - tip.at).norm() - (vertex.at - root).norm();
+                pruned.moments += Moments::line(vertex.at, tip.at) - Moments::line(vertex.at, root);
             }
         }
         pruned.vertices.push(vertex);
@@ -224,25 +222,25 @@ pub(super) fn prune(vertices: &[Vertex], unit: f64, longest: f64) -> Pruned {
     {
         pruned.vertices.pop();
         let tip = Vertex { span: root.span, ..tip };
-        let depth = (tip.at - root.at).norm();
         pruned.vertices.remove(0);
-        pruned.add(root.at, tip, depth);
+        pruned.add(root.at, tip);
     }
     pruned
 }
 
 impl Pruned {
     /// A spike whose way back is drawn beside its cut.
-    fn add(&mut self, root: Point, tip: Vertex, depth: f64) {
-        if depth < SHORTEST_NOTCH {
+    fn add(&mut self, root: Point, tip: Vertex) {
+        let way = Moments::line(root, tip.at);
+        if way.length() < SHORTEST_NOTCH {
             self.dropped.push(tip.at);
             self.points += 2;
-            self.length += 2.0 * depth;
+            self.moments += way * 2.0;
             return;
         }
         self.spikes.push(Spike { root, tip });
         self.points += 1;
-        self.length += depth;
+        self.moments += way;
     }
 }
 
@@ -267,8 +265,8 @@ mod tests {
             points.windows(2).map(|w| (w[1].0 - w[0].0).hypot(w[1].1 - w[0].1)).sum()
         };
         let cuts: f64 = pruned.spikes.iter().map(|s| (s.tip.at - s.root).norm()).sum();
-        assert!((length(points) - length(left) - cuts - pruned.length).abs() < 1e-9);
-        assert_eq!(points.len(), left.len() + tips.len() + pruned.points);
+        assert!((length(points) - length(left) - cuts - pruned.moments.length()).abs() < 1e-9);
+        assert_eq!(points.len(), (left.len() + tips.len()).saturating_add_signed(pruned.points));
     }
 
     #[test]

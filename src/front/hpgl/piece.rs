@@ -1,10 +1,14 @@
 //! Pieces from parts, cut-outs, notches, holes and lines, and the account of what was not cut.
 
+use std::collections::BTreeMap;
+
 use super::boxes::Boxes;
 use super::classify::{Sorted, depth};
 use super::drawing::Vertex;
 use super::notch::{Pruned, prune};
 use super::shape::{CLASSES, Class, LONGEST_NOTCH, Shape};
+use super::vee::{Material, Outline};
+use crate::geom::moments::Moments;
 use crate::geom::{Extent, Point, Vector, cross, ring};
 use crate::ir::Marker;
 use crate::ir::list::{FULL_SPEED, Joint, Segment, SegmentList};
@@ -24,10 +28,11 @@ pub(super) fn marker(sorted: &Sorted, labels: Vec<Label>, job: &Job) -> Marker {
         sorted,
         unit,
         list: SegmentList::default(),
-        aside: Aside { points: 0, length: sorted.drawing.moved.length, bounds: sorted.drawing.moved.bounds },
+        aside: Aside { points: 0, moments: sorted.drawing.moved.moments, bounds: sorted.drawing.moved.bounds },
         parts: Vec::new(),
         boxes: Boxes::new(&[]),
         pieces: Vec::new(),
+        vees: BTreeMap::new(),
         spikes: 0,
         spike_length: 0.0,
         texts_outside: 0,
@@ -57,6 +62,24 @@ fn centroid(shape: &Shape, vertices: &[Vertex]) -> Point {
     origin + sum / (6.0 * shape.area)
 }
 
+/// How often the pen is led on along a line; the chords of a curve are one.
+fn led_to(vertices: &[Vertex]) -> isize {
+    let mut before = None;
+    let is_new = |pair: &&[Vertex]| before.replace(pair[1].span) != Some(pair[1].span);
+    vertices.windows(2).filter(is_new).count().cast_signed()
+}
+
+fn moments(vertices: &[Vertex]) -> Moments {
+    Moments::of(vertices.iter().map(|vertex| vertex.at))
+}
+
+/// An outline without its spikes, and the piece that it is of.
+struct Ring<'a> {
+    piece: usize,
+    outline: usize,
+    vertices: &'a [Vertex],
+}
+
 struct Making<'a> {
     sorted: &'a Sorted,
     unit: f64,
@@ -67,6 +90,8 @@ struct Making<'a> {
     /// The boxes of the parts, by their index in that list.
     boxes: Boxes,
     pieces: Vec<Piece>,
+    /// The marks of two legs of each outline, as indices of shapes.
+    vees: BTreeMap<usize, Vec<usize>>,
     /// Notches that were spikes of outlines, and their length, mm.
     spikes: usize,
     spike_length: f64,
@@ -124,17 +149,11 @@ impl Making<'_> {
             if let Some([root, tip]) = found.cut {
                 let span = self.span(shape);
                 let notch = Notch { kind: NotchKind::Slit, root, tip, percent: FULL_SPEED, span };
-                self.aside.points += shape.stroke.points as usize - 1;
-                self.aside.length += shape.length - notch.depth();
+                self.aside.points += shape.stroke.points as isize - 1;
+                self.aside.moments += shape.moments(&sorted.drawing) - Moments::line(root, tip);
                 self.pieces[piece].notches.push(notch);
-                continue;
-            }
-            // The knife cuts a V from both sides of its mouth: two slits that meet at the tip.
-            let vertices = shape.vertices(&sorted.drawing);
-            for (root, tip, drawn_by) in [(0, 1, 1), (2, 1, 2)] {
-                let (root, tip, span) = (vertices[root].at, vertices[tip].at, vertices[drawn_by].span);
-                let notch = Notch { kind: NotchKind::Slit, root, tip, percent: FULL_SPEED, span };
-                self.pieces[piece].notches.push(notch);
+            } else {
+                self.vees.entry(found.outline).or_default().push(found.mark);
             }
         }
         for shape in &sorted.shapes {
@@ -168,13 +187,14 @@ impl Making<'_> {
                 }
                 let (vertices, has_spikes) = (shape.vertices(&sorted.drawing), shape.has_spikes);
                 let piece = self.piece_of(&by_outline, outline);
+                let marks = self.vees.remove(&outline).unwrap_or_default();
                 if !has_spikes {
-                    self.add_contour(piece, vertices);
+                    self.add_outline(Ring { piece, outline, vertices }, &marks);
                     continue;
                 }
-                let Pruned { vertices, spikes, points, length, dropped } = prune(vertices, self.unit, LONGEST_NOTCH);
+                let Pruned { vertices, spikes, points, moments, dropped } = prune(vertices, self.unit, LONGEST_NOTCH);
                 self.aside.points += points;
-                self.aside.length += length;
+                self.aside.moments += moments;
                 for tip in dropped {
                     self.aside.bounds.add(tip);
                 }
@@ -185,9 +205,45 @@ impl Making<'_> {
                     self.spike_length += notch.depth();
                     self.pieces[piece].notches.push(notch);
                 }
-                self.add_contour(piece, &vertices);
+                self.add_outline(Ring { piece, outline, vertices: &vertices }, &marks);
             }
         }
+    }
+
+    /// An outline, led into those of the marks of two legs that are V notches; of others each leg is cut by itself.
+    fn add_outline(&mut self, ring: Ring, marks: &[usize]) {
+        let Ring { piece, outline, vertices } = ring;
+        if marks.is_empty() {
+            self.add_contour(piece, vertices);
+            return;
+        }
+        let shape = *self.shape(outline);
+        let drawing = &self.sorted.drawing;
+        let material = if shape.class == Class::CutOut { Material::Outside } else { Material::Inside };
+        let mut notched = Outline::new(vertices, material, self.unit);
+        self.aside.points += led_to(vertices);
+        self.aside.moments += moments(vertices);
+        self.aside.bounds.add(shape.extent().min);
+        self.aside.bounds.add(shape.extent().max);
+        for &mark in marks {
+            let mark = &self.sorted.shapes[mark];
+            let &[first, tip, last] = mark.vertices(drawing) else { continue };
+            let has_time = self.work.checked_sub(notched.len()).map(|left| self.work = left).is_some();
+            if has_time && notched.notch([first, tip, last]) {
+                self.aside.points += mark.stroke.points as isize;
+                self.aside.moments += mark.moments(drawing);
+                continue;
+            }
+            // The knife cuts it from both sides of its mouth: two slits that meet at the tip.
+            for (root, span) in [(first, tip.span), (last, last.span)] {
+                let notch = Notch { kind: NotchKind::Slit, root: root.at, tip: tip.at, percent: FULL_SPEED, span };
+                self.pieces[piece].notches.push(notch);
+            }
+        }
+        let vertices = notched.into_vertices();
+        self.aside.points -= led_to(&vertices);
+        self.aside.moments -= moments(&vertices);
+        self.add_contour(piece, &vertices);
     }
 
     fn add_contour(&mut self, piece: usize, vertices: &[Vertex]) {
@@ -248,8 +304,8 @@ impl Making<'_> {
     fn account(&mut self) -> Drawing {
         let shapes = &self.sorted.shapes;
         for shape in shapes.iter().filter(|shape| !shape.class.is_cut() || shape.class == Class::Hole) {
-            self.aside.points += shape.stroke.points as usize;
-            self.aside.length += shape.length;
+            self.aside.points += shape.stroke.points as isize;
+            self.aside.moments += shape.moments(&self.sorted.drawing);
             self.aside.bounds.add(shape.extent().min);
             self.aside.bounds.add(shape.extent().max);
         }
@@ -264,7 +320,7 @@ impl Making<'_> {
         };
         let classes: Vec<DrawnClass> = CLASSES.iter().map(class).collect();
         let drawn = shapes.iter().fold(0.0, |sum, shape| sum + shape.length);
-        let pen_down = drawn + self.sorted.drawing.moved.length;
+        let pen_down = drawn + self.sorted.drawing.moved.moments.length();
         Drawing { pen_down, classes, texts_outside: self.texts_outside, aside: self.aside }
     }
 }

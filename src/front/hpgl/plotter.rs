@@ -143,6 +143,7 @@ impl Plotter {
         self.at
     }
 
+    /// PA, PR: places from here on are relative to the one before, or are not.
     pub(super) fn set_relative(&mut self, is_relative: bool) {
         self.is_relative = is_relative;
     }
@@ -171,10 +172,12 @@ impl Plotter {
         if self.is_relative { self.relative(pair) } else { self.absolute(pair) }
     }
 
+    /// Where two numbers lead that are a place.
     pub(super) fn absolute(&self, pair: Pair) -> Pair {
         if self.frame.is_plain() { pair } else { self.frame.place(pair) }
     }
 
+    /// Where two numbers lead that are a way.
     pub(super) fn relative(&self, pair: Pair) -> Pair {
         let way = if self.frame.is_plain() { pair } else { self.frame.way(pair) };
         [self.at[0] + way[0], self.at[1] + way[1]]

@@ -62,6 +62,7 @@ const ESCAPE: u8 = 0x1b;
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
 impl<'a> Reader<'a> {
+    /// At the first statement.
     pub(super) fn new(bytes: &'a [u8]) -> Self {
         let at = if bytes.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 };
         Self { bytes, at, block: 0, terminator: Terminator::new(), paired: None }

@@ -1,5 +1,7 @@
 //! From the numbers of the file to units of the plotter: SC between the corners P1 and P2 of IP or IR, and RO.
 
+use super::curve::Stretch;
+
 /// A place or a way, in units of the file or of the plotter.
 pub(super) type Pair = [f64; 2];
 
@@ -32,7 +34,7 @@ pub(super) enum Unknown {
     Corners,
     /// IR without PS.
     Page,
-    /// A scale from a range without width.
+    /// A scale from or to a range without width.
     Range,
     /// SC with fewer than four numbers, IP or IR with one or three.
     Incomplete,
@@ -132,7 +134,7 @@ impl Frame {
             }
             self.scale = Some(Scale { offset: [p1[0] - x0 * x1, p1[1] - y0 * y1], factor });
         } else {
-            if x0 == x1 || y0 == y1 {
+            if x0 == x1 || y0 == y1 || p1[0] == p2[0] || p1[1] == p2[1] {
                 return Err(Unknown::Range);
             }
             let mut factor = [(p2[0] - p1[0]) / (x1 - x0), (p2[1] - p1[1]) / (y1 - y0)];
@@ -154,9 +156,12 @@ impl Frame {
         if self.are_corners_given || kind == FACTORS { Ok(()) } else { Err(Unknown::Corners) }
     }
 
-    /// Whether the scale turns left into right, so that angles of the file run the other way.
-    pub(super) fn is_mirrored(&self) -> bool {
-        self.scale.is_some_and(|Scale { factor: [x, y], .. }| x * y < 0.0)
+    /// What the scale makes of circles.
+    pub(super) fn stretch(&self) -> Stretch {
+        self.scale.map_or(Stretch::NONE, |Scale { factor: [x, y], .. }| {
+            let greater = x.abs().max(y.abs());
+            Stretch([x / greater, y / greater])
+        })
     }
 
     /// A place of the file, in units of the plotter before RO.
@@ -224,6 +229,8 @@ mod tests {
         assert_eq!(frame.set_scale(&[0.0, 1.0, 0.0, 1.0]), Ok(()));
         assert_eq!(frame.place([1.0, 1.0]), [2000.0, 1000.0]);
         assert_eq!(frame.set_scale(&[0.0, 0.0, 0.0, 1.0]), Err(Unknown::Range));
+        assert_eq!(frame.set_corners(&[0.0, 0.0, 0.0, 4000.0]), Ok(()));
+        assert_eq!(frame.set_scale(&[0.0, 1.0, 0.0, 1.0]), Err(Unknown::Range));
     }
 
     #[test]
@@ -245,9 +252,9 @@ mod tests {
         let mut frame = Frame::new();
         assert_eq!(frame.set_corners(&[0.0, 0.0, 400.0, 400.0]), Ok(()));
         assert_eq!(frame.set_scale(&[0.0, 1.0, 1.0, 0.0]), Ok(()));
-        assert!(frame.is_mirrored());
+        assert_eq!(frame.stretch(), Stretch([1.0, -1.0]));
         frame.set_default();
-        assert!(frame.is_plain() && !frame.is_mirrored());
+        assert!(frame.is_plain() && frame.stretch() == Stretch::NONE);
         assert_eq!(frame.set_scale(&[0.0, 1.0, 0.0, 1.0]), Ok(()));
     }
 

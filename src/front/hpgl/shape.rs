@@ -2,6 +2,7 @@
 
 use super::drawing::{Drawing, NO_PEN, Stroke, Vertex};
 use super::notch::prune;
+use crate::geom::moments::Moments;
 use crate::geom::{Extent, Point, cross};
 use crate::machine::Job;
 use crate::machine::plot::{LineKind, PenUse};
@@ -150,10 +151,17 @@ impl Shape {
         Self { stroke, wanted, is_closed, is_crossed, has_spikes, length, area: doubled / 2.0, class: Class::Other }
     }
 
+    /// Its places.
     pub(super) fn vertices<'a>(&self, drawing: &'a Drawing) -> &'a [Vertex] {
         &drawing.vertices[self.stroke.range()]
     }
 
+    /// Where it lies.
+    pub(super) fn moments(&self, drawing: &Drawing) -> Moments {
+        Moments::of(self.vertices(drawing).iter().map(|vertex| vertex.at))
+    }
+
+    /// Its box, mm.
     pub(super) fn extent(&self) -> &Extent {
         &self.stroke.extent
     }
@@ -202,8 +210,17 @@ pub(super) fn is_near(a: Point, b: Point, unit: f64) -> bool {
 pub(super) enum Mark {
     /// From one end to the other, or there and back.
     Line([Point; 2]),
-    /// Two legs; the ends of the mouth.
-    Vee([Point; 2]),
+    /// Two legs; the ends of the mouth, and the tip.
+    Vee { mouth: [Point; 2], apex: Point },
+}
+
+impl Mark {
+    /// Its ends.
+    pub(super) fn ends(&self) -> [Point; 2] {
+        match *self {
+            Self::Line(ends) | Self::Vee { mouth: ends, .. } => ends,
+        }
+    }
 }
 
 /// The mark that a stroke is by its shape.
@@ -212,7 +229,9 @@ pub(super) fn mark(vertices: &[Vertex], unit: f64) -> Option<Mark> {
     match vertices {
         [a, b] if is_notch(a.at, b.at) => Some(Mark::Line([a.at, b.at])),
         [a, b, c] if is_near(a.at, c.at, unit) && is_notch(a.at, b.at) => Some(Mark::Line([a.at, b.at])),
-        [a, b, c] if is_notch(a.at, b.at) && is_notch(b.at, c.at) => Some(Mark::Vee([a.at, c.at])),
+        [a, b, c] if is_notch(a.at, b.at) && is_notch(b.at, c.at) => {
+            Some(Mark::Vee { mouth: [a.at, c.at], apex: b.at })
+        }
         _ => None,
     }
 }

@@ -74,6 +74,7 @@ impl Tally {
         self.odd.add(span);
     }
 
+    /// An instruction that is in no table.
     pub(super) fn unknown(&mut self, mnemonic: [u8; 2], span: Span) {
         self.unknown_total += 1;
         if self.unknown.len() < MOST_NAMES || self.unknown.contains_key(&mnemonic) {

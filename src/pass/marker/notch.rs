@@ -28,11 +28,6 @@ use crate::source::Span;
 pub(super) const PASS: MarkerPass =
     MarkerPass { name: "notch", about: "finds V notches by their shape, and leaves them on the outline", run };
 
-/// Depths of V notches, mm.
-const LEAST_DEPTH: f64 = 2.0;
-const GREATEST_DEPTH: f64 = 15.0;
-/// How much longer than the other a leg may be.
-const LEG_RATIO: f64 = 1.25;
 /// How far the outline may turn where the mouth begins or ends, rad.
 const MOUTH_TURN: f64 = PI / 6.0;
 /// Vertices that must belong to no notch.
@@ -181,7 +176,7 @@ fn apexes(points: &[Point], unit: f64) -> Vec<usize> {
         let after = (points[next] - points[i]).norm_squared();
         // Squares of the legs first, the cheapest test: nearly all vertices end there.
         let (shorter, longer) = if before < after { (before, after) } else { (after, before) };
-        let are_alike = longer <= LEG_RATIO * LEG_RATIO * shorter && shorter >= LEAST_DEPTH * LEAST_DEPTH;
+        let are_alike = longer <= Vee::LEG_RATIO.powi(2) * shorter && shorter >= Vee::LEAST_DEPTH.powi(2);
         if are_alike && is_apex(points, i, unit) {
             apexes.push(i);
         }
@@ -195,10 +190,10 @@ fn is_apex(points: &[Point], i: usize, unit: f64) -> bool {
     let at = Around { points, i };
     let (before, apex, after) = (at.back(1), points[i], at.ahead(1));
     let vee = Vee { apex, mouth: [before, after], span: Span::default() };
-    let (depth, width) = (vee.depth(), vee.width());
-    if !(LEAST_DEPTH..=GREATEST_DEPTH).contains(&depth) || width > depth || width == 0.0 {
+    if !vee.has_shape() {
         return false;
     }
+    let width = vee.width();
     let mouth = after - before;
     let most = MOUTH_TURN + (ROUNDING * unit).atan2(width);
     // Near the mouth an outline may have very short segments, whose direction is that of the grid; a stretch as long as

@@ -3,28 +3,25 @@
 //! It knows nothing of what is cut: a marker of a plot keeps account of what it leaves aside, and both together must be
 //! what the pen draws. Holes are deduced from shapes, so their number is not in the bytes.
 
+mod curve;
+mod encoded;
+mod frame;
+
 use std::f64::consts::TAU;
 
+use self::curve::{Chords, Lack};
 use super::scan::Slack;
 use super::source_audit::{ARC_SAGITTA, Census};
 use crate::geom::Point;
+use crate::geom::moments::Moments;
 use crate::machine::MachineProfile;
 
-/// How much finer than the reader's the chords of curves are here.
-const FINER: f64 = 4.0;
-/// The most chords of a curve, as in the reader.
-const MOST_CHORDS: f64 = 100_000.0;
 /// The terminator of labels unless DT gives another: ETX.
 const ETX: u8 = 3;
 /// Longest label, bytes, before its terminator counts as lost.
 const LABEL_BYTES: usize = 1024;
 /// Most numbers of an instruction that is no list of places.
 const MOST_NUMBERS: usize = 8;
-/// Corners of the scale where the file gives none, in units of the file.
-const CORNERS: [f64; 4] = [250.0, 596.0, 10_250.0, 7796.0];
-
-/// Height of a triangle, in units of the file, below which its corners lie on a line.
-const STRAIGHT: f64 = 1e-6;
 
 type Place = [f64; 2];
 
@@ -48,9 +45,12 @@ pub(super) fn scan(bytes: &[u8], read: &Census, profile: &MachineProfile) -> (Ce
         part: None,
         is_fresh: false,
         census: Census { drills: read.drills, ..Census::empty(unit) },
-        slack: Slack { sagitta, length: 0.0, bounds: 0.0 },
+        stroke: Moments::default(),
+        slack: Slack { sagitta, length: 0.0, bounds: 0.0, moments: Moments::default() },
+        polygon_lack: Lack::default(),
     };
     scan.run();
+    scan.end_stroke();
     (scan.census, scan.slack)
 }
 
@@ -87,7 +87,11 @@ struct Scan<'a> {
     part: Option<usize>,
     is_fresh: bool,
     census: Census,
+    /// What is drawn since the pen was lifted: short sums of long ones lose less by rounding.
+    stroke: Moments,
     slack: Slack,
+    /// What the chords of the polygon lack, each time that it is drawn.
+    polygon_lack: Lack,
 }
 
 impl Scan<'_> {
@@ -252,18 +256,27 @@ impl Scan<'_> {
             self.polygon.push((to, cause, draws));
         } else if !draws {
             self.pen.cause = None;
+            self.end_stroke();
         } else if from != to {
             let (a, b) = (self.point(from), self.point(to));
             self.census.points += usize::from(self.pen.cause.replace(cause) != Some(cause));
             self.census.length += (b - a).norm();
+            self.stroke += Moments::line(a, b);
             self.census.bounds.add(a);
             self.census.bounds.add(b);
         }
     }
 
+    fn end_stroke(&mut self) {
+        self.census.moments += std::mem::take(&mut self.stroke);
+    }
+
     /// Along the chords of a curve, with the pen as it is.
-    fn follow(&mut self, points: Vec<Place>, cause: usize) {
-        for to in points {
+    fn follow(&mut self, chords: &Chords, cause: usize) {
+        if self.pen.is_down {
+            self.allow(self.pen.at, chords);
+        }
+        for &to in &chords.points {
             self.go(to, cause, self.pen.is_down);
         }
     }
@@ -287,72 +300,6 @@ impl Scan<'_> {
         self.go(back, cause, false);
     }
 
-    /// An arc around a centre, finer than the reader's, and what the reader's chords may lack.
-    fn arc(&mut self, from: Place, centre: Place, sweep: f64) -> Vec<Place> {
-        let (x, y) = (from[0] - centre[0], from[1] - centre[1]);
-        let radius = x.hypot(y);
-        let sweep = sweep.clamp(-TAU, TAU);
-        if radius <= 0.0 || sweep == 0.0 {
-            return Vec::new();
-        }
-        let step = 2.0 * (1.0 - (self.sagitta / FINER / radius).min(0.5)).acos();
-        let chords = (sweep.abs() / step).ceil().clamp(1.0, FINER * MOST_CHORDS);
-        // Chords are shorter than their arc by s / (3 r) of it.
-        self.slack.length += radius * sweep.abs() * (self.sagitta / (3.0 * radius)).min(1.0) * self.unit * 1.5;
-        self.slack.bounds = self.slack.sagitta;
-        let zero = y.atan2(x);
-        let at = |i: f64| {
-            let angle = zero + sweep * i / chords;
-            [centre[0] + radius * angle.cos(), centre[1] + radius * angle.sin()]
-        };
-        let mut points: Vec<Place> = (1..=chords as u32).map(|i| at(i.into())).collect();
-        if sweep.abs() >= TAU {
-            // A full turn ends where it started, whatever rounding says.
-            points.pop();
-            points.push(from);
-        }
-        points
-    }
-
-    fn beziers(&mut self, is_relative: bool) {
-        loop {
-            let cause = self.at;
-            let mut controls = [0.0; 6];
-            for control in &mut controls {
-                let Some(number) = self.number() else { return };
-                *control = number;
-            }
-            let place = |k: usize| self.target([controls[k], controls[k + 1]], is_relative);
-            let p = [self.pen.at, place(0), place(2), place(4)];
-            let bend = |i: usize| {
-                let of = |axis: usize| p[i][axis] - 2.0 * p[i + 1][axis] + p[i + 2][axis];
-                of(0).hypot(of(1))
-            };
-            let rough = (0.75 * bend(0).max(bend(1)) / self.sagitta).sqrt().ceil().clamp(1.0, MOST_CHORDS);
-            let chords = FINER * rough;
-            let mut length = 0.0;
-            for i in 1..=chords as u32 {
-                let t = f64::from(i) / chords;
-                // De Casteljau.
-                let mix = |a: Place, b: Place| [a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t];
-                let (a, b, c) = (mix(p[0], p[1]), mix(p[1], p[2]), mix(p[2], p[3]));
-                let to = if i == chords as u32 { p[3] } else { mix(mix(a, b), mix(b, c)) };
-                length += (to[0] - self.pen.at[0]).hypot(to[1] - self.pen.at[1]);
-                self.go(to, cause, self.pen.is_down);
-            }
-            // A chord c with sagitta s is shorter than its curve by about 8 s2 / (3 c); cusps have short chords.
-            let lacks = 8.0 * (rough * self.sagitta).powi(2) / (3.0 * length.max(self.sagitta));
-            self.slack.length += (2.0 * lacks).min(length) * self.unit;
-            self.slack.bounds = self.slack.sagitta;
-        }
-    }
-
-    /// Degrees of the file as they turn on the table, rad.
-    fn turn(&self, degrees: f64) -> f64 {
-        let mirrors = |[_, factor]: [Place; 2]| factor[0].signum() != factor[1].signum();
-        if self.scale.is_some_and(mirrors) { -degrees.to_radians() } else { degrees.to_radians() }
-    }
-
     /// Figures and arcs.
     fn figure(&mut self, mnemonic: [u8; 2], numbers: &[f64], cause: usize) {
         let from = self.pen.at;
@@ -361,22 +308,23 @@ impl Scan<'_> {
         match (&mnemonic, numbers) {
             (b"AA" | b"AR", &[x, y, degrees, ..]) => {
                 let centre = self.target([x, y], is_relative);
-                let points = self.arc(from, centre, self.turn(degrees));
-                self.follow(points, cause);
+                let chords = self.arc(from, centre, degrees.to_radians());
+                self.follow(&chords, cause);
             }
             (b"AT" | b"RT", &[x1, y1, x2, y2, ..]) => {
                 let middle = self.target([x1, y1], is_relative);
                 let to = self.target([x2, y2], is_relative);
-                if let Some((centre, sweep)) = circle(from, middle, to) {
-                    let points = self.arc(from, centre, sweep);
-                    self.follow(points, cause);
+                if let Some((centre, sweep)) = self.circle([from, middle, to]) {
+                    let chords = self.arc(from, centre, sweep);
+                    self.follow(&chords, cause);
                 }
                 self.go(to, cause, self.pen.is_down);
             }
             (b"CI", &[radius, ..]) => {
                 let start = [from[0] + across(self, radius), from[1]];
-                let points = self.arc(start, from, TAU);
-                self.closed(start, points, cause);
+                let chords = self.arc(start, from, TAU);
+                self.allow(start, &chords);
+                self.closed(start, chords.points, cause);
             }
             (b"EA" | b"ER", &[x, y, ..]) => {
                 let to = self.target([x, y], is_relative);
@@ -385,7 +333,9 @@ impl Scan<'_> {
             (b"EW", &[radius, start, degrees, ..]) => {
                 let angle = start.to_radians();
                 let start = self.target([radius * angle.cos(), radius * angle.sin()], true);
-                let mut points = self.arc(start, from, self.turn(degrees));
+                let chords = self.arc(start, from, degrees.to_radians());
+                self.allow(start, &chords);
+                let mut points = chords.points;
                 if degrees.abs() < 360.0 {
                     points.insert(0, start);
                     points.push(from);
@@ -397,7 +347,7 @@ impl Scan<'_> {
             (b"PM", numbers) => match numbers.first().copied().unwrap_or(0.0) {
                 0.0 => {
                     self.pen.cause = None;
-                    self.polygon = vec![(from, cause, false)];
+                    (self.polygon, self.polygon_lack) = (vec![(from, cause, false)], Lack::default());
                     self.part = Some(0);
                 }
                 kind => {
@@ -413,6 +363,7 @@ impl Scan<'_> {
             },
             (b"EP", _) if self.part.is_none() => {
                 self.pen.cause = None;
+                self.lack(self.polygon_lack);
                 for (to, cause, draws) in std::mem::take(&mut self.polygon) {
                     self.go(to, cause, draws);
                     self.polygon.push((to, cause, draws));
@@ -422,127 +373,4 @@ impl Scan<'_> {
             _ => {}
         }
     }
-
-    /// Scale, corners, page and turn.
-    fn frame(&mut self, mnemonic: [u8; 2], numbers: &[f64]) {
-        let set_corners = |scan: &mut Self, numbers: &[f64]| {
-            let [a, b, c, d] = scan.corners.unwrap_or(CORNERS);
-            scan.corners = match *numbers {
-                [] => None,
-                [x1, y1, x2, y2, ..] => Some([x1, y1, x2, y2]),
-                [x, y] => Some([x, y, x + c - a, y + d - b]),
-                _ => scan.corners,
-            };
-        };
-        match (&mnemonic, numbers) {
-            (b"IP", numbers) => set_corners(self, numbers),
-            (b"IR", []) => self.corners = None,
-            (b"IR", numbers) => {
-                if let Some(page) = self.page {
-                    let part = |(i, percent): (usize, &f64)| percent / 100.0 * page[i % 2];
-                    let units: Vec<f64> = numbers.iter().take(4).enumerate().map(part).collect();
-                    set_corners(self, &units);
-                }
-            }
-            (b"PS", numbers) => self.page = numbers.first().map(|&x| [x, numbers.get(1).copied().unwrap_or(x)]),
-            (b"RO", numbers) => {
-                let degrees = numbers.first().copied().unwrap_or(0.0);
-                let quarters = [0.0, 90.0, 180.0, 270.0, 360.0].iter().position(|&d| d == degrees);
-                self.quarters = quarters.map_or(self.quarters, |quarters| quarters as u8 % 4);
-            }
-            (b"SC", &[x0, x1, y0, y1, ref kind @ ..]) => self.set_scale([x0, x1, y0, y1], kind),
-            (b"SC", _) => self.scale = None,
-            _ => {}
-        }
-    }
-
-    fn set_scale(&mut self, [x0, x1, y0, y1]: [f64; 4], kind: &[f64]) {
-        let [a, b, c, d] = self.corners.unwrap_or(CORNERS);
-        let mut factor = [(c - a) / (x1 - x0), (d - b) / (y1 - y0)];
-        let mut least = [a, b];
-        match kind.first() {
-            Some(2.0) if x1 == 0.0 || y1 == 0.0 => return,
-            Some(2.0) => factor = [x1, y1],
-            _ if x0 == x1 || y0 == y1 => return,
-            Some(1.0) => {
-                let equal = factor[0].abs().min(factor[1].abs());
-                let spare = [(c - a) * (1.0 - equal / factor[0].abs()), (d - b) * (1.0 - equal / factor[1].abs())];
-                for axis in 0..2 {
-                    least[axis] += spare[axis] * kind.get(axis + 1).copied().unwrap_or(50.0) / 100.0;
-                    factor[axis] = equal * factor[axis].signum();
-                }
-            }
-            _ => {}
-        }
-        self.scale = Some([[least[0] - x0 * factor[0], least[1] - y0 * factor[1]], factor]);
-    }
-
-    /// PE: digits of base 64 or 32, least first.
-    fn encoded(&mut self) {
-        let (mut base, mut last_from) = (64.0, 191);
-        let (mut bits, mut is_up, mut is_absolute, mut flag) = (0, false, false, b' ');
-        let (mut value, mut weight) = (0.0, 1.0);
-        let mut first: Option<(f64, usize)> = None;
-        while let Some(&raw) = self.bytes.get(self.at) {
-            self.at += 1;
-            let mut byte = raw;
-            if self.is_text && matches!(raw, 0xc2 | 0xc3) {
-                let low = self.bytes.get(self.at).copied().unwrap_or(0);
-                byte = (raw << 6) | (low & 0x3f);
-                self.at += 1;
-            }
-            match byte {
-                b';' => return,
-                b'7' => (base, last_from) = (32.0, 95),
-                b'<' => is_up = true,
-                b'=' => is_absolute = true,
-                b':' | b'>' => flag = byte,
-                63..=126 | 191..=254 => {
-                    let is_last = byte >= last_from;
-                    value += f64::from(byte - if is_last { last_from } else { 63 }) * weight;
-                    weight *= base;
-                    if !is_last {
-                        continue;
-                    }
-                    let half = (value / 2.0).floor();
-                    let number = if value % 2.0 == 0.0 { half } else { -half };
-                    (value, weight) = (0.0, 1.0);
-                    match (std::mem::replace(&mut flag, b' '), first.take()) {
-                        (b':', kept) => (first, self.pen.cause) = (kept, None),
-                        (b'>', kept) => (first, bits) = (kept, number as i32),
-                        (_, None) => first = Some((number * 2.0_f64.powi(-bits), self.at)),
-                        (_, Some((x, cause))) => {
-                            let to = self.target([x, number * 2.0_f64.powi(-bits)], !is_absolute);
-                            self.pen.is_down = !is_up;
-                            self.go(to, cause, !is_up);
-                            (is_absolute, is_up) = (false, false);
-                        }
-                    }
-                }
-                _ => {}
-            }
-        }
-    }
-}
-
-/// Centre and sweep of the arc by way of `middle`; `None` on a line, or where rounding cannot be told from a bend.
-fn circle(from: Place, middle: Place, to: Place) -> Option<(Place, f64)> {
-    let far = |p: Place, q: Place| (p[0] - q[0]).hypot(p[1] - q[1]);
-    if far(from, to) < STRAIGHT {
-        let centre = [f64::midpoint(from[0], middle[0]), f64::midpoint(from[1], middle[1])];
-        return (far(from, middle) > STRAIGHT).then_some((centre, TAU));
-    }
-    // The bisectors of the two chords from the start meet at the centre.
-    let (a, b) = ([middle[0] - from[0], middle[1] - from[1]], [to[0] - from[0], to[1] - from[1]]);
-    let cross = a[0] * b[1] - a[1] * b[0];
-    let half_square = |v: Place| f64::midpoint(v[0] * v[0], v[1] * v[1]);
-    let (aa, bb) = (half_square(a), half_square(b));
-    let seen = [(aa * b[1] - bb * a[1]) / cross, (bb * a[0] - aa * b[0]) / cross];
-    let longest = far(from, middle).max(far(from, to)).max(far(middle, to));
-    if !seen[0].is_finite() || !seen[1].is_finite() || cross.abs() < STRAIGHT * longest {
-        return None;
-    }
-    let angle = |p: Place| (p[1] - seen[1]).atan2(p[0] - seen[0]);
-    let turn = (angle(b) - angle([0.0, 0.0])).rem_euclid(TAU);
-    Some(([from[0] + seen[0], from[1] + seen[1]], if cross > 0.0 { turn } else { turn - TAU }))
 }

@@ -1,0 +1,155 @@
+//! The second reading of a plot agrees with the reader, and refuses a marker that is damaged.
+
+use std::fs;
+use std::path::Path;
+
+use cutc::geom::{Extent, Point, Vector};
+use cutc::ir::marker::Contour;
+use cutc::ir::{Finding, Marker};
+use cutc::machine::Job;
+use cutc::machine::plot::{LineKind, Lines, PlotUnit};
+use cutc::source::Source;
+use cutc::verify::{Census, source_audit};
+
+use super::{as_read, rectangle, source, two_pens};
+
+pub(super) fn audit(source: &Source, marker: &Marker, job: &Job) -> Vec<Finding> {
+    let found = source_audit("hpgl", source.bytes(), &Census::of(marker), &job.profile).expect("plots have a scan");
+    found.into_iter().filter(|finding| !finding.holds()).collect()
+}
+
+fn fixtures() -> Vec<(String, Source)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/hpgl");
+    let mut paths: Vec<_> =
+        fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("readable").path()).collect();
+    paths.sort();
+    let named = |path: std::path::PathBuf| (path.display().to_string(), source(fs::read(&path).expect("readable")));
+    paths.into_iter().map(named).collect()
+}
+
+#[test]
+fn a_second_reading_finds_what_the_reader_finds_in_every_plot_whatever_is_cut() {
+    let mut drilling = Job::default();
+    drilling.profile.hpgl.drill_max_mm = Some(8.0);
+    let mut jobs = vec![Job::default(), drilling];
+    for kind in [LineKind::All, LineKind::Closed, LineKind::Open] {
+        jobs.push(Job { lines: Lines { kind: Some(kind), ..Lines::default() }, ..Job::default() });
+    }
+    let mut differing = Vec::new();
+    for (name, source) in fixtures() {
+        for job in &jobs {
+            let broken = audit(&source, &as_read(&source, job), job);
+            if !broken.is_empty() {
+                differing.push(format!("{name}, {:?}: {broken:?}", job.lines));
+            }
+        }
+    }
+    assert!(differing.is_empty(), "{differing:#?}");
+}
+
+#[test]
+fn a_marker_that_lacks_a_contour_a_point_or_a_notch_is_refused() {
+    let job = Job::default();
+    let (mut contours, mut points, mut notches) = (0, 0, 0);
+    for (name, source) in fixtures() {
+        let marker = as_read(&source, &job);
+        let mut lacking = marker.clone();
+        if lacking.pieces[0].contours.pop().is_some() {
+            contours += 1;
+            assert!(!audit(&source, &lacking, &job).is_empty(), "{name}");
+        }
+        let mut lacking = marker.clone();
+        let contour = &mut lacking.pieces[0].contours[0];
+        points += 1;
+        *lacking.list.cursor(&mut contour.range).from_mut() += cutc::geom::Vector::new(4.0, 3.0);
+        assert!(!audit(&source, &lacking, &job).is_empty(), "{name}");
+        let mut lacking = marker.clone();
+        if lacking.pieces[0].notches.pop().is_some() {
+            notches += 1;
+            assert!(!audit(&source, &lacking, &job).is_empty(), "{name}");
+        }
+    }
+    assert!(contours > 30 && points > 30 && notches >= 5, "{contours} {points} {notches}");
+}
+
+#[test]
+fn a_marker_of_another_unit_than_the_profile_is_refused() {
+    let plot = two_pens();
+    let mut marker = as_read(&plot, &Job::default());
+    marker.unit = 0.0254;
+    assert!(!audit(&plot, &marker, &Job::default()).is_empty());
+    let mut job = Job::default();
+    job.profile.hpgl.unit = PlotUnit::of_mm(0.0254);
+    assert!(!audit(&plot, &as_read(&plot, &Job::default()), &job).is_empty());
+}
+
+/// Eight parts, the one in the middle without any symmetry; `curves` makes one of them round.
+fn parts(curves: &str) -> Source {
+    let corners: String =
+        [[0, 0], [30_000, 0], [0, 30_000], [30_000, 30_000]].map(|[x, y]| rectangle(x, y, 4000, 3000)).concat();
+    let middle = "PU10000,10000;PD14000,10500,16000,13000,12000,15500,10400,14000,10000,10000;";
+    source(format!("IN;SP1;{corners}{middle}{curves}PU;SP0;"))
+}
+
+/// Does something to the points of a contour.
+fn change(marker: &mut Marker, contour: Contour, change: &dyn Fn(Point) -> Point) {
+    let Contour { mut range, .. } = contour;
+    let mut cursor = marker.list.cursor(&mut range);
+    let first = cursor.from_mut();
+    *first = change(*first);
+    loop {
+        let next = cursor.to_mut();
+        *next = change(*next);
+        if !cursor.advance() {
+            break;
+        }
+    }
+}
+
+#[test]
+fn what_moves_turns_or_is_mirrored_within_the_bounds_is_refused() {
+    let job = Job::default();
+    for curves in ["", "PU22000,20000;CI2500;PU20000,9000;PD;AA20500,9000,180;PD20000,9000;"] {
+        let source = parts(curves);
+        let whole = as_read(&source, &job);
+        assert_eq!(audit(&source, &whole, &job), []);
+        let middle = whole.pieces[4].contours[0];
+        let extent = whole.points(&middle).into_iter().fold(Extent::EMPTY, |mut extent, point| {
+            extent.add(point);
+            extent
+        });
+        let sum = extent.min + extent.max.coords;
+        let unit = job.profile.hpgl.unit.mm();
+        let check = |what: &str, edit: &dyn Fn(Point) -> Point| {
+            let mut damaged = whole.clone();
+            change(&mut damaged, middle, edit);
+            let rules: Vec<&str> = audit(&source, &damaged, &job).iter().map(|finding| finding.rule).collect();
+            assert!(rules.contains(&"source/moments"), "{what}: {rules:?}");
+        };
+        check("shifted by a unit", &|p| p + Vector::new(unit, 0.0));
+        check("shifted far", &|p| p + Vector::new(0.0, 137.0));
+        check("mirrored in X", &|p| Point::new(sum.x - p.x, p.y));
+        check("mirrored in Y", &|p| Point::new(p.x, sum.y - p.y));
+        check("turned by half", &|p| Point::new(sum.x - p.x, sum.y - p.y));
+        check("coordinates swapped", &|p| Point::new(p.y, p.x));
+        check("coordinates of a corner swapped", &|p| if p.x == 400.0 { Point::new(p.y, p.x) } else { p });
+        check("a corner moved by a unit", &|p| if p.x == 400.0 { Point::new(p.x, p.y + unit) } else { p });
+    }
+}
+
+#[test]
+fn a_shift_of_any_contour_of_any_plot_is_refused() {
+    let job = Job::default();
+    let mut count = 0;
+    for (name, source) in fixtures() {
+        let marker = as_read(&source, &job);
+        let contours: Vec<Contour> = marker.contours().map(|(_, contour)| *contour).collect();
+        for contour in contours {
+            let mut damaged = marker.clone();
+            change(&mut damaged, contour, &|p| p + Vector::new(0.25, -0.25));
+            assert!(!audit(&source, &damaged, &job).is_empty(), "{name}");
+            count += 1;
+        }
+    }
+    assert!(count > 60, "{count}");
+}
