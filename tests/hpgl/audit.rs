@@ -153,3 +153,39 @@ fn a_shift_of_any_contour_of_any_plot_is_refused() {
     }
     assert!(count > 60, "{count}");
 }
+
+#[test]
+fn whatever_lines_meet_where_nothing_is_lost() {
+    let mut random = fastrand::Rng::with_seed(11);
+    let (mut closed, mut vees) = (0, 0);
+    for _ in 0..400 {
+        // Lines between the places of a grid, so that many meet; marks of one line and of two at some of them.
+        let (cells, size) = (random.i32(2..6), random.i32(100..2000));
+        let side = i64::from((cells - 1) * size);
+        let mut text = format!("IN;SP1;{}", rectangle(0, 0, side, side));
+        for _ in 0..random.usize(4..60) {
+            let place = |random: &mut fastrand::Rng| [0; 2].map(|_| random.i32(0..cells) * size);
+            let [x, y] = place(&mut random);
+            text += &format!("PU{x},{y};PD");
+            match random.u8(0..4) {
+                0 => text += &format!("{},{};", x + random.i32(-200..200), y + random.i32(-200..200)),
+                1 => text += &format!("PU{},{y};PD{},{},{},{y};", x + 9, x + 69, y + random.i32(-200..200), x + 129),
+                _ => {
+                    let places: Vec<String> =
+                        (0..random.usize(1..6)).map(|_| place(&mut random)).map(|[x, y]| format!("{x},{y}")).collect();
+                    text += &format!("{};", places.join(","));
+                }
+            }
+        }
+        let source = source(text.clone() + "PU;SP0;");
+        for kind in [None, Some(LineKind::All), Some(LineKind::Closed), Some(LineKind::Open)] {
+            let job = Job { lines: Lines { kind, ..Lines::default() }, ..Job::default() };
+            let marker = as_read(&source, &job);
+            assert_eq!(audit(&source, &marker, &job), [], "{kind:?} {text}");
+            assert_eq!(Census::of(&marker), Census::of(&as_read(&source, &job)));
+            closed += marker.contours().filter(|(_, contour)| contour.closed).count();
+            vees += super::read(&source, &job).0.pieces.iter().map(|piece| piece.vees.len()).sum::<usize>();
+        }
+    }
+    assert!(closed > 1000 && vees > 20, "{closed} {vees}");
+}

@@ -224,25 +224,21 @@ impl<'a> Graph<'a> {
     /// Two ends at a place, and those at another, whose links close an outline or are the only ones that may.
     fn closing(&self, node: usize) -> Option<([End; 2], Option<[End; 2]>)> {
         let open: Vec<End> = self.open(node).collect();
-        let is_ring = |[a, b]: [End; 2]| self.far[a.index()] == b;
-        let is_outline = |length: f64| length >= SHORTEST_OUTLINE;
         let pairs = || open.iter().enumerate().flat_map(|(i, &a)| open[i + 1..].iter().map(move |&b| [a, b]));
-        // A chain that comes back to where it starts.
-        if let Some(ring) = pairs().find(|&pair| is_ring(pair) && is_outline(self.length[pair[0].index()])) {
+        // A chain that comes back to where it starts is closed as it is.
+        if let Some(ring) = pairs().find(|[a, b]| self.far[a.index()] == *b) {
             return Some((ring, None));
         }
         let live: Vec<End> = open.iter().copied().filter(|&end| self.leads_on(end)).collect();
-        if let [a, b] = live[..]
-            && !is_ring([a, b])
-        {
+        if let [a, b] = live[..] {
             return Some(([a, b], None));
         }
-        // Two chains between the same two places.
+        // Two chains between the same two places; the legs of a mark and its mouth are such, too.
         let opposite = |[a, b]: [End; 2]| {
             let far = [self.far[a.index()], self.far[b.index()]];
             let [c, d] = far.map(|end| self.node[end.index()]);
             let length = self.length[a.index()] + self.length[b.index()];
-            (c == d && c.is_some_and(|c| c as usize != node) && is_outline(length)).then_some(far)
+            (c == d && c.is_some_and(|c| c as usize != node) && length >= SHORTEST_OUTLINE).then_some(far)
         };
         let rings = pairs().filter_map(|pair| Some((pair, opposite(pair)?)));
         let turn = |&(pair, opposite): &([End; 2], [End; 2])| self.turn(pair) + self.turn(opposite);
@@ -254,8 +250,10 @@ impl<'a> Graph<'a> {
     fn straightest(&self, node: usize) -> Option<[End; 2]> {
         let open: Vec<End> = self.open(node).collect();
         let pairs = open.iter().enumerate().flat_map(|(i, &a)| open[i + 1..].iter().map(move |&b| [a, b]));
-        let joined = pairs.filter(|[a, b]| self.far[a.index()] != *b).map(|pair| (self.turn(pair), pair));
-        let best = joined.filter(|(turn, _)| *turn <= SHARPEST).min_by(|a, b| a.0.total_cmp(&b.0));
+        let best = pairs
+            .map(|pair| (self.turn(pair), pair))
+            .filter(|(turn, _)| *turn <= SHARPEST)
+            .min_by(|a, b| a.0.total_cmp(&b.0));
         best.map(|(_, pair)| pair)
     }
 
