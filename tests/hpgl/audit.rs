@@ -166,16 +166,17 @@ fn whatever_lines_meet_where_nothing_is_lost() {
         for _ in 0..random.usize(4..60) {
             let place = |random: &mut fastrand::Rng| [0; 2].map(|_| random.i32(0..cells) * size);
             let [x, y] = place(&mut random);
-            text += &format!("PU{x},{y};PD");
-            match random.u8(0..4) {
-                0 => text += &format!("{},{};", x + random.i32(-200..200), y + random.i32(-200..200)),
-                1 => text += &format!("PU{},{y};PD{},{},{},{y};", x + 9, x + 69, y + random.i32(-200..200), x + 129),
+            let rise = random.i32(-200..200);
+            let line = match random.u8(0..4) {
+                0 => format!("PU{x},{y};PD{},{};", x + random.i32(-200..200), y + rise),
+                1 => format!("PU{},{y};PD{},{},{},{y};", x + 9, x + 69, y + rise, x + 129),
                 _ => {
-                    let places: Vec<String> =
-                        (0..random.usize(1..6)).map(|_| place(&mut random)).map(|[x, y]| format!("{x},{y}")).collect();
-                    text += &format!("{};", places.join(","));
+                    let places = (0..random.usize(1..6)).map(|_| place(&mut random));
+                    let places: Vec<String> = places.map(|[x, y]| format!("{x},{y}")).collect();
+                    format!("PU{x},{y};PD{};", places.join(","))
                 }
-            }
+            };
+            text += &line;
         }
         let source = source(text.clone() + "PU;SP0;");
         for kind in [None, Some(LineKind::All), Some(LineKind::Closed), Some(LineKind::Open)] {

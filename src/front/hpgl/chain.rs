@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::drawing::{Drawing, Stroke, Vertex};
 use super::joint::{self, End, Links};
+use crate::geom::Point;
 use crate::geom::moments::Moments;
 
 /// Places of the shortest line that goes around something and comes back: a triangle's.
@@ -107,28 +108,37 @@ fn near_pairs(vertices: &[Vertex], strokes: &[Stroke], reach: f64) -> Vec<[End; 
         }
     }
     ends.sort_unstable_by_key(|(cell, end)| (*cell, end.stroke, end.is_last));
-    let place = |end: &End| vertices[end.vertex(strokes)].at;
-    // The only end near one, as an index; nothing when there are more.
-    let only = |k: usize| -> Option<usize> {
-        let ((pen, [x, y]), end) = ends[k];
-        let column = |x: i64, from: i64, to: i64| {
-            let start = ends.partition_point(|(cell, _)| *cell < (pen, [x, from]));
-            start..start + ends[start..].partition_point(|(cell, _)| *cell <= (pen, [x, to]))
-        };
-        // Its own cell first: where many meet, the search ends there.
-        let own = column(x, y, y);
-        if own.len() > 2 {
-            return None;
+    let only = only_near(&ends, |end| vertices[end.vertex(strokes)].at, reach);
+    let pair = |k: usize| only[k].filter(|&other| k < other && only[other] == Some(k)).map(|other| [k, other]);
+    (0..ends.len()).filter_map(pair).map(|pair| pair.map(|k| ends[k].1)).collect()
+}
+
+/// Of each of some ends, sorted by their cells, the only other one near it, as an index; nothing when there are more.
+fn only_near(ends: &[(Cell, End)], place: impl Fn(End) -> Point, reach: f64) -> Vec<Option<usize>> {
+    let cell = |k: usize| ends.get(k).map(|(cell, _)| *cell);
+    // Where the cells below and beside an end begin, in the three columns around it: they go on as the ends do.
+    let mut starts = [0; 3];
+    let mut only = Vec::with_capacity(ends.len());
+    for (k, &((pen, [x, y]), end)) in ends.iter().enumerate() {
+        for (start, column) in starts.iter_mut().zip(x - 1..) {
+            while cell(*start).is_some_and(|cell| cell < (pen, [column, y - 1])) {
+                *start += 1;
+            }
         }
-        let columns = [column(x - 1, y - 1, y + 1), column(x, y - 1, y + 1), column(x + 1, y - 1, y + 1)];
-        let at = place(&end);
-        let is_near = |other: &usize| *other != k && (place(&ends[*other].1) - at).amax() <= reach;
-        let mut near = columns.into_iter().flatten().filter(is_near);
-        near.next().filter(|_| near.next().is_none())
-    };
-    let pair =
-        |k: usize| only(k).filter(|&other| k < other && only(other) == Some(k)).map(|other| [ends[k].1, ends[other].1]);
-    (0..ends.len()).filter_map(pair).collect()
+        // Where many meet in one cell, nothing is searched.
+        let own = (k.saturating_sub(2)..=k + 2).filter(|&other| cell(other) == cell(k)).count();
+        if own > 2 {
+            only.push(None);
+            continue;
+        }
+        let at = place(end);
+        let columns = starts.iter().zip(x - 1..).flat_map(|(&start, column)| {
+            (start..).take_while(move |&other| cell(other).is_some_and(|cell| cell <= (pen, [column, y + 1])))
+        });
+        let mut near = columns.filter(|&other| other != k && (place(ends[other].1) - at).amax() <= reach);
+        only.push(near.next().filter(|_| near.next().is_none()));
+    }
+    only
 }
 
 /// The pen, and the cell of a grid.
@@ -149,7 +159,6 @@ fn start(stroke: usize, links: &Links) -> End {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::Point;
     use crate::source::Span;
 
     fn drawing(strokes: &[&[(f64, f64)]]) -> Drawing {
@@ -245,6 +254,37 @@ mod tests {
             }
             rings.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
             assert_eq!(rings, expected);
+        }
+    }
+
+    #[test]
+    fn of_many_ends_those_that_are_near_one_other_alone_are_paired() {
+        const REACH: f64 = 0.5;
+        let mut random = fastrand::Rng::with_seed(6);
+        for _ in 0..50 {
+            let mut place = || (f64::from(random.u8(0..80)) * 0.3, f64::from(random.u8(0..80)) * 0.3);
+            let strokes: Vec<[(f64, f64); 2]> = (0..80).map(|_| [place(), place()]).collect();
+            let strokes: Vec<&[(f64, f64)]> = strokes.iter().map(<[_; 2]>::as_slice).collect();
+            let drawing = drawing(&strokes);
+            let places: Vec<Point> = drawing.vertices.iter().map(|vertex| vertex.at).collect();
+            let near = |i: usize| -> Vec<usize> {
+                (0..places.len()).filter(|&k| k != i && (places[k] - places[i]).amax() <= REACH).collect()
+            };
+            let mut expected: Vec<[usize; 2]> = (0..places.len())
+                .filter_map(|i| match near(i)[..] {
+                    [k] if i < k && near(k).len() == 1 => Some([i, k]),
+                    _ => None,
+                })
+                .collect();
+            let pairs = near_pairs(&drawing.vertices, &drawing.strokes, REACH);
+            let mut found: Vec<[usize; 2]> =
+                pairs.into_iter().map(|pair| pair.map(|end| end.vertex(&drawing.strokes))).collect();
+            for pair in &mut found {
+                pair.sort_unstable();
+            }
+            expected.sort_unstable();
+            found.sort_unstable();
+            assert_eq!(found, expected);
         }
     }
 

@@ -41,6 +41,7 @@ impl End {
     }
 
     /// The index of its place.
+    #[inline]
     pub(super) fn vertex(self, strokes: &[Stroke]) -> usize {
         let stroke = &strokes[self.stroke as usize];
         (if self.is_last { stroke.end - 1 } else { stroke.first }) as usize

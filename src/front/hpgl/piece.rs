@@ -74,6 +74,7 @@ fn moments(vertices: &[Vertex]) -> Moments {
 }
 
 /// An outline without its spikes, and the piece that it is of.
+#[derive(Debug, Clone, Copy)]
 struct Ring<'a> {
     piece: usize,
     outline: usize,
@@ -149,7 +150,7 @@ impl Making<'_> {
             if let Some([root, tip]) = found.cut {
                 let span = self.span(shape);
                 let notch = Notch { kind: NotchKind::Slit, root, tip, percent: FULL_SPEED, span };
-                self.aside.points += shape.stroke.points as isize - 1;
+                self.aside.points += shape.points() - 1;
                 self.aside.moments += shape.moments(&sorted.drawing) - Moments::line(root, tip);
                 self.pieces[piece].notches.push(notch);
             } else {
@@ -230,7 +231,7 @@ impl Making<'_> {
             let &[first, tip, last] = mark.vertices(drawing) else { continue };
             let has_time = self.work.checked_sub(notched.len()).map(|left| self.work = left).is_some();
             if has_time && notched.notch([first, tip, last]) {
-                self.aside.points += mark.stroke.points as isize;
+                self.aside.points += mark.points();
                 self.aside.moments += mark.moments(drawing);
                 continue;
             }
@@ -304,7 +305,7 @@ impl Making<'_> {
     fn account(&mut self) -> Drawing {
         let shapes = &self.sorted.shapes;
         for shape in shapes.iter().filter(|shape| !shape.class.is_cut() || shape.class == Class::Hole) {
-            self.aside.points += shape.stroke.points as isize;
+            self.aside.points += shape.points();
             self.aside.moments += shape.moments(&self.sorted.drawing);
             self.aside.bounds.add(shape.extent().min);
             self.aside.bounds.add(shape.extent().max);

@@ -156,6 +156,11 @@ impl Shape {
         &drawing.vertices[self.stroke.range()]
     }
 
+    /// Places that the pen was led to.
+    pub(super) fn points(&self) -> isize {
+        (self.stroke.points as usize).cast_signed()
+    }
+
     /// Where it lies.
     pub(super) fn moments(&self, drawing: &Drawing) -> Moments {
         Moments::of(self.vertices(drawing).iter().map(|vertex| vertex.at))
