@@ -32,7 +32,7 @@ pub struct Census {
     pub bounds: Extent,
     /// What the numbers of the file are multiples of, mm.
     pub unit: f64,
-    /// Where it lies: a stroke that is moved within the box keeps all of the above. Compared for plots.
+    /// Where it lies: a stroke that is moved within the box keeps all of the above. Of plots only.
     pub(super) moments: Moments,
     /// What cuts or drills, block by block; a scan of the bytes does not tell.
     pub(super) works: Works,
@@ -55,19 +55,24 @@ impl Census {
     /// The census of a marker as it was read, before any pass.
     pub fn of(marker: &Marker) -> Self {
         let mut census = Self { works: kept::works(marker), length: marker.cut_length(), ..Self::empty(marker.unit) };
+        let is_plot = marker.drawing.is_some();
         for piece in &marker.pieces {
             // What has no length cuts nothing.
             for stroke in piece.notches.iter().flat_map(Notch::strokes).filter(|stroke| stroke.from != stroke.to) {
                 census.points += 1;
                 census.bounds.add(stroke.from);
                 census.bounds.add(stroke.to);
-                census.moments += Moments::line(stroke.from, stroke.to);
+                if is_plot {
+                    census.moments += Moments::line(stroke.from, stroke.to);
+                }
             }
             piece.drills.iter().for_each(|drill| census.bounds.add(drill.at));
             census.drills += piece.drills.len();
             for contour in &piece.contours {
                 let mut span = None;
-                census.moments += Moments::of(marker.list.points(contour.range));
+                if is_plot {
+                    census.moments += Moments::of(marker.list.points(contour.range));
+                }
                 for (_, segment) in marker.list.walk(contour.range) {
                     census.bounds.add(segment.from);
                     census.bounds.add(segment.to);
