@@ -182,6 +182,10 @@ mod table {
     // The knife's way.
     /// A smooth closed contour too small for the blade.
     pub static PATH_TIGHT: Code = warning("path/tight-contour", "A smooth closed contour is narrower than the blade; it is cut all the same.");
+    /// A curve too tight for the blade.
+    pub static PATH_TIGHT_CURVE: Code = warning("path/tight-curve", "A curve is tighter than the blade, which would stand across it: it is cut along the tangent, or nibbled, as `knife.tight_curves` says.");
+    /// The same, refused.
+    pub static PATH_TIGHT_CURVE_REFUSED: Code = error("path/tight-curve-refused", "A curve is tighter than the blade, and `knife.tight_curves` is \"refuse\".");
     /// Overlaps that the gap between parts does not hold.
     pub static PATH_SHORTENED: Code = warning("path/overlap-shortened", "The gap beside a part is narrower than the overlaps; they are shortened so that they stay out of the next part.");
     /// A blade longer than its cut, with nowhere to go.
@@ -200,6 +204,8 @@ mod table {
     pub static PLAN_SMOOTH: Code = error("plan/smooth", "No smooth curve was found inside the tolerance of a run; a larger `path.tolerance_mm` or a smaller `corner.angle_deg` helps.");
     /// No motion within the limits.
     pub static PLAN_PROFILE: Code = error("plan/profile", "No motion within the limits was found for a run.");
+    /// The samples break a limit.
+    pub static PLAN_CHORD: Code = error("plan/chord", "The blade cannot be a chord of the smooth curve of a run, although it can be one of its points; the tangent law cuts it.");
     /// The samples break a limit.
     pub static PLAN_CERTIFY: Code = error("plan/certify", "The samples of a run break a limit of the profile however far it is slowed down.");
 
@@ -292,6 +298,8 @@ pub static ALL: &[&Code] = &[
     &SELECT_UNKNOWN_PIECE,
     &SELECT_NOTHING_LEFT,
     &PATH_TIGHT,
+    &PATH_TIGHT_CURVE,
+    &PATH_TIGHT_CURVE_REFUSED,
     &PATH_SHORTENED,
     &PATH_OVERCUT,
     &PATH_NOTCH_THROUGH,
@@ -300,6 +308,7 @@ pub static ALL: &[&Code] = &[
     &PATH_OFF_TABLE_STRICT,
     &PLAN_SMOOTH,
     &PLAN_PROFILE,
+    &PLAN_CHORD,
     &PLAN_CERTIFY,
     &TARGET_REFUSED,
     &VERIFY_BROKEN,

@@ -1,13 +1,14 @@
 //! The machine's own coordinates along a path: with an eccentric knife the axes do not follow the tip.
 //!
-//! Centre q(u) = p(u) - r (cos c, sin c), c the blade's angle. Under the tangent law c is the path's tangent; after a
-//! plunge as a chord it blends from the chord to the tangent over the next blade width. Derivatives to third order are
-//! closed forms: with X = x' y'' - y' x'' and n = x'^2 + y'^2,
+//! Centre q(u) = p(u) - r (cos c, sin c), c the blade's angle. Under the chord law ([`Chord`]) the tail is on the path, too.
+//! Under the tangent law c is the path's tangent; after a plunge as a chord it blends from the chord to the tangent over
+//! the next blade width. Derivatives to third order are closed forms: with X = x' y'' - y' x'' and n = x'^2 + y'^2,
 //! c' = X / n, c'' = X' / n - X n' / n^2, c''' = X'' / n - 2 X' n' / n^2 - X n'' / n^2 + 2 X n'^2 / n^3.
 
+use super::chord::{self, Chord, TooTight};
 use super::smooth::Curve;
 use crate::geom::{Point, Rotation, Vector, angle, cross, left, spline};
-use crate::ir::toolpath::Pose;
+use crate::ir::toolpath::{Law, Pose};
 
 /// Samples a span when a place or an angle is searched along the curve.
 const SEARCH_A_SPAN: usize = 8;
@@ -30,38 +31,78 @@ pub(super) struct Way<'a> {
     /// Parameter at the plunge and at the lift.
     pub(super) from: f64,
     pub(super) to: f64,
-    radius: f64,
+    blade: Blade,
     /// Unwrapped tangent angle where each span starts, rad.
     tangents: Vec<f64>,
     /// How far the tangent is ahead of the blade at the plunge, rad, and the length over which that fades, mm.
     lead: f64,
     fade: f64,
+    /// The blade as a chord of the path, when that is its law.
+    chord: Option<Chord>,
+}
+
+/// The blade, mm: from tail to tip, and from its centre to the tip.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Blade {
+    pub(super) width: f64,
+    pub(super) radius: f64,
+}
+
+/// What is asked of a way along a curve.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Course {
+    /// How the blade lies.
+    pub(super) law: Law,
+    /// How it enters the path.
+    pub(super) entry: Entry,
+    /// Parameter at the lift.
+    pub(super) to: f64,
+    pub(super) blade: Blade,
+    /// C starts at the equivalent of its heading nearest to this.
+    pub(super) near: Rotation,
 }
 
 /// How the blade enters the path.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Entry {
-    /// As a chord of this length, mm, whose tail stands at the start of the curve.
-    Chord(f64),
-    /// Along the tangent, with the tip at this parameter.
-    Tangent(f64),
+    /// As a chord whose tail stands at the start of the curve.
+    Plunge,
+    /// As its law has it, with the tip at this parameter.
+    Steady(f64),
 }
 
+/// Shorter ways are none, mm: below what a machine resolves and a tolerance notices. The blade only plunges then, and no law
+/// bears on that.
+pub(super) const WAY_EPSILON: f64 = 1e-3;
+
 impl<'a> Way<'a> {
-    /// The way of a knife with its centre `radius` behind the tip, up to parameter `to`. C starts at the equivalent of
-    /// its heading nearest to `near`.
-    pub(super) fn new(curve: &'a Curve, entry: Entry, to: f64, radius: f64, near: Rotation) -> Self {
-        let mut way = Self { curve, from: 0.0, to, radius, tangents: tangents(curve), lead: 0.0, fade: 0.0 };
+    /// The way along a curve as it is asked for.
+    pub(super) fn new(curve: &'a Curve, course: &Course) -> Result<Self, TooTight> {
+        let Course { law, entry, to, blade, near } = *course;
+        let tangents = tangents(curve);
+        let mut way = Self { curve, from: 0.0, to, blade, tangents, lead: 0.0, fade: 0.0, chord: None };
         match entry {
-            Entry::Tangent(from) => way.from = from,
-            Entry::Chord(width) => way.enter_as_chord(width),
+            Entry::Steady(from) => way.from = from,
+            Entry::Plunge => way.enter_as_chord(blade.width),
+        }
+        match law {
+            Law::Chord if blade.width > 0.0 && to - way.from >= WAY_EPSILON => {
+                let tail = match entry {
+                    Entry::Plunge => Some(0.0),
+                    Entry::Steady(from) => chord::tail_behind(curve, from, blade.width),
+                };
+                let tail = tail.ok_or(TooTight { at: way.point(way.from) })?;
+                way.chord = Some(Chord::new(curve, [tail, way.from, to], blade)?);
+            }
+            Law::Chord | Law::Tangent => {}
         }
         let start = way.at(way.from).q[0][2];
         let turns = near.nearest(Rotation(start).heading()).0 - start;
-        for tangent in &mut way.tangents {
-            *tangent += turns;
+        way.tangents.iter_mut().for_each(|tangent| *tangent += turns);
+        if let Some(chord) = &mut way.chord {
+            chord.turn(turns);
         }
-        way
+        Ok(way)
     }
 
     /// Moves the start to the first point at distance `width` from the curve's own start, and remembers how far the
@@ -120,6 +161,9 @@ impl<'a> Way<'a> {
 
     /// The axes at a parameter.
     pub(super) fn at(&self, u: f64) -> Axes {
+        if let Some(chord) = &self.chord {
+            return chord.at(self.curve, u);
+        }
         let span = spline::span(self.curve.breaks(), u);
         let [p, p1, p2, p3, p4] = self.curve.derivatives_on::<5>(span, u).map(|d| Vector::new(d[0], d[1]));
         let n = p1.norm_squared();
@@ -138,12 +182,12 @@ impl<'a> Way<'a> {
             }
         }
         let pace = n.sqrt();
-        if self.radius == 0.0 {
+        if self.blade.radius == 0.0 {
             return Axes { q: [[p.x, p.y, c[0]], [p1.x, p1.y, c[1]], [p2.x, p2.y, c[2]], [p3.x, p3.y, c[3]]], pace };
         }
         let e = Rotation(c[0]).unit();
         let normal = left(e);
-        let r = self.radius;
+        let r = self.blade.radius;
         let q = p - e * r;
         let q1 = p1 - normal * (r * c[1]);
         let q2 = p2 - (normal * c[2] - e * (c[1] * c[1])) * r;
@@ -207,11 +251,16 @@ mod tests {
         smooth(&Tube::new(points, 0.05, &MachineProfile::default())).expect("an arc").curve
     }
 
+    fn way(curve: &Curve, entry: Entry, near: Rotation) -> Way<'_> {
+        let blade = Blade { width: 6.6, radius: 4.4 };
+        Way::new(curve, &Course { law: Law::Tangent, entry, to: 59.0, blade, near }).expect("a tangent is everywhere")
+    }
+
     #[test]
     fn derivatives_are_those_of_the_positions() {
         let curve = arc();
-        for entry in [Entry::Chord(6.6), Entry::Tangent(3.0)] {
-            let way = Way::new(&curve, entry, 59.0, 4.4, Rotation(9.0));
+        for entry in [Entry::Plunge, Entry::Steady(3.0)] {
+            let way = way(&curve, entry, Rotation(9.0));
             assert!((way.at(way.from).q[0][2] - 9.0).abs() <= std::f64::consts::PI);
             let h = 1e-4;
             for i in 1..40 {
@@ -230,7 +279,7 @@ mod tests {
     #[test]
     fn a_chord_plunge_has_its_tail_at_the_start_and_ends_tangent() {
         let curve = arc();
-        let way = Way::new(&curve, Entry::Chord(6.6), 59.0, 4.4, Rotation(0.0));
+        let way = way(&curve, Entry::Plunge, Rotation(0.0));
         let pose = way.pose(way.from);
         assert!((pose.ahead(4.4) - way.point(way.from)).norm() < 1e-9);
         assert!((pose.ahead(4.4 - 6.6) - way.point(0.0)).norm() < 1e-6);

@@ -9,6 +9,7 @@ mod banded;
 mod barrier;
 mod bound;
 mod certify;
+mod chord;
 mod feed;
 mod knots;
 mod law;
@@ -90,7 +91,8 @@ impl<'a> Planner<'a> {
                 Step::Run(run) => {
                     let sides = run.ends.map(|end| end.side);
                     let (front, heel, turned) = (run.front, run.heel, run.turned);
-                    motion.tasks.push(Task { blocks: ends(&run.spans), front, heel, sides, turned, harm: 0.0 });
+                    let (blocks, law) = (ends(&run.spans), Some(run.law));
+                    motion.tasks.push(Task { blocks, front, heel, sides, turned, harm: 0.0, law });
                     let mut cut = cuts.next().expect("solve gives a cut for each run");
                     cut.poses.iter_mut().for_each(|pose| *pose = yawed(*pose, self.job));
                     self.go(kind, cut.poses[0], &mut motion);
@@ -101,7 +103,8 @@ impl<'a> Planner<'a> {
                 Step::Stab(stab) => {
                     let sides = stab.ends.map(|end| end.side);
                     let Stab { front, heel, turned, harm, .. } = *stab;
-                    motion.tasks.push(Task { blocks: ends(&stab.spans), front, heel, sides, turned, harm });
+                    let (blocks, law) = (ends(&stab.spans), None);
+                    motion.tasks.push(Task { blocks, front, heel, sides, turned, harm, law });
                     self.go(kind, yawed(stab.pose, self.job), &mut motion);
                     let block = stab.spans.last().map_or(0, |span| span.block);
                     self.plunge(block, &mut motion);

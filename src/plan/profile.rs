@@ -303,8 +303,9 @@ mod tests {
 
     use super::*;
     use crate::geom::{Heading, Point, Rotation};
+    use crate::ir::toolpath::Law;
     use crate::machine::MachineProfile;
-    use crate::plan::law::Entry;
+    use crate::plan::law::{Blade, Course, Entry};
     use crate::plan::smooth::smooth;
     use crate::plan::tube::Tube;
 
@@ -331,7 +332,10 @@ mod tests {
             let radius = [0.0, 4.4][(seed % 2) as usize];
             let curve = smooth(&Tube::new(points, 0.05, &profile)).expect("a curve").curve;
             let end = curve.breaks()[curve.breaks().len() - 1];
-            let way = Way::new(&curve, Entry::Tangent(0.0), end, radius, Rotation(0.0));
+            let blade = Blade { width: 6.6, radius };
+            let (entry, near) = (Entry::Steady(0.0), Rotation(0.0));
+            let course = Course { law: Law::Tangent, entry, to: end, blade, near };
+            let way = Way::new(&curve, &course).expect("a tangent is everywhere");
             let bounds = Bounds { axes: profile.axes.limits(), feed: Feed::new(&[0.0, end], &[760.0]) };
             let duration = |density| profile_on(&way, &bounds, density).expect("a motion").duration();
             (duration(1.0) / duration(2.0), seed)

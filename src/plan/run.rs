@@ -3,8 +3,9 @@
 
 use super::bound;
 use super::certify::{EXCESS_EPSILON, excess_of};
+use super::chord::TooTight;
 use super::feed::Feed;
-use super::law::{Entry, Way};
+use super::law::{Blade, Course, Entry, WAY_EPSILON, Way};
 use super::profile::{Bounds, profile};
 use super::smooth::{Curve, Smooth, smooth};
 use super::tube::Tube;
@@ -34,8 +35,6 @@ pub struct Cut {
     pub shares: Shares,
 }
 
-/// Shorter ways are none, mm: below what a machine resolves and a tolerance notices.
-const WAY_EPSILON: f64 = 1e-3;
 /// Part of the tolerance within which a polyline counts as straight.
 const STRAIGHT_SHARE: f64 = 0.9;
 /// Rounds of stretching before a run is refused; measured need is 1, by less than 1 %.
@@ -63,11 +62,7 @@ struct Extended {
 /// Solves one run.
 pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnostic> {
     let knife = &job.profile.knife;
-    match run.law {
-        Law::Tangent => {}
-        Law::Chord => return Err(refuse(run, &code::PROFILE_UNSUPPORTED, "the chord law has no motion yet")),
-    }
-    let extended = extend(run);
+    let extended = extend(run, knife.width_mm);
     let blocks = Blocks::new(&extended);
     let period = job.profile.time.period();
     let feed = Feed::new(&blocks.stations, &extended.feeds);
@@ -89,10 +84,16 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
         })?
     };
     let (entry, end) = match run.shape {
-        Shape::Open => (Entry::Chord(knife.width_mm), extended.end),
-        Shape::Ring => (Entry::Tangent(extended.start), closed(&smooth.curve, extended.start, extended.end)),
+        Shape::Open => (Entry::Plunge, extended.end),
+        Shape::Ring => (Entry::Steady(extended.start), closed(&smooth.curve, extended.start, extended.end)),
     };
-    let way = Way::new(&smooth.curve, entry, end, knife.radius(), run.start.c);
+    let blade = Blade { width: knife.width_mm, radius: knife.radius() };
+    let course = Course { law: run.law, entry, to: end, blade, near: run.start.c };
+    let way = Way::new(&smooth.curve, &course).map_err(|TooTight { at }| {
+        let (x, y) = (fixed(at.x, 2), fixed(at.y, 2));
+        let reason = format!("the blade cannot be a chord of its curve at X {x} Y {y} mm");
+        refuse(run, &code::PLAN_CHORD, &reason).hint("set `knife.follow = \"tangent\"` for this file")
+    })?;
     if way.to - way.from < WAY_EPSILON {
         return Ok(plunge_only(way.pose(way.to), blocks.at(way.to)));
     }
@@ -207,10 +208,11 @@ fn refuse(run: &Run, code: &'static code::Code, reason: &str) -> Diagnostic {
 }
 
 /// The run with its overlaps, as one polyline.
-fn extend(run: &Run) -> Extended {
-    match run.shape {
-        Shape::Open => extend_open(run),
-        Shape::Ring => extend_ring(run),
+fn extend(run: &Run, width: f64) -> Extended {
+    match (run.shape, run.law) {
+        (Shape::Open, _) => extend_open(run),
+        (Shape::Ring, Law::Tangent) => extend_ring(run, 0.0),
+        (Shape::Ring, Law::Chord) => extend_ring(run, TAIL_REACH * width),
     }
 }
 
@@ -234,8 +236,13 @@ fn extend_open(run: &Run) -> Extended {
 const LEAD: f64 = 8.0;
 const LEAD_CHORDS: usize = 3;
 
-/// A ring overlaps along itself: it starts in full motion law and goes past its start by the front overlap.
-fn extend_ring(run: &Run) -> Extended {
+/// How far behind its tip along a curve the tail of a blade may lie, in widths of the blade: on the tightest curve whose
+/// chord it can be, with the radius of 0.55 widths, it is 1.26.
+const TAIL_REACH: f64 = 1.3;
+
+/// A ring overlaps along itself: it starts in full motion law, its tail on the path by at most `tail` mm behind, and goes
+/// past its start by the front overlap.
+fn extend_ring(run: &Run, tail: f64) -> Extended {
     let n = run.points.len() - 1;
     let chord = |i: usize| (run.points[i % n + 1] - run.points[i % n]).norm();
     // Chords of the contour, walked on and on until they are as long as asked, or twice round: enough for any overlap.
@@ -247,7 +254,7 @@ fn extend_ring(run: &Run) -> Extended {
         }
         (chords, sum)
     };
-    let (before, start) = lead(LEAD, &|i| n - 1 - i % n);
+    let (before, start) = lead(LEAD + tail, &|i| n - 1 - i % n);
     let (after, _) = lead(run.front + LEAD, &|i| i);
     let first = n - before % n;
     let chords = before + n + after;
