@@ -63,6 +63,7 @@ const NO_GRAMMAR: &[(&str, &str)] = &[];
 
 /// Source files in the folder of a table that are no entry of it, and why.
 const BESIDE_A_TABLE: &[(&str, &str)] = &[
+    ("chord", "finds where a blade cannot be a chord of a run, for the pass that acts on it"),
     ("foreign", "names the formats that are no dialect of ours"),
     ("frame", "makes the one toolpath that no pass edits"),
     ("notches", "draws notches in the style of the profile, before a pass edits them"),

@@ -21,7 +21,7 @@ fn keys(value: &Value) -> Vec<&str> {
 }
 
 /// The keys of the figures as JSON, sorted.
-const FIGURES: [&str; 21] = [
+const FIGURES: [&str; 23] = [
     "axes",
     "closed_contours",
     "contours",
@@ -30,6 +30,7 @@ const FIGURES: [&str; 21] = [
     "drills",
     "errors",
     "extent_mm",
+    "follow",
     "labels",
     "lifts",
     "notch_style",
@@ -39,6 +40,7 @@ const FIGURES: [&str; 21] = [
     "sides",
     "spent",
     "stabs",
+    "tangent_runs",
     "time_s",
     "travel_m",
     "unit_mm",

@@ -10,6 +10,8 @@ mod axes;
 mod blades;
 #[path = "verifier/case.rs"]
 mod case;
+#[path = "verifier/chords.rs"]
+mod chords;
 #[path = "verifier/drawings.rs"]
 mod drawings;
 #[path = "verifier/harm.rs"]
@@ -37,7 +39,7 @@ use std::collections::BTreeSet;
 use std::io::BufReader;
 
 use cutc::ir::Marker;
-use cutc::machine::{Fit, Job, MachineProfile};
+use cutc::machine::{Fit, Follow, Job, MachineProfile, TightCurves};
 use cutc::verify::{self, RULES, Verdict};
 use fastrand::Rng;
 use rayon::prelude::*;
@@ -83,6 +85,7 @@ fn damages() -> Vec<&'static Damage> {
         machines::DAMAGES,
         names::DAMAGES,
         sides::DAMAGES,
+        chords::DAMAGES,
     ];
     tables.into_iter().flatten().collect()
 }
@@ -134,10 +137,12 @@ fn no_setting_of_the_machine_makes_a_sound_program_refused() {
         ("no dwells", |p| (p.knife.plunge_ms, p.knife.lift_ms, p.drill.dwell_ms) = (0.0, 0.0, 0.0)),
         ("yaw", |p| p.knife.yaw_deg = 2.0),
         ("a narrow range of C", |p| p.c.range_deg = Some([-200.0, 200.0])),
+        ("the blade as a chord", |p| p.knife.follow = Follow::Chord),
+        ("tight curves nibbled", |p| p.knife.tight_curves = TightCurves::Nibble),
         ("parked off the table", |p| p.park = Some([-200.0, -100.0, 45.0])),
     ];
     let cases = case::all();
-    let small = ["circles", "drills-and-slits", "tight-curves-and-short-runs"];
+    let small = ["circles", "drills-and-slits", "tight-curves-and-short-runs", "chords"];
     let check = |marker: &Marker, job: &Job, name: &str| {
         let verdict = judge(&setpoints(marker, job), marker, job);
         assert!(verdict.passes(), "{name}: {:#?}", verdict.broken().collect::<Vec<_>>());

@@ -63,7 +63,7 @@ mod tests {
     use super::*;
     use crate::diagnostic::{Diagnostic, code};
 
-    const KEYS: [&str; 21] = [
+    const KEYS: [&str; 23] = [
         "dialect",
         "unit_mm",
         "extent_mm",
@@ -85,6 +85,8 @@ mod tests {
         "errors",
         "sides",
         "notch_style",
+        "follow",
+        "tangent_runs",
     ];
 
     #[test]

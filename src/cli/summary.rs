@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::options::{counted, typed};
 use crate::diagnostic::{Diagnostics, Severity};
 use crate::machine::plot::Lines;
-use crate::machine::{Job, Mode, NotchStyle};
+use crate::machine::{Follow, Job, Mode, NotchStyle};
 use crate::pipeline::{Axes, Peak, Peaks, Report, Sides, Verdict, word};
 use crate::units::S_PER_MIN;
 use crate::units::number::{exact, fixed};
@@ -49,6 +49,14 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
     }
     if let (Some(runs), Some(stabs)) = (program.runs, program.stabs) {
         line("runs", format!("{runs}, of which {}", counted(stabs, "stab")));
+    }
+    if let (Some(Follow::Chord), Some(tangents)) = (program.follow, program.tangent_runs) {
+        let but = if tangents > 0 {
+            format!("\n             {} along the tangent, tighter than the blade", counted(tangents, "run"))
+        } else {
+            String::new()
+        };
+        line("blade", format!("a chord of curves, heel and tip on the line{but}"));
     }
     if let Some(sides) = program.sides {
         line("overlaps", overlaps(&sides));
@@ -227,6 +235,8 @@ mod tests {
                 travel_m: Some(8.2),
                 runs: Some(101),
                 notch_style: Some(NotchStyle::Slit),
+                follow: Some(Follow::Chord),
+                tangent_runs: Some(2),
                 stabs: Some(1),
                 sides: Some(Sides { inside: 8, shortened: 3, turned: 1, harmful: 1, overcut_mm: 1.55 }),
                 lifts: Some(101),
@@ -271,6 +281,8 @@ mod tests {
           cut        20.123 m
           travel     8.200 m
           runs       101, of which 1 stab
+          blade      a chord of curves, heel and tip on the line
+                     2 runs along the tangent, tighter than the blade
           overlaps   8 ends inside parts, 3 shortened; 1 cut turned round
                      1 stab cut into a part, at most 1.55 mm
           lifts      101

@@ -59,6 +59,12 @@ pub fn first_at_distance(points: &[Point], distance: f64) -> Option<(Point, usiz
     None
 }
 
+/// How far an arc bows away from its chord of a length, mm, when it turns by an angle, rad: up to a half circle, beyond
+/// which no chord is looked at. For small turns that is the length times an eighth of the turn.
+pub fn sagitta(chord: f64, turn: f64) -> f64 {
+    chord / 2.0 * (turn.min(std::f64::consts::PI) / 4.0).tan()
+}
+
 /// Whether the polyline is straight: every vertex within `tolerance` of the chord between its ends, and none going back.
 pub fn is_straight(points: &[Point], tolerance: f64) -> bool {
     let (Some(&first), Some(&last)) = (points.first(), points.last()) else { return true };
@@ -85,6 +91,15 @@ mod tests {
         assert_eq!(first_at_distance(&corner, 2.0), Some((Point::new(2.0, 0.0), 0)));
         assert_eq!(first_at_distance(&corner, 5.0), Some((Point::new(3.0, 4.0), 1)));
         assert_eq!(first_at_distance(&corner, 10.0), None);
+    }
+
+    #[test]
+    fn the_sagitta_is_that_of_the_circle() {
+        for (radius, chord) in [(6.5_f64, 6.0_f64), (100.0, 6.0), (3.0, 6.0)] {
+            let turn = 2.0 * (chord / 2.0 / radius).asin();
+            let exact = radius - (radius * radius - chord * chord / 4.0).max(0.0).sqrt();
+            assert!((sagitta(chord, turn) - exact).abs() < 1e-9);
+        }
     }
 
     #[test]

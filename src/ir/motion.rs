@@ -3,7 +3,7 @@
 //! A motion holds the phases of one toolpath. A phase lasts a whole number of periods and says what the outputs are
 //! from its first tick until the next phase begins; the pose at tick `i` is that at time `i * period`.
 
-use super::toolpath::{Event, Pose, Side};
+use super::toolpath::{Event, Law, Pose, Side};
 
 /// The phases of one toolpath, in order.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -37,6 +37,8 @@ pub struct Task {
     pub turned: bool,
     /// How far the blade of a stab cuts into parts beyond the ends, mm.
     pub harm: f64,
+    /// How the blade lies on the way of a cut; `None` when it only plunges, and for a drill.
+    pub law: Option<Law>,
 }
 
 /// A stretch of time in which the outputs do not change.

@@ -48,6 +48,8 @@ pub struct Knife {
     pub max_down_mm: Option<f64>,
     /// How the blade lies on curves.
     pub follow: Follow,
+    /// What is done about curves that are tighter than the blade.
+    pub tight_curves: TightCurves,
     /// Number of cutting edges: a blade with two may run either way round.
     pub edges: u32,
     /// Constant correction added to the blade's angle, degrees: how far the axis stands ahead of the blade.
@@ -62,6 +64,19 @@ pub enum Follow {
     Tangent,
     /// Tip and tail on the path: the blade is a chord of it.
     Chord,
+}
+
+/// What is done about a curve on which the blade, as a chord of it, would stand across: an arc of less than 0.55 blade
+/// widths, a right angle that is rounded with less than 0.4.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum TightCurves {
+    /// It is cut without a lift, the blade along the tangent.
+    Follow,
+    /// It is cut by plunges without motion that overlap.
+    Nibble,
+    /// It is an error.
+    Refuse,
 }
 
 /// Width of the default blade, mm, and its back: a 6.6 mm knife, worn from 8.89 mm.
@@ -138,6 +153,7 @@ impl Default for Knife {
             clear_ms: None,
             max_down_mm: None,
             follow: Follow::Tangent,
+            tight_curves: TightCurves::Follow,
             edges: 1,
             yaw_deg: 0.0,
         }

@@ -22,7 +22,7 @@ mod word;
 
 pub use digest::sha256_hex;
 pub use kinematics::Limits;
-pub use knife::{Follow, Knife};
+pub use knife::{Follow, Knife, TightCurves};
 pub use load::{Faults, load};
 pub use notches::{NotchStyle, Notches};
 pub use profile::{FileUnit, Fit, MachineProfile};

@@ -2,7 +2,6 @@
 
 use super::encoding;
 use super::keys::{KEYS, Key, Takes, shown_value};
-use super::knife::Follow;
 use super::lines;
 use super::profile::MachineProfile;
 use crate::diagnostic::{Code, code};
@@ -133,10 +132,7 @@ fn rules(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault
 /// Values that are legal but not obeyed by this version: each is an error, so that no program is silently wrong.
 fn unsupported(profile: &MachineProfile) -> Vec<Fault> {
     let knife = &profile.knife;
-    let list = [
-        (knife.follow == Follow::Chord, "knife.follow", "\"tangent\"", "lays the blade along the tangent only"),
-        (knife.edges == 2, "knife.edges", "1", "plans blades with one edge only"),
-    ];
+    let list = [(knife.edges == 2, "knife.edges", "1", "plans blades with one edge only")];
     let fault = |(_, key, value, reason): (bool, &str, &str, &str)| Fault {
         code: &code::PROFILE_UNSUPPORTED,
         keys: vec![key.to_owned()],

@@ -158,7 +158,9 @@ pub(super) fn report(verdict: &Verdict, (marker, job): (&Marker, &Job), diagnost
                 format!("{keys} parts this cut into pieces that the blade is too wide for: give it more")
             }
             (Some(key), _) => format!("the limit is the profile's `{key}`"),
-            (None, _) => "no setting should lead here: please report it, with the cutter file and the profile".to_owned(),
+            (None, _) => {
+                "no setting should lead here: please report it, with the cutter file and the profile".to_owned()
+            }
         };
         let diagnostic = Diagnostic { span, ..Diagnostic::new(&code::VERIFY_BROKEN, message) };
         diagnostics.push(diagnostic.hint(rule).hint(hint));

@@ -11,9 +11,9 @@ use super::{Axes, Medium, Program, Sides};
 use crate::back::{Context, Emit, Estimate, Fit, Fitting, Parts, Ways};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::ir::motion::{Kind, Task};
-use crate::ir::toolpath::Side;
+use crate::ir::toolpath::{Law, Side};
 use crate::ir::{Motion, Toolpath};
-use crate::machine::Job;
+use crate::machine::{Follow, Job};
 use crate::plan::{self, Cut, Planner};
 use crate::units::MM_PER_M;
 
@@ -213,6 +213,8 @@ struct Tally {
     travel: f64,
     plunges: usize,
     stabs: usize,
+    /// Cuts along the tangent.
+    tangents: usize,
     lifts: usize,
     ticks: u64,
     bulge: f64,
@@ -257,6 +259,7 @@ impl Tally {
         self.clock.add(motion);
         self.clock_of(motion.piece).add(motion);
         motion.tasks.iter().for_each(|task| self.sides.add(task));
+        self.tangents += motion.tasks.iter().filter(|task| task.law == Some(Law::Tangent)).count();
         let mut before = None;
         for phase in &motion.phases {
             match phase.kind {
@@ -278,6 +281,13 @@ impl Tally {
             travel_m: Some(self.travel / MM_PER_M),
             runs: Some(self.plunges),
             notch_style: Some(job.profile.notch.style),
+            follow: Some(job.profile.knife.follow),
+            tangent_runs: Some(match job.profile.knife.follow {
+                Follow::Tangent => 0,
+                // A point is a chord of nothing.
+                Follow::Chord if job.profile.knife.width_mm == 0.0 => 0,
+                Follow::Chord => self.tangents,
+            }),
             stabs: Some(self.stabs),
             lifts: Some(self.lifts),
             // The last setpoint stands at the last tick, and rows count from tick 0.

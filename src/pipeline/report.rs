@@ -9,7 +9,7 @@ use super::spent::Spent;
 use crate::back::Estimate;
 use crate::ir::Marker;
 use crate::ir::marker::{Drawing, DrawnClass, NotchKind};
-use crate::machine::NotchStyle;
+use crate::machine::{Follow, NotchStyle};
 use crate::units::{MM_PER_M, deg};
 
 /// Millionths that lengths and times are rounded to: micrometres of a metre, microseconds of a second.
@@ -133,6 +133,10 @@ pub struct Program {
     pub runs: Option<usize>,
     /// How notches are cut.
     pub notch_style: Option<NotchStyle>,
+    /// How the blade lies on curves.
+    pub follow: Option<Follow>,
+    /// Cuts whose blade lies along the tangent, because it cannot be a chord of a curve on them, although it should.
+    pub tangent_runs: Option<usize>,
     /// Plunges without motion.
     pub stabs: Option<usize>,
     /// Times that the knife goes up.

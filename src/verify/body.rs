@@ -50,7 +50,7 @@ impl Cut {
 /// The body of a plunged blade: a chord of the path, which bows away from it.
 #[derive(Debug, Default)]
 pub(super) struct Body {
-    /// How far the path bows away from the blade, mm: what it does, and at the most w^2 k / 8 with k its mean curvature.
+    /// How far the path bows away from the blade, mm: what it does, and at the most what an arc of the same turn does.
     pub(super) sag: f64,
     /// Turn of the path under the blade, rad, when the blade never moves: its surplus then goes off the line straight on.
     turned: f64,
@@ -77,7 +77,7 @@ impl Body {
             line.vertices(low - length, low.next_down()).last()
         };
         turned += next.map_or(0.0, |vertex| line.turn(vertex).abs());
-        body.sag = body.sag.min((tip - tail).norm() * turned / 8.0);
+        body.sag = body.sag.min(polyline::sagitta((tip - tail).norm(), turned));
         let off = |i: usize| feet[i].deviation - body.turned * feet[i].beyond > allowed;
         // A blade that does not lie along the line is no chord of it.
         if off(0) || off(cut.body) { Self::default() } else { body }

@@ -2,6 +2,7 @@
 //! lifted because it was down for too long. Only there a blade may stand as a chord of a curve or be longer than what it
 //! cuts: elsewhere a curve could be cut as a polygon, and a part stabbed.
 
+use super::chord::stands_across;
 use super::reference::Line;
 use crate::geom::{Point, polyline};
 use crate::machine::Knife;
@@ -41,9 +42,10 @@ impl Joints {
         }
     }
 
-    /// Whether the knife may be lifted anywhere on a line: it would be down for too long, or C has to unwind.
+    /// Whether the knife may be lifted anywhere on a line: it would be down for too long, C has to unwind, or the line is
+    /// nibbled.
     pub(super) fn are_anywhere(&self, line: &Line) -> bool {
-        line.winds || self.longest.is_some_and(|longest| line.length() > longest)
+        line.winds || line.nibbled || self.longest.is_some_and(|longest| line.length() > longest)
     }
 
     /// The stations of the first and the last joint about a station; `None` when there is none.
@@ -67,7 +69,7 @@ impl Joints {
     }
 
     /// Whether a blade that plunges somewhere before a vertex, as a chord of the line, would pass the vertex farther away
-    /// than it would on a steady curve of the same turn: w^2 k / 8, k the mean curvature under it.
+    /// than it would on an arc of the same turn.
     fn is_bend(&self, line: &Line, vertex: usize) -> bool {
         if vertex == 0 || vertex == line.chords() {
             return false;
@@ -96,7 +98,9 @@ impl Joints {
         // The chord that is being left counts, too: a curve turns along its chords, not at its vertices.
         let turned: f64 = path.windows(3).take(chord + 1).map(|w| polyline::turn_at(w[0], w[1], w[2]).abs()).sum();
         let away = polyline::distance_to_segment(path[vertex], path[0], tip);
-        vertex <= chord && away > self.width * turned / 8.0
+        let blade = tip - path[0];
+        let is_across = polyline::direction(path[0], path[1]).is_some_and(|first| stands_across(blade, first));
+        vertex <= chord && (is_across || away > polyline::sagitta(blade.norm(), turned))
     }
 }
 

@@ -9,6 +9,7 @@
 
 mod body;
 mod caps;
+mod chord;
 mod counts;
 mod coverage;
 mod cutter_file;
@@ -27,6 +28,7 @@ mod notches;
 mod npy;
 mod order;
 mod overcut;
+mod passing;
 mod read;
 mod reference;
 mod rest;

@@ -3,14 +3,16 @@
 //! Corners and the tube are found anew from the marker and the profile; see the module doc of the stage.
 
 use std::f64::consts::TAU;
+use std::ops::RangeInclusive;
 
 use super::caps::{Caps, End, Feeds};
+use super::chord;
 use super::notches;
 use crate::geom::{Point, Vector, angle, left, polyline};
 use crate::ir::Marker;
 use crate::ir::list::Segment;
 use crate::ir::marker::Stroke;
-use crate::machine::{Fit, MachineProfile};
+use crate::machine::{Fit, Follow, MachineProfile, TightCurves};
 
 /// Longest chord that counts as a chord of a curve, mm.
 const CURVE_CHORD: f64 = 25.0;
@@ -45,6 +47,10 @@ pub(super) struct Line {
     pub(super) ring: bool,
     /// Whether it turns the blade past the range of C wherever that starts: then the knife is lifted amid it.
     pub(super) winds: bool,
+    /// By the stations of tail and tip: where it is too tight for the blade to be its chord.
+    pub(super) tight: Vec<[f64; 2]>,
+    /// Whether it is nibbled there: cut by plunges without motion.
+    pub(super) nibbled: bool,
 }
 
 /// All lines of a marker.
@@ -95,6 +101,14 @@ impl<'a> Reference<'a> {
                 line.winds = line.winds_past(range);
             }
         }
+        let knife = &profile.knife;
+        for line in &mut lines {
+            let is_narrow = !line.ring && chord::is_narrow(&line.points, knife);
+            if is_narrow || knife.follow == Follow::Chord || knife.tight_curves == TightCurves::Nibble {
+                line.tight = chord::tight(&line.points, line.ring, knife);
+                line.nibbled = (is_narrow || knife.tight_curves == TightCurves::Nibble) && !line.tight.is_empty();
+            }
+        }
         events.extend(marker.closing.iter().map(|_| rank()));
         Self { marker, lines, holes, events, tolerance: profile.tolerance(marker.unit) }
     }
@@ -122,6 +136,8 @@ fn slit(stroke: &Stroke, [piece, rank]: [usize; 2], cap: f64) -> Line {
         bulges: vec![Vector::zeros()],
         ring: false,
         winds: false,
+        tight: Vec::new(),
+        nibbled: false,
     }
 }
 
@@ -180,6 +196,8 @@ fn contour_lines(mut segments: Vec<Segment>, closed: bool, place: Place) -> Vec<
                 bulges: chords.zip(turns.windows(2)).map(|(s, t)| bulge(s, t, profile)).collect(),
                 ring,
                 winds: false,
+                tight: Vec::new(),
+                nibbled: false,
             });
             from = i;
         }
@@ -266,6 +284,17 @@ impl Line {
         (first..laps).take_while(move |&i| station(i) <= high).map(move |i| i % count)
     }
 
+    /// Whether it is too tight for the blade somewhere between two stations.
+    pub(super) fn is_tight(&self, [low, high]: [f64; 2]) -> bool {
+        let lap = if self.ring { (low / self.length()).floor() * self.length() } else { 0.0 };
+        // On a ring the stretches may lie on the next lap.
+        let laps = if self.ring { 2 } else { 1 };
+        (0..laps).any(|i| {
+            let by = lap + f64::from(i) * self.length();
+            self.tight.iter().any(|[a, b]| a + by <= high && b + by >= low)
+        })
+    }
+
     /// Turn of the line at a vertex, rad; none at the ends of an open line.
     pub(super) fn turn(&self, vertex: usize) -> f64 {
         let count = self.chords();
@@ -304,6 +333,15 @@ impl Line {
     pub(super) fn place(&self, station: f64) -> Point {
         let chord = self.chord_at(station);
         self.points[chord] + self.direction(chord) * (station - self.stations[chord])
+    }
+
+    /// The chords between two stations; on a ring they are counted on past its end.
+    pub(super) fn chords_between(&self, [low, high]: [f64; 2]) -> RangeInclusive<usize> {
+        let lap = if self.ring { (low / self.length()).floor() * self.length() } else { 0.0 };
+        let (low, high) = (low - lap, high - lap);
+        let over = if self.ring && high >= self.length() { self.length() } else { 0.0 };
+        let laps = if over > 0.0 { self.chords() } else { 0 };
+        self.chord_at(low)..=self.chord_at(high - over) + laps
     }
 
     /// The chord of a station.

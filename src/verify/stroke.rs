@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use super::Done;
 use super::body::{BODY_STEP, Cut};
-use super::follow::Follower;
+use super::chord::{self, BODY_SHARES, Blade, Trailing};
 use super::grid::Grid;
 use super::heading::{self, Moving, Plunge};
 use super::inside::Inside;
@@ -21,7 +21,7 @@ use super::worst::{Worst, at};
 use super::worsts::Worsts;
 use crate::geom::{Point, Vector, angle};
 use crate::ir::finding::Sighting;
-use crate::machine::{Fit, Knife, MachineProfile};
+use crate::machine::{Fit, Follow, Knife, MachineProfile};
 
 /// How far from its chord, along the line, a cap may be obeyed, mm, beside the tolerance: a tip that takes a bend inside
 /// its tube passes the vertex early or late by less.
@@ -89,9 +89,8 @@ impl Stroke<'_> {
 /// What a stroke cut, and the line that it was meant for once that is known.
 pub(super) struct Traced<'s> {
     stroke: Stroke<'s>,
-    /// The tip, the tail and the direction from that to this, at each row.
+    /// The tip at each row, and the direction to it from the tail.
     tips: Vec<Point>,
-    tails: Vec<Point>,
     blades: Vec<Vector>,
     cut: Cut,
     trace: Trace,
@@ -171,13 +170,14 @@ impl<'a> Judge<'a> {
 
     /// What a stroke cut, of the lines near it.
     pub(super) fn trace<'s>(&self, stroke: Stroke<'s>) -> Traced<'s> {
-        let (radius, back) = (self.knife.radius(), self.knife.back());
-        let blades: Vec<Vector> = stroke.rows.iter().map(Row::along).collect();
-        let at = |sign: f64| stroke.rows.iter().zip(&blades).map(move |(row, &along)| row.centre + along * sign).collect();
-        let (tips, tails): (Vec<Point>, Vec<Point>) = (at(radius), at(-back));
-        let cut = Cut::new(&tips, tails[0], self.knife);
-        let trace = self.tracer.trace(&cut, stroke.rows[0].block);
-        Traced { stroke, tips, tails, blades, cut, trace, best: None }
+        let rows = stroke.rows;
+        let blades: Vec<Vector> = rows.iter().map(Row::along).collect();
+        let tips: Vec<Point> =
+            rows.iter().zip(&blades).map(|(row, &along)| row.centre + along * self.knife.radius()).collect();
+        let tail = rows[0].centre - blades[0] * self.knife.back();
+        let cut = Cut::new(&tips, tail, self.knife);
+        let trace = self.tracer.trace(&cut, rows[0].block);
+        Traced { stroke, tips, blades, cut, trace, best: None }
     }
 
     /// Finds the line that a stroke was meant for, which depends on what was cut before, and marks what it cut.
@@ -263,13 +263,13 @@ impl<'a> Judge<'a> {
         // Where the knife may have been lifted anywhere the blade lies between the directions of the chords that it cuts; the tube turns a blade by a little.
         let (first, last) = (trial.feet[*trial.held.start()].station, trial.feet[*trial.held.end()].station);
         let blade = (cut.points[cut.body] - cut.points[0]) * if last < first { -1.0 } else { 1.0 };
-        let chords = line.chord_at(first.min(last))..=line.chord_at(first.max(last));
+        let chords = line.chords_between([first.min(last), first.max(last)]);
         let (mut turned, mut cone) = (0.0, [0.0_f64; 2]);
         for chord in chords.clone().skip(1) {
-            turned += line.turn(chord);
+            turned += line.turn(chord % line.chords());
             cone = [cone[0].min(turned), cone[1].max(turned)];
         }
-        let askew = angle::turn(line.direction(*chords.start()), blade);
+        let askew = angle::turn(line.direction(*chords.start() % line.chords()), blade);
         let slack = (2.0 * (self.reference.tolerance + self.rounding) / width).atan();
         let beyond = (cone[0] - askew).max(askew - cone[1]) - slack;
         worsts.heading.see(beyond.to_degrees(), || seen(cut.body));
@@ -290,8 +290,39 @@ impl<'a> Judge<'a> {
         twice
     }
 
-    /// The blade against its law, along the way of its tip; `trial` is the line that it cuts, if any.
+    /// The blade against its law. What only plunges has no way that a law could bear on.
     fn check_heading(&self, traced: &Traced, heading: &mut Worst) {
+        let Traced { stroke, tips, blades, cut, best, .. } = traced;
+        let is_chord = self.knife.follow == Follow::Chord && self.knife.width_mm > 0.0 && !cut.is_stab();
+        let (true, Some(trial)) = (is_chord, best) else { return self.check_tangent(traced, heading) };
+        let mut chord = self.worsts.heading.clone();
+        let rows = stroke.rows;
+        if !trial.laps {
+            // At the plunge the laws are one: how far the way of the tip then leads the blade is known of its line.
+            let first = tips.iter().position(|tip| (tip - tips[0]).norm() >= self.way_min).unwrap_or(0);
+            let ways = stroke.ways.get(..=first).unwrap_or_default();
+            let (lead, fade) = (self.plunge(cut, trial).lead(), self.knife.width_mm);
+            let (way_min, noise_deg) = (self.way_min, self.noise_deg);
+            let (rows, tips, blades) = (&rows[..=first], &tips[..=first], &blades[..=first]);
+            Moving { rows, ways, tips, blades, lead, fade, way_min, noise_deg }.check(&mut chord);
+        }
+        let tails = chord::along(rows, self.blade(traced, trial), 0.0);
+        let allowed = self.reference.tolerance + self.rounding;
+        Trailing { rows, tips, tails: &tails, allowed }.check(self.knife, &mut chord);
+        let ends = [trial.feet[0].station, trial.feet[cut.points.len() - 1].station];
+        if self.reference.lines[trial.line].is_tight([ends[0].min(ends[1]), ends[0].max(ends[1])]) {
+            // Where it is too tight for the one law, the other is in force.
+            let mut tangent = self.worsts.heading.clone();
+            self.check_tangent(traced, &mut tangent);
+            if tangent.value() < chord.value() {
+                chord = tangent;
+            }
+        }
+        heading.add(&chord);
+    }
+
+    /// The blade against the way of its tip.
+    fn check_tangent(&self, traced: &Traced, heading: &mut Worst) {
         let Traced { stroke, tips, blades, cut, best, .. } = traced;
         let lead = match best {
             None => heading::ANY,
@@ -302,6 +333,11 @@ impl<'a> Judge<'a> {
         let (way_min, noise_deg) = (self.way_min, self.noise_deg);
         let Stroke { rows, ways } = *stroke;
         Moving { rows, ways, tips, blades, lead, fade, way_min, noise_deg }.check(heading);
+    }
+
+    fn blade<'t>(&'t self, traced: &'t Traced, trial: &'t Trial) -> Blade<'t> {
+        let line = &self.reference.lines[trial.line];
+        Blade { line, knife: self.knife, cut: &traced.cut, directions: &traced.blades, feet: &trial.feet }
     }
 
     fn plunge(&self, cut: &Cut, trial: &Trial) -> Plunge<'_> {
@@ -375,22 +411,22 @@ impl<'a> Judge<'a> {
         if self.knife.width_mm == 0.0 {
             return;
         }
-        let Traced { stroke, tails, cut, .. } = traced;
-        let line = &self.reference.lines[trial.line];
+        let Traced { stroke, cut, .. } = traced;
         for (i, foot) in trial.feet[..cut.body].iter().enumerate() {
             if foot.beyond == 0.0 && trial.held.contains(&i) {
                 body.see(foot.deviation, || stroke.sighting(cut, i));
             }
         }
-        let foot = trial.feet[0];
-        let lap = if line.ring { (foot.station / line.length()).floor() * line.length() } else { 0.0 };
-        let chord = line.chord_at(foot.station - lap);
-        let with = trial.feet[cut.points.len() - 1].station >= foot.station;
-        let mut follower = Follower::new(line, chord, tails[0], if with { 1.0 } else { -1.0 });
-        for (&tail, row) in tails.iter().zip(stroke.rows) {
-            let foot = follower.step(tail);
-            if foot.beyond == 0.0 {
-                body.see(foot.deviation, || row.sighting());
+        // Under the chord law it is the middle of the blade that leaves an arc the farthest.
+        let shares: &[f64] = match self.knife.follow {
+            Follow::Tangent => &[0.0],
+            Follow::Chord => &BODY_SHARES,
+        };
+        for &share in shares {
+            for (foot, row) in chord::along(stroke.rows, self.blade(traced, trial), share).iter().zip(stroke.rows) {
+                if foot.beyond == 0.0 {
+                    body.see(foot.deviation, || row.sighting());
+                }
             }
         }
     }

@@ -7,8 +7,8 @@ use super::coverage::Coverage;
 use super::follow::{Follower, Foot, on_chord};
 use super::grid::Grid;
 use super::joints::{Around, Joints};
+use super::passing::{longest, passed, skipped};
 use super::reference::{Line, Reference};
-use crate::geom::{Point, polyline};
 
 /// How far from a line a stroke may lie and still be taken for a bad cut of it, mm.
 pub(super) const REACH: f64 = 2.0;
@@ -201,7 +201,9 @@ impl Tracer<'_> {
             fits: None,
             hull: [0.0; 2],
         };
-        let mut body = if laps { Body::default() } else { Body::new(line, cut, &trial.feet, allowed) };
+        // What nibbles is within the tolerance of what it cuts.
+        let is_exact = laps || line.nibbled && cut.is_stab();
+        let mut body = if is_exact { Body::default() } else { Body::new(line, cut, &trial.feet, allowed) };
         if body.sag > allowed && !self.may_bow(cut, line, &trial.feet) {
             body.sag = 0.0;
         }
@@ -275,46 +277,4 @@ impl Trial {
             self.worst = (deviation, place);
         }
     }
-}
-
-/// How far the tip's way from place `i - 1` to place `i` passes by the vertices between their stations, mm.
-fn skipped(line: &Line, points: &[Point], feet: &[Foot], i: usize) -> f64 {
-    let (a, b) = (feet[i - 1].station, feet[i].station);
-    let (low, high) = (a.min(b), a.max(b));
-    // The tip bows between two rows: as a parabola does, by an eighth of the second difference of neighbouring rows.
-    let bow = |k: usize| {
-        if k == 0 || k + 1 >= points.len() {
-            return 0.0;
-        }
-        ((points[k + 1] - points[k]) - (points[k] - points[k - 1])).norm() / 8.0
-    };
-    let away = |vertex: usize| polyline::distance_to_segment(line.points[vertex], points[i - 1], points[i]);
-    line.vertices(low.next_up(), high.next_down()).map(away).fold(0.0, f64::max) - bow(i).max(bow(i - 1))
-}
-
-/// The stations of the first and the last vertex between two places of a straight blade that it cuts; `None` when there are
-/// none.
-fn passed(line: &Line, places: &[Point], feet: &[Foot], allowed: f64) -> Option<[f64; 2]> {
-    let (a, b) = (feet[0].station, feet[1].station);
-    let (low, high) = (a.min(b), a.max(b));
-    let is_cut = |vertex: &usize| polyline::distance_to_segment(line.points[*vertex], places[0], places[1]) <= allowed;
-    let lap = if line.ring { (low / line.length()).floor() * line.length() } else { 0.0 };
-    let cut = line.vertices(low, high).filter(is_cut).map(|vertex| line.stations[vertex] + lap);
-    cut.filter(|station| (low..=high).contains(station)).fold(None, |found, station| {
-        Some(found.map_or([station; 2], |[first, last]: [f64; 2]| [first.min(station), last.max(station)]))
-    })
-}
-
-/// The longest stretch of places that hold; the first of two alike.
-fn longest(on: &[bool]) -> Option<RangeInclusive<usize>> {
-    let mut best: Option<RangeInclusive<usize>> = None;
-    let mut from = 0;
-    for (i, &holds) in on.iter().enumerate() {
-        if !holds {
-            from = i + 1;
-        } else if best.as_ref().is_none_or(|b| i - from > b.end() - b.start()) {
-            best = Some(from..=i);
-        }
-    }
-    best
 }

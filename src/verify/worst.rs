@@ -76,6 +76,11 @@ impl Worst {
         }
     }
 
+    /// The worst value so far.
+    pub(super) fn value(&self) -> f64 {
+        self.value
+    }
+
     /// What was seen.
     pub(super) fn finding(self) -> Finding {
         Finding {

@@ -8,7 +8,7 @@ use crate::measure::{DAMAGING, heading_error};
 use crate::rows::{Row, holes, parse, pick, print, renumber, strokes, travels};
 use crate::{Damage, damage, scaled};
 
-const HEADING: &str = "verify/heading";
+pub(crate) const HEADING: &str = "verify/heading";
 
 /// What the blade of a sound program may seem to err by, degrees: the way of the tip is known by its rounded places.
 const READING: f64 = 0.05;
@@ -130,13 +130,13 @@ pub(crate) const DAMAGES: &[Damage] = &[
 ];
 
 /// Angle of an error of some times the limit, degrees.
-fn twist(case: &Case, times: f64) -> f64 {
+pub(crate) fn twist(case: &Case, times: f64) -> f64 {
     let reading = if times < 1.0 { 0.0 } else { READING };
     times * case.job.profile.verify.max_heading_deg + reading
 }
 
 /// A program of which the blade errs by three times what is allowed.
-fn erring(case: &Case, rows: &[Row]) -> Option<Harm> {
+pub(crate) fn erring(case: &Case, rows: &[Row]) -> Option<Harm> {
     let amount = DAMAGING * case.job.profile.verify.max_heading_deg;
     (heading_error(case, rows) > amount + READING).then(|| Harm::anywhere(print(rows), amount))
 }
@@ -157,7 +157,7 @@ fn easy(case: &Case) -> Vec<Row> {
 }
 
 /// From 0 to 1 with three derivatives that vanish at both ends.
-fn fade(x: f64) -> f64 {
+pub(crate) fn fade(x: f64) -> f64 {
     x.powi(4) * (35.0 - x * (84.0 - x * (70.0 - x * 20.0)))
 }
 

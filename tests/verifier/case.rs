@@ -5,7 +5,7 @@ use std::path::Path;
 
 use cutc::diagnostic::Diagnostics;
 use cutc::ir::Marker;
-use cutc::machine::Job;
+use cutc::machine::{Follow, Job};
 use cutc::pipeline;
 use cutc::source::Source;
 
@@ -68,6 +68,7 @@ const CASES: &[(&str, Change)] = &[
     }),
     ("speeds-and-events", |_| {}),
     ("narrow-gaps", |_| {}),
+    ("chords", |job| job.profile.knife.follow = Follow::Chord),
 ];
 
 pub(crate) fn all() -> Vec<Case> {

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use cutc::geom::{Extent, Point, angle, polyline};
 use cutc::ir::Marker;
+use cutc::machine::Follow;
 
 use crate::case::Case;
 use crate::rows::{Row, strokes};
@@ -77,6 +78,10 @@ pub(crate) fn heading_error(case: &Case, rows: &[Row]) -> f64 {
     let mut worst = 0.0_f64;
     for stroke in strokes(rows) {
         let tips: Vec<Point> = rows[stroke.clone()].iter().map(|row| row.tip(knife)).collect();
+        if knife.follow == Follow::Chord {
+            worst = worst.max(chord_error(&rows[stroke], &tips, knife.width_mm));
+            continue;
+        }
         let mut way = 0.0;
         for (i, w) in tips.windows(3).enumerate() {
             way += (w[1] - w[0]).norm();
@@ -89,6 +94,20 @@ pub(crate) fn heading_error(case: &Case, rows: &[Row]) -> f64 {
         }
     }
     worst
+}
+
+/// The greatest angle between the blade and the chord to the last tip that is a width away, degrees: between two rows the
+/// tip goes less than would turn that by what is read anyway.
+fn chord_error(rows: &[Row], tips: &[Point], width: f64) -> f64 {
+    let error = |(i, row): (usize, &Row)| {
+        let tail = (0..i).rev().find(|&k| (tips[k] - tips[i]).norm() >= width)?;
+        // From the tip before to the one behind, at the place where the distance is the width.
+        let (far, near) = ((tips[tail] - tips[i]).norm(), (tips[tail + 1] - tips[i]).norm());
+        let at = tips[tail] + (tips[tail + 1] - tips[tail]) * ((far - width) / (far - near));
+        let chord = tips[i] - at;
+        Some(angle::wrap(chord.y.atan2(chord.x) - row.pose[2].to_radians()).abs().to_degrees())
+    };
+    rows.iter().enumerate().filter_map(error).fold(0.0, f64::max)
 }
 
 /// Distance of a point from the nearest line of a marker, mm.

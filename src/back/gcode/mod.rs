@@ -18,6 +18,7 @@ use self::program::Program;
 pub(in crate::back) use self::way::Way;
 use super::{Context, Emit, Estimate, Fit, Fitting, Output, Proof, Target, Ways};
 use crate::diagnostic::{Diagnostic, code};
+use crate::geom::polyline;
 use crate::ir::Toolpath;
 use crate::ir::toolpath::{Law, Run, Step};
 use crate::machine::Job;
@@ -54,13 +55,18 @@ fn ways(toolpath: &Toolpath, job: &Job) -> Result<Ways, Vec<Diagnostic>> {
 
 fn way_of(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Diagnostic> {
     let refused = |message: &str| Diagnostic::new(&code::TARGET_REFUSED, message).at(run.spans[0]);
-    match run.law {
+    // On a straight run the laws are one.
+    let law = if polyline::is_straight(&run.extended(), tolerance) { Law::Tangent } else { run.law };
+    match law {
         Law::Tangent => way::way(run, tolerance, job).map_err(|at| {
             let (x, y) = (fixed(at.x, PLACE_DECIMALS), fixed(at.y, PLACE_DECIMALS));
             refused(&format!("no arc or line stays within the tolerance at X {x} Y {y} mm"))
                 .hint("a larger path.tolerance_mm or a smaller corner.angle_deg helps; the target csv needs no arcs")
         }),
-        Law::Chord => Err(refused("the target gcode lays the blade along the tangent only, not as a chord of curves")),
+        Law::Chord => {
+            Err(refused("the target gcode lays the blade along the tangent of curves only, not as a chord of them")
+                .hint("set `knife.follow = \"tangent\"`, or take a target with setpoints, such as csv"))
+        }
     }
 }
 

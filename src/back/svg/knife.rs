@@ -2,7 +2,7 @@
 
 use super::markup::{PathData, blocks, escape};
 use crate::geom::{Point, Vector, left, polyline};
-use crate::ir::toolpath::{Event, Pose, Run, Shape, Step, Toolpath};
+use crate::ir::toolpath::{Event, Law, Pose, Run, Shape, Step, Toolpath};
 use crate::machine::Knife;
 use crate::source::Span;
 use crate::units::number::fixed;
@@ -133,7 +133,7 @@ impl Group<'_> {
             Shape::Ring => data.polygon(run.points[..run.points.len() - 1].iter().copied()),
         }
         let length = polyline::length(&run.points);
-        let title = cut_title("cut", length, &run.spans) + &way_round(run.turned);
+        let title = cut_title("cut", length, &run.spans) + &way_round(run.turned) + chord(run.law);
         self.cuts.push_str(&data.titled("run", &title));
         let (start, end) = (self.ends(&run.start), self.ends(&run.end));
         if self.knife.width_mm > 0.0 {
@@ -182,6 +182,14 @@ fn overlap(data: &mut PathData, points: &[Point], [length, half]: [f64; 2]) {
 /// Said of a cut that goes the other way round than the file has it.
 fn way_round(turned: bool) -> String {
     if turned { ", turned round".to_owned() } else { String::new() }
+}
+
+/// Said of a cut on whose curves the blade is a chord.
+fn chord(law: Law) -> &'static str {
+    match law {
+        Law::Tangent => "",
+        Law::Chord => ", the blade as a chord",
+    }
 }
 
 /// Said of a stab that cuts into a part.

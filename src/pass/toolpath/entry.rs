@@ -1,9 +1,11 @@
 //! Pass `entry`: splits where a plunged blade would leave the path.
 //!
-//! Needs runs split at corners. Leaves runs on which the blade, plunged as a chord at the start, lies within w^2 k / 8
-//! of the path, k the mean curvature under it. A sharper bend that near to a start, though no corner, is cut as one: up to
-//! it, and on from it, without overlaps, because they would leave the path.
+//! Needs runs split at corners. Leaves runs on which the blade, plunged as a chord at the start, lies as near to the path as
+//! to an arc that turns as much under it (w^2 k / 8 when it turns little, k its curvature), and not across it. A sharper bend
+//! that near to a start, though no corner, is cut as one: up to it, and on from it, without overlaps, because they would
+//! leave the path.
 
+use super::chord::stands_across;
 use super::scene::{Around, Scene};
 use super::{ToolpathPass, overlap};
 use crate::diagnostic::Diagnostics;
@@ -57,7 +59,10 @@ fn bend(run: &Run, around: &Around, allowance: f64) -> Option<usize> {
     // The chord that is being left counts, too: a curve turns along its chords, not at its vertices.
     let under = path.windows(3).take(chord + 1);
     let turned: f64 = under.map(|w| polyline::turn_at(w[0], w[1], w[2]).abs()).sum();
-    let allowed = knife.width_mm * turned / 8.0 + allowance;
+    let blade = tip - path[0];
+    let is_across = polyline::direction(path[0], path[1]).is_some_and(|first| stands_across(blade, first));
+    let bow = if is_across { 0.0 } else { polyline::sagitta(blade.norm(), turned) };
+    let allowed = bow + allowance;
     let away = |i: usize| polyline::distance_to_segment(path[i], path[0], tip);
     let inner = (skipped + 1..=chord).filter(|&i| i - skipped + 1 < run.points.len());
     let worst = inner.max_by(|&a, &b| away(a).total_cmp(&away(b)))?;

@@ -3,6 +3,7 @@
 //! [`trace()`] makes it: one run as the file has it. The passes split it at corners, give it overlaps, and place it. They
 //! look at the cloth around it, the [`Scene`]: an overlap goes into the waste.
 
+mod chord;
 mod corner;
 mod down;
 mod entry;
@@ -15,6 +16,7 @@ mod slow;
 mod stab;
 mod stretch;
 mod table;
+mod tight;
 mod trace;
 mod turn;
 mod wind;
@@ -45,6 +47,7 @@ pub const TOOLPATH_PASSES: &[ToolpathPass] = &[
     corner::PASS,
     down::PASS,
     wind::PASS,
+    tight::PASS,
     entry::PASS,
     turn::PASS,
     slow::PASS,

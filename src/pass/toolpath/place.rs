@@ -6,10 +6,11 @@
 
 use super::ToolpathPass;
 use super::scene::Scene;
+use super::stretch::Way;
 use super::wind;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Heading, Point, Rotation, Vector, angle, polyline};
-use crate::ir::toolpath::{Air, Pose, Run, Shape, Stab, Step, Toolpath};
+use crate::ir::toolpath::{Air, Law, Pose, Run, Shape, Stab, Step, Toolpath};
 use crate::machine::{Job, Knife};
 use crate::units::{deg, number::fixed};
 
@@ -68,9 +69,10 @@ fn place_run(run: &mut Run, before: Rotation, job: &Job, diagnostics: &mut Diagn
     let first = direction(run.points[0], run.points[1]);
     let last = direction(run.points[n - 2], run.points[n - 1]);
     // How far C is from the first chord's direction: at the plunge, least, greatest and at the lift.
-    let (plunge, mut turned) = match run.shape {
-        Shape::Ring => (-angle::turn(last, first) / 2.0, 0.0),
-        Shape::Open => (chord_lag(run, knife, first), 0.0),
+    let (plunge, mut turned) = match (run.shape, run.law) {
+        (Shape::Ring, Law::Tangent) => (-angle::turn(last, first) / 2.0, 0.0),
+        (Shape::Ring, Law::Chord) => (chord_lag_back(&run.points, knife) - angle::turn(last, first), 0.0),
+        (Shape::Open, _) => (chord_lag(&run.extended(), knife), 0.0),
     };
     let mut range = [plunge.min(0.0), plunge.max(0.0)];
     for w in run.points.windows(3) {
@@ -87,10 +89,22 @@ fn place_run(run: &mut Run, before: Rotation, job: &Job, diagnostics: &mut Diagn
         diagnostics.push(out_of_range(run.spans[0]).hint(format!("the run turns C through {wound} degrees")));
         before.nearest(heading)
     });
-    let end_c = Rotation(c.0 - plunge + turned);
-    let (tip, end) = match run.shape {
-        Shape::Ring => (run.points[0], run.points[0] + first * run.front),
-        Shape::Open => {
+    let end_c = match (run.shape, run.law) {
+        (_, Law::Tangent) => Rotation(c.0 - plunge + turned),
+        (Shape::Ring, Law::Chord) => {
+            let path = once_round(run);
+            let turned: f64 = path.windows(3).map(|w| polyline::turn_at(w[0], w[1], w[2])).sum();
+            Rotation(c.0 - plunge + turned + chord_lag_back(&path, knife))
+        }
+        (Shape::Open, Law::Chord) => Rotation(c.0 - plunge + turned + chord_lag_back(&run.extended(), knife)),
+    };
+    let (tip, end) = match (run.shape, run.law) {
+        (Shape::Ring, Law::Tangent) => (run.points[0], run.points[0] + first * run.front),
+        (Shape::Ring, Law::Chord) => {
+            let path = once_round(run);
+            (run.points[0], path[path.len() - 1])
+        }
+        (Shape::Open, _) => {
             let extended = run.extended();
             let tip = polyline::first_at_distance(&extended, knife.width_mm)
                 .map_or(extended[extended.len() - 1], |(point, _)| point);
@@ -101,17 +115,29 @@ fn place_run(run: &mut Run, before: Rotation, job: &Job, diagnostics: &mut Diagn
     run.end = pose_at(end, end_c.unit(), end_c, knife);
 }
 
+/// A ring from its start round to where its overlap along itself ends.
+fn once_round(run: &Run) -> Vec<Point> {
+    let way = Way::new(run);
+    way.part(0.0, way.length() + run.front, run.ends).points
+}
+
 fn direction(a: Point, b: Point) -> Vector {
     polyline::direction(a, b).expect("no chord of a run has length zero")
 }
 
-/// How far the chord of the plunge is turned from the first chord of the path, rad, without jumps.
-fn chord_lag(run: &Run, knife: &Knife, first: Vector) -> f64 {
-    let extended = run.extended();
-    let Some((tip, chord)) = polyline::first_at_distance(&extended, knife.width_mm) else { return 0.0 };
+/// How far the chord of a blade whose tip is at the end of a path is turned from its last chord, rad, without jumps.
+fn chord_lag_back(path: &[Point], knife: &Knife) -> f64 {
+    let back: Vec<Point> = path.iter().rev().copied().collect();
+    chord_lag(&back, knife)
+}
+
+/// How far the chord of a blade whose tail is at the start of a path is turned from its first chord, rad, without jumps.
+fn chord_lag(path: &[Point], knife: &Knife) -> f64 {
+    let Some((tip, chord)) = polyline::first_at_distance(path, knife.width_mm) else { return 0.0 };
+    let first = direction(path[0], path[1]);
     let mut lag = 0.0;
-    for &point in extended[1..=chord].iter().chain(std::iter::once(&tip)) {
-        if let Some(along) = polyline::direction(extended[0], point) {
+    for &point in path[1..=chord].iter().chain(std::iter::once(&tip)) {
+        if let Some(along) = polyline::direction(path[0], point) {
             lag += angle::wrap(angle::turn(first, along) - lag);
         }
     }

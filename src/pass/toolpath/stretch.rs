@@ -3,7 +3,7 @@
 //! The passes that lift the knife amid a run part it so that each part leads on along the contour by the overlaps of a
 //! corner.
 
-use crate::geom::{polyline, spline};
+use crate::geom::{Point, polyline, spline};
 use crate::ir::list::Joint;
 use crate::ir::toolpath::{End, Run, Shape, Side};
 
@@ -39,6 +39,12 @@ impl<'a> Way<'a> {
     pub(super) fn station(&self, chord: isize) -> f64 {
         let chords = self.chords().cast_signed();
         self.stations[chord.rem_euclid(chords) as usize] + self.length() * chord.div_euclid(chords) as f64
+    }
+
+    /// The place of a vertex, counted like that.
+    pub(super) fn vertex(&self, vertex: usize) -> Point {
+        let chords = self.chords();
+        self.run.points[if vertex == chords { chords } else { vertex % chords }]
     }
 
     /// The chord that goes on from a station, counted like that.

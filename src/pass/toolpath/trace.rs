@@ -104,8 +104,9 @@ fn raw(shape: Shape, job: &Job) -> Run {
         joints: Vec::new(),
         shape,
         law: match job.profile.knife.follow {
-            Follow::Tangent => Law::Tangent,
-            Follow::Chord => Law::Chord,
+            // A point is no chord of anything.
+            Follow::Chord if job.profile.knife.width_mm > 0.0 => Law::Chord,
+            Follow::Chord | Follow::Tangent => Law::Tangent,
         },
         front: 0.0,
         heel: 0.0,
