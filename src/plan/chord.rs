@@ -15,8 +15,9 @@ const NODES_A_SPAN: usize = 8;
 const NEWTON_STEPS: usize = 12;
 /// A shorter step of the tail is none, mm: rounding of places on a table of metres.
 const TAIL_EPSILON: f64 = 1e-12;
-/// Halvings that find a place between two others: down to rounding from any span.
-const BISECTIONS: usize = 60;
+/// Halvings that find a place between two others, at most a few mm apart: to a billionth of that. Newton's method does the
+/// rest.
+const BISECTIONS: usize = 32;
 /// Least cosine between the blade and the path at its tail: below it the tail darts along the path as the tip moves, and
 /// derivatives grow without bound. Runs that come under 0.4 on their polyline are not given this law; smoothing takes a
 /// little of that.
