@@ -208,3 +208,31 @@ fn a_line_that_ends_in_a_circle_is_cut_and_proven() {
         assert!(compiled.is_ok_and(|compiled| compiled.is_some()), "{radius} mm: {}", render(&diagnostics, &source));
     }
 }
+
+#[test]
+fn a_blade_with_two_edges_cuts_either_way_round_and_turns_less() {
+    let source = source("markers/metric-four-pieces.cut");
+    let target = TARGETS.iter().find(|target| target.name == "csv").expect("setpoints are a target");
+    let order = pipeline::Order { from: None, target, verify: true };
+    let cut = |edges: u32| {
+        // The axis stands far from the middle of the blade: run backwards, that is another blade.
+        let mut job = knife(6.6, 2.2, 0.8, 0.5);
+        job.profile.knife.edges = edges;
+        let (mut out, mut found) = (Cursor::new(Vec::new()), Diagnostics::default());
+        let compiled = pipeline::compile(&source, &job, order, &mut out, &mut found).expect("memory takes everything");
+        let compiled = compiled.unwrap_or_else(|| panic!("{}", render(&found, &source)));
+        (job, out, compiled.report.program)
+    };
+    let (one_edge, _, one) = cut(1);
+    let (two_edges, mut program, two) = cut(2);
+    let [before, now] = [&one, &two].map(|program| program.sides.expect("it is planned").backwards);
+    assert!(before == 0 && now > 0 && now < two.lifts.expect("it is planned"), "{before} {now}");
+    assert!(two.time_s < one.time_s, "{:?} {:?}", two.time_s, one.time_s);
+    let mut judge = |job: &Job| {
+        let mut found = Diagnostics::default();
+        let verdict = pipeline::judge_program(&mut program, &source, None, job, &mut found).expect("memory is readable");
+        verdict.expect("the source is sound").broken().map(|finding| finding.rule).collect::<Vec<_>>()
+    };
+    assert_eq!(judge(&two_edges), [""; 0]);
+    assert!(judge(&one_edge).contains(&"verify/heading"), "a blade with one edge must not run backwards");
+}

@@ -20,7 +20,7 @@ use std::io;
 
 use super::{Context, Emit, Output, Parts, Proof, Target};
 use crate::ir::motion::{Kind, Phase, Task};
-use crate::ir::toolpath::{Law, Pose, Side};
+use crate::ir::toolpath::{Edge, Law, Pose, Side};
 use crate::ir::{Finding, Motion};
 use crate::units::deg;
 use crate::units::number::{exact, fixed};
@@ -124,12 +124,12 @@ fn object(run: &Run, index: u64, piece: u32) -> String {
         let [x, y, c] = [pose.centre.x, pose.centre.y, deg(pose.c.0)].map(mm);
         format!("{{\"x_mm\": {x}, \"y_mm\": {y}, \"c_deg\": {c}}}")
     };
-    let Task { blocks: [first, last], front, heel, sides: [start, end], turned, harm, law } = run.task;
+    let Task { blocks: [first, last], front, heel, sides: [start, end], turned, edge, harm, law } = run.task;
     format!(
         "{{\"index\": {index}, \"kind\": \"{}\", \"piece\": {piece}, \"block_first\": {first}, \"block_last\": {last}, \
          \"length_mm\": {}, \"duration_s\": {}, \"dwell_s\": {}, \"ticks\": {}, \"start\": {}, \"end\": {}, \
          \"front_overlap_mm\": {}, \"heel_overlap_mm\": {}, \"front_side\": \"{}\", \"heel_side\": \"{}\", \
-         \"turned\": {turned}, \"overcut_mm\": {}, \"follow\": {}}}",
+         \"turned\": {turned}, \"edge\": \"{}\", \"overcut_mm\": {}, \"follow\": {}}}",
         run.kind,
         mm(run.length),
         exact(run.duration),
@@ -141,12 +141,20 @@ fn object(run: &Run, index: u64, piece: u32) -> String {
         mm(heel),
         side(end),
         side(start),
+        edge_name(edge),
         mm(harm),
         follow(law),
     )
 }
 
 /// How the blade lies on its way.
+fn edge_name(edge: Edge) -> &'static str {
+    match edge {
+        Edge::Front => "front",
+        Edge::Back => "back",
+    }
+}
+
 fn follow(law: Option<Law>) -> &'static str {
     match law {
         None => "null",

@@ -89,7 +89,6 @@ pub(super) const EXPLANATIONS: &[(&str, &str)] = &[
     ("profile/unknown-key", "A mistyped key would leave the default in force without a word, and the knife would be of another width than you think. Take the name that the message suggests."),
     ("profile/type", "A number in quotes, or text where a number belongs. The message says what the key takes.\n  knife.width_mm = 7.2     and not \"7.2\""),
     ("profile/range", "No machine has such a value: a comma may have slipped, or the unit is another. The message gives the range; the unit stands in the name of the key."),
-    ("profile/unsupported", "The key is understood but nothing obeys it yet. Cutting as if it were not there would surprise you, so it is refused: take the default."),
     ("verify/format", "A controller that meets a bad row stops, or worse, goes on with another number. After an edit by hand look for empty fields, words and a last line that is cut off."),
     ("verify/time", "The controller takes a row a period. A row that is missing is a jump of the axes, one too many a halt. Delete or repeat no rows; compile again instead."),
     ("verify/start", "The axes are at home when the program begins; a first row elsewhere is a jump across the table. Check `home` in the profile."),

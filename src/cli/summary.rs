@@ -91,9 +91,12 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
 
 /// What was done so that no overlap harms a part.
 fn overlaps(sides: &Sides) -> String {
-    let Sides { inside, shortened, turned, harmful, overcut_mm } = *sides;
+    let Sides { inside, shortened, turned, backwards, harmful, overcut_mm } = *sides;
     let mut out = format!("{} inside parts, {shortened} shortened", counted(inside, "end"));
     let _ = write!(out, "; {} turned round", counted(turned, "cut"));
+    if backwards > 0 {
+        let _ = write!(out, "\n             {} made by the back edge", counted(backwards, "cut"));
+    }
     if harmful > 0 {
         let _ = write!(
             out,
@@ -238,7 +241,7 @@ mod tests {
                 follow: Some(Follow::Chord),
                 tangent_runs: Some(2),
                 stabs: Some(1),
-                sides: Some(Sides { inside: 8, shortened: 3, turned: 1, harmful: 1, overcut_mm: 1.55 }),
+                sides: Some(Sides { inside: 8, shortened: 3, turned: 1, backwards: 0, harmful: 1, overcut_mm: 1.55 }),
                 lifts: Some(101),
                 time_s: Some(119.96),
                 bulge_mm: Some(0.138_2),

@@ -224,8 +224,6 @@ mod table {
     pub static PROFILE_TYPE: Code = error("profile/type", "A value of the profile has the wrong type.");
     /// A value out of its range.
     pub static PROFILE_RANGE: Code = error("profile/range", "A value of the profile is out of its range.");
-    /// A value that this version cannot obey.
-    pub static PROFILE_UNSUPPORTED: Code = error("profile/unsupported", "A value of the profile is legal but this version of cutc cannot obey it.");
 }
 
 pub use table::*;
@@ -316,7 +314,6 @@ pub static ALL: &[&Code] = &[
     &PROFILE_UNKNOWN_KEY,
     &PROFILE_TYPE,
     &PROFILE_RANGE,
-    &PROFILE_UNSUPPORTED,
 ];
 
 /// The code of that name.

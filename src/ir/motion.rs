@@ -3,7 +3,7 @@
 //! A motion holds the phases of one toolpath. A phase lasts a whole number of periods and says what the outputs are
 //! from its first tick until the next phase begins; the pose at tick `i` is that at time `i * period`.
 
-use super::toolpath::{Event, Law, Pose, Side};
+use super::toolpath::{Edge, Event, Law, Pose, Side};
 
 /// The phases of one toolpath, in order.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -35,6 +35,8 @@ pub struct Task {
     pub sides: [Side; 2],
     /// Whether it is cut the other way round than the file has it.
     pub turned: bool,
+    /// The edge of the blade that goes first.
+    pub edge: Edge,
     /// How far the blade of a stab cuts into parts beyond the ends, mm.
     pub harm: f64,
     /// How the blade lies on the way of a cut; `None` when it only plunges, and for a drill.

@@ -111,6 +111,8 @@ pub struct Run {
     pub ends: [End; 2],
     /// Whether it is cut the other way round than the file has it.
     pub turned: bool,
+    /// The edge that goes first; `place` chooses.
+    pub edge: Edge,
     /// Where the axes stand at the plunge, as the polyline has it; smoothing moves it a little.
     pub start: Pose,
     /// Where they stand at the lift.
@@ -142,6 +144,35 @@ pub enum Law {
     Tangent,
     /// Tip and tail on the path: the blade is a chord of it.
     Chord,
+}
+
+/// An edge of the blade. One that is sharp at its back may be turned by half a turn: then its heel goes first, and what is
+/// said of tip and tail holds the other way round.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Edge {
+    /// The one at the tip.
+    #[default]
+    Front,
+    /// The one at the heel.
+    Back,
+}
+
+impl Edge {
+    /// How far C is ahead of the way that the blade cuts, rad.
+    pub fn turn(self) -> f64 {
+        match self {
+            Self::Front => 0.0,
+            Self::Back => std::f64::consts::PI,
+        }
+    }
+
+    /// From the centre to the end of the blade that goes first, mm, of one whose tip and heel are so far from it.
+    pub fn lead(self, [tip, heel]: [f64; 2]) -> f64 {
+        match self {
+            Self::Front => tip,
+            Self::Back => heel,
+        }
+    }
 }
 
 /// Whether a run closes on itself.
@@ -193,6 +224,8 @@ pub struct Stab {
     pub ends: [End; 2],
     /// Whether it is cut the other way round than the file has it.
     pub turned: bool,
+    /// The edge that stands at the end of the cut; `place` chooses.
+    pub edge: Edge,
     /// How far the blade cuts into parts beyond the ends, both together, mm: it is longer than the cut, and there is no room.
     pub harm: f64,
     /// Where the axes stand at the plunge; `place` turns C.

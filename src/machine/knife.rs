@@ -112,6 +112,16 @@ impl Knife {
         self.width_mm - self.radius()
     }
 
+    /// Centre to tip and tail to centre, mm.
+    pub fn ends(&self) -> [f64; 2] {
+        [self.radius(), self.back()]
+    }
+
+    /// The turn after which the blade cuts the same again, rad: half of one with two edges.
+    pub fn period(&self) -> f64 {
+        std::f64::consts::TAU / f64::from(self.edges.clamp(1, 2))
+    }
+
     /// Correction added to the blade's angle, rad.
     pub fn yaw(&self) -> f64 {
         rad(self.yaw_deg)

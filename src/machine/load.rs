@@ -356,13 +356,6 @@ mod tests {
     }
 
     #[test]
-    fn what_this_version_does_not_obey_is_refused() {
-        let found = messages("", &["knife.edges=2"]);
-        assert_eq!(found.len(), 1);
-        assert!(found.iter().all(|message| message.starts_with("profile/unsupported")), "{found:?}");
-    }
-
-    #[test]
     fn no_text_makes_it_panic() {
         for text in
             ["\u{feff}", "=", "[[knife]]", "[knife.width_mm]", "[codes.M1]\nx=1", "a.b.c.d=1", "\"\"=1", "home=[1,2]"]

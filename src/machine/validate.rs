@@ -9,7 +9,7 @@ use crate::diagnostic::{Code, code};
 /// Something that a profile may not say.
 #[derive(Debug)]
 pub(super) struct Fault {
-    /// Range, or a legal value that is not obeyed.
+    /// What it is a fault of.
     pub(super) code: &'static Code,
     /// The keys that it concerns; a message stands at the one that the user gave.
     pub(super) keys: Vec<String>,
@@ -31,7 +31,7 @@ pub(super) fn validate(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool
     let mut faults = ranges(profile);
     let broken: Vec<String> = faults.iter().flat_map(|fault| fault.keys.clone()).collect();
     // A rule between two values says nothing new about one that is out of its own range.
-    let further = rules(profile, is_given).into_iter().chain(unsupported(profile));
+    let further = rules(profile, is_given).into_iter();
     faults.extend(further.filter(|fault| !fault.keys.iter().any(|key| broken.contains(key))));
     faults
 }
@@ -127,17 +127,4 @@ fn rules(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault
         broken(&[key], message, "lines of G-code are plain ASCII, comments too");
     }
     faults
-}
-
-/// Values that are legal but not obeyed by this version: each is an error, so that no program is silently wrong.
-fn unsupported(profile: &MachineProfile) -> Vec<Fault> {
-    let knife = &profile.knife;
-    let list = [(knife.edges == 2, "knife.edges", "1", "plans blades with one edge only")];
-    let fault = |(_, key, value, reason): (bool, &str, &str, &str)| Fault {
-        code: &code::PROFILE_UNSUPPORTED,
-        keys: vec![key.to_owned()],
-        message: format!("`{key}` must be {value}: this version {reason}"),
-        hint: Some(format!("set `{key} = {value}`, or leave the key out")),
-    };
-    list.into_iter().filter(|(set, ..)| *set).map(fault).collect()
 }

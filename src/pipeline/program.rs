@@ -11,7 +11,7 @@ use super::{Axes, Medium, Program, Sides};
 use crate::back::{Context, Emit, Estimate, Fit, Fitting, Parts, Ways};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::ir::motion::{Kind, Task};
-use crate::ir::toolpath::{Law, Side};
+use crate::ir::toolpath::{Edge, Law, Side};
 use crate::ir::{Motion, Toolpath};
 use crate::machine::{Follow, Job};
 use crate::plan::{self, Cut, Planner};
@@ -230,6 +230,7 @@ impl Sides {
         self.inside += ends(Side::Part);
         self.shortened += ends(Side::Gap);
         self.turned += usize::from(task.turned);
+        self.backwards += usize::from(task.edge == Edge::Back);
         self.harmful += usize::from(task.harm > 0.0);
         self.overcut_mm = self.overcut_mm.max(task.harm);
     }

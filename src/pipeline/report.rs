@@ -167,6 +167,8 @@ pub struct Sides {
     pub shortened: usize,
     /// Cuts that go the other way round than the file has them.
     pub turned: usize,
+    /// Cuts that the back edge of the blade makes.
+    pub backwards: usize,
     /// Stabs that cut into a part.
     pub harmful: usize,
     /// The farthest that one of them does, mm.

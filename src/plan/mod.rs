@@ -90,9 +90,9 @@ impl<'a> Planner<'a> {
                 }
                 Step::Run(run) => {
                     let sides = run.ends.map(|end| end.side);
-                    let (front, heel, turned) = (run.front, run.heel, run.turned);
+                    let (front, heel, turned, edge) = (run.front, run.heel, run.turned, run.edge);
                     let (blocks, law) = (ends(&run.spans), Some(run.law));
-                    motion.tasks.push(Task { blocks, front, heel, sides, turned, harm: 0.0, law });
+                    motion.tasks.push(Task { blocks, front, heel, sides, turned, edge, harm: 0.0, law });
                     let mut cut = cuts.next().expect("solve gives a cut for each run");
                     cut.poses.iter_mut().for_each(|pose| *pose = yawed(*pose, self.job));
                     self.go(kind, cut.poses[0], &mut motion);
@@ -102,9 +102,9 @@ impl<'a> Planner<'a> {
                 }
                 Step::Stab(stab) => {
                     let sides = stab.ends.map(|end| end.side);
-                    let Stab { front, heel, turned, harm, .. } = *stab;
+                    let Stab { front, heel, turned, edge, harm, .. } = *stab;
                     let (blocks, law) = (ends(&stab.spans), None);
-                    motion.tasks.push(Task { blocks, front, heel, sides, turned, harm, law });
+                    motion.tasks.push(Task { blocks, front, heel, sides, turned, edge, harm, law });
                     self.go(kind, yawed(stab.pose, self.job), &mut motion);
                     let block = stab.spans.last().map_or(0, |span| span.block);
                     self.plunge(block, &mut motion);

@@ -10,7 +10,7 @@ use super::profile::{Bounds, profile};
 use super::smooth::{Curve, Smooth, smooth};
 use super::tube::Tube;
 use crate::diagnostic::{Diagnostic, code};
-use crate::geom::{Point, Vector, polyline};
+use crate::geom::{Heading, Point, Rotation, Vector, polyline};
 use crate::ir::motion::Shares;
 use crate::ir::toolpath::{Law, Pose, Run, Shape};
 use crate::machine::Job;
@@ -87,22 +87,27 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
         Shape::Open => (Entry::Plunge, extended.end),
         Shape::Ring => (Entry::Steady(extended.start), closed(&smooth.curve, extended.start, extended.end)),
     };
-    let blade = Blade { width: knife.width_mm, radius: knife.radius() };
-    let course = Course { law: run.law, entry, to: end, blade, near: run.start.c };
+    let blade = Blade { width: knife.width_mm, radius: run.edge.lead(knife.ends()) };
+    let near = Rotation(run.start.c.0 - run.edge.turn());
+    let course = Course { law: run.law, entry, to: end, blade, near };
     let way = Way::new(&smooth.curve, &course).map_err(|TooTight { at }| {
         let (x, y) = (fixed(at.x, 2), fixed(at.y, 2));
         let reason = format!("the blade cannot be a chord of its curve at X {x} Y {y} mm");
         refuse(run, &code::PLAN_CHORD, &reason).hint("set `knife.follow = \"tangent\"` for this file")
     })?;
+    let pose = |u: f64| {
+        let pose = way.pose(u);
+        Pose { c: Rotation(pose.c.0 + run.edge.turn()), ..pose }
+    };
     if way.to - way.from < WAY_EPSILON {
-        return Ok(plunge_only(way.pose(way.to), blocks.at(way.to)));
+        return Ok(plunge_only(pose(way.to), blocks.at(way.to)));
     }
     let timing = profile(&way, &bounds)
         .map_err(|_| refuse(run, &code::PLAN_PROFILE, "no motion within the limits was found"))?;
     let mut cut = certified(run, timing.duration(), period, &bounds, |count| {
         let places = timing.sample(count);
         let tips: Vec<Point> = places.iter().map(|&u| way.point(u)).collect();
-        let (poses, blocks) = places.iter().map(|&u| (way.pose(u), blocks.at(u))).unzip();
+        let (poses, blocks) = places.iter().map(|&u| (pose(u), blocks.at(u))).unzip();
         let ways = tips.windows(2).map(|w| (w[1] - w[0]).norm()).collect();
         let feeds = places.windows(2).map(|w| bounds.feed.greatest(w[0], w[1])).collect();
         Samples { poses, blocks, ways, feeds }
@@ -139,8 +144,9 @@ fn straight(run: &Run, extended: &Extended, blocks: &Blocks, bounds: &Bounds, jo
     let (first, last) = (extended.points[0], extended.points[extended.points.len() - 1]);
     let whole = (last - first).norm();
     let u = (last - first) / whole;
-    let c = run.start.c.nearest(crate::geom::Heading::of(u));
-    let pose = |reach: f64| Pose { centre: first + u * (reach - knife.radius()), c };
+    let c = run.start.c.nearest(Heading::new(Heading::of(u).radians() + run.edge.turn()));
+    let lead = run.edge.lead(knife.ends());
+    let pose = |reach: f64| Pose { centre: first + u * (reach - lead), c };
     let way = whole - knife.width_mm;
     if way < WAY_EPSILON {
         return Ok(plunge_only(pose(whole.max(knife.width_mm)), blocks.at(whole)));

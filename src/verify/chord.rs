@@ -33,7 +33,8 @@ pub(super) const BODY_SHARES: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 #[derive(Clone, Copy)]
 pub(super) struct Blade<'a> {
     pub(super) line: &'a Line,
-    pub(super) knife: &'a Knife,
+    /// From its centre to its tip and to its tail, mm.
+    pub(super) ends: [f64; 2],
     pub(super) cut: &'a Cut,
     /// Its direction from the tail to the tip at each row.
     pub(super) directions: &'a [Vector],
@@ -43,8 +44,8 @@ pub(super) struct Blade<'a> {
 
 /// Where a place of a blade stands beside its line at each row: the place at a share of the width before the tail.
 pub(super) fn along(rows: &[Row], blade: Blade, share: f64) -> Vec<Foot> {
-    let Blade { line, knife, cut, directions, feet } = blade;
-    let place = |(row, along): (&Row, &Vector)| row.centre + along * (share * knife.width_mm - knife.back());
+    let Blade { line, ends: [tip, tail], cut, directions, feet } = blade;
+    let place = |(row, along): (&Row, &Vector)| row.centre + along * (share * (tip + tail) - tail);
     let foot = feet[(share * cut.body as f64) as usize];
     let lap = if line.ring { (foot.station / line.length()).floor() * line.length() } else { 0.0 };
     let chord = line.chord_at(foot.station - lap);
@@ -60,6 +61,8 @@ pub(super) struct Trailing<'a> {
     pub(super) rows: &'a [Row],
     /// The tip at each row.
     pub(super) tips: &'a [Point],
+    /// Unit vector from the tail to the tip at each row.
+    pub(super) blades: &'a [Vector],
     /// Where the tail stands beside the line at each row.
     pub(super) tails: &'a [Foot],
     /// How far a tail may stand off the line, mm.
@@ -69,7 +72,7 @@ pub(super) struct Trailing<'a> {
 impl Trailing<'_> {
     /// The blade against the chord of its way, and against the tube where it has not yet come that far.
     pub(super) fn check(&self, knife: &Knife, heading: &mut Worst) {
-        let Self { rows, tips, tails, allowed } = *self;
+        let Self { rows, tips, blades, tails, allowed } = *self;
         let width = knife.width_mm;
         let is_far = |k: usize, i: usize| (tips[k] - tips[i]).norm() >= width;
         // The last tip that the tail has passed.
@@ -87,7 +90,7 @@ impl Trailing<'_> {
             }
             passed = Some(k);
             let chord = tips[i] - self.behind(k, (tips[i], width));
-            heading.see(angle::turn(chord, row.along()).abs().to_degrees(), || row.sighting());
+            heading.see(angle::turn(chord, blades[i]).abs().to_degrees(), || row.sighting());
         }
     }
 

@@ -1,5 +1,4 @@
-//! Reads G-code as places along the way of the axes: no time, but at each place the exact direction of the tip, and the
-//! speed that F asks for.
+//! Reads G-code as places along the way of the axes: no time, but at each place how the axes go there, as F asks for.
 //!
 //! Knows the words of the target alone: G0 to G4 with full coordinates, the lines of the profile for head, knife, drill,
 //! operator and end, comments. Arcs are followed as a controller does: around the centre that I and J give, with C linear
@@ -9,7 +8,7 @@ use std::collections::VecDeque;
 use std::f64::consts::TAU;
 use std::io::{BufRead, Read as _};
 
-use super::read::{QUOTED_CHARS, Rounding, Row, decimal};
+use super::read::{Going, QUOTED_CHARS, Rounding, Row, decimal};
 use super::worst::{Worst, at};
 use crate::geom::{Point, Vector};
 use crate::ir::Finding;
@@ -98,8 +97,8 @@ pub(super) struct Places<'a> {
     /// How many lines were read.
     lines: u64,
     now: Row,
-    queue: VecDeque<(Row, Vector)>,
-    last_way: Vector,
+    queue: VecDeque<(Row, Going)>,
+    last: Going,
     /// Whether the lines at the end were read.
     over: bool,
     /// Why a line cannot be read, and where the axes stood.
@@ -121,8 +120,8 @@ impl<'a> Places<'a> {
             rest_due: None,
             lines: 0,
             now,
-            queue: VecDeque::from([(now, Vector::zeros())]),
-            last_way: Vector::zeros(),
+            queue: VecDeque::from([(now, Going::default())]),
+            last: Going::default(),
             bad: None,
             ended: false,
         }
@@ -133,8 +132,8 @@ impl<'a> Places<'a> {
         Rounding { axes: [0.5 * profile.gcode.step(); 3] }
     }
 
-    /// The next place, and the way of the tip there a second, mm, as F asks for; none where it rests.
-    pub(super) fn next(&mut self) -> Option<(Row, Vector)> {
+    /// The next place, and how the axes go there.
+    pub(super) fn next(&mut self) -> Option<(Row, Going)> {
         while self.queue.is_empty() && !self.ended {
             if let Err(why) = self.read() {
                 self.ended = true;
@@ -229,7 +228,7 @@ impl<'a> Places<'a> {
                 return Ok(());
             }
             Meaning::Event(event) => {
-                self.push(Row { event, ..self.now }, Vector::zeros());
+                self.push(Row { event, ..self.now }, Going::default());
                 return Ok(());
             }
             Meaning::Down => self.now.knife = true,
@@ -244,16 +243,16 @@ impl<'a> Places<'a> {
             Meaning::Drill(_) | Meaning::Head | Meaning::Event(_) | Meaning::End => 0.0,
         };
         self.rest_due = Some(rest).filter(|&rest| rest > 0.0);
-        let way = if was_down { self.last_way } else { Vector::zeros() };
-        self.last_way = Vector::zeros();
-        self.push(self.now, way);
+        let going = if was_down { self.last } else { Going::default() };
+        self.last = Going::default();
+        self.push(self.now, going);
         Ok(())
     }
 
-    fn push(&mut self, row: Row, way: Vector) {
+    fn push(&mut self, row: Row, going: Going) {
         self.now.tick += 1;
         self.now.t = self.now.tick as f64;
-        self.queue.push_back((Row { tick: self.now.tick, t: self.now.t, ..row }, way));
+        self.queue.push_back((Row { tick: self.now.tick, t: self.now.t, ..row }, going));
     }
 
     /// A move: all of its places.
@@ -291,7 +290,6 @@ impl<'a> Places<'a> {
         if steps > STEPS_MAX {
             return Err("is a way that no machine goes".to_owned());
         }
-        let (radius, yaw) = (self.profile.knife.radius(), self.profile.knife.yaw_deg);
         let pace = self.pace(feed, length, turned);
         // In the air only the ends matter.
         let first = if from.knife { 0 } else { steps as usize };
@@ -302,12 +300,10 @@ impl<'a> Places<'a> {
                 None => (from.centre + (to - from.centre) * share, to - from.centre),
             };
             let c_deg = from.c_deg + turned * share;
-            let (sin, cos) = (c_deg - yaw).to_radians().sin_cos();
-            // The tip swings about the centre as the blade turns.
-            let way = (ahead + Vector::new(-sin, cos) * (radius * turned.to_radians())) * pace;
+            let going = Going { way: ahead * pace, turn: turned.to_radians() * pace };
             let centre = if i as f64 == steps { to } else { centre };
-            self.last_way = way;
-            self.push(Row { centre, c_deg, ..self.now }, way);
+            self.last = going;
+            self.push(Row { centre, c_deg, ..self.now }, going);
         }
         (self.now.centre, self.now.c_deg) = (to, c_to);
         Ok(())

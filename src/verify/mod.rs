@@ -56,14 +56,13 @@ use self::inside::Inside;
 use self::limits::Limits;
 use self::naming::Naming;
 use self::order::Order;
-use self::read::{Rounding, Row, Rows};
+use self::read::{Going, Rounding, Row, Rows};
 use self::reference::Reference;
 use self::rest::Rest;
 use self::stroke::{Judge, Strokes, Traced};
 use self::table::Table;
 use self::worst::Worst;
 use self::worsts::Worsts;
-use crate::geom::Vector;
 use crate::ir::{Finding, Marker, finding};
 use crate::machine::Job;
 
@@ -217,13 +216,13 @@ struct Watch<'a> {
 
 impl Watch<'_> {
     /// Sees rows until enough of them belong to strokes, or none comes any more, and gathers these. Each row may come with
-    /// the way of its tip.
-    fn gather(&mut self, next: &mut impl FnMut() -> Option<(Row, Option<Vector>)>) -> Strokes {
+    /// how the axes go there.
+    fn gather(&mut self, next: &mut impl FnMut() -> Option<(Row, Option<Going>)>) -> Strokes {
         let mut strokes = Strokes::default();
         while strokes.rows() < ROWS_AT_A_TIME || strokes.are_open() {
-            let Some((row, way)) = next() else { break };
+            let Some((row, going)) = next() else { break };
             self.limits.see(&row);
-            if way.is_none() {
+            if going.is_none() {
                 self.limits.see_timed(&row);
             }
             self.rest.see(&row);
@@ -234,7 +233,7 @@ impl Watch<'_> {
             self.events.see(&row, &mut self.order);
             if row.knife || strokes.are_open() {
                 // The row of the lift command still holds the pose at the end of the cut.
-                strokes.push(&blade, way);
+                strokes.push(&blade, going);
             }
             if !row.knife && strokes.are_open() {
                 strokes.end();
@@ -281,7 +280,7 @@ pub fn positions(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdi
     let mut places = Places::new(program, &job.profile);
     let rounding = Places::rounding(&job.profile);
     let judge = Judge::new((&reference, inside), &job.profile, rounding).with_exact_directions(&job.profile);
-    let next = || places.next().map(|(row, way)| (row, Some(way)));
+    let next = || places.next().map(|(row, going)| (row, Some(going)));
     let mut findings = simulate(next, (&reference, judge, rounding), job);
     let is_broken = places.is_broken();
     let (format, unread) = places.findings();
@@ -296,10 +295,10 @@ pub fn positions(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdi
     Verdict { findings, unread: None, untimed: left.iter().map(|finding| finding.rule).collect() }
 }
 
-/// Follows the rows of a program, each with the way of its tip where that is known exactly: while strokes are judged, the
+/// Follows the rows of a program, each with how the axes go there where that is told: while strokes are judged, the
 /// next ones are read.
 fn simulate(
-    mut next: impl FnMut() -> Option<(Row, Option<Vector>)>,
+    mut next: impl FnMut() -> Option<(Row, Option<Going>)>,
     (reference, judge, rounding): (&Reference, Judge, Rounding),
     job: &Job,
 ) -> Vec<Finding> {

@@ -63,6 +63,15 @@ impl Row {
     }
 }
 
+/// How the axes move at a row, where that is told: what F asks for.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Going {
+    /// Of the C axis over the table, mm/s.
+    pub(super) way: Vector,
+    /// Of C itself, rad/s.
+    pub(super) turn: f64,
+}
+
 /// How rows are written.
 #[derive(Debug)]
 enum Form<'a> {

@@ -2,7 +2,6 @@
 //!
 //! Corners and the tube are found anew from the marker and the profile; see the module doc of the stage.
 
-use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
 use super::caps::{Caps, End, Feeds};
@@ -98,7 +97,7 @@ impl<'a> Reference<'a> {
         }
         if let Some(range) = profile.blade_range() {
             for line in &mut lines {
-                line.winds = line.winds_past(range);
+                line.winds = line.winds_past(range, profile.knife.period());
             }
         }
         let knife = &profile.knife;
@@ -304,9 +303,9 @@ impl Line {
         angle::turn(self.direction((vertex + count - 1) % count), self.direction(vertex % count))
     }
 
-    /// Whether no equivalent of C lets the blade follow it inside a range, rad, and stay clear of its ends by what smoothing
+    /// Whether no equivalent of C, which differ by a period, lets the blade follow it inside a range, rad, and stay clear of its ends by what smoothing
     /// and a plunge as a chord may turn it more.
-    fn winds_past(&self, [least, greatest]: [f64; 2]) -> bool {
+    fn winds_past(&self, [least, greatest]: [f64; 2], period: f64) -> bool {
         let first = self.direction(0);
         let mut heading = first.y.atan2(first.x);
         let mut reach = [heading; 2];
@@ -319,8 +318,8 @@ impl Line {
             return false;
         }
         let (least, greatest) = (least + CLEAR_OF_ENDS, greatest - CLEAR_OF_ENDS);
-        let least_turn = ((least - reach[0]) / TAU - TURN_EPSILON).ceil();
-        least_turn > ((greatest - reach[1]) / TAU + TURN_EPSILON).floor()
+        let least_turn = ((least - reach[0]) / period - TURN_EPSILON).ceil();
+        least_turn > ((greatest - reach[1]) / period + TURN_EPSILON).floor()
     }
 
     /// The greatest speed of the tip between two stations, mm/s; `sign` is +1 with the line, -1 against it.

@@ -14,12 +14,12 @@ use super::inside::Inside;
 use super::joints::{Around, Joints};
 use super::naming::Naming;
 use super::overcut::{self, Harm, Lines, Overcut};
-use super::read::{Rounding, Row};
+use super::read::{Going, Rounding, Row};
 use super::reference::{Line, Reference};
 use super::trial::{REACH, Trace, Tracer, Trial};
 use super::worst::{Worst, at};
 use super::worsts::Worsts;
-use crate::geom::{Point, Vector, angle};
+use crate::geom::{Point, Vector, angle, left};
 use crate::ir::finding::Sighting;
 use crate::machine::{Fit, Follow, Knife, MachineProfile};
 
@@ -35,17 +35,17 @@ const FEED_EPSILON: f64 = 1e-3;
 #[derive(Debug, Default)]
 pub(super) struct Strokes {
     rows: Vec<Row>,
-    /// The way of the tip a second at each row, mm, when the rows have no time but tell that.
-    ways: Vec<Vector>,
+    /// How the axes go at each row, when the rows have no time but tell that.
+    goings: Vec<Going>,
     /// Where each stroke ends among them; the last one may not have ended yet.
     ends: Vec<usize>,
 }
 
 impl Strokes {
     /// A row of the stroke that has not ended.
-    pub(super) fn push(&mut self, row: &Row, way: Option<Vector>) {
+    pub(super) fn push(&mut self, row: &Row, going: Option<Going>) {
         self.rows.push(*row);
-        self.ways.extend(way);
+        self.goings.extend(going);
     }
 
     /// Whether a stroke has begun that has not ended.
@@ -66,8 +66,8 @@ impl Strokes {
     /// The strokes that have ended.
     pub(super) fn all(&self) -> Vec<Stroke<'_>> {
         let starts = std::iter::once(0).chain(self.ends.iter().copied());
-        let ways = |range: Range<usize>| self.ways.get(range).unwrap_or_default();
-        starts.zip(&self.ends).map(|(from, &to)| Stroke { rows: &self.rows[from..to], ways: ways(from..to) }).collect()
+        let goings = |range: Range<usize>| self.goings.get(range).unwrap_or_default();
+        starts.zip(&self.ends).map(|(from, &to)| Stroke { rows: &self.rows[from..to], goings: goings(from..to) }).collect()
     }
 }
 
@@ -75,7 +75,7 @@ impl Strokes {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stroke<'s> {
     rows: &'s [Row],
-    ways: &'s [Vector],
+    goings: &'s [Going],
 }
 
 impl Stroke<'_> {
@@ -89,9 +89,13 @@ impl Stroke<'_> {
 /// What a stroke cut, and the line that it was meant for once that is known.
 pub(super) struct Traced<'s> {
     stroke: Stroke<'s>,
-    /// The tip at each row, and the direction to it from the tail.
+    /// The end of the blade that goes first, at each row, and the direction to it from the other end.
     tips: Vec<Point>,
     blades: Vec<Vector>,
+    /// From the centre to the one end and to the other, mm.
+    ends: [f64; 2],
+    /// The way of the tip a second at each row, mm, when the rows have no time but tell that.
+    ways: Vec<Vector>,
     cut: Cut,
     trace: Trace,
     best: Option<Trial>,
@@ -171,13 +175,28 @@ impl<'a> Judge<'a> {
     /// What a stroke cut, of the lines near it.
     pub(super) fn trace<'s>(&self, stroke: Stroke<'s>) -> Traced<'s> {
         let rows = stroke.rows;
-        let blades: Vec<Vector> = rows.iter().map(Row::along).collect();
+        let mut blades: Vec<Vector> = rows.iter().map(Row::along).collect();
+        let mut ends = self.knife.ends();
+        if self.goes_backwards(rows, &blades) {
+            blades.iter_mut().for_each(|blade| *blade = -*blade);
+            ends.reverse();
+        }
+        let [lead, heel] = ends;
+        // The tip swings about the centre as the blade turns.
+        let way = |(going, &blade): (&Going, &Vector)| going.way + left(blade) * (lead * going.turn);
+        let ways = stroke.goings.iter().zip(&blades).map(way).collect();
         let tips: Vec<Point> =
-            rows.iter().zip(&blades).map(|(row, &along)| row.centre + along * self.knife.radius()).collect();
-        let tail = rows[0].centre - blades[0] * self.knife.back();
+            rows.iter().zip(&blades).map(|(row, &along)| row.centre + along * lead).collect();
+        let tail = rows[0].centre - blades[0] * heel;
         let cut = Cut::new(&tips, tail, self.knife);
         let trace = self.tracer.trace(&cut, rows[0].block);
-        Traced { stroke, tips, blades, cut, trace, best: None }
+        Traced { stroke, tips, blades, ends, ways, cut, trace, best: None }
+    }
+
+    /// Whether the back edge of a blade with two goes first: the centre goes towards its heel.
+    fn goes_backwards(&self, rows: &[Row], blades: &[Vector]) -> bool {
+        let along = rows.windows(2).zip(blades).map(|(w, blade)| (w[1].centre - w[0].centre).dot(blade));
+        self.knife.edges == 2 && along.sum::<f64>() < 0.0
     }
 
     /// Finds the line that a stroke was meant for, which depends on what was cut before, and marks what it cut.
@@ -201,7 +220,7 @@ impl<'a> Judge<'a> {
         let rows = stroke.rows;
         let seen = |i: usize| stroke.sighting(cut, i);
         worsts.down.see(cut.way(), || rows[rows.len() - 1].sighting());
-        self.check_feed(*stroke, cut, best.as_ref(), &mut worsts.feed);
+        self.check_feed(traced, &mut worsts.feed);
         self.check_heading(traced, &mut worsts.heading);
         let Some(best) = best else {
             worsts.stray.see(cut.length().max(self.knife.width_mm).max(REACH), || seen(cut.body));
@@ -292,7 +311,7 @@ impl<'a> Judge<'a> {
 
     /// The blade against its law. What only plunges has no way that a law could bear on.
     fn check_heading(&self, traced: &Traced, heading: &mut Worst) {
-        let Traced { stroke, tips, blades, cut, best, .. } = traced;
+        let Traced { stroke, tips, blades, ways, cut, best, .. } = traced;
         let is_chord = self.knife.follow == Follow::Chord && self.knife.width_mm > 0.0 && !cut.is_stab();
         let (true, Some(trial)) = (is_chord, best) else { return self.check_tangent(traced, heading) };
         let mut chord = self.worsts.heading.clone();
@@ -300,7 +319,7 @@ impl<'a> Judge<'a> {
         if !trial.laps {
             // At the plunge the laws are one: how far the way of the tip then leads the blade is known of its line.
             let first = tips.iter().position(|tip| (tip - tips[0]).norm() >= self.way_min).unwrap_or(0);
-            let ways = stroke.ways.get(..=first).unwrap_or_default();
+            let ways = ways.get(..=first).unwrap_or_default();
             let (lead, fade) = (self.plunge(cut, trial).lead(), self.knife.width_mm);
             let (way_min, noise_deg) = (self.way_min, self.noise_deg);
             let (rows, tips, blades) = (&rows[..=first], &tips[..=first], &blades[..=first]);
@@ -308,7 +327,7 @@ impl<'a> Judge<'a> {
         }
         let tails = chord::along(rows, self.blade(traced, trial), 0.0);
         let allowed = self.reference.tolerance + self.rounding;
-        Trailing { rows, tips, tails: &tails, allowed }.check(self.knife, &mut chord);
+        Trailing { rows, tips, blades, tails: &tails, allowed }.check(self.knife, &mut chord);
         let ends = [trial.feet[0].station, trial.feet[cut.points.len() - 1].station];
         if self.reference.lines[trial.line].is_tight([ends[0].min(ends[1]), ends[0].max(ends[1])]) {
             // Where it is too tight for the one law, the other is in force.
@@ -323,7 +342,7 @@ impl<'a> Judge<'a> {
 
     /// The blade against the way of its tip.
     fn check_tangent(&self, traced: &Traced, heading: &mut Worst) {
-        let Traced { stroke, tips, blades, cut, best, .. } = traced;
+        let Traced { stroke, tips, blades, ways, cut, best, .. } = traced;
         let lead = match best {
             None => heading::ANY,
             Some(trial) if trial.laps => heading::NONE,
@@ -331,13 +350,13 @@ impl<'a> Judge<'a> {
         };
         let fade = self.knife.width_mm.min(cut.way());
         let (way_min, noise_deg) = (self.way_min, self.noise_deg);
-        let Stroke { rows, ways } = *stroke;
+        let rows = stroke.rows;
         Moving { rows, ways, tips, blades, lead, fade, way_min, noise_deg }.check(heading);
     }
 
     fn blade<'t>(&'t self, traced: &'t Traced, trial: &'t Trial) -> Blade<'t> {
         let line = &self.reference.lines[trial.line];
-        Blade { line, knife: self.knife, cut: &traced.cut, directions: &traced.blades, feet: &trial.feet }
+        Blade { line, ends: traced.ends, cut: &traced.cut, directions: &traced.blades, feet: &trial.feet }
     }
 
     fn plunge(&self, cut: &Cut, trial: &Trial) -> Plunge<'_> {
@@ -372,11 +391,11 @@ impl<'a> Judge<'a> {
     }
 
     /// The way of the tip from row to row, or what F asks for there, against the greatest cap that holds anywhere on it.
-    fn check_feed(&self, stroke: Stroke, cut: &Cut, trial: Option<&Trial>, feed: &mut Worst) {
-        let Stroke { rows, ways } = stroke;
+    fn check_feed(&self, traced: &Traced, feed: &mut Worst) {
+        let Traced { stroke: Stroke { rows, .. }, ways, cut, best, .. } = traced;
         let slack = self.reference.tolerance + CAP_ASIDE;
         let cap = |i: usize| {
-            trial.map_or(self.knife.feed_mm_s.unwrap_or(f64::INFINITY), |trial| {
+            best.as_ref().map_or(self.knife.feed_mm_s.unwrap_or(f64::INFINITY), |trial| {
                 let [a, b] = [0, 1].map(|k| trial.feet[cut.body + i + k].station);
                 self.reference.lines[trial.line].cap([a.min(b) - slack, a.max(b) + slack], trial.sign(cut))
             })

@@ -43,7 +43,7 @@ fn ways(toolpath: &Toolpath, job: &Job) -> Result<Ways, Vec<Diagnostic>> {
     for step in &toolpath.steps {
         match step {
             Step::Run(run) => match way_of(run, toolpath.tolerance, job) {
-                Ok(way) => ways.push(way.turned(yaw)),
+                Ok(way) => ways.push(way.turned(run.edge.turn() + yaw)),
                 Err(diagnostic) => refused.push(diagnostic),
             },
             Step::Stab(stab) => ways.push(Way { start: stab.pose, pieces: Vec::new() }.turned(yaw)),

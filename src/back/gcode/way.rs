@@ -144,9 +144,9 @@ pub(super) fn way(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Point> {
     let lead = tail.map_or(0.0, |tail| angle::turn(tube.points[0] - tail, start));
     let fade = if lead.abs() > LEAD_EPSILON { knife.width_mm.min(length) } else { 0.0 };
     let first = Heading::new(start.y.atan2(start.x) - lead);
-    let radius = knife.radius();
+    let radius = run.edge.lead(knife.ends());
     let pose = |tip: Point, c: f64| Pose { centre: tip - Rotation(c).unit() * radius, c: Rotation(c) };
-    let mut c = run.start.c.nearest(first).0;
+    let mut c = Rotation(run.start.c.0 - run.edge.turn()).nearest(first).0;
     let mut at = pose(tube.points[0], c);
     let mut pieces = Pieces::new(at, STEPS_MIN * keys.step());
     let permitted = if keys.arcs { TURN_SHARE } else { LINE_SHARE } * rad(keys.heading_tolerance_deg);

@@ -2,7 +2,7 @@
 
 use super::markup::{PathData, blocks, escape};
 use crate::geom::{Point, Vector, left, polyline};
-use crate::ir::toolpath::{Event, Law, Pose, Run, Shape, Step, Toolpath};
+use crate::ir::toolpath::{Edge, Event, Law, Pose, Run, Shape, Step, Toolpath};
 use crate::machine::Knife;
 use crate::source::Span;
 use crate::units::number::fixed;
@@ -89,7 +89,7 @@ impl Group<'_> {
         match step {
             Step::Run(run) => self.run(run),
             Step::Stab(stab) => {
-                let (tail, tip) = self.ends(&stab.pose);
+                let (tail, tip) = self.ends(&stab.pose, stab.edge);
                 let mut data = PathData::default();
                 data.polygon(self.blade_outline(&stab.pose));
                 let length = polyline::length(&stab.points);
@@ -135,7 +135,7 @@ impl Group<'_> {
         let length = polyline::length(&run.points);
         let title = cut_title("cut", length, &run.spans) + &way_round(run.turned) + chord(run.law);
         self.cuts.push_str(&data.titled("run", &title));
-        let (start, end) = (self.ends(&run.start), self.ends(&run.end));
+        let (start, end) = (self.ends(&run.start, run.edge), self.ends(&run.end, run.edge));
         if self.knife.width_mm > 0.0 {
             for pose in [&run.start, &run.end] {
                 self.blade.polygon(self.blade_outline(pose));
@@ -154,14 +154,18 @@ impl Group<'_> {
         self.lift.circle(end.1, LIFT_RADIUS * self.unit);
     }
 
-    /// Tail and tip of the blade.
-    fn ends(&self, pose: &Pose) -> (Point, Point) {
-        (pose.ahead(-self.knife.back()), pose.ahead(self.knife.radius()))
+    /// Where the blade begins and where it ends that cuts with an edge: tail and tip, or tip and tail.
+    fn ends(&self, pose: &Pose, edge: Edge) -> (Point, Point) {
+        let (tail, tip) = (pose.ahead(-self.knife.back()), pose.ahead(self.knife.radius()));
+        match edge {
+            Edge::Front => (tail, tip),
+            Edge::Back => (tip, tail),
+        }
     }
 
     /// The blade seen from above: a slender kite, widest at the C axis, pointed at tail and tip.
     fn blade_outline(&self, pose: &Pose) -> [Point; 4] {
-        let (tail, tip) = self.ends(pose);
+        let (tail, tip) = self.ends(pose, Edge::Front);
         let side = left(pose.c.unit()) * (BLADE_HALF_THICKNESS * self.unit);
         [tail, pose.centre + side, tip, pose.centre - side]
     }

@@ -31,7 +31,7 @@
 //!   point 0 0 full-advance
 //!   point 60 0 @4..9#2
 //!   point 100 0 @10..19#3 lift no-overcut
-//! stab along 1 0 front 1 heel 0.5 turned harm 0.5
+//! stab along 1 0 front 1 heel 0.5 turned backwards harm 0.5
 //!   ends corner corner
 //!   sides part gap
 //!   pose 3 0 c-rad 0

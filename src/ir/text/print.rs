@@ -6,7 +6,7 @@ use super::{ENDS, EVENTS, JOINTS, LAWS, SHAPES, SIDES};
 use crate::geom::Point;
 use crate::ir::list::{FULL_SPEED, Joint, Segment};
 use crate::ir::marker::{Label, Marker, NotchKind, Piece, Vee};
-use crate::ir::toolpath::{End, Pose, Run, Side, Stab, Step, Toolpath};
+use crate::ir::toolpath::{Edge, End, Pose, Run, Side, Stab, Step, Toolpath};
 use crate::source::Span;
 use crate::units::number::exact;
 
@@ -114,7 +114,7 @@ fn print_run(out: &mut String, run: &Run) {
     let feed = if greatest == f64::INFINITY { "off".to_owned() } else { exact(greatest) };
     let (shape, law) = (word(&SHAPES, run.shape), word(&LAWS, run.law));
     push(out, format_args!("run {shape} {law} front {} heel {} feed {feed}", exact(run.front), exact(run.heel)));
-    line(out, format_args!("{}", if run.turned { " turned" } else { "" }));
+    line(out, format_args!("{}{}", turned(run.turned), backwards(run.edge)));
     print_ends(out, run.ends);
     line(out, format_args!("  start {}", Placed(run.start)));
     line(out, format_args!("  end {}", Placed(run.end)));
@@ -130,10 +130,18 @@ fn print_run(out: &mut String, run: &Run) {
     }
 }
 
+fn turned(is_turned: bool) -> &'static str {
+    if is_turned { " turned" } else { "" }
+}
+
+fn backwards(edge: Edge) -> &'static str {
+    if edge == Edge::Back { " backwards" } else { "" }
+}
+
 fn print_stab(out: &mut String, stab: &Stab) {
     let along = Xy(Point::from(stab.along));
     push(out, format_args!("stab along {along} front {} heel {}", exact(stab.front), exact(stab.heel)));
-    out.push_str(if stab.turned { " turned" } else { "" });
+    push(out, format_args!("{}{}", turned(stab.turned), backwards(stab.edge)));
     if stab.harm > 0.0 {
         push(out, format_args!(" harm {}", exact(stab.harm)));
     }

@@ -8,7 +8,7 @@ use super::{ENDS, EVENTS, JOINTS, LAWS, SHAPES, SIDES};
 use crate::geom::{Heading, Point, Vector};
 use crate::ir::list::{FULL_SPEED, Joint, Segment};
 use crate::ir::marker::{Contour, Drill, Event, Field, Label, Marker, Notch, NotchKind, Piece, Stroke, Vee};
-use crate::ir::toolpath::{self, Air, End, Pose, Run, Stab, Step, Toolpath};
+use crate::ir::toolpath::{Air, Edge, End, Pose, Run, Stab, Step, Toolpath, self};
 use crate::source::Span;
 
 /// A text that is not what [`print_marker`](super::print_marker) or [`print_toolpath`](super::print_toolpath) writes.
@@ -176,6 +176,7 @@ fn run(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Run> {
     line.expect("feed")?;
     let feed = if line.has("off") { f64::INFINITY } else { line.number()? };
     let turned = line.has("turned");
+    let edge = edge(line);
     let ends = ends(lines)?;
     let start = pose_line(lines, "start")?;
     let end = pose_line(lines, "end")?;
@@ -190,6 +191,7 @@ fn run(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Run> {
         heel,
         ends,
         turned,
+        edge,
         start,
         end,
     };
@@ -212,6 +214,7 @@ fn stab(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Stab> {
     let along = Vector::new(line.number()?, line.number()?);
     let (front, heel) = overlaps(line)?;
     let turned = line.has("turned");
+    let edge = edge(line);
     let harm = if line.has("harm") { line.number()? } else { 0.0 };
     let ends = ends(lines)?;
     let pose = pose_line(lines, "pose")?;
@@ -225,7 +228,11 @@ fn stab(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Stab> {
         }
         line.end()?;
     }
-    Ok(Stab { points, spans, along, front, heel, ends, turned, harm, pose })
+    Ok(Stab { points, spans, along, front, heel, ends, turned, edge, harm, pose })
+}
+
+fn edge(line: &mut Line<'_>) -> Edge {
+    if line.has("backwards") { Edge::Back } else { Edge::Front }
 }
 
 fn overlaps(line: &mut Line<'_>) -> Read<(f64, f64)> {

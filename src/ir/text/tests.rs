@@ -2,7 +2,7 @@ use super::*;
 use crate::geom::{Heading, Point, Rotation, Vector};
 use crate::ir::list::Segment;
 use crate::ir::marker::{self, Contour, Drill, Field, Label, Marker, Notch, NotchKind, Piece, Vee};
-use crate::ir::toolpath::{self, Air, Pose, Run, Stab, Step, Toolpath};
+use crate::ir::toolpath::{Air, Edge, Pose, Run, Stab, Step, Toolpath, self};
 use crate::source::Span;
 
 /// Seeded numbers (`splitmix64`, Steele, Lea & Flood 2014).
@@ -136,6 +136,7 @@ fn step(random: &mut Random) -> Step {
                     .collect(),
                 ends: [random.end(), random.end()],
                 turned: random.flag(),
+                edge: if random.flag() { Edge::Back } else { Edge::Front },
                 start: random.pose(),
                 end: random.pose(),
                 spans,
@@ -151,6 +152,7 @@ fn step(random: &mut Random) -> Step {
                 heel: random.number(),
                 ends: [random.end(), random.end()],
                 turned: random.flag(),
+                edge: if random.flag() { Edge::Back } else { Edge::Front },
                 harm: if random.flag() { random.number().abs() } else { 0.0 },
                 pose: random.pose(),
             })

@@ -192,7 +192,7 @@ mod tests {
             heel: 0.0,
             feeds: vec![1.0; chords],
             ends: [End::default(); 2],
-            turned: false,
+            turned: false, edge: Edge::Front,
             start: Pose::default(),
             end: Pose::default(),
         }

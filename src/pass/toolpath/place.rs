@@ -10,7 +10,7 @@ use super::stretch::Way;
 use super::wind;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Heading, Point, Rotation, Vector, angle, polyline};
-use crate::ir::toolpath::{Air, Law, Pose, Run, Shape, Stab, Step, Toolpath};
+use crate::ir::toolpath::{Air, Edge, Law, Pose, Run, Shape, Stab, Step, Toolpath};
 use crate::machine::{Job, Knife};
 use crate::units::{deg, number::fixed};
 
@@ -50,17 +50,20 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     toolpath.steps = placed;
 }
 
-/// The pose with the tip at a point and the blade along a unit vector.
-fn pose_at(tip: Point, along: Vector, c: Rotation, knife: &Knife) -> Pose {
-    Pose { centre: tip - along * knife.radius(), c }
+/// The pose in which an edge cuts along a unit vector as far as a point.
+fn pose_at(tip: Point, along: Vector, (c, edge): (Rotation, Edge), knife: &Knife) -> Pose {
+    Pose { centre: tip - along * edge.lead(knife.ends()), c }
 }
 
 fn place_stab(stab: &mut Stab, before: Rotation, job: &Job, diagnostics: &mut Diagnostics) {
     let heading = Heading::of(stab.along);
-    stab.pose.c = equivalent(before, heading, [0.0, 0.0], job).unwrap_or_else(|| {
+    let knife = &job.profile.knife;
+    let tip = stab.pose.centre + stab.along * knife.radius();
+    let (c, edge) = equivalent(before, heading, [0.0, 0.0], job).unwrap_or_else(|| {
         diagnostics.push(out_of_range(stab.spans[0]));
-        before.nearest(heading)
+        (before.nearest(heading), Edge::Front)
     });
+    (stab.pose, stab.edge) = (pose_at(tip, stab.along, (c, edge), knife), edge);
 }
 
 fn place_run(run: &mut Run, before: Rotation, job: &Job, diagnostics: &mut Diagnostics) {
@@ -84,11 +87,12 @@ fn place_run(run: &mut Run, before: Rotation, job: &Job, diagnostics: &mut Diagn
         range = [range[0].min(turned), range[1].max(turned)];
     }
     let heading = Heading::new(Heading::of(first).radians() + plunge);
-    let c = equivalent(before, heading, range.map(|r| r - plunge), job).unwrap_or_else(|| {
+    let (c, edge) = equivalent(before, heading, range.map(|r| r - plunge), job).unwrap_or_else(|| {
         let wound = fixed(deg(range[1] - range[0]), 1);
         diagnostics.push(out_of_range(run.spans[0]).hint(format!("the run turns C through {wound} degrees")));
-        before.nearest(heading)
+        (before.nearest(heading), Edge::Front)
     });
+    run.edge = edge;
     let end_c = match (run.shape, run.law) {
         (_, Law::Tangent) => Rotation(c.0 - plunge + turned),
         (Shape::Ring, Law::Chord) => {
@@ -111,8 +115,8 @@ fn place_run(run: &mut Run, before: Rotation, job: &Job, diagnostics: &mut Diagn
             (tip, run.points[n - 1] + last * run.front)
         }
     };
-    run.start = pose_at(tip, heading.unit(), c, knife);
-    run.end = pose_at(end, end_c.unit(), end_c, knife);
+    run.start = pose_at(tip, heading.unit(), (c, edge), knife);
+    run.end = pose_at(end, Rotation(end_c.0 - edge.turn()).unit(), (end_c, edge), knife);
 }
 
 /// A ring from its start round to where its overlap along itself ends.
@@ -144,9 +148,20 @@ fn chord_lag(path: &[Point], knife: &Knife) -> f64 {
     lag
 }
 
-/// The position of C nearest to `before` that shows `heading` and from which C may move through `range` (rad) without
-/// leaving `c.range_deg`, by a margin if it turns; `None` when there is none.
-fn equivalent(before: Rotation, heading: Heading, range: [f64; 2], job: &Job) -> Option<Rotation> {
+/// The position of C nearest to `before` at which an edge of the blade shows `heading` and from which C may move through
+/// `range` (rad) without leaving `c.range_deg`, by a margin if it turns; `None` when there is none.
+fn equivalent(before: Rotation, heading: Heading, range: [f64; 2], job: &Job) -> Option<(Rotation, Edge)> {
+    let edges = if job.profile.knife.edges == 1 { &[Edge::Front][..] } else { &[Edge::Front, Edge::Back] };
+    let of_edge = |&edge: &Edge| {
+        let shown = Heading::new(heading.radians() + edge.turn());
+        Some((of_heading(before, shown, range, job)?, edge))
+    };
+    let away = |found: &(Rotation, Edge)| (found.0.0 - before.0).abs();
+    edges.iter().filter_map(of_edge).reduce(|a, b| if away(&b) + SAME_TURN < away(&a) { b } else { a })
+}
+
+/// The same for one edge.
+fn of_heading(before: Rotation, heading: Heading, range: [f64; 2], job: &Job) -> Option<Rotation> {
     let nearest = before.nearest(heading);
     let Some(ends) = job.profile.blade_range() else { return Some(nearest) };
     let [low, high] = range;
@@ -163,6 +178,8 @@ fn whole_turns(nearest: Rotation, range: [f64; 2], [least, greatest]: [f64; 2]) 
     (up <= down).then(|| Rotation(nearest.0 + turn * 0.0_f64.clamp(up, down)))
 }
 
+/// Turns that differ by less are the same, rad: then the front edge cuts.
+const SAME_TURN: f64 = 1e-9;
 /// Part of a turn by which C may seem to leave its range: rounding.
 const RANGE_EPSILON: f64 = 1e-9;
 

@@ -75,6 +75,7 @@ fn stab(run: &Run, around: &Around) -> Option<Stab> {
             End { side: if harms { Side::Part } else { run.ends[end].side }, ..run.ends[end] }
         }),
         turned: run.turned,
+        edge: run.edge,
         harm: split.iter().map(|share| share.harm).sum(),
         pose: Pose { centre: tip - along * around.knife().radius(), ..Pose::default() },
     })

@@ -3,8 +3,6 @@
 //! Needs runs split at corners. Leaves runs that can be cut at one equivalent of C inside the range; as few of them as that
 //! takes. Each is led on along the contour by the overlaps of a corner.
 
-use std::f64::consts::TAU;
-
 use super::ToolpathPass;
 use super::scene::Scene;
 use super::stretch::{REJOINED, Way};
@@ -48,7 +46,7 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
 /// The parts of a run that winds; `None` when it need not be parted, or cannot.
 fn parts(run: &Run, range: [f64; 2], knife: &Knife) -> Option<Vec<Run>> {
     let way = Way::new(run);
-    let winding = Winding::new(run, &way);
+    let winding = Winding::new(run, &way, knife);
     let (chords, length) = (way.chords().cast_signed(), way.length());
     // Round a ring the last chord turns on to the first one.
     let whole = chords + isize::from(way.is_ring());
@@ -101,10 +99,12 @@ struct Winding {
     headings: Vec<f64>,
     /// By how much a lap turns, rad.
     lap: f64,
+    /// After which turn the blade cuts the same again, rad.
+    period: f64,
 }
 
 impl Winding {
-    fn new(run: &Run, way: &Way) -> Self {
+    fn new(run: &Run, way: &Way, knife: &Knife) -> Self {
         let mut heading = Heading::of(run.points[1] - run.points[0]).radians();
         let mut headings = vec![heading];
         headings.extend(run.points.windows(3).map(|w| {
@@ -112,7 +112,7 @@ impl Winding {
             heading
         }));
         let closing = polyline::turn_at(run.points[way.chords() - 1], run.points[0], run.points[1]);
-        Self { lap: heading + closing - headings[0], headings }
+        Self { lap: heading + closing - headings[0], headings, period: knife.period() }
     }
 
     /// The direction of a chord, which may be of another lap.
@@ -125,11 +125,11 @@ impl Winding {
     /// `None` when not even that is in the range.
     fn reach(&self, first: isize, end: isize, [least, greatest]: [f64; 2]) -> Option<isize> {
         let heading = self.at(first);
-        let low = ((least - heading) / TAU - ANGLE_EPSILON).ceil();
-        let high = ((greatest - heading) / TAU + ANGLE_EPSILON).floor();
+        let low = ((least - heading) / self.period - ANGLE_EPSILON).ceil();
+        let high = ((greatest - heading) / self.period + ANGLE_EPSILON).floor();
         let is_in = |c: f64| (least - ANGLE_EPSILON..=greatest + ANGLE_EPSILON).contains(&c);
         // Of all equivalents the first or the last goes on longest, unless the way swings both ways; few are legal at all.
-        let turns = (0..=(high - low).max(-1.0) as isize).map(|k| (low + k as f64) * TAU);
+        let turns = (0..=(high - low).max(-1.0) as isize).map(|k| (low + k as f64) * self.period);
         turns.map(|turns| (first..end).find(|&chord| !is_in(self.at(chord) + turns)).unwrap_or(end)).max()
     }
 }
