@@ -230,7 +230,8 @@ fn a_blade_with_two_edges_cuts_either_way_round_and_turns_less() {
     assert!(two.time_s < one.time_s, "{:?} {:?}", two.time_s, one.time_s);
     let mut judge = |job: &Job| {
         let mut found = Diagnostics::default();
-        let verdict = pipeline::judge_program(&mut program, &source, None, job, &mut found).expect("memory is readable");
+        let verdict =
+            pipeline::judge_program(&mut program, &source, None, job, &mut found).expect("memory is readable");
         verdict.expect("the source is sound").broken().map(|finding| finding.rule).collect::<Vec<_>>()
     };
     assert_eq!(judge(&two_edges), [""; 0]);

@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_4, PI};
 use cutc::diagnostic::Diagnostics;
 use cutc::geom::{Point, angle, polyline};
 use cutc::ir::list::Joint;
-use cutc::ir::toolpath::{End, Law, Pose, Run, Shape, Step, Toolpath};
+use cutc::ir::toolpath::{Edge, End, Law, Pose, Run, Shape, Step, Toolpath};
 use cutc::machine::{self, Job};
 use cutc::pipeline;
 use cutc::plan::{self, Cut};
@@ -41,6 +41,7 @@ fn run(points: Vec<Point>, job: &Job) -> Run {
         heel: 0.0,
         ends: [End::default(); 2],
         turned: false,
+        edge: Edge::Front,
         start: Pose::default(),
         end: Pose::default(),
     }

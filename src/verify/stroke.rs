@@ -67,7 +67,10 @@ impl Strokes {
     pub(super) fn all(&self) -> Vec<Stroke<'_>> {
         let starts = std::iter::once(0).chain(self.ends.iter().copied());
         let goings = |range: Range<usize>| self.goings.get(range).unwrap_or_default();
-        starts.zip(&self.ends).map(|(from, &to)| Stroke { rows: &self.rows[from..to], goings: goings(from..to) }).collect()
+        starts
+            .zip(&self.ends)
+            .map(|(from, &to)| Stroke { rows: &self.rows[from..to], goings: goings(from..to) })
+            .collect()
     }
 }
 
@@ -178,15 +181,16 @@ impl<'a> Judge<'a> {
         let mut blades: Vec<Vector> = rows.iter().map(Row::along).collect();
         let mut ends = self.knife.ends();
         if self.goes_backwards(rows, &blades) {
-            blades.iter_mut().for_each(|blade| *blade = -*blade);
+            for blade in &mut blades {
+                *blade = -*blade;
+            }
             ends.reverse();
         }
         let [lead, heel] = ends;
         // The tip swings about the centre as the blade turns.
         let way = |(going, &blade): (&Going, &Vector)| going.way + left(blade) * (lead * going.turn);
         let ways = stroke.goings.iter().zip(&blades).map(way).collect();
-        let tips: Vec<Point> =
-            rows.iter().zip(&blades).map(|(row, &along)| row.centre + along * lead).collect();
+        let tips: Vec<Point> = rows.iter().zip(&blades).map(|(row, &along)| row.centre + along * lead).collect();
         let tail = rows[0].centre - blades[0] * heel;
         let cut = Cut::new(&tips, tail, self.knife);
         let trace = self.tracer.trace(&cut, rows[0].block);

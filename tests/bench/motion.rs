@@ -16,7 +16,7 @@ use std::time::Instant;
 use cutc::diagnostic::Diagnostics;
 use cutc::geom::Point;
 use cutc::ir::list::Joint;
-use cutc::ir::toolpath::{End, Law, Pose, Run, Shape, Step, Toolpath};
+use cutc::ir::toolpath::{Edge, End, Law, Pose, Run, Shape, Step, Toolpath};
 use cutc::machine::{self, Job};
 use cutc::source::{Source, Span};
 use cutc::{pipeline, plan};
@@ -102,6 +102,7 @@ fn plan_run(points: &[Point], job: &Job) {
         heel: 0.0,
         ends: [End::default(); 2],
         turned: false,
+        edge: Edge::Front,
         start: Pose::default(),
         end: Pose::default(),
     };

@@ -8,7 +8,7 @@ use super::{ENDS, EVENTS, JOINTS, LAWS, SHAPES, SIDES};
 use crate::geom::{Heading, Point, Vector};
 use crate::ir::list::{FULL_SPEED, Joint, Segment};
 use crate::ir::marker::{Contour, Drill, Event, Field, Label, Marker, Notch, NotchKind, Piece, Stroke, Vee};
-use crate::ir::toolpath::{Air, Edge, End, Pose, Run, Stab, Step, Toolpath, self};
+use crate::ir::toolpath::{self, Air, Edge, End, Pose, Run, Stab, Step, Toolpath};
 use crate::source::Span;
 
 /// A text that is not what [`print_marker`](super::print_marker) or [`print_toolpath`](super::print_toolpath) writes.

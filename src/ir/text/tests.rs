@@ -2,7 +2,7 @@ use super::*;
 use crate::geom::{Heading, Point, Rotation, Vector};
 use crate::ir::list::Segment;
 use crate::ir::marker::{self, Contour, Drill, Field, Label, Marker, Notch, NotchKind, Piece, Vee};
-use crate::ir::toolpath::{Air, Edge, Pose, Run, Stab, Step, Toolpath, self};
+use crate::ir::toolpath::{self, Air, Edge, Pose, Run, Stab, Step, Toolpath};
 use crate::source::Span;
 
 /// Seeded numbers (`splitmix64`, Steele, Lea & Flood 2014).

@@ -175,7 +175,7 @@ mod tests {
     use super::*;
     use crate::geom::Heading;
     use crate::ir::list::Joint;
-    use crate::ir::toolpath::{End, Law, Pose};
+    use crate::ir::toolpath::{Edge, End, Law, Pose};
     use crate::source::Span;
 
     const WIDTH: f64 = 6.6;
@@ -192,7 +192,8 @@ mod tests {
             heel: 0.0,
             feeds: vec![1.0; chords],
             ends: [End::default(); 2],
-            turned: false, edge: Edge::Front,
+            turned: false,
+            edge: Edge::Front,
             start: Pose::default(),
             end: Pose::default(),
         }

@@ -109,7 +109,7 @@ mod tests {
     use super::*;
     use crate::geom::Point;
     use crate::ir::list::Joint;
-    use crate::ir::toolpath::{Law, Pose};
+    use crate::ir::toolpath::{Edge, Law, Pose};
     use crate::source::Span;
 
     fn ring(coordinates: &[(f64, f64)]) -> Run {
@@ -126,6 +126,7 @@ mod tests {
             feeds: vec![1.0; coordinates.len()],
             ends: [End::default(); 2],
             turned: false,
+            edge: Edge::Front,
             start: Pose::default(),
             end: Pose::default(),
         }

@@ -6,7 +6,7 @@ use super::notches;
 use crate::ir::Marker;
 use crate::ir::list::{FULL_SPEED, Joint, Segment};
 use crate::ir::marker::{Contour, Event, Notch, Piece, Stroke, Vee};
-use crate::ir::toolpath::{Edge, Drill, End, Law, Pose, Run, Shape, Step, Toolpath};
+use crate::ir::toolpath::{Drill, Edge, End, Law, Pose, Run, Shape, Step, Toolpath};
 use crate::machine::{Follow, Job, NotchStyle, Notches};
 
 /// The raw toolpath of each drill, notch and contour, in cut order: a contour is one run, not yet split, without
@@ -112,7 +112,8 @@ fn raw(shape: Shape, job: &Job) -> Run {
         heel: 0.0,
         feeds: Vec::new(),
         ends: [End::default(); 2],
-        turned: false, edge: Edge::Front,
+        turned: false,
+        edge: Edge::Front,
         start: Pose::default(),
         end: Pose::default(),
     }
