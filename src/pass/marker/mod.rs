@@ -5,6 +5,7 @@ use crate::geom::budget::Budget;
 use crate::ir::Marker;
 use crate::machine::Job;
 
+mod inner;
 mod inspect;
 mod notch;
 mod order;
@@ -26,7 +27,7 @@ pub struct MarkerPass {
 
 /// Every pass over the marker, in order.
 pub const MARKER_PASSES: &[MarkerPass] =
-    &[weld::PASS, slit::PASS, inspect::PASS, order::PASS, notch::PASS, sanity::PASS, select::PASS];
+    &[weld::PASS, slit::PASS, inspect::PASS, order::PASS, inner::PASS, notch::PASS, sanity::PASS, select::PASS];
 
 /// Parts in which the pieces of a marker are looked at side by side: more than any machine that compiles has cores.
 const PARTS: usize = 16;
