@@ -52,6 +52,8 @@ impl Cut {
 pub(super) struct Body {
     /// How far the path bows away from the blade, mm: what it does, and at the most what an arc of the same turn does.
     pub(super) sag: f64,
+    /// The places between which it does: tail and tip, or what of a blade that never moves is not its surplus.
+    pub(super) ends: [usize; 2],
     /// Turn of the path under the blade, rad, when the blade never moves: its surplus then goes off the line straight on.
     turned: f64,
 }
@@ -59,10 +61,19 @@ pub(super) struct Body {
 impl Body {
     /// The body of a cut whose places stand at `feet` of a line; `allowed` is how far its ends may be off, mm.
     pub(super) fn new(line: &Line, cut: &Cut, feet: &[Foot], allowed: f64) -> Self {
-        let (tail, tip) = (cut.points[0], cut.points[cut.body]);
-        let (a, b) = (feet[0].station, feet[cut.body].station);
+        let is_on = |&i: &usize| feet[i].deviation <= allowed;
+        let ends = if cut.is_stab() {
+            // The surplus of a blade that never moves may leave the line at either end.
+            (0..=cut.body).find(is_on).zip((0..=cut.body).rev().find(is_on))
+        } else {
+            Some((0, cut.body)).filter(|(tail, tip)| is_on(tail) && is_on(tip))
+        };
+        // A blade that does not lie along the line is no chord of it.
+        let Some((first, last)) = ends else { return Self::default() };
+        let (tail, tip) = (cut.points[first], cut.points[last]);
+        let (a, b) = (feet[first].station, feet[last].station);
         let (low, high) = (a.min(b), a.max(b));
-        let mut body = Self::default();
+        let mut body = Self { ends: [first, last], ..Self::default() };
         let mut turned = 0.0;
         for vertex in line.vertices(low, high) {
             body.sag = body.sag.max(polyline::distance_to_segment(line.points[vertex], tail, tip));
@@ -78,15 +89,14 @@ impl Body {
         };
         turned += next.map_or(0.0, |vertex| line.turn(vertex).abs());
         body.sag = body.sag.min(polyline::sagitta((tip - tail).norm(), turned));
-        let off = |i: usize| feet[i].deviation - body.turned * feet[i].beyond > allowed;
-        // A blade that does not lie along the line is no chord of it.
-        if off(0) || off(cut.body) { Self::default() } else { body }
+        body
     }
 
-    /// How far place `i` of the body is off. The tail stands on the path or its extension; only between its ends the
-    /// blade cuts across.
+    /// How far place `i` of the body is off. Its ends stand on the path or its extension; only between them the blade cuts
+    /// across.
     pub(super) fn off(&self, i: usize, foot: &Foot) -> f64 {
-        let sag = if i == 0 { 0.0 } else { self.sag };
+        let [first, last] = self.ends;
+        let sag = if first < i && i < last { self.sag } else { 0.0 };
         (foot.deviation - sag.max(self.turned * foot.beyond)).max(0.0)
     }
 }

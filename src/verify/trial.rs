@@ -204,7 +204,7 @@ impl Tracer<'_> {
         // What nibbles is within the tolerance of what it cuts.
         let is_exact = laps || line.nibbled && cut.is_stab();
         let mut body = if is_exact { Body::default() } else { Body::new(line, cut, &trial.feet, allowed) };
-        if body.sag > allowed && !self.may_bow(cut, line, &trial.feet) {
+        if body.sag > allowed && !self.may_bow(line, body.ends.map(|end| trial.feet[end].station), cut) {
             body.sag = 0.0;
         }
         let off = |i: usize, foot: &Foot| if i < cut.body { body.off(i, foot) } else { foot.deviation };
@@ -257,12 +257,12 @@ impl Tracer<'_> {
         trial
     }
 
-    /// Whether the path may bow away from a plunged blade: where a stroke begins at a joint, or a stab ends at one.
-    fn may_bow(&self, cut: &Cut, line: &Line, feet: &[Foot]) -> bool {
+    /// Whether the path may bow away from a blade that plunges with its ends at two stations: where a stroke begins at a
+    /// joint, or a stab ends at one.
+    fn may_bow(&self, line: &Line, [tail, tip]: [f64; 2], cut: &Cut) -> bool {
         let slack = 2.0 * self.allowed;
-        let is_joint =
-            |foot: &Foot| self.joints.near(line, Around { station: foot.station, slack, tube: 0.0 }).is_some();
-        is_joint(&feet[0]) || cut.is_stab() && is_joint(&feet[cut.body])
+        let is_joint = |station: f64| self.joints.near(line, Around { station, slack, tube: 0.0 }).is_some();
+        is_joint(tail) || cut.is_stab() && is_joint(tip)
     }
 }
 
