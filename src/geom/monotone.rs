@@ -31,6 +31,11 @@ impl Chain {
         extent
     }
 
+    /// Number of its segments.
+    pub fn segments(self) -> usize {
+        (self.last - self.first) as usize
+    }
+
     fn halves(self) -> [Self; 2] {
         let middle = self.first.midpoint(self.last);
         [Self { last: middle, ..self }, Self { first: middle, ..self }]

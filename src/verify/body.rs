@@ -17,6 +17,17 @@ pub(super) struct Cut {
     pub(super) body: usize,
     /// The row of each place of the tip.
     pub(super) rows: Vec<usize>,
+    /// How the tip goes from place to place.
+    pub(super) bow: Bow,
+}
+
+/// How far the way of a tip bows away from the straight line between two of its places.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Bow {
+    /// As places at equal times show: by an eighth of their second difference, as a parabola does.
+    Timed,
+    /// By no more than this, mm: they were laid so along a way that is known.
+    Within(f64),
 }
 
 impl Cut {
@@ -28,7 +39,7 @@ impl Cut {
         // Rest rows repeat their place; a track of places that differ is enough.
         let moves: Vec<usize> = (0..tips.len()).filter(|&i| i == 0 || tips[i] != tips[i - 1]).collect();
         points.extend(moves.iter().map(|&i| tips[i]));
-        Self { stations: polyline::stations(&points), points, body: steps, rows: moves }
+        Self { stations: polyline::stations(&points), points, body: steps, rows: moves, bow: Bow::Timed }
     }
 
     /// Length of all that it cuts, mm: of the body, and of the tip's way.

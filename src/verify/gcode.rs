@@ -23,12 +23,18 @@ const HEAD: &[u8] = b"G17 G21 G40 G80 G90 G91.1";
 /// The longest line that is read, bytes.
 const LINE_MAX: u64 = 1024;
 /// Farthest that a straight step may leave an arc, mm: a tenth of the least tolerance of a path.
-const SAGITTA: f64 = 5e-3;
+pub(super) const SAGITTA: f64 = 5e-3;
 /// Longest step, mm, and greatest turn of C on one, degrees.
 const STEP_MM: f64 = 8.0;
 const STEP_DEG: f64 = 5.0;
 /// Most steps of a line of a program: more are no way of a machine.
 const STEPS_MAX: f64 = 1e5;
+/// Most steps with the knife down: a stroke of ten kilometres.
+const STEPS_A_STROKE: f64 = 4e6;
+/// Arcs that turn by less, or lack less of a whole turn, are read as both by controllers, rad.
+const SWEEP_MIN: f64 = 1e-5;
+/// What rounding may take of a way that F is held against, at the most: the target writes none that are shorter.
+const SURE_MIN: f64 = 0.95;
 /// A whole turn, degrees, and what is none.
 const TURN_DEG: f64 = 360.0;
 const TURN_EPSILON: f64 = 1e-6;
@@ -99,6 +105,8 @@ pub(super) struct Places<'a> {
     now: Row,
     queue: VecDeque<(Row, Going)>,
     last: Going,
+    /// Steps since the knife is down.
+    in_stroke: f64,
     /// Whether the lines at the end were read.
     over: bool,
     /// Why a line cannot be read, and where the axes stood.
@@ -122,6 +130,7 @@ impl<'a> Places<'a> {
             now,
             queue: VecDeque::from([(now, Going::default())]),
             last: Going::default(),
+            in_stroke: 0.0,
             bad: None,
             ended: false,
         }
@@ -190,7 +199,7 @@ impl<'a> Places<'a> {
         }
         if let Some(rest) = self.rest_due.take() {
             let words = Words::of(line, self.profile).unwrap_or_default();
-            let rests = words.g == Some(4.0) && words.p.is_some_and(|time| time >= rest - REST_EPSILON);
+            let rests = words.rest().is_some_and(|time| time >= rest - REST_EPSILON);
             let why = || format!("is {} where a rest of {} s belongs", quoted(line), exact(rest));
             return rests.then_some(()).ok_or_else(why);
         }
@@ -210,10 +219,9 @@ impl<'a> Places<'a> {
             self.now.block = number.unwrap_or(0);
             return Ok(());
         }
-        match &Words::of(line, self.profile)? {
-            Words { g: Some(4.0), p: Some(time), .. } if *time >= 0.0 => Ok(()),
-            Words { .. } => Err(format!("is {}, which is no line of the target gcode with this profile", quoted(line))),
-        }
+        let rest = Words::of(line, self.profile)?.rest().filter(|&time| time >= 0.0);
+        let why = || format!("is {}, which is no line of the target gcode with this profile", quoted(line));
+        rest.map(|_| ()).ok_or_else(why)
     }
 
     fn obey(&mut self, meaning: Meaning) -> Result<(), String> {
@@ -231,6 +239,7 @@ impl<'a> Places<'a> {
                 self.push(Row { event, ..self.now }, Going::default());
                 return Ok(());
             }
+            Meaning::Down if self.now.drill != 0 => return Err("puts the knife down beside a drill".to_owned()),
             Meaning::Down => self.now.knife = true,
             Meaning::Up => self.now.knife = false,
             Meaning::Drill(tool) => self.now.drill = tool,
@@ -261,6 +270,9 @@ impl<'a> Places<'a> {
             return Err(BEHIND_END.to_owned());
         }
         let from = self.now;
+        if from.drill != 0 {
+            return Err("is a move while a drill is down".to_owned());
+        }
         let needed = |word: Option<f64>, letter: char| word.ok_or_else(|| format!("has no {letter}"));
         let code = needed(words.g, 'G')?;
         let to = Point::new(needed(words.x, 'X')?, needed(words.y, 'Y')?);
@@ -287,12 +299,13 @@ impl<'a> Places<'a> {
         let length = arc.map_or((to - from.centre).norm(), |arc| arc.sweep.abs() * arc.start.norm());
         let by_bow = arc.map_or(0.0, |arc| arc.sweep.abs() * (arc.start.norm() / (8.0 * SAGITTA)).sqrt());
         let steps = by_bow.max(length / STEP_MM).max(turned.abs() / STEP_DEG).ceil().max(1.0);
-        if steps > STEPS_MAX {
+        self.in_stroke = if from.knife { self.in_stroke + steps } else { 0.0 };
+        if steps > STEPS_MAX || self.in_stroke > STEPS_A_STROKE {
             return Err("is a way that no machine goes".to_owned());
         }
         let pace = self.pace(feed, length, turned);
-        // In the air only the ends matter.
-        let first = if from.knife { 0 } else { steps as usize };
+        // In the air only the ends of a straight way matter.
+        let first = if from.knife || arc.is_some() { 0 } else { steps as usize };
         for i in first..=steps as usize {
             let share = i as f64 / steps;
             let (centre, ahead) = match arc {
@@ -317,13 +330,12 @@ impl<'a> Places<'a> {
         }
         let rounding = 2.0 * Self::rounding(self.profile).axis();
         let size = if length > 0.0 { length } else { turned.abs() };
-        let sure = (size - rounding).max(0.0) / size.max(f64::MIN_POSITIVE);
+        let sure = ((size - rounding) / size.max(f64::MIN_POSITIVE)).max(SURE_MIN);
         let pace = match self.profile.gcode.feed_mode {
             FeedMode::G93 => feed / S_PER_MIN,
             FeedMode::G94 => feed / S_PER_MIN / size.max(f64::MIN_POSITIVE),
         };
-        // Where it points matters even of what may be no way at all.
-        pace * sure.max(f64::EPSILON)
+        pace * sure
     }
 
     /// The unwrapped geometric position that a word of the axis means.
@@ -360,6 +372,9 @@ impl<'a> Places<'a> {
         }
         let angle = |v: Vector| v.y.atan2(v.x);
         let turned = (way * (angle(end) - angle(start))).rem_euclid(TAU);
+        if turned != 0.0 && turned.min(TAU - turned) < SWEEP_MIN {
+            return Err("is an arc that may be none or a whole turn".to_owned());
+        }
         let sweep = way * if turned == 0.0 { TAU } else { turned };
         Ok(Arc { centre, start, grown: radii[1] / radii[0], sweep })
     }
@@ -387,7 +402,7 @@ impl Arc {
 }
 
 /// The words of a line.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, PartialEq)]
 struct Words {
     g: Option<f64>,
     x: Option<f64>,
@@ -413,6 +428,12 @@ impl Words {
             *place = Some(decimal(number).filter(|_| is_plain).ok_or_else(|| foreign(word))?);
         }
         Ok(words)
+    }
+
+    /// The time of a rest, s; `None` when it is none, or something moves in the same line.
+    fn rest(&self) -> Option<f64> {
+        let alone = Self { g: Some(4.0), p: self.p, ..Self::default() };
+        self.p.filter(|_| *self == alone)
     }
 
     /// A letter that has no business on a line of motion: P on an arc is a number of turns.

@@ -9,6 +9,8 @@ const CELL_MIN: f64 = 4.0;
 const CELLS_A_CHORD: f64 = 1.0;
 const CELLS: [f64; 2] = [4096.0, 4_194_304.0];
 
+/// Cells that a chord passes on average, at the most.
+const CELLS_A_CHORD_PASSES: f64 = 8.0;
 /// By how much rounding may shift an edge of a cell, mm: markers are shorter than a thousand kilometres.
 const EDGE: f64 = 1e-6;
 
@@ -38,7 +40,10 @@ impl Grid {
         let [least, most] = CELLS;
         let count = (CELLS_A_CHORD * chords as f64).clamp(least, most);
         // What is long and narrow has as many cells as it is long.
-        let cell = CELL_MIN.max((width * height / count).sqrt()).max(width.max(height) / count);
+        let length: f64 = reference.lines.iter().map(Line::length).sum();
+        // Long chords pass many cells.
+        let by_length = length / (CELLS_A_CHORD_PASSES * chords.max(1) as f64);
+        let cell = CELL_MIN.max((width * height / count).sqrt()).max(width.max(height) / count).max(by_length);
         let (columns, rows) = ((width / cell) as usize + 1, (height / cell) as usize + 1);
         let mut grid = Self { origin: extent.min, cell, columns, rows, starts: Vec::new(), chords: Vec::new() };
         // Counting sort: first how many, then where.

@@ -2,20 +2,21 @@
 
 use std::ops::RangeInclusive;
 
+use super::body::{Bow, Cut};
 use super::follow::Foot;
 use super::reference::Line;
 use crate::geom::{Point, polyline};
 
 /// How far the tip's way from place `i - 1` to place `i` passes by the vertices between their stations, mm.
-pub(super) fn skipped(line: &Line, points: &[Point], feet: &[Foot], i: usize) -> f64 {
+pub(super) fn skipped(line: &Line, cut: &Cut, feet: &[Foot], i: usize) -> f64 {
+    let points = &cut.points;
     let (a, b) = (feet[i - 1].station, feet[i].station);
     let (low, high) = (a.min(b), a.max(b));
-    // The tip bows between two rows: as a parabola does, by an eighth of the second difference of neighbouring rows.
-    let bow = |k: usize| {
-        if k == 0 || k + 1 >= points.len() {
-            return 0.0;
-        }
-        ((points[k + 1] - points[k]) - (points[k] - points[k - 1])).norm() / 8.0
+    let bow = |k: usize| match cut.bow {
+        Bow::Within(bow) => bow,
+        // The blade's own places are no part of the way.
+        Bow::Timed if k <= cut.body || k + 1 >= points.len() => 0.0,
+        Bow::Timed => ((points[k + 1] - points[k]) - (points[k] - points[k - 1])).norm() / 8.0,
     };
     let away = |vertex: usize| polyline::distance_to_segment(line.points[vertex], points[i - 1], points[i]);
     line.vertices(low.next_up(), high.next_down()).map(away).fold(0.0, f64::max) - bow(i).max(bow(i - 1))

@@ -6,8 +6,9 @@
 use std::ops::Range;
 
 use super::Done;
-use super::body::{BODY_STEP, Cut};
+use super::body::{BODY_STEP, Bow, Cut};
 use super::chord::{self, BODY_SHARES, Blade, Trailing};
+use super::gcode::SAGITTA;
 use super::grid::Grid;
 use super::heading::{self, Moving, Plunge};
 use super::inside::Inside;
@@ -27,6 +28,8 @@ use crate::machine::{Fit, Follow, Knife, MachineProfile};
 /// its tube passes the vertex early or late by less.
 const CAP_ASIDE: f64 = 0.5;
 
+/// Parts in which a step is held against caps, at the most: no step of a sound program has more.
+const PARTS_MAX: f64 = 32.0;
 /// Part of a feed that F may ask for too much: rounding, and where a line stands for an arc its ends are a little faster
 /// than its middle.
 const FEED_EPSILON: f64 = 1e-3;
@@ -192,7 +195,8 @@ impl<'a> Judge<'a> {
         let ways = stroke.goings.iter().zip(&blades).map(way).collect();
         let tips: Vec<Point> = rows.iter().zip(&blades).map(|(row, &along)| row.centre + along * lead).collect();
         let tail = rows[0].centre - blades[0] * heel;
-        let cut = Cut::new(&tips, tail, self.knife);
+        let bow = if stroke.goings.is_empty() { Bow::Timed } else { Bow::Within(SAGITTA) };
+        let cut = Cut { bow, ..Cut::new(&tips, tail, self.knife) };
         let trace = self.tracer.trace(&cut, rows[0].block);
         Traced { stroke, tips, blades, ends, ways, cut, trace, best: None }
     }
@@ -401,7 +405,13 @@ impl<'a> Judge<'a> {
         let cap = |i: usize| {
             best.as_ref().map_or(self.knife.feed_mm_s.unwrap_or(f64::INFINITY), |trial| {
                 let [a, b] = [0, 1].map(|k| trial.feet[cut.body + i + k].station);
-                self.reference.lines[trial.line].cap([a.min(b) - slack, a.max(b) + slack], trial.sign(cut))
+                let (low, high) = (a.min(b), a.max(b));
+                // What F asks for holds all along a step, which may be long: each part of it has its own cap.
+                let parts = if ways.is_empty() { 1.0 } else { ((high - low) / CAP_ASIDE).ceil().clamp(1.0, PARTS_MAX) };
+                let part = |k: usize| low + (high - low) * (k as f64 / parts);
+                let line = &self.reference.lines[trial.line];
+                let caps = (0..parts as usize).map(|k| [part(k) - slack, part(k + 1) + slack]);
+                caps.map(|ends| line.cap(ends, trial.sign(cut))).fold(f64::INFINITY, f64::min)
             })
         };
         let rounding = 4.0 * self.rounding / self.period;

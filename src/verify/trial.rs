@@ -225,7 +225,7 @@ impl Tracer<'_> {
             }
             let mut joined = i > first && off <= allowed;
             if joined && i > cut.body {
-                let skipped = skipped(line, points, &trial.feet, i);
+                let skipped = skipped(line, cut, &trial.feet, i);
                 trial.note(skipped, i);
                 joined = skipped <= allowed;
             }

@@ -44,6 +44,8 @@ pub(super) struct Arc {
     pub(super) curvature: f64,
     /// The last chord that it lies beside.
     pub(super) chord: usize,
+    /// Whether it ends at the end of that.
+    pub(super) stops: bool,
 }
 
 impl Arc {
@@ -59,10 +61,10 @@ impl Arc {
             return None;
         }
         if chord * half.abs() / 4.0 < LINE_EPSILON {
-            return Some(Self { from, along: way / chord, length: chord, curvature: 0.0, chord: 0 });
+            return Some(Self { from, along: way / chord, length: chord, curvature: 0.0, chord: 0, stops: false });
         }
         let length = chord * half / half.sin();
-        Some(Self { from, along, length, curvature: 2.0 * half / length, chord: 0 })
+        Some(Self { from, along, length, curvature: 2.0 * half / length, chord: 0, stops: false })
     }
 
     /// How far it turns, rad.
@@ -108,17 +110,22 @@ struct Node {
     chord: usize,
     /// Whether it lies on the curve that the polyline stands for; else it is a shoulder of a bend.
     is_aim: bool,
+    /// Whether an arc must end here: it stands at the end of its chord, where the feed changes.
+    stops: bool,
 }
 
-/// The ends of a way: a direction where it starts and one where it ends, unit vectors.
-#[derive(Debug, Clone, Copy)]
+/// What is asked of a way beside its tube.
+#[derive(Debug, Clone)]
 pub(super) struct Ends {
+    /// Unit vectors along it where it starts and where it ends.
     pub(super) start: Vector,
     pub(super) end: Vector,
+    /// Vertices at which an arc must end, in order.
+    pub(super) stops: Vec<usize>,
 }
 
 /// The arcs along a tube; otherwise the point at which none stays inside.
-pub(super) fn fit(tube: &Tube, ends: Ends) -> Result<Vec<Arc>, Point> {
+pub(super) fn fit(tube: &Tube, ends: &Ends) -> Result<Vec<Arc>, Point> {
     let nodes = nodes(tube, ends);
     let aims: Vec<usize> = (1..nodes.len()).filter(|&i| nodes[i].is_aim).collect();
     let mut arcs = Vec::new();
@@ -127,7 +134,9 @@ pub(super) fn fit(tube: &Tube, ends: Ends) -> Result<Vec<Arc>, Point> {
         while aims[ahead] <= i {
             ahead += 1;
         }
-        let (to, found) = farthest(tube, &nodes, (i, &aims[ahead..])).ok_or(nodes[i].at)?;
+        let stop = (i + 1..nodes.len()).find(|&k| nodes[k].stops).unwrap_or(nodes.len() - 1);
+        let end = aims.partition_point(|&aim| aim <= stop);
+        let (to, found) = farthest(tube, &nodes[..=stop], (i, &aims[ahead..end])).ok_or(nodes[i].at)?;
         arcs.extend(found.into_iter().flatten());
         i = to;
     }
@@ -171,10 +180,16 @@ const FIRST_TRIES: usize = 4;
 type Found = [Option<Arc>; 2];
 
 /// The places along a tube.
-fn nodes(tube: &Tube, ends: Ends) -> Vec<Node> {
+fn nodes(tube: &Tube, ends: &Ends) -> Vec<Node> {
     let last = tube.chords();
-    let node =
-        |chord: usize, (at, along): (Point, Vector), station: f64| Node { at, along, station, chord, is_aim: true };
+    let node = |chord: usize, (at, along): (Point, Vector), station: f64| Node {
+        at,
+        along,
+        station,
+        chord,
+        is_aim: true,
+        stops: false,
+    };
     let mut nodes = vec![node(0, (tube.points[0], ends.start), 0.0)];
     // A bend of turn t whose rounding touches both chords a way w off its vertex leaves the vertex by w tan(t / 4). On a
     // curve it is none.
@@ -196,6 +211,11 @@ fn nodes(tube: &Tube, ends: Ends) -> Vec<Node> {
         if behind < SHOULDER_SHARE * length {
             nodes.push(Node { is_aim: false, ..place(length - behind) });
         }
+        if ends.stops.binary_search(&(chord + 1)).is_ok() {
+            let along = (along + tube.direction(chord + 1)).normalize();
+            let end = (tube.points[chord + 1], along);
+            nodes.push(Node { stops: true, ..node(chord, end, tube.stations[chord + 1]) });
+        }
     }
     nodes.push(node(last - 1, (tube.points[last], ends.end), tube.stations[last]));
     nodes
@@ -212,7 +232,7 @@ fn biarc(tube: &Tube, from: &Node, to: &Node) -> Option<Found> {
     if let Some(one) = Arc::through(from.at, t0, to.at)
         && angle::turn(one.along_at(one.length), t1).abs() + angle::turn(t0, one.along).abs() < SAME_EPSILON
     {
-        let arcs = [Some(Arc { chord: to.chord, ..one }), None];
+        let arcs = [Some(Arc { chord: to.chord, stops: to.stops, ..one }), None];
         return stays(tube, &arcs, from, to).then_some(arcs);
     }
     let ahead = way.dot(&(t0 + t1));
@@ -228,7 +248,7 @@ fn biarc(tube: &Tube, from: &Node, to: &Node) -> Option<Found> {
     let second = Arc::through(middle, meet, to.at)?;
     let station = f64::midpoint(from.station, to.station);
     let chord = tube.chord_at(station);
-    let arcs = [Some(Arc { chord, ..first }), Some(Arc { chord: to.chord, ..second })];
+    let arcs = [Some(Arc { chord, ..first }), Some(Arc { chord: to.chord, stops: to.stops, ..second })];
     stays(tube, &arcs, from, to).then_some(arcs)
 }
 
@@ -303,16 +323,28 @@ fn stays_at_ends(tube: &Tube, [first, second]: [&Arc; 2], [from, to]: [&Node; 2]
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geom::polyline;
     use crate::machine::MachineProfile;
 
     fn fitted(points: Vec<Point>) -> Vec<Arc> {
         let tube = Tube::new(points, 0.05, ([0.0; 2], &MachineProfile::default()));
-        let ends = Ends { start: tube.direction(0), end: tube.direction(tube.chords() - 1) };
-        let arcs = fit(&tube, ends).expect("it fits");
+        let ends = Ends { start: tube.direction(0), end: tube.direction(tube.chords() - 1), stops: Vec::new() };
+        let arcs = fit(&tube, &ends).expect("it fits");
         for pair in arcs.windows(2) {
             assert!((pair[0].at(pair[0].length) - pair[1].from).norm() < 1e-9, "no gap");
             let kink = angle::turn(pair[0].along_at(pair[0].length), pair[1].along).abs();
             assert!(kink < 3.0 * SAME_EPSILON, "no kink: {kink}");
+        }
+        // By a measure that is not the fit's own: every place against the nearest chord and the sagitta of its bulge.
+        for arc in &arcs {
+            for place in (0..=20).map(|i| arc.at(arc.length * f64::from(i) / 20.0)) {
+                let away = |chord: usize| {
+                    let ends = [tube.points[chord], tube.points[chord + 1]];
+                    polyline::distance_to_segment(place, ends[0], ends[1]) - tube.middle(chord).norm()
+                };
+                let away = (0..tube.chords()).map(away).fold(f64::INFINITY, f64::min);
+                assert!(away <= 0.05, "{away} mm off at {place}");
+            }
         }
         arcs
     }
@@ -335,5 +367,18 @@ mod tests {
     #[test]
     fn a_straight_line_of_many_points_is_one_piece() {
         assert_eq!(fitted((0..50).map(|i| Point::new(f64::from(i), 2.0)).collect()).len(), 1);
+    }
+
+    #[test]
+    fn an_arc_ends_where_the_feed_changes() {
+        let tube = Tube::new(
+            (0..5).map(|i| Point::new(f64::from(i) * 10.0, 0.0)).collect(),
+            0.05,
+            ([0.0; 2], &MachineProfile::default()),
+        );
+        let along = tube.direction(0);
+        let arcs = fit(&tube, &Ends { start: along, end: along, stops: vec![1, 3] }).expect("it fits");
+        let ends: Vec<(usize, bool)> = arcs.iter().map(|arc| (arc.chord, arc.stops)).collect();
+        assert_eq!(ends, [(0, true), (2, true), (3, false)]);
     }
 }

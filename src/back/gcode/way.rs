@@ -138,7 +138,8 @@ pub(super) fn way(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Point> {
     let tube = Tube::new(points, tolerance - bow, (seam, &job.profile));
     let start = if ring { at_seam(run) } else { tube.direction(0) };
     let end = if ring && run.front == 0.0 { start } else { tube.direction(tube.chords() - 1) };
-    let arcs = fit(&tube, Ends { start, end })?;
+    let stops = (1..chords.len()).filter(|&k| run.feeds[chords[k - 1]] != run.feeds[chords[k]]).collect();
+    let arcs = fit(&tube, &Ends { start, end, stops })?;
     // Plunged as a chord, the blade lags behind its way and fades into it over its width.
     let length: f64 = arcs.iter().map(|arc| arc.length).sum();
     let lead = tail.map_or(0.0, |tail| angle::turn(tube.points[0] - tail, start));
@@ -154,7 +155,7 @@ pub(super) fn way(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Point> {
     let (mut done, mut beside) = (0.0, 0);
     for arc in &arcs {
         let feed = chords[beside..=arc.chord].iter().map(|&chord| run.feeds[chord]).fold(f64::INFINITY, f64::min);
-        beside = arc.chord;
+        beside = arc.chord + usize::from(arc.stops);
         tangent += angle::turn(Rotation(tangent).unit(), arc.along);
         let mut from = 0.0;
         let (count, part) = parts((fade - done).clamp(0.0, arc.length), [lead, fade], permitted);

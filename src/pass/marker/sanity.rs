@@ -199,12 +199,18 @@ impl Part {
         let side = |point: Point| cross(along, point - ends[0]);
         // A closed contour repeats its first point.
         let count = points.len() - usize::from(points.first() == points.last());
-        let departs = |step: &dyn Fn(usize) -> usize| {
-            let sign = side(points[step(0) % count]).signum();
-            let way = (0..count.min(MOST_STEPS)).map(|k| side(points[step(k) % count]) * sign);
+        let (_, is_closed) = self.contours[self.contour_of(segment)];
+        let departs = |step: &dyn Fn(usize) -> Option<usize>| {
+            // An open line ends where it ends.
+            let place =
+                |k: usize| step(k).filter(|&place| is_closed || place < count).map(|place| points[place % count]);
+            let Some(first) = place(0) else { return false };
+            let sign = side(first).signum();
+            let way = (0..count.min(MOST_STEPS)).map_while(place).map(|point| side(point) * sign);
             way.take_while(|&far| far > 0.0).any(|far| far > slack)
         };
-        departs(&|k| start + 1 + k) && departs(&|k| start + count - k)
+        let back = |k: usize| if is_closed { Some(start + count - k) } else { start.checked_sub(k) };
+        departs(&|k| Some(start + 1 + k)) && departs(&back)
     }
 
     /// Where its outlines cross themselves or each other, and the span there.
@@ -216,9 +222,12 @@ impl Part {
         };
         let boxes: Vec<Extent> = self.chains.iter().map(|chain| chain.0).collect();
         let mut found: Option<Crossing> = None;
-        pairs(&boxes, work, |i, k| {
+        pairs(&boxes, work, |i, k, work| {
             let (earlier, later) = (i.min(k), i.max(k));
             let both = [self.chains[earlier].1, self.chains[later].1];
+            if !work.spend(both.iter().map(|chain| chain.segments()).sum()) {
+                return false;
+            }
             found = found.or_else(|| crossing([&self.points, &self.points], both, &mut wanted));
             found.is_none()
         });
@@ -264,7 +273,7 @@ impl<'a> Search<'a> {
 
     fn overlaps(&mut self, work: &mut Budget, diagnostics: &mut Diagnostics) {
         let mut near: Vec<(usize, usize)> = Vec::new();
-        pairs(&self.boxes, work, |i, k| {
+        pairs(&self.boxes, work, |i, k, _| {
             near.push((i.min(k), i.max(k)));
             true
         });
@@ -370,7 +379,7 @@ fn at(place: Point) -> String {
 
 /// Calls `met` for each pair of boxes that overlap, until it says no: a sweep along the longer side of what they cover.
 /// Empty boxes overlap none.
-fn pairs(boxes: &[Extent], work: &mut Budget, mut met: impl FnMut(usize, usize) -> bool) {
+fn pairs(boxes: &[Extent], work: &mut Budget, mut met: impl FnMut(usize, usize, &mut Budget) -> bool) {
     let mut all = Extent::EMPTY;
     for extent in boxes.iter().filter(|extent| !extent.is_empty()) {
         all.add(extent.min);
@@ -389,7 +398,7 @@ fn pairs(boxes: &[Extent], work: &mut Budget, mut met: impl FnMut(usize, usize) 
         }
         active.retain(|&(end, _)| end >= start);
         for &(_, k) in &active {
-            if boxes[i].overlaps(&boxes[k]) && !met(k, i) {
+            if boxes[i].overlaps(&boxes[k]) && !met(k, i, work) {
                 return;
             }
         }
