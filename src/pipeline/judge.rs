@@ -44,7 +44,7 @@ const OF_CUTS: &[&str] = &[
     "verify/drill-place",
 ];
 
-/// Judges a program of timed setpoints, edited by hand or not, against a source. `None` when the source has errors: then
+/// Judges a program, edited by hand or not, against a source. `None` when the source has errors: then
 /// the diagnostics say which. They are about the source alone; what the program breaks is in the verdict.
 pub fn judge_program(
     program: &mut dyn Medium,

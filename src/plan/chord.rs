@@ -156,10 +156,12 @@ impl Chord {
             let moved = (next - t).abs();
             t = next;
             if moved <= TAIL_EPSILON {
-                break;
+                return (t, a.c);
             }
         }
-        (t, a.c)
+        // Where Newton's method does not settle, halving does.
+        let near = |t: f64| self.blade.width - (p - path::<1>(curve, t)[0]).norm();
+        (root(&near, a.t, b.t), a.c)
     }
 
     /// The axes at a parameter.

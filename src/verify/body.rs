@@ -93,11 +93,7 @@ impl Body {
         body.turned = if cut.is_stab() { turned } else { 0.0 };
         // The chord that is being left counts, too: a curve turns along its chords, not at its vertices.
         let length = line.length();
-        let next = if b >= a {
-            line.vertices(high.next_up(), high + length).next()
-        } else {
-            line.vertices(low - length, low.next_down()).last()
-        };
+        let next = if b >= a { line.vertices(high.next_up(), high + length).next() } else { line.vertex_before(low) };
         turned += next.map_or(0.0, |vertex| line.turn(vertex).abs());
         body.sag = body.sag.min(polyline::sagitta((tip - tail).norm(), turned));
         body

@@ -12,14 +12,16 @@ use crate::machine::MachineProfile;
 #[derive(Debug)]
 pub(super) struct Coverage<'a> {
     reference: &'a Reference<'a>,
-    /// Of each line: disjoint stretches of stations, in order.
+    /// Of each line: disjoint stretches of stations, in order, and how long they are together, mm.
     cut: Vec<Vec<[f64; 2]>>,
+    lengths: Vec<f64>,
 }
 
 impl<'a> Coverage<'a> {
     /// Nothing is cut yet.
     pub(super) fn new(reference: &'a Reference) -> Self {
-        Self { reference, cut: vec![Vec::new(); reference.lines.len()] }
+        let lines = reference.lines.len();
+        Self { reference, cut: vec![Vec::new(); lines], lengths: vec![0.0; lines] }
     }
 
     /// How much of the stretches was not cut before, mm.
@@ -45,13 +47,14 @@ impl<'a> Coverage<'a> {
 
     /// How much of a line was cut, mm.
     pub(super) fn length(&self, line: usize) -> f64 {
-        self.cut[line].iter().map(|[a, b]| b - a).sum()
+        self.lengths[line]
     }
 
     /// Marks stretches as cut.
     pub(super) fn add(&mut self, line: usize, stretches: &[[f64; 2]]) {
         for stretch in stretches {
             for part in self.on_line(line, *stretch) {
+                self.lengths[line] += (part[1] - part[0] - covered(&self.cut[line], part[0], part[1])).max(0.0);
                 merge(&mut self.cut[line], part);
             }
         }

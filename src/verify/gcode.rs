@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 use std::f64::consts::TAU;
 use std::io::{BufRead, Read as _};
 
-use super::read::{Going, QUOTED_CHARS, Rounding, Row, decimal};
+use super::read::{Going, Rounding, Row, decimal};
 use super::worst::{Worst, at};
 use crate::geom::{Point, Vector};
 use crate::ir::Finding;
@@ -74,7 +74,7 @@ fn unnumbered(line: &[u8]) -> &[u8] {
     rest[digits..].strip_prefix(b" ").unwrap_or(line)
 }
 
-/// What lines of the profile do.
+/// What lines do that stand in the program as they are: those of the target itself, and those of the profile.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Meaning {
     Head,
@@ -466,8 +466,7 @@ impl Words {
 
 /// Part of a line as a message shows it.
 fn quoted(part: &[u8]) -> String {
-    let text: String = String::from_utf8_lossy(part).escape_debug().take(QUOTED_CHARS).collect();
-    if text.is_empty() { "blank".to_owned() } else { format!("`{text}`") }
+    if part.is_empty() { "blank".to_owned() } else { super::read::quoted(part) }
 }
 
 /// The lines of a profile and what they do; the head first.

@@ -364,7 +364,7 @@ fn row(line: &[u8], tick: u64) -> Result<Row, String> {
 }
 
 /// A field as a message shows it.
-fn quoted(field: &[u8]) -> String {
+pub(super) fn quoted(field: &[u8]) -> String {
     let text: String = String::from_utf8_lossy(field).escape_debug().take(QUOTED_CHARS).collect();
     if text.is_empty() { "nothing".to_owned() } else { format!("`{text}`") }
 }

@@ -343,6 +343,13 @@ impl Line {
         self.chord_at(low)..=self.chord_at(high - over) + laps
     }
 
+    /// The last vertex before a station, which on a ring may lie on any lap; `None` where an open line starts.
+    pub(super) fn vertex_before(&self, station: f64) -> Option<usize> {
+        let lap = if self.ring { station.rem_euclid(self.length()) } else { station };
+        let before = self.stations.partition_point(|&s| s < lap);
+        before.checked_sub(1).or_else(|| self.ring.then(|| self.chords() - 1))
+    }
+
     /// The chord of a station.
     pub(super) fn chord_at(&self, station: f64) -> usize {
         self.stations.partition_point(|&s| s <= station).clamp(1, self.chords()) - 1

@@ -3,7 +3,7 @@
 //! What a stroke cuts is the blade's body where it plunges, then the track of the tip. Both are followed along the line
 //! of the reference that they belong to.
 
-use std::ops::Range;
+use std::ops::{Range, RangeToInclusive};
 
 use super::Done;
 use super::body::{BODY_STEP, Bow, Cut};
@@ -211,7 +211,7 @@ impl<'a> Judge<'a> {
     pub(super) fn settle(&self, traced: &mut Traced, done: &mut Done) {
         let Traced { stroke, cut, trace, .. } = traced;
         let first = &stroke.rows[0];
-        let Some(mut best) = self.tracer.choose(trace, (cut, first.block), &done.coverage) else { return };
+        let Some(mut best) = self.tracer.choose(trace, cut, &done.coverage) else { return };
         let line = &self.reference.lines[best.line];
         if let (true, Some(hull)) = (cut.is_stab(), done.coverage.uncut(best.line, &best.stretches)) {
             (best.hull, best.fits) = (hull, self.fits(line, hull));
@@ -319,7 +319,7 @@ impl<'a> Judge<'a> {
 
     /// The blade against its law. What only plunges has no way that a law could bear on.
     fn check_heading(&self, traced: &Traced, heading: &mut Worst) {
-        let Traced { stroke, tips, blades, ways, cut, best, .. } = traced;
+        let Traced { stroke, tips, blades, cut, best, .. } = traced;
         let is_chord = self.knife.follow == Follow::Chord && self.knife.width_mm > 0.0 && !cut.is_stab();
         let (true, Some(trial)) = (is_chord, best) else { return self.check_tangent(traced, heading) };
         let mut chord = self.worsts.heading.clone();
@@ -327,11 +327,8 @@ impl<'a> Judge<'a> {
         if !trial.laps {
             // At the plunge the laws are one: how far the way of the tip then leads the blade is known of its line.
             let first = tips.iter().position(|tip| (tip - tips[0]).norm() >= self.way_min).unwrap_or(0);
-            let ways = ways.get(..=first).unwrap_or_default();
             let (lead, fade) = (self.plunge(cut, trial).lead(), self.knife.width_mm);
-            let (way_min, noise_deg) = (self.way_min, self.noise_deg);
-            let (rows, tips, blades) = (&rows[..=first], &tips[..=first], &blades[..=first]);
-            Moving { rows, ways, tips, blades, lead, fade, way_min, noise_deg }.check(&mut chord);
+            Moving { lead, fade, ..self.moving(traced, ..=first) }.check(&mut chord);
         }
         let tails = chord::along(rows, self.blade(traced, trial), 0.0);
         let allowed = self.reference.tolerance + self.rounding;
@@ -350,16 +347,29 @@ impl<'a> Judge<'a> {
 
     /// The blade against the way of its tip.
     fn check_tangent(&self, traced: &Traced, heading: &mut Worst) {
-        let Traced { stroke, tips, blades, ways, cut, best, .. } = traced;
+        let Traced { stroke, cut, best, .. } = traced;
         let lead = match best {
             None => heading::ANY,
             Some(trial) if trial.laps => heading::NONE,
             Some(trial) => self.plunge(cut, trial).lead(),
         };
         let fade = self.knife.width_mm.min(cut.way());
-        let (way_min, noise_deg) = (self.way_min, self.noise_deg);
-        let rows = stroke.rows;
-        Moving { rows, ways, tips, blades, lead, fade, way_min, noise_deg }.check(heading);
+        Moving { lead, fade, ..self.moving(traced, ..=stroke.rows.len() - 1) }.check(heading);
+    }
+
+    /// The first rows of a stroke, to be compared with the way of their tip.
+    fn moving<'t>(&self, traced: &'t Traced, rows: RangeToInclusive<usize>) -> Moving<'t> {
+        let Traced { stroke, tips, blades, ways, .. } = traced;
+        Moving {
+            rows: &stroke.rows[rows],
+            ways: ways.get(rows).unwrap_or_default(),
+            tips: &tips[rows],
+            blades: &blades[rows],
+            lead: heading::NONE,
+            fade: 0.0,
+            way_min: self.way_min,
+            noise_deg: self.noise_deg,
+        }
     }
 
     fn blade<'t>(&'t self, traced: &'t Traced, trial: &'t Trial) -> Blade<'t> {
@@ -383,11 +393,11 @@ impl<'a> Judge<'a> {
             return;
         }
         let (start, end) = (line.points[0], line.points[line.points.len() - 1]);
-        let farthest = line.points.iter().map(|point| (point - start).norm()).fold(0.0, f64::max);
         let width = self.knife.width_mm;
+        let is_short = || line.points.iter().all(|point| (point - start).norm() < width);
         let surplus = if trial.fits.is_some() {
             width - trial.fresh
-        } else if farthest < width {
+        } else if is_short() {
             width - (end - start).norm()
         } else {
             0.0

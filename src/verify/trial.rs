@@ -79,17 +79,17 @@ pub(super) struct Tracer<'a> {
 pub(super) struct Trace {
     trials: Vec<Trial>,
     others: Vec<Candidate>,
-    /// How much it cuts of whatever, mm.
-    way: f64,
+    /// The block that its row names.
+    block: u32,
 }
 
 impl Tracer<'_> {
-    /// Follows a cut along the line that has `block`; only where none has, along all that are near it.
+    /// Follows a cut along the line that has `block`, and notes along which others it may be followed.
     pub(super) fn trace(&self, cut: &Cut, block: u32) -> Trace {
         let is_named = |candidate: &Candidate| self.is_named(candidate.line, block);
         let (named, others): (Vec<_>, Vec<_>) = self.candidates(cut).into_iter().partition(is_named);
         let trials = named.iter().map(|candidate| self.follow(cut, candidate)).collect();
-        Trace { trials, others, way: cut.length() }
+        Trace { block, trials, others }
     }
 
     fn is_named(&self, line: usize, block: u32) -> bool {
@@ -99,13 +99,13 @@ impl Tracer<'_> {
     /// The line that a stroke was meant for: of those on which it cuts the most, but for overlaps and the surplus of the
     /// blade, which may lie on a neighbour, the one that its row names as the block being cut, else the one that it
     /// completes best. The name decides between equals only: what is cut is seen on the cloth.
-    pub(super) fn choose(&self, trace: &mut Trace, (cut, block): (&Cut, u32), coverage: &Coverage) -> Option<Trial> {
+    pub(super) fn choose(&self, trace: &mut Trace, cut: &Cut, coverage: &Coverage) -> Option<Trial> {
         let tolerance = self.reference.tolerance;
         let mut trials = std::mem::take(&mut trace.trials);
         self.weigh(&mut trials, coverage);
         // What a stroke cuts of the line that it names cannot be much exceeded by what it cuts of another when it is about
         // all that it cuts: nearly always, and then the others need not be looked at.
-        let enough = tolerance.max(trace.way - self.slack);
+        let enough = tolerance.max(cut.length() - self.slack);
         if !trials.iter().any(|trial| trial.fresh >= enough) {
             let mut others: Vec<Trial> = trace.others.iter().map(|candidate| self.follow(cut, candidate)).collect();
             self.weigh(&mut others, coverage);
@@ -115,7 +115,7 @@ impl Tracer<'_> {
         trials.retain(|trial| trial.fresh >= tolerance.min(most));
         trials.retain(|trial| trial.fresh >= most - self.slack);
         trials.into_iter().min_by(|a, b| {
-            let by_name = self.is_named(b.line, block).cmp(&self.is_named(a.line, block));
+            let by_name = self.is_named(b.line, trace.block).cmp(&self.is_named(a.line, trace.block));
             by_name
                 .then(a.left.total_cmp(&b.left))
                 .then(b.fresh.total_cmp(&a.fresh))

@@ -134,6 +134,7 @@ mod tests {
         assert_eq!((finding.worst, finding.limit), (45.0, Some(50.0)));
         assert_eq!(finding.place.and_then(|place| place.time), Some(1.0));
     }
+
     #[test]
     fn beyond_a_limit_of_nothing_the_greatest_value_is_told() {
         let mut worst = Worst::new("verify/overcut-neighbour", "mm", Some(0.0));

@@ -30,6 +30,13 @@ const FLAT_TURN: f64 = 0.5;
 const SAMPLES: usize = 4;
 /// Lengths below this are none, mm.
 const LENGTH_EPSILON: f64 = 1e-9;
+/// Tangents at both ends of a biarc that differ by less, as one less their scalar product, twice, are parallel.
+const PARALLEL_EPSILON: f64 = 1e-12;
+/// Neighbouring places that are tried when no aim can be reached.
+const FIRST_TRIES: usize = 4;
+
+/// One arc, or the two of a biarc.
+type Found = [Option<Arc>; 2];
 
 /// An arc, or a line when its curvature is 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -174,11 +181,6 @@ fn farthest(tube: &Tube, nodes: &[Node], (i, aims): (usize, &[usize])) -> Option
     })
 }
 
-/// Neighbouring places that are tried when no aim can be reached.
-const FIRST_TRIES: usize = 4;
-
-type Found = [Option<Arc>; 2];
-
 /// The places along a tube.
 fn nodes(tube: &Tube, ends: &Ends) -> Vec<Node> {
     let last = tube.chords();
@@ -237,7 +239,7 @@ fn biarc(tube: &Tube, from: &Node, to: &Node) -> Option<Found> {
     }
     let ahead = way.dot(&(t0 + t1));
     let open = 2.0 * (1.0 - dot);
-    let reach = if open < 1e-12 {
+    let reach = if open < PARALLEL_EPSILON {
         way.norm_squared() / (2.0 * ahead)
     } else {
         (-ahead + (ahead * ahead + open * way.norm_squared()).sqrt()) / open

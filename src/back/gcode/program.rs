@@ -3,7 +3,7 @@
 use std::io;
 
 use super::pace::{Move, Pace};
-use super::way::{Piece, Way};
+use super::way::{LINE_SHARE, Piece, Way};
 use super::{Context, Output};
 use crate::geom::{Rotation, Vector, left};
 use crate::ir::toolpath::{Drill, Event, Pose};
@@ -15,8 +15,6 @@ use crate::units::{S_PER_MIN, rad};
 
 /// Decimals of F and of dwells.
 const FEED_DECIMALS: u32 = 3;
-/// Part of the permitted angle by which a straight line may be off the arc that it stands for.
-const LINE_SHARE: f64 = 0.45;
 /// A whole turn, degrees.
 const TURN_DEG: f64 = 360.0;
 

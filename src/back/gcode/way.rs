@@ -10,7 +10,7 @@ use crate::units::rad;
 /// Part of the permitted angle by which C may be off where it turns evenly along arcs; the rest is for decimals.
 const TURN_SHARE: f64 = 0.9;
 /// The same where lines stand for arcs, which are off by as much again.
-const LINE_SHARE: f64 = 0.45;
+pub(super) const LINE_SHARE: f64 = 0.45;
 /// The most of the tolerance that the bow of a chord may take.
 const BOW_SHARE: f64 = 0.5;
 /// Greatest second derivative of the step by which the blade fades from chord to tangent, over its length squared.
@@ -193,6 +193,7 @@ fn left_of(x: f64) -> f64 {
     let x4 = x * x * x * x;
     1.0 - x4 * (35.0 - x * (84.0 - x * (70.0 - x * 20.0)))
 }
+
 /// Direction of a ring where it starts: that of the circle through its first point and both neighbours.
 fn at_seam(run: &Run) -> Vector {
     let n = run.points.len();
