@@ -89,7 +89,7 @@ impl Tracer<'_> {
         let is_named = |candidate: &Candidate| self.is_named(candidate.line, block);
         let (named, others): (Vec<_>, Vec<_>) = self.candidates(cut).into_iter().partition(is_named);
         let trials = named.iter().map(|candidate| self.follow(cut, candidate)).collect();
-        Trace { block, trials, others }
+        Trace { trials, others, block }
     }
 
     fn is_named(&self, line: usize, block: u32) -> bool {

@@ -1,5 +1,7 @@
 //! The blocks of a cut file and their words, for the scan of the source: cut and read by other means than the reader's.
 
+/// Digits of a whole number that is exact in `f64` all along.
+const EXACT_DIGITS: usize = 15;
 /// Most codes of a block, most decimals that count, and the greatest number: what goes beyond is a fault of the file.
 const MOST_CODES: usize = 6;
 const MOST_DECIMALS: usize = 6;
@@ -79,7 +81,11 @@ fn number(text: &[u8]) -> Option<f64> {
         return None;
     }
     let kept = &decimals[..decimals.len().min(MOST_DECIMALS)];
-    let value: f64 = format!("{whole}.{kept}0").parse().ok()?;
+    let value = if kept.is_empty() && whole.len() <= EXACT_DIGITS {
+        whole.bytes().fold(0.0, |value, digit| value * 10.0 + f64::from(digit - b'0'))
+    } else {
+        format!("{whole}.{kept}0").parse().ok()?
+    };
     (value <= GREATEST).then_some(if text.starts_with('-') { -value } else { value })
 }
 

@@ -93,7 +93,10 @@ impl Group<'_> {
                 let mut data = PathData::default();
                 data.polygon(self.blade_outline(&stab.pose));
                 let length = polyline::length(&stab.points);
-                let title = cut_title("stab", length, &stab.spans) + &way_round(stab.turned) + &harm(stab.harm);
+                let title = cut_title("stab", length, &stab.spans)
+                    + &way_round(stab.turned)
+                    + by_edge(stab.edge)
+                    + &harm(stab.harm);
                 self.cuts.push_str(&data.titled("stab", &title));
                 let class = if stab.harm > 0.0 { &mut self.harm } else { &mut self.over };
                 let half = OVERLAP_HALF_THICKNESS * self.unit;
@@ -133,7 +136,7 @@ impl Group<'_> {
             Shape::Ring => data.polygon(run.points[..run.points.len() - 1].iter().copied()),
         }
         let length = polyline::length(&run.points);
-        let title = cut_title("cut", length, &run.spans) + &way_round(run.turned) + chord(run.law);
+        let title = cut_title("cut", length, &run.spans) + &way_round(run.turned) + by_edge(run.edge) + chord(run.law);
         self.cuts.push_str(&data.titled("run", &title));
         let (start, end) = (self.ends(&run.start, run.edge), self.ends(&run.end, run.edge));
         if self.knife.width_mm > 0.0 {
@@ -186,6 +189,14 @@ fn overlap(data: &mut PathData, points: &[Point], [length, half]: [f64; 2]) {
 /// Said of a cut that goes the other way round than the file has it.
 fn way_round(turned: bool) -> String {
     if turned { ", turned round".to_owned() } else { String::new() }
+}
+
+/// Said of a cut that the back edge of the blade makes.
+fn by_edge(edge: Edge) -> &'static str {
+    match edge {
+        Edge::Front => "",
+        Edge::Back => ", by the back edge",
+    }
 }
 
 /// Said of a cut on whose curves the blade is a chord.
