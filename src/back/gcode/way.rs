@@ -17,6 +17,8 @@ const BOW_SHARE: f64 = 0.5;
 const FADE_BEND: f64 = 7.6;
 /// Shorter ways are none, mm.
 const LENGTH_EPSILON: f64 = 1e-3;
+/// An arc that turns by less is a line, rad: controllers take those of a millionth for whole turns.
+const TURN_MIN: f64 = 2e-5;
 /// An arc that bows by less is a line, mm.
 const BOW_MIN: f64 = 1e-5;
 /// Smaller leads are none, rad.
@@ -43,7 +45,8 @@ impl Piece {
     fn from(from: Pose, to: Pose, tip: Tip) -> Self {
         let chord = to.centre - from.centre;
         let (width, half) = (chord.norm(), 0.5 * tip.turn);
-        let is_arc = width > LENGTH_EPSILON && width * half.abs() / 4.0 > BOW_MIN;
+        let bows = width * half.abs() / 4.0 > BOW_MIN && tip.turn.abs() > TURN_MIN;
+        let is_arc = width > LENGTH_EPSILON && bows;
         let (arc, length) = if is_arc {
             let centre = from.centre + chord * 0.5 + left(chord) * (0.5 / half.tan());
             (Some((centre, tip.turn)), width * half / half.sin())
