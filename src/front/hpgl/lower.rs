@@ -42,6 +42,7 @@ pub(super) fn lower(source: &Source, measure: Measure, out: &mut Diagnostics) ->
         labels: Vec::new(),
         heading: None,
         page_out: None,
+        unsized_at: None,
         doubts: Vec::new(),
         tally: Tally::default(),
         out,
@@ -62,6 +63,8 @@ struct Lowering<'a> {
     heading: Option<Heading>,
     /// How much was drawn when a page went out, and where that stands.
     page_out: Option<(usize, Span)>,
+    /// What left the scale to the device, as long as nothing was drawn in it: the corners may follow.
+    unsized_at: Option<Span>,
     /// What was said of scales, each thing once.
     doubts: Vec<Unknown>,
     tally: Tally,
@@ -134,7 +137,7 @@ impl Lowering<'_> {
 
     fn reset(&mut self) {
         self.plotter.reset();
-        self.heading = None;
+        (self.heading, self.unsized_at) = (None, None);
     }
 
     fn obey(&mut self, instruction: Instruction, span: Span) {
@@ -196,7 +199,7 @@ impl Lowering<'_> {
             Instruction::Initialize => self.reset(),
             Instruction::Default => {
                 self.plotter.set_default();
-                self.heading = None;
+                (self.heading, self.unsized_at) = (None, None);
             }
             Instruction::Scale => self.frame(Frame::set_scale, span),
             Instruction::Corners => self.frame(Frame::set_corners, span),
@@ -204,7 +207,7 @@ impl Lowering<'_> {
             Instruction::Rotate => self.frame(Frame::rotate, span),
             Instruction::PageSize => {
                 let values = self.values::<2>();
-                self.plotter.frame.set_page(&values);
+                self.plotter.reframe(|frame| frame.set_page(&values));
             }
             Instruction::Housekeeping | Instruction::LeftOut(_) | Instruction::Letters(_) | Instruction::Unknown => {}
         }
@@ -233,9 +236,16 @@ impl Lowering<'_> {
         }
     }
 
+    /// Behind every move.
     fn check(&mut self, outcome: Result<(), Refusal>, span: Span) {
         if let Err(refusal) = outcome {
             self.tally.refused(refusal, span);
+        }
+        if let Some(span) = self.unsized_at
+            && self.plotter.frame.is_left_to_device()
+        {
+            self.unsized_at = None;
+            self.doubt(Unknown::Corners, span);
         }
     }
 
@@ -257,7 +267,15 @@ impl Lowering<'_> {
     /// SC, IP, IR, RO.
     fn frame(&mut self, set: fn(&mut Frame, &[f64]) -> Result<(), Unknown>, span: Span) {
         let values = self.values::<7>();
-        let Err(doubt) = set(&mut self.plotter.frame, &values) else { return };
+        if let Err(doubt) = self.plotter.reframe(|frame| set(frame, &values)) {
+            self.doubt(doubt, span);
+        }
+        let first = self.unsized_at.unwrap_or(span);
+        self.unsized_at = self.plotter.frame.is_left_to_device().then_some(first);
+    }
+
+    /// Warns of a scale, of each kind of doubt once.
+    fn doubt(&mut self, doubt: Unknown, span: Span) {
         if self.doubts.contains(&doubt) {
             return;
         }

@@ -116,6 +116,17 @@ impl Plotter {
         self.frame.set_default();
     }
 
+    /// Changes what numbers mean. The pen stays where it is on the table, even where its numbers change: "the physical
+    /// location of the pen does not change when you rotate". (Hewlett-Packard, "HP-GL/2 and HP RTL Reference Guide", RO.)
+    pub(super) fn reframe<T>(&mut self, change: impl FnOnce(&mut Frame) -> T) -> T {
+        let on_table = self.frame.turned(self.at);
+        let outcome = change(&mut self.frame);
+        if self.frame.turned(self.at) != on_table {
+            self.at = self.frame.turned_back(on_table);
+        }
+        outcome
+    }
+
     /// The pen moves by letters, whose size is not known.
     pub(super) fn drift(&mut self) {
         self.standing = Standing::Lettered;

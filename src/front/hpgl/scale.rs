@@ -14,10 +14,23 @@ pub(super) struct Frame {
     are_corners_given: bool,
     /// Size of the page (PS), in units of the plotter.
     page: Option<Pair>,
-    /// The scale in force; `None` = numbers are units of the plotter.
+    /// The numbers of SC in force; `None` = numbers are units of the plotter.
+    ranges: Option<Ranges>,
+    /// What they make of the corners.
     scale: Option<Scale>,
     /// Quarter turns of RO, counter-clockwise.
     quarters: u8,
+}
+
+/// What SC says. It holds for whatever corners follow: a plotter moves and stretches the picture with them.
+/// (Hewlett-Packard, "HP-GL/2 and HP RTL Reference Guide", IP and SC.)
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Ranges {
+    x: [f64; 2],
+    y: [f64; 2],
+    kind: f64,
+    /// Where the picture lies in what equal scales leave over: 0 = left and below, 1 = right and above.
+    share: Pair,
 }
 
 /// `offset + number * factor`.
@@ -53,7 +66,7 @@ const FACTORS: f64 = 2.0;
 impl Frame {
     /// As switched on.
     pub(super) const fn new() -> Self {
-        Self { corners: USUAL_CORNERS, are_corners_given: false, page: None, scale: None, quarters: 0 }
+        Self { corners: USUAL_CORNERS, are_corners_given: false, page: None, ranges: None, scale: None, quarters: 0 }
     }
 
     /// IN: a page size stays.
@@ -63,7 +76,7 @@ impl Frame {
 
     /// DF: the scale ends; corners, page and turn stay.
     pub(super) fn set_default(&mut self) {
-        self.scale = None;
+        (self.ranges, self.scale) = (None, None);
     }
 
     /// Whether numbers are places as they stand.
@@ -80,7 +93,7 @@ impl Frame {
             [x1, y1] => self.corners = [[x1, y1], [x1 + p2[0] - p1[0], y1 + p2[1] - p1[1]]],
             [_] | [_, _, _] => return Err(Unknown::Incomplete),
         }
-        Ok(())
+        self.ranges.map_or(Ok(()), |ranges| self.put(ranges))
     }
 
     /// IR: the same in percent of the page.
@@ -119,41 +132,50 @@ impl Frame {
         Ok(())
     }
 
-    /// SC: ranges that lie between the corners; `Err` when the drawing then depends on the device or has no size.
+    /// SC: ranges that lie between the corners; `Err` when the drawing then has no size.
     pub(super) fn set_scale(&mut self, values: &[f64]) -> Result<(), Unknown> {
         let [x0, x1, y0, y1, ..] = *values else {
-            self.scale = None;
+            (self.ranges, self.scale) = (None, None);
             return if values.is_empty() { Ok(()) } else { Err(Unknown::Incomplete) };
         };
-        let [p1, p2] = self.corners;
         let kind = values.get(4).copied().unwrap_or(0.0);
+        // Half of what is left over if nothing is said.
+        let share = [values.get(5), values.get(6)].map(|p| p.copied().unwrap_or(HUNDRED / 2.0) / HUNDRED);
+        self.put(Ranges { x: [x0, x1], y: [y0, y1], kind, share })
+    }
+
+    /// Lays ranges between the corners; what was in force stays when they have no size.
+    fn put(&mut self, ranges: Ranges) -> Result<(), Unknown> {
+        let Ranges { x: [x0, x1], y: [y0, y1], kind, share } = ranges;
+        let [p1, p2] = self.corners;
+        let (mut offset, mut factor) = (p1, [x1, y1]);
         if kind == FACTORS {
-            let factor = [x1, y1];
             if x1 == 0.0 || y1 == 0.0 {
                 return Err(Unknown::Range);
             }
-            self.scale = Some(Scale { offset: [p1[0] - x0 * x1, p1[1] - y0 * y1], factor });
         } else {
             if x0 == x1 || y0 == y1 || p1[0] == p2[0] || p1[1] == p2[1] {
                 return Err(Unknown::Range);
             }
-            let mut factor = [(p2[0] - p1[0]) / (x1 - x0), (p2[1] - p1[1]) / (y1 - y0)];
-            let mut offset = p1;
+            factor = [(p2[0] - p1[0]) / (x1 - x0), (p2[1] - p1[1]) / (y1 - y0)];
             if kind == ISOTROPIC {
                 let least = factor[0].abs().min(factor[1].abs());
-                // What is left over lies below and left by these percents, half of it if nothing is said.
-                let share = [values.get(5), values.get(6)].map(|p| p.copied().unwrap_or(HUNDRED / 2.0) / HUNDRED);
                 for (axis, range) in [x1 - x0, y1 - y0].into_iter().enumerate() {
                     let size = least.copysign(factor[axis]) * range;
                     offset[axis] += (p2[axis] - p1[axis] - size) * share[axis];
                     factor[axis] = least.copysign(factor[axis]);
                 }
             }
-            let offset = [offset[0] - x0 * factor[0], offset[1] - y0 * factor[1]];
-            self.scale = Some(Scale { offset, factor });
         }
-        // Factors move the drawing to the corners, but its size is theirs alone.
-        if self.are_corners_given || kind == FACTORS { Ok(()) } else { Err(Unknown::Corners) }
+        let offset = [offset[0] - x0 * factor[0], offset[1] - y0 * factor[1]];
+        (self.ranges, self.scale) = (Some(ranges), Some(Scale { offset, factor }));
+        Ok(())
+    }
+
+    /// Whether the size of what is drawn is left to the device: a scale between corners that the file does not give.
+    /// Factors move the drawing to the corners, but its size is theirs alone.
+    pub(super) fn is_left_to_device(&self) -> bool {
+        !self.are_corners_given && self.ranges.is_some_and(|ranges| ranges.kind != FACTORS)
     }
 
     /// What the scale makes of circles.
@@ -191,6 +213,17 @@ impl Frame {
         }
     }
 
+    /// The place that [`Frame::turned`] makes one of the table from.
+    pub(super) fn turned_back(&self, [x, y]: Pair) -> Pair {
+        let [length, width] = self.page.unwrap_or([0.0, 0.0]);
+        match self.quarters {
+            1 => [y, length - x],
+            2 => [length - x, width - y],
+            3 => [width - y, x],
+            _ => [x, y],
+        }
+    }
+
     /// Whether RO turns places.
     pub(super) fn is_turned(&self) -> bool {
         self.quarters != 0
@@ -222,15 +255,40 @@ mod tests {
     #[test]
     fn what_depends_on_the_device_is_told() {
         let mut frame = Frame::new();
-        assert_eq!(frame.set_scale(&[0.0, 1.0, 0.0, 1.0]), Err(Unknown::Corners));
+        assert_eq!(frame.set_scale(&[0.0, 1.0, 0.0, 1.0]), Ok(()));
+        assert!(frame.is_left_to_device());
         assert_eq!(frame.set_corners_percent(&[0.0, 0.0, 50.0, 50.0]), Err(Unknown::Page));
         frame.set_page(&[4000.0, 2000.0]);
         assert_eq!(frame.set_corners_percent(&[0.0, 0.0, 50.0, 50.0]), Ok(()));
         assert_eq!(frame.set_scale(&[0.0, 1.0, 0.0, 1.0]), Ok(()));
         assert_eq!(frame.place([1.0, 1.0]), [2000.0, 1000.0]);
+        assert!(!frame.is_left_to_device());
         assert_eq!(frame.set_scale(&[0.0, 0.0, 0.0, 1.0]), Err(Unknown::Range));
-        assert_eq!(frame.set_corners(&[0.0, 0.0, 0.0, 4000.0]), Ok(()));
+        assert_eq!(frame.set_corners(&[0.0, 0.0, 0.0, 4000.0]), Err(Unknown::Range));
         assert_eq!(frame.set_scale(&[0.0, 1.0, 0.0, 1.0]), Err(Unknown::Range));
+        assert_eq!(frame.place([1.0, 1.0]), [2000.0, 1000.0]);
+    }
+
+    #[test]
+    fn a_scale_moves_and_stretches_with_the_corners_that_follow_it() {
+        let mut frame = Frame::new();
+        frame.set_page(&[4000.0, 2000.0]);
+        assert_eq!(frame.set_scale(&[0.0, 100.0, 0.0, 100.0]), Ok(()));
+        for (corners, place) in [
+            (&[0.0, 0.0, 4000.0, 2000.0][..], [2000.0, 1000.0]),
+            (&[0.0, 0.0, 8000.0, 8000.0], [4000.0, 4000.0]),
+            (&[100.0, 200.0], [4100.0, 4200.0]),
+        ] {
+            assert_eq!(frame.set_corners(corners), Ok(()));
+            assert_eq!(frame.place([50.0, 50.0]), place, "{corners:?}");
+        }
+        assert_eq!(frame.set_corners_percent(&[0.0, 0.0, 50.0, 50.0]), Ok(()));
+        assert_eq!(frame.place([50.0, 50.0]), [1000.0, 500.0]);
+        assert_eq!(frame.set_corners(&[]), Ok(()));
+        assert!(frame.is_left_to_device());
+        frame.set_default();
+        assert_eq!(frame.set_corners(&[0.0, 0.0, 8000.0, 8000.0]), Ok(()));
+        assert_eq!(frame.place([50.0, 50.0]), [50.0, 50.0]);
     }
 
     #[test]
@@ -244,7 +302,8 @@ mod tests {
         assert_eq!(frame, Frame::new());
         // P1 alone moves the box of the plotter, whose size nobody knows.
         assert_eq!(frame.set_corners(&[0.0, 0.0]), Ok(()));
-        assert_eq!(frame.set_scale(&[0.0, 1.0, 0.0, 1.0]), Err(Unknown::Corners));
+        assert_eq!(frame.set_scale(&[0.0, 1.0, 0.0, 1.0]), Ok(()));
+        assert!(frame.is_left_to_device());
     }
 
     #[test]
@@ -267,5 +326,17 @@ mod tests {
         assert_eq!(frame.turned([3.0, 1.0]), [39.0, 3.0]);
         assert_eq!(frame.rotate(&[180.0]), Ok(()));
         assert_eq!(frame.turned([3.0, 1.0]), [37.0, 19.0]);
+    }
+
+    #[test]
+    fn a_place_that_is_turned_and_turned_back_is_the_same() {
+        for page in [&[][..], &[40.0, 20.0]] {
+            for degrees in [0.0, 90.0, 180.0, 270.0] {
+                let mut frame = Frame::new();
+                frame.set_page(page);
+                assert_eq!(frame.rotate(&[degrees]), Ok(()));
+                assert_eq!(frame.turned_back(frame.turned([3.0, 1.0])), [3.0, 1.0], "{degrees} {page:?}");
+            }
+        }
     }
 }

@@ -40,6 +40,7 @@ pub(super) fn scan(bytes: &[u8], read: &Census, profile: &MachineProfile) -> (Ce
         corners: None,
         page: None,
         scale: None,
+        ranges: Vec::new(),
         quarters: 0,
         polygon: Vec::new(),
         part: None,
@@ -81,6 +82,8 @@ struct Scan<'a> {
     page: Option<Place>,
     /// Offset and factor of each axis.
     scale: Option<[Place; 2]>,
+    /// The numbers of SC that it was made of.
+    ranges: Vec<f64>,
     quarters: u8,
     polygon: Vec<Corner>,
     /// Where the part of the polygon that is gathered starts, and whether the next place starts another.
@@ -281,14 +284,8 @@ impl Scan<'_> {
         }
     }
 
-    fn point(&self, [x, y]: Place) -> Point {
-        let [length, width] = self.page.unwrap_or_default();
-        let [x, y] = match self.quarters {
-            1 => [length - y, x],
-            2 => [length - x, width - y],
-            3 => [y, width - x],
-            _ => [x, y],
-        };
+    fn point(&self, place: Place) -> Point {
+        let [x, y] = self.turned(place);
         Point::new(x * self.unit, y * self.unit)
     }
 
