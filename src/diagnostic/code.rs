@@ -62,6 +62,10 @@ mod table {
     pub static ISO_OPEN_SLIT: Code = error("iso/open-slit", "A slit that M19 begins must end with M15 before the next piece, knife-down or end.");
     /// M14 while the knife is down.
     pub static ISO_KNIFE_DOWN_TWICE: Code = warning("iso/knife-down-twice", "M14 stands where the knife is down already; the second one is ignored.");
+    /// N while the knife is down, and what follows is another piece.
+    pub static ISO_PIECE_KNIFE_DOWN: Code = error("iso/piece-knife-down", "A piece begins while the knife is down, and the cut leads on into it: an M15 is missing.");
+    /// Places in the air where nothing is done.
+    pub static ISO_UNCUT_PLACES: Code = warning("iso/uncut-places", "Places in a row are passed with the knife up and nothing is cut there: an M14 may be missing.");
     /// The file ends with the knife in the cloth.
     pub static ISO_ENDS_KNIFE_DOWN: Code = error("iso/ends-knife-down", "The file ends while the knife is down: it is most likely cut short.");
     /// Last block without its asterisk.
@@ -114,6 +118,8 @@ mod table {
     pub static HPGL_PAGES: Code = warning("hpgl/several-pages", "A plot draws on after a page went out; the pages lie on each other.");
     /// The file ends amid a line.
     pub static HPGL_ENDS_PEN_DOWN: Code = error("hpgl/ends-pen-down", "A plot ends while the pen draws a line that does not close: it is most likely cut short.");
+    /// A plot whose last number may lack digits.
+    pub static HPGL_ENDS_AMID_NUMBER: Code = warning("hpgl/ends-amid-number", "A plot ends with a number that draws, without a semicolon: its last digits may be cut off.");
     /// An outline with a gap.
     pub static HPGL_OPEN_OUTLINE: Code = warning("hpgl/open-outline", "A line of a plot, or several in a ring, nearly close, but not quite: they may be an outline, and are not cut.");
     /// A rectangle around all.
@@ -241,6 +247,8 @@ pub static ALL: &[&Code] = &[
     &ISO_OVERFLOW,
     &ISO_OPEN_SLIT,
     &ISO_KNIFE_DOWN_TWICE,
+    &ISO_PIECE_KNIFE_DOWN,
+    &ISO_UNCUT_PLACES,
     &ISO_ENDS_KNIFE_DOWN,
     &ISO_NO_FINAL_ASTERISK,
     &ISO_NO_END,
@@ -266,6 +274,7 @@ pub static ALL: &[&Code] = &[
     &HPGL_SCALE,
     &HPGL_PAGES,
     &HPGL_ENDS_PEN_DOWN,
+    &HPGL_ENDS_AMID_NUMBER,
     &HPGL_OPEN_OUTLINE,
     &HPGL_FRAME,
     &HPGL_FAR_PLACE,

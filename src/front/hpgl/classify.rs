@@ -132,6 +132,7 @@ pub(super) fn classify(mut drawing: Drawing, labels: Vec<Label>, job: &Job, out:
     for found in &notches {
         shapes[found.mark].class = Class::Notch;
     }
+    name_unended(&drawing, &shapes, out);
     name_near_outlines(&drawing, &shapes, out);
     name_dividing(Divided { drawing: &drawing, shapes: &shapes, joints: &joints }, out);
     piece::marker(&Sorted { drawing, shapes, outlines, parents, notches }, labels, job)
@@ -139,6 +140,21 @@ pub(super) fn classify(mut drawing: Drawing, labels: Vec<Label>, job: &Job, out:
 
 fn has_small_gap(shape: &Shape, drawing: &Drawing) -> bool {
     shape.gap(drawing).is_some_and(|gap| gap <= LARGEST_GAP)
+}
+
+/// Refuses a plot that ends while the pen draws, unless that line is whole: it closes, by itself or with those that it
+/// meets, or it is a notch. Then only the last PU is missing.
+fn name_unended(drawing: &Drawing, shapes: &[Shape], out: &mut Diagnostics) {
+    let Some(span) = drawing.unended else { return };
+    let is_last = |shape: &&Shape| shape.vertices(drawing).iter().any(|vertex| vertex.span == span);
+    let Some(shape) = shapes.iter().find(is_last).filter(|shape| shape.class != Class::Notch) else { return };
+    let vertices = shape.vertices(drawing);
+    let distance = (vertices[vertices.len() - 1].at - vertices[0].at).norm();
+    if distance > 0.0 {
+        let message = format!("the file ends amid a line, {} mm from where the line starts", fixed(distance, 1));
+        let finding = Diagnostic::new(&code::HPGL_ENDS_PEN_DOWN, message).at(span);
+        out.push(finding.hint("most likely it is cut short: export it again; if it is complete, put `PU;` at its end"));
+    }
 }
 
 /// Names lines that are not cut and may be outlines: they nearly close, alone or with others, or they cross themselves.

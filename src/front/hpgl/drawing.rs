@@ -49,6 +49,8 @@ pub(super) struct Drawing {
     pub(super) strokes: Vec<Stroke>,
     /// What was drawn beyond them before ends that miss each other by rounding were moved together.
     pub(super) moved: Moved,
+    /// What led the pen to the place where it stands, down, when the file ends.
+    pub(super) unended: Option<Span>,
     /// Whether the last stroke goes on.
     goes_on: bool,
 }

@@ -14,7 +14,6 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Heading, Vector};
 use crate::ir::marker::Label;
 use crate::source::{Source, Span};
-use crate::units::number::fixed;
 use crate::units::rad;
 
 /// What a plot draws and writes.
@@ -44,6 +43,7 @@ pub(super) fn lower(source: &Source, measure: Measure, out: &mut Diagnostics) ->
         page_out: None,
         unsized_at: None,
         doubts: Vec::new(),
+        last_drew: false,
         tally: Tally::default(),
         out,
     };
@@ -67,6 +67,8 @@ struct Lowering<'a> {
     unsized_at: Option<Span>,
     /// What was said of scales, each thing once.
     doubts: Vec<Unknown>,
+    /// Whether the last statement has drawn something.
+    last_drew: bool,
     tally: Tally,
     out: &'a mut Diagnostics,
 }
@@ -81,6 +83,7 @@ const FULL_TURN: f64 = 360.0;
 impl Lowering<'_> {
     fn run(&mut self) {
         while let Some((statement, span)) = self.reader.next() {
+            let drawn = self.plotter.drawing.vertices.len();
             match statement {
                 Statement::Instruction(Instruction::Unknown, mnemonic) => self.tally.unknown(mnemonic, span),
                 Statement::Instruction(Instruction::LeftOut(what), mnemonic) => {
@@ -97,6 +100,7 @@ impl Lowering<'_> {
                 Statement::Reset => self.reset(),
                 Statement::Junk => self.tally.junk(span),
             }
+            self.last_drew = self.plotter.drawing.vertices.len() > drawn;
             if self.tally.is_hopeless() {
                 return;
             }
@@ -111,17 +115,17 @@ impl Lowering<'_> {
         }
     }
 
-    /// The end of the file: a line that the pen is still drawing there is most likely cut short.
+    /// The end of the file: a line that the pen is still drawing there may be cut short.
     fn end(&mut self) {
-        let drawing = &self.plotter.drawing;
-        let stroke = drawing.strokes.last().filter(|stroke| !drawing.is_lifted() && stroke.range().len() > 1);
-        let ends =
-            stroke.map(|stroke| [drawing.vertices[stroke.first as usize], drawing.vertices[stroke.end as usize - 1]]);
-        if let Some([first, last]) = ends.filter(|[first, last]| first.at != last.at) {
-            let distance = fixed((last.at - first.at).norm(), 1);
-            let message = format!("the file ends amid a line, {distance} mm from where the line starts");
-            let finding = Diagnostic::new(&code::HPGL_ENDS_PEN_DOWN, message).at(last.span);
-            self.out.push(finding.hint("the file is most likely cut short; export it again"));
+        let drawing = &mut self.plotter.drawing;
+        if !drawing.is_lifted() {
+            drawing.unended = drawing.vertices.last().map(|vertex| vertex.span);
+        }
+        if let Some(vertex) = drawing.vertices.last().filter(|_| self.last_drew && self.reader.ends_with_digit()) {
+            let message = "the file ends with a number that draws, and without its semicolon";
+            let finding = Diagnostic::new(&code::HPGL_ENDS_AMID_NUMBER, message).at(vertex.span);
+            self.out
+                .push(finding.hint("its last digits may be cut off: compare the size of the file with the original"));
         }
         self.plotter.lift();
         self.tally.adrift(self.plotter.adrift);

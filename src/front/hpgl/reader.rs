@@ -115,6 +115,11 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// Whether the last byte of all is one of a number.
+    pub(super) fn ends_with_digit(&self) -> bool {
+        self.bytes.last().is_some_and(|byte| byte.is_ascii_digit() || *byte == b'.')
+    }
+
     /// From `start` to the next byte.
     fn span(&self, start: usize) -> Span {
         // A `Source` is below 4 GiB.

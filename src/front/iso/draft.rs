@@ -6,6 +6,7 @@
 use std::collections::HashMap;
 
 use super::chain::{Chain, Overcut, Vertex};
+use super::lost::{Deferred, Uncut};
 use super::owner;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Extent, Point, bits};
@@ -45,8 +46,8 @@ pub(super) struct Draft {
     strokes: Vec<usize>,
     /// The chain that was left last, strokes not counted.
     left: Option<usize>,
-    /// A piece that begins when the knife is lifted.
-    deferred: Option<(Option<u32>, Span)>,
+    deferred: Option<Deferred>,
+    uncut: Uncut,
     pieces: Vec<Piece>,
     list: SegmentList,
     extent: Extent,
@@ -88,6 +89,7 @@ impl Draft {
             strokes: Vec::new(),
             left: None,
             deferred: None,
+            uncut: Uncut::default(),
             pieces: Vec::new(),
             list,
             extent: Extent::EMPTY,
@@ -108,7 +110,8 @@ impl Draft {
     pub(super) fn go(&mut self, to: Point, span: Span) {
         let percent = self.percent;
         match &mut self.state {
-            State::Up => {}
+            State::Up if to == self.at => {}
+            State::Up => self.uncut.pass(span),
             State::Cutting(chain) => {
                 let joint = Joint { lift: std::mem::take(&mut self.corner_lift), ..Joint::default() };
                 let chain = &mut self.chains[*chain];
@@ -186,9 +189,15 @@ impl Draft {
 
     /// M14.
     pub(super) fn down(&mut self, span: Span, out: &mut Diagnostics) {
+        self.uncut.settle();
         match &self.state {
             State::Up => {}
             State::Plunged { .. } | State::Cutting(_) => {
+                if let Some(deferred) = &mut self.deferred {
+                    deferred.refuse(out);
+                    deferred.closed_at = None;
+                    return;
+                }
                 let finding = Diagnostic::new(&code::ISO_KNIFE_DOWN_TWICE, "the knife is down already").at(span);
                 out.push(finding.hint("an M15 may be missing before it: then two contours are joined by a cut"));
                 return;
@@ -227,22 +236,35 @@ impl Draft {
     }
 
     /// M15.
-    pub(super) fn up(&mut self) {
+    pub(super) fn up(&mut self, out: &mut Diagnostics) {
         match self.state {
-            State::Up => return,
+            State::Up => {
+                self.uncut.end();
+                return;
+            }
             State::Plunged { .. } => {
                 self.no_overcut = false;
                 self.state = State::Up;
             }
             State::Cutting(index) => {
+                self.check_deferred(out);
                 let overcut = if std::mem::take(&mut self.no_overcut) { Overcut::Forbidden } else { Overcut::Usual };
                 self.leave(index, Some(overcut));
             }
             State::Slit { .. } => self.end_slit(),
         }
         self.corner_lift = false;
-        if let Some((number, span)) = self.deferred.take() {
+        if let Some(Deferred { number, span, .. }) = self.deferred.take() {
             self.start_piece(number, span);
+        }
+    }
+
+    /// Refuses a piece that waits for a lift while the knife cuts what may be its outline.
+    fn check_deferred(&self, out: &mut Diagnostics) {
+        if let (State::Cutting(chain), Some(deferred)) = (&self.state, &self.deferred)
+            && deferred.leads_on(&self.chains[*chain])
+        {
+            deferred.refuse(out);
         }
     }
 
@@ -376,6 +398,11 @@ impl Draft {
         self.advance = true;
     }
 
+    /// The place where it is, in the air, is that of a label.
+    pub(super) fn pass(&mut self) {
+        self.uncut.settle();
+    }
+
     /// M18.
     pub(super) fn no_overcut(&mut self) {
         self.no_overcut = true;
@@ -391,11 +418,13 @@ impl Draft {
         if let Some(piece) = self.current {
             self.give_events(piece);
         }
+        self.uncut.settle();
         self.target().drills.push(Drill { at, tool, span });
     }
 
     /// A text.
     pub(super) fn label(&mut self, label: Label) -> LabelId {
+        self.uncut.settle();
         let piece = self.current;
         let labels = &mut self.target().labels;
         labels.push(label);
@@ -422,8 +451,13 @@ impl Draft {
     pub(super) fn begin_piece(&mut self, number: Option<u32>, span: Span, out: &mut Diagnostics) {
         match &self.state {
             State::Up => {}
-            State::Plunged { .. } | State::Cutting(_) => {
-                self.deferred = Some((number, span));
+            State::Plunged { .. } => {
+                self.deferred = Some(Deferred::new(number, span, None));
+                return;
+            }
+            &State::Cutting(chain) => {
+                self.check_deferred(out);
+                self.deferred = Some(Deferred::new(number, span, Some(&self.chains[chain])));
                 return;
             }
             State::Slit { .. } => {
@@ -434,7 +468,17 @@ impl Draft {
         self.start_piece(number, span);
     }
 
+    /// A piece ends. Where something is cut of it, a way in the air behind that may lead anywhere.
+    fn end_piece(&mut self) {
+        let is_empty = |piece: usize| self.pieces[piece].notches.is_empty() && self.pieces[piece].drills.is_empty();
+        if self.chains.is_empty() && self.current.is_some_and(is_empty) {
+            self.uncut.end();
+        }
+        self.uncut.settle();
+    }
+
     fn start_piece(&mut self, number: Option<u32>, span: Span) {
+        self.end_piece();
         (self.advance, self.no_overcut) = (false, false);
         self.set_speed(FULL_SPEED, FULL_SPEED);
         let waiting = std::mem::take(&mut self.waiting);
@@ -480,8 +524,11 @@ impl Draft {
                 out.push(finding.hint("the file is most likely cut short; export it again"));
             }
         }
+        self.end_piece();
+        self.uncut.report(out);
+        self.check_deferred(out);
         self.deferred = None;
-        self.up();
+        self.up(out);
         let Piece { drills, notches, labels, .. } = &self.waiting;
         if !(drills.is_empty() && notches.is_empty() && labels.is_empty() && self.strokes.is_empty()) {
             let mut waiting = std::mem::take(&mut self.waiting);

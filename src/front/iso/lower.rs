@@ -212,6 +212,9 @@ impl Lowering<'_> {
         }
         let label = self.awaiting.take();
         self.move_in_air(to, span);
+        if label.is_some() {
+            self.knife.pass();
+        }
         self.second = label;
     }
 
@@ -247,7 +250,7 @@ impl Lowering<'_> {
                 Meaning::Down => self.down(span),
                 Meaning::Up => {
                     self.fresh = false;
-                    self.knife.up();
+                    self.knife.up(self.out);
                 }
                 Meaning::Piece => {
                     self.settle_second_point();

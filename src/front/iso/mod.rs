@@ -8,13 +8,14 @@
 //!
 //! Arcs are chords. [`block`] cuts the bytes into blocks, [`syntax`] is the grammar of one, [`mod@meaning`] the table of
 //! codes, [`label`] the layouts of text, [`trailer`] the list of labels at the end; [`lower`] follows the file, [`draft`]
-//! gathers what it cuts, and [`owner`] says whose slits are whose where pieces have no numbers.
+//! gathers what it cuts, [`lost`] finds signs of lost knife codes, and [`owner`] says whose slits are whose where pieces have no numbers.
 
 mod arc;
 mod block;
 mod chain;
 mod draft;
 mod label;
+mod lost;
 mod lower;
 mod meaning;
 mod owner;
