@@ -13,6 +13,10 @@ use crate::pipeline::RULES;
 
 /// Columns of an explanation.
 const COLUMNS: usize = 80;
+/// Likeness from which a name may have been meant, of 1: two swapped letters or a wrong ending are above it.
+const LEAST_LIKENESS: f64 = 0.8;
+/// Letters of an instruction of a plot.
+const MNEMONIC_LETTERS: usize = 2;
 /// Where the codes of cut files are explained.
 const README: &str = include_str!("../../README.md");
 /// The heading above their table.
@@ -50,11 +54,20 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     if let Some(text) = code_of_files(asked).or_else(|| Some(key_text(keys::find(asked)?))) {
         return Ok(Finished::text(text, String::new(), DONE));
     }
+    Err(failure(format!("there is no code `{asked}`"), hint(asked)))
+}
+
+/// What else may have been meant. A family of keys (`codes.<code>`) is like everything, and is no name.
+fn hint(asked: &str) -> String {
+    if asked.len() == MNEMONIC_LETTERS && asked.bytes().all(|byte| byte.is_ascii_alphabetic()) {
+        return "README has the instructions of plots (HPGL); `cutc explain` lists all codes".to_owned();
+    }
     let likeness = |name: &str| strsim::jaro_winkler(name, asked);
-    let names = topics().map(|topic| topic.0).chain(KEYS.iter().map(|key| key.name));
-    let nearest = names.max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
-    let hint = nearest.map_or_else(String::new, |name| format!("did you mean `{name}`? "));
-    Err(failure(format!("there is no code `{asked}`"), format!("{hint}`cutc explain` lists them all")))
+    let keys = KEYS.iter().map(|key| key.name).filter(|name| !name.contains('<'));
+    let near = topics().map(|topic| topic.0).chain(keys).filter(|name| likeness(name) >= LEAST_LIKENESS);
+    let nearest = near.max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
+    let guess = nearest.map_or_else(String::new, |name| format!("did you mean `{name}`? "));
+    format!("{guess}`cutc explain` lists them all")
 }
 
 /// A code of cut files by letter and number, as `M014` or `n`; `None` when it is none.
@@ -180,6 +193,22 @@ mod tests {
         for unknown in ["M99", "verify/nothing", "", "M", "é1"] {
             assert_eq!(code_of_files(unknown), None, "{unknown}");
         }
+    }
+
+    #[test]
+    fn a_hint_names_what_is_like_and_nothing_else() {
+        for (asked, expected) in [
+            ("iso/open-slot", "did you mean `iso/open-slit`?"),
+            ("knife.widht_mm", "did you mean `knife.width_mm`?"),
+            ("PE", "instructions of plots"),
+            ("aa", "instructions of plots"),
+        ] {
+            assert!(hint(asked).contains(expected), "{asked}: {}", hint(asked));
+        }
+        for asked in ["foo", "M99", "", "codes.<code>x"] {
+            assert!(!hint(asked).contains("did you mean `codes.<"), "{asked}");
+        }
+        assert_eq!(hint("foo"), "`cutc explain` lists them all");
     }
 
     #[test]

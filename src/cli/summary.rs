@@ -8,7 +8,7 @@ use crate::machine::plot::Lines;
 use crate::machine::{Follow, Job, Mode, NotchStyle};
 use crate::pipeline::{Axes, Peak, Peaks, Report, Sides, Verdict, word};
 use crate::units::S_PER_MIN;
-use crate::units::number::{exact, fixed};
+use crate::units::number::{fixed, short};
 
 /// The rule that says most about a cut.
 const ON_PATH: &str = "verify/on-path";
@@ -24,7 +24,7 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
     let mut line = |label: &str, value: String| {
         let _ = writeln!(out, "  {label:10} {value}");
     };
-    let unit = if report.unit_mm > 0.0 { format!("unit {} mm", exact(report.unit_mm)) } else { "no grid".to_owned() };
+    let unit = if report.unit_mm > 0.0 { format!("unit {} mm", short(report.unit_mm)) } else { "no grid".to_owned() };
     line("dialect", format!("{}, {unit}", report.dialect));
     let [width, height] = report.extent_mm;
     line("extent", format!("{} x {} mm", fixed(width, 1), fixed(height, 1)));

@@ -257,8 +257,9 @@ pub fn significant(value: f64, digits: i32) -> f64 {
     if decimals < 0 { (value / scale).round() * scale } else { (value * scale).round() / scale }
 }
 
+/// Zero has no sign here: the sum of no lengths would have one.
 pub(super) fn to_millionths(value: f64) -> f64 {
-    (value * MILLIONTHS).round() / MILLIONTHS
+    (value * MILLIONTHS).round() / MILLIONTHS + 0.0
 }
 
 // The signatures are those that serde calls.
@@ -308,6 +309,7 @@ mod tests {
         let json = serde_json::to_value(&report).expect("plain data");
         assert_eq!(json["extent_mm"].to_string(), "[12.8,4.0]");
         assert_eq!((json["cut_m"].to_string().as_str(), json["time_s"].to_string().as_str()), ("19.059211", "80.642"));
+        assert_eq!(to_millionths(-0.0).to_string(), "0");
         assert!(json["travel_m"].is_null() && json.get("bulge_mm").is_none());
     }
 }

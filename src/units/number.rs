@@ -58,6 +58,12 @@ pub fn exact(value: f64) -> String {
     format!("{}", if value == 0.0 { 0.0 } else { value })
 }
 
+/// Six significant digits, for people: 0.0423333 of a 600th of an inch.
+pub fn short(value: f64) -> String {
+    // The standard library rounds the decimal digits; what they read back as prints no others.
+    exact(format!("{value:.5e}").parse().unwrap_or(value))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -78,5 +84,14 @@ mod tests {
             assert_eq!(exact(value).parse::<f64>(), Ok(value));
         }
         assert_eq!(exact(-0.0), "0");
+    }
+
+    #[test]
+    fn short_numbers_have_six_digits_at_the_most() {
+        for (value, text) in [(25.4 / 600.0, "0.0423333"), (0.0254, "0.0254"), (25.4 / 300.0, "0.0846667"), (1.0, "1")]
+        {
+            assert_eq!(short(value), text);
+        }
+        assert_eq!((short(-0.0), short(f64::INFINITY)), ("0".to_owned(), "inf".to_owned()));
     }
 }

@@ -6,7 +6,7 @@ use crate::ir::marker::Label;
 use crate::machine::plot::PlotUnit;
 use crate::source::Source;
 use crate::units::MM_PER_INCH;
-use crate::units::number::{exact, fixed};
+use crate::units::number::{fixed, short};
 
 /// Widest plot that a table takes, mm, and the smallest thing worth cutting, mm.
 const WIDEST: f64 = 3500.0;
@@ -25,6 +25,12 @@ const CANDIDATES: [(f64, &str); 5] = [
     (0.01, "0.01"),
     (MM_PER_INCH / 300.0, "\"300 dpi\""),
 ];
+/// Units that a size without one may be in, mm: centimetres, millimetres, inches.
+const UNITS_OF_SIZES: [f64; 3] = [10.0, 1.0, MM_PER_INCH];
+/// The least number that may be the length of a marker in one of them.
+const SHORTEST_SIZE: f64 = 50.0;
+/// Digits of a group of thousands.
+const GROUP: usize = 3;
 /// Longest text that is searched for a length, bytes.
 const LONGEST_TITLE: usize = 200;
 /// A yard, a foot, mm.
@@ -51,7 +57,7 @@ pub(super) fn check_plausible(sized: Sized, out: &mut Diagnostics) {
     let (long, wide) = (width.max(height), width.min(height));
     let scale = |mm: f64| mm / unit.mm();
     let drawn =
-        format!("with a unit of {} mm the drawing is {} x {} mm", exact(unit.mm()), fixed(width, 1), fixed(height, 1));
+        format!("with a unit of {} mm the drawing is {} x {} mm", short(unit.mm()), fixed(width, 1), fixed(height, 1));
     let fits_table = |mm: f64| wide * scale(mm) <= WIDEST && long * scale(mm) >= SMALLEST;
     let hint = |mut finding: Diagnostic, fits: &dyn Fn(f64) -> bool| {
         for (mm, key) in CANDIDATES {
@@ -78,13 +84,54 @@ pub(super) fn check_plausible(sized: Sized, out: &mut Diagnostics) {
                 return;
             }
         }
+        for stated in sizes(source.slice(label.span)) {
+            let fits = |mm: f64| {
+                let is_near = |drawn: f64, stated: f64| (drawn * scale(mm) / stated - 1.0).abs() <= AGREES;
+                UNITS_OF_SIZES.iter().any(|unit| is_near(wide, stated[0] * unit) && is_near(long, stated[1] * unit))
+            };
+            if !fits(unit.mm()) && CANDIDATES.iter().any(|&(mm, _)| fits(mm)) {
+                let [less, greater] = stated.map(short);
+                let message = format!("{drawn}, but a text in it says {less} x {greater}");
+                let finding = Diagnostic::new(&code::HPGL_UNIT_DOUBTFUL, message).at(label.span);
+                out.push(hint(finding, &fits));
+                return;
+            }
+        }
     }
 }
 
-/// The lengths that a text states, mm: `7 yd 3.18 in`, `6.48 m`, `6481.6mm`.
+fn is_number(c: char) -> bool {
+    c.is_ascii_digit() || c == '.' || c == ','
+}
+
+/// A number with a decimal point or a decimal comma. Three digits behind a comma may be thousands: then it says nothing.
+fn value(number: &str) -> Option<f64> {
+    let number = number.trim_end_matches('.');
+    match number.split_once(',') {
+        None => number.parse().ok(),
+        Some((_, decimals)) if decimals.len() == GROUP => None,
+        Some((whole, decimals)) => format!("{whole}.{decimals}").parse().ok(),
+    }
+}
+
+/// The sizes that a text states as two numbers without a unit, the less first: `140.0 x 450.0`.
+fn sizes(text: &[u8]) -> Vec<[f64; 2]> {
+    let text = String::from_utf8_lossy(&text[..text.len().min(LONGEST_TITLE)]).to_ascii_lowercase();
+    let pair = |(at, _): (usize, &str)| {
+        let (before, after) = (text[..at].trim_end(), text[at + 1..].trim_start());
+        let (_, first) = before.split_at(before.trim_end_matches(is_number).len());
+        let (second, behind) = after.split_at(after.find(|c| !is_number(c)).unwrap_or(after.len()));
+        // With a unit it is a length of its own.
+        let has_unit = behind.trim_start().starts_with(|c: char| c.is_ascii_alphabetic());
+        let (a, b) = value(first).zip(value(second)).filter(|_| !has_unit)?;
+        (a.max(b) >= SHORTEST_SIZE).then_some([a.min(b), a.max(b)])
+    };
+    text.match_indices('x').filter_map(pair).collect()
+}
+
+/// The lengths that a text states, mm: `7 yd 3.18 in`, `6.48 m`, `6,48 m`, `6481.6mm`.
 fn lengths(text: &[u8]) -> impl Iterator<Item = f64> {
     let text = String::from_utf8_lossy(&text[..text.len().min(LONGEST_TITLE)]).to_ascii_lowercase();
-    let is_number = |c: char| c.is_ascii_digit() || c == '.';
     // Numbers with the word behind each, and whether they follow the word before them directly.
     let mut parts: Vec<(f64, String, bool)> = Vec::new();
     let mut rest = text.as_str();
@@ -92,10 +139,10 @@ fn lengths(text: &[u8]) -> impl Iterator<Item = f64> {
         let follows = rest[..start].trim().is_empty();
         rest = &rest[start..];
         let end = rest.find(|c| !is_number(c)).unwrap_or(rest.len());
-        let (number, behind) = rest.split_at(end);
+        let (number, behind) = rest.split_at(rest[..end].trim_end_matches(',').len());
         let word: String = behind.trim_start().chars().take_while(char::is_ascii_alphabetic).collect();
         rest = behind.trim_start().strip_prefix(word.as_str()).unwrap_or(behind);
-        if let Ok(number) = number.trim_end_matches('.').parse() {
+        if let Some(number) = value(number) {
             parts.push((number, word, follows));
         }
     }
@@ -138,5 +185,16 @@ mod tests {
         check("L=6.48m W=1700 mm 83.2%", &[6480.0, 1700.0]);
         check("SIZE 12 FRONT x2", &[]);
         check("2 m 35 cm", &[2350.0]);
+        check("L 4,50 m, B 140,5 cm", &[4500.0, 1405.0]);
+        check("1,700 mm", &[]);
+    }
+
+    #[test]
+    fn sizes_are_found_in_titles() {
+        let check = |text: &str, expected: &[[f64; 2]]| assert_eq!(sizes(text.as_bytes()), expected, "{text}");
+        check("140.0 x 450.0", &[[140.0, 450.0]]);
+        check("Marker 450,5X140 pieces", &[]);
+        check("Marker 450,5X140, 12 pieces x2", &[[140.0, 450.5]]);
+        check("FRONT x2, SIZE 38 x 40, 1,400 x 4,500, 140 x 450 cm, x", &[]);
     }
 }

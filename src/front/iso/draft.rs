@@ -399,7 +399,7 @@ impl Draft {
     }
 
     /// The place where it is, in the air, is that of a label.
-    pub(super) fn pass(&mut self) {
+    pub(super) fn settle(&mut self) {
         self.uncut.settle();
     }
 

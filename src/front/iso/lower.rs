@@ -11,7 +11,7 @@ use super::syntax::{Code, Point, Words};
 use super::tally::Tally;
 use super::title::Title;
 use super::trailer;
-use super::unit::{Unit, check_plausible};
+use super::unit::{Place, Sized, Unit, check_plausible};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{self, Heading, Vector};
 use crate::ir::Marker;
@@ -179,7 +179,8 @@ impl Lowering<'_> {
         }
         // A place that is a kilometre off says it all.
         if self.far.is_none() {
-            check_plausible(&self.unit, &extent, self.title.as_ref(), self.out);
+            let sized = Sized { unit: &self.unit, extent: &extent, title: self.title.as_ref() };
+            check_plausible(sized, || places(&marker), self.out);
         }
         marker
     }
@@ -213,7 +214,7 @@ impl Lowering<'_> {
         let label = self.awaiting.take();
         self.move_in_air(to, span);
         if label.is_some() {
-            self.knife.pass();
+            self.knife.settle();
         }
         self.second = label;
     }
@@ -485,6 +486,17 @@ impl Lowering<'_> {
         let unit = self.unit.convert();
         geom::Point::new(place[0] * unit, place[1] * unit)
     }
+}
+
+/// All that the box around a marker holds, with the blocks.
+fn places(marker: &Marker) -> Vec<Place> {
+    let cut = marker.contours().flat_map(|(_, contour)| marker.list.walk(contour.range));
+    let mut places: Vec<Place> = cut.flat_map(|(_, cut)| [(cut.to, cut.span), (cut.from, cut.span)]).collect();
+    for piece in &marker.pieces {
+        places.extend(piece.notches.iter().flat_map(|notch| [(notch.root, notch.span), (notch.tip, notch.span)]));
+        places.extend(piece.drills.iter().map(|drill| (drill.at, drill.span)));
+    }
+    places
 }
 
 fn direction(from: geom::Point, to: geom::Point) -> Option<Heading> {

@@ -2,7 +2,7 @@
 
 use super::title::Title;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::Extent;
+use crate::geom::{Extent, Point};
 use crate::machine::FileUnit;
 use crate::source::Span;
 
@@ -19,10 +19,21 @@ const SMALLEST: f64 = 5.0;
 /// A drawing fills between 40 % and 102 % of what its title says.
 const LEAST_FILL: f64 = 0.40;
 const MOST_FILL: f64 = 1.02;
+/// What a drawing shrinks to at the most without a place that lies far from all others: half.
+const FAR: f64 = 0.5;
 
 /// The units that a file can have, with the value of the profile's key.
 const CANDIDATES: [(FileUnit, &str); 3] =
     [(FileUnit::TenthMm, "mm/10"), (FileUnit::HundredthInch, "in/100"), (FileUnit::ThousandthInch, "in/1000")];
+
+/// What the size of a drawing is judged by.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sized<'a> {
+    pub(super) unit: &'a Unit,
+    /// The box around all that is cut.
+    pub(super) extent: &'a Extent,
+    pub(super) title: Option<&'a Title>,
+}
 
 /// The unit in force.
 #[derive(Debug)]
@@ -66,13 +77,33 @@ impl Unit {
     }
 }
 
+/// A place of the drawing, and its block.
+pub(super) type Place = (Point, Span);
+
+/// The only place that makes a drawing too large: without it the rest `fits`.
+fn far_from_others(places: &[Place], fits: impl Fn(&Extent) -> bool) -> Option<Place> {
+    let by = |key: fn(&Point) -> f64| {
+        let least = places.iter().min_by(|a, b| key(&a.0).total_cmp(&key(&b.0)));
+        [least, places.iter().max_by(|a, b| key(&a.0).total_cmp(&key(&b.0)))]
+    };
+    let mut farthest = by(|at| at.x).into_iter().chain(by(|at| at.y)).flatten();
+    farthest
+        .find(|(far, _)| {
+            let mut rest = Extent::EMPTY;
+            places.iter().filter(|(at, _)| at != far).for_each(|(at, _)| rest.add(*at));
+            !rest.is_empty() && fits(&rest)
+        })
+        .copied()
+}
+
 /// Warns when the drawing fits neither its title nor any table, and names the unit that would fit.
-pub(super) fn check_plausible(unit: &Unit, extent: &Extent, title: Option<&Title>, out: &mut Diagnostics) {
+pub(super) fn check_plausible(sized: Sized, places: impl FnOnce() -> Vec<Place>, out: &mut Diagnostics) {
+    let Sized { unit, extent, title } = sized;
     if extent.is_empty() {
         return;
     }
     let (length, width) = extent.size();
-    let fits = |scale: f64| {
+    let fits_as = |(length, width): (f64, f64), scale: f64| {
         let filled = |size: f64, stated: Option<f64>| {
             stated.is_none_or(|stated| (LEAST_FILL..=MOST_FILL).contains(&(size * scale / stated)))
         };
@@ -81,6 +112,7 @@ pub(super) fn check_plausible(unit: &Unit, extent: &Extent, title: Option<&Title
             && length * scale <= LONGEST
             && length.max(width) * scale >= SMALLEST
     };
+    let fits = |scale: f64| fits_as((length, width), scale);
     if fits(1.0) {
         return;
     }
@@ -103,6 +135,17 @@ pub(super) fn check_plausible(unit: &Unit, extent: &Extent, title: Option<&Title
             Diagnostic::new(&code::ISO_UNIT_DOUBTFUL, message)
         }
     };
+    let is_rest = |rest: &Extent| {
+        let size = rest.size();
+        (size.0 < FAR * length || size.1 < FAR * width) && fits_as(size, 1.0)
+    };
+    if let Some((at, span)) = far_from_others(&places(), is_rest) {
+        let message =
+            format!("the drawing is {drawn}, but without the place X {:.0} Y {:.0} mm it would fit", at.x, at.y);
+        let finding = Diagnostic::new(&code::ISO_UNIT_DOUBTFUL, message).at(span);
+        out.push(finding.hint("one place alone lies far from the others: a digit of it may be doubled or wrong"));
+        return;
+    }
     for (candidate, key) in CANDIDATES {
         if candidate.mm().is_some_and(|mm| fits(mm / unit.mm)) {
             finding = finding.hint(format!("`units = \"{key}\"` in the profile would fit"));

@@ -154,7 +154,7 @@ fn warn_if_tight(run: &Run, knife: &Knife, diagnostics: &mut Diagnostics) {
                 format!("a smooth contour of {size} is narrower than the blade of {} mm", fixed(knife.width_mm, 2)),
             )
             .at(run.spans[0])
-            .hint("a hole of this size is better drilled"),
+            .hint("a hole of this size is better drilled; of a plot, `hpgl.drill_max_mm` in the profile asks for that"),
         );
     }
 }
