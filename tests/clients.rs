@@ -48,11 +48,14 @@ fn pen_down(plot: &str) -> f64 {
 }
 
 /// Plots without texts that hp2xx 3.4.4 draws otherwise, and why.
-const OTHERWISE: [(&str, &str); 21] = [
+const OTHERWISE: [(&str, &str); 25] = [
     ("arcs", "its arcs by three points are not numbers, its chords are others"),
     ("beziers", "its chords are others"),
     ("circle-with-a-cross", "its chords are others"),
     ("circles", "its chords are others"),
+    ("corners-behind-the-scale", "it forgets the scale when corners follow"),
+    ("corners-given-late", "it forgets the scale when corners follow"),
+    ("ends-amid-a-radius", "its chords are others"),
     ("rectangles-and-wedge", "its chords are others"),
     ("encoded-and-saved-as-utf-8", "it repairs nothing"),
     ("encoded-fractions", "it reads no fraction bits"),
@@ -69,6 +72,7 @@ const OTHERWISE: [(&str, &str); 21] = [
     ("scaled-unequally", "its arcs by three points are not numbers, its chords are others"),
     ("scaled-unequally-mirrored-and-turned", "its arcs by three points are not numbers, its chords are others"),
     ("scales-that-are-broken", "it stops at a scale that is broken"),
+    ("turned-amid", "it makes relative moves from a place that is not turned, its chords are others"),
     ("wedge-of-a-full-turn", "it draws the radii of a full turn as well"),
 ];
 
