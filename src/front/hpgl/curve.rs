@@ -45,7 +45,7 @@ impl Stretch {
 
 impl Arc {
     /// The ends of its chords, none farther from it than `sagitta`. A full turn ends where it starts, to the bit.
-    pub(super) fn flatten(&self, sagitta: f64) -> impl Iterator<Item = Pair> + use<> {
+    pub(super) fn flatten(&self, sagitta: f64) -> impl DoubleEndedIterator<Item = Pair> + use<> {
         let Self { from, centre, sweep, stretch } = *self;
         let start = stretch.undone(centre, from);
         let radius = start[0].hypot(start[1]);
@@ -114,7 +114,7 @@ impl Bezier {
     /// The ends of its chords, none farther from it than `sagitta`, the last one exact. Their number is Wang's bound for
     /// equal steps: the root of 6 m / (8 s), m the greatest second difference of the control points. (Wang, "The
     /// subdivision method for finding the intersection between two Bezier curves or surfaces", 1984.)
-    pub(super) fn flatten(&self, sagitta: f64) -> impl Iterator<Item = Pair> + use<> {
+    pub(super) fn flatten(&self, sagitta: f64) -> impl DoubleEndedIterator<Item = Pair> + use<> {
         let p = self.0;
         let second = |i: usize| {
             let bend = |axis: usize| p[i][axis] - 2.0 * p[i + 1][axis] + p[i + 2][axis];

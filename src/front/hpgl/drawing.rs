@@ -12,6 +12,21 @@ pub(super) struct Vertex {
     pub(super) span: Span,
 }
 
+/// How often the pen is led on along a line; the chords of a curve are one.
+pub(super) fn led_to(vertices: &[Vertex]) -> isize {
+    led_on(None, vertices.iter().skip(1))
+}
+
+/// The same behind a place that was led to before.
+pub(super) fn led_on<'a>(mut before: Option<Span>, vertices: impl Iterator<Item = &'a Vertex>) -> isize {
+    vertices.filter(|vertex| before.replace(vertex.span) != Some(vertex.span)).count().cast_signed()
+}
+
+/// Where a line lies.
+pub(super) fn moments(vertices: &[Vertex]) -> Moments {
+    Moments::of(vertices.iter().map(|vertex| vertex.at))
+}
+
 /// The number that stands for no pen (SP0).
 pub(super) const NO_PEN: u16 = 0;
 

@@ -9,8 +9,6 @@ const LONGEST: usize = 1024;
 #[derive(Debug)]
 pub(super) struct Terminator {
     byte: u8,
-    /// Where it stands in the file for the last time, once it was looked for.
-    last: Option<usize>,
 }
 
 /// A text, and where the file goes on.
@@ -27,23 +25,20 @@ pub(super) struct Text {
 impl Terminator {
     /// As switched on.
     pub(super) fn new() -> Self {
-        Self { byte: ETX, last: None }
+        Self { byte: ETX }
     }
 
     /// DT: the byte behind it, whatever it is, but a semicolon; where the file goes on.
     pub(super) fn define(&mut self, bytes: &[u8], at: usize) -> usize {
         let given = bytes.get(at).copied().filter(|&byte| byte != b';');
-        *self = Self { byte: given.unwrap_or(ETX), last: None };
+        self.byte = given.unwrap_or(ETX);
         at + usize::from(given.is_some())
     }
 
     /// The text that starts at `at`. One whose terminator is missing ends with its line or at a semicolon.
-    pub(super) fn text(&mut self, bytes: &[u8], at: usize) -> Text {
-        // Looked for once, so that a file of labels without any is not searched to its end for each.
-        let last = *self.last.get_or_insert_with(|| memchr::memrchr(self.byte, bytes).unwrap_or(0));
+    pub(super) fn text(&self, bytes: &[u8], at: usize) -> Text {
         let window = &bytes[at..bytes.len().min(at + LONGEST)];
-        let found = if last >= at { memchr::memchr(self.byte, window) } else { None };
-        if let Some(length) = found {
+        if let Some(length) = memchr::memchr(self.byte, window) {
             return Text { end: at + length, next: at + length + 1, is_open: false };
         }
         let length = window.iter().position(|byte| b";\r\n".contains(byte)).unwrap_or(window.len());
@@ -83,7 +78,7 @@ mod tests {
 
     #[test]
     fn a_label_without_terminator_ends_with_its_line() {
-        let mut terminator = Terminator::new();
+        let terminator = Terminator::new();
         assert_eq!(terminator.text(b"LBSIZE M\nPU", 2), Text { end: 8, next: 8, is_open: true });
         let far = [b"LBA;PU;".as_slice(), &[b' '; 2 * LONGEST], b"\x03"].concat();
         assert_eq!(Terminator::new().text(&far, 2), Text { end: 3, next: 3, is_open: true });

@@ -117,6 +117,11 @@ impl Lowering<'_> {
 
     /// The end of the file: a line that the pen is still drawing there may be cut short.
     fn end(&mut self) {
+        if let Some(last) = self.plotter.unfinished() {
+            let message = "the file ends amid a polygon (PM), which is not drawn";
+            let finding = Diagnostic::new(&code::HPGL_ENDS_PEN_DOWN, message).at(last);
+            self.out.push(finding.hint("the file is most likely cut short; export it again"));
+        }
         let drawing = &mut self.plotter.drawing;
         if !drawing.is_lifted() {
             drawing.unended = drawing.vertices.last().map(|vertex| vertex.span);
@@ -257,8 +262,7 @@ impl Lowering<'_> {
     fn moves(&mut self) {
         while let Some((pair, span)) = self.pair() {
             let to = self.plotter.target(pair);
-            let outcome =
-                if self.plotter.starts_part() { self.plotter.start_part(to, span) } else { self.plotter.go(to, span) };
+            let outcome = self.plotter.lead(to, span);
             self.check(outcome, span);
             self.plotter.settle_by_mode();
         }
@@ -343,7 +347,7 @@ impl Lowering<'_> {
                     } else {
                         self.plotter.lower();
                     }
-                    let outcome = self.plotter.go(to, span);
+                    let outcome = self.plotter.lead(to, span);
                     self.check(outcome, span);
                     if is_absolute {
                         self.plotter.settle();
@@ -403,7 +407,7 @@ impl Lowering<'_> {
     }
 
     fn follow(&mut self, arc: Arc, span: Span) {
-        let outcome = arc.flatten(self.sagitta).try_for_each(|to| self.plotter.go(to, span));
+        let outcome = self.plotter.follow(arc.flatten(self.sagitta), span);
         self.check(outcome, span);
     }
 
@@ -428,7 +432,7 @@ impl Lowering<'_> {
             let span = start.to(end);
             let place = |pair| if is_relative { self.plotter.relative(pair) } else { self.plotter.absolute(pair) };
             let curve = Bezier([self.plotter.at(), place(first), place(second), place(third)]);
-            let outcome = curve.flatten(self.sagitta).try_for_each(|to| self.plotter.go(to, span));
+            let outcome = self.plotter.follow(curve.flatten(self.sagitta), span);
             self.check(outcome, span);
             if !is_relative {
                 self.plotter.settle();

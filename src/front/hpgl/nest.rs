@@ -81,7 +81,11 @@ pub(super) fn nest(drawing: &Drawing, shapes: &[Shape], outlines: &[usize], slac
             first += 1;
         }
         active.retain(|&outer| shape(outer).extent().max.x + slack >= extent.min.x);
-        work = work.saturating_sub(active.len());
+        let Some(left) = work.checked_sub(active.len()) else {
+            nest.is_cut_short = true;
+            return nest;
+        };
+        work = left;
         let mut best: Option<usize> = None;
         for &outer in &active {
             let is_larger = shape(outer).area.abs() > shape(inner).area.abs();

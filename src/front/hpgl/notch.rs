@@ -1,10 +1,9 @@
-//! Notches: marks that stand on an outline, and spikes in it that go out and straight back.
+//! Notches: marks that stand on an outline.
 
 use std::collections::BTreeMap;
 
-use super::drawing::{Drawing, Vertex};
-use super::shape::{Mark, ROUNDING, SHORTEST_NOTCH, Shape, is_near, mark};
-use crate::geom::moments::Moments;
+use super::drawing::Drawing;
+use super::shape::{Mark, ROUNDING, Shape, mark};
 use crate::geom::{Extent, Point, polyline, ring};
 
 /// How far from an outline a mark may end and still stand on it, mm, beside what rounding does.
@@ -68,6 +67,9 @@ pub(super) fn on_outlines(search: Search) -> Marks {
         let extent = grown(*shapes[outline].extent(), touch);
         let in_reach = in_reach(&order, &ends, &extent);
         work = work.saturating_sub(in_reach.len());
+        if work == 0 {
+            break;
+        }
         let near: Vec<usize> = in_reach.iter().copied().filter(|&end| extent.holds(ends[end].at)).collect();
         if near.is_empty() {
             continue;
@@ -92,9 +94,9 @@ pub(super) fn on_outlines(search: Search) -> Marks {
                     end.meet(k, distance);
                 }
             }
-        }
-        if work == 0 {
-            break;
+            if work == 0 {
+                break;
+            }
         }
     }
     let mut rings: BTreeMap<usize, Vec<Point>> = BTreeMap::new();
@@ -169,133 +171,4 @@ fn in_reach<'a>(order: &'a [usize], ends: &[End], extent: &Extent) -> &'a [usize
     let first = order.partition_point(|&end| ends[end].at.x < extent.min.x);
     let last = order.partition_point(|&end| ends[end].at.x <= extent.max.x);
     &order[first..last]
-}
-
-/// A spike that was taken out of an outline.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Spike {
-    pub(super) root: Point,
-    pub(super) tip: Vertex,
-}
-
-/// An outline without its spikes.
-#[derive(Debug, Default)]
-pub(super) struct Pruned {
-    pub(super) vertices: Vec<Vertex>,
-    pub(super) spikes: Vec<Spike>,
-    /// Drawn beyond what is left and one cut a spike: places, and moments.
-    pub(super) points: isize,
-    pub(super) moments: Moments,
-    /// Tips that are too near to be notches: they are dropped.
-    pub(super) dropped: Vec<Point>,
-}
-
-/// Takes the spikes out of a closed line. A way that comes back to its root to the bit is a spike however long it is;
-/// one that misses it by rounding is bridged, and is a spike when it is as long as a notch. Shorter ones are the jitter of
-/// a digitiser and are dropped.
-pub(super) fn prune(vertices: &[Vertex], unit: f64, longest: f64) -> Pruned {
-    let mut pruned = Pruned { vertices: Vec::with_capacity(vertices.len()), ..Pruned::default() };
-    for &vertex in vertices {
-        // Few vertices come back to the last but one, so nothing is measured before that is known.
-        if let [.., root, tip] = &pruned.vertices[..]
-            && is_near(root.at, vertex.at, unit)
-        {
-            let (root, tip) = (root.at, *tip);
-            let depth = (tip.at - root).norm();
-            if root == vertex.at {
-                pruned.vertices.pop();
-                pruned.add(root, tip);
-                continue;
-            }
-            if (SHORTEST_NOTCH..=longest).contains(&depth) {
-                pruned.vertices.pop();
-                pruned.spikes.push(Spike { root, tip });
-                pruned.moments += Moments::line(vertex.at, tip.at) - Moments::line(vertex.at, root);
-            }
-        }
-        pruned.vertices.push(vertex);
-    }
-    // Where the line starts at a tip, its two ends are the way out and back.
-    while let [tip, root, .., before, _] = pruned.vertices[..]
-        && root.at == before.at
-        && pruned.vertices.len() > 4
-    {
-        pruned.vertices.pop();
-        let tip = Vertex { span: root.span, ..tip };
-        pruned.vertices.remove(0);
-        pruned.add(root.at, tip);
-    }
-    pruned
-}
-
-impl Pruned {
-    /// A spike whose way back is drawn beside its cut.
-    fn add(&mut self, root: Point, tip: Vertex) {
-        let way = Moments::line(root, tip.at);
-        if way.length() < SHORTEST_NOTCH {
-            self.dropped.push(tip.at);
-            self.points += 2;
-            self.moments += way * 2.0;
-            return;
-        }
-        self.spikes.push(Spike { root, tip });
-        self.points += 1;
-        self.moments += way;
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::source::Span;
-
-    const UNIT: f64 = 0.025;
-
-    fn check(points: &[(f64, f64)], left: &[(f64, f64)], tips: &[(f64, f64)]) {
-        let vertex = |(i, &(x, y)): (usize, &(f64, f64))| Vertex {
-            at: Point::new(x, y),
-            span: Span { start: i as u32, end: i as u32, block: 1 },
-        };
-        let vertices: Vec<Vertex> = points.iter().enumerate().map(vertex).collect();
-        let pruned = prune(&vertices, UNIT, 25.0);
-        let of = |p: &Point| (p.x, p.y);
-        assert_eq!(pruned.vertices.iter().map(|v| of(&v.at)).collect::<Vec<_>>(), left);
-        assert_eq!(pruned.spikes.iter().map(|s| of(&s.tip.at)).collect::<Vec<_>>(), tips);
-        let length = |points: &[(f64, f64)]| -> f64 {
-            points.windows(2).map(|w| (w[1].0 - w[0].0).hypot(w[1].1 - w[0].1)).sum()
-        };
-        let cuts: f64 = pruned.spikes.iter().map(|s| (s.tip.at - s.root).norm()).sum();
-        assert!((length(points) - length(left) - cuts - pruned.moments.length()).abs() < 1e-9);
-        assert_eq!(points.len(), (left.len() + tips.len()).saturating_add_signed(pruned.points));
-    }
-
-    #[test]
-    fn a_spike_is_taken_out_wherever_it_stands() {
-        let ring = [(0., 0.), (50., 0.), (50., 50.), (0., 50.), (0., 0.)];
-        check(&ring, &ring, &[]);
-        check(&[(0., 0.), (50., 0.), (50., 50.), (45., 45.), (50., 50.), (0., 50.), (0., 0.)], &ring, &[(45., 45.)]);
-        check(&[(0., 0.), (5., 5.), (0., 0.), (50., 0.), (50., 50.), (0., 50.), (0., 0.)], &ring, &[(5., 5.)]);
-        check(&[(0., 0.), (50., 0.), (50., 50.), (0., 50.), (0., 0.), (5., 5.), (0., 0.)], &ring, &[(5., 5.)]);
-        check(&[(5., 5.), (0., 0.), (50., 0.), (50., 50.), (0., 50.), (0., 0.), (5., 5.)], &ring, &[(5., 5.)]);
-    }
-
-    #[test]
-    fn a_gap_of_rounding_is_bridged_and_a_wider_one_is_no_spike() {
-        let bridged = [(0., 0.), (25., 0.), (25.025, 0.), (50., 0.), (50., 50.), (0., 0.)];
-        let drawn = [(0., 0.), (25., 0.), (25., 5.), (25.025, 0.), (50., 0.), (50., 50.), (0., 0.)];
-        check(&drawn, &bridged, &[(25., 5.)]);
-        let wide = [(0., 0.), (25., 0.), (25., 5.), (25.1, 0.), (50., 0.), (50., 50.), (0., 0.)];
-        check(&wide, &wide, &[]);
-    }
-
-    #[test]
-    fn a_step_out_and_back_that_is_shorter_than_a_notch_is_dropped() {
-        let left = [(0., 0.), (25., 0.), (50., 0.), (50., 50.), (0., 0.)];
-        check(&[(0., 0.), (25., 0.), (25., 0.025), (25., 0.), (50., 0.), (50., 50.), (0., 0.)], &left, &[]);
-        check(
-            &[(25., 0.9), (25., 0.), (50., 0.), (50., 50.), (0., 0.), (25., 0.), (25., 0.9)],
-            &[(25., 0.), (50., 0.), (50., 50.), (0., 0.), (25., 0.)],
-            &[],
-        );
-    }
 }

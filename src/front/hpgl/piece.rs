@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use super::boxes::Boxes;
 use super::classify::{Sorted, depth};
-use super::drawing::Vertex;
-use super::notch::{Pruned, prune};
+use super::drawing::{Vertex, led_to, moments};
 use super::shape::{CLASSES, Class, LONGEST_NOTCH, Shape};
+use super::spike::{self, Pruned, prune};
 use super::vee::{Material, Outline};
 use crate::geom::moments::Moments;
 use crate::geom::{Extent, Point, Vector, cross, ring};
@@ -60,17 +60,6 @@ fn centroid(shape: &Shape, vertices: &[Vertex]) -> Point {
     };
     let sum = vertices.windows(2).map(part).fold(Vector::zeros(), |sum, part| sum + part);
     origin + sum / (6.0 * shape.area)
-}
-
-/// How often the pen is led on along a line; the chords of a curve are one.
-fn led_to(vertices: &[Vertex]) -> isize {
-    let mut before = None;
-    let is_new = |pair: &&[Vertex]| before.replace(pair[1].span) != Some(pair[1].span);
-    vertices.windows(2).filter(is_new).count().cast_signed()
-}
-
-fn moments(vertices: &[Vertex]) -> Moments {
-    Moments::of(vertices.iter().map(|vertex| vertex.at))
 }
 
 /// An outline without its spikes, and the piece that it is of.
@@ -193,12 +182,11 @@ impl Making<'_> {
                     self.add_outline(Ring { piece, outline, vertices }, &marks);
                     continue;
                 }
-                let Pruned { vertices, spikes, points, moments, dropped } = prune(vertices, self.unit, LONGEST_NOTCH);
+                let measure = spike::Measure { unit: self.unit, longest: LONGEST_NOTCH };
+                let Pruned { vertices, spikes, points, moments, bounds } = prune(vertices, measure);
                 self.aside.points += points;
                 self.aside.moments += moments;
-                for tip in dropped {
-                    self.aside.bounds.add(tip);
-                }
+                self.leave_aside(&bounds);
                 self.spikes += spikes.len();
                 for spike in spikes {
                     let (root, tip, span) = (spike.root, spike.tip.at, spike.tip.span);
@@ -224,8 +212,7 @@ impl Making<'_> {
         let mut notched = Outline::new(vertices, material, self.unit);
         self.aside.points += led_to(vertices);
         self.aside.moments += moments(vertices);
-        self.aside.bounds.add(shape.extent().min);
-        self.aside.bounds.add(shape.extent().max);
+        self.leave_aside(shape.extent());
         for &mark in marks {
             let mark = &self.sorted.shapes[mark];
             let &[first, tip, last] = mark.vertices(drawing) else { continue };
@@ -301,14 +288,21 @@ impl Making<'_> {
         }
     }
 
+    /// Something is drawn there that is not cut.
+    fn leave_aside(&mut self, extent: &Extent) {
+        if !extent.is_empty() {
+            self.aside.bounds.add(extent.min);
+            self.aside.bounds.add(extent.max);
+        }
+    }
+
     /// What all lines were taken for, and what of them is not cut.
     fn account(&mut self) -> Drawing {
         let shapes = &self.sorted.shapes;
         for shape in shapes.iter().filter(|shape| !shape.class.is_cut() || shape.class == Class::Hole) {
             self.aside.points += shape.points();
             self.aside.moments += shape.moments(&self.sorted.drawing);
-            self.aside.bounds.add(shape.extent().min);
-            self.aside.bounds.add(shape.extent().max);
+            self.leave_aside(shape.extent());
         }
         let class = |&(class, name): &(Class, &'static str)| {
             let of = || shapes.iter().filter(|shape| shape.class == class);

@@ -11,7 +11,7 @@ use crate::source::Span;
 const FIRST_PEN: u16 = 1;
 /// Farthest place from the origin, mm: no table is a kilometre long.
 const FARTHEST: f64 = 1e6;
-/// Vertices that curves and repeated polygons may have beyond the bytes of the file: a hundred times what the largest
+/// Moves that curves and repeated polygons may make beyond one for each byte of the file: a hundred times what the largest
 /// plots need, and no more than the memory of a small computer holds.
 const MOST_CURVED: usize = 5_000_000;
 
@@ -24,7 +24,8 @@ pub(super) struct Plotter {
     unit: f64,
     /// Farthest place from the origin, units.
     farthest: f64,
-    most_vertices: usize,
+    /// Moves that it may still make, drawing or not.
+    moves_left: usize,
     standing: Standing,
     /// Lines that were drawn from such a place.
     pub(super) adrift: Count,
@@ -63,7 +64,7 @@ enum Standing {
 pub(super) enum Refusal {
     /// The place is beyond any table.
     TooFar,
-    /// Curves have filled the memory that a plot may take.
+    /// Curves and polygons have more moves than a plot may take.
     TooMany,
 }
 
@@ -87,7 +88,7 @@ impl Plotter {
             drawing: Drawing::with_room(bytes / BYTES_A_VERTEX),
             unit,
             farthest: (FARTHEST / unit).min(VALUE_MAX),
-            most_vertices: bytes + MOST_CURVED,
+            moves_left: bytes + MOST_CURVED,
             standing: Standing::Known,
             adrift: Count::default(),
             pen: FIRST_PEN,
@@ -194,6 +195,18 @@ impl Plotter {
         [self.at[0] + way[0], self.at[1] + way[1]]
     }
 
+    /// Along the ends of the chords of a curve, with the pen as it is. Where they leave no trace, only the last one counts.
+    pub(super) fn follow(
+        &mut self,
+        mut chords: impl DoubleEndedIterator<Item = Pair>,
+        span: Span,
+    ) -> Result<(), Refusal> {
+        if self.is_down || self.gathering.is_some() {
+            return chords.try_for_each(|to| self.go(to, span));
+        }
+        chords.next_back().map_or(Ok(()), |to| self.go(to, span))
+    }
+
     /// A move with the pen as it is.
     pub(super) fn go(&mut self, to: Pair, span: Span) -> Result<(), Refusal> {
         if self.is_down { self.draw(to, span) } else { self.jump(to, span) }
@@ -202,9 +215,6 @@ impl Plotter {
     /// A move that draws.
     pub(super) fn draw(&mut self, to: Pair, span: Span) -> Result<(), Refusal> {
         self.check(to)?;
-        if self.drawing.vertices.len() + self.polygon.len() >= self.most_vertices {
-            return Err(Refusal::TooMany);
-        }
         if self.standing == Standing::Lettered {
             self.adrift.add(span);
         }
@@ -266,16 +276,21 @@ impl Plotter {
         (self.gathering, self.awaits_part) = (Some(self.polygon.len() - 1), true);
     }
 
-    /// Whether the next place starts a part: the first one behind PM 1 does, pen up or down.
-    pub(super) fn starts_part(&self) -> bool {
-        self.awaits_part
-    }
-
-    /// That place.
-    pub(super) fn start_part(&mut self, to: Pair, span: Span) -> Result<(), Refusal> {
+    /// A move to a place that the file gives. The first one behind PM 1 starts a part, pen up or down.
+    pub(super) fn lead(&mut self, to: Pair, span: Span) -> Result<(), Refusal> {
+        if !self.awaits_part {
+            return self.go(to, span);
+        }
         self.jump(to, span)?;
         (self.gathering, self.awaits_part) = (Some(self.polygon.len() - 1), false);
         Ok(())
+    }
+
+    /// A polygon that PM is still gathering and that has edges: the place of its last corner.
+    pub(super) fn unfinished(&self) -> Option<Span> {
+        self.gathering?;
+        let last = self.polygon.iter().rfind(|corner| corner.is_edge)?;
+        Some(last.span)
     }
 
     /// PM 2: the polygon is whole.
@@ -307,9 +322,13 @@ impl Plotter {
         Point::new(x * self.unit, y * self.unit)
     }
 
-    /// A place on a table; never true of what is not a number.
-    fn check(&self, to: Pair) -> Result<(), Refusal> {
+    /// One move more, to a place on a table; what is not a number is none.
+    fn check(&mut self, to: Pair) -> Result<(), Refusal> {
         let is_near = to[0].abs() <= self.farthest && to[1].abs() <= self.farthest;
-        if is_near { Ok(()) } else { Err(Refusal::TooFar) }
+        if !is_near {
+            return Err(Refusal::TooFar);
+        }
+        self.moves_left = self.moves_left.checked_sub(1).ok_or(Refusal::TooMany)?;
+        Ok(())
     }
 }

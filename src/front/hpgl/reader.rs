@@ -135,9 +135,8 @@ impl<'a> Reader<'a> {
                 Next::Some(value)
             }
             Err(nom::Err::Failure(Fault::Overflow)) => {
-                let rest = &self.bytes[start..];
-                let digits = rest.iter().skip(1).position(|byte| !(byte.is_ascii_digit() || *byte == b'.'));
-                self.at = start + digits.map_or(rest.len(), |length| length + 1);
+                let rest = syntax::behind_number(&self.bytes[start..]);
+                self.at = self.bytes.len() - rest.len();
                 Next::Overflow(self.span(start))
             }
             Err(_) => Next::End,
@@ -319,5 +318,19 @@ mod tests {
         reader.next();
         assert_eq!(reader.pair(), Next::Overflow(Span { start: 2, end: 12, block: 1 }));
         assert_eq!(reader.pair(), Next::Some(([3.0, 4.0], Span { start: 15, end: 18, block: 1 })));
+    }
+
+    #[test]
+    fn a_number_beyond_any_table_is_passed_over_once_whatever_stands_before_it() {
+        for number in ["99999999999", "-99999999999", " 99999999999", "  +99999999999.5", "-999999999999999999999."] {
+            for numbers in [format!("{number},2"), format!("1,{number}")] {
+                let text = format!("PD{numbers},3,4;PU");
+                let mut reader = Reader::new(text.as_bytes());
+                reader.next();
+                assert!(matches!(reader.pair(), Next::Overflow(_)), "{text}");
+                assert!(matches!(reader.pair(), Next::Some(([3.0, 4.0], _))), "{text}");
+                assert_eq!(reader.pair(), Next::End, "{text}");
+            }
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! Strokes with their measures, what a user or a profile says of them, and what they are taken for.
 
-use super::drawing::{Drawing, NO_PEN, Stroke, Vertex};
-use super::notch::prune;
+use super::drawing::{Drawing, NO_PEN, Stroke, Vertex, moments};
+use super::spike::{Measure, prune};
 use crate::geom::moments::Moments;
 use crate::geom::{Extent, Point, cross};
 use crate::machine::Job;
@@ -110,7 +110,7 @@ pub(super) const ROUNDING: f64 = std::f64::consts::SQRT_2;
 /// An area below this share of the squared length is the rounding of a line that goes out and back.
 const FLAT_EPSILON: f64 = 1e-9;
 /// Places of a triangle, its start twice: fewer go around nothing.
-const LEAST_CORNERS: usize = 4;
+pub(super) const LEAST_CORNERS: usize = 4;
 /// Shortest line that may be an outline with a gap, mm: shorter ones are letters.
 pub(super) const SHORTEST_OUTLINE: f64 = 100.0;
 /// Shortest line that is named for its gap, mm.
@@ -163,7 +163,7 @@ impl Shape {
 
     /// Where it lies.
     pub(super) fn moments(&self, drawing: &Drawing) -> Moments {
-        Moments::of(self.vertices(drawing).iter().map(|vertex| vertex.at))
+        moments(self.vertices(drawing))
     }
 
     /// Its box, mm.
@@ -201,7 +201,7 @@ fn is_retraced(vertices: &[Vertex], unit: f64) -> bool {
     let far = vertices.iter().map(|vertex| vertex.at - origin).max_by(|a, b| a.norm().total_cmp(&b.norm()));
     let way = far.unwrap_or_default();
     let is_straight = vertices.iter().all(|v| cross(way, v.at - origin).abs() <= ROUNDING * unit * way.norm());
-    is_straight || prune(vertices, unit, f64::INFINITY).vertices.len() < LEAST_CORNERS
+    is_straight || prune(vertices, Measure { unit, longest: f64::INFINITY }).vertices.len() < LEAST_CORNERS
 }
 
 /// Whether two places are one but for rounding.

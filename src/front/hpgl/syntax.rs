@@ -36,7 +36,7 @@ impl<'a> ParseError<&'a [u8]> for Fault {
 /// whole numbers and their binary fractions to be exact.
 pub(super) const VALUE_MAX: f64 = 1e8;
 
-/// Decimals that count: with nine digits before them, all are exact in `f64`.
+/// Decimals that are read without a search for the nearest number: with nine digits before them, all are exact in `f64`.
 const MOST_DECIMALS: usize = 6;
 const POWERS_OF_TEN: [f64; MOST_DECIMALS + 1] = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6];
 
@@ -80,7 +80,7 @@ fn is_separator(byte: u8) -> bool {
 }
 
 /// `<number>`: decimals without exponents.
-pub(super) fn number(i: &[u8]) -> Out<'_, f64> {
+fn number(i: &[u8]) -> Out<'_, f64> {
     let (negative, unsigned) = match i.split_first() {
         Some((b'-', rest)) => (true, rest),
         Some((b'+', rest)) => (false, rest),
@@ -94,10 +94,15 @@ pub(super) fn number(i: &[u8]) -> Out<'_, f64> {
             return other();
         }
         rest = &after[count..];
-        let (_, decimals) = opt(digits).parse(&after[..count.min(MOST_DECIMALS)])?;
-        // One division of two exact integers, or nearly: the nearest number to what is written.
-        let scale = POWERS_OF_TEN[count.min(MOST_DECIMALS)];
-        magnitude = (magnitude * scale + decimals.unwrap_or_default() as f64) / scale;
+        magnitude = match POWERS_OF_TEN.get(count) {
+            Some(scale) => {
+                let (_, decimals) = opt(digits).parse(&after[..count])?;
+                // One division of two exact integers: the nearest number to what is written.
+                (magnitude * scale + decimals.unwrap_or_default() as f64) / scale
+            }
+            // Digits with a point among them are always a number.
+            None => nearest(&unsigned[..unsigned.len() - rest.len()]).unwrap_or(magnitude),
+        };
     } else if whole.is_none() {
         return other();
     }
@@ -106,6 +111,21 @@ pub(super) fn number(i: &[u8]) -> Out<'_, f64> {
     }
     // The negative of zero is another bit pattern than zero, though the same place.
     Ok((rest, if negative && magnitude > 0.0 { -magnitude } else { magnitude }))
+}
+
+/// The nearest number to digits with a point among them, however many they are.
+fn nearest(decimal: &[u8]) -> Option<f64> {
+    std::str::from_utf8(decimal).ok()?.parse().ok()
+}
+
+/// What stands behind a number that [`parameter`] finds too large.
+pub(super) fn behind_number(i: &[u8]) -> &[u8] {
+    let behind = |i: &[u8], is: &dyn Fn(u8) -> bool| i.iter().position(|&byte| !is(byte)).unwrap_or(i.len());
+    let i = &i[behind(i, &is_separator)..];
+    let i = i.strip_prefix(b"-").or_else(|| i.strip_prefix(b"+")).unwrap_or(i);
+    let i = &i[behind(i, &|byte| byte.is_ascii_digit())..];
+    let i = i.strip_prefix(b".").unwrap_or(i);
+    &i[behind(i, &|byte| byte.is_ascii_digit())..]
 }
 
 /// `<digits>`: their number; `u64::MAX` when it would not fit.
@@ -160,6 +180,17 @@ mod tests {
         assert_eq!(number(b"99999999999999999999999999"), Err(Err::Failure(Fault::Overflow)));
         assert_eq!(number(b"100000000").map(|found| found.1), Ok(1e8));
         assert!(number(b"-0.0").is_ok_and(|(_, zero)| zero.is_sign_positive()));
+    }
+
+    #[test]
+    fn every_decimal_counts() {
+        for text in ["0.1234567", "12345678.123456789012345678901234567890", ".000000049", "7.0000000000000000000"] {
+            assert_eq!(number(text.as_bytes()), Ok((&b""[..], text.parse().expect("a number"))), "{text}");
+            assert_eq!(
+                number(format!("-{text};").as_bytes()).map(|found| -found.1),
+                Ok(text.parse().expect("a number"))
+            );
+        }
     }
 
     #[test]

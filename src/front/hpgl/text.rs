@@ -88,11 +88,17 @@ impl Search<'_> {
         found
     }
 
-    fn take(&mut self, i: usize) {
-        if let Some(there) = self.cells.get_mut(&cell(&self.shapes[i])) {
-            self.work = self.work.saturating_sub(there.len());
-            there.retain(|&k| k != i);
-        }
+    /// Takes a shape out, so that it is found no more; whether it was still there. The guard ends that, too.
+    fn take(&mut self, i: usize) -> bool {
+        let Some(there) = self.cells.get_mut(&cell(&self.shapes[i])) else { return false };
+        let Some(left) = self.work.checked_sub(there.len()) else {
+            self.work = 0;
+            return false;
+        };
+        self.work = left;
+        let before = there.len();
+        there.retain(|&k| k != i);
+        there.len() < before
     }
 
     fn holds_open(&mut self, i: usize) -> bool {
@@ -105,10 +111,9 @@ impl Search<'_> {
 
     /// The text that a closed line stands in; empty when it is none.
     fn row(&mut self, first: usize) -> Vec<usize> {
-        if !self.cells.get(&cell(&self.shapes[first])).is_some_and(|there| there.contains(&first)) {
+        if !self.take(first) {
             return Vec::new();
         }
-        self.take(first);
         let mut row = vec![first];
         let mut next = 0;
         while let Some(&letter) = row.get(next) {

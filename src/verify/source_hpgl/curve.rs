@@ -29,9 +29,19 @@ pub(super) struct Chords {
     share: f64,
 }
 
+/// A curve of the polygon that PM gathers, drawn whenever the polygon is.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Gathered {
+    from: Place,
+    /// Its first corner among those of the polygon, and how many they are.
+    first: usize,
+    count: usize,
+    share: f64,
+}
+
 /// What the reader's chords lack beside those here.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Lack {
+#[derive(Debug, Clone, Copy)]
+struct Lack {
     moments: Moments,
     slack: Moments,
 }
@@ -50,9 +60,9 @@ impl Scan<'_> {
 
     /// The ends of the chords of an arc around a centre.
     pub(super) fn arc(&self, from: Place, centre: Place, sweep: f64) -> Chords {
-        let [x, y] = self.way(centre, from);
         let factor = self.factor();
         let sagitta = self.sagitta / factor[0].abs().max(factor[1].abs());
+        let [x, y] = self.way(centre, from);
         let radius = x.hypot(y);
         let sweep = sweep.clamp(-TAU, TAU);
         if radius <= 0.0 || sweep == 0.0 {
@@ -60,38 +70,52 @@ impl Scan<'_> {
         }
         let step = 2.0 * (1.0 - (sagitta / radius).min(0.5)).acos();
         let (chords, share) = chords(sweep.abs() / step);
-        let at = |i: usize| {
-            // The start turned about the centre.
-            let (sin, cos) = (sweep * i as f64 / chords as f64).sin_cos();
-            [centre[0] + factor[0] * (x * cos - y * sin), centre[1] + factor[1] * (x * sin + y * cos)]
-        };
-        let mut points: Vec<Place> = (1..=chords).map(at).collect();
-        if sweep.abs() >= TAU {
-            // A full turn ends where it started, whatever rounding says.
-            points.pop();
-            points.push(from);
-        }
-        Chords { points, share }
+        let at = |i: usize| self.on_arc([from, centre], sweep * i as f64 / chords as f64);
+        Chords { points: (1..=chords).map(at).collect(), share }
     }
 
-    /// Lets the reader's chords of a curve lack what every fourth of its places here lacks.
-    pub(super) fn allow(&mut self, from: Place, Chords { points, share }: &Chords) {
-        let point = |place: &Place| self.point(*place);
-        let fine = Moments::of(std::iter::once(&from).chain(points).map(point));
-        let coarse = points.iter().skip(FINER - 1).step_by(FINER);
-        let coarse = Moments::of(std::iter::once(&from).chain(coarse).map(point));
-        let moments = fine - coarse;
-        let lack = Lack { moments, slack: moments.magnitudes() * *share };
+    /// A place turned about a centre, rad. A full turn ends where it started, whatever rounding says.
+    pub(super) fn on_arc(&self, [from, centre]: [Place; 2], angle: f64) -> Place {
+        if angle == 0.0 || angle.abs() >= TAU {
+            return from;
+        }
+        let (factor, [x, y]) = (self.factor(), self.way(centre, from));
+        let (sin, cos) = angle.sin_cos();
+        [centre[0] + factor[0] * (x * cos - y * sin), centre[1] + factor[1] * (x * sin + y * cos)]
+    }
+
+    /// Lets the reader's chords of a curve lack what every fourth of its places here lacks; those of a polygon do when it is
+    /// drawn. Its places go on from here.
+    pub(super) fn allow(&mut self, Chords { points, share }: &Chords) {
+        let from = self.pen.at;
         if self.part.is_some() {
-            self.polygon_lack.moments += lack.moments;
-            self.polygon_lack.slack += lack.slack;
+            self.curves.push(Gathered { from, first: self.polygon.len(), count: points.len(), share: *share });
         } else {
+            let lack = self.lacking(from, points.iter().copied(), *share);
             self.lack(lack);
         }
     }
 
-    /// The same for something that is drawn now.
-    pub(super) fn lack(&mut self, Lack { moments, slack }: Lack) {
+    /// The same for the curves of the polygon, which is drawn now: only the turn that is in force now matters.
+    pub(super) fn allow_polygon(&mut self) {
+        for i in 0..self.curves.len() {
+            let Gathered { from, first, count, share } = self.curves[i];
+            let points = self.polygon[first..first + count].iter().map(|corner| corner.0);
+            let lack = self.lacking(from, points, share);
+            self.lack(lack);
+        }
+    }
+
+    fn lacking(&self, from: Place, points: impl Iterator<Item = Place> + Clone, share: f64) -> Lack {
+        let of = |step: usize| {
+            let points = points.clone().skip(step - 1).step_by(step);
+            Moments::of(std::iter::once(from).chain(points).map(|place| self.point(place)))
+        };
+        let moments = of(1) - of(FINER);
+        Lack { moments, slack: moments.magnitudes() * share }
+    }
+
+    fn lack(&mut self, Lack { moments, slack }: Lack) {
         if moments == Moments::default() {
             return;
         }
@@ -111,6 +135,10 @@ impl Scan<'_> {
             }
             let place = |k: usize| self.target([controls[k], controls[k + 1]], is_relative);
             let p = [self.pen.at, place(0), place(2), place(4)];
+            if !self.leaves_trace() {
+                self.go(p[3], cause, false);
+                continue;
+            }
             let bend = |i: usize| {
                 let of = |axis: usize| p[i][axis] - 2.0 * p[i + 1][axis] + p[i + 2][axis];
                 of(0).hypot(of(1))

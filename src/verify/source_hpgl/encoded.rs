@@ -2,6 +2,9 @@
 
 use super::Scan;
 
+/// Fraction bits, of either sign.
+const MOST_BITS: f64 = 26.0;
+
 impl Scan<'_> {
     /// PE: digits of base 64 or 32, least first.
     pub(super) fn encoded(&mut self) {
@@ -35,12 +38,14 @@ impl Scan<'_> {
                     (value, weight) = (0.0, 1.0);
                     match (std::mem::replace(&mut flag, b' '), first.take()) {
                         (b':', kept) => (first, self.pen.cause) = (kept, None),
-                        (b'>', kept) => (first, bits) = (kept, number as i32),
+                        (b'>', kept) if number.abs() <= MOST_BITS => (first, bits) = (kept, number as i32),
+                        // The reader takes no more of it, either.
+                        (b'>', _) => return,
                         (_, None) => first = Some((number * 2.0_f64.powi(-bits), self.at)),
                         (_, Some((x, cause))) => {
                             let to = self.target([x, number * 2.0_f64.powi(-bits)], !is_absolute);
                             self.pen.is_down = !is_up;
-                            self.go(to, cause, !is_up);
+                            self.lead(to, cause);
                             (is_absolute, is_up) = (false, false);
                         }
                     }

@@ -9,7 +9,7 @@ mod frame;
 
 use std::f64::consts::TAU;
 
-use self::curve::{Chords, Lack};
+use self::curve::{Chords, Gathered};
 use super::scan::Slack;
 use super::source_audit::{ARC_SAGITTA, Census};
 use crate::geom::Point;
@@ -20,6 +20,8 @@ use crate::machine::MachineProfile;
 const ETX: u8 = 3;
 /// Longest label, bytes, before its terminator counts as lost.
 const LABEL_BYTES: usize = 1024;
+/// Degrees of a full turn.
+const FULL_TURN: f64 = 360.0;
 /// Most numbers of an instruction that is no list of places.
 const MOST_NUMBERS: usize = 8;
 
@@ -48,7 +50,7 @@ pub(super) fn scan(bytes: &[u8], read: &Census, profile: &MachineProfile) -> (Ce
         census: Census { drills: read.drills, ..Census::empty(unit) },
         stroke: Moments::default(),
         slack: Slack { sagitta, length: 0.0, bounds: 0.0, moments: Moments::default() },
-        polygon_lack: Lack::default(),
+        curves: Vec::new(),
     };
     scan.run();
     scan.end_stroke();
@@ -93,8 +95,8 @@ struct Scan<'a> {
     /// What is drawn since the pen was lifted: short sums of long ones lose less by rounding.
     stroke: Moments,
     slack: Slack,
-    /// What the chords of the polygon lack, each time that it is drawn.
-    polygon_lack: Lack,
+    /// The curves of the polygon.
+    curves: Vec<Gathered>,
 }
 
 impl Scan<'_> {
@@ -155,7 +157,7 @@ impl Scan<'_> {
         self.pen = Pen::default();
         (self.corners, self.scale, self.quarters, self.part) = (None, None, 0, None);
         (self.terminator, self.is_fresh) = (ETX, false);
-        self.polygon.clear();
+        (self.polygon, self.curves) = (Vec::new(), Vec::new());
     }
 
     /// The next number of the instruction.
@@ -199,8 +201,8 @@ impl Scan<'_> {
             b"PE" => self.encoded(),
             b"SP" => self.pen.cause = None,
             b"LB" => {
-                let window = self.bytes[self.at..].iter().take(LABEL_BYTES);
-                match window.clone().position(|&byte| byte == self.terminator) {
+                let window = &self.bytes[self.at..self.bytes.len().min(self.at + LABEL_BYTES)];
+                match memchr::memchr(self.terminator, window) {
                     Some(length) => self.at += length + 1,
                     None => self.at += self.until(b";\r\n", LABEL_BYTES),
                 }
@@ -233,13 +235,17 @@ impl Scan<'_> {
             let cause = self.at;
             let (Some(x), Some(y)) = (self.number(), self.number()) else { return };
             let to = self.target([x, y], self.pen.is_relative);
-            if self.part.is_some() && std::mem::take(&mut self.is_fresh) {
-                self.part = Some(self.polygon.len());
-                self.go(to, cause, false);
-            } else {
-                self.go(to, cause, self.pen.is_down);
-            }
+            self.lead(to, cause);
         }
+    }
+
+    /// A place of the file: the first one behind PM 1 starts a part, whatever leads there.
+    fn lead(&mut self, to: Place, cause: usize) {
+        let starts = self.part.is_some() && std::mem::take(&mut self.is_fresh);
+        if starts {
+            self.part = Some(self.polygon.len());
+        }
+        self.go(to, cause, self.pen.is_down && !starts);
     }
 
     fn target(&self, [x, y]: Place, is_relative: bool) -> Place {
@@ -274,27 +280,28 @@ impl Scan<'_> {
         self.census.moments += std::mem::take(&mut self.stroke);
     }
 
+    /// Whether moves draw, now or when the polygon is drawn.
+    fn leaves_trace(&self) -> bool {
+        self.pen.is_down || self.part.is_some()
+    }
+
     /// Along the chords of a curve, with the pen as it is.
     fn follow(&mut self, chords: &Chords, cause: usize) {
         if self.pen.is_down {
-            self.allow(self.pen.at, chords);
+            self.draw_along(chords, cause);
+        } else {
+            chords.points.iter().for_each(|&to| self.go(to, cause, false));
         }
-        for &to in &chords.points {
-            self.go(to, cause, self.pen.is_down);
-        }
+    }
+
+    fn draw_along(&mut self, chords: &Chords, cause: usize) {
+        self.allow(chords);
+        chords.points.iter().for_each(|&to| self.go(to, cause, true));
     }
 
     fn point(&self, place: Place) -> Point {
         let [x, y] = self.turned(place);
         Point::new(x * self.unit, y * self.unit)
-    }
-
-    /// A figure that is drawn whether the pen is up or down.
-    fn closed(&mut self, start: Place, points: impl IntoIterator<Item = Place>, cause: usize) {
-        let back = self.pen.at;
-        self.go(start, cause, false);
-        points.into_iter().for_each(|to| self.go(to, cause, true));
-        self.go(back, cause, false);
     }
 
     /// Figures and arcs.
@@ -305,13 +312,20 @@ impl Scan<'_> {
         match (&mnemonic, numbers) {
             (b"AA" | b"AR", &[x, y, degrees, ..]) => {
                 let centre = self.target([x, y], is_relative);
-                let chords = self.arc(from, centre, degrees.to_radians());
-                self.follow(&chords, cause);
+                if self.leaves_trace() {
+                    let chords = self.arc(from, centre, degrees.to_radians());
+                    self.follow(&chords, cause);
+                } else {
+                    let to = self.on_arc([from, centre], degrees.to_radians());
+                    self.go(to, cause, false);
+                }
             }
             (b"AT" | b"RT", &[x1, y1, x2, y2, ..]) => {
                 let middle = self.target([x1, y1], is_relative);
                 let to = self.target([x2, y2], is_relative);
-                if let Some((centre, sweep)) = self.circle([from, middle, to]) {
+                if self.leaves_trace()
+                    && let Some((centre, sweep)) = self.circle([from, middle, to])
+                {
                     let chords = self.arc(from, centre, sweep);
                     self.follow(&chords, cause);
                 }
@@ -320,31 +334,35 @@ impl Scan<'_> {
             (b"CI", &[radius, ..]) => {
                 let start = [from[0] + across(self, radius), from[1]];
                 let chords = self.arc(start, from, TAU);
-                self.allow(start, &chords);
-                self.closed(start, chords.points, cause);
+                self.go(start, cause, false);
+                self.draw_along(&chords, cause);
+                self.go(from, cause, false);
             }
             (b"EA" | b"ER", &[x, y, ..]) => {
                 let to = self.target([x, y], is_relative);
-                self.closed(from, [[to[0], from[1]], to, [from[0], to[1]], from], cause);
+                self.go(from, cause, false);
+                for corner in [[to[0], from[1]], to, [from[0], to[1]], from] {
+                    self.go(corner, cause, true);
+                }
+                self.go(from, cause, false);
             }
             (b"EW", &[radius, start, degrees, ..]) => {
                 let angle = start.to_radians();
                 let start = self.target([radius * angle.cos(), radius * angle.sin()], true);
                 let chords = self.arc(start, from, degrees.to_radians());
-                self.allow(start, &chords);
-                let mut points = chords.points;
-                if degrees.abs() < 360.0 {
-                    points.insert(0, start);
-                    points.push(from);
-                    self.closed(from, points, cause);
-                } else {
-                    self.closed(start, points, cause);
+                let has_radii = degrees.abs() < FULL_TURN;
+                if has_radii {
+                    self.go(from, cause, false);
                 }
+                self.go(start, cause, has_radii);
+                self.draw_along(&chords, cause);
+                self.go(from, cause, has_radii);
+                self.go(from, cause, false);
             }
             (b"PM", numbers) => match numbers.first().copied().unwrap_or(0.0) {
                 0.0 => {
                     self.pen.cause = None;
-                    (self.polygon, self.polygon_lack) = (vec![(from, cause, false)], Lack::default());
+                    (self.polygon, self.curves) = (vec![(from, cause, false)], Vec::new());
                     self.part = Some(0);
                 }
                 kind => {
@@ -360,7 +378,7 @@ impl Scan<'_> {
             },
             (b"EP", _) if self.part.is_none() => {
                 self.pen.cause = None;
-                self.lack(self.polygon_lack);
+                self.allow_polygon();
                 for (to, cause, draws) in std::mem::take(&mut self.polygon) {
                     self.go(to, cause, draws);
                     self.polygon.push((to, cause, draws));
