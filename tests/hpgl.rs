@@ -150,7 +150,12 @@ fn outlines_agree(a: &[Vec<Place>], b: &[Vec<Place>], most: u64) -> bool {
 /// Whether slits are the same, piece by piece; a plot may have them in another order.
 fn slits_agree(a: &[Vec<[Place; 2]>], b: &[Vec<[Place; 2]>], most: u64) -> bool {
     let near = |a: &[Place; 2], b: &[Place; 2]| is_near(a[0], b[0], most) && is_near(a[1], b[1], most);
-    let all = |a: &[[Place; 2]], b: &[[Place; 2]]| a.len() == b.len() && a.iter().all(|a| b.iter().any(|b| near(a, b)));
+    // Each is the partner of one that no other has taken.
+    let all = |a: &[[Place; 2]], b: &[[Place; 2]]| {
+        let mut left = b.to_vec();
+        let take = |a: &[Place; 2]| left.iter().position(|b| near(a, b)).map(|at| left.swap_remove(at)).is_some();
+        a.len() == b.len() && a.iter().all(take)
+    };
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| all(a, b))
 }
 

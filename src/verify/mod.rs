@@ -113,7 +113,7 @@ pub const RULES: &[(&str, &str)] = &[
     ),
     ("verify/same-place", "every place of a cut file that is written is that of the marker"),
     ("source/points", "the marker has the points that the file cuts"),
-    ("source/drills", "the marker has the holes of the file"),
+    ("source/drills", "the marker has the holes of the cut file; those of a plot are deduced from its shapes"),
     ("source/length", "the marker has the cut length of the file"),
     ("source/bounds", "the marker has the bounds of the file"),
     ("source/moments", "the lines of a plot lie where the file draws them"),

@@ -105,7 +105,7 @@ pub fn source_kept(read: &Census, marker: &Marker) -> Finding {
 pub fn source_audit(dialect: &str, bytes: &[u8], read: &Census, profile: &MachineProfile) -> Option<Vec<Finding>> {
     let (scanned, slack) = match dialect {
         "iso" => scan_iso(bytes, read.unit, profile),
-        "hpgl" => source_hpgl::scan(bytes, read, profile),
+        "hpgl" => source_hpgl::scan(bytes, profile),
         _ => return None,
     };
     let corner = |a: Point, b: Point| (a - b).amax();
@@ -125,11 +125,13 @@ pub fn source_audit(dialect: &str, bytes: &[u8], read: &Census, profile: &Machin
     let length = if is_same_unit { (read.length - scanned.length).abs() } else { f64::INFINITY };
     let mut findings = vec![
         finding("source/points", "points", read.points.abs_diff(scanned.points) as f64, 0.0),
-        finding("source/drills", "holes", read.drills.abs_diff(scanned.drills) as f64, 0.0),
         finding("source/length", "mm", length, LENGTH_EPSILON * (1.0 + read.length) + slack.length),
         finding("source/bounds", "mm", bounds, LENGTH_EPSILON + slack.bounds),
     ];
-    if dialect == "hpgl" {
+    if dialect == "iso" {
+        // What is a hole in a plot is deduced from its shapes: the bytes do not say it.
+        findings.insert(1, finding("source/drills", "holes", read.drills.abs_diff(scanned.drills) as f64, 0.0));
+    } else {
         let corners = [read.bounds.min, read.bounds.max, scanned.bounds.min, scanned.bounds.max];
         let reach = corners.iter().map(|corner| corner.coords.amax()).fold(0.0, f64::max);
         let allowance = Allowance { reach, epsilon: MOMENT_EPSILON, slack: &slack.moments };

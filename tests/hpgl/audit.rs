@@ -3,8 +3,9 @@
 use std::fs;
 use std::path::Path;
 
+use cutc::geom::moments::Moments;
 use cutc::geom::{Extent, Point, Vector};
-use cutc::ir::marker::Contour;
+use cutc::ir::marker::{Aside, Contour};
 use cutc::ir::{Finding, Marker};
 use cutc::machine::Job;
 use cutc::machine::plot::{LineKind, Lines, PlotUnit};
@@ -70,6 +71,73 @@ fn a_marker_that_lacks_a_contour_a_point_or_a_notch_is_refused() {
         }
     }
     assert!(contours > 30 && points > 30 && notches >= 5, "{contours} {points} {notches}");
+}
+
+#[test]
+fn an_account_of_what_is_left_aside_that_is_wrong_in_anything_is_refused() {
+    let job = Job::default();
+    let far = Point::new(1e4, 1e4);
+    let line = |y: f64| Moments::line(Point::new(10.0, y), Point::new(110.0, y));
+    let damages: [(&str, &dyn Fn(&mut Aside)); 5] = [
+        ("source/points", &|aside| aside.points += 1),
+        ("source/points", &|aside| aside.points -= 1),
+        ("source/bounds", &|aside| aside.bounds.add(far)),
+        ("source/length", &|aside| aside.moments += line(10.0)),
+        // Something drawn is accounted for beside its place.
+        ("source/moments", &|aside| {
+            aside.moments -= line(10.0);
+            aside.moments += line(20.0);
+        }),
+    ];
+    for (name, source) in fixtures() {
+        let marker = as_read(&source, &job);
+        for (rule, damage) in &damages {
+            let mut damaged = marker.clone();
+            damage(&mut damaged.drawing.as_mut().expect("a plot has an account").aside);
+            let broken = audit(&source, &damaged, &job);
+            assert!(broken.iter().any(|finding| finding.rule == *rule), "{name}: {rule} {broken:?}");
+        }
+    }
+}
+
+/// What a sound plot is refused for, whatever is cut of it.
+fn refusals(text: &str) -> Vec<Finding> {
+    let source = source(text);
+    let kinds = [None, Some(LineKind::All), Some(LineKind::Closed), Some(LineKind::Open)];
+    let jobs = kinds.map(|kind| Job { lines: Lines { kind, ..Lines::default() }, ..Job::default() });
+    jobs.iter().flat_map(|job| audit(&source, &as_read(&source, job), job)).collect()
+}
+
+#[test]
+fn a_sound_plot_is_not_refused() {
+    let part = rectangle(0, 0, 8000, 4000);
+    // An open polygon that is drawn twice is one line, out and back.
+    let twice = "PU0,5000;PM0;PD4000,5000,4000,9000;PU0,5000;PM2;EP;EP;";
+    assert_eq!(refusals(&format!("IN;SP1;{part}{twice}PU;SP0;")), []);
+    assert_eq!(refusals(&format!("IN;SP1;{part}{}PU;SP0;", twice.replace("EP;EP;", "EP;EP;EP;"))), []);
+    // A polygon is drawn with the turn that is in force then.
+    let turned = "PS40000,30000;PU9000,9000;PM0;PD;AA12000,9000,180;PD9000,9500;PM2;RO90;EP;RO180;EP;RO0;PU;SP0;";
+    assert_eq!(refusals(&format!("IN;SP1;{turned}")), []);
+    // Figures of all kinds in a polygon.
+    let figures = "PM0;PU9000,9000;CI900;PM1;PU12000,9000;EW900,30,100;PM1;EW700,0,360;PM1;EA13000,12000;PM2;EP;PU0,0;";
+    assert_eq!(refusals(&format!("IN;SP1;{part}{figures}PU;SP0;")), []);
+    // Decimals that matter where a scale makes them large.
+    let scaled = "IP0,0,40000,40000;SC0,0.0001,0,0.0001;PU0,0;PD.00001234567,0,.00001234567,.00007654321,0,0;";
+    assert_eq!(refusals(&format!("IN;{scaled}PU;SP0;")), []);
+    // Arcs of few chords on an edge are no marks of two legs, whose points would be counted.
+    for degrees in 1..60 {
+        let half = (1000.0 * (f64::from(degrees) / 2.0).to_radians().sin()).round();
+        let centre = (1000.0 * (f64::from(degrees) / 2.0).to_radians().cos()).round();
+        let arc = format!("PU{},0;PD;AA4000,{},-{degrees};", 4000.0 - half, -centre);
+        assert_eq!(refusals(&format!("IN;SP1;{part}{arc}PU;SP0;")), [], "{degrees}");
+    }
+}
+
+#[test]
+fn a_damaged_encoding_is_scanned_without_an_overflow() {
+    let far = "~".repeat(12);
+    let source = source(format!("IN;SP1;{}PE>{far}\u{e0};", rectangle(0, 0, 8000, 4000)));
+    audit(&source, &as_read(&source, &Job::default()), &Job::default());
 }
 
 #[test]

@@ -52,6 +52,34 @@ fn a_mark_of_two_legs_is_one_v_notch_and_the_marker_is_that_of_a_cut_file() {
 }
 
 #[test]
+fn marks_on_an_outline_with_a_small_gap_are_cut_like_the_outline() {
+    let gapped = "PU0,0;PD8000,0,8000,4000,0,4000,0,20;";
+    let marks =
+        "PU1000,0;PD1000,200;PU2000,4000;PD2000,3800,2000,4000;PU3880,0;PD4000,240,4120,0;PU6000,2000;PD6000,2200;";
+    let source = source(format!("IN;SP1;{gapped}{marks}PU;SP0;"));
+    let marker = as_read(&source, &Job::default());
+    assert_eq!(audit(&source, &marker, &Job::default()), []);
+    assert_eq!(marker.pieces.len(), 1);
+    let mut tips: Vec<[i64; 2]> = marker.pieces[0].notches.iter().map(|notch| super::key(notch.tip)).collect();
+    tips.sort_unstable();
+    assert_eq!(tips, [[1000, 200], [2000, 3800], [4000, 240], [4000, 240]]);
+}
+
+#[test]
+fn a_slit_in_short_steps_is_one_slit_however_the_outline_draws_it() {
+    for step in [32, 100] {
+        let out: String = (1..=200 / step).map(|i| format!("4000,{},", i * step)).collect();
+        let back: String = (0..200 / step).rev().map(|i| format!("4000,{},", i * step)).collect();
+        let drawn = format!("IN;SP1;PU0,0;PD4000,0,{out}{back}8000,0,8000,4000,0,4000,0,0;PU;SP0;");
+        let source = source(drawn);
+        let marker = as_read(&source, &Job::default());
+        assert_eq!(audit(&source, &marker, &Job::default()), []);
+        let slits: Vec<_> = marker.pieces[0].notches.iter().map(|n| [super::key(n.root), super::key(n.tip)]).collect();
+        assert_eq!(slits, [[[4000, 0], [4000, 200 / step * step]]], "{step}");
+    }
+}
+
+#[test]
 fn two_legs_that_make_no_v_notch_are_slits() {
     check("PU3600,0;PD4000,240,4400,0;", 2, 0); // wider than deep
     check("PU3880,3;PD4000,240,4120,3;", 2, 0); // beside the edge

@@ -19,10 +19,14 @@ fn a_nesting_that_was_cut_short_is_an_error() {
 const PATIENCE: Duration = Duration::from_secs(20);
 
 fn within_patience(what: &str, bytes: Vec<u8>) -> Vec<&'static str> {
+    in_time(what, bytes, &Job::default())
+}
+
+fn in_time(what: &str, bytes: Vec<u8>, job: &Job) -> Vec<&'static str> {
     let source = source(bytes);
     let mut found = Diagnostics::default();
     let start = Instant::now();
-    (by_name("hpgl").expect("a dialect").read)(&source, &Job::default(), &mut found);
+    (by_name("hpgl").expect("a dialect").read)(&source, job, &mut found);
     assert!(start.elapsed() < PATIENCE, "{what}: {:?}", start.elapsed());
     found.iter().map(|diagnostic| diagnostic.code.name).collect()
 }
@@ -90,6 +94,21 @@ fn drawings_made_to_be_slow_are_read_in_time_and_what_was_not_searched_is_said()
 }
 
 #[test]
+fn holes_and_texts_whose_part_was_not_found_in_time_are_said() {
+    // All of them overlap in their middle, and none lies in another.
+    let parts: String = (0..15_000).map(|i| rectangle(-i, i, 40_000 + 3 * i, 40_000 - 2 * i)).collect();
+    let mut drilling = Job::default();
+    drilling.profile.hpgl.drill_max_mm = Some(5.0);
+    let holes: String =
+        (0..15_000).map(|i| rectangle(20_000 + i % 1000 * 20, 20_000 + i / 1000 * 20, 40, 40)).collect();
+    let found = in_time("holes", format!("{parts}{holes}PU;").into_bytes(), &drilling);
+    assert_eq!(found, ["hpgl/too-many-lines"]);
+    let texts: String = (0..15_000).map(|i| format!("PU{},20000;LBx\u{3};", 20_000 + i)).collect();
+    let found = in_time("texts", format!("{parts}{texts}PU;").into_bytes(), &Job::default());
+    assert_eq!(found, ["hpgl/search-ended"]);
+}
+
+#[test]
 fn curves_and_polygons_that_never_end_are_refused_in_time() {
     let repeated = |word: &str, count: usize| word.repeat(count);
     check("circles", &format!("PU0,0;{}", repeated("CI99999999;", 300)), &["hpgl/far-place"]);
@@ -142,7 +161,8 @@ fn an_outline_that_is_cut_short_is_never_cut_in_silence() {
         let pen_is_up =
             !whole[..length].rsplit_once('P').is_some_and(|(_, last)| last.starts_with('D') && last.len() > 1);
         // What ends amid a pair of numbers leaves one of them without its partner.
-        let is_named = |code: &&str| ["hpgl/ends-pen-down", "hpgl/odd-coordinate", "hpgl/nothing-to-cut"].contains(code);
+        let is_named =
+            |code: &&str| ["hpgl/ends-pen-down", "hpgl/odd-coordinate", "hpgl/nothing-to-cut"].contains(code);
         assert!(
             is_complete || is_whole || pen_is_up || found.iter().any(is_named),
             "after {length} bytes: {}",

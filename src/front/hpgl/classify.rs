@@ -10,7 +10,7 @@ use super::chain;
 use super::drawing::{Drawing, Stroke, Vertex};
 use super::nest::{self, Nest};
 use super::notch::{self, Found, Marks, Search};
-use super::piece;
+use super::piece::{self, Made};
 use super::shape::{Class, LONGEST_NOTCH, ROUNDING, SHORTEST_NAMED, SHORTEST_OUTLINE, Shape, Wanted, mark};
 use super::text;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -30,6 +30,9 @@ pub(super) struct Sorted {
     /// Of each outline the least one that holds it, as an index in their list.
     pub(super) parents: Vec<Option<usize>>,
     pub(super) notches: Vec<Found>,
+    /// Outlines with a gap that are cut as they stand, as indices of shapes, and the marks on them in that order.
+    pub(super) lines: Vec<usize>,
+    pub(super) line_notches: Vec<Found>,
 }
 
 /// Gap of an outline that is cut as it stands, mm; a line with a wider one may be something else.
@@ -75,6 +78,7 @@ pub(super) fn classify(mut drawing: Drawing, labels: Vec<Label>, job: &Job, out:
         };
         (0..shapes.len()).filter(|&i| may_be(&shapes[i])).collect()
     };
+    let is_gapped = |shape: &Shape| shape.class == Class::Line && shape.wanted == Wanted::Guess;
     let is_free = |shape: &Shape| shape.is_outline() && shape.class == Class::Other;
     let large: Vec<usize> =
         (0..shapes.len()).filter(|&i| is_free(&shapes[i]) && shapes[i].size() > LONGEST_NOTCH).collect();
@@ -119,10 +123,6 @@ pub(super) fn classify(mut drawing: Drawing, labels: Vec<Label>, job: &Job, out:
             Diagnostic::new(&code::HPGL_TOO_MANY, message).hint("split the plot, or leave out fills and hatchings"),
         );
     }
-    if is_cut_short || are_marks_cut_short {
-        let message = "there are too many lines to find every notch and letter among them: some are not recognised";
-        out.push(Diagnostic::new(&code::HPGL_SEARCH_ENDED, message).hint("split the plot, or leave texts out"));
-    }
     for shape in &mut shapes {
         // A line that lost its outline to the letters is what it was before.
         if shape.class == Class::Notch {
@@ -133,9 +133,24 @@ pub(super) fn classify(mut drawing: Drawing, labels: Vec<Label>, job: &Job, out:
         shapes[found.mark].class = Class::Notch;
     }
     name_unended(&drawing, &shapes, out);
+    let lines: Vec<usize> = (0..shapes.len()).filter(|&i| is_gapped(&shapes[i])).collect();
+    marks.retain(|&i| shapes[i].class == Class::Other);
+    let search = Search { drawing: &drawing, shapes: &shapes, unit, candidates: &marks, outlines: &lines };
+    let Marks { found: mut line_notches, is_cut_short: are_line_marks_cut_short } = notch::on_outlines(search);
+    line_notches.sort_by_key(|found| found.outline);
+    for found in &line_notches {
+        shapes[found.mark].class = Class::Notch;
+    }
+    if is_cut_short || are_marks_cut_short || are_line_marks_cut_short {
+        let message = "there are too many lines to find every notch and letter among them: some are not recognised";
+        out.push(Diagnostic::new(&code::HPGL_SEARCH_ENDED, message).hint("split the plot, or leave texts out"));
+    }
     name_near_outlines(&drawing, &shapes, out);
     name_dividing(Divided { drawing: &drawing, shapes: &shapes, joints: &joints }, out);
-    piece::marker(&Sorted { drawing, shapes, outlines, parents, notches }, labels, job)
+    let sorted = Sorted { drawing, shapes, outlines, parents, notches, lines, line_notches };
+    let Made { marker, findings } = piece::marker(&sorted, labels, job);
+    findings.into_iter().for_each(|finding| out.push(finding));
+    marker
 }
 
 fn has_small_gap(shape: &Shape, drawing: &Drawing) -> bool {

@@ -42,9 +42,11 @@ pub(super) struct Stroke {
     pub(super) extent: Extent,
 }
 
-/// What places had that were moved.
+/// What lines had before they were joined.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Moved {
+    /// Places that were counted twice: where two strokes meet that one and the same line of the file draws.
+    pub(super) points: isize,
     /// What lines had more than they have now; less than nothing where they were shorter.
     pub(super) moments: Moments,
     /// The box around the places as they were.
@@ -53,7 +55,7 @@ pub(super) struct Moved {
 
 impl Default for Moved {
     fn default() -> Self {
-        Self { moments: Moments::default(), bounds: Extent::EMPTY }
+        Self { points: 0, moments: Moments::default(), bounds: Extent::EMPTY }
     }
 }
 
@@ -118,21 +120,22 @@ impl Drawing {
 
     /// Adds the places of a stroke to the last one of all.
     pub(super) fn append(&mut self, stroke: &Stroke) {
+        let seam = self.vertices.len();
         for k in stroke.range() {
             self.put(self.vertices[k]);
         }
-        self.account(stroke);
+        self.account(stroke, seam);
     }
 
     /// The same the other way round: each line keeps what drew it.
     pub(super) fn append_turned(&mut self, stroke: &Stroke) {
-        let range = stroke.range();
+        let (range, seam) = (stroke.range(), self.vertices.len());
         let last = range.end - 1;
         for k in range.rev() {
             let span = self.vertices[(k + 1).min(last)].span;
             self.put(Vertex { span, ..self.vertices[k] });
         }
-        self.account(stroke);
+        self.account(stroke, seam);
     }
 
     /// A place of the last stroke; where two strokes meet it is there already.
@@ -146,9 +149,14 @@ impl Drawing {
         self.vertices.push(vertex);
     }
 
-    fn account(&mut self, stroke: &Stroke) {
+    /// Counts the places of a stroke whose first one behind the seam has this index.
+    fn account(&mut self, stroke: &Stroke, seam: usize) {
         if let Some(joined) = self.strokes.last_mut() {
-            joined.points += stroke.points;
+            let is_seam = joined.first < seam as u32;
+            let is_one =
+                is_seam && self.vertices.get(seam).is_some_and(|next| next.span == self.vertices[seam - 1].span);
+            joined.points += stroke.points - u32::from(is_one);
+            self.moved.points += isize::from(is_one);
             joined.extent.add(stroke.extent.min);
             joined.extent.add(stroke.extent.max);
         }

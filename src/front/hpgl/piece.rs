@@ -5,10 +5,11 @@ use std::collections::BTreeMap;
 use super::boxes::Boxes;
 use super::classify::{Sorted, depth};
 use super::drawing::{Vertex, led_to, moments};
+use super::notch::Found;
 use super::shape::{CLASSES, Class, LONGEST_NOTCH, Shape};
 use super::spike::{self, Pruned, prune};
 use super::vee::{Material, Outline};
-use crate::geom::moments::Moments;
+use crate::diagnostic::{Diagnostic, code};
 use crate::geom::{Extent, Point, Vector, cross, ring};
 use crate::ir::Marker;
 use crate::ir::list::{FULL_SPEED, Joint, Segment, SegmentList};
@@ -21,14 +22,22 @@ const DRILL: u8 = 1;
 /// Visits of boxes and vertices to find the pieces of labels, lines and holes: a guard against drawings that are made to be slow.
 const MOST_WORK: usize = 200_000_000;
 
+/// The marker, and what was not found for it.
+#[derive(Debug)]
+pub(super) struct Made {
+    pub(super) marker: Marker,
+    pub(super) findings: Vec<Diagnostic>,
+}
+
 /// Makes the marker.
-pub(super) fn marker(sorted: &Sorted, labels: Vec<Label>, job: &Job) -> Marker {
+pub(super) fn marker(sorted: &Sorted, labels: Vec<Label>, job: &Job) -> Made {
     let unit = job.profile.hpgl.unit.mm();
+    let moved = sorted.drawing.moved;
     let mut making = Making {
         sorted,
         unit,
         list: SegmentList::default(),
-        aside: Aside { points: 0, moments: sorted.drawing.moved.moments, bounds: sorted.drawing.moved.bounds },
+        aside: Aside { points: moved.points, moments: moved.moments, bounds: moved.bounds },
         parts: Vec::new(),
         boxes: Boxes::new(&[]),
         pieces: Vec::new(),
@@ -37,18 +46,22 @@ pub(super) fn marker(sorted: &Sorted, labels: Vec<Label>, job: &Job) -> Marker {
         spike_length: 0.0,
         texts_outside: 0,
         work: MOST_WORK,
+        findings: Vec::new(),
     };
     let cut = || sorted.shapes.iter().filter(|shape| shape.class.is_cut() && shape.class != Class::Hole);
     making.list.reserve(cut().map(|shape| shape.stroke.range().len() - 1).sum(), cut().count());
     making.begin_parts();
+    making.add_notches();
     making.add_inner();
     making.add_outlines();
     making.add_labels(labels);
+    making.say_what_was_not_searched();
     let drawing = making.account();
     for (i, piece) in making.pieces.iter_mut().enumerate() {
         piece.number = i as u32 + 1;
     }
-    Marker { list: making.list, pieces: making.pieces, unit, drawing: Some(drawing), ..Marker::default() }
+    let marker = Marker { list: making.list, pieces: making.pieces, unit, drawing: Some(drawing), ..Marker::default() };
+    Made { marker, findings: making.findings }
 }
 
 /// The centre of gravity of a closed line: that of a circle whatever its chords.
@@ -80,13 +93,14 @@ struct Making<'a> {
     /// The boxes of the parts, by their index in that list.
     boxes: Boxes,
     pieces: Vec<Piece>,
-    /// The marks of two legs of each outline, as indices of shapes.
-    vees: BTreeMap<usize, Vec<usize>>,
+    /// The marks of two legs of each outline.
+    vees: BTreeMap<usize, Vec<Found>>,
     /// Notches that were spikes of outlines, and their length, mm.
     spikes: usize,
     spike_length: f64,
     texts_outside: usize,
     work: usize,
+    findings: Vec<Diagnostic>,
 }
 
 impl Making<'_> {
@@ -129,24 +143,49 @@ impl Making<'_> {
         pieces
     }
 
-    /// What is cut before the outlines: marks, holes, lines.
-    fn add_inner(&mut self) {
+    /// The marks on outlines: those of one line are cut before them, those of two wait for them.
+    fn add_notches(&mut self) {
         let sorted = self.sorted;
         let by_outline = self.pieces_by_outline();
         for found in &sorted.notches {
             let piece = self.piece_of(&by_outline, found.outline);
-            let shape = &sorted.shapes[found.mark];
-            if let Some([root, tip]) = found.cut {
-                let span = self.span(shape);
-                let notch = Notch { kind: NotchKind::Slit, root, tip, percent: FULL_SPEED, span };
-                self.aside.points += shape.points() - 1;
-                self.aside.moments += shape.moments(&sorted.drawing) - Moments::line(root, tip);
-                self.pieces[piece].notches.push(notch);
+            if found.cut.is_some() {
+                self.add_slits(piece, found);
             } else {
-                self.vees.entry(found.outline).or_default().push(found.mark);
+                self.vees.entry(found.outline).or_default().push(*found);
             }
         }
-        for shape in &sorted.shapes {
+    }
+
+    /// A mark as slits: one from the edge, or one from each side of the mouth of two legs, which meet at the tip.
+    fn add_slits(&mut self, piece: usize, found: &Found) {
+        let shape = &self.sorted.shapes[found.mark];
+        let vertices = shape.vertices(&self.sorted.drawing);
+        let mut add = |root, tip, span| {
+            let notch = Notch { kind: NotchKind::Slit, root, tip, percent: FULL_SPEED, span };
+            self.pieces[piece].notches.push(notch);
+        };
+        match (found.cut, vertices) {
+            (None, [first, tip, last]) => {
+                add(first.at, tip.at, tip.span);
+                add(last.at, tip.at, last.span);
+                self.aside.points += shape.points() - 2;
+            }
+            (Some([root, tip]), [_, first, back @ ..]) => {
+                add(root, tip, first.span);
+                self.aside.points += shape.points() - 1;
+                // The way back, where it is drawn.
+                self.aside.moments += moments(&vertices[1..]);
+                back.iter().for_each(|vertex| self.aside.bounds.add(vertex.at));
+            }
+            _ => {}
+        }
+    }
+
+    /// What else is cut before the outlines: holes, and lines with the marks on them.
+    fn add_inner(&mut self) {
+        let sorted = self.sorted;
+        for (i, shape) in sorted.shapes.iter().enumerate() {
             match shape.class {
                 Class::Hole => {
                     let middle = centroid(shape, shape.vertices(&sorted.drawing));
@@ -157,11 +196,23 @@ impl Making<'_> {
                 Class::Line => {
                     let vertices = shape.vertices(&sorted.drawing);
                     let piece = self.piece_around(vertices[0].at, self.span(shape));
+                    let is_on_line = |found: &&Found| sorted.lines[found.outline] == i;
+                    let first = sorted.line_notches.partition_point(|found| sorted.lines[found.outline] < i);
+                    for found in sorted.line_notches[first..].iter().take_while(is_on_line) {
+                        self.add_slits(piece, found);
+                    }
                     self.add_contour(piece, vertices);
                 }
                 Class::Part | Class::CutOut | Class::Notch | Class::Frame | Class::Text | Class::Other | Class::Pen => {
                 }
             }
+        }
+        let is_inner = |shape: &Shape| matches!(shape.class, Class::Hole | Class::Line);
+        if self.work == 0 && sorted.shapes.iter().any(is_inner) {
+            let message =
+                "there are too many lines to tell which part each hole or line lies in: some would come behind it";
+            let finding = Diagnostic::new(&code::HPGL_TOO_MANY, message);
+            self.findings.push(finding.hint("split the plot, or leave out fills and hatchings"));
         }
     }
 
@@ -200,7 +251,7 @@ impl Making<'_> {
     }
 
     /// An outline, led into those of the marks of two legs that are V notches; of others each leg is cut by itself.
-    fn add_outline(&mut self, ring: Ring, marks: &[usize]) {
+    fn add_outline(&mut self, ring: Ring, marks: &[Found]) {
         let Ring { piece, outline, vertices } = ring;
         if marks.is_empty() {
             self.add_contour(piece, vertices);
@@ -211,26 +262,21 @@ impl Making<'_> {
         let material = if shape.class == Class::CutOut { Material::Outside } else { Material::Inside };
         let mut notched = Outline::new(vertices, material, self.unit);
         self.aside.points += led_to(vertices);
-        self.aside.moments += moments(vertices);
-        self.leave_aside(shape.extent());
-        for &mark in marks {
-            let mark = &self.sorted.shapes[mark];
+        for found in marks {
+            let mark = &self.sorted.shapes[found.mark];
             let &[first, tip, last] = mark.vertices(drawing) else { continue };
-            let has_time = self.work.checked_sub(notched.len()).map(|left| self.work = left).is_some();
-            if has_time && notched.notch([first, tip, last]) {
-                self.aside.points += mark.points();
-                self.aside.moments += mark.moments(drawing);
+            self.work = self.work.saturating_sub(notched.len());
+            let mouth = if self.work > 0 { notched.notch([first, tip, last]) } else { None };
+            let Some(mouth) = mouth else {
+                self.add_slits(piece, found);
                 continue;
-            }
-            // The knife cuts it from both sides of its mouth: two slits that meet at the tip.
-            for (root, span) in [(first, tip.span), (last, last.span)] {
-                let notch = Notch { kind: NotchKind::Slit, root: root.at, tip: tip.at, percent: FULL_SPEED, span };
-                self.pieces[piece].notches.push(notch);
-            }
+            };
+            self.aside.points += mark.points();
+            self.aside.moments += mouth.moments;
+            self.leave_aside(&mouth.bounds);
         }
         let vertices = notched.into_vertices();
         self.aside.points -= led_to(&vertices);
-        self.aside.moments -= moments(&vertices);
         self.add_contour(piece, &vertices);
     }
 
@@ -260,16 +306,17 @@ impl Making<'_> {
     fn part_around(&mut self, at: Point) -> Option<usize> {
         let mut best: Option<(f64, usize)> = None;
         for piece in self.boxes.near(at) {
-            let Some(left) = self.work.checked_sub(1) else { break };
-            self.work = left;
+            if self.work == 0 {
+                return None;
+            }
+            self.work -= 1;
             let shape = self.shape(self.parts[piece]);
             let rank = (shape.area.abs(), piece);
             if !shape.extent().holds(at) || best.is_some_and(|best| rank >= best) {
                 continue;
             }
             let vertices = shape.vertices(&self.sorted.drawing);
-            let Some(left) = self.work.checked_sub(vertices.len()) else { break };
-            self.work = left;
+            self.work = self.work.saturating_sub(vertices.len());
             let points: Vec<Point> = vertices.iter().map(|vertex| vertex.at).collect();
             if ring::contains(&points, at) {
                 best = Some(rank);
@@ -285,6 +332,14 @@ impl Making<'_> {
                 Some(piece) => self.pieces[piece].labels.push(label),
                 None => self.texts_outside += 1,
             }
+        }
+    }
+
+    fn say_what_was_not_searched(&mut self) {
+        if self.work == 0 && self.findings.is_empty() {
+            let message = "there are too many lines to find the part of every text and the shape of every notch";
+            let finding = Diagnostic::new(&code::HPGL_SEARCH_ENDED, message);
+            self.findings.push(finding.hint("split the plot, or leave texts out"));
         }
     }
 

@@ -234,7 +234,8 @@ pub(super) fn mark(vertices: &[Vertex], unit: f64) -> Option<Mark> {
     match vertices {
         [a, b] if is_notch(a.at, b.at) => Some(Mark::Line([a.at, b.at])),
         [a, b, c] if is_near(a.at, c.at, unit) && is_notch(a.at, b.at) => Some(Mark::Line([a.at, b.at])),
-        [a, b, c] if is_notch(a.at, b.at) && is_notch(b.at, c.at) => {
+        // The chords of an arc are no legs.
+        [a, b, c] if b.span != c.span && is_notch(a.at, b.at) && is_notch(b.at, c.at) => {
             Some(Mark::Vee { mouth: [a.at, c.at], apex: b.at })
         }
         _ => None,

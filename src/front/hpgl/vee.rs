@@ -2,7 +2,8 @@
 
 use super::drawing::Vertex;
 use super::shape::{ROUNDING, is_near};
-use crate::geom::{Point, polyline, ring};
+use crate::geom::moments::Moments;
+use crate::geom::{Extent, Point, polyline, ring};
 use crate::ir::marker::Vee;
 
 /// How much longer than the mouth is wide the outline may be between its ends: a longer way is no edge that is notched.
@@ -34,6 +35,17 @@ struct Station {
     along: f64,
 }
 
+/// What is drawn and no longer cut where an outline goes into a mark.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Mouth {
+    /// Of the outline between the ends of the mark; and what rounding makes of the edges and legs that meet there.
+    pub(super) moments: Moments,
+    pub(super) bounds: Extent,
+}
+
+/// An end of a mark on an outline.
+type Foot = (Station, Point);
+
 impl Outline {
     /// A closed line whose last place is its first.
     pub(super) fn new(vertices: &[Vertex], material: Material, unit: f64) -> Self {
@@ -57,13 +69,13 @@ impl Outline {
     }
 
     /// Leads the outline along a mark of two legs in place of its mouth, when that is a V notch: of the shape of one, into
-    /// the material, on a stretch of the outline that is straight. Whether it did.
-    pub(super) fn notch(&mut self, mark: [Vertex; 3]) -> bool {
+    /// the material, on a stretch of the outline that is straight; the mouth, if it did.
+    pub(super) fn notch(&mut self, mark: [Vertex; 3]) -> Option<Mouth> {
         let [first, apex, last] = mark;
         let vee = Vee { apex: apex.at, mouth: [first.at, last.at], span: apex.span };
-        let (Some(a), Some(b)) = (self.station(first.at), self.station(last.at)) else { return false };
+        let (a, b) = (self.station(first.at)?, self.station(last.at)?);
         if !vee.has_shape() {
-            return false;
+            return None;
         }
         let most = LONGEST_EDGE * vee.width() + 2.0 * ROUNDING * self.unit;
         // Along the outline, whichever way the mark was drawn; turned round, each leg keeps what drew it.
@@ -72,12 +84,13 @@ impl Outline {
         } else if self.way(b, a, most) {
             ((b, last.at), (a, first.at), [last.span, apex.span])
         } else {
-            return false;
+            return None;
         };
         let points: Vec<Point> = self.ring.iter().map(|vertex| vertex.at).collect();
         if ring::contains(&points, apex.at) != (self.material == Material::Inside) {
-            return false;
+            return None;
         }
+        let closed = self.mouth([from, to], apex.at);
         let count = self.ring.len();
         // The vertices that stay: from the one behind the mouth round to the one before it.
         let (start, end) = (to.0.segment + 1, from.0.segment);
@@ -98,7 +111,38 @@ impl Outline {
             ring.rotate_left(at);
         }
         self.ring = ring;
-        true
+        Some(closed)
+    }
+
+    /// What is drawn between two ends of a mark, measured on the outline as it is.
+    fn mouth(&self, [from, to]: [Foot; 2], apex: Point) -> Mouth {
+        let ends = [self.placed(from), self.placed(to)];
+        let is_one_edge = from.0.segment == to.0.segment && from.0.along < to.0.along;
+        let count = self.ring.len();
+        let between = match (to.0.segment + count - from.0.segment) % count {
+            0 if !is_one_edge => count,
+            steps => steps,
+        };
+        let inner = (1..=between).map(|i| self.vertex(from.0.segment + i));
+        let path: Vec<Point> = std::iter::once(ends[0]).chain(inner).chain([ends[1]]).collect();
+        let mut mouth = Mouth { moments: Moments::of(path.iter().copied()), bounds: Extent::EMPTY };
+        path.iter().chain([&from.1, &to.1]).for_each(|&at| mouth.bounds.add(at));
+        // The end of a mark that lies beside its edge bends it; one beside a vertex goes there.
+        let mut bend = |segment: usize, places: &[Point]| {
+            let edge = [self.vertex(segment), self.vertex(segment + 1)];
+            let bent = edge[..1].iter().chain(places).chain(&edge[1..]);
+            mouth.moments += Moments::line(edge[0], edge[1]) - Moments::of(bent.copied());
+        };
+        if is_one_edge {
+            bend(from.0.segment, &ends);
+        } else {
+            bend(from.0.segment, &ends[..1]);
+            bend(to.0.segment, &ends[1..]);
+        }
+        for (end, drawn) in ends.into_iter().zip([from.1, to.1]) {
+            mouth.moments += Moments::line(drawn, apex) - Moments::line(end, apex);
+        }
+        mouth
     }
 
     fn vertex(&self, i: usize) -> Point {
@@ -122,7 +166,7 @@ impl Outline {
     }
 
     /// The place of a station: a vertex, or the end of the mark.
-    fn placed(&self, (station, at): (Station, Point)) -> Point {
+    fn placed(&self, (station, at): Foot) -> Point {
         if station.along == 0.0 { self.vertex(station.segment) } else { at }
     }
 
@@ -168,10 +212,16 @@ mod tests {
     fn check(ring: &[(f64, f64)], material: Material, mark: [(f64, f64); 3], expected: &[(f64, f64)]) {
         let mut outline = Outline::new(&vertices(ring, 1), material, UNIT);
         let drawn = vertices(&mark, 2);
-        let is_notch = outline.notch([drawn[0], drawn[1], drawn[2]]);
+        let mouth = outline.notch([drawn[0], drawn[1], drawn[2]]);
+        let is_notch = mouth.is_some();
         let found = outline.into_vertices();
         assert_eq!(found.iter().map(|v| (v.at.x, v.at.y)).collect::<Vec<_>>(), expected, "{mark:?}");
         assert_eq!(is_notch, expected != ring);
+        // What is left aside is what was drawn and is not cut.
+        let length =
+            |points: &[(f64, f64)]| polyline::length(&vertices(points, 1).iter().map(|v| v.at).collect::<Vec<_>>());
+        let aside = mouth.map_or(length(&mark), |mouth| mouth.moments.length());
+        assert!((length(ring) + length(&mark) - length(expected) - aside).abs() < 1e-9, "{mark:?}");
         for pair in found.windows(2).filter(|pair| pair.iter().any(|v| v.at == drawn[1].at)) {
             let leg = if pair.iter().any(|v| v.at == drawn[0].at) { drawn[1].span } else { drawn[2].span };
             assert_eq!(pair[1].span, leg, "{mark:?}");

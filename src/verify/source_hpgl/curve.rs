@@ -91,7 +91,7 @@ impl Scan<'_> {
         if self.part.is_some() {
             self.curves.push(Gathered { from, first: self.polygon.len(), count: points.len(), share: *share });
         } else {
-            let lack = self.lacking(from, points.iter().copied(), *share);
+            let lack = self.lacking(from, points, *share);
             self.lack(lack);
         }
     }
@@ -100,15 +100,15 @@ impl Scan<'_> {
     pub(super) fn allow_polygon(&mut self) {
         for i in 0..self.curves.len() {
             let Gathered { from, first, count, share } = self.curves[i];
-            let points = self.polygon[first..first + count].iter().map(|corner| corner.0);
-            let lack = self.lacking(from, points, share);
+            let points: Vec<Place> = self.polygon[first..first + count].iter().map(|corner| corner.0).collect();
+            let lack = self.lacking(from, &points, share);
             self.lack(lack);
         }
     }
 
-    fn lacking(&self, from: Place, points: impl Iterator<Item = Place> + Clone, share: f64) -> Lack {
+    fn lacking(&self, from: Place, points: &[Place], share: f64) -> Lack {
         let of = |step: usize| {
-            let points = points.clone().skip(step - 1).step_by(step);
+            let points = points.iter().copied().skip(step - 1).step_by(step);
             Moments::of(std::iter::once(from).chain(points).map(|place| self.point(place)))
         };
         let moments = of(1) - of(FINER);

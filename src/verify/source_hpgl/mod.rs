@@ -28,7 +28,7 @@ const MOST_NUMBERS: usize = 8;
 type Place = [f64; 2];
 
 /// Scans a plot.
-pub(super) fn scan(bytes: &[u8], read: &Census, profile: &MachineProfile) -> (Census, Slack) {
+pub(super) fn scan(bytes: &[u8], profile: &MachineProfile) -> (Census, Slack) {
     let unit = profile.hpgl.unit.mm();
     let sagitta = profile.tolerance(unit) * ARC_SAGITTA;
     let mut scan = Scan {
@@ -47,7 +47,7 @@ pub(super) fn scan(bytes: &[u8], read: &Census, profile: &MachineProfile) -> (Ce
         polygon: Vec::new(),
         part: None,
         is_fresh: false,
-        census: Census { drills: read.drills, ..Census::empty(unit) },
+        census: Census::empty(unit),
         stroke: Moments::default(),
         slack: Slack { sagitta, length: 0.0, bounds: 0.0, moments: Moments::default() },
         curves: Vec::new(),
