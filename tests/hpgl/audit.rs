@@ -73,12 +73,15 @@ fn a_marker_that_lacks_a_contour_a_point_or_a_notch_is_refused() {
     assert!(contours > 30 && points > 30 && notches >= 5, "{contours} {points} {notches}");
 }
 
+/// The rule that must see some damage.
+type Damage<'a> = (&'static str, &'a dyn Fn(&mut Aside));
+
 #[test]
 fn an_account_of_what_is_left_aside_that_is_wrong_in_anything_is_refused() {
     let job = Job::default();
     let far = Point::new(1e4, 1e4);
     let line = |y: f64| Moments::line(Point::new(10.0, y), Point::new(110.0, y));
-    let damages: [(&str, &dyn Fn(&mut Aside)); 5] = [
+    let damages: [Damage; 5] = [
         ("source/points", &|aside| aside.points += 1),
         ("source/points", &|aside| aside.points -= 1),
         ("source/bounds", &|aside| aside.bounds.add(far)),

@@ -68,8 +68,9 @@ fn marks_on_an_outline_with_a_small_gap_are_cut_like_the_outline() {
 #[test]
 fn a_slit_in_short_steps_is_one_slit_however_the_outline_draws_it() {
     for step in [32, 100] {
-        let out: String = (1..=200 / step).map(|i| format!("4000,{},", i * step)).collect();
-        let back: String = (0..200 / step).rev().map(|i| format!("4000,{},", i * step)).collect();
+        let place = |i: i64| format!("4000,{},", i * step);
+        let out: String = (1..=200 / step).map(place).collect();
+        let back: String = (0..200 / step).rev().map(place).collect();
         let drawn = format!("IN;SP1;PU0,0;PD4000,0,{out}{back}8000,0,8000,4000,0,4000,0,0;PU;SP0;");
         let source = source(drawn);
         let marker = as_read(&source, &Job::default());

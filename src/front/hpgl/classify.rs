@@ -52,15 +52,8 @@ pub(super) fn classify(mut drawing: Drawing, labels: Vec<Label>, job: &Job, out:
     joints.append(&mut chain::join(&mut drawing, is_spur));
     let strokes = std::mem::take(&mut drawing.strokes);
     let mut shapes: Vec<Shape> = strokes.into_iter().map(|stroke| Shape::of(&drawing, stroke, job)).collect();
-    for frame in nest::frames(&mut shapes, slack) {
-        let (width, height) = shapes[frame].extent().size();
-        let message = format!(
-            "a rectangle of {} x {} mm holds all outlines: it is taken for the frame and not cut",
-            fixed(width, 1),
-            fixed(height, 1)
-        );
-        let finding = Diagnostic::new(&code::HPGL_FRAME, message).at(shapes[frame].vertices(&drawing)[1].span);
-        out.push(finding.hint("if it is a part, `--cut closed` cuts every closed line"));
+    for finding in leave_out_frames(&drawing, &mut shapes, slack) {
+        out.push(finding);
     }
     for shape in &mut shapes {
         shape.class = match shape.wanted {
@@ -91,16 +84,7 @@ pub(super) fn classify(mut drawing: Drawing, labels: Vec<Label>, job: &Job, out:
     let letters = text::mark_letters(&mut shapes);
     is_cut_short |= letters.is_cut_short;
     if let Some(&first) = letters.closed.first() {
-        let count = letters.closed.len();
-        let lines = if count == 1 {
-            "a small closed line stands".to_owned()
-        } else {
-            format!("{count} small closed lines stand")
-        };
-        let message =
-            format!("{lines} in a row with open ones of like height, the first one here: taken for letters, not cut");
-        let finding = Diagnostic::new(&code::HPGL_TEXT, message).at(shapes[first].vertices(&drawing)[1].span);
-        out.push(finding.hint("if they are parts or cut-outs, `--cut closed` cuts every closed line"));
+        out.push(taken_for_text(letters.closed.len()).at(shapes[first].vertices(&drawing)[1].span));
     }
     for shape in &mut shapes {
         if shape.is_outline() && shape.class == Class::Other && is_hole(shape, job) {
@@ -149,8 +133,35 @@ pub(super) fn classify(mut drawing: Drawing, labels: Vec<Label>, job: &Job, out:
     name_dividing(Divided { drawing: &drawing, shapes: &shapes, joints: &joints }, out);
     let sorted = Sorted { drawing, shapes, outlines, parents, notches, lines, line_notches };
     let Made { marker, findings } = piece::marker(&sorted, labels, job);
-    findings.into_iter().for_each(|finding| out.push(finding));
+    for finding in findings {
+        out.push(finding);
+    }
     marker
+}
+
+/// Takes the frames out, and names each.
+fn leave_out_frames(drawing: &Drawing, shapes: &mut [Shape], slack: f64) -> Vec<Diagnostic> {
+    let name = |shape: &Shape| {
+        let (width, height) = shape.extent().size();
+        let message = format!(
+            "a rectangle of {} x {} mm holds all outlines: it is taken for the frame and not cut",
+            fixed(width, 1),
+            fixed(height, 1)
+        );
+        let finding = Diagnostic::new(&code::HPGL_FRAME, message).at(shape.vertices(drawing)[1].span);
+        finding.hint("if it is a part, `--cut closed` cuts every closed line")
+    };
+    nest::frames(shapes, slack).into_iter().map(|frame| name(&shapes[frame])).collect()
+}
+
+/// Names so many closed lines that stand among letters.
+fn taken_for_text(count: usize) -> Diagnostic {
+    let lines =
+        if count == 1 { "a small closed line stands".to_owned() } else { format!("{count} small closed lines stand") };
+    let message =
+        format!("{lines} in a row with open ones of like height, the first one here: taken for letters, not cut");
+    let finding = Diagnostic::new(&code::HPGL_TEXT, message);
+    finding.hint("if they are parts or cut-outs, `--cut closed` cuts every closed line")
 }
 
 fn has_small_gap(shape: &Shape, drawing: &Drawing) -> bool {

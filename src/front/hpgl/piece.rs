@@ -176,7 +176,9 @@ impl Making<'_> {
                 self.aside.points += shape.points() - 1;
                 // The way back, where it is drawn.
                 self.aside.moments += moments(&vertices[1..]);
-                back.iter().for_each(|vertex| self.aside.bounds.add(vertex.at));
+                for vertex in back {
+                    self.aside.bounds.add(vertex.at);
+                }
             }
             _ => {}
         }
