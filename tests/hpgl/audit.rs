@@ -138,8 +138,8 @@ fn a_sound_plot_is_not_refused() {
 
 #[test]
 fn a_damaged_encoding_is_scanned_without_an_overflow() {
-    let far = "~".repeat(12);
-    let source = source(format!("IN;SP1;{}PE>{far}\u{e0};", rectangle(0, 0, 8000, 4000)));
+    let far = "~".repeat(6);
+    let source = source(format!("IN;SP1;{}PE>{far}\u{e0}\u{e0}\u{e0};", rectangle(0, 0, 8000, 4000)));
     audit(&source, &as_read(&source, &Job::default()), &Job::default());
 }
 
