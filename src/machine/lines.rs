@@ -2,8 +2,13 @@
 
 use super::controller::Gcode;
 
-/// Words that change what every number behind them means.
-const MODES: &[&str] = &["G18", "G19", "G20", "G70", "G91", "G90.1", "G92", "G10"];
+/// Words that change what every number behind them means, or how the way there is taken.
+const MODES: &[&str] = &[
+    "G7", "G10", "G18", "G19", "G20", "G41", "G42", "G43", "G43.1", "G43.2", "G51", "G52", "G61", "G61.1", "G64",
+    "G68", "G70", "G90.1", "G91", "G92", "G93", "G94", "G95",
+];
+/// Words that move axes without naming them, and that call other programs.
+const MOVES: &[&str] = &["G28", "G30", "G38.2", "G65", "M98"];
 /// Words that end the program.
 const ENDS: &[&str] = &["M2", "M02", "M30", "%"];
 
@@ -28,11 +33,39 @@ pub(super) fn harmful(gcode: &Gcode) -> Vec<(&'static str, String)> {
         let is_last = key == "gcode.footer";
         let harms = |word: &String| {
             let is_axis = axes.contains(&word.as_bytes()[0]) && word.len() > 1;
-            MODES.contains(&word.as_str()) || !is_last && (is_axis || ENDS.contains(&word.as_str()))
+            let is_any = |list: &[&str]| list.contains(&word.as_str());
+            // F would hold where a move has none, O begins a subroutine.
+            let is_call = word.starts_with(['F', 'O']);
+            is_any(MODES) || is_call || !is_last && (is_axis || is_any(MOVES) || is_any(ENDS))
         };
         Some((key, text.lines().flat_map(words).find(harms)?))
     });
     found.collect()
+}
+
+/// Two keys that must not say the same: what puts a tool down and what lifts it.
+pub(super) fn same(gcode: &Gcode) -> Vec<[&'static str; 2]> {
+    let pairs = [
+        (["gcode.knife_down", "gcode.knife_up"], [&gcode.knife_down, &gcode.knife_up]),
+        (["gcode.drill_down", "gcode.drill_up"], [&gcode.drill_down, &gcode.drill_up]),
+    ];
+    let said = |text: &str| text.lines().flat_map(words).collect::<Vec<_>>();
+    pairs
+        .into_iter()
+        .filter(|(_, [down, up])| !said(down).is_empty() && said(down) == said(up))
+        .map(|(keys, _)| keys)
+        .collect()
+}
+
+/// The keys whose lines open a comment and do not close it: controllers stop there.
+pub(super) fn open_comments(gcode: &Gcode) -> Vec<&'static str> {
+    let is_open = |line: &str| line.matches('(').count() != line.matches(')').count();
+    texts(gcode).into_iter().filter(|(_, text)| text.lines().any(is_open)).map(|(key, _)| key).collect()
+}
+
+/// Whether the last lines end the program.
+pub(super) fn ends(gcode: &Gcode) -> bool {
+    gcode.footer.lines().flat_map(words).any(|word| ENDS.contains(&word.as_str()))
 }
 
 /// The keys that must say something: without them nothing would move the knife, or end the program.

@@ -122,6 +122,16 @@ fn rules(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault
             "give the lines that the controller needs, such as M3 and M5 for the knife, M2 for the end",
         );
     }
+    for keys in lines::same(&profile.gcode) {
+        let message = format!("`{}` and `{}` say the same", keys[0], keys[1]);
+        broken(&keys, message, "the controller must be told apart what goes down and what is lifted");
+    }
+    for key in lines::open_comments(&profile.gcode) {
+        broken(&[key], format!("`{key}` has a comment without its other bracket"), "controllers stop there");
+    }
+    if !lines::ends(&profile.gcode) && !lines::blank(&profile.gcode).contains(&"gcode.footer") {
+        broken(&["gcode.footer"], "`gcode.footer` does not end the program".to_owned(), "its last line is M2 or M30");
+    }
     for (key, character) in lines::foreign(&profile.gcode) {
         let message = format!("`{key}` has {character:?}, which no controller reads");
         broken(&[key], message, "lines of G-code are plain ASCII, comments too");

@@ -42,6 +42,20 @@ const TURN_EPSILON: f64 = 1e-6;
 const REST_EPSILON: f64 = 1e-3;
 /// Radii of both ends of an arc may differ by this many steps of the last decimal.
 const RADIUS_STEPS: f64 = 8.0;
+/// What comments begin with that controllers obey.
+const ACTIVE: &[&[u8]] = &[
+    b"ABORT",
+    b"DEBUG",
+    b"LOG",
+    b"LOGAPPEND",
+    b"LOGCLOSE",
+    b"LOGOPEN",
+    b"MSG",
+    b"PRINT",
+    b"PROBECLOSE",
+    b"PROBEOPEN",
+    b"PY",
+];
 /// What is wrong with a line that does something when all is over.
 const BEHIND_END: &str = "comes behind the end of the program";
 /// Drills of a machine.
@@ -214,6 +228,10 @@ impl<'a> Places<'a> {
         // A comment ends at its first bracket: what stands behind that is obeyed.
         let comment = line.strip_prefix(b"(").and_then(|rest| rest.strip_suffix(b")"));
         if let Some(comment) = comment.filter(|text| !text.iter().any(|byte| matches!(byte, b'(' | b')'))) {
+            let first: Vec<u8> = comment.iter().take_while(|byte| byte.is_ascii_alphabetic()).copied().collect();
+            if ACTIVE.contains(&first.to_ascii_uppercase().as_slice()) {
+                return Err(format!("is {}, which is obeyed though it looks like a comment", quoted(line)));
+            }
             let mut words = comment.split(|&byte| byte == b' ').skip_while(|word| *word != b"block").skip(1);
             let number = words.next().and_then(super::read::whole);
             self.now.block = number.unwrap_or(0);

