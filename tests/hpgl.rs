@@ -3,6 +3,8 @@
 
 #[path = "hpgl/audit.rs"]
 mod audit;
+#[path = "hpgl/beside.rs"]
+mod beside;
 #[path = "hpgl/curves.rs"]
 mod curves;
 #[path = "hpgl/notches.rs"]

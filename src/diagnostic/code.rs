@@ -139,7 +139,11 @@ mod table {
     /// A figure of eight.
     pub static HPGL_CROSSED: Code = warning("hpgl/crossed-outline", "A closed line of a plot crosses itself so that its halves cancel each other: it may be an outline, and is not cut.");
     /// A line from joint to joint.
-    pub static HPGL_DIVIDING: Code = warning("hpgl/dividing-line", "A line of a plot leads between places where three lines meet, and is in no outline: it may part two pieces, and is not cut.");
+    pub static HPGL_DIVIDING: Code = warning("hpgl/dividing-line", "A line of a plot leads between places where three lines meet, or from one place of an outline to another, and is in no outline: it may part two pieces, and is not cut.");
+    /// A mark that is no notch.
+    pub static HPGL_MISSED_MARK: Code = warning("hpgl/missed-mark", "Short lines of a plot stand within 2 mm of an edge, or across an outline or a notch, and are no notches: they are not cut; the message gives their count and first place.");
+    /// A seam line, or a frame.
+    pub static HPGL_LARGE_CUT_OUT: Code = warning("hpgl/large-cut-out", "A cut-out of a plot leaves little of its part, or another pen draws it: it may be a seam line, or the part a frame; both are cut.");
     /// Parts that cannot be told from cut-outs.
     pub static HPGL_TOO_MANY: Code = error("hpgl/too-many-lines", "A plot has so many closed lines that the search for which lies in which was ended: cut-outs would be cut as parts.");
     /// Another size than the texts say, or than any table has.
@@ -285,6 +289,8 @@ pub static ALL: &[&Code] = &[
     &HPGL_SEARCH_ENDED,
     &HPGL_CROSSED,
     &HPGL_DIVIDING,
+    &HPGL_MISSED_MARK,
+    &HPGL_LARGE_CUT_OUT,
     &HPGL_TOO_MANY,
     &HPGL_UNIT_DOUBTFUL,
     &HPGL_NOTHING_TO_CUT,

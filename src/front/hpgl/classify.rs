@@ -6,6 +6,7 @@
 
 use std::collections::BTreeSet;
 
+use super::beside::{self, Beside, MARK_REACH};
 use super::chain;
 use super::drawing::{Drawing, Stroke, Vertex};
 use super::nest::{self, Nest};
@@ -39,6 +40,10 @@ pub(super) struct Sorted {
 const LARGEST_GAP: f64 = 1.0;
 /// How much longer one side of a hole's box may be than the other.
 const HOLE_RATIO: f64 = 1.1;
+/// Share of its part that a cut-out takes at most without a doubt.
+const LARGE_CUT_OUT: f64 = 0.5;
+/// The same where another pen draws it, or the part is a rectangle that may be a frame: as full as frames are.
+const DOUBTFUL_CUT_OUT: f64 = nest::LEAST_FILL;
 /// Share of its box that a circle of eight chords fills; a square fills all of it.
 const HOLE_FILL: f64 = 0.7;
 
@@ -125,12 +130,20 @@ pub(super) fn classify(mut drawing: Drawing, labels: Vec<Label>, job: &Job, out:
     for found in &line_notches {
         shapes[found.mark].class = Class::Notch;
     }
-    if is_cut_short || are_marks_cut_short || are_line_marks_cut_short {
+    is_cut_short |= are_marks_cut_short || are_line_marks_cut_short;
+    // Among marks that were not searched to the end nobody knows which are no notches.
+    let beside = if is_cut_short { Beside::default() } else { beside_outlines(&drawing, &shapes, unit) };
+    if is_cut_short || beside.is_cut_short {
         let message = "there are too many lines to find every notch and letter among them: some are not recognised";
         out.push(Diagnostic::new(&code::HPGL_SEARCH_ENDED, message).hint("split the plot, or leave texts out"));
     }
     name_near_outlines(&drawing, &shapes, out);
-    name_dividing(Divided { drawing: &drawing, shapes: &shapes, joints: &joints }, out);
+    let left = Lines { drawing: &drawing, shapes: &shapes, beside: &beside };
+    name_dividing(left, &joints, out);
+    name_missed_marks(left, out);
+    if !is_nest_cut_short {
+        name_large_cut_outs(Nested { drawing: &drawing, shapes: &shapes, outlines: &outlines, parents: &parents }, out);
+    }
     let sorted = Sorted { drawing, shapes, outlines, parents, notches, lines, line_notches };
     let Made { marker, findings } = piece::marker(&sorted, labels, job);
     for finding in findings {
@@ -218,35 +231,123 @@ fn name_near_outlines(drawing: &Drawing, shapes: &[Shape], out: &mut Diagnostics
     }
 }
 
-/// Lines, and the places where three or more of them met before they were joined.
-#[derive(Debug, Clone, Copy)]
-struct Divided<'a> {
-    drawing: &'a Drawing,
-    shapes: &'a [Shape],
-    joints: &'a BTreeSet<[u64; 2]>,
+/// Whether a line is left that a guess might have cut.
+fn is_open_rest(shape: &Shape) -> bool {
+    shape.class == Class::Other && shape.wanted == Wanted::Guess && !shape.is_closed
 }
 
-/// Names lines that are not cut and lead from one such place to another: they may part two pieces.
-fn name_dividing(Divided { drawing, shapes, joints }: Divided, out: &mut Diagnostics) {
+/// What is left beside outlines and notches. Small outlines are holes that are drawn with a cross.
+fn beside_outlines(drawing: &Drawing, shapes: &[Shape], unit: f64) -> Beside {
+    let is_rest = |shape: &Shape| is_open_rest(shape) && shape.gap(drawing).is_none();
+    let is_edge = |shape: &Shape| match shape.class {
+        Class::Part | Class::CutOut | Class::Line => shape.size() > LONGEST_NOTCH,
+        Class::Notch => true,
+        Class::Hole | Class::Frame | Class::Text | Class::Other | Class::Pen => false,
+    };
+    let candidates: Vec<usize> = (0..shapes.len()).filter(|&i| is_rest(&shapes[i])).collect();
+    let outlines: Vec<usize> = (0..shapes.len()).filter(|&i| is_edge(&shapes[i])).collect();
+    beside::find(Search { drawing, shapes, unit, candidates: &candidates, outlines: &outlines })
+}
+
+/// Lines, and which of them stand beside outlines.
+#[derive(Debug, Clone, Copy)]
+struct Lines<'a> {
+    drawing: &'a Drawing,
+    shapes: &'a [Shape],
+    beside: &'a Beside,
+}
+
+/// Names lines that are not cut and may part two pieces: they lead from one place where three lines met before they were
+/// joined to another, or from outline to outline.
+fn name_dividing(lines: Lines, joints: &BTreeSet<[u64; 2]>, out: &mut Diagnostics) {
+    let Lines { drawing, shapes, beside } = lines;
     let is_joint = |vertex: &Vertex| joints.contains(&bits(vertex.at));
-    let divides = |shape: &&Shape| {
+    let joins = |shape: &Shape| {
         let vertices = shape.vertices(drawing);
-        let is_left = shape.class == Class::Other && shape.wanted == Wanted::Guess && !shape.is_closed;
-        is_left && shape.length >= SHORTEST_NAMED && is_joint(&vertices[0]) && is_joint(&vertices[vertices.len() - 1])
+        let is_long = is_open_rest(shape) && shape.length >= SHORTEST_NAMED;
+        is_long && is_joint(&vertices[0]) && is_joint(&vertices[vertices.len() - 1])
     };
-    let all: Vec<&Shape> = shapes.iter().filter(divides).collect();
-    let Some(first) = all.first() else { return };
-    let length = fixed(all.iter().map(|shape| shape.length).sum(), 1);
-    let lines = if all.len() == 1 {
-        format!("a line of {length} mm leads")
+    let between_joints: Vec<&Shape> = shapes.iter().filter(|shape| joins(shape)).collect();
+    let between_outlines: Vec<&Shape> =
+        beside.dividing.iter().map(|&i| &shapes[i]).filter(|shape| !joins(shape)).collect();
+    let ways = [
+        (between_joints, "between places where three lines meet"),
+        (between_outlines, "from one place of an outline to another"),
+    ];
+    for (all, way) in ways {
+        let Some(first) = all.first() else { continue };
+        let length = fixed(all.iter().map(|shape| shape.length).sum(), 1);
+        let lines = if all.len() == 1 {
+            format!("a line of {length} mm leads")
+        } else {
+            format!("{} lines of {length} mm in all lead", all.len())
+        };
+        let message = format!("{lines} {way}, the first one here: in no outline, not cut");
+        let finding = Diagnostic::new(&code::HPGL_DIVIDING, message).at(first.vertices(drawing)[1].span);
+        let hint = "if it parts two pieces, let the CAD draw each whole; `--cut all` cuts every line as it stands";
+        out.push(finding.hint(hint));
+    }
+}
+
+/// Names short lines that are not cut and stand where notches do.
+fn name_missed_marks(Lines { drawing, shapes, beside }: Lines, out: &mut Diagnostics) {
+    let Some(first) = beside.marks.first().map(|&i| &shapes[i]) else { return };
+    let lines = if beside.marks.len() == 1 {
+        format!("a mark of {} mm stands", fixed(first.length, 1))
     } else {
-        format!("{} lines of {length} mm in all lead", all.len())
+        format!("{} marks, the first one here, stand", beside.marks.len())
     };
-    let message = format!("{lines} between places where three lines meet, the first one here: in no outline, not cut");
-    let finding = Diagnostic::new(&code::HPGL_DIVIDING, message).at(first.vertices(drawing)[1].span);
-    out.push(
-        finding.hint("if it parts two pieces, let the CAD draw each whole; `--cut all` cuts every line as it stands"),
-    );
+    let message =
+        format!("{lines} across an outline or a notch, or within {MARK_REACH} mm of an edge: no notch, not cut");
+    let finding = Diagnostic::new(&code::HPGL_MISSED_MARK, message).at(first.vertices(drawing)[1].span);
+    out.push(finding.hint(format!(
+        "move the mark onto the edge in the CAD system: notches are lines from the edge of at most {LONGEST_NOTCH} mm; \
+         `--cut all` cuts every line"
+    )));
+}
+
+/// Outlines, and of each the one that holds it.
+#[derive(Debug, Clone, Copy)]
+struct Nested<'a> {
+    drawing: &'a Drawing,
+    shapes: &'a [Shape],
+    outlines: &'a [usize],
+    parents: &'a [Option<usize>],
+}
+
+/// Names cut-outs that leave little of their part: the inner one may be a seam, or the outer one a frame.
+fn name_large_cut_outs(nested: Nested, out: &mut Diagnostics) {
+    let Nested { drawing, shapes, outlines, parents } = nested;
+    let shape = |k: usize| &shapes[outlines[k]];
+    let parts = outlines.iter().filter(|&&i| shapes[i].class == Class::Part).count();
+    let share = |k: usize| {
+        let (inner, outer) = (shape(k), shape(parents[k]?));
+        let may_be_frame = parts == 1 && outlines.len() == 2 && nest::is_rectangle(outer);
+        let is_doubtful = may_be_frame || inner.stroke.pen != outer.stroke.pen;
+        let least = if is_doubtful { DOUBTFUL_CUT_OUT } else { LARGE_CUT_OUT };
+        let share = inner.area.abs() / outer.area.abs();
+        let is_guessed = inner.class == Class::CutOut && inner.wanted == Wanted::Guess;
+        (is_guessed && share > least).then_some((inner, outer, share))
+    };
+    let all: Vec<(&Shape, &Shape, f64)> = (0..outlines.len()).filter_map(share).collect();
+    let Some(&(inner, outer, share)) = all.first() else { return };
+    let lines = if all.len() == 1 {
+        "a cut-out takes".to_owned()
+    } else {
+        format!("{} cut-outs take much of their parts, the first one here", all.len())
+    };
+    let message =
+        format!("{lines} {} percent of its part: it may be a seam, or the part a frame", fixed(100.0 * share, 0));
+    let finding = Diagnostic::new(&code::HPGL_LARGE_CUT_OUT, message).at(inner.vertices(drawing)[1].span);
+    out.push(if inner.stroke.pen == outer.stroke.pen {
+        finding
+            .hint("if only one of the lines is to be cut, let the CAD draw it with a pen of its own, for `--cut-pens`")
+    } else {
+        finding.hint(format!(
+            "if only one of the lines is to be cut, say which: `--cut-pens {}` the outer, `--cut-pens {}` the inner",
+            outer.stroke.pen, inner.stroke.pen
+        ))
+    });
 }
 
 /// How many outlines hold one.

@@ -13,7 +13,7 @@ const PROBES: usize = 7;
 /// A rectangle whose area is that of its box, but for rounding.
 const BOX_EPSILON: f64 = 1e-6;
 /// Share of a frame that the outlines in it fill at least: less, and it is a part with holes.
-const LEAST_FILL: f64 = 0.2;
+pub(super) const LEAST_FILL: f64 = 0.2;
 /// Frames in frames that are looked for.
 const MOST_FRAMES: usize = 3;
 
@@ -25,10 +25,6 @@ pub(super) fn frames(shapes: &mut [Shape], slack: f64) -> Vec<usize> {
     // Rectangles that hold all the outlines behind them.
     let holds = |outer: usize, inner: &[usize]| {
         inner.iter().all(|&i| is_within(shapes[i].extent(), shapes[outer].extent(), slack))
-    };
-    let is_rectangle = |shape: &Shape| {
-        let (width, height) = shape.extent().size();
-        shape.area.abs() >= (1.0 - BOX_EPSILON) * width * height
     };
     let may_be = |k: usize| {
         let shape = &shapes[order[k]];
@@ -46,6 +42,12 @@ pub(super) fn frames(shapes: &mut [Shape], slack: f64) -> Vec<usize> {
         shapes[frame].class = Class::Frame;
     }
     frames
+}
+
+/// Whether an outline is its own box.
+pub(super) fn is_rectangle(shape: &Shape) -> bool {
+    let (width, height) = shape.extent().size();
+    shape.area.abs() >= (1.0 - BOX_EPSILON) * width * height
 }
 
 fn is_within(inner: &Extent, outer: &Extent, slack: f64) -> bool {

@@ -7,7 +7,7 @@ use super::shape::{Mark, ROUNDING, Shape, mark};
 use crate::geom::{Extent, Point, polyline, ring};
 
 /// How far from an outline a mark may end and still stand on it, mm, beside what rounding does.
-const TOUCH: f64 = 0.1;
+pub(super) const TOUCH: f64 = 0.1;
 /// Comparisons that one plot may cost: a guard against drawings that are made to be slow.
 const MOST_WORK: usize = 400_000_000;
 
@@ -160,7 +160,8 @@ impl End {
     }
 }
 
-fn grown(mut extent: Extent, by: f64) -> Extent {
+/// A box with a margin on all sides, mm.
+pub(super) fn grown(mut extent: Extent, by: f64) -> Extent {
     extent.min -= crate::geom::Vector::new(by, by);
     extent.max += crate::geom::Vector::new(by, by);
     extent
