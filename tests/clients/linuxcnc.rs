@@ -262,21 +262,27 @@ fn the_whole_controller_of_linuxcnc_runs_a_program_in_its_tube_and_in_the_time_t
     for (name, text) in files {
         std::fs::write(at(name), text).expect("writable");
     }
-    // A busy computer stalls the controller's clock now and then: the fastest run counts.
-    let (mut rows, mut took) = (Vec::new(), f64::INFINITY);
+    let program = std::fs::read_to_string(at("program.ngc")).expect("text");
+    let way = outline(&moves(&program, 'C'));
+    // A busy computer stalls the controller's clock now and then, and who watches it: the fastest run counts, and the one
+    // that was seen best.
+    let (mut traced, mut took, mut missed) = (Vec::new(), f64::INFINITY, f64::INFINITY);
     for _ in 0..RUNS {
         let ran = unprivileged("sh -c 'chmod +x driver.py && timeout 120 linuxcnc -r machine.ini'", folder.path());
         let said = format!("{}{}", String::from_utf8_lossy(&ran.stdout), String::from_utf8_lossy(&ran.stderr));
         let trace = std::fs::read_to_string(at("trace.txt")).unwrap_or_else(|_| panic!("{said}"));
         assert!(trace.ends_with("end\n"), "{said}");
-        rows = trace
+        let rows: Vec<Vec<f64>> = trace
             .lines()
             .filter(|line| *line != "end")
             .map(|line| line.split(' ').map(|field| field.parse().expect("a number")).collect::<Vec<f64>>())
             .collect();
         let moving: Vec<usize> = (1..rows.len()).filter(|&i| rows[i][1..] != rows[i - 1][1..]).collect();
         took = f64::min(took, rows[moving[moving.len() - 1]][0] - rows[moving[0] - 1][0]);
-        if (took / estimate - 1.0).abs() <= ESTIMATE_SHARE {
+        let seen: Vec<Point> = rows.iter().map(|row| Point::new(row[1], row[2])).collect();
+        missed = f64::min(missed, farthest(&way, &seen));
+        traced.extend(seen);
+        if (took / estimate - 1.0).abs() <= ESTIMATE_SHARE && missed <= BETWEEN_SAMPLES {
             break;
         }
     }
@@ -284,11 +290,8 @@ fn the_whole_controller_of_linuxcnc_runs_a_program_in_its_tube_and_in_the_time_t
     assert!((took / estimate - 1.0).abs() <= ESTIMATE_SHARE, "{took} s instead of {estimate} s");
     assert!(took <= TIME_MAX, "{took} s");
     // Beside its way it may be by G64 P, and by rounding of the trace.
-    let program = std::fs::read_to_string(at("program.ngc")).expect("text");
-    let way = outline(&moves(&program, 'C'));
-    let traced: Vec<Point> = rows.iter().map(|row| Point::new(row[1], row[2])).collect();
     let allowed = profile.gcode.blend_mm.expect("it blends") + 0.02;
-    let [off, missed] = [farthest(&traced, &way), farthest(&way, &traced)];
+    let off = farthest(&traced, &way);
     assert!(off <= allowed, "{off} mm off its way");
     assert!(missed <= BETWEEN_SAMPLES, "{missed} mm of its way are left out");
 }

@@ -489,14 +489,13 @@ impl Lowering<'_> {
 }
 
 /// All that the box around a marker holds, with the blocks.
-fn places(marker: &Marker) -> Vec<Place> {
-    let cut = marker.contours().flat_map(|(_, contour)| marker.list.walk(contour.range));
-    let mut places: Vec<Place> = cut.flat_map(|(_, cut)| [(cut.to, cut.span), (cut.from, cut.span)]).collect();
-    for piece in &marker.pieces {
-        places.extend(piece.notches.iter().flat_map(|notch| [(notch.root, notch.span), (notch.tip, notch.span)]));
-        places.extend(piece.drills.iter().map(|drill| (drill.at, drill.span)));
-    }
-    places
+fn places(marker: &Marker) -> impl Iterator<Item = Place> + '_ {
+    let cut = marker.contours().flat_map(|(_, contour)| marker.list.vertices(contour.range));
+    let of_piece = marker.pieces.iter().flat_map(|piece| {
+        let slits = piece.notches.iter().flat_map(|notch| [(notch.root, notch.span), (notch.tip, notch.span)]);
+        slits.chain(piece.drills.iter().map(|drill| (drill.at, drill.span)))
+    });
+    cut.chain(of_piece)
 }
 
 fn direction(from: geom::Point, to: geom::Point) -> Option<Heading> {

@@ -80,24 +80,39 @@ impl Unit {
 /// A place of the drawing, and its block.
 pub(super) type Place = (Point, Span);
 
-/// The only place that makes a drawing too large: without it the rest `fits`.
-fn far_from_others(places: &[Place], fits: impl Fn(&Extent) -> bool) -> Option<Place> {
-    let by = |key: fn(&Point) -> f64| {
-        let least = places.iter().min_by(|a, b| key(&a.0).total_cmp(&key(&b.0)));
-        [least, places.iter().max_by(|a, b| key(&a.0).total_cmp(&key(&b.0)))]
-    };
-    let mut farthest = by(|at| at.x).into_iter().chain(by(|at| at.y)).flatten();
-    farthest
-        .find(|(far, _)| {
-            let mut rest = Extent::EMPTY;
-            places.iter().filter(|(at, _)| at != far).for_each(|(at, _)| rest.add(*at));
-            !rest.is_empty() && fits(&rest)
-        })
-        .copied()
+/// The only place that makes a drawing too large: without it the rest `fits`. It has a half of the box to itself.
+fn far_from_others<I: Iterator<Item = Place>>(
+    extent: &Extent,
+    places: impl Fn() -> I,
+    fits: impl Fn(&Extent) -> bool,
+) -> Option<Place> {
+    let middle = extent.min + (extent.max - extent.min) / 2.0;
+    let mut alone: [Option<Place>; 4] = [None; 4];
+    let mut is_crowded = [false; 4];
+    for place in places() {
+        let (x, y) = (place.0.x - middle.x, place.0.y - middle.y);
+        for (half, is_in) in [x < 0.0, x > 0.0, y < 0.0, y > 0.0].into_iter().enumerate() {
+            match alone[half] {
+                None if is_in => alone[half] = Some(place),
+                Some((at, _)) if is_in && at != place.0 => is_crowded[half] = true,
+                _ => {}
+            }
+        }
+        if is_crowded == [true; 4] {
+            return None;
+        }
+    }
+    let mut alone =
+        alone.into_iter().zip(is_crowded).filter(|(_, is_crowded)| !is_crowded).filter_map(|(place, _)| place);
+    alone.find(|(far, _)| {
+        let mut rest = Extent::EMPTY;
+        places().filter(|(at, _)| at != far).for_each(|(at, _)| rest.add(at));
+        !rest.is_empty() && fits(&rest)
+    })
 }
 
 /// Warns when the drawing fits neither its title nor any table, and names the unit that would fit.
-pub(super) fn check_plausible(sized: Sized, places: impl FnOnce() -> Vec<Place>, out: &mut Diagnostics) {
+pub(super) fn check_plausible<I: Iterator<Item = Place>>(sized: Sized, places: impl Fn() -> I, out: &mut Diagnostics) {
     let Sized { unit, extent, title } = sized;
     if extent.is_empty() {
         return;
@@ -139,7 +154,7 @@ pub(super) fn check_plausible(sized: Sized, places: impl FnOnce() -> Vec<Place>,
         let size = rest.size();
         (size.0 < FAR * length || size.1 < FAR * width) && fits_as(size, 1.0)
     };
-    if let Some((at, span)) = far_from_others(&places(), is_rest) {
+    if let Some((at, span)) = far_from_others(extent, places, is_rest) {
         let message =
             format!("the drawing is {drawn}, but without the place X {:.0} Y {:.0} mm it would fit", at.x, at.y);
         let finding = Diagnostic::new(&code::ISO_UNIT_DOUBTFUL, message).at(span);
