@@ -74,6 +74,7 @@ fn marks_that_are_no_notches_are_named_beside_an_edge_and_across_it() {
 fn notches_and_marks_in_the_midst_of_a_part_or_on_a_small_hole_are_not_named() {
     check(&(part() + "PU8000,4000;PD8000,4240;PU9000,16000;PD9000,15800;"), "", "", "");
     check(&(part() + "PU8000,4100;PD8000,4300;PU9900,10000;PD10100,10000;"), "", "", "");
+    check(&(part() + "PU4000,8000;PD4000,8240;PU16000,4000;PD15000,4000;"), "", "", ""); // drawn over the edge
     let hole = rectangle(9900, 9900, 200, 200);
     check(&(part() + &hole + "PU9900,10000;PD10100,10000;PU10000,9850;PD10000,10150;"), "", "", "");
 }

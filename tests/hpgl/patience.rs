@@ -120,7 +120,8 @@ fn curves_and_polygons_that_never_end_are_refused_in_time() {
     check(
         "near circles",
         &format!("PU0,0;{}", repeated("CI30000000;", 3000)),
-        &["hpgl/too-many-chords", "hpgl/unit-doubtful"],
+        // The last circle has no end.
+        &["hpgl/too-many-chords", "hpgl/unit-doubtful", "hpgl/dividing-line"],
     );
     let arcs = repeated("AA0,0,360;", 200_000);
     check("arcs with the pen up", &format!("PU30000000,0;{arcs}"), &["hpgl/nothing-to-cut"]);
@@ -174,4 +175,13 @@ fn an_outline_that_is_cut_short_is_never_cut_in_silence() {
             &whole[..length]
         );
     }
+}
+
+#[test]
+fn marks_that_cross_many_edges_are_searched_in_time_and_what_was_not_searched_is_said() {
+    let zigzag = many(20_000, &|i| format!("{},{},", 90_000 * (i % 2), 40 * i));
+    let marks = many(20_000, &|i| format!("PU{},2000;PD{},2600,{},2600;", 4 * i, 4 * i, 4 * i + 40));
+    let found = within_patience("marks", format!("PU0,0;PD{zigzag}-900000,0,0,0;{marks}PU;").into_bytes());
+    assert!(found.contains(&"hpgl/search-ended"), "{found:?}");
+    assert!(!found.contains(&"hpgl/missed-mark"), "{found:?}");
 }

@@ -39,6 +39,8 @@ struct Probe<'a> {
     middle: Point,
     /// Whether it reaches an outline.
     is_met: bool,
+    /// Whether it is a mark that is drawn over an edge, which is cut.
+    is_over: bool,
 }
 
 impl<'a> Probe<'a> {
@@ -48,11 +50,16 @@ impl<'a> Probe<'a> {
             extent.add(vertex.at);
         }
         let middle = extent.min + (extent.max - extent.min) / 2.0;
-        Self { line, places, extent, middle, is_met: false }
+        Self { line, places, extent, middle, is_met: false, is_over: false }
     }
 
     fn is_end(&self) -> bool {
         self.places.len() == 1
+    }
+
+    /// Whether all of it lies so near to a segment, mm.
+    fn lies_on(&self, [from, to]: [Point; 2], touch: f64) -> bool {
+        self.places.iter().all(|vertex| polyline::distance_to_segment(vertex.at, from, to) <= touch)
     }
 
     /// Whether it comes as near to a segment as `reach`, mm.
@@ -92,7 +99,7 @@ pub(super) fn find(search: Search) -> Beside {
         if work == 0 {
             break;
         }
-        let may_meet = |probe: &Probe| extent.holds(probe.middle) && !probe.is_met && !(is_notch && probe.is_end());
+        let may_meet = |probe: &Probe| extent.holds(probe.middle) && !(is_notch && probe.is_end());
         let near: Vec<usize> = (first..end).filter(|&k| may_meet(&probes[k])).collect();
         if near.is_empty() {
             continue;
@@ -110,16 +117,18 @@ pub(super) fn find(search: Search) -> Beside {
                     break;
                 }
                 work = work.saturating_sub(1);
-                if probe.is_met || !extent.overlaps(&probe.extent) {
+                if !extent.overlaps(&probe.extent) {
                     continue;
                 }
                 work = work.saturating_sub(probe.places.len());
+                let touch = TOUCH + ROUNDING * unit;
                 let reach = match (is_notch, probe.is_end()) {
-                    (true, _) => TOUCH + ROUNDING * unit,
+                    (true, _) => touch,
                     (false, true) => END_REACH,
                     (false, false) => MARK_REACH,
                 };
-                probe.is_met = probe.reaches(segment, reach);
+                probe.is_met |= probe.reaches(segment, reach);
+                probe.is_over |= !probe.is_end() && probe.lies_on(segment, touch);
             }
             if work == 0 {
                 break;
@@ -129,7 +138,7 @@ pub(super) fn find(search: Search) -> Beside {
     if work == 0 {
         return Beside { is_cut_short: true, ..Beside::default() };
     }
-    let mut met: Vec<&Probe> = probes.iter().filter(|probe| probe.is_met).collect();
+    let mut met: Vec<&Probe> = probes.iter().filter(|probe| probe.is_met && !probe.is_over).collect();
     met.sort_by_key(|probe| probe.line);
     let marks = met.iter().filter(|probe| !probe.is_end()).map(|probe| probe.line).collect();
     let ends: Vec<usize> = met.iter().filter(|probe| probe.is_end()).map(|probe| probe.line).collect();
