@@ -25,6 +25,10 @@ struct Arguments {
 
 const BYTES_PER_MB: f64 = 1e6;
 
+/// The allocator of `cutc` itself.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 fn main() -> io::Result<()> {
     let arguments = Arguments::parse();
     for path in &arguments.files {
