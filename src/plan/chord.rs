@@ -197,6 +197,7 @@ mod tests {
     use super::*;
     use crate::ir::toolpath::Law;
     use crate::machine::MachineProfile;
+    use crate::plan::law::tests::differences_agree;
     use crate::plan::law::{Course, Entry, Way};
     use crate::plan::smooth::smooth;
     use crate::plan::tube::Tube;
@@ -224,18 +225,7 @@ mod tests {
         for (which, curve) in curves.iter().enumerate() {
             for entry in [Entry::Plunge, Entry::Steady(9.0)] {
                 let way = way(curve, entry).expect("no tighter than the blade");
-                let h = 1e-4;
-                for i in 1..40 {
-                    let u = way.from + (way.to - way.from) * f64::from(i) / 40.0;
-                    let [before, here, after] = [u - h, u, u + h].map(|u| way.at(u).q);
-                    for k in 0..3 {
-                        for axis in 0..3 {
-                            let numeric = (after[k][axis] - before[k][axis]) / (2.0 * h);
-                            let off = (numeric - here[k + 1][axis]).abs();
-                            assert!(off < 1e-3 * (1.0 + numeric.abs()), "curve {which}, order {k}, axis {axis}, {u}");
-                        }
-                    }
-                }
+                differences_agree(&way, &format!("curve {which}"));
             }
         }
     }

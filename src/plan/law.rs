@@ -239,7 +239,7 @@ fn tangents(curve: &Curve) -> Vec<f64> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::machine::MachineProfile;
     use crate::plan::smooth::smooth;
@@ -256,23 +256,29 @@ mod tests {
         Way::new(curve, &Course { law: Law::Tangent, entry, to: 59.0, blade, near }).expect("a tangent is everywhere")
     }
 
+    /// The derivatives of a way are the differences of what they are derivatives of.
+    pub(in crate::plan) fn differences_agree(way: &Way, what: &str) {
+        let h = 1e-4;
+        for i in 1..40 {
+            let u = way.from + (way.to - way.from) * f64::from(i) / 40.0;
+            let [before, here, after] = [u - h, u, u + h].map(|u| way.at(u).q);
+            for k in 0..3 {
+                for axis in 0..3 {
+                    let numeric = (after[k][axis] - before[k][axis]) / (2.0 * h);
+                    let off = (numeric - here[k + 1][axis]).abs();
+                    assert!(off < 1e-3 * (1.0 + numeric.abs()), "{what}, order {k}, axis {axis}, {u}");
+                }
+            }
+        }
+    }
+
     #[test]
     fn derivatives_are_those_of_the_positions() {
         let curve = arc();
         for entry in [Entry::Plunge, Entry::Steady(3.0)] {
             let way = way(&curve, entry, Rotation(9.0));
             assert!((way.at(way.from).q[0][2] - 9.0).abs() <= std::f64::consts::PI);
-            let h = 1e-4;
-            for i in 1..40 {
-                let u = way.from + (way.to - way.from) * f64::from(i) / 40.0;
-                let [before, here, after] = [u - h, u, u + h].map(|u| way.at(u).q);
-                for k in 0..3 {
-                    for axis in 0..3 {
-                        let numeric = (after[k][axis] - before[k][axis]) / (2.0 * h);
-                        assert!((numeric - here[k + 1][axis]).abs() < 1e-3 * (1.0 + numeric.abs()), "{k} {axis} {u}");
-                    }
-                }
-            }
+            differences_agree(&way, "the tangent law");
         }
     }
 

@@ -15,9 +15,9 @@ fn a_nesting_that_was_cut_short_is_an_error() {
     assert!(within_patience("nested outlines", nested.into_bytes()).contains(&"hpgl/too-many-lines"));
 }
 
-/// The longest that a hostile file may take in a test build on a busy machine, far above what it takes: without a bound it
-/// would be hours.
-const PATIENCE: Duration = Duration::from_secs(180);
+/// The longest that a hostile file may take in a test build on a busy machine: some ten times what it takes on an idle one,
+/// and less than it takes when a guard is lacking.
+const PATIENCE: Duration = Duration::from_secs(60);
 
 fn within_patience(what: &str, bytes: Vec<u8>) -> Vec<&'static str> {
     in_time(what, bytes, &Job::default())
@@ -53,7 +53,7 @@ fn a_hundred_megabytes_of_garbage_are_refused_quickly() {
     assert!(found.iter().any(|code| ["hpgl/not-a-plot", "hpgl/encoding-damaged"].contains(code)), "{found:?}");
     let start = Instant::now();
     let detected = front::detect(&source(text), Some("plt"), &mut Diagnostics::default()).map(|dialect| dialect.name);
-    assert!(detected != Some("hpgl") && start.elapsed() < PATIENCE / 2);
+    assert!(detected != Some("hpgl") && start.elapsed() < PATIENCE / 30);
     for (what, word) in
         [("numbers", "1,"), ("semicolons", ";"), ("labels", "LB"), ("escapes", "\u{1b}%0B"), ("junk", "!?")]
     {
@@ -72,15 +72,15 @@ fn many(count: i64, line: &dyn Fn(i64) -> String) -> String {
 /// Some of these take a minute or more when a guard is lacking.
 #[test]
 fn drawings_made_to_be_slow_are_read_in_time_and_what_was_not_searched_is_said() {
-    let specks = many(120_000, &|i| rectangle(i % 500, i / 500, 1, 1) + "PU5,5;PD6,6;");
+    let specks = many(200_000, &|i| rectangle(i % 500, i / 500, 1, 1) + "PU5,5;PD6,6;");
     check("specks", &specks, &["hpgl/search-ended"]);
     let comb = rectangle(0, 100, 40_000, 10_000) + &many(40_000, &|i| format!("PU{i},100;PD{i},200;"));
     check("marks", &comb, &[]);
     let fan = many(60_000, &|i| format!("PU0,0;PD{i},900;"));
     check("strokes that all meet", &fan, &["hpgl/nothing-to-cut"]);
-    let bars = many(120_000, &|i| rectangle(0, 20 * i, 100_000, 10));
+    let bars = many(200_000, &|i| rectangle(0, 20 * i, 100_000, 10));
     check("outlines that lie beside each other", &bars, &["hpgl/too-many-lines"]);
-    let marks = many(120_000, &|i| format!("PU{},-1000;PD{},-1100;", i % 90_000, i % 90_000));
+    let marks = many(200_000, &|i| format!("PU{},-1000;PD{},-1100;", i % 90_000, i % 90_000));
     check(
         "marks beside many outlines",
         &(marks + &bars[..bars.len() / 2]),
