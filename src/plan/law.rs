@@ -6,6 +6,7 @@
 //! c' = X / n, c'' = X' / n - X n' / n^2, c''' = X'' / n - 2 X' n' / n^2 - X n'' / n^2 + 2 X n'^2 / n^3.
 
 use super::chord::{self, Chord, TooTight};
+use super::fade::Fade;
 use super::smooth::Curve;
 use crate::geom::{Point, Rotation, Vector, angle, cross, left, spline};
 use crate::ir::toolpath::{Law, Pose};
@@ -34,9 +35,8 @@ pub(super) struct Way<'a> {
     blade: Blade,
     /// Unwrapped tangent angle where each span starts, rad.
     tangents: Vec<f64>,
-    /// How far the tangent is ahead of the blade at the plunge, rad, and the length over which that fades, mm.
-    lead: f64,
-    fade: f64,
+    /// How far the tangent is ahead of a blade that plunged as a chord.
+    fade: Option<Fade>,
     /// The blade as a chord of the path, when that is its law.
     chord: Option<Chord>,
 }
@@ -80,7 +80,7 @@ impl<'a> Way<'a> {
     pub(super) fn new(curve: &'a Curve, course: &Course) -> Result<Self, TooTight> {
         let Course { law, entry, to, blade, near } = *course;
         let tangents = tangents(curve);
-        let mut way = Self { curve, from: 0.0, to, blade, tangents, lead: 0.0, fade: 0.0, chord: None };
+        let mut way = Self { curve, from: 0.0, to, blade, tangents, fade: None, chord: None };
         match entry {
             Entry::Steady(from) => way.from = from,
             Entry::Plunge => way.enter_as_chord(blade.width),
@@ -129,8 +129,8 @@ impl<'a> Way<'a> {
         }
         let there = self.point(self.from) - start;
         chord += angle::wrap(there.y.atan2(there.x) - chord);
-        self.lead = self.tangent(self.from) - chord;
-        self.fade = width.min(self.to - self.from);
+        let lead = self.tangent(self.from) - chord;
+        self.fade = Some(Fade::new(self.curve, [self.from, self.to], lead, width));
     }
 
     /// Where the distance from `start` passes `width` between two parameters.
@@ -176,12 +176,13 @@ impl<'a> Way<'a> {
             x1 / n - x * n1 / (n * n),
             x2 / n - 2.0 * x1 * n1 / (n * n) - x * n2 / (n * n) + 2.0 * x * n1 * n1 / (n * n * n),
         ];
-        if self.lead != 0.0 && u < self.from + self.fade {
-            for (value, fading) in c.iter_mut().zip(fading((u - self.from) / self.fade, self.fade)) {
-                *value -= self.lead * fading;
+        let pace = n.sqrt();
+        let paces = [pace, n1 / (2.0 * pace), n2 / (2.0 * pace) - n1 * n1 / (4.0 * n * pace)];
+        if let Some(lead) = self.fade.as_ref().and_then(|fade| fade.at(self.curve, u, paces)) {
+            for (value, lead) in c.iter_mut().zip(lead) {
+                *value -= lead;
             }
         }
-        let pace = n.sqrt();
         if self.blade.radius == 0.0 {
             return Axes { q: [[p.x, p.y, c[0]], [p1.x, p1.y, c[1]], [p2.x, p2.y, c[2]], [p3.x, p3.y, c[3]]], pace };
         }
@@ -206,18 +207,6 @@ impl<'a> Way<'a> {
         let inner = self.curve.breaks().iter().copied().filter(|&b| b > self.from && b < self.to);
         std::iter::once(self.from).chain(inner).chain(std::iter::once(self.to)).collect()
     }
-}
-
-/// 1 - S(x) and its derivatives by length, S the step of degree 7 with three vanishing derivatives at both ends.
-fn fading(x: f64, length: f64) -> [f64; 4] {
-    let x = x.clamp(0.0, 1.0);
-    let y = x * (1.0 - x);
-    [
-        1.0 - x.powi(4) * (35.0 - 84.0 * x + 70.0 * x * x - 20.0 * x.powi(3)),
-        -140.0 * y.powi(3) / length,
-        -420.0 * y * y * (1.0 - 2.0 * x) / (length * length),
-        -840.0 * y * (1.0 - 5.0 * y) / length.powi(3),
-    ]
 }
 
 /// Tangent angle where each span starts, without jumps, rad.

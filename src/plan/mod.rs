@@ -10,6 +10,7 @@ mod barrier;
 mod bound;
 mod certify;
 mod chord;
+mod fade;
 mod feed;
 mod knots;
 mod law;

@@ -1,0 +1,111 @@
+//! How the blade comes from the chord that it plunged as to the tangent of its path: over a way of its tip, as smoothly as
+//! the path itself.
+//!
+//! The lead of the tangent over the blade is what it was at the plunge times 1 - S(s / l), S the step of degree 7 with three
+//! vanishing derivatives at both ends, s the way of the tip and l the length of the fade. s is measured along the curve
+//! and not by its parameter: on a tight curve the two differ by more than a heading may be off.
+
+use super::smooth::Curve;
+use crate::geom::{Vector, spline};
+
+/// Positive nodes and weights of Gauss-Legendre quadrature with five points, and those of the middle: a span of a smooth
+/// curve is measured to rounding.
+const GAUSS_5: [(f64, f64); 3] = [
+    (0.0, 0.568_888_888_888_888_9),
+    (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
+    (0.906_179_845_938_664, 0.236_926_885_056_189_08),
+];
+/// Halvings that place the end of a fade: down to rounding from any span.
+const BISECTIONS: usize = 60;
+
+/// The lead of a path's tangent over the blade behind a plunge, by the parameter of its curve.
+#[derive(Debug)]
+pub(super) struct Fade {
+    /// Parameters where it is measured from: the plunge, and the breaks of the curve up to the end of the fade.
+    breaks: Vec<f64>,
+    /// Way of the tip up to each of them, mm.
+    ways: Vec<f64>,
+    /// Parameter at its end.
+    to: f64,
+    /// The lead at the plunge, rad.
+    lead: f64,
+    /// Way over which it fades, mm.
+    length: f64,
+}
+
+/// Speed of the tip along its curve and its derivatives, by the parameter.
+pub(super) type Pace = [f64; 3];
+
+impl Fade {
+    /// The fade of `lead` over at most `length` mm of the curve between two parameters.
+    pub(super) fn new(curve: &Curve, [from, to]: [f64; 2], lead: f64, length: f64) -> Self {
+        let mut fade = Self { breaks: vec![from], ways: vec![0.0], to, lead, length };
+        let inner = curve.breaks().iter().copied().filter(|&b| b > from && b < to);
+        for end in inner.chain(std::iter::once(to)) {
+            let (last, way) = (fade.breaks[fade.breaks.len() - 1], fade.ways[fade.ways.len() - 1]);
+            let part = way_between(curve, [last, end]);
+            if way + part >= length {
+                fade.to = fade.end_in(curve, [last, end], length - way);
+                return fade;
+            }
+            fade.breaks.push(end);
+            fade.ways.push(way + part);
+        }
+        fade.length = fade.ways[fade.ways.len() - 1];
+        fade
+    }
+
+    /// The parameter between two at which the way from the first is `way`.
+    fn end_in(&self, curve: &Curve, [from, to]: [f64; 2], way: f64) -> f64 {
+        let (mut low, mut high) = (from, to);
+        for _ in 0..BISECTIONS {
+            let middle = f64::midpoint(low, high);
+            if way_between(curve, [from, middle]) < way {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        high
+    }
+
+    /// What is left of the lead at a parameter, rad, and its derivatives up to the third; `None` when nothing is.
+    pub(super) fn at(&self, curve: &Curve, u: f64, [s1, s2, s3]: Pace) -> Option<[f64; 4]> {
+        if u >= self.to || self.lead == 0.0 {
+            return None;
+        }
+        let i = self.breaks.partition_point(|&b| b <= u).max(1) - 1;
+        let way = self.ways[i] + way_between(curve, [self.breaks[i], u]);
+        let [f, f1, f2, f3] = step_down(way, self.length);
+        // The chain rule for f(s(u)).
+        let d = [f, f1 * s1, f2 * s1 * s1 + f1 * s2, f3 * s1.powi(3) + 3.0 * f2 * s1 * s2 + f1 * s3];
+        Some(d.map(|value| self.lead * value))
+    }
+}
+
+/// The way along a curve between two parameters of one span, mm.
+fn way_between(curve: &Curve, [from, to]: [f64; 2]) -> f64 {
+    let (middle, half) = (f64::midpoint(from, to), 0.5 * (to - from));
+    let span = spline::span(curve.breaks(), middle);
+    let pace = |u: f64| {
+        let [_, d] = curve.derivatives_on::<2>(span, u);
+        Vector::new(d[0], d[1]).norm()
+    };
+    let pair = |(node, weight): (f64, f64)| {
+        let outer = if node > 0.0 { pace(middle - half * node) } else { 0.0 };
+        weight * (outer + pace(middle + half * node))
+    };
+    half * GAUSS_5.into_iter().map(pair).sum::<f64>()
+}
+
+/// 1 - S(x) at a way along a length, and its derivatives by the way.
+fn step_down(way: f64, length: f64) -> [f64; 4] {
+    let x = (way / length).clamp(0.0, 1.0);
+    let y = x * (1.0 - x);
+    [
+        1.0 - x.powi(4) * (35.0 - 84.0 * x + 70.0 * x * x - 20.0 * x.powi(3)),
+        -140.0 * y.powi(3) / length,
+        -420.0 * y * y * (1.0 - 2.0 * x) / (length * length),
+        -840.0 * y * (1.0 - 5.0 * y) / length.powi(3),
+    ]
+}
