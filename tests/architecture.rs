@@ -63,9 +63,11 @@ const NO_GRAMMAR: &[(&str, &str)] = &[];
 
 /// Source files in the folder of a table that are no entry of it, and why.
 const BESIDE_A_TABLE: &[(&str, &str)] = &[
+    ("bow", "says how a blade lies over the start of a run, for the passes that act on it"),
     ("chord", "finds where a blade cannot be a chord of a run, for the pass that acts on it"),
     ("foreign", "names the formats that are no dialect of ours"),
     ("frame", "makes the one toolpath that no pass edits"),
+    ("nibble", "parts runs into plunges for the pass that nibbles"),
     ("notches", "draws notches in the style of the profile, before a pass edits them"),
     ("scene", "holds what passes look at beside a toolpath"),
     ("stretch", "parts runs for the passes that lift the knife amid one"),

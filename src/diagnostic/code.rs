@@ -192,6 +192,8 @@ mod table {
     // The knife's way.
     /// A smooth closed contour too small for the blade.
     pub static PATH_TIGHT: Code = warning("path/tight-contour", "A smooth closed contour is narrower than the blade; it is cut all the same.");
+    /// A cut that begins on a curve from which the blade's body lies away.
+    pub static PATH_BOWED_PLUNGE: Code = warning("path/bowed-plunge", "A cut begins on a curve, and the body of the plunged blade cuts beside it by more than `knife.max_bow_mm`.");
     /// A curve too tight for the blade.
     pub static PATH_TIGHT_CURVE: Code = warning("path/tight-curve", "A curve is tighter than the blade, which would stand across it: it is cut along the tangent, or nibbled, as `knife.tight_curves` says.");
     /// The same, refused.
@@ -311,6 +313,7 @@ pub static ALL: &[&Code] = &[
     &SELECT_UNKNOWN_PIECE,
     &SELECT_NOTHING_LEFT,
     &PATH_TIGHT,
+    &PATH_BOWED_PLUNGE,
     &PATH_TIGHT_CURVE,
     &PATH_TIGHT_CURVE_REFUSED,
     &PATH_SHORTENED,

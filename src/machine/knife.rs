@@ -50,6 +50,8 @@ pub struct Knife {
     pub follow: Follow,
     /// What is done about curves that are tighter than the blade.
     pub tight_curves: TightCurves,
+    /// How far the body of a plunged blade may cut beside a curve that begins there, mm, before it is worth a word.
+    pub max_bow_mm: f64,
     /// Number of cutting edges: a blade with two may run either way round.
     pub edges: u32,
     /// Constant correction added to the blade's angle, degrees: how far the axis stands ahead of the blade.
@@ -164,6 +166,7 @@ impl Default for Knife {
             max_down_mm: None,
             follow: Follow::Tangent,
             tight_curves: TightCurves::Follow,
+            max_bow_mm: 0.5,
             edges: 1,
             yaw_deg: 0.0,
         }

@@ -22,6 +22,10 @@ const STEP: f64 = 0.1;
 const TURN_MIN: f64 = 0.8;
 /// Length of a line on which it turns that much where it is tight, in widths of the blade: twice what a blade may span.
 const WIDTHS: f64 = 3.0;
+/// Part of the bow from which on a line is nibbled at which it may be, because rounding and overlaps matter.
+const BOW_SHARE: f64 = 0.9;
+/// Greatest part of the turn under a blade that one vertex of a curve makes, by a little; one that makes more is a bend.
+const BEND_SHARE: f64 = 0.55;
 /// Halvings that place the tail between two tips: to a millionth of the way between them.
 const HALVINGS: usize = 20;
 
@@ -147,10 +151,34 @@ pub(super) fn tight(points: &[Point], ring: bool, knife: &Knife) -> Vec<[f64; 2]
     found
 }
 
-/// Whether all of a line may be so near to its start, overlap and all, that a blade has no way to go on it.
-pub(super) fn is_narrow(points: &[Point], knife: &Knife) -> bool {
-    let heel = knife.heel_overlap_mm.max(knife.corner_heel_overlap_mm);
-    polyline::first_at_distance(points, knife.width_mm + heel).is_none()
+/// Whether a line begins at either end on a curve that a blade, plunged as a chord of it, may not enter, or may lie farther
+/// beside than `knife.max_bow_mm`.
+pub(super) fn bows_at_an_end(points: &[Point], knife: &Knife) -> bool {
+    if knife.width_mm == 0.0 || points.len() < 3 {
+        return false;
+    }
+    let backwards: Vec<Point> = points.iter().rev().copied().collect();
+    let heels = [0.0, knife.heel_overlap_mm, knife.corner_heel_overlap_mm];
+    [points, &backwards].iter().any(|path| heels.iter().any(|&heel| bows(path, heel, knife)))
+}
+
+/// The same for the start of a path, by a heel overlap.
+fn bows(path: &[Point], heel: f64, knife: &Knife) -> bool {
+    let Some(along) = polyline::direction(path[0], path[1]) else { return false };
+    let tail = path[0] - along * heel;
+    let near = path.iter().position(|point| (point - tail).norm() >= knife.width_mm).unwrap_or(path.len() - 1);
+    let mut under = vec![tail];
+    under.extend(path[usize::from(heel == 0.0)..=near].iter());
+    let tip = polyline::first_at_distance(&under, knife.width_mm).map_or(path[near], |(tip, _)| tip);
+    let behind = path.get(near + 1).copied();
+    under.extend(behind);
+    let turns: Vec<f64> = under.windows(3).map(|w| polyline::turn_at(w[0], w[1], w[2]).abs()).collect();
+    let turned: f64 = turns.iter().sum();
+    let is_curve = turns.iter().all(|&turn| turn <= BEND_SHARE * turned);
+    let body = &under[..under.len() - usize::from(behind.is_some())];
+    let away = body.iter().map(|&point| polyline::distance_to_segment(point, tail, tip)).fold(0.0, f64::max);
+    let is_across = stands_across(tip - tail, along);
+    is_curve && (is_across || away > polyline::sagitta((tip - tail).norm(), turned).min(BOW_SHARE * knife.max_bow_mm))
 }
 
 /// A line led straight on by its greatest overlaps, or a ring twice round; and the station of its first point there.

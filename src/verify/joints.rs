@@ -10,6 +10,9 @@ use crate::machine::Knife;
 /// Part of a line on which a bend is looked at, in widths of the blade: more than it can lie on.
 const WIDTHS: f64 = 4.0;
 
+/// Least part of the turn under a blade that one vertex makes where there is a bend, by a little: a curve is nibbled.
+const CURVE_SHARE: f64 = 0.45;
+
 /// Finds joints.
 #[derive(Debug)]
 pub(super) struct Joints {
@@ -19,6 +22,8 @@ pub(super) struct Joints {
     /// How far a tip may stand past one, mm.
     pub(super) fronts: [f64; 3],
     longest: Option<f64>,
+    /// How far the body of a plunged blade may lie beside a curve before that is worth a word, mm.
+    max_bow: f64,
 }
 
 /// A stretch of a line on which a joint is looked for.
@@ -39,6 +44,7 @@ impl Joints {
             heels: [0.0, knife.heel_overlap_mm, knife.corner_heel_overlap_mm],
             fronts: [0.0, knife.front_overlap_mm, knife.corner_front_overlap_mm],
             longest: knife.longest_cut(),
+            max_bow: knife.max_bow_mm,
         }
     }
 
@@ -48,13 +54,37 @@ impl Joints {
         line.winds || line.nibbled || self.longest.is_some_and(|longest| line.length() > longest)
     }
 
+    /// How far a line may bow away from the body of a blade that plunges with its tail and its tip at two stations, mm: at
+    /// ends and bends, and where the knife was down for too long, as far as it does. On a line that is nibbled a blade that
+    /// never moves lies near to what it cuts, unless that is all there is between two of them, and any other bows by no
+    /// more than is worth no word.
+    pub(super) fn bow(&self, line: &Line, [tail, tip]: [Around; 2], is_stab: bool) -> f64 {
+        let is_at = |around: Around| self.at_end_or_bend(line, around).is_some();
+        let is_open = match (line.nibbled, is_stab) {
+            (true, true) => is_at(tail) && is_at(tip),
+            (false, true) => self.are_anywhere(line) || is_at(tail) || is_at(tip),
+            (true, false) => is_at(tail),
+            (false, false) => self.are_anywhere(line) || is_at(tail),
+        };
+        match is_open {
+            true => f64::INFINITY,
+            false if is_stab || !line.nibbled => 0.0,
+            false => self.max_bow,
+        }
+    }
+
     /// The stations of the first and the last joint about a station; `None` when there is none.
     pub(super) fn near(&self, line: &Line, around: Around) -> Option<[f64; 2]> {
-        let Around { station, slack, tube } = around;
-        let length = line.length();
         if self.are_anywhere(line) {
             return Some([f64::NEG_INFINITY, f64::INFINITY]);
         }
+        self.at_end_or_bend(line, around)
+    }
+
+    /// The same for ends and bends alone.
+    fn at_end_or_bend(&self, line: &Line, around: Around) -> Option<[f64; 2]> {
+        let Around { station, slack, tube } = around;
+        let length = line.length();
         if line.ring {
             return None;
         }
@@ -96,11 +126,14 @@ impl Joints {
         let (tip, chord) =
             polyline::first_at_distance(path, self.width).unwrap_or((path[path.len() - 1], path.len() - 2));
         // The chord that is being left counts, too: a curve turns along its chords, not at its vertices.
-        let turned: f64 = path.windows(3).take(chord + 1).map(|w| polyline::turn_at(w[0], w[1], w[2]).abs()).sum();
+        let turn = |w: &[Point]| polyline::turn_at(w[0], w[1], w[2]).abs();
+        let turned: f64 = path.windows(3).take(chord + 1).map(turn).sum();
+        let sharpest = path.windows(3).take(chord + 1).map(turn).fold(0.0, f64::max);
         let away = polyline::distance_to_segment(path[vertex], path[0], tip);
         let blade = tip - path[0];
         let is_across = polyline::direction(path[0], path[1]).is_some_and(|first| stands_across(blade, first));
-        vertex <= chord && (is_across || away > polyline::sagitta(blade.norm(), turned))
+        let is_bent = sharpest > CURVE_SHARE * turned;
+        vertex <= chord && is_bent && (is_across || away > polyline::sagitta(blade.norm(), turned))
     }
 }
 

@@ -48,7 +48,7 @@ pub(super) struct Line {
     pub(super) winds: bool,
     /// By the stations of tail and tip: where it is too tight for the blade to be its chord.
     pub(super) tight: Vec<[f64; 2]>,
-    /// Whether it is nibbled there: cut by plunges without motion.
+    /// Whether it may be nibbled: cut by plunges without motion.
     pub(super) nibbled: bool,
 }
 
@@ -102,11 +102,13 @@ impl<'a> Reference<'a> {
         }
         let knife = &profile.knife;
         for line in &mut lines {
-            let is_narrow = !line.ring && chord::is_narrow(&line.points, knife);
-            if is_narrow || knife.follow == Follow::Chord || knife.tight_curves == TightCurves::Nibble {
+            // What begins on a curve that the blade has no way to enter may be nibbled, whatever is done about others.
+            let is_bowed = !line.ring && chord::bows_at_an_end(&line.points, knife);
+            let is_nibbling = knife.tight_curves == TightCurves::Nibble;
+            if is_bowed || is_nibbling || knife.follow == Follow::Chord {
                 line.tight = chord::tight(&line.points, line.ring, knife);
-                line.nibbled = (is_narrow || knife.tight_curves == TightCurves::Nibble) && !line.tight.is_empty();
             }
+            line.nibbled = is_bowed || is_nibbling && !line.tight.is_empty();
         }
         events.extend(marker.closing.iter().map(|_| rank()));
         Self { marker, lines, holes, events, tolerance: profile.tolerance(marker.unit) }

@@ -201,10 +201,13 @@ impl Tracer<'_> {
             fits: None,
             hull: [0.0; 2],
         };
-        // What nibbles is within the tolerance of what it cuts.
-        let is_exact = laps || line.nibbled && cut.is_stab();
-        let mut body = if is_exact { Body::default() } else { Body::new(line, cut, &trial.feet, allowed) };
-        if body.sag > allowed && !self.may_bow(line, body.ends.map(|end| trial.feet[end].station), cut) {
+        let mut body = if laps { Body::default() } else { Body::new(line, cut, &trial.feet, allowed) };
+        let around = |end: usize| Around { station: trial.feet[end].station, slack: 2.0 * allowed, tube: 0.0 };
+        let bow = self.joints.bow(line, body.ends.map(around), cut.is_stab());
+        if line.nibbled && cut.is_stab() && bow == 0.0 {
+            // What nibbles is within the tolerance of what it cuts.
+            body = Body::default();
+        } else if body.sag > allowed && body.sag > bow + allowed {
             body.sag = 0.0;
         }
         let off = |i: usize, foot: &Foot| if i < cut.body { body.off(i, foot) } else { foot.deviation };
@@ -255,14 +258,6 @@ impl Tracer<'_> {
             }
         }
         trial
-    }
-
-    /// Whether the path may bow away from a blade that plunges with its ends at two stations: where a stroke begins at a
-    /// joint, or a stab ends at one.
-    fn may_bow(&self, line: &Line, [tail, tip]: [f64; 2], cut: &Cut) -> bool {
-        let slack = 2.0 * self.allowed;
-        let is_joint = |station: f64| self.joints.near(line, Around { station, slack, tube: 0.0 }).is_some();
-        is_joint(tail) || cut.is_stab() && is_joint(tip)
     }
 }
 

@@ -148,13 +148,16 @@ fn crossing([from, to]: [Point; 2], centre: Point, width: f64, sign: f64) -> Opt
     (root >= 0.0).then(|| from + d * ((-half + sign * root.sqrt()) / square).clamp(0.0, 1.0))
 }
 
+/// Radius at an inner vertex of a path, mm: that of the arc with its shorter chord and its turn.
+pub(super) fn radius(path: &[Point], vertex: usize) -> f64 {
+    let [a, b, c] = [path[vertex - 1], path[vertex], path[vertex + 1]];
+    (b - a).norm().min((c - b).norm()) / (2.0 * (polyline::turn_at(a, b, c).abs() / 2.0).sin())
+}
+
 /// From the first to the last of some vertices that belong to curves tighter than the blade is wide, or of all when none
 /// does; `None` when there are none at all.
 fn stretch(path: &[Point], vertices: RangeInclusive<usize>, width: f64) -> Option<Tight> {
-    let radius = |vertex: usize| {
-        let [a, b, c] = [path[vertex - 1], path[vertex], path[vertex + 1]];
-        (b - a).norm().min((c - b).norm()) / (2.0 * (polyline::turn_at(a, b, c).abs() / 2.0).sin())
-    };
+    let radius = |vertex: usize| radius(path, vertex);
     let at = vertices.clone().min_by(|&a, &b| radius(a).total_cmp(&radius(b)))?;
     let (first, last) = (*vertices.start(), *vertices.end());
     // What goes on as tight as that belongs to the same curve, whether or not the blade could be a chord of its end.

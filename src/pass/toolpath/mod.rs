@@ -3,11 +3,13 @@
 //! [`trace()`] makes it: one run as the file has it. The passes split it at corners, give it overlaps, and place it. They
 //! look at the cloth around it, the [`Scene`]: an overlap goes into the waste.
 
+mod bow;
 mod chord;
 mod corner;
 mod down;
 mod entry;
 mod frame;
+mod nibble;
 mod notches;
 mod overlap;
 mod place;

@@ -10,11 +10,15 @@
 //!   overlap, and beyond the step lies outside the curve, along its tangent.
 //! - `refuse`: an error.
 //!
+//! A cut that begins on a curve is too tight there, too, when the blade that plunges as a chord of it would lie farther
+//! beside it than `knife.max_bow_mm`: `follow` says so, and nibbles only what that blade cannot enter at all.
+//!
 //! Leaves no run with the chord law that the blade cannot be a chord of.
 
+use super::bow::bowed_start;
 use super::chord::{Tight, tight};
+use super::nibble::parts;
 use super::scene::{Around, Scene};
-use super::stretch::{REJOINED, Way};
 use super::{ToolpathPass, overlap};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::polyline;
@@ -30,54 +34,84 @@ pub(super) const PASS: ToolpathPass = ToolpathPass {
     chained: false,
 };
 
-/// Part of the tolerance by which a plunge may pass a vertex; rounding takes a little of the rest.
-const NIBBLE_SHARE: f64 = 0.9;
 /// Turn of a run without which the blade never stands across it, rad: a little less than the angle whose cosine is 0.4.
 const TURN_MIN: f64 = 1.15;
-/// Halvings that make plunges alike: to a thousandth of a curve, which is finer than its chords.
-const HALVINGS: usize = 10;
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     let around = scene.around(toolpath);
-    let knife = around.knife();
-    if knife.width_mm == 0.0 {
+    if around.knife().width_mm == 0.0 {
         return;
     }
-    let mut worst = Worst::default();
+    let mut settling = Settling { around, steps: Vec::new(), tight: Worst::default(), bowed: Bowed::default(), plunges: 0 };
     for step in std::mem::take(&mut toolpath.steps) {
-        let mut run = match step {
-            Step::Run(run) => run,
+        match step {
+            Step::Run(run) => settling.settle(run),
             Step::Stab(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {
-                toolpath.steps.push(step);
-                continue;
-            }
-        };
-        let curves = tight_curves(&run, &around);
-        if curves.is_empty() {
-            toolpath.steps.push(Step::Run(run));
-            continue;
-        }
-        let done = match knife.tight_curves {
-            TightCurves::Nibble => Done::Nibbled,
-            TightCurves::Follow if is_one_plunge(&run, &around) => Done::Nibbled,
-            TightCurves::Follow => Done::Followed(run.law),
-            TightCurves::Refuse => Done::Refused,
-        };
-        worst.see((&run, done), &curves);
-        match done {
-            Done::Nibbled => {
-                for part in parts(&run, &curves, &around) {
-                    worst.plunges += usize::from(part.is_plunge);
-                    toolpath.steps.push(Step::Run(part.run));
-                }
-            }
-            Done::Followed(_) | Done::Refused => {
-                run.law = Law::Tangent;
-                toolpath.steps.push(Step::Run(run));
+                settling.steps.push(step);
             }
         }
     }
-    worst.report(&around, diagnostics);
+    settling.report(diagnostics);
+    toolpath.steps = settling.steps;
+}
+
+/// The steps of a toolpath whose tight curves are being settled, and what there is to say about them.
+struct Settling<'a> {
+    around: Around<'a>,
+    steps: Vec<Step>,
+    tight: Worst,
+    bowed: Bowed,
+    plunges: usize,
+}
+
+impl Settling<'_> {
+    fn settle(&mut self, mut run: Run) {
+        let around = self.around;
+        let mut curves = tight_curves(&run, &around);
+        let start = bowed_start(&run, &around);
+        let is_nibbled = match around.knife().tight_curves {
+            TightCurves::Nibble => true,
+            TightCurves::Follow => is_one_plunge(&run, &around),
+            TightCurves::Refuse => false,
+        };
+        let done = match around.knife().tight_curves {
+            _ if is_nibbled => Done::Nibbled,
+            TightCurves::Nibble | TightCurves::Follow => Done::Followed(run.law),
+            TightCurves::Refuse => Done::Refused,
+        };
+        self.tight.see((&run, done), &curves);
+        // What the blade cannot enter is nibbled even where curves are followed.
+        let is_start_nibbled = is_nibbled || done.is_followed() && start.as_ref().is_some_and(|start| !start.bow.fits);
+        if let (Some(start), true) = (&start, curves.is_empty() || !is_nibbled) {
+            self.bowed.see(start.bow.away, run.spans[0], if is_start_nibbled { Done::Nibbled } else { done });
+        }
+        if !is_nibbled && !curves.is_empty() {
+            run.law = Law::Tangent;
+        }
+        if !is_nibbled {
+            curves.clear();
+        }
+        if let (Some(start), true) = (start, is_start_nibbled) {
+            curves.insert(0, start.curve);
+        }
+        if curves.is_empty() {
+            self.steps.push(Step::Run(run));
+            return;
+        }
+        for part in parts(&run, &joined(curves), &around) {
+            if part.is_plunge {
+                self.plunges += 1;
+                self.steps.push(Step::Run(part.run));
+            } else {
+                self.settle(part.run);
+            }
+        }
+    }
+
+    fn report(&self, diagnostics: &mut Diagnostics) {
+        self.tight.report(self, diagnostics);
+        self.bowed.report(self, diagnostics);
+    }
 }
 
 /// What is done about a tight curve.
@@ -87,6 +121,12 @@ enum Done {
     Followed(Law),
     Nibbled,
     Refused,
+}
+
+impl Done {
+    fn is_followed(self) -> bool {
+        matches!(self, Self::Followed(_))
+    }
 }
 
 /// Whether all of an open run is so near to its start that the blade has no way to go on it, and would cut across.
@@ -105,8 +145,13 @@ fn tight_curves(run: &Run, around: &Around) -> Vec<Tight> {
     }
     let mut whole = run.clone();
     overlap::give(&mut whole, around);
+    joined(tight(&whole, around.knife().width_mm))
+}
+
+/// Curves in order, those that meet joined.
+fn joined(curves: Vec<Tight>) -> Vec<Tight> {
     let mut joined: Vec<Tight> = Vec::new();
-    for next in tight(&whole, around.knife().width_mm) {
+    for next in curves {
         match joined.last_mut() {
             Some(last) if next.vertices.start() <= last.vertices.end() => {
                 let end = *last.vertices.end().max(next.vertices.end());
@@ -119,103 +164,10 @@ fn tight_curves(run: &Run, around: &Around) -> Vec<Tight> {
     joined
 }
 
-/// A part of a run, and whether it is meant to be one plunge.
-struct Part {
-    run: Run,
-    is_plunge: bool,
-}
-
-/// What becomes of a run whose tight curves, one at least, are nibbled: what lies before, between and behind them, and the plunges.
-fn parts(run: &Run, curves: &[Tight], around: &Around) -> Vec<Part> {
-    let way = Way::new(run);
-    let chords = way.chords();
-    // A ring begins at its first tight curve and ends where that begins again; an open run has its own ends.
-    let start = if way.is_ring() { *curves[0].vertices.start() } else { 0 };
-    let end = start + chords;
-    let station = |vertex: usize| way.station(vertex.cast_signed());
-    // What lies before or behind a curve and is shorter than the blade is cut with it: it could only be a plunge, too.
-    let is_short = |from: usize, to: usize| station(to) - station(from) < around.knife().width_mm;
-    let mut stretches: Vec<[usize; 2]> = Vec::new();
-    for curve in curves {
-        let (from, to) = ((*curve.vertices.start()).max(start), (*curve.vertices.end()).min(end));
-        let behind = stretches.last().map_or(start, |last| last[1]);
-        let from = if is_short(behind, from) { behind } else { from };
-        let to = if is_short(to, end) { end } else { to };
-        match stretches.last_mut() {
-            Some(last) if from <= last[1] => last[1] = to.max(last[1]),
-            _ => stretches.push([from, to]),
-        }
-    }
-    let mut parts = Vec::new();
-    let mut add = |[from, to]: [usize; 2], is_plunge: bool| {
-        let is_end = [from == 0, to == chords].map(|is_end| is_end && !way.is_ring());
-        let ends = [0, 1].map(|i| if is_end[i] { run.ends[i] } else { REJOINED });
-        parts.push(Part { run: way.part(station(from), station(to), ends), is_plunge });
-    };
-    let mut at = start;
-    for [from, to] in stretches {
-        if from > at {
-            add([at, from], false);
-        }
-        for piece in nibbles(&way, [from, to], NIBBLE_SHARE * around.tolerance()) {
-            add(piece, true);
-        }
-        at = to;
-    }
-    if at < end {
-        add([at, end], false);
-    }
-    parts
-}
-
-/// The pieces of a stretch between two vertices, each within `allowed` of its chord: as few as there can be, and of these
-/// the ones whose longest is shortest, because what the blade before has cut is no piece.
-fn nibbles(way: &Way, stretch: [usize; 2], allowed: f64) -> Vec<[usize; 2]> {
-    let station = |vertex: usize| way.station(vertex.cast_signed());
-    let pieces = |longest: f64| {
-        let [mut from, last] = stretch;
-        let mut pieces = Vec::new();
-        while from < last {
-            let is_near = |to: usize| {
-                let (a, b) = (way.vertex(from), way.vertex(to));
-                (from + 1..to).all(|vertex| polyline::distance_to_segment(way.vertex(vertex), a, b) <= allowed)
-            };
-            let is_in = |to: &usize| station(*to) - station(from) <= longest && is_near(*to);
-            // Twice as far each time, then halving: each look costs as much as it looks at.
-            let (mut to, mut step) = (from + 1, 1);
-            while to + step <= last && is_in(&(to + step)) {
-                (to, step) = (to + step, 2 * step);
-            }
-            while step > 0 {
-                if to + step <= last && is_in(&(to + step)) {
-                    to += step;
-                }
-                step /= 2;
-            }
-            pieces.push([from, to]);
-            from = to;
-        }
-        pieces
-    };
-    let length = station(stretch[1]) - station(stretch[0]);
-    let fewest = pieces(length).len();
-    let (mut low, mut high) = (0.0, length);
-    for _ in 0..HALVINGS {
-        let middle = f64::midpoint(low, high);
-        if pieces(middle).len() > fewest {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    pieces(high)
-}
-
 /// The tightest curve of a toolpath.
 #[derive(Default)]
 struct Worst {
     curves: usize,
-    plunges: usize,
     /// Its radius, mm, its source, and what is done about it.
     tightest: Option<(f64, Span, Done)>,
 }
@@ -230,9 +182,9 @@ impl Worst {
         }
     }
 
-    fn report(&self, around: &Around, diagnostics: &mut Diagnostics) {
+    fn report(&self, settling: &Settling, diagnostics: &mut Diagnostics) {
         let Some((radius, span, done)) = self.tightest else { return };
-        let width = around.knife().width_mm;
+        let width = settling.around.knife().width_mm;
         let swing = fixed(radius.hypot(width) - radius, 2);
         let (code, done) = match done {
             Done::Followed(Law::Chord) => (
@@ -242,13 +194,10 @@ impl Worst {
             Done::Followed(Law::Tangent) => {
                 (&code::PATH_TIGHT_CURVE, format!("its heel leaves the line by up to {swing} mm"))
             }
-            Done::Nibbled => (&code::PATH_TIGHT_CURVE, format!("nibbled with {} plunges", self.plunges)),
+            Done::Nibbled => (&code::PATH_TIGHT_CURVE, format!("nibbled with {} plunges", settling.plunges)),
             Done::Refused => (&code::PATH_TIGHT_CURVE_REFUSED, "refused by `knife.tight_curves`".to_owned()),
         };
-        let more = match self.curves - 1 {
-            0 => String::new(),
-            n => format!(" ({n} more in this contour)"),
-        };
+        let more = and_more(self.curves);
         let (block, radius, width) = (span.block, fixed(radius, 2), fixed(width, 2));
         let message = format!(
             "block {block}: a curve of radius {radius} mm is tighter than the blade of {width} mm: {done}{more}"
@@ -258,5 +207,50 @@ impl Worst {
                 .at(span)
                 .hint("a narrower blade follows it; `knife.tight_curves` is \"follow\", \"nibble\" or \"refuse\""),
         );
+    }
+}
+
+/// The start of a toolpath's runs that bows the most away from the blade that plunges there.
+#[derive(Default)]
+struct Bowed {
+    starts: usize,
+    /// How far, mm, its source, and what is done about it.
+    worst: Option<(f64, Span, Done)>,
+}
+
+impl Bowed {
+    fn see(&mut self, away: f64, span: Span, done: Done) {
+        self.starts += 1;
+        if self.worst.is_none_or(|(worst, ..)| away > worst) {
+            self.worst = Some((away, span, done));
+        }
+    }
+
+    fn report(&self, settling: &Settling, diagnostics: &mut Diagnostics) {
+        let Some((away, span, done)) = self.worst else { return };
+        let (code, done) = match done {
+            Done::Followed(_) => (&code::PATH_BOWED_PLUNGE, "it cuts that far beside the line".to_owned()),
+            Done::Nibbled => (&code::PATH_BOWED_PLUNGE, format!("nibbled with {} plunges", settling.plunges)),
+            Done::Refused => (&code::PATH_TIGHT_CURVE_REFUSED, "refused by `knife.tight_curves`".to_owned()),
+        };
+        let (block, away, more) = (span.block, fixed(away, 2), and_more(self.starts));
+        let width = fixed(settling.around.knife().width_mm, 2);
+        let message = format!(
+            "block {block}: a cut begins on a curve, which bows {away} mm away from the plunged blade of {width} mm: {done}{more}"
+        );
+        diagnostics.push(
+            Diagnostic::new(code, message)
+                .at(span)
+                .hint("a narrower blade bows less; so does a corner that is drawn where the outline is straighter")
+                .hint("`knife.tight_curves = \"nibble\"` cuts such starts by steps, from `knife.max_bow_mm` on"),
+        );
+    }
+}
+
+/// How many others like the one that is named there are.
+fn and_more(count: usize) -> String {
+    match count - 1 {
+        0 => String::new(),
+        n => format!(" ({n} more in this contour)"),
     }
 }

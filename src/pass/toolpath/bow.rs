@@ -1,0 +1,103 @@
+//! How a blade lies over the start of a run, where it plunges as a chord.
+
+use super::chord::{Tight, radius, stands_across};
+use super::overlap;
+use super::scene::Around;
+use super::stretch::{REJOINED, Way};
+use crate::geom::polyline;
+use crate::ir::toolpath::{Run, Shape};
+
+/// Part of the tolerance that the polyline may take here; smoothing moves the tip by up to the rest.
+const SHARE: f64 = 0.45;
+/// Greatest part of all the turn under a blade that one vertex of a curve makes; one that makes more is a bend.
+const BEND_SHARE: f64 = 0.5;
+/// Length of a run, in widths of the blade, that is looked at from where it plunges: on any curve that it lies on it spans
+/// less.
+const REACH: f64 = 4.0;
+
+/// A blade plunged at the start of an open run, its tail where the heel overlap begins, its tip on the run or at its end.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Bow {
+    /// The vertex of the run under the blade that lies farthest beside it.
+    pub(super) at: usize,
+    /// How far that is, mm.
+    pub(super) away: f64,
+    /// Whether that is no more than on an arc that turns as much, and the blade does not stand across it.
+    pub(super) fits: bool,
+    /// Whether what lies under it turns little by little, and not at one bend.
+    pub(super) is_curve: bool,
+}
+
+impl Bow {
+    /// `None` when there is no vertex under the blade.
+    pub(super) fn new(run: &Run, around: &Around) -> Option<Self> {
+        let mut run = run.clone();
+        overlap::give(&mut run, around);
+        let path = run.extended();
+        let skipped = usize::from(run.heel > 0.0);
+        let (tip, chord) = polyline::first_at_distance(&path, around.knife().width_mm)
+            .unwrap_or((path[path.len() - 1], path.len() - 2));
+        // The chord that is being left counts, too: a curve turns along its chords, not at its vertices.
+        let turns: Vec<f64> =
+            path.windows(3).take(chord + 1).map(|w| polyline::turn_at(w[0], w[1], w[2]).abs()).collect();
+        let turned: f64 = turns.iter().sum();
+        let blade = tip - path[0];
+        let is_across = polyline::direction(path[0], path[1]).is_some_and(|first| stands_across(blade, first));
+        let arc = if is_across { 0.0 } else { polyline::sagitta(blade.norm(), turned) };
+        let away = |i: usize| polyline::distance_to_segment(path[i], path[0], tip);
+        let inner = (skipped + 1..=chord).filter(|&i| i - skipped + 1 < run.points.len());
+        let worst = inner.max_by(|&a, &b| away(a).total_cmp(&away(b)))?;
+        Some(Self {
+            at: worst - skipped,
+            away: away(worst),
+            fits: away(worst) <= arc + SHARE * around.tolerance(),
+            is_curve: turns.iter().all(|&turn| turn <= BEND_SHARE * turned),
+        })
+    }
+
+    /// Whether the blade enters its path, and no farther beside it than is worth a word.
+    fn is_slight(&self, around: &Around) -> bool {
+        self.fits && self.away <= around.knife().max_bow_mm
+    }
+}
+
+/// A run that begins on a curve which the blade that plunges there lies too far beside.
+#[derive(Debug)]
+pub(super) struct BowedStart {
+    /// How that blade lies.
+    pub(super) bow: Bow,
+    /// The curve: up to the vertex from which on a blade could plunge well.
+    pub(super) curve: Tight,
+}
+
+/// How an open run begins on a curve that the plunged blade cannot enter, or would lie more than `knife.max_bow_mm` beside;
+/// `None` when it does not.
+pub(super) fn bowed_start(run: &Run, around: &Around) -> Option<BowedStart> {
+    if run.shape == Shape::Ring || !may_bow(run, around) {
+        return None;
+    }
+    let way = Way::new(run);
+    let from = |vertex: usize| {
+        let station = way.station(vertex.cast_signed());
+        let to = (station + REACH * around.knife().width_mm).min(way.length());
+        let ends = if vertex == 0 { run.ends } else { [REJOINED, run.ends[1]] };
+        let bow = Bow::new(&way.part(station, to, ends), around)?;
+        (bow.is_curve && !bow.is_slight(around)).then_some(bow)
+    };
+    let bow = from(0)?;
+    let end = (1..way.chords()).find(|&vertex| from(vertex).is_none()).unwrap_or(way.chords());
+    let radius = |vertex: usize| radius(&run.points, vertex);
+    let at = (1..end.max(2)).min_by(|&a, &b| radius(a).total_cmp(&radius(b)))?;
+    Some(BowedStart { bow, curve: Tight { vertices: 0..=end, radius: radius(at), at } })
+}
+
+/// Whether a run turns enough near its start for that: a path that turns by a under a blade of the width w lies beside it by
+/// at most w/2 tan(a/2), and what lies beside by less than the tolerance fits.
+fn may_bow(run: &Run, around: &Around) -> bool {
+    let knife = around.knife();
+    let (width, start) = (knife.width_mm, run.points[0]);
+    let near = run.points.windows(3).take_while(|w| (w[0] - start).norm() < width);
+    let turned: f64 = near.map(|w| polyline::turn_at(w[0], w[1], w[2]).abs()).sum();
+    let most = width / 2.0 * (turned.min(std::f64::consts::PI) / 2.0).tan();
+    most > knife.max_bow_mm.min(SHARE * around.tolerance())
+}
