@@ -26,6 +26,8 @@ pub(super) struct Tube {
     heights: Vec<f64>,
     /// Permitted deviation, mm.
     pub(super) tolerance: f64,
+    /// Greatest bulge, mm.
+    bulge_max: f64,
 }
 
 impl Tube {
@@ -56,7 +58,7 @@ impl Tube {
         let heights: Vec<f64> = (0..end).map(height).collect();
         let bulge = |i: usize| left(points[i + 1] - points[i]) * (heights[i] / (stations[i + 1] - stations[i]));
         let bulges = (0..end).map(bulge).collect();
-        Self { points, stations, turns, bulges, heights, tolerance }
+        Self { points, stations, turns, bulges, heights, tolerance, bulge_max: profile.path.chord_sag_max_mm }
     }
 
     /// Number of chords.
@@ -103,10 +105,12 @@ impl Tube {
         (away - outward * away.dot(&outward).clamp(0.0, height)).norm()
     }
 
-    /// Whether a vertex at an end of a chord is a bend of its own: on a curve neighbouring turns are alike.
+    /// Whether a vertex at an end of a chord is a bend of its own: on a curve neighbouring turns are alike, and no chord is
+    /// so long that it would bulge more than it may.
     pub(super) fn is_bend(&self, chord: usize, vertex: usize) -> bool {
         let [before, after] = [self.turns[chord].abs(), self.turns[chord + 1].abs()];
-        self.is_plain(chord) || self.turns[vertex].abs() > ALIKE * before.min(after)
+        let bulge = (self.stations[chord + 1] - self.stations[chord]) * f64::midpoint(before, after) / 8.0;
+        self.is_plain(chord) || bulge > self.bulge_max || self.turns[vertex].abs() > ALIKE * before.min(after)
     }
 
     /// Whether only the chord itself counts as on the path.
