@@ -6,6 +6,7 @@
 //! on an arc of radius sqrt(R^2 + r^2) around the same centre ([`way`]). How knife, drill and operator are told stands
 //! under `gcode.` in the profile. How long the controller takes is estimated ([`pace`]).
 
+mod fade;
 mod fit;
 mod pace;
 mod program;

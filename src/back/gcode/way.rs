@@ -1,5 +1,6 @@
 //! What the axes do while a run is cut: pieces of the centre's way, each an arc or a line with C linear along it.
 
+use super::fade::{Beside, Fade};
 use super::fit::{Ends, fit};
 use super::tube::Tube;
 use crate::geom::{Heading, Point, Rotation, Vector, angle, left, polyline};
@@ -13,16 +14,12 @@ const TURN_SHARE: f64 = 0.9;
 pub(super) const LINE_SHARE: f64 = 0.45;
 /// The most of the tolerance that the bow of a chord may take.
 const BOW_SHARE: f64 = 0.5;
-/// Greatest second derivative of the step by which the blade fades from chord to tangent, over its length squared.
-const FADE_BEND: f64 = 7.6;
 /// Shorter ways are none, mm.
 const LENGTH_EPSILON: f64 = 1e-3;
 /// An arc that turns by less is a line, rad: controllers take those of a millionth for whole turns.
 const TURN_MIN: f64 = 2e-5;
 /// An arc that bows by less is a line, mm.
 const BOW_MIN: f64 = 1e-5;
-/// Smaller leads are none, rad.
-const LEAD_EPSILON: f64 = 1e-6;
 /// Shortest piece that is written, in steps of the last decimal: rounding turns its direction by less than a fifth of a
 /// degree.
 const STEPS_MIN: f64 = 400.0;
@@ -60,7 +57,7 @@ impl Piece {
 /// A way of the tip.
 #[derive(Debug, Clone, Copy)]
 struct Tip {
-    /// How far it turns, rad.
+    /// How far the way of the C axis turns beside it, rad: as much, unless the blade fades from chord to tangent.
     turn: f64,
     /// mm.
     length: f64,
@@ -146,14 +143,14 @@ pub(super) fn way(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Point> {
     // Plunged as a chord, the blade lags behind its way and fades into it over its width.
     let length: f64 = arcs.iter().map(|arc| arc.length).sum();
     let lead = tail.map_or(0.0, |tail| angle::turn(tube.points[0] - tail, start));
-    let fade = if lead.abs() > LEAD_EPSILON { knife.width_mm.min(length) } else { 0.0 };
     let first = Heading::new(start.y.atan2(start.x) - lead);
     let radius = run.edge.lead(knife.ends());
     let pose = |tip: Point, c: f64| Pose { centre: tip - Rotation(c).unit() * radius, c: Rotation(c) };
-    let mut c = Rotation(run.start.c.0 - run.edge.turn()).nearest(first).0;
+    let c = Rotation(run.start.c.0 - run.edge.turn()).nearest(first).0;
     let mut at = pose(tube.points[0], c);
     let mut pieces = Pieces::new(at, STEPS_MIN * keys.step());
     let permitted = if keys.arcs { TURN_SHARE } else { LINE_SHARE } * rad(keys.heading_tolerance_deg);
+    let fade = Fade::new(lead, [knife.width_mm, length], radius, permitted);
     let mut tangent = c + lead;
     let (mut done, mut beside) = (0.0, 0);
     for arc in &arcs {
@@ -161,40 +158,15 @@ pub(super) fn way(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Point> {
         beside = arc.chord + usize::from(arc.stops);
         tangent += angle::turn(Rotation(tangent).unit(), arc.along);
         let mut from = 0.0;
-        let (count, part) = parts((fade - done).clamp(0.0, arc.length), [lead, fade], permitted);
-        for i in 1..=count + 1 {
-            let to = part * i as f64;
-            let to = if i > count || arc.length - to < LENGTH_EPSILON { arc.length } else { to };
-            if to - from < LENGTH_EPSILON && i > 1 {
-                continue;
-            }
-            let lag = if fade > 0.0 { lead * left_of((done + to) / fade) } else { 0.0 };
-            c = tangent + arc.curvature * to - lag;
-            at = pose(arc.at(to), c);
-            pieces.push(at, Tip { turn: arc.curvature * (to - from), length: to - from, feed });
-            from = to;
+        for part in fade.parts(Beside { arc, tangent, done }, LENGTH_EPSILON) {
+            at = pose(arc.at(part.to), part.c);
+            pieces.push(at, Tip { turn: part.turn, length: part.to - from, feed });
+            from = part.to;
         }
         tangent += arc.turn();
         done += arc.length;
     }
     Ok(pieces.finish(at))
-}
-
-/// How many parts of what length the blade fades on, so that C may turn evenly along each.
-fn parts(fading: f64, [lead, fade]: [f64; 2], permitted: f64) -> (usize, f64) {
-    if fading < LENGTH_EPSILON {
-        return (0, 0.0);
-    }
-    let longest = fade * (8.0 * permitted / (FADE_BEND * lead.abs())).sqrt();
-    let count = (fading / longest).ceil().max(1.0);
-    (count as usize, fading / count)
-}
-
-/// What is left of the lead at a part of the fade: 1 less the step of degree 7.
-fn left_of(x: f64) -> f64 {
-    let x = x.min(1.0);
-    let x4 = x * x * x * x;
-    1.0 - x4 * (35.0 - x * (84.0 - x * (70.0 - x * 20.0)))
 }
 
 /// Direction of a ring where it starts: that of the circle through its first point and both neighbours.
