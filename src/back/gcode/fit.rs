@@ -315,6 +315,21 @@ fn stays_at_ends(tube: &Tube, [first, second]: [&Arc; 2], [from, to]: [&Node; 2]
             behind <= second.length && is_plain(to, second.curvature * behind),
         ]
     };
+    // An arc that turns over beside an end chord is farthest off where it runs along it.
+    let turns_over = |arc: &Arc, from: f64, chord: usize| {
+        let s = angle::turn(arc.along, tube.direction(chord)) / arc.curvature;
+        (0.0..arc.length).contains(&s).then_some(from + s)
+    };
+    let second_from = if alone { 0.0 } else { first.length };
+    let is_beside = |s: f64, is_plain: bool, range: [f64; 2]| !is_plain && s >= range[0] && s <= range[1];
+    let extremes = [(first, 0.0), (second, second_from)].into_iter().flat_map(|(arc, start)| {
+        let ahead = turns_over(arc, start, from.chord).filter(|&s| is_beside(s, is_plain_ahead, [0.0, ahead]));
+        let behind = turns_over(arc, start, to.chord).filter(|&s| is_beside(s, is_plain_behind, [total - behind, total]));
+        [ahead, behind]
+    });
+    if !extremes.flatten().all(stays) {
+        return false;
+    }
     (1..=SAMPLES).all(|i| {
         let share = i as f64 / SAMPLES as f64;
         (is_plain_ahead || stays(ahead.min(total) * share))
