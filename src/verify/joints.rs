@@ -48,10 +48,14 @@ impl Joints {
         }
     }
 
-    /// Whether the knife may be lifted anywhere on a line: it would be down for too long, C has to unwind, or the line is
-    /// nibbled.
+    /// Whether the knife may be lifted anywhere on a line: it must be somewhere, or the line is nibbled.
     pub(super) fn are_anywhere(&self, line: &Line) -> bool {
-        line.winds || line.nibbled || self.longest.is_some_and(|longest| line.length() > longest)
+        line.nibbled || self.is_lifted(line)
+    }
+
+    /// Whether the knife is lifted amid a line: it would be down for too long, or C has to unwind.
+    fn is_lifted(&self, line: &Line) -> bool {
+        line.winds || self.longest.is_some_and(|longest| line.length() > longest)
     }
 
     /// How far a line may bow away from the body of a blade that plunges with its tail and its tip at two stations, mm: at
@@ -63,7 +67,7 @@ impl Joints {
         let is_open = match (line.nibbled, is_stab) {
             (true, true) => is_at(tail) && is_at(tip),
             (false, true) => self.are_anywhere(line) || is_at(tail) || is_at(tip),
-            (true, false) => is_at(tail),
+            (true, false) => is_at(tail) || self.is_lifted(line),
             (false, false) => self.are_anywhere(line) || is_at(tail),
         };
         match is_open {

@@ -100,10 +100,15 @@ impl<'a> Reference<'a> {
                 line.winds = line.winds_past(range, profile.knife.period());
             }
         }
-        let knife = &profile.knife;
+        let (knife, tolerance) = (&profile.knife, profile.tolerance(marker.unit));
         for line in &mut lines {
             // What begins on a curve that the blade has no way to enter may be nibbled, whatever is done about others.
-            let is_bowed = !line.ring && chord::bows_at_an_end(&line.points, knife);
+            let is_lifted = line.winds || knife.longest_cut().is_some_and(|longest| line.length() > longest);
+            let is_bowed = if is_lifted {
+                chord::bows_anywhere(&line.points, line.ring, knife, tolerance)
+            } else {
+                !line.ring && chord::bows_at_an_end(&line.points, knife, tolerance)
+            };
             let is_nibbling = knife.tight_curves == TightCurves::Nibble;
             if is_bowed || is_nibbling || knife.follow == Follow::Chord {
                 line.tight = chord::tight(&line.points, line.ring, knife);
@@ -111,7 +116,7 @@ impl<'a> Reference<'a> {
             line.nibbled = is_bowed || is_nibbling && !line.tight.is_empty();
         }
         events.extend(marker.closing.iter().map(|_| rank()));
-        Self { marker, lines, holes, events, tolerance: profile.tolerance(marker.unit) }
+        Self { marker, lines, holes, events, tolerance }
     }
 }
 

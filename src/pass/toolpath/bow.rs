@@ -1,6 +1,7 @@
 //! How a blade lies over the start of a run, where it plunges as a chord.
 
 use super::chord::{Tight, radius, stands_across};
+use super::nibble::NIBBLE_SHARE;
 use super::overlap;
 use super::scene::Around;
 use super::stretch::{REJOINED, Way};
@@ -24,6 +25,8 @@ pub(super) struct Bow {
     pub(super) away: f64,
     /// Whether that is no more than on an arc that turns as much, and the blade does not stand across it.
     pub(super) fits: bool,
+    /// Whether it covers all of the run.
+    pub(super) is_whole: bool,
     /// Whether what lies under it turns little by little, and not at one bend.
     pub(super) is_curve: bool,
 }
@@ -35,8 +38,8 @@ impl Bow {
         overlap::give(&mut run, around);
         let path = run.extended();
         let skipped = usize::from(run.heel > 0.0);
-        let (tip, chord) = polyline::first_at_distance(&path, around.knife().width_mm)
-            .unwrap_or((path[path.len() - 1], path.len() - 2));
+        let reached = polyline::first_at_distance(&path, around.knife().width_mm);
+        let (tip, chord) = reached.unwrap_or((path[path.len() - 1], path.len() - 2));
         // The chord that is being left counts, too: a curve turns along its chords, not at its vertices.
         let turns: Vec<f64> =
             path.windows(3).take(chord + 1).map(|w| polyline::turn_at(w[0], w[1], w[2]).abs()).collect();
@@ -51,13 +54,19 @@ impl Bow {
             at: worst - skipped,
             away: away(worst),
             fits: away(worst) <= arc + SHARE * around.tolerance(),
+            is_whole: reached.is_none(),
             is_curve: turns.iter().all(|&turn| turn <= BEND_SHARE * turned),
         })
     }
 
-    /// Whether the blade enters its path, and no farther beside it than is worth a word.
-    fn is_slight(&self, around: &Around) -> bool {
-        self.fits && self.away <= around.knife().max_bow_mm
+    /// Whether the blade lies no farther beside its path than is worth a word.
+    pub(super) fn is_slight(&self, around: &Around) -> bool {
+        self.away <= around.knife().max_bow_mm
+    }
+
+    /// Whether it may plunge like that: it enters its path and lies slightly beside it, or cuts all of it as it should.
+    fn is_good(&self, around: &Around) -> bool {
+        self.fits && self.is_slight(around) && (!self.is_whole || self.away <= NIBBLE_SHARE * around.tolerance())
     }
 }
 
@@ -70,8 +79,8 @@ pub(super) struct BowedStart {
     pub(super) curve: Tight,
 }
 
-/// How an open run begins on a curve that the plunged blade cannot enter, or would lie more than `knife.max_bow_mm` beside;
-/// `None` when it does not.
+/// How an open run begins on a curve that the plunged blade cannot enter, or would lie more than `knife.max_bow_mm` beside,
+/// or more than its tolerance when it covers all of it; `None` when it does not.
 pub(super) fn bowed_start(run: &Run, around: &Around) -> Option<BowedStart> {
     if run.shape == Shape::Ring || !may_bow(run, around) {
         return None;
@@ -82,7 +91,7 @@ pub(super) fn bowed_start(run: &Run, around: &Around) -> Option<BowedStart> {
         let to = (station + REACH * around.knife().width_mm).min(way.length());
         let ends = if vertex == 0 { run.ends } else { [REJOINED, run.ends[1]] };
         let bow = Bow::new(&way.part(station, to, ends), around)?;
-        (bow.is_curve && !bow.is_slight(around)).then_some(bow)
+        (bow.is_curve && !bow.is_good(around)).then_some(bow)
     };
     let bow = from(0)?;
     let end = (1..way.chords()).find(|&vertex| from(vertex).is_none()).unwrap_or(way.chords());

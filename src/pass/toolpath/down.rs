@@ -13,6 +13,9 @@ use crate::machine::Knife;
 pub(super) const PASS: ToolpathPass =
     ToolpathPass { name: "down", about: "lifts runs that are longer than knife.max_down_mm", run, chained: false };
 
+/// Least length of a part, in what it would be if all were alike.
+const SHARE_MIN: f64 = 0.5;
+
 fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
     let job = scene.job;
     let Some(longest) = job.profile.knife.longest_cut() else { return };
@@ -27,22 +30,33 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
     }
 }
 
-/// Equal parts of a run, as few as keep below `longest`, each led on along the contour by the overlaps of a corner.
+/// Parts of a run, as few as keep below `longest`, each led on along the contour by the overlaps of a corner. They are as long
+/// as each other but for what lets the next one begin where the run is straight.
 fn split(run: Run, longest: f64, knife: &Knife) -> Vec<Run> {
     let way = Way::new(&run);
     let length = way.length();
-    let parts = (length / longest).ceil() as usize;
-    if parts <= 1 {
+    let (heel, front) = (knife.corner_heel_overlap_mm, knife.corner_front_overlap_mm);
+    let last = if way.is_ring() { length + front } else { length };
+    if length <= longest {
         return vec![run];
     }
-    let (heel, front) = (knife.corner_heel_overlap_mm, knife.corner_front_overlap_mm);
-    let cut = |i: usize| length * i as f64 / parts as f64;
-    (0..parts)
-        .map(|i| {
-            let (first, last) = (i == 0 && !way.is_ring(), i + 1 == parts && !way.is_ring());
-            let from = if first { 0.0 } else { cut(i) - heel };
-            let to = if last { length } else { cut(i + 1) + front };
-            way.part(from, to, [if first { run.ends[0] } else { REJOINED }, if last { run.ends[1] } else { REJOINED }])
-        })
-        .collect()
+    let mut parts: Vec<Run> = Vec::new();
+    let mut at = 0.0;
+    let lead = |station: f64| if way.leads_on(station, [heel + front, knife.width_mm]) { [heel, front] } else { [0.0; 2] };
+    loop {
+        let from = if parts.is_empty() && !way.is_ring() { 0.0 } else { at - lead(at)[0] };
+        let first = if parts.is_empty() && !way.is_ring() { run.ends[0] } else { REJOINED };
+        let rest = length - at;
+        let count = (rest / longest).ceil();
+        if count <= 1.0 {
+            let end = if way.is_ring() { REJOINED } else { run.ends[1] };
+            parts.push(way.part(from, last, [first, end]));
+            return parts;
+        }
+        // So far at the least that the rest needs no part more than it does anyway, and at the most.
+        let least = (rest - (count - 1.0) * longest).max(SHARE_MIN * rest / count);
+        let to = way.gentlest([at + least.min(rest / count), at + rest / count], [heel + front, knife.width_mm]);
+        parts.push(way.part(from, to + lead(to)[1], [first, REJOINED]));
+        at = to;
+    }
 }

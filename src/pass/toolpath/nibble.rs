@@ -7,7 +7,7 @@ use crate::geom::polyline;
 use crate::ir::toolpath::Run;
 
 /// Part of the tolerance by which a plunge may pass a vertex; rounding takes a little of the rest.
-const NIBBLE_SHARE: f64 = 0.9;
+pub(super) const NIBBLE_SHARE: f64 = 0.9;
 /// Halvings that make plunges alike: to a thousandth of a curve, which is finer than its chords.
 const HALVINGS: usize = 10;
 

@@ -7,6 +7,12 @@ use crate::geom::{Point, polyline, spline};
 use crate::ir::list::Joint;
 use crate::ir::toolpath::{End, Run, Shape, Side};
 
+/// Turns that differ by less are alike, rad: a curve is no gentler for its rounding.
+const TURN_EPSILON: f64 = 0.02;
+/// Greatest turn under a blade over which overlaps lead on, rad (11 degrees): there it lies as near to its line as its
+/// tolerance.
+const GENTLE_TURN: f64 = 0.2;
+
 /// Where a run is lifted on its way: its overlap already lies along the contour.
 pub(super) const REJOINED: End = End { corner: true, bare: true, side: Side::Waste };
 
@@ -52,6 +58,42 @@ impl<'a> Way<'a> {
         let lap = if self.is_ring() { (station / self.length()).floor() } else { 0.0 };
         spline::span(&self.stations, station - lap * self.length()).cast_signed()
             + lap as isize * self.chords().cast_signed()
+    }
+
+    /// Where between two stations a run is best lifted to go on from there: where it turns least from `before` mm before
+    /// that place to `behind` mm behind it, at the last of such places. On a straight the blade plunges as it should, on a
+    /// curve beside it.
+    pub(super) fn gentlest(&self, [low, high]: [f64; 2], [before, behind]: [f64; 2]) -> f64 {
+        let turned = |station: f64| self.turned([station - before, station + behind]);
+        let middles = (self.chord_at(low)..self.chord_at(high)).rev().map(|chord| {
+            let [from, to] = [self.station(chord).max(low), self.station(chord + 1)];
+            // Of a long chord the end, as near as lets the next cut begin on it.
+            f64::midpoint(from, to).max(to - behind).min(to)
+        });
+        let places = std::iter::once(high).chain(middles.filter(|&place| place >= low));
+        places.map(|place| (place, turned(place))).reduce(|a, b| if b.1 < a.1 - TURN_EPSILON { b } else { a }).map_or(high, |best| best.0)
+    }
+
+    /// Whether a run that is lifted at a station can go on with overlaps, from `before` mm before it to `behind` mm behind it: on
+    /// a bend the blade would plunge over what is cut already, and leave it.
+    pub(super) fn leads_on(&self, station: f64, [before, behind]: [f64; 2]) -> bool {
+        self.turned([station - before, station + behind]) <= GENTLE_TURN
+    }
+
+    /// How much the run turns between two stations, to either side, rad.
+    fn turned(&self, [from, to]: [f64; 2]) -> f64 {
+        let vertices = (self.chord_at(from)..=self.chord_at(to)).skip(1);
+        vertices.map(|vertex| self.turn(vertex).abs()).sum()
+    }
+
+    /// Turn of the run at a vertex, rad; none at the ends of an open one.
+    fn turn(&self, vertex: isize) -> f64 {
+        let chords = self.chords().cast_signed();
+        if !self.is_ring() && (vertex <= 0 || vertex >= chords) {
+            return 0.0;
+        }
+        let at = |vertex: isize| self.run.points[vertex.rem_euclid(chords) as usize];
+        polyline::turn_at(at(vertex - 1), at(vertex), at(vertex + 1))
     }
 
     /// The stretch from one station to another; what an open run has not is not in it.

@@ -15,7 +15,7 @@
 //!
 //! Leaves no run with the chord law that the blade cannot be a chord of.
 
-use super::bow::bowed_start;
+use super::bow::{BowedStart, bowed_start};
 use super::chord::{Tight, tight};
 use super::nibble::parts;
 use super::scene::{Around, Scene};
@@ -69,20 +69,27 @@ impl Settling<'_> {
         let around = self.around;
         let mut curves = tight_curves(&run, &around);
         let start = bowed_start(&run, &around);
-        let is_nibbled = match around.knife().tight_curves {
+        let policy = around.knife().tight_curves;
+        let is_nibbled = match policy {
             TightCurves::Nibble => true,
             TightCurves::Follow => is_one_plunge(&run, &around),
             TightCurves::Refuse => false,
         };
-        let done = match around.knife().tight_curves {
+        let done = match policy {
             _ if is_nibbled => Done::Nibbled,
             TightCurves::Nibble | TightCurves::Follow => Done::Followed(run.law),
             TightCurves::Refuse => Done::Refused,
         };
         self.tight.see((&run, done), &curves);
-        // What the blade cannot enter is nibbled even where curves are followed.
-        let is_start_nibbled = is_nibbled || done.is_followed() && start.as_ref().is_some_and(|start| !start.bow.fits);
-        if let (Some(start), true) = (&start, curves.is_empty() || !is_nibbled) {
+        // What the blade cannot enter is nibbled even where curves are followed, and what lies slightly beside it in any case.
+        let is_start_nibbled = start.as_ref().is_some_and(|BowedStart { bow, .. }| match done {
+            Done::Nibbled => true,
+            Done::Followed(_) => !bow.fits,
+            Done::Refused => bow.is_slight(&around),
+        });
+        if let Some(start) = start.as_ref().filter(|start| !start.bow.is_slight(&around))
+            && (curves.is_empty() || !is_nibbled)
+        {
             self.bowed.see(start.bow.away, run.spans[0], if is_start_nibbled { Done::Nibbled } else { done });
         }
         if !is_nibbled && !curves.is_empty() {
@@ -121,12 +128,6 @@ enum Done {
     Followed(Law),
     Nibbled,
     Refused,
-}
-
-impl Done {
-    fn is_followed(self) -> bool {
-        matches!(self, Self::Followed(_))
-    }
 }
 
 /// Whether all of an open run is so near to its start that the blade has no way to go on it, and would cut across.

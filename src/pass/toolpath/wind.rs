@@ -81,12 +81,15 @@ fn parts(run: &Run, range: [f64; 2], knife: &Knife) -> Option<Vec<Run>> {
         let rest = |to: f64| winding.reach(way.chord_at(to - front - heel), end, inner);
         let halves = is_short && half > from + front + heel && rest(half) == Some(end);
         let to = if halves { half } else { way.station(reached) };
+        // Amid a curve the blade would plunge beside it: better somewhere on the second half of the part that is straight.
+        let to = way.gentlest([f64::midpoint(from, to), to], [heel + front, knife.width_mm]);
         if to <= from + STATION_EPSILON {
             return None;
         }
         // Over a bend at which C must unwind no overlap can lead on along the contour.
         let overlapped = to - front - heel;
-        let leads_on = overlapped > from && reach(overlapped).is_some_and(|reached| way.station(reached) > to);
+        let is_gentle = way.leads_on(to, [heel + front, knife.width_mm]);
+        let leads_on = is_gentle && overlapped > from && reach(overlapped).is_some_and(|reached| way.station(reached) > to);
         let next = if leads_on { overlapped } else { to };
         parts.push(way.part(from, to, [start, REJOINED]));
         from = next;
