@@ -346,7 +346,7 @@ pub const KEYS: &[Key] = &[
     Key { name: "knife.max_down_mm", takes: Takes::NumberOr(from(1.0, 1.0e6), "off"), about: "Maximum distance with the knife down: a longer cut is lifted there and rejoined with overlap." },
     Key { name: "knife.follow", takes: Takes::Word(&["tangent", "chord"]), about: "How the blade lies on curves: \"tangent\" = the tip on the line, the blade along it; \"chord\" =\ntip and heel both on the line." },
     Key { name: "knife.tight_curves", takes: Takes::Word(&["follow", "nibble", "refuse"]), about: "Curves tighter than the blade, on which it would stand across as a chord (an arc of less than 0.55\nblade widths, a right angle rounded with less than 0.4): \"follow\" = cut along the tangent,\n\"nibble\" = by overlapping plunges within the tolerance, \"refuse\" = an error." },
-    Key { name: "knife.max_bow_mm", takes: Takes::Number(BLADE), about: "A cut that begins on a curve begins with a plunge, straight, as a chord of it. Where that lies farther\nbeside the curve than this it is as `knife.tight_curves` says: a warning, nibbled, or an error." },
+    Key { name: "knife.max_bow_mm", takes: Takes::Number(BLADE), about: "How far a blade that plunges on a curve may lie beside it: it is straight. Beyond that it is as\n`knife.tight_curves` says: a warning, nibbled, or an error." },
     Key { name: "knife.edges", takes: Takes::Whole(&[1, 2]), about: "Cutting edges: a blade with 2 may run either way round, heel first where C then turns less." },
     Key { name: "knife.yaw_deg", takes: Takes::Number(from(-45.0, 45.0)), about: "C yaw: a constant correction of the blade's angle, which is added to C in every cut." },
 

@@ -45,7 +45,7 @@ impl Fade {
             let (last, way) = (fade.breaks[fade.breaks.len() - 1], fade.ways[fade.ways.len() - 1]);
             let part = way_between(curve, [last, end]);
             if way + part >= length {
-                fade.to = fade.end_in(curve, [last, end], length - way);
+                fade.to = end_of(curve, [last, end], length - way);
                 return fade;
             }
             fade.breaks.push(end);
@@ -53,20 +53,6 @@ impl Fade {
         }
         fade.length = fade.ways[fade.ways.len() - 1];
         fade
-    }
-
-    /// The parameter between two at which the way from the first is `way`.
-    fn end_in(&self, curve: &Curve, [from, to]: [f64; 2], way: f64) -> f64 {
-        let (mut low, mut high) = (from, to);
-        for _ in 0..BISECTIONS {
-            let middle = f64::midpoint(low, high);
-            if way_between(curve, [from, middle]) < way {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        high
     }
 
     /// What is left of the lead at a parameter, rad, and its derivatives up to the third; `None` when nothing is.
@@ -81,6 +67,20 @@ impl Fade {
         let d = [f, f1 * s1, f2 * s1 * s1 + f1 * s2, f3 * s1.powi(3) + 3.0 * f2 * s1 * s2 + f1 * s3];
         Some(d.map(|value| self.lead * value))
     }
+}
+
+/// The parameter between two at which the way from the first is `way`.
+fn end_of(curve: &Curve, [from, to]: [f64; 2], way: f64) -> f64 {
+    let (mut low, mut high) = (from, to);
+    for _ in 0..BISECTIONS {
+        let middle = f64::midpoint(low, high);
+        if way_between(curve, [from, middle]) < way {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    high
 }
 
 /// The way along a curve between two parameters of one span, mm.

@@ -350,6 +350,11 @@ impl Line {
         self.chord_at(low)..=self.chord_at(high - over) + laps
     }
 
+    /// Whether a block is that of a chord between two stations.
+    pub(super) fn names(&self, block: u32, ends: [f64; 2]) -> bool {
+        self.chords_between(ends).any(|chord| self.blocks[chord % self.chords()] == block)
+    }
+
     /// The last vertex before a station, which on a ring may lie on any lap; `None` where an open line starts.
     pub(super) fn vertex_before(&self, station: f64) -> Option<usize> {
         let lap = if self.ring { station.rem_euclid(self.length()) } else { station };

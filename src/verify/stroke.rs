@@ -482,7 +482,10 @@ impl<'a> Judge<'a> {
             let station = trial.feet[i.clamp(*trial.held.start(), *trial.held.end())].station;
             let station = trial.fits.map(overcut::innermost).map_or(station, |[from, to]| station.clamp(from, to));
             for row in rows[*ends.0..*ends.1].iter().filter(|row| row.knife) {
-                block.see(self.naming.away(row.block, line, station), || row.sighting());
+                // Lifted anywhere, a stab may cut several chords, and its tip stand on none of them.
+                let away = |station: f64| self.naming.away(row.block, line, station);
+                let away = if trial.fits.is_some() && line.names(row.block, trial.hull) { 0.0 } else { away(station) };
+                block.see(away, || row.sighting());
             }
         }
     }

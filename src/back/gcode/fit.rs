@@ -324,7 +324,8 @@ fn stays_at_ends(tube: &Tube, [first, second]: [&Arc; 2], [from, to]: [&Node; 2]
     let is_beside = |s: f64, is_plain: bool, range: [f64; 2]| !is_plain && s >= range[0] && s <= range[1];
     let extremes = [(first, 0.0), (second, second_from)].into_iter().flat_map(|(arc, start)| {
         let ahead = turns_over(arc, start, from.chord).filter(|&s| is_beside(s, is_plain_ahead, [0.0, ahead]));
-        let behind = turns_over(arc, start, to.chord).filter(|&s| is_beside(s, is_plain_behind, [total - behind, total]));
+        let behind =
+            turns_over(arc, start, to.chord).filter(|&s| is_beside(s, is_plain_behind, [total - behind, total]));
         [ahead, behind]
     });
     if !extremes.flatten().all(stays) {

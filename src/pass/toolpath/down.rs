@@ -42,7 +42,8 @@ fn split(run: Run, longest: f64, knife: &Knife) -> Vec<Run> {
     }
     let mut parts: Vec<Run> = Vec::new();
     let mut at = 0.0;
-    let lead = |station: f64| if way.leads_on(station, [heel + front, knife.width_mm]) { [heel, front] } else { [0.0; 2] };
+    let lead =
+        |station: f64| if way.leads_on(station, [heel + front, knife.width_mm]) { [heel, front] } else { [0.0; 2] };
     loop {
         let from = if parts.is_empty() && !way.is_ring() { 0.0 } else { at - lead(at)[0] };
         let first = if parts.is_empty() && !way.is_ring() { run.ends[0] } else { REJOINED };

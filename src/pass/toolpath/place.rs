@@ -152,22 +152,21 @@ fn chord_lag(path: &[Point], knife: &Knife) -> f64 {
 /// `range` (rad) without leaving `c.range_deg`, by a margin if it turns; `None` when there is none.
 fn equivalent(before: Rotation, heading: Heading, range: [f64; 2], job: &Job) -> Option<(Rotation, Edge)> {
     let edges = if job.profile.knife.edges == 1 { &[Edge::Front][..] } else { &[Edge::Front, Edge::Back] };
-    let of_edge = |&edge: &Edge| {
-        let shown = Heading::new(heading.radians() + edge.turn());
-        Some((of_heading(before, shown, range, job)?, edge))
-    };
-    let away = |found: &(Rotation, Edge)| (found.0.0 - before.0).abs();
-    edges.iter().filter_map(of_edge).reduce(|a, b| if away(&b) + SAME_TURN < away(&a) { b } else { a })
-}
-
-/// The same for one edge.
-fn of_heading(before: Rotation, heading: Heading, range: [f64; 2], job: &Job) -> Option<Rotation> {
-    let nearest = before.nearest(heading);
-    let Some(ends) = job.profile.blade_range() else { return Some(nearest) };
     let [low, high] = range;
+    let nearest = |range: [f64; 2]| {
+        let of_edge = |&edge: &Edge| {
+            let nearest = before.nearest(Heading::new(heading.radians() + edge.turn()));
+            let found = match job.profile.blade_range() {
+                Some(ends) => whole_turns(nearest, range, ends)?,
+                None => nearest,
+            };
+            Some((found, edge))
+        };
+        let away = |found: &(Rotation, Edge)| (found.0.0 - before.0).abs();
+        edges.iter().filter_map(of_edge).reduce(|a, b| if away(&b) + SAME_TURN < away(&a) { b } else { a })
+    };
     let wide = [low - wind::MARGIN, high + wind::MARGIN];
-    let turns = |range: [f64; 2]| whole_turns(nearest, range, ends);
-    (high > low).then(|| turns(wide)).flatten().or_else(|| turns(range))
+    (high > low).then(|| nearest(wide)).flatten().or_else(|| nearest(range))
 }
 
 /// The equivalent of C by the fewest whole turns from which it may move through `range` between two ends, rad.

@@ -29,14 +29,20 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
         match step {
             Step::Run(run) if run.shape == Shape::Open => {
                 if let Some(stab) = stab(run, &around) {
-                    if stab.harm > around.tolerance() {
-                        diagnostics.push(harm(&stab, &around));
-                    }
                     *step = Step::Stab(stab);
                 }
             }
             Step::Run(_) | Step::Stab(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {}
         }
+    }
+    let stabs = toolpath.steps.iter().filter_map(|step| match step {
+        Step::Stab(stab) => Some(stab),
+        Step::Run(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => None,
+    });
+    let harmful: Vec<&Stab> = stabs.filter(|stab| stab.harm > around.tolerance()).collect();
+    let worst = harmful.iter().copied().reduce(|a, b| if b.harm > a.harm { b } else { a });
+    if let Some(worst) = worst {
+        diagnostics.push(harm(worst, harmful.len() - 1, &around));
     }
 }
 
@@ -118,14 +124,19 @@ fn split(surplus: f64, rooms: [Room; 2], around: &Around) -> [Share; 2] {
     shares
 }
 
-fn harm(stab: &Stab, around: &Around) -> Diagnostic {
+/// The worst harm of a toolpath, and in how many more places there is some.
+fn harm(stab: &Stab, others: usize, around: &Around) -> Diagnostic {
     let length = fixed(polyline::length(&stab.points), 2);
     let (width, harm) = (fixed(around.knife().width_mm, 2), fixed(stab.harm, 2));
     let block = stab.spans[stab.spans.len() - 1].block;
+    let more = match others {
+        0 => String::new(),
+        n => format!(" ({n} more in this contour)"),
+    };
     Diagnostic::new(
         &code::PATH_OVERCUT,
         format!(
-            "block {block}: the blade of {width} mm is longer than this cut of {length} mm: it cuts {harm} mm too far into a part"
+            "block {block}: the blade of {width} mm is longer than this cut of {length} mm: it cuts {harm} mm too far into a part{more}"
         ),
     )
     .at(stab.spans[stab.spans.len() - 1])

@@ -71,7 +71,10 @@ impl<'a> Way<'a> {
             f64::midpoint(from, to).max(to - behind).min(to)
         });
         let places = std::iter::once(high).chain(middles.filter(|&place| place >= low));
-        places.map(|place| (place, turned(place))).reduce(|a, b| if b.1 < a.1 - TURN_EPSILON { b } else { a }).map_or(high, |best| best.0)
+        places
+            .map(|place| (place, turned(place)))
+            .reduce(|a, b| if b.1 < a.1 - TURN_EPSILON { b } else { a })
+            .map_or(high, |best| best.0)
     }
 
     /// Whether a run that is lifted at a station can go on with overlaps, from `before` mm before it to `behind` mm behind it: on

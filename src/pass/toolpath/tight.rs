@@ -22,6 +22,7 @@ use super::scene::{Around, Scene};
 use super::{ToolpathPass, overlap};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::polyline;
+use crate::geom::region::Ray;
 use crate::ir::toolpath::{Law, Run, Shape, Step, Toolpath};
 use crate::machine::TightCurves;
 use crate::source::Span;
@@ -42,7 +43,8 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     if around.knife().width_mm == 0.0 {
         return;
     }
-    let mut settling = Settling { around, steps: Vec::new(), tight: Worst::default(), bowed: Bowed::default(), plunges: 0 };
+    let mut settling =
+        Settling { around, steps: Vec::new(), tight: Worst::default(), bowed: Bowed::default(), plunges: 0 };
     for step in std::mem::take(&mut toolpath.steps) {
         match step {
             Step::Run(run) => settling.settle(run),
@@ -69,7 +71,11 @@ impl Settling<'_> {
         let around = self.around;
         let mut curves = tight_curves(&run, &around);
         let start = bowed_start(&run, &around);
-        let policy = around.knife().tight_curves;
+        let policy = match around.knife().tight_curves {
+            // Plunges around a hole that is narrower than the blade would all lead far into the part.
+            TightCurves::Nibble if is_narrow_hole(&run, &curves, &around) => TightCurves::Follow,
+            policy => policy,
+        };
         let is_nibbled = match policy {
             TightCurves::Nibble => true,
             TightCurves::Follow => is_one_plunge(&run, &around),
@@ -88,7 +94,7 @@ impl Settling<'_> {
             Done::Refused => bow.is_slight(&around),
         });
         if let Some(start) = start.as_ref().filter(|start| !start.bow.is_slight(&around))
-            && (curves.is_empty() || !is_nibbled)
+            && (curves.is_empty() || matches!(done, Done::Followed(_)))
         {
             self.bowed.see(start.bow.away, run.spans[0], if is_start_nibbled { Done::Nibbled } else { done });
         }
@@ -135,6 +141,18 @@ fn is_one_plunge(run: &Run, around: &Around) -> bool {
     let mut whole = run.clone();
     overlap::give(&mut whole, around);
     run.shape == Shape::Open && polyline::first_at_distance(&whole.extended(), around.knife().width_mm).is_none()
+}
+
+/// Whether a ring is too tight for the blade all around, and the part lies outside of it.
+fn is_narrow_hole(run: &Run, curves: &[Tight], around: &Around) -> bool {
+    let chords = run.points.len() - 1;
+    let is_narrow = curves.iter().any(|curve| curve.vertices.end() - curve.vertices.start() >= chords);
+    let width = around.knife().width_mm;
+    let is_in_part = || {
+        let along = polyline::direction(run.points[0], run.points[1]).expect("no chord of a run has length zero");
+        around.room(&Ray { from: run.points[1], along, reach: width }).own < width
+    };
+    run.shape == Shape::Ring && is_narrow && is_in_part()
 }
 
 /// The stretches of a run that are too tight, those that meet joined. A smooth contour that is narrower than the blade is

@@ -89,7 +89,8 @@ fn parts(run: &Run, range: [f64; 2], knife: &Knife) -> Option<Vec<Run>> {
         // Over a bend at which C must unwind no overlap can lead on along the contour.
         let overlapped = to - front - heel;
         let is_gentle = way.leads_on(to, [heel + front, knife.width_mm]);
-        let leads_on = is_gentle && overlapped > from && reach(overlapped).is_some_and(|reached| way.station(reached) > to);
+        let leads_on =
+            is_gentle && overlapped > from && reach(overlapped).is_some_and(|reached| way.station(reached) > to);
         let next = if leads_on { overlapped } else { to };
         parts.push(way.part(from, to, [start, REJOINED]));
         from = next;
