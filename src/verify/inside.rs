@@ -1,8 +1,13 @@
 //! Which parts a point lies in: even-odd containment in the closed contours of each piece.
 
+use std::ops::RangeInclusive;
+
+use rayon::prelude::*;
+
 use crate::geom::nest::{self, Shape};
 use crate::geom::{Extent, Point};
 use crate::ir::Marker;
+use crate::ir::marker::Piece;
 
 /// Edges that a band of a part holds on average, at the least.
 const EDGES_A_BAND: usize = 8;
@@ -18,6 +23,8 @@ pub(super) struct Inside {
     cell: [f64; 2],
     columns: usize,
     cells: Vec<Vec<u32>>,
+    /// The closed contours of each piece.
+    shapes: Vec<Shape>,
     parts: Vec<Part>,
     /// The part to which each piece belongs.
     part_of: Vec<usize>,
@@ -29,24 +36,22 @@ struct Part {
     piece: usize,
     extent: Extent,
     height: f64,
-    bands: Vec<Vec<[Point; 2]>>,
+    /// Where the edges of each band begin, and where those of the last one end.
+    starts: Vec<u32>,
+    /// The contour of each edge and its first point there, one band after the other.
+    edges: Vec<[u32; 2]>,
 }
 
 impl Inside {
     /// The index of a marker.
     pub(super) fn new(marker: &Marker) -> Self {
-        let mut edges: Vec<(usize, Vec<[Point; 2]>)> = Vec::new();
-        let mut shapes = vec![Shape::default(); marker.pieces.len()];
-        for (piece, contour) in marker.contours().filter(|(_, contour)| contour.closed) {
-            if edges.last().is_none_or(|(last, _)| *last != piece) {
-                edges.push((piece, Vec::new()));
-            }
-            let points = marker.points(contour);
-            let of_piece = &mut edges.last_mut().expect("one was pushed").1;
-            of_piece.extend(points.windows(2).map(|w| [w[0], w[1]]));
-            shapes[piece].add(points);
-        }
-        let parts: Vec<Part> = edges.into_iter().map(|(piece, edges)| Part::new(piece, &edges)).collect();
+        let shape = |piece: &Piece| {
+            let mut shape = Shape::default();
+            piece.contours.iter().filter(|contour| contour.closed).for_each(|c| shape.add(marker.points(c)));
+            shape
+        };
+        let shapes: Vec<Shape> = marker.pieces.par_iter().map(shape).collect();
+        let parts: Vec<Part> = shapes.par_iter().enumerate().filter_map(|(i, shape)| Part::new(i, shape)).collect();
         let mut extent = Extent::EMPTY;
         for part in &parts {
             extent.add(part.extent.min);
@@ -63,7 +68,7 @@ impl Inside {
         let (columns, rows) = (along(width), along(height));
         let cell = [width / columns as f64, height / rows as f64].map(|size| size.max(f64::MIN_POSITIVE));
         let cells = vec![Vec::new(); columns * rows];
-        let mut inside = Self { extent, cell, columns, cells, parts, part_of: Vec::new() };
+        let mut inside = Self { extent, cell, columns, cells, shapes, parts, part_of: Vec::new() };
         for i in 0..inside.parts.len() {
             let [low, high] = [inside.parts[i].extent.min, inside.parts[i].extent.max].map(|at| inside.place(at));
             for row in low[1]..=high[1] {
@@ -74,7 +79,7 @@ impl Inside {
         }
         // What lies in a piece is a cut-out of it, whoever it belongs to.
         let holders = |point| inside.rings_at(point).map(|piece| piece as u32).collect();
-        inside.part_of = nest::regions(&shapes, holders).into_iter().map(|part| part as usize).collect();
+        inside.part_of = nest::regions(&inside.shapes, holders).into_iter().map(|part| part as usize).collect();
         inside
     }
 
@@ -107,42 +112,69 @@ impl Inside {
     fn rings_at(&self, point: Point) -> impl Iterator<Item = usize> + '_ {
         let [column, row] = self.place(point);
         let near = self.cells[row * self.columns + column].iter().map(|&part| &self.parts[part as usize]);
-        near.filter(move |part| part.holds(point)).map(|part| part.piece)
+        near.filter(move |part| part.holds(point, &self.shapes[part.piece])).map(|part| part.piece)
     }
 }
 
 impl Part {
-    fn new(piece: usize, edges: &[[Point; 2]]) -> Self {
+    /// The part that a piece is; `None` when it bounds nothing.
+    fn new(piece: usize, shape: &Shape) -> Option<Self> {
+        let edges = || shape.rings().iter().zip(0..).flat_map(|(ring, r)| ring.windows(2).zip(0..).map(move |e| (r, e)));
         let mut extent = Extent::EMPTY;
-        for edge in edges {
-            extent.add(edge[0]);
+        let mut count = 0;
+        for (_, (ends, _)) in edges() {
+            extent.add(ends[0]);
+            count += 1;
         }
-        let count = (edges.len() / EDGES_A_BAND).max(1);
-        let height = (extent.size().1 / count as f64).max(f64::MIN_POSITIVE);
-        let mut part = Self { piece, extent, height, bands: vec![Vec::new(); count] };
-        for &edge in edges {
-            let [a, b] = edge.map(|end| part.band(end.y));
-            for band in &mut part.bands[a.min(b)..=a.max(b)] {
-                band.push(edge);
+        if shape.rings().is_empty() {
+            return None;
+        }
+        let bands = (count / EDGES_A_BAND).max(1);
+        let height = (extent.size().1 / bands as f64).max(f64::MIN_POSITIVE);
+        let mut part = Self { piece, extent, height, starts: vec![0; bands + 1], edges: Vec::new() };
+        // How many each band has, then where it ends, and, as they are filled in from behind, where it begins.
+        for (_, (ends, _)) in edges() {
+            for band in part.bands(ends) {
+                part.starts[band] += 1;
             }
         }
-        part
+        for band in 1..=bands {
+            part.starts[band] += part.starts[band - 1];
+        }
+        part.edges = vec![[0; 2]; part.starts[bands] as usize];
+        for (ring, (ends, first)) in edges() {
+            for band in part.bands(ends) {
+                part.starts[band] -= 1;
+                part.edges[part.starts[band] as usize] = [ring, first];
+            }
+        }
+        Some(part)
+    }
+
+    /// The bands that an edge reaches into.
+    fn bands(&self, ends: &[Point]) -> RangeInclusive<usize> {
+        let [a, b] = [0, 1].map(|end| self.band(ends[end].y));
+        a.min(b)..=a.max(b)
     }
 
     fn band(&self, y: f64) -> usize {
-        (((y - self.extent.min.y) / self.height).max(0.0) as usize).min(self.bands.len() - 1)
+        (((y - self.extent.min.y) / self.height).max(0.0) as usize).min(self.starts.len() - 2)
     }
 
-    /// Whether a ray to the right of a point crosses the edges an odd number of times.
-    fn holds(&self, point: Point) -> bool {
+    /// Whether a ray to the right of a point crosses the edges, which are those of a shape, an odd number of times.
+    fn holds(&self, point: Point, shape: &Shape) -> bool {
         let Extent { min, max } = self.extent;
         if point.y < min.y || point.y > max.y || point.x < min.x || point.x > max.x {
             return false;
         }
-        let is_crossed = |[from, to]: &&[Point; 2]| {
+        let is_crossed = |&&[ring, first]: &&[u32; 2]| {
+            let ring = &shape.rings()[ring as usize];
+            let [from, to] = [ring[first as usize], ring[first as usize + 1]];
             (from.y > point.y) != (to.y > point.y)
                 && from.x + (to.x - from.x) * (point.y - from.y) / (to.y - from.y) > point.x
         };
-        self.bands[self.band(point.y)].iter().filter(is_crossed).count() % 2 == 1
+        let band = self.band(point.y);
+        let edges = &self.edges[self.starts[band] as usize..self.starts[band + 1] as usize];
+        edges.iter().filter(is_crossed).count() % 2 == 1
     }
 }
