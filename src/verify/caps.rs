@@ -8,10 +8,10 @@ use crate::machine::MachineProfile;
 /// The caps of a line by station.
 #[derive(Debug)]
 pub(super) struct Caps {
-    /// Station from which each cap holds, mm; the first is 0.
-    starts: Vec<f64>,
-    /// The caps, mm/s; infinite where nothing caps the tip. No two in a row are equal.
-    values: Vec<f64>,
+    /// The cap where the line begins, mm/s; infinite where nothing caps the tip.
+    first: f64,
+    /// The later ones, each with the station from which it holds, mm. No two in a row are equal.
+    later: Vec<[f64; 2]>,
     /// Length of the line when it goes round and round.
     lap: Option<f64>,
 }
@@ -64,11 +64,12 @@ impl<'a> Feeds<'a> {
             let share = self.profile.slow.before_corner_percent / 100.0;
             caps[first..].iter_mut().for_each(|cap| *cap = cap.min(x.speed).min(y.speed) * share);
         }
-        let mut whole = Caps { starts: Vec::new(), values: Vec::new(), lap: None };
+        let mut whole = Caps::all(caps[0]);
+        let mut last = caps[0];
         for (start, cap) in starts.into_iter().zip(caps) {
-            if whole.values.last() != Some(&cap) {
-                whole.starts.push(start);
-                whole.values.push(cap);
+            if cap != last {
+                whole.later.push([start, cap]);
+                last = cap;
             }
         }
         whole
@@ -78,7 +79,7 @@ impl<'a> Feeds<'a> {
 impl Caps {
     /// One cap all along.
     pub(super) fn all(cap: f64) -> Self {
-        Self { starts: vec![0.0], values: vec![cap], lap: None }
+        Self { first: cap, later: Vec::new(), lap: None }
     }
 
     /// The same for a line that goes round and round.
@@ -86,9 +87,14 @@ impl Caps {
         Self { lap: Some(length), ..self }
     }
 
+    /// The cap that holds all along; `None` when there are several.
+    pub(super) fn only(&self) -> Option<f64> {
+        self.later.is_empty().then_some(self.first)
+    }
+
     /// The greatest cap between two stations; beyond the ends hold those of the ends.
     pub(super) fn greatest(&self, low: f64, high: f64) -> f64 {
-        if let [cap] = self.values[..] {
+        if let Some(cap) = self.only() {
             return cap;
         }
         let Some(length) = self.lap else { return self.between(low, high) };
@@ -102,9 +108,10 @@ impl Caps {
     }
 
     fn between(&self, low: f64, high: f64) -> f64 {
-        let first = self.starts.partition_point(|&start| start <= low).max(1) - 1;
-        let end = self.starts.partition_point(|&start| start <= high).max(first + 1);
-        self.values[first..end].iter().copied().fold(0.0, f64::max)
+        let before = |station: f64| self.later.partition_point(|&[start, _]| start <= station);
+        let (from, to) = (before(low), before(high));
+        let at_low = if from == 0 { self.first } else { self.later[from - 1][1] };
+        self.later[from..to.max(from)].iter().map(|&[_, cap]| cap).fold(at_low, f64::max)
     }
 }
 

@@ -29,14 +29,16 @@ pub(super) struct Follower<'a> {
     /// +1 with the line, -1 against it.
     sign: f64,
     foot: Foot,
+    /// The chord that it stands on.
+    chord: usize,
     point: Point,
 }
 
 impl<'a> Follower<'a> {
     /// Starts at a point near a chord, moving with the line (`sign` +1) or against it (-1).
     pub(super) fn new(line: &'a Line, chord: usize, point: Point, sign: f64) -> Self {
-        let mut follower = Self { line, sign, foot: on_chord(line, chord, point), point };
-        follower.foot = follower.best(point, 0.0);
+        let mut follower = Self { line, sign, foot: on_chord(line, chord, point), chord, point };
+        (follower.foot, follower.chord) = follower.best(point, 0.0);
         follower
     }
 
@@ -53,28 +55,30 @@ impl<'a> Follower<'a> {
     /// Moves to the next point and says where that stands.
     pub(super) fn step(&mut self, point: Point) -> Foot {
         let way = (point - self.point).norm();
-        self.foot = self.best(point, way);
+        (self.foot, self.chord) = self.best(point, way);
         self.point = point;
         self.foot
     }
 
-    /// The nearest place within reach of the last one.
-    fn best(&self, point: Point, way: f64) -> Foot {
+    /// The nearest place within reach of the last one, and its chord.
+    fn best(&self, point: Point, way: f64) -> (Foot, usize) {
         let line = self.line;
         let length = line.length();
         let reach = |sign: f64| if sign == self.sign { AHEAD + 2.0 * way.min(LEAP) } else { BACK };
         let (low, high) = (self.foot.station - reach(-1.0), self.foot.station + reach(1.0));
         let laps = if line.ring { (self.foot.station / length).floor() } else { 0.0 };
-        let start = line.chord_at(self.foot.station - laps * length);
-        let mut best: Option<Foot> = None;
-        let mut look = |chord: usize, lap: f64| {
+        let start = line.chord_near(self.chord, self.foot.station - laps * length);
+        let on = |chord: usize, lap: f64| {
             let foot = on_chord(line, chord, point);
-            let foot = Foot { station: foot.station + lap * length, ..foot };
-            if best.is_none_or(|b| foot.deviation < b.deviation) {
-                best = Some(foot);
+            Foot { station: foot.station + lap * length, ..foot }
+        };
+        let mut best = (on(start, laps), start);
+        let mut look = |chord: usize, lap: f64| {
+            let foot = on(chord, lap);
+            if foot.deviation < best.0.deviation {
+                best = (foot, chord);
             }
         };
-        look(start, laps);
         let (mut chord, mut lap) = (start, laps);
         while let Some((next, turn)) = following(line, chord) {
             (chord, lap) = (next, lap + turn);
@@ -92,7 +96,7 @@ impl<'a> Follower<'a> {
             }
             look(chord, lap);
         }
-        best.expect("the chord that it stands on was looked at")
+        best
     }
 }
 

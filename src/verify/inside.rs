@@ -119,7 +119,8 @@ impl Inside {
 impl Part {
     /// The part that a piece is; `None` when it bounds nothing.
     fn new(piece: usize, shape: &Shape) -> Option<Self> {
-        let edges = || shape.rings().iter().zip(0..).flat_map(|(ring, r)| ring.windows(2).zip(0..).map(move |e| (r, e)));
+        let edges =
+            || shape.rings().iter().zip(0..).flat_map(|(ring, r)| ring.windows(2).zip(0..).map(move |e| (r, e)));
         let mut extent = Extent::EMPTY;
         let mut count = 0;
         for (_, (ends, _)) in edges() {

@@ -52,6 +52,7 @@ use rayon::prelude::*;
 use self::coverage::Coverage;
 use self::events::Events;
 use self::gcode::Places;
+use self::grid::Grid;
 use self::inside::Inside;
 use self::limits::Limits;
 use self::naming::Naming;
@@ -59,12 +60,12 @@ use self::order::Order;
 use self::read::{Going, Rounding, Row, Rows};
 use self::reference::Reference;
 use self::rest::Rest;
-use self::stroke::{Judge, Strokes, Traced};
+use self::stroke::{Ground, Judge, Strokes, Traced};
 use self::table::Table;
 use self::worst::Worst;
 use self::worsts::Worsts;
 use crate::ir::{Finding, Marker, finding};
-use crate::machine::Job;
+use crate::machine::{Job, MachineProfile};
 
 /// Rows of strokes that are judged at a time: enough to keep all cores busy, few enough to keep memory small.
 const ROWS_AT_A_TIME: usize = 16_384;
@@ -256,12 +257,23 @@ impl Watch<'_> {
     }
 }
 
+/// What must be cut of a marker, and where what lies.
+fn ground<'a>(marker: &'a Marker, profile: &MachineProfile) -> (Reference<'a>, Ground) {
+    let reference = || {
+        let reference = Reference::new(marker, profile);
+        let grid = Grid::new(&reference);
+        (reference, grid)
+    };
+    let ((reference, grid), inside) = rayon::join(reference, || Inside::new(marker));
+    (reference, Ground { grid, inside })
+}
+
 /// Judges timed setpoints, as the targets `csv`, `npy`, `counts` and `hal` write them, against what the marker says must
 /// be cut.
 pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdict {
-    let (reference, inside) = rayon::join(|| Reference::new(marker, &job.profile), || Inside::new(marker));
+    let (reference, ground) = ground(marker, &job.profile);
     let mut rows = Rows::new(program, &job.profile);
-    let judge = Judge::new((&reference, inside), &job.profile, rows.rounding());
+    let judge = Judge::new((&reference, ground), &job.profile, rows.rounding());
     let rounding = rows.rounding();
     let mut findings = simulate(|| Some((rows.next()?, None)), (&reference, judge, rounding), job);
     let is_broken = rows.is_broken();
@@ -276,10 +288,10 @@ pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdi
 
 /// Judges positions without time, as the target `gcode` writes them, against what the marker says must be cut.
 pub fn positions(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdict {
-    let (reference, inside) = rayon::join(|| Reference::new(marker, &job.profile), || Inside::new(marker));
+    let (reference, ground) = ground(marker, &job.profile);
     let mut places = Places::new(program, &job.profile);
     let rounding = Places::rounding(&job.profile);
-    let judge = Judge::new((&reference, inside), &job.profile, rounding).with_exact_directions(&job.profile);
+    let judge = Judge::new((&reference, ground), &job.profile, rounding).with_exact_directions(&job.profile);
     let next = || places.next().map(|(row, going)| (row, Some(going)));
     let mut findings = simulate(next, (&reference, judge, rounding), job);
     let is_broken = places.is_broken();

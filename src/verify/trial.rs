@@ -148,8 +148,11 @@ impl Tracer<'_> {
             for (line, chord) in self.grid.near(point, REACH) {
                 let (line, chord) = (line as usize, chord as usize);
                 let foot = on_chord(&self.reference.lines[line], chord, point);
-                let next =
-                    Candidate { line, chord, probe, station: foot.station, away: foot.deviation.hypot(foot.beyond) };
+                if foot.deviation > REACH {
+                    continue;
+                }
+                let away = if foot.beyond > 0.0 { foot.deviation.hypot(foot.beyond) } else { foot.deviation };
+                let next = Candidate { line, chord, probe, station: foot.station, away };
                 if next.away > REACH {
                     continue;
                 }
