@@ -120,19 +120,20 @@ fn preceding(line: &Line, chord: usize) -> Option<(usize, f64)> {
 
 /// Where a point stands beside one chord.
 pub(super) fn on_chord(line: &Line, chord: usize, point: Point) -> Foot {
-    let (deviation, station) = line.deviation(chord, point);
-    let plain = Foot { station, deviation, beyond: 0.0 };
     let last = line.points.len() - 1;
-    if line.ring || chord > 0 && chord + 1 < last {
-        return plain;
+    if !line.ring && (chord == 0 || chord + 1 == last) {
+        let along = line.direction(chord);
+        let ahead = |end: usize, sign: f64| {
+            let away = point - line.points[end];
+            let beyond = sign * away.dot(&along);
+            (beyond > 0.0).then(|| Foot { station: line.stations[end], deviation: cross(along, away).abs(), beyond })
+        };
+        let before = if chord == 0 { ahead(0, -1.0) } else { None };
+        let behind = || if chord + 1 == last { ahead(last, 1.0) } else { None };
+        if let Some(foot) = before.or_else(behind) {
+            return foot;
+        }
     }
-    let along = line.direction(chord);
-    let ahead = |end: usize, sign: f64| {
-        let away = point - line.points[end];
-        let beyond = sign * away.dot(&along);
-        (beyond > 0.0).then(|| Foot { station: line.stations[end], deviation: cross(along, away).abs(), beyond })
-    };
-    let before = if chord == 0 { ahead(0, -1.0) } else { None };
-    let behind = if chord + 1 == last { ahead(last, 1.0) } else { None };
-    before.or(behind).unwrap_or(plain)
+    let (deviation, station) = line.deviation(chord, point);
+    Foot { station, deviation, beyond: 0.0 }
 }

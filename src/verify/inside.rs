@@ -6,8 +6,8 @@ use rayon::prelude::*;
 
 use crate::geom::nest::{self, Shape};
 use crate::geom::{Extent, Point};
-use crate::ir::Marker;
 use crate::ir::marker::Piece;
+use crate::ir::{Marker, Segment, SegmentId, SegmentList};
 
 /// Edges that a band of a part holds on average, at the least.
 const EDGES_A_BAND: usize = 8;
@@ -17,14 +17,13 @@ const CELLS_MAX: usize = 1024;
 
 /// The parts, each by the cells that its box touches.
 #[derive(Debug)]
-pub(super) struct Inside {
+pub(super) struct Inside<'a> {
     extent: Extent,
     /// Size of a cell along X and Y, mm.
     cell: [f64; 2],
     columns: usize,
     cells: Vec<Vec<u32>>,
-    /// The closed contours of each piece.
-    shapes: Vec<Shape>,
+    list: &'a SegmentList,
     parts: Vec<Part>,
     /// The part to which each piece belongs.
     part_of: Vec<usize>,
@@ -38,20 +37,16 @@ struct Part {
     height: f64,
     /// Where the edges of each band begin, and where those of the last one end.
     starts: Vec<u32>,
-    /// The contour of each edge and its first point there, one band after the other.
-    edges: Vec<[u32; 2]>,
+    /// The edges, one band after the other.
+    edges: Vec<SegmentId>,
 }
 
-impl Inside {
+impl<'a> Inside<'a> {
     /// The index of a marker.
-    pub(super) fn new(marker: &Marker) -> Self {
-        let shape = |piece: &Piece| {
-            let mut shape = Shape::default();
-            piece.contours.iter().filter(|contour| contour.closed).for_each(|c| shape.add(marker.points(c)));
-            shape
-        };
-        let shapes: Vec<Shape> = marker.pieces.par_iter().map(shape).collect();
-        let parts: Vec<Part> = shapes.par_iter().enumerate().filter_map(|(i, shape)| Part::new(i, shape)).collect();
+    pub(super) fn new(marker: &'a Marker) -> Self {
+        let list = &marker.list;
+        let part = |(i, piece)| Part::new(i, piece, list);
+        let parts: Vec<Part> = marker.pieces.par_iter().enumerate().filter_map(part).collect();
         let mut extent = Extent::EMPTY;
         for part in &parts {
             extent.add(part.extent.min);
@@ -68,7 +63,7 @@ impl Inside {
         let (columns, rows) = (along(width), along(height));
         let cell = [width / columns as f64, height / rows as f64].map(|size| size.max(f64::MIN_POSITIVE));
         let cells = vec![Vec::new(); columns * rows];
-        let mut inside = Self { extent, cell, columns, cells, shapes, parts, part_of: Vec::new() };
+        let mut inside = Self { extent, cell, columns, cells, list, parts, part_of: Vec::new() };
         for i in 0..inside.parts.len() {
             let [low, high] = [inside.parts[i].extent.min, inside.parts[i].extent.max].map(|at| inside.place(at));
             for row in low[1]..=high[1] {
@@ -79,7 +74,13 @@ impl Inside {
         }
         // What lies in a piece is a cut-out of it, whoever it belongs to.
         let holders = |point| inside.rings_at(point).map(|piece| piece as u32).collect();
-        inside.part_of = nest::regions(&inside.shapes, holders).into_iter().map(|part| part as usize).collect();
+        let shape = |piece: &Piece| {
+            let mut shape = Shape::default();
+            piece.contours.iter().filter(|contour| contour.closed).for_each(|c| shape.add(marker.points(c)));
+            shape
+        };
+        let shapes: Vec<Shape> = marker.pieces.par_iter().map(shape).collect();
+        inside.part_of = nest::regions(&shapes, holders).into_iter().map(|part| part as usize).collect();
         inside
     }
 
@@ -112,49 +113,47 @@ impl Inside {
     fn rings_at(&self, point: Point) -> impl Iterator<Item = usize> + '_ {
         let [column, row] = self.place(point);
         let near = self.cells[row * self.columns + column].iter().map(|&part| &self.parts[part as usize]);
-        near.filter(move |part| part.holds(point, &self.shapes[part.piece])).map(|part| part.piece)
+        near.filter(move |part| part.holds(point, self.list)).map(|part| part.piece)
     }
 }
 
 impl Part {
     /// The part that a piece is; `None` when it bounds nothing.
-    fn new(piece: usize, shape: &Shape) -> Option<Self> {
-        let edges =
-            || shape.rings().iter().zip(0..).flat_map(|(ring, r)| ring.windows(2).zip(0..).map(move |e| (r, e)));
-        let mut extent = Extent::EMPTY;
-        let mut count = 0;
-        for (_, (ends, _)) in edges() {
-            extent.add(ends[0]);
+    fn new(index: usize, piece: &Piece, list: &SegmentList) -> Option<Self> {
+        let closed = || piece.contours.iter().filter(|contour| contour.closed);
+        let edges = || closed().flat_map(|contour| list.walk(contour.range));
+        closed().next()?;
+        let (mut extent, mut count) = (Extent::EMPTY, 0);
+        for (_, edge) in edges() {
+            extent.add(edge.from);
             count += 1;
-        }
-        if shape.rings().is_empty() {
-            return None;
         }
         let bands = (count / EDGES_A_BAND).max(1);
         let height = (extent.size().1 / bands as f64).max(f64::MIN_POSITIVE);
-        let mut part = Self { piece, extent, height, starts: vec![0; bands + 1], edges: Vec::new() };
+        let mut part = Self { piece: index, extent, height, starts: vec![0; bands + 1], edges: Vec::new() };
         // How many each band has, then where it ends, and, as they are filled in from behind, where it begins.
-        for (_, (ends, _)) in edges() {
-            for band in part.bands(ends) {
+        for (_, edge) in edges() {
+            for band in part.bands(&edge) {
                 part.starts[band] += 1;
             }
         }
         for band in 1..=bands {
             part.starts[band] += part.starts[band - 1];
         }
-        part.edges = vec![[0; 2]; part.starts[bands] as usize];
-        for (ring, (ends, first)) in edges() {
-            for band in part.bands(ends) {
+        let (first, _) = edges().next()?;
+        part.edges = vec![first; part.starts[bands] as usize];
+        for (id, edge) in edges() {
+            for band in part.bands(&edge) {
                 part.starts[band] -= 1;
-                part.edges[part.starts[band] as usize] = [ring, first];
+                part.edges[part.starts[band] as usize] = id;
             }
         }
         Some(part)
     }
 
     /// The bands that an edge reaches into.
-    fn bands(&self, ends: &[Point]) -> RangeInclusive<usize> {
-        let [a, b] = [0, 1].map(|end| self.band(ends[end].y));
+    fn bands(&self, edge: &Segment) -> RangeInclusive<usize> {
+        let [a, b] = [edge.from, edge.to].map(|end| self.band(end.y));
         a.min(b)..=a.max(b)
     }
 
@@ -162,15 +161,14 @@ impl Part {
         (((y - self.extent.min.y) / self.height).max(0.0) as usize).min(self.starts.len() - 2)
     }
 
-    /// Whether a ray to the right of a point crosses the edges, which are those of a shape, an odd number of times.
-    fn holds(&self, point: Point, shape: &Shape) -> bool {
+    /// Whether a ray to the right of a point crosses the edges, which stand in a list, an odd number of times.
+    fn holds(&self, point: Point, list: &SegmentList) -> bool {
         let Extent { min, max } = self.extent;
         if point.y < min.y || point.y > max.y || point.x < min.x || point.x > max.x {
             return false;
         }
-        let is_crossed = |&&[ring, first]: &&[u32; 2]| {
-            let ring = &shape.rings()[ring as usize];
-            let [from, to] = [ring[first as usize], ring[first as usize + 1]];
+        let is_crossed = |&&id: &&SegmentId| {
+            let [from, to] = list.ends(id);
             (from.y > point.y) != (to.y > point.y)
                 && from.x + (to.x - from.x) * (point.y - from.y) / (to.y - from.y) > point.x
         };

@@ -65,7 +65,7 @@ use self::table::Table;
 use self::worst::Worst;
 use self::worsts::Worsts;
 use crate::ir::{Finding, Marker, finding};
-use crate::machine::{Job, MachineProfile};
+use crate::machine::Job;
 
 /// Rows of strokes that are judged at a time: enough to keep all cores busy, few enough to keep memory small.
 const ROWS_AT_A_TIME: usize = 16_384;
@@ -257,23 +257,18 @@ impl Watch<'_> {
     }
 }
 
-/// What must be cut of a marker, and where what lies.
-fn ground<'a>(marker: &'a Marker, profile: &MachineProfile) -> (Reference<'a>, Ground) {
-    let reference = || {
-        let reference = Reference::new(marker, profile);
-        let grid = Grid::new(&reference);
-        (reference, grid)
-    };
-    let ((reference, grid), inside) = rayon::join(reference, || Inside::new(marker));
-    (reference, Ground { grid, inside })
+/// What lies where on the cloth.
+fn ground<'a>(reference: &Reference<'a>) -> Ground<'a> {
+    let (grid, inside) = rayon::join(|| Grid::new(reference), || Inside::new(reference.marker));
+    Ground { grid, inside }
 }
 
 /// Judges timed setpoints, as the targets `csv`, `npy`, `counts` and `hal` write them, against what the marker says must
 /// be cut.
 pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdict {
-    let (reference, ground) = ground(marker, &job.profile);
+    let reference = Reference::new(marker, &job.profile);
     let mut rows = Rows::new(program, &job.profile);
-    let judge = Judge::new((&reference, ground), &job.profile, rows.rounding());
+    let judge = Judge::new((&reference, ground(&reference)), &job.profile, rows.rounding());
     let rounding = rows.rounding();
     let mut findings = simulate(|| Some((rows.next()?, None)), (&reference, judge, rounding), job);
     let is_broken = rows.is_broken();
@@ -288,10 +283,11 @@ pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdi
 
 /// Judges positions without time, as the target `gcode` writes them, against what the marker says must be cut.
 pub fn positions(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdict {
-    let (reference, ground) = ground(marker, &job.profile);
+    let reference = Reference::new(marker, &job.profile);
     let mut places = Places::new(program, &job.profile);
     let rounding = Places::rounding(&job.profile);
-    let judge = Judge::new((&reference, ground), &job.profile, rounding).with_exact_directions(&job.profile);
+    let judge =
+        Judge::new((&reference, ground(&reference)), &job.profile, rounding).with_exact_directions(&job.profile);
     let next = || places.next().map(|(row, going)| (row, Some(going)));
     let mut findings = simulate(next, (&reference, judge, rounding), job);
     let is_broken = places.is_broken();

@@ -34,22 +34,22 @@ pub(super) struct Line {
     /// Rank of its contour or slit among events, holes, slits and contours, in cut order.
     pub(super) rank: usize,
     /// Its points; a ring ends with its first one.
-    pub(super) points: Vec<Point>,
+    pub(super) points: Box<[Point]>,
     /// Length from the first point to each point.
-    pub(super) stations: Vec<f64>,
+    pub(super) stations: Box<[f64]>,
     /// Source block of each chord.
-    pub(super) blocks: Vec<u32>,
+    pub(super) blocks: Box<[u32]>,
     /// How fast the tip may be, with the line and, by the way from its end, against it: before a corner it may have to be
     /// slower.
     caps: [Caps; 2],
     /// Outward bulge of each chord in its middle, to its left, in lengths of the chord.
-    bulges: Vec<f64>,
+    bulges: Box<[f64]>,
     /// Whether it is a closed contour without a corner.
     pub(super) ring: bool,
     /// Whether it turns the blade past the range of C wherever that starts: then the knife is lifted amid it.
     pub(super) winds: bool,
     /// By the stations of tail and tip: where it is too tight for the blade to be its chord.
-    pub(super) tight: Vec<[f64; 2]>,
+    pub(super) tight: Box<[[f64; 2]]>,
     /// Whether it is nibbled there: cut by plunges without motion.
     pub(super) nibbled: bool,
 }
@@ -84,7 +84,9 @@ impl<'a> Reference<'a> {
         for (piece, OfPiece { ranks, lines: mut of_piece }) in marker.pieces.iter().zip(of_pieces) {
             events.extend((first..).take(piece.events.len()));
             holes.extend((first + piece.events.len()..).take(piece.drills.len()));
-            of_piece.iter_mut().for_each(|line| line.rank += first);
+            for line in &mut of_piece {
+                line.rank += first;
+            }
             lines.append(&mut of_piece);
             first += ranks;
         }
@@ -133,7 +135,7 @@ impl OfPiece {
         for line in &mut lines {
             let is_narrow = !line.ring && chord::is_narrow(&line.points, knife);
             if is_narrow || knife.follow == Follow::Chord || knife.tight_curves == TightCurves::Nibble {
-                line.tight = chord::tight(&line.points, line.ring, knife);
+                line.tight = chord::tight(&line.points, line.ring, knife).into();
                 line.nibbled = (is_narrow || knife.tight_curves == TightCurves::Nibble) && !line.tight.is_empty();
             }
         }
@@ -152,18 +154,18 @@ struct Place<'a> {
 
 /// The line of a slit, `cap` mm/s being the greatest speed of the tip.
 fn slit(stroke: &Stroke, [piece, rank]: [usize; 2], cap: f64) -> Line {
-    let points = vec![stroke.from, stroke.to];
+    let points = Box::new([stroke.from, stroke.to]);
     Line {
         caps: [Caps::all(cap), Caps::all(cap)],
         piece,
         rank,
-        stations: polyline::stations(&points),
+        stations: polyline::stations(&*points).into(),
         points,
-        blocks: vec![stroke.span.block],
-        bulges: vec![0.0],
+        blocks: Box::new([stroke.span.block]),
+        bulges: Box::new([0.0]),
         ring: false,
         winds: false,
-        tight: Vec::new(),
+        tight: Box::default(),
         nibbled: false,
     }
 }
@@ -202,28 +204,24 @@ fn contour_lines(mut segments: Vec<Segment>, closed: bool, place: Place) -> Vec<
                 (false, _) => turn(&segments, from + k),
             };
             let turns: Vec<f64> = (0..=inner).map(turn_at).collect();
-            let points: Vec<Point> =
+            let points: Box<[Point]> =
                 std::iter::once(segments[from].from).chain(segments[from..i].iter().map(|s| s.to)).collect();
             let chords = segments[from..i].iter();
             let [piece, rank] = owner;
-            let stations = polyline::stations(&points);
+            let stations: Box<[f64]> = polyline::stations(&points).into();
             let limits: Vec<f64> = chords.clone().map(|s| feeds.at(s.percent)).collect();
             let end = |vertex: usize| if ring || ends.contains(&(vertex % count)) { End::Plain } else { End::AtCorner };
-            let length = stations[stations.len() - 1];
-            let back: Vec<f64> = stations.iter().rev().map(|station| length - station).collect();
-            let against = feeds.caps(&back, limits.iter().rev().copied().collect(), end(from));
-            let caps = [feeds.caps(&stations, limits, end(i)), against];
             lines.push(Line {
                 piece,
                 rank,
-                caps: if ring { caps.map(|caps| caps.round(length)) } else { caps },
+                caps: feeds.both_ways(&stations, limits, [end(from), end(i)]),
                 stations,
                 points,
                 blocks: chords.clone().map(|s| s.span.block).collect(),
                 bulges: chords.zip(turns.windows(2)).map(|(s, t)| bulge(s, t, profile)).collect(),
                 ring,
                 winds: false,
-                tight: Vec::new(),
+                tight: Box::default(),
                 nibbled: false,
             });
             from = i;
@@ -358,7 +356,9 @@ impl Line {
     /// The greatest speed of the tip between two stations, mm/s; `sign` is +1 with the line, -1 against it.
     pub(super) fn cap(&self, [low, high]: [f64; 2], sign: f64) -> f64 {
         let length = self.length();
-        if sign > 0.0 { self.caps[0].greatest(low, high) } else { self.caps[1].greatest(length - high, length - low) }
+        let (caps, low, high) =
+            if sign > 0.0 { (&self.caps[0], low, high) } else { (&self.caps[1], length - high, length - low) };
+        if self.ring { caps.greatest_round(low, high, length) } else { caps.greatest(low, high) }
     }
 
     /// The point at a station.

@@ -108,11 +108,11 @@ pub(super) struct Traced<'s> {
 }
 
 /// What lies where on the cloth.
-pub(super) struct Ground {
+pub(super) struct Ground<'a> {
     /// The chords of all lines.
     pub(super) grid: Grid,
     /// The parts.
-    pub(super) inside: Inside,
+    pub(super) inside: Inside<'a>,
 }
 
 /// Judges strokes.
@@ -131,7 +131,7 @@ pub(super) struct Judge<'a> {
     overlaps: f64,
     /// Greatest bulge of a tube beside its tolerance, mm.
     bulge: f64,
-    overcut: Overcut,
+    overcut: Overcut<'a>,
     naming: Naming,
     worsts: Worsts,
 }
@@ -139,7 +139,7 @@ pub(super) struct Judge<'a> {
 impl<'a> Judge<'a> {
     /// Judges by what must be cut and what lies where a program whose rows are rounded.
     pub(super) fn new(
-        (reference, Ground { grid, inside }): (&'a Reference, Ground),
+        (reference, Ground { grid, inside }): (&'a Reference, Ground<'a>),
         profile: &'a MachineProfile,
         rounding: Rounding,
     ) -> Self {
