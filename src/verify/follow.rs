@@ -20,6 +20,8 @@ pub(super) struct Foot {
     pub(super) deviation: f64,
     /// How far beyond the end it stands, mm; 0 between the ends.
     pub(super) beyond: f64,
+    /// The chord that this place is on.
+    pub(super) chord: usize,
 }
 
 /// Stands on a line and moves along it.
@@ -29,16 +31,14 @@ pub(super) struct Follower<'a> {
     /// +1 with the line, -1 against it.
     sign: f64,
     foot: Foot,
-    /// The chord that it stands on.
-    chord: usize,
     point: Point,
 }
 
 impl<'a> Follower<'a> {
     /// Starts at a point near a chord, moving with the line (`sign` +1) or against it (-1).
     pub(super) fn new(line: &'a Line, chord: usize, point: Point, sign: f64) -> Self {
-        let mut follower = Self { line, sign, foot: on_chord(line, chord, point), chord, point };
-        (follower.foot, follower.chord) = follower.best(point, 0.0);
+        let mut follower = Self { line, sign, foot: on_chord(line, chord, point), point };
+        follower.foot = follower.best(point, 0.0);
         follower
     }
 
@@ -55,28 +55,28 @@ impl<'a> Follower<'a> {
     /// Moves to the next point and says where that stands.
     pub(super) fn step(&mut self, point: Point) -> Foot {
         let way = (point - self.point).norm();
-        (self.foot, self.chord) = self.best(point, way);
+        self.foot = self.best(point, way);
         self.point = point;
         self.foot
     }
 
-    /// The nearest place within reach of the last one, and its chord.
-    fn best(&self, point: Point, way: f64) -> (Foot, usize) {
+    /// The nearest place within reach of the last one.
+    fn best(&self, point: Point, way: f64) -> Foot {
         let line = self.line;
         let length = line.length();
         let reach = |sign: f64| if sign == self.sign { AHEAD + 2.0 * way.min(LEAP) } else { BACK };
         let (low, high) = (self.foot.station - reach(-1.0), self.foot.station + reach(1.0));
         let laps = if line.ring { (self.foot.station / length).floor() } else { 0.0 };
-        let start = line.chord_near(self.chord, self.foot.station - laps * length);
+        let start = line.chord_near(self.foot.chord, self.foot.station - laps * length);
         let on = |chord: usize, lap: f64| {
             let foot = on_chord(line, chord, point);
             Foot { station: foot.station + lap * length, ..foot }
         };
-        let mut best = (on(start, laps), start);
+        let mut best = on(start, laps);
         let mut look = |chord: usize, lap: f64| {
             let foot = on(chord, lap);
-            if foot.deviation < best.0.deviation {
-                best = (foot, chord);
+            if foot.deviation < best.deviation {
+                best = foot;
             }
         };
         let (mut chord, mut lap) = (start, laps);
@@ -126,7 +126,12 @@ pub(super) fn on_chord(line: &Line, chord: usize, point: Point) -> Foot {
         let ahead = |end: usize, sign: f64| {
             let away = point - line.points[end];
             let beyond = sign * away.dot(&along);
-            (beyond > 0.0).then(|| Foot { station: line.stations[end], deviation: cross(along, away).abs(), beyond })
+            (beyond > 0.0).then(|| Foot {
+                station: line.stations[end],
+                deviation: cross(along, away).abs(),
+                beyond,
+                chord,
+            })
         };
         let before = if chord == 0 { ahead(0, -1.0) } else { None };
         let behind = || if chord + 1 == last { ahead(last, 1.0) } else { None };
@@ -135,5 +140,5 @@ pub(super) fn on_chord(line: &Line, chord: usize, point: Point) -> Foot {
         }
     }
     let (deviation, station) = line.deviation(chord, point);
-    Foot { station, deviation, beyond: 0.0 }
+    Foot { station, deviation, beyond: 0.0, chord }
 }

@@ -219,7 +219,7 @@ impl Watch<'_> {
     /// Sees rows until enough of them belong to strokes, or none comes any more, and gathers these. Each row may come with
     /// how the axes go there.
     fn gather(&mut self, next: &mut impl FnMut() -> Option<(Row, Option<Going>)>) -> Strokes {
-        let mut strokes = Strokes::default();
+        let mut strokes = Strokes::with_room(ROWS_AT_A_TIME);
         while strokes.rows() < ROWS_AT_A_TIME || strokes.are_open() {
             let Some((row, going)) = next() else { break };
             self.limits.see(&row);

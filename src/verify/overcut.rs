@@ -264,6 +264,9 @@ impl Stroke<'_> {
             let point = self.cut.points[i];
             return (start - point).dot(&along).max((point - end).dot(&along)).max(0.0);
         }
+        if self.held.contains(&i) {
+            return self.feet[i].beyond;
+        }
         let edge = i.clamp(*self.held.start(), *self.held.end());
         self.feet[i].beyond.max((self.cut.points[i] - self.cut.points[edge]).norm())
     }

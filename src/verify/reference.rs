@@ -298,6 +298,15 @@ impl Line {
         ((away - outward * used).norm(), start + way)
     }
 
+    /// Whether a point may be nearer than `reach` mm to the tube's core beside a chord, as far as its box tells.
+    pub(super) fn may_reach(&self, chord: usize, point: Point, reach: f64) -> bool {
+        let bulge = self.bulges[chord].abs() * (self.stations[chord + 1] - self.stations[chord]);
+        let (from, to) = (self.points[chord] - point, self.points[chord + 1] - point);
+        let reach = reach + bulge;
+        let is_between = |a: f64, b: f64| a.min(b) <= reach && a.max(b) >= -reach;
+        is_between(from.x, to.x) && is_between(from.y, to.y)
+    }
+
     /// The vertices between two stations; on a ring these may lie on any lap, and its last point is left to its first.
     pub(super) fn vertices(&self, low: f64, high: f64) -> impl Iterator<Item = usize> + '_ {
         let length = self.length();

@@ -45,6 +45,11 @@ pub(super) struct Strokes {
 }
 
 impl Strokes {
+    /// None yet, with room for so many rows.
+    pub(super) fn with_room(rows: usize) -> Self {
+        Self { rows: Vec::with_capacity(rows), ..Self::default() }
+    }
+
     /// A row of the stroke that has not ended.
     pub(super) fn push(&mut self, row: &Row, going: Option<Going>) {
         self.rows.push(*row);
