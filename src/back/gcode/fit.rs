@@ -88,8 +88,8 @@ impl Arc {
     /// The point at a length.
     pub(super) fn at(&self, s: f64) -> Point {
         let half = 0.5 * self.curvature * s;
-        let chord = if half == 0.0 { s } else { s * half.sin() / half };
         let (sin, cos) = half.sin_cos();
+        let chord = if half == 0.0 { s } else { s * sin / half };
         self.from
             + Vector::new(self.along.x * cos - self.along.y * sin, self.along.x * sin + self.along.y * cos) * chord
     }

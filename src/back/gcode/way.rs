@@ -304,8 +304,8 @@ fn tip_line(run: &Run, width: f64) -> (Vec<Point>, Vec<usize>, Option<Point>) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fit::Arc;
     use super::*;
+    use crate::back::gcode::fit::Arc;
 
     #[test]
     fn what_is_too_short_to_be_told_is_joined_to_what_it_lies_along() {
