@@ -32,7 +32,8 @@ impl Heading {
 
     /// The unit vector.
     pub fn unit(self) -> Vector {
-        Vector::new(self.0.cos(), self.0.sin())
+        let (sin, cos) = self.0.sin_cos();
+        Vector::new(cos, sin)
     }
 
     /// The signed turn from `self` to `other`, rad, in `(-pi, pi]`.
@@ -49,7 +50,8 @@ impl Rotation {
 
     /// The unit vector of that direction.
     pub fn unit(self) -> Vector {
-        Vector::new(self.0.cos(), self.0.sin())
+        let (sin, cos) = self.0.sin_cos();
+        Vector::new(cos, sin)
     }
 
     /// The position nearest to `self` at which the axis shows `heading`.

@@ -72,6 +72,11 @@ impl Extent {
         self.min.x < other.max.x && other.min.x < self.max.x && self.min.y < other.max.y && other.min.y < self.max.y
     }
 
+    /// Whether the two boxes have a point in common, be it of their edges.
+    pub fn meets(&self, other: &Self) -> bool {
+        self.min.x <= other.max.x && other.min.x <= self.max.x && self.min.y <= other.max.y && other.min.y <= self.max.y
+    }
+
     /// Whether another box lies in this one.
     pub fn covers(&self, other: &Self) -> bool {
         self.holds(other.min) && self.holds(other.max)

@@ -1,5 +1,7 @@
 //! What lies in what: whose cut-out a shape is.
 
+use rayon::prelude::*;
+
 use super::{Extent, Point};
 
 /// Where between the bottom and the top of a shape a point inside it is looked for: seldom at the height of an edge.
@@ -48,7 +50,7 @@ impl Shape {
 /// For each shape the one to whose region it belongs: itself, or, when it lies in one other or in three, the smallest of
 /// these, of which it is a cut-out. A shape in a cut-out is a region of its own. `holders` names the shapes in whose rings a
 /// point lies.
-pub fn regions(shapes: &[Shape], holders: impl Fn(Point) -> Vec<u32>) -> Vec<u32> {
+pub fn regions(shapes: &[Shape], holders: impl Fn(Point) -> Vec<u32> + Sync) -> Vec<u32> {
     let area = |shape: u32| {
         let (width, height) = shapes[shape as usize].extent.size();
         width * height
@@ -65,8 +67,9 @@ pub fn regions(shapes: &[Shape], holders: impl Fn(Point) -> Vec<u32>) -> Vec<u32
     // The largest first: what holds a shape is larger than it, and settled before.
     let mut by_size: Vec<u32> = (0..count).collect();
     by_size.sort_by(|&a, &b| area(b).total_cmp(&area(a)).then(a.cmp(&b)));
-    for own in by_size {
-        if let Some(holder) = holder(own) {
+    let held: Vec<Option<u32>> = by_size.par_iter().map(|&own| holder(own)).collect();
+    for (own, holder) in by_size.into_iter().zip(held) {
+        if let Some(holder) = holder {
             regions[own as usize] = regions[holder as usize];
         }
     }

@@ -1,6 +1,8 @@
 //! Regions of the plane, each bounded by the rings of one owner by the even-odd rule, and how far one may go straight on
 //! before entering one. Every question looks at what is near only, so that asking it everywhere is nearly linear.
 
+use std::ops::RangeInclusive;
+
 use rayon::prelude::*;
 
 use super::{Extent, Point, Vector, cross, polyline};
@@ -10,9 +12,6 @@ const EDGES_A_BAND: usize = 8;
 /// Regions that a cell of the lattice of boxes holds on average, at the least; and the most cells along a side.
 const REGIONS_A_BOX: usize = 2;
 const BOXES_MAX: usize = 1024;
-/// Least size of a cell, mm, and the most cells along a side.
-const CELL_MIN: f64 = 4.0;
-const CELLS_MAX: f64 = 2048.0;
 /// Places nearer than this are the same, mm: rounding of coordinates of some metres.
 const SAME_EPSILON: f64 = 1e-9;
 /// Where between two crossings it is seen whether a way lies well inside.
@@ -21,14 +20,10 @@ const PROBES: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 /// Regions, indexed.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Regions {
-    /// Those of one owner side by side.
-    edges: Vec<Edge>,
     /// Each owner's region, in order.
     owners: Vec<Region>,
     /// Regions by the cells that their boxes meet.
     boxes: Lattice,
-    /// Edges by the cell that they pass.
-    cells: Lattice,
 }
 
 /// A straight way.
@@ -58,14 +53,14 @@ impl Room {
     }
 }
 
+/// A straight piece of a ring.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Edge {
     from: Point,
     to: Point,
-    owner: u32,
 }
 
-/// Cells of one size side by side, each with the items that it holds, one cell after the other.
+/// Cells of one size side by side, each with the regions that it holds, one cell after the other.
 #[derive(Debug, Clone, PartialEq, Default)]
 struct Lattice {
     origin: Point,
@@ -80,47 +75,56 @@ struct Lattice {
 struct Region {
     owner: u32,
     extent: Extent,
-    /// Where its edges begin.
-    first: usize,
-    /// Its edges by the band along Y that they reach into: all that a ray along X can meet.
-    bands: Lattice,
+    /// Its rings, one behind the other; each ends with the point that it begins with.
+    points: Vec<Point>,
+    bands: Bands,
+}
+
+/// Edges by the band along Y that they reach into: all that a ray along X can meet.
+#[derive(Debug, Clone, PartialEq)]
+struct Bands {
+    bottom: f64,
+    height: f64,
+    /// Where each band begins among the items, and where the last one ends.
+    starts: Vec<u32>,
+    /// Edges by the place of their first point, one band after the other.
+    items: Vec<u32>,
+}
+
+/// Sorts items into slots by counting, first how many, then where: where each slot begins, and the items slot by slot.
+/// `each` calls out the slot and the item of all.
+fn sorted(slots: usize, each: impl Fn(&mut dyn FnMut(usize, u32))) -> (Vec<u32>, Vec<u32>) {
+    // A slot's count stands two places on, so that what is counted up one place on is where it begins, then where it ends.
+    let mut starts = vec![0_u32; slots + 2];
+    each(&mut |slot, _| starts[slot + 2] += 1);
+    for i in 2..starts.len() {
+        starts[i] += starts[i - 1];
+    }
+    let mut items = vec![0; starts[slots + 1] as usize];
+    each(&mut |slot, item| {
+        let next = &mut starts[slot + 1];
+        items[*next as usize] = item;
+        *next += 1;
+    });
+    starts.truncate(slots + 1);
+    (starts, items)
 }
 
 impl Lattice {
-    /// Puts each edge into the cells that it passes.
-    fn new(edges: &[Edge], origin: Point, size: [f64; 2], count: [usize; 2]) -> Self {
-        Self::of(edges.len(), (origin, size, count), |lattice, i, see| lattice.passed(&edges[i], see))
-    }
-
-    /// Puts each box into the cells that it meets.
-    fn of_boxes(boxes: &[Region], origin: Point, size: [f64; 2], count: [usize; 2]) -> Self {
-        Self::of(boxes.len(), (origin, size, count), |lattice, i, see| lattice.met(boxes[i].extent).for_each(see))
-    }
-
-    /// Puts each item into cells, which `cells` calls out.
-    fn of(
-        items: usize,
-        (origin, size, count): (Point, [f64; 2], [usize; 2]),
-        cells: impl Fn(&Self, usize, &mut dyn FnMut(usize)),
-    ) -> Self {
-        let mut lattice = Self { origin, size, count, starts: Vec::new(), items: Vec::new() };
-        // Counting sort: first how many, then where.
-        let mut counts = vec![0_u32; count[0] * count[1] + 1];
-        for i in 0..items {
-            cells(&lattice, i, &mut |cell| counts[cell + 1] += 1);
-        }
-        for i in 1..counts.len() {
-            counts[i] += counts[i - 1];
-        }
-        let mut placed = vec![0; counts[count[0] * count[1]] as usize];
-        let mut next = counts.clone();
-        for i in 0..items {
-            cells(&lattice, i, &mut |cell| {
-                placed[next[cell] as usize] = i as u32;
-                next[cell] += 1;
-            });
-        }
-        (lattice.starts, lattice.items) = (counts, placed);
+    /// Puts each region into the cells that its box meets.
+    fn new(regions: &[Region], extent: Extent) -> Self {
+        let (width, height) = extent.size();
+        let wanted = (regions.len() / REGIONS_A_BOX).max(1) as f64;
+        // As many cells as that, about as high as wide.
+        let side = (width * height / wanted).sqrt().max(f64::MIN_POSITIVE);
+        let count = [width, height].map(|length| ((length / side) as usize).clamp(1, BOXES_MAX));
+        let size = [width / count[0] as f64, height / count[1] as f64].map(|size| size.max(f64::MIN_POSITIVE));
+        let mut lattice = Self { origin: extent.min, size, count, starts: Vec::new(), items: Vec::new() };
+        (lattice.starts, lattice.items) = sorted(count[0] * count[1], |see| {
+            for (region, i) in regions.iter().zip(0..) {
+                lattice.met(region.extent).for_each(|cell| see(cell, i));
+            }
+        });
         lattice
     }
 
@@ -136,23 +140,7 @@ impl Lattice {
         (((value - origin) / self.size[axis]).max(0.0) as usize).min(self.count[axis] - 1)
     }
 
-    /// Calls `see` for each cell that an edge passes, row by row.
-    fn passed(&self, edge: &Edge, mut see: impl FnMut(usize)) {
-        let (low, high) = if edge.from.y <= edge.to.y { (edge.from, edge.to) } else { (edge.to, edge.from) };
-        let rows = self.place(low.y, 1)..=self.place(high.y, 1);
-        for row in rows {
-            let bottom = self.origin.y + self.size[1] * row as f64;
-            let share = |y: f64| if high.y > low.y { ((y - low.y) / (high.y - low.y)).clamp(0.0, 1.0) } else { 0.0 };
-            let flat = high.y <= low.y;
-            let at = |y: f64| low.x + (high.x - low.x) * share(y);
-            let ends = if flat { [low.x, high.x] } else { [at(bottom), at(bottom + self.size[1])] };
-            for column in self.place(ends[0].min(ends[1]), 0)..=self.place(ends[0].max(ends[1]), 0) {
-                see(row * self.count[0] + column);
-            }
-        }
-    }
-
-    /// The items of all cells that a box meets; some more than once.
+    /// The regions of all cells that a box meets; some more than once.
     fn near(&self, extent: Extent) -> impl Iterator<Item = usize> + '_ {
         let cells = (!self.items.is_empty()).then(|| self.met(extent)).into_iter().flatten();
         cells
@@ -161,71 +149,84 @@ impl Lattice {
     }
 }
 
-/// The region of each owner of edges, which lie side by side.
-fn regions(edges: &[Edge]) -> Vec<Region> {
-    let by_owner: Vec<&[Edge]> = edges.chunk_by(|a, b| a.owner == b.owner).collect();
-    let starts = by_owner.iter().scan(0, |next, edges| Some(std::mem::replace(next, *next + edges.len())));
-    let starts: Vec<usize> = starts.collect();
-    by_owner.into_par_iter().zip(starts).map(|(edges, first)| Region::new(edges, first)).collect()
+impl Bands {
+    /// Puts the edges between points, but for those that no edge begins at, into the bands of their box.
+    fn new(points: &[Point], ends: &[usize], extent: Extent) -> Self {
+        let edges = points.len() - ends.len();
+        let count = (edges / EDGES_A_BAND).max(1);
+        let height = (extent.size().1 / count as f64).max(f64::MIN_POSITIVE);
+        let mut bands = Self { bottom: extent.min.y, height, starts: vec![0; count + 1], items: Vec::new() };
+        (bands.starts, bands.items) = sorted(count, |see| {
+            let mut first = 0;
+            for &end in ends {
+                for (ends, i) in points[first..=end].windows(2).zip(first as u32..) {
+                    bands.met(ends[0].y.min(ends[1].y), ends[0].y.max(ends[1].y)).for_each(|band| see(band, i));
+                }
+                first = end + 1;
+            }
+        });
+        bands
+    }
+
+    /// The bands between two heights.
+    fn met(&self, low: f64, high: f64) -> RangeInclusive<usize> {
+        let last = self.starts.len() - 2;
+        let [low, high] = [low, high].map(|y| (((y - self.bottom) / self.height).max(0.0) as usize).min(last));
+        low..=high
+    }
+
+    /// The edges of the bands between two heights; some more than once.
+    fn near(&self, low: f64, high: f64) -> &[u32] {
+        let bands = self.met(low, high);
+        &self.items[self.starts[*bands.start()] as usize..self.starts[bands.end() + 1] as usize]
+    }
 }
 
 impl Regions {
     /// The regions that rings bound, each ring with its owner; whether a ring repeats its first point does not matter.
     pub fn new<'a>(rings: impl IntoIterator<Item = (u32, &'a [Point])>) -> Self {
-        let (mut edges, mut extent) = (Vec::new(), Extent::EMPTY);
-        for (owner, ring) in rings {
-            let Some(&last) = ring.last() else { continue };
-            let mut from = last;
-            for &to in ring {
-                extent.add(to);
-                if from != to {
-                    edges.push(Edge { from, to, owner });
-                }
-                from = to;
-            }
+        let mut rings: Vec<(u32, &[Point])> = rings.into_iter().collect();
+        rings.sort_by_key(|(owner, _)| *owner); // stable: the rings of an owner keep their order
+        let by_owner: Vec<&[(u32, &[Point])]> = rings.chunk_by(|a, b| a.0 == b.0).collect();
+        let owners: Vec<Region> = by_owner.into_par_iter().filter_map(Region::new).collect();
+        let mut extent = Extent::EMPTY;
+        for region in &owners {
+            extent.add(region.extent.min);
+            extent.add(region.extent.max);
         }
-        if edges.is_empty() {
+        if owners.is_empty() {
             return Self::default();
         }
-        edges.sort_by_key(|edge| edge.owner); // stable: the rings of an owner keep their order
-        let (width, height) = extent.size();
-        let cell = CELL_MIN.max(width.max(height) / CELLS_MAX);
-        let cells = [width, height].map(|side| (side / cell) as usize + 1);
-        let (owners, cells) = rayon::join(|| regions(&edges), || Lattice::new(&edges, extent.min, [cell; 2], cells));
-        let wanted = (owners.len() / REGIONS_A_BOX).max(1) as f64;
-        // As many cells as that, about as high as wide.
-        let side = (width * height / wanted).sqrt().max(f64::MIN_POSITIVE);
-        let count = [width, height].map(|length| ((length / side) as usize).clamp(1, BOXES_MAX));
-        let size = [width / count[0] as f64, height / count[1] as f64].map(|size| size.max(f64::MIN_POSITIVE));
-        Self { boxes: Lattice::of_boxes(&owners, extent.min, size, count), owners, cells, edges }
+        Self { boxes: Lattice::new(&owners, extent), owners }
     }
 
     /// The owners in whose region a point lies, in order. A point on an edge may count either way.
     pub fn owners_at(&self, point: Point) -> Vec<u32> {
         let near = self.boxes.near(Extent { min: point, max: point }).map(|i| &self.owners[i]);
-        let mut owners: Vec<u32> =
-            near.filter(|region| region.holds(point, &self.edges)).map(|region| region.owner).collect();
+        let mut owners: Vec<u32> = near.filter(|region| region.holds(point)).map(|region| region.owner).collect();
         owners.sort_unstable();
         owners
     }
 
     /// Whether a point that lies in an owner's region is farther than `slack` mm from its edges.
     fn is_deep(&self, point: Point, owner: u32, slack: f64) -> bool {
-        let reach = Vector::new(slack, slack);
-        let mut near = self.cells.near(Extent { min: point - reach, max: point + reach }).map(|i| &self.edges[i]);
-        !near.any(|edge| edge.owner == owner && polyline::distance_to_segment(point, edge.from, edge.to) <= slack)
+        let Ok(place) = self.owners.binary_search_by_key(&owner, |region| region.owner) else { return true };
+        let region = &self.owners[place];
+        let mut near = region.near(around(point, slack));
+        !near.any(|edge| polyline::distance_to_segment(point, edge.from, edge.to) <= slack)
     }
 
     /// How far a way of `owner` goes before it enters a region, its own or another's. What comes no deeper than `slack` mm
     /// enters nothing: it lies along an edge. A region of another in which the way starts is no obstacle.
     pub fn room(&self, ray: &Ray, owner: u32, slack: f64) -> Room {
         let mut room = Room { own: f64::INFINITY, other: f64::INFINITY };
-        let mut extent = Extent::EMPTY;
-        extent.add(ray.from);
-        extent.add(ray.from + ray.along * ray.reach);
+        let mut extent = around(ray.from, SAME_EPSILON);
+        let to = around(ray.from + ray.along * ray.reach, SAME_EPSILON);
+        extent.add(to.min);
+        extent.add(to.max);
         let mut cuts = vec![0.0, ray.reach];
-        for i in self.cells.near(extent) {
-            self.edges[i].crossings(ray, &mut cuts);
+        for i in self.boxes.near(extent) {
+            self.owners[i].near(extent).for_each(|edge| edge.crossings(ray, &mut cuts));
         }
         cuts.sort_by(f64::total_cmp);
         let deep = |way: f64, owner: u32| self.is_deep(ray.from + ray.along * way, owner, slack);
@@ -251,34 +252,67 @@ impl Regions {
     }
 }
 
+/// The box of all places that are nearer to a point than `reach` mm along each axis.
+fn around(point: Point, reach: f64) -> Extent {
+    let reach = Vector::new(reach, reach);
+    Extent { min: point - reach, max: point + reach }
+}
+
 impl Region {
-    fn new(edges: &[Edge], first: usize) -> Self {
-        let mut extent = Extent::EMPTY;
-        for edge in edges {
-            extent.add(edge.from);
+    /// The region that the rings of one owner bound; `None` when they have no edges.
+    fn new(rings: &[(u32, &[Point])]) -> Option<Self> {
+        let (mut points, mut ends, mut extent) = (Vec::new(), Vec::new(), Extent::EMPTY);
+        points.reserve_exact(rings.iter().map(|(_, ring)| ring.len() + 1).sum());
+        for (_, ring) in rings {
+            let Some(&last) = ring.last() else { continue };
+            let first = points.len();
+            points.push(last);
+            for &to in *ring {
+                if points[points.len() - 1] != to {
+                    extent.add(to);
+                    points.push(to);
+                }
+            }
+            if points.len() - first < 2 {
+                // A point bounds nothing.
+                points.truncate(first);
+            } else {
+                ends.push(points.len() - 1);
+            }
         }
-        let (width, height) = extent.size();
-        let count = (edges.len() / EDGES_A_BAND).max(1);
-        let band = [width, height / count as f64].map(|size| size.max(f64::MIN_POSITIVE));
-        Self { owner: edges[0].owner, extent, first, bands: Lattice::new(edges, extent.min, band, [1, count]) }
+        let bands = (!ends.is_empty()).then(|| Bands::new(&points, &ends, extent))?;
+        Some(Self { owner: rings[0].0, extent, points, bands })
+    }
+
+    fn edge(&self, i: u32) -> Edge {
+        let i = i as usize;
+        Edge { from: self.points[i], to: self.points[i + 1] }
+    }
+
+    /// The edges whose boxes meet a box; some more than once.
+    fn near(&self, extent: Extent) -> impl Iterator<Item = Edge> + '_ {
+        let edges = if self.extent.meets(&extent) { self.bands.near(extent.min.y, extent.max.y) } else { &[] };
+        edges.iter().map(|&i| self.edge(i)).filter(move |edge| edge.extent().meets(&extent))
     }
 
     /// Whether a ray to the right of a point crosses its edges an odd number of times.
-    fn holds(&self, point: Point, edges: &[Edge]) -> bool {
-        let Extent { min, max } = self.extent;
-        if point.x < min.x || point.x > max.x || point.y < min.y || point.y > max.y {
-            return false;
-        }
-        let crossed = self.bands.near(Extent { min: point, max: point }).filter(|&i| {
-            let Edge { from, to, .. } = edges[self.first + i];
+    fn holds(&self, point: Point) -> bool {
+        let crossed = |&&i: &&u32| {
+            let Edge { from, to } = self.edge(i);
             (from.y > point.y) != (to.y > point.y)
                 && from.x + (to.x - from.x) * (point.y - from.y) / (to.y - from.y) > point.x
-        });
-        crossed.count() % 2 == 1
+        };
+        self.extent.holds(point) && self.bands.near(point.y, point.y).iter().filter(crossed).count() % 2 == 1
     }
 }
 
 impl Edge {
+    fn extent(&self) -> Extent {
+        let mut extent = Extent { min: self.from, max: self.from };
+        extent.add(self.to);
+        extent
+    }
+
     /// Adds how far along a way it crosses or touches it.
     fn crossings(&self, ray: &Ray, cuts: &mut Vec<f64>) {
         let (a, b) = (self.from - ray.from, self.to - ray.from);

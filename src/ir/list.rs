@@ -171,6 +171,11 @@ impl SegmentList {
         points.filter_map(move |point| before.replace(point).map(|before| [before, point]))
     }
 
+    /// The two ends of a segment, in the order of the list.
+    pub fn ends(&self, SegmentId(id): SegmentId) -> [Point; 2] {
+        [self.links[id as usize].prev, id].map(|id| self.nodes[id as usize].to)
+    }
+
     /// Where a range starts, in its direction.
     fn start(&self, range: Range) -> Point {
         let id = if range.backward { range.last.0 } else { self.links[range.first.0 as usize].prev };

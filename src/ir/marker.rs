@@ -257,7 +257,10 @@ impl Marker {
 
     /// The points of a contour: one more than its segments; a closed one ends with its first point.
     pub fn points(&self, contour: &Contour) -> Vec<Point> {
-        self.list.points(contour.range).collect()
+        // Counted first: large markers have little room for what a vector grows by.
+        let mut points = Vec::with_capacity(self.list.points(contour.range).count());
+        points.extend(self.list.points(contour.range));
+        points
     }
 
     /// Length of all contours and slits, mm, without overlaps.

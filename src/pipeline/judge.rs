@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::io::{self, BufReader, Read as _};
 
 use super::report::significant;
-use super::{Judged, Medium, read_to_judge};
+use super::{Input, Judged, Medium, read_to_judge};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::Dialect;
 use crate::ir::marker::{Notch, Piece};
@@ -12,7 +12,7 @@ use crate::ir::{Finding, Marker};
 use crate::machine::{Job, Mode};
 use crate::source::{Source, Span};
 use crate::units::number::{exact, fixed};
-use crate::verify::{self, Kind, RULES, Verdict};
+use crate::verify::{self, Census, Kind, RULES, Verdict};
 
 /// The rule on what can be read.
 const FORMAT: &str = "verify/format";
@@ -57,7 +57,9 @@ pub fn judge_program(
     if diagnostics.has_errors() {
         return Ok(None);
     }
-    judge(source, &judged, job, program).map(Some)
+    let Judged { input, read } = judged;
+    let audit = audited(source, (&input, read), job);
+    judge(source, (&input.marker, &audit), job, program).map(Some)
 }
 
 /// Why a file is no program that can be judged, by how it begins, and what to do about it; `None` when it is one.
@@ -66,41 +68,45 @@ pub fn foreign(file: &mut dyn Medium) -> io::Result<Option<[String; 2]>> {
     verify::foreign(&mut BufReader::with_capacity(BLOCK, file))
 }
 
-/// Reads a program back from its start and judges it, and what was read of the source against its bytes.
+/// Reads a program back from its start and judges it; `audit` is what is known of its source.
 ///
 /// Where the knife stays up nothing may be cut: the program is judged against a marker without lines, so that every
 /// stroke is one too many, and the rules on how something is cut say nothing.
-pub(super) fn judge(source: &Source, judged: &Judged, job: &Job, program: &mut dyn Medium) -> io::Result<Verdict> {
-    let marker = &judged.input.marker;
-    let mut audit = Vec::new();
-    let verdict: io::Result<Verdict> = rayon::in_place_scope(|scope| {
-        scope.spawn(|_| audit = audited(source, judged, job));
-        program.rewind()?;
-        let mut input = BufReader::with_capacity(BLOCK, program);
-        let kind = verify::kind(&mut input);
-        if kind == Some(Kind::CutterFile) {
+pub(super) fn judge(
+    source: &Source,
+    (marker, audit): (&Marker, &[Finding]),
+    job: &Job,
+    program: &mut dyn Medium,
+) -> io::Result<Verdict> {
+    program.rewind()?;
+    let mut input = BufReader::with_capacity(BLOCK, program);
+    let mut verdict = match verify::kind(&mut input) {
+        Some(Kind::CutterFile) => {
             let mut bytes = Vec::new();
             input.read_to_end(&mut bytes)?;
-            return Ok(verify::cutter_file(&bytes, marker, source, job));
+            verify::cutter_file(&bytes, marker, source, job)
         }
-        let judge_motion = if kind == Some(Kind::Positions) { verify::positions } else { verify::setpoints };
-        if job.mode.cuts() {
-            return Ok(judge_motion(&mut input, marker, job));
+        kind => {
+            let judge_motion = if kind == Some(Kind::Positions) { verify::positions } else { verify::setpoints };
+            if job.mode.cuts() {
+                judge_motion(&mut input, marker, job)
+            } else {
+                let mut verdict = judge_motion(&mut input, &uncut(marker, job.mode), job);
+                verdict.findings.retain(|finding| !OF_CUTS.contains(&finding.rule));
+                verdict
+            }
         }
-        let mut verdict = judge_motion(&mut input, &uncut(marker, job.mode), job);
-        verdict.findings.retain(|finding| !OF_CUTS.contains(&finding.rule));
-        Ok(verdict)
-    });
-    let mut verdict = verdict?;
-    verdict.findings.extend(audit);
+    };
+    verdict.findings.extend_from_slice(audit);
     verify::sort(&mut verdict.findings);
     Ok(verdict)
 }
 
-/// What was read of the source against its bytes, and what the passes kept of that.
-fn audited(source: &Source, Judged { input, read }: &Judged, job: &Job) -> Vec<Finding> {
-    let audit = verify::source_audit(input.dialect.name, source.bytes(), read, &job.profile);
-    audit.into_iter().flatten().chain([verify::source_kept(read, &input.marker)]).collect()
+/// What was read of the source against its bytes, and what the passes kept of that. Nobody needs the census after that.
+pub(super) fn audited(source: &Source, (input, read): (&Input, Census), job: &Job) -> Vec<Finding> {
+    let scan = || verify::source_audit(input.dialect.name, source.bytes(), &read, &job.profile);
+    let (audit, kept) = rayon::join(scan, || verify::source_kept(&read, &input.marker));
+    audit.into_iter().flatten().chain([kept]).collect()
 }
 
 /// What is left of a marker where the knife stays up: the events of a dry run, and nothing of a frame.

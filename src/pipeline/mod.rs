@@ -170,7 +170,8 @@ pub fn compile_all(
     if diagnostics.has_errors() {
         return Ok(None);
     }
-    let Input { dialect, marker } = &judged.input;
+    let Judged { input, read } = judged;
+    let Input { dialect, marker } = &input;
     let mut report = Report::of(marker, dialect.name);
     let context = Context { source, job, marker };
     let has = |products: &[Product], proof: Proof| products.iter().any(|product| product.target.proof == proof);
@@ -185,8 +186,10 @@ pub fn compile_all(
     if beside {
         sinks.push(Sink::of_motion(&SETPOINTS, &mut scratch));
     }
-    if !sinks.is_empty() {
-        let toolpaths = Toolpaths::new(marker, job, diagnostics);
+    let is_planned = !sinks.is_empty();
+    let audit = || if verify { judge::audited(source, (&input, read), job) } else { Vec::new() };
+    let (audit, toolpaths) = rayon::join(audit, || is_planned.then(|| Toolpaths::new(marker, job, diagnostics)));
+    if let Some(toolpaths) = toolpaths {
         let written = program::write(toolpaths, &mut sinks, (&context, false), diagnostics)?;
         report.program = written.program;
         report.controller = written.estimate.map(Controller::from);
@@ -206,7 +209,7 @@ pub fn compile_all(
         let programs = judged_alone.map(|product| &mut *product.out);
         let scratch: Option<&mut dyn Medium> = if beside { Some(&mut scratch) } else { None };
         for program in programs.chain(scratch) {
-            let next = judge::judge(source, &judged, job, program)?;
+            let next = judge::judge(source, (marker, &audit), job, program)?;
             verdict = Some(match verdict {
                 Some(verdict) => judge::both(verdict, next),
                 None => next,

@@ -3,6 +3,9 @@
 /// Largest scaled magnitude that the integer path prints: below 2^53, so that every integer there is exact in `f64`.
 const INTEGER_PATH_MAX: f64 = 9.0e15;
 
+/// The most characters of such a number: its digits and those that decimals ask for, a point and a sign.
+const DIGITS: usize = 32;
+
 /// Appends `value` with exactly `decimals` decimals (at most 9), rounded half away from zero, never as `-0.0`.
 ///
 /// Values beyond the integer path (and the non-finite, which no program holds) are printed by the standard library.
@@ -14,21 +17,27 @@ pub fn push_fixed(out: &mut Vec<u8>, value: f64, decimals: u32) {
         out.extend_from_slice(format!("{value:.*}", decimals as usize).as_bytes());
         return;
     }
-    let magnitude = scaled.abs() as u64;
-    if scaled < 0.0 {
-        out.push(b'-');
-    }
-    push_integer(out, magnitude / scale);
-    if decimals > 0 {
-        out.push(b'.');
-        let mut rest = magnitude % scale;
-        let mut digit = scale / 10;
-        while digit > 0 {
-            out.push(b'0' + (rest / digit) as u8);
-            rest %= digit;
-            digit /= 10;
+    // From behind, so that every division is by ten, for which a multiplication stands.
+    let mut digits = [0_u8; DIGITS];
+    let (mut at, mut rest) = (digits.len(), scaled.abs() as u64);
+    let mut put = |byte: u8| {
+        at -= 1;
+        digits[at] = byte;
+    };
+    for place in 0.. {
+        if place == decimals && place > 0 {
+            put(b'.');
+        }
+        put(b'0' + (rest % 10) as u8);
+        rest /= 10;
+        if rest == 0 && place >= decimals {
+            break;
         }
     }
+    if scaled < 0.0 {
+        put(b'-');
+    }
+    out.extend_from_slice(&digits[at..]);
 }
 
 /// Appends a whole number.

@@ -8,12 +8,10 @@ use crate::machine::MachineProfile;
 /// The caps of a line by station.
 #[derive(Debug)]
 pub(super) struct Caps {
-    /// Station from which each cap holds, mm; the first is 0.
-    starts: Vec<f64>,
-    /// The caps, mm/s; infinite where nothing caps the tip. No two in a row are equal.
-    values: Vec<f64>,
-    /// Length of the line when it goes round and round.
-    lap: Option<f64>,
+    /// The cap where the line begins, mm/s; infinite where nothing caps the tip.
+    first: f64,
+    /// The later ones, each with the station from which it holds, mm. No two in a row are equal.
+    later: Box<[[f64; 2]]>,
 }
 
 /// How a line ends.
@@ -50,8 +48,20 @@ impl<'a> Feeds<'a> {
         if percent < FULL_SPEED { self.fastest() * f64::from(percent) / 100.0 } else { self.feed }
     }
 
+    /// The caps of chords between stations for a tip that goes with the line, and for one that goes against it, by the way
+    /// from its end; `ends` are the start and the end of the line.
+    pub(super) fn both_ways(&self, stations: &[f64], chords: Vec<f64>, ends: [End; 2]) -> [Caps; 2] {
+        if self.profile.slow.before_corner_mm.is_none() && chords.iter().all(|&cap| cap == chords[0]) {
+            return [Caps::all(chords[0]), Caps::all(chords[0])];
+        }
+        let length = stations[stations.len() - 1];
+        let back: Vec<f64> = stations.iter().rev().map(|station| length - station).collect();
+        let against = self.caps(&back, chords.iter().rev().copied().collect(), ends[0]);
+        [self.caps(stations, chords, ends[1]), against]
+    }
+
     /// The caps of chords between stations, up to the end of the line.
-    pub(super) fn caps(&self, stations: &[f64], chords: Vec<f64>, end: End) -> Caps {
+    fn caps(&self, stations: &[f64], chords: Vec<f64>, end: End) -> Caps {
         let (mut starts, mut caps) = (stations[..chords.len()].to_vec(), chords);
         if let (Some(reach), End::AtCorner) = (self.profile.slow.before_corner_mm, end) {
             let from = (stations[stations.len() - 1] - reach).max(0.0);
@@ -64,47 +74,46 @@ impl<'a> Feeds<'a> {
             let share = self.profile.slow.before_corner_percent / 100.0;
             caps[first..].iter_mut().for_each(|cap| *cap = cap.min(x.speed).min(y.speed) * share);
         }
-        let mut whole = Caps { starts: Vec::new(), values: Vec::new(), lap: None };
+        let first = caps[0];
+        let (mut last, mut later) = (first, Vec::new());
         for (start, cap) in starts.into_iter().zip(caps) {
-            if whole.values.last() != Some(&cap) {
-                whole.starts.push(start);
-                whole.values.push(cap);
+            if cap != last {
+                later.push([start, cap]);
+                last = cap;
             }
         }
-        whole
+        Caps { first, later: later.into() }
     }
 }
 
 impl Caps {
     /// One cap all along.
     pub(super) fn all(cap: f64) -> Self {
-        Self { starts: vec![0.0], values: vec![cap], lap: None }
+        Self { first: cap, later: Box::default() }
     }
 
-    /// The same for a line that goes round and round.
-    pub(super) fn round(self, length: f64) -> Self {
-        Self { lap: Some(length), ..self }
+    /// The cap that holds all along; `None` when there are several.
+    pub(super) fn only(&self) -> Option<f64> {
+        self.later.is_empty().then_some(self.first)
     }
 
     /// The greatest cap between two stations; beyond the ends hold those of the ends.
     pub(super) fn greatest(&self, low: f64, high: f64) -> f64 {
-        if let [cap] = self.values[..] {
-            return cap;
-        }
-        let Some(length) = self.lap else { return self.between(low, high) };
+        let before = |station: f64| self.later.partition_point(|&[start, _]| start <= station);
+        let (from, to) = (before(low), before(high));
+        let at_low = if from == 0 { self.first } else { self.later[from - 1][1] };
+        self.later[from..to.max(from)].iter().map(|&[_, cap]| cap).fold(at_low, f64::max)
+    }
+
+    /// The same on a line of that length that goes round and round.
+    pub(super) fn greatest_round(&self, low: f64, high: f64, length: f64) -> f64 {
         let from = low.rem_euclid(length);
         let to = from + (high - low).min(length);
         if to <= length {
-            self.between(from, to)
+            self.greatest(from, to)
         } else {
-            self.between(from, length).max(self.between(0.0, to - length))
+            self.greatest(from, length).max(self.greatest(0.0, to - length))
         }
-    }
-
-    fn between(&self, low: f64, high: f64) -> f64 {
-        let first = self.starts.partition_point(|&start| start <= low).max(1) - 1;
-        let end = self.starts.partition_point(|&start| start <= high).max(first + 1);
-        self.values[first..end].iter().copied().fold(0.0, f64::max)
     }
 }
 
@@ -148,9 +157,9 @@ mod tests {
         let profile = MachineProfile::default();
         let piece = Piece { feed: Some(100.0), ..Piece::default() };
         let feeds = Feeds::new(&profile, &piece);
-        let caps = feeds.caps(&[0.0, 10.0, 20.0], vec![100.0, 50.0], End::Plain).round(20.0);
+        let caps = feeds.caps(&[0.0, 10.0, 20.0], vec![100.0, 50.0], End::Plain);
         assert_eq!(
-            [[12.0, 18.0], [18.0, 21.0], [32.0, 38.0], [-1.0, 0.5]].map(|[a, b]| caps.greatest(a, b)),
+            [[12.0, 18.0], [18.0, 21.0], [32.0, 38.0], [-1.0, 0.5]].map(|[a, b]| caps.greatest_round(a, b, 20.0)),
             [50.0, 100.0, 50.0, 100.0]
         );
     }

@@ -20,6 +20,8 @@ pub(super) struct Foot {
     pub(super) deviation: f64,
     /// How far beyond the end it stands, mm; 0 between the ends.
     pub(super) beyond: f64,
+    /// The chord that this place is on.
+    pub(super) chord: usize,
 }
 
 /// Stands on a line and moves along it.
@@ -65,16 +67,18 @@ impl<'a> Follower<'a> {
         let reach = |sign: f64| if sign == self.sign { AHEAD + 2.0 * way.min(LEAP) } else { BACK };
         let (low, high) = (self.foot.station - reach(-1.0), self.foot.station + reach(1.0));
         let laps = if line.ring { (self.foot.station / length).floor() } else { 0.0 };
-        let start = line.chord_at(self.foot.station - laps * length);
-        let mut best: Option<Foot> = None;
-        let mut look = |chord: usize, lap: f64| {
+        let start = line.chord_near(self.foot.chord, self.foot.station - laps * length);
+        let on = |chord: usize, lap: f64| {
             let foot = on_chord(line, chord, point);
-            let foot = Foot { station: foot.station + lap * length, ..foot };
-            if best.is_none_or(|b| foot.deviation < b.deviation) {
-                best = Some(foot);
+            Foot { station: foot.station + lap * length, ..foot }
+        };
+        let mut best = on(start, laps);
+        let mut look = |chord: usize, lap: f64| {
+            let foot = on(chord, lap);
+            if foot.deviation < best.deviation {
+                best = foot;
             }
         };
-        look(start, laps);
         let (mut chord, mut lap) = (start, laps);
         while let Some((next, turn)) = following(line, chord) {
             (chord, lap) = (next, lap + turn);
@@ -92,7 +96,7 @@ impl<'a> Follower<'a> {
             }
             look(chord, lap);
         }
-        best.expect("the chord that it stands on was looked at")
+        best
     }
 }
 
@@ -116,19 +120,25 @@ fn preceding(line: &Line, chord: usize) -> Option<(usize, f64)> {
 
 /// Where a point stands beside one chord.
 pub(super) fn on_chord(line: &Line, chord: usize, point: Point) -> Foot {
-    let (deviation, station) = line.deviation(chord, point);
-    let plain = Foot { station, deviation, beyond: 0.0 };
     let last = line.points.len() - 1;
-    if line.ring || chord > 0 && chord + 1 < last {
-        return plain;
+    if !line.ring && (chord == 0 || chord + 1 == last) {
+        let along = line.direction(chord);
+        let ahead = |end: usize, sign: f64| {
+            let away = point - line.points[end];
+            let beyond = sign * away.dot(&along);
+            (beyond > 0.0).then(|| Foot {
+                station: line.stations[end],
+                deviation: cross(along, away).abs(),
+                beyond,
+                chord,
+            })
+        };
+        let before = if chord == 0 { ahead(0, -1.0) } else { None };
+        let behind = || if chord + 1 == last { ahead(last, 1.0) } else { None };
+        if let Some(foot) = before.or_else(behind) {
+            return foot;
+        }
     }
-    let along = line.direction(chord);
-    let ahead = |end: usize, sign: f64| {
-        let away = point - line.points[end];
-        let beyond = sign * away.dot(&along);
-        (beyond > 0.0).then(|| Foot { station: line.stations[end], deviation: cross(along, away).abs(), beyond })
-    };
-    let before = if chord == 0 { ahead(0, -1.0) } else { None };
-    let behind = if chord + 1 == last { ahead(last, 1.0) } else { None };
-    before.or(behind).unwrap_or(plain)
+    let (deviation, station) = line.deviation(chord, point);
+    Foot { station, deviation, beyond: 0.0, chord }
 }

@@ -114,8 +114,9 @@ pub(super) struct Places<'a> {
     due: VecDeque<String>,
     /// The rest that must come behind them, s.
     rest_due: Option<f64>,
-    /// How many lines were read.
+    /// How many lines were read, and the room for the next.
     lines: u64,
+    room: Vec<u8>,
     now: Row,
     queue: VecDeque<(Row, Going)>,
     last: Going,
@@ -141,6 +142,7 @@ impl<'a> Places<'a> {
             texts,
             rest_due: None,
             lines: 0,
+            room: Vec::new(),
             now,
             queue: VecDeque::from([(now, Going::default())]),
             last: Going::default(),
@@ -184,7 +186,8 @@ impl<'a> Places<'a> {
 
     /// Reads a line and obeys it; otherwise says what is wrong with it.
     fn read(&mut self) -> Result<(), String> {
-        let mut line = Vec::new();
+        let mut line = std::mem::take(&mut self.room);
+        line.clear();
         let read = (&mut *self.input).take(LINE_MAX).read_until(b'\n', &mut line).map_err(|_| "cannot be read")?;
         self.lines += 1;
         if read == 0 {
@@ -202,7 +205,9 @@ impl<'a> Places<'a> {
         if line.last() == Some(&b'\r') {
             line.pop();
         }
-        self.line(unnumbered(&line))
+        let read = self.line(unnumbered(&line));
+        self.room = line;
+        read
     }
 
     /// Obeys a line.

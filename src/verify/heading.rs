@@ -11,7 +11,7 @@ use super::joints::Joints;
 use super::read::{Rounding, Row};
 use super::reference::Line;
 use super::worst::Worst;
-use crate::geom::{Point, Vector, angle, polyline};
+use crate::geom::{Point, Vector, angle, cross, polyline};
 
 /// Least way of the tip that shows a direction, mm: with six decimals its rounding is then below 0.02 degrees.
 const WAY_MIN: f64 = 0.005;
@@ -24,6 +24,9 @@ const TURN_EPSILON: f64 = 1e-6;
 const CURVE_CHORD: f64 = 25.0;
 /// Farthest ahead that a bend is looked for, mm: a curve that far away does not bow the start of a way.
 const BEND_REACH: f64 = 100.0;
+
+/// Part of an angle by which rounding may seem to make it less.
+const SURE_EPSILON: f64 = 1e-9;
 
 /// Radius of a curve that a knife follows, at the least, mm.
 const TIGHT: f64 = 5.0;
@@ -96,8 +99,13 @@ impl Moving<'_> {
                 continue;
             }
             let ahead = |along: Vector| angle::turn(self.blades[i], along);
-            let lead = *lead.get_or_insert(ahead(along).clamp(least, greatest));
+            let lead = *lead.get_or_insert_with(|| ahead(along).clamp(least, greatest));
             let way = stations[i];
+            let (aside, forth) = (cross(self.blades[i], along).abs(), self.blades[i].dot(&along));
+            if way >= self.fade && aside < heading.value().to_radians() * (1.0 - SURE_EPSILON) * forth {
+                // An angle is less than its tangent: this one is not the worst, and need not be known.
+                continue;
+            }
             let expected = if way < self.fade { lead * fading(way / self.fade) } else { 0.0 };
             let askew = |along: Vector| angle::wrap(ahead(along) - expected).abs().to_degrees();
             // Rounding turns the direction of a short move, but not by as much that of the way which it is part of.

@@ -1,8 +1,13 @@
 //! Which parts a point lies in: even-odd containment in the closed contours of each piece.
 
+use std::ops::RangeInclusive;
+
+use rayon::prelude::*;
+
 use crate::geom::nest::{self, Shape};
 use crate::geom::{Extent, Point};
-use crate::ir::Marker;
+use crate::ir::marker::Piece;
+use crate::ir::{Marker, Segment, SegmentId, SegmentList};
 
 /// Edges that a band of a part holds on average, at the least.
 const EDGES_A_BAND: usize = 8;
@@ -12,12 +17,13 @@ const CELLS_MAX: usize = 1024;
 
 /// The parts, each by the cells that its box touches.
 #[derive(Debug)]
-pub(super) struct Inside {
+pub(super) struct Inside<'a> {
     extent: Extent,
     /// Size of a cell along X and Y, mm.
     cell: [f64; 2],
     columns: usize,
     cells: Vec<Vec<u32>>,
+    list: &'a SegmentList,
     parts: Vec<Part>,
     /// The part to which each piece belongs.
     part_of: Vec<usize>,
@@ -29,24 +35,18 @@ struct Part {
     piece: usize,
     extent: Extent,
     height: f64,
-    bands: Vec<Vec<[Point; 2]>>,
+    /// Where the edges of each band begin, and where those of the last one end.
+    starts: Vec<u32>,
+    /// The edges, one band after the other.
+    edges: Vec<SegmentId>,
 }
 
-impl Inside {
+impl<'a> Inside<'a> {
     /// The index of a marker.
-    pub(super) fn new(marker: &Marker) -> Self {
-        let mut edges: Vec<(usize, Vec<[Point; 2]>)> = Vec::new();
-        let mut shapes = vec![Shape::default(); marker.pieces.len()];
-        for (piece, contour) in marker.contours().filter(|(_, contour)| contour.closed) {
-            if edges.last().is_none_or(|(last, _)| *last != piece) {
-                edges.push((piece, Vec::new()));
-            }
-            let points = marker.points(contour);
-            let of_piece = &mut edges.last_mut().expect("one was pushed").1;
-            of_piece.extend(points.windows(2).map(|w| [w[0], w[1]]));
-            shapes[piece].add(points);
-        }
-        let parts: Vec<Part> = edges.into_iter().map(|(piece, edges)| Part::new(piece, &edges)).collect();
+    pub(super) fn new(marker: &'a Marker) -> Self {
+        let list = &marker.list;
+        let part = |(i, piece)| Part::new(i, piece, list);
+        let parts: Vec<Part> = marker.pieces.par_iter().enumerate().filter_map(part).collect();
         let mut extent = Extent::EMPTY;
         for part in &parts {
             extent.add(part.extent.min);
@@ -63,7 +63,7 @@ impl Inside {
         let (columns, rows) = (along(width), along(height));
         let cell = [width / columns as f64, height / rows as f64].map(|size| size.max(f64::MIN_POSITIVE));
         let cells = vec![Vec::new(); columns * rows];
-        let mut inside = Self { extent, cell, columns, cells, parts, part_of: Vec::new() };
+        let mut inside = Self { extent, cell, columns, cells, list, parts, part_of: Vec::new() };
         for i in 0..inside.parts.len() {
             let [low, high] = [inside.parts[i].extent.min, inside.parts[i].extent.max].map(|at| inside.place(at));
             for row in low[1]..=high[1] {
@@ -74,6 +74,12 @@ impl Inside {
         }
         // What lies in a piece is a cut-out of it, whoever it belongs to.
         let holders = |point| inside.rings_at(point).map(|piece| piece as u32).collect();
+        let shape = |piece: &Piece| {
+            let mut shape = Shape::default();
+            piece.contours.iter().filter(|contour| contour.closed).for_each(|c| shape.add(marker.points(c)));
+            shape
+        };
+        let shapes: Vec<Shape> = marker.pieces.par_iter().map(shape).collect();
         inside.part_of = nest::regions(&shapes, holders).into_iter().map(|part| part as usize).collect();
         inside
     }
@@ -107,42 +113,67 @@ impl Inside {
     fn rings_at(&self, point: Point) -> impl Iterator<Item = usize> + '_ {
         let [column, row] = self.place(point);
         let near = self.cells[row * self.columns + column].iter().map(|&part| &self.parts[part as usize]);
-        near.filter(move |part| part.holds(point)).map(|part| part.piece)
+        near.filter(move |part| part.holds(point, self.list)).map(|part| part.piece)
     }
 }
 
 impl Part {
-    fn new(piece: usize, edges: &[[Point; 2]]) -> Self {
-        let mut extent = Extent::EMPTY;
-        for edge in edges {
-            extent.add(edge[0]);
+    /// The part that a piece is; `None` when it bounds nothing.
+    fn new(index: usize, piece: &Piece, list: &SegmentList) -> Option<Self> {
+        let closed = || piece.contours.iter().filter(|contour| contour.closed);
+        let edges = || closed().flat_map(|contour| list.walk(contour.range));
+        closed().next()?;
+        let (mut extent, mut count) = (Extent::EMPTY, 0);
+        for (_, edge) in edges() {
+            extent.add(edge.from);
+            count += 1;
         }
-        let count = (edges.len() / EDGES_A_BAND).max(1);
-        let height = (extent.size().1 / count as f64).max(f64::MIN_POSITIVE);
-        let mut part = Self { piece, extent, height, bands: vec![Vec::new(); count] };
-        for &edge in edges {
-            let [a, b] = edge.map(|end| part.band(end.y));
-            for band in &mut part.bands[a.min(b)..=a.max(b)] {
-                band.push(edge);
+        let bands = (count / EDGES_A_BAND).max(1);
+        let height = (extent.size().1 / bands as f64).max(f64::MIN_POSITIVE);
+        let mut part = Self { piece: index, extent, height, starts: vec![0; bands + 1], edges: Vec::new() };
+        // How many each band has, then where it ends, and, as they are filled in from behind, where it begins.
+        for (_, edge) in edges() {
+            for band in part.bands(&edge) {
+                part.starts[band] += 1;
             }
         }
-        part
+        for band in 1..=bands {
+            part.starts[band] += part.starts[band - 1];
+        }
+        let (first, _) = edges().next()?;
+        part.edges = vec![first; part.starts[bands] as usize];
+        for (id, edge) in edges() {
+            for band in part.bands(&edge) {
+                part.starts[band] -= 1;
+                part.edges[part.starts[band] as usize] = id;
+            }
+        }
+        Some(part)
+    }
+
+    /// The bands that an edge reaches into.
+    fn bands(&self, edge: &Segment) -> RangeInclusive<usize> {
+        let [a, b] = [edge.from, edge.to].map(|end| self.band(end.y));
+        a.min(b)..=a.max(b)
     }
 
     fn band(&self, y: f64) -> usize {
-        (((y - self.extent.min.y) / self.height).max(0.0) as usize).min(self.bands.len() - 1)
+        (((y - self.extent.min.y) / self.height).max(0.0) as usize).min(self.starts.len() - 2)
     }
 
-    /// Whether a ray to the right of a point crosses the edges an odd number of times.
-    fn holds(&self, point: Point) -> bool {
+    /// Whether a ray to the right of a point crosses the edges, which stand in a list, an odd number of times.
+    fn holds(&self, point: Point, list: &SegmentList) -> bool {
         let Extent { min, max } = self.extent;
         if point.y < min.y || point.y > max.y || point.x < min.x || point.x > max.x {
             return false;
         }
-        let is_crossed = |[from, to]: &&[Point; 2]| {
+        let is_crossed = |&&id: &&SegmentId| {
+            let [from, to] = list.ends(id);
             (from.y > point.y) != (to.y > point.y)
                 && from.x + (to.x - from.x) * (point.y - from.y) / (to.y - from.y) > point.x
         };
-        self.bands[self.band(point.y)].iter().filter(is_crossed).count() % 2 == 1
+        let band = self.band(point.y);
+        let edges = &self.edges[self.starts[band] as usize..self.starts[band + 1] as usize];
+        edges.iter().filter(is_crossed).count() % 2 == 1
     }
 }

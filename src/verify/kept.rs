@@ -5,6 +5,8 @@
 //! are the same one goes. So a stroke whose block is gone is no loss while another one of its piece cuts between the same
 //! two places.
 
+use rayon::prelude::*;
+
 use super::worst::Worst;
 use crate::geom::{Point, bits};
 use crate::ir::finding::Sighting;
@@ -63,7 +65,9 @@ impl Stroke {
 
 impl OfPiece {
     fn of(piece: &Piece, marker: &Marker) -> Self {
-        let mut places: Vec<Place> = Vec::new();
+        let lines = piece.contours.len() + piece.notches.len() + piece.drills.len();
+        let segments = piece.contours.iter().map(|contour| marker.list.points(contour.range).count());
+        let mut places: Vec<Place> = Vec::with_capacity(segments.sum::<usize>() + lines);
         let mut add = |Stroke { from, to, block }: Stroke| {
             if places.last().is_none_or(|last| last.at != from) {
                 places.push(Place { at: from, block: NO_BLOCK });
@@ -109,21 +113,21 @@ impl OfPiece {
 
 /// All that a marker cuts or drills.
 pub(super) fn works(marker: &Marker) -> Works {
-    Works { pieces: marker.pieces.iter().map(|piece| OfPiece::of(piece, marker)).collect() }
+    Works { pieces: marker.pieces.par_iter().map(|piece| OfPiece::of(piece, marker)).collect() }
 }
 
 /// Compares what was read with what is cut. Pieces that were not selected are gone as a whole.
 pub(super) fn kept(read: &Works, marker: &Marker) -> Finding {
     let mut cut = works(marker).pieces;
     cut.sort_by_key(|piece| piece.name);
+    let lost = |piece: &OfPiece| {
+        let place = cut.binary_search_by_key(&piece.name, |piece| piece.name);
+        place.map_or_else(|_| Vec::new(), |place| piece.lost_in(&cut[place]))
+    };
+    let lost: Vec<Vec<Stroke>> = read.pieces.par_iter().map(lost).collect();
     let mut worst = Worst::new("source/kept", "blocks", Some(0.0));
-    let mut count = 0;
-    for piece in &read.pieces {
-        let Ok(place) = cut.binary_search_by_key(&piece.name, |piece| piece.name) else { continue };
-        for lost in piece.lost_in(&cut[place]) {
-            count += 1;
-            worst.see(f64::from(count), || Sighting { time: None, point: lost.to, block: lost.block });
-        }
+    for (lost, count) in lost.into_iter().flatten().zip(1..) {
+        worst.see(f64::from(count), || Sighting { time: None, point: lost.to, block: lost.block });
     }
     worst.finding()
 }

@@ -52,6 +52,7 @@ use rayon::prelude::*;
 use self::coverage::Coverage;
 use self::events::Events;
 use self::gcode::Places;
+use self::grid::Grid;
 use self::inside::Inside;
 use self::limits::Limits;
 use self::naming::Naming;
@@ -59,7 +60,7 @@ use self::order::Order;
 use self::read::{Going, Rounding, Row, Rows};
 use self::reference::Reference;
 use self::rest::Rest;
-use self::stroke::{Judge, Strokes, Traced};
+use self::stroke::{Ground, Judge, Strokes, Traced};
 use self::table::Table;
 use self::worst::Worst;
 use self::worsts::Worsts;
@@ -218,7 +219,7 @@ impl Watch<'_> {
     /// Sees rows until enough of them belong to strokes, or none comes any more, and gathers these. Each row may come with
     /// how the axes go there.
     fn gather(&mut self, next: &mut impl FnMut() -> Option<(Row, Option<Going>)>) -> Strokes {
-        let mut strokes = Strokes::default();
+        let mut strokes = Strokes::with_room(ROWS_AT_A_TIME);
         while strokes.rows() < ROWS_AT_A_TIME || strokes.are_open() {
             let Some((row, going)) = next() else { break };
             self.limits.see(&row);
@@ -256,12 +257,18 @@ impl Watch<'_> {
     }
 }
 
+/// What lies where on the cloth.
+fn ground<'a>(reference: &Reference<'a>) -> Ground<'a> {
+    let (grid, inside) = rayon::join(|| Grid::new(reference), || Inside::new(reference.marker));
+    Ground { grid, inside }
+}
+
 /// Judges timed setpoints, as the targets `csv`, `npy`, `counts` and `hal` write them, against what the marker says must
 /// be cut.
 pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdict {
-    let (reference, inside) = rayon::join(|| Reference::new(marker, &job.profile), || Inside::new(marker));
+    let reference = Reference::new(marker, &job.profile);
     let mut rows = Rows::new(program, &job.profile);
-    let judge = Judge::new((&reference, inside), &job.profile, rows.rounding());
+    let judge = Judge::new((&reference, ground(&reference)), &job.profile, rows.rounding());
     let rounding = rows.rounding();
     let mut findings = simulate(|| Some((rows.next()?, None)), (&reference, judge, rounding), job);
     let is_broken = rows.is_broken();
@@ -276,10 +283,11 @@ pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdi
 
 /// Judges positions without time, as the target `gcode` writes them, against what the marker says must be cut.
 pub fn positions(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdict {
-    let (reference, inside) = rayon::join(|| Reference::new(marker, &job.profile), || Inside::new(marker));
+    let reference = Reference::new(marker, &job.profile);
     let mut places = Places::new(program, &job.profile);
     let rounding = Places::rounding(&job.profile);
-    let judge = Judge::new((&reference, inside), &job.profile, rounding).with_exact_directions(&job.profile);
+    let judge =
+        Judge::new((&reference, ground(&reference)), &job.profile, rounding).with_exact_directions(&job.profile);
     let next = || places.next().map(|(row, going)| (row, Some(going)));
     let mut findings = simulate(next, (&reference, judge, rounding), job);
     let is_broken = places.is_broken();

@@ -27,8 +27,8 @@ const HALVINGS: usize = 20;
 
 /// Judges overcuts.
 #[derive(Debug)]
-pub(super) struct Overcut {
-    inside: Inside,
+pub(super) struct Overcut<'a> {
+    inside: Inside<'a>,
     /// Rounding of a tip's place, mm.
     rounding: f64,
     tolerance: f64,
@@ -89,10 +89,10 @@ enum Cloth {
     Waste,
 }
 
-impl Overcut {
+impl<'a> Overcut<'a> {
     /// For parts in which places lie, a tip that may leave its line by `tolerance` mm, and places that are rounded to
     /// `rounding` mm.
-    pub(super) fn new((tolerance, inside): (f64, Inside), profile: &MachineProfile, rounding: f64) -> Self {
+    pub(super) fn new((tolerance, inside): (f64, Inside<'a>), profile: &MachineProfile, rounding: f64) -> Self {
         let (knife, verify) = (&profile.knife, &profile.verify);
         Self {
             inside,
@@ -263,6 +263,9 @@ impl Stroke<'_> {
         {
             let point = self.cut.points[i];
             return (start - point).dot(&along).max((point - end).dot(&along)).max(0.0);
+        }
+        if self.held.contains(&i) {
+            return self.feet[i].beyond;
         }
         let edge = i.clamp(*self.held.start(), *self.held.end());
         self.feet[i].beyond.max((self.cut.points[i] - self.cut.points[edge]).norm())

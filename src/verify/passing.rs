@@ -9,8 +9,13 @@ use crate::geom::{Point, polyline};
 
 /// How far the tip's way from place `i - 1` to place `i` passes by the vertices between their stations, mm.
 pub(super) fn skipped(line: &Line, cut: &Cut, feet: &[Foot], i: usize) -> f64 {
-    let points = &cut.points;
     let (a, b) = (feet[i - 1].station, feet[i].station);
+    let chord = feet[i].chord;
+    if feet[i - 1].chord == chord && (a - b).abs() <= line.stations[chord + 1] - line.stations[chord] {
+        // Between two places on one chord, on the same lap, there is no vertex.
+        return 0.0;
+    }
+    let points = &cut.points;
     let (low, high) = (a.min(b), a.max(b));
     let bow = |k: usize| match cut.bow {
         Bow::Within(bow) => bow,

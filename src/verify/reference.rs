@@ -4,13 +4,15 @@
 
 use std::ops::RangeInclusive;
 
+use rayon::prelude::*;
+
 use super::caps::{Caps, End, Feeds};
 use super::chord;
 use super::notches;
 use crate::geom::{Point, Vector, angle, left, polyline};
 use crate::ir::Marker;
 use crate::ir::list::Segment;
-use crate::ir::marker::Stroke;
+use crate::ir::marker::{Piece, Stroke};
 use crate::machine::{Fit, Follow, MachineProfile, TightCurves};
 
 /// Longest chord that counts as a chord of a curve, mm.
@@ -32,22 +34,22 @@ pub(super) struct Line {
     /// Rank of its contour or slit among events, holes, slits and contours, in cut order.
     pub(super) rank: usize,
     /// Its points; a ring ends with its first one.
-    pub(super) points: Vec<Point>,
+    pub(super) points: Box<[Point]>,
     /// Length from the first point to each point.
-    pub(super) stations: Vec<f64>,
+    pub(super) stations: Box<[f64]>,
     /// Source block of each chord.
-    pub(super) blocks: Vec<u32>,
+    pub(super) blocks: Box<[u32]>,
     /// How fast the tip may be, with the line and, by the way from its end, against it: before a corner it may have to be
     /// slower.
     caps: [Caps; 2],
-    /// Outward bulge of each chord in its middle.
-    bulges: Vec<Vector>,
+    /// Outward bulge of each chord in its middle, to its left, in lengths of the chord.
+    bulges: Box<[f64]>,
     /// Whether it is a closed contour without a corner.
     pub(super) ring: bool,
     /// Whether it turns the blade past the range of C wherever that starts: then the knife is lifted amid it.
     pub(super) winds: bool,
     /// By the stations of tail and tip: where it is too tight for the blade to be its chord.
-    pub(super) tight: Vec<[f64; 2]>,
+    pub(super) tight: Box<[[f64; 2]]>,
     /// Whether it may be nibbled: cut by plunges without motion.
     pub(super) nibbled: bool,
 }
@@ -70,30 +72,59 @@ pub(super) struct Reference<'a> {
 impl<'a> Reference<'a> {
     /// The lines of `marker`.
     pub(super) fn new(marker: &'a Marker, profile: &MachineProfile) -> Self {
-        let (mut lines, mut holes, mut events) = (Vec::new(), Vec::new(), Vec::new());
-        // In each piece events come first, then holes, then slits, then contours.
-        let mut ranks = 0..;
-        let mut rank = || ranks.next().expect("a marker has fewer lines than numbers");
-        for (index, piece) in marker.pieces.iter().enumerate() {
-            events.extend(piece.events.iter().map(|_| rank()));
-            holes.extend(piece.drills.iter().map(|_| rank()));
-            let feeds = Feeds::new(profile, piece);
-            let mut replaced = Vec::new();
-            let outlines: Vec<Vec<Segment>> = piece
-                .contours
-                .iter()
-                .map(|contour| {
-                    let mut outline = marker.list.walk(contour.range).map(|(_, segment)| segment).collect();
-                    replaced.extend(notches::straighten(&mut outline, piece, profile.notch));
-                    outline
-                })
-                .collect();
-            let slits = notches::slits(piece, profile.notch, &replaced);
-            lines.extend(slits.iter().map(|(stroke, percent)| slit(stroke, [index, rank()], feeds.at(*percent))));
-            for (contour, outline) in piece.contours.iter().zip(outlines) {
-                let place = Place { owner: [index, rank()], feeds, profile };
-                lines.extend(contour_lines(outline, contour.closed, place));
+        let of_pieces: Vec<OfPiece> = marker
+            .pieces
+            .par_iter()
+            .enumerate()
+            .map(|(index, piece)| OfPiece::new(index, (piece, marker), profile))
+            .collect();
+        let count = of_pieces.iter().map(|piece| piece.lines.len()).sum();
+        let (mut lines, mut holes, mut events) = (Vec::with_capacity(count), Vec::new(), Vec::new());
+        let mut first = 0;
+        for (piece, OfPiece { ranks, lines: mut of_piece }) in marker.pieces.iter().zip(of_pieces) {
+            events.extend((first..).take(piece.events.len()));
+            holes.extend((first + piece.events.len()..).take(piece.drills.len()));
+            for line in &mut of_piece {
+                line.rank += first;
             }
+            lines.append(&mut of_piece);
+            first += ranks;
+        }
+        events.extend((first..).take(marker.closing.len()));
+        Self { marker, lines, holes, events, tolerance: profile.tolerance(marker.unit) }
+    }
+}
+
+/// What is cut of a piece.
+struct OfPiece {
+    /// Its lines, their ranks counted from those of the piece.
+    lines: Vec<Line>,
+    /// How many ranks the piece has.
+    ranks: usize,
+}
+
+impl OfPiece {
+    fn new(index: usize, (piece, marker): (&Piece, &Marker), profile: &MachineProfile) -> Self {
+        // Events come first, then holes, then slits, then contours.
+        let mut ranks = piece.events.len() + piece.drills.len()..;
+        let mut rank = || ranks.next().expect("a marker has fewer lines than numbers");
+        let feeds = Feeds::new(profile, piece);
+        let mut replaced = Vec::new();
+        let outlines: Vec<Vec<Segment>> = piece
+            .contours
+            .iter()
+            .map(|contour| {
+                let mut outline = marker.list.walk(contour.range).map(|(_, segment)| segment).collect();
+                replaced.extend(notches::straighten(&mut outline, piece, profile.notch));
+                outline
+            })
+            .collect();
+        let slits = notches::slits(piece, profile.notch, &replaced);
+        let slits = slits.iter().map(|(stroke, percent)| slit(stroke, [index, rank()], feeds.at(*percent)));
+        let mut lines: Vec<Line> = slits.collect();
+        for (contour, outline) in piece.contours.iter().zip(outlines) {
+            let place = Place { owner: [index, rank()], feeds, profile };
+            lines.extend(contour_lines(outline, contour.closed, place));
         }
         if let Some(range) = profile.blade_range() {
             for line in &mut lines {
@@ -111,12 +142,11 @@ impl<'a> Reference<'a> {
             };
             let is_nibbling = knife.tight_curves == TightCurves::Nibble;
             if is_bowed || is_nibbling || knife.follow == Follow::Chord {
-                line.tight = chord::tight(&line.points, line.ring, knife);
+                line.tight = chord::tight(&line.points, line.ring, knife).into();
             }
             line.nibbled = is_bowed || is_nibbling && !line.tight.is_empty();
         }
-        events.extend(marker.closing.iter().map(|_| rank()));
-        Self { marker, lines, holes, events, tolerance }
+        Self { lines, ranks: rank() }
     }
 }
 
@@ -131,18 +161,18 @@ struct Place<'a> {
 
 /// The line of a slit, `cap` mm/s being the greatest speed of the tip.
 fn slit(stroke: &Stroke, [piece, rank]: [usize; 2], cap: f64) -> Line {
-    let points = vec![stroke.from, stroke.to];
+    let points = Box::new([stroke.from, stroke.to]);
     Line {
         caps: [Caps::all(cap), Caps::all(cap)],
         piece,
         rank,
-        stations: polyline::stations(&points),
+        stations: polyline::stations(&*points).into(),
         points,
-        blocks: vec![stroke.span.block],
-        bulges: vec![Vector::zeros()],
+        blocks: Box::new([stroke.span.block]),
+        bulges: Box::new([0.0]),
         ring: false,
         winds: false,
-        tight: Vec::new(),
+        tight: Box::default(),
         nibbled: false,
     }
 }
@@ -181,28 +211,24 @@ fn contour_lines(mut segments: Vec<Segment>, closed: bool, place: Place) -> Vec<
                 (false, _) => turn(&segments, from + k),
             };
             let turns: Vec<f64> = (0..=inner).map(turn_at).collect();
-            let points: Vec<Point> =
+            let points: Box<[Point]> =
                 std::iter::once(segments[from].from).chain(segments[from..i].iter().map(|s| s.to)).collect();
             let chords = segments[from..i].iter();
             let [piece, rank] = owner;
-            let stations = polyline::stations(&points);
+            let stations: Box<[f64]> = polyline::stations(&points).into();
             let limits: Vec<f64> = chords.clone().map(|s| feeds.at(s.percent)).collect();
             let end = |vertex: usize| if ring || ends.contains(&(vertex % count)) { End::Plain } else { End::AtCorner };
-            let length = stations[stations.len() - 1];
-            let back: Vec<f64> = stations.iter().rev().map(|station| length - station).collect();
-            let against = feeds.caps(&back, limits.iter().rev().copied().collect(), end(from));
-            let caps = [feeds.caps(&stations, limits, end(i)), against];
             lines.push(Line {
                 piece,
                 rank,
-                caps: if ring { caps.map(|caps| caps.round(length)) } else { caps },
+                caps: feeds.both_ways(&stations, limits, [end(from), end(i)]),
                 stations,
                 points,
                 blocks: chords.clone().map(|s| s.span.block).collect(),
                 bulges: chords.zip(turns.windows(2)).map(|(s, t)| bulge(s, t, profile)).collect(),
                 ring,
                 winds: false,
-                tight: Vec::new(),
+                tight: Box::default(),
                 nibbled: false,
             });
             from = i;
@@ -224,17 +250,16 @@ fn nearest_to_start<'a>(segments: &[Segment], corners: &'a [usize]) -> impl Iter
 }
 
 /// On a chord between two turns to the same side the curve that was flattened lies outside, by about length * turn / 8.
-fn bulge(segment: &Segment, turns: &[f64], profile: &MachineProfile) -> Vector {
-    let along = segment.to - segment.from;
-    let length = along.norm();
+fn bulge(segment: &Segment, turns: &[f64], profile: &MachineProfile) -> f64 {
+    let length = segment.length();
     let is_turn = |turn: &f64| turn.abs() > TURN_EPSILON && turn.abs() < profile.corner.angle();
     let curved = turns[0] * turns[1] > 0.0 && turns.iter().all(is_turn);
     if profile.path.fit == Fit::Polygon || !curved || length > CURVE_CHORD {
-        return Vector::zeros();
+        return 0.0;
     }
     let mean = f64::midpoint(turns[0], turns[1]);
     let sagitta = (length * mean.abs() / 8.0).min(profile.path.chord_sag_max_mm);
-    left(along) * (-mean.signum() * sagitta / length)
+    -mean.signum() * sagitta / length
 }
 
 impl Line {
@@ -261,15 +286,16 @@ impl Line {
         if length == 0.0 {
             return (from.norm(), start);
         }
-        let along = (self.points[chord + 1] - self.points[chord]) / length;
+        let chord_way = self.points[chord + 1] - self.points[chord];
+        let along = chord_way / length;
         let way = from.dot(&along).clamp(0.0, length);
         let away = from - along * way;
         let bulge = self.bulges[chord];
-        if bulge == Vector::zeros() {
+        if bulge == 0.0 {
             return (away.norm(), start + way);
         }
         let share = way / length;
-        let reach = bulge * (4.0 * share * (1.0 - share));
+        let reach = left(chord_way) * bulge * (4.0 * share * (1.0 - share));
         let height = reach.norm();
         if height == 0.0 {
             return (away.norm(), start + way);
@@ -277,6 +303,15 @@ impl Line {
         let outward = reach / height;
         let used = away.dot(&outward).clamp(0.0, height);
         ((away - outward * used).norm(), start + way)
+    }
+
+    /// Whether a point may be nearer than `reach` mm to the tube's core beside a chord, as far as its box tells.
+    pub(super) fn may_reach(&self, chord: usize, point: Point, reach: f64) -> bool {
+        let bulge = self.bulges[chord].abs() * (self.stations[chord + 1] - self.stations[chord]);
+        let (from, to) = (self.points[chord] - point, self.points[chord + 1] - point);
+        let reach = reach + bulge;
+        let is_between = |a: f64, b: f64| a.min(b) <= reach && a.max(b) >= -reach;
+        is_between(from.x, to.x) && is_between(from.y, to.y)
     }
 
     /// The vertices between two stations; on a ring these may lie on any lap, and its last point is left to its first.
@@ -329,10 +364,17 @@ impl Line {
         least_turn > ((greatest - reach[1]) / period + TURN_EPSILON).floor()
     }
 
+    /// The greatest speed of the tip, mm/s, where that is one all along; `sign` is +1 with the line, -1 against it.
+    pub(super) fn only_cap(&self, sign: f64) -> Option<f64> {
+        self.caps[usize::from(sign <= 0.0)].only()
+    }
+
     /// The greatest speed of the tip between two stations, mm/s; `sign` is +1 with the line, -1 against it.
     pub(super) fn cap(&self, [low, high]: [f64; 2], sign: f64) -> f64 {
         let length = self.length();
-        if sign > 0.0 { self.caps[0].greatest(low, high) } else { self.caps[1].greatest(length - high, length - low) }
+        let (caps, low, high) =
+            if sign > 0.0 { (&self.caps[0], low, high) } else { (&self.caps[1], length - high, length - low) };
+        if self.ring { caps.greatest_round(low, high, length) } else { caps.greatest(low, high) }
     }
 
     /// The point at a station.
@@ -365,5 +407,17 @@ impl Line {
     /// The chord of a station.
     pub(super) fn chord_at(&self, station: f64) -> usize {
         self.stations.partition_point(|&s| s <= station).clamp(1, self.chords()) - 1
+    }
+
+    /// The same, looked for from a chord on that is near.
+    pub(super) fn chord_near(&self, chord: usize, station: f64) -> usize {
+        let mut chord = chord;
+        while chord > 0 && self.stations[chord] > station {
+            chord -= 1;
+        }
+        while chord + 1 < self.chords() && self.stations[chord + 1] <= station {
+            chord += 1;
+        }
+        chord
     }
 }

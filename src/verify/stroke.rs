@@ -45,6 +45,11 @@ pub(super) struct Strokes {
 }
 
 impl Strokes {
+    /// None yet, with room for so many rows.
+    pub(super) fn with_room(rows: usize) -> Self {
+        Self { rows: Vec::with_capacity(rows), ..Self::default() }
+    }
+
     /// A row of the stroke that has not ended.
     pub(super) fn push(&mut self, row: &Row, going: Option<Going>) {
         self.rows.push(*row);
@@ -107,6 +112,14 @@ pub(super) struct Traced<'s> {
     best: Option<Trial>,
 }
 
+/// What lies where on the cloth.
+pub(super) struct Ground<'a> {
+    /// The chords of all lines.
+    pub(super) grid: Grid,
+    /// The parts.
+    pub(super) inside: Inside<'a>,
+}
+
 /// Judges strokes.
 pub(super) struct Judge<'a> {
     reference: &'a Reference<'a>,
@@ -123,15 +136,15 @@ pub(super) struct Judge<'a> {
     overlaps: f64,
     /// Greatest bulge of a tube beside its tolerance, mm.
     bulge: f64,
-    overcut: Overcut,
+    overcut: Overcut<'a>,
     naming: Naming,
     worsts: Worsts,
 }
 
 impl<'a> Judge<'a> {
-    /// Judges by what must be cut and the parts in which places lie, a program whose rows are rounded.
+    /// Judges by what must be cut and what lies where a program whose rows are rounded.
     pub(super) fn new(
-        (reference, inside): (&'a Reference, Inside),
+        (reference, Ground { grid, inside }): (&'a Reference, Ground<'a>),
         profile: &'a MachineProfile,
         rounding: Rounding,
     ) -> Self {
@@ -143,7 +156,7 @@ impl<'a> Judge<'a> {
         let tolerance = reference.tolerance;
         let tracer = Tracer {
             reference,
-            grid: Grid::new(reference),
+            grid,
             joints: Joints::new(knife),
             width: knife.width_mm,
             allowed: tolerance + place,
@@ -242,7 +255,10 @@ impl<'a> Judge<'a> {
         worsts.once.see(self.twice(best), || seen(cut.body));
         self.check_overcut(cut, best, &seen, &mut worsts.harm);
         self.check_body(traced, best, &mut worsts.body);
-        self.check_names(rows, cut, best, &mut worsts.block);
+        if stroke.goings.is_empty() {
+            // Only rows with a time name their blocks one by one.
+            self.check_names(rows, cut, best, &mut worsts.block);
+        }
         worsts
     }
 
@@ -414,12 +430,15 @@ impl<'a> Judge<'a> {
         let slack = self.reference.tolerance + CAP_ASIDE;
         let cap = |i: usize| {
             best.as_ref().map_or(self.knife.feed_mm_s.unwrap_or(f64::INFINITY), |trial| {
+                let line = &self.reference.lines[trial.line];
+                if let Some(cap) = line.only_cap(trial.sign(cut)) {
+                    return cap;
+                }
                 let [a, b] = [0, 1].map(|k| trial.feet[cut.body + i + k].station);
                 let (low, high) = (a.min(b), a.max(b));
                 // What F asks for holds all along a step, which may be long: each part of it has its own cap.
                 let parts = if ways.is_empty() { 1.0 } else { ((high - low) / CAP_ASIDE).ceil().clamp(1.0, PARTS_MAX) };
                 let part = |k: usize| low + (high - low) * (k as f64 / parts);
-                let line = &self.reference.lines[trial.line];
                 let caps = (0..parts as usize).map(|k| [part(k) - slack, part(k + 1) + slack]);
                 caps.map(|ends| line.cap(ends, trial.sign(cut))).fold(f64::INFINITY, f64::min)
             })

@@ -147,9 +147,12 @@ impl Tracer<'_> {
             let point = cut.points[probe];
             for (line, chord) in self.grid.near(point, REACH) {
                 let (line, chord) = (line as usize, chord as usize);
+                if !self.reference.lines[line].may_reach(chord, point, REACH) {
+                    continue;
+                }
                 let foot = on_chord(&self.reference.lines[line], chord, point);
-                let next =
-                    Candidate { line, chord, probe, station: foot.station, away: foot.deviation.hypot(foot.beyond) };
+                let away = if foot.beyond > 0.0 { foot.deviation.hypot(foot.beyond) } else { foot.deviation };
+                let next = Candidate { line, chord, probe, station: foot.station, away };
                 if next.away > REACH {
                     continue;
                 }

@@ -93,6 +93,9 @@ fn number(text: &[u8]) -> Option<f64> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Unsound;
 
+/// Bytes that most blocks are shorter than.
+const BLOCK_ROOM: usize = 32;
+
 /// The blocks of a file, one after the other. A clone looks ahead.
 #[derive(Debug, Clone)]
 pub(super) struct Blocks<'a> {
@@ -115,7 +118,7 @@ impl<'a> Blocks<'a> {
         if self.at >= self.bytes.len() {
             return None;
         }
-        let mut text = Vec::new();
+        let mut text = Vec::with_capacity(BLOCK_ROOM);
         let mut sound = true;
         while let Some(&byte) = self.bytes.get(self.at) {
             self.at += 1;

@@ -88,8 +88,8 @@ impl Arc {
     /// The point at a length.
     pub(super) fn at(&self, s: f64) -> Point {
         let half = 0.5 * self.curvature * s;
-        let chord = if half == 0.0 { s } else { s * half.sin() / half };
         let (sin, cos) = half.sin_cos();
+        let chord = if half == 0.0 { s } else { s * sin / half };
         self.from
             + Vector::new(self.along.x * cos - self.along.y * sin, self.along.x * sin + self.along.y * cos) * chord
     }
@@ -231,7 +231,10 @@ fn biarc(tube: &Tube, from: &Node, to: &Node) -> Option<Found> {
     if dot < OPPOSED || way.dot(&(t0 + t1)) <= 0.0 {
         return None;
     }
-    if let Some(one) = Arc::through(from.at, t0, to.at)
+    // Along one arc the direction at the end is that at the start, mirrored at the chord.
+    let mirrored = way * (2.0 * t0.dot(&way) / way.norm_squared()) - t0;
+    if cross(mirrored, t1).abs() < SAME_EPSILON
+        && let Some(one) = Arc::through(from.at, t0, to.at)
         && angle::turn(one.along_at(one.length), t1).abs() + angle::turn(t0, one.along).abs() < SAME_EPSILON
     {
         let arcs = [Some(Arc { chord: to.chord, stops: to.stops, ..one }), None];
@@ -259,9 +262,6 @@ fn stays(tube: &Tube, arcs: &Found, from: &Node, to: &Node) -> bool {
     let allowed = SHARE * tube.tolerance;
     let [Some(first), second] = arcs else { return false };
     let second = second.as_ref().unwrap_or(first);
-    if !stays_at_ends(tube, [first, second], [from, to]) {
-        return false;
-    }
     let meet = first.at(first.length);
     let along = first.along_at(first.length);
     // Where the arcs run beside a vertex, left of it, and which of them does.
@@ -288,7 +288,7 @@ fn stays(tube: &Tube, arcs: &Found, from: &Node, to: &Node) -> bool {
         }
         before = Some((offset, curvature));
     }
-    true
+    stays_at_ends(tube, [first, second], [from, to])
 }
 
 /// Whether arcs stay in the tube beside the parts of chords that they start and end on.

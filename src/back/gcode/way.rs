@@ -12,6 +12,8 @@ use crate::units::rad;
 const TURN_SHARE: f64 = 0.9;
 /// The same where lines stand for arcs, which are off by as much again.
 pub(super) const LINE_SHARE: f64 = 0.45;
+/// The part of that which joining a piece too short to be told may take.
+const ASKEW_SHARE: f64 = 0.25;
 /// The most of the tolerance that the bow of a chord may take.
 const BOW_SHARE: f64 = 0.5;
 /// Shorter ways are none, mm.
@@ -41,12 +43,13 @@ impl Piece {
     /// The piece from a pose along which the tip goes a way that turns.
     fn from(from: Pose, to: Pose, tip: Tip) -> Self {
         let chord = to.centre - from.centre;
-        let (width, half) = (chord.norm(), 0.5 * tip.turn);
-        let bows = width * half.abs() / 4.0 > BOW_MIN && tip.turn.abs() > TURN_MIN;
+        let turn = tip.turn + tip.more;
+        let (width, half) = (chord.norm(), 0.5 * turn);
+        let bows = width * half.abs() / 4.0 > BOW_MIN && turn.abs() > TURN_MIN;
         let is_arc = width > LENGTH_EPSILON && bows;
         let (arc, length) = if is_arc {
             let centre = from.centre + chord * 0.5 + left(chord) * (0.5 / half.tan());
-            (Some((centre, tip.turn)), width * half / half.sin())
+            (Some((centre, turn)), width * half / half.sin())
         } else {
             (None, width)
         };
@@ -57,8 +60,14 @@ impl Piece {
 /// A way of the tip.
 #[derive(Debug, Clone, Copy)]
 struct Tip {
-    /// How far the way of the C axis turns beside it, rad: as much, unless the blade fades from chord to tangent.
+    /// Where it starts and ends.
+    ends: [Point; 2],
+    /// Unit vector along it where it starts.
+    along: Vector,
+    /// How far it turns, rad.
     turn: f64,
+    /// How much more the way of the C axis turns beside it, rad: where the blade fades from chord to tangent.
+    more: f64,
     /// mm.
     length: f64,
     /// Its greatest speed, mm/s.
@@ -73,37 +82,57 @@ pub(in crate::back) struct Way {
     pub(super) pieces: Vec<Piece>,
 }
 
-/// Joins what is too short to be told with what comes behind it, or at the end with what is before it.
+/// Joins what is too short to be told with what comes behind it; with what is before it at the end, and where one arc for
+/// both would lie less askew to them.
 struct Pieces {
     way: Way,
     /// Where the last piece begins, and what the tip does on it.
     last: Option<(Pose, Tip)>,
-    /// Where the next piece begins, and what the tip did since.
-    next: (Pose, Option<Tip>),
+    /// Where the next piece begins.
+    next: Pose,
+    /// What the tip did since, and where that ends: too short to be told.
+    short: Option<(Pose, Tip)>,
     length_min: f64,
+    /// By how much a joined piece may lie askew to the way of the tip, rad.
+    askew_max: f64,
 }
 
 impl Pieces {
-    fn new(start: Pose, length_min: f64) -> Self {
-        Self { way: Way { start, pieces: Vec::new() }, last: None, next: (start, None), length_min }
+    fn new(start: Pose, length_min: f64, askew_max: f64) -> Self {
+        let way = Way { start, pieces: Vec::new() };
+        Self { way, last: None, next: start, short: None, length_min, askew_max }
     }
 
     fn push(&mut self, to: Pose, tip: Tip) {
-        let (from, before) = self.next;
-        let tip = before.map_or(tip, |before| before.and(tip));
-        if (to.centre - from.centre).norm() < self.length_min {
-            self.next.1 = Some(tip);
+        let mut tip = tip;
+        if let Some((end, short)) = self.short.take() {
+            let joined = short.and(tip);
+            let backward = self.last.map(|(_, last)| last.and(short));
+            if joined.askew() > self.askew_max && backward.is_some_and(|back| back.askew() < joined.askew()) {
+                self.join(end, short);
+            } else {
+                tip = joined;
+            }
+        }
+        if (to.centre - self.next.centre).norm() < self.length_min {
+            self.short = Some((to, tip));
         } else {
-            self.way.pieces.push(Piece::from(from, to, tip));
-            (self.last, self.next) = (Some((from, tip)), (to, None));
+            self.way.pieces.push(Piece::from(self.next, to, tip));
+            (self.last, self.next) = (Some((self.next, tip)), to);
         }
     }
 
-    fn finish(mut self, to: Pose) -> Way {
-        if let (_, Some(tip)) = self.next {
-            let (from, tip) = self.last.map_or((self.next.0, tip), |(from, last)| (from, last.and(tip)));
-            self.way.pieces.pop();
-            self.way.pieces.push(Piece::from(from, to, tip));
+    /// Makes what the tip does up to a pose part of the last piece.
+    fn join(&mut self, to: Pose, tip: Tip) {
+        let (from, tip) = self.last.map_or((self.next, tip), |(from, last)| (from, last.and(tip)));
+        self.way.pieces.pop();
+        self.way.pieces.push(Piece::from(from, to, tip));
+        (self.last, self.next) = (Some((from, tip)), to);
+    }
+
+    fn finish(mut self) -> Way {
+        if let Some((to, tip)) = self.short {
+            self.join(to, tip);
         }
         self.way
     }
@@ -111,7 +140,20 @@ impl Pieces {
 
 impl Tip {
     fn and(self, next: Self) -> Self {
-        Self { turn: self.turn + next.turn, length: self.length + next.length, feed: self.feed.min(next.feed) }
+        Self {
+            ends: [self.ends[0], next.ends[1]],
+            along: self.along,
+            turn: self.turn + next.turn,
+            more: self.more + next.more,
+            length: self.length + next.length,
+            feed: self.feed.min(next.feed),
+        }
+    }
+
+    /// By how much one arc from its start to its end lies askew to it at both, rad: none when it is that arc.
+    fn askew(&self) -> f64 {
+        let chord = self.ends[1] - self.ends[0];
+        angle::wrap(angle::turn(self.along, chord) - 0.5 * self.turn).abs()
     }
 }
 
@@ -147,9 +189,9 @@ pub(super) fn way(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Point> {
     let radius = run.edge.lead(knife.ends());
     let pose = |tip: Point, c: f64| Pose { centre: tip - Rotation(c).unit() * radius, c: Rotation(c) };
     let c = Rotation(run.start.c.0 - run.edge.turn()).nearest(first).0;
-    let mut at = pose(tube.points[0], c);
-    let mut pieces = Pieces::new(at, STEPS_MIN * keys.step());
+    let at = pose(tube.points[0], c);
     let permitted = if keys.arcs { TURN_SHARE } else { LINE_SHARE } * rad(keys.heading_tolerance_deg);
+    let mut pieces = Pieces::new(at, STEPS_MIN * keys.step(), ASKEW_SHARE * permitted);
     let fade = Fade::new(lead, [knife.width_mm, length], radius, permitted);
     let mut tangent = c + lead;
     let (mut done, mut beside) = (0.0, 0);
@@ -159,14 +201,15 @@ pub(super) fn way(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Point> {
         tangent += angle::turn(Rotation(tangent).unit(), arc.along);
         let mut from = 0.0;
         for part in fade.parts(Beside { arc, tangent, done }, LENGTH_EPSILON) {
-            at = pose(arc.at(part.to), part.c);
-            pieces.push(at, Tip { turn: part.turn, length: part.to - from, feed });
+            let (ends, along, length) = ([arc.at(from), arc.at(part.to)], arc.along_at(from), part.to - from);
+            let turn = arc.curvature * length;
+            pieces.push(pose(ends[1], part.c), Tip { ends, along, turn, more: part.turn - turn, length, feed });
             from = part.to;
         }
         tangent += arc.turn();
         done += arc.length;
     }
-    Ok(pieces.finish(at))
+    Ok(pieces.finish())
 }
 
 /// Direction of a ring where it starts: that of the circle through its first point and both neighbours.
@@ -230,5 +273,36 @@ fn tip_line(run: &Run, width: f64) -> (Vec<Point>, Vec<usize>, Option<Point>) {
             }
             (points, chords, Some(tail))
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::back::gcode::fit::Arc;
+
+    #[test]
+    fn what_is_too_short_to_be_told_is_joined_to_what_it_lies_along() {
+        let check = |curvatures: [f64; 3], expected: f64| {
+            let (mut at, mut along) = (Point::origin(), Vector::new(1.0, 0.0));
+            let mut pieces = Pieces::new(Pose::default(), 0.04, 0.002);
+            for (length, curvature) in [0.66, 0.02, 0.68].into_iter().zip(curvatures) {
+                let arc = Arc { from: at, along, length, curvature, chord: 0, stops: false };
+                let ends = [at, arc.at(length)];
+                pieces.push(
+                    Pose { centre: ends[1], ..Pose::default() },
+                    Tip { ends, along, turn: arc.turn(), more: 0.0, length, feed: 1.0 },
+                );
+                (at, along) = (ends[1], arc.along_at(length));
+            }
+            let way = pieces.finish();
+            assert_eq!((way.pieces.len(), way.pieces[1].to.centre), (2, at));
+            assert!((way.pieces[0].length - expected).abs() < 1e-6, "{}", way.pieces[0].length);
+        };
+        // One arc for the end of a turn to the left and a turn to the right would be askew to both.
+        check([0.5, 0.5, -0.5], 0.68);
+        check([-0.5, 0.5, 0.5], 0.66);
+        // Where it hardly would, it is joined with what comes.
+        check([0.01, 0.01, -0.01], 0.66);
     }
 }

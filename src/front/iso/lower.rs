@@ -26,8 +26,9 @@ const SAGITTA_MAX: f64 = 0.01;
 /// The chords of an arc may take this part of the tolerance: the rest is for the knife.
 const SAGITTA_SHARE: f64 = 0.25;
 const SECONDS_PER_MINUTE: f64 = 60.0;
-/// Bytes of a large file for each of its segments: more than most have, so that no memory is taken in vain.
-const BYTES_A_SEGMENT: usize = 16;
+/// Bytes of a large file for each of its segments: fewer than most have, since to move them all takes longer than room that
+/// nothing comes into.
+const BYTES_A_SEGMENT: usize = 12;
 /// Farthest place from the origin, mm: a kilometre, far beyond any table.
 const FARTHEST: f64 = 1e6;
 
