@@ -13,7 +13,7 @@
 //! beta, small enough, is always feasible, so there is no run without a motion.
 
 use super::banded::Band;
-use super::barrier::{self, Schedule};
+use super::barrier::{self, Logs, Schedule};
 use super::feed::Feed;
 use super::law::Way;
 use super::pace::Grid;
@@ -194,7 +194,7 @@ impl barrier::Problem<1> for Problem {
             }
             duration += node.weight / b.sqrt();
         }
-        let mut logs = 0.0;
+        let mut logs = Logs::new();
         for place in &self.places {
             let near = &control[place.first..];
             let b = dot(&place.square, near);
@@ -217,9 +217,9 @@ impl barrier::Problem<1> for Problem {
                 }
                 slack *= 1.0 - square;
             }
-            logs += slack.ln();
+            logs.add(slack);
         }
-        weight * duration - logs
+        weight * duration - logs.sum()
     }
 
     /// The Hessian is exact for the duration and takes g g^T terms for the bounds, so it is positive definite everywhere.

@@ -7,7 +7,7 @@
 //! the optimum. All matrices are banded, so time and memory are linear in the number of knots.
 
 use super::banded::Band;
-use super::barrier::{self, Schedule};
+use super::barrier::{self, Logs, Schedule};
 use super::knots;
 use super::tube::{Slot, Tube};
 use crate::geom::spline::{self, Piecewise};
@@ -305,15 +305,15 @@ impl barrier::Problem<2> for Problem<'_> {
     /// weight / 2 * penalty - sum of log(bound^2 - |deviation|^2).
     fn value(&self, control: &[[f64; 2]], weight: f64) -> f64 {
         let square = self.bound * self.bound;
-        let mut logs = 0.0;
+        let mut logs = Logs::new();
         for sample in &self.samples {
             let slack = square - sample.deviation(control).norm_squared();
             if slack <= 0.0 || slack.is_nan() {
                 return f64::INFINITY;
             }
-            logs += slack.ln();
+            logs.add(slack);
         }
-        0.5 * weight * self.objective(control) - logs
+        0.5 * weight * self.objective(control) - logs.sum()
     }
 
     fn newton(&self, control: &[[f64; 2]], weight: f64) -> Option<(Vec<[f64; 2]>, f64)> {
