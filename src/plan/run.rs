@@ -114,7 +114,13 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
     };
     let (entry, end) = match run.shape {
         Shape::Open => (Entry::Plunge, end),
-        Shape::Ring => (Entry::Steady(start), closed(&smooth.curve, start, end)),
+        Shape::Ring => {
+            let end = closed(&smooth.curve, start, end).map_err(|OpenSeam { missing }| {
+                let missing = fixed(missing, 4);
+                order.refuse(&code::PLAN_SMOOTH, &format!("its smooth curve ends {missing} mm before it closes"))
+            })?;
+            (Entry::Steady(start), end)
+        }
     };
     let blade = Blade { width: knife.width_mm, radius: run.edge.lead(knife.ends()) };
     let near = Rotation(run.start.c.0 - run.edge.turn());
@@ -127,10 +133,22 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
     Ok(Cut { bulge: smooth.bulge, ..order.along(&way)? })
 }
 
+/// The curve of a ring ends before it comes back to its start.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct OpenSeam {
+    /// By how much, mm.
+    missing: f64,
+}
+
 /// Where a ring that should end at parameter `end` really closes: smoothing may have drawn its end back from its start, and
-/// the tip must come as far as that.
-fn closed(curve: &Curve, start: f64, end: f64) -> f64 {
-    let [from, along] = curve.derivatives::<2>(start).map(|v| Vector::new(v[0], v[1]));
+/// the tip must come as far as that. Beside its way, the tube holds both to one place.
+fn closed(curve: &Curve, start: f64, end: f64) -> Result<f64, OpenSeam> {
+    reaching(curve, curve.derivatives::<2>(start), end)
+}
+
+/// The first parameter from `end` on at which the curve is as far as a place along the direction there.
+fn reaching(curve: &Curve, place: [[f64; 2]; 2], end: f64) -> Result<f64, OpenSeam> {
+    let [from, along] = place.map(|v| Vector::new(v[0], v[1]));
     let short = |u: f64| {
         let [at] = curve.derivatives::<1>(u);
         (from - Vector::new(at[0], at[1])).dot(&along) / along.norm()
@@ -140,7 +158,8 @@ fn closed(curve: &Curve, start: f64, end: f64) -> f64 {
     for _ in 0..SEAM_STEPS {
         end = (end + short(end).clamp(0.0, SEAM_STEP)).min(last);
     }
-    end
+    let missing = short(end);
+    if missing <= WAY_EPSILON { Ok(end) } else { Err(OpenSeam { missing }) }
 }
 
 impl Order<'_> {
@@ -244,4 +263,18 @@ impl Order<'_> {
 /// The least number of periods, at least 1, that last `duration`.
 pub(super) fn whole_periods(duration: f64, period: f64) -> u32 {
     ((duration / period - PERIOD_EPSILON).ceil() as u32).max(1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ring_ends_where_it_closes_and_is_refused_when_it_does_not() {
+        let line = Curve::line([0.0, 20.0], [[-10.0, 0.0], [10.0, 0.0]]);
+        assert!((closed(&line, 10.0, 9.6).expect("it closes") - 10.0).abs() < 1e-9);
+        assert_eq!(closed(&line, 10.0, 10.8), Ok(10.8), "an overlap stays");
+        let missing = reaching(&line, [[10.4, 0.0], [1.0, 0.0]], 19.0).expect_err("the line ends before").missing;
+        assert!((missing - 0.4).abs() < 1e-9);
+    }
 }
