@@ -20,6 +20,7 @@ mod run;
 mod smooth;
 mod timing;
 mod tube;
+mod windows;
 
 pub use certify::{Peak, Peaks};
 pub use run::Cut;
