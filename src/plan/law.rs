@@ -7,6 +7,7 @@
 
 use super::chord::{self, Chord, TooTight};
 use super::smooth::Curve;
+use crate::geom::fade::left_of;
 use crate::geom::{Point, Rotation, Vector, angle, cross, left, spline};
 use crate::ir::toolpath::{Law, Pose};
 
@@ -208,16 +209,10 @@ impl<'a> Way<'a> {
     }
 }
 
-/// 1 - S(x) and its derivatives by length, S the step of degree 7 with three vanishing derivatives at both ends.
+/// What is left of the lead at the part `x` of a fade, and its derivatives by the way of that `length`.
 fn fading(x: f64, length: f64) -> [f64; 4] {
-    let x = x.clamp(0.0, 1.0);
-    let y = x * (1.0 - x);
-    [
-        1.0 - x.powi(4) * (35.0 - 84.0 * x + 70.0 * x * x - 20.0 * x.powi(3)),
-        -140.0 * y.powi(3) / length,
-        -420.0 * y * y * (1.0 - 2.0 * x) / (length * length),
-        -840.0 * y * (1.0 - 5.0 * y) / length.powi(3),
-    ]
+    let [left, first, second, third] = left_of(x);
+    [left, first / length, second / (length * length), third / length.powi(3)]
 }
 
 /// Tangent angle where each span starts, without jumps, rad.

@@ -2,6 +2,7 @@
 
 use super::fit::{Ends, fit};
 use super::tube::Tube;
+use crate::geom::fade::left_of;
 use crate::geom::{Heading, Point, Rotation, Vector, angle, left, polyline};
 use crate::ir::toolpath::{Pose, Run, Shape};
 use crate::machine::Job;
@@ -168,7 +169,7 @@ pub(super) fn way(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Point> {
             if to - from < LENGTH_EPSILON && i > 1 {
                 continue;
             }
-            let lag = if fade > 0.0 { lead * left_of((done + to) / fade) } else { 0.0 };
+            let lag = if fade > 0.0 { lead * left_of((done + to) / fade)[0] } else { 0.0 };
             c = tangent + arc.curvature * to - lag;
             at = pose(arc.at(to), c);
             pieces.push(at, Tip { turn: arc.curvature * (to - from), length: to - from, feed });
@@ -188,13 +189,6 @@ fn parts(fading: f64, [lead, fade]: [f64; 2], permitted: f64) -> (usize, f64) {
     let longest = fade * (8.0 * permitted / (FADE_BEND * lead.abs())).sqrt();
     let count = (fading / longest).ceil().max(1.0);
     (count as usize, fading / count)
-}
-
-/// What is left of the lead at a part of the fade: 1 less the step of degree 7.
-fn left_of(x: f64) -> f64 {
-    let x = x.min(1.0);
-    let x4 = x * x * x * x;
-    1.0 - x4 * (35.0 - x * (84.0 - x * (70.0 - x * 20.0)))
 }
 
 /// Direction of a ring where it starts: that of the circle through its first point and both neighbours.
