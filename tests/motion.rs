@@ -52,6 +52,11 @@ fn solve(run: Run, tolerance: f64, job: &Job) -> Cut {
     plan::solve(&toolpath, job).expect("a motion").remove(0)
 }
 
+/// The poses at the ticks of a cut, the one at its end included.
+fn poses(cut: &Cut) -> Vec<Pose> {
+    cut.poses().collect()
+}
+
 /// The score profile's motion along points: the duration before it is stretched to whole periods, s.
 fn duration(points: Vec<Point>, changes: &[&str]) -> f64 {
     let job = score_job(changes);
@@ -116,7 +121,7 @@ fn the_four_contours_come_near_their_references() {
         let cut = solve(run(points.clone(), &job), TOLERANCE, &job);
         let time = cut.duration;
         assert!(time <= 1.01 * reference, "{name}: {time:.4} s against {reference} s");
-        let tips: Vec<Point> = cut.poses.iter().map(|pose| pose.centre).collect();
+        let tips: Vec<Point> = cut.poses().map(|pose| pose.centre).collect();
         for (from, to, what) in [(&tips, &points, "the knife off the line"), (&points, &tips, "the line off the way")] {
             let away = from.iter().map(|&point| distance(point, to)).fold(0.0, f64::max);
             // Between two samples the way is no chord: at 1 mm a sample and a radius of 5 mm they differ by 25 um.
@@ -177,7 +182,7 @@ fn a_thousand_runs_of_any_length_keep_the_limits_and_take_as_long_backward_and_t
             return; // shorter than the blade: a stab, which is no run
         }
         let cut = solve(run(points.clone(), job), TOLERANCE, job);
-        let excess = excess(&cut.poses, job);
+        let excess = excess(&poses(&cut), job);
         assert!(excess <= 1.001, "seed {seed}: {excess} of a limit");
         if width == 0.0 {
             let backward: Vec<Point> = points.iter().rev().copied().collect();
@@ -207,15 +212,16 @@ fn every_random_run_is_certified_tangent_and_inside_its_tube() {
             continue;
         }
         let cut = solve(run, tolerance, &job);
-        assert!(excess(&cut.poses, &job) <= 1.0 + 1e-6, "case {case}: {}", excess(&cut.poses, &job));
-        let tips: Vec<Point> = cut.poses.iter().map(|pose| pose.ahead(radius)).collect();
+        let poses = poses(&cut);
+        assert!(excess(&poses, &job) <= 1.0 + 1e-6, "case {case}: {}", excess(&poses, &job));
+        let tips: Vec<Point> = cut.poses().map(|pose| pose.ahead(radius)).collect();
         let reach = tolerance + cut.bulge + 1e-9;
         for tip in &tips {
             let away = extended.windows(2).map(|w| polyline::distance_to_segment(*tip, w[0], w[1]));
             assert!(away.fold(f64::INFINITY, f64::min) <= reach, "case {case}: off the path at {tip}");
         }
         let mut way = 0.0;
-        for (w, pose) in tips.windows(3).zip(&cut.poses[1..]) {
+        for (w, pose) in tips.windows(3).zip(&poses[1..]) {
             way += (w[1] - w[0]).norm();
             let along = w[2] - w[0];
             if way > width && along.norm() > 0.02 {
@@ -274,9 +280,9 @@ fn no_stretch_of_the_contours_is_left_uncut() {
             for toolpath in support::toolpaths(&support::marker(&points), &job) {
                 let cuts = plan::solve(&toolpath, &job).expect("a motion");
                 for (run, cut) in support::runs(&toolpath).iter().zip(cuts) {
-                    let tips: Vec<Point> = cut.poses.iter().map(|pose| pose.ahead(radius)).collect();
+                    let tips: Vec<Point> = cut.poses().map(|pose| pose.ahead(radius)).collect();
                     if run.shape == Shape::Open {
-                        swept.push([cut.poses[0].ahead(radius - width), tips[0]]);
+                        swept.extend(cut.poses().next().map(|pose| [pose.ahead(radius - width), tips[0]]));
                         bow = bow.max(width * turned_within(&run.points, width) / 8.0);
                     }
                     swept.extend(tips.windows(2).map(|w| [w[0], w[1]]));

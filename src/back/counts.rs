@@ -66,8 +66,7 @@ fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<
         let outputs = u32::from(phase.kind.knife_down())
             | u32::from(phase.kind.drill()) << DRILL_BIT
             | u32::from(phase.kind.event()) << EVENT_BIT;
-        for i in 0..phase.ticks {
-            let pose = phase.pose(i);
+        for (pose, block) in phase.setpoints() {
             let counts = [
                 wrapped(pose.centre.x * scales.x.per_mm + scales.x.offset),
                 wrapped(pose.centre.y * scales.y.per_mm + scales.y.offset),
@@ -77,7 +76,7 @@ fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<
                 records.extend_from_slice(&count.to_le_bytes());
             }
             records.extend_from_slice(&outputs.to_le_bytes());
-            records.extend_from_slice(&phase.block(i).to_le_bytes());
+            records.extend_from_slice(&block.to_le_bytes());
         }
     }
     out.write_all(&records)

@@ -35,15 +35,14 @@ fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<
     let mut tick = motion.first_tick;
     for phase in &motion.phases {
         rows.clear();
-        for i in 0..phase.ticks {
-            let pose = phase.pose(i);
+        for (pose, block) in phase.setpoints() {
             number::push_fixed(&mut rows, tick as f64 * period, TIME_DECIMALS);
             for value in [pose.centre.x, pose.centre.y, deg(pose.c.0)] {
                 rows.push(b',');
                 number::push_fixed(&mut rows, value, POSITION_DECIMALS);
             }
             let outputs = [phase.kind.knife_down().into(), phase.kind.drill(), phase.kind.event()];
-            for output in outputs.map(u64::from).into_iter().chain([u64::from(phase.block(i))]) {
+            for output in outputs.map(u64::from).into_iter().chain([u64::from(block)]) {
                 rows.push(b',');
                 number::push_integer(&mut rows, output);
             }

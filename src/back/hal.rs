@@ -33,8 +33,7 @@ fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<
     for phase in &motion.phases {
         rows.clear();
         let outputs = [phase.kind.knife_down().into(), phase.kind.drill(), phase.kind.event()];
-        for i in 0..phase.ticks {
-            let pose = phase.pose(i);
+        for (pose, block) in phase.setpoints() {
             for value in [pose.centre.x, pose.centre.y, turn.shown_deg(pose.c.0)] {
                 number::push_fixed(&mut rows, value, DECIMALS);
                 rows.push(b' ');
@@ -43,7 +42,7 @@ fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<
                 number::push_integer(&mut rows, u64::from(output));
                 rows.push(b' ');
             }
-            number::push_integer(&mut rows, u64::from(phase.block(i)));
+            number::push_integer(&mut rows, u64::from(block));
             rows.push(b'\n');
         }
         out.write_all(&rows)?;

@@ -51,13 +51,12 @@ fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<
     let mut tick = motion.first_tick;
     for phase in &motion.phases {
         let outputs = [phase.kind.knife_down().into(), phase.kind.drill(), phase.kind.event()];
-        for i in 0..phase.ticks {
-            let pose = phase.pose(i);
+        for (pose, block) in phase.setpoints() {
             for value in [tick as f64 * period, pose.centre.x, pose.centre.y, deg(pose.c.0)] {
                 records.extend_from_slice(&value.to_le_bytes());
             }
             records.extend_from_slice(&outputs);
-            records.extend_from_slice(&phase.block(i).to_le_bytes());
+            records.extend_from_slice(&block.to_le_bytes());
             tick += 1;
         }
     }

@@ -5,6 +5,7 @@
 
 pub mod angle;
 pub mod budget;
+pub mod fade;
 pub mod moments;
 pub mod monotone;
 pub mod near;

@@ -2,6 +2,9 @@
 
 use super::{Point, Vector, angle};
 
+/// Longest chord that a flattened curve is believed to have, mm: CAD flattens to small sagittas.
+pub const CURVE_CHORD_MAX: f64 = 25.0;
+
 /// Length of a polyline, mm.
 pub fn length(points: &[Point]) -> f64 {
     points.windows(2).map(|w| (w[1] - w[0]).norm()).sum()

@@ -1,7 +1,7 @@
 //! Every invariant of the three forms; collects all that is broken, never stops at the first.
 
 use super::marker::{Marker, Notch};
-use super::motion::Motion;
+use super::motion::{Motion, Poses};
 use super::toolpath::{Pose, Run, Step, Toolpath};
 use crate::geom::Point;
 
@@ -120,10 +120,12 @@ pub fn motion(motion: &Motion) -> Faults {
         if phase.ticks == 0 {
             faults.push(format!("phase {}: it has no ticks", i + 1));
         }
-        if phase.poses.is_empty() || (phase.poses.len() != 1 && phase.poses.len() != phase.ticks as usize) {
-            faults.push(format!("phase {}: it has {} poses for {} ticks", i + 1, phase.poses.len(), phase.ticks));
+        if let Poses::Samples(poses) = &phase.poses
+            && poses.len() != phase.ticks as usize
+        {
+            faults.push(format!("phase {}: it has {} poses for {} ticks", i + 1, poses.len(), phase.ticks));
         }
-        if !phase.poses.iter().all(|&pose| pose_finite(pose)) {
+        if !phase.setpoints().all(|(pose, _)| pose_finite(pose)) {
             faults.push(format!("phase {}: a pose is not finite", i + 1));
         }
     }

@@ -3,6 +3,10 @@
 //! A motion holds the phases of one toolpath. A phase lasts a whole number of periods and says what the outputs are
 //! from its first tick until the next phase begins; the pose at tick `i` is that at time `i * period`.
 
+mod poses;
+
+pub use poses::{Derivatives, Glide, Poses, Stroke};
+
 use super::toolpath::{Edge, Event, Law, Pose, Side};
 
 /// The phases of one toolpath, in order.
@@ -50,14 +54,23 @@ pub struct Phase {
     pub kind: Kind,
     /// Number of periods; at least 1.
     pub ticks: u32,
-    /// The poses at its ticks; one pose alone when the axes rest.
-    pub poses: Vec<Pose>,
-    /// The source block being cut at its ticks; one alone when it does not change, 0 when the knife is up.
-    pub blocks: Vec<u32>,
+    /// Where the axes are at its ticks.
+    pub poses: Poses,
+    /// The source blocks being cut, in order; none when the knife is up.
+    pub spells: Vec<Spell>,
     /// Time before it was stretched to whole periods, s.
     pub duration: f64,
     /// Way of the tip in a cut, of the C axis in the air, mm.
     pub length: f64,
+}
+
+/// The ticks of a phase in which one source block is being cut: from its first one until the next spell begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Spell {
+    /// The first tick, counted from the start of the phase; 0 in the first spell.
+    pub first: u32,
+    /// The block.
+    pub block: u32,
 }
 
 /// What happens in a phase.
@@ -136,12 +149,15 @@ impl Kind {
 impl Phase {
     /// The pose at the phase's tick `i`.
     pub fn pose(&self, i: u32) -> Pose {
-        self.poses[(i as usize).min(self.poses.len() - 1)]
+        self.poses.at(i, self.ticks)
     }
 
-    /// The block being cut at the phase's tick `i`; 0 = none.
-    pub fn block(&self, i: u32) -> u32 {
-        self.blocks.get((i as usize).min(self.blocks.len().max(1) - 1)).copied().unwrap_or(0)
+    /// The pose and the block being cut, 0 = none, tick by tick.
+    pub fn setpoints(&self) -> impl Iterator<Item = (Pose, u32)> + '_ {
+        let ends = self.spells.iter().skip(1).map(|next| next.first).chain([self.ticks]);
+        let spells = self.spells.iter().zip(ends).map(|(spell, end)| (spell.first..end, spell.block));
+        let none = self.spells.is_empty().then_some((0..self.ticks, 0));
+        spells.chain(none).flat_map(move |(ticks, block)| ticks.map(move |i| (self.pose(i), block)))
     }
 }
 

@@ -78,6 +78,22 @@ impl Move {
         4.0 * self.ramp + 2.0 * self.hold + self.cruise
     }
 
+    /// Greatest speed, acceleration and jerk of this move stretched to last `duration`, s.
+    pub fn derivatives(&self, duration: f64) -> [f64; 3] {
+        let Self { distance, jerk, ramp, hold, .. } = *self;
+        if distance == 0.0 {
+            return [0.0; 3];
+        }
+        let slower = self.duration() / duration;
+        let acceleration = jerk * ramp;
+        [acceleration * (ramp + hold) * slower, acceleration * slower.powi(2), jerk * slower.powi(3)]
+    }
+
+    /// The part of the move, in time, in which it speeds up, and as much in which it slows down.
+    pub fn rise(&self) -> f64 {
+        (2.0 * self.ramp + self.hold) / self.duration()
+    }
+
     /// The distance covered at `time` after the start, of this move stretched to last `duration` (not shorter than its own).
     pub fn at(&self, time: f64, duration: f64) -> f64 {
         let own = self.duration();

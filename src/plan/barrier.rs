@@ -48,7 +48,8 @@ pub(super) fn minimise<const N: usize>(
 ) -> Option<Vec<[f64; N]>> {
     let constraints = problem.constraints();
     let mut weight = schedule.start * constraints / problem.objective(&x).max(f64::MIN_POSITIVE);
-    if !weight.is_finite() || !problem.value(&x, weight).is_finite() {
+    let mut value = problem.value(&x, weight);
+    if !weight.is_finite() || !value.is_finite() {
         return None;
     }
     let mut steps = 0;
@@ -56,8 +57,9 @@ pub(super) fn minimise<const N: usize>(
         for _ in 0..schedule.steps_a_round {
             steps += 1;
             let Some((direction, decrement)) = problem.newton(&x, weight) else { break };
-            let Some(next) = line_search(problem, &x, &direction, weight, decrement) else { break };
-            x = next;
+            let line = Line { problem, from: &x, direction: &direction, weight };
+            let Some(next) = line.search(value, decrement) else { break };
+            (x, value) = next;
             if decrement < schedule.decrement {
                 break;
             }
@@ -66,28 +68,66 @@ pub(super) fn minimise<const N: usize>(
             return Some(x);
         }
         weight *= schedule.growth;
+        value = problem.value(&x, weight);
     }
 }
 
-/// Halves the step until the value falls enough; `None` when it never does.
-fn line_search<const N: usize>(
-    problem: &impl Problem<N>,
-    x: &[[f64; N]],
-    direction: &[[f64; N]],
+/// A line from an iterate in a direction.
+struct Line<'a, P, const N: usize> {
+    problem: &'a P,
+    from: &'a [[f64; N]],
+    direction: &'a [[f64; N]],
     weight: f64,
-    decrement: f64,
-) -> Option<Vec<[f64; N]>> {
-    let before = problem.value(x, weight);
-    let mut step = 1.0;
-    while step > STEP_EPSILON {
-        let moved = |(x, d): (&[f64; N], &[f64; N])| std::array::from_fn(|n| x[n] + step * d[n]);
-        let next: Vec<[f64; N]> = x.iter().zip(direction).map(moved).collect();
-        if problem.value(&next, weight) <= before - ARMIJO * step * decrement {
-            return Some(next);
+}
+
+impl<P: Problem<N>, const N: usize> Line<'_, P, N> {
+    /// Halves the step until the value, so far `before`, falls enough; the place and its value, `None` when it never does.
+    fn search(&self, before: f64, decrement: f64) -> Option<(Vec<[f64; N]>, f64)> {
+        let mut step = 1.0;
+        while step > STEP_EPSILON {
+            let moved = |(x, d): (&[f64; N], &[f64; N])| std::array::from_fn(|n| x[n] + step * d[n]);
+            let next: Vec<[f64; N]> = self.from.iter().zip(self.direction).map(moved).collect();
+            let value = self.problem.value(&next, self.weight);
+            if value <= before - ARMIJO * step * decrement {
+                return Some((next, value));
+            }
+            step *= 0.5;
         }
-        step *= 0.5;
+        None
     }
-    None
+}
+
+/// The sum of the logarithms of positive numbers: that of their product, taken before the product leaves the range of
+/// numbers. A logarithm costs as much as all else that is done for a constraint.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Logs {
+    sum: f64,
+    product: f64,
+}
+
+/// A product beyond these is taken as it stands: the next factor could carry it out of range.
+const PRODUCT_MIN: f64 = 1e-150;
+const PRODUCT_MAX: f64 = 1e150;
+
+impl Logs {
+    /// The sum of none.
+    pub(super) fn new() -> Self {
+        Self { sum: 0.0, product: 1.0 }
+    }
+
+    /// Adds the logarithm of a number.
+    pub(super) fn add(&mut self, number: f64) {
+        self.product *= number;
+        if !(PRODUCT_MIN..PRODUCT_MAX).contains(&self.product) {
+            self.sum += self.product.ln();
+            self.product = 1.0;
+        }
+    }
+
+    /// The sum.
+    pub(super) fn sum(&self) -> f64 {
+        self.sum + self.product.ln()
+    }
 }
 
 #[cfg(test)]
@@ -117,6 +157,15 @@ mod tests {
             let bend = 2.0 * weight / x.powi(3) + 1.0 / (1.0 - x).powi(2);
             Some((vec![[-slope / bend]], slope * slope / bend))
         }
+    }
+
+    #[test]
+    fn logarithms_add_up_beyond_the_range_of_numbers() {
+        let numbers = (0..2000).map(|i| [1e-90, 3e-3, 40.0, 1e80][i % 4] * (1.0 + i as f64));
+        let mut logs = Logs::new();
+        numbers.clone().for_each(|number| logs.add(number));
+        let expected: f64 = numbers.map(f64::ln).sum();
+        assert!((logs.sum() / expected - 1.0).abs() < 1e-12, "{} {expected}", logs.sum());
     }
 
     #[test]

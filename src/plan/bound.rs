@@ -1,35 +1,101 @@
 //! What keeps a cut from being faster, tick by tick.
 
+use std::ops::Range;
+
+use crate::geom::Rotation;
 use crate::ir::motion::{BOUNDS, Bound, Shares};
 use crate::ir::toolpath::Pose;
 use crate::machine::Limits;
 
 /// Relative change of speed from tick to tick that is none.
 const SPEED_EPSILON: f64 = 1e-6;
+/// Ticks at each end of a cruise at constant speed that a difference of order 3 joins with what is before and behind.
+const SEAM: usize = 4;
 
-/// How many ticks of a cut each limit decides. From rest up to where the tip is first as fast as it gets there, and from
-/// its last such place down to rest, the cut is bound by its start and its stop; in between by the limit that is used up
-/// most. `ways` (mm) and `feeds` (mm/s) are those from each pose to the next.
-pub(super) fn shares(poses: &[Pose], ways: &[f64], feeds: &[f64], period: f64, limits: &[Limits; 3]) -> Shares {
-    let mut shares = Shares::default();
-    let rises = |w: &[f64]| w[1] > w[0] * (1.0 + SPEED_EPSILON);
-    let start = ways.windows(2).take_while(|w| rises(w)).count();
-    let stop = ways.windows(2).rev().take_while(|w| rises(&[w[1], w[0]])).count();
-    let cruise = start..ways.len().saturating_sub(stop).max(start);
-    shares.add(Bound::Ends, (ways.len() - cruise.len()) as u64);
-    let at = |i: usize| {
-        let pose = poses[i.min(poses.len() - 1)];
-        [pose.centre.x, pose.centre.y, pose.c.0]
-    };
-    for i in cruise {
-        let mut worst = (ways[i] / (feeds[i] * period), Bound::Feed);
+/// A cut, tick by tick.
+pub(super) struct Cutting<'a> {
+    /// Number of periods.
+    pub(super) ticks: usize,
+    /// Their length, s.
+    pub(super) period: f64,
+    /// Limits of x, y, c.
+    pub(super) limits: &'a [Limits; 3],
+    /// The pose at a tick, up to the one at the end.
+    pub(super) pose: &'a dyn Fn(usize) -> Pose,
+    /// Way of the tip from a tick to the next, mm.
+    pub(super) way: &'a dyn Fn(usize) -> f64,
+    /// Greatest speed of the tip from a tick to the next, mm/s.
+    pub(super) feed: &'a dyn Fn(usize) -> f64,
+}
+
+impl Cutting<'_> {
+    /// How many ticks each limit decides. From rest up to where the tip is first as fast as it gets there, and from its
+    /// last such place down to rest, the cut is bound by its start and its stop; in between by the limit that is used up
+    /// most.
+    pub(super) fn shares(&self) -> Shares {
+        let pairs = self.ticks.saturating_sub(1);
+        let start = (0..pairs).take_while(|&i| self.rises(i)).count();
+        let stop = (0..pairs).take_while(|&i| self.falls(i)).count();
+        let cruise = self.cruise(start, stop);
+        let mut shares = self.shares_of_ends(&cruise);
+        cruise.for_each(|i| shares.add(self.bound(i), 1));
+        shares
+    }
+
+    /// The same of a cut that speeds up, cruises and slows down, without a look at each tick: it speeds up for about
+    /// `rise` ticks, and slows down for as many.
+    pub(super) fn shares_of_cruise(&self, rise: usize) -> Shares {
+        let pairs = self.ticks.saturating_sub(1);
+        let start = last_near(rise, pairs, |i| self.rises(i));
+        let stop = last_near(rise, pairs, |i| self.falls(i));
+        let cruise = self.cruise(start, stop);
+        let mut shares = self.shares_of_ends(&cruise);
+        let inner = (cruise.start + SEAM).min(cruise.end)..cruise.end.saturating_sub(SEAM);
+        if inner.is_empty() {
+            cruise.for_each(|i| shares.add(self.bound(i), 1));
+        } else {
+            // All ticks between the seams are the same.
+            (cruise.start..inner.start).chain(inner.end..cruise.end).for_each(|i| shares.add(self.bound(i), 1));
+            shares.add(self.bound(inner.start), inner.len() as u64);
+        }
+        shares
+    }
+
+    /// Whether the tip is faster in the period behind period `i`.
+    fn rises(&self, i: usize) -> bool {
+        (self.way)(i + 1) > (self.way)(i) * (1.0 + SPEED_EPSILON)
+    }
+
+    /// Whether it is slower in the period behind, period `i` counted from the end.
+    fn falls(&self, i: usize) -> bool {
+        let last = self.ticks - 1;
+        (self.way)(last - i - 1) > (self.way)(last - i) * (1.0 + SPEED_EPSILON)
+    }
+
+    fn cruise(&self, start: usize, stop: usize) -> Range<usize> {
+        start..self.ticks.saturating_sub(stop).max(start)
+    }
+
+    fn shares_of_ends(&self, cruise: &Range<usize>) -> Shares {
+        let mut shares = Shares::default();
+        shares.add(Bound::Ends, (self.ticks - cruise.len()) as u64);
+        shares
+    }
+
+    /// The limit that is used up most in a period.
+    fn bound(&self, i: usize) -> Bound {
+        let at = |i: usize| {
+            let Pose { centre, c: Rotation(c) } = (self.pose)(i.min(self.ticks));
+            [centre.x, centre.y, c]
+        };
+        let mut worst = ((self.way)(i) / ((self.feed)(i) * self.period), Bound::Feed);
         let [a, b, c, d] = [i.saturating_sub(1), i, i + 1, i + 2].map(at);
-        for axis in 0..3 {
+        for (axis, limits) in self.limits.iter().enumerate() {
             let [a, b, c, d] = [a[axis], b[axis], c[axis], d[axis]];
             let parts = [
-                (c - b).abs() / (period * limits[axis].speed),
-                (c - 2.0 * b + a).abs() / (period.powi(2) * limits[axis].acceleration),
-                (d - 3.0 * c + 3.0 * b - a).abs() / (period.powi(3) * limits[axis].jerk),
+                (c - b).abs() / (self.period * limits.speed),
+                (c - 2.0 * b + a).abs() / (self.period.powi(2) * limits.acceleration),
+                (d - 3.0 * c + 3.0 * b - a).abs() / (self.period.powi(3) * limits.jerk),
             ];
             for (order, part) in parts.into_iter().enumerate() {
                 if part > worst.0 {
@@ -37,7 +103,54 @@ pub(super) fn shares(poses: &[Pose], ways: &[f64], feeds: &[f64], period: f64, l
                 }
             }
         }
-        shares.add(worst.1, 1);
+        worst.1
     }
-    shares
+}
+
+/// How many numbers from 0, below `end`, hold in a row, when that is about as many as `guess`.
+fn last_near(guess: usize, end: usize, holds: impl Fn(usize) -> bool) -> usize {
+    let mut count = guess.min(end);
+    while count > 0 && !holds(count - 1) {
+        count -= 1;
+    }
+    while count < end && holds(count) {
+        count += 1;
+    }
+    count
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::{Point, Vector};
+    use crate::ir::motion::Stroke;
+    use crate::machine::MachineProfile;
+    use crate::machine::kinematics::Move;
+
+    #[test]
+    fn the_shares_of_a_straight_cut_are_those_of_its_ticks() {
+        let limits = MachineProfile::default().axes.limits();
+        for (length, feed) in [(0.4, 900.0), (10.0, 900.0), (77.0, 900.0), (500.0, 700.0), (9000.0, f64::INFINITY)] {
+            for degrees in [0.0_f64, 20.0, 90.0, 130.0] {
+                let (sin, cos) = degrees.to_radians().sin_cos();
+                let mut along = limits[0].along(cos).min(limits[1].along(sin));
+                along.speed = along.speed.min(feed);
+                let way = Move::new(length, along);
+                let (from, direction) = (Point::new(40.0, -70.0), Vector::new(cos, sin));
+                let stroke = Stroke { from, along: direction, start: 6.6, lead: 4.4, c: Rotation(1.0), way };
+                let ticks = (way.duration() / 1e-3).ceil() as usize;
+                let reach = |i: usize| stroke.reach(i as f64, ticks as f64);
+                let cutting = Cutting {
+                    ticks,
+                    period: 1e-3,
+                    limits: &limits,
+                    pose: &|i| stroke.at(i as f64, ticks as f64),
+                    way: &|i| reach(i + 1) - reach(i),
+                    feed: &|_| feed,
+                };
+                let rise = (way.rise() * ticks as f64) as usize;
+                assert_eq!(cutting.shares_of_cruise(rise), cutting.shares(), "{length} mm, {degrees} degrees");
+            }
+        }
+    }
 }

@@ -3,7 +3,10 @@
 //! A finite difference of order k, divided by h^k, is a weighted mean of the k-th derivative over its support, so a
 //! motion that keeps its limits between the samples also keeps them here, and stretching time by rho lowers the k-th
 //! difference by rho^k.
+//!
+//! Hence a motion in closed form, whose greatest derivatives are known, needs no samples but where it meets others.
 
+use crate::ir::motion::{Derivatives, Phase, Poses};
 use crate::ir::toolpath::Pose;
 use crate::machine::Limits;
 
@@ -38,6 +41,9 @@ pub(super) struct Allowed {
     pub(super) air: [Limits; 3],
 }
 
+/// Setpoints that a difference of order 3 joins.
+const SUPPORT: u32 = 4;
+
 /// Greatest differences of order 1 to 3 of each axis.
 type Rows = [[f64; 3]; 3];
 
@@ -68,7 +74,7 @@ impl Differences {
 
     /// Takes the next setpoint.
     pub(super) fn push(&mut self, pose: Pose, regime: Regime) {
-        let here = [pose.centre.x, pose.centre.y, pose.c.0];
+        let here = row(pose);
         let Some(last) = &mut self.last else {
             self.last = Some(here.map(|value| [value, 0.0, 0.0]));
             self.regimes = [regime; 3];
@@ -88,6 +94,42 @@ impl Differences {
             *of_axis = [here[axis], d1, d2];
             for (k, difference) in [d1, d2, d3].into_iter().enumerate() {
                 let part = difference.abs() / self.allowed[which][axis][k];
+                if part > self.greatest[axis][k].0 {
+                    self.greatest[axis][k] = (part, which);
+                }
+            }
+        }
+    }
+
+    /// Takes a phase. Of one in closed form the setpoints at both ends, because they meet what is before and behind, and
+    /// between them its greatest derivatives, which no difference exceeds.
+    pub(super) fn pass(&mut self, phase: &Phase, regime: Regime) {
+        let bounds = phase.poses.derivatives(f64::from(phase.ticks) * self.period);
+        let Some(bounds) = bounds.filter(|_| phase.ticks > 2 * SUPPORT) else {
+            (0..phase.ticks).for_each(|i| self.push(phase.pose(i), regime));
+            return;
+        };
+        (0..SUPPORT).for_each(|i| self.push(phase.pose(i), regime));
+        let behind = phase.ticks - SUPPORT;
+        if let Poses::Stroke(_) | Poses::Glide(_) = phase.poses {
+            self.cover(&bounds, regime);
+            let [a, b, c] = [3, 2, 1].map(|back| row(phase.pose(behind - back)));
+            self.last = Some(std::array::from_fn(|k| [c[k], c[k] - b[k], c[k] - 2.0 * b[k] + a[k]]));
+            self.regimes = [regime; 3];
+        }
+        (behind..phase.ticks).for_each(|i| self.push(phase.pose(i), regime));
+    }
+
+    /// Takes the greatest derivatives of a stretch of one regime.
+    fn cover(&mut self, bounds: &Derivatives, regime: Regime) {
+        let which = match regime {
+            Regime::Cut => 0,
+            Regime::Air => 1,
+        };
+        let powers = [self.period, self.period.powi(2), self.period.powi(3)];
+        for (axis, bounds) in bounds.iter().enumerate() {
+            for (k, (bound, power)) in bounds.iter().zip(powers).enumerate() {
+                let part = bound * power / self.allowed[which][axis][k];
                 if part > self.greatest[axis][k].0 {
                     self.greatest[axis][k] = (part, which);
                 }
@@ -120,6 +162,20 @@ impl Differences {
             |[speed, acceleration, jerk]: &[(f64, usize); 3]| speed.0.max(acceleration.0.sqrt()).max(jerk.0.cbrt());
         self.greatest.iter().map(of_axis).fold(0.0, f64::max)
     }
+}
+
+/// x, y and c of a pose.
+fn row(pose: Pose) -> [f64; 3] {
+    [pose.centre.x, pose.centre.y, pose.c.0]
+}
+
+/// By how much time must be stretched for a cut in closed form to keep its limits: 1 or less when it does.
+pub(super) fn excess_of_derivatives(bounds: &Derivatives, limits: &[Limits; 3]) -> f64 {
+    let of_axis = |(&[speed, acceleration, jerk], limits): (&[f64; 3], &Limits)| {
+        let (second, third) = (acceleration / limits.acceleration, jerk / limits.jerk);
+        (speed / limits.speed).max(second.sqrt()).max(third.cbrt())
+    };
+    bounds.iter().zip(limits).map(of_axis).fold(0.0, f64::max)
 }
 
 /// By how much time must be stretched for a cut from rest to rest to keep its limits: 1 or less when it does.

@@ -1,11 +1,12 @@
 //! How the blade comes from the chord that it plunged as to the tangent of its path: over a way of its tip, as smoothly as
 //! the path itself.
 //!
-//! The lead of the tangent over the blade is what it was at the plunge times 1 - S(s / l), S the step of degree 7 with three
-//! vanishing derivatives at both ends, s the way of the tip and l the length of the fade. s is measured along the curve
-//! and not by its parameter: on a tight curve the two differ by more than a heading may be off.
+//! The lead of the tangent over the blade is what it was at the plunge times what is [`left_of`] it at s / l, s the way of the
+//! tip and l the length of the fade. s is measured along the curve and not by its parameter: on a tight curve the two
+//! differ by more than a heading may be off.
 
 use super::smooth::Curve;
+use crate::geom::fade::left_of;
 use crate::geom::{Vector, spline};
 
 /// Positive nodes and weights of Gauss-Legendre quadrature with five points, and those of the middle: a span of a smooth
@@ -62,7 +63,8 @@ impl Fade {
         }
         let i = self.breaks.partition_point(|&b| b <= u).max(1) - 1;
         let way = self.ways[i] + way_between(curve, [self.breaks[i], u]);
-        let [f, f1, f2, f3] = step_down(way, self.length);
+        let [f, f1, f2, f3] = left_of(way / self.length);
+        let [f1, f2, f3] = [f1 / self.length, f2 / self.length.powi(2), f3 / self.length.powi(3)];
         // The chain rule for f(s(u)).
         let d = [f, f1 * s1, f2 * s1 * s1 + f1 * s2, f3 * s1.powi(3) + 3.0 * f2 * s1 * s2 + f1 * s3];
         Some(d.map(|value| self.lead * value))
@@ -96,16 +98,4 @@ fn way_between(curve: &Curve, [from, to]: [f64; 2]) -> f64 {
         weight * (outer + pace(middle + half * node))
     };
     half * GAUSS_5.into_iter().map(pair).sum::<f64>()
-}
-
-/// 1 - S(x) at a way along a length, and its derivatives by the way.
-fn step_down(way: f64, length: f64) -> [f64; 4] {
-    let x = (way / length).clamp(0.0, 1.0);
-    let y = x * (1.0 - x);
-    [
-        1.0 - x.powi(4) * (35.0 - 84.0 * x + 70.0 * x * x - 20.0 * x.powi(3)),
-        -140.0 * y.powi(3) / length,
-        -420.0 * y * y * (1.0 - 2.0 * x) / (length * length),
-        -840.0 * y * (1.0 - 5.0 * y) / length.powi(3),
-    ]
 }

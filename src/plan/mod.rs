@@ -10,6 +10,7 @@ mod barrier;
 mod bound;
 mod certify;
 mod chord;
+mod extended;
 mod fade;
 mod feed;
 mod knots;
@@ -20,16 +21,16 @@ mod run;
 mod smooth;
 mod timing;
 mod tube;
+mod windows;
 
 pub use certify::{Peak, Peaks};
 pub use run::Cut;
 
-use self::air::Air;
 use self::certify::{Allowed, Differences, EXCESS_EPSILON, Regime};
 use self::run::whole_periods;
 use crate::diagnostic::{Diagnostic, code};
 use crate::geom::Rotation;
-use crate::ir::motion::{Kind, Motion, Phase, Task};
+use crate::ir::motion::{Kind, Motion, Phase, Poses, Spell, Task};
 use crate::ir::toolpath::{Pose, Stab, Step, Toolpath};
 use crate::machine::Job;
 use crate::source::Span;
@@ -95,9 +96,9 @@ impl<'a> Planner<'a> {
                     let (blocks, law) = (ends(&run.spans), Some(run.law));
                     motion.tasks.push(Task { blocks, front, heel, sides, turned, edge, harm: 0.0, law });
                     let mut cut = cuts.next().expect("solve gives a cut for each run");
-                    cut.poses.iter_mut().for_each(|pose| *pose = yawed(*pose, self.job));
-                    self.go(kind, cut.poses[0], &mut motion);
-                    self.plunge(cut.blocks[0], &mut motion);
+                    cut.turn(profile.knife.yaw());
+                    self.go(kind, cut.start(), &mut motion);
+                    self.plunge(cut.spells[0].block, &mut motion);
                     self.cut(cut, &mut motion);
                     self.lift(&mut motion);
                 }
@@ -173,12 +174,10 @@ impl<'a> Planner<'a> {
         if to == self.pose {
             return;
         }
-        let air = Air::new(self.pose, to, &self.allowed.air);
-        let ticks = whole_periods(air.duration(), self.job.profile.time.period());
-        let poses = (0..ticks).map(|i| air.at(i as f64, ticks as f64)).collect();
-        let phase =
-            Phase { kind, ticks: ticks as u32, poses, blocks: vec![0], duration: air.duration(), length: air.length() };
-        self.emit(phase, to, motion);
+        let glide = air::glide(self.pose, to, &self.allowed.air);
+        let (duration, length) = (glide.duration(), glide.length());
+        let ticks = whole_periods(duration, self.job.profile.time.period());
+        self.emit(Phase { kind, ticks, poses: Poses::Glide(glide), spells: Vec::new(), duration, length }, to, motion);
     }
 
     /// Down, once the blade is all the way up.
@@ -203,31 +202,25 @@ impl<'a> Planner<'a> {
 
     /// At rest for a time, at least one period.
     fn hold(&mut self, kind: Kind, duration: f64, block: u32, motion: &mut Motion) {
-        let ticks = whole_periods(duration, self.job.profile.time.period()) as u32;
-        let phase = Phase { kind, ticks, poses: vec![self.pose], blocks: vec![block], duration, length: 0.0 };
+        let ticks = whole_periods(duration, self.job.profile.time.period());
+        let spells = vec![Spell { first: 0, block }];
+        let phase = Phase { kind, ticks, poses: Poses::Still(self.pose), spells, duration, length: 0.0 };
         self.emit(phase, self.pose, motion);
     }
 
     /// Along a run, when it has a way.
     fn cut(&mut self, cut: Cut, motion: &mut Motion) {
-        let Cut { mut poses, mut blocks, duration, length, .. } = cut;
-        if poses.len() < 2 {
-            return;
+        if let Some((phase, end)) = cut.phase() {
+            self.emit(phase, end, motion);
         }
-        let end = poses.pop().expect("it has two poses or more");
-        blocks.pop();
-        let phase = Phase { kind: Kind::Cut, ticks: poses.len() as u32, poses, blocks, duration, length };
-        self.emit(phase, end, motion);
     }
 
     fn emit(&mut self, mut phase: Phase, end: Pose, motion: &mut Motion) {
         if !self.job.mode.cuts() {
-            phase = Phase { kind: phase.kind.raised(), blocks: vec![0], ..phase };
+            phase = Phase { kind: phase.kind.raised(), spells: Vec::new(), ..phase };
         }
         let regime = if phase.kind.knife_down() { Regime::Cut } else { Regime::Air };
-        for i in 0..phase.ticks {
-            self.differences.push(phase.pose(i), regime);
-        }
+        self.differences.pass(&phase, regime);
         // What lasts longer than its due in whole periods lets the blade rise farther.
         self.rising = (self.rising - f64::from(phase.ticks) * self.job.profile.time.period()).max(0.0);
         self.tick += u64::from(phase.ticks);

@@ -2,6 +2,7 @@
 //! counted from the start of the run.
 
 use super::law::Way;
+use super::windows::LENGTH_FELT;
 
 /// Turn of C between two knots, rad (4 degrees).
 const TURN_A_KNOT: f64 = 0.069_813_170_079_773_18;
@@ -57,7 +58,7 @@ pub(super) fn breaks(way: &Way, path_breaks: &[f64], changes: &[f64], grid: &Gri
     }
     places.sort_by(f64::total_cmp);
     places.dedup();
-    let spacing = (length * SPACING_SHARE).max(SPACING);
+    let spacing = (length.min(LENGTH_FELT) * SPACING_SHARE).max(SPACING);
     let density = |s: f64| {
         let [_, q1, q2, _] = way.at(way.from + s).q;
         let turn = q1[2].abs() / TURN_A_KNOT + (q2[2].abs() / BEND_A_KNOT).sqrt().min(BEND_KNOTS_MAX);

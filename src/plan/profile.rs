@@ -12,12 +12,15 @@
 //! after Verscheure et al., *Time-Optimal Path Tracking for Robots: A Convex Optimization Approach*, 2009). A constant
 //! beta, small enough, is always feasible, so there is no run without a motion.
 
+use std::ops::Range;
+
 use super::banded::Band;
-use super::barrier::{self, Schedule};
+use super::barrier::{self, Logs, Schedule};
 use super::feed::Feed;
 use super::law::Way;
 use super::pace::Grid;
 use super::timing::Timing;
+use super::windows::{self, Chain, Windows};
 use crate::geom::spline::{self, Piecewise};
 use crate::machine::Limits;
 
@@ -28,6 +31,9 @@ const BOUNDS_A_PLACE: f64 = 13.0;
 /// To a thousandth of the duration; 41 to 63 steps are seen, whatever the size.
 const SCHEDULE: Schedule =
     Schedule { start: 0.3, growth: 8.0, gap: 1e-3, decrement: 1.0, steps_a_round: 12, steps: 150 };
+/// What follows bears on no more than the knots over which the axes come to rest: at most some 270 a second of turning C,
+/// and some ten over which the barrier's own choice fades.
+const WINDOWS: Windows = Windows { schedule: SCHEDULE, size: 3000, overlap: 120 };
 /// How far inside the limits the start lies.
 const START_SHARE: f64 = 0.7;
 /// Least difference of two collocation places, mm: nearer ones say the same.
@@ -55,9 +61,7 @@ pub(super) fn profile(way: &Way, bounds: &Bounds) -> Result<Timing, NoMotion> {
 
 /// The same with `density` times as many knots.
 fn profile_on(way: &Way, bounds: &Bounds, density: f64) -> Result<Timing, NoMotion> {
-    let problem = Problem::new(way, bounds, density);
-    let control = barrier::minimise(&problem, problem.feasible_start(), SCHEDULE).ok_or(NoMotion)?;
-    Ok(problem.timing(&control))
+    Problem::new(way, bounds, density).fastest(WINDOWS)
 }
 
 /// The weight w(u) = (g(u) g(L - u))^(4/3), g = u / (u + u0): the behaviour of b near both ends.
@@ -164,6 +168,11 @@ impl Problem {
         vec![[START_SHARE * scale]; spline::control_count::<ORDER>(&self.breaks)]
     }
 
+    fn fastest(&self, windows: Windows) -> Result<Timing, NoMotion> {
+        let control = windows::minimise(self, self.feasible_start(), windows).ok_or(NoMotion)?;
+        Ok(self.timing(&control))
+    }
+
     /// The motion as time over the parameter.
     fn timing(&self, control: &[[f64; 1]]) -> Timing {
         let beta = Piecewise::<ORDER, 1>::from_control(self.breaks.clone(), control);
@@ -176,27 +185,58 @@ impl Problem {
     }
 }
 
-impl barrier::Problem<1> for Problem {
+impl Chain<1> for Problem {
+    type Part<'a>
+        = Part<'a>
+    where
+        Self: 'a;
+
+    fn free(&self) -> Range<usize> {
+        0..spline::control_count::<ORDER>(&self.breaks)
+    }
+
+    fn part(&self, free: Range<usize>) -> (Part<'_>, Range<usize>) {
+        let spans = free.start.saturating_sub(ORDER - 1)..free.end.min(self.breaks.len() - 1);
+        let place = |span: usize| self.places.partition_point(|place| place.first < span);
+        let node = |span: usize| self.nodes.partition_point(|node| node.first < span);
+        let places = &self.places[place(spans.start)..place(spans.end)];
+        let nodes = &self.nodes[node(spans.start)..node(spans.end)];
+        let near = spans.start..spans.end + ORDER - 1;
+        (Part { places, nodes, near: near.clone(), free }, near)
+    }
+}
+
+/// Some control values of a problem, the others standing still.
+struct Part<'a> {
+    /// The places and the nodes on which they bear.
+    places: &'a [Place],
+    nodes: &'a [Node],
+    /// The control values that are known, and those of them that are free.
+    near: Range<usize>,
+    free: Range<usize>,
+}
+
+impl barrier::Problem<1> for Part<'_> {
     fn constraints(&self) -> f64 {
         BOUNDS_A_PLACE * self.places.len() as f64
     }
 
     fn objective(&self, control: &[[f64; 1]]) -> f64 {
-        self.nodes.iter().map(|n| n.weight / dot(&n.square, &control[n.first..]).sqrt()).sum()
+        self.nodes.iter().map(|n| n.weight / dot(&n.square, &control[n.first - self.near.start..]).sqrt()).sum()
     }
 
     fn value(&self, control: &[[f64; 1]], weight: f64) -> f64 {
         let mut duration = 0.0;
-        for node in &self.nodes {
-            let b = dot(&node.square, &control[node.first..]);
+        for node in self.nodes {
+            let b = dot(&node.square, &control[node.first - self.near.start..]);
             if b <= 0.0 || b.is_nan() {
                 return f64::INFINITY;
             }
             duration += node.weight / b.sqrt();
         }
-        let mut logs = 0.0;
-        for place in &self.places {
-            let near = &control[place.first..];
+        let mut logs = Logs::new();
+        for place in self.places {
+            let near = &control[place.first - self.near.start..];
             let b = dot(&place.square, near);
             let speed = 1.0 - b * place.speed;
             if b <= 0.0 || speed <= 0.0 || b.is_nan() {
@@ -217,9 +257,9 @@ impl barrier::Problem<1> for Problem {
                 }
                 slack *= 1.0 - square;
             }
-            logs += slack.ln();
+            logs.add(slack);
         }
-        weight * duration - logs
+        weight * duration - logs.sum()
     }
 
     /// The Hessian is exact for the duration and takes g g^T terms for the bounds, so it is positive definite everywhere.
@@ -232,20 +272,22 @@ impl barrier::Problem<1> for Problem {
             }
             hessian.add_square(first, row, bend);
         };
-        for node in &self.nodes {
-            let b = dot(&node.square, &control[node.first..]);
+        for node in self.nodes {
+            let first = node.first - self.near.start;
+            let b = dot(&node.square, &control[first..]);
             let slope = -0.5 * weight * node.weight / (b * b.sqrt());
-            add(&mut hessian, node.first, &node.square, slope, -1.5 * slope / b);
+            add(&mut hessian, first, &node.square, slope, -1.5 * slope / b);
         }
-        for place in &self.places {
-            let near = &control[place.first..];
+        for place in self.places {
+            let first = place.first - self.near.start;
+            let near = &control[first..];
             let b = dot(&place.square, near);
             let root = b.sqrt();
             let speed = place.speed / (1.0 - b * place.speed);
-            add(&mut hessian, place.first, &place.square, speed, speed * speed);
+            add(&mut hessian, first, &place.square, speed, speed * speed);
             for row in &place.acceleration {
                 let (slope, bend) = two_sided(dot(row, near));
-                add(&mut hessian, place.first, row, slope, bend);
+                add(&mut hessian, first, row, slope, bend);
             }
             for row in &place.jerk {
                 let half = dot(row, near);
@@ -253,8 +295,13 @@ impl barrier::Problem<1> for Problem {
                 // Gradient of sqrt(b) * (row . control).
                 let share = 0.5 * half / root;
                 let full: [f64; ORDER] = std::array::from_fn(|i| root * row[i] + share * place.square[i]);
-                add(&mut hessian, place.first, &full, slope, bend);
+                add(&mut hessian, first, &full, slope, bend);
             }
+        }
+        let (before, behind) = (self.free.start - self.near.start, self.free.end - self.near.start);
+        for fixed in (0..before).chain(behind..control.len()) {
+            hessian.fix(fixed, |_, _| {});
+            gradient[fixed] = 0.0;
         }
         let mut step: Vec<[f64; 1]> = gradient.iter().map(|g| [-g]).collect();
         hessian.factor().ok()?.solve(&mut step);
@@ -306,7 +353,7 @@ mod tests {
     use crate::ir::toolpath::Law;
     use crate::machine::MachineProfile;
     use crate::plan::law::{Blade, Course, Entry};
-    use crate::plan::smooth::smooth;
+    use crate::plan::smooth::{Curve, smooth};
     use crate::plan::tube::Tube;
 
     /// A path of straights and bends from 0.3 mm to 3 m.
@@ -323,20 +370,46 @@ mod tests {
         points
     }
 
+    /// A way along a curve and its bounds; the blade's radius is 0 or 4.4 mm in turn.
+    fn task(curve: &Curve, seed: u64) -> (Way<'_>, Bounds) {
+        let end = curve.breaks()[curve.breaks().len() - 1];
+        let blade = Blade { width: 6.6, radius: [0.0, 4.4][(seed % 2) as usize] };
+        let (entry, near) = (Entry::Steady(0.0), Rotation(0.0));
+        let course = Course { law: Law::Tangent, entry, to: end, blade, near };
+        let way = Way::new(curve, &course).expect("a tangent is everywhere");
+        let axes = MachineProfile::default().axes.limits();
+        (way, Bounds { axes, feed: Feed::new(&[0.0, end], &[760.0]) })
+    }
+
+    #[test]
+    fn window_by_window_a_run_takes_as_long_as_at_once() {
+        let whole = Windows { size: usize::MAX, ..WINDOWS };
+        let small = Windows { size: 2 * WINDOWS.overlap, ..WINDOWS };
+        let mut divided = 0;
+        for seed in 0..60 {
+            let mut random = ChaCha8Rng::seed_from_u64(seed);
+            let mut points = path(&mut random);
+            for _ in 0..3 {
+                let (more, from) = (path(&mut random), points[points.len() - 1]);
+                points.extend(more[1..].iter().map(|point| from + point.coords));
+            }
+            let curve = smooth(&Tube::new(points, 0.05, &MachineProfile::default())).expect("a curve").curve;
+            let (way, bounds) = task(&curve, seed);
+            let problem = Problem::new(&way, &bounds, 1.0);
+            divided += u32::from(problem.free().len() > small.size);
+            let [at_once, by_window] = [whole, small].map(|w| problem.fastest(w).expect("a motion").duration());
+            assert!((by_window / at_once - 1.0).abs() < 1e-3, "seed {seed}: {by_window} s against {at_once} s");
+        }
+        assert!(divided > 20, "only {divided} of them are divided");
+    }
+
     #[test]
     fn twice_the_knots_make_no_run_faster_by_more_than_a_fiftieth() {
         let profile = MachineProfile::default();
         let slower = |seed: u64| {
-            let mut random = ChaCha8Rng::seed_from_u64(seed);
-            let points = path(&mut random);
-            let radius = [0.0, 4.4][(seed % 2) as usize];
+            let points = path(&mut ChaCha8Rng::seed_from_u64(seed));
             let curve = smooth(&Tube::new(points, 0.05, &profile)).expect("a curve").curve;
-            let end = curve.breaks()[curve.breaks().len() - 1];
-            let blade = Blade { width: 6.6, radius };
-            let (entry, near) = (Entry::Steady(0.0), Rotation(0.0));
-            let course = Course { law: Law::Tangent, entry, to: end, blade, near };
-            let way = Way::new(&curve, &course).expect("a tangent is everywhere");
-            let bounds = Bounds { axes: profile.axes.limits(), feed: Feed::new(&[0.0, end], &[760.0]) };
+            let (way, bounds) = task(&curve, seed);
             let duration = |density| profile_on(&way, &bounds, density).expect("a motion").duration();
             (duration(1.0) / duration(2.0), seed)
         };

@@ -1,9 +1,10 @@
 //! One run, from the plunge to the lift: overlaps join the polyline, the polyline becomes a curve, the curve a motion,
 //! the motion samples, and the samples are certified.
 
-use super::bound;
-use super::certify::{EXCESS_EPSILON, excess_of};
+use super::bound::Cutting;
+use super::certify::{EXCESS_EPSILON, excess_of, excess_of_derivatives};
 use super::chord::TooTight;
+use super::extended::{Blocks, Extended};
 use super::feed::Feed;
 use super::law::{Blade, Course, Entry, WAY_EPSILON, Way};
 use super::profile::{Bounds, profile};
@@ -11,8 +12,8 @@ use super::smooth::{Curve, Smooth, smooth};
 use super::tube::Tube;
 use crate::diagnostic::{Diagnostic, code};
 use crate::geom::{Heading, Point, Rotation, Vector, polyline};
-use crate::ir::motion::Shares;
-use crate::ir::toolpath::{Law, Pose, Run, Shape};
+use crate::ir::motion::{Kind, Phase, Poses, Shares, Spell, Stroke};
+use crate::ir::toolpath::{Pose, Run, Shape};
 use crate::machine::Job;
 use crate::machine::kinematics::Move;
 use crate::source::Span;
@@ -21,10 +22,14 @@ use crate::units::number::fixed;
 /// A run as it will be cut.
 #[derive(Debug)]
 pub struct Cut {
-    /// The poses at its ticks, the one at its end included; one alone when the blade plunges and lifts without a way.
-    pub poses: Vec<Pose>,
-    /// The source block being cut at each of them.
-    pub blocks: Vec<u32>,
+    /// The poses at its ticks, but for the one at its end.
+    poses: Poses,
+    /// Number of periods; 0 when the blade plunges and lifts without a way.
+    ticks: u32,
+    /// The pose at its end.
+    end: Pose,
+    /// The source blocks being cut, in order; one at least.
+    pub(super) spells: Vec<Spell>,
     /// Time from rest to rest before it was stretched to whole periods, s.
     pub duration: f64,
     /// Way of the tip, mm.
@@ -33,6 +38,36 @@ pub struct Cut {
     pub bulge: f64,
     /// What keeps it from being faster, in ticks.
     pub shares: Shares,
+}
+
+impl Cut {
+    /// The poses at its ticks, the one at its end included.
+    pub fn poses(&self) -> impl Iterator<Item = Pose> + '_ {
+        (0..self.ticks).map(|i| self.poses.at(i, self.ticks)).chain([self.end])
+    }
+
+    /// The pose at its start.
+    pub(super) fn start(&self) -> Pose {
+        if self.ticks == 0 { self.end } else { self.poses.at(0, self.ticks) }
+    }
+
+    /// Turns C by an angle all along, rad.
+    pub(super) fn turn(&mut self, by: f64) {
+        self.poses.turn(by);
+        self.end.c = Rotation(self.end.c.0 + by);
+    }
+
+    /// The phase of it, and the pose at its end; none when it has no way.
+    pub(super) fn phase(self) -> Option<(Phase, Pose)> {
+        let Self { poses, ticks, end, spells, duration, length, .. } = self;
+        (ticks > 0).then_some((Phase { kind: Kind::Cut, ticks, poses, spells, duration, length }, end))
+    }
+
+    fn plunge_only(pose: Pose, block: u32) -> Self {
+        let (poses, spells) = (Poses::Still(pose), vec![Spell { first: 0, block }]);
+        let shares = Shares::default();
+        Self { poses, ticks: 0, end: pose, spells, duration: 0.0, length: 0.0, bulge: 0.0, shares }
+    }
 }
 
 /// Part of the tolerance within which a polyline counts as straight.
@@ -46,46 +81,46 @@ const SEAM_STEP: f64 = 1.0;
 /// Part of a period by which a duration may exceed a whole number of them without taking one more: rounding.
 const PERIOD_EPSILON: f64 = 1e-9;
 
-/// The polyline that the tip and, in the plunge, the tail follow: the run with its overlaps.
-struct Extended {
-    points: Vec<Point>,
-    /// The block of each chord.
-    blocks: Vec<u32>,
-    /// Greatest speed of the tip on each chord, mm/s.
-    feeds: Vec<f64>,
-    /// Station at which the run proper starts.
-    start: f64,
-    /// Station at which the tip is lifted.
-    end: f64,
+/// A run that is being solved.
+struct Order<'a> {
+    run: &'a Run,
+    job: &'a Job,
+    blocks: Blocks,
+    bounds: Bounds,
 }
 
 /// Solves one run.
 pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnostic> {
     let knife = &job.profile.knife;
-    let extended = extend(run, knife.width_mm);
-    let blocks = Blocks::new(&extended);
-    let period = job.profile.time.period();
-    let feed = Feed::new(&blocks.stations, &extended.feeds);
-    let bounds = Bounds { axes: job.profile.axes.limits(), feed };
-    let is_straight = run.shape == Shape::Open && polyline::is_straight(&extended.points, STRAIGHT_SHARE * tolerance);
-    if is_straight && bounds.feed.constant().is_some() {
-        return straight(run, &extended, &blocks, &bounds, job);
+    let Extended { points, blocks, feeds, start, end } = Extended::new(run, knife.width_mm);
+    let stations = polyline::stations(&points);
+    let bounds = Bounds { axes: job.profile.axes.limits(), feed: Feed::new(&stations, &feeds) };
+    let order = Order { run, job, blocks: Blocks::new(&stations, &blocks), bounds };
+    let ends = [points[0], points[points.len() - 1]];
+    let is_straight = run.shape == Shape::Open && polyline::is_straight(&points, STRAIGHT_SHARE * tolerance);
+    if is_straight && order.bounds.feed.constant().is_some() {
+        return order.straight(ends);
     }
     let smooth = if is_straight {
-        Smooth { curve: chord(&extended), bulge: 0.0 }
+        Smooth { curve: Curve::line([0.0, end], ends.map(|point| [point.x, point.y])), bulge: 0.0 }
     } else {
-        smooth(&Tube::new(extended.points, tolerance, &job.profile)).map_err(|e| {
+        smooth(&Tube::new(points, tolerance, &job.profile)).map_err(|e| {
             let least = fixed(e.deviation, 4);
-            refuse(
-                run,
+            order.refuse(
                 &code::PLAN_SMOOTH,
                 &format!("no smooth curve inside {} mm (least deviation {least} mm)", fixed(tolerance, 4)),
             )
         })?
     };
     let (entry, end) = match run.shape {
-        Shape::Open => (Entry::Plunge, extended.end),
-        Shape::Ring => (Entry::Steady(extended.start), closed(&smooth.curve, extended.start, extended.end)),
+        Shape::Open => (Entry::Plunge, end),
+        Shape::Ring => {
+            let end = closed(&smooth.curve, start, end).map_err(|OpenSeam { missing }| {
+                let missing = fixed(missing, 4);
+                order.refuse(&code::PLAN_SMOOTH, &format!("its smooth curve ends {missing} mm before it closes"))
+            })?;
+            (Entry::Steady(start), end)
+        }
     };
     let blade = Blade { width: knife.width_mm, radius: run.edge.lead(knife.ends()) };
     let near = Rotation(run.start.c.0 - run.edge.turn());
@@ -93,33 +128,27 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
     let way = Way::new(&smooth.curve, &course).map_err(|TooTight { at }| {
         let (x, y) = (fixed(at.x, 2), fixed(at.y, 2));
         let reason = format!("the blade cannot be a chord of its curve at X {x} Y {y} mm");
-        refuse(run, &code::PLAN_CHORD, &reason).hint("set `knife.follow = \"tangent\"` for this file")
+        order.refuse(&code::PLAN_CHORD, &reason).hint("set `knife.follow = \"tangent\"` for this file")
     })?;
-    let pose = |u: f64| {
-        let pose = way.pose(u);
-        Pose { c: Rotation(pose.c.0 + run.edge.turn()), ..pose }
-    };
-    if way.to - way.from < WAY_EPSILON {
-        return Ok(plunge_only(pose(way.to), blocks.at(way.to)));
-    }
-    let timing = profile(&way, &bounds)
-        .map_err(|_| refuse(run, &code::PLAN_PROFILE, "no motion within the limits was found"))?;
-    let mut cut = certified(run, timing.duration(), period, &bounds, |count| {
-        let places = timing.sample(count);
-        let tips: Vec<Point> = places.iter().map(|&u| way.point(u)).collect();
-        let (poses, blocks) = places.iter().map(|&u| (pose(u), blocks.at(u))).unzip();
-        let ways = tips.windows(2).map(|w| (w[1] - w[0]).norm()).collect();
-        let feeds = places.windows(2).map(|w| bounds.feed.greatest(w[0], w[1])).collect();
-        Samples { poses, blocks, ways, feeds }
-    })?;
-    cut.bulge = smooth.bulge;
-    Ok(cut)
+    Ok(Cut { bulge: smooth.bulge, ..order.along(&way)? })
+}
+
+/// The curve of a ring ends before it comes back to its start.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct OpenSeam {
+    /// By how much, mm.
+    missing: f64,
 }
 
 /// Where a ring that should end at parameter `end` really closes: smoothing may have drawn its end back from its start, and
-/// the tip must come as far as that.
-fn closed(curve: &Curve, start: f64, end: f64) -> f64 {
-    let [from, along] = curve.derivatives::<2>(start).map(|v| Vector::new(v[0], v[1]));
+/// the tip must come as far as that. Beside its way, the tube holds both to one place.
+fn closed(curve: &Curve, start: f64, end: f64) -> Result<f64, OpenSeam> {
+    reaching(curve, curve.derivatives::<2>(start), end)
+}
+
+/// The first parameter from `end` on at which the curve is as far as a place along the direction there.
+fn reaching(curve: &Curve, place: [[f64; 2]; 2], end: f64) -> Result<f64, OpenSeam> {
+    let [from, along] = place.map(|v| Vector::new(v[0], v[1]));
     let short = |u: f64| {
         let [at] = curve.derivatives::<1>(u);
         (from - Vector::new(at[0], at[1])).dot(&along) / along.norm()
@@ -129,160 +158,123 @@ fn closed(curve: &Curve, start: f64, end: f64) -> f64 {
     for _ in 0..SEAM_STEPS {
         end = (end + short(end).clamp(0.0, SEAM_STEP)).min(last);
     }
-    end
+    let missing = short(end);
+    if missing <= WAY_EPSILON { Ok(end) } else { Err(OpenSeam { missing }) }
 }
 
-/// The chord from end to end of a straight run, as a curve over its own length.
-fn chord(extended: &Extended) -> Curve {
-    let ends = [extended.points[0], extended.points[extended.points.len() - 1]];
-    Curve::line([0.0, extended.end], ends.map(|point| [point.x, point.y]))
-}
-
-/// A straight run in closed form: the tightest axis decides.
-fn straight(run: &Run, extended: &Extended, blocks: &Blocks, bounds: &Bounds, job: &Job) -> Result<Cut, Diagnostic> {
-    let knife = &job.profile.knife;
-    let (first, last) = (extended.points[0], extended.points[extended.points.len() - 1]);
-    let whole = (last - first).norm();
-    let u = (last - first) / whole;
-    let c = run.start.c.nearest(Heading::new(Heading::of(u).radians() + run.edge.turn()));
-    let lead = run.edge.lead(knife.ends());
-    let pose = |reach: f64| Pose { centre: first + u * (reach - lead), c };
-    let way = whole - knife.width_mm;
-    if way < WAY_EPSILON {
-        return Ok(plunge_only(pose(whole.max(knife.width_mm)), blocks.at(whole)));
-    }
-    let mut limits = bounds.axes[0].along(u.x).min(bounds.axes[1].along(u.y));
-    limits.speed = limits.speed.min(bounds.feed.at(0.0));
-    let motion = Move::new(way, limits);
-    certified(run, motion.duration(), job.profile.time.period(), bounds, |count| {
-        let reach = |i: usize| knife.width_mm + motion.at(i as f64, (count - 1) as f64);
-        let (poses, blocks) = (0..count).map(|i| (pose(reach(i)), blocks.at(reach(i)))).unzip();
-        let ways = (1..count).map(|i| reach(i) - reach(i - 1)).collect();
-        Samples { poses, blocks, ways, feeds: vec![bounds.feed.at(0.0); count - 1] }
-    })
-}
-
-/// A motion at the ticks of a run.
-struct Samples {
-    poses: Vec<Pose>,
-    blocks: Vec<u32>,
-    /// Way of the tip from each tick to the next, mm.
-    ways: Vec<f64>,
-    /// Greatest speed of the tip from each tick to the next, mm/s.
-    feeds: Vec<f64>,
-}
-
-fn plunge_only(pose: Pose, block: u32) -> Cut {
-    Cut { poses: vec![pose], blocks: vec![block], duration: 0.0, length: 0.0, bulge: 0.0, shares: Shares::default() }
-}
-
-/// Samples a motion over a whole number of periods, stretched until every difference keeps its limit, and the tip its
-/// feed.
-fn certified(
-    run: &Run,
-    duration: f64,
-    period: f64,
-    bounds: &Bounds,
-    sample: impl Fn(usize) -> Samples,
-) -> Result<Cut, Diagnostic> {
-    let mut stretch = 1.0;
-    let mut rho = 1.0;
-    for _ in 0..ROUNDS {
-        let ticks = whole_periods(duration * stretch, period);
-        let Samples { poses, blocks, ways, feeds } = sample(ticks + 1);
-        let too_fast = ways.iter().zip(&feeds).map(|(way, feed)| way / (feed * period)).fold(0.0, f64::max);
-        rho = excess_of(&poses, period, &bounds.axes).max(too_fast);
-        if rho <= 1.0 + EXCESS_EPSILON {
-            let shares = bound::shares(&poses, &ways, &feeds, period, &bounds.axes);
-            return Ok(Cut { poses, blocks, duration, length: ways.iter().sum(), bulge: 0.0, shares });
+impl Order<'_> {
+    /// A straight run in closed form: the tightest axis decides. It is certified by its greatest derivatives.
+    fn straight(&self, [first, last]: [Point; 2]) -> Result<Cut, Diagnostic> {
+        let Self { run, job, blocks, bounds } = self;
+        let knife = &job.profile.knife;
+        let whole = (last - first).norm();
+        let u = (last - first) / whole;
+        let c = run.start.c.nearest(Heading::new(Heading::of(u).radians() + run.edge.turn()));
+        let lead = run.edge.lead(knife.ends());
+        let way = whole - knife.width_mm;
+        if way < WAY_EPSILON {
+            let pose = Pose { centre: first + u * (whole.max(knife.width_mm) - lead), c };
+            return Ok(Cut::plunge_only(pose, blocks.at(whole)));
         }
-        stretch = ticks as f64 * period / duration * rho;
+        let feed = bounds.feed.at(0.0);
+        let mut limits = bounds.axes[0].along(u.x).min(bounds.axes[1].along(u.y));
+        limits.speed = limits.speed.min(feed);
+        let stroke = Stroke { from: first, along: u, start: knife.width_mm, lead, c, way: Move::new(way, limits) };
+        let (duration, period) = (stroke.way.duration(), job.profile.time.period());
+        let ticks = whole_periods(duration, period);
+        let (poses, count) = (Poses::Stroke(stroke), f64::from(ticks));
+        let bounded = poses.derivatives(count * period).map(|bounds| excess_of_derivatives(&bounds, &self.bounds.axes));
+        let rho = bounded.unwrap_or(f64::INFINITY).max(stroke.way.derivatives(count * period)[0] / feed);
+        if rho > 1.0 + EXCESS_EPSILON {
+            return Err(self.too_fast(rho));
+        }
+        let reach = |i: usize| stroke.reach(i as f64, count);
+        let cutting = Cutting {
+            ticks: ticks as usize,
+            period,
+            limits: &bounds.axes,
+            pose: &|i| stroke.at(i as f64, count),
+            way: &|i| reach(i + 1) - reach(i),
+            feed: &|_| feed,
+        };
+        let shares = cutting.shares_of_cruise((stroke.way.rise() * count) as usize);
+        let spells = blocks.spells(ticks, |i| reach(i as usize));
+        Ok(Cut { end: stroke.at(count, count), poses, ticks, spells, duration, length: way, bulge: 0.0, shares })
     }
-    let percent = fixed((rho - 1.0) * 100.0, 2);
-    Err(refuse(run, &code::PLAN_CERTIFY, &format!("its samples still exceed a limit by {percent} % of time")))
+
+    /// Samples the fastest motion along a way over a whole number of periods, stretched until every difference keeps its
+    /// limit, and the tip its feed.
+    fn along(&self, way: &Way) -> Result<Cut, Diagnostic> {
+        let Self { run, job, blocks, bounds } = self;
+        let pose = |u: f64| {
+            let pose = way.pose(u);
+            Pose { c: Rotation(pose.c.0 + run.edge.turn()), ..pose }
+        };
+        if way.to - way.from < WAY_EPSILON {
+            return Ok(Cut::plunge_only(pose(way.to), blocks.at(way.to)));
+        }
+        let timing = profile(way, bounds)
+            .map_err(|_| self.refuse(&code::PLAN_PROFILE, "no motion within the limits was found"))?;
+        let (duration, period) = (timing.duration(), job.profile.time.period());
+        let mut stretch = 1.0;
+        let mut rho = 1.0;
+        for _ in 0..ROUNDS {
+            let ticks = whole_periods(duration * stretch, period);
+            let places = timing.sample(ticks as usize + 1);
+            let mut tip = way.point(places[0]);
+            let ways: Vec<f64> = places[1..]
+                .iter()
+                .map(|&u| (way.point(u) - std::mem::replace(&mut tip, way.point(u))).norm())
+                .collect();
+            let mut poses: Vec<Pose> = places.iter().map(|&u| pose(u)).collect();
+            let feed = |i: usize| bounds.feed.greatest(places[i], places[i + 1]);
+            let too_fast = ways.iter().enumerate().map(|(i, way)| way / (feed(i) * period)).fold(0.0, f64::max);
+            rho = excess_of(&poses, period, &bounds.axes).max(too_fast);
+            if rho <= 1.0 + EXCESS_EPSILON {
+                let pose = |i: usize| poses[i];
+                let (ticks_there, limits) = (ways.len(), &bounds.axes);
+                let cutting =
+                    Cutting { ticks: ticks_there, period, limits, pose: &pose, way: &|i| ways[i], feed: &feed };
+                let shares = cutting.shares();
+                let spells = blocks.spells(ticks, |i| places[i as usize]);
+                let length = ways.iter().sum();
+                let end = poses.pop().expect("a tick has two ends");
+                let poses = Poses::Samples(poses);
+                return Ok(Cut { poses, ticks, end, spells, duration, length, bulge: 0.0, shares });
+            }
+            stretch = f64::from(ticks) * period / duration * rho;
+        }
+        Err(self.too_fast(rho))
+    }
+
+    fn too_fast(&self, rho: f64) -> Diagnostic {
+        let percent = fixed((rho - 1.0) * 100.0, 2);
+        self.refuse(&code::PLAN_CERTIFY, &format!("its samples still exceed a limit by {percent} % of time"))
+    }
+
+    fn refuse(&self, code: &'static code::Code, reason: &str) -> Diagnostic {
+        let spans = &self.run.spans;
+        let (first, last) = (spans[0], spans[spans.len() - 1]);
+        let span = Span { end: last.end.max(first.end), ..first };
+        Diagnostic::new(code, format!("the run of blocks {} to {}: {reason}", first.block, last.block)).at(span)
+    }
 }
 
 /// The least number of periods, at least 1, that last `duration`.
-pub(super) fn whole_periods(duration: f64, period: f64) -> usize {
-    ((duration / period - PERIOD_EPSILON).ceil() as usize).max(1)
+pub(super) fn whole_periods(duration: f64, period: f64) -> u32 {
+    ((duration / period - PERIOD_EPSILON).ceil() as u32).max(1)
 }
 
-fn refuse(run: &Run, code: &'static code::Code, reason: &str) -> Diagnostic {
-    let (first, last) = (run.spans[0], run.spans[run.spans.len() - 1]);
-    let span = Span { end: last.end.max(first.end), ..first };
-    Diagnostic::new(code, format!("the run of blocks {} to {}: {reason}", first.block, last.block)).at(span)
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// The run with its overlaps, as one polyline.
-fn extend(run: &Run, width: f64) -> Extended {
-    match (run.shape, run.law) {
-        (Shape::Open, _) => extend_open(run),
-        (Shape::Ring, Law::Tangent) => extend_ring(run, 0.0),
-        (Shape::Ring, Law::Chord) => extend_ring(run, TAIL_REACH * width),
-    }
-}
-
-/// Overlaps run straight on along the end chords.
-fn extend_open(run: &Run) -> Extended {
-    let points = run.extended();
-    let mut blocks: Vec<u32> = run.spans.iter().map(|s| s.block).collect();
-    let mut feeds = run.feeds.clone();
-    if run.heel > 0.0 {
-        blocks.insert(0, blocks[0]);
-        feeds.insert(0, feeds[0]);
-    }
-    blocks.resize(points.len() - 1, blocks[blocks.len() - 1]);
-    feeds.resize(points.len() - 1, feeds[feeds.len() - 1]);
-    let end = polyline::length(&points);
-    Extended { points, blocks, feeds, start: 0.0, end }
-}
-
-/// Length of contour before the start and behind the end of a ring that joins the polyline, so that the curve there is
-/// what it is elsewhere, mm; and the fewest chords of it.
-const LEAD: f64 = 8.0;
-const LEAD_CHORDS: usize = 3;
-
-/// How far behind its tip along a curve the tail of a blade may lie, in widths of the blade: on the tightest curve whose
-/// chord it can be, with the radius of 0.55 widths, it is 1.26.
-const TAIL_REACH: f64 = 1.3;
-
-/// A ring overlaps along itself: it starts in full motion law, its tail on the path by at most `tail` mm behind, and goes
-/// past its start by the front overlap.
-fn extend_ring(run: &Run, tail: f64) -> Extended {
-    let n = run.points.len() - 1;
-    let chord = |i: usize| (run.points[i % n + 1] - run.points[i % n]).norm();
-    // Chords of the contour, walked on and on until they are as long as asked, or twice round: enough for any overlap.
-    let lead = |length: f64, next: &dyn Fn(usize) -> usize| {
-        let (mut chords, mut sum) = (0, 0.0);
-        while (sum < length || chords < LEAD_CHORDS) && chords < 2 * n {
-            sum += chord(next(chords));
-            chords += 1;
-        }
-        (chords, sum)
-    };
-    let (before, start) = lead(LEAD + tail, &|i| n - 1 - i % n);
-    let (after, _) = lead(run.front + LEAD, &|i| i);
-    let first = n - before % n;
-    let chords = before + n + after;
-    let points = (0..=chords).map(|i| run.points[(first + i) % n]).collect();
-    let blocks = (0..chords).map(|i| run.spans[(first + i) % n].block).collect();
-    let feeds = (0..chords).map(|i| run.feeds[(first + i) % n]).collect();
-    let end = start + polyline::length(&run.points) + run.front;
-    Extended { points, blocks, feeds, start, end }
-}
-
-/// The source block at each station of an extended run.
-struct Blocks {
-    stations: Vec<f64>,
-    blocks: Vec<u32>,
-}
-
-impl Blocks {
-    fn new(extended: &Extended) -> Self {
-        Self { stations: polyline::stations(&extended.points), blocks: extended.blocks.clone() }
-    }
-
-    fn at(&self, u: f64) -> u32 {
-        self.blocks[crate::geom::spline::span(&self.stations, u)]
+    #[test]
+    fn a_ring_ends_where_it_closes_and_is_refused_when_it_does_not() {
+        let line = Curve::line([0.0, 20.0], [[-10.0, 0.0], [10.0, 0.0]]);
+        assert!((closed(&line, 10.0, 9.6).expect("it closes") - 10.0).abs() < 1e-9);
+        assert_eq!(closed(&line, 10.0, 10.8), Ok(10.8), "an overlap stays");
+        let missing = reaching(&line, [[10.4, 0.0], [1.0, 0.0]], 19.0).expect_err("the line ends before").missing;
+        assert!((missing - 0.4).abs() < 1e-9);
     }
 }

@@ -4,12 +4,15 @@
 //! Jerk along a path contains k'' v^3 (k = curvature), so the path must be smooth to the third derivative of its
 //! direction; arcs, lines and cubic fits are not. Two phases: penalised least squares gives a strictly feasible start,
 //! then a logarithmic barrier with Newton steps (Boyd & Vandenberghe, *Convex Optimization*, chapter 11) brings it to
-//! the optimum. All matrices are banded, so time and memory are linear in the number of knots.
+//! the optimum, window by window. All matrices are banded, so time and memory are linear in the number of knots.
+
+use std::ops::Range;
 
 use super::banded::Band;
-use super::barrier::{self, Schedule};
+use super::barrier::{self, Logs, Schedule};
 use super::knots;
 use super::tube::{Slot, Tube};
+use super::windows::{self, Chain, LENGTH_FELT, Windows};
 use crate::geom::spline::{self, Piecewise};
 use crate::geom::{Point, Vector};
 
@@ -34,6 +37,8 @@ const FINER: f64 = 0.6;
 /// To a fiftieth of the penalty: program time is insensitive beyond.
 const SCHEDULE: Schedule =
     Schedule { start: 0.05, growth: 10.0, gap: 2e-2, decrement: 2.0, steps_a_round: 10, steps: 90 };
+/// An end is felt over some ten control points.
+const WINDOWS: Windows = Windows { schedule: SCHEDULE, size: 3000, overlap: 60 };
 /// Least distance of two samples, as a part of the length: nearer ones say the same.
 const SAMPLE_EPSILON: f64 = 1e-7;
 
@@ -67,7 +72,7 @@ pub(super) fn smooth(tube: &Tube) -> Result<Smooth, TooTight> {
         let trouble = match start {
             Ok((control, weight)) => {
                 let start = problem.relax(control, weight);
-                let control = barrier::minimise(&problem, start.clone(), SCHEDULE).unwrap_or(start);
+                let control = windows::minimise(&problem, start.clone(), WINDOWS).unwrap_or(start);
                 let curve = problem.curve(&control);
                 let (violations, deviation, bulge) = problem.check(&curve);
                 if violations.is_empty() {
@@ -114,9 +119,10 @@ struct Sample {
 }
 
 impl Sample {
+    /// Where it is, by the control points from the first that moves it on.
     fn point(&self, control: &[[f64; 2]]) -> Point {
         let mut point = Point::origin();
-        for (weight, c) in self.weights.iter().zip(&control[self.first..]) {
+        for (weight, c) in self.weights.iter().zip(control) {
             point.x += weight * c[0];
             point.y += weight * c[1];
         }
@@ -132,6 +138,8 @@ impl Sample {
 struct Problem<'a> {
     tube: &'a Tube,
     breaks: Vec<f64>,
+    /// The breaks, those at the ends as often as the spline's order.
+    knots: Vec<f64>,
     samples: Vec<Sample>,
     /// Length that each sample stands for in least squares.
     shares: Vec<f64>,
@@ -166,24 +174,16 @@ impl<'a> Problem<'a> {
         let shares: Vec<f64> = (0..=last)
             .map(|i| {
                 let share = (stations[(i + 1).min(last)] - stations[i.saturating_sub(1)]) / 2.0;
-                share.max(SHARE_MIN * tube.length())
+                share.max(SHARE_MIN * tube.length().min(LENGTH_FELT))
             })
             .collect();
         let mut squares = Band::zero(count);
         for (sample, &share) in samples.iter().zip(&shares) {
             squares.add_square(sample.first, &sample.weights, share);
         }
-        let mut penalty = Band::zero(count);
-        for (span, ends) in breaks.windows(2).enumerate() {
-            let half = (ends[1] - ends[0]) / 2.0;
-            for (node, weight) in GAUSS_3 {
-                let u = f64::midpoint(ends[0], ends[1]) + half * node;
-                let ders = spline::basis::<ORDER, { PENALTY_ORDER + 1 }>(&knots, span, u);
-                penalty.add_square(span, &ders[PENALTY_ORDER], half * weight);
-            }
-        }
+        let penalty = penalty(&knots, 0..breaks.len() - 1);
         let least = 36.0 * tube.tolerance.powi(2) / tube.length().powi(5);
-        Self { tube, breaks, samples, shares, squares, penalty, bound, least }
+        Self { tube, breaks, knots, samples, shares, squares, penalty, bound, least }
     }
 
     fn median_span(&self) -> f64 {
@@ -230,7 +230,7 @@ impl<'a> Problem<'a> {
     }
 
     fn greatest_deviation(&self, control: &[[f64; 2]]) -> f64 {
-        self.samples.iter().map(|s| s.deviation(control).norm()).fold(0.0, f64::max)
+        self.samples.iter().map(|s| s.deviation(&control[s.first..]).norm()).fold(0.0, f64::max)
     }
 
     /// A curve strictly inside the tube, with the weight of the penalty that gave it; otherwise where it leaves the tube.
@@ -249,7 +249,7 @@ impl<'a> Problem<'a> {
             weight *= 0.1;
         }
         let Some((control, deviation)) = best else { return Err((self.tube.stations.clone(), f64::INFINITY)) };
-        let out = |s: &&Sample| s.deviation(&control).norm() > TROUBLE_SHARE * self.bound;
+        let out = |s: &&Sample| s.deviation(&control[s.first..]).norm() > TROUBLE_SHARE * self.bound;
         Err((self.samples.iter().filter(out).map(|s| s.u).collect(), deviation))
     }
 
@@ -290,30 +290,91 @@ impl<'a> Problem<'a> {
     }
 }
 
-impl barrier::Problem<2> for Problem<'_> {
+/// The integral of |r'''|^2 over some spans, as a matrix of the control points that have a say there.
+fn penalty(knots: &[f64], spans: Range<usize>) -> Band<BAND> {
+    let mut penalty = Band::zero(spans.len() + ORDER - 1);
+    for span in spans.clone() {
+        let ends = [knots[span + ORDER - 1], knots[span + ORDER]];
+        let half = (ends[1] - ends[0]) / 2.0;
+        for (node, weight) in GAUSS_3 {
+            let u = f64::midpoint(ends[0], ends[1]) + half * node;
+            let ders = spline::basis::<ORDER, { PENALTY_ORDER + 1 }>(knots, span, u);
+            penalty.add_square(span - spans.start, &ders[PENALTY_ORDER], half * weight);
+        }
+    }
+    penalty
+}
+
+impl Chain<2> for Problem<'_> {
+    type Part<'a>
+        = Part<'a>
+    where
+        Self: 'a;
+
+    fn free(&self) -> Range<usize> {
+        1..self.squares.len() - 1
+    }
+
+    fn part(&self, free: Range<usize>) -> (Part<'_>, Range<usize>) {
+        let spans = free.start.saturating_sub(ORDER - 1)..free.end.min(self.breaks.len() - 1);
+        let first = |span: usize| self.samples.partition_point(|sample| sample.first < span);
+        let samples = &self.samples[first(spans.start)..first(spans.end)];
+        let near = spans.start..spans.end + ORDER - 1;
+        let penalty = penalty(&self.knots, spans);
+        // A run in one window counts from where the file counts.
+        let origin = if free == self.free() { Point::origin() } else { samples[0].slot.base };
+        let (bound, least) = (self.bound, self.least);
+        (Part { samples, penalty, origin, bound, least, near: near.clone(), free }, near)
+    }
+}
+
+/// Some control points of a problem, the others standing still.
+struct Part<'a> {
+    /// The samples that they move, and the penalty of the spans that they shape.
+    samples: &'a [Sample],
+    penalty: Band<BAND>,
+    /// What the penalty counts places from: in a run of kilometres the square of a place leaves no digits for its bends.
+    origin: Point,
+    bound: f64,
+    least: f64,
+    /// The control points that are known, and those of them that are free.
+    near: Range<usize>,
+    free: Range<usize>,
+}
+
+impl Part<'_> {
+    /// The control points as the penalty counts them, and its product with them.
+    fn penalised(&self, control: &[[f64; 2]]) -> (Control, Control) {
+        let control: Control = control.iter().map(|c| [c[0] - self.origin.x, c[1] - self.origin.y]).collect();
+        let product = self.penalty.times(&control);
+        (control, product)
+    }
+}
+
+impl barrier::Problem<2> for Part<'_> {
     fn constraints(&self) -> f64 {
         self.samples.len() as f64
     }
 
     /// The integral of |r'''|^2, on top of what counts as none.
     fn objective(&self, control: &[[f64; 2]]) -> f64 {
-        let product = self.penalty.times(control);
-        let penalty: f64 = product.iter().zip(control).map(|(p, c)| p[0] * c[0] + p[1] * c[1]).sum();
+        let (control, product) = self.penalised(control);
+        let penalty: f64 = product.iter().zip(&control).map(|(p, c)| p[0] * c[0] + p[1] * c[1]).sum();
         penalty + self.least
     }
 
     /// weight / 2 * penalty - sum of log(bound^2 - |deviation|^2).
     fn value(&self, control: &[[f64; 2]], weight: f64) -> f64 {
         let square = self.bound * self.bound;
-        let mut logs = 0.0;
-        for sample in &self.samples {
-            let slack = square - sample.deviation(control).norm_squared();
+        let mut logs = Logs::new();
+        for sample in self.samples {
+            let slack = square - sample.deviation(&control[sample.first - self.near.start..]).norm_squared();
             if slack <= 0.0 || slack.is_nan() {
                 return f64::INFINITY;
             }
-            logs += slack.ln();
+            logs.add(slack);
         }
-        0.5 * weight * self.objective(control) - logs
+        0.5 * weight * self.objective(control) - logs.sum()
     }
 
     fn newton(&self, control: &[[f64; 2]], weight: f64) -> Option<(Vec<[f64; 2]>, f64)> {
@@ -328,11 +389,12 @@ impl barrier::Problem<2> for Problem<'_> {
             }
         }
         let mut gradient: Vec<[f64; 1]> = Vec::with_capacity(2 * n);
-        for product in self.penalty.times(control) {
+        for product in self.penalised(control).1 {
             gradient.extend(product.map(|v| [weight * v]));
         }
-        for sample in &self.samples {
-            let point = sample.point(control);
+        for sample in self.samples {
+            let first = sample.first - self.near.start;
+            let point = sample.point(&control[first..]);
             let e = sample.slot.deviation(point).0;
             let slack = square - e.norm_squared();
             // d2/dr2 of -log(slack) = 2 P / slack + 4 e e^T / slack^2, P the projection off the free direction.
@@ -344,11 +406,11 @@ impl barrier::Problem<2> for Problem<'_> {
                 yy -= a * free.y * free.y;
             }
             for (i, wi) in sample.weights.iter().enumerate() {
-                let row = 2 * (sample.first + i);
+                let row = 2 * (first + i);
                 gradient[row][0] += wi * a * e.x;
                 gradient[row + 1][0] += wi * a * e.y;
                 for (j, wj) in sample.weights[..=i].iter().enumerate() {
-                    let (column, w) = (2 * (sample.first + j), wi * wj);
+                    let (column, w) = (2 * (first + j), wi * wj);
                     hessian.add_entry(row, column, w * xx);
                     hessian.add_entry(row + 1, column, w * xy);
                     hessian.add_entry(row + 1, column + 1, w * yy);
@@ -358,7 +420,8 @@ impl barrier::Problem<2> for Problem<'_> {
                 }
             }
         }
-        for fixed in [0, 1, 2 * n - 2, 2 * n - 1] {
+        let (before, behind) = (2 * (self.free.start - self.near.start), 2 * (self.free.end - self.near.start));
+        for fixed in (0..before).chain(behind..2 * n) {
             hessian.fix(fixed, |_, _| {});
             gradient[fixed][0] = 0.0;
         }
@@ -394,7 +457,7 @@ fn sample_stations(tube: &Tube, breaks: &[f64]) -> Vec<f64> {
         .flat_map(|ends| (0..SAMPLES_A_SPAN).map(|i| ends[0] + (ends[1] - ends[0]) * i as f64 / SAMPLES_A_SPAN as f64));
     let mut stations: Vec<f64> = inner.chain(tube.stations.iter().copied()).collect();
     stations.sort_by(f64::total_cmp);
-    let least = SAMPLE_EPSILON * tube.length();
+    let least = SAMPLE_EPSILON * tube.length().min(LENGTH_FELT);
     stations.dedup_by(|next, kept| *next - *kept <= least);
     let last = stations.len() - 1;
     stations[last] = tube.length();
@@ -452,5 +515,29 @@ mod tests {
         let [p, d1, d2] = smooth.curve.derivatives::<3>(50.0);
         let curvature = (d1[0] * d2[1] - d1[1] * d2[0]) / d1[0].hypot(d1[1]).powi(3);
         assert!((p[0].hypot(p[1]) - 6.4).abs() < 0.15 && (curvature - 1.0 / 6.4).abs() < 0.01, "{curvature}");
+    }
+
+    #[test]
+    fn window_by_window_a_curve_is_as_smooth_as_at_once() {
+        let mut at_once = None;
+        // Then far from where the file counts from, as the end of a run of kilometres is.
+        for away in [0.0, 1e6] {
+            let wave = |i: i32| (away + 2.0 * f64::from(i), 5.0 * (0.2 * f64::from(i)).sin());
+            let tube = Tube::new(points(&(0..400).map(wave).collect::<Vec<_>>()), 0.05, &MachineProfile::default());
+            let problem = Problem::new(&tube, knots::breaks(&tube, &[1.0; 400]), SHARE * tube.tolerance);
+            let (control, weight) = problem.feasible_start().expect("a start");
+            let start = problem.relax(control, weight);
+            let bend = |windows| {
+                let control = windows::minimise(&problem, start.clone(), windows).expect("a curve");
+                assert!(problem.check(&problem.curve(&control)).0.is_empty(), "it leaves its tube");
+                let from: Control = control.iter().map(|c| [c[0] - away, c[1]]).collect();
+                barrier::Problem::objective(&problem.part(problem.free()).0, &from)
+            };
+            let small = Windows { size: 2 * WINDOWS.overlap, ..WINDOWS };
+            let at_once = *at_once.get_or_insert_with(|| bend(WINDOWS));
+            let by_window = bend(small);
+            assert!(problem.free().len() > 3 * WINDOWS.overlap);
+            assert!((by_window / at_once - 1.0).abs() < SCHEDULE.gap, "{away}: {by_window} against {at_once}");
+        }
     }
 }

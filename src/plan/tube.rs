@@ -8,9 +8,6 @@ use crate::geom::{Point, Vector, left, polyline};
 use crate::machine::MachineProfile;
 use crate::machine::profile::Fit;
 
-/// Longest chord that a flattened curve is believed to have, mm: CAD flattens to sagittas below `chord_sag_max`.
-const CURVE_CHORD_MAX: f64 = 25.0;
-
 /// Smaller turns are none, rad: an overlap runs straight on, but for rounding.
 const TURN_EPSILON: f64 = 1e-6;
 
@@ -108,7 +105,7 @@ fn bulge(a: Point, b: Point, turns: [f64; 2], profile: &MachineProfile) -> Vecto
     let length = (b - a).norm();
     let corner = profile.corner.angle();
     let same_side = before * after > 0.0 && before.abs().min(after.abs()) > TURN_EPSILON;
-    if !same_side || before.abs() >= corner || after.abs() >= corner || length > CURVE_CHORD_MAX {
+    if !same_side || before.abs() >= corner || after.abs() >= corner || length > polyline::CURVE_CHORD_MAX {
         return Vector::zeros();
     }
     let mean = f64::midpoint(before, after);

@@ -1,4 +1,5 @@
-//! How long planning takes: `cargo run --release --example motion`.
+//! How long planning takes: `cargo run --release --example motion`; with numbers behind `--`, runs of that many vertices
+//! alone, so that `/usr/bin/time -v` says what memory one takes.
 //!
 //! Medians over rounds in one process; README holds the figures.
 
@@ -36,6 +37,11 @@ fn main() -> Result<(), Failure> {
         machine::load(Some(&Source::new("score.toml", profile)?), &[]).map_err(|_| "score.toml has faults")?;
     let score = Job { profile, ..Job::default() };
 
+    let counts = std::env::args().skip(1).map(|count| count.parse()).collect::<Result<Vec<usize>, _>>()?;
+    if !counts.is_empty() {
+        waves(&counts, &score);
+        return Ok(());
+    }
     let contour = points("contour2m_flat.csv")?;
     let count = contour.len();
     let seconds = median(ROUNDS, || plan_run(&contour, &score));
@@ -43,13 +49,9 @@ fn main() -> Result<(), Failure> {
     for length in [10.0, 10_000.0] {
         let line = [Point::origin(), Point::new(length, 0.0)];
         let seconds = median(ROUNDS, || plan_run(&line, &score));
-        println!("straight of {length:>5} mm              {:>9.3} ms", 1e3 * seconds);
+        println!("straight of {length:>5} mm              {:>9.2} us", 1e6 * seconds);
     }
-    for count in [1_000, 10_000, 100_000, 1_000_000] {
-        let wave = wave(count);
-        let seconds = median(if count < MANY { ROUNDS } else { 1 }, || plan_run(&wave, &score));
-        println!("wave of {count:>7} vertices, a vertex  {:>9.2} us", 1e6 * seconds / count as f64);
-    }
+    waves(&[1_000, 10_000, 100_000, 1_000_000], &score);
     for pieces in [40, 160] {
         let mut file = Vec::new();
         garment::write(&garment::Order { pieces, ..garment::Order::default() }, &mut file)?;
@@ -63,6 +65,15 @@ fn main() -> Result<(), Failure> {
         println!("marker of {pieces:>3} pieces                {:>9.1} ms", 1e3 * seconds);
     }
     Ok(())
+}
+
+/// How long one run of each number of vertices takes.
+fn waves(counts: &[usize], score: &Job) {
+    for &count in counts {
+        let wave = wave(count);
+        let seconds = median(if count < MANY { ROUNDS } else { 1 }, || plan_run(&wave, score));
+        println!("wave of {count:>7} vertices, a vertex  {:>9.2} us", 1e6 * seconds / count as f64);
+    }
 }
 
 fn fixture(name: &str) -> std::path::PathBuf {

@@ -1,11 +1,11 @@
 //! A blade that plunged as a chord comes to the tangent of its way: C and the way of its axis, part by part.
 //!
-//! What is left of the lead after a share x of the fade is 1 - (35 x^4 - 84 x^5 + 70 x^6 - 20 x^7). On each part C turns
-//! evenly. The axis goes beside the tip by the radius of the blade, and while that swings, its way does not turn as the tip's
+//! What is left of the lead is [`left_of`] the fade. On each part C turns evenly. The axis goes beside the tip by the radius of the blade, and while that swings, its way does not turn as the tip's
 //! does: each part has the arc on which the tip is as little askew at its start as at its end, and parts are halved until
 //! that is little enough.
 
 use super::fit::Arc;
+use crate::geom::fade::left_of;
 use crate::geom::{Rotation, Vector, angle, left};
 use crate::ir::toolpath::Pose;
 
@@ -64,7 +64,7 @@ impl Fade {
 
     /// C at a length of an arc, rad.
     pub(super) fn c(&self, beside: Beside, s: f64) -> f64 {
-        let lag = if self.length > 0.0 { self.lead * left_of((beside.done + s) / self.length) } else { 0.0 };
+        let lag = if self.length > 0.0 { self.lead * left_of((beside.done + s) / self.length)[0] } else { 0.0 };
         beside.tangent + beside.arc.curvature * s - lag
     }
 
@@ -154,11 +154,4 @@ struct End {
     pose: Pose,
     /// Unit vector along the tip's way.
     along: Vector,
-}
-
-/// What is left of the lead at a part of the fade: 1 less the step of degree 7.
-fn left_of(x: f64) -> f64 {
-    let x = x.min(1.0);
-    let x4 = x * x * x * x;
-    1.0 - x4 * (35.0 - x * (84.0 - x * (70.0 - x * 20.0)))
 }

@@ -4,8 +4,6 @@
 use crate::geom::{Point, Vector, left, polyline};
 use crate::machine::{Fit, MachineProfile};
 
-/// Longest chord that is taken for one of a flattened curve, mm.
-const CURVE_CHORD_MAX: f64 = 25.0;
 /// Turns of a curve differ by less than this factor from one vertex to the next.
 const ALIKE: f64 = 2.0;
 /// Smaller turns are none, rad.
@@ -47,7 +45,8 @@ impl Tube {
         let height = |i: usize| {
             let [before, after] = [turns[i], turns[i + 1]];
             let length = stations[i + 1] - stations[i];
-            let is_curve = before * after > 0.0 && is_turn(before) && is_turn(after) && length <= CURVE_CHORD_MAX;
+            let is_curve =
+                before * after > 0.0 && is_turn(before) && is_turn(after) && length <= polyline::CURVE_CHORD_MAX;
             if profile.path.fit == Fit::Polygon || !is_curve {
                 return 0.0;
             }

@@ -1,0 +1,168 @@
+//! The polyline that the tip and, in the plunge, the tail follow: a run with its overlaps.
+
+use crate::geom::{Point, polyline};
+use crate::ir::motion::Spell;
+use crate::ir::toolpath::{Law, Run, Shape};
+
+/// A run with its overlaps.
+#[derive(Debug)]
+pub(super) struct Extended {
+    pub(super) points: Vec<Point>,
+    /// The block of each chord.
+    pub(super) blocks: Vec<u32>,
+    /// Greatest speed of the tip on each chord, mm/s.
+    pub(super) feeds: Vec<f64>,
+    /// Station at which the run proper starts, mm.
+    pub(super) start: f64,
+    /// Station at which the tip is lifted, mm.
+    pub(super) end: f64,
+}
+
+impl Extended {
+    /// The run with its overlaps, as one polyline; `width` is that of the blade, mm.
+    pub(super) fn new(run: &Run, width: f64) -> Self {
+        match (run.shape, run.law) {
+            (Shape::Open, _) => open(run),
+            (Shape::Ring, Law::Tangent) => ring(run, 0.0),
+            (Shape::Ring, Law::Chord) => ring(run, TAIL_REACH * width),
+        }
+    }
+}
+
+/// Overlaps run straight on along the end chords.
+fn open(run: &Run) -> Extended {
+    let points = run.extended();
+    let mut blocks: Vec<u32> = run.spans.iter().map(|s| s.block).collect();
+    let mut feeds = run.feeds.clone();
+    if run.heel > 0.0 {
+        blocks.insert(0, blocks[0]);
+        feeds.insert(0, feeds[0]);
+    }
+    blocks.resize(points.len() - 1, blocks[blocks.len() - 1]);
+    feeds.resize(points.len() - 1, feeds[feeds.len() - 1]);
+    let end = polyline::length(&points);
+    Extended { points, blocks, feeds, start: 0.0, end }
+}
+
+/// Length of contour before the start and behind the end of a ring that joins the polyline, so that the curve there is
+/// what it is elsewhere, mm; and the fewest chords of it.
+const LEAD: f64 = 8.0;
+const LEAD_CHORDS: usize = 3;
+
+/// How far behind its tip along a curve the tail of a blade may lie, in widths of the blade: on the tightest curve whose
+/// chord it can be, with the radius of 0.55 widths, it is 1.26.
+const TAIL_REACH: f64 = 1.3;
+
+/// A ring overlaps along itself: it starts in full motion law, its tail on the path by at most `tail` mm behind, and goes
+/// past its start by the front overlap.
+fn ring(run: &Run, tail: f64) -> Extended {
+    let n = run.points.len() - 1;
+    let chord = |i: usize| (run.points[i % n + 1] - run.points[i % n]).norm();
+    // Chords of the contour, walked on and on until they are as long as asked, or twice round: enough for any overlap.
+    let lead = |length: f64, next: &dyn Fn(usize) -> usize| {
+        let (mut chords, mut sum) = (0, 0.0);
+        while (sum < length || chords < LEAD_CHORDS) && chords < 2 * n {
+            sum += chord(next(chords));
+            chords += 1;
+        }
+        (chords, sum)
+    };
+    let (before, start) = lead(LEAD + tail, &|i| n - 1 - i % n);
+    let (after, _) = lead(run.front + LEAD, &|i| i);
+    let first = n - before % n;
+    let chords = before + n + after;
+    let points = (0..=chords).map(|i| run.points[(first + i) % n]).collect();
+    let blocks = (0..chords).map(|i| run.spans[(first + i) % n].block).collect();
+    let feeds = (0..chords).map(|i| run.feeds[(first + i) % n]).collect();
+    let end = start + polyline::length(&run.points) + run.front;
+    Extended { points, blocks, feeds, start, end }
+}
+
+/// The source blocks of a run by station.
+#[derive(Debug)]
+pub(super) struct Blocks {
+    /// Station from which each block holds, mm; the first is 0.
+    starts: Vec<f64>,
+    /// The blocks. No two in a row are equal.
+    blocks: Vec<u32>,
+}
+
+impl Blocks {
+    /// The blocks of chords between `stations`, one more than `blocks`.
+    pub(super) fn new(stations: &[f64], blocks: &[u32]) -> Self {
+        let mut of_run = Self { starts: Vec::new(), blocks: Vec::new() };
+        for (&start, &block) in stations.iter().zip(blocks) {
+            if of_run.blocks.last() != Some(&block) {
+                of_run.starts.push(start);
+                of_run.blocks.push(block);
+            }
+        }
+        of_run
+    }
+
+    /// The block at a station.
+    pub(super) fn at(&self, u: f64) -> u32 {
+        self.blocks[self.starts.partition_point(|&start| start <= u).max(1) - 1]
+    }
+
+    /// The blocks of a motion of `ticks` periods of which `at` says the station at each tick, never falling.
+    pub(super) fn spells(&self, ticks: u32, at: impl Fn(u32) -> f64) -> Vec<Spell> {
+        let mut spells = vec![Spell { first: 0, block: self.blocks[0] }];
+        for (&start, &block) in self.starts.iter().zip(&self.blocks).skip(1) {
+            let last = spells[spells.len() - 1];
+            let first = first_behind(last.first..ticks, |i| at(i) >= start);
+            if first == ticks {
+                break;
+            }
+            if first == last.first {
+                spells.pop();
+            }
+            if spells.last().is_none_or(|before| before.block != block) {
+                spells.push(Spell { first, block });
+            }
+        }
+        spells
+    }
+}
+
+/// The first tick that `is_behind` something, when all after it are; the end of the range when there is none. The search
+/// doubles its steps before it halves them, so that what is near is found at once.
+fn first_behind(ticks: std::ops::Range<u32>, is_behind: impl Fn(u32) -> bool) -> u32 {
+    let (mut low, mut step) = (ticks.start, 1);
+    let mut high = low;
+    while high < ticks.end && !is_behind(high) {
+        low = high + 1;
+        high = high.saturating_add(step);
+        step *= 2;
+    }
+    let mut high = high.min(ticks.end);
+    while low < high {
+        let middle = u32::midpoint(low, high);
+        if is_behind(middle) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    low
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spells_say_the_block_of_every_tick() {
+        let stations = [0.0, 1.0, 1.5, 1.6, 7.0, 9.0, 30.0, 31.0];
+        let blocks = Blocks::new(&stations, &[4, 4, 5, 6, 4, 9, 9]);
+        for ticks in [1_u32, 2, 7, 40, 400] {
+            let at = |i: u32| 29.0 * (f64::from(i) / f64::from(ticks)).powi(2);
+            let spells = blocks.spells(ticks, at);
+            assert!(spells.windows(2).all(|w| w[0].first < w[1].first && w[0].block != w[1].block), "{spells:?}");
+            for i in 0..ticks {
+                let said = spells.iter().rev().find(|spell| spell.first <= i).map(|spell| spell.block);
+                assert_eq!(said, Some(blocks.at(at(i))), "tick {i} of {ticks}");
+            }
+        }
+    }
+}
