@@ -27,7 +27,7 @@ const BOW_SHARE: f64 = 0.9;
 /// The same of the tolerance of a cut that the blade covers.
 const TOLERANCE_SHARE: f64 = 0.5;
 /// Greatest part of the turn under a blade that one vertex of a curve makes, by a little; one that makes more is a bend.
-const BEND_SHARE: f64 = 0.55;
+const BEND_SHARE: f64 = 0.75;
 /// Halvings that place the tail between two tips: to a millionth of the way between them.
 const HALVINGS: usize = 20;
 

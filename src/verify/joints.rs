@@ -11,7 +11,7 @@ use crate::machine::Knife;
 const WIDTHS: f64 = 4.0;
 
 /// Least part of the turn under a blade that one vertex makes where there is a bend, by a little: a curve is nibbled.
-const CURVE_SHARE: f64 = 0.45;
+const CURVE_SHARE: f64 = 0.65;
 
 /// Finds joints.
 #[derive(Debug)]

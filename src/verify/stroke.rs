@@ -8,6 +8,7 @@ use std::ops::{Range, RangeToInclusive};
 use super::Done;
 use super::body::{BODY_STEP, Bow, Cut};
 use super::chord::{self, BODY_SHARES, Blade, Trailing};
+use super::follow::Foot;
 use super::gcode::SAGITTA;
 use super::grid::Grid;
 use super::heading::{self, Moving, Plunge};
@@ -294,6 +295,9 @@ impl<'a> Judge<'a> {
             let blade = cut.points[cut.body] - cut.points[0];
             let with = trial.feet[cut.body].station >= trial.feet[0].station;
             let blade = if with { blade } else { -blade };
+            // There may be more joints between the first and the last one: it begins at the one up to which all is cut.
+            let [first, last] = trial.hull;
+            let (from, to) = ([from[0], from[1], first], [to[0], to[1], last]);
             let ends = from.into_iter().flat_map(|from| to.map(|to| [from, to])).filter(|[from, to]| from < to);
             let directions = ends.flat_map(|ends| heading::of_stab(line, ends, &self.tracer.joints));
             let askew = directions.map(|direction| angle::turn(direction, blade));
@@ -326,11 +330,26 @@ impl<'a> Judge<'a> {
             twice += self.overlaps + self.knife.width_mm.max(REACH);
         } else if trial.fits.is_some() {
             twice -= self.knife.width_mm - trial.fresh;
-        } else if self.tracer.joints.are_anywhere(&self.reference.lines[trial.line]) {
+        } else if self.meets_amid(trial) {
             // What the blade of a stab beside it was longer by.
             twice -= self.knife.width_mm;
         }
         twice
+    }
+
+    /// Whether a stroke begins or ends amid its line, where another meets it.
+    fn meets_amid(&self, trial: &Trial) -> bool {
+        let line = &self.reference.lines[trial.line];
+        let tube = 2.0 * (self.reference.tolerance + self.rounding);
+        let slack = BODY_STEP + tube;
+        let is_amid = |foot: &Foot| {
+            let station = foot.station;
+            let is_inner = station > slack && station < line.length() - slack;
+            is_inner && self.tracer.joints.near(line, Around { station, slack, tube }).is_some()
+        };
+        self.tracer.joints.are_anywhere(line)
+            || trial.feet.first().is_some_and(is_amid)
+            || trial.feet.last().is_some_and(is_amid)
     }
 
     /// The blade against its law. What only plunges has no way that a law could bear on.

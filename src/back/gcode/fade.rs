@@ -15,8 +15,8 @@ const FADE_BEND: f64 = 7.6;
 const LEAD_EPSILON: f64 = 1e-6;
 /// Part of the permitted angle by which C may be off its law on a part; the way of the tip may be off by as much.
 const BEND_SHARE: f64 = 0.5;
-/// Parts are halved so often at the most: then they are as short as the decimals of a program tell.
-const HALVINGS: usize = 6;
+/// Shorter ways are none, mm.
+const LENGTH_EPSILON: f64 = 1e-3;
 /// Steps of the secant method that finds an arc: it is nearly a line.
 const SECANTS: usize = 2;
 /// Turns that differ by less are the same, rad.
@@ -73,23 +73,20 @@ impl Fade {
         let Beside { arc, done, .. } = beside;
         let rest = Part { to: arc.length, c: self.c(beside, arc.length), turn: arc.turn() };
         let fading = (self.length - done).clamp(0.0, arc.length);
-        if fading < least {
+        if fading < LENGTH_EPSILON {
             return vec![rest];
         }
+        let fading = if arc.length - fading < least { arc.length } else { fading };
         let longest = self.length * (8.0 * BEND_SHARE * self.permitted / (FADE_BEND * self.lead.abs())).sqrt();
         let mut count = (fading / longest).ceil().max(1.0) as usize;
-        let mut halvings = 0;
         let mut parts = loop {
             let (parts, askew) = self.divided(beside, fading, count);
-            let is_short = fading / (2 * count) as f64 <= least;
-            if askew <= BEND_SHARE * self.permitted || is_short || halvings == HALVINGS {
+            if askew <= BEND_SHARE * self.permitted || fading / (2 * count) as f64 <= least {
                 break parts;
             }
-            (count, halvings) = (2 * count, halvings + 1);
+            count *= 2;
         };
-        if arc.length - fading < least {
-            parts.last_mut().expect("there is one at least").to = arc.length;
-        } else {
+        if fading < arc.length {
             parts.push(Part { turn: arc.curvature * (arc.length - fading), ..rest });
         }
         parts

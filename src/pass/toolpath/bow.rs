@@ -11,7 +11,7 @@ use crate::ir::toolpath::{Run, Shape};
 /// Part of the tolerance that the polyline may take here; smoothing moves the tip by up to the rest.
 const SHARE: f64 = 0.45;
 /// Greatest part of all the turn under a blade that one vertex of a curve makes; one that makes more is a bend.
-const BEND_SHARE: f64 = 0.5;
+const BEND_SHARE: f64 = 0.7;
 /// Length of a run, in widths of the blade, that is looked at from where it plunges: on any curve that it lies on it spans
 /// less.
 const REACH: f64 = 4.0;
@@ -36,9 +36,11 @@ impl Bow {
     pub(super) fn new(run: &Run, around: &Around) -> Option<Self> {
         let mut run = run.clone();
         overlap::give(&mut run, around);
-        let path = run.extended();
-        let skipped = usize::from(run.heel > 0.0);
-        let reached = polyline::first_at_distance(&path, around.knife().width_mm);
+        let extended = run.extended();
+        let reached = polyline::first_at_distance(&extended, around.knife().width_mm);
+        // What covers all of a run is a chord of that alone.
+        let (path, skipped) =
+            if reached.is_some() { (extended, usize::from(run.heel > 0.0)) } else { (run.points.clone(), 0) };
         let (tip, chord) = reached.unwrap_or((path[path.len() - 1], path.len() - 2));
         // The chord that is being left counts, too: a curve turns along its chords, not at its vertices.
         let turns: Vec<f64> =

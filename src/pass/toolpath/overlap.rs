@@ -3,7 +3,8 @@
 //! Needs runs split at corners. Leaves every run with its overlaps, each straight on beyond its end: as far as the profile
 //! wants where that is waste, by `knife.reflex_front_overlap_mm` and `knife.reflex_heel_overlap_mm` where it is the part
 //! itself (a reflex corner, the inner end of a slit), and shortened to the gap less `knife.clearance_mm` where a part lies
-//! ahead. After Wang, Zhang & Zhao, *Research on Cutter Knife Tangent Following and Compensating Algorithm*, 2013,
+//! ahead. A run that begins on a curve has only as much of its heel overlap as keeps the plunged blade near its start. After
+//! Wang, Zhang & Zhao, *Research on Cutter Knife Tangent Following and Compensating Algorithm*, 2013,
 //! doi 10.7690/bgzdh.2013.02.026.
 
 use super::ToolpathPass;
@@ -25,6 +26,8 @@ pub(super) const PASS: ToolpathPass = ToolpathPass {
 
 /// A way that enters the part within this length begins in it, mm: rounding.
 const INSIDE_EPSILON: f64 = 1e-6;
+/// Part of the tolerance by which the plunged blade may pass the start of its run.
+const PASSING_SHARE: f64 = 0.9;
 /// A shorter overlap is none, mm: rounding, which must not become a chord of the path.
 const OVERLAP_EPSILON: f64 = 1e-6;
 
@@ -69,7 +72,25 @@ pub(super) fn give(run: &mut Run, around: &Around) -> [f64; 2] {
     let front = ahead(end.bare, Wanted { waste: front, part: knife.reflex_front_overlap_mm }, [n - 1, n - 2]);
     (run.heel, run.front) = (heel.length, front.length);
     (run.ends[0].side, run.ends[1].side) = (heel.side, front.side);
+    run.heel *= heel_share(run, around);
     [heel.missing, front.missing]
+}
+
+/// The part of a heel overlap with which the plunged blade passes the start of its run within the tolerance. A curve turns the
+/// blade away from its first chord, along which the overlap lies: with all of it the blade would cut into the corner.
+fn heel_share(run: &Run, around: &Around) -> f64 {
+    if run.heel == 0.0 {
+        return 1.0;
+    }
+    let near = run.points.iter().position(|point| (point - run.points[0]).norm() > around.knife().width_mm);
+    let heel = run.points[0]
+        - polyline::direction(run.points[0], run.points[1]).expect("no chord of a run has length zero") * run.heel;
+    let under: Vec<Point> = std::iter::once(heel)
+        .chain(run.points[..near.map_or(run.points.len(), |near| near + 1)].iter().copied())
+        .collect();
+    let Some((tip, _)) = polyline::first_at_distance(&under, around.knife().width_mm) else { return 1.0 };
+    let away = polyline::distance_to_segment(run.points[0], heel, tip);
+    (PASSING_SHARE * around.tolerance() / away).min(1.0)
 }
 
 /// How long an overlap should be, mm: in the waste and in the part.

@@ -1,9 +1,9 @@
 //! Pass `stab`: runs on which the blade has nowhere to go between plunge and lift become one plunge without motion.
 //!
 //! Needs runs with their overlaps. Leaves no run that the blade covers where it plunges: L + F + H <= w on a straight one, no
-//! point of the path at the distance w from its start on a curved one. What the blade is longer by, the surplus, goes into
-//! the waste: behind the start as far as there is room, then past the end. What finds no room cuts into the part, never
-//! into another one that can be spared, with a warning.
+//! point of the path at the distance w from its start on a curved one. The blade is a chord of the cut, which the overlaps
+//! lead on. What it is longer by, the surplus, goes into the waste: behind the start as far as there is room, then past the
+//! end. What finds no room cuts into the part, never into another one that can be spared, with a warning.
 
 use super::ToolpathPass;
 use super::scene::{Around, Scene};
@@ -51,12 +51,13 @@ fn stab(run: &Run, around: &Around) -> Option<Stab> {
     let width = around.knife().width_mm;
     let extended = run.extended();
     let reached = polyline::first_at_distance(&extended, width);
-    let (first, last) = (extended[0], extended[extended.len() - 1]);
     // Exactly as long as the blade is a stab, too.
-    if reached.is_some_and(|(point, _)| point != last) || width == 0.0 {
+    if reached.is_some_and(|(point, _)| point != extended[extended.len() - 1]) || width == 0.0 {
         return None;
     }
-    let along = polyline::direction(first, last)?;
+    // A chord of the cut itself: its overlaps lie along the blade.
+    let along = polyline::direction(run.points[0], run.points[run.points.len() - 1])?;
+    let (first, last) = (run.points[0] - along * run.heel, run.points[run.points.len() - 1] + along * run.front);
     let surplus = (width - (last - first).norm()).max(0.0);
     let reach = surplus + around.knife().clearance_mm;
     let behind = around.room(&Ray { from: first, along: -along, reach });
