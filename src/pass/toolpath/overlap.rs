@@ -79,7 +79,7 @@ pub(super) fn give(run: &mut Run, around: &Around) -> [f64; 2] {
 /// The part of a heel overlap with which the plunged blade passes the start of its run within the tolerance. A curve turns the
 /// blade away from its first chord, along which the overlap lies: with all of it the blade would cut into the corner.
 fn heel_share(run: &Run, around: &Around) -> f64 {
-    if run.heel == 0.0 {
+    if run.heel == 0.0 || run.heel >= around.knife().width_mm {
         return 1.0;
     }
     let near = run.points.iter().position(|point| (point - run.points[0]).norm() > around.knife().width_mm);
