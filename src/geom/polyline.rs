@@ -45,6 +45,13 @@ pub fn direction(a: Point, b: Point) -> Option<Vector> {
     (b - a).try_normalize(0.0)
 }
 
+/// How much a polyline turns, to either side, at the inner vertices nearer than `distance` to its first point, before it
+/// first leaves them, rad.
+pub fn turn_within(points: &[Point], distance: f64) -> f64 {
+    let inner = points.windows(3).take_while(|w| (w[1] - points[0]).norm() < distance);
+    inner.map(|w| turn_at(w[0], w[1], w[2]).abs()).sum()
+}
+
 /// Where a polyline first comes to `distance` from its first point: the point, and the index of its chord. `None` when
 /// it stays nearer.
 pub fn first_at_distance(points: &[Point], distance: f64) -> Option<(Point, usize)> {

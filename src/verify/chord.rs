@@ -159,10 +159,19 @@ pub(super) fn bows_at_an_end(points: &[Point], knife: &Knife, tolerance: f64) ->
     if knife.width_mm == 0.0 || points.len() < 3 {
         return false;
     }
-    let backwards: Vec<Point> = points.iter().rev().copied().collect();
+    let heel = knife.heel_overlap_mm.max(knife.corner_heel_overlap_mm);
     let heels = [0.0, knife.heel_overlap_mm, knife.corner_heel_overlap_mm];
-    let bow = |path: &[Point], heel: f64| Bow::new(path, heel, knife).is_some_and(|bow| bow.is_bad(knife, tolerance));
-    [points, &backwards].iter().any(|path| heels.iter().any(|&heel| bow(path, heel)))
+    let is_bad = |path: &[Point]| {
+        let turned = polyline::turn_within(path, knife.width_mm).min(std::f64::consts::PI);
+        // A path that turns by a under a blade of the width w lies beside it by at most w/2 tan(a/2).
+        knife.width_mm / 2.0 * (turned / 2.0).tan() > TOLERANCE_SHARE * tolerance
+            && heels.iter().filter_map(|&heel| Bow::new(path, heel, knife)).any(|bow| bow.is_bad(knife, tolerance))
+    };
+    let reach = knife.width_mm + heel;
+    let near = points.iter().rev().position(|point| (point - points[points.len() - 1]).norm() > reach);
+    // With the vertex behind, because a curve turns along its chords.
+    let backwards: Vec<Point> = points.iter().rev().take(near.map_or(points.len(), |near| near + 2)).copied().collect();
+    is_bad(points) || is_bad(&backwards)
 }
 
 /// Whether a blade that plunges anywhere on a line, round a ring, may lie beside it: the knife is lifted somewhere amid it,

@@ -32,8 +32,11 @@ pub(super) struct Bow {
 }
 
 impl Bow {
-    /// `None` when there is no vertex under the blade.
+    /// `None` when there is no vertex under the blade, or the run hardly turns there.
     pub(super) fn new(run: &Run, around: &Around) -> Option<Self> {
+        if !may_bow(run, around) {
+            return None;
+        }
         let mut run = run.clone();
         overlap::give(&mut run, around);
         let extended = run.extended();
@@ -84,7 +87,11 @@ pub(super) struct BowedStart {
 /// How an open run begins on a curve that the plunged blade cannot enter, or would lie more than `knife.max_bow_mm` beside,
 /// or more than its tolerance when it covers all of it; `None` when it does not.
 pub(super) fn bowed_start(run: &Run, around: &Around) -> Option<BowedStart> {
-    if run.shape == Shape::Ring || !may_bow(run, around) {
+    if run.shape == Shape::Ring {
+        return None;
+    }
+    // Nearly always that is all.
+    if Bow::new(run, around).is_none_or(|bow| !bow.is_curve || bow.is_good(around)) {
         return None;
     }
     let way = Way::new(run);
@@ -102,13 +109,11 @@ pub(super) fn bowed_start(run: &Run, around: &Around) -> Option<BowedStart> {
     Some(BowedStart { bow, curve: Tight { vertices: 0..=end, radius: radius(at), at } })
 }
 
-/// Whether a run turns enough near its start for that: a path that turns by a under a blade of the width w lies beside it by
-/// at most w/2 tan(a/2), and what lies beside by less than the tolerance fits.
+/// Whether a run turns enough near its start to lie anything but well beside the blade: a path that turns by a under a blade
+/// of the width w lies beside it by at most w/2 tan(a/2), an arc that turns as much by about half of that, and the
+/// difference may be a part of the tolerance.
 fn may_bow(run: &Run, around: &Around) -> bool {
     let knife = around.knife();
-    let (width, start) = (knife.width_mm, run.points[0]);
-    let near = run.points.windows(3).take_while(|w| (w[0] - start).norm() < width);
-    let turned: f64 = near.map(|w| polyline::turn_at(w[0], w[1], w[2]).abs()).sum();
-    let most = width / 2.0 * (turned.min(std::f64::consts::PI) / 2.0).tan();
-    most > knife.max_bow_mm.min(SHARE * around.tolerance())
+    let turned = polyline::turn_within(&run.points, knife.width_mm).min(std::f64::consts::PI);
+    knife.width_mm / 2.0 * (turned / 2.0).tan() > knife.max_bow_mm.min(2.0 * SHARE * around.tolerance())
 }

@@ -79,18 +79,17 @@ pub(super) fn give(run: &mut Run, around: &Around) -> [f64; 2] {
 /// The part of a heel overlap with which the plunged blade passes the start of its run within the tolerance. A curve turns the
 /// blade away from its first chord, along which the overlap lies: with all of it the blade would cut into the corner.
 fn heel_share(run: &Run, around: &Around) -> f64 {
-    if run.heel == 0.0 || run.heel >= around.knife().width_mm {
+    let (width, allowed) = (around.knife().width_mm, PASSING_SHARE * around.tolerance());
+    // It turns the blade by no more than the run turns under it.
+    if run.heel == 0.0 || run.heel >= width || run.heel * polyline::turn_within(&run.points, width) <= allowed {
         return 1.0;
     }
-    let near = run.points.iter().position(|point| (point - run.points[0]).norm() > around.knife().width_mm);
-    let heel = run.points[0]
-        - polyline::direction(run.points[0], run.points[1]).expect("no chord of a run has length zero") * run.heel;
-    let under: Vec<Point> = std::iter::once(heel)
-        .chain(run.points[..near.map_or(run.points.len(), |near| near + 1)].iter().copied())
-        .collect();
-    let Some((tip, _)) = polyline::first_at_distance(&under, around.knife().width_mm) else { return 1.0 };
-    let away = polyline::distance_to_segment(run.points[0], heel, tip);
-    (PASSING_SHARE * around.tolerance() / away).min(1.0)
+    let near = run.points.iter().position(|point| (point - run.points[0]).norm() > width);
+    let under = &run.points[..near.map_or(run.points.len(), |near| near + 1)];
+    let along = polyline::direction(run.points[0], run.points[1]).expect("no chord of a run has length zero");
+    let path: Vec<Point> = std::iter::once(run.points[0] - along * run.heel).chain(under.iter().copied()).collect();
+    let Some((tip, _)) = polyline::first_at_distance(&path, width) else { return 1.0 };
+    (allowed / polyline::distance_to_segment(run.points[0], path[0], tip)).min(1.0)
 }
 
 /// How long an overlap should be, mm: in the waste and in the part.
