@@ -15,6 +15,10 @@ use rand_chacha::ChaCha8Rng;
 
 /// A worn knife, the same with its axis far behind its tip, and a new one: width and back, mm.
 const BLADES: [(f64, f64); 3] = [(6.6, 6.35), (6.6, 2.2), (8.89, 6.35)];
+/// In bows that are worth a word, how far a curve must lie beside the blade, by the formula for slight ones, to be sure of
+/// one, and of none.
+const MUCH: f64 = 1.4;
+const LITTLE: f64 = 0.8;
 /// Places of a file, mm: as coarse as cut files are.
 const UNIT_MM: f64 = 0.1;
 
@@ -63,7 +67,7 @@ fn arc([x, y]: [f64; 2], radius: f64, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
 
 /// Two arcs that meet in corners: every cut of it begins on a curve.
 fn lens(radius: f64) -> Vec<[f64; 2]> {
-    let half = 1.2;
+    let half = 1.2; // rad
     let mut points = arc([0.0, 0.0], radius, [-half, half]);
     points.extend(arc([2.0 * radius * half.cos(), 0.0], radius, [PI - half, PI + half]));
     points
@@ -83,12 +87,12 @@ fn a_piece_that_is_all_curve_is_cut_at_any_radius_and_where_it_is_not_cut_true_t
                 said.push(codes);
             }
             assert_eq!(said[0], said[1], "the knife is the same whoever drives it");
-            let bow = blade.0 * blade.0 / (8.0 * radius);
+            let (bow, worth) = (blade.0 * blade.0 / (8.0 * radius), Job::default().profile.knife.max_bow_mm);
             let warned =
                 said[0].iter().filter(|code| matches!(**code, "path/bowed-plunge" | "path/tight-curve")).count();
-            if bow > 0.7 {
+            if bow > MUCH * worth {
                 assert!(warned > 0, "radius {radius}, blade {blade:?}: nothing is said of {bow} mm");
-            } else if bow < 0.4 {
+            } else if bow < LITTLE * worth {
                 assert_eq!(warned, 0, "radius {radius}, blade {blade:?}: {bow} mm is worth no word");
             }
         }

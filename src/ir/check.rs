@@ -120,12 +120,13 @@ pub fn motion(motion: &Motion) -> Faults {
         if phase.ticks == 0 {
             faults.push(format!("phase {}: it has no ticks", i + 1));
         }
-        if let Poses::Samples(poses) = &phase.poses
-            && poses.len() != phase.ticks as usize
-        {
-            faults.push(format!("phase {}: it has {} poses for {} ticks", i + 1, poses.len(), phase.ticks));
-        }
-        if !phase.setpoints().all(|(pose, _)| pose_finite(pose)) {
+        let is_whole = match &phase.poses {
+            Poses::Samples(poses) => poses.len() == phase.ticks as usize,
+            Poses::Still(_) | Poses::Stroke(_) | Poses::Glide(_) => true,
+        };
+        if !is_whole {
+            faults.push(format!("phase {}: it has not a pose for each of its {} ticks", i + 1, phase.ticks));
+        } else if !phase.setpoints().all(|(pose, _)| pose_finite(pose)) {
             faults.push(format!("phase {}: a pose is not finite", i + 1));
         }
     }

@@ -165,7 +165,7 @@ pub(super) fn report(verdict: &Verdict, (marker, job): (&Marker, &Job), diagnost
             }
             (Some(key), _) => format!("the limit is the profile's `{key}`"),
             (None, _) => {
-                "a narrower blade or a smoother outline there may help; it is a fault of ours: please report it, with the cutter file and the profile".to_owned()
+                "no cutter file should lead here: please report it, with the file and the profile; a narrower blade or a smoother outline there may help".to_owned()
             }
         };
         let diagnostic = Diagnostic { span, ..Diagnostic::new(&code::VERIFY_BROKEN, message) };

@@ -24,6 +24,8 @@ const TURN_MIN: f64 = 0.8;
 const WIDTHS: f64 = 3.0;
 /// Part of the bow from which on a line is nibbled at which it may be, because rounding and overlaps matter.
 const BOW_SHARE: f64 = 0.9;
+/// Part of the tolerance beyond an arc of the same turn from which on a curve may be one that the blade cannot enter.
+const ENTRY_SHARE: f64 = 0.4;
 /// The same of the tolerance of a cut that the blade covers.
 const TOLERANCE_SHARE: f64 = 0.5;
 /// Greatest part of the turn under a blade that one vertex of a curve makes, by a little; one that makes more is a bend.
@@ -222,7 +224,7 @@ impl Bow {
 
     /// Whether that may be too far.
     fn is_bad(&self, knife: &Knife, tolerance: f64) -> bool {
-        let limit = self.arc.min(BOW_SHARE * knife.max_bow_mm);
+        let limit = (self.arc + ENTRY_SHARE * tolerance).min(BOW_SHARE * knife.max_bow_mm);
         let limit = if self.is_whole { limit.min(TOLERANCE_SHARE * tolerance) } else { limit };
         self.is_curve && self.away > limit
     }

@@ -1,7 +1,8 @@
-//! Where the strokes of a line may meet: at its ends, at bends that a plunged blade cannot follow, and where the knife is
-//! lifted because it was down for too long. Only there a blade may stand as a chord of a curve or be longer than what it
+//! Where the strokes of a line may meet: at its ends, at bends that a plunged blade cannot follow, where the knife is lifted
+//! because it was down for too long, and all along a line that is nibbled. Only there a blade may stand as a chord of a curve or be longer than what it
 //! cuts: elsewhere a curve could be cut as a polygon, and a part stabbed.
 
+use super::body::Cut;
 use super::chord::stands_across;
 use super::reference::Line;
 use crate::geom::{Point, polyline};
@@ -60,20 +61,21 @@ impl Joints {
 
     /// How far a line may bow away from the body of a blade that plunges with its tail and its tip at two stations, mm: at
     /// ends and bends, and where the knife was down for too long, as far as it does. On a line that is nibbled a blade that
-    /// never moves lies near to what it cuts, unless that is all there is between two of them, and any other bows by no
-    /// more than is worth no word.
-    pub(super) fn bow(&self, line: &Line, [tail, tip]: [Around; 2], is_stab: bool) -> f64 {
+    /// never moves lies near to what it cuts, unless that is all there is between two of them and bent, and any other bows
+    /// by no more than is worth no word.
+    pub(super) fn bow(&self, line: &Line, [tail, tip]: [Around; 2], cut: &Cut) -> f64 {
         let is_at = |around: Around| self.at_end_or_bend(line, around).is_some();
-        let is_open = match (line.nibbled, is_stab) {
-            (true, true) => is_at(tail) && is_at(tip),
-            (false, true) => self.are_anywhere(line) || is_at(tail) || is_at(tip),
-            (true, false) => is_at(tail) || self.is_lifted(line),
-            (false, false) => self.are_anywhere(line) || is_at(tail),
+        let is_open = match (line.nibbled, cut.is_stab()) {
+            (true, true) => is_at(tail) && is_at(tip) && is_bent(line, [tail.station, tip.station]),
+            (false, true) => self.is_lifted(line) || is_at(tail) || is_at(tip),
+            (_, false) => self.is_lifted(line) || is_at(tail),
         };
-        match is_open {
-            true => f64::INFINITY,
-            false if is_stab || !line.nibbled => 0.0,
-            false => self.max_bow,
+        if is_open {
+            f64::INFINITY
+        } else if line.nibbled && !cut.is_stab() {
+            self.max_bow
+        } else {
+            0.0
         }
     }
 
@@ -139,6 +141,13 @@ impl Joints {
         let is_bent = sharpest > CURVE_SHARE * turned;
         vertex <= chord && is_bent && (is_across || away > polyline::sagitta(blade.norm(), turned))
     }
+}
+
+/// Whether a line turns at one bend between two stations, and not little by little.
+fn is_bent(line: &Line, [a, b]: [f64; 2]) -> bool {
+    let turns = line.vertices(a.min(b), a.max(b)).map(|vertex| line.turn(vertex).abs());
+    let (sum, sharpest) = turns.fold((0.0, 0.0_f64), |(sum, sharpest), turn| (sum + turn, sharpest.max(turn)));
+    sharpest > CURVE_SHARE * sum
 }
 
 /// A path led straight on beyond its end.

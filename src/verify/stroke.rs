@@ -521,8 +521,8 @@ impl<'a> Judge<'a> {
             let station = trial.fits.map(overcut::innermost).map_or(station, |[from, to]| station.clamp(from, to));
             for row in rows[*ends.0..*ends.1].iter().filter(|row| row.knife) {
                 // Lifted anywhere, a stab may cut several chords, and its tip stand on none of them.
-                let away = |station: f64| self.naming.away(row.block, line, station);
-                let away = if trial.fits.is_some() && line.names(row.block, trial.hull) { 0.0 } else { away(station) };
+                let is_of_stab = trial.fits.is_some() && line.names(row.block, trial.hull);
+                let away = if is_of_stab { 0.0 } else { self.naming.away(row.block, line, station) };
                 block.see(away, || row.sighting());
             }
         }

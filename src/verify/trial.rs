@@ -205,13 +205,16 @@ impl Tracer<'_> {
             hull: [0.0; 2],
         };
         let mut body = if laps { Body::default() } else { Body::new(line, cut, &trial.feet, allowed) };
-        let around = |end: usize| Around { station: trial.feet[end].station, slack: 2.0 * allowed, tube: 0.0 };
-        let bow = self.joints.bow(line, body.ends.map(around), cut.is_stab());
-        if line.nibbled && cut.is_stab() && bow == 0.0 {
-            // What nibbles is within the tolerance of what it cuts.
-            body = Body::default();
-        } else if body.sag > allowed && body.sag > bow + allowed {
-            body.sag = 0.0;
+        let is_nibble = line.nibbled && cut.is_stab() && !laps;
+        if is_nibble || body.sag > allowed {
+            let around = |end: usize| Around { station: trial.feet[end].station, slack: 2.0 * allowed, tube: 0.0 };
+            let bow = self.joints.bow(line, body.ends.map(around), cut);
+            if is_nibble && bow == 0.0 {
+                // What nibbles is within the tolerance of what it cuts.
+                body = Body::default();
+            } else if body.sag > bow + allowed {
+                body.sag = 0.0;
+            }
         }
         let off = |i: usize, foot: &Foot| if i < cut.body { body.off(i, foot) } else { foot.deviation };
         if cut.is_stab() {

@@ -19,6 +19,8 @@ const BEND_SHARE: f64 = 0.5;
 const LENGTH_EPSILON: f64 = 1e-3;
 /// Steps of the secant method that finds an arc: it is nearly a line.
 const SECANTS: usize = 2;
+/// By how much the way of the axis may turn more or less than the tip's on a part, rad.
+const TURN_MAX: f64 = 0.3;
 /// Turns that differ by less are the same, rad.
 const TURN_EPSILON: f64 = 1e-12;
 
@@ -140,8 +142,10 @@ impl Fade {
             let next = at - gap_at * (at - low) / (gap_at - gap_low);
             (low, gap_low, at) = (at, gap_at, next);
         }
-        let [start, end] = askew(at);
-        (at, start.abs().max(end.abs()))
+        let worst = |turn: f64| askew(turn).into_iter().map(f64::abs).fold(0.0, f64::max);
+        // On a very short part rounding alone may ask for any turn.
+        let at = if (at - turn).abs() < TURN_MAX && worst(at) < worst(turn) { at } else { turn };
+        (at, worst(at))
     }
 }
 

@@ -22,6 +22,8 @@ const LENGTH_EPSILON: f64 = 1e-3;
 const TURN_MIN: f64 = 2e-5;
 /// An arc that bows by less is a line, mm.
 const BOW_MIN: f64 = 1e-5;
+/// Shortest part of a fade, mm: shorter ones are no truer, because places are rounded.
+const FADING_MIN: f64 = 0.02;
 /// Shortest piece that is written, in steps of the last decimal: rounding turns its direction by less than a fifth of a
 /// degree.
 const STEPS_MIN: f64 = 400.0;
@@ -200,7 +202,7 @@ pub(super) fn way(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Point> {
         beside = arc.chord + usize::from(arc.stops);
         tangent += angle::turn(Rotation(tangent).unit(), arc.along);
         let mut from = 0.0;
-        for part in fade.parts(Beside { arc, tangent, done }, LENGTH_EPSILON) {
+        for part in fade.parts(Beside { arc, tangent, done }, FADING_MIN) {
             let (ends, along, length) = ([arc.at(from), arc.at(part.to)], arc.along_at(from), part.to - from);
             let turn = arc.curvature * length;
             pieces.push(pose(ends[1], part.c), Tip { ends, along, turn, more: part.turn - turn, length, feed });

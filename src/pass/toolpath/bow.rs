@@ -97,9 +97,11 @@ pub(super) fn bowed_start(run: &Run, around: &Around) -> Option<BowedStart> {
     let way = Way::new(run);
     let from = |vertex: usize| {
         let station = way.station(vertex.cast_signed());
-        let to = (station + REACH * around.knife().width_mm).min(way.length());
-        let ends = if vertex == 0 { run.ends } else { [REJOINED, run.ends[1]] };
-        let bow = Bow::new(&way.part(station, to, ends), around)?;
+        let to = station + REACH * around.knife().width_mm;
+        let start = if vertex == 0 { run.ends[0] } else { REJOINED };
+        let end = if to < way.length() { REJOINED } else { run.ends[1] };
+        let bow = Bow::new(&way.part(station, to.min(way.length()), [start, end]), around)?;
+        let bow = Bow { is_whole: bow.is_whole && to >= way.length(), ..bow };
         (bow.is_curve && !bow.is_good(around)).then_some(bow)
     };
     let bow = from(0)?;

@@ -45,8 +45,8 @@ fn split(run: Run, longest: f64, knife: &Knife) -> Vec<Run> {
     let lead =
         |station: f64| if way.leads_on(station, [heel + front, knife.width_mm]) { [heel, front] } else { [0.0; 2] };
     loop {
-        let from = if parts.is_empty() && !way.is_ring() { 0.0 } else { at - lead(at)[0] };
-        let first = if parts.is_empty() && !way.is_ring() { run.ends[0] } else { REJOINED };
+        let is_start = parts.is_empty() && !way.is_ring();
+        let (from, first) = if is_start { (0.0, run.ends[0]) } else { (at - lead(at)[0], REJOINED) };
         let rest = length - at;
         let count = (rest / longest).ceil();
         if count <= 1.0 {

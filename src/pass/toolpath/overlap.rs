@@ -25,7 +25,7 @@ pub(super) const PASS: ToolpathPass = ToolpathPass {
 };
 
 /// A way that enters the part within this length begins in it, mm: rounding.
-const INSIDE_EPSILON: f64 = 1e-6;
+pub(super) const INSIDE_EPSILON: f64 = 1e-6;
 /// Part of the tolerance by which the plunged blade may pass the start of its run.
 const PASSING_SHARE: f64 = 0.9;
 /// A shorter overlap is none, mm: rounding, which must not become a chord of the path.

@@ -7,6 +7,7 @@
 
 use super::ToolpathPass;
 use super::scene::{Around, Scene};
+use super::tight::and_more;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::polyline;
 use crate::geom::region::{Ray, Room};
@@ -42,7 +43,7 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     let harmful: Vec<&Stab> = stabs.filter(|stab| stab.harm > around.tolerance()).collect();
     let worst = harmful.iter().copied().reduce(|a, b| if b.harm > a.harm { b } else { a });
     if let Some(worst) = worst {
-        diagnostics.push(harm(worst, harmful.len() - 1, &around));
+        diagnostics.push(harm(worst, harmful.len(), &around));
     }
 }
 
@@ -125,15 +126,12 @@ fn split(surplus: f64, rooms: [Room; 2], around: &Around) -> [Share; 2] {
     shares
 }
 
-/// The worst harm of a toolpath, and in how many more places there is some.
-fn harm(stab: &Stab, others: usize, around: &Around) -> Diagnostic {
+/// The worst harm of a toolpath, and in how many places there is some.
+fn harm(stab: &Stab, count: usize, around: &Around) -> Diagnostic {
     let length = fixed(polyline::length(&stab.points), 2);
     let (width, harm) = (fixed(around.knife().width_mm, 2), fixed(stab.harm, 2));
     let block = stab.spans[stab.spans.len() - 1].block;
-    let more = match others {
-        0 => String::new(),
-        n => format!(" ({n} more in this contour)"),
-    };
+    let more = and_more(count);
     Diagnostic::new(
         &code::PATH_OVERCUT,
         format!(

@@ -18,11 +18,12 @@
 use super::bow::{BowedStart, bowed_start};
 use super::chord::{Tight, tight};
 use super::nibble::parts;
+use super::overlap::INSIDE_EPSILON;
 use super::scene::{Around, Scene};
 use super::{ToolpathPass, overlap};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::polyline;
 use crate::geom::region::Ray;
+use crate::geom::{left, polyline, ring};
 use crate::ir::toolpath::{Law, Run, Shape, Step, Toolpath};
 use crate::machine::TightCurves;
 use crate::source::Span;
@@ -86,13 +87,18 @@ impl Settling<'_> {
             TightCurves::Nibble | TightCurves::Follow => Done::Followed(run.law),
             TightCurves::Refuse => Done::Refused,
         };
-        self.tight.see((&run, done), &curves);
         // What the blade cannot enter is nibbled even where curves are followed, and what lies slightly beside it in any case.
         let is_start_nibbled = start.as_ref().is_some_and(|BowedStart { bow, .. }| match done {
             Done::Nibbled => true,
             Done::Followed(_) => !bow.fits,
             Done::Refused => bow.is_slight(&around),
         });
+        // Behind a start that alone is nibbled the rest is settled, and seen, by itself.
+        let behind =
+            start.as_ref().filter(|_| is_start_nibbled && !is_nibbled).map(|start| *start.curve.vertices.end());
+        for curve in curves.iter().filter(|curve| behind.is_none_or(|end| *curve.vertices.start() <= end)) {
+            self.tight.see(curve, run.spans[curve.at % run.spans.len()], done);
+        }
         if let Some(start) = start.as_ref().filter(|start| !start.bow.is_slight(&around))
             && (curves.is_empty() || matches!(done, Done::Followed(_)))
         {
@@ -138,19 +144,24 @@ enum Done {
 
 /// Whether all of an open run is so near to its start that the blade has no way to go on it, and would cut across.
 fn is_one_plunge(run: &Run, around: &Around) -> bool {
+    if run.shape == Shape::Ring {
+        return false;
+    }
     let mut whole = run.clone();
     overlap::give(&mut whole, around);
-    run.shape == Shape::Open && polyline::first_at_distance(&whole.extended(), around.knife().width_mm).is_none()
+    polyline::first_at_distance(&whole.extended(), around.knife().width_mm).is_none()
 }
 
 /// Whether a ring is too tight for the blade all around, and the part lies outside of it.
 fn is_narrow_hole(run: &Run, curves: &[Tight], around: &Around) -> bool {
     let chords = run.points.len() - 1;
     let is_narrow = curves.iter().any(|curve| curve.vertices.end() - curve.vertices.start() >= chords);
-    let width = around.knife().width_mm;
     let is_in_part = || {
-        let along = polyline::direction(run.points[0], run.points[1]).expect("no chord of a run has length zero");
-        around.room(&Ray { from: run.points[1], along, reach: width }).own < width
+        // Left of a ring that runs counter-clockwise is its inside.
+        let [from, to] = [run.points[0], run.points[1]];
+        let outward = -left(to - from).normalize() * ring::area(&run.points).signum();
+        let ray = Ray { from: from + (to - from) * 0.5, along: outward, reach: around.knife().width_mm };
+        around.room(&ray).own <= INSIDE_EPSILON
     };
     run.shape == Shape::Ring && is_narrow && is_in_part()
 }
@@ -192,12 +203,10 @@ struct Worst {
 }
 
 impl Worst {
-    fn see(&mut self, (run, done): (&Run, Done), curves: &[Tight]) {
-        self.curves += curves.len();
-        for curve in curves {
-            if self.tightest.is_none_or(|(radius, ..)| curve.radius < radius) {
-                self.tightest = Some((curve.radius, run.spans[curve.at % run.spans.len()], done));
-            }
+    fn see(&mut self, curve: &Tight, span: Span, done: Done) {
+        self.curves += 1;
+        if self.tightest.is_none_or(|(radius, ..)| curve.radius < radius) {
+            self.tightest = Some((curve.radius, span, done));
         }
     }
 
@@ -267,7 +276,7 @@ impl Bowed {
 }
 
 /// How many others like the one that is named there are.
-fn and_more(count: usize) -> String {
+pub(super) fn and_more(count: usize) -> String {
     match count - 1 {
         0 => String::new(),
         n => format!(" ({n} more in this contour)"),
