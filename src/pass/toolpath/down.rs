@@ -54,7 +54,7 @@ fn split(run: Run, longest: f64, knife: &Knife) -> Vec<Run> {
             parts.push(way.part(from, last, [first, end]));
             return parts;
         }
-        // So far at the least that the rest needs no part more than it does anyway, and at the most.
+        // At the least as long as leaves the rest no part more, and half of what is alike; at the most what is alike.
         let least = (rest - (count - 1.0) * longest).max(SHARE_MIN * rest / count);
         let to = way.gentlest([at + least.min(rest / count), at + rest / count], [heel + front, knife.width_mm]);
         parts.push(way.part(from, to + lead(to)[1], [first, REJOINED]));
