@@ -6,8 +6,10 @@
 //! decimals of `csv`.
 //!
 //! `front_side` and `heel_side` say where the overlaps go: into the "waste", into the "part" itself, or into a "gap" that is
-//! narrower than they should be long; `turned` whether a cut goes the other way round than the file has it, `overcut_mm`
-//! how far the blade of a stab cuts into parts because nothing else holds what it is longer by.
+//! narrower than they should be long, or along the "contour" where the knife is lifted amid it; `turned` whether a cut goes
+//! the other way round than the file has it. `front_overcut_mm` and `heel_overcut_mm` say how far the blade of a stab cuts
+//! into parts because nothing else holds what it is longer by, `neighbour_overcut_mm` how much of both lies in another
+//! part than its own.
 //!
 //! Two clocks are given. `duration_s` is what the axes need from rest to rest, not rounded; `dwell_s` how long they rest
 //! for plunge and lift, or a drill; all of both add up to the program's `time_s`. A controller has whole periods only, so
@@ -129,7 +131,8 @@ fn object(run: &Run, index: u64, piece: u32) -> String {
         "{{\"index\": {index}, \"kind\": \"{}\", \"piece\": {piece}, \"block_first\": {first}, \"block_last\": {last}, \
          \"length_mm\": {}, \"duration_s\": {}, \"dwell_s\": {}, \"ticks\": {}, \"start\": {}, \"end\": {}, \
          \"front_overlap_mm\": {}, \"heel_overlap_mm\": {}, \"front_side\": \"{}\", \"heel_side\": \"{}\", \
-         \"turned\": {turned}, \"edge\": \"{}\", \"overcut_mm\": {}, \"follow\": {}}}",
+         \"turned\": {turned}, \"edge\": \"{}\", \"front_overcut_mm\": {}, \"heel_overcut_mm\": {}, \
+         \"neighbour_overcut_mm\": {}, \"follow\": {}}}",
         run.kind,
         mm(run.length),
         exact(run.duration),
@@ -142,7 +145,9 @@ fn object(run: &Run, index: u64, piece: u32) -> String {
         side(end),
         side(start),
         edge_name(edge),
-        mm(harm),
+        mm(harm[1].total()),
+        mm(harm[0].total()),
+        mm(harm[0].other + harm[1].other),
         follow(law),
     )
 }
@@ -169,6 +174,7 @@ fn side(side: Side) -> &'static str {
         Side::Waste => "waste",
         Side::Part => "part",
         Side::Gap => "gap",
+        Side::Contour => "contour",
     }
 }
 

@@ -91,19 +91,24 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
 
 /// What was done so that no overlap harms a part.
 fn overlaps(sides: &Sides) -> String {
-    let Sides { inside, shortened, turned, backwards, harmful, overcut_mm } = *sides;
+    let Sides { inside, shortened, turned, backwards, rejoined, .. } = *sides;
     let mut out = format!("{} inside parts, {shortened} shortened", counted(inside, "end"));
     let _ = write!(out, "; {} turned round", counted(turned, "cut"));
     if backwards > 0 {
         let _ = write!(out, "\n             {} made by the back edge", counted(backwards, "cut"));
     }
-    if harmful > 0 {
-        let _ = write!(
-            out,
-            "\n             {} cut into a part, at most {} mm",
-            counted(harmful, "stab"),
-            fixed(overcut_mm, 2)
-        );
+    if rejoined > 0 {
+        let _ =
+            write!(out, "\n             {} resumed where the knife was lifted on its way", counted(rejoined, "cut"));
+    }
+    for (count, farthest, into) in [
+        (sides.harmful, sides.overcut_mm, "a part"),
+        (sides.trespassing, sides.neighbour_overcut_mm, "another part than its own"),
+    ] {
+        if count > 0 {
+            let (stabs, at_most) = (counted(count, "stab"), fixed(farthest, 2));
+            let _ = write!(out, "\n             {stabs} cut into {into}, at most {at_most} mm past an end");
+        }
     }
     out
 }
@@ -241,7 +246,14 @@ mod tests {
                 follow: Some(Follow::Chord),
                 tangent_runs: Some(2),
                 stabs: Some(1),
-                sides: Some(Sides { inside: 8, shortened: 3, turned: 1, backwards: 0, harmful: 1, overcut_mm: 1.55 }),
+                sides: Some(Sides {
+                    inside: 8,
+                    shortened: 3,
+                    turned: 1,
+                    harmful: 1,
+                    overcut_mm: 1.55,
+                    ..Sides::default()
+                }),
                 lifts: Some(101),
                 time_s: Some(119.96),
                 bulge_mm: Some(0.138_2),
@@ -287,7 +299,7 @@ mod tests {
           blade      a chord of curves, heel and tip on the line
                      2 runs along the tangent, tighter than the blade
           overlaps   8 ends inside parts, 3 shortened; 1 cut turned round
-                     1 stab cut into a part, at most 1.55 mm
+                     1 stab cut into a part, at most 1.55 mm past an end
           lifts      101
           time       2 min 0.0 s
           spent      cut 50 %, travel 17 %, turn 13 %, plunge 12 %, lift 9 %

@@ -66,7 +66,8 @@ pub fn toolpath(toolpath: &Toolpath) -> Faults {
                 if stab.points.len() < 2 || stab.spans.len() + 1 != stab.points.len() {
                     faults.push(wrong("a stab needs a span a chord"));
                 }
-                if !(stab.front >= 0.0 && stab.heel >= 0.0 && stab.harm >= 0.0) {
+                let harms = stab.harm.iter().flat_map(|harm| [harm.own, harm.other]);
+                if [stab.front, stab.heel].into_iter().chain(harms).any(|length| !(length >= 0.0)) {
                     faults.push(wrong("an overlap is negative"));
                 }
                 if (stab.along.norm() - 1.0).abs() > UNIT_EPSILON || !pose_finite(stab.pose) {

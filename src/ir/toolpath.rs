@@ -205,6 +205,24 @@ pub enum Side {
     Part,
     /// Into a gap that is narrower than the overlap: it is shortened.
     Gap,
+    /// Along the contour: the knife is lifted amid it, and goes on there.
+    Contour,
+}
+
+/// How far a blade that never moves cuts into parts beyond one of its ends, mm: it is longer than its cut, and there is no room.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Harm {
+    /// Into the part to which the cut belongs.
+    pub own: f64,
+    /// Into another one.
+    pub other: f64,
+}
+
+impl Harm {
+    /// Into either, mm.
+    pub fn total(self) -> f64 {
+        self.own + self.other
+    }
 }
 
 /// One plunge without motion: the blade is as long as what it has to cut, or longer.
@@ -226,8 +244,8 @@ pub struct Stab {
     pub turned: bool,
     /// The edge that stands at the end of the cut; `place` chooses.
     pub edge: Edge,
-    /// How far the blade cuts into parts beyond the ends, both together, mm: it is longer than the cut, and there is no room.
-    pub harm: f64,
+    /// How far the blade cuts into parts before the start and past the end.
+    pub harm: [Harm; 2],
     /// Where the axes stand at the plunge; `place` turns C.
     pub pose: Pose,
 }

@@ -11,7 +11,7 @@ use super::{Axes, Medium, Program, Sides};
 use crate::back::{Context, Emit, Estimate, Fit, Fitting, Parts, Ways};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::ir::motion::{Kind, Task};
-use crate::ir::toolpath::{Edge, Law, Side};
+use crate::ir::toolpath::{Edge, Harm, Law, Side};
 use crate::ir::{Motion, Toolpath};
 use crate::machine::{Follow, Job};
 use crate::plan::{self, Cut, Planner};
@@ -231,8 +231,15 @@ impl Sides {
         self.shortened += ends(Side::Gap);
         self.turned += usize::from(task.turned);
         self.backwards += usize::from(task.edge == Edge::Back);
-        self.harmful += usize::from(task.harm > 0.0);
-        self.overcut_mm = self.overcut_mm.max(task.harm);
+        self.rejoined += usize::from(task.sides[0] == Side::Contour);
+        for (count, farthest, of) in [
+            (&mut self.harmful, &mut self.overcut_mm, Harm::total as fn(Harm) -> f64),
+            (&mut self.trespassing, &mut self.neighbour_overcut_mm, |harm: Harm| harm.other),
+        ] {
+            let worst = task.harm.into_iter().map(of).fold(0.0, f64::max);
+            *count += usize::from(worst > 0.0);
+            *farthest = farthest.max(worst);
+        }
     }
 }
 

@@ -171,9 +171,16 @@ pub struct Sides {
     pub backwards: usize,
     /// Stabs that cut into a part.
     pub harmful: usize,
-    /// The farthest that one of them does, mm.
+    /// The farthest that one of them does beyond one of its ends, mm.
     #[serde(serialize_with = "micro")]
     pub overcut_mm: f64,
+    /// Stabs that cut into another part than their own.
+    pub trespassing: usize,
+    /// The farthest that one of them does beyond one of its ends, mm.
+    #[serde(serialize_with = "micro")]
+    pub neighbour_overcut_mm: f64,
+    /// Cuts that go on where the knife is lifted amid a contour.
+    pub rejoined: usize,
 }
 
 /// Peaks of the three axes; mm for x and y, degrees for c.

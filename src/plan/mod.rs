@@ -31,7 +31,7 @@ use self::run::whole_periods;
 use crate::diagnostic::{Diagnostic, code};
 use crate::geom::Rotation;
 use crate::ir::motion::{Kind, Motion, Phase, Poses, Spell, Task};
-use crate::ir::toolpath::{Pose, Stab, Step, Toolpath};
+use crate::ir::toolpath::{Harm, Pose, Stab, Step, Toolpath};
 use crate::machine::Job;
 use crate::source::Span;
 use crate::units::number::fixed;
@@ -94,7 +94,16 @@ impl<'a> Planner<'a> {
                     let sides = run.ends.map(|end| end.side);
                     let (front, heel, turned, edge) = (run.front, run.heel, run.turned, run.edge);
                     let (blocks, law) = (ends(&run.spans), Some(run.law));
-                    motion.tasks.push(Task { blocks, front, heel, sides, turned, edge, harm: 0.0, law });
+                    motion.tasks.push(Task {
+                        blocks,
+                        front,
+                        heel,
+                        sides,
+                        turned,
+                        edge,
+                        harm: [Harm::default(); 2],
+                        law,
+                    });
                     let mut cut = cuts.next().expect("solve gives a cut for each run");
                     cut.turn(profile.knife.yaw());
                     self.go(kind, cut.start(), &mut motion);

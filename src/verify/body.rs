@@ -1,6 +1,7 @@
 //! What a stroke cuts: the body of the blade where it plunges, then the way of its tip.
 
 use super::follow::Foot;
+use super::joints::is_curve;
 use super::reference::Line;
 use crate::geom::{Point, polyline};
 use crate::machine::Knife;
@@ -85,17 +86,24 @@ impl Body {
         let (a, b) = (feet[first].station, feet[last].station);
         let (low, high) = (a.min(b), a.max(b));
         let mut body = Self { ends: [first, last], ..Self::default() };
-        let mut turned = 0.0;
+        let mut turns: Vec<f64> = Vec::new();
         for vertex in line.vertices(low, high) {
             body.sag = body.sag.max(polyline::distance_to_segment(line.points[vertex], tail, tip));
-            turned += line.turn(vertex).abs();
+            turns.extend(Some(line.turn(vertex).abs()).filter(|&turn| turn > 0.0));
         }
+        let turned: f64 = turns.iter().sum();
         body.turned = if cut.is_stab() { turned } else { 0.0 };
         // The chord that is being left counts, too: a curve turns along its chords, not at its vertices.
         let length = line.length();
         let next = if b >= a { line.vertices(high.next_up(), high + length).next() } else { line.vertex_before(low) };
-        turned += next.map_or(0.0, |vertex| line.turn(vertex).abs());
-        body.sag = body.sag.min(polyline::sagitta((tip - tail).norm(), turned));
+        let next = next.filter(|&vertex| line.ring || (1..line.chords()).contains(&vertex));
+        let beside = match (next, &turns[..]) {
+            (Some(next), _) => line.turn(next).abs(),
+            // A curve that ends there turns along both halves of the chords at its ends, too.
+            (None, [first, .., last]) if is_curve(&turns) => f64::midpoint(*first, *last),
+            (None, _) => 0.0,
+        };
+        body.sag = body.sag.min(polyline::sagitta((tip - tail).norm(), turned + beside));
         body
     }
 

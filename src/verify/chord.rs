@@ -22,14 +22,6 @@ const STEP: f64 = 0.1;
 const TURN_MIN: f64 = 0.8;
 /// Length of a line on which it turns that much where it is tight, in widths of the blade: twice what a blade may span.
 const WIDTHS: f64 = 3.0;
-/// Part of the bow from which on a line is nibbled at which it may be, because rounding and overlaps matter.
-const BOW_SHARE: f64 = 0.9;
-/// Part of the tolerance beyond an arc of the same turn from which on a curve may be one that the blade cannot enter.
-const ENTRY_SHARE: f64 = 0.4;
-/// The same of the tolerance of a cut that the blade covers.
-const TOLERANCE_SHARE: f64 = 0.5;
-/// Greatest part of the turn under a blade that one vertex of a curve makes, by a little; one that makes more is a bend.
-const BEND_SHARE: f64 = 0.75;
 /// Halvings that place the tail between two tips: to a millionth of the way between them.
 const HALVINGS: usize = 20;
 
@@ -153,81 +145,6 @@ pub(super) fn tight(points: &[Point], ring: bool, knife: &Knife) -> Vec<[f64; 2]
         }
     }
     found
-}
-
-/// Whether a line begins at either end on a curve that a blade, plunged as a chord of it, may not enter, or may lie farther
-/// beside than `knife.max_bow_mm`.
-pub(super) fn bows_at_an_end(points: &[Point], knife: &Knife, tolerance: f64) -> bool {
-    if knife.width_mm == 0.0 || points.len() < 3 {
-        return false;
-    }
-    let heel = knife.heel_overlap_mm.max(knife.corner_heel_overlap_mm);
-    let heels = [0.0, knife.heel_overlap_mm, knife.corner_heel_overlap_mm];
-    let is_bad = |path: &[Point]| {
-        let turned = polyline::turn_within(path, knife.width_mm).min(std::f64::consts::PI);
-        // A path that turns by a under a blade of the width w lies beside it by at most w/2 tan(a/2).
-        knife.width_mm / 2.0 * (turned / 2.0).tan() > TOLERANCE_SHARE * tolerance
-            && heels.iter().filter_map(|&heel| Bow::new(path, heel, knife)).any(|bow| bow.is_bad(knife, tolerance))
-    };
-    let reach = knife.width_mm + heel;
-    let near = points.iter().rev().position(|point| (point - points[points.len() - 1]).norm() > reach);
-    // With the vertex behind, because a curve turns along its chords.
-    let backwards: Vec<Point> = points.iter().rev().take(near.map_or(points.len(), |near| near + 2)).copied().collect();
-    is_bad(points) || is_bad(&backwards)
-}
-
-/// Whether a blade that plunges anywhere on a line, round a ring, may lie beside it: the knife is lifted somewhere amid it,
-/// and what then remains may be short.
-pub(super) fn bows_anywhere(points: &[Point], ring: bool, knife: &Knife, tolerance: f64) -> bool {
-    let mut path = points.to_vec();
-    if ring {
-        path.extend_from_slice(&points[1..]);
-    }
-    let bow = |start: usize| Bow::new(&path[start..], 0.0, knife);
-    (0..points.len() - 1).filter_map(bow).any(|bow| bow.is_curve && bow.away > TOLERANCE_SHARE * tolerance)
-}
-
-/// How a line bows away from a blade that plunges as a chord of it.
-struct Bow {
-    /// How far, mm.
-    away: f64,
-    /// How far an arc would that turns as much under it, mm; none when the blade stands across.
-    arc: f64,
-    /// Whether the blade covers all of the line.
-    is_whole: bool,
-    /// Whether the line turns little by little under it, and not at one bend.
-    is_curve: bool,
-}
-
-impl Bow {
-    /// The bow at the start of a path, by a heel overlap; `None` where there is no path.
-    fn new(path: &[Point], heel: f64, knife: &Knife) -> Option<Self> {
-        let along = polyline::direction(path[0], *path.get(1)?)?;
-        let tail = path[0] - along * heel;
-        let reached = path.iter().position(|point| (point - tail).norm() >= knife.width_mm);
-        let near = reached.unwrap_or(path.len() - 1);
-        let mut under = vec![tail];
-        under.extend(path[usize::from(heel == 0.0)..=near].iter());
-        let tip = polyline::first_at_distance(&under, knife.width_mm).map_or(path[near], |(tip, _)| tip);
-        let away = under.iter().map(|&point| polyline::distance_to_segment(point, tail, tip)).fold(0.0, f64::max);
-        under.extend(path.get(near + 1));
-        let turns: Vec<f64> = under.windows(3).map(|w| polyline::turn_at(w[0], w[1], w[2]).abs()).collect();
-        let turned: f64 = turns.iter().sum();
-        let is_across = stands_across(tip - tail, along);
-        Some(Self {
-            away,
-            arc: if is_across { 0.0 } else { polyline::sagitta((tip - tail).norm(), turned) },
-            is_whole: reached.is_none(),
-            is_curve: turns.iter().all(|&turn| turn <= BEND_SHARE * turned),
-        })
-    }
-
-    /// Whether that may be too far.
-    fn is_bad(&self, knife: &Knife, tolerance: f64) -> bool {
-        let limit = (self.arc + ENTRY_SHARE * tolerance).min(BOW_SHARE * knife.max_bow_mm);
-        let limit = if self.is_whole { limit.min(TOLERANCE_SHARE * tolerance) } else { limit };
-        self.is_curve && self.away > limit
-    }
 }
 
 /// A line led straight on by its greatest overlaps, or a ring twice round; and the station of its first point there.

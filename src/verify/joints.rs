@@ -1,6 +1,6 @@
 //! Where the strokes of a line may meet: at its ends, at bends that a plunged blade cannot follow, where the knife is lifted
-//! because it was down for too long, and all along a line that is nibbled. Only there a blade may stand as a chord of a curve or be longer than what it
-//! cuts: elsewhere a curve could be cut as a polygon, and a part stabbed.
+//! because it was down for too long, and all along the stretches that are nibbled. Only there a blade may stand as a chord of
+//! a curve or be longer than what it cuts: elsewhere a curve could be cut as a polygon, and a part stabbed.
 
 use super::body::Cut;
 use super::chord::stands_across;
@@ -49,30 +49,26 @@ impl Joints {
         }
     }
 
-    /// Whether the knife may be lifted anywhere on a line: it must be somewhere, or the line is nibbled.
-    pub(super) fn are_anywhere(&self, line: &Line) -> bool {
-        line.nibbled || self.is_lifted(line)
-    }
-
     /// Whether the knife is lifted amid a line: it would be down for too long, or C has to unwind.
-    fn is_lifted(&self, line: &Line) -> bool {
+    pub(super) fn is_lifted(&self, line: &Line) -> bool {
         line.winds || self.longest.is_some_and(|longest| line.length() > longest)
     }
 
     /// How far a line may bow away from the body of a blade that plunges with its tail and its tip at two stations, mm: at
-    /// ends and bends, and where the knife was down for too long, as far as it does. On a line that is nibbled a blade that
-    /// never moves lies near to what it cuts, unless that is all there is between two of them and bent, and any other bows
-    /// by no more than is worth no word.
+    /// ends and bends, and where the knife was down for too long, as far as it does. Where the line is nibbled a blade that
+    /// never moves lies near to what it cuts, unless that is all there is between two of them, and any other bows by no
+    /// more than is worth no word.
     pub(super) fn bow(&self, line: &Line, [tail, tip]: [Around; 2], cut: &Cut) -> f64 {
         let is_at = |around: Around| self.at_end_or_bend(line, around).is_some();
-        let is_open = match (line.nibbled, cut.is_stab()) {
-            (true, true) => is_at(tail) && is_at(tip) && is_bent(line, [tail.station, tip.station]),
+        let is_nibbled = [tail, tip].iter().any(|around| line.is_nibbled(around.station));
+        let is_open = match (is_nibbled, cut.is_stab()) {
+            (true, true) => is_at(tail) && is_at(tip),
             (false, true) => self.is_lifted(line) || is_at(tail) || is_at(tip),
             (_, false) => self.is_lifted(line) || is_at(tail),
         };
         if is_open {
             f64::INFINITY
-        } else if line.nibbled && !cut.is_stab() {
+        } else if is_nibbled && !cut.is_stab() {
             self.max_bow
         } else {
             0.0
@@ -81,7 +77,7 @@ impl Joints {
 
     /// The stations of the first and the last joint about a station; `None` when there is none.
     pub(super) fn near(&self, line: &Line, around: Around) -> Option<[f64; 2]> {
-        if self.are_anywhere(line) {
+        if self.is_lifted(line) || line.is_nibbled(around.station) {
             return Some([f64::NEG_INFINITY, f64::INFINITY]);
         }
         self.at_end_or_bend(line, around)
@@ -144,10 +140,14 @@ impl Joints {
 }
 
 /// Whether a line turns at one bend between two stations, and not little by little.
-fn is_bent(line: &Line, [a, b]: [f64; 2]) -> bool {
-    let turns = line.vertices(a.min(b), a.max(b)).map(|vertex| line.turn(vertex).abs());
-    let (sum, sharpest) = turns.fold((0.0, 0.0_f64), |(sum, sharpest), turn| (sum + turn, sharpest.max(turn)));
-    sharpest > CURVE_SHARE * sum
+pub(super) fn is_bent(line: &Line, [a, b]: [f64; 2]) -> bool {
+    let turns: Vec<f64> = line.vertices(a.min(b), a.max(b)).map(|vertex| line.turn(vertex).abs()).collect();
+    !is_curve(&turns)
+}
+
+/// Whether turns are those of a curve: none of them makes most of what they are together.
+pub(super) fn is_curve(turns: &[f64]) -> bool {
+    turns.iter().fold(0.0, |sharpest: f64, &turn| sharpest.max(turn)) <= CURVE_SHARE * turns.iter().sum::<f64>()
 }
 
 /// A path led straight on beyond its end.

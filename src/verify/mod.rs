@@ -24,6 +24,7 @@ mod joints;
 mod kept;
 mod limits;
 mod naming;
+mod nibbles;
 mod notches;
 mod npy;
 mod order;

@@ -113,8 +113,9 @@ impl<'a> Overcut<'a> {
             return;
         }
         let points = &stroke.cut.points;
-        let cloth: Vec<Option<Cloth>> =
-            (0..points.len()).map(|i| (beyond[i] > self.rounding).then(|| self.at(points[i], stroke, lines))).collect();
+        let cloth: Vec<Option<Cloth>> = (0..points.len())
+            .map(|i| (beyond[i] > self.rounding).then(|| self.at(points[i], stroke.line, lines)))
+            .collect();
         let (mut sums, mut groups) = ([0.0; 2], [(0.0, 0); 2]);
         let mut from = 0;
         for group in cloth.chunk_by(|a, b| a == b) {
@@ -141,8 +142,9 @@ impl<'a> Overcut<'a> {
                 .filter(|&(near, before)| beyond[before] < beyond[near])
                 .min_by(|a, b| beyond[a.1].total_cmp(&beyond[b.1]))
                 .unwrap_or((far, far));
-            let entry = if cloth[before].is_some() && before != near {
-                beyond[near] - self.entered([points[before], points[near]], group[0], stroke, lines)
+            let entry = if before != near {
+                let entered = self.entered([points[before], points[near]], group[0], stroke.line, lines);
+                (beyond[near] - entered).max(0.0)
             } else {
                 0.0
             };
@@ -169,13 +171,13 @@ impl<'a> Overcut<'a> {
     }
 
     /// What lies at a place beyond an end of a line. A part in which the line itself lies is no neighbour: so it is drawn.
-    fn at(&self, point: Point, stroke: &Stroke, lines: Lines) -> Cloth {
+    fn at(&self, point: Point, line: &Line, lines: Lines) -> Cloth {
         let pieces = self.inside.pieces_at(point);
-        if pieces.contains(&self.inside.part_of(stroke.line.piece)) {
+        if pieces.contains(&self.inside.part_of(line.piece)) {
             return Cloth::Part;
         }
         let is_drawn_in = |piece: &usize| {
-            let ends = [stroke.line.points[0], stroke.line.points[stroke.line.points.len() - 1]];
+            let ends = [line.points[0], line.points[line.points.len() - 1]];
             ends.into_iter().any(|end| {
                 self.inside.pieces_at(end).contains(piece) && lines.is_away_from(end, *piece, self.tolerance)
             })
@@ -184,11 +186,11 @@ impl<'a> Overcut<'a> {
     }
 
     /// How far before the second of two places, between which a way enters some cloth, it does so, mm.
-    fn entered(&self, [mut before, behind]: [Point; 2], cloth: Option<Cloth>, stroke: &Stroke, lines: Lines) -> f64 {
+    fn entered(&self, [mut before, behind]: [Point; 2], cloth: Option<Cloth>, line: &Line, lines: Lines) -> f64 {
         let mut after = behind;
         for _ in 0..HALVINGS {
             let middle = before + (after - before) / 2.0;
-            if Some(self.at(middle, stroke, lines)) == cloth { after = middle } else { before = middle }
+            if Some(self.at(middle, line, lines)) == cloth { after = middle } else { before = middle }
         }
         (behind - after).norm()
     }
@@ -198,32 +200,50 @@ impl<'a> Overcut<'a> {
     fn unavoidable(&self, stroke: &Stroke, lines: Lines) -> [f64; 2] {
         let Some([from, to]) = stroke.fits else { return [0.0; 2] };
         // Behind a slight bend a blade stays in the tube for a while, so that it may have been meant to end at either.
-        let [inner, outer] = [innermost([from, to]), [from[0], to[1]]].map(|stations| {
-            let [start, end] = stations.map(|station| stroke.line.place(station));
-            let Some(along) = polyline::direction(start, end) else { return [0.0; 2] };
-            let rooms = [self.room(start, -along, stroke, lines), self.room(end, along, stroke, lines)];
-            let surplus = self.width - (end - start).norm();
-            let clear = |gap: f64| (gap - self.clearance).max(0.0);
-            let least = |room: [f64; 2]| clear(room[0].min(room[1]));
-            let other = |room: [f64; 2]| clear(room[1]);
-            [surplus - least(rooms[0]) - least(rooms[1]), surplus - other(rooms[0]) - other(rooms[1])]
-        });
-        [0, 1].map(|i| inner[i].max(outer[i]).max(0.0))
+        let [inner, outer] =
+            [innermost([from, to]), [from[0], to[1]]].map(|ends| self.spared(ends, stroke.line, lines));
+        [0, 1].map(|i| inner[i].max(outer[i]))
+    }
+
+    /// The same where the cut goes from one station of its line to another.
+    fn spared(&self, stations: [f64; 2], line: &Line, lines: Lines) -> [f64; 2] {
+        let [start, end] = stations.map(|station| line.place(station));
+        let Some(along) = polyline::direction(start, end) else { return [0.0; 2] };
+        let rooms = [self.room(start, -along, line, lines), self.room(end, along, line, lines)];
+        let surplus = self.width - (end - start).norm();
+        let clear = |gap: f64| (gap - self.clearance).max(0.0);
+        let least = |room: [f64; 2]| clear(room[0].min(room[1]));
+        let other = |room: [f64; 2]| clear(room[1]);
+        let spared = [surplus - least(rooms[0]) - least(rooms[1]), surplus - other(rooms[0]) - other(rooms[1])];
+        spared.map(|spared| spared.max(0.0))
+    }
+
+    /// How far a blade reaches into the part, alike at both ends, where it cuts a curve between two stations by as many
+    /// plunges of one length as keep it within the tolerance, mm: chords of an arc of its length and its turn.
+    pub(super) fn of_nibbles(&self, [from, to]: [f64; 2], line: &Line, lines: Lines) -> f64 {
+        let turned: f64 = line.vertices(from, to).map(|vertex| line.turn(vertex).abs()).sum();
+        let count = ((to - from) * turned / (8.0 * self.tolerance)).sqrt().ceil().max(1.0);
+        let station = |i: f64| from + (to - from) * i / count;
+        let of = |i: usize| self.spared([station(i as f64), station((i + 1) as f64)], line, lines)[0] / 2.0;
+        (0..count as usize).map(of).fold(0.0, f64::max)
     }
 
     /// How far a way from a place goes before it enters the part, and before it enters another, mm; the blade's width when
     /// it does not.
-    fn room(&self, from: Point, along: Vector, stroke: &Stroke, lines: Lines) -> [f64; 2] {
+    fn room(&self, from: Point, along: Vector, line: &Line, lines: Lines) -> [f64; 2] {
         let mut room = [self.width; 2];
         let mut entry: Option<(Cloth, f64)> = None;
+        // From where on it runs along an edge that is cut anyway: rounding decides in what cloth that is.
+        let mut edge: Option<f64> = None;
         let steps = (self.width / STEP).ceil() as usize;
         for i in 1..=steps {
             let way = STEP * i as f64;
             let (place, before) = (from + along * way, from + along * (way - STEP));
-            let cloth = self.at(place, stroke, lines);
+            let cloth = self.at(place, line, lines);
             let kind = match cloth {
                 Cloth::Waste => {
-                    entry = None;
+                    let is_along = !lines.is_away(place, ROOM_SHARE * self.tolerance);
+                    (entry, edge) = (None, if is_along { edge.or(Some(way - STEP)) } else { None });
                     continue;
                 }
                 Cloth::Part => 0,
@@ -232,9 +252,9 @@ impl<'a> Overcut<'a> {
             let entered = match entry {
                 Some((same, entered)) if same == cloth => entered,
                 Some(_) | None if i == 1 => 0.0,
-                Some(_) | None => way - self.entered([before, place], Some(cloth), stroke, lines),
+                Some(_) | None => edge.unwrap_or_else(|| way - self.entered([before, place], Some(cloth), line, lines)),
             };
-            entry = Some((cloth, entered));
+            (entry, edge) = (Some((cloth, entered)), None);
             if lines.is_away(place, ROOM_SHARE * self.tolerance) {
                 room[kind] = room[kind].min(entered);
             }

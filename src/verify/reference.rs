@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 use super::caps::{Caps, End, Feeds};
 use super::chord;
+use super::nibbles::{self, Blade};
 use super::notches;
 use crate::geom::{Point, Vector, angle, left, polyline};
 use crate::ir::Marker;
@@ -50,8 +51,8 @@ pub(super) struct Line {
     pub(super) winds: bool,
     /// By the stations of tail and tip: where it is too tight for the blade to be its chord.
     pub(super) tight: Box<[[f64; 2]]>,
-    /// Whether it may be nibbled: cut by plunges without motion.
-    pub(super) nibbled: bool,
+    /// By stations: where it may be nibbled, which is cut by plunges without motion.
+    pub(super) nibbled: Box<[[f64; 2]]>,
 }
 
 /// All lines of a marker.
@@ -135,16 +136,18 @@ impl OfPiece {
         for line in &mut lines {
             // What begins on a curve that the blade has no way to enter may be nibbled, whatever is done about others.
             let is_lifted = line.winds || knife.longest_cut().is_some_and(|longest| line.length() > longest);
-            let is_bowed = if is_lifted {
-                chord::bows_anywhere(&line.points, line.ring, knife, tolerance)
-            } else {
-                !line.ring && chord::bows_at_an_end(&line.points, knife, tolerance)
-            };
+            let blade = Blade { knife, tolerance };
+            let ends = if is_lifted || line.ring { [0.0; 2] } else { nibbles::bowed_ends(&line.points, blade) };
+            let is_bowed = ends != [0.0; 2] || is_lifted && nibbles::bows_anywhere(line, blade);
             let is_nibbling = knife.tight_curves == TightCurves::Nibble;
             if is_bowed || is_nibbling || knife.follow == Follow::Chord {
                 line.tight = chord::tight(&line.points, line.ring, knife).into();
             }
-            line.nibbled = is_bowed || is_nibbling && !line.tight.is_empty();
+            line.nibbled = match is_bowed || is_nibbling && !line.tight.is_empty() {
+                false => Box::default(),
+                true if is_lifted => Box::new([[f64::NEG_INFINITY, f64::INFINITY]]),
+                true => nibbles::stretches(line, ends, blade),
+            };
         }
         Self { lines, ranks: rank() }
     }
@@ -173,7 +176,7 @@ fn slit(stroke: &Stroke, [piece, rank]: [usize; 2], cap: f64) -> Line {
         ring: false,
         winds: false,
         tight: Box::default(),
-        nibbled: false,
+        nibbled: Box::default(),
     }
 }
 
@@ -229,7 +232,7 @@ fn contour_lines(mut segments: Vec<Segment>, closed: bool, place: Place) -> Vec<
                 ring,
                 winds: false,
                 tight: Box::default(),
-                nibbled: false,
+                nibbled: Box::default(),
             });
             from = i;
         }
@@ -334,6 +337,14 @@ impl Line {
             let by = lap + f64::from(i) * self.length();
             self.tight.iter().any(|[a, b]| a + by <= high && b + by >= low)
         })
+    }
+
+    /// Whether it may be nibbled at a station, which on a ring may lie on any lap.
+    pub(super) fn is_nibbled(&self, station: f64) -> bool {
+        let laps = if self.ring { &[0.0, 1.0, -1.0][..] } else { &[0.0] };
+        let station = if self.ring { station.rem_euclid(self.length()) } else { station };
+        let is_in = |[low, high]: &[f64; 2], lap: f64| (*low..=*high).contains(&(station + lap * self.length()));
+        self.nibbled.iter().any(|stretch| laps.iter().any(|&lap| is_in(stretch, lap)))
     }
 
     /// Turn of the line at a vertex, rad; none at the ends of an open line.

@@ -31,6 +31,8 @@ const CAP_ASIDE: f64 = 0.5;
 
 /// Parts in which a step is held against caps, at the most: no step of a sound program has more.
 const PARTS_MAX: f64 = 32.0;
+/// Greatest turn of a curve that one straight plunge may stand for, rad (110 degrees).
+const COVERED_TURN: f64 = 1.92;
 /// Part of a feed that F may ask for too much: rounding, and where a line stands for an arc its ends are a little faster
 /// than its middle.
 const FEED_EPSILON: f64 = 1e-3;
@@ -227,7 +229,8 @@ impl<'a> Judge<'a> {
         let first = &stroke.rows[0];
         let Some(mut best) = self.tracer.choose(trace, cut, &done.coverage) else { return };
         let line = &self.reference.lines[best.line];
-        if let (true, Some(hull)) = (cut.is_stab(), done.coverage.uncut(best.line, &best.stretches)) {
+        let uncut = |stretches: &[[f64; 2]]| done.coverage.uncut(best.line, stretches);
+        if let (true, Some(hull)) = (cut.is_stab(), uncut(&best.held_stretches()).or_else(|| uncut(&best.stretches))) {
             (best.hull, best.fits) = (hull, self.fits(line, hull));
         }
         done.order.see(first.tick, line.rank, stroke.sighting(cut, cut.body));
@@ -250,6 +253,7 @@ impl<'a> Judge<'a> {
         };
         if cut.is_stab() {
             self.check_stab(cut, best, &seen, &mut worsts);
+            worsts.on_path.see(self.left_beside(cut, best), || seen(cut.body));
         }
         worsts.on_path.see(best.worst.0, || seen(best.worst.1));
         self.check_ends(best, &seen, &mut worsts.stray);
@@ -322,6 +326,24 @@ impl<'a> Judge<'a> {
         worsts.heading.see(beyond.to_degrees(), || seen(cut.body));
     }
 
+    /// How far a curve lies beside the blade that covers it, mm, where cutting it by several plunges would reach less far into
+    /// the part, or the blade stands across it; else none.
+    fn left_beside(&self, cut: &Cut, trial: &Trial) -> f64 {
+        if trial.covered <= self.tracer.allowed {
+            return 0.0;
+        }
+        let line = &self.reference.lines[trial.line];
+        let blade = cut.points[cut.body] - cut.points[0];
+        let [tail, tip] = [0, cut.body].map(|end| trial.feet[end].station);
+        let ends = [tail.min(tip), tail.max(tip)];
+        let lines = Lines { reference: self.reference, grid: &self.tracer.grid };
+        let spared = self.overcut.of_nibbles(ends, line, lines);
+        let turned: f64 = line.vertices(ends[0], ends[1]).map(|vertex| line.turn(vertex).abs()).sum();
+        let is_across = turned > COVERED_TURN
+            || chord::stands_across(blade * (tip - tail).signum(), line.direction(line.chord_at(ends[0])));
+        if is_across || trial.covered > spared + self.tracer.allowed { trial.covered } else { 0.0 }
+    }
+
     /// How much of a line a stroke cuts twice, mm, but for what the blade of a stab is longer by than what was left.
     fn twice(&self, trial: &Trial) -> f64 {
         let mut twice = trial.stretches.iter().map(|[a, b]| b - a).sum::<f64>() - trial.fresh;
@@ -347,7 +369,7 @@ impl<'a> Judge<'a> {
             let is_inner = station > slack && station < line.length() - slack;
             is_inner && self.tracer.joints.near(line, Around { station, slack, tube }).is_some()
         };
-        self.tracer.joints.are_anywhere(line)
+        self.tracer.joints.is_lifted(line)
             || trial.feet.first().is_some_and(is_amid)
             || trial.feet.last().is_some_and(is_amid)
     }
@@ -430,7 +452,10 @@ impl<'a> Judge<'a> {
         let (start, end) = (line.points[0], line.points[line.points.len() - 1]);
         let width = self.knife.width_mm;
         let is_short = || line.points.iter().all(|point| (point - start).norm() < width);
-        let surplus = if trial.fits.is_some() {
+        let surplus = if trial.covered > 0.0 {
+            // A chord is shorter than its curve.
+            width - (line.place(trial.hull[1]) - line.place(trial.hull[0])).norm()
+        } else if trial.fits.is_some() {
             width - trial.fresh
         } else if is_short() {
             width - (end - start).norm()

@@ -6,7 +6,7 @@ use super::body::{Body, Cut};
 use super::coverage::Coverage;
 use super::follow::{Follower, Foot, on_chord};
 use super::grid::Grid;
-use super::joints::{Around, Joints};
+use super::joints::{self, Around, Joints};
 use super::passing::{longest, passed, skipped};
 use super::reference::{Line, Reference};
 
@@ -56,6 +56,8 @@ pub(super) struct Trial {
     pub(super) held: RangeInclusive<usize>,
     /// The joints between which it is a stab that fits what was left of its line: its blade may then be longer.
     pub(super) fits: Option<[[f64; 2]; 2]>,
+    /// How far a curve that could be nibbled bows away from the blade that covers it, mm.
+    pub(super) covered: f64,
     /// From where to where it cuts what was not cut before.
     pub(super) hull: [f64; 2],
 }
@@ -202,13 +204,18 @@ impl Tracer<'_> {
             laps,
             held: first..=points.len() - 1,
             fits: None,
+            covered: 0.0,
             hull: [0.0; 2],
         };
         let mut body = if laps { Body::default() } else { Body::new(line, cut, &trial.feet, allowed) };
-        let is_nibble = line.nibbled && cut.is_stab() && !laps;
+        let ends = [0, cut.body].map(|end| trial.feet[end].station);
+        let is_nibble = cut.is_stab() && !laps && ends.iter().any(|&station| line.is_nibbled(station));
         if is_nibble || body.sag > allowed {
             let around = |end: usize| Around { station: trial.feet[end].station, slack: 2.0 * allowed, tube: 0.0 };
             let bow = self.joints.bow(line, body.ends.map(around), cut);
+            if is_nibble && !joints::is_bent(line, body.ends.map(|end| trial.feet[end].station)) {
+                trial.covered = body.sag.min(bow);
+            }
             if is_nibble && bow == 0.0 {
                 // What nibbles is within the tolerance of what it cuts.
                 body = Body::default();
@@ -271,6 +278,13 @@ impl Trial {
     /// +1 when the tip goes with the line, -1 when it goes against it.
     pub(super) fn sign(&self, cut: &Cut) -> f64 {
         if self.feet[cut.points.len() - 1].station < self.feet[cut.body].station { -1.0 } else { 1.0 }
+    }
+
+    /// Those of its stretches that are held to the line: a blade's surplus may cross it once more.
+    pub(super) fn held_stretches(&self) -> Vec<[f64; 2]> {
+        let [a, b] = [*self.held.start(), *self.held.end()].map(|i| self.feet[i].station);
+        let is_held = |[low, high]: &[f64; 2]| *low <= a.max(b) && *high >= a.min(b);
+        self.stretches.iter().copied().filter(is_held).collect()
     }
 
     fn note(&mut self, deviation: f64, place: usize) {

@@ -2,7 +2,7 @@
 
 use super::markup::{PathData, blocks, escape};
 use crate::geom::{Point, Vector, left, polyline};
-use crate::ir::toolpath::{Edge, Event, Law, Pose, Run, Shape, Step, Toolpath};
+use crate::ir::toolpath::{Edge, Event, Harm, Law, Pose, Run, Shape, Step, Toolpath};
 use crate::machine::Knife;
 use crate::source::Span;
 use crate::units::number::fixed;
@@ -98,10 +98,13 @@ impl Group<'_> {
                     + by_edge(stab.edge)
                     + &harm(stab.harm);
                 self.cuts.push_str(&data.titled("stab", &title));
-                let class = if stab.harm > 0.0 { &mut self.harm } else { &mut self.over };
                 let half = OVERLAP_HALF_THICKNESS * self.unit;
-                overlap(class, &[tail, stab.points[0]], [stab.heel, half]);
-                overlap(class, &[stab.points[stab.points.len() - 1], tip], [stab.front, half]);
+                let last = stab.points[stab.points.len() - 1];
+                let ends = [([tail, stab.points[0]], stab.heel), ([last, tip], stab.front)];
+                for ((way, length), harm) in ends.into_iter().zip(stab.harm) {
+                    let class = if harm.total() > 0.0 { &mut self.harm } else { &mut self.over };
+                    overlap(class, &way, [length, half]);
+                }
                 self.plunge.circle(tip, PLUNGE_RADIUS * self.unit);
                 self.lift.circle(tip, LIFT_RADIUS * self.unit);
             }
@@ -208,8 +211,13 @@ fn chord(law: Law) -> &'static str {
 }
 
 /// Said of a stab that cuts into a part.
-fn harm(harm: f64) -> String {
-    if harm > 0.0 { format!(", {} mm too far into a part", fixed(harm, 2)) } else { String::new() }
+fn harm(harm: [Harm; 2]) -> String {
+    let beyond = |harm: Harm, end: &str| match [harm.own, harm.other].map(|length| length > 0.0) {
+        [false, false] => String::new(),
+        [_, false] => format!(", {} mm {end} into its part", fixed(harm.own, 2)),
+        [_, true] => format!(", {} mm {end}, {} of it into another part", fixed(harm.total(), 2), fixed(harm.other, 2)),
+    };
+    beyond(harm[0], "before its start") + &beyond(harm[1], "past its end")
 }
 
 /// The outline of a band along a polyline: its left side forth, its right side back.

@@ -31,7 +31,7 @@
 //!   point 0 0 full-advance
 //!   point 60 0 @4..9#2
 //!   point 100 0 @10..19#3 lift no-overcut
-//! stab along 1 0 front 1 heel 0.5 turned backwards harm 0.5
+//! stab along 1 0 front 1 heel 0.5 turned backwards harm 0.5 0 0.3 0.2
 //!   ends corner corner
 //!   sides part gap
 //!   pose 3 0 c-rad 0
@@ -46,6 +46,7 @@
 //! before it ends, so `from` stands where a contour starts. The words behind a segment are what the file asks for where it
 //! starts, those behind a point what it asks for there. A contour is printed in the direction that it is walked in and
 //! read as one that is walked in list order: the same segments, the same joints.
+//! `harm` has what is cut too far of the part itself and of others before the start, and the same past the end.
 //! `sides` stands where an end has another than `waste`, `part` behind the number of a piece that is not the first.
 
 mod print;
@@ -78,7 +79,8 @@ const ENDS: [(&str, End); 4] = [
     ("corner-bare", End { corner: true, bare: true, side: Side::Waste }),
 ];
 
-const SIDES: [(&str, Side); 3] = [("waste", Side::Waste), ("part", Side::Part), ("gap", Side::Gap)];
+const SIDES: [(&str, Side); 4] =
+    [("waste", Side::Waste), ("part", Side::Part), ("gap", Side::Gap), ("contour", Side::Contour)];
 
 const EVENTS: [(&str, Event); 2] = [("stop", Event::Stop), ("advance", Event::Advance)];
 

@@ -6,7 +6,7 @@ use super::{ENDS, EVENTS, JOINTS, LAWS, SHAPES, SIDES};
 use crate::geom::Point;
 use crate::ir::list::{FULL_SPEED, Joint, Segment};
 use crate::ir::marker::{Label, Marker, NotchKind, Piece, Vee};
-use crate::ir::toolpath::{Edge, End, Pose, Run, Side, Stab, Step, Toolpath};
+use crate::ir::toolpath::{Edge, End, Harm, Pose, Run, Side, Stab, Step, Toolpath};
 use crate::source::Span;
 use crate::units::number::exact;
 
@@ -142,8 +142,11 @@ fn print_stab(out: &mut String, stab: &Stab) {
     let along = Xy(Point::from(stab.along));
     push(out, format_args!("stab along {along} front {} heel {}", exact(stab.front), exact(stab.heel)));
     push(out, format_args!("{}{}", turned(stab.turned), backwards(stab.edge)));
-    if stab.harm > 0.0 {
-        push(out, format_args!(" harm {}", exact(stab.harm)));
+    if stab.harm != [Harm::default(); 2] {
+        out.push_str(" harm");
+        for length in stab.harm.iter().flat_map(|harm| [harm.own, harm.other]) {
+            push(out, format_args!(" {}", exact(length)));
+        }
     }
     out.push('\n');
     print_ends(out, stab.ends);

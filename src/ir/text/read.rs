@@ -8,7 +8,7 @@ use super::{ENDS, EVENTS, JOINTS, LAWS, SHAPES, SIDES};
 use crate::geom::{Heading, Point, Vector};
 use crate::ir::list::{FULL_SPEED, Joint, Segment};
 use crate::ir::marker::{Contour, Drill, Event, Field, Label, Marker, Notch, NotchKind, Piece, Stroke, Vee};
-use crate::ir::toolpath::{self, Air, Edge, End, Pose, Run, Stab, Step, Toolpath};
+use crate::ir::toolpath::{self, Air, Edge, End, Harm, Pose, Run, Stab, Step, Toolpath};
 use crate::source::Span;
 
 /// A text that is not what [`print_marker`](super::print_marker) or [`print_toolpath`](super::print_toolpath) writes.
@@ -215,7 +215,12 @@ fn stab(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Stab> {
     let (front, heel) = overlaps(line)?;
     let turned = line.has("turned");
     let edge = edge(line);
-    let harm = if line.has("harm") { line.number()? } else { 0.0 };
+    let mut harm = [Harm::default(); 2];
+    if line.has("harm") {
+        for end in &mut harm {
+            *end = Harm { own: line.number()?, other: line.number()? };
+        }
+    }
     let ends = ends(lines)?;
     let pose = pose_line(lines, "pose")?;
     let (mut points, mut spans) = (Vec::new(), Vec::new());

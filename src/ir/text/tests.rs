@@ -2,7 +2,7 @@ use super::*;
 use crate::geom::{Heading, Point, Rotation, Vector};
 use crate::ir::list::Segment;
 use crate::ir::marker::{self, Contour, Drill, Field, Label, Marker, Notch, NotchKind, Piece, Vee};
-use crate::ir::toolpath::{self, Air, Edge, Pose, Run, Stab, Step, Toolpath};
+use crate::ir::toolpath::{self, Air, Edge, Harm, Pose, Run, Stab, Step, Toolpath};
 use crate::source::Span;
 
 /// Seeded numbers (`splitmix64`, Steele, Lea & Flood 2014).
@@ -23,6 +23,11 @@ impl Random {
 
     fn flag(&mut self) -> bool {
         self.below(2) == 0
+    }
+
+    fn harm(&mut self) -> Harm {
+        let mut length = || if self.flag() { self.number().abs() } else { 0.0 };
+        Harm { own: length(), other: length() }
     }
 
     /// Numbers on a grid, full mantissas, and magnitudes far from 1.
@@ -153,7 +158,7 @@ fn step(random: &mut Random) -> Step {
                 ends: [random.end(), random.end()],
                 turned: random.flag(),
                 edge: if random.flag() { Edge::Back } else { Edge::Front },
-                harm: if random.flag() { random.number().abs() } else { 0.0 },
+                harm: [random.harm(), random.harm()],
                 pose: random.pose(),
             })
         }

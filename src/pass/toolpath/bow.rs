@@ -1,6 +1,6 @@
 //! How a blade lies over the start of a run, where it plunges as a chord.
 
-use super::chord::{Tight, radius, stands_across};
+use super::chord::{Tight, least_radius, radius, stands_across};
 use super::nibble::NIBBLE_SHARE;
 use super::overlap;
 use super::scene::Around;
@@ -29,6 +29,8 @@ pub(super) struct Bow {
     pub(super) is_whole: bool,
     /// Whether what lies under it turns little by little, and not at one bend.
     pub(super) is_curve: bool,
+    /// How much that turns, to either side, rad.
+    pub(super) turned: f64,
 }
 
 impl Bow {
@@ -49,9 +51,13 @@ impl Bow {
         let turns: Vec<f64> =
             path.windows(3).take(chord + 1).map(|w| polyline::turn_at(w[0], w[1], w[2]).abs()).collect();
         let turned: f64 = turns.iter().sum();
+        let is_curve = turns.iter().all(|&turn| turn <= BEND_SHARE * turned);
+        // A curve that it covers turns along both halves of the chords at its ends, too.
+        let is_covered = is_curve && reached.is_none();
+        let outer = if is_covered { f64::midpoint(*turns.first()?, *turns.last()?) } else { 0.0 };
         let blade = tip - path[0];
         let is_across = polyline::direction(path[0], path[1]).is_some_and(|first| stands_across(blade, first));
-        let arc = if is_across { 0.0 } else { polyline::sagitta(blade.norm(), turned) };
+        let arc = if is_across { 0.0 } else { polyline::sagitta(blade.norm(), turned + outer) };
         let away = |i: usize| polyline::distance_to_segment(path[i], path[0], tip);
         let inner = (skipped + 1..=chord).filter(|&i| i - skipped + 1 < run.points.len());
         let worst = inner.max_by(|&a, &b| away(a).total_cmp(&away(b)))?;
@@ -60,7 +66,8 @@ impl Bow {
             away: away(worst),
             fits: away(worst) <= arc + SHARE * around.tolerance(),
             is_whole: reached.is_none(),
-            is_curve: turns.iter().all(|&turn| turn <= BEND_SHARE * turned),
+            is_curve,
+            turned: turned + outer,
         })
     }
 
@@ -107,8 +114,9 @@ pub(super) fn bowed_start(run: &Run, around: &Around) -> Option<BowedStart> {
     let bow = from(0)?;
     let end = (1..way.chords()).find(|&vertex| from(vertex).is_none()).unwrap_or(way.chords());
     let radius = |vertex: usize| radius(&run.points, vertex);
-    let at = (1..end.max(2)).min_by(|&a, &b| radius(a).total_cmp(&radius(b)))?;
-    Some(BowedStart { bow, curve: Tight { vertices: 0..=end, radius: radius(at), at } })
+    let under = 1..=end.saturating_sub(1).max(1);
+    let at = under.clone().min_by(|&a, &b| radius(a).total_cmp(&radius(b)))?;
+    Some(BowedStart { bow, curve: Tight { vertices: 0..=end, radius: least_radius(&run.points, under), at } })
 }
 
 /// Whether a run turns enough near its start to lie anything but well beside the blade: a path that turns by a under a blade

@@ -24,7 +24,7 @@ const ARC_SHARE: f64 = 0.55;
 pub(super) struct Tight {
     /// Its vertices: where a run turns so sharply that the blade cannot follow. On a ring they go on past its end.
     pub(super) vertices: RangeInclusive<usize>,
-    /// Its least radius, mm: that of the arc with the shorter chord at a vertex and the turn there.
+    /// Its least radius, mm.
     pub(super) radius: f64,
     /// The vertex of that radius.
     pub(super) at: usize,
@@ -154,23 +154,45 @@ pub(super) fn radius(path: &[Point], vertex: usize) -> f64 {
     (b - a).norm().min((c - b).norm()) / (2.0 * (polyline::turn_at(a, b, c).abs() / 2.0).sin())
 }
 
+/// Chords of a curve over which its radius is taken: over fewer it would be that of their rounding.
+const RADIUS_CHORDS: usize = 3;
+
+/// Least radius of a curve from one inner vertex of a path to another, mm: its length over its turn, of that at either end one half.
+pub(super) fn least_radius(path: &[Point], vertices: RangeInclusive<usize>) -> f64 {
+    let (first, last) = vertices.into_inner();
+    if first == last {
+        return radius(path, first);
+    }
+    let turn = |vertex: usize| polyline::turn_at(path[vertex - 1], path[vertex], path[vertex + 1]).abs();
+    let chords = RADIUS_CHORDS.min(last - first);
+    let of = |from: usize| {
+        let to = from + chords;
+        let turned = f64::midpoint(turn(from), turn(to)) + (from + 1..to).map(turn).sum::<f64>();
+        polyline::length(&path[from..=to]) / turned
+    };
+    (first..=last - chords).map(of).fold(f64::INFINITY, f64::min)
+}
+
 /// From the first to the last of some vertices that belong to curves tighter than the blade is wide, or of all when none
 /// does; `None` when there are none at all.
 fn stretch(path: &[Point], vertices: RangeInclusive<usize>, width: f64) -> Option<Tight> {
     let radius = |vertex: usize| radius(path, vertex);
     let at = vertices.clone().min_by(|&a, &b| radius(a).total_cmp(&radius(b)))?;
     let (first, last) = (*vertices.start(), *vertices.end());
-    // What goes on as tight as that belongs to the same curve, whether or not the blade could be a chord of its end.
-    let is_tight = |vertex: &usize| radius(*vertex) < ARC_SHARE * width;
-    let first = (1..first).rev().take_while(is_tight).last().unwrap_or(first);
-    let last = (last + 1..path.len() - 1).take_while(is_tight).last().unwrap_or(last);
+    // What goes on as tight as that belongs to the same curve, whether or not the blade could be a chord of its end. A chord
+    // on which the blade has a way to go parts two curves.
+    let is_tight = |vertex: usize, chord: usize| {
+        radius(vertex) < ARC_SHARE * width && (path[chord + 1] - path[chord]).norm() < width
+    };
+    let first = (1..first).rev().take_while(|&v| is_tight(v, v)).last().unwrap_or(first);
+    let last = (last + 1..path.len() - 1).take_while(|&v| is_tight(v, v - 1)).last().unwrap_or(last);
     let mut tight = (first..=last).filter(|&vertex| radius(vertex) < width);
     let ends = match (tight.next(), tight.next_back()) {
         (Some(first), Some(last)) => first..=last,
         (Some(only), None) => only..=only,
         (None, _) => vertices,
     };
-    Some(Tight { vertices: ends, radius: radius(at), at })
+    Some(Tight { radius: least_radius(path, ends.clone()), vertices: ends, at })
 }
 
 #[cfg(test)]

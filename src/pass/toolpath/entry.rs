@@ -8,8 +8,9 @@
 use super::ToolpathPass;
 use super::bow::Bow;
 use super::scene::{Around, Scene};
+use super::stretch::REJOINED;
 use crate::diagnostic::Diagnostics;
-use crate::ir::toolpath::{End, Run, Shape, Side, Step, Toolpath};
+use crate::ir::toolpath::{Run, Shape, Step, Toolpath};
 
 pub(super) const PASS: ToolpathPass = ToolpathPass {
     name: "entry",
@@ -17,9 +18,6 @@ pub(super) const PASS: ToolpathPass = ToolpathPass {
     run,
     chained: false,
 };
-
-/// What a bend is cut as.
-const BEND: End = End { corner: true, bare: true, side: Side::Waste };
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
     let around = scene.around(toolpath);
@@ -56,7 +54,7 @@ fn split(run: &Run, at: usize) -> (Run, Run) {
         spans: run.spans[..at].to_vec(),
         joints: run.joints[..=at].to_vec(),
         feeds: run.feeds[..at].to_vec(),
-        ends: [start, BEND],
+        ends: [start, REJOINED],
         ..*run
     };
     let behind = Run {
@@ -64,7 +62,7 @@ fn split(run: &Run, at: usize) -> (Run, Run) {
         spans: run.spans[at..].to_vec(),
         joints: run.joints[at..].to_vec(),
         feeds: run.feeds[at..].to_vec(),
-        ends: [BEND, end],
+        ends: [REJOINED, end],
         ..*run
     };
     (before, behind)

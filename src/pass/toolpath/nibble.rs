@@ -3,6 +3,7 @@
 use super::chord::Tight;
 use super::scene::Around;
 use super::stretch::{REJOINED, Way};
+use super::{overlap, stab};
 use crate::geom::polyline;
 use crate::ir::toolpath::Run;
 
@@ -58,6 +59,16 @@ pub(super) fn parts(run: &Run, curves: &[Tight], around: &Around) -> Vec<Part> {
         add([at, end], false);
     }
     parts
+}
+
+/// How far the worst of the plunges that a whole run is nibbled with would cut into parts beyond one of its ends, mm, when
+/// it does so alike at both.
+pub(super) fn harm(run: &Run, curve: &Tight, around: &Around) -> f64 {
+    let plunges = parts(run, std::slice::from_ref(curve), around).into_iter().map(|Part { mut run, .. }| {
+        overlap::give(&mut run, around);
+        stab::stab(&run, around).map_or(0.0, |stab| stab::total(&stab) / 2.0)
+    });
+    plunges.fold(0.0, f64::max)
 }
 
 /// The pieces of a stretch between two vertices, each within `allowed` of its chord: as few as there can be, and of these

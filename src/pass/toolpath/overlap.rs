@@ -12,7 +12,7 @@ use super::scene::{Around, Scene};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::region::Ray;
 use crate::geom::{Extent, Point, Vector, polyline};
-use crate::ir::toolpath::{Run, Shape, Side, Step, Toolpath};
+use crate::ir::toolpath::{End, Run, Shape, Side, Step, Toolpath};
 use crate::machine::Knife;
 use crate::source::Span;
 use crate::units::number::fixed;
@@ -65,11 +65,14 @@ pub(super) fn give(run: &mut Run, around: &Around) -> [f64; 2] {
     let direction = |a: usize, b: usize| {
         polyline::direction(run.points[a], run.points[b]).expect("no chord of a run has length zero")
     };
-    let ahead = |bare: bool, wanted: Wanted, [at, before]: [usize; 2]| {
-        if bare { Given::default() } else { wanted.give(run.points[at], direction(before, at), around) }
+    let ahead = |end: End, wanted: Wanted, [at, before]: [usize; 2]| {
+        if end.bare {
+            return Given { side: end.side, ..Given::default() };
+        }
+        wanted.give(run.points[at], direction(before, at), around)
     };
-    let heel = ahead(start.bare, Wanted { waste: heel, part: knife.reflex_heel_overlap_mm }, [0, 1]);
-    let front = ahead(end.bare, Wanted { waste: front, part: knife.reflex_front_overlap_mm }, [n - 1, n - 2]);
+    let heel = ahead(start, Wanted { waste: heel, part: knife.reflex_heel_overlap_mm }, [0, 1]);
+    let front = ahead(end, Wanted { waste: front, part: knife.reflex_front_overlap_mm }, [n - 1, n - 2]);
     (run.heel, run.front) = (heel.length, front.length);
     (run.ends[0].side, run.ends[1].side) = (heel.side, front.side);
     run.heel *= heel_share(run, around);

@@ -11,7 +11,7 @@ use super::tight::and_more;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::polyline;
 use crate::geom::region::{Ray, Room};
-use crate::ir::toolpath::{End, Pose, Run, Shape, Side, Stab, Step, Toolpath};
+use crate::ir::toolpath::{End, Harm, Pose, Run, Shape, Side, Stab, Step, Toolpath};
 use crate::units::number::fixed;
 
 pub(super) const PASS: ToolpathPass = ToolpathPass {
@@ -40,15 +40,15 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
         Step::Stab(stab) => Some(stab),
         Step::Run(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => None,
     });
-    let harmful: Vec<&Stab> = stabs.filter(|stab| stab.harm > around.tolerance()).collect();
-    let worst = harmful.iter().copied().reduce(|a, b| if b.harm > a.harm { b } else { a });
+    let harmful: Vec<&Stab> = stabs.filter(|stab| total(stab) > around.tolerance()).collect();
+    let worst = harmful.iter().copied().reduce(|a, b| if total(b) > total(a) { b } else { a });
     if let Some(worst) = worst {
         diagnostics.push(harm(worst, harmful.len(), &around));
     }
 }
 
-/// The stab that a run is; `None` when the blade has a way to go.
-fn stab(run: &Run, around: &Around) -> Option<Stab> {
+/// The stab that a run with its overlaps is; `None` when the blade has a way to go.
+pub(super) fn stab(run: &Run, around: &Around) -> Option<Stab> {
     let width = around.knife().width_mm;
     let extended = run.extended();
     let reached = polyline::first_at_distance(&extended, width);
@@ -71,6 +71,7 @@ fn stab(run: &Run, around: &Around) -> Option<Stab> {
         split(surplus, [behind, ahead], around)
     };
     let [heel, front] = split.map(|share| share.length);
+    let harm = split.map(|share| share.harm);
     let tip = last + along * front;
     Some(Stab {
         points: run.points.clone(),
@@ -79,21 +80,21 @@ fn stab(run: &Run, around: &Around) -> Option<Stab> {
         front: run.front + front,
         heel: run.heel + heel,
         ends: [0, 1].map(|end| {
-            let harms = split[end].harm > HARM_EPSILON;
+            let harms = split[end].harm.total() > HARM_EPSILON;
             End { side: if harms { Side::Part } else { run.ends[end].side }, ..run.ends[end] }
         }),
         turned: run.turned,
         edge: run.edge,
-        harm: split.iter().map(|share| share.harm).sum(),
+        harm,
         pose: Pose { centre: tip - along * around.knife().radius(), ..Pose::default() },
     })
 }
 
 /// What of a surplus goes beyond one end, mm, and how much of that lies in a part.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 struct Share {
     length: f64,
-    harm: f64,
+    harm: Harm,
 }
 
 /// Shares a surplus out to two ends, of which the first is preferred: to the waste; then into the part itself, alike at both
@@ -101,7 +102,7 @@ struct Share {
 fn split(surplus: f64, rooms: [Room; 2], around: &Around) -> [Share; 2] {
     let clearance = around.knife().clearance_mm;
     let clear = |gap: f64| (gap - clearance).max(0.0);
-    let mut shares = [Share { length: 0.0, harm: 0.0 }; 2];
+    let mut shares = [Share::default(); 2];
     let mut left = surplus;
     for (share, room) in shares.iter_mut().zip(rooms) {
         share.length = left.min(clear(room.least()));
@@ -119,23 +120,45 @@ fn split(surplus: f64, rooms: [Room; 2], around: &Around) -> [Share; 2] {
     let second = (left - first).min(spare[1]);
     // The rest enters another part whichever end it leaves by.
     let rest = left - first - second;
-    for (share, more) in shares.iter_mut().zip([first + rest / 2.0, second + rest / 2.0]) {
-        share.length += more;
-        share.harm += more;
+    for (share, own) in shares.iter_mut().zip([first, second]) {
+        share.harm = Harm { own, other: rest / 2.0 };
+        share.length += share.harm.total();
     }
     shares
+}
+
+/// How far a stab cuts into parts beyond its ends, both together, mm.
+pub(super) fn total(stab: &Stab) -> f64 {
+    stab.harm.into_iter().map(Harm::total).sum()
+}
+
+/// Where it does, in words.
+fn beyond(harm: [Harm; 2]) -> String {
+    let [before, past] = harm.map(|harm| (harm.total() > HARM_EPSILON).then(|| fixed(harm.total(), 2)));
+    let ways = match (before, past) {
+        (Some(before), Some(past)) => format!("{before} mm before its start and {past} mm past its end"),
+        (Some(before), None) => format!("{before} mm before its start"),
+        (None, past) => format!("{} mm past its end", past.unwrap_or_default()),
+    };
+    let other = harm[0].other + harm[1].other;
+    if other > HARM_EPSILON {
+        format!("{ways}, {} mm of that into another part", fixed(other, 2))
+    } else {
+        format!("{ways}, into its own part")
+    }
 }
 
 /// The worst harm of a toolpath, and in how many places there is some.
 fn harm(stab: &Stab, count: usize, around: &Around) -> Diagnostic {
     let length = fixed(polyline::length(&stab.points), 2);
-    let (width, harm) = (fixed(around.knife().width_mm, 2), fixed(stab.harm, 2));
+    let width = fixed(around.knife().width_mm, 2);
     let block = stab.spans[stab.spans.len() - 1].block;
     let more = and_more(count);
     Diagnostic::new(
         &code::PATH_OVERCUT,
         format!(
-            "block {block}: the blade of {width} mm is longer than this cut of {length} mm: it cuts {harm} mm too far into a part{more}"
+            "block {block}: the blade of {width} mm is longer than this cut of {length} mm: it cuts {}{more}",
+            beyond(stab.harm)
         ),
     )
     .at(stab.spans[stab.spans.len() - 1])

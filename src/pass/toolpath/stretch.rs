@@ -14,7 +14,7 @@ const TURN_EPSILON: f64 = 0.02;
 const GENTLE_TURN: f64 = 0.2;
 
 /// Where a run is lifted on its way: its overlap already lies along the contour.
-pub(super) const REJOINED: End = End { corner: true, bare: true, side: Side::Waste };
+pub(super) const REJOINED: End = End { corner: true, bare: true, side: Side::Contour };
 
 /// The chords of a run by their stations; on a ring they go round and round.
 pub(super) struct Way<'a> {

@@ -11,13 +11,14 @@
 //! - `refuse`: an error.
 //!
 //! A cut that begins on a curve is too tight there, too, when the blade that plunges as a chord of it would lie farther
-//! beside it than `knife.max_bow_mm`: `follow` says so, and nibbles only what that blade cannot enter at all.
+//! beside it than `knife.max_bow_mm`: `follow` says so, and nibbles only what that blade cannot enter at all. Of a short curve
+//! that it covers one plunge is made where nibbling would cut farther into the part than that leaves beside the line.
 //!
 //! Leaves no run with the chord law that the blade cannot be a chord of.
 
 use super::bow::{BowedStart, bowed_start};
 use super::chord::{Tight, tight};
-use super::nibble::parts;
+use super::nibble::{self, parts};
 use super::overlap::INSIDE_EPSILON;
 use super::scene::{Around, Scene};
 use super::{ToolpathPass, overlap};
@@ -36,6 +37,8 @@ pub(super) const PASS: ToolpathPass = ToolpathPass {
     chained: false,
 };
 
+/// Greatest turn of a curve that one straight plunge may stand for, rad (110 degrees): of a quarter circle, rounded.
+const COVERED_TURN: f64 = 1.92;
 /// Turn of a run without which the blade never stands across it, rad: a little less than the angle whose cosine is 0.4.
 const TURN_MIN: f64 = 1.15;
 
@@ -70,8 +73,15 @@ struct Settling<'a> {
 impl Settling<'_> {
     fn settle(&mut self, mut run: Run) {
         let around = self.around;
-        let mut curves = tight_curves(&run, &around);
         let start = bowed_start(&run, &around);
+        if let Some(start) = start.as_ref().filter(|start| self.is_best_covered(&run, start)) {
+            if !start.bow.is_slight(&around) {
+                self.bowed.see(start.bow.away, run.spans[0], Beside::Covered);
+            }
+            self.steps.push(Step::Run(run));
+            return;
+        }
+        let mut curves = tight_curves(&run, &around);
         let policy = match around.knife().tight_curves {
             // Plunges around a hole that is narrower than the blade would all lead far into the part.
             TightCurves::Nibble if is_narrow_hole(&run, &curves, &around) => TightCurves::Follow,
@@ -102,7 +112,7 @@ impl Settling<'_> {
         if let Some(start) = start.as_ref().filter(|start| !start.bow.is_slight(&around))
             && (curves.is_empty() || matches!(done, Done::Followed(_)))
         {
-            self.bowed.see(start.bow.away, run.spans[0], if is_start_nibbled { Done::Nibbled } else { done });
+            self.bowed.see(start.bow.away, run.spans[0], if is_start_nibbled { Beside::Nibbled } else { done.into() });
         }
         if !is_nibbled && !curves.is_empty() {
             run.law = Law::Tangent;
@@ -125,6 +135,18 @@ impl Settling<'_> {
                 self.settle(part.run);
             }
         }
+    }
+
+    /// Whether one plunge over all of a short curve harms less than nibbling it: it leaves what lies between the blade and the
+    /// curve, where shorter cuts with the same blade would reach farther than that into the part.
+    fn is_best_covered(&self, run: &Run, BowedStart { bow, curve }: &BowedStart) -> bool {
+        let around = &self.around;
+        let is_refused = around.knife().tight_curves == TightCurves::Refuse && !bow.is_slight(around);
+        bow.is_whole
+            && bow.fits
+            && bow.turned <= COVERED_TURN
+            && !is_refused
+            && bow.away < nibble::harm(run, curve, around)
     }
 
     fn report(&self, diagnostics: &mut Diagnostics) {
@@ -212,29 +234,63 @@ impl Worst {
 
     fn report(&self, settling: &Settling, diagnostics: &mut Diagnostics) {
         let Some((radius, span, done)) = self.tightest else { return };
-        let width = settling.around.knife().width_mm;
-        let swing = fixed(radius.hypot(width) - radius, 2);
-        let (code, done) = match done {
-            Done::Followed(Law::Chord) => (
-                &code::PATH_TIGHT_CURVE,
-                format!("it cannot be its chord and follows the tangent, its heel off by up to {swing} mm"),
-            ),
-            Done::Followed(Law::Tangent) => {
-                (&code::PATH_TIGHT_CURVE, format!("its heel leaves the line by up to {swing} mm"))
+        let knife = settling.around.knife();
+        let swing = fixed(radius.hypot(knife.width_mm) - radius, 2);
+        let (code, done, hint) = match done {
+            Done::Followed(law) => {
+                let done = match law {
+                    Law::Chord => {
+                        format!("it cannot be its chord and follows the tangent, its heel off by up to {swing} mm")
+                    }
+                    Law::Tangent => format!("its heel leaves the line by up to {swing} mm"),
+                };
+                let hint = "a narrower blade leaves it less; `knife.tight_curves` is \"nibble\" for cuts by plunges, \"refuse\" for an error";
+                (&code::PATH_TIGHT_CURVE, done, hint)
             }
-            Done::Nibbled => (&code::PATH_TIGHT_CURVE, format!("nibbled with {} plunges", settling.plunges)),
-            Done::Refused => (&code::PATH_TIGHT_CURVE_REFUSED, "refused by `knife.tight_curves`".to_owned()),
+            Done::Nibbled => {
+                let hint = match knife.tight_curves {
+                    TightCurves::Nibble => {
+                        "a narrower blade can follow it; `knife.tight_curves` is \"follow\" for cuts without a lift, \"refuse\" for an error"
+                    }
+                    TightCurves::Follow | TightCurves::Refuse => "a narrower blade has a way to go on it",
+                };
+                (&code::PATH_TIGHT_CURVE, format!("nibbled with {} plunges", settling.plunges), hint)
+            }
+            Done::Refused => (&code::PATH_TIGHT_CURVE_REFUSED, REFUSED.to_owned(), HOW_TO_CUT),
         };
         let more = and_more(self.curves);
-        let (block, radius, width) = (span.block, fixed(radius, 2), fixed(width, 2));
+        let (block, radius, width) = (span.block, fixed(radius, 2), fixed(knife.width_mm, 2));
         let message = format!(
             "block {block}: a curve of radius {radius} mm is tighter than the blade of {width} mm: {done}{more}"
         );
-        diagnostics.push(
-            Diagnostic::new(code, message)
-                .at(span)
-                .hint("a narrower blade follows it; `knife.tight_curves` is \"follow\", \"nibble\" or \"refuse\""),
-        );
+        diagnostics.push(Diagnostic::new(code, message).at(span).hint(hint));
+    }
+}
+
+/// What is said of what `knife.tight_curves` refuses, and what else there is.
+const REFUSED: &str = "refused by `knife.tight_curves`";
+const HOW_TO_CUT: &str =
+    "a narrower blade follows it; `knife.tight_curves` is \"follow\" or \"nibble\" for what is to be cut all the same";
+
+/// What is done about a plunged blade beside which the start of a run lies.
+#[derive(Debug, Clone, Copy)]
+enum Beside {
+    /// It cuts beside the line.
+    Left,
+    /// The start is cut by several plunges.
+    Nibbled,
+    /// One plunge cuts all of the run.
+    Covered,
+    Refused,
+}
+
+impl From<Done> for Beside {
+    fn from(done: Done) -> Self {
+        match done {
+            Done::Followed(_) => Self::Left,
+            Done::Nibbled => Self::Nibbled,
+            Done::Refused => Self::Refused,
+        }
     }
 }
 
@@ -243,23 +299,37 @@ impl Worst {
 struct Bowed {
     starts: usize,
     /// How far, mm, its source, and what is done about it.
-    worst: Option<(f64, Span, Done)>,
+    worst: Option<(f64, Span, Beside)>,
 }
 
 impl Bowed {
-    fn see(&mut self, away: f64, span: Span, done: Done) {
+    fn see(&mut self, away: f64, span: Span, beside: Beside) {
         self.starts += 1;
         if self.worst.is_none_or(|(worst, ..)| away > worst) {
-            self.worst = Some((away, span, done));
+            self.worst = Some((away, span, beside));
         }
     }
 
     fn report(&self, settling: &Settling, diagnostics: &mut Diagnostics) {
-        let Some((away, span, done)) = self.worst else { return };
-        let (code, done) = match done {
-            Done::Followed(_) => (&code::PATH_BOWED_PLUNGE, "it cuts that far beside the line".to_owned()),
-            Done::Nibbled => (&code::PATH_BOWED_PLUNGE, format!("nibbled with {} plunges", settling.plunges)),
-            Done::Refused => (&code::PATH_TIGHT_CURVE_REFUSED, "refused by `knife.tight_curves`".to_owned()),
+        let Some((away, span, beside)) = self.worst else { return };
+        let (code, done, hint) = match beside {
+            Beside::Left => {
+                let hint = "`knife.tight_curves = \"nibble\"` cuts such starts by steps, from `knife.max_bow_mm` on";
+                (&code::PATH_BOWED_PLUNGE, "it cuts that far beside the line".to_owned(), hint)
+            }
+            Beside::Nibbled => {
+                let done = format!("nibbled with {} plunges", settling.plunges);
+                (&code::PATH_BOWED_PLUNGE, done, "a start that bows less is cut without a lift")
+            }
+            Beside::Covered => {
+                let done = "one plunge cuts all of it, because several would reach farther into the part".to_owned();
+                (
+                    &code::PATH_BOWED_PLUNGE,
+                    done,
+                    "what lies between the blade and the line stays on the part, or is cut off it",
+                )
+            }
+            Beside::Refused => (&code::PATH_TIGHT_CURVE_REFUSED, REFUSED.to_owned(), HOW_TO_CUT),
         };
         let (block, away, more) = (span.block, fixed(away, 2), and_more(self.starts));
         let width = fixed(settling.around.knife().width_mm, 2);
@@ -270,7 +340,7 @@ impl Bowed {
             Diagnostic::new(code, message)
                 .at(span)
                 .hint("a narrower blade bows less; so does a corner that is drawn where the outline is straighter")
-                .hint("`knife.tight_curves = \"nibble\"` cuts such starts by steps, from `knife.max_bow_mm` on"),
+                .hint(hint),
         );
     }
 }
