@@ -1,140 +1,23 @@
 //! Programs made by hand to slip through the verifier: each does a harm that the rules of the cut must see, and keeps the
 //! limits of the machine, so that nothing else refuses it.
 
+#[path = "loopholes/nibbles.rs"]
+mod nibbles;
+#[path = "loopholes/program.rs"]
+mod program;
 mod support;
 
 use std::f64::consts::TAU;
-use std::fmt::Write as _;
 
-use cutc::geom::{Heading, Point, Vector};
+use cutc::geom::{Heading, Vector};
 use cutc::ir::Marker;
 use cutc::ir::marker::{Drill, Event, Notch, NotchKind};
 use cutc::ir::toolpath;
 use cutc::machine::Job;
 use cutc::source::Span;
-use cutc::verify::{self, Verdict};
+use cutc::verify;
 
-/// Time of the moves below, s: a little, and more the farther they go, so that no axis comes near a limit.
-const TIME_LEAST: f64 = 0.2;
-const TIME_A_STEP: f64 = 0.02;
-
-/// A row's outputs.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-struct Outputs {
-    knife: u8,
-    drill: u8,
-    event: u8,
-    block: u32,
-}
-
-/// A program that is written by hand: smooth moves from rest to rest, and dwells.
-struct Program {
-    job: Job,
-    poses: Vec<[f64; 3]>,
-    outputs: Vec<Outputs>,
-}
-
-impl Program {
-    fn new(job: &Job) -> Self {
-        Self { job: job.clone(), poses: vec![job.profile.home], outputs: vec![Outputs::default()] }
-    }
-
-    fn pose(&self) -> [f64; 3] {
-        self.poses[self.poses.len() - 1]
-    }
-
-    /// Ticks of a dwell, the one at which it is over included.
-    fn ticks(&self, ms: f64) -> usize {
-        (ms / self.job.profile.time.period_ms).ceil() as usize + 1
-    }
-
-    fn rest(&mut self, ticks: usize, outputs: Outputs) {
-        for _ in 0..ticks {
-            self.poses.push(self.pose());
-            self.outputs.push(outputs);
-        }
-    }
-
-    /// From rest to rest along a way that is given by the share of it that is done.
-    fn along(&mut self, steps: f64, outputs: Outputs, pose: impl Fn(f64) -> [f64; 3]) {
-        let ticks = ((TIME_LEAST + TIME_A_STEP * steps) / self.job.profile.time.period()).ceil();
-        for i in 1..=ticks as usize {
-            let x = i as f64 / ticks;
-            self.poses.push(pose(x * x * x * (10.0 - x * (15.0 - x * 6.0))));
-            self.outputs.push(outputs);
-        }
-    }
-
-    fn go(&mut self, to: [f64; 3], outputs: Outputs) {
-        let from = self.pose();
-        let way = |axis: usize| (to[axis] - from[axis]).abs();
-        let steps = way(0).max(way(1)).max(way(2));
-        self.along(steps, outputs, |x| std::array::from_fn(|axis| from[axis] + (to[axis] - from[axis]) * x));
-    }
-
-    /// The pose with the tip at a point.
-    fn at(&self, tip: Point, heading_deg: f64) -> [f64; 3] {
-        let centre = tip - Heading::new(heading_deg.to_radians()).unit() * self.job.profile.knife.radius();
-        [centre.x, centre.y, heading_deg]
-    }
-
-    fn down(block: u32) -> Outputs {
-        Outputs { knife: 1, block, ..Outputs::default() }
-    }
-
-    fn plunge(&mut self, tip: Point, heading_deg: f64, block: u32) {
-        self.go(self.at(tip, heading_deg), Outputs::default());
-        self.rest(self.ticks(self.job.profile.knife.plunge_ms), Self::down(block));
-    }
-
-    fn lift(&mut self) {
-        self.rest(self.ticks(self.job.profile.knife.lift_ms), Outputs::default());
-    }
-
-    fn stab(&mut self, tip: Point, heading_deg: f64, block: u32) {
-        self.plunge(tip, heading_deg, block);
-        self.lift();
-    }
-
-    /// One straight stroke: the tail plunges at `tail`, the tip is lifted at `tip`.
-    fn run(&mut self, tail: Point, tip: Point, block: u32) {
-        let along = (tip - tail).normalize();
-        let heading = along.y.atan2(along.x).to_degrees();
-        self.plunge(tail + along * self.job.profile.knife.width_mm, heading, block);
-        self.go(self.at(tip, heading), Self::down(block));
-        self.lift();
-    }
-
-    fn drill(&mut self, at: Point, tool: u8) {
-        let c = self.pose()[2];
-        self.go([at.x, at.y, c], Outputs::default());
-        self.rest(self.ticks(self.job.profile.drill.dwell_ms), Outputs { drill: tool, ..Outputs::default() });
-    }
-
-    fn judge(&mut self, marker: &Marker) -> Verdict {
-        self.rest(2, Outputs::default());
-        let mut text = String::from("t_s,x_mm,y_mm,c_deg,knife,drill,event,block\n");
-        for (i, ([x, y, c], outputs)) in self.poses.iter().map(|p| p.map(|v| v + 0.0)).zip(&self.outputs).enumerate() {
-            let Outputs { knife, drill, event, block } = outputs;
-            let t = i as f64 * self.job.profile.time.period();
-            let _ = writeln!(text, "{t:.6},{x:.6},{y:.6},{c:.6},{knife},{drill},{event},{block}");
-        }
-        verify::setpoints(&mut text.as_bytes(), marker, &self.job)
-    }
-}
-
-fn broken(verdict: &Verdict) -> Vec<&'static str> {
-    verdict.broken().map(|finding| finding.rule).collect()
-}
-
-fn check(mut program: Program, marker: &Marker, expected: &[&str]) {
-    let verdict = program.judge(marker);
-    assert_eq!(broken(&verdict), expected, "{:#?}", verdict.broken().collect::<Vec<_>>());
-}
-
-fn p(x: f64, y: f64) -> Point {
-    Point::new(x, y)
-}
+use crate::program::{Outputs, Program, broken, check, circle, p};
 
 /// A line of 100 mm along X.
 fn long_line() -> Marker {
@@ -144,12 +27,6 @@ fn long_line() -> Marker {
 /// The whole of it in one stroke.
 fn cut_long_line(program: &mut Program) {
     program.run(p(99.5, 50.0), p(200.8, 50.0), 1);
-}
-
-/// A circle of 48 chords.
-fn circle(radius: f64) -> Marker {
-    let at = |i: i32| p(100.0, 50.0) + Heading::new(TAU * f64::from(i % 48) / 48.0).unit() * radius;
-    support::marker(&(0..=48).map(at).collect::<Vec<_>>())
 }
 
 #[test]
@@ -241,66 +118,6 @@ fn a_circle_is_not_cut_as_a_polygon() {
         let c = (from + (3.3_f64 / 8.0).asin() + TAU / 4.0).to_degrees();
         program.stab(tail + along * 6.6, c, (6 * i + 6) as u32);
     }
-    let found = broken(&program.judge(&marker));
-    assert!(found.contains(&"verify/on-path"), "{found:?}");
-}
-
-/// An open arc of 24 chords about (100, 50), from +X on through an angle.
-fn arc(radius: f64, through: f64) -> Vec<Point> {
-    let at = |i: i32| p(100.0, 50.0) + Heading::new(through * f64::from(i) / 24.0).unit() * radius;
-    (0..=24).map(at).collect()
-}
-
-/// A line that is cut by plunges, each from one of its points on towards another, is not cut well.
-fn check_badly_cut(points: &[Point], plunges: impl Iterator<Item = [usize; 2]>, rule: &str) {
-    let mut program = Program::new(&Job::default());
-    for [from, to] in plunges {
-        let along = (points[to] - points[from]).normalize();
-        let tip = points[from] + along * program.job.profile.knife.width_mm;
-        program.stab(tip, along.y.atan2(along.x).to_degrees(), to as u32);
-    }
-    let found = broken(&program.judge(&support::marker(points)));
-    assert!(found.contains(&rule), "{points:?}: {found:?}");
-}
-
-#[test]
-fn a_curve_that_the_blade_covers_is_not_cut_by_one_straight_plunge() {
-    for radius in [4.0, 6.0, 10.0] {
-        check_badly_cut(&arc(radius, 6.0 / radius), [[0, 24]].into_iter(), "verify/on-path");
-    }
-}
-
-#[test]
-fn a_line_that_may_be_nibbled_is_not_cut_as_a_polygon() {
-    // Its start bows away from the blade by more than is worth no word: it may be nibbled, within the tolerance.
-    for radius in [4.0, 6.0, 8.0] {
-        check_badly_cut(&arc(radius, 3.0), (0..24).step_by(4).map(|i| [i, i + 4]), "verify/complete");
-    }
-}
-
-#[test]
-fn two_bends_alike_under_the_blade_are_not_cut_straight() {
-    let mut points = vec![p(100.0, 50.0)];
-    for turn_deg in [0.0_f64, 25.0, 50.0] {
-        points.push(points[points.len() - 1] + Heading::new(turn_deg.to_radians()).unit() * 2.0);
-    }
-    check_badly_cut(&points, [[0, 3]].into_iter(), "verify/on-path");
-}
-
-#[test]
-fn a_stab_on_a_curve_does_not_leave_it_along_the_tangent() {
-    let marker = circle(20.0);
-    let mut program = Program::new(&Job::default());
-    program.stab(p(120.0, 53.3), 90.0, 2);
-    let start = p(120.0, 50.0);
-    program.plunge(start, 90.0, 1);
-    program.along(600.0, Program::down(1), |x| {
-        let turn = (TAU + 0.04) * x;
-        let tip = p(100.0, 50.0) + Heading::new(turn).unit() * 20.0;
-        let centre = tip - Heading::new(turn + TAU / 4.0).unit() * 0.25;
-        [centre.x, centre.y, 90.0 + turn.to_degrees()]
-    });
-    program.lift();
     let found = broken(&program.judge(&marker));
     assert!(found.contains(&"verify/on-path"), "{found:?}");
 }
