@@ -84,7 +84,7 @@ impl<'a> Way<'a> {
     }
 
     /// How much the run turns between two stations, to either side, rad.
-    fn turned(&self, [from, to]: [f64; 2]) -> f64 {
+    pub(super) fn turned(&self, [from, to]: [f64; 2]) -> f64 {
         let vertices = (self.chord_at(from)..=self.chord_at(to)).skip(1);
         vertices.map(|vertex| self.turn(vertex).abs()).sum()
     }

@@ -1,14 +1,16 @@
 //! Pass `wind`: a run that winds C past `c.range_deg` is lifted where it would, and goes on with C unwound in the air.
 //!
 //! Needs runs split at corners. Leaves runs that can be cut at one equivalent of C inside the range; as few of them as that
-//! takes. Each is led on along the contour by the overlaps of a corner.
+//! takes. A smooth contour that can be cut in one from another place on begins there. Of any other run each part is led on
+//! along the contour by the overlaps of a corner. A hole that is too narrow to be parted is left as it is, for `place` to
+//! refuse.
 
 use super::ToolpathPass;
 use super::scene::Scene;
 use super::stretch::{REJOINED, Way};
 use crate::diagnostic::Diagnostics;
 use crate::geom::{Heading, polyline};
-use crate::ir::toolpath::{Run, Step, Toolpath};
+use crate::ir::toolpath::{Law, Run, Shape, Step, Toolpath};
 use crate::machine::Knife;
 
 pub(super) const PASS: ToolpathPass = ToolpathPass {
@@ -25,6 +27,14 @@ pub(super) const MARGIN: f64 = 0.087_266_462_599_716_47;
 const SHORT: f64 = 3.0;
 /// Rounding of an angle, rad.
 const ANGLE_EPSILON: f64 = 1e-9;
+/// The same for a ring that is cut in one, where there is no more room, rad (1.5 degrees).
+const SLIM_MARGIN: f64 = 0.026_179_938_779_914_94;
+/// In widths of the blade, what is too narrow a contour to be parted.
+const NARROW: f64 = 2.0;
+/// Turns that differ by less are alike where a ring begins, rad (2 degrees).
+const TURN_STEP: f64 = 0.034_906_585_039_886_59;
+/// Places of a smooth contour at which it is tried to begin, at the most: one a degree.
+const STARTS: usize = 360;
 /// Rounding of a station, mm.
 const STATION_EPSILON: f64 = 1e-9;
 
@@ -48,12 +58,23 @@ fn parts(run: &Run, range: [f64; 2], knife: &Knife) -> Option<Vec<Run>> {
     let way = Way::new(run);
     let winding = Winding::new(run, &way, knife);
     let (chords, length) = (way.chords().cast_signed(), way.length());
-    // Round a ring the last chord turns on to the first one.
-    let whole = chords + isize::from(way.is_ring());
     let [least, greatest] = range;
     let inner = [least + MARGIN, greatest - MARGIN];
-    if chords == 1 || winding.reach(0, whole, inner) == Some(whole) {
+    let lap = Lap { way: &way, winding: &winding, knife, law: run.law };
+    let is_in_one = if way.is_ring() { lap.fits(0.0, inner) } else { winding.reach(0, chords, inner) == Some(chords) };
+    if chords == 1 || is_in_one {
         return None;
+    }
+    if way.is_ring() {
+        let start = |margin: f64| lap.start([least + margin, greatest - margin]);
+        if let Some(from) = start(MARGIN).or_else(|| start(SLIM_MARGIN)) {
+            let mut ring = Run { shape: Shape::Ring, ..way.part(from, from + way.length(), run.ends) };
+            let last = ring.points.len() - 1;
+            ring.points[last] = ring.points[0];
+            return Some(vec![ring]);
+        }
+        // Parts of what is hardly wider than the blade could only be plunges, across the part around it.
+        polyline::first_at_distance(&run.points, NARROW * knife.width_mm)?;
     }
     let (heel, front) = (knife.corner_heel_overlap_mm, knife.corner_front_overlap_mm);
     let last = if way.is_ring() { length + front } else { length };
@@ -80,20 +101,60 @@ fn parts(run: &Run, range: [f64; 2], knife: &Knife) -> Option<Vec<Run>> {
         let is_short = last - way.station(reached) < SHORT * knife.width_mm;
         let rest = |to: f64| winding.reach(way.chord_at(to - front - heel), end, inner);
         let halves = is_short && half > from + front + heel && rest(half) == Some(end);
-        let to = if halves { half } else { way.station(reached) };
+        let stop = if halves { half } else { way.station(reached) };
         // Amid a curve the blade would plunge beside it: better somewhere on the second half of the part that is straight.
-        let to = way.gentlest([f64::midpoint(from, to), to], [heel + front, knife.width_mm]);
+        let gentle = way.gentlest([f64::midpoint(from, stop), stop], [heel + front, knife.width_mm]);
+        // Over a bend no overlap can lead on along the contour.
+        let is_gentle = way.leads_on(gentle, [heel + front, knife.width_mm]);
+        let overlapped = if is_gentle { (gentle - front - heel).max(from) } else { gentle };
+        // From where C must unwind on it goes farther, with another equivalent; from before that it may be no farther than here.
+        let goes_on = |next: f64| reach(next).is_some_and(|to| to >= end || way.station(to) > stop + knife.width_mm);
+        let lifts = [[gentle, overlapped], [gentle; 2]];
+        let [to, next] = lifts.into_iter().find(|&[_, next]| next > from && goes_on(next)).unwrap_or([stop; 2]);
         if to <= from + STATION_EPSILON {
             return None;
         }
-        // Over a bend at which C must unwind no overlap can lead on along the contour.
-        let overlapped = to - front - heel;
-        let is_gentle = way.leads_on(to, [heel + front, knife.width_mm]);
-        let leads_on =
-            is_gentle && overlapped > from && reach(overlapped).is_some_and(|reached| way.station(reached) > to);
-        let next = if leads_on { overlapped } else { to };
         parts.push(way.part(from, to, [start, REJOINED]));
         from = next;
+    }
+}
+
+/// Once round a ring.
+struct Lap<'a> {
+    way: &'a Way<'a>,
+    winding: &'a Winding,
+    knife: &'a Knife,
+    law: Law,
+}
+
+impl Lap<'_> {
+    /// Whether it can be cut in one from a station on, its overlap included, with C inside a range.
+    fn fits(&self, at: f64, range: [f64; 2]) -> bool {
+        let Self { way, winding, knife, law } = self;
+        // The blade plunges between the directions of the chords about a place, or as a chord of what lies behind its tip.
+        let lead = match law {
+            Law::Tangent => STATION_EPSILON,
+            Law::Chord => knife.width_mm,
+        };
+        // Along its last chord it turns towards the next one.
+        let end = way.chord_at(at + way.length() + knife.front_overlap_mm) + 2;
+        winding.reach(way.chord_at(at - lead), end, range) == Some(end)
+    }
+
+    /// The station, amid a chord, from which on the ring can be cut in one, its overlap included, with C inside a range: where it
+    /// turns least, and of such places the nearest to where it starts.
+    fn start(&self, range: [f64; 2]) -> Option<f64> {
+        let Self { way, knife, .. } = self;
+        let chords = way.chords();
+        let middle = |chord: isize| f64::midpoint(way.station(chord), way.station(chord + 1));
+        let turned = |at: f64| {
+            let turned = way.turned([at - knife.width_mm, at + knife.width_mm]);
+            (turned / TURN_STEP).round()
+        };
+        let away = |at: f64| at.min(way.length() - at);
+        let starts = (0..chords).step_by(chords.div_ceil(STARTS)).map(|chord| middle(chord.cast_signed()));
+        let best = |a: &f64, b: &f64| turned(*a).total_cmp(&turned(*b)).then(away(*a).total_cmp(&away(*b)));
+        starts.filter(|&at| self.fits(at, range)).min_by(best)
     }
 }
 
