@@ -182,15 +182,21 @@ fn a_slit_that_the_profile_would_lead_out_of_its_part_is_refused() {
 }
 
 #[test]
-fn a_run_that_winds_past_the_range_of_c_is_cut_in_parts() {
+fn a_ring_that_winds_past_the_range_of_c_begins_elsewhere_or_is_cut_in_parts() {
     let mut job = Job::default();
-    job.profile.c.range_deg = Some([-200.0, 200.0]);
-    assert_eq!(compile("iso/seed-circle.cut", &job), ["iso/no-end", "path/bowed-plunge"]);
     let runs = |job: &Job| {
         let toolpaths = support::toolpaths(&read("iso/seed-circle.cut"), job);
         toolpaths.iter().map(|toolpath| support::runs(toolpath).len()).sum::<usize>()
     };
-    assert_eq!((runs(&Job::default()), runs(&job)), (1, 2));
+    for (range_deg, parts, said) in [
+        (None, 1, &["iso/no-end"][..]),
+        (Some([-200.0, 200.0]), 1, &["iso/no-end"]),
+        (Some([-185.0, 185.0]), 2, &["iso/no-end", "path/bowed-plunge"]),
+    ] {
+        job.profile.c.range_deg = range_deg;
+        assert_eq!(compile("iso/seed-circle.cut", &job), said, "{range_deg:?}");
+        assert_eq!(runs(&job), parts, "{range_deg:?}");
+    }
 }
 
 #[test]

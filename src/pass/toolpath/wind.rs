@@ -27,10 +27,10 @@ pub(super) const MARGIN: f64 = 0.087_266_462_599_716_47;
 const SHORT: f64 = 3.0;
 /// Rounding of an angle, rad.
 const ANGLE_EPSILON: f64 = 1e-9;
-/// The same for a ring that is cut in one, where there is no more room, rad (1.5 degrees).
-const SLIM_MARGIN: f64 = 0.026_179_938_779_914_94;
+/// The same for a ring that is cut in one, where there is no more room, rad (4 degrees).
+const SLIM_MARGIN: f64 = 0.069_813_170_079_773_18;
 /// In widths of the blade, what is too narrow a contour to be parted.
-const NARROW: f64 = 2.0;
+const NARROW: f64 = 1.5;
 /// Turns that differ by less are alike where a ring begins, rad (2 degrees).
 const TURN_STEP: f64 = 0.034_906_585_039_886_59;
 /// Places of a smooth contour at which it is tried to begin, at the most: one a degree.
@@ -129,16 +129,35 @@ struct Lap<'a> {
 
 impl Lap<'_> {
     /// Whether it can be cut in one from a station on, its overlap included, with C inside a range.
-    fn fits(&self, at: f64, range: [f64; 2]) -> bool {
+    fn fits(&self, at: f64, [least, greatest]: [f64; 2]) -> bool {
         let Self { way, winding, knife, law } = self;
-        // The blade plunges between the directions of the chords about a place, or as a chord of what lies behind its tip.
-        let lead = match law {
-            Law::Tangent => STATION_EPSILON,
-            Law::Chord => knife.width_mm,
+        // The blade plunges along the ring, or as a chord of what lies behind its tip.
+        let from = match law {
+            Law::Tangent => at,
+            Law::Chord => at - knife.width_mm,
         };
-        // Along its last chord it turns towards the next one.
-        let end = way.chord_at(at + way.length() + knife.front_overlap_mm) + 2;
-        winding.reach(way.chord_at(at - lead), end, range) == Some(end)
+        let to = at + way.length() + knife.front_overlap_mm;
+        let inner = (way.chord_at(from) + 1..way.chord_at(to)).map(|chord| winding.at(chord));
+        let ends = [from, to].map(|station| self.heading(station));
+        let [low, high] = inner
+            .chain(ends)
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], heading| [low.min(heading), high.max(heading)]);
+        let turns = |angle: f64| angle / winding.period;
+        (turns(least - low) - ANGLE_EPSILON).ceil() <= (turns(greatest - high) + ANGLE_EPSILON).floor()
+    }
+
+    /// The direction at a station, unwrapped: that of a chord in its middle, turning on from one to the next.
+    fn heading(&self, station: f64) -> f64 {
+        let Self { way, winding, .. } = self;
+        let here = way.chord_at(station);
+        let before = if station < self.middle(here) { here - 1 } else { here };
+        let [a, b] = [before, before + 1].map(|chord| (self.middle(chord), winding.at(chord)));
+        a.1 + (b.1 - a.1) * ((station - a.0) / (b.0 - a.0))
+    }
+
+    /// The station amid a chord.
+    fn middle(&self, chord: isize) -> f64 {
+        f64::midpoint(self.way.station(chord), self.way.station(chord + 1))
     }
 
     /// The station, amid a chord, from which on the ring can be cut in one, its overlap included, with C inside a range: where it
@@ -146,13 +165,12 @@ impl Lap<'_> {
     fn start(&self, range: [f64; 2]) -> Option<f64> {
         let Self { way, knife, .. } = self;
         let chords = way.chords();
-        let middle = |chord: isize| f64::midpoint(way.station(chord), way.station(chord + 1));
         let turned = |at: f64| {
             let turned = way.turned([at - knife.width_mm, at + knife.width_mm]);
             (turned / TURN_STEP).round()
         };
         let away = |at: f64| at.min(way.length() - at);
-        let starts = (0..chords).step_by(chords.div_ceil(STARTS)).map(|chord| middle(chord.cast_signed()));
+        let starts = (0..chords).step_by(chords.div_ceil(STARTS)).map(|chord| self.middle(chord.cast_signed()));
         let best = |a: &f64, b: &f64| turned(*a).total_cmp(&turned(*b)).then(away(*a).total_cmp(&away(*b)));
         starts.filter(|&at| self.fits(at, range)).min_by(best)
     }
