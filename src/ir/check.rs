@@ -67,7 +67,7 @@ pub fn toolpath(toolpath: &Toolpath) -> Faults {
                     faults.push(wrong("a stab needs a span a chord"));
                 }
                 let harms = stab.harm.iter().flat_map(|harm| [harm.own, harm.other]);
-                if [stab.front, stab.heel].into_iter().chain(harms).any(|length| !(length >= 0.0)) {
+                if !harms.chain([stab.front, stab.heel]).all(|length| length >= 0.0) {
                     faults.push(wrong("an overlap is negative"));
                 }
                 if (stab.along.norm() - 1.0).abs() > UNIT_EPSILON || !pose_finite(stab.pose) {

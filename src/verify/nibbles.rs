@@ -64,7 +64,7 @@ pub(super) fn stretches(line: &Line, ends: [f64; 2], blade: Blade) -> Box<[[f64;
         let chords = line.chords();
         // From the vertex before it to the first one behind at which the blade may plunge.
         found.extend(line.tight.iter().map(|&[low, high]| {
-            let lap = if line.ring && high >= length { 1 } else { 0 };
+            let lap = usize::from(line.ring && high >= length);
             let next = line.chord_at(high - lap as f64 * length) + 1 + lap * chords;
             let end = blade.first_clear(&path, next.min(path.len() - 1));
             let end = line.stations[end % chords] + length * (end / chords) as f64;

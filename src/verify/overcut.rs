@@ -142,11 +142,11 @@ impl<'a> Overcut<'a> {
                 .filter(|&(near, before)| beyond[before] < beyond[near])
                 .min_by(|a, b| beyond[a.1].total_cmp(&beyond[b.1]))
                 .unwrap_or((far, far));
-            let entry = if before != near {
+            let entry = if before == near {
+                0.0
+            } else {
                 let entered = self.entered([points[before], points[near]], group[0], stroke.line, lines);
                 (beyond[near] - entered).max(0.0)
-            } else {
-                0.0
             };
             let length = beyond[far] - entry.clamp(0.0, beyond[far]);
             sums[kind] += length;

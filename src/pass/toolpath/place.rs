@@ -89,7 +89,11 @@ fn place_run(run: &mut Run, before: Rotation, job: &Job, diagnostics: &mut Diagn
     let heading = Heading::new(Heading::of(first).radians() + plunge);
     let (c, edge) = equivalent(before, heading, range.map(|r| r - plunge), job).unwrap_or_else(|| {
         let wound = fixed(deg(range[1] - range[0]), 1);
-        diagnostics.push(out_of_range(run.spans[0]).hint(format!("the run turns C through {wound} degrees")));
+        let found = out_of_range(run.spans[0]).hint(format!("the run turns C through {wound} degrees"));
+        diagnostics.push(match run.shape {
+            Shape::Open => found,
+            Shape::Ring => found.hint("a hole of this size is better drilled"),
+        });
         (before.nearest(heading), Edge::Front)
     });
     run.edge = edge;
