@@ -195,7 +195,12 @@ impl<'a> Judge<'a> {
     /// What a stroke cut, of the lines near it.
     pub(super) fn trace<'s>(&self, stroke: Stroke<'s>) -> Traced<'s> {
         let rows = stroke.rows;
-        let mut blades: Vec<Vector> = rows.iter().map(Row::along).collect();
+        let mut blades: Vec<Vector> = Vec::with_capacity(rows.len());
+        for (i, row) in rows.iter().enumerate() {
+            // Where C rests the blade lies as before.
+            let rests = i > 0 && rows[i - 1].c_deg == row.c_deg;
+            blades.push(if rests { blades[i - 1] } else { row.along() });
+        }
         let mut ends = self.knife.ends();
         if self.goes_backwards(rows, &blades) {
             for blade in &mut blades {

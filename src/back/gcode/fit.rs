@@ -192,7 +192,9 @@ fn nodes(tube: &Tube, ends: &Ends) -> Vec<Node> {
         is_aim: true,
         stops: false,
     };
-    let mut nodes = vec![node(0, (tube.points[0], ends.start), 0.0)];
+    // Two shoulders and a middle a chord at the most, but for where the feed changes.
+    let mut nodes = Vec::with_capacity(3 * last + 2);
+    nodes.push(node(0, (tube.points[0], ends.start), 0.0));
     // A bend of turn t whose rounding touches both chords a way w off its vertex leaves the vertex by w tan(t / 4). On a
     // curve it is none.
     let shoulder = |chord: usize, vertex: usize| {
