@@ -4,6 +4,9 @@ use std::f64::consts::{PI, TAU};
 
 use super::Vector;
 
+/// Part of an angle by which rounding may seem to make it less.
+const SURE_EPSILON: f64 = 1e-9;
+
 /// A direction in the plane: an angle modulo one turn, kept in `[0, 2 pi)` rad, 0 along +X, counter-clockwise.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Heading(f64);
@@ -72,6 +75,14 @@ pub fn turn(a: Vector, b: Vector) -> f64 {
     super::cross(a, b).atan2(a.dot(&b))
 }
 
+/// Whether the direction of `b` is turned from that of `a` by more than `limit` rad, either way. Most are far from any limit,
+/// so that the angle itself need not be known.
+pub fn is_turned(a: Vector, b: Vector, limit: f64) -> bool {
+    // An angle is less than its tangent.
+    let is_less = super::cross(a, b).abs() < limit * (1.0 - SURE_EPSILON) * a.dot(&b);
+    !is_less && turn(a, b).abs() > limit
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -81,6 +92,17 @@ mod tests {
         assert_eq!(Heading::new(-1e-30).radians(), 0.0);
         assert_eq!(Heading::new(TAU).radians(), 0.0);
         assert!((Heading::new(-PI / 2.0).radians() - 1.5 * PI).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_is_turned_by_more_is_told_at_the_limit_too() {
+        let along = Heading::new(0.4).unit();
+        for limit in [1e-6, 0.1, 1.0, 2.0, 3.0] {
+            for turned in [-1.001, -1.0, -0.999, 0.0, 0.5, 0.999, 1.0, 1.001].map(|share| share * limit) {
+                let other = Heading::new(0.4 + turned).unit() * 3.0;
+                assert_eq!(is_turned(along, other, limit), turn(along, other).abs() > limit, "{turned} of {limit}");
+            }
+        }
     }
 
     #[test]

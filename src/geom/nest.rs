@@ -7,44 +7,32 @@ use super::{Extent, Point};
 /// Where between the bottom and the top of a shape a point inside it is looked for: seldom at the height of an edge.
 const LEVEL: f64 = 0.381_966;
 
-/// A shape: the rings that bound it by the even-odd rule.
+/// A shape: what there is to know of the rings that bound it by the even-odd rule.
 #[derive(Debug, Clone)]
 pub struct Shape {
-    rings: Vec<Vec<Point>>,
     extent: Extent,
-}
-
-impl Default for Shape {
-    fn default() -> Self {
-        Self { rings: Vec::new(), extent: Extent::EMPTY }
-    }
+    /// A point well inside; `None` when there is no inside.
+    inner: Option<Point>,
 }
 
 impl Shape {
-    /// The rings that were added.
-    pub fn rings(&self) -> &[Vec<Point>] {
-        &self.rings
+    /// The shape that rings bound; whether they repeat their first points does not matter.
+    pub fn new(rings: &[Vec<Point>]) -> Self {
+        let mut extent = Extent::EMPTY;
+        rings.iter().flatten().for_each(|&point| extent.add(point));
+        Self { extent, inner: inner_point(rings, extent) }
     }
+}
 
-    /// Adds a ring; whether it repeats its first point does not matter.
-    pub fn add(&mut self, ring: Vec<Point>) {
-        for &point in &ring {
-            self.extent.add(point);
-        }
-        self.rings.push(ring);
-    }
-
-    /// A point well inside; `None` when there is no inside.
-    fn inner_point(&self) -> Option<Point> {
-        let (_, height) = self.extent.size();
-        let y = self.extent.min.y + LEVEL * height;
-        let edges = self.rings.iter().flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
-        let crossing = edges.filter(|(a, b)| (a.y > y) != (b.y > y));
-        let mut crossings: Vec<f64> = crossing.map(|(a, b)| a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y)).collect();
-        crossings.sort_by(f64::total_cmp);
-        let inside = crossings.chunks_exact(2).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
-        Some(Point::new(f64::midpoint(inside[0], inside[1]), y))
-    }
+fn inner_point(rings: &[Vec<Point>], extent: Extent) -> Option<Point> {
+    let (_, height) = extent.size();
+    let y = extent.min.y + LEVEL * height;
+    let edges = rings.iter().flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
+    let crossing = edges.filter(|(a, b)| (a.y > y) != (b.y > y));
+    let mut crossings: Vec<f64> = crossing.map(|(a, b)| a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y)).collect();
+    crossings.sort_by(f64::total_cmp);
+    let inside = crossings.chunks_exact(2).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
+    Some(Point::new(f64::midpoint(inside[0], inside[1]), y))
 }
 
 /// For each shape the one to whose region it belongs: itself, or, when it lies in one other or in three, the smallest of
@@ -57,7 +45,7 @@ pub fn regions(shapes: &[Shape], holders: impl Fn(Point) -> Vec<u32> + Sync) -> 
     };
     let holder = |own: u32| {
         let shape = &shapes[own as usize];
-        let mut holders = holders(shape.inner_point()?);
+        let mut holders = holders(shape.inner?);
         holders.retain(|&other| other != own && shapes[other as usize].extent.covers(&shape.extent));
         let smallest = holders.iter().copied().min_by(|&a, &b| area(a).total_cmp(&area(b)).then(a.cmp(&b)));
         smallest.filter(|_| holders.len() % 2 == 1)
@@ -81,16 +69,14 @@ mod tests {
     use super::*;
     use crate::geom::region::Regions;
 
-    fn square(low: f64, high: f64) -> Shape {
-        let mut shape = Shape::default();
-        shape.add([(low, low), (high, low), (high, high), (low, high)].map(|(x, y)| Point::new(x, y)).to_vec());
-        shape
+    fn square(low: f64, high: f64) -> Vec<Point> {
+        [(low, low), (high, low), (high, high), (low, high)].map(|(x, y)| Point::new(x, y)).to_vec()
     }
 
-    fn nested(shapes: &[Shape]) -> Vec<u32> {
-        let rings = shapes.iter().zip(0..).flat_map(|(shape, owner)| shape.rings.iter().map(move |r| (owner, &r[..])));
-        let index = Regions::new(rings);
-        regions(shapes, |point| index.owners_at(point))
+    fn nested(rings: &[Vec<Point>]) -> Vec<u32> {
+        let index = Regions::new(rings.iter().zip(0..).map(|(ring, owner)| (owner, &ring[..])));
+        let shapes: Vec<Shape> = rings.iter().map(|ring| Shape::new(std::slice::from_ref(ring))).collect();
+        regions(&shapes, |point| index.owners_at(point))
     }
 
     #[test]
@@ -101,8 +87,7 @@ mod tests {
 
     #[test]
     fn neighbours_are_regions_of_their_own_even_in_a_bay_or_edge_to_edge() {
-        let mut bay = Shape::default();
-        let points = [
+        let bay = [
             (0.0, 0.0),
             (90.0, 0.0),
             (90.0, 90.0),
@@ -112,7 +97,7 @@ mod tests {
             (30.0, 90.0),
             (0.0, 90.0),
         ];
-        bay.add(points.map(|(x, y)| Point::new(x, y)).to_vec());
+        let bay = bay.map(|(x, y)| Point::new(x, y)).to_vec();
         assert_eq!(nested(&[bay, square(30.0, 60.0), square(90.0, 120.0)]), [0, 1, 2]);
     }
 }

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::{Extent, Point, Vector, cross, polyline};
 
 /// Edges that a band of a region holds on average, at the least.
-const EDGES_A_BAND: usize = 8;
+const EDGES_A_BAND: usize = 4;
 /// Regions that a cell of the lattice of boxes holds on average, at the least; and the most cells along a side.
 const REGIONS_A_BOX: usize = 2;
 const BOXES_MAX: usize = 1024;
@@ -208,14 +208,6 @@ impl Regions {
         owners
     }
 
-    /// Whether a point that lies in an owner's region is farther than `slack` mm from its edges.
-    fn is_deep(&self, point: Point, owner: u32, slack: f64) -> bool {
-        let Ok(place) = self.owners.binary_search_by_key(&owner, |region| region.owner) else { return true };
-        let region = &self.owners[place];
-        let mut near = region.near(around(point, slack));
-        !near.any(|edge| polyline::distance_to_segment(point, edge.from, edge.to) <= slack)
-    }
-
     /// How far a way of `owner` goes before it enters a region, its own or another's. What comes no deeper than `slack` mm
     /// enters nothing: it lies along an edge. A region of another in which the way starts is no obstacle.
     pub fn room(&self, ray: &Ray, owner: u32, slack: f64) -> Room {
@@ -224,26 +216,27 @@ impl Regions {
         let to = around(ray.from + ray.along * ray.reach, SAME_EPSILON);
         extent.add(to.min);
         extent.add(to.max);
+        let mut near: Vec<usize> = self.boxes.near(extent).filter(|&i| self.owners[i].extent.meets(&extent)).collect();
+        near.sort_unstable();
+        near.dedup();
+        let near = || near.iter().map(|&i| &self.owners[i]);
         let mut cuts = vec![0.0, ray.reach];
-        for i in self.boxes.near(extent) {
-            self.owners[i].near(extent).for_each(|edge| edge.crossings(ray, &mut cuts));
+        for region in near() {
+            region.near(extent).for_each(|edge| edge.crossings(ray, &mut cuts));
         }
         cuts.sort_by(f64::total_cmp);
-        let deep = |way: f64, owner: u32| self.is_deep(ray.from + ray.along * way, owner, slack);
-        let mut under: Option<Vec<u32>> = None;
+        let at = |way: f64| ray.from + ray.along * way;
         for ends in cuts.windows(2).filter(|ends| ends[1] - ends[0] > SAME_EPSILON) {
             let [a, b] = [ends[0], ends[1]];
-            for inside in self.owners_at(ray.from + ray.along * f64::midpoint(a, b)) {
-                let so_far = if inside == owner { room.own } else { room.other };
-                if a >= so_far || !PROBES.iter().any(|share| deep(a + (b - a) * share, inside)) {
+            let middle = at(f64::midpoint(a, b));
+            for region in near().filter(|region| region.holds(middle)) {
+                let so_far = if region.owner == owner { room.own } else { room.other };
+                if a >= so_far || !PROBES.iter().any(|share| region.is_deep(at(a + (b - a) * share), slack)) {
                     continue;
                 }
-                if inside == owner {
+                if region.owner == owner {
                     room.own = a;
-                    continue;
-                }
-                let under = under.get_or_insert_with(|| self.owners_at(ray.from));
-                if !(under.contains(&inside) && deep(0.0, inside)) {
+                } else if !(region.holds(ray.from) && region.is_deep(ray.from, slack)) {
                     room.other = a;
                 }
             }
@@ -293,6 +286,12 @@ impl Region {
     fn near(&self, extent: Extent) -> impl Iterator<Item = Edge> + '_ {
         let edges = if self.extent.meets(&extent) { self.bands.near(extent.min.y, extent.max.y) } else { &[] };
         edges.iter().map(|&i| self.edge(i)).filter(move |edge| edge.extent().meets(&extent))
+    }
+
+    /// Whether a point that lies in it is farther than `slack` mm from its edges.
+    fn is_deep(&self, point: Point, slack: f64) -> bool {
+        let mut near = self.near(around(point, slack));
+        !near.any(|edge| polyline::distance_to_segment(point, edge.from, edge.to) <= slack)
     }
 
     /// Whether a ray to the right of a point crosses its edges an odd number of times.

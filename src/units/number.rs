@@ -6,6 +6,17 @@ const INTEGER_PATH_MAX: f64 = 9.0e15;
 /// The most characters of such a number: its digits and those that decimals ask for, a point and a sign.
 const DIGITS: usize = 32;
 
+/// The digits of the numbers below a hundred.
+const PAIRS: [[u8; 2]; 100] = {
+    let mut pairs = [[0; 2]; 100];
+    let mut i = 0;
+    while i < pairs.len() {
+        pairs[i] = [b'0' + (i / 10) as u8, b'0' + (i % 10) as u8];
+        i += 1;
+    }
+    pairs
+};
+
 /// Appends `value` with exactly `decimals` decimals (at most 9), rounded half away from zero, never as `-0.0`.
 ///
 /// Values beyond the integer path (and the non-finite, which no program holds) are printed by the standard library.
@@ -17,41 +28,41 @@ pub fn push_fixed(out: &mut Vec<u8>, value: f64, decimals: u32) {
         out.extend_from_slice(format!("{value:.*}", decimals as usize).as_bytes());
         return;
     }
-    // From behind, so that every division is by ten, for which a multiplication stands.
+    let value = scaled.abs() as u64;
     let mut digits = [0_u8; DIGITS];
-    let (mut at, mut rest) = (digits.len(), scaled.abs() as u64);
-    let mut put = |byte: u8| {
-        at -= 1;
-        digits[at] = byte;
-    };
-    for place in 0.. {
-        if place == decimals && place > 0 {
-            put(b'.');
-        }
-        put(b'0' + (rest % 10) as u8);
-        rest /= 10;
-        if rest == 0 && place >= decimals {
-            break;
-        }
+    let mut at = DIGITS;
+    if decimals > 0 {
+        at = put(&mut digits, at, (value % scale, decimals as usize)) - 1;
+        digits[at] = b'.';
     }
+    at = put(&mut digits, at, (value / scale, 1));
     if scaled < 0.0 {
-        put(b'-');
+        at -= 1;
+        digits[at] = b'-';
     }
     out.extend_from_slice(&digits[at..]);
 }
 
-/// Appends a whole number.
-pub fn push_integer(out: &mut Vec<u8>, mut value: u64) {
-    let mut digits = [0_u8; 20];
-    let mut at = digits.len();
-    loop {
-        at -= 1;
-        digits[at] = b'0' + (value % 10) as u8;
-        value /= 10;
-        if value == 0 {
-            break;
-        }
+/// Writes a number of at least so many digits before a place; where it then begins. From behind and two by two, so that there
+/// are few divisions, each by a hundred, for which a multiplication stands.
+fn put(digits: &mut [u8; DIGITS], end: usize, (mut value, least): (u64, usize)) -> usize {
+    let mut at = end;
+    while value >= 10 || end - at + 1 < least {
+        at -= 2;
+        digits[at..at + 2].copy_from_slice(&PAIRS[(value % 100) as usize]);
+        value /= 100;
     }
+    if value > 0 || end - at < least {
+        at -= 1;
+        digits[at] = PAIRS[value as usize][1];
+    }
+    at
+}
+
+/// Appends a whole number.
+pub fn push_integer(out: &mut Vec<u8>, value: u64) {
+    let mut digits = [0_u8; DIGITS];
+    let at = put(&mut digits, DIGITS, (value, 1));
     out.extend_from_slice(&digits[at..]);
 }
 

@@ -36,11 +36,17 @@ impl Cut {
     pub(super) fn new(tips: &[Point], tail: Point, knife: &Knife) -> Self {
         let steps = (knife.width_mm / BODY_STEP).ceil() as usize;
         let body = (0..steps).map(|i| tail + (tips[0] - tail) * (i as f64 / steps as f64));
-        let mut points: Vec<Point> = body.collect();
-        // Rest rows repeat their place; a track of places that differ is enough.
-        let moves: Vec<usize> = (0..tips.len()).filter(|&i| i == 0 || tips[i] != tips[i - 1]).collect();
-        points.extend(moves.iter().map(|&i| tips[i]));
-        Self { stations: polyline::stations(&points), points, body: steps, rows: moves, bow: Bow::Timed }
+        let mut points: Vec<Point> = Vec::with_capacity(steps + tips.len());
+        points.extend(body);
+        let mut rows = Vec::with_capacity(tips.len());
+        for (i, &tip) in tips.iter().enumerate() {
+            // Rest rows repeat their place; a track of places that differ is enough.
+            if i == 0 || tip != tips[i - 1] {
+                points.push(tip);
+                rows.push(i);
+            }
+        }
+        Self { stations: polyline::stations(&points), points, body: steps, rows, bow: Bow::Timed }
     }
 
     /// Length of all that it cuts, mm: of the body, and of the tip's way.

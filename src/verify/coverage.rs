@@ -107,6 +107,11 @@ fn merge(cut: &mut Vec<[f64; 2]>, [a, b]: [f64; 2]) {
     if b < a {
         return;
     }
+    if cut.is_empty() {
+        // Most lines are cut by one stroke: no room for more.
+        *cut = vec![[a, b]];
+        return;
+    }
     let first = cut.partition_point(|s| s[1] < a);
     let last = first + cut[first..].partition_point(|s| s[0] <= b);
     let joined = cut[first..last].iter().fold([a, b], |[a, b], s| [a.min(s[0]), b.max(s[1])]);

@@ -1,6 +1,6 @@
 //! Follows a moving point along a line: at which station it is, and how far off.
 
-use super::reference::Line;
+use super::reference::{Chord, Line};
 use crate::geom::{Point, cross};
 
 /// How far behind its last station a point may be found, mm: it wavers by less than the tube is wide.
@@ -31,14 +31,17 @@ pub(super) struct Follower<'a> {
     /// +1 with the line, -1 against it.
     sign: f64,
     foot: Foot,
+    /// The chord on which it was looked for first: that of most places of a way is the one of the place before.
+    chord: Chord,
     point: Point,
 }
 
 impl<'a> Follower<'a> {
     /// Starts at a point near a chord, moving with the line (`sign` +1) or against it (-1).
     pub(super) fn new(line: &'a Line, chord: usize, point: Point, sign: f64) -> Self {
-        let mut follower = Self { line, sign, foot: on_chord(line, chord, point), point };
-        follower.foot = follower.best(point, 0.0);
+        let chord = line.chord(chord);
+        let mut follower = Self { line, sign, foot: chord.foot(line, point), chord, point };
+        follower.step(point);
         follower
     }
 
@@ -52,29 +55,32 @@ impl<'a> Follower<'a> {
         Self { sign: -self.sign, ..self.clone() }
     }
 
-    /// Moves to the next point and says where that stands.
+    /// Moves to the next point and says where that stands: at the nearest place within reach of the last one.
     pub(super) fn step(&mut self, point: Point) -> Foot {
         let way = (point - self.point).norm();
-        self.foot = self.best(point, way);
         self.point = point;
-        self.foot
-    }
-
-    /// The nearest place within reach of the last one.
-    fn best(&self, point: Point, way: f64) -> Foot {
         let line = self.line;
         let length = line.length();
         let reach = |sign: f64| if sign == self.sign { AHEAD + 2.0 * way.min(LEAP) } else { BACK };
         let (low, high) = (self.foot.station - reach(-1.0), self.foot.station + reach(1.0));
+        let here = self.chord.index;
+        if self.foot.chord == here && low > line.stations[here] && high < line.stations[here + 1] {
+            // Amid a chord there is no other within reach.
+            self.foot = self.chord.foot(line, point);
+            return self.foot;
+        }
         let laps = if line.ring { (self.foot.station / length).floor() } else { 0.0 };
         let start = line.chord_near(self.foot.chord, self.foot.station - laps * length);
-        let on = |chord: usize, lap: f64| {
-            let foot = on_chord(line, chord, point);
+        if start != self.chord.index {
+            self.chord = line.chord(start);
+        }
+        let on = |chord: &Chord, lap: f64| {
+            let foot = chord.foot(line, point);
             Foot { station: foot.station + lap * length, ..foot }
         };
-        let mut best = on(start, laps);
+        let mut best = on(&self.chord, laps);
         let mut look = |chord: usize, lap: f64| {
-            let foot = on(chord, lap);
+            let foot = on(&line.chord(chord), lap);
             if foot.deviation < best.deviation {
                 best = foot;
             }
@@ -96,6 +102,7 @@ impl<'a> Follower<'a> {
             }
             look(chord, lap);
         }
+        self.foot = best;
         best
     }
 }
@@ -118,27 +125,28 @@ fn preceding(line: &Line, chord: usize) -> Option<(usize, f64)> {
     }
 }
 
-/// Where a point stands beside one chord.
-pub(super) fn on_chord(line: &Line, chord: usize, point: Point) -> Foot {
-    let last = line.points.len() - 1;
-    if !line.ring && (chord == 0 || chord + 1 == last) {
-        let along = line.direction(chord);
-        let ahead = |end: usize, sign: f64| {
-            let away = point - line.points[end];
-            let beyond = sign * away.dot(&along);
-            (beyond > 0.0).then(|| Foot {
-                station: line.stations[end],
-                deviation: cross(along, away).abs(),
-                beyond,
-                chord,
-            })
-        };
-        let before = if chord == 0 { ahead(0, -1.0) } else { None };
-        let behind = || if chord + 1 == last { ahead(last, 1.0) } else { None };
-        if let Some(foot) = before.or_else(behind) {
-            return foot;
+impl Chord {
+    /// Where a point stands beside it; beyond an end of its line, beside the straight extension of that.
+    pub(super) fn foot(&self, line: &Line, point: Point) -> Foot {
+        let (chord, last) = (self.index, line.points.len() - 1);
+        if !line.ring && (chord == 0 || chord + 1 == last) {
+            let ahead = |end: usize, sign: f64| {
+                let away = point - line.points[end];
+                let beyond = sign * away.dot(&self.along);
+                (beyond > 0.0).then(|| Foot {
+                    station: line.stations[end],
+                    deviation: cross(self.along, away).abs(),
+                    beyond,
+                    chord,
+                })
+            };
+            let before = if chord == 0 { ahead(0, -1.0) } else { None };
+            let behind = || if chord + 1 == last { ahead(last, 1.0) } else { None };
+            if let Some(foot) = before.or_else(behind) {
+                return foot;
+            }
         }
+        let (deviation, station) = self.deviation(point);
+        Foot { station, deviation, beyond: 0.0, chord }
     }
-    let (deviation, station) = line.deviation(chord, point);
-    Foot { station, deviation, beyond: 0.0, chord }
 }

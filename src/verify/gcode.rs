@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 use std::f64::consts::TAU;
 use std::io::{BufRead, Read as _};
 
-use super::read::{Going, Rounding, Row, decimal};
+use super::read::{Going, Rounding, Row, decimal, short};
 use super::worst::{Worst, at};
 use crate::geom::{Point, Vector};
 use crate::ir::Finding;
@@ -447,8 +447,11 @@ impl Words {
             if place.is_some() {
                 return Err(format!("has two words {}", char::from(letter)));
             }
-            let is_plain = number.iter().all(|byte| matches!(byte, b'0'..=b'9' | b'.' | b'-'));
-            *place = Some(decimal(number).filter(|_| is_plain).ok_or_else(|| foreign(word))?);
+            let long = || {
+                let is_plain = number.iter().all(|byte| matches!(byte, b'0'..=b'9' | b'.' | b'-'));
+                decimal(number).filter(|_| is_plain)
+            };
+            *place = Some(short(number).or_else(long).ok_or_else(|| foreign(word))?);
         }
         Ok(words)
     }

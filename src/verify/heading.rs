@@ -230,6 +230,13 @@ pub(super) fn of_stab(line: &Line, [from, to]: [f64; 2], joints: &Joints) -> Vec
     let (start, end) = (line.chord_at(from), line.chord_at(to.next_down()));
     let at = |chord: usize, station: f64| line.points[chord] + line.direction(chord) * (station - line.stations[chord]);
     let (first, last) = (at(start, from), at(end, to));
-    let led = |heel: f64, front: f64| last + line.direction(end) * front - (first - line.direction(start) * heel);
-    joints.heels.iter().flat_map(|&heel| joints.fronts.iter().map(move |&front| led(heel, front))).collect()
+    let [ahead, behind] = [line.direction(end), line.direction(start)];
+    let led = |heel: f64, front: f64| last + ahead * front - (first - behind * heel);
+    let heels = distinct(&joints.heels);
+    heels.flat_map(|heel| distinct(&joints.fronts).map(move |front| led(heel, front))).collect()
+}
+
+/// Numbers, each once.
+pub(super) fn distinct(numbers: &[f64; 3]) -> impl Iterator<Item = f64> + '_ {
+    (0..numbers.len()).filter(|&i| !numbers[..i].contains(&numbers[i])).map(|i| numbers[i])
 }

@@ -10,7 +10,7 @@ use crate::ir::marker::Piece;
 use crate::ir::{Marker, Segment, SegmentId, SegmentList};
 
 /// Edges that a band of a part holds on average, at the least.
-const EDGES_A_BAND: usize = 8;
+const EDGES_A_BAND: usize = 4;
 /// Parts that a cell holds on average, at the least; and the most cells along a side.
 const PARTS_A_CELL: usize = 2;
 const CELLS_MAX: usize = 1024;
@@ -75,9 +75,8 @@ impl<'a> Inside<'a> {
         // What lies in a piece is a cut-out of it, whoever it belongs to.
         let holders = |point| inside.rings_at(point).map(|piece| piece as u32).collect();
         let shape = |piece: &Piece| {
-            let mut shape = Shape::default();
-            piece.contours.iter().filter(|contour| contour.closed).for_each(|c| shape.add(marker.points(c)));
-            shape
+            let closed = piece.contours.iter().filter(|contour| contour.closed);
+            Shape::new(&closed.map(|contour| marker.points(contour)).collect::<Vec<_>>())
         };
         let shapes: Vec<Shape> = marker.pieces.par_iter().map(shape).collect();
         inside.part_of = nest::regions(&shapes, holders).into_iter().map(|part| part as usize).collect();

@@ -118,11 +118,11 @@ pub(super) fn works(marker: &Marker) -> Works {
 
 /// Compares what was read with what is cut. Pieces that were not selected are gone as a whole.
 pub(super) fn kept(read: &Works, marker: &Marker) -> Finding {
-    let mut cut = works(marker).pieces;
-    cut.sort_by_key(|piece| piece.name);
+    let mut cut: Vec<&Piece> = marker.pieces.iter().collect();
+    cut.sort_by_key(|piece| name(piece));
     let lost = |piece: &OfPiece| {
-        let place = cut.binary_search_by_key(&piece.name, |piece| piece.name);
-        place.map_or_else(|_| Vec::new(), |place| piece.lost_in(&cut[place]))
+        let place = cut.binary_search_by_key(&piece.name, |piece| name(piece));
+        place.map_or_else(|_| Vec::new(), |place| piece.lost_in(&OfPiece::of(cut[place], marker)))
     };
     let lost: Vec<Vec<Stroke>> = read.pieces.par_iter().map(lost).collect();
     let mut worst = Worst::new("source/kept", "blocks", Some(0.0));

@@ -70,6 +70,8 @@ use crate::machine::Job;
 
 /// Rows of strokes that are judged at a time: enough to keep all cores busy, few enough to keep memory small.
 const ROWS_AT_A_TIME: usize = 16_384;
+/// Room for them: the last stroke is taken whole.
+const ROOM: usize = ROWS_AT_A_TIME + ROWS_AT_A_TIME / 8;
 
 /// Every rule: its code and what it says. The order is that of reports.
 pub const RULES: &[(&str, &str)] = &[
@@ -220,7 +222,7 @@ impl Watch<'_> {
     /// Sees rows until enough of them belong to strokes, or none comes any more, and gathers these. Each row may come with
     /// how the axes go there.
     fn gather(&mut self, next: &mut impl FnMut() -> Option<(Row, Option<Going>)>) -> Strokes {
-        let mut strokes = Strokes::with_room(ROWS_AT_A_TIME);
+        let mut strokes = Strokes::with_room(ROOM);
         while strokes.rows() < ROWS_AT_A_TIME || strokes.are_open() {
             let Some((row, going)) = next() else { break };
             self.limits.see(&row);

@@ -270,17 +270,17 @@ pub(super) fn innermost([from, to]: [[f64; 2]; 2]) -> [f64; 2] {
 }
 
 impl Stroke<'_> {
-    /// The outermost joints between which it is a stab that fits what was left of its line.
-    fn joints(&self) -> Option<[Point; 2]> {
+    /// The outermost joints between which it is a stab that fits what was left of its line, and the direction from the one
+    /// to the other.
+    fn joints(&self) -> Option<([Point; 2], Vector)> {
         let [from, to] = self.fits?;
-        Some([from[0], to[1]].map(|station| self.line.place(station)))
+        let ends = [from[0], to[1]].map(|station| self.line.place(station));
+        Some((ends, polyline::direction(ends[0], ends[1])?))
     }
 
     /// How far place `i` stands beyond the joints of a stab, an end of the line, or what is held to that, mm.
-    fn beyond(&self, i: usize, joints: Option<[Point; 2]>) -> f64 {
-        if let Some(([start, end], along)) =
-            joints.and_then(|ends| Some((ends, polyline::direction(ends[0], ends[1])?)))
-        {
+    fn beyond(&self, i: usize, joints: Option<([Point; 2], Vector)>) -> f64 {
+        if let Some(([start, end], along)) = joints {
             let point = self.cut.points[i];
             return (start - point).dot(&along).max((point - end).dot(&along)).max(0.0);
         }

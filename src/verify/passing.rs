@@ -32,6 +32,11 @@ pub(super) fn skipped(line: &Line, cut: &Cut, feet: &[Foot], i: usize) -> f64 {
 pub(super) fn passed(line: &Line, places: &[Point], feet: &[Foot], allowed: f64) -> Option<[f64; 2]> {
     let (a, b) = (feet[0].station, feet[1].station);
     let (low, high) = (a.min(b), a.max(b));
+    let chord = feet[0].chord;
+    if feet[1].chord == chord && low > line.stations[chord] && high < line.stations[chord + 1] {
+        // Between two places amid one chord there is no vertex.
+        return None;
+    }
     let is_cut = |vertex: &usize| polyline::distance_to_segment(line.points[*vertex], places[0], places[1]) <= allowed;
     let lap = if line.ring { (low / line.length()).floor() * line.length() } else { 0.0 };
     let cut = line.vertices(low, high).filter(is_cut).map(|vertex| line.stations[vertex] + lap);

@@ -380,6 +380,16 @@ pub(super) fn whole(field: &[u8]) -> Option<u32> {
 
 /// A decimal number, correctly rounded: digits and a power of ten that are both exact give one rounding.
 pub(super) fn decimal(field: &[u8]) -> Option<f64> {
+    short(field).or_else(|| {
+        // Exponents and long numbers: the standard library; it also knows words, which are no numbers here.
+        let is_number = field.iter().all(|byte| matches!(byte, b'0'..=b'9' | b'.' | b'e' | b'E' | b'+' | b'-'));
+        let number: f64 = std::str::from_utf8(field).ok().filter(|_| is_number)?.parse().ok()?;
+        number.is_finite().then_some(number)
+    })
+}
+
+/// The same of a number without exponent that has few digits, as nearly all have; `None` of any other.
+pub(super) fn short(field: &[u8]) -> Option<f64> {
     let (sign, digits) = match field {
         [b'-', rest @ ..] => (-1.0, rest),
         rest => (1.0, rest),
@@ -393,11 +403,6 @@ pub(super) fn decimal(field: &[u8]) -> Option<f64> {
                 decimals += usize::from(point);
             }
             b'.' if !point => point = true,
-            // Exponents and long numbers: the standard library; it also knows words, which are no numbers here.
-            b'0'..=b'9' | b'e' | b'E' | b'+' | b'-' => {
-                let number: f64 = std::str::from_utf8(field).ok()?.parse().ok()?;
-                return number.is_finite().then_some(number);
-            }
             _ => return None,
         }
     }

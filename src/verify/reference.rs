@@ -185,35 +185,38 @@ fn contour_lines(mut segments: Vec<Segment>, closed: bool, place: Place) -> Vec<
     let Place { owner, feeds, profile } = place;
     let mut lines = Vec::new();
     let count = segments.len();
-    let turn = |segments: &[Segment], i: usize| {
+    // At the start of each segment.
+    let mut turns: Vec<f64> = Vec::with_capacity(count);
+    for i in 0..count {
         let before = &segments[(i + count - 1) % count];
-        angle::turn(before.to - before.from, segments[i].to - segments[i].from)
-    };
-    let is_corner =
-        |segments: &[Segment], i: usize| segments[i].joint.lift || turn(segments, i).abs() > profile.corner.angle();
+        turns.push(angle::turn(before.to - before.from, segments[i].to - segments[i].from));
+    }
+    let limit = profile.corner.angle();
+    let is_corner = |i: usize, segments: &[Segment], turns: &[f64]| segments[i].joint.lift || turns[i].abs() > limit;
     let mut ring = false;
     // Where a contour ends no corner lies before the tip.
     let mut ends = vec![0];
     if closed {
-        let corners: Vec<usize> = (0..count).filter(|&i| is_corner(&segments, i)).collect();
+        let corners: Vec<usize> = (0..count).filter(|&i| is_corner(i, &segments, &turns)).collect();
         match corners.first() {
             Some(&first) => {
                 ends = nearest_to_start(&segments, &corners).map(|i| i - first).collect();
                 segments.rotate_left(first);
+                turns.rotate_left(first);
             }
             None => ring = true,
         }
     }
     let mut from = 0;
     for i in 1..=count {
-        if i == count || is_corner(&segments, i) {
+        if i == count || is_corner(i, &segments, &turns) {
             let inner = i - from;
             let turn_at = |k: usize| match (k == 0 || k == inner, ring) {
                 (true, false) => 0.0,
-                (true, true) => turn(&segments, 0),
-                (false, _) => turn(&segments, from + k),
+                (true, true) => turns[0],
+                (false, _) => turns[from + k],
             };
-            let turns: Vec<f64> = (0..=inner).map(turn_at).collect();
+            let bends: Vec<f64> = (0..=inner).map(turn_at).collect();
             let points: Box<[Point]> =
                 std::iter::once(segments[from].from).chain(segments[from..i].iter().map(|s| s.to)).collect();
             let chords = segments[from..i].iter();
@@ -228,7 +231,7 @@ fn contour_lines(mut segments: Vec<Segment>, closed: bool, place: Place) -> Vec<
                 stations,
                 points,
                 blocks: chords.clone().map(|s| s.span.block).collect(),
-                bulges: chords.zip(turns.windows(2)).map(|(s, t)| bulge(s, t, profile)).collect(),
+                bulges: chords.zip(bends.windows(2)).map(|(s, t)| bulge(s, t, profile)).collect(),
                 ring,
                 winds: false,
                 tight: Box::default(),
@@ -265,6 +268,46 @@ fn bulge(segment: &Segment, turns: &[f64], profile: &MachineProfile) -> f64 {
     -mean.signum() * sagitta / length
 }
 
+/// A chord of a line.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Chord {
+    pub(super) index: usize,
+    /// Where it starts, and the station of that, mm.
+    from: Point,
+    start: f64,
+    /// mm.
+    length: f64,
+    /// Unit vector along it.
+    pub(super) along: Vector,
+    /// From its middle to where the core of the tube reaches there.
+    bulge: Vector,
+}
+
+impl Chord {
+    /// Distance of a point from the tube's core beside it, mm, and the station of the foot. The core at a place of the
+    /// chord is the segment from the chord to its bulge there.
+    pub(super) fn deviation(&self, point: Point) -> (f64, f64) {
+        let from = point - self.from;
+        if self.length == 0.0 {
+            return (from.norm(), self.start);
+        }
+        let way = from.dot(&self.along).clamp(0.0, self.length);
+        let away = from - self.along * way;
+        if self.bulge == Vector::zeros() {
+            return (away.norm(), self.start + way);
+        }
+        let share = way / self.length;
+        let reach = self.bulge * (4.0 * share * (1.0 - share));
+        let height = reach.norm();
+        if height == 0.0 {
+            return (away.norm(), self.start + way);
+        }
+        let outward = reach / height;
+        let used = away.dot(&outward).clamp(0.0, height);
+        ((away - outward * used).norm(), self.start + way)
+    }
+}
+
 impl Line {
     /// Its length, mm.
     pub(super) fn length(&self) -> f64 {
@@ -281,31 +324,18 @@ impl Line {
         (self.points[chord + 1] - self.points[chord]) / (self.stations[chord + 1] - self.stations[chord])
     }
 
-    /// Distance of a point from the tube's core beside a chord, mm, and the station of the foot. The core at a place of
-    /// the chord is the segment from the chord to its bulge there.
-    pub(super) fn deviation(&self, chord: usize, point: Point) -> (f64, f64) {
-        let (start, length) = (self.stations[chord], self.stations[chord + 1] - self.stations[chord]);
-        let from = point - self.points[chord];
-        if length == 0.0 {
-            return (from.norm(), start);
+    /// One of its chords.
+    pub(super) fn chord(&self, index: usize) -> Chord {
+        let (start, length) = (self.stations[index], self.stations[index + 1] - self.stations[index]);
+        let way = self.points[index + 1] - self.points[index];
+        Chord {
+            index,
+            from: self.points[index],
+            start,
+            length,
+            along: way / length,
+            bulge: left(way) * self.bulges[index],
         }
-        let chord_way = self.points[chord + 1] - self.points[chord];
-        let along = chord_way / length;
-        let way = from.dot(&along).clamp(0.0, length);
-        let away = from - along * way;
-        let bulge = self.bulges[chord];
-        if bulge == 0.0 {
-            return (away.norm(), start + way);
-        }
-        let share = way / length;
-        let reach = left(chord_way) * bulge * (4.0 * share * (1.0 - share));
-        let height = reach.norm();
-        if height == 0.0 {
-            return (away.norm(), start + way);
-        }
-        let outward = reach / height;
-        let used = away.dot(&outward).clamp(0.0, height);
-        ((away - outward * used).norm(), start + way)
     }
 
     /// Whether a point may be nearer than `reach` mm to the tube's core beside a chord, as far as its box tells.

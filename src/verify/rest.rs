@@ -86,7 +86,7 @@ impl<'a> Rest<'a> {
             return;
         };
         // The pose at the tick of a command belongs to the rest that it begins.
-        if let Some((at, _)) = self.hold.filter(|&(_, until)| row.tick <= until) {
+        if let Some((at, _)) = self.hold.as_ref().filter(|(_, until)| row.tick <= *until) {
             self.still.see(distance(row, [at.centre.x, at.centre.y, at.c_deg]), || row.sighting());
         }
         if row.knife != before.knife {

@@ -50,7 +50,7 @@ pub(super) struct Strokes {
 impl Strokes {
     /// None yet, with room for so many rows.
     pub(super) fn with_room(rows: usize) -> Self {
-        Self { rows: Vec::with_capacity(rows), ..Self::default() }
+        Self { rows: Vec::with_capacity(rows), goings: Vec::with_capacity(rows), ends: Vec::new() }
     }
 
     /// A row of the stroke that has not ended.
@@ -197,7 +197,12 @@ impl<'a> Judge<'a> {
     /// What a stroke cut, of the lines near it.
     pub(super) fn trace<'s>(&self, stroke: Stroke<'s>) -> Traced<'s> {
         let rows = stroke.rows;
-        let mut blades: Vec<Vector> = rows.iter().map(Row::along).collect();
+        let mut blades: Vec<Vector> = Vec::with_capacity(rows.len());
+        for (i, row) in rows.iter().enumerate() {
+            // Where C rests the blade lies as before.
+            let rests = i > 0 && rows[i - 1].c_deg == row.c_deg;
+            blades.push(if rests { blades[i - 1] } else { row.along() });
+        }
         let mut ends = self.knife.ends();
         if self.goes_backwards(rows, &blades) {
             for blade in &mut blades {
@@ -302,7 +307,8 @@ impl<'a> Judge<'a> {
             // There may be more joints between the first and the last one: it begins at the one up to which all is cut.
             let [first, last] = trial.hull;
             let (from, to) = ([from[0], from[1], first], [to[0], to[1], last]);
-            let ends = from.into_iter().flat_map(|from| to.map(|to| [from, to])).filter(|[from, to]| from < to);
+            let ends = heading::distinct(&from).flat_map(|from| heading::distinct(&to).map(move |to| [from, to]));
+            let ends = ends.filter(|[from, to]| from < to);
             let directions = ends.flat_map(|ends| heading::of_stab(line, ends, &self.tracer.joints));
             let askew = directions.map(|direction| angle::turn(direction, blade));
             let [least, greatest] =

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use super::body::{Body, Cut};
 use super::coverage::Coverage;
-use super::follow::{Follower, Foot, on_chord};
+use super::follow::{Follower, Foot};
 use super::grid::Grid;
 use super::joints::{self, Around, Joints};
 use super::passing::{longest, passed, skipped};
@@ -147,16 +147,16 @@ impl Tracer<'_> {
         let mut found: Vec<Candidate> = Vec::new();
         for probe in probes {
             let point = cut.points[probe];
-            for (line, chord) in self.grid.near(point, REACH) {
+            self.grid.near(point, REACH).for_each(|(line, chord)| {
                 let (line, chord) = (line as usize, chord as usize);
                 if !self.reference.lines[line].may_reach(chord, point, REACH) {
-                    continue;
+                    return;
                 }
-                let foot = on_chord(&self.reference.lines[line], chord, point);
+                let foot = self.reference.lines[line].chord(chord).foot(&self.reference.lines[line], point);
                 let away = if foot.beyond > 0.0 { foot.deviation.hypot(foot.beyond) } else { foot.deviation };
                 let next = Candidate { line, chord, probe, station: foot.station, away };
                 if next.away > REACH {
-                    continue;
+                    return;
                 }
                 match found
                     .iter_mut()
@@ -166,7 +166,7 @@ impl Tracer<'_> {
                     Some(_) => {}
                     None => found.push(next),
                 }
-            }
+            });
         }
         found.sort_by(|a, b| a.away.total_cmp(&b.away).then(a.line.cmp(&b.line)).then(a.probe.cmp(&b.probe)));
         found.truncate(TRIALS);
@@ -247,7 +247,8 @@ impl Tracer<'_> {
             }
             let station = foot.station;
             // A straight blade that leaves the line at a bend cuts up to the bend, which may lie between two places.
-            let bend = if i > first && i <= cut.body {
+            let goes_on = joined && open.is_some();
+            let bend = if i > first && i <= cut.body && !goes_on {
                 passed(line, &points[i - 1..=i], &trial.feet[i - 1..=i], allowed)
             } else {
                 None

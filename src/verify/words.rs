@@ -74,6 +74,14 @@ impl Block {
 
 /// A number with or without sign and decimals.
 fn number(text: &[u8]) -> Option<f64> {
+    let (is_negative, digits) = match text {
+        [b'-', digits @ ..] => (true, digits),
+        digits => (false, digits),
+    };
+    if (1..=EXACT_DIGITS).contains(&digits.len()) && digits.iter().all(u8::is_ascii_digit) {
+        let value = digits.iter().fold(0, |value, digit| value * 10 + u64::from(digit - b'0')) as f64;
+        return (value <= GREATEST).then_some(if is_negative { -value } else { value });
+    }
     let text = std::str::from_utf8(text).ok()?;
     let unsigned = text.strip_prefix(['-', '+']).unwrap_or(text);
     let (whole, decimals) = unsigned.split_once('.').unwrap_or((unsigned, ""));
@@ -81,11 +89,7 @@ fn number(text: &[u8]) -> Option<f64> {
         return None;
     }
     let kept = &decimals[..decimals.len().min(MOST_DECIMALS)];
-    let value = if kept.is_empty() && whole.len() <= EXACT_DIGITS {
-        whole.bytes().fold(0.0, |value, digit| value * 10.0 + f64::from(digit - b'0'))
-    } else {
-        format!("{whole}.{kept}0").parse().ok()?
-    };
+    let value: f64 = format!("{whole}.{kept}0").parse().ok()?;
     (value <= GREATEST).then_some(if text.starts_with('-') { -value } else { value })
 }
 
@@ -117,6 +121,13 @@ impl<'a> Blocks<'a> {
     pub(super) fn next(&mut self) -> Option<Result<Block, Unsound>> {
         if self.at >= self.bytes.len() {
             return None;
+        }
+        let rest = &self.bytes[self.at..];
+        let end = memchr::memchr(b'*', rest).unwrap_or(rest.len());
+        if !rest[..end].iter().any(|&byte| byte == b'/' || is_blank(byte)) {
+            // As nearly all are.
+            self.at += (end + 1).min(rest.len());
+            return Some(Block::read(&rest[..end]).ok_or(Unsound));
         }
         let mut text = Vec::with_capacity(BLOCK_ROOM);
         let mut sound = true;

@@ -192,7 +192,9 @@ fn nodes(tube: &Tube, ends: &Ends) -> Vec<Node> {
         is_aim: true,
         stops: false,
     };
-    let mut nodes = vec![node(0, (tube.points[0], ends.start), 0.0)];
+    // Two shoulders and a middle a chord at the most, but for where the feed changes.
+    let mut nodes = Vec::with_capacity(3 * last + 2);
+    nodes.push(node(0, (tube.points[0], ends.start), 0.0));
     // A bend of turn t whose rounding touches both chords a way w off its vertex leaves the vertex by w tan(t / 4). On a
     // curve it is none.
     let shoulder = |chord: usize, vertex: usize| {
@@ -299,7 +301,7 @@ fn stays_at_ends(tube: &Tube, [first, second]: [&Arc; 2], [from, to]: [&Node; 2]
     let at = |s: f64| if s <= first.length || alone { first.at(s) } else { second.at(s - first.length) };
     let stays = |s: f64| {
         let station = from.station + (to.station - from.station) * s / total;
-        tube.deviation(at(s), station) <= allowed
+        tube.is_near((at(s), station), allowed)
     };
     let [ahead, behind] = [tube.stations[from.chord + 1] - from.station, to.station - tube.stations[to.chord]];
     // On a straight chord an arc that starts along it only leaves it, so that the vertex at its end says all.
@@ -317,15 +319,20 @@ fn stays_at_ends(tube: &Tube, [first, second]: [&Arc; 2], [from, to]: [&Node; 2]
     };
     // An arc that turns over beside an end chord is farthest off where it runs along it.
     let turns_over = |arc: &Arc, from: f64, chord: usize| {
-        let s = angle::turn(arc.along, tube.direction(chord)) / arc.curvature;
+        let along = tube.direction(chord);
+        if cross(arc.along, along) * arc.curvature < 0.0 {
+            // It turns away from the chord.
+            return None;
+        }
+        let s = angle::turn(arc.along, along) / arc.curvature;
         (0.0..arc.length).contains(&s).then_some(from + s)
     };
     let second_from = if alone { 0.0 } else { first.length };
-    let is_beside = |s: f64, is_plain: bool, range: [f64; 2]| !is_plain && s >= range[0] && s <= range[1];
+    let is_beside = |s: f64, range: [f64; 2]| s >= range[0] && s <= range[1];
     let extremes = [(first, 0.0), (second, second_from)].into_iter().flat_map(|(arc, start)| {
-        let ahead = turns_over(arc, start, from.chord).filter(|&s| is_beside(s, is_plain_ahead, [0.0, ahead]));
-        let behind =
-            turns_over(arc, start, to.chord).filter(|&s| is_beside(s, is_plain_behind, [total - behind, total]));
+        let over = |chord: usize, is_plain: bool| if is_plain { None } else { turns_over(arc, start, chord) };
+        let ahead = over(from.chord, is_plain_ahead).filter(|&s| is_beside(s, [0.0, ahead]));
+        let behind = over(to.chord, is_plain_behind).filter(|&s| is_beside(s, [total - behind, total]));
         [ahead, behind]
     });
     if !extremes.flatten().all(stays) {

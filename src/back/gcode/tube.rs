@@ -78,11 +78,13 @@ impl Tube {
         if self.heights[chord] == 0.0 { Vector::zeros() } else { self.bulges[chord] * (before.min(after) / mean) }
     }
 
-    /// How far a point is from what counts as on the path, mm, beside the chord at a station or one of its neighbours.
-    pub(super) fn deviation(&self, point: Point, station: f64) -> f64 {
+    /// Whether a point is no farther than `allowed` mm from what counts as on the path, beside the chord at a station or one
+    /// of its neighbours.
+    pub(super) fn is_near(&self, (point, station): (Point, f64), allowed: f64) -> bool {
         let here = self.chord_at(station);
-        let chords = here.saturating_sub(1)..=(here + 1).min(self.chords() - 1);
-        chords.map(|chord| self.beside_chord(point, chord)).fold(f64::INFINITY, f64::min)
+        let neighbours = [here.saturating_sub(1), (here + 1).min(self.chords() - 1)];
+        // Nearly always it is the chord itself.
+        std::iter::once(here).chain(neighbours).any(|chord| self.beside_chord(point, chord) <= allowed)
     }
 
     /// The chord at a station.

@@ -100,8 +100,9 @@ struct Pieces {
 }
 
 impl Pieces {
-    fn new(start: Pose, length_min: f64, askew_max: f64) -> Self {
-        let way = Way { start, pieces: Vec::new() };
+    /// None yet, with room for so many.
+    fn with_room(pieces: usize, start: Pose, [length_min, askew_max]: [f64; 2]) -> Self {
+        let way = Way { start, pieces: Vec::with_capacity(pieces) };
         Self { way, last: None, next: start, short: None, length_min, askew_max }
     }
 
@@ -193,7 +194,7 @@ pub(super) fn way(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Point> {
     let c = Rotation(run.start.c.0 - run.edge.turn()).nearest(first).0;
     let at = pose(tube.points[0], c);
     let permitted = if keys.arcs { TURN_SHARE } else { LINE_SHARE } * rad(keys.heading_tolerance_deg);
-    let mut pieces = Pieces::new(at, STEPS_MIN * keys.step(), ASKEW_SHARE * permitted);
+    let mut pieces = Pieces::with_room(arcs.len(), at, [STEPS_MIN * keys.step(), ASKEW_SHARE * permitted]);
     let fade = Fade::new(lead, [knife.width_mm, length], radius, permitted);
     let mut tangent = c + lead;
     let (mut done, mut beside) = (0.0, 0);
@@ -287,7 +288,7 @@ mod tests {
     fn what_is_too_short_to_be_told_is_joined_to_what_it_lies_along() {
         let check = |curvatures: [f64; 3], expected: f64| {
             let (mut at, mut along) = (Point::origin(), Vector::new(1.0, 0.0));
-            let mut pieces = Pieces::new(Pose::default(), 0.04, 0.002);
+            let mut pieces = Pieces::with_room(3, Pose::default(), [0.04, 0.002]);
             for (length, curvature) in [0.66, 0.02, 0.68].into_iter().zip(curvatures) {
                 let arc = Arc { from: at, along, length, curvature, chord: 0, stops: false };
                 let ends = [at, arc.at(length)];

@@ -6,7 +6,7 @@
 use super::ToolpathPass;
 use super::scene::Scene;
 use crate::diagnostic::Diagnostics;
-use crate::geom::polyline;
+use crate::geom::{angle, polyline};
 use crate::ir::toolpath::{End, Run, Shape, Step, Toolpath};
 
 pub(super) const PASS: ToolpathPass = ToolpathPass {
@@ -72,7 +72,7 @@ fn empty_like(run: &Run) -> Run {
 /// Whether the knife is lifted at a point; point 0 of a ring lies between its last and its first chord.
 fn is_corner(run: &Run, i: usize, angle: f64) -> bool {
     let before = if i == 0 { run.points[run.points.len() - 2] } else { run.points[i - 1] };
-    run.joints[i].lift || polyline::turn_at(before, run.points[i], run.points[i + 1]).abs() > angle
+    run.joints[i].lift || angle::is_turned(run.points[i] - before, run.points[i + 1] - run.points[i], angle)
 }
 
 /// The corner that is least far along the contour from its start, the later one of two alike.

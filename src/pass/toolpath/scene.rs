@@ -1,8 +1,11 @@
 //! What passes look at beside a toolpath: the job, and the cloth around it.
 
+use rayon::prelude::*;
+
 use crate::geom::Point;
 use crate::geom::nest::{self, Shape};
 use crate::geom::region::{Ray, Regions, Room};
+use crate::ir::marker::Piece;
 use crate::ir::{Marker, Toolpath};
 use crate::machine::{Job, Knife};
 
@@ -24,17 +27,19 @@ pub struct Scene<'a> {
 impl<'a> Scene<'a> {
     /// The scene of a marker. Contours that do not close bound nothing.
     pub fn new(marker: &Marker, job: &'a Job) -> Self {
-        let mut shapes = vec![Shape::default(); marker.pieces.len()];
-        for (piece, contour) in marker.contours().filter(|(_, contour)| contour.closed) {
-            shapes[piece].add(marker.points(contour));
-        }
-        let rings = |part_of: &dyn Fn(u32) -> u32| {
-            let rings = shapes.iter().zip(0..).flat_map(|(shape, piece)| shape.rings().iter().map(move |r| (piece, r)));
+        let rings = |piece: &Piece| -> Vec<Vec<Point>> {
+            let closed = piece.contours.iter().filter(|contour| contour.closed);
+            closed.map(|contour| marker.points(contour)).collect()
+        };
+        let rings: Vec<Vec<Vec<Point>>> = marker.pieces.par_iter().map(rings).collect();
+        let regions = |part_of: &dyn Fn(u32) -> u32| {
+            let rings = rings.iter().zip(0..).flat_map(|(rings, piece)| rings.iter().map(move |ring| (piece, ring)));
             Regions::new(rings.map(|(piece, ring)| (part_of(piece), &ring[..])))
         };
-        let pieces = rings(&|piece| piece);
+        let pieces = regions(&|piece| piece);
+        let shapes: Vec<Shape> = rings.par_iter().map(|rings| Shape::new(rings)).collect();
         let part_of = nest::regions(&shapes, |point| pieces.owners_at(point));
-        let parts = if part_of.iter().copied().eq(0..) { pieces } else { rings(&|piece| part_of[piece as usize]) };
+        let parts = if part_of.iter().copied().eq(0..) { pieces } else { regions(&|piece| part_of[piece as usize]) };
         Self { job, parts, part_of }
     }
 

@@ -169,6 +169,13 @@ fn is_one_plunge(run: &Run, around: &Around) -> bool {
     if run.shape == Shape::Ring {
         return false;
     }
+    let knife = around.knife();
+    let heel = knife.heel_overlap_mm.max(knife.corner_heel_overlap_mm).max(knife.reflex_heel_overlap_mm);
+    let reach = knife.width_mm + heel + INSIDE_EPSILON;
+    if run.points.iter().any(|point| (point - run.points[0]).norm() > reach) {
+        // Nearly always: whatever room there is for overlaps.
+        return false;
+    }
     let mut whole = run.clone();
     overlap::give(&mut whole, around);
     polyline::first_at_distance(&whole.extended(), around.knife().width_mm).is_none()
