@@ -319,6 +319,18 @@ pub(super) mod tests {
     }
 
     #[test]
+    fn a_walk_finds_what_a_search_finds() {
+        let curve = arc();
+        let way = way(&curve, Entry::Plunge, Rotation(9.0));
+        let mut walk = way.walk(way.from + 5.0);
+        for i in 0..=300 {
+            let u = (way.from + 5.0 + 0.2 * f64::from(i)).min(way.to);
+            assert_eq!(walk.at(u).q, way.at(u).q, "{u}");
+            assert_eq!(walk.point(u), way.point(u), "{u}");
+        }
+    }
+
+    #[test]
     fn a_chord_plunge_has_its_tail_at_the_start_and_ends_tangent() {
         let curve = arc();
         let way = way(&curve, Entry::Plunge, Rotation(0.0));

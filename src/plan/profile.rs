@@ -7,10 +7,10 @@
 //! - jerk: sqrt(b) |q' b''/2 + 3/2 q'' b' + q''' b| <= J
 //!
 //! and |p'|^2 b <= feed^2 for the tip. From rest b ~ u^(4/3), so b = w(u) beta(u) with w carrying that singularity and
-//! beta a cubic B-spline. The duration, the integral of du / sqrt(b), is minimised by a logarithmic barrier with Newton
-//! steps from a strictly feasible start (Boyd & Vandenberghe, *Convex Optimization*, chapter 11; the change of variable
-//! after Verscheure et al., *Time-Optimal Path Tracking for Robots: A Convex Optimization Approach*, 2009). A constant
-//! beta, small enough, is always feasible, so there is no run without a motion.
+//! beta a cubic B-spline. The duration, the integral of du / sqrt(b), is minimised by a barrier with Newton steps from a
+//! strictly feasible start ([`barrier`]; the change of variable after Verscheure et al., *Time-Optimal Path Tracking for
+//! Robots: A Convex Optimization Approach*, 2009). A constant beta, small enough, is always feasible, so there is no run
+//! without a motion.
 
 use std::ops::Range;
 

@@ -3,8 +3,8 @@
 //!
 //! Jerk along a path contains k'' v^3 (k = curvature), so the path must be smooth to the third derivative of its
 //! direction; arcs, lines and cubic fits are not. Two phases: penalised least squares gives a strictly feasible start,
-//! then a logarithmic barrier with Newton steps (Boyd & Vandenberghe, *Convex Optimization*, chapter 11) brings it to
-//! the optimum, window by window. All matrices are banded, so time and memory are linear in the number of knots.
+//! then a barrier with Newton steps ([`barrier`]) brings it to the optimum, window by window. All matrices are banded, so
+//! time and memory are linear in the number of knots.
 
 use std::ops::Range;
 

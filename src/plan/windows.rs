@@ -6,7 +6,7 @@
 //! chapter 1). Each window is brought to its optimum while all outside it stands still: what is before it is final, what
 //! is behind it still as it started. Its last part, which feels that, is solved again in the next window. Every iterate is
 //! feasible for the whole. Steps, and what each of them touches, are bounded by the window, so the cost of an unknown does
-//! not depend on how many there are, and a window's tables stay in the caches.
+//! not depend on how many there are, and a window's tables are made when it is looked at.
 
 use std::ops::Range;
 
