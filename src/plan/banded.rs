@@ -35,6 +35,16 @@ impl<const W: usize> Band<W> {
         }
     }
 
+    /// Adds the lower half of a symmetric block at the rows `first ..`.
+    pub(super) fn add_block<const K: usize>(&mut self, first: usize, block: &[[f64; K]; K]) {
+        let rows = self.rows[first..].first_chunk_mut::<K>().expect("the block lies inside the matrix");
+        for (i, (row, add)) in rows.iter_mut().zip(block).enumerate() {
+            for (entry, value) in row[W - 1 - i..].iter_mut().zip(add) {
+                *entry += value;
+            }
+        }
+    }
+
     /// Adds `weight` times the entries of `other`.
     pub(super) fn add(&mut self, other: &Self, weight: f64) {
         for (row, add) in self.rows.iter_mut().zip(&other.rows) {
@@ -100,33 +110,46 @@ impl<const W: usize> Band<W> {
             return Err(Indefinite);
         }
         for i in 0..self.rows.len() {
-            for k in 1..W.min(i + 1) {
-                self.rows[i][W - 1 - k] *= scale[i] * scale[i - k];
+            let (before, behind) = self.rows.split_at_mut(i);
+            let row = &mut behind[0];
+            for (entry, other) in row.iter_mut().rev().zip(scale[..=i].iter().rev()) {
+                *entry *= scale[i] * other;
             }
-            self.rows[i][W - 1] = 1.0 + DIAGONAL_EPSILON;
-            self.eliminate(i)?;
+            row[W - 1] = 1.0 + DIAGONAL_EPSILON;
+            *row = if let Some(before) = before.last_chunk::<W>() {
+                eliminate(row, before)?
+            } else {
+                // Rows before the first, as those of the unit matrix.
+                let mut unit = [0.0; W];
+                unit[W - 1] = 1.0;
+                let mut padded = [unit; W];
+                padded[W - i..].copy_from_slice(before);
+                eliminate(row, &padded)?
+            };
         }
         Ok(Factor { rows: self.rows, scale })
     }
+}
 
-    /// Turns row `i` into that of the factor; the diagonal is kept as its inverse.
-    fn eliminate(&mut self, i: usize) -> Result<(), Indefinite> {
-        let mut row = self.rows[i];
-        for k in (1..W.min(i + 1)).rev() {
-            let column = W - 1 - k;
-            let other = &self.rows[i - k];
-            // Columns to the left of i - k that lie in both bands.
-            let dot: f64 = row[..column].iter().zip(&other[k..W - 1]).map(|(a, b)| a * b).sum();
-            row[column] = (row[column] - dot) * other[W - 1];
+/// A row of the factor, from that of the matrix and the ones `before` it: the row's own column `k` is
+/// that of `before[k + 1]`. The diagonal is kept as its inverse.
+fn eliminate<const W: usize>(row: &[f64; W], before: &[[f64; W]; W]) -> Result<[f64; W], Indefinite> {
+    let mut row = *row;
+    for column in 0..W - 1 {
+        let other = &before[column + 1];
+        // Columns to the left that lie in both bands.
+        let mut dot = 0.0;
+        for k in 0..column {
+            dot += row[k] * other[W - 1 - column + k];
         }
-        let square = row[W - 1] - row[..W - 1].iter().map(|v| v * v).sum::<f64>();
-        if square.is_nan() || square <= 0.0 {
-            return Err(Indefinite);
-        }
-        row[W - 1] = 1.0 / square.sqrt();
-        self.rows[i] = row;
-        Ok(())
+        row[column] = (row[column] - dot) * other[W - 1];
     }
+    let square = row[W - 1] - row[..W - 1].iter().map(|v| v * v).sum::<f64>();
+    if square.is_nan() || square <= 0.0 {
+        return Err(Indefinite);
+    }
+    row[W - 1] = 1.0 / square.sqrt();
+    Ok(row)
 }
 
 /// The Cholesky factor of a scaled band matrix.

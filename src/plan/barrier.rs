@@ -1,21 +1,50 @@
-//! The logarithmic barrier with Newton steps (Boyd & Vandenberghe, *Convex Optimization*, section 11.3): the one kernel of
-//! both solvers of this stage.
+//! The primal-dual barrier method with Newton steps: the one kernel of both solvers of this stage.
 //!
-//! It starts strictly inside the constraints and every iterate stays there, so it may be stopped at any time.
+//! The objective, weighed more and more, is minimised beside the logarithms of the slacks s of the constraints (Boyd &
+//! Vandenberghe, *Convex Optimization*, section 11.3). Each constraint has a multiplier z, too, that follows 1 / s by
+//! Newton steps of its own (Nocedal & Wright, *Numerical Optimization*, 2nd ed., section 19.3): with z / s instead of
+//! 1 / s^2 a step still knows which constraints held back the ones before, and a round takes half as many. The method
+//! starts strictly inside the constraints and every iterate stays there, so it may be stopped at any time.
 
 /// A smooth objective under inequality constraints, over control values of `N` coordinates.
 pub(super) trait Problem<const N: usize> {
-    /// Number of constraints.
-    fn constraints(&self) -> f64;
-
-    /// What is to be minimised; positive.
+    /// What is to be minimised; positive, and no number where it has no meaning.
     fn objective(&self, x: &[[f64; N]]) -> f64;
 
-    /// `weight` times the objective, less the logarithms of the slacks; infinite outside the constraints.
-    fn value(&self, x: &[[f64; N]], weight: f64) -> f64;
+    /// The slacks of the constraints, in order, all positive.
+    fn slacks(&self, x: &[[f64; N]], slacks: &mut Vec<f64>) -> Result<(), Outside>;
 
-    /// The Newton direction of [`Problem::value`] and the square of its decrement; `None` when the numbers break down.
-    fn newton(&self, x: &[[f64; N]], weight: f64) -> Option<(Vec<[f64; N]>, f64)>;
+    /// The Newton direction and the square of its decrement; `None` when the numbers break down.
+    fn newton(&self, x: &[[f64; N]], forces: &Forces) -> Option<(Vec<[f64; N]>, f64)>;
+}
+
+/// A place breaks a constraint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Outside;
+
+/// What bears on an iterate.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Forces<'a> {
+    /// Weight of the objective.
+    pub(super) weight: f64,
+    /// The constraints, in order.
+    pub(super) walls: &'a [Wall],
+}
+
+/// A constraint, seen from an iterate.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Wall {
+    /// 1 / s: the slope of -log s by s, with the other sign.
+    pub(super) slope: f64,
+    /// z s: 1 where the multiplier is that of the barrier, greater where the next steps are held back.
+    pub(super) share: f64,
+}
+
+impl Wall {
+    /// What stands for the second derivative of -log s by s: z / s.
+    pub(super) fn bend(&self) -> f64 {
+        self.share * self.slope * self.slope
+    }
 }
 
 /// How the weight of the objective is raised, and when it is enough.
@@ -27,7 +56,8 @@ pub(super) struct Schedule {
     pub(super) growth: f64,
     /// The end: the duality gap in parts of the objective.
     pub(super) gap: f64,
-    /// A round ends when the square of the Newton decrement falls below this.
+    /// A round ends with the step before which the square of the Newton decrement is below this, in parts of the number of
+    /// constraints: so much of the gap is then left to be won, however many there are.
     pub(super) decrement: f64,
     /// Bound on the Newton steps of a round: a guard, above what is needed.
     pub(super) steps_a_round: usize,
@@ -37,97 +67,151 @@ pub(super) struct Schedule {
 
 /// Sufficient decrease of a line search, as a part of what the slope promises.
 const ARMIJO: f64 = 1e-4;
-/// Least factor of a line search: a smaller step makes no progress in floating point.
-const STEP_EPSILON: f64 = 1e-10;
+/// Factor on the step of a line search that went too far.
+const BACKTRACK: f64 = 0.8;
+/// Least factor of a line search: a smaller step makes no progress.
+const STEP_EPSILON: f64 = 1e-8;
+/// Bound on [`Wall::share`] and on its inverse: the direction stays one of descent.
+const SHARE_MAX: f64 = 100.0;
+/// Part of the last weight that is as good as the whole.
+const WEIGHT_SHARE: f64 = 0.95;
 
 /// From a strictly feasible `x` to the optimum, as near as the schedule says; `None` when `x` is not feasible.
 pub(super) fn minimise<const N: usize>(
     problem: &impl Problem<N>,
-    mut x: Vec<[f64; N]>,
+    x: Vec<[f64; N]>,
     schedule: Schedule,
 ) -> Option<Vec<[f64; N]>> {
-    let constraints = problem.constraints();
-    let mut weight = schedule.start * constraints / problem.objective(&x).max(f64::MIN_POSITIVE);
-    let mut value = problem.value(&x, weight);
-    if !weight.is_finite() || !value.is_finite() {
-        return None;
-    }
-    let mut steps = 0;
+    let mut descent = Descent::new(problem, x, schedule)?;
     loop {
-        for _ in 0..schedule.steps_a_round {
-            steps += 1;
-            let Some((direction, decrement)) = problem.newton(&x, weight) else { break };
-            let line = Line { problem, from: &x, direction: &direction, weight };
-            let Some(next) = line.search(value, decrement) else { break };
-            (x, value) = next;
-            if decrement < schedule.decrement {
-                break;
+        descent.round();
+        let growth = descent.missing();
+        if growth * WEIGHT_SHARE <= 1.0 || descent.steps > schedule.steps {
+            return Some(descent.x);
+        }
+        descent.raise(growth.min(schedule.growth));
+    }
+}
+
+/// From a strictly feasible `x` towards the middle of the constraints: one round with the first weight of the schedule;
+/// `None` when `x` is not feasible.
+pub(super) fn centre<const N: usize>(
+    problem: &impl Problem<N>,
+    x: Vec<[f64; N]>,
+    schedule: Schedule,
+) -> Option<Vec<[f64; N]>> {
+    let mut descent = Descent::new(problem, x, schedule)?;
+    descent.round();
+    Some(descent.x)
+}
+
+/// A way down.
+struct Descent<'a, P, const N: usize> {
+    problem: &'a P,
+    schedule: Schedule,
+    x: Vec<[f64; N]>,
+    /// The objective, weighed, less the logarithms of the slacks.
+    value: f64,
+    weight: f64,
+    walls: Vec<Wall>,
+    /// Newton steps so far.
+    steps: usize,
+    /// Where a line search looks, and the slacks there.
+    next: Vec<[f64; N]>,
+    slacks: Vec<f64>,
+}
+
+impl<'a, P: Problem<N>, const N: usize> Descent<'a, P, N> {
+    /// At the start, with the multipliers of the barrier; `None` when that is not feasible.
+    fn new(problem: &'a P, x: Vec<[f64; N]>, schedule: Schedule) -> Option<Self> {
+        let mut slacks = Vec::new();
+        problem.slacks(&x, &mut slacks).ok()?;
+        let walls: Vec<Wall> = slacks.iter().map(|slack| Wall { slope: 1.0 / slack, share: 1.0 }).collect();
+        let objective = problem.objective(&x).max(f64::MIN_POSITIVE);
+        let weight = schedule.start * walls.len() as f64 / objective;
+        let value = weight * objective - logarithms(&slacks);
+        let finite = weight.is_finite() && value.is_finite();
+        finite.then(|| Self { problem, schedule, next: x.clone(), x, value, weight, walls, steps: 0, slacks })
+    }
+
+    /// Newton steps with one weight until the iterate is near the optimum for it.
+    fn round(&mut self) {
+        let near = self.schedule.decrement * self.walls.len() as f64;
+        for _ in 0..self.schedule.steps_a_round {
+            self.steps += 1;
+            let forces = Forces { weight: self.weight, walls: &self.walls };
+            let Some((direction, decrement)) = self.problem.newton(&self.x, &forces) else { return };
+            let Some(step) = self.search(&direction, decrement) else { return };
+            self.follow(step);
+            if decrement < near {
+                return;
             }
         }
-        if constraints / weight < schedule.gap * problem.objective(&x) || steps > schedule.steps {
-            return Some(x);
-        }
-        weight *= schedule.growth;
-        value = problem.value(&x, weight);
     }
-}
 
-/// A line from an iterate in a direction.
-struct Line<'a, P, const N: usize> {
-    problem: &'a P,
-    from: &'a [[f64; N]],
-    direction: &'a [[f64; N]],
-    weight: f64,
-}
-
-impl<P: Problem<N>, const N: usize> Line<'_, P, N> {
-    /// Halves the step until the value, so far `before`, falls enough; the place and its value, `None` when it never does.
-    fn search(&self, before: f64, decrement: f64) -> Option<(Vec<[f64; N]>, f64)> {
+    /// Shortens the step until the value falls enough, and goes there; how long it is then, `None` when it never does.
+    fn search(&mut self, direction: &[[f64; N]], decrement: f64) -> Option<f64> {
         let mut step = 1.0;
         while step > STEP_EPSILON {
-            let moved = |(x, d): (&[f64; N], &[f64; N])| std::array::from_fn(|n| x[n] + step * d[n]);
-            let next: Vec<[f64; N]> = self.from.iter().zip(self.direction).map(moved).collect();
-            let value = self.problem.value(&next, self.weight);
-            if value <= before - ARMIJO * step * decrement {
-                return Some((next, value));
+            for ((next, x), d) in self.next.iter_mut().zip(&self.x).zip(direction) {
+                *next = std::array::from_fn(|n| x[n] + step * d[n]);
             }
-            step *= 0.5;
+            if self.problem.slacks(&self.next, &mut self.slacks).is_ok() {
+                let value = self.weight * self.problem.objective(&self.next) - logarithms(&self.slacks);
+                if value <= self.value - ARMIJO * step * decrement {
+                    self.value = value;
+                    std::mem::swap(&mut self.x, &mut self.next);
+                    return Some(step);
+                }
+            }
+            step *= BACKTRACK;
         }
         None
     }
-}
 
-/// The sum of the logarithms of positive numbers: that of their product, taken before the product leaves the range of
-/// numbers. A logarithm costs as much as all else that is done for a constraint.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Logs {
-    sum: f64,
-    product: f64,
-}
-
-/// A product beyond these is taken as it stands: the next factor could carry it out of range.
-const PRODUCT_MIN: f64 = 1e-150;
-const PRODUCT_MAX: f64 = 1e150;
-
-impl Logs {
-    /// The sum of none.
-    pub(super) fn new() -> Self {
-        Self { sum: 0.0, product: 1.0 }
-    }
-
-    /// Adds the logarithm of a number.
-    pub(super) fn add(&mut self, number: f64) {
-        self.product *= number;
-        if !(PRODUCT_MIN..PRODUCT_MAX).contains(&self.product) {
-            self.sum += self.product.ln();
-            self.product = 1.0;
+    /// The whole Newton step of the multipliers beside a `step` of the iterate: with `ratio` that of the slack behind and
+    /// before, (z s) becomes ratio (1 + (z s) (1 - ratio) / step).
+    fn follow(&mut self, step: f64) {
+        let pace = 1.0 / step;
+        for (wall, slack) in self.walls.iter_mut().zip(&self.slacks) {
+            let ratio = slack * wall.slope;
+            let share = ratio * (1.0 + wall.share * (1.0 - ratio) * pace);
+            *wall = Wall { slope: 1.0 / slack, share: share.clamp(1.0 / SHARE_MAX, SHARE_MAX) };
         }
     }
 
-    /// The sum.
-    pub(super) fn sum(&self) -> f64 {
-        self.sum + self.product.ln()
+    /// By how much the weight must still grow.
+    fn missing(&self) -> f64 {
+        let enough = self.walls.len() as f64 / (self.schedule.gap * self.problem.objective(&self.x));
+        enough / self.weight
     }
+
+    /// Raises the weight; the multipliers, which are in parts of it, grow as much.
+    fn raise(&mut self, growth: f64) {
+        self.value += (growth - 1.0) * self.weight * self.problem.objective(&self.x);
+        self.weight *= growth;
+        self.walls.iter_mut().for_each(|wall| wall.share = (wall.share * growth).min(SHARE_MAX));
+    }
+}
+
+/// Numbers whose product is taken at once.
+const FACTORS: usize = 8;
+/// A product beyond these is taken as it stands: the next factors could carry it out of range.
+const PRODUCT_MIN: f64 = 1e-150;
+const PRODUCT_MAX: f64 = 1e150;
+
+/// The sum of the logarithms of positive numbers: those of their products, taken before a product leaves the range of
+/// numbers. A logarithm costs as much as all else that is done for a constraint.
+fn logarithms(numbers: &[f64]) -> f64 {
+    let (mut sum, mut product) = (0.0, 1.0_f64);
+    for factors in numbers.chunks(FACTORS) {
+        product *= factors.iter().product::<f64>();
+        if !(PRODUCT_MIN..PRODUCT_MAX).contains(&product) {
+            sum += product.ln();
+            product = 1.0;
+        }
+    }
+    sum + product.ln()
 }
 
 #[cfg(test)]
@@ -138,41 +222,52 @@ mod tests {
     struct Bounded;
 
     impl Problem<1> for Bounded {
-        fn constraints(&self) -> f64 {
-            1.0
-        }
-
         fn objective(&self, x: &[[f64; 1]]) -> f64 {
             1.0 / x[0][0]
         }
 
-        fn value(&self, x: &[[f64; 1]], weight: f64) -> f64 {
+        fn slacks(&self, x: &[[f64; 1]], slacks: &mut Vec<f64>) -> Result<(), Outside> {
             let x = x[0][0];
-            if x <= 0.0 || x >= 1.0 { f64::INFINITY } else { weight / x - (1.0 - x).ln() }
+            *slacks = vec![1.0 - x];
+            if x > 0.0 && x < 1.0 { Ok(()) } else { Err(Outside) }
         }
 
-        fn newton(&self, x: &[[f64; 1]], weight: f64) -> Option<(Vec<[f64; 1]>, f64)> {
-            let x = x[0][0];
-            let slope = -weight / (x * x) + 1.0 / (1.0 - x);
-            let bend = 2.0 * weight / x.powi(3) + 1.0 / (1.0 - x).powi(2);
+        fn newton(&self, x: &[[f64; 1]], forces: &Forces) -> Option<(Vec<[f64; 1]>, f64)> {
+            let (x, wall) = (x[0][0], forces.walls[0]);
+            let slope = -forces.weight / (x * x) + wall.slope;
+            let bend = 2.0 * forces.weight / x.powi(3) + wall.bend();
             Some((vec![[-slope / bend]], slope * slope / bend))
         }
     }
 
+    const SCHEDULE: Schedule =
+        Schedule { start: 0.3, growth: 8.0, gap: 1e-6, decrement: 1e-3, steps_a_round: 20, steps: 1000 };
+
     #[test]
     fn logarithms_add_up_beyond_the_range_of_numbers() {
-        let numbers = (0..2000).map(|i| [1e-90, 3e-3, 40.0, 1e80][i % 4] * (1.0 + i as f64));
-        let mut logs = Logs::new();
-        numbers.clone().for_each(|number| logs.add(number));
-        let expected: f64 = numbers.map(f64::ln).sum();
-        assert!((logs.sum() / expected - 1.0).abs() < 1e-12, "{} {expected}", logs.sum());
+        let numbers: Vec<f64> = (0..2000).map(|i| [1e-20, 3e-3, 40.0, 1e10][i % 4] * (1.0 + i as f64)).collect();
+        let expected: f64 = numbers.iter().copied().map(f64::ln).sum();
+        assert!((logarithms(&numbers) / expected - 1.0).abs() < 1e-12, "{} {expected}", logarithms(&numbers));
     }
 
     #[test]
     fn the_optimum_at_a_bound_is_approached_from_inside() {
-        let schedule = Schedule { start: 0.3, growth: 8.0, gap: 1e-6, decrement: 1e-6, steps_a_round: 20, steps: 1000 };
-        let x = minimise(&Bounded, vec![[0.1]], schedule).expect("a feasible start")[0][0];
-        assert!(x < 1.0 && x > 1.0 - 1e-4, "{x}");
-        assert!(minimise(&Bounded, vec![[2.0]], schedule).is_none());
+        let x = minimise(&Bounded, vec![[0.1]], SCHEDULE).expect("a feasible start")[0][0];
+        assert!(x < 1.0 && x > 1.0 - 1e-5, "{x}");
+        let middle = centre(&Bounded, vec![[0.1]], SCHEDULE).expect("a feasible start")[0][0];
+        assert!(middle > 0.1 && middle < 0.9, "{middle}");
+        assert!(minimise(&Bounded, vec![[2.0]], SCHEDULE).is_none());
+    }
+
+    #[test]
+    fn a_round_takes_but_a_few_steps() {
+        let mut descent = Descent::new(&Bounded, vec![[0.1]], SCHEDULE).expect("a feasible start");
+        descent.round();
+        for _ in 0..4 {
+            let before = descent.steps;
+            descent.raise(SCHEDULE.growth);
+            descent.round();
+            assert!(descent.steps - before <= 6, "{} steps", descent.steps - before);
+        }
     }
 }

@@ -146,6 +146,11 @@ impl<'a> Way<'a> {
         high
     }
 
+    /// A walk along the way that begins at a parameter.
+    pub(super) fn walk(&self, from: f64) -> Walk<'_> {
+        Walk { way: self, span: spline::span(self.curve.breaks(), from) }
+    }
+
     /// The tip at a parameter.
     pub(super) fn point(&self, u: f64) -> Point {
         let [[x, y]] = self.curve.derivatives::<1>(u);
@@ -161,10 +166,14 @@ impl<'a> Way<'a> {
 
     /// The axes at a parameter.
     pub(super) fn at(&self, u: f64) -> Axes {
+        self.at_on(spline::span(self.curve.breaks(), u), u)
+    }
+
+    /// The same, when the span of the curve is known.
+    fn at_on(&self, span: usize, u: f64) -> Axes {
         if let Some(chord) = &self.chord {
             return chord.at(self.curve, u);
         }
-        let span = spline::span(self.curve.breaks(), u);
         let [p, p1, p2, p3, p4] = self.curve.derivatives_on::<5>(span, u).map(|d| Vector::new(d[0], d[1]));
         let n = p1.norm_squared();
         let (n1, n2) = (2.0 * p1.dot(&p2), 2.0 * (p2.norm_squared() + p1.dot(&p3)));
@@ -198,14 +207,52 @@ impl<'a> Way<'a> {
 
     /// The pose at a parameter.
     pub(super) fn pose(&self, u: f64) -> Pose {
-        let [x, y, c] = self.at(u).q[0];
-        Pose::new(x, y, c)
+        self.at(u).pose()
     }
 
     /// Where the path's own polynomials meet, between the plunge and the lift, those two included.
     pub(super) fn breaks(&self) -> Vec<f64> {
         let inner = self.curve.breaks().iter().copied().filter(|&b| b > self.from && b < self.to);
         std::iter::once(self.from).chain(inner).chain(std::iter::once(self.to)).collect()
+    }
+}
+
+impl Axes {
+    /// Where they stand.
+    pub(super) fn pose(&self) -> Pose {
+        let [x, y, c] = self.q[0];
+        Pose::new(x, y, c)
+    }
+}
+
+/// Places along a way, none before the last one: each is found without a search, however long the way.
+#[derive(Debug)]
+pub(super) struct Walk<'a> {
+    way: &'a Way<'a>,
+    span: usize,
+}
+
+impl Walk<'_> {
+    /// The span of the curve on which a parameter lies.
+    fn reach(&mut self, u: f64) -> usize {
+        let breaks = self.way.curve.breaks();
+        while self.span + 2 < breaks.len() && breaks[self.span + 1] <= u {
+            self.span += 1;
+        }
+        self.span
+    }
+
+    /// The axes at a parameter.
+    pub(super) fn at(&mut self, u: f64) -> Axes {
+        let span = self.reach(u);
+        self.way.at_on(span, u)
+    }
+
+    /// The tip at a parameter.
+    pub(super) fn point(&mut self, u: f64) -> Point {
+        let span = self.reach(u);
+        let [[x, y]] = self.way.curve.derivatives_on::<1>(span, u);
+        Point::new(x, y)
     }
 }
 
@@ -268,6 +315,18 @@ pub(super) mod tests {
             let way = way(&curve, entry, Rotation(9.0));
             assert!((way.at(way.from).q[0][2] - 9.0).abs() <= std::f64::consts::PI);
             differences_agree(&way, "the tangent law");
+        }
+    }
+
+    #[test]
+    fn a_walk_finds_what_a_search_finds() {
+        let curve = arc();
+        let way = way(&curve, Entry::Plunge, Rotation(9.0));
+        let mut walk = way.walk(way.from + 5.0);
+        for i in 0..=300 {
+            let u = (way.from + 5.0 + 0.2 * f64::from(i)).min(way.to);
+            assert_eq!(walk.at(u).q, way.at(u).q, "{u}");
+            assert_eq!(walk.point(u), way.point(u), "{u}");
         }
     }
 

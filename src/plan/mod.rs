@@ -16,6 +16,7 @@ mod feed;
 mod knots;
 mod law;
 mod pace;
+mod place;
 mod profile;
 mod run;
 mod smooth;

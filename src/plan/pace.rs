@@ -59,8 +59,9 @@ pub(super) fn breaks(way: &Way, path_breaks: &[f64], changes: &[f64], grid: &Gri
     places.sort_by(f64::total_cmp);
     places.dedup();
     let spacing = (length.min(LENGTH_FELT) * SPACING_SHARE).max(SPACING);
-    let density = |s: f64| {
-        let [_, q1, q2, _] = way.at(way.from + s).q;
+    let mut walk = way.walk(way.from);
+    let mut density = |s: f64| {
+        let [_, q1, q2, _] = walk.at(way.from + s).q;
         let turn = q1[2].abs() / TURN_A_KNOT + (q2[2].abs() / BEND_A_KNOT).sqrt().min(BEND_KNOTS_MAX);
         let end = s.min(length - s).max(nearest);
         let next = changes.partition_point(|&change| change < s);
@@ -124,18 +125,24 @@ pub(super) struct Cell {
     from_end: Option<f64>,
 }
 
-/// The cells of the knots, in order.
-pub(super) fn cells(breaks: &[f64], length: f64) -> impl Iterator<Item = Cell> + '_ {
-    let middle = breaks.len() / 2;
-    breaks.windows(2).enumerate().map(move |(i, ends)| {
-        if i < middle {
-            Cell { z: [ends[0].cbrt(), ends[1].cbrt()], from_end: None }
-        } else {
-            Cell { z: [(length - ends[0]).cbrt(), (length - ends[1]).max(0.0).cbrt()], from_end: Some(length) }
-        }
-    })
+/// The cell of a span.
+pub(super) fn cell(breaks: &[f64], span: usize) -> Cell {
+    let ends = [breaks[span], breaks[span + 1]];
+    if span < breaks.len() / 2 {
+        Cell { z: ends.map(f64::cbrt), from_end: None }
+    } else {
+        let length = breaks[breaks.len() - 1];
+        Cell { z: ends.map(|end| (length - end).max(0.0).cbrt()), from_end: Some(length) }
+    }
 }
 
+/// The cells of the knots, in order.
+pub(super) fn cells(breaks: &[f64]) -> impl Iterator<Item = Cell> + '_ {
+    (0..breaks.len() - 1).map(|span| cell(breaks, span))
+}
+
+/// Nodes of the quadrature of a cell.
+pub(super) const GAUSS: usize = 4;
 /// Positive nodes and weights of Gauss-Legendre quadrature with four points.
 const GAUSS_4: [(f64, f64); 2] =
     [(0.339_981_043_584_856_3, 0.652_145_154_862_546_1), (0.861_136_311_594_052_6, 0.347_854_845_137_453_85)];
@@ -159,7 +166,7 @@ impl Cell {
     }
 
     /// Places and weights for an integral over the parameter.
-    pub(super) fn gauss_4(&self) -> [(f64, f64); 4] {
+    pub(super) fn gauss(&self) -> [(f64, f64); GAUSS] {
         let [z0, z1] = self.z;
         let (middle, half) = (f64::midpoint(z0, z1), (z1 - z0) / 2.0);
         let node = |x: f64, weight: f64| {

@@ -7,18 +7,19 @@
 //! - jerk: sqrt(b) |q' b''/2 + 3/2 q'' b' + q''' b| <= J
 //!
 //! and |p'|^2 b <= feed^2 for the tip. From rest b ~ u^(4/3), so b = w(u) beta(u) with w carrying that singularity and
-//! beta a cubic B-spline. The duration, the integral of du / sqrt(b), is minimised by a logarithmic barrier with Newton
-//! steps from a strictly feasible start (Boyd & Vandenberghe, *Convex Optimization*, chapter 11; the change of variable
-//! after Verscheure et al., *Time-Optimal Path Tracking for Robots: A Convex Optimization Approach*, 2009). A constant
-//! beta, small enough, is always feasible, so there is no run without a motion.
+//! beta a cubic B-spline. The duration, the integral of du / sqrt(b), is minimised by a barrier with Newton steps from a
+//! strictly feasible start ([`barrier`]; the change of variable after Verscheure et al., *Time-Optimal Path Tracking for
+//! Robots: A Convex Optimization Approach*, 2009). A constant beta, small enough, is always feasible, so there is no run
+//! without a motion.
 
 use std::ops::Range;
 
 use super::banded::Band;
-use super::barrier::{self, Logs, Schedule};
+use super::barrier::{self, Forces, Outside, Schedule, Wall};
 use super::feed::Feed;
-use super::law::Way;
-use super::pace::Grid;
+use super::law::{Walk, Way};
+use super::pace::{self, Grid};
+use super::place::{BOUNDS, Load, Pace};
 use super::timing::Timing;
 use super::windows::{self, Chain, Windows};
 use crate::geom::spline::{self, Piecewise};
@@ -26,21 +27,18 @@ use crate::machine::Limits;
 
 /// Order of beta: cubic.
 const ORDER: usize = 4;
-/// Constraints at a place: the speed, and both signs of acceleration and jerk of three axes.
-const BOUNDS_A_PLACE: f64 = 13.0;
-/// To a thousandth of the duration; 41 to 63 steps are seen, whatever the size.
+/// To some thousandth of the duration in about twenty steps, whatever the size.
 const SCHEDULE: Schedule =
-    Schedule { start: 0.3, growth: 8.0, gap: 1e-3, decrement: 1.0, steps_a_round: 12, steps: 150 };
+    Schedule { start: 0.3, growth: 10.0, gap: 3e-4, decrement: 0.03, steps_a_round: 12, steps: 150 };
 /// What follows bears on no more than the knots over which the axes come to rest: at most some 270 a second of turning C,
 /// and some ten over which the barrier's own choice fades.
 const WINDOWS: Windows = Windows { schedule: SCHEDULE, size: 3000, overlap: 120 };
 /// How far inside the limits the start lies.
 const START_SHARE: f64 = 0.7;
+/// Length over which an end of a run is felt at most, mm.
+const END_REACH: f64 = 2.0;
 /// Least difference of two collocation places, mm: nearer ones say the same.
 const PLACE_EPSILON: f64 = 1e-7;
-/// Least derivative of an axis that bounds its speed: smaller ones allow any.
-const SLOPE_EPSILON: f64 = 1e-12;
-
 /// No motion was found: a fault of the numbers, since a slow enough motion always exists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct NoMotion;
@@ -88,40 +86,42 @@ impl Ends {
     }
 }
 
-/// What holds at one place of the run, as rows over the four control values that matter there.
+/// One run. What is known at its places is worked out window by window: all of it at once would not fit into the caches.
+struct Problem<'a> {
+    way: &'a Way<'a>,
+    bounds: &'a Bounds,
+    breaks: Vec<f64>,
+    /// The breaks, those at the ends as often as the spline's order.
+    knots: Vec<f64>,
+    /// Where the limits hold, mm from the start.
+    stations: Vec<f64>,
+    ends: Ends,
+}
+
+/// A place where the limits hold.
 struct Place {
+    /// First of the control values that matter there.
     first: usize,
-    /// b.
-    square: [f64; ORDER],
-    /// 1 / (greatest b that the speeds allow).
-    speed: f64,
-    /// Acceleration of each axis in parts of its limit.
-    acceleration: [[f64; ORDER]; 3],
-    /// Jerk of each axis in parts of its limit, without the factor sqrt(b).
-    jerk: [[f64; ORDER]; 3],
+    /// b, b' and b'', as rows over four control values.
+    rows: [[f64; ORDER]; 3],
+    load: Load,
 }
 
 /// A node of the integral for the duration.
 struct Node {
     first: usize,
-    square: [f64; ORDER],
+    /// b, as a row over four control values.
+    row: [f64; ORDER],
     weight: f64,
 }
 
-struct Problem {
-    breaks: Vec<f64>,
-    start: f64,
-    ends: Ends,
-    places: Vec<Place>,
-    nodes: Vec<Node>,
-}
-
 fn dot(a: &[f64; ORDER], control: &[[f64; 1]]) -> f64 {
+    let control = control.first_chunk::<ORDER>().expect("each span has four control values");
     a[0] * control[0][0] + a[1] * control[1][0] + a[2] * control[2][0] + a[3] * control[3][0]
 }
 
-impl Problem {
-    fn new(way: &Way, bounds: &Bounds, density: f64) -> Self {
+impl<'a> Problem<'a> {
+    fn new(way: &'a Way<'a>, bounds: &'a Bounds, density: f64) -> Self {
         let length = way.to - way.from;
         let ends = Ends { length, reach: END_REACH.min(length / 8.0) };
         let inside = |u: &f64| *u > way.from && *u < way.to;
@@ -129,43 +129,74 @@ impl Problem {
         let mut path_breaks: Vec<f64> =
             way.breaks().iter().map(|b| b - way.from).chain(changes.iter().copied()).collect();
         path_breaks.sort_by(f64::total_cmp);
-        let breaks = super::pace::breaks(way, &path_breaks, &changes, &Grid { reach: ends.reach, density });
+        let breaks = pace::breaks(way, &path_breaks, &changes, &Grid { reach: ends.reach, density });
         let knots = spline::clamped_knots::<ORDER>(&breaks);
-        let mut span = 0;
-        let mut span_of = |s: f64| {
-            while span + 2 < breaks.len() && breaks[span + 1] <= s {
+        let stations = pace::places(&breaks, &path_breaks, PLACE_EPSILON);
+        Self { way, bounds, breaks, knots, stations, ends }
+    }
+
+    /// The limits at a station.
+    fn load(&self, walk: &mut Walk, s: f64) -> Load {
+        let u = self.way.from + s;
+        Load::new(&walk.at(u), &self.bounds.axes, self.bounds.feed.at(u))
+    }
+
+    /// b, b' and b'' at a station, as rows over the four control values of its span.
+    fn rows(&self, span: usize, s: f64) -> [[f64; ORDER]; 3] {
+        let [w, w1, w2] = self.ends.weight(s);
+        let [n0, n1, n2] = spline::basis::<ORDER, 3>(&self.knots, span, s);
+        [
+            n0.map(|n0| w * n0),
+            std::array::from_fn(|i| w1 * n0[i] + w * n1[i]),
+            std::array::from_fn(|i| w2 * n0[i] + 2.0 * w1 * n1[i] + w * n2[i]),
+        ]
+    }
+
+    /// The places of some spans.
+    fn places(&self, spans: Range<usize>) -> Vec<Place> {
+        let last = self.breaks.len() - 1;
+        let first = |span: usize| match span {
+            0 => 0,
+            _ if span == last => self.stations.len(),
+            _ => self.stations.partition_point(|&s| s < self.breaks[span]),
+        };
+        let stations = &self.stations[first(spans.start)..first(spans.end)];
+        let mut walk = self.way.walk(self.way.from + self.breaks[spans.start]);
+        let mut span = spans.start;
+        let mut places = Vec::with_capacity(stations.len());
+        for &s in stations {
+            while span + 1 < last && self.breaks[span + 1] <= s {
                 span += 1;
             }
-            span
-        };
-        let places = super::pace::places(&breaks, &path_breaks, PLACE_EPSILON)
-            .into_iter()
-            .map(|s| Place::new(way, bounds, &ends, &knots, span_of(s), s))
-            .collect();
-        let mut nodes = Vec::with_capacity(4 * breaks.len());
-        for (span, cell) in super::pace::cells(&breaks, length).enumerate() {
-            for (s, weight) in cell.gauss_4() {
-                let [beta] = spline::basis::<ORDER, 1>(&knots, span, s);
-                let w = ends.weight(s)[0];
-                nodes.push(Node { first: span, square: beta.map(|v| w * v), weight });
+            places.push(Place { first: span, rows: self.rows(span, s), load: self.load(&mut walk, s) });
+        }
+        places
+    }
+
+    /// The nodes of some spans.
+    fn nodes(&self, spans: Range<usize>) -> Vec<Node> {
+        let mut nodes = Vec::with_capacity(pace::GAUSS * spans.len());
+        for span in spans {
+            for (s, weight) in pace::cell(&self.breaks, span).gauss() {
+                let [beta] = spline::basis::<ORDER, 1>(&self.knots, span, s);
+                let [w, ..] = self.ends.weight(s);
+                nodes.push(Node { first: span, row: beta.map(|v| w * v), weight });
             }
         }
-        Self { breaks, start: way.from, ends, places, nodes }
+        nodes
     }
 
     /// A constant beta well inside every limit.
     fn feasible_start(&self) -> Vec<[f64; 1]> {
-        let ones = [[1.0]; ORDER];
-        let mut scale = f64::INFINITY;
-        for place in &self.places {
-            let b = dot(&place.square, &ones);
-            scale = scale.min(1.0 / (b * place.speed));
-            for (a, j) in place.acceleration.iter().zip(&place.jerk) {
-                scale = scale.min(1.0 / dot(a, &ones).abs());
-                scale = scale.min((dot(j, &ones).abs() * b.sqrt()).powf(-2.0 / 3.0));
-            }
+        let mut walk = self.way.walk(self.way.from);
+        let mut used = [0.0_f64; 3];
+        for &s in &self.stations {
+            let parts = self.load(&mut walk, s).parts(&self.ends.weight(s));
+            used = std::array::from_fn(|k| used[k].max(parts[k]));
         }
-        vec![[START_SHARE * scale]; spline::control_count::<ORDER>(&self.breaks)]
+        let [speed, acceleration, jerk] = used;
+        let room = (1.0 / speed).min(1.0 / acceleration).min(jerk.powf(-2.0 / 3.0));
+        vec![[START_SHARE * room]; spline::control_count::<ORDER>(&self.breaks)]
     }
 
     fn fastest(&self, windows: Windows) -> Result<Timing, NoMotion> {
@@ -181,13 +212,13 @@ impl Problem {
             let [[v], [v1]] = beta.derivatives_on::<2>(span, s);
             (w * v, w1 * v + w * v1)
         };
-        Timing::new(self.start, &self.breaks, pace)
+        Timing::new(self.way.from, &self.breaks, pace)
     }
 }
 
-impl Chain<1> for Problem {
+impl Chain<1> for Problem<'_> {
     type Part<'a>
-        = Part<'a>
+        = Part
     where
         Self: 'a;
 
@@ -195,108 +226,110 @@ impl Chain<1> for Problem {
         0..spline::control_count::<ORDER>(&self.breaks)
     }
 
-    fn part(&self, free: Range<usize>) -> (Part<'_>, Range<usize>) {
+    fn part(&self, free: Range<usize>) -> (Part, Range<usize>) {
         let spans = free.start.saturating_sub(ORDER - 1)..free.end.min(self.breaks.len() - 1);
-        let place = |span: usize| self.places.partition_point(|place| place.first < span);
-        let node = |span: usize| self.nodes.partition_point(|node| node.first < span);
-        let places = &self.places[place(spans.start)..place(spans.end)];
-        let nodes = &self.nodes[node(spans.start)..node(spans.end)];
         let near = spans.start..spans.end + ORDER - 1;
+        let (places, nodes) = (self.places(spans.clone()), self.nodes(spans));
         (Part { places, nodes, near: near.clone(), free }, near)
     }
 }
 
 /// Some control values of a problem, the others standing still.
-struct Part<'a> {
+struct Part {
     /// The places and the nodes on which they bear.
-    places: &'a [Place],
-    nodes: &'a [Node],
+    places: Vec<Place>,
+    nodes: Vec<Node>,
     /// The control values that are known, and those of them that are free.
     near: Range<usize>,
     free: Range<usize>,
 }
 
-impl barrier::Problem<1> for Part<'_> {
-    fn constraints(&self) -> f64 {
-        BOUNDS_A_PLACE * self.places.len() as f64
+/// Slope and lower half of the bend by the four control values of a span.
+#[derive(Default)]
+struct Block {
+    slope: [f64; ORDER],
+    bend: [[f64; ORDER]; ORDER],
+}
+
+impl Block {
+    /// Adds what a node says about the duration. It is exact.
+    fn add_node(&mut self, node: &Node, near: &[[f64; 1]], weight: f64) {
+        let b = dot(&node.row, near);
+        let slope = -0.5 * weight * node.weight / (b * b.sqrt());
+        let bend = -1.5 * slope / b;
+        for i in 0..ORDER {
+            self.slope[i] += slope * node.row[i];
+            let half = bend * node.row[i];
+            for j in 0..=i {
+                self.bend[i][j] += half * node.row[j];
+            }
+        }
     }
 
+    /// Adds what a place says about the limits.
+    fn add_place(&mut self, place: &Place, near: &[[f64; 1]], walls: &[Wall; BOUNDS]) {
+        let [r0, r1, r2] = &place.rows;
+        let model = place.load.model(&place.pace(near), walls);
+        let [g0, g1, g2] = model.slope;
+        for i in 0..ORDER {
+            self.slope[i] += g0 * r0[i] + g1 * r1[i] + g2 * r2[i];
+            let [h0, h1, h2] = model.times([r0[i], r1[i], r2[i]]);
+            for j in 0..=i {
+                self.bend[i][j] += h0 * r0[j] + h1 * r1[j] + h2 * r2[j];
+            }
+        }
+    }
+}
+
+impl barrier::Problem<1> for Part {
+    /// The duration, s.
     fn objective(&self, control: &[[f64; 1]]) -> f64 {
-        self.nodes.iter().map(|n| n.weight / dot(&n.square, &control[n.first - self.near.start..]).sqrt()).sum()
+        self.nodes.iter().map(|n| n.weight / dot(&n.row, &control[n.first - self.near.start..]).sqrt()).sum()
     }
 
-    fn value(&self, control: &[[f64; 1]], weight: f64) -> f64 {
-        let mut duration = 0.0;
-        for node in self.nodes {
-            let b = dot(&node.square, &control[node.first - self.near.start..]);
-            if b <= 0.0 || b.is_nan() {
-                return f64::INFINITY;
+    fn slacks(&self, control: &[[f64; 1]], slacks: &mut Vec<f64>) -> Result<(), Outside> {
+        slacks.clear();
+        for place in &self.places {
+            let here = place.load.slacks(&place.pace(&control[place.first - self.near.start..]));
+            // A root of a negative b is no number, and no slack is positive then.
+            if here.iter().any(|&slack| slack.is_nan() || slack <= 0.0) {
+                return Err(Outside);
             }
-            duration += node.weight / b.sqrt();
+            slacks.extend_from_slice(&here);
         }
-        let mut logs = Logs::new();
-        for place in self.places {
-            let near = &control[place.first - self.near.start..];
-            let b = dot(&place.square, near);
-            let speed = 1.0 - b * place.speed;
-            if b <= 0.0 || speed <= 0.0 || b.is_nan() {
-                return f64::INFINITY;
-            }
-            let mut slack = speed;
-            for row in &place.acceleration {
-                let a = dot(row, near);
-                if a.abs() >= 1.0 {
-                    return f64::INFINITY;
-                }
-                slack *= 1.0 - a * a;
-            }
-            for row in &place.jerk {
-                let square = b * dot(row, near).powi(2);
-                if square >= 1.0 {
-                    return f64::INFINITY;
-                }
-                slack *= 1.0 - square;
-            }
-            logs.add(slack);
-        }
-        weight * duration - logs.sum()
+        // A B-spline lies between its control values: b stays positive between the nodes, too.
+        slacks.extend(control.as_flattened());
+        if control.as_flattened().iter().all(|&value| value > 0.0) { Ok(()) } else { Err(Outside) }
     }
 
-    /// The Hessian is exact for the duration and takes g g^T terms for the bounds, so it is positive definite everywhere.
-    fn newton(&self, control: &[[f64; 1]], weight: f64) -> Option<(Vec<[f64; 1]>, f64)> {
+    fn newton(&self, control: &[[f64; 1]], forces: &Forces) -> Option<(Vec<[f64; 1]>, f64)> {
         let mut hessian = Band::<ORDER>::zero(control.len());
         let mut gradient = vec![0.0; control.len()];
-        let mut add = |hessian: &mut Band<ORDER>, first: usize, row: &[f64; ORDER], slope: f64, bend: f64| {
-            for (g, r) in gradient[first..].iter_mut().zip(row) {
-                *g += slope * r;
-            }
-            hessian.add_square(first, row, bend);
-        };
-        for node in self.nodes {
-            let first = node.first - self.near.start;
-            let b = dot(&node.square, &control[first..]);
-            let slope = -0.5 * weight * node.weight / (b * b.sqrt());
-            add(&mut hessian, first, &node.square, slope, -1.5 * slope / b);
+        let (walls, positive) = forces.walls.split_at(BOUNDS * self.places.len());
+        for (i, wall) in positive.iter().enumerate() {
+            hessian.add_entry(i, i, wall.bend());
+            gradient[i] -= wall.slope;
         }
-        for place in self.places {
-            let first = place.first - self.near.start;
-            let near = &control[first..];
-            let b = dot(&place.square, near);
-            let root = b.sqrt();
-            let speed = place.speed / (1.0 - b * place.speed);
-            add(&mut hessian, first, &place.square, speed, speed * speed);
-            for row in &place.acceleration {
-                let (slope, bend) = two_sided(dot(row, near));
-                add(&mut hessian, first, row, slope, bend);
+        let mut add = |first: usize, block: &Block| {
+            hessian.add_block(first, &block.bend);
+            gradient[first..].iter_mut().zip(&block.slope).for_each(|(sum, slope)| *sum += slope);
+        };
+        for nodes in self.nodes.chunk_by(|a, b| a.first == b.first) {
+            let first = nodes[0].first - self.near.start;
+            let mut block = Block::default();
+            for node in nodes {
+                block.add_node(node, &control[first..], forces.weight);
             }
-            for row in &place.jerk {
-                let half = dot(row, near);
-                let (slope, bend) = two_sided(root * half);
-                // Gradient of sqrt(b) * (row . control).
-                let share = 0.5 * half / root;
-                let full: [f64; ORDER] = std::array::from_fn(|i| root * row[i] + share * place.square[i]);
-                add(&mut hessian, first, &full, slope, bend);
+            add(first, &block);
+        }
+        let mut walls = walls.as_chunks::<BOUNDS>().0.iter();
+        for places in self.places.chunk_by(|a, b| a.first == b.first) {
+            let first = places[0].first - self.near.start;
+            let mut block = Block::default();
+            for (place, walls) in places.iter().zip(walls.by_ref()) {
+                block.add_place(place, &control[first..], walls);
             }
+            add(first, &block);
         }
         let (before, behind) = (self.free.start - self.near.start, self.free.end - self.near.start);
         for fixed in (0..before).chain(behind..control.len()) {
@@ -310,36 +343,9 @@ impl barrier::Problem<1> for Part<'_> {
     }
 }
 
-/// Slope and bend of -log(1 - a^2).
-fn two_sided(a: f64) -> (f64, f64) {
-    let slack = 1.0 - a * a;
-    (2.0 * a / slack, 2.0 * (1.0 + a * a) / (slack * slack))
-}
-
-/// Length over which an end of a run is felt at most, mm.
-const END_REACH: f64 = 2.0;
-
 impl Place {
-    fn new(way: &Way, bounds: &Bounds, ends: &Ends, knots: &[f64], span: usize, s: f64) -> Self {
-        let [w, w1, w2] = ends.weight(s);
-        let [n0, n1, n2] = spline::basis::<ORDER, 3>(knots, span, s);
-        let b0: [f64; ORDER] = std::array::from_fn(|i| w * n0[i]);
-        let b1: [f64; ORDER] = std::array::from_fn(|i| w1 * n0[i] + w * n1[i]);
-        let b2: [f64; ORDER] = std::array::from_fn(|i| w2 * n0[i] + 2.0 * w1 * n1[i] + w * n2[i]);
-        let axes = way.at(way.from + s);
-        let [_, q1, q2, q3] = axes.q;
-        let mut speed = (axes.pace / bounds.feed.at(way.from + s)).powi(2);
-        for (q1, limits) in q1.iter().zip(&bounds.axes) {
-            speed = speed.max((q1.abs().max(SLOPE_EPSILON) / limits.speed).powi(2));
-        }
-        let sum = |limit: f64, terms: [(f64, &[f64; ORDER]); 3]| -> [f64; ORDER] {
-            std::array::from_fn(|i| terms.iter().map(|(factor, b)| factor * b[i]).sum::<f64>() / limit)
-        };
-        let acceleration =
-            std::array::from_fn(|k| sum(bounds.axes[k].acceleration, [(0.5 * q1[k], &b1), (q2[k], &b0), (0.0, &b2)]));
-        let jerk =
-            std::array::from_fn(|k| sum(bounds.axes[k].jerk, [(0.5 * q1[k], &b2), (1.5 * q2[k], &b1), (q3[k], &b0)]));
-        Self { first: span, square: b0, speed, acceleration, jerk }
+    fn pace(&self, near: &[[f64; 1]]) -> Pace {
+        [dot(&self.rows[0], near), dot(&self.rows[1], near), dot(&self.rows[2], near)]
     }
 }
 

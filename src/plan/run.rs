@@ -206,12 +206,9 @@ impl Order<'_> {
     /// limit, and the tip its feed.
     fn along(&self, way: &Way) -> Result<Cut, Diagnostic> {
         let Self { run, job, blocks, bounds } = self;
-        let pose = |u: f64| {
-            let pose = way.pose(u);
-            Pose { c: Rotation(pose.c.0 + run.edge.turn()), ..pose }
-        };
+        let turned = |pose: Pose| Pose { c: Rotation(pose.c.0 + run.edge.turn()), ..pose };
         if way.to - way.from < WAY_EPSILON {
-            return Ok(Cut::plunge_only(pose(way.to), blocks.at(way.to)));
+            return Ok(Cut::plunge_only(turned(way.pose(way.to)), blocks.at(way.to)));
         }
         let timing = profile(way, bounds)
             .map_err(|_| self.refuse(&code::PLAN_PROFILE, "no motion within the limits was found"))?;
@@ -221,12 +218,11 @@ impl Order<'_> {
         for _ in 0..ROUNDS {
             let ticks = whole_periods(duration * stretch, period);
             let places = timing.sample(ticks as usize + 1);
-            let mut tip = way.point(places[0]);
-            let ways: Vec<f64> = places[1..]
-                .iter()
-                .map(|&u| (way.point(u) - std::mem::replace(&mut tip, way.point(u))).norm())
-                .collect();
-            let mut poses: Vec<Pose> = places.iter().map(|&u| pose(u)).collect();
+            let mut walk = way.walk(way.from);
+            let tips: Vec<Point> = places.iter().map(|&u| walk.point(u)).collect();
+            let ways: Vec<f64> = tips.windows(2).map(|tips| (tips[1] - tips[0]).norm()).collect();
+            let mut walk = way.walk(way.from);
+            let mut poses: Vec<Pose> = places.iter().map(|&u| turned(walk.at(u).pose())).collect();
             let feed = |i: usize| bounds.feed.greatest(places[i], places[i + 1]);
             let too_fast = ways.iter().enumerate().map(|(i, way)| way / (feed(i) * period)).fold(0.0, f64::max);
             rho = excess_of(&poses, period, &bounds.axes).max(too_fast);

@@ -26,11 +26,11 @@ impl Timing {
         let length = breaks[breaks.len() - 1];
         let mut nodes = vec![Node { t: 0.0, u: [start, 0.0, 0.0] }];
         let mut t = 0.0;
-        for (span, cell) in pace::cells(breaks, length).enumerate() {
+        for (span, cell) in pace::cells(breaks).enumerate() {
             for i in 0..NODES_A_SPAN {
                 let share = |i: usize| i as f64 / NODES_A_SPAN as f64;
                 let part = cell.part(share(i), share(i + 1));
-                t += part.gauss_4().iter().map(|&(s, weight)| weight / pace(span, s).0.sqrt()).sum::<f64>();
+                t += part.gauss().iter().map(|&(s, weight)| weight / pace(span, s).0.sqrt()).sum::<f64>();
                 let s = part.end();
                 let (b, slope) = if s < length { pace(span, s) } else { (0.0, 0.0) };
                 nodes.push(Node { t, u: [start + s, b.max(0.0).sqrt(), slope / 2.0] });

@@ -139,14 +139,20 @@ pub(crate) fn passed_by(case: &Case, rows: &[Row]) -> f64 {
             outside.iter().all(|outside| *outside < STROKE_REACH)
         };
         let near = tracks.iter().filter(|(extent, _)| is_near(extent)).flat_map(|(_, places)| places.windows(2));
-        near.map(|w| polyline::distance_to_segment(vertex, w[0], w[1])).fold(f64::INFINITY, f64::min)
+        near.map(|w| (polyline::distance_to_segment(vertex, w[0], w[1]), w)).min_by(|a, b| a.0.total_cmp(&b.0))
     };
     let mut worst = 0.0_f64;
     for (_, contour) in case.marker.contours() {
         let segments = chain(&case.marker, *contour);
         let is_bend = |i: &usize| turn(&segments, *i) < case.job.profile.corner.angle();
-        // Inside the bend the lines are nearer than the vertex.
-        let passed = |i: usize| nearest(segments[i].from) * (0.5 * turn(&segments, i)).cos();
+        // Inside the bend the lines are nearer than the vertex; and of a way that bends, the places that are read lie nearer
+        // to them than what is between.
+        let passed = |i: usize| {
+            nearest(segments[i].from).map_or(f64::INFINITY, |(away, places)| {
+                let read = places.iter().map(|place| distance(&case.marker, *place)).fold(0.0, f64::max);
+                read.min(away * (0.5 * turn(&segments, i)).cos())
+            })
+        };
         worst = (1..segments.len()).filter(is_bend).map(passed).fold(worst, f64::max);
     }
     worst

@@ -1,0 +1,177 @@
+//! What the limits say at one place of a run. The unknown b and its first two derivatives b' and b'' are three numbers from
+//! which all limits of the place follow (see [`super::profile`]), and the slopes of the barrier with them.
+
+use super::barrier::Wall;
+use super::law::Axes;
+use crate::machine::Limits;
+
+/// Constraints at a place: the speed, and both signs of acceleration and jerk of three axes.
+pub(super) const BOUNDS: usize = 13;
+/// Where in them those of each kind begin: the three axes one way, then the other way.
+const ACCELERATION: usize = 1;
+const JERK: usize = 7;
+/// Least derivative of an axis that bounds its speed: smaller ones allow any.
+const SLOPE_EPSILON: f64 = 1e-12;
+
+/// b, b' and b''.
+pub(super) type Pace = [f64; 3];
+
+/// The limits at a place.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Load {
+    /// 1 / (greatest b that the speeds allow).
+    speed: f64,
+    /// Acceleration of each axis in parts of its limit, by b and b'.
+    acceleration: [[f64; 2]; 3],
+    /// Jerk of each axis in parts of its limit, without the factor sqrt(b), by b, b' and b''.
+    jerk: [[f64; 3]; 3],
+}
+
+/// The second-order model of the barrier by b, b' and b''.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Model {
+    pub(super) slope: [f64; 3],
+    /// The lower half, row by row.
+    pub(super) bend: [f64; 6],
+}
+
+impl Load {
+    /// The limits where the axes are so; `feed` is the greatest speed of the tip, mm/s.
+    pub(super) fn new(axes: &Axes, limits: &[Limits; 3], feed: f64) -> Self {
+        let [_, q1, q2, q3] = axes.q;
+        let mut speed = (axes.pace / feed).powi(2);
+        for (q1, limits) in q1.iter().zip(limits) {
+            speed = speed.max((q1.abs().max(SLOPE_EPSILON) / limits.speed).powi(2));
+        }
+        let acceleration = std::array::from_fn(|k| [q2[k], 0.5 * q1[k]].map(|part| part / limits[k].acceleration));
+        let jerk = std::array::from_fn(|k| [q3[k], 1.5 * q2[k], 0.5 * q1[k]].map(|part| part / limits[k].jerk));
+        Self { speed, acceleration, jerk }
+    }
+
+    /// The greatest parts of the limits on speed, acceleration and jerk that are used up. When b, b' and b'' grow together,
+    /// the first two grow as much and the last as the power 3/2.
+    pub(super) fn parts(&self, pace: &Pace) -> [f64; 3] {
+        let greatest = |parts: [f64; 3]| parts.iter().fold(0.0_f64, |greatest, part| greatest.max(part.abs()));
+        let a = greatest(self.acceleration.map(|a| acceleration(&a, pace)));
+        let j = greatest(self.jerk.map(|j| jerk(&j, pace)));
+        [self.speed * pace[0], a, j * pace[0].sqrt()]
+    }
+
+    /// The slacks of all constraints; not positive where one is broken.
+    pub(super) fn slacks(&self, pace: &Pace) -> [f64; BOUNDS] {
+        let root = pace[0].sqrt();
+        let a = self.acceleration.map(|a| acceleration(&a, pace));
+        let j = self.jerk.map(|j| root * jerk(&j, pace));
+        let mut slacks = [1.0; BOUNDS];
+        slacks[0] -= self.speed * pace[0];
+        for k in 0..3 {
+            slacks[ACCELERATION + k] -= a[k];
+            slacks[ACCELERATION + 3 + k] += a[k];
+            slacks[JERK + k] -= j[k];
+            slacks[JERK + 3 + k] += j[k];
+        }
+        slacks
+    }
+
+    /// The model of the barrier there. It takes g g^T for each constraint, so that it is positive definite everywhere.
+    pub(super) fn model(&self, pace: &Pace, walls: &[Wall; BOUNDS]) -> Model {
+        let root = pace[0].sqrt();
+        let half = 0.5 / root;
+        let mut slope = [self.speed * walls[0].slope, 0.0, 0.0];
+        let mut bend = [self.speed * self.speed * walls[0].bend(), 0.0, 0.0, 0.0, 0.0, 0.0];
+        for k in 0..3 {
+            let [c0, c1] = self.acceleration[k];
+            let (up, down) = (walls[ACCELERATION + k], walls[ACCELERATION + 3 + k]);
+            let (force, stiffness) = (up.slope - down.slope, up.bend() + down.bend());
+            slope[0] += force * c0;
+            slope[1] += force * c1;
+            bend[0] += stiffness * c0 * c0;
+            bend[1] += stiffness * c0 * c1;
+            bend[2] += stiffness * c1 * c1;
+            // The slope of sqrt(b) (c . pace).
+            let c = &self.jerk[k];
+            let g = [root * c[0] + half * jerk(c, pace), root * c[1], root * c[2]];
+            let (up, down) = (walls[JERK + k], walls[JERK + 3 + k]);
+            let (force, stiffness) = (up.slope - down.slope, up.bend() + down.bend());
+            for (slope, g) in slope.iter_mut().zip(g) {
+                *slope += force * g;
+            }
+            let h = g.map(|g| stiffness * g);
+            bend[0] += h[0] * g[0];
+            bend[1] += h[1] * g[0];
+            bend[2] += h[1] * g[1];
+            bend[3] += h[2] * g[0];
+            bend[4] += h[2] * g[1];
+            bend[5] += h[2] * g[2];
+        }
+        Model { slope, bend }
+    }
+}
+
+fn acceleration(c: &[f64; 2], pace: &Pace) -> f64 {
+    c[0] * pace[0] + c[1] * pace[1]
+}
+
+/// Without the factor sqrt(b).
+fn jerk(c: &[f64; 3], pace: &Pace) -> f64 {
+    c[0] * pace[0] + c[1] * pace[1] + c[2] * pace[2]
+}
+
+impl Model {
+    /// The product of the bend with b, b' and b''.
+    pub(super) fn times(&self, v: [f64; 3]) -> [f64; 3] {
+        let [b00, b10, b11, b20, b21, b22] = self.bend;
+        [
+            b00 * v[0] + b10 * v[1] + b20 * v[2],
+            b10 * v[0] + b11 * v[1] + b21 * v[2],
+            b20 * v[0] + b21 * v[1] + b22 * v[2],
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn load() -> Load {
+        let q = [[1.0, 2.0, 0.1], [0.8, -0.6, 0.02], [0.004, 0.003, -0.001], [-0.0005, 0.0002, 0.000_3]];
+        let limits = [(1200.0, 8000.0, 2e5), (1100.0, 9000.0, 3e5), (18.0, 350.0, 17_000.0)];
+        let limits = limits.map(|(speed, acceleration, jerk)| Limits { speed, acceleration, jerk });
+        Load::new(&Axes { q, pace: 1.0 }, &limits, 760.0)
+    }
+
+    const PACE: Pace = [9e4, 300.0, -40.0];
+
+    #[test]
+    fn what_is_left_of_a_limit_is_the_slack() {
+        let load = load();
+        let used = load.parts(&PACE).into_iter().fold(0.0, f64::max);
+        let least = load.slacks(&PACE).into_iter().fold(f64::INFINITY, f64::min);
+        assert!((used + least - 1.0).abs() < 1e-12, "{used} {least}");
+        let grown = load.parts(&PACE.map(|v| 4.0 * v));
+        let expected = load.parts(&PACE);
+        for (grown, expected) in grown.into_iter().zip([4.0 * expected[0], 4.0 * expected[1], 8.0 * expected[2]]) {
+            assert!((grown / expected - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_model_has_the_slope_of_the_barrier_and_its_bend_along_straight_constraints() {
+        let load = load();
+        let barrier = |pace: &Pace| -load.slacks(pace).iter().map(|slack| slack.ln()).sum::<f64>();
+        let walls = load.slacks(&PACE).map(|slack| Wall { slope: 1.0 / slack, share: 1.0 });
+        let model = load.model(&PACE, &walls);
+        for k in 0..3 {
+            let step = [1.0, 1e-2, 1e-3][k];
+            let moved = |by: f64| std::array::from_fn(|i| if i == k { PACE[i] + by } else { PACE[i] });
+            let [before, behind] = [-step, step].map(|by| barrier(&moved(by)));
+            let numeric = (behind - before) / (2.0 * step);
+            assert!((model.slope[k] / numeric - 1.0).abs() < 1e-5, "{k}: {} {numeric}", model.slope[k]);
+            // By b'' all constraints are straight, by b' likewise.
+            let unit = std::array::from_fn(|i| f64::from(u8::from(i == k)));
+            let numeric = (behind - 2.0 * barrier(&PACE) + before) / (step * step);
+            let bend = model.times(unit)[k];
+            assert!(k == 0 || (bend / numeric - 1.0).abs() < 1e-3, "{k}: {bend} {numeric}");
+        }
+    }
+}
