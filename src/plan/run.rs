@@ -19,6 +19,11 @@ use crate::machine::kinematics::Move;
 use crate::source::Span;
 use crate::units::number::fixed;
 
+/// Part of the slower axis' speed below which a run does not move, but crawls: on what winds tighter than any cloth is cut.
+const CRAWL: f64 = 1e-4;
+/// Time that any run may take, s.
+const PATIENCE: f64 = 10.0;
+
 /// A run as it will be cut.
 #[derive(Debug)]
 pub struct Cut {
@@ -213,6 +218,13 @@ impl Order<'_> {
         let timing = profile(way, bounds)
             .map_err(|_| self.refuse(&code::PLAN_PROFILE, "no motion within the limits was found"))?;
         let (duration, period) = (timing.duration(), job.profile.time.period());
+        let [x, y, _] = bounds.axes;
+        let longest = PATIENCE + (way.to - way.from) / (CRAWL * x.speed.min(y.speed));
+        if duration.is_nan() || duration > longest {
+            let (seconds, length) = (fixed(duration, 0), fixed(way.to - way.from, 2));
+            let reason = format!("within the limits it would take {seconds} s for {length} mm: it winds too tightly");
+            return Err(self.refuse(&code::PLAN_PROFILE, &reason));
+        }
         let mut stretch = 1.0;
         let mut rho = 1.0;
         for _ in 0..ROUNDS {
