@@ -67,6 +67,7 @@ const BESIDE_A_TABLE: &[(&str, &str)] = &[
     ("chord", "finds where a blade cannot be a chord of a run, for the pass that acts on it"),
     ("foreign", "names the formats that are no dialect of ours"),
     ("frame", "makes the one toolpath that no pass edits"),
+    ("lap", "says how far C turns along a run, for the passes that keep it in its range"),
     ("nibble", "parts runs into plunges for the pass that nibbles"),
     ("notches", "draws notches in the style of the profile, before a pass edits them"),
     ("scene", "holds what passes look at beside a toolpath"),

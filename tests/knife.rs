@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 use std::io::Cursor;
 
 use cutc::back::TARGETS;
-use cutc::diagnostic::{Diagnostics, render};
+use cutc::diagnostic::{Diagnostics, Severity, render};
 use cutc::geom::{Heading, Point};
 use cutc::ir::Marker;
 use cutc::ir::toolpath::{Pose, Shape, Step};
@@ -196,6 +196,35 @@ fn a_ring_that_winds_past_the_range_of_c_begins_elsewhere_or_is_cut_in_parts() {
         job.profile.c.range_deg = range_deg;
         assert_eq!(compile("iso/seed-circle.cut", &job), said, "{range_deg:?}");
         assert_eq!(runs(&job), parts, "{range_deg:?}");
+    }
+}
+
+#[test]
+fn a_circle_under_a_narrow_range_of_c_is_proven_or_refused_by_name() {
+    let target = TARGETS.iter().find(|target| target.name == "csv").expect("setpoints are a target");
+    for (radius, start) in [4.0, 6.0, 8.0, 10.0, 20.0].into_iter().flat_map(|r| [0, 18, 31, 50].map(|start| (r, start)))
+    {
+        let at = |i: i32| Heading::new(TAU * f64::from(i % 72) / 72.0).unit() * radius;
+        let rows = (start..=start + 72).map(|i| format!("{:.3},{:.3}\n", 100.0 + at(i).x, 50.0 + at(i).y));
+        let text = rows.collect::<Vec<_>>().concat();
+        let source = Source::new("circle.csv", format!("x_mm,y_mm\n{text}").into_bytes()).expect("it is small");
+        for most in [185.0, 186.0, 187.0, 190.0, 200.0, 270.0] {
+            let mut job = Job::default();
+            job.profile.c.range_deg = Some([-most, most]);
+            let order = pipeline::Order { from: None, target, verify: true };
+            let (mut out, mut diagnostics) = (Cursor::new(Vec::new()), Diagnostics::default());
+            let compiled = pipeline::compile(&source, &job, order, &mut out, &mut diagnostics).expect("memory");
+            let case = format!("{radius} mm from {start}, {most} degrees: {}", render(&diagnostics, &source));
+            let errors = diagnostics.iter().filter(|found| found.code.severity == Severity::Error);
+            let errors: Vec<&str> = errors.map(|found| found.code.name).collect();
+            match compiled {
+                Some(_) => assert!(errors.is_empty(), "{case}"),
+                None => assert_eq!(errors, ["path/c-range"], "{case}"),
+            }
+            // From 360 degrees, the turn of the overlap and 10 degrees on there is a way.
+            let needed = 180.0 + (0.8 / radius).to_degrees() / 2.0 + 5.0;
+            assert!(compiled.is_some() || most < needed, "{case}");
+        }
     }
 }
 

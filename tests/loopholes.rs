@@ -109,17 +109,22 @@ fn little_by_little_a_line_is_cut_twice_all_the_same() {
 #[test]
 fn a_circle_is_not_cut_as_a_polygon() {
     let marker = circle(8.0);
-    let mut program = Program::new(&Job::default());
-    for i in 0..8 {
-        let from = TAU * f64::from(i) / 8.0;
-        let (a, b) = (Heading::new(from).unit() * 8.0, Heading::new(from + 2.0 * (3.3_f64 / 8.0).asin()).unit() * 8.0);
-        let along: Vector = (b - a).normalize();
-        let tail = p(100.0, 50.0) + a;
-        let c = (from + (3.3_f64 / 8.0).asin() + TAU / 4.0).to_degrees();
-        program.stab(tail + along * 6.6, c, (6 * i + 6) as u32);
+    // Nor where C has to begin elsewhere to go round it in one.
+    for range_deg in [None, Some([-200.0, 200.0])] {
+        let mut job = Job::default();
+        job.profile.c.range_deg = range_deg;
+        let mut program = Program::new(&job);
+        for i in 0..8 {
+            let from = TAU * f64::from(i) / 8.0;
+            let reach = 2.0 * (3.3_f64 / 8.0).asin();
+            let (a, b) = (Heading::new(from).unit() * 8.0, Heading::new(from + reach).unit() * 8.0);
+            let along: Vector = (b - a).normalize();
+            let tail = p(100.0, 50.0) + a;
+            program.stab(tail + along * 6.6, along.y.atan2(along.x).to_degrees(), (6 * i + 6) as u32);
+        }
+        let found = broken(&program.judge(&marker));
+        assert!(found.contains(&"verify/on-path"), "{range_deg:?}: {found:?}");
     }
-    let found = broken(&program.judge(&marker));
-    assert!(found.contains(&"verify/on-path"), "{found:?}");
 }
 
 #[test]

@@ -8,8 +8,8 @@
 //! `front_side` and `heel_side` say where the overlaps go: into the "waste", into the "part" itself, or into a "gap" that is
 //! narrower than they should be long, or along the "contour" where the knife is lifted amid it; `turned` whether a cut goes
 //! the other way round than the file has it. `front_overcut_mm` and `heel_overcut_mm` say how far the blade of a stab cuts
-//! into parts because nothing else holds what it is longer by, `neighbour_overcut_mm` how much of both lies in another
-//! part than its own.
+//! into parts because nothing else holds what it is longer by, `neighbour_overcut_mm` how much of either lies in another
+//! part than its own, at the most.
 //!
 //! Two clocks are given. `duration_s` is what the axes need from rest to rest, not rounded; `dwell_s` how long they rest
 //! for plunge and lift, or a drill; all of both add up to the program's `time_s`. A controller has whole periods only, so
@@ -147,7 +147,7 @@ fn object(run: &Run, index: u64, piece: u32) -> String {
         edge_name(edge),
         mm(harm[1].total()),
         mm(harm[0].total()),
-        mm(harm[0].other + harm[1].other),
+        mm(harm[0].other.max(harm[1].other)),
         follow(law),
     )
 }

@@ -61,6 +61,14 @@ impl Extent {
     pub const EMPTY: Self =
         Self { min: Point::new(f64::INFINITY, f64::INFINITY), max: Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY) };
 
+    /// The box of some points.
+    pub fn of(points: &[Point]) -> Self {
+        points.iter().fold(Self::EMPTY, |mut extent, &point| {
+            extent.add(point);
+            extent
+        })
+    }
+
     /// Grows the box to hold `point`.
     pub fn add(&mut self, point: Point) {
         self.min = Point::new(lesser(self.min.x, point.x), lesser(self.min.y, point.y));

@@ -189,7 +189,7 @@ pub enum Shape {
 pub struct End {
     /// A corner inside a contour; otherwise the contour begins or ends here.
     pub corner: bool,
-    /// The file forbids the overlap here (M17, M18, M19, a slit).
+    /// No overlap goes here: the file forbids it (M17, M18, M19, a slit), or the contour itself goes on.
     pub bare: bool,
     /// Where its overlap goes.
     pub side: Side,

@@ -102,11 +102,12 @@ impl Body {
         // The chord that is being left counts, too: a curve turns along its chords, not at its vertices.
         let length = line.length();
         let next = if b >= a { line.vertices(high.next_up(), high + length).next() } else { line.vertex_before(low) };
-        let next = next.filter(|&vertex| line.ring || (1..line.chords()).contains(&vertex));
-        let beside = match (next, &turns[..]) {
+        let is_inner = |vertex: &usize| line.ring || (1..line.chords()).contains(vertex);
+        let is_covered = !line.ring && line.vertices(low, high).filter(is_inner).count() + 1 == line.chords();
+        let beside = match (next.filter(is_inner), &turns[..]) {
             (Some(next), _) => line.turn(next).abs(),
-            // A curve that ends there turns along both halves of the chords at its ends, too.
-            (None, [first, .., last]) if is_curve(&turns) => f64::midpoint(*first, *last),
+            // A curve that is covered turns along both halves of the chords at its ends, too.
+            (None, [first, .., last]) if is_covered && is_curve(&turns) => f64::midpoint(*first, *last),
             (None, _) => 0.0,
         };
         body.sag = body.sag.min(polyline::sagitta((tip - tail).norm(), turned + beside));

@@ -39,6 +39,7 @@ mod source_hpgl;
 mod stroke;
 mod table;
 mod trial;
+mod winding;
 mod words;
 mod worst;
 mod worsts;

@@ -28,7 +28,7 @@ pub(super) struct Blade<'a> {
 /// Whether a blade that plunges anywhere on a line, round a ring, may lie beside it: the knife is lifted somewhere amid it,
 /// and what then remains may be short.
 pub(super) fn bows_anywhere(line: &Line, Blade { knife, tolerance }: Blade) -> bool {
-    let path = if line.ring { [&line.points, &line.points[1..]].concat() } else { line.points.to_vec() };
+    let path = line.twice_round();
     let bow = |start: usize| Bow::new(&path[start..], 0.0, knife);
     (0..line.chords()).filter_map(bow).any(|bow| bow.is_curve && bow.away > TOLERANCE_SHARE * tolerance)
 }
@@ -60,34 +60,21 @@ pub(super) fn stretches(line: &Line, ends: [f64; 2], blade: Blade) -> Box<[[f64;
         found.push([0.0, ends[0]]);
     }
     if blade.knife.tight_curves == TightCurves::Nibble {
-        let path = if line.ring { [&line.points, &line.points[1..]].concat() } else { line.points.to_vec() };
-        let chords = line.chords();
+        let path = line.twice_round();
         // From the vertex before it to the first one behind at which the blade may plunge.
         found.extend(line.tight.iter().map(|&[low, high]| {
-            let lap = usize::from(line.ring && high >= length);
-            let next = line.chord_at(high - lap as f64 * length) + 1 + lap * chords;
-            let end = blade.first_clear(&path, next.min(path.len() - 1));
-            let end = line.stations[end % chords] + length * (end / chords) as f64;
+            let lap = if line.ring && high >= length { length } else { 0.0 };
+            let next = line.chord_at(high - lap) + 1;
+            let end = blade.first_clear(&path[..path.len().min(next + line.points.len())], next);
+            let end = lap + line.stations[end % line.chords()] + length * (end / line.chords()) as f64;
             [line.stations[line.chord_at(low)].min(low), end.max(high)]
         }));
     }
     if ends[1] > 0.0 {
         found.push([length - ends[1], length]);
     }
-    // What is shorter than the blade between two of them, or before an end, is cut with them.
-    let mut joined: Vec<[f64; 2]> = Vec::new();
-    for [low, high] in found {
-        match joined.last_mut() {
-            Some(last) if low <= last[1] + width => last[1] = last[1].max(high),
-            _ => joined.push([low, high]),
-        }
-    }
-    let widened = joined.into_iter().map(|[low, high]| {
-        let low = if !line.ring && low < width { 0.0 } else { low };
-        let high = if !line.ring && high > length - width { length } else { high };
-        [low - width, high + width]
-    });
-    widened.collect()
+    // What is shorter than the blade between two of them, or before an end, is cut with them, too.
+    found.into_iter().map(|[low, high]| [low - width, high + width]).collect()
 }
 
 impl Blade<'_> {

@@ -22,6 +22,8 @@ const STEP: f64 = 0.05;
 /// Part of the tolerance by which a way that is thought to be free may lie in a part: less than by which any cut may, so that
 /// what a blade was placed by is never taken for more room than it was.
 const ROOM_SHARE: f64 = 0.5;
+/// Length, in how near it is, from which on a way is along an edge: one that crosses it at 10 degrees or more is not.
+const ALONG: f64 = 6.0;
 /// Halvings that find where a way enters a part: from a quarter of a millimetre to rounding.
 const HALVINGS: usize = 20;
 
@@ -236,13 +238,14 @@ impl<'a> Overcut<'a> {
         // From where on it runs along an edge that is cut anyway: rounding decides in what cloth that is.
         let mut edge: Option<f64> = None;
         let steps = (self.width / STEP).ceil() as usize;
+        let slack = ROOM_SHARE * self.tolerance;
         for i in 1..=steps {
             let way = STEP * i as f64;
             let (place, before) = (from + along * way, from + along * (way - STEP));
             let cloth = self.at(place, line, lines);
             let kind = match cloth {
                 Cloth::Waste => {
-                    let is_along = !lines.is_away(place, ROOM_SHARE * self.tolerance);
+                    let is_along = !lines.is_away(place, slack);
                     (entry, edge) = (None, if is_along { edge.or(Some(way - STEP)) } else { None });
                     continue;
                 }
@@ -252,10 +255,14 @@ impl<'a> Overcut<'a> {
             let entered = match entry {
                 Some((same, entered)) if same == cloth => entered,
                 Some(_) | None if i == 1 => 0.0,
-                Some(_) | None => edge.unwrap_or_else(|| way - self.entered([before, place], Some(cloth), line, lines)),
+                // What crosses an edge is as near to it only for a little.
+                Some(_) | None => match edge {
+                    Some(edge) if way - edge > ALONG * slack => edge,
+                    Some(_) | None => way - self.entered([before, place], Some(cloth), line, lines),
+                },
             };
             (entry, edge) = (Some((cloth, entered)), None);
-            if lines.is_away(place, ROOM_SHARE * self.tolerance) {
+            if lines.is_away(place, slack) {
                 room[kind] = room[kind].min(entered);
             }
         }

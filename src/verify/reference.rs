@@ -10,6 +10,7 @@ use super::caps::{Caps, End, Feeds};
 use super::chord;
 use super::nibbles::{self, Blade};
 use super::notches;
+use super::winding::Winding;
 use crate::geom::{Point, Vector, angle, left, polyline};
 use crate::ir::Marker;
 use crate::ir::list::Segment;
@@ -22,8 +23,6 @@ const CURVE_CHORD: f64 = 25.0;
 /// Ways along a contour that differ by less are the same, mm: rounding of their sums.
 const SAME_WAY: f64 = 1e-6;
 
-/// How far from the ends of its range C is kept on a line that turns it, rad (5 degrees).
-const CLEAR_OF_ENDS: f64 = 0.087_266_462_599_716_47;
 /// Smaller turns are none, rad.
 const TURN_EPSILON: f64 = 1e-6;
 
@@ -47,7 +46,7 @@ pub(super) struct Line {
     bulges: Box<[f64]>,
     /// Whether it is a closed contour without a corner.
     pub(super) ring: bool,
-    /// Whether it turns the blade past the range of C wherever that starts: then the knife is lifted amid it.
+    /// Whether C cannot follow it in one: then the knife is lifted amid it.
     pub(super) winds: bool,
     /// By the stations of tail and tip: where it is too tight for the blade to be its chord.
     pub(super) tight: Box<[[f64; 2]]>,
@@ -129,7 +128,7 @@ impl OfPiece {
         }
         if let Some(range) = profile.blade_range() {
             for line in &mut lines {
-                line.winds = line.winds_past(range, profile.knife.period());
+                line.winds = Winding::new(line, profile).is_past(range);
             }
         }
         let (knife, tolerance) = (&profile.knife, profile.tolerance(marker.unit));
@@ -369,6 +368,12 @@ impl Line {
         })
     }
 
+    /// Its points; of a ring those of two laps.
+    pub(super) fn twice_round(&self) -> Vec<Point> {
+        let more = if self.ring { &self.points[1..] } else { &[] };
+        [&self.points, more].concat()
+    }
+
     /// Whether it may be nibbled at a station, which on a ring may lie on any lap.
     pub(super) fn is_nibbled(&self, station: f64) -> bool {
         let laps = if self.ring { &[0.0, 1.0, -1.0][..] } else { &[0.0] };
@@ -384,25 +389,6 @@ impl Line {
             return 0.0;
         }
         angle::turn(self.direction((vertex + count - 1) % count), self.direction(vertex % count))
-    }
-
-    /// Whether no equivalent of C, which differ by a period, lets the blade follow it inside a range, rad, and stay clear of its ends by what smoothing
-    /// and a plunge as a chord may turn it more.
-    fn winds_past(&self, [least, greatest]: [f64; 2], period: f64) -> bool {
-        let first = self.direction(0);
-        let mut heading = first.y.atan2(first.x);
-        let mut reach = [heading; 2];
-        // Round a ring the blade turns on to the first chord.
-        for vertex in 1..self.chords() + usize::from(self.ring) {
-            heading += self.turn(vertex);
-            reach = [reach[0].min(heading), reach[1].max(heading)];
-        }
-        if self.chords() == 1 {
-            return false;
-        }
-        let (least, greatest) = (least + CLEAR_OF_ENDS, greatest - CLEAR_OF_ENDS);
-        let least_turn = ((least - reach[0]) / period - TURN_EPSILON).ceil();
-        least_turn > ((greatest - reach[1]) / period + TURN_EPSILON).floor()
     }
 
     /// The greatest speed of the tip, mm/s, where that is one all along; `sign` is +1 with the line, -1 against it.

@@ -18,7 +18,7 @@ use super::naming::Naming;
 use super::overcut::{self, Harm, Lines, Overcut};
 use super::read::{Going, Rounding, Row};
 use super::reference::{Line, Reference};
-use super::trial::{REACH, Trace, Tracer, Trial};
+use super::trial::{Covered, REACH, Trace, Tracer, Trial};
 use super::worst::{Worst, at};
 use super::worsts::Worsts;
 use crate::geom::{Point, Vector, angle, left};
@@ -335,19 +335,19 @@ impl<'a> Judge<'a> {
     /// How far a curve lies beside the blade that covers it, mm, where cutting it by several plunges would reach less far into
     /// the part, or the blade stands across it; else none.
     fn left_beside(&self, cut: &Cut, trial: &Trial) -> f64 {
-        if trial.covered <= self.tracer.allowed {
+        let allowed = self.tracer.allowed;
+        let Some(Covered { stations: [tail, tip], sag }) = trial.covered.filter(|covered| covered.sag > allowed) else {
             return 0.0;
-        }
+        };
         let line = &self.reference.lines[trial.line];
-        let blade = cut.points[cut.body] - cut.points[0];
-        let [tail, tip] = [0, cut.body].map(|end| trial.feet[end].station);
+        let blade = (cut.points[cut.body] - cut.points[0]) * (tip - tail).signum();
         let ends = [tail.min(tip), tail.max(tip)];
-        let lines = Lines { reference: self.reference, grid: &self.tracer.grid };
-        let spared = self.overcut.of_nibbles(ends, line, lines);
         let turned: f64 = line.vertices(ends[0], ends[1]).map(|vertex| line.turn(vertex).abs()).sum();
-        let is_across = turned > COVERED_TURN
-            || chord::stands_across(blade * (tip - tail).signum(), line.direction(line.chord_at(ends[0])));
-        if is_across || trial.covered > spared + self.tracer.allowed { trial.covered } else { 0.0 }
+        if turned > COVERED_TURN || chord::stands_across(blade, line.direction(line.chord_at(ends[0]))) {
+            return sag;
+        }
+        let lines = Lines { reference: self.reference, grid: &self.tracer.grid };
+        if sag > self.overcut.of_nibbles(ends, line, lines) + allowed { sag } else { 0.0 }
     }
 
     /// How much of a line a stroke cuts twice, mm, but for what the blade of a stab is longer by than what was left.
@@ -458,7 +458,7 @@ impl<'a> Judge<'a> {
         let (start, end) = (line.points[0], line.points[line.points.len() - 1]);
         let width = self.knife.width_mm;
         let is_short = || line.points.iter().all(|point| (point - start).norm() < width);
-        let surplus = if trial.covered > 0.0 {
+        let surplus = if trial.fits.is_some() && trial.covered.is_some() {
             // A chord is shorter than its curve.
             width - (line.place(trial.hull[1]) - line.place(trial.hull[0])).norm()
         } else if trial.fits.is_some() {

@@ -38,6 +38,15 @@ impl Candidate {
     }
 }
 
+/// A curve under a blade that never moves.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Covered {
+    /// Where its ends stand on the line, that of the blade's tail first, mm.
+    pub(super) stations: [f64; 2],
+    /// How far it bows away from the blade, mm.
+    pub(super) sag: f64,
+}
+
 /// A stroke followed along one line.
 pub(super) struct Trial {
     pub(super) line: usize,
@@ -56,8 +65,8 @@ pub(super) struct Trial {
     pub(super) held: RangeInclusive<usize>,
     /// The joints between which it is a stab that fits what was left of its line: its blade may then be longer.
     pub(super) fits: Option<[[f64; 2]; 2]>,
-    /// How far a curve that could be nibbled bows away from the blade that covers it, mm.
-    pub(super) covered: f64,
+    /// The curve, if it could be nibbled, that it covers in one plunge.
+    pub(super) covered: Option<Covered>,
     /// From where to where it cuts what was not cut before.
     pub(super) hull: [f64; 2],
 }
@@ -204,7 +213,7 @@ impl Tracer<'_> {
             laps,
             held: first..=points.len() - 1,
             fits: None,
-            covered: 0.0,
+            covered: None,
             hull: [0.0; 2],
         };
         let mut body = if laps { Body::default() } else { Body::new(line, cut, &trial.feet, allowed) };
@@ -213,8 +222,9 @@ impl Tracer<'_> {
         if is_nibble || body.sag > allowed {
             let around = |end: usize| Around { station: trial.feet[end].station, slack: 2.0 * allowed, tube: 0.0 };
             let bow = self.joints.bow(line, body.ends.map(around), cut);
-            if is_nibble && !joints::is_bent(line, body.ends.map(|end| trial.feet[end].station)) {
-                trial.covered = body.sag.min(bow);
+            let stations = body.ends.map(|end| trial.feet[end].station);
+            if is_nibble && bow > 0.0 && !joints::is_bent(line, stations) {
+                trial.covered = Some(Covered { stations, sag: body.sag });
             }
             if is_nibble && bow == 0.0 {
                 // What nibbles is within the tolerance of what it cuts.

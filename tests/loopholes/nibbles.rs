@@ -95,7 +95,8 @@ fn one_plunge_cuts_a_short_curve_only_where_several_would_reach_farther_into_the
     // Around a corner that is rounded off the waste has room for shorter cuts: the plunge would cut it off for nothing.
     let lobe: Vec<Point> = quarter(p(105.0, 55.0), TAU / 2.0).into_iter().rev().collect();
     let around = [p(90.0, 110.0), p(160.0, 80.0)];
-    assert_ne!(covered(&lobe, &around), ["verify/complete"]);
+    let found = covered(&lobe, &around);
+    assert!(found.contains(&"verify/overcut-part"), "{found:?}");
 }
 
 #[test]

@@ -26,7 +26,7 @@ pub(super) struct Tight {
     pub(super) vertices: RangeInclusive<usize>,
     /// Its least radius, mm.
     pub(super) radius: f64,
-    /// The vertex of that radius.
+    /// The vertex that is the tightest by itself.
     pub(super) at: usize,
 }
 
@@ -157,18 +157,22 @@ pub(super) fn radius(path: &[Point], vertex: usize) -> f64 {
 /// Chords of a curve over which its radius is taken: over fewer it would be that of their rounding.
 const RADIUS_CHORDS: usize = 3;
 
-/// Least radius of a curve from one inner vertex of a path to another, mm: its length over its turn, of that at either end one half.
+/// Least radius of a curve from one inner vertex of a path to another, mm: that of the arc whose chords are as long and turn
+/// as much, c = 2 R sin(a/2), at either end by one half.
 pub(super) fn least_radius(path: &[Point], vertices: RangeInclusive<usize>) -> f64 {
     let (first, last) = vertices.into_inner();
     if first == last {
         return radius(path, first);
     }
-    let turn = |vertex: usize| polyline::turn_at(path[vertex - 1], path[vertex], path[vertex + 1]).abs();
+    let bend = |vertex: usize| {
+        let turn = polyline::turn_at(path[vertex - 1], path[vertex], path[vertex + 1]).abs();
+        2.0 * (turn / 2.0).sin()
+    };
     let chords = RADIUS_CHORDS.min(last - first);
     let of = |from: usize| {
         let to = from + chords;
-        let turned = f64::midpoint(turn(from), turn(to)) + (from + 1..to).map(turn).sum::<f64>();
-        polyline::length(&path[from..=to]) / turned
+        let bends = f64::midpoint(bend(from), bend(to)) + (from + 1..to).map(bend).sum::<f64>();
+        polyline::length(&path[from..=to]) / bends
     };
     (first..=last - chords).map(of).fold(f64::INFINITY, f64::min)
 }

@@ -9,6 +9,7 @@ mod corner;
 mod down;
 mod entry;
 mod frame;
+mod lap;
 mod nibble;
 mod notches;
 mod overlap;

@@ -5,6 +5,7 @@
 //! that starts elsewhere. Smoothing moves the headings of runs a little; `plan` goes by what the runs really have.
 
 use super::ToolpathPass;
+use super::lap::{Lap, SLIM_MARGIN, Winding};
 use super::scene::Scene;
 use super::stretch::Way;
 use super::wind;
@@ -84,7 +85,10 @@ fn place_run(run: &mut Run, before: Rotation, job: &Job, diagnostics: &mut Diagn
     }
     if run.shape == Shape::Ring {
         turned += angle::turn(last, first);
-        range = [range[0].min(turned), range[1].max(turned)];
+        let way = Way::new(run);
+        let winding = Winding::new(run, &way, knife);
+        let [low, high] = Lap { way: &way, winding: &winding, knife, law: run.law }.reach(0.0);
+        range = [low - winding.at(0) - SLIM_MARGIN, high - winding.at(0) + SLIM_MARGIN];
     }
     let heading = Heading::new(Heading::of(first).radians() + plunge);
     let (c, edge) = equivalent(before, heading, range.map(|r| r - plunge), job).unwrap_or_else(|| {
@@ -92,7 +96,7 @@ fn place_run(run: &mut Run, before: Rotation, job: &Job, diagnostics: &mut Diagn
         let found = out_of_range(run.spans[0]).hint(format!("the run turns C through {wound} degrees"));
         diagnostics.push(match run.shape {
             Shape::Open => found,
-            Shape::Ring => found.hint("a hole of this size is better drilled"),
+            Shape::Ring => found.hint("a small hole is better drilled"),
         });
         (before.nearest(heading), Edge::Front)
     });

@@ -80,7 +80,7 @@ pub(super) fn stab(run: &Run, around: &Around) -> Option<Stab> {
         front: run.front + front,
         heel: run.heel + heel,
         ends: [0, 1].map(|end| {
-            let harms = split[end].harm.total() > HARM_EPSILON;
+            let harms = split[end].harm.total() > 0.0;
             End { side: if harms { Side::Part } else { run.ends[end].side }, ..run.ends[end] }
         }),
         turned: run.turned,
@@ -91,7 +91,7 @@ pub(super) fn stab(run: &Run, around: &Around) -> Option<Stab> {
 }
 
 /// What of a surplus goes beyond one end, mm, and how much of that lies in a part.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 struct Share {
     length: f64,
     harm: Harm,
@@ -102,29 +102,33 @@ struct Share {
 fn split(surplus: f64, rooms: [Room; 2], around: &Around) -> [Share; 2] {
     let clearance = around.knife().clearance_mm;
     let clear = |gap: f64| (gap - clearance).max(0.0);
-    let mut shares = [Share::default(); 2];
+    let mut lengths = [0.0; 2];
     let mut left = surplus;
-    for (share, room) in shares.iter_mut().zip(rooms) {
-        share.length = left.min(clear(room.least()));
-        left -= share.length;
+    for (length, room) in lengths.iter_mut().zip(rooms) {
+        *length = left.min(clear(room.least()));
+        left -= *length;
     }
     if left <= HARM_EPSILON {
-        shares[0].length += left;
-        return shares;
+        lengths[0] += left;
+    } else {
+        // Where nothing but the part itself lies ahead it may be cut, up to the next part.
+        let is_own = |room: Room| room.own < room.other;
+        let spare = [0, 1].map(|i| if is_own(rooms[i]) { clear(rooms[i].other) - lengths[i] } else { 0.0 });
+        let spare = spare.map(|spare| spare.max(0.0));
+        let first = (left / 2.0).min(spare[0]).max(left - spare[1]).min(spare[0]);
+        let second = (left - first).min(spare[1]);
+        // The rest enters another part whichever end it leaves by.
+        let rest = left - first - second;
+        lengths = [lengths[0] + first + rest / 2.0, lengths[1] + second + rest / 2.0];
     }
-    // Where nothing but the part itself lies ahead it may be cut, up to the next part.
-    let spare =
-        [0, 1].map(|i| if rooms[i].own < rooms[i].other { clear(rooms[i].other) - shares[i].length } else { 0.0 });
-    let spare = spare.map(|spare| spare.max(0.0));
-    let first = (left / 2.0).min(spare[0]).max(left - spare[1]).min(spare[0]);
-    let second = (left - first).min(spare[1]);
-    // The rest enters another part whichever end it leaves by.
-    let rest = left - first - second;
-    for (share, own) in shares.iter_mut().zip([first, second]) {
-        share.harm = Harm { own, other: rest / 2.0 };
-        share.length += share.harm.total();
+    [0, 1].map(|i| Share::new(lengths[i], rooms[i]))
+}
+
+impl Share {
+    fn new(length: f64, room: Room) -> Self {
+        let into = |from: f64, to: f64| if to - from > HARM_EPSILON { to - from } else { 0.0 };
+        Self { length, harm: Harm { own: into(room.own, length.min(room.other)), other: into(room.other, length) } }
     }
-    shares
 }
 
 /// How far a stab cuts into parts beyond its ends, both together, mm.
@@ -134,14 +138,12 @@ pub(super) fn total(stab: &Stab) -> f64 {
 
 /// Where it does, in words.
 fn beyond(harm: [Harm; 2]) -> String {
-    let [before, past] = harm.map(|harm| (harm.total() > HARM_EPSILON).then(|| fixed(harm.total(), 2)));
-    let ways = match (before, past) {
-        (Some(before), Some(past)) => format!("{before} mm before its start and {past} mm past its end"),
-        (Some(before), None) => format!("{before} mm before its start"),
-        (None, past) => format!("{} mm past its end", past.unwrap_or_default()),
-    };
+    let ways = harm.into_iter().zip(["before its start", "past its end"]);
+    let ways = ways.filter(|(harm, _)| harm.total() > 0.0);
+    let ways: Vec<String> = ways.map(|(harm, end)| format!("{} mm {end}", fixed(harm.total(), 2))).collect();
+    let ways = ways.join(" and ");
     let other = harm[0].other + harm[1].other;
-    if other > HARM_EPSILON {
+    if other > 0.0 {
         format!("{ways}, {} mm of that into another part", fixed(other, 2))
     } else {
         format!("{ways}, into its own part")
