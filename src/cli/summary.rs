@@ -12,6 +12,8 @@ use crate::units::number::{fixed, short};
 
 /// The rule that says most about a cut.
 const ON_PATH: &str = "verify/on-path";
+/// The rule that says how far the blade itself is off.
+const BODY: &str = "verify/body";
 /// Columns that a line of shares may take.
 const SHARES_WIDTH: usize = 66;
 /// Below this limit two decimals are shown, else none.
@@ -141,9 +143,15 @@ pub(super) fn verdict(verdict: Option<&Verdict>) -> String {
     };
     let (limited, reported) = verdict.counts();
     let mut out = format!("\n  verified   {} hold", counted(limited, "rule"));
-    let on_path = verdict.findings.iter().find(|finding| finding.rule == ON_PATH);
-    if let Some((worst, limit)) = on_path.and_then(|finding| Some((finding.worst, finding.limit?))) {
+    let find = |rule: &str| verdict.findings.iter().find(|finding| finding.rule == rule);
+    if let Some((worst, limit)) = find(ON_PATH).and_then(|finding| Some((finding.worst, finding.limit?))) {
         let _ = write!(out, "; tip at most {} mm off the path ({} allowed)", fixed(worst, 3), fixed(limit, 3));
+        // On a curve the body of a blade cuts beside the line, whatever lies there.
+        if let Some(body) = find(BODY).filter(|body| body.worst > limit) {
+            let block = body.place.map_or_else(String::new, |place| format!(", block {}", place.block));
+            let _ =
+                write!(out, "\n             body of the blade at most {} mm beside it{block}", fixed(body.worst, 3));
+        }
     }
     if reported > 0 {
         let _ = write!(out, "\n             {} without a limit only reported", counted(reported, "rule"));
@@ -344,7 +352,7 @@ mod tests {
         let line = verdict(Some(&Verdict { findings, unread: None, untimed: vec!["verify/feed"] }));
         assert_eq!(
             line,
-            "\n  verified   2 rules hold; tip at most 0.061 mm off the path (0.071 allowed)\n             1 rule without a limit only reported\n             1 rule on times not judged: the program tells none\n"
+            "\n  verified   2 rules hold; tip at most 0.061 mm off the path (0.071 allowed)\n             body of the blade at most 0.300 mm beside it\n             1 rule without a limit only reported\n             1 rule on times not judged: the program tells none\n"
         );
         assert!(verdict(None).contains("no: --no-verify"));
     }

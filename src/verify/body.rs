@@ -103,12 +103,15 @@ impl Body {
         let length = line.length();
         let next = if b >= a { line.vertices(high.next_up(), high + length).next() } else { line.vertex_before(low) };
         let is_inner = |vertex: &usize| line.ring || (1..line.chords()).contains(vertex);
-        let is_covered = !line.ring && line.vertices(low, high).filter(is_inner).count() + 1 == line.chords();
-        let beside = match (next.filter(is_inner), &turns[..]) {
-            (Some(next), _) => line.turn(next).abs(),
-            // A curve that is covered turns along both halves of the chords at its ends, too.
-            (None, [first, .., last]) if is_covered && is_curve(&turns) => f64::midpoint(*first, *last),
-            (None, _) => 0.0,
+        let next = next.filter(is_inner).map(|vertex| line.turn(vertex).abs());
+        // A curve turns along the halves of the chords at its ends, too.
+        let beside = match &turns[..] {
+            [first, .., last] if !line.ring && is_curve(&turns) => {
+                let is_start = line.vertex_before(low.next_up()).is_none_or(|vertex| vertex == 0);
+                let is_end = high >= line.stations[line.chords() - 1];
+                (if is_start { first / 2.0 } else { 0.0 }) + next.unwrap_or(if is_end { last / 2.0 } else { 0.0 })
+            }
+            _ => next.unwrap_or(0.0),
         };
         body.sag = body.sag.min(polyline::sagitta((tip - tail).norm(), turned + beside));
         body

@@ -56,13 +56,13 @@ impl Joints {
 
     /// How far a line may bow away from the body of a blade that plunges with its tail and its tip at two stations, mm: at
     /// ends and bends, and where the knife was down for too long, as far as it does. Where the line is nibbled a blade that
-    /// never moves lies near to what it cuts, unless that is all there is between two of them, and any other bows by no
-    /// more than is worth no word.
+    /// never moves lies near to what it cuts, unless that is all there is between two of them and bent, and any other bows
+    /// by no more than is worth no word.
     pub(super) fn bow(&self, line: &Line, [tail, tip]: [Around; 2], cut: &Cut) -> f64 {
         let is_at = |around: Around| self.at_end_or_bend(line, around).is_some();
         let is_nibbled = [tail, tip].iter().any(|around| line.is_nibbled(around.station));
         let is_open = match (is_nibbled, cut.is_stab()) {
-            (true, true) => is_at(tail) && is_at(tip),
+            (true, true) => is_at(tail) && is_at(tip) && is_bent(line, [tail.station, tip.station]),
             (false, true) => self.is_lifted(line) || is_at(tail) || is_at(tip),
             (_, false) => self.is_lifted(line) || is_at(tail),
         };
@@ -140,7 +140,7 @@ impl Joints {
 }
 
 /// Whether a line turns at one bend between two stations, and not little by little.
-pub(super) fn is_bent(line: &Line, [a, b]: [f64; 2]) -> bool {
+fn is_bent(line: &Line, [a, b]: [f64; 2]) -> bool {
     let turns: Vec<f64> = line.vertices(a.min(b), a.max(b)).map(|vertex| line.turn(vertex).abs()).collect();
     !is_curve(&turns)
 }

@@ -12,6 +12,7 @@ mod caps;
 mod chord;
 mod counts;
 mod coverage;
+mod covered;
 mod cutter_file;
 mod events;
 mod follow;

@@ -22,8 +22,8 @@ const STEP: f64 = 0.05;
 /// Part of the tolerance by which a way that is thought to be free may lie in a part: less than by which any cut may, so that
 /// what a blade was placed by is never taken for more room than it was.
 const ROOM_SHARE: f64 = 0.5;
-/// Length, in how near it is, from which on a way is along an edge: one that crosses it at 10 degrees or more is not.
-const ALONG: f64 = 6.0;
+/// Length, in how near it is, from which on a way is along an edge: one that crosses it at 30 degrees or more is not.
+const ALONG: f64 = 2.0;
 /// Halvings that find where a way enters a part: from a quarter of a millimetre to rounding.
 const HALVINGS: usize = 20;
 
@@ -220,12 +220,12 @@ impl<'a> Overcut<'a> {
         spared.map(|spared| spared.max(0.0))
     }
 
-    /// How far a blade reaches into the part, alike at both ends, where it cuts a curve between two stations by as many
-    /// plunges of one length as keep it within the tolerance, mm: chords of an arc of its length and its turn.
-    pub(super) fn of_nibbles(&self, [from, to]: [f64; 2], line: &Line, lines: Lines) -> f64 {
-        let turned: f64 = line.vertices(from, to).map(|vertex| line.turn(vertex).abs()).sum();
-        let count = ((to - from) * turned / (8.0 * self.tolerance)).sqrt().ceil().max(1.0);
-        let station = |i: f64| from + (to - from) * i / count;
+    /// How far a blade reaches into the part, alike at both ends, where it cuts a line by as many plunges of one length as keep
+    /// it within the tolerance, mm: chords of an arc of its length and its turn.
+    pub(super) fn of_nibbles(&self, line: &Line, lines: Lines) -> f64 {
+        let turned: f64 = (1..line.chords()).map(|vertex| line.turn(vertex).abs()).sum();
+        let count = (line.length() * turned / (8.0 * self.tolerance)).sqrt().ceil().max(1.0);
+        let station = |i: f64| line.length() * i / count;
         let of = |i: usize| self.spared([station(i as f64), station((i + 1) as f64)], line, lines)[0] / 2.0;
         (0..count as usize).map(of).fold(0.0, f64::max)
     }

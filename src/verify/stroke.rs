@@ -8,6 +8,7 @@ use std::ops::{Range, RangeToInclusive};
 use super::Done;
 use super::body::{BODY_STEP, Bow, Cut};
 use super::chord::{self, BODY_SHARES, Blade, Trailing};
+use super::covered::Covered;
 use super::follow::Foot;
 use super::gcode::SAGITTA;
 use super::grid::Grid;
@@ -18,7 +19,7 @@ use super::naming::Naming;
 use super::overcut::{self, Harm, Lines, Overcut};
 use super::read::{Going, Rounding, Row};
 use super::reference::{Line, Reference};
-use super::trial::{Covered, REACH, Trace, Tracer, Trial};
+use super::trial::{REACH, Trace, Tracer, Trial};
 use super::worst::{Worst, at};
 use super::worsts::Worsts;
 use crate::geom::{Point, Vector, angle, left};
@@ -31,8 +32,6 @@ const CAP_ASIDE: f64 = 0.5;
 
 /// Parts in which a step is held against caps, at the most: no step of a sound program has more.
 const PARTS_MAX: f64 = 32.0;
-/// Greatest turn of a curve that one straight plunge may stand for, rad (110 degrees).
-const COVERED_TURN: f64 = 1.92;
 /// Part of a feed that F may ask for too much: rounding, and where a line stands for an arc its ends are a little faster
 /// than its middle.
 const FEED_EPSILON: f64 = 1e-3;
@@ -258,7 +257,7 @@ impl<'a> Judge<'a> {
         };
         if cut.is_stab() {
             self.check_stab(cut, best, &seen, &mut worsts);
-            worsts.on_path.see(self.left_beside(cut, best), || seen(cut.body));
+            worsts.on_path.see(self.left_beside(best), || seen(cut.body));
         }
         worsts.on_path.see(best.worst.0, || seen(best.worst.1));
         self.check_ends(best, &seen, &mut worsts.stray);
@@ -333,21 +332,13 @@ impl<'a> Judge<'a> {
     }
 
     /// How far a curve lies beside the blade that covers it, mm, where cutting it by several plunges would reach less far into
-    /// the part, or the blade stands across it; else none.
-    fn left_beside(&self, cut: &Cut, trial: &Trial) -> f64 {
+    /// the part; else none.
+    fn left_beside(&self, trial: &Trial) -> f64 {
         let allowed = self.tracer.allowed;
-        let Some(Covered { stations: [tail, tip], sag }) = trial.covered.filter(|covered| covered.sag > allowed) else {
-            return 0.0;
-        };
+        let Some(Covered { sag }) = trial.covered.filter(|covered| covered.sag > allowed) else { return 0.0 };
         let line = &self.reference.lines[trial.line];
-        let blade = (cut.points[cut.body] - cut.points[0]) * (tip - tail).signum();
-        let ends = [tail.min(tip), tail.max(tip)];
-        let turned: f64 = line.vertices(ends[0], ends[1]).map(|vertex| line.turn(vertex).abs()).sum();
-        if turned > COVERED_TURN || chord::stands_across(blade, line.direction(line.chord_at(ends[0]))) {
-            return sag;
-        }
         let lines = Lines { reference: self.reference, grid: &self.tracer.grid };
-        if sag > self.overcut.of_nibbles(ends, line, lines) + allowed { sag } else { 0.0 }
+        if sag > self.overcut.of_nibbles(line, lines) + allowed { sag } else { 0.0 }
     }
 
     /// How much of a line a stroke cuts twice, mm, but for what the blade of a stab is longer by than what was left.

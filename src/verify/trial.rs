@@ -4,9 +4,10 @@ use std::ops::RangeInclusive;
 
 use super::body::{Body, Cut};
 use super::coverage::Coverage;
+use super::covered::Covered;
 use super::follow::{Follower, Foot};
 use super::grid::Grid;
-use super::joints::{self, Around, Joints};
+use super::joints::{Around, Joints};
 use super::passing::{longest, passed, skipped};
 use super::reference::{Line, Reference};
 
@@ -38,15 +39,6 @@ impl Candidate {
     }
 }
 
-/// A curve under a blade that never moves.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Covered {
-    /// Where its ends stand on the line, that of the blade's tail first, mm.
-    pub(super) stations: [f64; 2],
-    /// How far it bows away from the blade, mm.
-    pub(super) sag: f64,
-}
-
 /// A stroke followed along one line.
 pub(super) struct Trial {
     pub(super) line: usize,
@@ -65,7 +57,7 @@ pub(super) struct Trial {
     pub(super) held: RangeInclusive<usize>,
     /// The joints between which it is a stab that fits what was left of its line: its blade may then be longer.
     pub(super) fits: Option<[[f64; 2]; 2]>,
-    /// The curve, if it could be nibbled, that it covers in one plunge.
+    /// Its line, when that is a curve which could be nibbled and this one plunge covers.
     pub(super) covered: Option<Covered>,
     /// From where to where it cuts what was not cut before.
     pub(super) hull: [f64; 2],
@@ -219,13 +211,16 @@ impl Tracer<'_> {
         let mut body = if laps { Body::default() } else { Body::new(line, cut, &trial.feet, allowed) };
         let ends = [0, cut.body].map(|end| trial.feet[end].station);
         let is_nibble = cut.is_stab() && !laps && ends.iter().any(|&station| line.is_nibbled(station));
+        if let Some(covered) = Covered::new(line, cut, allowed).filter(|_| is_nibble) {
+            let is_on = |&i: &usize| trial.feet[i].beyond == 0.0;
+            if let (Some(first), Some(last)) = ((0..points.len()).find(is_on), (0..points.len()).rev().find(is_on)) {
+                (trial.held, trial.stretches, trial.covered) = (first..=last, vec![[0.0, length]], Some(covered));
+                return trial;
+            }
+        }
         if is_nibble || body.sag > allowed {
             let around = |end: usize| Around { station: trial.feet[end].station, slack: 2.0 * allowed, tube: 0.0 };
             let bow = self.joints.bow(line, body.ends.map(around), cut);
-            let stations = body.ends.map(|end| trial.feet[end].station);
-            if is_nibble && bow > 0.0 && !joints::is_bent(line, stations) {
-                trial.covered = Some(Covered { stations, sag: body.sag });
-            }
             if is_nibble && bow == 0.0 {
                 // What nibbles is within the tolerance of what it cuts.
                 body = Body::default();

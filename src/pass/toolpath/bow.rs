@@ -29,7 +29,7 @@ pub(super) struct Bow {
     pub(super) is_whole: bool,
     /// Whether what lies under it turns little by little, and not at one bend.
     pub(super) is_curve: bool,
-    /// How much that turns, to either side, rad.
+    /// How much that turns in all, rad: what it turns to the one side less what it turns to the other, which may be rounding.
     pub(super) turned: f64,
 }
 
@@ -48,13 +48,18 @@ impl Bow {
             if reached.is_some() { (extended, usize::from(run.heel > 0.0)) } else { (run.points.clone(), 0) };
         let (tip, chord) = reached.unwrap_or((path[path.len() - 1], path.len() - 2));
         // The chord that is being left counts, too: a curve turns along its chords, not at its vertices.
-        let turns: Vec<f64> =
-            path.windows(3).take(chord + 1).map(|w| polyline::turn_at(w[0], w[1], w[2]).abs()).collect();
+        let signed: Vec<f64> = path.windows(3).take(chord + 1).map(|w| polyline::turn_at(w[0], w[1], w[2])).collect();
+        let turns: Vec<f64> = signed.iter().map(|turn| turn.abs()).collect();
         let turned: f64 = turns.iter().sum();
         let is_curve = turns.iter().all(|&turn| turn <= BEND_SHARE * turned);
-        // A curve that it covers turns along both halves of the chords at its ends, too.
-        let is_covered = is_curve && reached.is_none();
-        let outer = if is_covered { f64::midpoint(*turns.first()?, *turns.last()?) } else { 0.0 };
+        // A curve turns along the halves of the chords at its ends, too.
+        let last = (run.points.len() - 2 + skipped).min(turns.len());
+        let inner_turns = &turns[skipped.min(last)..last];
+        let outer = match inner_turns {
+            [first, .., last] if is_curve && chord - skipped + 2 >= run.points.len() => f64::midpoint(*first, *last),
+            [first, ..] if is_curve => first / 2.0,
+            _ => 0.0,
+        };
         let blade = tip - path[0];
         let is_across = polyline::direction(path[0], path[1]).is_some_and(|first| stands_across(blade, first));
         let arc = if is_across { 0.0 } else { polyline::sagitta(blade.norm(), turned + outer) };
@@ -67,7 +72,7 @@ impl Bow {
             fits: away(worst) <= arc + SHARE * around.tolerance(),
             is_whole: reached.is_none(),
             is_curve,
-            turned: turned + outer,
+            turned: signed.iter().sum::<f64>().abs(),
         })
     }
 
@@ -116,7 +121,8 @@ pub(super) fn bowed_start(run: &Run, around: &Around) -> Option<BowedStart> {
     let radius = |vertex: usize| radius(&run.points, vertex);
     let under = 1..=end.saturating_sub(1).max(1);
     let at = under.clone().min_by(|&a, &b| radius(a).total_cmp(&radius(b)))?;
-    Some(BowedStart { bow, curve: Tight { vertices: 0..=end, radius: least_radius(&run.points, under), at } })
+    let radius = least_radius(&run.points, under, around.knife().width_mm);
+    Some(BowedStart { bow, curve: Tight { vertices: 0..=end, radius, at } })
 }
 
 /// Whether a run turns enough near its start to lie anything but well beside the blade: a path that turns by a under a blade

@@ -154,27 +154,32 @@ pub(super) fn radius(path: &[Point], vertex: usize) -> f64 {
     (b - a).norm().min((c - b).norm()) / (2.0 * (polyline::turn_at(a, b, c).abs() / 2.0).sin())
 }
 
-/// Chords of a curve over which its radius is taken: over fewer it would be that of their rounding.
-const RADIUS_CHORDS: usize = 3;
+/// Length of a curve, in widths of the blade, over which its radius is taken: over less it would be that of its rounding.
+const RADIUS_SHARE: f64 = 0.4;
 
-/// Least radius of a curve from one inner vertex of a path to another, mm: that of the arc whose chords are as long and turn
-/// as much, c = 2 R sin(a/2), at either end by one half.
-pub(super) fn least_radius(path: &[Point], vertices: RangeInclusive<usize>) -> f64 {
+/// Least radius of a curve from one inner vertex of a path to another, for a blade of `width`, mm: that of the arc whose chords
+/// are as long and turn as much, c = 2 R sin(a/2), at either end by one half.
+pub(super) fn least_radius(path: &[Point], vertices: RangeInclusive<usize>, width: f64) -> f64 {
     let (first, last) = vertices.into_inner();
     if first == last {
         return radius(path, first);
     }
     let bend = |vertex: usize| {
-        let turn = polyline::turn_at(path[vertex - 1], path[vertex], path[vertex + 1]).abs();
+        let turn = polyline::turn_at(path[vertex - 1], path[vertex], path[vertex + 1]);
         2.0 * (turn / 2.0).sin()
     };
-    let chords = RADIUS_CHORDS.min(last - first);
+    let stations = polyline::stations(&path[first..=last]);
+    let count = stations.len();
+    let reach = (RADIUS_SHARE * width).min(stations[count - 1]);
     let of = |from: usize| {
-        let to = from + chords;
-        let bends = f64::midpoint(bend(from), bend(to)) + (from + 1..to).map(bend).sum::<f64>();
-        polyline::length(&path[from..=to]) / bends
+        let to = stations.partition_point(|&station| station < stations[from] + reach);
+        (to < count).then(|| {
+            let ends = f64::midpoint(bend(first + from), bend(first + to));
+            let bends = ends + (from + 1..to).map(|vertex| bend(first + vertex)).sum::<f64>();
+            (stations[to] - stations[from]) / bends.abs()
+        })
     };
-    (first..=last - chords).map(of).fold(f64::INFINITY, f64::min)
+    (0..count - 1).filter_map(of).fold(f64::INFINITY, f64::min)
 }
 
 /// From the first to the last of some vertices that belong to curves tighter than the blade is wide, or of all when none
@@ -196,7 +201,7 @@ fn stretch(path: &[Point], vertices: RangeInclusive<usize>, width: f64) -> Optio
         (Some(only), None) => only..=only,
         (None, _) => vertices,
     };
-    Some(Tight { radius: least_radius(path, ends.clone()), vertices: ends, at })
+    Some(Tight { radius: least_radius(path, ends.clone(), width), vertices: ends, at })
 }
 
 #[cfg(test)]

@@ -165,7 +165,7 @@ impl Shortened {
 
 fn warn_if_tight(run: &Run, knife: &Knife, diagnostics: &mut Diagnostics) {
     let (width, height) = Extent::of(&run.points).size();
-    if width.hypot(height) < knife.width_mm {
+    if width.max(height) < knife.width_mm {
         let size = format!("{} x {} mm", fixed(width, 2), fixed(height, 2));
         diagnostics.push(
             Diagnostic::new(

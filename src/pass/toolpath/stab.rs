@@ -41,7 +41,9 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
         Step::Run(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => None,
     });
     let harmful: Vec<&Stab> = stabs.filter(|stab| total(stab) > around.tolerance()).collect();
-    let worst = harmful.iter().copied().reduce(|a, b| if total(b) > total(a) { b } else { a });
+    // What cuts into another part is worse than any cut into its own.
+    let worse = |a: &Stab, b: &Stab| other(b).total_cmp(&other(a)).then(total(b).total_cmp(&total(a))).is_lt();
+    let worst = harmful.iter().copied().reduce(|a, b| if worse(b, a) { b } else { a });
     if let Some(worst) = worst {
         diagnostics.push(harm(worst, harmful.len(), &around));
     }
@@ -136,15 +138,21 @@ pub(super) fn total(stab: &Stab) -> f64 {
     stab.harm.into_iter().map(Harm::total).sum()
 }
 
+/// How far into others than its own, mm.
+fn other(stab: &Stab) -> f64 {
+    stab.harm.into_iter().map(|harm| harm.other).sum()
+}
+
 /// Where it does, in words.
-fn beyond(harm: [Harm; 2]) -> String {
-    let ways = harm.into_iter().zip(["before its start", "past its end"]);
+fn beyond(stab: &Stab) -> String {
+    // As it is drawn.
+    let ends = if stab.turned { ["past its end", "before its start"] } else { ["before its start", "past its end"] };
+    let ways = stab.harm.into_iter().zip(ends);
     let ways = ways.filter(|(harm, _)| harm.total() > 0.0);
     let ways: Vec<String> = ways.map(|(harm, end)| format!("{} mm {end}", fixed(harm.total(), 2))).collect();
     let ways = ways.join(" and ");
-    let other = harm[0].other + harm[1].other;
-    if other > 0.0 {
-        format!("{ways}, {} mm of that into another part", fixed(other, 2))
+    if other(stab) > 0.0 {
+        format!("{ways}, {} mm of that into another part", fixed(other(stab), 2))
     } else {
         format!("{ways}, into its own part")
     }
@@ -160,7 +168,7 @@ fn harm(stab: &Stab, count: usize, around: &Around) -> Diagnostic {
         &code::PATH_OVERCUT,
         format!(
             "block {block}: the blade of {width} mm is longer than this cut of {length} mm: it cuts {}{more}",
-            beyond(stab.harm)
+            beyond(stab)
         ),
     )
     .at(stab.spans[stab.spans.len() - 1])
