@@ -155,7 +155,9 @@ pub(super) fn radius(path: &[Point], vertex: usize) -> f64 {
 }
 
 /// Length of a curve, in widths of the blade, over which its radius is taken: over less it would be that of its rounding.
-const RADIUS_SHARE: f64 = 0.4;
+const RADIUS_SHARE: f64 = 0.3;
+/// The same in lengths of the curve, which is gentler at its ends.
+const LENGTH_SHARE: f64 = 0.33;
 
 /// Least radius of a curve from one inner vertex of a path to another, for a blade of `width`, mm: that of the arc whose chords
 /// are as long and turn as much, c = 2 R sin(a/2), at either end by one half.
@@ -170,7 +172,7 @@ pub(super) fn least_radius(path: &[Point], vertices: RangeInclusive<usize>, widt
     };
     let stations = polyline::stations(&path[first..=last]);
     let count = stations.len();
-    let reach = (RADIUS_SHARE * width).min(stations[count - 1]);
+    let reach = (RADIUS_SHARE * width).min(LENGTH_SHARE * stations[count - 1]);
     let of = |from: usize| {
         let to = stations.partition_point(|&station| station < stations[from] + reach);
         (to < count).then(|| {
