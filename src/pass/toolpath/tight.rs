@@ -25,7 +25,7 @@ use super::{ToolpathPass, overlap};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::region::Ray;
 use crate::geom::{left, polyline, ring};
-use crate::ir::toolpath::{Law, Run, Shape, Step, Toolpath};
+use crate::ir::toolpath::{Law, Run, Shape, Side, Step, Toolpath};
 use crate::machine::TightCurves;
 use crate::source::Span;
 use crate::units::number::fixed;
@@ -142,10 +142,13 @@ impl Settling<'_> {
     fn is_best_covered(&self, run: &Run, BowedStart { bow, curve }: &BowedStart) -> bool {
         let around = &self.around;
         let is_refused = around.knife().tight_curves == TightCurves::Refuse && !bow.is_slight(around);
+        // What is lifted amid a contour is a part of one that goes on.
+        let is_part = run.ends.iter().any(|end| end.side == Side::Contour);
         bow.is_whole
             && bow.fits
             && bow.turned <= COVERED_TURN
             && !is_refused
+            && !is_part
             && bow.away < nibble::harm(run, curve, around)
     }
 
