@@ -57,7 +57,7 @@ pub(super) struct Schedule {
     /// The end: the duality gap in parts of the objective.
     pub(super) gap: f64,
     /// A round ends with the step before which the square of the Newton decrement is below this, in parts of the number of
-    /// constraints: so much of the gap is then left to be won, however many there are.
+    /// constraints: about so much of the gap is then left to be won, however many there are.
     pub(super) decrement: f64,
     /// Bound on the Newton steps of a round: a guard, above what is needed.
     pub(super) steps_a_round: usize,
@@ -71,7 +71,7 @@ const ARMIJO: f64 = 1e-4;
 const BACKTRACK: f64 = 0.8;
 /// Least factor of a line search: a smaller step makes no progress.
 const STEP_EPSILON: f64 = 1e-8;
-/// Bound on [`Wall::share`] and on its inverse: the direction stays one of descent.
+/// Bound on [`Wall::share`] and on its inverse: no wall outweighs the others by more than its square.
 const SHARE_MAX: f64 = 100.0;
 /// Part of the last weight that is as good as the whole.
 const WEIGHT_SHARE: f64 = 0.95;
@@ -182,7 +182,9 @@ impl<'a, P: Problem<N>, const N: usize> Descent<'a, P, N> {
 
     /// By how much the weight must still grow.
     fn missing(&self) -> f64 {
-        let enough = self.walls.len() as f64 / (self.schedule.gap * self.problem.objective(&self.x));
+        // Rounding may leave nothing of an objective that is nearly none.
+        let objective = self.problem.objective(&self.x).max(f64::MIN_POSITIVE);
+        let enough = self.walls.len() as f64 / (self.schedule.gap * objective);
         enough / self.weight
     }
 

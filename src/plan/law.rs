@@ -225,7 +225,7 @@ impl Axes {
     }
 }
 
-/// Places along a way, none before the last one: each is found without a search, however long the way.
+/// Places along a way, none before the last one: under the tangent law each is found without a search, however long the way.
 #[derive(Debug)]
 pub(super) struct Walk<'a> {
     way: &'a Way<'a>,

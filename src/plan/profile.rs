@@ -27,7 +27,7 @@ use crate::machine::Limits;
 
 /// Order of beta: cubic.
 const ORDER: usize = 4;
-/// To some thousandth of the duration in about twenty steps, whatever the size.
+/// To a third of a thousandth of the duration in about twenty steps, whatever the size.
 const SCHEDULE: Schedule =
     Schedule { start: 0.3, growth: 10.0, gap: 3e-4, decrement: 0.03, steps_a_round: 12, steps: 150 };
 /// What follows bears on no more than the knots over which the axes come to rest: at most some 270 a second of turning C,
@@ -39,6 +39,7 @@ const START_SHARE: f64 = 0.7;
 const END_REACH: f64 = 2.0;
 /// Least difference of two collocation places, mm: nearer ones say the same.
 const PLACE_EPSILON: f64 = 1e-7;
+
 /// No motion was found: a fault of the numbers, since a slow enough motion always exists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct NoMotion;

@@ -145,8 +145,8 @@ pub(crate) fn passed_by(case: &Case, rows: &[Row]) -> f64 {
     for (_, contour) in case.marker.contours() {
         let segments = chain(&case.marker, *contour);
         let is_bend = |i: &usize| turn(&segments, *i) < case.job.profile.corner.angle();
-        // Inside the bend the lines are nearer than the vertex; and of a way that bends, the places that are read lie nearer
-        // to them than what is between.
+        // A way passes on the inside of the bend, where the lines are nearer than the vertex. The verifier judges the places
+        // that it reads: the straight line between two of them passes farther inside than either.
         let passed = |i: usize| {
             nearest(segments[i].from).map_or(f64::INFINITY, |(away, places)| {
                 let read = places.iter().map(|place| distance(&case.marker, *place)).fold(0.0, f64::max);
