@@ -1,11 +1,10 @@
 //! A short curve under a blade that never moves: one plunge stands for all of it.
 
 use super::body::Cut;
+use super::nibbles::BEND_SHARE;
 use super::reference::Line;
 use crate::geom::polyline;
 
-/// Greatest part of its turn that one vertex of a curve makes, by a little; one that makes more is a bend.
-const BEND_SHARE: f64 = 0.75;
 /// Cosine of the blade with the line at its start below which it stands across it, by a little.
 const COSINE: f64 = 0.35;
 /// Greatest turn of a curve that one straight plunge may stand for, rad (110 degrees).

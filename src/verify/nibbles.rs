@@ -15,7 +15,7 @@ const ENTRY_SHARE: f64 = 0.4;
 /// The same of the tolerance of a cut that the blade covers.
 const TOLERANCE_SHARE: f64 = 0.5;
 /// Greatest part of the turn under a blade that one vertex of a curve makes, by a little; one that makes more is a bend.
-const BEND_SHARE: f64 = 0.75;
+pub(super) const BEND_SHARE: f64 = 0.75;
 
 /// What a line is cut with.
 #[derive(Debug, Clone, Copy)]

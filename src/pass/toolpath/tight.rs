@@ -152,6 +152,10 @@ impl Settling<'_> {
             && bow.away < nibble::harm(run, curve, around)
     }
 
+    fn nibbled(&self) -> String {
+        format!("nibbled with {} plunge{}", self.plunges, if self.plunges == 1 { "" } else { "s" })
+    }
+
     fn report(&self, diagnostics: &mut Diagnostics) {
         self.tight.report(self, diagnostics);
         self.bowed.report(self, diagnostics);
@@ -264,7 +268,7 @@ impl Worst {
                     }
                     TightCurves::Follow | TightCurves::Refuse => "a narrower blade has a way to go on it",
                 };
-                (&code::PATH_TIGHT_CURVE, format!("nibbled with {} plunges", settling.plunges), hint)
+                (&code::PATH_TIGHT_CURVE, settling.nibbled(), hint)
             }
             Done::Refused => (&code::PATH_TIGHT_CURVE_REFUSED, REFUSED.to_owned(), HOW_TO_CUT),
         };
@@ -328,7 +332,7 @@ impl Bowed {
                 (&code::PATH_BOWED_PLUNGE, "it cuts that far beside the line".to_owned(), hint)
             }
             Beside::Nibbled => {
-                let done = format!("nibbled with {} plunges", settling.plunges);
+                let done = settling.nibbled();
                 (&code::PATH_BOWED_PLUNGE, done, "a start that bows less is cut without a lift")
             }
             Beside::Covered => {
