@@ -182,10 +182,12 @@ impl<'a, P: Problem<N>, const N: usize> Descent<'a, P, N> {
 
     /// By how much the weight must still grow.
     fn missing(&self) -> f64 {
-        // Rounding may leave nothing of an objective that is nearly none.
-        let objective = self.problem.objective(&self.x).max(f64::MIN_POSITIVE);
-        let enough = self.walls.len() as f64 / (self.schedule.gap * objective);
-        enough / self.weight
+        let objective = self.problem.objective(&self.x);
+        if objective <= 0.0 {
+            // Of one that rounding leaves nothing of nothing is to be won, as on a straight.
+            return 0.0;
+        }
+        self.walls.len() as f64 / (self.schedule.gap * objective) / self.weight
     }
 
     /// Raises the weight; the multipliers, which are in parts of it, grow as much.
