@@ -74,7 +74,7 @@ mod tests {
     }
 
     fn nested(rings: &[Vec<Point>]) -> Vec<u32> {
-        let index = Regions::new(rings.iter().zip(0..).map(|(ring, owner)| (owner, &ring[..])));
+        let index = Regions::new(0..rings.len() as u32, |owner| vec![rings[owner as usize].clone()]);
         let shapes: Vec<Shape> = rings.iter().map(|ring| Shape::new(std::slice::from_ref(ring))).collect();
         regions(&shapes, |point| index.owners_at(point))
     }

@@ -183,12 +183,12 @@ impl Bands {
 }
 
 impl Regions {
-    /// The regions that rings bound, each ring with its owner; whether a ring repeats its first point does not matter.
-    pub fn new<'a>(rings: impl IntoIterator<Item = (u32, &'a [Point])>) -> Self {
-        let mut rings: Vec<(u32, &[Point])> = rings.into_iter().collect();
-        rings.sort_by_key(|(owner, _)| *owner); // stable: the rings of an owner keep their order
-        let by_owner: Vec<&[(u32, &[Point])]> = rings.chunk_by(|a, b| a.0 == b.0).collect();
-        let owners: Vec<Region> = by_owner.into_par_iter().filter_map(Region::new).collect();
+    /// The regions of owners, in this order, each bounded by the rings that `rings` gives for it; whether a ring repeats its
+    /// first point does not matter. They are asked for one owner at a time, so that not all are there at once.
+    pub fn new(owners: impl IntoIterator<Item = u32>, rings: impl Fn(u32) -> Vec<Vec<Point>> + Sync) -> Self {
+        let owners: Vec<u32> = owners.into_iter().collect();
+        let owners: Vec<Region> =
+            owners.into_par_iter().filter_map(|owner| Region::new(owner, &rings(owner))).collect();
         let mut extent = Extent::EMPTY;
         for region in &owners {
             extent.add(region.extent.min);
@@ -253,14 +253,14 @@ fn around(point: Point, reach: f64) -> Extent {
 
 impl Region {
     /// The region that the rings of one owner bound; `None` when they have no edges.
-    fn new(rings: &[(u32, &[Point])]) -> Option<Self> {
+    fn new(owner: u32, rings: &[Vec<Point>]) -> Option<Self> {
         let (mut points, mut ends, mut extent) = (Vec::new(), Vec::new(), Extent::EMPTY);
-        points.reserve_exact(rings.iter().map(|(_, ring)| ring.len() + 1).sum());
-        for (_, ring) in rings {
+        points.reserve_exact(rings.iter().map(|ring| ring.len() + 1).sum());
+        for ring in rings {
             let Some(&last) = ring.last() else { continue };
             let first = points.len();
             points.push(last);
-            for &to in *ring {
+            for &to in ring {
                 if points[points.len() - 1] != to {
                     extent.add(to);
                     points.push(to);
@@ -274,7 +274,7 @@ impl Region {
             }
         }
         let bands = (!ends.is_empty()).then(|| Bands::new(&points, &ends, extent))?;
-        Some(Self { owner: rings[0].0, extent, points, bands })
+        Some(Self { owner, extent, points, bands })
     }
 
     fn edge(&self, i: u32) -> Edge {
@@ -348,7 +348,10 @@ mod tests {
     fn a_cut_out_belongs_to_no_region_and_what_lies_in_it_to_its_own() {
         let mut turned = square(10.0, 10.0, 30.0);
         turned.reverse();
-        let regions = Regions::new([(1, &square(0.0, 0.0, 50.0)[..]), (1, &turned), (2, &square(20.0, 20.0, 10.0))]);
+        let regions = Regions::new([1, 2], |owner| match owner {
+            1 => vec![square(0.0, 0.0, 50.0), turned.clone()],
+            _ => vec![square(20.0, 20.0, 10.0)],
+        });
         let owners = |x: f64, y: f64| regions.owners_at(Point::new(x, y));
         assert_eq!([owners(5.0, 5.0), owners(15.0, 15.0), owners(25.0, 25.0)], [vec![1], vec![], vec![2]]);
         assert_eq!([owners(-5.0, 25.0), owners(55.0, 25.0), owners(25.0, 99.0)].concat(), Vec::<u32>::new());
@@ -356,7 +359,7 @@ mod tests {
 
     #[test]
     fn a_way_ends_where_it_enters_a_region() {
-        let regions = Regions::new([(1, &square(0.0, 0.0, 10.0)[..]), (2, &square(10.5, 0.0, 10.0))]);
+        let regions = Regions::new([1, 2], |owner| vec![square(if owner == 1 { 0.0 } else { 10.5 }, 0.0, 10.0)]);
         let room = |ray: &Ray, owner| regions.room(ray, owner, 0.05);
         let from_corner = room(&east(10.0, 5.0), 1);
         assert!((from_corner.other - 0.5).abs() < 1e-9 && from_corner.own == f64::INFINITY);
@@ -370,7 +373,7 @@ mod tests {
 
     #[test]
     fn no_regions_leave_room_everywhere() {
-        let nothing = Regions::new([]);
+        let nothing = Regions::new([], |_| Vec::new());
         assert_eq!(nothing.room(&east(0.0, 0.0), 0, 0.1).least(), f64::INFINITY);
         assert!(nothing.owners_at(Point::origin()).is_empty());
     }

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::io::{self, BufReader, Read as _};
 
 use super::report::significant;
-use super::{Input, Judged, Medium, read_to_judge};
+use super::{Judged, Medium, Read, read_to_judge};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::Dialect;
 use crate::ir::marker::{Notch, Piece};
@@ -12,7 +12,7 @@ use crate::ir::{Finding, Marker};
 use crate::machine::{Job, Mode};
 use crate::source::{Source, Span};
 use crate::units::number::{exact, fixed};
-use crate::verify::{self, Census, Kind, RULES, Verdict};
+use crate::verify::{self, Kind, RULES, Verdict};
 
 /// The rule on what can be read.
 const FORMAT: &str = "verify/format";
@@ -58,7 +58,7 @@ pub fn judge_program(
         return Ok(None);
     }
     let Judged { input, read } = judged;
-    let audit = audited(source, (&input, read), job);
+    let audit = audited(source, input.dialect, read, job);
     judge(source, (&input.marker, &audit), job, program).map(Some)
 }
 
@@ -102,10 +102,9 @@ pub(super) fn judge(
     Ok(verdict)
 }
 
-/// What was read of the source against its bytes, and what the passes kept of that. Nobody needs the census after that.
-pub(super) fn audited(source: &Source, (input, read): (&Input, Census), job: &Job) -> Vec<Finding> {
-    let scan = || verify::source_audit(input.dialect.name, source.bytes(), &read, &job.profile);
-    let (audit, kept) = rayon::join(scan, || verify::source_kept(&read, &input.marker));
+/// What was read of the source against its bytes, and what the passes kept of that.
+pub(super) fn audited(source: &Source, dialect: &Dialect, Read { census, kept }: Read, job: &Job) -> Vec<Finding> {
+    let audit = verify::source_audit(dialect.name, source.bytes(), &census, &job.profile);
     audit.into_iter().flatten().chain([kept]).collect()
 }
 

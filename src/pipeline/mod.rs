@@ -12,7 +12,7 @@ pub use spent::{Spent, word};
 
 pub use crate::verify::{RULES, Verdict};
 
-use std::io::{self, BufWriter, Read, Seek, Write};
+use std::io::{self, BufWriter, Seek, Write};
 use std::path::Path;
 
 use tempfile::SpooledTempFile;
@@ -22,21 +22,21 @@ use self::toolpaths::Toolpaths;
 use crate::back::{Context, Emit, Proof, SETPOINTS, Target};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::{self, Dialect};
-use crate::ir::{Marker, check, text};
+use crate::ir::{Finding, Marker, check, text};
 use crate::machine::{Job, plot};
 use crate::pass::marker::MARKER_PASSES;
 use crate::pass::toolpath::{Scene, TOOLPATH_PASSES, trace};
 use crate::plan;
 use crate::source::Source;
-use crate::verify::Census;
+use crate::verify::{Census, Works};
 
 /// Bytes of setpoints that are kept in memory when they are made only to be judged; more go to a temporary file.
 const SCRATCH_BYTES: usize = 64 << 20;
 
 /// Where a program is written, and read back from.
-pub trait Medium: Read + Write + Seek {}
+pub trait Medium: io::Read + Write + Seek {}
 
-impl<T: Read + Write + Seek> Medium for T {}
+impl<T: io::Read + Write + Seek> Medium for T {}
 
 /// A file as read and passed: what is cut, in which order.
 #[derive(Debug)]
@@ -52,8 +52,17 @@ pub struct Input {
 pub struct Judged {
     /// What is cut.
     pub input: Input,
-    /// What the file says in all, as it was read: before any pass.
-    pub read: Census,
+    /// What is known of how it was read.
+    pub read: Read,
+}
+
+/// What a file says in all, as it was read, and what passes kept of that.
+#[derive(Debug)]
+pub struct Read {
+    /// Before any pass.
+    pub census: Census,
+    /// Whether all of it is still cut behind them.
+    pub kept: Finding,
 }
 
 /// What is asked of a compile beside the job.
@@ -105,9 +114,10 @@ pub fn read_to_judge(
     diagnostics: &mut Diagnostics,
 ) -> Option<Judged> {
     let mut input = read_alone(source, from, job, diagnostics)?;
-    let read = Census::of(&input.marker);
+    let (census, works) = rayon::join(|| Census::of(&input.marker), || Works::of(&input.marker));
     run_passes(&mut input.marker, job, None, diagnostics);
-    Some(Judged { input, read })
+    let kept = works.kept(&input.marker);
+    Some(Judged { input, read: Read { census, kept } })
 }
 
 /// The marker as the source says it, before any pass.
@@ -166,11 +176,12 @@ pub fn compile_all(
     products: &mut [Product],
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Option<Compiled>> {
-    let Some(judged) = read_to_judge(source, from, job, diagnostics) else { return Ok(None) };
-    if diagnostics.has_errors() {
-        return Ok(None);
-    }
-    let Judged { input, read } = judged;
+    let judged = if verify {
+        read_to_judge(source, from, job, diagnostics).map(|Judged { input, read }| (input, Some(read)))
+    } else {
+        read(source, from, job, diagnostics).map(|input| (input, None))
+    };
+    let Some((input, read)) = judged.filter(|_| !diagnostics.has_errors()) else { return Ok(None) };
     let Input { dialect, marker } = &input;
     let mut report = Report::of(marker, dialect.name);
     let context = Context { source, job, marker };
@@ -187,13 +198,18 @@ pub fn compile_all(
         sinks.push(Sink::of_motion(&SETPOINTS, &mut scratch));
     }
     let is_planned = !sinks.is_empty();
-    let audit = || if verify { judge::audited(source, (&input, read), job) } else { Vec::new() };
-    let (audit, toolpaths) = rayon::join(audit, || is_planned.then(|| Toolpaths::new(marker, job, diagnostics)));
-    if let Some(toolpaths) = toolpaths {
-        let written = program::write(toolpaths, &mut sinks, (&context, false), diagnostics)?;
-        report.program = written.program;
-        report.controller = written.estimate.map(Controller::from);
-    }
+    let mut audit = Vec::new();
+    rayon::in_place_scope(|scope| {
+        // The source is looked at beside all that is done with what was read of it.
+        scope.spawn(|_| audit.extend(read.into_iter().flat_map(|read| judge::audited(source, dialect, read, job))));
+        if is_planned {
+            let toolpaths = Toolpaths::new(marker, job, diagnostics);
+            let written = program::write(toolpaths, &mut sinks, (&context, false), diagnostics)?;
+            report.program = written.program;
+            report.controller = written.estimate.map(Controller::from);
+        }
+        io::Result::Ok(())
+    })?;
     drop(sinks);
     for Product { target, out } in &mut *products {
         if let Emit::Marker(emit) = target.emit {

@@ -2,7 +2,7 @@
 
 use super::follow::Foot;
 use super::joints::is_curve;
-use super::reference::Line;
+use super::line::Line;
 use crate::geom::{Point, polyline};
 use crate::machine::Knife;
 
@@ -94,7 +94,7 @@ impl Body {
         let mut body = Self { ends: [first, last], ..Self::default() };
         let mut turns: Vec<f64> = Vec::new();
         for vertex in line.vertices(low, high) {
-            body.sag = body.sag.max(polyline::distance_to_segment(line.points[vertex], tail, tip));
+            body.sag = body.sag.max(polyline::distance_to_segment(line.point(vertex), tail, tip));
             turns.extend(Some(line.turn(vertex).abs()).filter(|&turn| turn > 0.0));
         }
         let turned: f64 = turns.iter().sum();
@@ -108,7 +108,7 @@ impl Body {
         let beside = match &turns[..] {
             [first, .., last] if !line.ring && is_curve(&turns) => {
                 let is_start = line.vertex_before(low.next_up()).is_none_or(|vertex| vertex == 0);
-                let is_end = high >= line.stations[line.chords() - 1];
+                let is_end = high >= line.station(line.chords() - 1);
                 (if is_start { first / 2.0 } else { 0.0 }) + next.unwrap_or(if is_end { last / 2.0 } else { 0.0 })
             }
             _ => next.unwrap_or(0.0),

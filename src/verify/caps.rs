@@ -1,9 +1,19 @@
 //! How fast the tip may be along a line: the feed of the profile and of the piece, slowed cuts, and the way before a
 //! corner.
 
+use super::line::Vertex;
 use crate::ir::list::FULL_SPEED;
 use crate::ir::marker::Piece;
 use crate::machine::MachineProfile;
+
+/// The caps of a line.
+#[derive(Debug)]
+pub(super) enum BothWays {
+    /// One all along, mm/s: nearly always.
+    One(f64),
+    /// By station for a tip that goes with the line, and by the way from its end for one that goes against it.
+    Each(Box<[Caps; 2]>),
+}
 
 /// The caps of a line by station.
 #[derive(Debug)]
@@ -48,16 +58,23 @@ impl<'a> Feeds<'a> {
         if percent < FULL_SPEED { self.fastest() * f64::from(percent) / 100.0 } else { self.feed }
     }
 
-    /// The caps of chords between stations for a tip that goes with the line, and for one that goes against it, by the way
-    /// from its end; `ends` are the start and the end of the line.
-    pub(super) fn both_ways(&self, stations: &[f64], chords: Vec<f64>, ends: [End; 2]) -> [Caps; 2] {
-        if self.profile.slow.before_corner_mm.is_none() && chords.iter().all(|&cap| cap == chords[0]) {
-            return [Caps::all(chords[0]), Caps::all(chords[0])];
+    /// The caps of a line whose chords have these speeds in percent; `ends` are how it starts and how it ends.
+    pub(super) fn both_ways(
+        &self,
+        path: &[Vertex],
+        mut percents: impl DoubleEndedIterator<Item = u8> + Clone,
+        ends: [End; 2],
+    ) -> BothWays {
+        let chords = percents.clone().map(|percent| self.at(percent));
+        let first = percents.next().unwrap_or(FULL_SPEED);
+        if self.profile.slow.before_corner_mm.is_none() && percents.all(|percent| percent == first) {
+            return BothWays::One(self.at(first));
         }
+        let stations: Vec<f64> = path.iter().map(|vertex| vertex.station).collect();
         let length = stations[stations.len() - 1];
         let back: Vec<f64> = stations.iter().rev().map(|station| length - station).collect();
-        let against = self.caps(&back, chords.iter().rev().copied().collect(), ends[0]);
-        [self.caps(stations, chords, ends[1]), against]
+        let against = self.caps(&back, chords.clone().rev().collect(), ends[0]);
+        BothWays::Each(Box::new([self.caps(&stations, chords.collect(), ends[1]), against]))
     }
 
     /// The caps of chords between stations, up to the end of the line.
@@ -86,19 +103,34 @@ impl<'a> Feeds<'a> {
     }
 }
 
-impl Caps {
-    /// One cap all along.
-    pub(super) fn all(cap: f64) -> Self {
-        Self { first: cap, later: Box::default() }
+impl BothWays {
+    /// The cap that holds all along; `None` when there are several. `sign` is +1 with the line, -1 against it.
+    pub(super) fn only(&self, sign: f64) -> Option<f64> {
+        match self {
+            Self::One(cap) => Some(*cap),
+            Self::Each(caps) => caps[usize::from(sign <= 0.0)].only(),
+        }
     }
 
+    /// The greatest cap between two stations, of which those against the line count from its end; `round` is the length of
+    /// a line that goes round and round.
+    pub(super) fn greatest(&self, [low, high]: [f64; 2], sign: f64, round: Option<f64>) -> f64 {
+        match (self, round) {
+            (Self::One(cap), _) => *cap,
+            (Self::Each(caps), Some(length)) => caps[usize::from(sign <= 0.0)].greatest_round(low, high, length),
+            (Self::Each(caps), None) => caps[usize::from(sign <= 0.0)].greatest(low, high),
+        }
+    }
+}
+
+impl Caps {
     /// The cap that holds all along; `None` when there are several.
-    pub(super) fn only(&self) -> Option<f64> {
+    fn only(&self) -> Option<f64> {
         self.later.is_empty().then_some(self.first)
     }
 
     /// The greatest cap between two stations; beyond the ends hold those of the ends.
-    pub(super) fn greatest(&self, low: f64, high: f64) -> f64 {
+    fn greatest(&self, low: f64, high: f64) -> f64 {
         let before = |station: f64| self.later.partition_point(|&[start, _]| start <= station);
         let (from, to) = (before(low), before(high));
         let at_low = if from == 0 { self.first } else { self.later[from - 1][1] };
@@ -106,7 +138,7 @@ impl Caps {
     }
 
     /// The same on a line of that length that goes round and round.
-    pub(super) fn greatest_round(&self, low: f64, high: f64, length: f64) -> f64 {
+    fn greatest_round(&self, low: f64, high: f64, length: f64) -> f64 {
         let from = low.rem_euclid(length);
         let to = from + (high - low).min(length);
         if to <= length {

@@ -6,8 +6,8 @@
 
 use super::body::Cut;
 use super::follow::{Follower, Foot};
+use super::line::Line;
 use super::read::Row;
-use super::reference::Line;
 use super::worst::Worst;
 use crate::geom::{Point, Vector, angle, polyline};
 use crate::machine::Knife;
@@ -53,7 +53,7 @@ pub(super) fn along(rows: &[Row], blade: Blade, share: f64) -> Vec<Foot> {
     let mut places = rows.iter().zip(directions).map(place).peekable();
     let Some(&first) = places.peek() else { return Vec::new() };
     let mut follower = Follower::new(line, chord, first, if with { 1.0 } else { -1.0 });
-    places.map(|place| follower.step(place)).collect()
+    places.map(|place| if place == follower.point() { follower.foot() } else { follower.step(place) }).collect()
 }
 
 /// A stroke whose blade is compared with the way of its own tip.
@@ -123,15 +123,14 @@ pub(super) fn stands_across(blade: Vector, direction: Vector) -> bool {
 }
 
 /// The stretches of a line, by the stations of tail and tip, on which a blade as its chord would stand across it.
-pub(super) fn tight(points: &[Point], ring: bool, knife: &Knife) -> Vec<[f64; 2]> {
+pub(super) fn tight(line: &Line, knife: &Knife) -> Vec<[f64; 2]> {
     let width = knife.width_mm;
-    if width == 0.0 || points.len() < 3 {
+    if width == 0.0 || line.chords() < 2 {
         return Vec::new();
     }
-    let (path, start) = led_on(points, ring, knife);
+    let (path, start) = led_on(line, knife);
     let stations = polyline::stations(&path);
-    let length = polyline::length(points);
-    let last = if ring { length } else { stations[stations.len() - 1] };
+    let last = if line.ring { line.length() } else { stations[stations.len() - 1] };
     let mut found: Vec<[f64; 2]> = Vec::new();
     for [low, high] in sharp(&path, &stations, WIDTHS * width) {
         let (low, high) = ((low - WIDTHS * width).max(0.0), high.min(last));
@@ -148,20 +147,20 @@ pub(super) fn tight(points: &[Point], ring: bool, knife: &Knife) -> Vec<[f64; 2]
 }
 
 /// A line led straight on by its greatest overlaps, or a ring twice round; and the station of its first point there.
-fn led_on(points: &[Point], ring: bool, knife: &Knife) -> (Vec<Point>, f64) {
-    if ring {
-        return (points.iter().chain(&points[1..]).copied().collect(), 0.0);
+fn led_on(line: &Line, knife: &Knife) -> (Vec<Point>, f64) {
+    let mut path = line.twice_round();
+    if line.ring {
+        return (path, 0.0);
     }
     let heel = knife.heel_overlap_mm.max(knife.corner_heel_overlap_mm);
     let front = knife.front_overlap_mm.max(knife.corner_front_overlap_mm);
-    let n = points.len();
-    let mut path = points.to_vec();
-    if let Some(along) = polyline::direction(points[n - 2], points[n - 1]).filter(|_| front > 0.0) {
-        path.push(points[n - 1] + along * front);
+    let n = path.len();
+    if let Some(along) = polyline::direction(path[n - 2], path[n - 1]).filter(|_| front > 0.0) {
+        path.push(path[n - 1] + along * front);
     }
-    match polyline::direction(points[0], points[1]).filter(|_| heel > 0.0) {
+    match polyline::direction(path[0], path[1]).filter(|_| heel > 0.0) {
         Some(along) => {
-            path.insert(0, points[0] - along * heel);
+            path.insert(0, path[0] - along * heel);
             (path, heel)
         }
         None => (path, 0.0),

@@ -12,22 +12,56 @@ use crate::machine::MachineProfile;
 #[derive(Debug)]
 pub(super) struct Coverage<'a> {
     reference: &'a Reference<'a>,
-    /// Of each line: disjoint stretches of stations, in order, and how long they are together, mm.
-    cut: Vec<Vec<[f64; 2]>>,
-    lengths: Vec<f64>,
+    cut: Vec<Stretches>,
+}
+
+/// Disjoint stretches of the stations of a line, in order.
+#[derive(Debug, Clone)]
+enum Stretches {
+    /// As nearly all lines are cut: by one stroke.
+    One([f64; 2]),
+    Many(Vec<[f64; 2]>),
+}
+
+impl Stretches {
+    const NONE: Self = Self::Many(Vec::new());
+
+    fn all(&self) -> &[[f64; 2]] {
+        match self {
+            Self::One(stretch) => std::slice::from_ref(stretch),
+            Self::Many(stretches) => stretches,
+        }
+    }
+
+    /// Adds a stretch, joined with those that it meets.
+    fn merge(&mut self, [a, b]: [f64; 2]) {
+        if b < a {
+            return;
+        }
+        let cut = self.all();
+        let first = cut.partition_point(|s| s[1] < a);
+        let last = first + cut[first..].partition_point(|s| s[0] <= b);
+        let joined = cut[first..last].iter().fold([a, b], |[a, b], s| [a.min(s[0]), b.max(s[1])]);
+        match self {
+            Self::Many(cut) if !cut.is_empty() => drop(cut.splice(first..last, [joined])),
+            Self::One(cut) if first == last => {
+                *self = Self::Many(if first == 0 { vec![joined, *cut] } else { vec![*cut, joined] });
+            }
+            Self::One(_) | Self::Many(_) => *self = Self::One(joined),
+        }
+    }
 }
 
 impl<'a> Coverage<'a> {
     /// Nothing is cut yet.
     pub(super) fn new(reference: &'a Reference) -> Self {
-        let lines = reference.lines.len();
-        Self { reference, cut: vec![Vec::new(); lines], lengths: vec![0.0; lines] }
+        Self { reference, cut: vec![Stretches::NONE; reference.lines.len()] }
     }
 
     /// How much of the stretches was not cut before, mm.
     pub(super) fn fresh(&self, line: usize, stretches: &[[f64; 2]]) -> f64 {
         let parts = stretches.iter().flat_map(|s| self.on_line(line, *s));
-        parts.map(|[a, b]| (b - a) - covered(&self.cut[line], a, b)).sum()
+        parts.map(|[a, b]| (b - a) - covered(self.cut[line].all(), a, b)).sum()
     }
 
     /// From where to where the stretches reach that were not cut before; `None` when all of them were.
@@ -35,7 +69,7 @@ impl<'a> Coverage<'a> {
         let mut hull: Option<[f64; 2]> = None;
         for [from, to] in stretches.iter().flat_map(|s| self.on_line(line, *s)) {
             // From the front, then from the back, past what was cut.
-            let cut = &self.cut[line];
+            let cut = self.cut[line].all();
             let a = cut.iter().fold(from, |a, s| if s[0] <= a { a.max(s[1]) } else { a });
             let b = cut.iter().rev().fold(to, |b, s| if s[1] >= b { b.min(s[0]) } else { b });
             if a < b {
@@ -47,15 +81,14 @@ impl<'a> Coverage<'a> {
 
     /// How much of a line was cut, mm.
     pub(super) fn length(&self, line: usize) -> f64 {
-        self.lengths[line]
+        self.cut[line].all().iter().map(|[a, b]| b - a).sum()
     }
 
     /// Marks stretches as cut.
     pub(super) fn add(&mut self, line: usize, stretches: &[[f64; 2]]) {
         for stretch in stretches {
             for part in self.on_line(line, *stretch) {
-                self.lengths[line] += (part[1] - part[0] - covered(&self.cut[line], part[0], part[1])).max(0.0);
-                merge(&mut self.cut[line], part);
+                self.cut[line].merge(part);
             }
         }
     }
@@ -82,12 +115,12 @@ impl<'a> Coverage<'a> {
         let mut worst = Worst::new("verify/complete", "mm", Some(limit));
         for (line, cut) in self.reference.lines.iter().zip(&self.cut) {
             let mut from = 0.0;
-            for &[a, b] in cut.iter().chain(std::iter::once(&[line.length(), line.length()])) {
+            for &[a, b] in cut.all().iter().chain(std::iter::once(&[line.length(), line.length()])) {
                 worst.see(a - from, || {
                     let middle = f64::midpoint(a, from);
                     let chord = line.chord_at(middle);
-                    let point: Point = line.points[chord] + line.direction(chord) * (middle - line.stations[chord]);
-                    Sighting { time: None, point, block: line.blocks[chord] }
+                    let point: Point = line.point(chord) + line.direction(chord) * (middle - line.station(chord));
+                    Sighting { time: None, point, block: line.block(chord) }
                 });
                 from = from.max(b);
             }
@@ -102,34 +135,25 @@ fn covered(cut: &[[f64; 2]], a: f64, b: f64) -> f64 {
     cut[first..].iter().take_while(|s| s[0] < b).map(|s| (s[1].min(b) - s[0].max(a)).max(0.0)).sum()
 }
 
-/// Adds a stretch, joined with those that it meets.
-fn merge(cut: &mut Vec<[f64; 2]>, [a, b]: [f64; 2]) {
-    if b < a {
-        return;
-    }
-    if cut.is_empty() {
-        // Most lines are cut by one stroke: no room for more.
-        *cut = vec![[a, b]];
-        return;
-    }
-    let first = cut.partition_point(|s| s[1] < a);
-    let last = first + cut[first..].partition_point(|s| s[0] <= b);
-    let joined = cut[first..last].iter().fold([a, b], |[a, b], s| [a.min(s[0]), b.max(s[1])]);
-    cut.splice(first..last, std::iter::once(joined));
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn stretches_are_joined_and_measured() {
-        let mut cut = Vec::new();
-        for stretch in [[5.0, 6.0], [0.0, 1.0], [8.0, 9.0], [5.5, 7.0], [7.0, 8.0]] {
-            merge(&mut cut, stretch);
+        let mut cut = Stretches::NONE;
+        for (stretch, so_far) in [
+            ([5.0, 6.0], &[[5.0, 6.0]][..]),
+            ([6.0, 6.5], &[[5.0, 6.5]]),
+            ([0.0, 1.0], &[[0.0, 1.0], [5.0, 6.5]]),
+            ([8.0, 9.0], &[[0.0, 1.0], [5.0, 6.5], [8.0, 9.0]]),
+            ([5.5, 7.0], &[[0.0, 1.0], [5.0, 7.0], [8.0, 9.0]]),
+            ([7.0, 8.0], &[[0.0, 1.0], [5.0, 9.0]]),
+        ] {
+            cut.merge(stretch);
+            assert_eq!(cut.all(), so_far);
         }
-        assert_eq!(cut, [[0.0, 1.0], [5.0, 9.0]]);
-        assert_eq!(covered(&cut, 0.5, 6.0), 1.5);
-        assert_eq!(covered(&cut, 2.0, 4.0), 0.0);
+        assert_eq!(covered(cut.all(), 0.5, 6.0), 1.5);
+        assert_eq!(covered(cut.all(), 2.0, 4.0), 0.0);
     }
 }

@@ -1,8 +1,8 @@
 //! A short curve under a blade that never moves: one plunge stands for all of it.
 
 use super::body::Cut;
+use super::line::Line;
 use super::nibbles::BEND_SHARE;
-use super::reference::Line;
 use crate::geom::polyline;
 
 /// Cosine of the blade with the line at its start below which it stands across it, by a little.
@@ -25,7 +25,7 @@ impl Covered {
             return None;
         }
         let (tail, tip) = (cut.points[0], cut.points[cut.body]);
-        let [start, end] = [line.points[0], line.points[line.chords()]];
+        let [start, end] = [line.point(0), line.point(line.chords())];
         let is_near = |place| polyline::distance_to_segment(place, tail, tip) <= allowed;
         let turns: Vec<f64> = (1..line.chords()).map(|vertex| line.turn(vertex)).collect();
         // What it turns to either side and back may be rounding.
@@ -40,7 +40,7 @@ impl Covered {
         let is_curve = turns.iter().all(|&turn| turn <= BEND_SHARE * all);
         // It turns along both halves of the chords at its ends, too.
         let arc = all + f64::midpoint(turns[0], turns[turns.len() - 1]);
-        let away = line.points.iter().map(|&point| polyline::distance_to_segment(point, start, end));
+        let away = line.points().map(|point| polyline::distance_to_segment(point, start, end));
         let sag = away.fold(0.0, f64::max);
         (is_curve && sag <= polyline::sagitta(along.norm(), arc) + allowed).then_some(Self { sag })
     }

@@ -1,6 +1,6 @@
 //! Follows a moving point along a line: at which station it is, and how far off.
 
-use super::reference::{Chord, Line};
+use super::line::{Chord, Line};
 use crate::geom::{Point, cross};
 
 /// How far behind its last station a point may be found, mm: it wavers by less than the tube is wide.
@@ -50,6 +50,11 @@ impl<'a> Follower<'a> {
         self.foot
     }
 
+    /// The point that it was last moved to.
+    pub(super) fn point(&self) -> Point {
+        self.point
+    }
+
     /// The same place, facing the other way.
     pub(super) fn turned(&self) -> Self {
         Self { sign: -self.sign, ..self.clone() }
@@ -64,7 +69,7 @@ impl<'a> Follower<'a> {
         let reach = |sign: f64| if sign == self.sign { AHEAD + 2.0 * way.min(LEAP) } else { BACK };
         let (low, high) = (self.foot.station - reach(-1.0), self.foot.station + reach(1.0));
         let here = self.chord.index;
-        if self.foot.chord == here && low > line.stations[here] && high < line.stations[here + 1] {
+        if self.foot.chord == here && low > line.station(here) && high < line.station(here + 1) {
             // Amid a chord there is no other within reach.
             self.foot = self.chord.foot(line, point);
             return self.foot;
@@ -80,6 +85,11 @@ impl<'a> Follower<'a> {
         };
         let mut best = on(&self.chord, laps);
         let mut look = |chord: usize, lap: f64| {
+            // What a chord is led on by at an end of the line may be nearer than its box tells.
+            let is_end = !line.ring && (chord == 0 || chord + 1 == line.chords());
+            if !is_end && !line.may_reach(chord, point, best.deviation) {
+                return;
+            }
             let foot = on(&line.chord(chord), lap);
             if foot.deviation < best.deviation {
                 best = foot;
@@ -89,7 +99,7 @@ impl<'a> Follower<'a> {
         while let Some((next, turn)) = following(line, chord) {
             (chord, lap) = (next, lap + turn);
             // Once round a ring every chord was looked at.
-            if line.stations[chord] + lap * length > high || chord == start {
+            if line.station(chord) + lap * length > high || chord == start {
                 break;
             }
             look(chord, lap);
@@ -97,7 +107,7 @@ impl<'a> Follower<'a> {
         (chord, lap) = (start, laps);
         while let Some((before, turn)) = preceding(line, chord) {
             (chord, lap) = (before, lap - turn);
-            if line.stations[chord + 1] + lap * length < low || chord == start {
+            if line.station(chord + 1) + lap * length < low || chord == start {
                 break;
             }
             look(chord, lap);
@@ -128,13 +138,13 @@ fn preceding(line: &Line, chord: usize) -> Option<(usize, f64)> {
 impl Chord {
     /// Where a point stands beside it; beyond an end of its line, beside the straight extension of that.
     pub(super) fn foot(&self, line: &Line, point: Point) -> Foot {
-        let (chord, last) = (self.index, line.points.len() - 1);
+        let (chord, last) = (self.index, line.chords());
         if !line.ring && (chord == 0 || chord + 1 == last) {
             let ahead = |end: usize, sign: f64| {
-                let away = point - line.points[end];
+                let away = point - line.point(end);
                 let beyond = sign * away.dot(&self.along);
                 (beyond > 0.0).then(|| Foot {
-                    station: line.stations[end],
+                    station: line.station(end),
                     deviation: cross(self.along, away).abs(),
                     beyond,
                     chord,

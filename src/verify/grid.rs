@@ -1,6 +1,7 @@
 //! A grid over the chords of all lines, to find those near a point.
 
-use super::reference::{Line, Reference};
+use super::line::Line;
+use super::reference::Reference;
 use crate::geom::{Extent, Point};
 
 /// Least size of a cell, mm.
@@ -30,7 +31,7 @@ impl Grid {
     pub(super) fn new(reference: &Reference) -> Self {
         let mut extent = Extent::EMPTY;
         for line in &reference.lines {
-            line.points.iter().for_each(|&p| extent.add(p));
+            line.points().for_each(|point| extent.add(point));
         }
         if extent.is_empty() {
             extent.add(Point::origin());
@@ -46,27 +47,29 @@ impl Grid {
         let cell = CELL_MIN.max((width * height / count).sqrt()).max(width.max(height) / count).max(by_length);
         let (columns, rows) = ((width / cell) as usize + 1, (height / cell) as usize + 1);
         let mut grid = Self { origin: extent.min, cell, columns, rows, starts: Vec::new(), chords: Vec::new() };
-        // Counting sort: first how many, then where.
-        let mut counts = vec![0_u32; columns * rows + 1];
-        grid.each(reference, |cell, _| counts[cell + 1] += 1);
-        for i in 1..counts.len() {
-            counts[i] += counts[i - 1];
+        // Counting sort: first how many, then where; what is then the end of a cell is the start of the next.
+        let mut starts = vec![0_u32; columns * rows + 1];
+        grid.each(reference, |cell, _| starts[cell] += 1);
+        let mut count = 0;
+        for start in &mut starts {
+            count += std::mem::replace(start, count);
         }
-        let mut next = counts.clone();
-        let mut chords = vec![(0, 0); counts[columns * rows] as usize];
+        let mut chords = vec![(0, 0); count as usize];
         grid.each(reference, |cell, chord| {
-            chords[next[cell] as usize] = chord;
-            next[cell] += 1;
+            chords[starts[cell] as usize] = chord;
+            starts[cell] += 1;
         });
-        (grid.starts, grid.chords) = (counts, chords);
+        starts.rotate_right(1);
+        starts[0] = 0;
+        (grid.starts, grid.chords) = (starts, chords);
         grid
     }
 
     /// Calls `see` for each cell that a chord passes, of each chord: column by column, the rows between which it lies there.
     fn each(&self, reference: &Reference, mut see: impl FnMut(usize, (u32, u32))) {
         for (l, line) in reference.lines.iter().enumerate() {
-            for (c, ends) in line.points.windows(2).enumerate() {
-                let [from, to] = if ends[0].x <= ends[1].x { [ends[0], ends[1]] } else { [ends[1], ends[0]] };
+            for (c, (a, b)) in line.points().zip(line.points().skip(1)).enumerate() {
+                let [from, to] = if a.x <= b.x { [a, b] } else { [b, a] };
                 let [first, last] = [from.x, to.x].map(|x| self.column(x));
                 for column in first..=last {
                     let edge = |column: usize| self.origin.x + self.cell * column as f64;

@@ -8,8 +8,8 @@ use std::f64::consts::PI;
 
 use super::follow::Foot;
 use super::joints::Joints;
+use super::line::Line;
 use super::read::{Rounding, Row};
-use super::reference::Line;
 use super::worst::Worst;
 use crate::geom::{Point, Vector, angle, cross, polyline};
 
@@ -184,10 +184,10 @@ impl Plunge<'_> {
             lead = [lead[0].min(turn), lead[1].max(turn)];
         };
         add(here);
-        if at - line.stations[here] <= CURVE_CHORD && (here > 0 || line.ring) {
+        if at - line.station(here) <= CURVE_CHORD && (here > 0 || line.ring) {
             add((here + count - 1) % count);
         }
-        if line.stations[here + 1] - at <= CURVE_CHORD && (here + 1 < count || line.ring) {
+        if line.station(here + 1) - at <= CURVE_CHORD && (here + 1 < count || line.ring) {
             add((here + 1) % count);
         }
         // A way that is straight for a length l may bow by twice its tube on it: its curvature is then 16 tube / l^2, and it
@@ -204,7 +204,7 @@ impl Plunge<'_> {
         let bends = line.vertices(low, high).filter(|&vertex| line.turn(vertex).abs() > TURN_EPSILON);
         let length = line.length();
         let away = |vertex: usize| {
-            let way = sign * (line.stations[vertex] - from);
+            let way = sign * (line.station(vertex) - from);
             tail.beyond + if line.ring { way.rem_euclid(length) } else { way }
         };
         bends.map(away).filter(|&way| way > self.tube).reduce(f64::min)
@@ -221,14 +221,14 @@ fn point_at(line: &Line, foot: &Foot) -> Point {
     let station = on_lap(line, foot.station);
     let chord = line.chord_at(station);
     let way = if station <= 0.0 { -foot.beyond } else { foot.beyond };
-    line.points[chord] + line.direction(chord) * (station - line.stations[chord] + way)
+    line.point(chord) + line.direction(chord) * (station - line.station(chord) + way)
 }
 
 /// The directions that a blade may have which cuts a line from a joint to another without moving: as a chord from the one
 /// overlap to the other.
 pub(super) fn of_stab(line: &Line, [from, to]: [f64; 2], joints: &Joints) -> Vec<Vector> {
     let (start, end) = (line.chord_at(from), line.chord_at(to.next_down()));
-    let at = |chord: usize, station: f64| line.points[chord] + line.direction(chord) * (station - line.stations[chord]);
+    let at = |chord: usize, station: f64| line.point(chord) + line.direction(chord) * (station - line.station(chord));
     let (first, last) = (at(start, from), at(end, to));
     let [ahead, behind] = [line.direction(end), line.direction(start)];
     let led = |heel: f64, front: f64| last + ahead * front - (first - behind * heel);

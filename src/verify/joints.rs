@@ -4,7 +4,7 @@
 
 use super::body::Cut;
 use super::chord::stands_across;
-use super::reference::Line;
+use super::line::Line;
 use crate::geom::{Point, polyline};
 use crate::machine::Knife;
 
@@ -91,9 +91,9 @@ impl Joints {
             return None;
         }
         let reach = |vertex: usize| slack + tube / line.turn(vertex).abs().sin();
-        let is_near = |vertex: usize| (line.stations[vertex] - station).abs() <= reach(vertex);
+        let is_near = |vertex: usize| (line.station(vertex) - station).abs() <= reach(vertex);
         let bends = line.vertices(station - self.width, station + self.width);
-        let bends = bends.filter(|&v| is_near(v) && self.is_bend(line, v)).map(|v| line.stations[v]);
+        let bends = bends.filter(|&v| is_near(v) && self.is_bend(line, v)).map(|v| line.station(v));
         let ends = [0.0, length].into_iter().filter(|end| (end - station).abs() <= slack);
         bends.chain(ends).fold(None, |found, joint| {
             Some(found.map_or([joint; 2], |[first, last]: [f64; 2]| [first.min(joint), last.max(joint)]))
@@ -106,11 +106,11 @@ impl Joints {
         if vertex == 0 || vertex == line.chords() {
             return false;
         }
-        let at = line.stations[vertex];
-        let end = line.stations.partition_point(|&s| s <= at + WIDTHS * self.width);
-        let points = &line.points[..(end + 1).min(line.points.len())];
-        let whole = points.len() == line.points.len();
-        let behind = |tail: usize| at - line.stations[tail] <= WIDTHS * self.width;
+        let at = line.station(vertex);
+        let end = line.up_to(at + WIDTHS * self.width);
+        let points: Vec<Point> = line.points().take(end + 1).collect();
+        let whole = points.len() > line.chords();
+        let behind = |tail: usize| at - line.station(tail) <= WIDTHS * self.width;
         let within = |tail: usize| (points[vertex] - points[tail]).norm() < self.width;
         let tails = (0..vertex).rev().take_while(|&tail| behind(tail)).filter(|&tail| within(tail));
         let ends: &[f64] = if whole { &self.fronts } else { &[0.0] };

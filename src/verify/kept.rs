@@ -16,10 +16,9 @@ use crate::ir::{Finding, Marker};
 /// Block of a place to which nothing is cut.
 const NO_BLOCK: u32 = 0;
 
-/// All that a marker cuts or drills. One is made of every marker that is read, so it takes two dozen bytes a segment, and
-/// nothing is sorted before somebody asks.
+/// All that a marker cuts or drills, to be compared with what passes make of it: two dozen bytes a segment.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Works {
+pub struct Works {
     pieces: Vec<OfPiece>,
 }
 
@@ -96,6 +95,9 @@ impl OfPiece {
 
     /// What is done here and no more in `cut`.
     fn lost_in(&self, cut: &Self) -> Vec<Stroke> {
+        if self == cut {
+            return Vec::new(); // as of nearly all
+        }
         let mut blocks: Vec<u32> = cut.strokes().map(|stroke| stroke.block).collect();
         blocks.sort_unstable();
         let mut lost: Vec<Stroke> =
@@ -111,25 +113,28 @@ impl OfPiece {
     }
 }
 
-/// All that a marker cuts or drills.
-pub(super) fn works(marker: &Marker) -> Works {
-    Works { pieces: marker.pieces.par_iter().map(|piece| OfPiece::of(piece, marker)).collect() }
-}
-
-/// Compares what was read with what is cut. Pieces that were not selected are gone as a whole.
-pub(super) fn kept(read: &Works, marker: &Marker) -> Finding {
-    let mut cut: Vec<&Piece> = marker.pieces.iter().collect();
-    cut.sort_by_key(|piece| name(piece));
-    let lost = |piece: &OfPiece| {
-        let place = cut.binary_search_by_key(&piece.name, |piece| name(piece));
-        place.map_or_else(|_| Vec::new(), |place| piece.lost_in(&OfPiece::of(cut[place], marker)))
-    };
-    let lost: Vec<Vec<Stroke>> = read.pieces.par_iter().map(lost).collect();
-    let mut worst = Worst::new("source/kept", "blocks", Some(0.0));
-    for (lost, count) in lost.into_iter().flatten().zip(1..) {
-        worst.see(f64::from(count), || Sighting { time: None, point: lost.to, block: lost.block });
+impl Works {
+    /// What a marker cuts and drills, block by block.
+    pub fn of(marker: &Marker) -> Self {
+        Self { pieces: marker.pieces.par_iter().map(|piece| OfPiece::of(piece, marker)).collect() }
     }
-    worst.finding()
+
+    /// Whether all of it is still cut in what passes made of the marker, of the pieces that are there: those that were not
+    /// selected are gone as a whole.
+    pub fn kept(&self, marker: &Marker) -> Finding {
+        let mut cut: Vec<&Piece> = marker.pieces.iter().collect();
+        cut.sort_by_key(|piece| name(piece));
+        let lost = |piece: &OfPiece| {
+            let place = cut.binary_search_by_key(&piece.name, |piece| name(piece));
+            place.map_or_else(|_| Vec::new(), |place| piece.lost_in(&OfPiece::of(cut[place], marker)))
+        };
+        let lost: Vec<Vec<Stroke>> = self.pieces.par_iter().map(lost).collect();
+        let mut worst = Worst::new("source/kept", "blocks", Some(0.0));
+        for (lost, count) in lost.into_iter().flatten().zip(1..) {
+            worst.see(f64::from(count), || Sighting { time: None, point: lost.to, block: lost.block });
+        }
+        worst.finding()
+    }
 }
 
 fn name(piece: &Piece) -> Name {

@@ -24,6 +24,7 @@ mod inside;
 mod joints;
 mod kept;
 mod limits;
+mod line;
 mod naming;
 mod nibbles;
 mod notches;
@@ -46,7 +47,8 @@ mod worst;
 mod worsts;
 
 pub use cutter_file::cutter_file;
-pub use source_audit::{Census, source_audit, source_kept};
+pub use kept::Works;
+pub use source_audit::{Census, source_audit};
 
 use std::io::BufRead;
 
@@ -74,6 +76,8 @@ use crate::machine::Job;
 const ROWS_AT_A_TIME: usize = 16_384;
 /// Room for them: the last stroke is taken whole.
 const ROOM: usize = ROWS_AT_A_TIME + ROWS_AT_A_TIME / 8;
+/// Rows of strokes that are judged one after the other: what was worst in one stroke spares work on the next ones.
+const ROWS_IN_A_ROW: usize = 1024;
 
 /// Every rule: its code and what it says. The order is that of reports.
 pub const RULES: &[(&str, &str)] = &[
@@ -201,11 +205,35 @@ impl Done<'_> {
         for stroke in &mut traced {
             judge.settle(stroke, self);
         }
-        let worsts: Vec<Worsts> = traced.par_iter().map(|stroke| judge.check(stroke)).collect();
+        let check = |strokes: &[Traced]| {
+            let mut worsts = judge.worsts();
+            for stroke in strokes {
+                judge.check(stroke, &mut worsts);
+            }
+            worsts
+        };
+        let worsts: Vec<Worsts> = in_a_row(&traced).into_par_iter().map(check).collect();
         for later in worsts {
             self.worsts.add(later);
         }
     }
+}
+
+/// Parts strokes, in their order, into those that are judged one after the other, whatever the number of cores.
+fn in_a_row<'t, 's>(mut traced: &'t [Traced<'s>]) -> Vec<&'t [Traced<'s>]> {
+    let mut parts = Vec::new();
+    while !traced.is_empty() {
+        let mut rows = 0;
+        let is_full = |stroke: &Traced| {
+            rows += stroke.rows();
+            rows >= ROWS_IN_A_ROW
+        };
+        let end = traced.iter().position(is_full).map_or(traced.len(), |last| last + 1);
+        let part;
+        (part, traced) = traced.split_at(end);
+        parts.push(part);
+    }
+    parts
 }
 
 /// What watches rows as they come, whatever is cut.

@@ -1,7 +1,7 @@
 //! What rows say beside poses and outputs: the block that is being cut, by which a program is resumed.
 
+use super::line::Line;
 use super::read::Row;
-use super::reference::Line;
 use super::worst::Worst;
 
 /// How far from its chord, along the line, a block may be named, mm, beside the tolerance: a tip that takes a bend inside
@@ -35,7 +35,7 @@ impl Naming {
         let length = line.length();
         let station = if line.ring { station.rem_euclid(length) } else { station };
         let here = line.chord_at(station);
-        if line.blocks[here] == block {
+        if line.block(here) == block {
             return 0.0;
         }
         let count = line.chords();
@@ -43,22 +43,22 @@ impl Naming {
         // Behind and before, as far as the chords begin within reach.
         for i in 1..count {
             let (at, over) = ((here + i) % count, here + i >= count);
-            let gap = line.stations[at] + if over { length } else { 0.0 } - station;
+            let gap = line.station(at) + if over { length } else { 0.0 } - station;
             if gap > self.reach || over && !line.ring {
                 break;
             }
-            if line.blocks[at] == block {
+            if line.block(at) == block {
                 nearest = nearest.min(gap);
                 break;
             }
         }
         for i in 1..count {
             let (at, over) = ((here + count - i) % count, i > here);
-            let gap = station - line.stations[at + 1] + if over { length } else { 0.0 };
+            let gap = station - line.station(at + 1) + if over { length } else { 0.0 };
             if gap > self.reach || over && !line.ring {
                 break;
             }
-            if line.blocks[at] == block {
+            if line.block(at) == block {
                 nearest = nearest.min(gap);
                 break;
             }

@@ -4,7 +4,7 @@
 //! blade lies too far beside. Found here anew, and a little more of it than a compile would nibble: rounding matters.
 
 use super::chord::stands_across;
-use super::reference::Line;
+use super::line::Line;
 use crate::geom::{Point, polyline};
 use crate::machine::{Knife, TightCurves};
 
@@ -35,25 +35,19 @@ pub(super) fn bows_anywhere(line: &Line, Blade { knife, tolerance }: Blade) -> b
 
 /// How far a line, from its start and from its end, goes on as a curve that a blade plunged there as a chord of it may not enter,
 /// or may lie farther beside than `knife.max_bow_mm`, mm; 0 where it does not begin as one.
-pub(super) fn bowed_ends(points: &[Point], blade: Blade) -> [f64; 2] {
-    if blade.knife.width_mm == 0.0 || points.len() < 3 {
+pub(super) fn bowed_ends(line: &Line, blade: Blade) -> [f64; 2] {
+    if blade.knife.width_mm == 0.0 || line.chords() < 2 {
         return [0.0; 2];
     }
     // Nearly always a look at what lies under the blade is all that it takes.
     let heel = blade.heels().into_iter().fold(0.0, f64::max);
     let reach = blade.knife.width_mm + heel;
-    let near = points.iter().rev().position(|point| (point - points[points.len() - 1]).norm() > reach);
-    // With the vertex behind, because a curve turns along its chords.
-    let backwards = |count: usize| points.iter().rev().take(count).copied().collect::<Vec<Point>>();
-    let way = |path: &[Point]| polyline::length(&path[..=blade.first_clear(path, 1)]);
-    let near = backwards(near.map_or(points.len(), |near| near + 2));
-    let end = if blade.is_bowed_at_start(&near) { way(&backwards(points.len())) } else { 0.0 };
-    [if blade.is_bowed_at_start(points) { way(points) } else { 0.0 }, end]
+    [blade.bowed_way(|| line.points(), reach), blade.bowed_way(|| line.points().rev(), reach)]
 }
 
-/// The stretches of a line that may be nibbled, by stations, in order, with as much before and behind as the blade is wide:
+/// The stretches of a line that may be nibbled where it is too tight or begins or ends bowed, by stations, in order, with as much before and behind as the blade is wide:
 /// what nibbles may reach as far. On a ring they may go on past its end.
-pub(super) fn stretches(line: &Line, ends: [f64; 2], blade: Blade) -> Box<[[f64; 2]]> {
+pub(super) fn stretches(line: &Line, (tight, ends): (&[[f64; 2]], [f64; 2]), blade: Blade) -> Vec<[f64; 2]> {
     let (length, width) = (line.length(), blade.knife.width_mm);
     let mut found: Vec<[f64; 2]> = Vec::new();
     if ends[0] > 0.0 {
@@ -62,12 +56,12 @@ pub(super) fn stretches(line: &Line, ends: [f64; 2], blade: Blade) -> Box<[[f64;
     if blade.knife.tight_curves == TightCurves::Nibble {
         let path = line.twice_round();
         // From the vertex before it to the first one behind at which the blade may plunge.
-        found.extend(line.tight.iter().map(|&[low, high]| {
+        found.extend(tight.iter().map(|&[low, high]| {
             let lap = if line.ring && high >= length { length } else { 0.0 };
             let next = line.chord_at(high - lap) + 1;
-            let end = blade.first_clear(&path[..path.len().min(next + line.points.len())], next);
-            let end = lap + line.stations[end % line.chords()] + length * (end / line.chords()) as f64;
-            [line.stations[line.chord_at(low)].min(low), end.max(high)]
+            let end = blade.first_clear(&path[..path.len().min(next + line.chords() + 1)], next);
+            let end = lap + line.station(end % line.chords()) + length * (end / line.chords()) as f64;
+            [line.station(line.chord_at(low)).min(low), end.max(high)]
         }));
     }
     if ends[1] > 0.0 {
@@ -80,6 +74,20 @@ pub(super) fn stretches(line: &Line, ends: [f64; 2], blade: Blade) -> Box<[[f64;
 impl Blade<'_> {
     fn heels(self) -> [f64; 3] {
         [0.0, self.knife.heel_overlap_mm, self.knife.corner_heel_overlap_mm]
+    }
+
+    /// How far a path, given by its points, goes on as a curve that it begins as and that the blade, with its overlaps as long
+    /// as `reach`, may not enter, mm; 0 where it begins as none.
+    fn bowed_way<I: Iterator<Item = Point>>(self, points: impl Fn() -> I, reach: f64) -> f64 {
+        let start = points().next().unwrap_or_default();
+        let past = points().position(|point| (point - start).norm() > reach);
+        // With the vertex behind, because a curve turns along its chords.
+        let near: Vec<Point> = points().take(past.map_or(usize::MAX, |past| past + 2)).collect();
+        if !self.is_bowed_at_start(&near) {
+            return 0.0;
+        }
+        let path: Vec<Point> = points().collect();
+        polyline::length(&path[..=self.first_clear(&path, 1)])
     }
 
     /// Whether a path begins on a curve beside which it lies too far, by any heel overlap.

@@ -11,7 +11,8 @@ use super::body::Cut;
 use super::follow::Foot;
 use super::grid::Grid;
 use super::inside::Inside;
-use super::reference::{Line, Reference};
+use super::line::Line;
+use super::reference::Reference;
 use super::worst::Worst;
 use crate::geom::{Point, Vector, polyline};
 use crate::ir::finding::Sighting;
@@ -179,7 +180,7 @@ impl<'a> Overcut<'a> {
             return Cloth::Part;
         }
         let is_drawn_in = |piece: &usize| {
-            let ends = [line.points[0], line.points[line.points.len() - 1]];
+            let ends = [line.point(0), line.point(line.chords())];
             ends.into_iter().any(|end| {
                 self.inside.pieces_at(end).contains(piece) && lines.is_away_from(end, *piece, self.tolerance)
             })
@@ -313,7 +314,7 @@ impl Lines<'_> {
     }
 
     fn distance(self, (line, chord): (u32, u32), point: Point) -> f64 {
-        let (points, chord) = (&self.reference.lines[line as usize].points, chord as usize);
-        polyline::distance_to_segment(point, points[chord], points[chord + 1])
+        let (line, chord) = (&self.reference.lines[line as usize], chord as usize);
+        polyline::distance_to_segment(point, line.point(chord), line.point(chord + 1))
     }
 }

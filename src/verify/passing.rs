@@ -4,14 +4,14 @@ use std::ops::RangeInclusive;
 
 use super::body::{Bow, Cut};
 use super::follow::Foot;
-use super::reference::Line;
+use super::line::Line;
 use crate::geom::{Point, polyline};
 
 /// How far the tip's way from place `i - 1` to place `i` passes by the vertices between their stations, mm.
 pub(super) fn skipped(line: &Line, cut: &Cut, feet: &[Foot], i: usize) -> f64 {
     let (a, b) = (feet[i - 1].station, feet[i].station);
     let chord = feet[i].chord;
-    if feet[i - 1].chord == chord && (a - b).abs() <= line.stations[chord + 1] - line.stations[chord] {
+    if feet[i - 1].chord == chord && (a - b).abs() <= line.station(chord + 1) - line.station(chord) {
         // Between two places on one chord, on the same lap, there is no vertex.
         return 0.0;
     }
@@ -23,7 +23,7 @@ pub(super) fn skipped(line: &Line, cut: &Cut, feet: &[Foot], i: usize) -> f64 {
         Bow::Timed if k <= cut.body || k + 1 >= points.len() => 0.0,
         Bow::Timed => ((points[k + 1] - points[k]) - (points[k] - points[k - 1])).norm() / 8.0,
     };
-    let away = |vertex: usize| polyline::distance_to_segment(line.points[vertex], points[i - 1], points[i]);
+    let away = |vertex: usize| polyline::distance_to_segment(line.point(vertex), points[i - 1], points[i]);
     line.vertices(low.next_up(), high.next_down()).map(away).fold(0.0, f64::max) - bow(i).max(bow(i - 1))
 }
 
@@ -33,13 +33,13 @@ pub(super) fn passed(line: &Line, places: &[Point], feet: &[Foot], allowed: f64)
     let (a, b) = (feet[0].station, feet[1].station);
     let (low, high) = (a.min(b), a.max(b));
     let chord = feet[0].chord;
-    if feet[1].chord == chord && low > line.stations[chord] && high < line.stations[chord + 1] {
+    if feet[1].chord == chord && low > line.station(chord) && high < line.station(chord + 1) {
         // Between two places amid one chord there is no vertex.
         return None;
     }
-    let is_cut = |vertex: &usize| polyline::distance_to_segment(line.points[*vertex], places[0], places[1]) <= allowed;
+    let is_cut = |vertex: &usize| polyline::distance_to_segment(line.point(*vertex), places[0], places[1]) <= allowed;
     let lap = if line.ring { (low / line.length()).floor() * line.length() } else { 0.0 };
-    let cut = line.vertices(low, high).filter(is_cut).map(|vertex| line.stations[vertex] + lap);
+    let cut = line.vertices(low, high).filter(is_cut).map(|vertex| line.station(vertex) + lap);
     cut.filter(|station| (low..=high).contains(station)).fold(None, |found, station| {
         Some(found.map_or([station; 2], |[first, last]: [f64; 2]| [first.min(station), last.max(station)]))
     })

@@ -1,7 +1,6 @@
 //! A small scan of the source bytes by other means than the reader's: what it counts must be what the marker holds, so
 //! that a fault of the reader is seen, too.
 
-use super::kept::{self, Works};
 use super::scan::scan_iso;
 use super::source_hpgl;
 use super::worst::Worst;
@@ -34,27 +33,17 @@ pub struct Census {
     pub unit: f64,
     /// Where it lies: a stroke that is moved within the box keeps all of the above. Of plots only.
     pub(super) moments: Moments,
-    /// What cuts or drills, block by block; a scan of the bytes does not tell.
-    pub(super) works: Works,
 }
 
 impl Census {
     /// Nothing yet of a file whose numbers are multiples of that many mm.
     pub(super) fn empty(unit: f64) -> Self {
-        Self {
-            points: 0,
-            drills: 0,
-            length: 0.0,
-            bounds: Extent::EMPTY,
-            unit,
-            moments: Moments::default(),
-            works: Works::default(),
-        }
+        Self { points: 0, drills: 0, length: 0.0, bounds: Extent::EMPTY, unit, moments: Moments::default() }
     }
 
     /// The census of a marker as it was read, before any pass.
     pub fn of(marker: &Marker) -> Self {
-        let mut census = Self { works: kept::works(marker), length: marker.cut_length(), ..Self::empty(marker.unit) };
+        let mut census = Self { length: marker.cut_length(), ..Self::empty(marker.unit) };
         let is_plot = marker.drawing.is_some();
         for piece in &marker.pieces {
             // What has no length cuts nothing.
@@ -94,11 +83,6 @@ impl Census {
         }
         census
     }
-}
-
-/// Whether all that was read is still cut behind the passes, of the pieces that are there.
-pub fn source_kept(read: &Census, marker: &Marker) -> Finding {
-    kept::kept(&read.works, marker)
 }
 
 /// Compares a marker as it was read with a scan of the bytes; `None` when there is no scan for the dialect.

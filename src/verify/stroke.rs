@@ -15,10 +15,11 @@ use super::grid::Grid;
 use super::heading::{self, Moving, Plunge};
 use super::inside::Inside;
 use super::joints::{Around, Joints};
+use super::line::Line;
 use super::naming::Naming;
 use super::overcut::{self, Harm, Lines, Overcut};
 use super::read::{Going, Rounding, Row};
-use super::reference::{Line, Reference};
+use super::reference::Reference;
 use super::trial::{REACH, Trace, Tracer, Trial};
 use super::worst::{Worst, at};
 use super::worsts::Worsts;
@@ -112,6 +113,13 @@ pub(super) struct Traced<'s> {
     cut: Cut,
     trace: Trace,
     best: Option<Trial>,
+}
+
+impl Traced<'_> {
+    /// Number of rows of its stroke.
+    pub(super) fn rows(&self) -> usize {
+        self.stroke.rows.len()
+    }
 }
 
 /// What lies where on the cloth.
@@ -243,8 +251,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Judges a stroke whose line is known.
-    pub(super) fn check(&self, traced: &Traced) -> Worsts {
-        let mut worsts = self.worsts();
+    pub(super) fn check(&self, traced: &Traced, worsts: &mut Worsts) {
         let Traced { stroke, cut, best, .. } = traced;
         let rows = stroke.rows;
         let seen = |i: usize| stroke.sighting(cut, i);
@@ -253,10 +260,10 @@ impl<'a> Judge<'a> {
         self.check_heading(traced, &mut worsts.heading);
         let Some(best) = best else {
             worsts.stray.see(cut.length().max(self.knife.width_mm).max(REACH), || seen(cut.body));
-            return worsts;
+            return;
         };
         if cut.is_stab() {
-            self.check_stab(cut, best, &seen, &mut worsts);
+            self.check_stab(cut, best, &seen, worsts);
             worsts.on_path.see(self.left_beside(best), || seen(cut.body));
         }
         worsts.on_path.see(best.worst.0, || seen(best.worst.1));
@@ -268,7 +275,6 @@ impl<'a> Judge<'a> {
             // Only rows with a time name their blocks one by one.
             self.check_names(rows, cut, best, &mut worsts.block);
         }
-        worsts
     }
 
     /// The joints of its line from one of which to another that reaches which a stab cuts anew, the first and the last at
@@ -446,9 +452,9 @@ impl<'a> Judge<'a> {
         if line.ring {
             return;
         }
-        let (start, end) = (line.points[0], line.points[line.points.len() - 1]);
+        let (start, end) = (line.point(0), line.point(line.chords()));
         let width = self.knife.width_mm;
-        let is_short = || line.points.iter().all(|point| (point - start).norm() < width);
+        let is_short = || line.points().all(|point| (point - start).norm() < width);
         let surplus = if trial.fits.is_some() && trial.covered.is_some() {
             // A chord is shorter than its curve.
             width - (line.place(trial.hull[1]) - line.place(trial.hull[0])).norm()

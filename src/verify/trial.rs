@@ -8,8 +8,9 @@ use super::covered::Covered;
 use super::follow::{Follower, Foot};
 use super::grid::Grid;
 use super::joints::{Around, Joints};
+use super::line::Line;
 use super::passing::{longest, passed, skipped};
-use super::reference::{Line, Reference};
+use super::reference::Reference;
 
 /// How far from a line a stroke may lie and still be taken for a bad cut of it, mm.
 pub(super) const REACH: f64 = 2.0;
@@ -96,7 +97,7 @@ impl Tracer<'_> {
     }
 
     fn is_named(&self, line: usize, block: u32) -> bool {
-        self.reference.lines[line].blocks.contains(&block)
+        self.reference.lines[line].has(block)
     }
 
     /// The line that a stroke was meant for: of those on which it cuts the most, but for overlaps and the surplus of the

@@ -1,6 +1,6 @@
 //! Whether C can follow a line in one inside its range.
 
-use super::reference::Line;
+use super::line::Line;
 use crate::machine::{Follow, Knife, MachineProfile};
 
 /// How far from the ends of its range C is kept on a line that turns it, rad (5 degrees): by what smoothing and a plunge as a
@@ -25,7 +25,16 @@ pub(super) struct Winding<'a> {
 }
 
 impl<'a> Winding<'a> {
-    pub(super) fn new(line: &'a Line, profile: &'a MachineProfile) -> Self {
+    /// Whether C would leave a range, rad, or come too near to its ends, from wherever it follows a line that turns at its
+    /// inner vertices by `turned` rad, whatever the side.
+    pub(super) fn is_past(line: &'a Line, turned: f64, (range, profile): ([f64; 2], &'a MachineProfile)) -> bool {
+        let [least, greatest] = range;
+        // Where there is room for a period more than it turns, one of the equivalents of C fits.
+        let is_sure = !line.ring && turned + 2.0 * CLEAR_OF_ENDS + profile.knife.period() <= greatest - least;
+        line.chords() > 1 && !is_sure && Self::new(line, profile).leaves(range)
+    }
+
+    fn new(line: &'a Line, profile: &'a MachineProfile) -> Self {
         let first = line.direction(0);
         let mut heading = first.y.atan2(first.x);
         let mut headings = vec![heading];
@@ -37,12 +46,8 @@ impl<'a> Winding<'a> {
         Self { line, knife: &profile.knife, lap: heading + closing - headings[0], headings }
     }
 
-    /// Whether C would leave a range, rad, or come too near to its ends, from wherever it follows the line.
-    pub(super) fn is_past(&self, range: [f64; 2]) -> bool {
+    fn leaves(&self, range: [f64; 2]) -> bool {
         let chords = self.headings.len();
-        if chords == 1 {
-            return false;
-        }
         if !self.line.ring {
             return !self.fits(span(self.headings.iter().copied()), range, CLEAR_OF_ENDS);
         }
@@ -86,7 +91,7 @@ impl<'a> Winding<'a> {
     fn middle(&self, chord: isize) -> f64 {
         let chords = self.headings.len().cast_signed();
         let (i, lap) = (chord.rem_euclid(chords) as usize, chord.div_euclid(chords) as f64);
-        f64::midpoint(self.line.stations[i], self.line.stations[i + 1]) + lap * self.line.length()
+        f64::midpoint(self.line.station(i), self.line.station(i + 1)) + lap * self.line.length()
     }
 
     fn heading(&self, chord: isize) -> f64 {

@@ -2,6 +2,8 @@
 
 /// Digits of a whole number that is exact in `f64` all along.
 const EXACT_DIGITS: usize = 15;
+/// Digits of a whole number that is below [`GREATEST`].
+const SHORT_DIGITS: usize = 8;
 /// Most codes of a block, most decimals that count, and the greatest number: what goes beyond is a fault of the file.
 const MOST_CODES: usize = 6;
 const MOST_DECIMALS: usize = 6;
@@ -51,24 +53,52 @@ impl Block {
         let mut rest = text;
         let mut last_was_coordinate = false;
         while let [letter, behind @ ..] = rest {
-            if !letter.is_ascii_uppercase() {
-                return None;
-            }
             let end = behind.iter().position(u8::is_ascii_uppercase).unwrap_or(behind.len());
             let number = if end == 0 { None } else { Some(number(&behind[..end])?) };
-            if let Some(axis) = b"XYIJ".iter().position(|axis| axis == letter) {
-                if block.place[axis].is_some() || number.is_none() || (block.has_place() && !last_was_coordinate) {
-                    return None;
-                }
-                block.place[axis] = number;
-                last_was_coordinate = true;
-            } else {
-                block.codes.push(Word { letter: char::from(*letter), number });
-                last_was_coordinate = false;
-            }
+            last_was_coordinate = block.take(*letter, number, last_was_coordinate)?;
             rest = &behind[end..];
         }
         (block.codes.len() <= MOST_CODES).then_some(block)
+    }
+
+    /// Reads a block of places in short whole numbers alone, as nearly all are, and says how long it is with its asterisk;
+    /// `None` when it is any other.
+    fn read_place(text: &[u8]) -> Option<(Self, usize)> {
+        let mut block = Self::default();
+        let mut at = 0;
+        while let Some(&letter @ b'X'..=b'Y') = text.get(at) {
+            at += 1;
+            let is_negative = text.get(at) == Some(&b'-');
+            at += usize::from(is_negative);
+            let (start, mut value) = (at, 0);
+            while let Some(digit @ b'0'..=b'9') = text.get(at) {
+                value = value * 10 + u32::from(digit - b'0');
+                at += 1;
+                if at - start > SHORT_DIGITS {
+                    return None;
+                }
+            }
+            let number = (at > start).then_some(f64::from(value));
+            block.take(letter, number.map(|number| if is_negative { -number } else { number }), true)?;
+        }
+        (text.get(at) == Some(&b'*')).then_some((block, at + 1))
+    }
+
+    /// Takes a letter with its number behind others, the last of which was a coordinate or not; says whether this one is.
+    /// `None` when it cannot stand there.
+    fn take(&mut self, letter: u8, number: Option<f64>, last_was_coordinate: bool) -> Option<bool> {
+        if !letter.is_ascii_uppercase() {
+            return None;
+        }
+        if let Some(axis) = b"XYIJ".iter().position(|&axis| axis == letter) {
+            if self.place[axis].is_some() || number.is_none() || (self.has_place() && !last_was_coordinate) {
+                return None;
+            }
+            self.place[axis] = number;
+            return Some(true);
+        }
+        self.codes.push(Word { letter: char::from(letter), number });
+        Some(false)
     }
 }
 
@@ -123,6 +153,10 @@ impl<'a> Blocks<'a> {
             return None;
         }
         let rest = &self.bytes[self.at..];
+        if let Some((block, length)) = Block::read_place(rest) {
+            self.at += length;
+            return Some(Ok(block));
+        }
         let end = memchr::memchr(b'*', rest).unwrap_or(rest.len());
         if !rest[..end].iter().any(|&byte| byte == b'/' || is_blank(byte)) {
             // As nearly all are.

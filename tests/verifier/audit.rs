@@ -10,7 +10,7 @@ use cutc::machine::profile::CodeUse;
 use cutc::machine::{Job, MachineProfile};
 use cutc::pipeline::{self, Judged};
 use cutc::source::Source;
-use cutc::verify::{Census, source_audit, source_kept};
+use cutc::verify::{Census, Works, source_audit};
 
 use crate::case;
 
@@ -60,7 +60,7 @@ fn the_passes_lose_nothing_of_any_cut_file() {
         let mut diagnostics = Diagnostics::default();
         let input = pipeline::read(&source, None, &Job::default(), &mut diagnostics).expect("it is read");
         if !diagnostics.has_errors() {
-            let finding = source_kept(&Census::of(&read), &input.marker);
+            let finding = Works::of(&read).kept(&input.marker);
             assert!(finding.holds(), "{}: {finding:?}", source.name());
         }
     }
@@ -70,11 +70,11 @@ fn the_passes_lose_nothing_of_any_cut_file() {
 fn what_a_pass_loses_is_seen_but_for_slits_that_stand_twice_and_pieces_not_chosen() {
     let job = Job::default();
     let read = case::marker("drills-and-slits", &job);
-    let census = Census::of(&read);
+    let works = Works::of(&read);
     let lost = |change: &dyn Fn(&mut Marker)| {
         let mut marker = read.clone();
         change(&mut marker);
-        source_kept(&census, &marker).worst
+        works.kept(&marker).worst
     };
     let with_slits = read.pieces.iter().position(|piece| !piece.notches.is_empty()).expect("it has slits");
     let with_holes = read.pieces.iter().position(|piece| !piece.drills.is_empty()).expect("it has holes");
@@ -88,7 +88,7 @@ fn what_a_pass_loses_is_seen_but_for_slits_that_stand_twice_and_pieces_not_chose
     let mut twin = twice.pieces[with_slits].notches[0];
     (twin.root, twin.tip, twin.span.block) = (twin.tip, twin.root, 9999);
     twice.pieces[with_slits].notches.push(twin);
-    assert!(source_kept(&Census::of(&twice), &read).holds());
+    assert!(Works::of(&twice).kept(&read).holds());
 }
 
 /// A job that ignores some codes.
@@ -103,9 +103,9 @@ fn faults(bytes: &[u8], job: &Job) -> Option<Vec<Finding>> {
     let source = Source::new("a.cut", bytes.to_vec()).expect("small");
     let mut diagnostics = Diagnostics::default();
     let judged = pipeline::read_to_judge(&source, None, job, &mut diagnostics);
-    let Judged { input, read } = judged.filter(|_| !diagnostics.has_errors())?;
-    let mut findings = source_audit("iso", bytes, &read, &job.profile)?;
-    findings.push(source_kept(&read, &input.marker));
+    let Judged { read, .. } = judged.filter(|_| !diagnostics.has_errors())?;
+    let mut findings = source_audit("iso", bytes, &read.census, &job.profile)?;
+    findings.push(read.kept);
     findings.retain(|finding| !finding.holds());
     Some(findings)
 }

@@ -78,32 +78,9 @@ impl Tube {
         if self.heights[chord] == 0.0 { Vector::zeros() } else { self.bulges[chord] * (before.min(after) / mean) }
     }
 
-    /// Whether a point is no farther than `allowed` mm from what counts as on the path, beside the chord at a station or one
-    /// of its neighbours.
-    pub(super) fn is_near(&self, (point, station): (Point, f64), allowed: f64) -> bool {
-        let here = self.chord_at(station);
-        let neighbours = [here.saturating_sub(1), (here + 1).min(self.chords() - 1)];
-        // Nearly always it is the chord itself.
-        std::iter::once(here).chain(neighbours).any(|chord| self.beside_chord(point, chord) <= allowed)
-    }
-
     /// The chord at a station.
     pub(super) fn chord_at(&self, station: f64) -> usize {
         self.stations.partition_point(|&s| s <= station).clamp(1, self.chords()) - 1
-    }
-
-    fn beside_chord(&self, point: Point, chord: usize) -> f64 {
-        let (a, b) = (self.points[chord], self.points[chord + 1]);
-        let along = b - a;
-        let x = ((point - a).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
-        let away = point - (a + along * x);
-        let bulge = self.bulges[chord] * (4.0 * x * (1.0 - x));
-        let height = bulge.norm();
-        if height == 0.0 {
-            return away.norm();
-        }
-        let outward = bulge / height;
-        (away - outward * away.dot(&outward).clamp(0.0, height)).norm()
     }
 
     /// Whether a vertex at an end of a chord is a bend of its own: on a curve neighbouring turns are alike, and no chord is
@@ -119,12 +96,41 @@ impl Tube {
         self.heights[chord] == 0.0
     }
 
-    /// Whether a way beside a chord stays within an allowed distance of what counts as on the path. It runs left of the
-    /// chord's ends by `ends`, and in the middle by `bow` more than straight between these, mm.
-    pub(super) fn holds(&self, chord: usize, ends: [f64; 2], bow: f64, allowed: f64) -> bool {
-        let bulge = self.heights[chord];
-        highest(ends, bow - bulge.max(0.0)) <= allowed && highest(ends.map(|end| -end), bulge.min(0.0) - bow) <= allowed
+    /// Whether an arc of that curvature (left positive, per mm) stays beside a chord within an allowed distance of what counts
+    /// as on the path, mm. It is taken for a parabola, as the bulge is.
+    pub(super) fn holds(&self, stretch: &Stretch, curvature: f64, allowed: f64) -> bool {
+        let Stretch { chord, stations: [from, to], ends } = *stretch;
+        let (start, length) = (self.stations[chord], self.stations[chord + 1] - self.stations[chord]);
+        let (way, aside) = (to - from, ends[1] - ends[0]);
+        // An arc bows by span^2 / 8 R from the line between its ends, which lies askew to the chord.
+        let square = way * way + aside * aside;
+        let bow = if way > 0.0 { -curvature * square * (square.sqrt() / way) / 8.0 } else { 0.0 };
+        let height = self.heights[chord];
+        let bulge = |station: f64| {
+            let x = (station - start) / length;
+            4.0 * height * x * (1.0 - x)
+        };
+        // Only on the side to which it bulges it counts: the other one is measured from the chord.
+        let bulges = [bulge(from), bulge(to)];
+        let share = way / length;
+        let beside = |side: f64| {
+            let counts = if side * height > 0.0 { 1.0 } else { 0.0 };
+            let end = |i: usize| side * (ends[i] - counts * bulges[i]);
+            highest([end(0), end(1)], side * (bow - counts * height * share * share))
+        };
+        beside(1.0) <= allowed && beside(-1.0) <= allowed
     }
+}
+
+/// A way beside a part of a chord.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stretch {
+    /// The chord.
+    pub(super) chord: usize,
+    /// From where to where, mm along the polyline.
+    pub(super) stations: [f64; 2],
+    /// How far left of the chord it runs there, mm.
+    pub(super) ends: [f64; 2],
 }
 
 /// The greatest value on [0, 1] of the parabola with these ends that is `bow` above the straight line in the middle.

@@ -1,11 +1,12 @@
 //! What passes look at beside a toolpath: the job, and the cloth around it.
 
+use std::collections::BTreeMap;
+
 use rayon::prelude::*;
 
 use crate::geom::Point;
 use crate::geom::nest::{self, Shape};
 use crate::geom::region::{Ray, Regions, Room};
-use crate::ir::marker::Piece;
 use crate::ir::{Marker, Toolpath};
 use crate::machine::{Job, Knife};
 
@@ -27,19 +28,15 @@ pub struct Scene<'a> {
 impl<'a> Scene<'a> {
     /// The scene of a marker. Contours that do not close bound nothing.
     pub fn new(marker: &Marker, job: &'a Job) -> Self {
-        let rings = |piece: &Piece| -> Vec<Vec<Point>> {
-            let closed = piece.contours.iter().filter(|contour| contour.closed);
+        let rings = |piece: u32| -> Vec<Vec<Point>> {
+            let closed = marker.pieces[piece as usize].contours.iter().filter(|contour| contour.closed);
             closed.map(|contour| marker.points(contour)).collect()
         };
-        let rings: Vec<Vec<Vec<Point>>> = marker.pieces.par_iter().map(rings).collect();
-        let regions = |part_of: &dyn Fn(u32) -> u32| {
-            let rings = rings.iter().zip(0..).flat_map(|(rings, piece)| rings.iter().map(move |ring| (piece, ring)));
-            Regions::new(rings.map(|(piece, ring)| (part_of(piece), &ring[..])))
-        };
-        let pieces = regions(&|piece| piece);
-        let shapes: Vec<Shape> = rings.par_iter().map(|rings| Shape::new(rings)).collect();
+        let count = marker.pieces.len() as u32;
+        let pieces = Regions::new(0..count, rings);
+        let shapes: Vec<Shape> = (0..count).into_par_iter().map(|piece| Shape::new(&rings(piece))).collect();
         let part_of = nest::regions(&shapes, |point| pieces.owners_at(point));
-        let parts = if part_of.iter().copied().eq(0..) { pieces } else { regions(&|piece| part_of[piece as usize]) };
+        let parts = if part_of.iter().copied().eq(0..count) { pieces } else { whole_parts(&part_of, rings) };
         Self { job, parts, part_of }
     }
 
@@ -58,6 +55,15 @@ impl<'a> Scene<'a> {
         let part = self.part_of.get(toolpath.part as usize).copied().unwrap_or(toolpath.part);
         Around { scene: self, part, tolerance: toolpath.tolerance }
     }
+}
+
+/// The regions of parts whose cut-outs are pieces; `rings` gives the rings of a piece.
+fn whole_parts(part_of: &[u32], rings: impl Fn(u32) -> Vec<Vec<Point>> + Sync) -> Regions {
+    let mut members: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+    for (&part, piece) in part_of.iter().zip(0..) {
+        members.entry(part).or_default().push(piece);
+    }
+    Regions::new(members.keys().copied(), |part| members[&part].iter().flat_map(|&piece| rings(piece)).collect())
 }
 
 /// The scene as the cuts of one piece see it.

@@ -1,0 +1,277 @@
+//! A stretch that is cut from one end to the other, and what can be asked of it: places, stations, chords, caps.
+
+use std::ops::RangeInclusive;
+
+use super::caps::BothWays;
+use crate::geom::{Point, Vector, angle, left};
+
+/// Such a stretch, mm.
+#[derive(Debug)]
+pub(super) struct Line {
+    /// Index of its piece.
+    pub(super) piece: usize,
+    /// Rank of its contour or slit among events, holes, slits and contours, in cut order.
+    pub(super) rank: usize,
+    /// Its points; a ring ends with its first one.
+    path: Box<[Vertex]>,
+    /// How fast the tip may be: before a corner it may have to be slower.
+    caps: BothWays,
+    /// Whether it is a closed contour without a corner.
+    pub(super) ring: bool,
+    /// Whether C cannot follow it in one: then the knife is lifted amid it.
+    pub(super) winds: bool,
+    /// Where it is cut otherwise; few lines are.
+    exceptions: Option<Box<Exceptions>>,
+}
+
+/// Where the blade is not led along a line as the law has it.
+#[derive(Debug, Default)]
+pub(super) struct Exceptions {
+    /// By the stations of tail and tip: where it is too tight for the blade to be its chord.
+    pub(super) tight: Vec<[f64; 2]>,
+    /// By stations: where it may be nibbled, which is cut by plunges without motion.
+    pub(super) nibbled: Vec<[f64; 2]>,
+}
+
+/// A point of a line, and the chord that begins there: side by side, since who asks for the one needs the other. The last
+/// one begins none.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Vertex {
+    pub(super) at: Point,
+    /// Length of the line from its first point, mm.
+    pub(super) station: f64,
+    /// Outward bulge of the chord in its middle, to its left, in lengths of the chord. In single precision, which is far
+    /// finer than what it is guessed from: lines are most of what the verifier keeps.
+    pub(super) bulge: f32,
+    /// Source block of the chord.
+    pub(super) block: u32,
+}
+
+/// A chord of a line.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Chord {
+    pub(super) index: usize,
+    /// Where it starts, and the station of that, mm.
+    from: Point,
+    start: f64,
+    /// mm.
+    length: f64,
+    /// Unit vector along it.
+    pub(super) along: Vector,
+    /// From its middle to where the core of the tube reaches there.
+    bulge: Vector,
+}
+
+impl Chord {
+    /// Distance of a point from the tube's core beside it, mm, and the station of the foot. The core at a place of the
+    /// chord is the segment from the chord to its bulge there.
+    pub(super) fn deviation(&self, point: Point) -> (f64, f64) {
+        let from = point - self.from;
+        if self.length == 0.0 {
+            return (from.norm(), self.start);
+        }
+        let way = from.dot(&self.along).clamp(0.0, self.length);
+        let away = from - self.along * way;
+        if self.bulge == Vector::zeros() {
+            return (away.norm(), self.start + way);
+        }
+        let share = way / self.length;
+        let reach = self.bulge * (4.0 * share * (1.0 - share));
+        let height = reach.norm();
+        if height == 0.0 {
+            return (away.norm(), self.start + way);
+        }
+        let outward = reach / height;
+        let used = away.dot(&outward).clamp(0.0, height);
+        ((away - outward * used).norm(), self.start + way)
+    }
+}
+
+impl Line {
+    /// A line of a piece, at a rank, along which the blade goes as the law has it.
+    pub(super) fn new([piece, rank]: [usize; 2], path: Box<[Vertex]>, caps: BothWays, ring: bool) -> Self {
+        Self { piece, rank, path, caps, ring, winds: false, exceptions: None }
+    }
+
+    /// The same line, but for these stretches.
+    pub(super) fn except(&mut self, exceptions: Exceptions) {
+        let is_plain = exceptions.tight.is_empty() && exceptions.nibbled.is_empty();
+        self.exceptions = (!is_plain).then(|| Box::new(exceptions));
+    }
+
+    /// One of its points.
+    pub(super) fn point(&self, vertex: usize) -> Point {
+        self.path[vertex].at
+    }
+
+    /// All of them.
+    pub(super) fn points(&self) -> impl DoubleEndedIterator<Item = Point> + ExactSizeIterator {
+        self.path.iter().map(|vertex| vertex.at)
+    }
+
+    /// Length from its first point to another, mm.
+    pub(super) fn station(&self, vertex: usize) -> f64 {
+        self.path[vertex].station
+    }
+
+    /// Source block of a chord.
+    pub(super) fn block(&self, chord: usize) -> u32 {
+        self.path[chord].block
+    }
+
+    /// Whether one of its chords is of that block.
+    pub(super) fn has(&self, block: u32) -> bool {
+        self.path[..self.chords()].iter().any(|vertex| vertex.block == block)
+    }
+
+    /// Its length, mm.
+    pub(super) fn length(&self) -> f64 {
+        self.path[self.path.len() - 1].station
+    }
+
+    /// Number of chords.
+    pub(super) fn chords(&self) -> usize {
+        self.path.len() - 1
+    }
+
+    /// How many of its vertices lie before a station.
+    fn before(&self, station: f64) -> usize {
+        self.path.partition_point(|vertex| vertex.station < station)
+    }
+
+    /// How many of them lie before it or at it.
+    pub(super) fn up_to(&self, station: f64) -> usize {
+        self.path.partition_point(|vertex| vertex.station <= station)
+    }
+
+    /// Unit vector along a chord.
+    pub(super) fn direction(&self, chord: usize) -> Vector {
+        let [from, to] = self.ends(chord);
+        (to.at - from.at) / (to.station - from.station)
+    }
+
+    /// One of its chords.
+    pub(super) fn chord(&self, index: usize) -> Chord {
+        let [from, to] = self.ends(index);
+        let (way, length) = (to.at - from.at, to.station - from.station);
+        let bulge = left(way) * f64::from(from.bulge);
+        Chord { index, from: from.at, start: from.station, length, along: way / length, bulge }
+    }
+
+    /// The two ends of a chord.
+    fn ends(&self, chord: usize) -> [&Vertex; 2] {
+        let [from, to] = &self.path[chord..chord + 2] else { unreachable!("a chord has two ends") };
+        [from, to]
+    }
+
+    /// Whether a point may be nearer than `reach` mm to the tube's core beside a chord, as far as its box tells.
+    pub(super) fn may_reach(&self, chord: usize, point: Point, reach: f64) -> bool {
+        let [from, to] = self.ends(chord);
+        let reach = reach + f64::from(from.bulge).abs() * (to.station - from.station);
+        let (from, to) = (from.at - point, to.at - point);
+        let is_between = |a: f64, b: f64| a.min(b) <= reach && a.max(b) >= -reach;
+        is_between(from.x, to.x) && is_between(from.y, to.y)
+    }
+
+    /// The vertices between two stations; on a ring these may lie on any lap, and its last point is left to its first.
+    pub(super) fn vertices(&self, low: f64, high: f64) -> impl Iterator<Item = usize> + '_ {
+        let length = self.length();
+        let count = if self.ring { self.chords() } else { self.path.len() };
+        let lap = if self.ring { (low / length).floor() } else { 0.0 };
+        let first = self.path[..count].partition_point(|vertex| vertex.station + lap * length < low);
+        let laps = if self.ring { usize::MAX } else { count };
+        let station = move |i: usize| self.station(i % count) + (lap + (i / count) as f64) * length;
+        (first..laps).take_while(move |&i| station(i) <= high).map(move |i| i % count)
+    }
+
+    /// Whether it is too tight for the blade somewhere between two stations.
+    pub(super) fn is_tight(&self, [low, high]: [f64; 2]) -> bool {
+        let Some(Exceptions { tight, .. }) = self.exceptions.as_deref() else { return false };
+        let lap = if self.ring { (low / self.length()).floor() * self.length() } else { 0.0 };
+        // On a ring the stretches may lie on the next lap.
+        let laps = if self.ring { 2 } else { 1 };
+        (0..laps).any(|i| {
+            let by = lap + f64::from(i) * self.length();
+            tight.iter().any(|[a, b]| a + by <= high && b + by >= low)
+        })
+    }
+
+    /// Its points; of a ring those of two laps.
+    pub(super) fn twice_round(&self) -> Vec<Point> {
+        let more = if self.ring { &self.path[1..] } else { &[] };
+        self.path.iter().chain(more).map(|vertex| vertex.at).collect()
+    }
+
+    /// Whether it may be nibbled at a station, which on a ring may lie on any lap.
+    pub(super) fn is_nibbled(&self, station: f64) -> bool {
+        let Some(Exceptions { nibbled, .. }) = self.exceptions.as_deref() else { return false };
+        let laps = if self.ring { &[0.0, 1.0, -1.0][..] } else { &[0.0] };
+        let station = if self.ring { station.rem_euclid(self.length()) } else { station };
+        let is_in = |[low, high]: &[f64; 2], lap: f64| (*low..=*high).contains(&(station + lap * self.length()));
+        nibbled.iter().any(|stretch| laps.iter().any(|&lap| is_in(stretch, lap)))
+    }
+
+    /// Turn of the line at a vertex, rad; none at the ends of an open line.
+    pub(super) fn turn(&self, vertex: usize) -> f64 {
+        let count = self.chords();
+        if !self.ring && (vertex == 0 || vertex == count) {
+            return 0.0;
+        }
+        angle::turn(self.direction((vertex + count - 1) % count), self.direction(vertex % count))
+    }
+
+    /// The greatest speed of the tip, mm/s, where that is one all along; `sign` is +1 with the line, -1 against it.
+    pub(super) fn only_cap(&self, sign: f64) -> Option<f64> {
+        self.caps.only(sign)
+    }
+
+    /// The greatest speed of the tip between two stations, mm/s; `sign` is +1 with the line, -1 against it.
+    pub(super) fn cap(&self, [low, high]: [f64; 2], sign: f64) -> f64 {
+        let length = self.length();
+        let ends = if sign > 0.0 { [low, high] } else { [length - high, length - low] };
+        self.caps.greatest(ends, sign, self.ring.then_some(length))
+    }
+
+    /// The point at a station.
+    pub(super) fn place(&self, station: f64) -> Point {
+        let chord = self.chord_at(station);
+        self.point(chord) + self.direction(chord) * (station - self.station(chord))
+    }
+
+    /// The chords between two stations; on a ring they are counted on past its end.
+    pub(super) fn chords_between(&self, [low, high]: [f64; 2]) -> RangeInclusive<usize> {
+        let lap = if self.ring { (low / self.length()).floor() * self.length() } else { 0.0 };
+        let (low, high) = (low - lap, high - lap);
+        let over = if self.ring && high >= self.length() { self.length() } else { 0.0 };
+        let laps = if over > 0.0 { self.chords() } else { 0 };
+        self.chord_at(low)..=self.chord_at(high - over) + laps
+    }
+
+    /// Whether a block is that of a chord between two stations.
+    pub(super) fn names(&self, block: u32, ends: [f64; 2]) -> bool {
+        self.chords_between(ends).any(|chord| self.block(chord % self.chords()) == block)
+    }
+
+    /// The last vertex before a station, which on a ring may lie on any lap; `None` where an open line starts.
+    pub(super) fn vertex_before(&self, station: f64) -> Option<usize> {
+        let lap = if self.ring { station.rem_euclid(self.length()) } else { station };
+        self.before(lap).checked_sub(1).or_else(|| self.ring.then(|| self.chords() - 1))
+    }
+
+    /// The chord of a station.
+    pub(super) fn chord_at(&self, station: f64) -> usize {
+        self.up_to(station).clamp(1, self.chords()) - 1
+    }
+
+    /// The same, looked for from a chord on that is near.
+    pub(super) fn chord_near(&self, chord: usize, station: f64) -> usize {
+        let mut chord = chord;
+        while chord > 0 && self.station(chord) > station {
+            chord -= 1;
+        }
+        while chord + 1 < self.chords() && self.station(chord + 1) <= station {
+            chord += 1;
+        }
+        chord
+    }
+}
