@@ -73,7 +73,7 @@ use crate::ir::{Finding, Marker, finding};
 use crate::machine::Job;
 
 /// Rows of strokes that are judged at a time: enough to keep all cores busy, few enough to keep memory small.
-const ROWS_AT_A_TIME: usize = 16_384;
+const ROWS_AT_A_TIME: usize = 8192;
 /// Room for them: the last stroke is taken whole.
 const ROOM: usize = ROWS_AT_A_TIME + ROWS_AT_A_TIME / 8;
 /// Rows of strokes that are judged one after the other: what was worst in one stroke spares work on the next ones.
@@ -354,7 +354,9 @@ fn simulate(
         yaw_deg: profile.knife.yaw_deg,
         last: None,
     };
-    let mut done = Done { coverage: Coverage::new(reference), order: Order::default(), worsts: judge.worsts() };
+    // A line is one stroke, as a rule.
+    let order = Order::with_room(reference.lines.len());
+    let mut done = Done { coverage: Coverage::new(reference), order, worsts: judge.worsts() };
     let mut strokes = watch.gather(&mut next);
     while strokes.rows() > 0 {
         let ready = std::mem::take(&mut strokes);

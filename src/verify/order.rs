@@ -1,6 +1,7 @@
 //! Whether events, holes, slits and contours come in the order of the marker.
 
-use super::worst::Worst;
+use super::worst::{Worst, at};
+use crate::geom::Point;
 use crate::ir::Finding;
 use crate::ir::finding::Sighting;
 
@@ -10,17 +11,26 @@ pub(super) struct Order {
     seen: Vec<Seen>,
 }
 
+/// Kept small: a marker has a hundred thousand of them.
 #[derive(Debug)]
 struct Seen {
     tick: u64,
-    rank: usize,
-    place: Sighting,
+    time: f64,
+    point: Point,
+    rank: u32,
+    block: u32,
 }
 
 impl Order {
+    /// Nothing yet, with room for so many.
+    pub(super) fn with_room(count: usize) -> Self {
+        Self { seen: Vec::with_capacity(count) }
+    }
+
     /// Something of the marker is told or drilled, or begins to be cut, at a tick.
     pub(super) fn see(&mut self, tick: u64, rank: usize, place: Sighting) {
-        self.seen.push(Seen { tick, rank, place });
+        let Sighting { time, point, block } = place;
+        self.seen.push(Seen { tick, time: time.unwrap_or_default(), point, rank: rank as u32, block });
     }
 
     /// Takes what another saw of the same program.
@@ -31,12 +41,14 @@ impl Order {
     /// How many come behind a later one. Holes are known only when the program is over, so all are brought into time first.
     pub(super) fn finding(mut self) -> Finding {
         let mut worst = Worst::new("verify/order", "operations", Some(0.0));
-        self.seen.sort_by_key(|seen| seen.tick);
+        if !self.seen.is_sorted_by_key(|seen| seen.tick) {
+            self.seen.sort_by_key(|seen| seen.tick);
+        }
         let (mut greatest, mut late) = (0, 0.0);
         for seen in &self.seen {
             if seen.rank < greatest {
                 late += 1.0;
-                worst.see(late, || seen.place);
+                worst.see(late, || at(seen.time, seen.point, seen.block));
             }
             greatest = greatest.max(seen.rank);
         }
