@@ -17,26 +17,33 @@ const PAIRS: [[u8; 2]; 100] = {
     pairs
 };
 
+/// The most decimals that are printed by integers, and the powers of ten up to that.
+const DECIMALS_MAX: usize = 9;
+const POWERS: [f64; DECIMALS_MAX + 1] = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
+
 /// Appends `value` with exactly `decimals` decimals (at most 9), rounded half away from zero, never as `-0.0`.
 ///
 /// Values beyond the integer path (and the non-finite, which no program holds) are printed by the standard library.
 pub fn push_fixed(out: &mut Vec<u8>, value: f64, decimals: u32) {
-    debug_assert!(decimals <= 9, "more decimals than any format here prints");
-    let scale = 10_u64.pow(decimals);
-    let scaled = (value * scale as f64).round();
+    let decimals = decimals as usize;
+    debug_assert!(decimals <= DECIMALS_MAX, "more decimals than any format here prints");
+    let scaled = value * POWERS[decimals];
     if scaled.is_nan() || scaled.abs() > INTEGER_PATH_MAX {
-        out.extend_from_slice(format!("{value:.*}", decimals as usize).as_bytes());
+        out.extend_from_slice(format!("{value:.decimals$}").as_bytes());
         return;
     }
-    let value = scaled.abs() as u64;
+    // What is left behind the whole part is exact.
+    let whole = scaled.abs() as u64;
+    let rounded = whole + u64::from(scaled.abs() - whole as f64 >= 0.5);
     let mut digits = [0_u8; DIGITS];
-    let mut at = DIGITS;
+    let mut at = put(&mut digits, DIGITS, (rounded, decimals + 1));
     if decimals > 0 {
-        at = put(&mut digits, at, (value % scale, decimals as usize)) - 1;
-        digits[at] = b'.';
+        let point = DIGITS - decimals - 1;
+        digits.copy_within(at..=point, at - 1);
+        digits[point] = b'.';
+        at -= 1;
     }
-    at = put(&mut digits, at, (value / scale, 1));
-    if scaled < 0.0 {
+    if scaled < 0.0 && rounded > 0 {
         at -= 1;
         digits[at] = b'-';
     }
@@ -93,6 +100,8 @@ mod tests {
         assert_eq!(fixed(-0.000_000_4, 6), "0.000000");
         assert_eq!(fixed(-0.000_000_6, 6), "-0.000001");
         assert_eq!(fixed(1.5, 0), "2");
+        assert_eq!([fixed(0.5, 0), fixed(-2.5, 0), fixed(0.499_999_999_999_999_94, 0)], ["1", "-3", "0"]);
+        assert_eq!([fixed(0.0, 3), fixed(9.9999, 3), fixed(-123_456.789, 2)], ["0.000", "10.000", "-123456.79"]);
         assert_eq!(fixed(-12.345_678_9, 3), "-12.346");
         assert_eq!(fixed(0.05, 6), "0.050000");
         assert_eq!(fixed(1e20, 2), "100000000000000000000.00");

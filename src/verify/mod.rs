@@ -368,7 +368,7 @@ fn simulate(
     let mut findings = watch.findings(&mut done);
     findings.extend(done.worsts.findings());
     findings.extend(done.coverage.findings(profile));
-    findings.push(done.order.finding());
+    findings.push(done.order.finding(profile.time.period()));
     findings
 }
 

@@ -15,7 +15,6 @@ pub(super) struct Order {
 #[derive(Debug)]
 struct Seen {
     tick: u64,
-    time: f64,
     point: Point,
     rank: u32,
     block: u32,
@@ -29,8 +28,8 @@ impl Order {
 
     /// Something of the marker is told or drilled, or begins to be cut, at a tick.
     pub(super) fn see(&mut self, tick: u64, rank: usize, place: Sighting) {
-        let Sighting { time, point, block } = place;
-        self.seen.push(Seen { tick, time: time.unwrap_or_default(), point, rank: rank as u32, block });
+        let Sighting { point, block, .. } = place;
+        self.seen.push(Seen { tick, point, rank: rank as u32, block });
     }
 
     /// Takes what another saw of the same program.
@@ -38,8 +37,9 @@ impl Order {
         self.seen.extend(other.seen);
     }
 
-    /// How many come behind a later one. Holes are known only when the program is over, so all are brought into time first.
-    pub(super) fn finding(mut self) -> Finding {
+    /// How many come behind a later one, a tick being that long, s. Holes are known only when the program is over, so all are
+    /// brought into time first.
+    pub(super) fn finding(mut self, period: f64) -> Finding {
         let mut worst = Worst::new("verify/order", "operations", Some(0.0));
         if !self.seen.is_sorted_by_key(|seen| seen.tick) {
             self.seen.sort_by_key(|seen| seen.tick);
@@ -48,7 +48,7 @@ impl Order {
         for seen in &self.seen {
             if seen.rank < greatest {
                 late += 1.0;
-                worst.see(late, || at(seen.time, seen.point, seen.block));
+                worst.see(late, || at(seen.tick as f64 * period, seen.point, seen.block));
             }
             greatest = greatest.max(seen.rank);
         }

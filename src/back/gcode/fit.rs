@@ -278,17 +278,26 @@ fn stays(tube: &Tube, arcs: &Found, meet: (Point, Vector), [from, to]: [&Node; 2
         let arc = if (point - meet.0).dot(&meet.1) < 0.0 { first } else { second };
         (-arc.left_of(point), arc.curvature)
     };
-    let left_of_chord = |node: &Node| cross(tube.direction(node.chord), node.at - tube.points[node.chord]);
-    let mut before = (from.station, left_of_chord(from), first.curvature);
+    let left_of_chord = |chord: usize, place: Point| cross(tube.direction(chord), place - tube.points[chord]);
+    let mut before = (from.station, left_of_chord(from.chord, from.at), first.curvature);
     for chord in from.chord..=to.chord {
         let (station, (offset, curvature)) = if chord == to.chord {
-            (to.station, (left_of_chord(to), second.curvature))
+            (to.station, (left_of_chord(chord, to.at), second.curvature))
         } else {
             (tube.stations[chord + 1], beside(chord + 1))
         };
-        let (last_station, last_offset, bent) = before;
-        let stretch = Stretch { chord, stations: [last_station, station], ends: [last_offset, offset] };
-        if !tube.holds(&stretch, bent, allowed) || curvature != bent && !tube.holds(&stretch, curvature, allowed) {
+        let (start, left, bent) = before;
+        let stretch = |stations, ends| Stretch { chord, stations, ends };
+        let holds = if curvature == bent {
+            tube.holds(&stretch([start, station], [left, offset]), bent, allowed)
+        } else {
+            // They meet beside this chord.
+            let at = tube.stations[chord] + (meet.0 - tube.points[chord]).dot(&tube.direction(chord));
+            let (at, between) = (at.clamp(start, station), left_of_chord(chord, meet.0));
+            tube.holds(&stretch([start, at], [left, between]), bent, allowed)
+                && tube.holds(&stretch([at, station], [between, offset]), curvature, allowed)
+        };
+        if !holds {
             return false;
         }
         before = (station, offset, curvature);
