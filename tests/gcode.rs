@@ -185,6 +185,20 @@ const DAMAGES: &[Damage] = &[
             lines.0.iter().find(|line| line.contains("G1 ") && feed(line).is_some_and(|feed| feed < 0.9 * most))?;
         lines.with(slow, |line| vec![format!("{} F{most}", line.split(" F").next().unwrap_or_default())])
     }),
+    ("F divided by ten", "verify/crawl", |lines| slowest(lines, "G1 ", 10.0)),
+    ("F of an arc divided by ten", "verify/crawl", |lines| slowest(lines, "G3 ", 10.0)),
+    ("a turn on the spot that takes a second", "verify/crawl", |lines| {
+        let at = lines.0.iter().rposition(|line| line.contains("G1 "))?;
+        let mut turned = lines.0.clone();
+        let on = Lines(vec![turned[at].clone()]).by("G1 ", "C", 0.01)?.remove(0);
+        // Where only C moves, F is in degrees a minute.
+        turned.insert(at + 1, format!("{} F0.6", on.split(" F").next().unwrap_or_default()));
+        Some(turned)
+    }),
+    ("a dwell times ten", "verify/dwell", |lines| lines.with("G4 P0.080", |line| vec![line.replace("0.080", "0.800")])),
+    ("a rest amid a cut", "verify/dwell", |lines| {
+        lines.with("G1 ", |line| vec![line.to_owned(), "G4 P0.5".to_owned()])
+    }),
     ("a way behind a rest", "verify/format", |lines| lines.with("G4 P0.080", |line| vec![format!("{line} X5 Y5 C0")])),
     ("a move under a drill", "verify/format", |lines| {
         let at = lines.0.iter().position(|line| line.ends_with("M64 P1"))?;
@@ -216,6 +230,22 @@ const DAMAGES: &[Damage] = &[
 fn faster(lines: &Lines, word: &str) -> Option<Vec<String>> {
     let feed = 1.5 * S_PER_MIN * MachineProfile::default().knife.feed_mm_s.expect("a feed");
     lines.with(word, |line| vec![format!("{} F{feed}", line.split(" F").next().unwrap_or_default())])
+}
+
+/// Of the lines with a word the one with the greatest F, with a part of that.
+fn slowest(lines: &Lines, word: &str, by: f64) -> Option<Vec<String>> {
+    let with_word = lines.0.iter().enumerate().filter(|(_, line)| line.contains(word));
+    let feeds = with_word.filter_map(|(at, line)| Some((at, line.split(" F").nth(1)?.parse::<f64>().ok()?)));
+    let (at, _) = feeds.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let mut slower = lines.0.clone();
+    slower[at] = slowed(&slower[at], by);
+    Some(slower)
+}
+
+/// A line with a part of its F, if it has one.
+fn slowed(line: &str, by: f64) -> String {
+    let Some((way, feed)) = line.split_once(" F") else { return line.to_owned() };
+    format!("{way} F{:.4}", feed.parse::<f64>().expect("a number") / by)
 }
 
 /// The axes shifted by more than any tolerance, at right angles to nothing in particular.
@@ -262,6 +292,38 @@ fn every_damage_is_refused_under_its_rule() {
     assert!(survived.is_empty(), "{survived:#?}");
     let unseen: Vec<_> = seen.iter().filter(|(_, count)| **count == 0).collect();
     assert!(unseen.is_empty(), "nothing was damaged by {unseen:?}");
+}
+
+#[test]
+fn a_knife_that_crawls_or_rests_too_long_is_refused_and_one_a_third_as_bad_is_accepted() {
+    for name in ["linuxcnc", "fluidnc", "wavy"] {
+        let job = machine(name);
+        for file in ["iso/speeds-and-events.cut", "markers/tight-curves-and-short-runs.cut", "motion/wavy751.csv"] {
+            let source = fixture(file);
+            let (program, _) = compile(&source, &job);
+            let judged = |line: &dyn Fn(&str) -> String| {
+                let damaged: String = program.lines().map(|text| line(text) + "\n").collect();
+                let verdict = judge(&damaged, &source, &job);
+                assert!(verdict.unread.is_none(), "{name}: {file}: {:?}", verdict.unread);
+                verdict.broken().map(|finding| (finding.rule, finding.worst)).collect::<Vec<_>>()
+            };
+            let dwells = |by: f64| {
+                move |line: &str| match line.strip_prefix("G4 P").and_then(|time| time.parse::<f64>().ok()) {
+                    Some(time) if time < 0.1 => format!("G4 P{:.5}", time + by),
+                    _ => line.to_owned(),
+                }
+            };
+            assert_eq!(judged(&|line| slowed(line, 4.0 / 3.0)), [], "{name}: {file}");
+            let crawling = judged(&|line| slowed(line, 12.0));
+            assert!(matches!(crawling[..], [("verify/crawl", 11.9..13.0)]), "{name}: {file}: {crawling:?}");
+            assert_eq!(judged(&dwells(0.000_33)), [], "{name}: {file}");
+            let resting = judged(&dwells(0.003));
+            let rests = program.contains("G4 P0.0");
+            let is_seen =
+                if rests { matches!(resting[..], [("verify/dwell", 0.0029..0.0031)]) } else { resting.is_empty() };
+            assert!(is_seen, "{name}: {file}: {resting:?}");
+        }
+    }
 }
 
 #[test]

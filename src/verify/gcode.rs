@@ -8,6 +8,7 @@ use std::collections::VecDeque;
 use std::f64::consts::TAU;
 use std::io::{BufRead, Read as _};
 
+use super::crawl::{Asked, Axes};
 use super::read::{Going, Rounding, Row, decimal, short};
 use super::worst::{Worst, at};
 use crate::geom::{Point, Vector};
@@ -38,7 +39,7 @@ const SURE_MIN: f64 = 0.95;
 /// A whole turn, degrees, and what is none.
 const TURN_DEG: f64 = 360.0;
 const TURN_EPSILON: f64 = 1e-6;
-/// By how much a rest may be shorter than it should be, s: rounding of the text.
+/// By how much a rest may be shorter or longer than it should be, s: rounding of the text.
 const REST_EPSILON: f64 = 1e-3;
 /// Radii of both ends of an arc may differ by this many steps of the last decimal.
 const RADIUS_STEPS: f64 = 8.0;
@@ -114,6 +115,10 @@ pub(super) struct Places<'a> {
     due: VecDeque<String>,
     /// The rest that must come behind them, s.
     rest_due: Option<f64>,
+    /// How long it rests since the last move or order, beyond what the profile asks for, s.
+    too_long: f64,
+    dwell: Worst,
+    axes: Axes,
     /// How many lines were read, and the room for the next.
     lines: u64,
     room: Vec<u8>,
@@ -141,6 +146,9 @@ impl<'a> Places<'a> {
             due: texts[0].lines.iter().cloned().collect(),
             texts,
             rest_due: None,
+            too_long: 0.0,
+            dwell: Worst::new("verify/dwell", "s too long", Some(REST_EPSILON)),
+            axes: Axes::new(profile),
             lines: 0,
             room: Vec::new(),
             now,
@@ -174,14 +182,14 @@ impl<'a> Places<'a> {
         self.bad.is_some()
     }
 
-    /// What was found about the format, and what to say of it where it is broken.
-    pub(super) fn findings(self) -> (Finding, Option<String>) {
+    /// What was found about the format and about rests, and what to say where a line cannot be read.
+    pub(super) fn findings(self) -> ([Finding; 2], Option<String>) {
         let mut worst = Worst::new("verify/format", "bad lines", Some(0.0));
         let (place, why) = self.bad.unzip();
         if let Some(place) = place {
             worst.see(1.0, || place);
         }
-        (worst.finding(), why)
+        ([worst.finding(), self.dwell.finding()], why)
     }
 
     /// Reads a line and obeys it; otherwise says what is wrong with it.
@@ -218,9 +226,9 @@ impl<'a> Places<'a> {
         }
         if let Some(rest) = self.rest_due.take() {
             let words = Words::of(line, self.profile).unwrap_or_default();
-            let rests = words.rest().is_some_and(|time| time >= rest - REST_EPSILON);
+            let time = words.rest().filter(|time| *time >= rest - REST_EPSILON);
             let why = || format!("is {} where a rest of {} s belongs", quoted(line), exact(rest));
-            return rests.then_some(()).ok_or_else(why);
+            return time.map(|time| self.linger(time - rest)).ok_or_else(why);
         }
         if matches!(line, [b'G', b'0'..=b'3', b' ', b'X', ..]) {
             return self.go(&Words::of(line, self.profile)?);
@@ -244,13 +252,20 @@ impl<'a> Places<'a> {
         }
         let rest = Words::of(line, self.profile)?.rest().filter(|&time| time >= 0.0);
         let why = || format!("is {}, which is no line of the target gcode with this profile", quoted(line));
-        rest.map(|_| ()).ok_or_else(why)
+        rest.map(|time| self.linger(time)).ok_or_else(why)
+    }
+
+    /// The axes rest longer than the profile asks for, s.
+    fn linger(&mut self, time: f64) {
+        self.too_long += time;
+        self.dwell.see(self.too_long, || self.now.sighting());
     }
 
     fn obey(&mut self, meaning: Meaning) -> Result<(), String> {
         if self.over && meaning != Meaning::End {
             return Err(BEHIND_END.to_owned());
         }
+        self.too_long = 0.0;
         let was_down = self.now.knife;
         match meaning {
             Meaning::Head => return Err("is the head of a program again".to_owned()),
@@ -327,6 +342,15 @@ impl<'a> Places<'a> {
             return Err("is a way that no machine goes".to_owned());
         }
         let pace = self.pace(feed, length, turned);
+        let asked = Asked {
+            speed: length * pace,
+            turn: turned.to_radians().abs() * pace,
+            length,
+            curvature: arc.map_or(0.0, |arc| arc.sweep.abs() / length),
+        };
+        // A move to where the axes stand takes no time.
+        let used = if length > 0.0 || turned != 0.0 { self.axes.used(&asked) } else { 0.0 };
+        self.too_long = 0.0;
         // In the air only the ends of a straight way matter.
         let first = if from.knife || arc.is_some() { 0 } else { steps as usize };
         for i in first..=steps as usize {
@@ -336,7 +360,7 @@ impl<'a> Places<'a> {
                 None => (from.centre + (to - from.centre) * share, to - from.centre),
             };
             let c_deg = from.c_deg + turned * share;
-            let going = Going { way: ahead * pace, turn: turned.to_radians() * pace };
+            let going = Going { way: ahead * pace, turn: turned.to_radians() * pace, used };
             let centre = if i as f64 == steps { to } else { centre };
             self.last = going;
             self.push(Row { centre, c_deg, ..self.now }, going);
@@ -521,6 +545,9 @@ fn texts(profile: &MachineProfile) -> Vec<Text> {
     texts
 }
 
+/// Rules on what F asks for at the least: setpoints have none.
+pub(super) const OF_FEED: &[&str] = &["verify/crawl"];
+
 /// Rules that need no time; of the others a program without any says nothing.
 pub(super) const RULES: &[&str] = &[
     "verify/format",
@@ -528,6 +555,8 @@ pub(super) const RULES: &[&str] = &[
     "verify/c-range",
     "verify/table",
     "verify/feed",
+    "verify/crawl",
+    "verify/dwell",
     "verify/on-path",
     "verify/stray",
     "verify/order",

@@ -404,6 +404,14 @@ impl Line {
         if self.ring { caps.greatest_round(low, high, length) } else { caps.greatest(low, high) }
     }
 
+    /// The least of the caps between two stations, likewise.
+    pub(super) fn least_cap(&self, [low, high]: [f64; 2], sign: f64) -> f64 {
+        let length = self.length();
+        let (caps, low, high) =
+            if sign > 0.0 { (&self.caps[0], low, high) } else { (&self.caps[1], length - high, length - low) };
+        if self.ring { caps.least_round(low, high, length) } else { caps.least(low, high) }
+    }
+
     /// The point at a station.
     pub(super) fn place(&self, station: f64) -> Point {
         let chord = self.chord_at(station);
