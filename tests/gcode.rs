@@ -341,7 +341,15 @@ fn a_line_that_cannot_be_read_is_named_with_the_reason() {
     check("M64 P0\n", "M3\n", "line 9 has `M3`, which is no word of the target gcode with this profile");
     check("G4 P", "G4 X", "line 6 is `G4 X0.060` where a rest of 0.06 s belongs");
     check("G4 P0.080", "G4 P0.010", "where a rest of 0.08 s belongs");
-    check("\nG2 ", "\n(x) G1 X500 Y500 C0 F60 (y)\nG2 ", "has `(x)`, which is no word");
+    check("\nG2 ", "\n(x) G1 X500 Y500 C0 F60 (y))\nG2 ", "has `(x)`, which is no word");
+    check("\nG2 ", "\n/G2 ", "has `/G2`, which is no word");
+    check("\nG2 ", "\nN1 N2 G2 ", "has `N2`, which is no word");
+    check("\nG2 ", "\n%\nG2 ", "has `%`, which is no word");
+    check("\nG2 ", "\ng0 x0 y0 c0\nG2 ", "is a rapid move while the knife is down");
+    check("\nG2 ", "\nG2 (MSG, on)\nG2 ", "has `(MSG,`, which is no word");
+    check("\nG2 ", "\n( PY, on)\nG2 ", "which is obeyed though it looks like a comment");
+    check("\nG2 ", "\nX1 Y1 C0 F60\nG2 ", "which is no line of the target gcode");
+    check("\nG2 X", "\nG2 X#1", "which is no word");
     check("\nG2 ", "\nG0 X0 Y0 C0\nG2 ", "is a rapid move while the knife is down");
     check(" I", " P2 I", "has P, which such a move has not");
     check("G0 X", "G0 Xx", "which is no word");
@@ -351,6 +359,55 @@ fn a_line_that_cannot_be_read_is_named_with_the_reason() {
     check("M2\n", "M2\nG0 X0 Y0 C0\n", "comes behind the end of the program");
     check("G94\n", "G94\nG17 G21 G40 G80 G90 G91.1\n", "is the head of a program again");
     check(" I", " I1 J1 F1\n(", "is an arc whose ends lie");
+}
+
+#[test]
+fn a_program_that_is_spelled_by_hand_is_judged_as_what_it_says() {
+    type Spelling = (&'static str, fn(&str) -> String);
+    let spellings: [Spelling; 9] = [
+        ("lower case", str::to_lowercase),
+        ("leading zeros", |line| line.replace("G1 ", "G01 ").replace("G0 ", "G00 ").replace("M2", "M002")),
+        ("no blanks", |line| if line.starts_with('(') { line.to_owned() } else { line.replace(' ', "") }),
+        ("more blanks", |line| format!(" {}\t", line.replace(' ', " \t "))),
+        (
+            "comments behind lines",
+            |line| if line.contains('(') { line.to_owned() } else { format!("{line} (by hand) ; so") },
+        ),
+        ("comments and blank lines between", |line| format!("{line}\n\n(by hand)\n ; so\n")),
+        ("numbers of lines", |line| format!("N0010{line}")),
+        ("signs and zeros of numbers", |line| line.replace(" X", " X+00").replace("+00-", "-00").replace(" F", " F0")),
+        ("words in another order", |line| match line.split_once(' ') {
+            Some((code @ ("G0" | "G1" | "G2" | "G3"), words)) => format!("{words} {code}"),
+            _ => line.to_owned(),
+        }),
+    ];
+    for (name, mut job) in cases() {
+        job.profile.gcode.line_numbers = false;
+        let source = fixture(name);
+        let (program, _) = compile(&source, &job);
+        let expected = judge(&program, &source, &job);
+        assert!(expected.passes());
+        for (spelling, spelled) in spellings {
+            let hand: String = program.lines().map(|line| spelled(line) + "\n").collect();
+            assert!(hand != program, "{name}: {spelling}");
+            assert!(verify::foreign(&mut hand.as_bytes()).expect("memory is readable").is_none(), "{name}: {spelling}");
+            let verdict = judge(&hand, &source, &job);
+            assert!(verdict == expected, "{name}: {spelling}: {:?}", verdict.unread);
+        }
+    }
+}
+
+#[test]
+fn a_move_between_comments_is_judged_as_the_controller_goes_it() {
+    let (source, job) = (fixture("iso/seed-circle.cut"), Job::default());
+    let (program, _) = compile(&source, &job);
+    let verdict = judge(&program.replacen("\nG2 ", "\n(x) G1 X500 Y500 C0 F60 (y)\nG2 ", 1), &source, &job);
+    // From there the next arc is none.
+    assert!(verdict.unread.is_some_and(|why| why.contains("is an arc whose ends lie")));
+    let last = program.rfind("\nM65 P0").expect("a lift");
+    let stray = format!("{}\n(x) G1 X500 Y500 C0 F60 (y){}", &program[..last], &program[last..]);
+    let verdict = judge(&stray, &source, &job);
+    assert!(verdict.unread.is_none() && !verdict.passes(), "{verdict:?}");
 }
 
 #[test]

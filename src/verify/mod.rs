@@ -38,6 +38,7 @@ mod rest;
 mod scan;
 mod source_audit;
 mod source_hpgl;
+mod spelling;
 mod stroke;
 mod table;
 mod trial;

@@ -508,7 +508,8 @@ impl<'a> Judge<'a> {
         for (i, (going, way)) in goings.iter().zip(ways).enumerate() {
             let before = place;
             place += usize::from(cut.rows.get(place + 1) == Some(&i));
-            if going.used == 0.0 {
+            // Nothing moves there, or an axis has more to do than at the slowest place so far.
+            if going.used == 0.0 || going.used >= least.0 {
                 continue;
             }
             let cap = only.unwrap_or_else(|| {
