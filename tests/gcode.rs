@@ -8,8 +8,8 @@ use std::io::{BufReader, Cursor};
 use std::path::Path;
 
 use cutc::back::{TARGETS, Target};
-use cutc::diagnostic::Diagnostics;
-use cutc::machine::{Job, MachineProfile, load};
+use cutc::diagnostic::{Diagnostic, Diagnostics};
+use cutc::machine::{Follow, Job, MachineProfile, load};
 use cutc::pipeline::{self, Compiled, Order, Verdict};
 use cutc::source::Source;
 use cutc::units::S_PER_MIN;
@@ -461,6 +461,24 @@ fn a_dry_run_moves_and_tells_events_and_nothing_else() {
     let job = Job { mode: cutc::machine::Mode::Dry, ..Job::default() };
     let (program, _) = compile(&fixture("iso/speeds-and-events.cut"), &job);
     assert!(!program.contains("M64") && program.contains("G1 ") && program.contains("\nM0\n"));
+}
+
+#[test]
+fn cuts_that_are_refused_for_one_reason_are_one_message() {
+    let mut job = Job::default();
+    job.profile.knife.follow = Follow::Chord;
+    let check = |file: &str, expected: &str| {
+        let mut diagnostics = Diagnostics::default();
+        let order = Order { from: None, target: target(), verify: true };
+        let compiled = pipeline::compile(&fixture(file), &job, order, &mut Cursor::new(Vec::new()), &mut diagnostics);
+        assert!(compiled.expect("memory takes it").is_none(), "{file}");
+        let of_target = |said: &&Diagnostic| said.code.name == "target/refused";
+        let said: Vec<_> = diagnostics.iter().filter(of_target).map(|said| said.message.as_str()).collect();
+        let chords = "the target gcode lays the blade along the tangent of curves only, not as a chord of them";
+        assert_eq!(said, [format!("{chords}{expected}")], "{file}");
+    };
+    check("iso/seed-circle.cut", "");
+    check("markers/metric-six-pieces.cut", ": 21 cuts are like that, the first in block 24");
 }
 
 #[test]
