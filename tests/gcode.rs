@@ -8,8 +8,8 @@ use std::io::{BufReader, Cursor};
 use std::path::Path;
 
 use cutc::back::{TARGETS, Target};
-use cutc::diagnostic::Diagnostics;
-use cutc::machine::{Job, MachineProfile, load};
+use cutc::diagnostic::{Diagnostic, Diagnostics};
+use cutc::machine::{Follow, Job, MachineProfile, load};
 use cutc::pipeline::{self, Compiled, Order, Verdict};
 use cutc::source::Source;
 use cutc::units::S_PER_MIN;
@@ -185,6 +185,20 @@ const DAMAGES: &[Damage] = &[
             lines.0.iter().find(|line| line.contains("G1 ") && feed(line).is_some_and(|feed| feed < 0.9 * most))?;
         lines.with(slow, |line| vec![format!("{} F{most}", line.split(" F").next().unwrap_or_default())])
     }),
+    ("F divided by ten", "verify/crawl", |lines| slowest(lines, "G1 ", 10.0)),
+    ("F of an arc divided by ten", "verify/crawl", |lines| slowest(lines, "G3 ", 10.0)),
+    ("a turn on the spot that takes a second", "verify/crawl", |lines| {
+        let at = lines.0.iter().rposition(|line| line.contains("G1 "))?;
+        let mut turned = lines.0.clone();
+        let on = Lines(vec![turned[at].clone()]).by("G1 ", "C", 0.01)?.remove(0);
+        // Where only C moves, F is in degrees a minute.
+        turned.insert(at + 1, format!("{} F0.6", on.split(" F").next().unwrap_or_default()));
+        Some(turned)
+    }),
+    ("a dwell times ten", "verify/dwell", |lines| lines.with("G4 P0.080", |line| vec![line.replace("0.080", "0.800")])),
+    ("a rest amid a cut", "verify/dwell", |lines| {
+        lines.with("G1 ", |line| vec![line.to_owned(), "G4 P0.5".to_owned()])
+    }),
     ("a way behind a rest", "verify/format", |lines| lines.with("G4 P0.080", |line| vec![format!("{line} X5 Y5 C0")])),
     ("a move under a drill", "verify/format", |lines| {
         let at = lines.0.iter().position(|line| line.ends_with("M64 P1"))?;
@@ -216,6 +230,22 @@ const DAMAGES: &[Damage] = &[
 fn faster(lines: &Lines, word: &str) -> Option<Vec<String>> {
     let feed = 1.5 * S_PER_MIN * MachineProfile::default().knife.feed_mm_s.expect("a feed");
     lines.with(word, |line| vec![format!("{} F{feed}", line.split(" F").next().unwrap_or_default())])
+}
+
+/// Of the lines with a word the one with the greatest F, with a part of that.
+fn slowest(lines: &Lines, word: &str, by: f64) -> Option<Vec<String>> {
+    let with_word = lines.0.iter().enumerate().filter(|(_, line)| line.contains(word));
+    let feeds = with_word.filter_map(|(at, line)| Some((at, line.split(" F").nth(1)?.parse::<f64>().ok()?)));
+    let (at, _) = feeds.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let mut slower = lines.0.clone();
+    slower[at] = slowed(&slower[at], by);
+    Some(slower)
+}
+
+/// A line with a part of its F, if it has one.
+fn slowed(line: &str, by: f64) -> String {
+    let Some((way, feed)) = line.split_once(" F") else { return line.to_owned() };
+    format!("{way} F{:.4}", feed.parse::<f64>().expect("a number") / by)
 }
 
 /// The axes shifted by more than any tolerance, at right angles to nothing in particular.
@@ -265,6 +295,38 @@ fn every_damage_is_refused_under_its_rule() {
 }
 
 #[test]
+fn a_knife_that_crawls_or_rests_too_long_is_refused_and_one_a_third_as_bad_is_accepted() {
+    for name in ["linuxcnc", "fluidnc", "wavy"] {
+        let job = machine(name);
+        for file in ["iso/speeds-and-events.cut", "markers/tight-curves-and-short-runs.cut", "motion/wavy751.csv"] {
+            let source = fixture(file);
+            let (program, _) = compile(&source, &job);
+            let judged = |line: &dyn Fn(&str) -> String| {
+                let damaged: String = program.lines().map(|text| line(text) + "\n").collect();
+                let verdict = judge(&damaged, &source, &job);
+                assert!(verdict.unread.is_none(), "{name}: {file}: {:?}", verdict.unread);
+                verdict.broken().map(|finding| (finding.rule, finding.worst)).collect::<Vec<_>>()
+            };
+            let dwells = |by: f64| {
+                move |line: &str| match line.strip_prefix("G4 P").and_then(|time| time.parse::<f64>().ok()) {
+                    Some(time) if time < 0.1 => format!("G4 P{:.5}", time + by),
+                    _ => line.to_owned(),
+                }
+            };
+            assert_eq!(judged(&|line| slowed(line, 4.0 / 3.0)), [], "{name}: {file}");
+            let crawling = judged(&|line| slowed(line, 12.0));
+            assert!(matches!(crawling[..], [("verify/crawl", 11.9..13.0)]), "{name}: {file}: {crawling:?}");
+            assert_eq!(judged(&dwells(0.000_33)), [], "{name}: {file}");
+            let resting = judged(&dwells(0.003));
+            let rests = program.contains("G4 P0.0");
+            let is_seen =
+                if rests { matches!(resting[..], [("verify/dwell", 0.0029..0.0031)]) } else { resting.is_empty() };
+            assert!(is_seen, "{name}: {file}: {resting:?}");
+        }
+    }
+}
+
+#[test]
 fn a_line_that_cannot_be_read_is_named_with_the_reason() {
     let (source, job) = (fixture("iso/seed-circle.cut"), Job::default());
     let (program, _) = compile(&source, &job);
@@ -279,7 +341,15 @@ fn a_line_that_cannot_be_read_is_named_with_the_reason() {
     check("M64 P0\n", "M3\n", "line 9 has `M3`, which is no word of the target gcode with this profile");
     check("G4 P", "G4 X", "line 6 is `G4 X0.060` where a rest of 0.06 s belongs");
     check("G4 P0.080", "G4 P0.010", "where a rest of 0.08 s belongs");
-    check("\nG2 ", "\n(x) G1 X500 Y500 C0 F60 (y)\nG2 ", "has `(x)`, which is no word");
+    check("\nG2 ", "\n(x) G1 X500 Y500 C0 F60 (y))\nG2 ", "has `(x)`, which is no word");
+    check("\nG2 ", "\n/G2 ", "has `/G2`, which is no word");
+    check("\nG2 ", "\nN1 N2 G2 ", "has `N2`, which is no word");
+    check("\nG2 ", "\n%\nG2 ", "has `%`, which is no word");
+    check("\nG2 ", "\ng0 x0 y0 c0\nG2 ", "is a rapid move while the knife is down");
+    check("\nG2 ", "\nG2 (MSG, on)\nG2 ", "has `(MSG,`, which is no word");
+    check("\nG2 ", "\n( PY, on)\nG2 ", "which is obeyed though it looks like a comment");
+    check("\nG2 ", "\nX1 Y1 C0 F60\nG2 ", "which is no line of the target gcode");
+    check("\nG2 X", "\nG2 X#1", "which is no word");
     check("\nG2 ", "\nG0 X0 Y0 C0\nG2 ", "is a rapid move while the knife is down");
     check(" I", " P2 I", "has P, which such a move has not");
     check("G0 X", "G0 Xx", "which is no word");
@@ -289,6 +359,55 @@ fn a_line_that_cannot_be_read_is_named_with_the_reason() {
     check("M2\n", "M2\nG0 X0 Y0 C0\n", "comes behind the end of the program");
     check("G94\n", "G94\nG17 G21 G40 G80 G90 G91.1\n", "is the head of a program again");
     check(" I", " I1 J1 F1\n(", "is an arc whose ends lie");
+}
+
+#[test]
+fn a_program_that_is_spelled_by_hand_is_judged_as_what_it_says() {
+    type Spelling = (&'static str, fn(&str) -> String);
+    let spellings: [Spelling; 9] = [
+        ("lower case", str::to_lowercase),
+        ("leading zeros", |line| line.replace("G1 ", "G01 ").replace("G0 ", "G00 ").replace("M2", "M002")),
+        ("no blanks", |line| if line.starts_with('(') { line.to_owned() } else { line.replace(' ', "") }),
+        ("more blanks", |line| format!(" {}\t", line.replace(' ', " \t "))),
+        (
+            "comments behind lines",
+            |line| if line.contains('(') { line.to_owned() } else { format!("{line} (by hand) ; so") },
+        ),
+        ("comments and blank lines between", |line| format!("{line}\n\n(by hand)\n ; so\n")),
+        ("numbers of lines", |line| format!("N0010{line}")),
+        ("signs and zeros of numbers", |line| line.replace(" X", " X+00").replace("+00-", "-00").replace(" F", " F0")),
+        ("words in another order", |line| match line.split_once(' ') {
+            Some((code @ ("G0" | "G1" | "G2" | "G3"), words)) => format!("{words} {code}"),
+            _ => line.to_owned(),
+        }),
+    ];
+    for (name, mut job) in cases() {
+        job.profile.gcode.line_numbers = false;
+        let source = fixture(name);
+        let (program, _) = compile(&source, &job);
+        let expected = judge(&program, &source, &job);
+        assert!(expected.passes());
+        for (spelling, spelled) in spellings {
+            let hand: String = program.lines().map(|line| spelled(line) + "\n").collect();
+            assert!(hand != program, "{name}: {spelling}");
+            assert!(verify::foreign(&mut hand.as_bytes()).expect("memory is readable").is_none(), "{name}: {spelling}");
+            let verdict = judge(&hand, &source, &job);
+            assert!(verdict == expected, "{name}: {spelling}: {:?}", verdict.unread);
+        }
+    }
+}
+
+#[test]
+fn a_move_between_comments_is_judged_as_the_controller_goes_it() {
+    let (source, job) = (fixture("iso/seed-circle.cut"), Job::default());
+    let (program, _) = compile(&source, &job);
+    let verdict = judge(&program.replacen("\nG2 ", "\n(x) G1 X500 Y500 C0 F60 (y)\nG2 ", 1), &source, &job);
+    // From there the next arc is none.
+    assert!(verdict.unread.is_some_and(|why| why.contains("is an arc whose ends lie")));
+    let last = program.rfind("\nM65 P0").expect("a lift");
+    let stray = format!("{}\n(x) G1 X500 Y500 C0 F60 (y){}", &program[..last], &program[last..]);
+    let verdict = judge(&stray, &source, &job);
+    assert!(verdict.unread.is_none() && !verdict.passes(), "{verdict:?}");
 }
 
 #[test]
@@ -342,6 +461,24 @@ fn a_dry_run_moves_and_tells_events_and_nothing_else() {
     let job = Job { mode: cutc::machine::Mode::Dry, ..Job::default() };
     let (program, _) = compile(&fixture("iso/speeds-and-events.cut"), &job);
     assert!(!program.contains("M64") && program.contains("G1 ") && program.contains("\nM0\n"));
+}
+
+#[test]
+fn cuts_that_are_refused_for_one_reason_are_one_message() {
+    let mut job = Job::default();
+    job.profile.knife.follow = Follow::Chord;
+    let check = |file: &str, expected: &str| {
+        let mut diagnostics = Diagnostics::default();
+        let order = Order { from: None, target: target(), verify: true };
+        let compiled = pipeline::compile(&fixture(file), &job, order, &mut Cursor::new(Vec::new()), &mut diagnostics);
+        assert!(compiled.expect("memory takes it").is_none(), "{file}");
+        let of_target = |said: &&Diagnostic| said.code.name == "target/refused";
+        let said: Vec<_> = diagnostics.iter().filter(of_target).map(|said| said.message.as_str()).collect();
+        let chords = "the target gcode lays the blade along the tangent of curves only, not as a chord of them";
+        assert_eq!(said, [format!("{chords}{expected}")], "{file}");
+    };
+    check("iso/seed-circle.cut", "");
+    check("markers/metric-six-pieces.cut", ": 21 cuts are like that, the first in block 24");
 }
 
 #[test]

@@ -78,7 +78,8 @@ pub struct Parts<T> {
 /// A target whose controller plans for itself.
 #[derive(Debug)]
 pub struct Fit {
-    /// What the axes do along a toolpath; what the target cannot express is refused. One may be made beside another.
+    /// What the axes do along a toolpath; what the target cannot express is refused, cut by cut: refusals with the same
+    /// message are of a kind, and told as one. One may be made beside another.
     pub ways: fn(&Toolpath, &Job) -> Result<Ways, Vec<Diagnostic>>,
     /// Begins a program.
     pub begin: for<'a> fn(&Context<'a>) -> Box<dyn Fitting + 'a>,

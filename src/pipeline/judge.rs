@@ -30,6 +30,7 @@ const MOST_DIGITS: i32 = 15;
 /// Rules on how something is cut or drilled: they say nothing about a program that does neither.
 const OF_CUTS: &[&str] = &[
     "verify/feed",
+    "verify/crawl",
     "verify/dwell",
     "verify/on-path",
     "verify/order",

@@ -115,7 +115,8 @@ pub(super) fn write(
             Form::Fit(_, fitting) => fitting.head(out)?,
         }
     }
-    let mut writer = Writer { sinks, context, planner: Planner::new(context.job), tally: Tally::default() };
+    let (planner, tally) = (Planner::new(context.job), Tally::default());
+    let mut writer = Writer { sinks, context, planner, tally, refused: Vec::new() };
     let mut window = wanted.next(&mut toolpaths);
     while !window.toolpaths.is_empty() {
         let mut next = None;
@@ -136,16 +137,17 @@ struct Writer<'w, 's, 'c> {
     context: &'w Context<'c>,
     planner: Planner<'c>,
     tally: Tally,
+    /// What a target cannot express, of each kind the first in the file, and how many cuts it is.
+    refused: Vec<(Diagnostic, usize)>,
 }
 
 impl Writer<'_, '_, '_> {
     fn take(&mut self, window: Window, diagnostics: &mut Diagnostics) -> io::Result<()> {
         let Window { toolpaths, cuts, ways, findings } = window;
         diagnostics.extend(findings);
-        let mut refuse = |refused: Vec<Diagnostic>| refused.into_iter().for_each(|finding| diagnostics.push(finding));
         for (toolpath, cuts) in toolpaths.iter().zip(cuts) {
             match cuts {
-                Err(refused) => refuse(refused),
+                Err(refused) => refused.into_iter().for_each(|finding| diagnostics.push(finding)),
                 Ok(cuts) => {
                     self.tally.take(toolpath.piece, &cuts);
                     let motion = self.planner.join(toolpath, cuts);
@@ -165,7 +167,7 @@ impl Writer<'_, '_, '_> {
                 Form::Fit(_, fitting) => {
                     for (toolpath, ways) in toolpaths.iter().zip(ways.next().expect("every fit has its ways")) {
                         match ways {
-                            Err(refused) => refuse(refused),
+                            Err(refused) => refused.into_iter().for_each(|cut| count(&mut self.refused, cut)),
                             Ok(ways) => fitting.body(toolpath, &ways, out)?,
                         }
                     }
@@ -186,6 +188,16 @@ impl Writer<'_, '_, '_> {
     }
 
     fn finish(mut self, is_planned: bool, diagnostics: &mut Diagnostics) -> io::Result<Written> {
+        for (first, cuts) in std::mem::take(&mut self.refused) {
+            let Diagnostic { message, span, .. } = &first;
+            let message = match span {
+                Some(span) if cuts > 1 => {
+                    format!("{message}: {cuts} cuts are like that, the first in block {}", span.block)
+                }
+                _ => message.clone(),
+            };
+            diagnostics.push(Diagnostic { message, ..first });
+        }
         let mut written = Written::default();
         if is_planned {
             let end = self.planner.finish();
@@ -204,6 +216,20 @@ impl Writer<'_, '_, '_> {
             out.flush()?;
         }
         Ok(written)
+    }
+}
+
+/// Counts a refused cut with those of its kind.
+fn count(refused: &mut Vec<(Diagnostic, usize)>, cut: Diagnostic) {
+    let is_alike = |(first, _): &&mut (Diagnostic, usize)| first.code == cut.code && first.message == cut.message;
+    match refused.iter_mut().find(is_alike) {
+        Some((first, cuts)) => {
+            *cuts += 1;
+            if cut.span < first.span {
+                *first = cut;
+            }
+        }
+        None => refused.push((cut, 1)),
     }
 }
 

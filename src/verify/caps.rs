@@ -121,6 +121,15 @@ impl BothWays {
             (Self::Each(caps), None) => caps[usize::from(sign <= 0.0)].greatest(low, high),
         }
     }
+
+    /// The least cap there.
+    pub(super) fn least(&self, [low, high]: [f64; 2], sign: f64, round: Option<f64>) -> f64 {
+        match (self, round) {
+            (Self::One(cap), _) => *cap,
+            (Self::Each(caps), Some(length)) => caps[usize::from(sign <= 0.0)].least_round(low, high, length),
+            (Self::Each(caps), None) => caps[usize::from(sign <= 0.0)].least(low, high),
+        }
+    }
 }
 
 impl Caps {
@@ -137,7 +146,15 @@ impl Caps {
         self.later[from..to.max(from)].iter().map(|&[_, cap]| cap).fold(at_low, f64::max)
     }
 
-    /// The same on a line of that length that goes round and round.
+    /// The least cap between two stations, likewise.
+    fn least(&self, low: f64, high: f64) -> f64 {
+        let before = |station: f64| self.later.partition_point(|&[start, _]| start <= station);
+        let (from, to) = (before(low), before(high));
+        let at_low = if from == 0 { self.first } else { self.later[from - 1][1] };
+        self.later[from..to.max(from)].iter().map(|&[_, cap]| cap).fold(at_low, f64::min)
+    }
+
+    /// The greatest on a line of that length that goes round and round.
     fn greatest_round(&self, low: f64, high: f64, length: f64) -> f64 {
         let from = low.rem_euclid(length);
         let to = from + (high - low).min(length);
@@ -146,6 +163,13 @@ impl Caps {
         } else {
             self.greatest(from, length).max(self.greatest(0.0, to - length))
         }
+    }
+
+    /// The least there.
+    fn least_round(&self, low: f64, high: f64, length: f64) -> f64 {
+        let from = low.rem_euclid(length);
+        let to = from + (high - low).min(length);
+        if to <= length { self.least(from, to) } else { self.least(from, length).min(self.least(0.0, to - length)) }
     }
 }
 
@@ -170,7 +194,7 @@ mod tests {
             [-1.0, 9.0, 11.0, 21.0, 24.0, 26.0, 99.0].map(at),
             [300.0, 300.0, 150.0, 300.0, 300.0, 150.0, 150.0]
         );
-        assert_eq!(caps.greatest(9.0, 29.0), 300.0);
+        assert_eq!([caps.greatest(9.0, 29.0), caps.least(9.0, 29.0), caps.least(21.0, 24.0)], [300.0, 150.0, 300.0]);
     }
 
     #[test]
@@ -194,5 +218,6 @@ mod tests {
             [[12.0, 18.0], [18.0, 21.0], [32.0, 38.0], [-1.0, 0.5]].map(|[a, b]| caps.greatest_round(a, b, 20.0)),
             [50.0, 100.0, 50.0, 100.0]
         );
+        assert_eq!([[21.0, 29.0], [18.0, 21.0]].map(|[a, b]| caps.least_round(a, b, 20.0)), [100.0, 50.0]);
     }
 }

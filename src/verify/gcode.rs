@@ -1,14 +1,17 @@
 //! Reads G-code as places along the way of the axes: no time, but at each place how the axes go there, as F asks for.
 //!
 //! Knows the words of the target alone: G0 to G4 with full coordinates, the lines of the profile for head, knife, drill,
-//! operator and end, comments. Arcs are followed as a controller does: around the centre that I and J give, with C linear
+//! operator and end, comments, however people spell them. Arcs are followed as a controller does: around the centre that I and J give, with C linear
 //! in their angle. Where a line cannot be read nothing is said about the rest: all that follows from it would be wrong.
 
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
 use std::io::{BufRead, Read as _};
+use std::rc::Rc;
 
-use super::read::{Going, Rounding, Row, decimal, short};
+use super::crawl::{Asked, Axes};
+use super::read::{self, Going, Rounding, Row};
+use super::spelling::{Expected, Words, is_active, plain, quoted, unnumbered};
 use super::worst::{Worst, at};
 use crate::geom::{Point, Vector};
 use crate::ir::Finding;
@@ -38,24 +41,12 @@ const SURE_MIN: f64 = 0.95;
 /// A whole turn, degrees, and what is none.
 const TURN_DEG: f64 = 360.0;
 const TURN_EPSILON: f64 = 1e-6;
-/// By how much a rest may be shorter than it should be, s: rounding of the text.
+/// By how much a rest may be shorter or longer than it should be, s: rounding of the text.
 const REST_EPSILON: f64 = 1e-3;
 /// Radii of both ends of an arc may differ by this many steps of the last decimal.
 const RADIUS_STEPS: f64 = 8.0;
-/// What comments begin with that controllers obey.
-const ACTIVE: &[&[u8]] = &[
-    b"ABORT",
-    b"DEBUG",
-    b"LOG",
-    b"LOGAPPEND",
-    b"LOGCLOSE",
-    b"LOGOPEN",
-    b"MSG",
-    b"PRINT",
-    b"PROBECLOSE",
-    b"PROBEOPEN",
-    b"PY",
-];
+/// G codes of moves.
+const MOVES: [f64; 4] = [0.0, 1.0, 2.0, 3.0];
 /// What is wrong with a line that does something when all is over.
 const BEHIND_END: &str = "comes behind the end of the program";
 /// Drills of a machine.
@@ -63,8 +54,10 @@ const DRILLS: std::ops::RangeInclusive<u8> = 1..=4;
 
 /// Whether bytes are meant as such a program.
 pub(super) fn begins(bytes: &[u8]) -> bool {
-    let line = bytes.split(|&byte| byte == b'\n').next().unwrap_or_default();
-    unnumbered(line.strip_suffix(b"\r").unwrap_or(line)) == HEAD
+    let lines = bytes.split(|&byte| byte == b'\n').map(|line| plain(line.strip_suffix(b"\r").unwrap_or(line)));
+    // Blank lines and comments may come before it.
+    let mut asking = lines.skip_while(|line| matches!(line.as_deref(), Some([])));
+    asking.next().flatten().is_some_and(|line| line == HEAD)
 }
 
 /// Why G-code is none that can be judged, and what to do about it; `None` when bytes do not look like G-code.
@@ -81,13 +74,6 @@ pub(super) fn foreign(bytes: &[u8]) -> Option<[String; 2]> {
     })
 }
 
-/// A line without the number that it may begin with.
-fn unnumbered(line: &[u8]) -> &[u8] {
-    let Some(rest) = line.strip_prefix(b"N") else { return line };
-    let digits = rest.iter().take_while(|byte| byte.is_ascii_digit()).count();
-    rest[digits..].strip_prefix(b" ").unwrap_or(line)
-}
-
 /// What lines do that stand in the program as they are: those of the target itself, and those of the profile.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Meaning {
@@ -101,7 +87,7 @@ enum Meaning {
 
 /// Lines of the profile that belong together.
 struct Text {
-    lines: Vec<String>,
+    lines: Vec<Rc<Expected>>,
     meaning: Meaning,
 }
 
@@ -111,9 +97,13 @@ pub(super) struct Places<'a> {
     profile: &'a MachineProfile,
     texts: Vec<Text>,
     /// Lines that must come next: the rest of a text.
-    due: VecDeque<String>,
+    due: VecDeque<Rc<Expected>>,
     /// The rest that must come behind them, s.
     rest_due: Option<f64>,
+    /// How long it rests since the last move or order, beyond what the profile asks for, s.
+    too_long: f64,
+    dwell: Worst,
+    axes: Axes,
     /// How many lines were read, and the room for the next.
     lines: u64,
     room: Vec<u8>,
@@ -141,6 +131,9 @@ impl<'a> Places<'a> {
             due: texts[0].lines.iter().cloned().collect(),
             texts,
             rest_due: None,
+            too_long: 0.0,
+            dwell: Worst::new("verify/dwell", "s too long", Some(REST_EPSILON)),
+            axes: Axes::new(profile),
             lines: 0,
             room: Vec::new(),
             now,
@@ -174,14 +167,14 @@ impl<'a> Places<'a> {
         self.bad.is_some()
     }
 
-    /// What was found about the format, and what to say of it where it is broken.
-    pub(super) fn findings(self) -> (Finding, Option<String>) {
+    /// What was found about the format and about rests, and what to say where a line cannot be read.
+    pub(super) fn findings(self) -> ([Finding; 2], Option<String>) {
         let mut worst = Worst::new("verify/format", "bad lines", Some(0.0));
         let (place, why) = self.bad.unzip();
         if let Some(place) = place {
             worst.see(1.0, || place);
         }
-        (worst.finding(), why)
+        ([worst.finding(), self.dwell.finding()], why)
     }
 
     /// Reads a line and obeys it; otherwise says what is wrong with it.
@@ -193,7 +186,7 @@ impl<'a> Places<'a> {
         if read == 0 {
             self.ended = true;
             return match self.due.front() {
-                Some(due) => Err(format!("is missing: `{due}` belongs there")),
+                Some(due) => Err(format!("is missing: `{}` belongs there", due.text)),
                 None if !self.over => Err("is missing: the program has no end".to_owned()),
                 None => Ok(()),
             };
@@ -205,27 +198,47 @@ impl<'a> Places<'a> {
         if line.last() == Some(&b'\r') {
             line.pop();
         }
-        let read = self.line(unnumbered(&line));
+        let read = self.line(&line);
         self.room = line;
         read
     }
 
-    /// Obeys a line.
+    /// Obeys a line, however it is spelled.
     fn line(&mut self, line: &[u8]) -> Result<(), String> {
-        if let Some(due) = self.due.pop_front() {
-            let is_due = due.as_bytes() == line;
-            return is_due.then_some(()).ok_or_else(|| format!("is {} where `{due}` belongs", quoted(line)));
+        let usual = unnumbered(line);
+        let Err(why) = self.spelled(usual, usual) else { return Ok(()) };
+        match plain(line) {
+            Some(plain) if plain.is_empty() => {
+                self.name(usual);
+                Ok(())
+            }
+            Some(plain) if plain != usual => self.spelled(&plain, usual),
+            Some(_) | None => Err(why),
         }
-        if let Some(rest) = self.rest_due.take() {
+    }
+
+    /// Obeys a line that is spelled as the target does; any other changes nothing. Messages show it as it is `written`.
+    fn spelled(&mut self, line: &[u8], written: &[u8]) -> Result<(), String> {
+        if let Some(due) = self.due.front() {
+            let is_due = due.is(line);
+            let why = || format!("is {} where `{}` belongs", quoted(written), due.text);
+            is_due.then_some(()).ok_or_else(why)?;
+            self.due.pop_front();
+            return Ok(());
+        }
+        if let Some(rest) = self.rest_due {
             let words = Words::of(line, self.profile).unwrap_or_default();
-            let rests = words.rest().is_some_and(|time| time >= rest - REST_EPSILON);
-            let why = || format!("is {} where a rest of {} s belongs", quoted(line), exact(rest));
-            return rests.then_some(()).ok_or_else(why);
+            let time = words.rest().filter(|time| *time >= rest - REST_EPSILON);
+            let why = || format!("is {} where a rest of {} s belongs", quoted(written), exact(rest));
+            let time = time.ok_or_else(why)?;
+            self.rest_due = None;
+            self.linger(time - rest);
+            return Ok(());
         }
         if matches!(line, [b'G', b'0'..=b'3', b' ', b'X', ..]) {
             return self.go(&Words::of(line, self.profile)?);
         }
-        if let Some(text) = self.texts.iter().find(|text| text.lines[0].as_bytes() == line) {
+        if let Some(text) = self.texts.iter().find(|text| text.lines[0].is(line)) {
             self.due.extend(text.lines[1..].iter().cloned());
             let meaning = text.meaning;
             return self.obey(meaning);
@@ -233,24 +246,40 @@ impl<'a> Places<'a> {
         // A comment ends at its first bracket: what stands behind that is obeyed.
         let comment = line.strip_prefix(b"(").and_then(|rest| rest.strip_suffix(b")"));
         if let Some(comment) = comment.filter(|text| !text.iter().any(|byte| matches!(byte, b'(' | b')'))) {
-            let first: Vec<u8> = comment.iter().take_while(|byte| byte.is_ascii_alphabetic()).copied().collect();
-            if ACTIVE.contains(&first.to_ascii_uppercase().as_slice()) {
+            if is_active(comment) {
                 return Err(format!("is {}, which is obeyed though it looks like a comment", quoted(line)));
             }
-            let mut words = comment.split(|&byte| byte == b' ').skip_while(|word| *word != b"block").skip(1);
-            let number = words.next().and_then(super::read::whole);
-            self.now.block = number.unwrap_or(0);
+            self.name(comment);
             return Ok(());
         }
-        let rest = Words::of(line, self.profile)?.rest().filter(|&time| time >= 0.0);
-        let why = || format!("is {}, which is no line of the target gcode with this profile", quoted(line));
-        rest.map(|_| ()).ok_or_else(why)
+        let words = Words::of(line, self.profile)?;
+        if words.g.is_some_and(|code| MOVES.contains(&code)) {
+            // Words may come in any order.
+            return self.go(&words);
+        }
+        let rest = words.rest().filter(|&time| time >= 0.0);
+        let why = || format!("is {}, which is no line of the target gcode with this profile", quoted(written));
+        rest.map(|time| self.linger(time)).ok_or_else(why)
+    }
+
+    /// The axes rest longer than the profile asks for, s.
+    fn linger(&mut self, time: f64) {
+        self.too_long += time;
+        self.dwell.see(self.too_long, || self.now.sighting());
+    }
+
+    /// Takes the block that a comment names, if it does.
+    fn name(&mut self, comment: &[u8]) {
+        let words = comment.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        let number = words.skip_while(|word| *word != b"block").nth(1);
+        self.now.block = number.and_then(read::whole).unwrap_or(self.now.block);
     }
 
     fn obey(&mut self, meaning: Meaning) -> Result<(), String> {
         if self.over && meaning != Meaning::End {
             return Err(BEHIND_END.to_owned());
         }
+        self.too_long = 0.0;
         let was_down = self.now.knife;
         match meaning {
             Meaning::Head => return Err("is the head of a program again".to_owned()),
@@ -327,6 +356,15 @@ impl<'a> Places<'a> {
             return Err("is a way that no machine goes".to_owned());
         }
         let pace = self.pace(feed, length, turned);
+        let asked = Asked {
+            speed: length * pace,
+            turn: turned.to_radians().abs() * pace,
+            length,
+            curvature: arc.map_or(0.0, |arc| arc.sweep.abs() / length),
+        };
+        // A move to where the axes stand takes no time.
+        let used = if length > 0.0 || turned != 0.0 { self.axes.used(&asked) } else { 0.0 };
+        self.too_long = 0.0;
         // In the air only the ends of a straight way matter.
         let first = if from.knife || arc.is_some() { 0 } else { steps as usize };
         for i in first..=steps as usize {
@@ -336,7 +374,7 @@ impl<'a> Places<'a> {
                 None => (from.centre + (to - from.centre) * share, to - from.centre),
             };
             let c_deg = from.c_deg + turned * share;
-            let going = Going { way: ahead * pace, turn: turned.to_radians() * pace };
+            let going = Going { way: ahead * pace, turn: turned.to_radians() * pace, used };
             let centre = if i as f64 == steps { to } else { centre };
             self.last = going;
             self.push(Row { centre, c_deg, ..self.now }, going);
@@ -424,77 +462,6 @@ impl Arc {
     }
 }
 
-/// The words of a line.
-#[derive(Debug, Default, PartialEq)]
-struct Words {
-    g: Option<f64>,
-    x: Option<f64>,
-    y: Option<f64>,
-    c: Option<f64>,
-    i: Option<f64>,
-    j: Option<f64>,
-    f: Option<f64>,
-    p: Option<f64>,
-}
-
-impl Words {
-    fn of(line: &[u8], profile: &MachineProfile) -> Result<Self, String> {
-        let mut words = Self::default();
-        let foreign = |word| format!("has {}, which is no word of the target gcode with this profile", quoted(word));
-        for word in line.split(|&byte| byte == b' ') {
-            let (&letter, number) = word.split_first().ok_or_else(|| foreign(word))?;
-            let place = words.place(letter, profile).ok_or_else(|| foreign(word))?;
-            if place.is_some() {
-                return Err(format!("has two words {}", char::from(letter)));
-            }
-            let long = || {
-                let is_plain = number.iter().all(|byte| matches!(byte, b'0'..=b'9' | b'.' | b'-'));
-                decimal(number).filter(|_| is_plain)
-            };
-            *place = Some(short(number).or_else(long).ok_or_else(|| foreign(word))?);
-        }
-        Ok(words)
-    }
-
-    /// The time of a rest, s; `None` when it is none, or something moves in the same line.
-    fn rest(&self) -> Option<f64> {
-        let alone = Self { g: Some(4.0), p: self.p, ..Self::default() };
-        self.p.filter(|_| *self == alone)
-    }
-
-    /// A letter that has no business on a line of motion: P on an arc is a number of turns.
-    fn foreign_to(&self, code: f64) -> Option<char> {
-        let is_arc = code > 1.0;
-        let there = [
-            ('I', self.i.is_some() && !is_arc),
-            ('J', self.j.is_some() && !is_arc),
-            ('F', self.f.is_some() && code == 0.0),
-            ('P', self.p.is_some()),
-        ];
-        there.into_iter().find(|(_, is_foreign)| *is_foreign).map(|(letter, _)| letter)
-    }
-
-    /// Where the number of a letter goes; `None` when there is none such.
-    fn place(&mut self, letter: u8, profile: &MachineProfile) -> Option<&mut Option<f64>> {
-        Some(match letter {
-            b'G' => &mut self.g,
-            b'X' => &mut self.x,
-            b'Y' => &mut self.y,
-            b'I' => &mut self.i,
-            b'J' => &mut self.j,
-            b'F' => &mut self.f,
-            b'P' => &mut self.p,
-            letter if letter == profile.gcode.letter.byte() => &mut self.c,
-            _ => return None,
-        })
-    }
-}
-
-/// Part of a line as a message shows it.
-fn quoted(part: &[u8]) -> String {
-    if part.is_empty() { "blank".to_owned() } else { super::read::quoted(part) }
-}
-
 /// The lines of a profile and what they do; the head first.
 fn texts(profile: &MachineProfile) -> Vec<Text> {
     let keys = &profile.gcode;
@@ -502,8 +469,8 @@ fn texts(profile: &MachineProfile) -> Vec<Text> {
     let head = String::from_utf8_lossy(HEAD);
     let mut texts = Vec::new();
     let mut add = |text: &str, meaning: Meaning| {
-        let lines: Vec<String> =
-            text.lines().map(|line| line.trim().to_owned()).filter(|line| !line.is_empty()).collect();
+        let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+        let lines: Vec<_> = lines.map(|line| Rc::new(Expected::new(line))).collect();
         if !lines.is_empty() {
             texts.push(Text { lines, meaning });
         }
@@ -521,6 +488,9 @@ fn texts(profile: &MachineProfile) -> Vec<Text> {
     texts
 }
 
+/// Rules on what F asks for at the least: setpoints have none.
+pub(super) const OF_FEED: &[&str] = &["verify/crawl"];
+
 /// Rules that need no time; of the others a program without any says nothing.
 pub(super) const RULES: &[&str] = &[
     "verify/format",
@@ -528,6 +498,8 @@ pub(super) const RULES: &[&str] = &[
     "verify/c-range",
     "verify/table",
     "verify/feed",
+    "verify/crawl",
+    "verify/dwell",
     "verify/on-path",
     "verify/stray",
     "verify/order",

@@ -232,6 +232,13 @@ impl Line {
         self.caps.greatest(ends, sign, self.ring.then_some(length))
     }
 
+    /// The least of the caps between two stations, likewise.
+    pub(super) fn least_cap(&self, [low, high]: [f64; 2], sign: f64) -> f64 {
+        let length = self.length();
+        let ends = if sign > 0.0 { [low, high] } else { [length - high, length - low] };
+        self.caps.least(ends, sign, self.ring.then_some(length))
+    }
+
     /// The point at a station.
     pub(super) fn place(&self, station: f64) -> Point {
         let chord = self.chord_at(station);

@@ -13,6 +13,7 @@ mod chord;
 mod counts;
 mod coverage;
 mod covered;
+mod crawl;
 mod cutter_file;
 mod events;
 mod follow;
@@ -38,6 +39,7 @@ mod rest;
 mod scan;
 mod source_audit;
 mod source_hpgl;
+mod spelling;
 mod stroke;
 mod table;
 mod trial;
@@ -97,6 +99,10 @@ pub const RULES: &[(&str, &str)] = &[
     (
         "verify/feed",
         "the tip is never faster than the feed, the slowed parts of the file and the way before a corner let it be",
+    ),
+    (
+        "verify/crawl",
+        "while the knife is down F of G-code asks for a quarter of the speed that the feed and the axes allow, or more",
     ),
     ("verify/rest", "the axes rest while the knife plunges or lifts, while a drill works and at events"),
     ("verify/dwell", "plunges, lifts and drills last as long as the profile says"),
@@ -310,6 +316,7 @@ pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdi
         return Verdict { findings: vec![format], unread, untimed: Vec::new() };
     }
     findings.push(format);
+    findings.retain(|finding| !gcode::OF_FEED.contains(&finding.rule));
     sort(&mut findings);
     Verdict { findings, unread: None, untimed: Vec::new() }
 }
@@ -324,11 +331,13 @@ pub fn positions(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdi
     let next = || places.next().map(|(row, going)| (row, Some(going)));
     let mut findings = simulate(next, (&reference, judge, rounding), job);
     let is_broken = places.is_broken();
-    let (format, unread) = places.findings();
+    let ([format, dwell], unread) = places.findings();
     if is_broken {
         return Verdict { findings: vec![gcode::timeless(&format)], unread, untimed: Vec::new() };
     }
-    findings.push(format);
+    // Of rests the program tells how long they are.
+    findings.retain(|finding| finding.rule != dwell.rule);
+    findings.extend([format, dwell]);
     let untimed = |finding: &Finding| !gcode::RULES.contains(&finding.rule);
     let (left, judged): (Vec<Finding>, Vec<Finding>) = findings.into_iter().partition(untimed);
     let mut findings: Vec<Finding> = judged.iter().map(gcode::timeless).collect();

@@ -70,6 +70,8 @@ pub(super) struct Going {
     pub(super) way: Vector,
     /// Of C itself, rad/s.
     pub(super) turn: f64,
+    /// The greatest share of a limit of the axes that this uses.
+    pub(super) used: f64,
 }
 
 /// How rows are written.

@@ -257,6 +257,7 @@ impl<'a> Judge<'a> {
         let seen = |i: usize| stroke.sighting(cut, i);
         worsts.down.see(cut.way(), || rows[rows.len() - 1].sighting());
         self.check_feed(traced, &mut worsts.feed);
+        self.check_crawl(traced, &mut worsts.crawl);
         self.check_heading(traced, &mut worsts.heading);
         let Some(best) = best else {
             worsts.stray.see(cut.length().max(self.knife.width_mm).max(REACH), || seen(cut.body));
@@ -501,6 +502,32 @@ impl<'a> Judge<'a> {
                 feed.see_under(speed, cap(i), || rows[last].sighting());
             }
         }
+    }
+
+    /// What F asks for at the least, against the least cap that holds anywhere on a step and the limits of the axes.
+    fn check_crawl(&self, traced: &Traced, crawl: &mut Worst) {
+        let Traced { stroke: Stroke { rows, goings }, ways, cut, best: Some(trial), .. } = traced else { return };
+        let (line, sign) = (&self.reference.lines[trial.line], trial.sign(cut));
+        let (only, slack) = (line.only_cap(sign), self.reference.tolerance + CAP_ASIDE);
+        // A tip that turns on the spot stands at one place of its cut all along.
+        let (mut place, mut least) = (0, (f64::INFINITY, 0));
+        for (i, (going, way)) in goings.iter().zip(ways).enumerate() {
+            let before = place;
+            place += usize::from(cut.rows.get(place + 1) == Some(&i));
+            // Nothing moves there, or an axis has more to do than at the slowest place so far.
+            if going.used == 0.0 || going.used >= least.0 {
+                continue;
+            }
+            let cap = only.unwrap_or_else(|| {
+                let [a, b] = [before, place].map(|place| trial.feet[cut.body + place].station);
+                line.least_cap([a.min(b) - slack, a.max(b) + slack], sign)
+            });
+            let used = going.used.max(way.norm() / cap);
+            if used < least.0 {
+                least = (used, i);
+            }
+        }
+        crawl.see(least.0.recip(), || rows[least.1].sighting());
     }
 
     /// How far the blade goes beyond the ends of its line, and into what.

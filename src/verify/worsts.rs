@@ -1,5 +1,6 @@
 //! The worst values that strokes show, rule by rule.
 
+use super::crawl;
 use super::heading;
 use super::naming::Naming;
 use super::overcut::Harm;
@@ -18,6 +19,7 @@ pub(super) struct Worsts {
     pub(super) down: Worst,
     pub(super) body: Worst,
     pub(super) feed: Worst,
+    pub(super) crawl: Worst,
     pub(super) block: Worst,
     pub(super) harm: Harm,
 }
@@ -39,6 +41,7 @@ impl Worsts {
             down: Worst::new("verify/down", "mm", knife.max_down_mm.map(|longest| longest + tolerance)),
             body: Worst::new("verify/body", "mm", verify.max_body_mm),
             feed: Worst::new("verify/feed", "mm/s", feed),
+            crawl: crawl::worst(),
             block: Naming::new(tolerance).worst(),
             harm: Harm::new(profile, tolerance),
         }
@@ -56,15 +59,15 @@ impl Worsts {
         self.all().into_iter().map(Worst::finding)
     }
 
-    fn all(self) -> [Worst; 11] {
-        let Self { on_path, stray, once, heading, down, body, feed, block, harm } = self;
+    fn all(self) -> [Worst; 12] {
+        let Self { on_path, stray, once, heading, down, body, feed, crawl, block, harm } = self;
         let Harm { part, neighbour, waste } = harm;
-        [on_path, stray, once, heading, down, body, feed, block, part, neighbour, waste]
+        [on_path, stray, once, heading, down, body, feed, crawl, block, part, neighbour, waste]
     }
 
-    fn all_mut(&mut self) -> [&mut Worst; 11] {
-        let Self { on_path, stray, once, heading, down, body, feed, block, harm } = self;
+    fn all_mut(&mut self) -> [&mut Worst; 12] {
+        let Self { on_path, stray, once, heading, down, body, feed, crawl, block, harm } = self;
         let Harm { part, neighbour, waste } = harm;
-        [on_path, stray, once, heading, down, body, feed, block, part, neighbour, waste]
+        [on_path, stray, once, heading, down, body, feed, crawl, block, part, neighbour, waste]
     }
 }

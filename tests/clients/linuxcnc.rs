@@ -177,6 +177,51 @@ with open("FOLDER/trace.txt", "w") as trace:
     trace.write("end\n")
 "#;
 
+/// A line as somebody might spell it who edits the program by hand.
+fn by_hand((number, line): (usize, &str)) -> String {
+    if line.starts_with('(') {
+        return format!("\t{line} ; by hand\n\n");
+    }
+    match number % 6 {
+        0 => format!("{} (by hand)\n", line.to_lowercase()),
+        1 => format!("n{number:05}{}\n", line.replace("G1 ", "G01").replace("G0 ", "G00").replace(' ', "")),
+        2 => format!(" {} ; by hand\n", line.replace(' ', " \t")),
+        3 => format!("\n(a) {line} (b)\n; c\n"),
+        4 => match line.split_once(' ') {
+            Some((code @ ("G0" | "G1" | "G2" | "G3"), words)) => format!("{words} {code}\n"),
+            _ => format!("{line}\n"),
+        },
+        _ => format!("{}\n", line.replace(" X", " X+0").replace("+0-", "-0")),
+    }
+}
+
+#[test]
+fn the_interpreter_of_linuxcnc_and_the_verifier_read_a_program_that_is_spelled_by_hand_as_the_same() {
+    if !is_there("rs274", Command::new("sh").args(["-c", "command -v rs274"])) {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a directory");
+    let input = fixtures().join("markers/metric-six-pieces.cut");
+    compile(&input, "linuxcnc", folder.path()).expect("it is compiled");
+    let path = |file: &str| folder.path().join(file);
+    let program = std::fs::read_to_string(path("program.ngc")).expect("text");
+    let hand: String = program.lines().enumerate().map(by_hand).collect();
+    std::fs::write(path("hand.ngc"), hand).expect("writable");
+    let canon_of = |file: &str| {
+        let mut interpret = Command::new("rs274");
+        let ran = interpret.args(["-g", file, "canon.txt"]).current_dir(folder.path()).output();
+        let ran = ran.expect("rs274 starts");
+        assert!(ran.status.success(), "{file}: {}", String::from_utf8_lossy(&ran.stderr));
+        std::fs::read_to_string(path("canon.txt")).expect("text")
+    };
+    let [written, hand] = ["program.ngc", "hand.ngc"].map(canon_of);
+    assert!(canon(&written).len() > 100 && canon(&written) == canon(&hand));
+    let mut verify = Command::new(env!("CARGO_BIN_EXE_cutc"));
+    verify.args(["verify", "hand.ngc", "--source"]).arg(&input).current_dir(folder.path());
+    let judged = verify.arg("-p").arg(fixtures().join("machines/linuxcnc.toml")).output().expect("the program starts");
+    assert!(judged.status.success(), "{}", String::from_utf8_lossy(&judged.stdout));
+}
+
 /// The controller's own description of a machine with these limits.
 fn ini(profile: &MachineProfile, folder: &Path) -> String {
     let [x, y, c] = [&profile.axes.x, &profile.axes.y]

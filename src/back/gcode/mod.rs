@@ -61,7 +61,8 @@ fn way_of(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Diagnostic> {
     match law {
         Law::Tangent => way::way(run, tolerance, job).map_err(|at| {
             let (x, y) = (fixed(at.x, PLACE_DECIMALS), fixed(at.y, PLACE_DECIMALS));
-            refused(&format!("no arc or line stays within the tolerance at X {x} Y {y} mm"))
+            refused("no arc or line stays within the tolerance")
+                .hint(format!("the place is X {x} Y {y} mm"))
                 .hint("a larger path.tolerance_mm or a smaller corner.angle_deg helps; the target csv needs no arcs")
         }),
         Law::Chord => {

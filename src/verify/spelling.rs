@@ -1,0 +1,244 @@
+//! Words of G-code: as the target `gcode` spells them, and as people do. RS274/NGC takes both for the same program.
+
+use super::read::{self, decimal, short};
+use crate::machine::MachineProfile;
+
+/// What comments begin with that controllers obey.
+const ACTIVE: &[&[u8]] = &[
+    b"ABORT",
+    b"DEBUG",
+    b"LOG",
+    b"LOGAPPEND",
+    b"LOGCLOSE",
+    b"LOGOPEN",
+    b"MSG",
+    b"PRINT",
+    b"PROBECLOSE",
+    b"PROBEOPEN",
+    b"PY",
+];
+
+/// Whether the text of a comment is obeyed though it looks like one.
+pub(super) fn is_active(comment: &[u8]) -> bool {
+    let text = comment.trim_ascii_start();
+    let first = text.iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
+    ACTIVE.contains(&text[..first].to_ascii_uppercase().as_slice())
+}
+
+/// Part of a line as a message shows it.
+pub(super) fn quoted(part: &[u8]) -> String {
+    if part.is_empty() { "blank".to_owned() } else { read::quoted(part) }
+}
+
+/// A line without the number that it may begin with.
+pub(super) fn unnumbered(line: &[u8]) -> &[u8] {
+    let Some(rest) = line.strip_prefix(b"N") else { return line };
+    let digits = rest.iter().take_while(|byte| byte.is_ascii_digit()).count();
+    rest[digits..].strip_prefix(b" ").unwrap_or(line)
+}
+
+/// A line as the target spells it: capital letters, one blank between words, no number of the line, no comments, no digits
+/// that say nothing. Empty when the line asks for nothing; `None` when it holds more than words and comments.
+///
+/// Rules of RS274/NGC, sections 3.3 and 3.4, as `LinuxCNC` obeys them: outside of comments case and blanks do not matter,
+/// not even blanks in a number; a comment stands in brackets, which do not nest, or behind a semicolon.
+pub(super) fn plain(line: &[u8]) -> Option<Vec<u8>> {
+    let line = uncommented(line)?;
+    let mut left = line.as_slice();
+    if let Some(rest) = left.strip_prefix(b"N") {
+        let digits = rest.iter().take_while(|byte| byte.is_ascii_digit()).count();
+        left = &rest[digits..];
+        if digits == 0 {
+            return None;
+        }
+    }
+    let mut plain = Vec::with_capacity(2 * line.len());
+    while let Some((&letter, rest)) = left.split_first() {
+        let length = rest.iter().take_while(|byte| matches!(byte, b'0'..=b'9' | b'.' | b'-' | b'+')).count();
+        let (number, behind) = rest.split_at(length);
+        if !letter.is_ascii_uppercase() || letter == b'N' {
+            return None;
+        }
+        if !plain.is_empty() {
+            plain.push(b' ');
+        }
+        plain.push(letter);
+        push_number(&mut plain, number)?;
+        left = behind;
+    }
+    Some(plain)
+}
+
+/// The same in capital letters, without blanks and comments; `None` when a comment is obeyed or has no end.
+fn uncommented(line: &[u8]) -> Option<Vec<u8>> {
+    let mut bare = Vec::with_capacity(line.len());
+    let mut left = line;
+    while let Some((&byte, rest)) = left.split_first() {
+        left = match byte {
+            b'(' => {
+                let end = rest.iter().position(|&byte| byte == b')')?;
+                let comment = &rest[..end];
+                if comment.contains(&b'(') || is_active(comment) {
+                    return None;
+                }
+                &rest[end + 1..]
+            }
+            b';' if is_active(rest) => return None,
+            b';' => &[],
+            b' ' | b'\t' => rest,
+            _ => {
+                bare.push(byte.to_ascii_uppercase());
+                rest
+            }
+        };
+    }
+    Some(bare)
+}
+
+/// A number with its sign, if that is a minus, and the digits that it needs; `None` when it is none.
+fn push_number(out: &mut Vec<u8>, number: &[u8]) -> Option<()> {
+    let digits = number.strip_prefix(b"-").or_else(|| number.strip_prefix(b"+")).unwrap_or(number);
+    let point = digits.iter().position(|&byte| byte == b'.').unwrap_or(digits.len());
+    let (whole, decimals) = digits.split_at(point);
+    let decimals = decimals.strip_prefix(b".").unwrap_or(decimals);
+    if whole.len() + decimals.len() == 0 || !whole.iter().chain(decimals).all(u8::is_ascii_digit) {
+        return None;
+    }
+    if number[0] == b'-' {
+        // Of an axis that goes round a negative zero is not the same as zero.
+        out.push(b'-');
+    }
+    let zeros = whole.iter().take_while(|&&digit| digit == b'0').count();
+    out.extend_from_slice(if zeros == whole.len() { b"0" } else { &whole[zeros..] });
+    let needed = decimals.iter().rposition(|&digit| digit != b'0').map_or(0, |last| last + 1);
+    if needed > 0 {
+        out.push(b'.');
+        out.extend_from_slice(&decimals[..needed]);
+    }
+    Some(())
+}
+
+/// A line of the profile or of the target, to be found in a program.
+pub(super) struct Expected {
+    /// As it is written.
+    pub(super) text: String,
+    /// As the target would spell it; `None` when it must stand as it is written: when it is no line of words.
+    plain: Option<Vec<u8>>,
+}
+
+impl Expected {
+    /// A line of text.
+    pub(super) fn new(text: &str) -> Self {
+        Self { text: text.to_owned(), plain: plain(text.as_bytes()).filter(|plain| !plain.is_empty()) }
+    }
+
+    /// Whether a line, as it is written or as the target would spell it, is that.
+    pub(super) fn is(&self, line: &[u8]) -> bool {
+        self.text.as_bytes() == line || self.plain.as_deref() == Some(line)
+    }
+}
+
+/// The words of a line.
+#[derive(Debug, Default, PartialEq)]
+pub(super) struct Words {
+    pub(super) g: Option<f64>,
+    pub(super) x: Option<f64>,
+    pub(super) y: Option<f64>,
+    pub(super) c: Option<f64>,
+    pub(super) i: Option<f64>,
+    pub(super) j: Option<f64>,
+    pub(super) f: Option<f64>,
+    pub(super) p: Option<f64>,
+}
+
+impl Words {
+    /// The words of a line that is spelled as the target does; otherwise what is wrong with it.
+    pub(super) fn of(line: &[u8], profile: &MachineProfile) -> Result<Self, String> {
+        let mut words = Self::default();
+        let foreign = |word| format!("has {}, which is no word of the target gcode with this profile", quoted(word));
+        for word in line.split(|&byte| byte == b' ') {
+            let (&letter, number) = word.split_first().ok_or_else(|| foreign(word))?;
+            let place = words.place(letter, profile).ok_or_else(|| foreign(word))?;
+            if place.is_some() {
+                return Err(format!("has two words {}", char::from(letter)));
+            }
+            let long = || {
+                let is_plain = number.iter().all(|byte| matches!(byte, b'0'..=b'9' | b'.' | b'-'));
+                decimal(number).filter(|_| is_plain)
+            };
+            *place = Some(short(number).or_else(long).ok_or_else(|| foreign(word))?);
+        }
+        Ok(words)
+    }
+
+    /// The time of a rest, s; `None` when it is none, or something moves in the same line.
+    pub(super) fn rest(&self) -> Option<f64> {
+        let alone = Self { g: Some(4.0), p: self.p, ..Self::default() };
+        self.p.filter(|_| *self == alone)
+    }
+
+    /// A letter that has no business on a line of motion: P on an arc is a number of turns.
+    pub(super) fn foreign_to(&self, code: f64) -> Option<char> {
+        let is_arc = code > 1.0;
+        let there = [
+            ('I', self.i.is_some() && !is_arc),
+            ('J', self.j.is_some() && !is_arc),
+            ('F', self.f.is_some() && code == 0.0),
+            ('P', self.p.is_some()),
+        ];
+        there.into_iter().find(|(_, is_foreign)| *is_foreign).map(|(letter, _)| letter)
+    }
+
+    /// Where the number of a letter goes; `None` when there is none such.
+    fn place(&mut self, letter: u8, profile: &MachineProfile) -> Option<&mut Option<f64>> {
+        Some(match letter {
+            b'G' => &mut self.g,
+            b'X' => &mut self.x,
+            b'Y' => &mut self.y,
+            b'I' => &mut self.i,
+            b'J' => &mut self.j,
+            b'F' => &mut self.f,
+            b'P' => &mut self.p,
+            letter if letter == profile.gcode.letter.byte() => &mut self.c,
+            _ => return None,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_that_say_the_same_are_spelled_alike() {
+        let check = |line: &str, expected: Option<&str>| {
+            let plain = plain(line.as_bytes()).map(|plain| String::from_utf8(plain).expect("ASCII"));
+            assert_eq!(plain.as_deref(), expected, "{line}");
+        };
+        check("G1 X1.5 Y-2 C0 F600", Some("G1 X1.5 Y-2 C0 F600"));
+        check("n10g01x+01.50y-2.0\tc.0f 6 0 0. (slower) ; here", Some("G1 X1.5 Y-2 C0 F600"));
+        check("G91.10 M064 P-0 X-.50", Some("G91.1 M64 P-0 X-0.5"));
+        check("X1e3", Some("X1 E3"));
+        for nothing in ["", " \t", "N7", "(a)(b)", "; (MSG, no comment)", "n1 (a ; b)"] {
+            check(nothing, Some(""));
+        }
+        let foreign = [
+            "/G1 X1",
+            "%",
+            "G1 X#1",
+            "G1 X[1+1]",
+            "O100 SUB",
+            "G1 X",
+            "X1.2.3",
+            "X--1",
+            "X.",
+            "N G1",
+            "N1 N2",
+            "G1 N2",
+        ];
+        let comments = ["G1 (a", "G1 (a (b)", "G1 a)", "G1 X1 ( MSG, hello)", "(abort, x)", ";py, x", "(debug,) (b)"];
+        for line in foreign.into_iter().chain(comments) {
+            check(line, None);
+        }
+    }
+}
