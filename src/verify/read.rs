@@ -392,23 +392,28 @@ pub(super) fn decimal(field: &[u8]) -> Option<f64> {
 
 /// The same of a number without exponent that has few digits, as nearly all have; `None` of any other.
 pub(super) fn short(field: &[u8]) -> Option<f64> {
-    let (sign, digits) = match field {
-        [b'-', rest @ ..] => (-1.0, rest),
-        rest => (1.0, rest),
-    };
-    let (mut value, mut count, mut decimals, mut point) = (0_u64, 0, 0, false);
-    for &b in digits {
-        match b {
-            b'0'..=b'9' if count < EXACT_DIGITS => {
-                value = value * 10 + u64::from(b - b'0');
-                count += 1;
-                decimals += usize::from(point);
-            }
-            b'.' if !point => point = true,
-            _ => return None,
+    leading(field).filter(|(_, length)| *length == field.len()).map(|(number, _)| number)
+}
+
+/// Such a number at the beginning of a text, and how many bytes it takes.
+pub(super) fn leading(text: &[u8]) -> Option<(f64, usize)> {
+    let start = usize::from(text.first() == Some(&b'-'));
+    let (mut at, mut value, mut point) = (start, 0_u64, None);
+    while let Some(&byte) = text.get(at) {
+        let digit = byte.wrapping_sub(b'0');
+        if digit < 10 {
+            value = value.wrapping_mul(10).wrapping_add(u64::from(digit));
+        } else if byte == b'.' && point.is_none() {
+            point = Some(at);
+        } else {
+            break;
         }
+        at += 1;
     }
-    (count > 0).then(|| sign * (value as f64 / POWERS[decimals]))
+    let count = at - start - usize::from(point.is_some());
+    let decimals = point.map_or(0, |point| at - point - 1);
+    let magnitude = || value as f64 / POWERS[decimals];
+    (1..=EXACT_DIGITS).contains(&count).then(|| (if start == 0 { magnitude() } else { -magnitude() }, at))
 }
 
 #[cfg(test)]

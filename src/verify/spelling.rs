@@ -1,6 +1,6 @@
 //! Words of G-code: as the target `gcode` spells them, and as people do. RS274/NGC takes both for the same program.
 
-use super::read::{self, decimal, short};
+use super::read::{self, decimal, leading};
 use crate::machine::MachineProfile;
 
 /// What comments begin with that controllers obey.
@@ -138,6 +138,18 @@ impl Expected {
     }
 }
 
+/// The number of a word that has a sign or digits as few words have; `None` when it is none.
+fn unusual(word: &[u8]) -> Option<f64> {
+    let (_, number) = word.split_first()?;
+    let is_plain = number.iter().all(|byte| matches!(byte, b'0'..=b'9' | b'.' | b'-'));
+    decimal(number).filter(|_| is_plain)
+}
+
+/// What to say of a word that is none of the target's.
+fn foreign(word: &[u8]) -> String {
+    format!("has {}, which is no word of the target gcode with this profile", quoted(word))
+}
+
 /// The words of a line.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Words {
@@ -155,20 +167,25 @@ impl Words {
     /// The words of a line that is spelled as the target does; otherwise what is wrong with it.
     pub(super) fn of(line: &[u8], profile: &MachineProfile) -> Result<Self, String> {
         let mut words = Self::default();
-        let foreign = |word| format!("has {}, which is no word of the target gcode with this profile", quoted(word));
-        for word in line.split(|&byte| byte == b' ') {
-            let (&letter, number) = word.split_first().ok_or_else(|| foreign(word))?;
-            let place = words.place(letter, profile).ok_or_else(|| foreign(word))?;
-            if place.is_some() {
-                return Err(format!("has two words {}", char::from(letter)));
-            }
-            let long = || {
-                let is_plain = number.iter().all(|byte| matches!(byte, b'0'..=b'9' | b'.' | b'-'));
-                decimal(number).filter(|_| is_plain)
+        let mut left = line;
+        loop {
+            let usual = left.get(1..).and_then(leading).map(|(number, length)| (number, length + 1));
+            let is_whole = |(_, end): &(f64, usize)| left.get(*end).is_none_or(|&byte| byte == b' ');
+            let (number, end) = if let Some(word) = usual.filter(is_whole) {
+                word
+            } else {
+                let end = left.iter().position(|&byte| byte == b' ').unwrap_or(left.len());
+                (unusual(&left[..end]).ok_or_else(|| foreign(&left[..end]))?, end)
             };
-            *place = Some(short(number).or_else(long).ok_or_else(|| foreign(word))?);
+            let place = words.place(left[0], profile).ok_or_else(|| foreign(&left[..end]))?;
+            if place.replace(number).is_some() {
+                return Err(format!("has two words {}", char::from(left[0])));
+            }
+            match left.get(end + 1..) {
+                Some(behind) => left = behind,
+                None => return Ok(words),
+            }
         }
-        Ok(words)
     }
 
     /// The time of a rest, s; `None` when it is none, or something moves in the same line.
