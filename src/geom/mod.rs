@@ -69,6 +69,14 @@ impl Extent {
         })
     }
 
+    /// The box whose corners are two points.
+    pub fn between(a: Point, b: Point) -> Self {
+        Self {
+            min: Point::new(lesser(a.x, b.x), lesser(a.y, b.y)),
+            max: Point::new(greater(a.x, b.x), greater(a.y, b.y)),
+        }
+    }
+
     /// Grows the box to hold `point`.
     pub fn add(&mut self, point: Point) {
         self.min = Point::new(lesser(self.min.x, point.x), lesser(self.min.y, point.y));

@@ -307,9 +307,7 @@ impl Region {
 
 impl Edge {
     fn extent(&self) -> Extent {
-        let mut extent = Extent { min: self.from, max: self.from };
-        extent.add(self.to);
-        extent
+        Extent::between(self.from, self.to)
     }
 
     /// Adds how far along a way it crosses or touches it.

@@ -61,7 +61,7 @@ impl Chain {
     }
 
     /// Its segments. The joint of the first one speaks for the plunge at the start and for the lift at the end.
-    pub(super) fn segments(&self) -> impl Iterator<Item = Segment> {
+    pub(super) fn segments(&self) -> impl Iterator<Item = Segment> + Clone {
         self.vertices.windows(2).enumerate().map(|(i, pair)| {
             let mut joint = pair[0].joint;
             joint.no_overcut |= i == 0 && self.lift == Some(Overcut::Forbidden);
