@@ -83,6 +83,12 @@ impl Extent {
         self.max = Point::new(greater(self.max.x, point.x), greater(self.max.y, point.y));
     }
 
+    /// Grows the box to hold another.
+    pub fn join(&mut self, other: &Self) {
+        self.min = Point::new(lesser(self.min.x, other.min.x), lesser(self.min.y, other.min.y));
+        self.max = Point::new(greater(self.max.x, other.max.x), greater(self.max.y, other.max.y));
+    }
+
     /// Whether the two boxes have more than a part of their edges in common: only then a line in the one may cross a line
     /// in the other. (Lines in boxes that touch at an edge meet along it at most.)
     pub fn overlaps(&self, other: &Self) -> bool {

@@ -191,8 +191,7 @@ impl Regions {
         let owners: Vec<Region> = by_owner.into_par_iter().filter_map(Region::new).collect();
         let mut extent = Extent::EMPTY;
         for region in &owners {
-            extent.add(region.extent.min);
-            extent.add(region.extent.max);
+            extent.join(&region.extent);
         }
         if owners.is_empty() {
             return Self::default();

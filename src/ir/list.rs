@@ -427,6 +427,34 @@ mod tests {
     }
 
     #[test]
+    fn points_lie_side_by_side_until_one_amid_is_moved() {
+        let mut list = SegmentList::default();
+        let mut range = list.append(chain(&[0.0, 1.0, 2.0, 3.0, 4.0, 5.0])).expect("five segments");
+        let expect = |list: &SegmentList, range: Range, expected: &[f64], is_borrowed: bool| {
+            for (range, turned) in [(range, false), (range.reversed(), true)] {
+                let mut points: Vec<f64> = list.points(range).iter().map(|point| point.x).collect();
+                assert_eq!(points, xs(list, range));
+                if turned {
+                    points.reverse();
+                }
+                assert_eq!(points, expected);
+                assert_eq!(matches!(list.points(range), Cow::Borrowed(_)), is_borrowed && !turned);
+            }
+            assert!(list.is_linked(range));
+        };
+        assert!(list.cursor(&mut range).remove());
+        expect(&list, range, &[1.0, 2.0, 3.0, 4.0, 5.0], true);
+        let mut cursor = list.cursor(&mut range);
+        while cursor.advance() {}
+        assert!(cursor.remove());
+        expect(&list, range, &[1.0, 2.0, 3.0, 4.0], true);
+        let mut cursor = list.cursor(&mut range);
+        cursor.advance();
+        assert!(cursor.remove());
+        expect(&list, range, &[1.0, 2.0, 4.0], false);
+    }
+
+    #[test]
     fn vertices_are_the_ends_of_the_segments_in_either_direction() {
         let mut list = SegmentList::default();
         let mut segments = chain(&[0.0, 1.0, 2.0, 3.0]);

@@ -12,6 +12,7 @@
 //! So the point of a dart (too deep, or too wide), a corner, a row of teeth and a triangular cut-out are none.
 
 use std::borrow::Cow;
+use std::cell::OnceCell;
 use std::f64::consts::PI;
 
 use rayon::prelude::*;
@@ -73,7 +74,8 @@ struct Outline<'a> {
     range: Range,
     /// Its points; the last is the first again.
     points: Cow<'a, [Point]>,
-    extent: Extent,
+    /// The box around it, once it was asked for.
+    extent: OnceCell<Extent>,
     /// Vertices that may be an apex, whichever side the part is on.
     apexes: Vec<usize>,
 }
@@ -82,7 +84,11 @@ impl<'a> Outline<'a> {
     fn of(list: &'a SegmentList, range: Range, unit: f64) -> Self {
         let points = list.points(range);
         let apexes = apexes(&points, unit);
-        Self { range, extent: Extent::of(&points), apexes, points }
+        Self { range, extent: OnceCell::new(), apexes, points }
+    }
+
+    fn extent(&self) -> &Extent {
+        self.extent.get_or_init(|| Extent::of(&self.points))
     }
 
     /// Its vertices, the first not repeated.
@@ -146,7 +152,7 @@ impl<'a> Outline<'a> {
 fn is_cut_out(outlines: &[Outline], k: usize, work: &mut Budget) -> bool {
     let point = outlines[k].points[0];
     let holds = |(i, other): &(usize, &Outline)| {
-        let is_near = *i != k && other.extent.holds(point);
+        let is_near = *i != k && other.extent().holds(point);
         work.spend(VERTEX * if is_near { other.ring().len() } else { 1 })
             && is_near
             && ring::contains(other.ring(), point)

@@ -152,8 +152,7 @@ impl Part {
             for chain in monotone::chains(&points[start..]) {
                 let chain = Chain { first: chain.first + start as u32, last: chain.last + start as u32 };
                 let of_chain = chain.extent(points);
-                extent.add(of_chain.min);
-                extent.add(of_chain.max);
+                extent.join(&of_chain);
                 chains.push((of_chain, chain, k));
             }
         }
