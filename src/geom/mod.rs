@@ -69,10 +69,24 @@ impl Extent {
         })
     }
 
+    /// The box whose corners are two points.
+    pub fn between(a: Point, b: Point) -> Self {
+        Self {
+            min: Point::new(lesser(a.x, b.x), lesser(a.y, b.y)),
+            max: Point::new(greater(a.x, b.x), greater(a.y, b.y)),
+        }
+    }
+
     /// Grows the box to hold `point`.
     pub fn add(&mut self, point: Point) {
         self.min = Point::new(lesser(self.min.x, point.x), lesser(self.min.y, point.y));
         self.max = Point::new(greater(self.max.x, point.x), greater(self.max.y, point.y));
+    }
+
+    /// Grows the box to hold another.
+    pub fn join(&mut self, other: &Self) {
+        self.min = Point::new(lesser(self.min.x, other.min.x), lesser(self.min.y, other.min.y));
+        self.max = Point::new(greater(self.max.x, other.max.x), greater(self.max.y, other.max.y));
     }
 
     /// Whether the two boxes have more than a part of their edges in common: only then a line in the one may cross a line

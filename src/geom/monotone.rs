@@ -25,10 +25,7 @@ pub struct Crossing {
 impl Chain {
     /// The box around it.
     pub fn extent(self, points: &[Point]) -> Extent {
-        let mut extent = Extent::EMPTY;
-        extent.add(points[self.first as usize]);
-        extent.add(points[self.last as usize]);
-        extent
+        Extent::between(points[self.first as usize], points[self.last as usize])
     }
 
     /// Number of its segments.
@@ -42,53 +39,62 @@ impl Chain {
     }
 }
 
-/// The chains of a polyline in order; none when it has no segment.
-pub fn chains(points: &[Point]) -> Vec<Chain> {
-    let mut chains: Vec<Chain> = Vec::new();
+/// The chains of a polyline in order, each as soon as its end is known; none when it has no segment.
+pub fn chains(points: &[Point]) -> impl Iterator<Item = Chain> {
     let mut first = 0;
+    std::iter::from_fn(move || {
+        let rest = points.get(first..).filter(|rest| rest.len() > 1)?;
+        let chain = Chain { first: first as u32, last: (first + turning(rest)) as u32 };
+        first = chain.last as usize;
+        Some(chain)
+    })
+}
+
+/// Where the first chain of a polyline that has a segment ends.
+fn turning(points: &[Point]) -> usize {
     // The signs of dx and dy so far; 0 as long as there is none.
     let (mut sx, mut sy) = (0.0, 0.0);
     for (i, ends) in points.windows(2).enumerate() {
         let (dx, dy) = (ends[1].x - ends[0].x, ends[1].y - ends[0].y);
         if dx * sx < 0.0 || dy * sy < 0.0 {
-            chains.push(Chain { first, last: i as u32 });
-            first = i as u32;
-            (sx, sy) = (0.0, 0.0);
+            return i;
         }
         // Only the signs count; a sum of numbers of one sign has it.
         sx += dx;
         sy += dy;
     }
-    if points.len() > 1 {
-        chains.push(Chain { first, last: points.len() as u32 - 1 });
-    }
-    chains
+    points.len() - 1
 }
 
 /// The first crossing of a chain of one polyline with a chain of another (or the same) that `wanted` accepts. Segments
 /// that merely touch, or lie in one line, do not cross.
 pub fn crossing(
     points: [&[Point]; 2],
-    chains: [Chain; 2],
+    [a, b]: [Chain; 2],
     wanted: &mut impl FnMut(&Crossing) -> bool,
 ) -> Option<Crossing> {
-    let [a, b] = chains;
-    if !a.extent(points[0]).overlaps(&b.extent(points[1])) {
-        return None;
-    }
-    let (long_a, long_b) = (a.last - a.first, b.last - b.first);
-    if long_a == 1 && long_b == 1 {
+    let boxes = [a.extent(points[0]), b.extent(points[1])];
+    if boxes[0].overlaps(&boxes[1]) { crossing_in(points, [(a, boxes[0]), (b, boxes[1])], wanted) } else { None }
+}
+
+/// The same of chains whose boxes, which stand beside them, overlap.
+fn crossing_in(
+    points: [&[Point]; 2],
+    [(a, box_a), (b, box_b)]: [(Chain, Extent); 2],
+    wanted: &mut impl FnMut(&Crossing) -> bool,
+) -> Option<Crossing> {
+    if a.segments() == 1 && b.segments() == 1 {
         let segments = [a.first as usize, b.first as usize];
         let ends = |k: usize| [points[k][segments[k]], points[k][segments[k] + 1]];
         return cross_at(ends(0), ends(1)).map(|at| Crossing { segments, at }).filter(wanted);
     }
-    if long_a >= long_b {
-        let [first, second] = a.halves();
-        crossing(points, [first, b], wanted).or_else(|| crossing(points, [second, b], wanted))
-    } else {
-        let [first, second] = b.halves();
-        crossing(points, [a, first], wanted).or_else(|| crossing(points, [a, second], wanted))
-    }
+    let is_a = a.segments() >= b.segments();
+    let (halves, of_longer, other) = if is_a { (a.halves(), points[0], box_b) } else { (b.halves(), points[1], box_a) };
+    halves.into_iter().find_map(|half| {
+        let extent = half.extent(of_longer);
+        let pair = if is_a { [(half, extent), (b, box_b)] } else { [(a, box_a), (half, extent)] };
+        if extent.overlaps(&other) { crossing_in(points, pair, wanted) } else { None }
+    })
 }
 
 /// Nearer to a line than this a point lies on it, mm: rounding of coordinates of some metres.
@@ -115,15 +121,15 @@ mod tests {
     }
 
     fn first(a: &[Point], b: &[Point]) -> Option<Crossing> {
-        chains(a).iter().find_map(|&k| chains(b).iter().find_map(|&l| crossing([a, b], [k, l], &mut |_| true)))
+        chains(a).find_map(|k| chains(b).find_map(|l| crossing([a, b], [k, l], &mut |_| true)))
     }
 
     #[test]
     fn a_chain_ends_where_x_or_y_turns_back() {
         let ring = points(&[(0.0, 0.0), (1.0, 0.0), (2.0, 1.0), (2.0, 2.0), (1.0, 3.0), (0.0, 0.0)]);
-        let ends: Vec<_> = chains(&ring).iter().map(|c| (c.first, c.last)).collect();
+        let ends: Vec<_> = chains(&ring).map(|c| (c.first, c.last)).collect();
         assert_eq!(ends, [(0, 3), (3, 4), (4, 5)]);
-        assert_eq!(chains(&ring[..1]), []);
+        assert_eq!(chains(&ring[..1]).next(), None);
     }
 
     #[test]

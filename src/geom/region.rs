@@ -191,8 +191,7 @@ impl Regions {
             owners.into_par_iter().filter_map(|owner| Region::new(owner, &rings(owner))).collect();
         let mut extent = Extent::EMPTY;
         for region in &owners {
-            extent.add(region.extent.min);
-            extent.add(region.extent.max);
+            extent.join(&region.extent);
         }
         if owners.is_empty() {
             return Self::default();
@@ -307,9 +306,7 @@ impl Region {
 
 impl Edge {
     fn extent(&self) -> Extent {
-        let mut extent = Extent { min: self.from, max: self.from };
-        extent.add(self.to);
-        extent
+        Extent::between(self.from, self.to)
     }
 
     /// Adds how far along a way it crosses or touches it.

@@ -1,9 +1,12 @@
-//! The doubly linked segment list: order as `prev`/`next` ids in a vector, data beside it.
+//! The doubly linked segment list: data in vectors, order as ids of neighbours beside them.
 //!
-//! The segments of a range join, since each is kept as its end alone: forty bytes, for large markers are as slow to read
-//! as they are large in memory. Ids are never reused. Nobody outside this file sees a link; others walk a [`Range`] or edit through a [`Cursor`],
-//! whose every operation takes constant time.
+//! The segments of a range join, since each is kept as its end alone, and links are kept only where something was moved:
+//! thirty-two bytes, for large markers are as slow to read as they are large in memory. Ids are never reused. Nobody outside
+//! this file sees a link; others walk a [`Range`] or edit through a [`Cursor`], whose every operation takes constant time.
 
+use std::borrow::Cow;
+
+use super::links::{Link, Links};
 use crate::geom::Point;
 use crate::source::Span;
 
@@ -50,36 +53,27 @@ impl Segment {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SegmentId(u32);
 
-/// "No neighbour" in a link.
-const NONE: u32 = u32::MAX;
-
+/// What is kept of a segment beside its end: where it starts, the one before it ends. In front of the first segment of a
+/// range stands a node that is none: its end is where the range starts.
 #[derive(Debug, Clone, Copy)]
-struct Links {
-    prev: u32,
-    next: u32,
-}
-
-/// What is kept of a segment: where it starts, the one before it ends. In front of the first segment of a range stands a
-/// node that is none: its end is where the range starts, and nothing is before it.
-#[derive(Debug, Clone, Copy)]
-struct Node {
-    to: Point,
+struct Data {
     span: Span,
     joint: Joint,
     percent: u8,
 }
 
-impl Node {
-    fn of(segment: Segment) -> Self {
-        let Segment { to, span, joint, percent, .. } = segment;
-        Self { to, span, joint, percent }
-    }
-
-    /// The one in front of a range that starts at `at`.
-    fn start(at: Point) -> Self {
-        Self { to: at, span: Span::default(), joint: Joint::default(), percent: FULL_SPEED }
-    }
+/// The id of the node at a place of the list.
+fn id(place: usize) -> SegmentId {
+    assert!(place < u32::MAX as usize, "a source below 4 GiB holds fewer than 2^32 - 1 segments");
+    SegmentId(place as u32)
 }
+
+/// Of a node that is none.
+const NO_SEGMENT: Data = Data {
+    span: Span { start: 0, end: 0, block: 0 },
+    joint: Joint { lift: false, full_advance: false, no_overcut: false },
+    percent: FULL_SPEED,
+};
 
 /// A contour's part of the list: from its first segment to its last, walked in one of two directions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -87,6 +81,8 @@ pub struct Range {
     first: SegmentId,
     last: SegmentId,
     backward: bool,
+    /// Whether its segments stand beside each other as they were appended.
+    in_order: bool,
 }
 
 impl Range {
@@ -105,36 +101,34 @@ impl Range {
 /// All segments of a marker.
 #[derive(Debug, Clone, Default)]
 pub struct SegmentList {
-    links: Vec<Links>,
-    nodes: Vec<Node>,
+    ends: Vec<Point>,
+    data: Vec<Data>,
+    links: Links,
 }
 
 impl SegmentList {
     /// Makes room for so many more segments in so many ranges.
     pub fn reserve(&mut self, segments: usize, ranges: usize) {
-        self.links.reserve(segments + ranges);
-        self.nodes.reserve(segments + ranges);
+        self.ends.reserve(segments + ranges);
+        self.data.reserve(segments + ranges);
     }
 
     /// Appends a chain of segments, each of which starts where the one before it ends, as a range of its own; `None` when
     /// there are none.
-    pub fn append(&mut self, chain: impl IntoIterator<Item = Segment>) -> Option<Range> {
-        let mut chain = chain.into_iter();
-        let segment = chain.next()?;
-        let start = self.nodes.len() as u32;
-        self.nodes.extend([Node::start(segment.from), Node::of(segment)]);
-        let mut end = segment.to;
-        self.nodes.extend(chain.map(|segment| {
-            debug_assert!(segment.from == end, "the segments of a chain join");
-            end = segment.to;
-            Node::of(segment)
-        }));
-        assert!(self.nodes.len() < NONE as usize, "a source below 4 GiB holds fewer than 2^32 - 1 segments");
-        let (first, last) = (start + 1, self.nodes.len() as u32 - 1);
-        self.links.push(Links { prev: NONE, next: first });
-        self.links.extend((first..last).map(|id| Links { prev: id - 1, next: id + 1 }));
-        self.links.push(Links { prev: last - 1, next: NONE });
-        Some(Range { first: SegmentId(first), last: SegmentId(last), backward: false })
+    pub fn append(&mut self, chain: impl IntoIterator<Item = Segment, IntoIter: Clone>) -> Option<Range> {
+        let chain = chain.into_iter();
+        let start = chain.clone().next()?.from;
+        let front = self.ends.len();
+        self.ends.push(start);
+        self.ends.extend(chain.clone().map(|segment| segment.to));
+        debug_assert!(
+            chain.clone().zip(&self.ends[front..]).all(|(segment, end)| segment.from == *end),
+            "the segments of a chain join"
+        );
+        self.data.push(NO_SEGMENT);
+        self.data.extend(chain.map(|Segment { span, joint, percent, .. }| Data { span, joint, percent }));
+        let [first, last] = [front + 1, self.ends.len() - 1].map(id);
+        Some(Range { first, last, backward: false, in_order: true })
     }
 
     /// Walks a range in its direction. A segment that is walked backward comes out turned round.
@@ -143,22 +137,23 @@ impl SegmentList {
         Walk { list: self, range, at: Some(at), from: self.start(range), end }
     }
 
-    /// The points of a range in its direction: one more than its segments.
-    pub fn points(&self, range: Range) -> impl Iterator<Item = Point> {
-        self.vertices(range).map(|(point, _)| point)
+    /// The points of a range in its direction: one more than its segments. Nearly all ranges have them side by side.
+    pub fn points(&self, range: Range) -> Cow<'_, [Point]> {
+        if range.in_order && !range.backward {
+            return Cow::Borrowed(&self.ends[range.first.0 as usize - 1..=range.last.0 as usize]);
+        }
+        let nodes = || self.nodes(range);
+        // Counted first: large markers have little room for what a vector grows by.
+        let mut points = Vec::with_capacity(nodes().count());
+        points.extend(nodes().map(|id| self.ends[id as usize]));
+        Cow::Owned(points)
     }
 
     /// The points of a range in its direction, each with the span of the segment that leads there; to the first none does.
     pub fn vertices(&self, range: Range) -> impl Iterator<Item = (Point, Span)> {
-        let front = self.links[range.first.0 as usize].prev;
-        let (start, end) = if range.backward { (range.last.0, front) } else { (front, range.last.0) };
-        let follow = move |&id: &u32| {
-            let Links { prev, next } = self.links[id as usize];
-            (id != end).then_some(if range.backward { prev } else { next })
-        };
         let mut before = Span::default();
-        std::iter::successors(Some(start), follow).map(move |id| {
-            let Node { to, span, .. } = self.nodes[id as usize];
+        self.nodes(range).map(move |id| {
+            let (to, span) = (self.ends[id as usize], self.data[id as usize].span);
             let after = std::mem::replace(&mut before, span);
             (to, if range.backward { after } else { span })
         })
@@ -166,20 +161,45 @@ impl SegmentList {
 
     /// The two ends of each segment of a range, in its direction.
     pub fn lines(&self, range: Range) -> impl Iterator<Item = [Point; 2]> {
-        let mut points = self.points(range);
+        let mut points = self.nodes(range).map(|id| self.ends[id as usize]);
         let mut before = points.next();
         points.filter_map(move |point| before.replace(point).map(|before| [before, point]))
     }
 
     /// The two ends of a segment, in the order of the list.
     pub fn ends(&self, SegmentId(id): SegmentId) -> [Point; 2] {
-        [self.links[id as usize].prev, id].map(|id| self.nodes[id as usize].to)
+        [self.links.of(id).prev, id].map(|id| self.ends[id as usize])
+    }
+
+    /// Where a range starts and where it ends, in its direction.
+    pub fn ends_of(&self, range: Range) -> [Point; 2] {
+        [self.start(range), self.start(range.reversed())]
     }
 
     /// Where a range starts, in its direction.
     fn start(&self, range: Range) -> Point {
-        let id = if range.backward { range.last.0 } else { self.links[range.first.0 as usize].prev };
-        self.nodes[id as usize].to
+        let id = if range.backward { range.last.0 } else { self.front(range) };
+        self.ends[id as usize]
+    }
+
+    /// The node in front of the first segment of a range.
+    fn front(&self, range: Range) -> u32 {
+        self.beside(range, range.first.0).prev
+    }
+
+    /// The neighbours of a segment of a range.
+    fn beside(&self, range: Range, id: u32) -> Link {
+        if range.in_order { Link::in_order(id) } else { self.links.of(id) }
+    }
+
+    /// The nodes of a range in its direction: one more than its segments.
+    fn nodes(&self, range: Range) -> impl Iterator<Item = u32> {
+        let front = self.front(range);
+        let (start, end) = if range.backward { (range.last.0, front) } else { (front, range.last.0) };
+        std::iter::successors(Some(start), move |&id| {
+            let Link { prev, next } = self.beside(range, id);
+            (id != end).then_some(if range.backward { prev } else { next })
+        })
     }
 
     /// Makes one range of two: `first`, then `second`, in the direction that both are walked in. `None`, and nothing
@@ -192,9 +212,8 @@ impl SegmentList {
             return None;
         }
         let (ahead, behind) = if first.backward { (second, first) } else { (first, second) };
-        self.links[ahead.last.0 as usize].next = behind.first.0;
-        self.links[behind.first.0 as usize].prev = ahead.last.0;
-        Some(Range { first: ahead.first, last: behind.last, backward: first.backward })
+        self.links.join(ahead.last.0, behind.first.0);
+        Some(Range { first: ahead.first, last: behind.last, backward: first.backward, in_order: false })
     }
 
     /// A cursor on the first segment of a range, in the order of the list.
@@ -203,19 +222,16 @@ impl SegmentList {
         Cursor { list: self, range, at }
     }
 
-    /// Whether the links between the ends of a range agree in both directions and end at its ends.
+    /// Whether the links between the ends of a range agree in both directions and lead from its first to its last.
     pub fn is_linked(&self, range: Range) -> bool {
-        let mut at = range.first.0;
-        let front = self.links[at as usize].prev;
-        if front == NONE || self.links[front as usize].prev != NONE || self.links[front as usize].next != at {
-            return false;
-        }
-        for _ in 0..self.links.len() {
-            let next = self.links[at as usize].next;
-            if next == NONE {
-                return at == range.last.0;
+        let front = self.links.of(range.first.0).prev;
+        let mut at = front;
+        for length in 0..self.ends.len() {
+            if at == range.last.0 {
+                return !range.in_order || range.last.0 as usize == front as usize + length;
             }
-            if self.links[next as usize].prev != at {
+            let next = self.links.of(at).next;
+            if next as usize >= self.ends.len() || self.links.of(next).prev != at {
                 return false;
             }
             at = next;
@@ -240,27 +256,21 @@ impl Iterator for Walk<'_> {
 
     fn next(&mut self) -> Option<Self::Item> {
         let id = self.at?;
-        if self.range.backward {
-            return Some((id, self.turned_round(id)));
-        }
-        let Node { to, span, joint, percent } = self.list.nodes[id.0 as usize];
-        let next = self.list.links[id.0 as usize].next;
-        self.at = (id != self.end && next != NONE).then_some(SegmentId(next));
+        let Link { prev, next } = self.list.beside(self.range, id.0);
+        let Data { span, mut joint, percent } = self.list.data[id.0 as usize];
+        let (to, following) = if self.range.backward {
+            // Turned round it starts at the joint that its successor in the list starts with; the contour's own end, which
+            // has no successor, shares its joint with the start.
+            let after = if id == self.range.last { self.range.first.0 } else { next };
+            joint = self.list.data[after as usize].joint;
+            (prev, prev)
+        } else {
+            (id.0, next)
+        };
+        self.at = (id != self.end).then_some(SegmentId(following));
+        let to = self.list.ends[to as usize];
         let from = std::mem::replace(&mut self.from, to);
         Some((id, Segment { from, to, span, joint, percent }))
-    }
-}
-
-impl Walk<'_> {
-    /// A segment walked backward. It starts at the joint that its successor in the list starts with; the contour's own
-    /// end, which has no successor, shares its joint with the start.
-    fn turned_round(&mut self, id: SegmentId) -> Segment {
-        let Links { prev, next } = self.list.links[id.0 as usize];
-        let after = if next == NONE { self.range.first.0 } else { next };
-        let Node { span, percent, .. } = self.list.nodes[id.0 as usize];
-        let (to, joint) = (self.list.nodes[prev as usize].to, self.list.nodes[after as usize].joint);
-        self.at = (id != self.end).then_some(SegmentId(prev));
-        Segment { from: std::mem::replace(&mut self.from, to), to, span, joint, percent }
     }
 }
 
@@ -275,84 +285,83 @@ pub struct Cursor<'a> {
 impl Cursor<'_> {
     /// The segment under the cursor.
     pub fn segment(&self) -> Segment {
-        let Node { to, span, joint, percent } = self.list.nodes[self.at.0 as usize];
-        let before = self.list.links[self.at.0 as usize].prev;
-        Segment { from: self.list.nodes[before as usize].to, to, span, joint, percent }
+        let Data { span, joint, percent } = self.list.data[self.at.0 as usize];
+        let [from, to] = self.list.ends(self.at);
+        Segment { from, to, span, joint, percent }
     }
 
     /// Where the segment under the cursor starts and the one before it ends, to change.
     pub fn from_mut(&mut self) -> &mut Point {
-        let before = self.list.links[self.at.0 as usize].prev;
-        &mut self.list.nodes[before as usize].to
+        let before = self.link().prev;
+        &mut self.list.ends[before as usize]
     }
 
     /// Where the segment under the cursor ends and the next one starts, to change.
     pub fn to_mut(&mut self) -> &mut Point {
-        &mut self.list.nodes[self.at.0 as usize].to
+        &mut self.list.ends[self.at.0 as usize]
     }
 
     /// What the file asks for where the segment under the cursor starts, to change.
     pub fn joint_mut(&mut self) -> &mut Joint {
-        &mut self.list.nodes[self.at.0 as usize].joint
+        &mut self.list.data[self.at.0 as usize].joint
     }
 
     /// The speed of the segment under the cursor, to change.
     pub fn percent_mut(&mut self) -> &mut u8 {
-        &mut self.list.nodes[self.at.0 as usize].percent
+        &mut self.list.data[self.at.0 as usize].percent
+    }
+
+    fn link(&self) -> Link {
+        self.list.links.of(self.at.0)
     }
 
     /// Moves to the next segment in list order; `false` at the last.
     pub fn advance(&mut self) -> bool {
-        match self.list.links[self.at.0 as usize].next {
-            NONE => false,
-            next => {
-                self.at = SegmentId(next);
-                true
-            }
+        if self.is_last() {
+            return false;
         }
+        self.at = SegmentId(self.link().next);
+        true
     }
 
     /// Whether the segment under the cursor is the last in list order.
     pub fn is_last(&self) -> bool {
-        self.list.links[self.at.0 as usize].next == NONE
+        self.at == self.range.last
     }
 
     /// Splits the segment under the cursor at `point`; the cursor stays on the first part.
     pub fn split(&mut self, point: Point) -> SegmentId {
-        let id = self.list.nodes.len() as u32;
-        assert!(id < NONE, "a source below 4 GiB holds fewer than 2^32 - 1 segments");
-        let node = &mut self.list.nodes[self.at.0 as usize];
-        let behind = Node { joint: Joint::default(), ..*node };
-        node.to = point;
-        let next = self.list.links[self.at.0 as usize].next;
-        self.list.nodes.push(behind);
-        self.list.links.push(Links { prev: self.at.0, next });
-        self.list.links[self.at.0 as usize].next = id;
-        match next {
-            NONE => self.range.last = SegmentId(id),
-            next => self.list.links[next as usize].prev = id,
+        let SegmentList { ends, data, links } = &mut *self.list;
+        let behind = id(ends.len());
+        let at = self.at.0 as usize;
+        let end = std::mem::replace(&mut ends[at], point);
+        ends.push(end);
+        data.push(Data { joint: Joint::default(), ..data[at] });
+        if self.at == self.range.last {
+            self.range.last = behind;
+        } else {
+            links.join(behind.0, links.of(self.at.0).next);
         }
-        SegmentId(id)
+        links.join(self.at.0, behind.0);
+        self.range.in_order = false;
+        behind
     }
 
     /// Takes the segment under the cursor out and moves to the next one, or to the one before when it was the last. One
     /// that others stand around is bridged by the next. `false`, and nothing changed, when it is the only one.
     pub fn remove(&mut self) -> bool {
-        let Links { prev, next } = self.list.links[self.at.0 as usize];
-        let was_first = self.at == self.range.first;
-        if was_first && next == NONE {
-            return false;
+        let Link { prev, next } = self.link();
+        let [prev, next] = [prev, next].map(SegmentId);
+        match (self.at == self.range.first, self.is_last()) {
+            (true, true) => return false,
+            (false, true) => (self.range.last, self.at) = (prev, prev),
+            // It ends where the range now starts: that makes it the node in front.
+            (true, false) => (self.range.first, self.at) = (next, next),
+            (false, false) => {
+                self.list.links.join(prev.0, next.0);
+                (self.range.in_order, self.at) = (false, next);
+            }
         }
-        if was_first {
-            self.list.nodes[prev as usize].to = self.list.nodes[self.at.0 as usize].to;
-            self.range.first = SegmentId(next);
-        }
-        self.list.links[prev as usize].next = next;
-        match next {
-            NONE => self.range.last = SegmentId(prev),
-            next => self.list.links[next as usize].prev = prev,
-        }
-        self.at = SegmentId(if next == NONE { prev } else { next });
         true
     }
 
@@ -361,17 +370,15 @@ impl Cursor<'_> {
         if self.at == self.range.first {
             return;
         }
-        let (first, last) = (self.range.first, self.range.last);
-        let prev = self.list.links[self.at.0 as usize].prev;
-        let front = self.list.links[first.0 as usize].prev;
-        self.list.nodes[front as usize].to = self.list.nodes[prev as usize].to;
-        self.list.links[front as usize].next = self.at.0;
-        self.list.links[self.at.0 as usize].prev = front;
-        self.list.links[last.0 as usize].next = first.0;
-        self.list.links[first.0 as usize].prev = last.0;
-        self.list.links[prev as usize].next = NONE;
+        let (first, last) = (self.range.first.0, self.range.last.0);
+        let prev = self.link().prev;
+        let front = self.list.links.of(first).prev;
+        self.list.ends[front as usize] = self.list.ends[prev as usize];
+        self.list.links.join(front, self.at.0);
+        self.list.links.join(last, first);
         self.range.first = self.at;
         self.range.last = SegmentId(prev);
+        self.range.in_order = false;
     }
 }
 
@@ -399,7 +406,7 @@ mod tests {
 
     #[test]
     fn a_segment_stays_small() {
-        assert!(size_of::<Node>() + size_of::<Links>() <= 40);
+        assert!(size_of::<Point>() + size_of::<Data>() <= 32);
     }
 
     #[test]
@@ -417,6 +424,34 @@ mod tests {
         assert!(cursor.remove());
         assert_eq!(xs(&list, range), [0.5, 1.0, 2.0, 2.5, 3.0]);
         assert!(list.is_linked(range));
+    }
+
+    #[test]
+    fn points_lie_side_by_side_until_one_amid_is_moved() {
+        let mut list = SegmentList::default();
+        let mut range = list.append(chain(&[0.0, 1.0, 2.0, 3.0, 4.0, 5.0])).expect("five segments");
+        let expect = |list: &SegmentList, range: Range, expected: &[f64], is_borrowed: bool| {
+            for (range, turned) in [(range, false), (range.reversed(), true)] {
+                let mut points: Vec<f64> = list.points(range).iter().map(|point| point.x).collect();
+                assert_eq!(points, xs(list, range));
+                if turned {
+                    points.reverse();
+                }
+                assert_eq!(points, expected);
+                assert_eq!(matches!(list.points(range), Cow::Borrowed(_)), is_borrowed && !turned);
+            }
+            assert!(list.is_linked(range));
+        };
+        assert!(list.cursor(&mut range).remove());
+        expect(&list, range, &[1.0, 2.0, 3.0, 4.0, 5.0], true);
+        let mut cursor = list.cursor(&mut range);
+        while cursor.advance() {}
+        assert!(cursor.remove());
+        expect(&list, range, &[1.0, 2.0, 3.0, 4.0], true);
+        let mut cursor = list.cursor(&mut range);
+        cursor.advance();
+        assert!(cursor.remove());
+        expect(&list, range, &[1.0, 2.0, 4.0], false);
     }
 
     #[test]

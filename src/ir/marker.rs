@@ -257,10 +257,7 @@ impl Marker {
 
     /// The points of a contour: one more than its segments; a closed one ends with its first point.
     pub fn points(&self, contour: &Contour) -> Vec<Point> {
-        // Counted first: large markers have little room for what a vector grows by.
-        let mut points = Vec::with_capacity(self.list.points(contour.range).count());
-        points.extend(self.list.points(contour.range));
-        points
+        self.list.points(contour.range).into_owned()
     }
 
     /// Length of all contours and slits, mm, without overlaps.
@@ -276,10 +273,7 @@ impl Marker {
         let mut extent = Extent::EMPTY;
         for piece in &self.pieces {
             for contour in &piece.contours {
-                for (_, segment) in self.list.walk(contour.range) {
-                    extent.add(segment.from);
-                    extent.add(segment.to);
-                }
+                self.list.points(contour.range).iter().for_each(|&point| extent.add(point));
             }
             for stroke in piece.notches.iter().flat_map(Notch::strokes) {
                 extent.add(stroke.from);

@@ -12,6 +12,7 @@
 
 pub mod check;
 pub mod finding;
+mod links;
 pub mod list;
 pub mod marker;
 pub mod motion;

@@ -65,7 +65,7 @@ impl Stroke {
 impl OfPiece {
     fn of(piece: &Piece, marker: &Marker) -> Self {
         let lines = piece.contours.len() + piece.notches.len() + piece.drills.len();
-        let segments = piece.contours.iter().map(|contour| marker.list.points(contour.range).count());
+        let segments = piece.contours.iter().map(|contour| marker.list.points(contour.range).len());
         let mut places: Vec<Place> = Vec::with_capacity(segments.sum::<usize>() + lines);
         let mut add = |Stroke { from, to, block }: Stroke| {
             if places.last().is_none_or(|last| last.at != from) {

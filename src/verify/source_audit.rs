@@ -60,7 +60,7 @@ impl Census {
             for contour in &piece.contours {
                 let mut span = None;
                 if is_plot {
-                    census.moments += Moments::of(marker.list.points(contour.range));
+                    census.moments += Moments::of(marker.list.points(contour.range).iter().copied());
                 }
                 for (_, segment) in marker.list.walk(contour.range) {
                     census.bounds.add(segment.from);

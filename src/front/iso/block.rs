@@ -86,6 +86,10 @@ impl<'a> Blocks<'a> {
     pub(super) fn next(&mut self) -> Option<Block> {
         self.skip_blanks();
         let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
+        if let Some((after, code)) = syntax::plain_code(rest) {
+            let words = Words { codes: std::iter::once(code).collect(), point: None };
+            return Some(Block { span: self.step_to(after), words: Ok(words) });
+        }
         // Nearly every block has no blanks inside and is read where it stands.
         if let Ok((after, words)) = syntax::block(rest) {
             return Some(Block { span: self.step_to(after), words: Ok(words) });
@@ -100,6 +104,21 @@ impl<'a> Blocks<'a> {
         self.skip_blanks();
         let (after, place) = syntax::plain_block(self.bytes.get(self.at..)?)?;
         Some((place, self.step_to(after)))
+    }
+
+    /// Calls `each` with the place and the span of the next blocks, as long as they are X and Y alone: most of a file.
+    #[inline]
+    pub(super) fn each_plain(&mut self, mut each: impl FnMut([f64; 2], Span)) {
+        let Self { bytes, mut at, mut number, .. } = *self;
+        while let Some(rest) = bytes.get(at..) {
+            let rest = &rest[rest.iter().take_while(|&&byte| is_blank(byte)).count()..];
+            let Some((after, place)) = syntax::plain_block(rest) else { break };
+            let (start, end) = (bytes.len() - rest.len(), bytes.len() - after.len());
+            number += 1;
+            each(place, Span { start: start as u32, end: end as u32 - 1, block: number });
+            at = end;
+        }
+        (self.at, self.number) = (at, number);
     }
 
     /// The next block if it is a point alone; otherwise it stays the next one. Reads what [`Self::next`] reads, without

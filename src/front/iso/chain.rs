@@ -18,6 +18,23 @@ pub(super) struct Vertex {
     pub(super) percent: u8,
 }
 
+/// A cut that was begun, with what codes ask for in force.
+#[derive(Debug)]
+pub(super) struct Cutting<'a> {
+    pub(super) vertices: &'a mut Vec<Vertex>,
+    /// Where the knife is, mm.
+    pub(super) at: &'a mut Point,
+    pub(super) percent: u8,
+}
+
+impl Cutting<'_> {
+    /// A move, mm, behind another one.
+    pub(super) fn go(&mut self, to: Point, span: Span) {
+        self.vertices.push(Vertex { at: to, span, joint: Joint::default(), percent: self.percent });
+        *self.at = to;
+    }
+}
+
 /// Whether the lift at the end of a chain goes past it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Overcut {
@@ -61,11 +78,32 @@ impl Chain {
     }
 
     /// Its segments. The joint of the first one speaks for the plunge at the start and for the lift at the end.
-    pub(super) fn segments(&self) -> impl Iterator<Item = Segment> {
+    pub(super) fn segments(&self) -> impl Iterator<Item = Segment> + Clone {
         self.vertices.windows(2).enumerate().map(|(i, pair)| {
             let mut joint = pair[0].joint;
             joint.no_overcut |= i == 0 && self.lift == Some(Overcut::Forbidden);
             Segment { from: pair[0].at, to: pair[1].at, span: pair[1].span, joint, percent: pair[1].percent }
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::Diagnostics;
+    use crate::machine::Job;
+    use crate::source::Source;
+
+    #[test]
+    fn what_is_cut_through_plain_blocks_is_cut_as_through_any() {
+        let plain = "F90*X0Y0*M14*X90Y0*X90Y90*M46*X0Y90*X5Y95*X9Y99*M25*F30*X7Y7*X6Y6*X5Y0*M15*M0*";
+        let [(plain, feed), signed] = [plain, &plain.replace('X', "X+")].map(|text| {
+            let source = Source::new("a", text.as_bytes().to_vec()).expect("small");
+            let marker = crate::front::iso::lower::lower(&source, &Job::default(), &mut Diagnostics::default());
+            let segments = marker.contours().flat_map(|(_, contour)| marker.list.walk(contour.range));
+            let cut: Vec<_> = segments.map(|(_, s)| (s.to, s.joint, s.percent, s.span.block)).collect();
+            (cut, marker.pieces[0].feed)
+        });
+        assert!(plain.iter().any(|segment| segment.1.lift) && plain.iter().any(|segment| segment.2 < 100));
+        assert_eq!((plain, feed), signed);
     }
 }

@@ -5,9 +5,9 @@
 
 use std::collections::HashMap;
 
-use super::chain::{Chain, Overcut, Vertex};
+use super::chain::{Chain, Cutting, Overcut, Vertex};
 use super::lost::{Deferred, Uncut};
-use super::owner;
+use super::{kept, owner};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Extent, Point, bits};
 use crate::ir::list::{FULL_SPEED, Joint, SegmentList};
@@ -66,8 +66,8 @@ enum State {
 }
 
 impl Draft {
-    /// Up, at the origin, with room for so many segments.
-    pub(super) fn with_room(segments: usize) -> Self {
+    /// Up, at the origin, with room for so many segments and pieces.
+    pub(super) fn with_room(segments: usize, pieces: usize) -> Self {
         let mut list = SegmentList::default();
         list.reserve(segments, 0);
         Self {
@@ -90,7 +90,7 @@ impl Draft {
             left: None,
             deferred: None,
             uncut: Uncut::default(),
-            pieces: Vec::new(),
+            pieces: Vec::with_capacity(pieces),
             list,
             extent: Extent::EMPTY,
         }
@@ -135,6 +135,12 @@ impl Draft {
             }
         }
         self.at = to;
+    }
+
+    /// The cut that is being made: where no code stands between moves, it goes on through them.
+    pub(super) fn cutting(&mut self) -> Option<Cutting<'_>> {
+        let State::Cutting(chain) = self.state else { return None };
+        Some(Cutting { vertices: &mut self.chains[chain].vertices, at: &mut self.at, percent: self.percent })
     }
 
     /// The piece that a chain which begins at `span` belongs to. Without N every contour is a piece.
@@ -427,6 +433,8 @@ impl Draft {
         self.uncut.settle();
         let piece = self.current;
         let labels = &mut self.target().labels;
+        // Most pieces have one, and a vector begins with room for four.
+        labels.reserve_exact(usize::from(labels.is_empty()));
         labels.push(label);
         LabelId { piece, index: labels.len() - 1 }
     }
@@ -495,12 +503,9 @@ impl Draft {
         self.left = None;
         for slit in [true, false] {
             for chain in self.chains.iter_mut().filter(|chain| chain.slit == slit && !chain.is_point()) {
-                for vertex in &chain.vertices {
-                    self.extent.add(vertex.at);
-                }
                 let (first, last) = chain.ends();
-                let segments = chain.segments();
-                if let Some(range) = self.list.append(segments) {
+                if let Some(range) = self.list.append(chain.segments()) {
+                    self.extent.join(&Extent::of(&self.list.points(range)));
                     let piece = chain.piece.expect("every stroke was claimed");
                     self.pieces[piece].contours.push(Contour { range, closed: first == last });
                 }
@@ -551,9 +556,9 @@ impl Draft {
             owner::settle(&self.list, &mut self.pieces, unit);
         }
         let mut closing = Vec::new();
-        let pieces = with_something_to_cut(self.pieces, &mut closing);
+        kept::retain(&mut self.pieces, &mut closing);
         closing.append(&mut self.events);
-        (Marker { list: self.list, pieces, unit, closing, ..Marker::default() }, self.extent)
+        (Marker { list: self.list, pieces: self.pieces, unit, closing, ..Marker::default() }, self.extent)
     }
 }
 
@@ -569,24 +574,4 @@ fn cap(piece: &mut Piece, feed: Option<f64>) {
 pub(super) struct LabelId {
     piece: Option<usize>,
     index: usize,
-}
-
-/// An N without anything to cut is no piece (controllers insert some); its labels and events go to the next piece, the
-/// events of the last one to `closing`.
-fn with_something_to_cut(pieces: Vec<Piece>, closing: &mut Vec<Event>) -> Vec<Piece> {
-    let mut kept: Vec<Piece> = Vec::with_capacity(pieces.len());
-    let mut labels = Vec::new();
-    for mut piece in pieces {
-        labels.append(&mut piece.labels);
-        closing.append(&mut piece.events);
-        if !(piece.contours.is_empty() && piece.notches.is_empty() && piece.drills.is_empty()) {
-            piece.labels = std::mem::take(&mut labels);
-            piece.events = std::mem::take(closing);
-            kept.push(piece);
-        }
-    }
-    if let Some(last) = kept.last_mut() {
-        last.labels.append(&mut labels);
-    }
-    kept
 }

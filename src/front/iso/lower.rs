@@ -11,7 +11,7 @@ use super::syntax::{Code, Point, Words};
 use super::tally::Tally;
 use super::title::Title;
 use super::trailer;
-use super::unit::{Place, Sized, Unit, check_plausible};
+use super::unit::{Sized, Unit, check_plausible};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{self, Heading, Vector};
 use crate::ir::Marker;
@@ -29,6 +29,8 @@ const SECONDS_PER_MINUTE: f64 = 60.0;
 /// Bytes of a large file for each of its segments: fewer than most have, since to move them all takes longer than room that
 /// nothing comes into.
 const BYTES_A_SEGMENT: usize = 12;
+/// The same for pieces.
+const BYTES_A_PIECE: usize = 512;
 /// Farthest place from the origin, mm: a kilometre, far beyond any table.
 const FARTHEST: f64 = 1e6;
 
@@ -45,7 +47,7 @@ pub(super) fn lower(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker
         source,
         job,
         blocks: Blocks::new(source.bytes()),
-        knife: Draft::with_room(source.bytes().len() / BYTES_A_SEGMENT),
+        knife: Draft::with_room(source.bytes().len() / BYTES_A_SEGMENT, source.bytes().len() / BYTES_A_PIECE),
         unit: Unit::new(job.profile.units),
         place: [None, None],
         damaged: false,
@@ -112,10 +114,10 @@ impl Lowering<'_> {
         let mut last = Span::default();
         loop {
             while let Some((place, span)) = self.blocks.next_plain() {
-                last = span;
                 self.place = place.map(Some);
-                let to = self.convert(place, span);
+                let to = convert(place, self.unit.convert(), span, &mut self.far);
                 self.go_to(to, span);
+                last = self.cut_on().unwrap_or(span);
             }
             if let Some((point, span)) = self.blocks.next_point() {
                 last = span;
@@ -154,6 +156,21 @@ impl Lowering<'_> {
         last
     }
 
+    /// Cuts on as far as blocks are X and Y alone: most of a file, and nothing but vertices, since the first block behind a
+    /// code has what that asked for. Gives the last of them; `None` when there is none, or the knife is not cutting.
+    fn cut_on(&mut self) -> Option<Span> {
+        let mut cut = self.knife.cutting()?;
+        let unit = self.unit.convert();
+        let mut last = None;
+        self.blocks.each_plain(|place, span| {
+            cut.go(convert(place, unit, span, &mut self.far), span);
+            last = Some((place, span));
+        });
+        let (place, span) = last?;
+        self.place = place.map(Some);
+        Some(span)
+    }
+
     /// What was read, judged as a whole.
     fn finish(mut self, last: Span) -> Marker {
         self.settle_second_point();
@@ -181,7 +198,7 @@ impl Lowering<'_> {
         // A place that is a kilometre off says it all.
         if self.far.is_none() {
             let sized = Sized { unit: &self.unit, extent: &extent, title: self.title.as_ref() };
-            check_plausible(sized, || places(&marker), self.out);
+            check_plausible(sized, &marker, self.out);
         }
         marker
     }
@@ -465,38 +482,28 @@ impl Lowering<'_> {
     /// A point of the file, mm; the knife is there from now on.
     fn locate(&mut self, point: Point, span: Span) -> geom::Point {
         self.place = [point.x.or(self.place[0]), point.y.or(self.place[1])];
-        self.convert(self.place.map(Option::unwrap_or_default), span)
-    }
-
-    /// A place of the file, mm; one that is too far is reported in the end.
-    fn convert(&mut self, place: [f64; 2], span: Span) -> geom::Point {
-        let to = self.scale(place);
-        if to.x.abs().max(to.y.abs()) > FARTHEST {
-            self.far = self.far.or(Some((to, span)));
-        }
-        to
+        convert(self.place.map(Option::unwrap_or_default), self.unit.convert(), span, &mut self.far)
     }
 
     /// A point of the file, mm.
     fn peek(&mut self, point: Point) -> geom::Point {
-        self.scale([point.x.or(self.place[0]), point.y.or(self.place[1])].map(Option::unwrap_or_default))
-    }
-
-    /// One multiplication, so that equal numbers of the file are equal to the bit.
-    fn scale(&mut self, place: [f64; 2]) -> geom::Point {
-        let unit = self.unit.convert();
-        geom::Point::new(place[0] * unit, place[1] * unit)
+        let place = [point.x.or(self.place[0]), point.y.or(self.place[1])].map(Option::unwrap_or_default);
+        scale(place, self.unit.convert())
     }
 }
 
-/// All that the box around a marker holds, with the blocks.
-fn places(marker: &Marker) -> impl Iterator<Item = Place> + '_ {
-    let cut = marker.contours().flat_map(|(_, contour)| marker.list.vertices(contour.range));
-    let of_piece = marker.pieces.iter().flat_map(|piece| {
-        let slits = piece.notches.iter().flat_map(|notch| [(notch.root, notch.span), (notch.tip, notch.span)]);
-        slits.chain(piece.drills.iter().map(|drill| (drill.at, drill.span)))
-    });
-    cut.chain(of_piece)
+/// A place of the file, mm; the first that is too far is kept, to be reported in the end.
+fn convert(place: [f64; 2], unit: f64, span: Span, far: &mut Option<(geom::Point, Span)>) -> geom::Point {
+    let to = scale(place, unit);
+    if (to.x.abs() > FARTHEST) | (to.y.abs() > FARTHEST) {
+        *far = far.or(Some((to, span)));
+    }
+    to
+}
+
+/// One multiplication, so that equal numbers of the file are equal to the bit.
+fn scale(place: [f64; 2], unit: f64) -> geom::Point {
+    geom::Point::new(place[0] * unit, place[1] * unit)
 }
 
 fn direction(from: geom::Point, to: geom::Point) -> Option<Heading> {

@@ -14,6 +14,7 @@ mod arc;
 mod block;
 mod chain;
 mod draft;
+mod kept;
 mod label;
 mod lost;
 mod lower;

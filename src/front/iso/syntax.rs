@@ -119,10 +119,14 @@ impl Point {
     }
 }
 
+fn is_code_letter(letter: u8) -> bool {
+    letter.is_ascii_uppercase() && !matches!(letter, b'X' | b'Y' | b'I' | b'J')
+}
+
 /// `<code>`
 fn code(i: &[u8]) -> Out<'_, Code> {
     match i.split_first() {
-        Some((&letter, rest)) if letter.is_ascii_uppercase() && !matches!(letter, b'X' | b'Y' | b'I' | b'J') => {
+        Some((&letter, rest)) if is_code_letter(letter) => {
             let (rest, number) = opt(number).parse(rest)?;
             Ok((rest, Code { letter, number }))
         }
@@ -150,19 +154,50 @@ pub(super) fn point(mut i: &[u8]) -> Out<'_, Point> {
 /// fewer steps. `None` = any other; then [`block`] and [`point`] decide.
 #[inline] // most of a file is read here
 pub(super) fn plain_block(i: &[u8]) -> Option<(&[u8], [f64; 2])> {
-    let [b'X', i @ ..] = i else { return None };
-    let (i, x) = plain_coordinate(i)?;
-    let [b'Y', i @ ..] = i else { return None };
-    let (i, y) = plain_coordinate(i)?;
-    let [b'*', i @ ..] = i else { return None };
-    Some((i, [x, y]))
+    let (length, place) = if let Some(start) = i.first_chunk() {
+        plain_block_at(start)
+    } else {
+        // Near the end of the file: a byte that no block holds stands for what is not there.
+        let mut start = [0; PLAIN_BYTES];
+        start[..i.len()].copy_from_slice(i);
+        plain_block_at(&start)
+    }?;
+    Some((&i[length..], place))
 }
 
-/// A whole number of at most eight digits: below [`VALUE_MAX`].
-fn plain_coordinate(i: &[u8]) -> Option<(&[u8], f64)> {
-    let (sign, unsigned) = if let [b'-', unsigned @ ..] = i { (-1, unsigned) } else { (1, i) };
-    let (magnitude, count) = digits::leading(unsigned)?;
-    Some((&unsigned[count..], (sign * i64::from(magnitude)) as f64))
+/// Bytes that a plain block is looked for in: more than it can have, so that none of its places need be looked at with care.
+const PLAIN_BYTES: usize = 40;
+
+/// How long the plain block at the start of some bytes is, and its place.
+#[inline]
+fn plain_block_at(i: &[u8; PLAIN_BYTES]) -> Option<(usize, [f64; 2])> {
+    let (at, x) = plain_coordinate(i, 0, b'X')?;
+    let (at, y) = plain_coordinate(i, at, b'Y')?;
+    (i[at] == b'*').then_some((at + 1, [x, y]))
+}
+
+/// A letter at a place and a whole number of at most eight digits, below [`VALUE_MAX`]: where it ends, and the number.
+#[inline]
+fn plain_coordinate(i: &[u8; PLAIN_BYTES], at: usize, letter: u8) -> Option<(usize, f64)> {
+    if i[at] != letter {
+        return None;
+    }
+    let is_negative = i[at + 1] == b'-';
+    let start = at + 1 + usize::from(is_negative);
+    let (magnitude, count) = digits::leading(&i[start..])?;
+    let value = magnitude.cast_signed();
+    Some((start + count, f64::from(if is_negative { -value } else { value })))
+}
+
+/// `<block>`, when it is one code alone, with a whole number or none, as most others are: likewise.
+pub(super) fn plain_code(i: &[u8]) -> Option<(&[u8], Code)> {
+    let (&letter, rest) = i.split_first().filter(|(letter, _)| is_code_letter(**letter))?;
+    let (rest, number) = match digits::leading(rest) {
+        Some((number, count)) => (&rest[count..], Some(f64::from(number))),
+        None => (rest, None),
+    };
+    let [b'*', rest @ ..] = rest else { return None };
+    Some((rest, Code { letter, number }))
 }
 
 /// `<coordinate>`: the letter stands at `i`, its number at `rest`. From the letter on the branch is certain.
@@ -258,6 +293,20 @@ mod tests {
             }
         }
         assert!(plain_block(b"X12Y-34*X56789*").is_some());
+    }
+
+    #[test]
+    fn a_plain_code_is_what_the_grammar_says() {
+        let numbers = ["", "0", "-0", "+1", "14", "0043", "99999999", "100000000", "1.5", "3.", "-", "x"];
+        let ends = ["*", "", "M31*", "*X1Y1*X1Y1*", "X1*", " *"];
+        for (letter, number) in (0..=127_u8).flat_map(|letter| numbers.map(|number| (char::from(letter), number))) {
+            for text in ends.map(|end| format!("{letter}{number}{end}")) {
+                let Some((rest, code)) = plain_code(text.as_bytes()) else { continue };
+                let (left, words) = block(text.as_bytes()).expect("a block");
+                assert_eq!((rest, words), (left, Words { codes: [code].into_iter().collect(), point: None }), "{text}");
+            }
+        }
+        assert!(plain_code(b"M14*X56789*").is_some() && plain_code(b"Q*").is_some());
     }
 
     #[test]

@@ -12,6 +12,9 @@ use crate::source::{Source, Span};
 /// Adds the fields behind `offset` to their pieces.
 pub(super) fn read(source: &Source, offset: usize, block: u32, pieces: &mut [Piece], out: &mut Diagnostics) {
     let bytes = source.bytes();
+    if bytes.get(offset..).is_none_or(|behind| behind.trim_ascii().is_empty()) {
+        return; // as in most files
+    }
     let mut record = Record::default();
     let mut places: BTreeMap<u32, usize> = BTreeMap::new();
     for (piece, place) in pieces.iter().zip(0..) {

@@ -3,6 +3,7 @@
 use super::title::Title;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Extent, Point};
+use crate::ir::Marker;
 use crate::machine::FileUnit;
 use crate::source::Span;
 
@@ -78,22 +79,29 @@ impl Unit {
 }
 
 /// A place of the drawing, and its block.
-pub(super) type Place = (Point, Span);
+type Place = (Point, Span);
 
-/// The only place that makes a drawing too large: without it the rest `fits`. It has a half of the box to itself.
-fn far_from_others<I: Iterator<Item = Place>>(
-    extent: &Extent,
-    places: impl Fn() -> I,
-    fits: impl Fn(&Extent) -> bool,
-) -> Option<Place> {
+/// All that the box around a marker holds, with the blocks.
+fn places(marker: &Marker) -> impl Iterator<Item = Place> + '_ {
+    let cut = marker.contours().flat_map(|(_, contour)| marker.list.vertices(contour.range));
+    let of_piece = marker.pieces.iter().flat_map(|piece| {
+        let slits = piece.notches.iter().flat_map(|notch| [(notch.root, notch.span), (notch.tip, notch.span)]);
+        slits.chain(piece.drills.iter().map(|drill| (drill.at, drill.span)))
+    });
+    cut.chain(of_piece)
+}
+
+/// The places that have a half of a box to themselves: left, right, lower or upper. `None` when each half has two, which may
+/// be known long before the last place.
+fn alone(extent: &Extent, places: impl Iterator<Item = Place>) -> Option<Vec<Place>> {
     let middle = extent.min + (extent.max - extent.min) / 2.0;
-    let mut alone: [Option<Place>; 4] = [None; 4];
+    let mut first: [Option<Place>; 4] = [None; 4];
     let mut is_crowded = [false; 4];
-    for place in places() {
+    for place in places {
         let (x, y) = (place.0.x - middle.x, place.0.y - middle.y);
         for (half, is_in) in [x < 0.0, x > 0.0, y < 0.0, y > 0.0].into_iter().enumerate() {
-            match alone[half] {
-                None if is_in => alone[half] = Some(place),
+            match first[half] {
+                None if is_in => first[half] = Some(place),
                 Some((at, _)) if is_in && at != place.0 => is_crowded[half] = true,
                 _ => {}
             }
@@ -102,17 +110,23 @@ fn far_from_others<I: Iterator<Item = Place>>(
             return None;
         }
     }
-    let mut alone =
-        alone.into_iter().zip(is_crowded).filter(|(_, is_crowded)| !is_crowded).filter_map(|(place, _)| place);
-    alone.find(|(far, _)| {
+    let uncrowded = first.into_iter().zip(is_crowded).filter(|(_, is_crowded)| !is_crowded);
+    Some(uncrowded.filter_map(|(place, _)| place).collect())
+}
+
+/// The only place that makes a drawing too large: without it the rest `fits`. It has a half of the box to itself.
+fn far_from_others(extent: &Extent, marker: &Marker, fits: impl Fn(&Extent) -> bool) -> Option<Place> {
+    // That there is none the first places of the contours tell nearly always.
+    alone(extent, marker.contours().flat_map(|(_, contour)| marker.list.vertices(contour.range).take(2)))?;
+    alone(extent, places(marker))?.into_iter().find(|(far, _)| {
         let mut rest = Extent::EMPTY;
-        places().filter(|(at, _)| at != far).for_each(|(at, _)| rest.add(at));
+        places(marker).filter(|(at, _)| at != far).for_each(|(at, _)| rest.add(at));
         !rest.is_empty() && fits(&rest)
     })
 }
 
 /// Warns when the drawing fits neither its title nor any table, and names the unit that would fit.
-pub(super) fn check_plausible<I: Iterator<Item = Place>>(sized: Sized, places: impl Fn() -> I, out: &mut Diagnostics) {
+pub(super) fn check_plausible(sized: Sized, marker: &Marker, out: &mut Diagnostics) {
     let Sized { unit, extent, title } = sized;
     if extent.is_empty() {
         return;
@@ -154,7 +168,7 @@ pub(super) fn check_plausible<I: Iterator<Item = Place>>(sized: Sized, places: i
         let size = rest.size();
         (size.0 < FAR * length || size.1 < FAR * width) && fits_as(size, 1.0)
     };
-    if let Some((at, span)) = far_from_others(extent, places, is_rest) {
+    if let Some((at, span)) = far_from_others(extent, marker, is_rest) {
         let message =
             format!("the drawing is {drawn}, but without the place X {:.0} Y {:.0} mm it would fit", at.x, at.y);
         let finding = Diagnostic::new(&code::ISO_UNIT_DOUBTFUL, message).at(span);

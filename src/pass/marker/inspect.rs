@@ -35,8 +35,8 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
 
 fn open_contour(marker: &Marker, piece: usize, contour: &Contour, diagnostics: &mut Diagnostics) {
     let first = first(&marker.list, contour.range);
-    let end = self::first(&marker.list, contour.range.reversed()).from;
-    let gap = (end - first.from).norm();
+    let [start, end] = marker.list.ends_of(contour.range);
+    let gap = (end - start).norm();
     let length = || marker.list.walk(contour.range).map(|(_, segment)| segment.length()).sum::<f64>();
     if marker.unit > 0.0 || gap < GAP_SHARE * length() {
         let size = if gap < GAP_SHOWN { "less than 0.001".to_owned() } else { number::fixed(gap, GAP_DECIMALS) };
@@ -50,37 +50,23 @@ fn open_contour(marker: &Marker, piece: usize, contour: &Contour, diagnostics: &
     }
 }
 
-/// A contour by what is the same for all that cut the same segments, wherever they start and whichever way they go.
-struct Print {
-    /// The bits of the corners of its box, and its number of points.
-    key: ([[u64; 2]; 2], usize),
-    /// The piece's place in the marker.
-    piece: usize,
-    range: Range,
-}
-
-impl Print {
-    fn of(list: &SegmentList, piece: usize, range: Range) -> Self {
-        let (mut extent, mut points) = (Extent::EMPTY, 0);
-        for point in list.points(range) {
-            extent.add(point);
-            points += 1;
-        }
-        Self { key: ([extent.min, extent.max].map(bits), points), piece, range }
-    }
-}
+/// The bits of the lower left corner of a contour's box, the same for all that cut the same segments, wherever they start
+/// and whichever way they go; and the contour's place among all.
+type Print = ([u64; 2], u32);
 
 fn twice(marker: &Marker, diagnostics: &mut Diagnostics) {
-    let contours: Vec<(usize, &Contour)> = marker.contours().collect();
-    let prints: Vec<Print> =
-        contours.par_iter().map(|&(piece, contour)| Print::of(&marker.list, piece, contour.range)).collect();
-    let mut order: Vec<usize> = (0..prints.len()).collect();
-    order.sort_by_key(|&i| prints[i].key); // stable: equal ones stay in cut order
-    let mut repeats: Vec<(usize, usize)> = Vec::new();
-    for alike in order.chunk_by(|&a, &b| prints[a].key == prints[b].key).filter(|alike| alike.len() > 1) {
-        // Equal boxes are a hint only; the segments themselves decide.
-        let mut exact: Vec<(Vec<Edge>, usize)> =
-            alike.iter().map(|&i| (edges(&marker.list, prints[i].range), i)).collect();
+    // Counted first: what a vector grows by is new memory each time, and that is slow.
+    let mut contours: Vec<(usize, &Contour)> = Vec::with_capacity(marker.contours().count());
+    contours.extend(marker.contours());
+    let range = |contour: u32| contours[contour as usize].1.range;
+    let corner = |contour: u32| bits(Extent::of(&marker.list.points(range(contour))).min);
+    let mut prints: Vec<Print> =
+        (0..contours.len() as u32).into_par_iter().map(|contour| (corner(contour), contour)).collect();
+    prints.sort_unstable();
+    let mut repeats: Vec<(u32, u32)> = Vec::new();
+    for alike in prints.chunk_by(|a, b| a.0 == b.0).filter(|alike| alike.len() > 1) {
+        // Equal corners are a hint only; the segments themselves decide.
+        let mut exact: Vec<(Vec<Edge>, u32)> = alike.iter().map(|&(_, i)| (edges(&marker.list, range(i)), i)).collect();
         exact.sort();
         for same in exact.chunk_by(|a, b| a.0 == b.0) {
             repeats.extend(same[1..].iter().map(|later| (later.1, same[0].1)));
@@ -88,8 +74,8 @@ fn twice(marker: &Marker, diagnostics: &mut Diagnostics) {
     }
     repeats.sort_unstable();
     for (later, earlier) in repeats {
-        let number = |i: usize| marker.pieces[prints[i].piece].number;
-        let before = first(&marker.list, prints[earlier].range).span;
+        let number = |contour: u32| marker.pieces[contours[contour as usize].0].number;
+        let before = first(&marker.list, range(earlier)).span;
         let message = format!(
             "a contour of piece {} is the same as the one of piece {} in block {}",
             number(later),
@@ -98,7 +84,7 @@ fn twice(marker: &Marker, diagnostics: &mut Diagnostics) {
         );
         diagnostics.push(
             Diagnostic::new(&code::MARKER_TWICE, message)
-                .at(first(&marker.list, prints[later].range).span)
+                .at(first(&marker.list, range(later)).span)
                 .hint("delete one of the two unless the cloth needs two cuts"),
         );
     }

@@ -11,8 +11,9 @@
 //!
 //! So the point of a dart (too deep, or too wide), a corner, a row of teeth and a triangular cut-out are none.
 
+use std::borrow::Cow;
+use std::cell::OnceCell;
 use std::f64::consts::PI;
-use std::ops::Range;
 
 use rayon::prelude::*;
 
@@ -20,8 +21,8 @@ use super::{MarkerPass, in_parts};
 use crate::diagnostic::Diagnostics;
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, Vector, angle, cross, ring};
-use crate::ir::list::SegmentList;
-use crate::ir::marker::{Marker, Piece, Vee};
+use crate::ir::list::{Range, SegmentList};
+use crate::ir::marker::{Marker, Vee};
 use crate::machine::Job;
 use crate::source::Span;
 
@@ -44,16 +45,18 @@ fn run(marker: &mut Marker, _: &Job, _: &mut Diagnostics) {
     let Marker { pieces, list, unit, .. } = marker;
     let parts = in_parts(pieces.len());
     pieces.par_chunks_mut(parts.size).for_each(|pieces| {
-        let mut outlines = Outlines::default();
+        let mut outlines: Vec<Outline> = Vec::new();
         let mut work = parts.budget();
         for piece in pieces {
-            outlines.gather(list, piece, *unit);
+            outlines.clear();
+            let closed = piece.contours.iter().filter(|contour| contour.closed);
+            outlines.extend(closed.map(|contour| Outline::of(list, contour.range, *unit)));
             piece.vees.clear();
-            for (k, outline) in outlines.all.iter().enumerate().filter(|(_, outline)| !outline.apexes.is_empty()) {
-                let counter_clockwise = ring::area(outlines.points(outline)) > 0.0;
-                let is_left = counter_clockwise != outlines.is_cut_out(k, &mut work);
+            for (k, outline) in outlines.iter().enumerate().filter(|(_, outline)| !outline.apexes.is_empty()) {
+                let counter_clockwise = ring::area(outline.ring()) > 0.0;
+                let is_left = counter_clockwise != is_cut_out(&outlines, k, &mut work);
                 let part = if is_left { Side::Left } else { Side::Right };
-                piece.vees.extend(outlines.vees(outline, part));
+                piece.vees.extend(outline.vees(list, part));
             }
         }
     });
@@ -66,65 +69,58 @@ enum Side {
     Right,
 }
 
-/// The closed contours of a piece.
-#[derive(Default)]
-struct Outlines {
-    /// The vertices, those of one contour behind those of the other, the first of each not repeated.
-    points: Vec<Point>,
-    /// The blocks that they came from.
-    spans: Vec<Span>,
-    all: Vec<Outline>,
-}
-
 /// A closed contour.
-struct Outline {
-    /// Its vertices among all.
-    vertices: Range<usize>,
-    extent: Extent,
-    /// Vertices that may be an apex, whichever side the part is on, counted from its own first.
+struct Outline<'a> {
+    range: Range,
+    /// Its points; the last is the first again.
+    points: Cow<'a, [Point]>,
+    /// The box around it, once it was asked for.
+    extent: OnceCell<Extent>,
+    /// Vertices that may be an apex, whichever side the part is on.
     apexes: Vec<usize>,
 }
 
-impl Outlines {
-    /// Takes the outlines of a piece in place of those that are here.
-    fn gather(&mut self, list: &SegmentList, piece: &Piece, unit: f64) {
-        let Self { points, spans, all } = self;
-        points.clear();
-        spans.clear();
-        all.clear();
-        for contour in piece.contours.iter().filter(|contour| contour.closed) {
-            let first = points.len();
-            let mut extent = Extent::EMPTY;
-            for (point, span) in list.vertices(contour.range) {
-                points.push(point);
-                spans.push(span);
-                extent.add(point);
-            }
-            // The last vertex is the first one, and knows what led there.
-            points.pop();
-            spans.swap_remove(first);
-            let apexes = apexes(&points[first..], unit);
-            all.push(Outline { vertices: first..points.len(), extent, apexes });
+impl<'a> Outline<'a> {
+    fn of(list: &'a SegmentList, range: Range, unit: f64) -> Self {
+        let points = list.points(range);
+        let apexes = apexes(&points, unit);
+        Self { range, extent: OnceCell::new(), apexes, points }
+    }
+
+    fn extent(&self) -> &Extent {
+        self.extent.get_or_init(|| Extent::of(&self.points))
+    }
+
+    /// Its vertices, the first not repeated.
+    fn ring(&self) -> &[Point] {
+        &self.points[..self.points.len() - 1]
+    }
+
+    /// Gives notches, in the order of their apexes, the blocks that those came from.
+    fn give_spans(&self, list: &SegmentList, vees: &mut [(usize, Vee)]) {
+        let mut spans = list.vertices(self.range).map(|(_, span)| span).enumerate();
+        for (i, vee) in &mut *vees {
+            vee.span = spans.find(|(k, _)| k == i).map(|(_, span)| span).unwrap_or_default();
+        }
+        // The last vertex is the first one, and knows what led there.
+        if let Some((0, vee)) = vees.first_mut() {
+            vee.span = list.walk(self.range.reversed()).next().map(|(_, last)| last.span).unwrap_or_default();
         }
     }
 
-    fn points(&self, outline: &Outline) -> &[Point] {
-        &self.points[outline.vertices.clone()]
-    }
-
-    /// The notches of an outline whose part lies on the given side.
-    fn vees(&self, outline: &Outline, part: Side) -> impl Iterator<Item = Vee> + use<> {
-        let (points, spans) = (self.points(outline), &self.spans[outline.vertices.clone()]);
+    /// Its notches, when its part lies on the given side.
+    fn vees(&self, list: &SegmentList, part: Side) -> impl Iterator<Item = Vee> + use<> {
+        let points = self.ring();
         let count = points.len();
         let vee = |&i: &usize| {
             let at = Around { points, i };
-            (i, Vee { apex: points[i], mouth: [at.back(1), at.ahead(1)], span: spans[i] })
+            (i, Vee { apex: points[i], mouth: [at.back(1), at.ahead(1)], span: Span::default() })
         };
         let is_inside = |vee: &Vee| {
             let apex_is_left = cross(vee.mouth[1] - vee.mouth[0], vee.apex - vee.mouth[0]) > 0.0;
             apex_is_left == (part == Side::Left)
         };
-        let all: Vec<(usize, Vee)> = outline.apexes.iter().map(vee).filter(|(_, vee)| is_inside(vee)).collect();
+        let all: Vec<(usize, Vee)> = self.apexes.iter().map(vee).filter(|(_, vee)| is_inside(vee)).collect();
         // Whether the notch `k` and the next one, round the ring, are teeth in a row.
         let is_crowded = |k: usize| {
             let ((i, vee), (next, following)) = (all[k], all[(k + 1) % all.len()]);
@@ -141,60 +137,65 @@ impl Outlines {
         };
         let crowded: Vec<bool> = (0..all.len()).map(is_crowded).collect();
         let alone = |k: usize| !crowded[k] && !crowded[(k + all.len() - 1) % all.len()];
-        let mut kept: Vec<Vee> = (0..all.len()).filter(|&k| alone(k)).map(|k| all[k].1).collect();
+        let mut kept: Vec<(usize, Vee)> = (0..all.len()).filter(|&k| alone(k)).map(|k| all[k]).collect();
         // Notches that stand apart share no vertex.
         if 3 * kept.len() + LEAST_OTHERS > count {
             kept.clear();
         }
-        kept.into_iter()
-    }
-
-    /// Whether an outline bounds a hole: an odd number of others of the piece hold it. Other pieces do not matter, since two
-    /// jobs in one file may lie on each other.
-    fn is_cut_out(&self, k: usize, work: &mut Budget) -> bool {
-        let point = self.points(&self.all[k])[0];
-        let holds = |(i, other): &(usize, &Outline)| {
-            let is_near = *i != k && other.extent.holds(point);
-            work.spend(VERTEX * if is_near { other.vertices.len() } else { 1 })
-                && is_near
-                && ring::contains(self.points(other), point)
-        };
-        self.all.iter().enumerate().filter(holds).count() % 2 == 1
+        self.give_spans(list, &mut kept);
+        kept.into_iter().map(|(_, vee)| vee)
     }
 }
 
-/// The vertices of a ring that have the shape of an apex.
+/// Whether an outline bounds a hole: an odd number of others of the piece hold it. Other pieces do not matter, since two
+/// jobs in one file may lie on each other.
+fn is_cut_out(outlines: &[Outline], k: usize, work: &mut Budget) -> bool {
+    let point = outlines[k].points[0];
+    let holds = |(i, other): &(usize, &Outline)| {
+        let is_near = *i != k && other.extent().holds(point);
+        work.spend(VERTEX * if is_near { other.ring().len() } else { 1 })
+            && is_near
+            && ring::contains(other.ring(), point)
+    };
+    outlines.iter().enumerate().filter(holds).count() % 2 == 1
+}
+
+/// The vertices of a ring, whose last point is the first again, that have the shape of an apex.
 fn apexes(points: &[Point], unit: f64) -> Vec<usize> {
-    let count = points.len();
-    if count < 3 + LEAST_OTHERS {
-        return Vec::new();
-    }
     let mut apexes = Vec::new();
-    let mut before = (points[0] - points[count - 1]).norm_squared();
-    for i in 0..count {
-        let next = if i + 1 == count { 0 } else { i + 1 };
-        let after = (points[next] - points[i]).norm_squared();
-        // Squares of the legs first, the cheapest test: nearly all vertices end there.
-        let (shorter, longer) = if before < after { (before, after) } else { (after, before) };
-        let are_alike = longer <= Vee::LEG_RATIO.powi(2) * shorter && shorter >= Vee::LEAST_DEPTH.powi(2);
-        if are_alike && is_apex(points, i, unit) {
+    let count = points.len() - 1;
+    if count < 3 + LEAST_OTHERS {
+        return apexes;
+    }
+    let mut from = points[count - 1];
+    for (i, ends) in points.windows(2).enumerate() {
+        let (apex, to) = (ends[0], ends[1]);
+        let vee = Vee { apex, mouth: [from, to], span: Span::default() };
+        if may_be_legs(from - apex, to - apex) && vee.has_shape() && is_on_edge(&points[..count], i, unit) {
             apexes.push(i);
         }
-        before = after;
+        from = apex;
     }
     apexes
 }
 
-/// Whether a vertex whose legs are alike has the shape of an apex.
-fn is_apex(points: &[Point], i: usize, unit: f64) -> bool {
-    let at = Around { points, i };
-    let (before, apex, after) = (at.back(1), points[i], at.ahead(1));
-    let vee = Vee { apex, mouth: [before, after], span: Span::default() };
-    if !vee.has_shape() {
+/// Whether two segments may be the legs of a notch, from its apex: by their squares alone, where nearly all end.
+fn may_be_legs(back: Vector, ahead: Vector) -> bool {
+    // A notch turns by more than a right angle, since it is no wider than deep.
+    if back.dot(&ahead) <= 0.0 {
         return false;
     }
-    let width = vee.width();
+    let (back, ahead) = (back.norm_squared(), ahead.norm_squared());
+    let (shorter, longer) = if back < ahead { (back, ahead) } else { (ahead, back) };
+    longer <= Vee::LEG_RATIO.powi(2) * shorter && shorter >= Vee::LEAST_DEPTH.powi(2)
+}
+
+/// Whether the outline comes to the legs at a vertex, and leaves them, as it does at an apex.
+fn is_on_edge(points: &[Point], i: usize, unit: f64) -> bool {
+    let at = Around { points, i };
+    let (before, after) = (at.back(1), at.ahead(1));
     let mouth = after - before;
+    let width = mouth.norm();
     let most = MOUTH_TURN + (ROUNDING * unit).atan2(width);
     // Near the mouth an outline may have very short segments, whose direction is that of the grid; a stretch as long as
     // the mouth is wide has its own.

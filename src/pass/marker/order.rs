@@ -3,6 +3,8 @@
 //! Needs: welded contours. Leaves true: no contour of a piece comes behind a closed one of the same piece that holds it;
 //! otherwise contours keep the order of the file. Holes and slits come before all contours anyway.
 
+use std::borrow::Cow;
+
 use super::MarkerPass;
 use crate::diagnostic::Diagnostics;
 use crate::geom::{Extent, Point, ring};
@@ -32,28 +34,22 @@ fn run(marker: &mut Marker, _: &Job, _: &mut Diagnostics) {
 }
 
 /// A contour as a shape.
-struct Shape {
-    points: Vec<Point>,
+struct Shape<'a> {
+    /// Its points; those of a closed one end with its first point.
+    points: Cow<'a, [Point]>,
     extent: Extent,
     closed: bool,
 }
 
-impl Shape {
-    fn of(list: &SegmentList, contour: &Contour) -> Self {
-        let points: Vec<Point> = list.walk(contour.range).map(|(_, segment)| segment.from).collect();
-        let mut extent = Extent::EMPTY;
-        for &point in &points {
-            extent.add(point);
-        }
-        let end = list.walk(contour.range.reversed()).next().map(|(_, segment)| segment.from);
-        let mut shape = Self { points, extent, closed: contour.closed };
-        shape.points.extend(end.filter(|_| !contour.closed));
-        shape
+impl<'a> Shape<'a> {
+    fn of(list: &'a SegmentList, contour: &Contour) -> Self {
+        let points = list.points(contour.range);
+        Self { extent: Extent::of(&points), points, closed: contour.closed }
     }
 
     /// A place of it: the middle of its first segment, because an open line may begin on an outline.
     fn place(&self) -> Point {
-        let (a, b) = (self.points[0], self.points[1 % self.points.len()]);
+        let (a, b) = (self.points[0], self.points[1]);
         a + (b - a) / 2.0
     }
 }

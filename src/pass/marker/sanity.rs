@@ -31,6 +31,8 @@ pub(super) const PASS: MarkerPass =
 const MOST_STEPS: usize = 64;
 /// Places of an outline that are tried for lying in another.
 const PROBES: usize = 16;
+/// Pairs of near pieces that room is made for, for each piece: what a vector grows by is new memory each time.
+const PAIRS_A_PIECE: usize = 4;
 /// Decimals of a place, mm.
 const PLACE_DECIMALS: u32 = 1;
 
@@ -146,12 +148,11 @@ impl Part {
         for (k, contour) in marker.pieces[piece].contours.iter().enumerate() {
             let start = points.len();
             contours.push((start, contour.closed));
-            marker.list.points(contour.range).for_each(|point| points.push(point));
+            points.extend_from_slice(&marker.list.points(contour.range));
             for chain in monotone::chains(&points[start..]) {
                 let chain = Chain { first: chain.first + start as u32, last: chain.last + start as u32 };
                 let of_chain = chain.extent(points);
-                extent.add(of_chain.min);
-                extent.add(of_chain.max);
+                extent.join(&of_chain);
                 chains.push((of_chain, chain, k));
             }
         }
@@ -258,7 +259,7 @@ struct Search<'a> {
     /// The boxes of the pieces.
     boxes: Vec<Extent>,
     /// The outlines of pieces, as far as they are looked at beside others: most pieces of a marker lie apart.
-    parts: Vec<OnceCell<Part>>,
+    parts: Vec<OnceCell<Box<Part>>>,
 }
 
 impl<'a> Search<'a> {
@@ -268,18 +269,18 @@ impl<'a> Search<'a> {
     }
 
     fn part(&self, piece: usize) -> &Part {
-        self.parts[piece].get_or_init(|| Part::of(self.marker, piece))
+        self.parts[piece].get_or_init(|| Box::new(Part::of(self.marker, piece)))
     }
 
     fn overlaps(&mut self, work: &mut Budget, diagnostics: &mut Diagnostics) {
-        let mut near: Vec<(usize, usize)> = Vec::new();
+        let mut near: Vec<(u32, u32)> = Vec::with_capacity(self.boxes.len() * PAIRS_A_PIECE);
         pairs(&self.boxes, work, |i, k, _| {
-            near.push((i.min(k), i.max(k)));
+            near.push((i.min(k) as u32, i.max(k) as u32));
             true
         });
         near.sort_unstable();
         for of_one in near.chunk_by(|one, other| one.0 == other.0) {
-            for &(i, k) in of_one {
+            for (i, k) in of_one.iter().map(|&(i, k)| (i as usize, k as usize)) {
                 if let Some((place, span)) = self.overlap(i, k, work) {
                     let message = format!(
                         "the outlines of {} and {} overlap at {}",
@@ -292,7 +293,7 @@ impl<'a> Search<'a> {
                 }
             }
             // Behind its pairs as the earlier one it has no others: those as the later one came before.
-            self.parts[of_one[0].0].take();
+            self.parts[of_one[0].0 as usize].take();
         }
     }
 

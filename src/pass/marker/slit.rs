@@ -55,15 +55,13 @@ struct Short {
 
 /// A contour as a stroke, if it goes between two near places only.
 fn short(list: &SegmentList, contour: &Contour, place: usize) -> Option<Short> {
+    let points = list.points(contour.range);
+    if points.iter().any(|&point| point != points[0] && point != points[1]) {
+        return None; // as nearly all, at their third point
+    }
     let (_, first) = list.walk(contour.range).next()?;
     let stroke = Stroke { from: first.from, to: first.to, span: first.span };
-    let mut percent = first.percent;
-    for (_, segment) in list.walk(contour.range) {
-        if segment.to != stroke.from && segment.to != stroke.to {
-            return None;
-        }
-        percent = percent.min(segment.percent);
-    }
+    let percent = list.walk(contour.range).map(|(_, segment)| segment.percent).min()?;
     (stroke.length() <= Notch::LONGEST).then_some(Short { stroke, percent, contour: place, taken: false })
 }
 

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 
 use super::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::{Point, bits};
+use crate::geom::{Point, Vector, bits};
 use crate::ir::list::{Joint, Range, SegmentList};
 use crate::ir::marker::{Contour, Marker, Piece};
 use crate::machine::Job;
@@ -66,14 +66,14 @@ impl Dropped {
 /// What the file asks for at a dropped segment it asks for at that point, where the next segment starts. The end of the
 /// contour has no segment of its own: its joint is the first segment's.
 fn drop_equal_points(list: &mut SegmentList, range: &mut Range, dropped: &mut Dropped) -> bool {
-    if list.lines(*range).all(|[from, to]| (to - from).norm() > LENGTH_EPSILON) {
+    if list.points(*range).windows(2).all(|ends| has_length(ends[1] - ends[0])) {
         return true; // as in nearly all of them
     }
     let mut cursor = list.cursor(range);
     let mut carried = Joint::default();
     loop {
         let segment = cursor.segment();
-        if segment.length() > LENGTH_EPSILON {
+        if has_length(segment.to - segment.from) {
             carry(cursor.joint_mut(), carried);
             carried = Joint::default();
             if !cursor.advance() {
@@ -105,10 +105,26 @@ fn drop_equal_points(list: &mut SegmentList, range: &mut Range, dropped: &mut Dr
     true
 }
 
+/// Whether a way is longer than [`LENGTH_EPSILON`]: told without its length where it is so along X or Y alone.
+fn has_length(way: Vector) -> bool {
+    (way.x.abs() > LENGTH_EPSILON) | (way.y.abs() > LENGTH_EPSILON) || way.norm() > LENGTH_EPSILON
+}
+
 fn carry(joint: &mut Joint, carried: Joint) {
     joint.lift |= carried.lift;
     joint.full_advance |= carried.full_advance;
     joint.no_overcut |= carried.no_overcut;
+}
+
+/// Says which chains of a piece are closed, and joins the others.
+fn join(list: &mut SegmentList, piece: &mut Piece) {
+    for contour in &mut piece.contours {
+        let [start, end] = list.ends_of(contour.range);
+        contour.closed = start == end;
+    }
+    if piece.contours.iter().filter(|contour| !contour.closed).count() > 1 {
+        join_open(list, piece);
+    }
 }
 
 /// A chain's start, by the bits of its coordinates, and its place among the contours.
@@ -116,8 +132,8 @@ type Start = ([u64; 2], usize);
 
 /// Joins the open chains of a piece. A chain takes the first later one that starts where it ends, until it closes or
 /// none does; a chain that runs into an earlier one stays apart, since the file wants the earlier one cut first.
-fn join(list: &mut SegmentList, piece: &mut Piece) {
-    let chains: Vec<([Point; 2], Range)> = piece.contours.iter().map(|c| (ends(list, c.range), c.range)).collect();
+fn join_open(list: &mut SegmentList, piece: &mut Piece) {
+    let chains: Vec<([Point; 2], Range)> = piece.contours.iter().map(|c| (list.ends_of(c.range), c.range)).collect();
     let open = |i: usize| chains[i].0[0] != chains[i].0[1];
     let mut starts: BTreeSet<Start> =
         (0..chains.len()).filter(|&i| open(i)).map(|i| (bits(chains[i].0[0]), i)).collect();
@@ -153,9 +169,4 @@ fn seam(list: &mut SegmentList, mut first: Range, mut second: Range) {
     let joint = continued.joint_mut();
     joint.lift = true;
     joint.no_overcut = at_seam;
-}
-
-fn ends(list: &SegmentList, range: Range) -> [Point; 2] {
-    let start = |range: Range| list.walk(range).next().expect("a range is never empty").1.from;
-    [start(range), start(range.reversed())]
 }

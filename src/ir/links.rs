@@ -1,0 +1,71 @@
+//! Who stands beside whom in the segment list, as ids.
+//!
+//! Nearly all segments stay where they were appended, between the ones with the next lower and the next higher id. Only
+//! blocks of ids in which something was moved are kept: a large marker that nothing moves in needs no room for links.
+
+/// Ids of a block.
+const BLOCK: usize = 1024;
+
+/// The neighbours of a segment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Link {
+    pub(super) prev: u32,
+    pub(super) next: u32,
+}
+
+impl Link {
+    /// Of a segment that stands where it was appended. (What is beside the ends of a range nobody asks.)
+    pub(super) fn in_order(id: u32) -> Self {
+        Self { prev: id.wrapping_sub(1), next: id.wrapping_add(1) }
+    }
+}
+
+/// The neighbours of all segments.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Links {
+    /// A block is empty as long as all of its segments stand in order.
+    blocks: Vec<Vec<Link>>,
+}
+
+impl Links {
+    /// The neighbours of a segment.
+    pub(super) fn of(&self, id: u32) -> Link {
+        let block = self.blocks.get(id as usize / BLOCK);
+        block.and_then(|block| block.get(id as usize % BLOCK)).copied().unwrap_or(Link::in_order(id))
+    }
+
+    /// Puts `next` right behind `prev`.
+    pub(super) fn join(&mut self, prev: u32, next: u32) {
+        self.of_mut(prev).next = next;
+        self.of_mut(next).prev = prev;
+    }
+
+    fn of_mut(&mut self, id: u32) -> &mut Link {
+        let place = id as usize / BLOCK;
+        if self.blocks.len() <= place {
+            self.blocks.resize_with(place + 1, Vec::new);
+        }
+        let block = &mut self.blocks[place];
+        if block.is_empty() {
+            let first = (place * BLOCK) as u32;
+            block.extend((first..first + BLOCK as u32).map(Link::in_order));
+        }
+        &mut block[id as usize % BLOCK]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_was_moved_stands_beside_others() {
+        let mut links = Links::default();
+        links.join(5, 5000);
+        assert_eq!(links.of(5), Link { prev: 4, next: 5000 });
+        assert_eq!(links.of(5000), Link { prev: 5, next: 5001 });
+        assert_eq!(links.of(6), Link { prev: 5, next: 7 });
+        assert_eq!(links.of(2000), Link { prev: 1999, next: 2001 });
+        assert_eq!(links.of(1_000_000), Link { prev: 999_999, next: 1_000_001 });
+    }
+}
