@@ -113,15 +113,13 @@ fn find_exceptions(line: &mut Line, blade: Blade) {
     let ends = if is_lifted || line.ring { [0.0; 2] } else { nibbles::bowed_ends(line, blade) };
     let is_bowed = ends != [0.0; 2] || is_lifted && nibbles::bows_anywhere(line, blade);
     let is_nibbling = knife.tight_curves == TightCurves::Nibble;
-    if is_bowed || is_nibbling || knife.follow == Follow::Chord {
-        let tight = chord::tight(line, knife);
-        let nibbled = match is_bowed || is_nibbling && !tight.is_empty() {
-            false => Vec::new(),
-            true if is_lifted => vec![[f64::NEG_INFINITY, f64::INFINITY]],
-            true => nibbles::stretches(line, (&tight, ends), blade),
-        };
-        line.except(Exceptions { tight, nibbled });
-    }
+    let tight = if is_nibbling || knife.follow == Follow::Chord { chord::tight(line, knife) } else { Vec::new() };
+    let nibbled = match is_bowed || is_nibbling && !tight.is_empty() {
+        false => Vec::new(),
+        true if is_lifted => vec![[f64::NEG_INFINITY, f64::INFINITY]],
+        true => nibbles::stretches(line, (&tight, ends), blade),
+    };
+    line.except(Exceptions { tight, nibbled });
 }
 
 /// What the lines of a contour have in common.

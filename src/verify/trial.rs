@@ -40,6 +40,23 @@ impl Candidate {
     }
 }
 
+impl Cut {
+    /// Places of the tip that are looked at to find the lines near it.
+    fn tip_probes(&self) -> Vec<usize> {
+        let tips = self.points.len() - self.body;
+        [1, 2, 3].iter().map(|part| self.body + (tips - 1) * part / 4).collect()
+    }
+
+    /// The same, and some of the body: on a short line the tip may stand beyond its end all the time.
+    fn probes(&self) -> Vec<usize> {
+        let mut probes = self.tip_probes();
+        if self.body > 0 {
+            probes.extend([0, 1, 2, 3].iter().map(|part| self.body * part / 4));
+        }
+        probes
+    }
+}
+
 /// A stroke followed along one line.
 pub(super) struct Trial {
     pub(super) line: usize,
@@ -79,21 +96,26 @@ pub(super) struct Tracer<'a> {
     pub(super) slack: f64,
 }
 
-/// A stroke followed along the line that its row names, and where else it may be followed.
+/// A stroke followed along the line that its row names.
 pub(super) struct Trace {
     trials: Vec<Trial>,
-    others: Vec<Candidate>,
     /// The block that its row names.
     block: u32,
 }
 
 impl Tracer<'_> {
-    /// Follows a cut along the line that has `block`, and notes along which others it may be followed.
+    /// Follows a cut along the line that has `block`. Nearly always the tip shows where; if it does not, the blade may.
     pub(super) fn trace(&self, cut: &Cut, block: u32) -> Trace {
-        let is_named = |candidate: &Candidate| self.is_named(candidate.line, block);
-        let (named, others): (Vec<_>, Vec<_>) = self.candidates(cut).into_iter().partition(is_named);
-        let trials = named.iter().map(|candidate| self.follow(cut, candidate)).collect();
-        Trace { trials, others, block }
+        let named = |probes: Vec<usize>| {
+            let mut candidates = self.candidates(cut, &probes);
+            candidates.retain(|candidate| self.is_named(candidate.line, block));
+            candidates
+        };
+        let mut candidates = named(cut.tip_probes());
+        if candidates.is_empty() {
+            candidates = named(cut.probes());
+        }
+        Trace { trials: candidates.iter().map(|candidate| self.follow(cut, candidate)).collect(), block }
     }
 
     fn is_named(&self, line: usize, block: u32) -> bool {
@@ -111,9 +133,9 @@ impl Tracer<'_> {
         // all that it cuts: nearly always, and then the others need not be looked at.
         let enough = tolerance.max(cut.length() - self.slack);
         if !trials.iter().any(|trial| trial.fresh >= enough) {
-            let mut others: Vec<Trial> = trace.others.iter().map(|candidate| self.follow(cut, candidate)).collect();
-            self.weigh(&mut others, coverage);
-            trials.append(&mut others);
+            let candidates = self.candidates(cut, &cut.probes());
+            trials = candidates.iter().map(|candidate| self.follow(cut, candidate)).collect();
+            self.weigh(&mut trials, coverage);
         }
         let most = trials.iter().map(|trial| trial.fresh).fold(0.0, f64::max);
         trials.retain(|trial| trial.fresh >= tolerance.min(most));
@@ -137,17 +159,10 @@ impl Tracer<'_> {
         }
     }
 
-    /// Where to begin following: the lines that pass near the stroke, the nearest first.
-    fn candidates(&self, cut: &Cut) -> Vec<Candidate> {
-        let count = cut.points.len();
-        let tips = count - cut.body;
-        let mut probes: Vec<usize> = [1, 2, 3].iter().map(|part| cut.body + (tips - 1) * part / 4).collect();
-        if cut.body > 0 {
-            // On a short line the tip may stand beyond its end all the time.
-            probes.extend([0, 1, 2, 3].iter().map(|part| cut.body * part / 4));
-        }
+    /// Where to begin following: the lines that pass near some places of the stroke, the nearest first.
+    fn candidates(&self, cut: &Cut, probes: &[usize]) -> Vec<Candidate> {
         let mut found: Vec<Candidate> = Vec::new();
-        for probe in probes {
+        for &probe in probes {
             let point = cut.points[probe];
             self.grid.near(point, REACH).for_each(|(line, chord)| {
                 let (line, chord) = (line as usize, chord as usize);
