@@ -48,7 +48,7 @@ impl Links {
         let block = &mut self.blocks[place];
         if block.is_empty() {
             let first = (place * BLOCK) as u32;
-            block.extend((first..first + BLOCK as u32).map(Link::in_order));
+            block.extend((0..BLOCK as u32).map(|i| Link::in_order(first.wrapping_add(i))));
         }
         &mut block[id as usize % BLOCK]
     }

@@ -103,33 +103,31 @@ impl<'a> Feeds<'a> {
     }
 }
 
+/// Which of two caps is asked for: the greater one or the lesser one.
+pub(super) type Pick = fn(f64, f64) -> f64;
+
 impl BothWays {
     /// The cap that holds all along; `None` when there are several. `sign` is +1 with the line, -1 against it.
     pub(super) fn only(&self, sign: f64) -> Option<f64> {
         match self {
             Self::One(cap) => Some(*cap),
-            Self::Each(caps) => caps[usize::from(sign <= 0.0)].only(),
+            Self::Each(ways) => way(ways, sign).only(),
         }
     }
 
-    /// The greatest cap between two stations, of which those against the line count from its end; `round` is the length of
-    /// a line that goes round and round.
-    pub(super) fn greatest(&self, [low, high]: [f64; 2], sign: f64, round: Option<f64>) -> f64 {
+    /// One of the caps between two stations, of which those against the line count from its end; `round` is the length of a
+    /// line that goes round and round.
+    pub(super) fn over(&self, ends: [f64; 2], (sign, round): (f64, Option<f64>), pick: Pick) -> f64 {
         match (self, round) {
             (Self::One(cap), _) => *cap,
-            (Self::Each(caps), Some(length)) => caps[usize::from(sign <= 0.0)].greatest_round(low, high, length),
-            (Self::Each(caps), None) => caps[usize::from(sign <= 0.0)].greatest(low, high),
+            (Self::Each(ways), Some(length)) => way(ways, sign).over_round(ends, length, pick),
+            (Self::Each(ways), None) => way(ways, sign).over(ends, pick),
         }
     }
+}
 
-    /// The least cap there.
-    pub(super) fn least(&self, [low, high]: [f64; 2], sign: f64, round: Option<f64>) -> f64 {
-        match (self, round) {
-            (Self::One(cap), _) => *cap,
-            (Self::Each(caps), Some(length)) => caps[usize::from(sign <= 0.0)].least_round(low, high, length),
-            (Self::Each(caps), None) => caps[usize::from(sign <= 0.0)].least(low, high),
-        }
-    }
+fn way([with, against]: &[Caps; 2], sign: f64) -> &Caps {
+    if sign > 0.0 { with } else { against }
 }
 
 impl Caps {
@@ -138,38 +136,23 @@ impl Caps {
         self.later.is_empty().then_some(self.first)
     }
 
-    /// The greatest cap between two stations; beyond the ends hold those of the ends.
-    fn greatest(&self, low: f64, high: f64) -> f64 {
+    /// One of the caps between two stations; beyond the ends hold those of the ends.
+    fn over(&self, [low, high]: [f64; 2], pick: Pick) -> f64 {
         let before = |station: f64| self.later.partition_point(|&[start, _]| start <= station);
         let (from, to) = (before(low), before(high));
         let at_low = if from == 0 { self.first } else { self.later[from - 1][1] };
-        self.later[from..to.max(from)].iter().map(|&[_, cap]| cap).fold(at_low, f64::max)
+        self.later[from..to.max(from)].iter().map(|&[_, cap]| cap).fold(at_low, pick)
     }
 
-    /// The least cap between two stations, likewise.
-    fn least(&self, low: f64, high: f64) -> f64 {
-        let before = |station: f64| self.later.partition_point(|&[start, _]| start <= station);
-        let (from, to) = (before(low), before(high));
-        let at_low = if from == 0 { self.first } else { self.later[from - 1][1] };
-        self.later[from..to.max(from)].iter().map(|&[_, cap]| cap).fold(at_low, f64::min)
-    }
-
-    /// The greatest on a line of that length that goes round and round.
-    fn greatest_round(&self, low: f64, high: f64, length: f64) -> f64 {
+    /// The same on a line of that length that goes round and round.
+    fn over_round(&self, [low, high]: [f64; 2], length: f64, pick: Pick) -> f64 {
         let from = low.rem_euclid(length);
         let to = from + (high - low).min(length);
         if to <= length {
-            self.greatest(from, to)
+            self.over([from, to], pick)
         } else {
-            self.greatest(from, length).max(self.greatest(0.0, to - length))
+            pick(self.over([from, length], pick), self.over([0.0, to - length], pick))
         }
-    }
-
-    /// The least there.
-    fn least_round(&self, low: f64, high: f64, length: f64) -> f64 {
-        let from = low.rem_euclid(length);
-        let to = from + (high - low).min(length);
-        if to <= length { self.least(from, to) } else { self.least(from, length).min(self.least(0.0, to - length)) }
     }
 }
 
@@ -189,12 +172,13 @@ mod tests {
         profile.knife.feed_mm_s = Some(400.0);
         profile.slow.before_corner_mm = Some(5.0);
         let caps = caps(&profile, Some(300.0), [100, 50, 100]);
-        let at = |station: f64| caps.greatest(station, station);
+        let at = |station: f64| caps.over([station; 2], f64::max);
         assert_eq!(
             [-1.0, 9.0, 11.0, 21.0, 24.0, 26.0, 99.0].map(at),
             [300.0, 300.0, 150.0, 300.0, 300.0, 150.0, 150.0]
         );
-        assert_eq!([caps.greatest(9.0, 29.0), caps.least(9.0, 29.0), caps.least(21.0, 24.0)], [300.0, 150.0, 300.0]);
+        let least = |ends| caps.over(ends, f64::min);
+        assert_eq!([caps.over([9.0, 29.0], f64::max), least([9.0, 29.0]), least([21.0, 24.0])], [300.0, 150.0, 300.0]);
     }
 
     #[test]
@@ -203,9 +187,9 @@ mod tests {
         profile.knife.feed_mm_s = None;
         profile.axes.y.speed_mm_s = 500.0;
         let plain = caps(&profile, None, [100, 50, 100]);
-        assert_eq!([5.0, 15.0].map(|at| plain.greatest(at, at)), [f64::INFINITY, 250.0]);
+        assert_eq!([5.0, 15.0].map(|at| plain.over([at; 2], f64::max)), [f64::INFINITY, 250.0]);
         profile.slow.before_corner_mm = Some(99.0);
-        assert_eq!([5.0, 15.0].map(|at| caps(&profile, None, [100, 50, 100]).greatest(at, at)), [250.0, 125.0]);
+        assert_eq!([5.0, 15.0].map(|at| caps(&profile, None, [100, 50, 100]).over([at; 2], f64::max)), [250.0, 125.0]);
     }
 
     #[test]
@@ -215,9 +199,9 @@ mod tests {
         let feeds = Feeds::new(&profile, &piece);
         let caps = feeds.caps(&[0.0, 10.0, 20.0], vec![100.0, 50.0], End::Plain);
         assert_eq!(
-            [[12.0, 18.0], [18.0, 21.0], [32.0, 38.0], [-1.0, 0.5]].map(|[a, b]| caps.greatest_round(a, b, 20.0)),
+            [[12.0, 18.0], [18.0, 21.0], [32.0, 38.0], [-1.0, 0.5]].map(|ends| caps.over_round(ends, 20.0, f64::max)),
             [50.0, 100.0, 50.0, 100.0]
         );
-        assert_eq!([[21.0, 29.0], [18.0, 21.0]].map(|[a, b]| caps.least_round(a, b, 20.0)), [100.0, 50.0]);
+        assert_eq!([[21.0, 29.0], [18.0, 21.0]].map(|ends| caps.over_round(ends, 20.0, f64::min)), [100.0, 50.0]);
     }
 }

@@ -100,7 +100,7 @@ pub(super) struct Places<'a> {
     due: VecDeque<Rc<Expected>>,
     /// The rest that must come behind them, s.
     rest_due: Option<f64>,
-    /// How long it rests since the last move or order, beyond what the profile asks for, s.
+    /// How long it rests since the last order, beyond what the profile asks for, s: between moves it never rests.
     too_long: f64,
     dwell: Worst,
     axes: Axes,
@@ -239,9 +239,10 @@ impl<'a> Places<'a> {
             return self.go(&Words::of(line, self.profile)?);
         }
         if let Some(text) = self.texts.iter().find(|text| text.lines[0].is(line)) {
-            self.due.extend(text.lines[1..].iter().cloned());
-            let meaning = text.meaning;
-            return self.obey(meaning);
+            let (meaning, rest) = (text.meaning, text.lines[1..].to_vec());
+            self.obey(meaning)?;
+            self.due.extend(rest);
+            return Ok(());
         }
         // A comment ends at its first bracket: what stands behind that is obeyed.
         let comment = line.strip_prefix(b"(").and_then(|rest| rest.strip_suffix(b")"));
@@ -259,7 +260,12 @@ impl<'a> Places<'a> {
         }
         let rest = words.rest().filter(|&time| time >= 0.0);
         let why = || format!("is {}, which is no line of the target gcode with this profile", quoted(written));
-        rest.map(|time| self.linger(time)).ok_or_else(why)
+        let rest = rest.ok_or_else(why)?;
+        if self.over {
+            return Err(BEHIND_END.to_owned());
+        }
+        self.linger(rest);
+        Ok(())
     }
 
     /// The axes rest longer than the profile asks for, s.
@@ -279,8 +285,13 @@ impl<'a> Places<'a> {
         if self.over && meaning != Meaning::End {
             return Err(BEHIND_END.to_owned());
         }
-        self.too_long = 0.0;
         let was_down = self.now.knife;
+        let is_change = match meaning {
+            Meaning::Down => !was_down,
+            Meaning::Up => was_down,
+            Meaning::Drill(tool) => self.now.drill != tool,
+            Meaning::Head | Meaning::Event(_) | Meaning::End => false,
+        };
         match meaning {
             Meaning::Head => return Err("is the head of a program again".to_owned()),
             Meaning::End => {
@@ -288,13 +299,19 @@ impl<'a> Places<'a> {
                 return Ok(());
             }
             Meaning::Event(event) => {
+                self.too_long = 0.0;
                 self.push(Row { event, ..self.now }, Going::default());
                 return Ok(());
             }
             Meaning::Down if self.now.drill != 0 => return Err("puts the knife down beside a drill".to_owned()),
+            // Or it could rest in the cloth for as many plunges as one likes.
+            Meaning::Down if was_down => return Err("puts the knife down that is down".to_owned()),
             Meaning::Down => self.now.knife = true,
             Meaning::Up => self.now.knife = false,
             Meaning::Drill(tool) => self.now.drill = tool,
+        }
+        if is_change {
+            self.too_long = 0.0;
         }
         let knife = &self.profile.knife;
         let rest = match meaning {
@@ -307,6 +324,10 @@ impl<'a> Places<'a> {
         let going = if was_down { self.last } else { Going::default() };
         self.last = Going::default();
         self.push(self.now, going);
+        if meaning == Meaning::Up {
+            // What is cut next names its own.
+            self.now.block = 0;
+        }
         Ok(())
     }
 
@@ -351,10 +372,11 @@ impl<'a> Places<'a> {
         let length = arc.map_or((to - from.centre).norm(), |arc| arc.sweep.abs() * arc.start.norm());
         let by_bow = arc.map_or(0.0, |arc| arc.sweep.abs() * (arc.start.norm() / (8.0 * SAGITTA)).sqrt());
         let steps = by_bow.max(length / STEP_MM).max(turned.abs() / STEP_DEG).ceil().max(1.0);
-        self.in_stroke = if from.knife { self.in_stroke + steps } else { 0.0 };
-        if steps > STEPS_MAX || self.in_stroke > STEPS_A_STROKE {
+        let in_stroke = if from.knife { self.in_stroke + steps } else { 0.0 };
+        if steps > STEPS_MAX || in_stroke > STEPS_A_STROKE {
             return Err("is a way that no machine goes".to_owned());
         }
+        self.in_stroke = in_stroke;
         let pace = self.pace(feed, length, turned);
         let asked = Asked {
             speed: length * pace,
@@ -364,7 +386,6 @@ impl<'a> Places<'a> {
         };
         // A move to where the axes stand takes no time.
         let used = if length > 0.0 || turned != 0.0 { self.axes.used(&asked) } else { 0.0 };
-        self.too_long = 0.0;
         // In the air only the ends of a straight way matter.
         let first = if from.knife || arc.is_some() { 0 } else { steps as usize };
         for i in first..=steps as usize {

@@ -107,12 +107,15 @@ impl Joints {
             return false;
         }
         let at = line.station(vertex);
-        let end = line.up_to(at + WIDTHS * self.width);
-        let points: Vec<Point> = line.points().take(end + 1).collect();
-        let whole = points.len() > line.chords();
         let behind = |tail: usize| at - line.station(tail) <= WIDTHS * self.width;
+        // What is near, counted from its first point.
+        let first = if behind(0) { 0 } else { line.before(at - WIDTHS * self.width) };
+        let end = line.up_to(at + WIDTHS * self.width);
+        let points: Vec<Point> = line.points().take(end + 1).skip(first).collect();
+        let whole = end >= line.chords();
+        let vertex = vertex - first;
         let within = |tail: usize| (points[vertex] - points[tail]).norm() < self.width;
-        let tails = (0..vertex).rev().take_while(|&tail| behind(tail)).filter(|&tail| within(tail));
+        let tails = (0..vertex).rev().take_while(|&tail| behind(first + tail)).filter(|&tail| within(tail));
         let ends: &[f64] = if whole { &self.fronts } else { &[0.0] };
         let heels = if behind(0) { &self.heels[..] } else { &[] };
         let mut starts: Vec<(Vec<Point>, usize)> = tails.map(|tail| (points[tail..].to_vec(), vertex - tail)).collect();

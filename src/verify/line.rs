@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use super::caps::BothWays;
+use super::caps::{BothWays, Pick};
 use crate::geom::{Point, Vector, angle, left};
 
 /// Such a stretch, mm.
@@ -135,7 +135,7 @@ impl Line {
     }
 
     /// How many of its vertices lie before a station.
-    fn before(&self, station: f64) -> usize {
+    pub(super) fn before(&self, station: f64) -> usize {
         self.path.partition_point(|vertex| vertex.station < station)
     }
 
@@ -225,18 +225,11 @@ impl Line {
         self.caps.only(sign)
     }
 
-    /// The greatest speed of the tip between two stations, mm/s; `sign` is +1 with the line, -1 against it.
-    pub(super) fn cap(&self, [low, high]: [f64; 2], sign: f64) -> f64 {
+    /// One of the speeds that the tip may have between two stations, mm/s; `sign` is +1 with the line, -1 against it.
+    pub(super) fn cap(&self, [low, high]: [f64; 2], sign: f64, pick: Pick) -> f64 {
         let length = self.length();
         let ends = if sign > 0.0 { [low, high] } else { [length - high, length - low] };
-        self.caps.greatest(ends, sign, self.ring.then_some(length))
-    }
-
-    /// The least of the caps between two stations, likewise.
-    pub(super) fn least_cap(&self, [low, high]: [f64; 2], sign: f64) -> f64 {
-        let length = self.length();
-        let ends = if sign > 0.0 { [low, high] } else { [length - high, length - low] };
-        self.caps.least(ends, sign, self.ring.then_some(length))
+        self.caps.over(ends, (sign, self.ring.then_some(length)), pick)
     }
 
     /// The point at a station.

@@ -105,7 +105,7 @@ pub const RULES: &[(&str, &str)] = &[
         "while the knife is down F of G-code asks for a quarter of the speed that the feed and the axes allow, or more",
     ),
     ("verify/rest", "the axes rest while the knife plunges or lifts, while a drill works and at events"),
-    ("verify/dwell", "plunges, lifts and drills last as long as the profile says"),
+    ("verify/dwell", "plunges, lifts and drills last as long as the profile says, and G-code rests nowhere else"),
     ("verify/c-range", "C stays inside its range"),
     ("verify/table", "the axes, and the blade while it is down, stay over the table"),
     ("verify/on-path", "the tip stays inside the tube of the path while it cuts"),

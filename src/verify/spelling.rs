@@ -18,9 +18,13 @@ const ACTIVE: &[&[u8]] = &[
     b"PY",
 ];
 
+/// White space to C, and so to controllers, though not to Rust.
+const VERTICAL_TAB: u8 = 0x0b;
+
 /// Whether the text of a comment is obeyed though it looks like one.
 pub(super) fn is_active(comment: &[u8]) -> bool {
-    let text = comment.trim_ascii_start();
+    let blanks = comment.iter().take_while(|byte| byte.is_ascii_whitespace() || **byte == VERTICAL_TAB).count();
+    let text = &comment[blanks..];
     let first = text.iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
     ACTIVE.contains(&text[..first].to_ascii_uppercase().as_slice())
 }
@@ -45,6 +49,9 @@ pub(super) fn unnumbered(line: &[u8]) -> &[u8] {
 pub(super) fn plain(line: &[u8]) -> Option<Vec<u8>> {
     let line = uncommented(line)?;
     let mut left = line.as_slice();
+    while let Some(rest) = left.strip_prefix(&[BETWEEN_WORDS]) {
+        left = rest;
+    }
     if let Some(rest) = left.strip_prefix(b"N") {
         let digits = rest.iter().take_while(|byte| byte.is_ascii_digit()).count();
         left = &rest[digits..];
@@ -54,6 +61,10 @@ pub(super) fn plain(line: &[u8]) -> Option<Vec<u8>> {
     }
     let mut plain = Vec::with_capacity(2 * line.len());
     while let Some((&letter, rest)) = left.split_first() {
+        if letter == BETWEEN_WORDS {
+            left = rest;
+            continue;
+        }
         let length = rest.iter().take_while(|byte| matches!(byte, b'0'..=b'9' | b'.' | b'-' | b'+')).count();
         let (number, behind) = rest.split_at(length);
         if !letter.is_ascii_uppercase() || letter == b'N' {
@@ -69,6 +80,9 @@ pub(super) fn plain(line: &[u8]) -> Option<Vec<u8>> {
     Some(plain)
 }
 
+/// What stands for a comment in a line that has none any more: it parts words, and no word goes on behind it.
+const BETWEEN_WORDS: u8 = b' ';
+
 /// The same in capital letters, without blanks and comments; `None` when a comment is obeyed or has no end.
 fn uncommented(line: &[u8]) -> Option<Vec<u8>> {
     let mut bare = Vec::with_capacity(line.len());
@@ -81,6 +95,7 @@ fn uncommented(line: &[u8]) -> Option<Vec<u8>> {
                 if comment.contains(&b'(') || is_active(comment) {
                     return None;
                 }
+                bare.push(BETWEEN_WORDS);
                 &rest[end + 1..]
             }
             b';' if is_active(rest) => return None,
@@ -236,6 +251,7 @@ mod tests {
         check("n10g01x+01.50y-2.0\tc.0f 6 0 0. (slower) ; here", Some("G1 X1.5 Y-2 C0 F600"));
         check("G91.10 M064 P-0 X-.50", Some("G91.1 M64 P-0 X-0.5"));
         check("X1e3", Some("X1 E3"));
+        check("(a) n5 (b) g1 (c)X1(d)Y2(e)", Some("G1 X1 Y2"));
         for nothing in ["", " \t", "N7", "(a)(b)", "; (MSG, no comment)", "n1 (a ; b)"] {
             check(nothing, Some(""));
         }
@@ -253,8 +269,18 @@ mod tests {
             "N1 N2",
             "G1 N2",
         ];
-        let comments = ["G1 (a", "G1 (a (b)", "G1 a)", "G1 X1 ( MSG, hello)", "(abort, x)", ";py, x", "(debug,) (b)"];
-        for line in foreign.into_iter().chain(comments) {
+        let amid = ["M(a)65 P0", "X16(;)9.2812", "G4 P0.0(a)60", "X (c) 367", "N(a)5 G1"];
+        let comments = [
+            "G1 (a",
+            "G1 (a (b)",
+            "G1 a)",
+            "G1 X1 ( MSG, hello)",
+            "(abort, x)",
+            "G1 X1 (\x0bMSG, x)",
+            ";py, x",
+            "(debug,) (b)",
+        ];
+        for line in foreign.into_iter().chain(comments).chain(amid) {
             check(line, None);
         }
     }

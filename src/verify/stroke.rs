@@ -488,7 +488,7 @@ impl<'a> Judge<'a> {
                 let parts = if ways.is_empty() { 1.0 } else { ((high - low) / CAP_ASIDE).ceil().clamp(1.0, PARTS_MAX) };
                 let part = |k: usize| low + (high - low) * (k as f64 / parts);
                 let caps = (0..parts as usize).map(|k| [part(k) - slack, part(k + 1) + slack]);
-                caps.map(|ends| line.cap(ends, trial.sign(cut))).fold(f64::INFINITY, f64::min)
+                caps.map(|ends| line.cap(ends, trial.sign(cut), f64::max)).fold(f64::INFINITY, f64::min)
             })
         };
         let rounding = 4.0 * self.rounding / self.period;
@@ -520,7 +520,7 @@ impl<'a> Judge<'a> {
             }
             let cap = only.unwrap_or_else(|| {
                 let [a, b] = [before, place].map(|place| trial.feet[cut.body + place].station);
-                line.least_cap([a.min(b) - slack, a.max(b) + slack], sign)
+                line.cap([a.min(b) - slack, a.max(b) + slack], sign, f64::min)
             });
             let used = going.used.max(way.norm() / cap);
             if used < least.0 {

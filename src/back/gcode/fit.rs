@@ -8,7 +8,7 @@
 use super::tube::{Stretch, Tube};
 use crate::geom::{Point, Vector, angle, cross};
 
-/// Part of the tolerance that the fit may use: the rest is for decimals and for what lies between samples.
+/// Part of the tolerance that the fit may use: the rest is for decimals, and for arcs that are no parabolas.
 const SHARE: f64 = 0.92;
 /// Part of the tolerance that a bend alone is rounded by.
 const ROUNDING_SHARE: f64 = 0.75;
@@ -293,7 +293,7 @@ fn stays(tube: &Tube, arcs: &Found, meet: (Point, Vector), [from, to]: [&Node; 2
         } else {
             // They meet beside this chord.
             let at = tube.stations[chord] + (meet.0 - tube.points[chord]).dot(&tube.direction(chord));
-            let (at, between) = (at.clamp(start, station), left_of_chord(chord, meet.0));
+            let (at, between) = (at.max(start).min(station), left_of_chord(chord, meet.0));
             tube.holds(&stretch([start, at], [left, between]), bent, allowed)
                 && tube.holds(&stretch([at, station], [between, offset]), curvature, allowed)
         };
@@ -311,17 +311,29 @@ mod tests {
     use crate::geom::polyline;
     use crate::machine::MachineProfile;
 
+    fn tube(points: Vec<Point>) -> Tube {
+        Tube::new(points, 0.05, ([0.0; 2], &MachineProfile::default()))
+    }
+
+    fn ends(tube: &Tube) -> Ends {
+        Ends { start: tube.direction(0), end: tube.direction(tube.chords() - 1), stops: Vec::new() }
+    }
+
     fn fitted(points: Vec<Point>) -> Vec<Arc> {
-        let tube = Tube::new(points, 0.05, ([0.0; 2], &MachineProfile::default()));
-        let ends = Ends { start: tube.direction(0), end: tube.direction(tube.chords() - 1), stops: Vec::new() };
-        let arcs = fit(&tube, &ends).expect("it fits");
+        let tube = tube(points);
+        let arcs = fit(&tube, &ends(&tube)).expect("it fits");
+        check(&tube, &arcs);
+        arcs
+    }
+
+    /// By a measure that is not the fit's own: every place against the nearest chord and the sagitta of its bulge.
+    fn check(tube: &Tube, arcs: &[Arc]) {
         for pair in arcs.windows(2) {
             assert!((pair[0].at(pair[0].length) - pair[1].from).norm() < 1e-9, "no gap");
             let kink = angle::turn(pair[0].along_at(pair[0].length), pair[1].along).abs();
             assert!(kink < 3.0 * SAME_EPSILON, "no kink: {kink}");
         }
-        // By a measure that is not the fit's own: every place against the nearest chord and the sagitta of its bulge.
-        for arc in &arcs {
+        for arc in arcs {
             for place in (0..=20).map(|i| arc.at(arc.length * f64::from(i) / 20.0)) {
                 let away = |chord: usize| {
                     let ends = [tube.points[chord], tube.points[chord + 1]];
@@ -331,7 +343,28 @@ mod tests {
                 assert!(away <= 0.05, "{away} mm off at {place}");
             }
         }
-        arcs
+    }
+
+    #[test]
+    fn ways_of_short_chords_and_sharp_turns_stay_in_their_tube() {
+        let mut random = fastrand::Rng::with_seed(3);
+        let mut fits = 0;
+        for _ in 0..400 {
+            let (mut at, mut heading) = (Point::origin(), 0.0_f64);
+            let side = if random.bool() { 1.0 } else { -1.0 };
+            let mut points = vec![at];
+            for _ in 0..random.usize(2..12) {
+                at += Vector::new(heading.cos(), heading.sin()) * (0.1 + 0.9 * random.f64());
+                heading += side * random.f64();
+                points.push(at);
+            }
+            let tube = tube(points);
+            if let Ok(arcs) = fit(&tube, &ends(&tube)) {
+                check(&tube, &arcs);
+                fits += 1;
+            }
+        }
+        assert!(fits > 200, "{fits}");
     }
 
     #[test]

@@ -6,6 +6,8 @@ use crate::machine::{Fit, MachineProfile};
 
 /// Turns of a curve differ by less than this factor from one vertex to the next.
 const ALIKE: f64 = 2.0;
+/// Shorter ways beside a chord are none, mm: an end of an arc that lies at a vertex.
+const LENGTH_EPSILON: f64 = 1e-9;
 /// Smaller turns are none, rad.
 const TURN_EPSILON: f64 = 1e-6;
 
@@ -19,7 +21,7 @@ pub(super) struct Tube {
     /// Turn at each point, rad; 0 at the ends.
     pub(super) turns: Vec<f64>,
     /// Outward bulge in the middle of each chord.
-    pub(super) bulges: Vec<Vector>,
+    bulges: Vec<Vector>,
     /// The same as heights, to the left of the chord, mm.
     heights: Vec<f64>,
     /// Permitted deviation, mm.
@@ -92,19 +94,25 @@ impl Tube {
     }
 
     /// Whether only the chord itself counts as on the path.
-    pub(super) fn is_plain(&self, chord: usize) -> bool {
+    fn is_plain(&self, chord: usize) -> bool {
         self.heights[chord] == 0.0
     }
 
     /// Whether an arc of that curvature (left positive, per mm) stays beside a chord within an allowed distance of what counts
-    /// as on the path, mm. It is taken for a parabola, as the bulge is.
+    /// as on the path, mm. Between its ends and its middle it is taken for a parabola, as the bulge is.
     pub(super) fn holds(&self, stretch: &Stretch, curvature: f64, allowed: f64) -> bool {
         let Stretch { chord, stations: [from, to], ends } = *stretch;
         let (start, length) = (self.stations[chord], self.stations[chord + 1] - self.stations[chord]);
         let (way, aside) = (to - from, ends[1] - ends[0]);
-        // An arc bows by span^2 / 8 R from the line between its ends, which lies askew to the chord.
         let square = way * way + aside * aside;
-        let bow = if way > 0.0 { -curvature * square * (square.sqrt() / way) / 8.0 } else { 0.0 };
+        // Of half the arc's turn.
+        let sine = 0.5 * curvature * square.sqrt();
+        if sine.abs() >= 1.0 {
+            return false;
+        }
+        // An arc bows by R (1 - cos) from the line between its ends, which lies askew to the chord.
+        let bow = -curvature * square / (4.0 * (1.0 + (1.0 - sine * sine).sqrt()));
+        let bow = if way > LENGTH_EPSILON { bow * (square.sqrt() / way) } else { 0.0 };
         let height = self.heights[chord];
         let bulge = |station: f64| {
             let x = (station - start) / length;

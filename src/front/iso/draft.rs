@@ -556,7 +556,7 @@ impl Draft {
             owner::settle(&self.list, &mut self.pieces, unit);
         }
         let mut closing = Vec::new();
-        kept::retain(&mut self.pieces, &mut closing);
+        kept::drop_empty(&mut self.pieces, &mut closing);
         closing.append(&mut self.events);
         (Marker { list: self.list, pieces: self.pieces, unit, closing, ..Marker::default() }, self.extent)
     }
