@@ -81,7 +81,13 @@ struct Lines(Vec<String>);
 impl Lines {
     /// The lines with a change of one line in the middle of those that hold a word.
     fn with(&self, word: &str, change: impl Fn(&str) -> Vec<String>) -> Option<Vec<String>> {
-        let places: Vec<usize> = (0..self.0.len()).filter(|&i| self.0[i].contains(word)).collect();
+        self.with_both([word; 2], change)
+    }
+
+    /// The same of those that hold two words.
+    fn with_both(&self, words: [&str; 2], change: impl Fn(&str) -> Vec<String>) -> Option<Vec<String>> {
+        let holds = |i: &usize| words.iter().all(|word| self.0[*i].contains(word));
+        let places: Vec<usize> = (0..self.0.len()).filter(holds).collect();
         let place = *places.get(places.len() / 2)?;
         let mut lines = self.0.clone();
         lines.splice(place..=place, change(&self.0[place]));
@@ -90,7 +96,7 @@ impl Lines {
 
     /// The same, of the number behind a letter.
     fn by(&self, word: &str, letter: &str, by: f64) -> Option<Vec<String>> {
-        self.with(word, |line| {
+        self.with_both([word, &format!(" {letter}")], |line| {
             let words = line.split(' ').map(|word| match word.strip_prefix(letter) {
                 Some(number) => format!("{letter}{:.4}", number.parse::<f64>().expect("a number") + by),
                 None => word.to_owned(),
@@ -172,7 +178,9 @@ const DAMAGES: &[Damage] = &[
         Some(cut)
     }),
     ("a number that is none", "verify/format", |lines| lines.with("G1 ", |line| vec![line.replace("G1 X", "G1 Xa")])),
-    ("an axis that is none", "verify/format", |lines| lines.with("G1 ", |line| vec![line.replace(" C", " B")])),
+    ("an axis that is none", "verify/format", |lines| {
+        lines.with_both(["G1 ", " C"], |line| vec![line.replace(" C", " B")])
+    }),
     ("a feed left out", "verify/format", |lines| {
         lines.with("G1 ", |line| vec![line.split(" F").next().unwrap_or_default().to_owned()])
     }),
@@ -408,6 +416,41 @@ fn a_move_between_comments_is_judged_as_the_controller_goes_it() {
     let stray = format!("{}\n(x) G1 X500 Y500 C0 F60 (y){}", &program[..last], &program[last..]);
     let verdict = judge(&stray, &source, &job);
     assert!(verdict.unread.is_none() && !verdict.passes(), "{verdict:?}");
+}
+
+#[test]
+fn a_knife_cannot_rest_in_the_cloth_by_orders_and_moves_that_do_nothing() {
+    let (source, job) = (fixture("iso/seed-circle.cut"), machine("linuxcnc"));
+    let (program, _) = compile(&source, &job);
+    let plunge = "M64 P0\nG4 P0.080\n";
+    let place = program.lines().find(|line| line.starts_with("G0 X")).expect("it travels");
+    let again = |line: &str, count: usize| format!("{plunge}{}", format!("{line}\n").repeat(count));
+    for slowed in [
+        again(&format!("G4 P0.0009\n{} F100", place.replace("G0", "G1")), 1000),
+        again("M64 P0\nG4 P0.080", 100),
+        again("G4 P0.0009", 10),
+    ] {
+        let verdict = judge(&program.replacen(plunge, &slowed, 1), &source, &job);
+        assert!(!verdict.passes(), "{}", &slowed[..60]);
+    }
+}
+
+#[test]
+fn an_axis_that_goes_round_is_told_nothing_where_it_rests_in_the_cloth() {
+    let mut job = machine("linuxcnc");
+    job.profile.gcode.wrapped = true;
+    let source = fixture("markers/metric-four-pieces.cut");
+    let (program, _) = compile(&source, &job);
+    let lines: Vec<&str> = program.lines().collect();
+    let turned = |line: &str| line.split(' ').find_map(|word| word.strip_prefix('C')).map(str::to_owned);
+    let is_cut = |line: &str| line.starts_with("G1 ") || line.starts_with("G2 ") || line.starts_with("G3 ");
+    let rests = lines.iter().position(|line| is_cut(line) && turned(line).is_none()).expect("a straight cut");
+    let told = lines[..rests].iter().rev().find_map(|line| turned(line)).expect("it was turned before");
+    // LinuxCNC unwraps by sums of its own: the same place again may be a whole turn to it.
+    let mut spun: Vec<String> = lines.iter().map(|&line| line.to_owned()).collect();
+    spun[rests] = lines[rests].replace(" F", &format!(" C{} F", told.trim_start_matches('-')));
+    let verdict = judge(&(spun.join("\n") + "\n"), &source, &job);
+    assert!(verdict.unread.as_ref().is_some_and(|why| why.contains("all round")), "{:?}", verdict.unread);
 }
 
 #[test]

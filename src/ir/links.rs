@@ -1,10 +1,9 @@
 //! Who stands beside whom in the segment list, as ids.
 //!
-//! Nearly all segments stay where they were appended, between the ones with the next lower and the next higher id. Only
-//! blocks of ids in which something was moved are kept: a large marker that nothing moves in needs no room for links.
+//! Nearly all segments stay where they were appended, between the ones with the next lower and the next higher id: a large
+//! marker that nothing moves in needs no room for links.
 
-/// Ids of a block.
-const BLOCK: usize = 1024;
+use super::scattered::Scattered;
 
 /// The neighbours of a segment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,34 +22,19 @@ impl Link {
 /// The neighbours of all segments.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Links {
-    /// A block is empty as long as all of its segments stand in order.
-    blocks: Vec<Vec<Link>>,
+    moved: Scattered<Link>,
 }
 
 impl Links {
     /// The neighbours of a segment.
     pub(super) fn of(&self, id: u32) -> Link {
-        let block = self.blocks.get(id as usize / BLOCK);
-        block.and_then(|block| block.get(id as usize % BLOCK)).copied().unwrap_or(Link::in_order(id))
+        self.moved.get(id).unwrap_or(Link::in_order(id))
     }
 
     /// Puts `next` right behind `prev`.
     pub(super) fn join(&mut self, prev: u32, next: u32) {
-        self.of_mut(prev).next = next;
-        self.of_mut(next).prev = prev;
-    }
-
-    fn of_mut(&mut self, id: u32) -> &mut Link {
-        let place = id as usize / BLOCK;
-        if self.blocks.len() <= place {
-            self.blocks.resize_with(place + 1, Vec::new);
-        }
-        let block = &mut self.blocks[place];
-        if block.is_empty() {
-            let first = (place * BLOCK) as u32;
-            block.extend((0..BLOCK as u32).map(|i| Link::in_order(first.wrapping_add(i))));
-        }
-        &mut block[id as usize % BLOCK]
+        self.moved.get_mut(prev, Link::in_order).next = next;
+        self.moved.get_mut(next, Link::in_order).prev = prev;
     }
 }
 

@@ -1,12 +1,14 @@
 //! The doubly linked segment list: data in vectors, order as ids of neighbours beside them.
 //!
-//! The segments of a range join, since each is kept as its end alone, and links are kept only where something was moved:
-//! thirty-two bytes, for large markers are as slow to read as they are large in memory. Ids are never reused. Nobody outside
-//! this file sees a link; others walk a [`Range`] or edit through a [`Cursor`], whose every operation takes constant time.
+//! The segments of a range join, since each is kept as its end alone; links are kept only where something was moved, and what
+//! the file asks for only where it asks for something: twenty-eight bytes, for large markers are as slow to read as they are
+//! large in memory. Ids are never reused. Nobody outside this file sees a link; others walk a [`Range`] or edit through a
+//! [`Cursor`], whose every operation takes constant time.
 
 use std::borrow::Cow;
 
 use super::links::{Link, Links};
+use super::scattered::Scattered;
 use crate::geom::Point;
 use crate::source::Span;
 
@@ -47,20 +49,28 @@ impl Segment {
     pub fn length(&self) -> f64 {
         (self.to - self.from).norm()
     }
+
+    /// Whether the file asks for anything on it.
+    fn asks(&self) -> bool {
+        let Joint { lift, full_advance, no_overcut } = self.joint;
+        lift || full_advance || no_overcut || self.percent != FULL_SPEED
+    }
 }
 
 /// Names a segment of one [`SegmentList`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SegmentId(u32);
 
-/// What is kept of a segment beside its end: where it starts, the one before it ends. In front of the first segment of a
-/// range stands a node that is none: its end is where the range starts.
+/// What the file asks for on a segment.
 #[derive(Debug, Clone, Copy)]
-struct Data {
-    span: Span,
+struct Asked {
     joint: Joint,
     percent: u8,
 }
+
+/// As most files do on nearly all of their segments.
+const NOTHING_ASKED: Asked =
+    Asked { joint: Joint { lift: false, full_advance: false, no_overcut: false }, percent: FULL_SPEED };
 
 /// The id of the node at a place of the list.
 fn id(place: usize) -> SegmentId {
@@ -68,14 +78,8 @@ fn id(place: usize) -> SegmentId {
     SegmentId(place as u32)
 }
 
-/// Of a node that is none.
-const NO_SEGMENT: Data = Data {
-    span: Span { start: 0, end: 0, block: 0 },
-    joint: Joint { lift: false, full_advance: false, no_overcut: false },
-    percent: FULL_SPEED,
-};
-
-/// A contour's part of the list: from its first segment to its last, walked in one of two directions.
+/// A contour's part of the list: from its first segment to its last, walked in one of two directions. A copy that was made
+/// before the range was edited is worth nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Range {
     first: SegmentId,
@@ -101,8 +105,12 @@ impl Range {
 /// All segments of a marker.
 #[derive(Debug, Clone, Default)]
 pub struct SegmentList {
+    /// Where each ends; where it starts, the one before it ends. In front of the first segment of a range stands a node that
+    /// is none: its end is where the range starts.
     ends: Vec<Point>,
-    data: Vec<Data>,
+    /// The block that each end came from.
+    spans: Vec<Span>,
+    asked: Scattered<Asked>,
     links: Links,
 }
 
@@ -110,7 +118,7 @@ impl SegmentList {
     /// Makes room for so many more segments in so many ranges.
     pub fn reserve(&mut self, segments: usize, ranges: usize) {
         self.ends.reserve(segments + ranges);
-        self.data.reserve(segments + ranges);
+        self.spans.reserve(segments + ranges);
     }
 
     /// Appends a chain of segments, each of which starts where the one before it ends, as a range of its own; `None` when
@@ -125,8 +133,14 @@ impl SegmentList {
             chain.clone().zip(&self.ends[front..]).all(|(segment, end)| segment.from == *end),
             "the segments of a chain join"
         );
-        self.data.push(NO_SEGMENT);
-        self.data.extend(chain.map(|Segment { span, joint, percent, .. }| Data { span, joint, percent }));
+        self.spans.push(Span::default());
+        self.spans.extend(chain.clone().map(|segment| segment.span));
+        // Mostly nothing is, and to see that takes less time than to keep it.
+        if chain.clone().any(|segment| segment.asks()) {
+            for (Segment { joint, percent, .. }, place) in chain.zip(front + 1..) {
+                *self.asked_mut(id(place)) = Asked { joint, percent };
+            }
+        }
         let [first, last] = [front + 1, self.ends.len() - 1].map(id);
         Some(Range { first, last, backward: false, in_order: true })
     }
@@ -153,7 +167,7 @@ impl SegmentList {
     pub fn vertices(&self, range: Range) -> impl Iterator<Item = (Point, Span)> {
         let mut before = Span::default();
         self.nodes(range).map(move |id| {
-            let (to, span) = (self.ends[id as usize], self.data[id as usize].span);
+            let (to, span) = (self.ends[id as usize], self.spans[id as usize]);
             let after = std::mem::replace(&mut before, span);
             (to, if range.backward { after } else { span })
         })
@@ -180,6 +194,14 @@ impl SegmentList {
     fn start(&self, range: Range) -> Point {
         let id = if range.backward { range.last.0 } else { self.front(range) };
         self.ends[id as usize]
+    }
+
+    fn asked(&self, SegmentId(id): SegmentId) -> Asked {
+        self.asked.get(id).unwrap_or(NOTHING_ASKED)
+    }
+
+    fn asked_mut(&mut self, SegmentId(id): SegmentId) -> &mut Asked {
+        self.asked.get_mut(id, |_| NOTHING_ASKED)
     }
 
     /// The node in front of the first segment of a range.
@@ -224,14 +246,17 @@ impl SegmentList {
 
     /// Whether the links between the ends of a range agree in both directions and lead from its first to its last.
     pub fn is_linked(&self, range: Range) -> bool {
-        let front = self.links.of(range.first.0).prev;
-        let mut at = front;
-        for length in 0..self.ends.len() {
+        let mut at = self.links.of(range.first.0).prev;
+        if self.links.of(at).next != range.first.0 {
+            return false;
+        }
+        for _ in 0..self.ends.len() {
             if at == range.last.0 {
-                return !range.in_order || range.last.0 as usize == front as usize + length;
+                return true;
             }
             let next = self.links.of(at).next;
-            if next as usize >= self.ends.len() || self.links.of(next).prev != at {
+            let is_beside = !range.in_order || next == at.wrapping_add(1);
+            if next as usize >= self.ends.len() || self.links.of(next).prev != at || !is_beside {
                 return false;
             }
             at = next;
@@ -257,12 +282,13 @@ impl Iterator for Walk<'_> {
     fn next(&mut self) -> Option<Self::Item> {
         let id = self.at?;
         let Link { prev, next } = self.list.beside(self.range, id.0);
-        let Data { span, mut joint, percent } = self.list.data[id.0 as usize];
+        let span = self.list.spans[id.0 as usize];
+        let Asked { mut joint, percent } = self.list.asked(id);
         let (to, following) = if self.range.backward {
             // Turned round it starts at the joint that its successor in the list starts with; the contour's own end, which
             // has no successor, shares its joint with the start.
-            let after = if id == self.range.last { self.range.first.0 } else { next };
-            joint = self.list.data[after as usize].joint;
+            let after = if id == self.range.last { self.range.first } else { SegmentId(next) };
+            joint = self.list.asked(after).joint;
             (prev, prev)
         } else {
             (id.0, next)
@@ -285,7 +311,8 @@ pub struct Cursor<'a> {
 impl Cursor<'_> {
     /// The segment under the cursor.
     pub fn segment(&self) -> Segment {
-        let Data { span, joint, percent } = self.list.data[self.at.0 as usize];
+        let span = self.list.spans[self.at.0 as usize];
+        let Asked { joint, percent } = self.list.asked(self.at);
         let [from, to] = self.list.ends(self.at);
         Segment { from, to, span, joint, percent }
     }
@@ -303,12 +330,12 @@ impl Cursor<'_> {
 
     /// What the file asks for where the segment under the cursor starts, to change.
     pub fn joint_mut(&mut self) -> &mut Joint {
-        &mut self.list.data[self.at.0 as usize].joint
+        &mut self.list.asked_mut(self.at).joint
     }
 
     /// The speed of the segment under the cursor, to change.
     pub fn percent_mut(&mut self) -> &mut u8 {
-        &mut self.list.data[self.at.0 as usize].percent
+        &mut self.list.asked_mut(self.at).percent
     }
 
     fn link(&self) -> Link {
@@ -331,12 +358,16 @@ impl Cursor<'_> {
 
     /// Splits the segment under the cursor at `point`; the cursor stays on the first part.
     pub fn split(&mut self, point: Point) -> SegmentId {
-        let SegmentList { ends, data, links } = &mut *self.list;
-        let behind = id(ends.len());
+        let Asked { percent, .. } = self.list.asked(self.at);
+        let behind = id(self.list.ends.len());
+        if percent != FULL_SPEED {
+            self.list.asked_mut(behind).percent = percent;
+        }
+        let SegmentList { ends, spans, links, .. } = &mut *self.list;
         let at = self.at.0 as usize;
         let end = std::mem::replace(&mut ends[at], point);
         ends.push(end);
-        data.push(Data { joint: Joint::default(), ..data[at] });
+        spans.push(spans[at]);
         if self.at == self.range.last {
             self.range.last = behind;
         } else {
@@ -406,7 +437,7 @@ mod tests {
 
     #[test]
     fn a_segment_stays_small() {
-        assert!(size_of::<Point>() + size_of::<Data>() <= 32);
+        assert!(size_of::<Point>() + size_of::<Span>() <= 28);
     }
 
     #[test]

@@ -16,6 +16,7 @@ mod links;
 pub mod list;
 pub mod marker;
 pub mod motion;
+mod scattered;
 pub mod text;
 pub mod toolpath;
 

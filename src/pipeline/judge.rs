@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::io::{self, BufReader, Read as _};
 
 use super::report::significant;
-use super::{Judged, Medium, Read, read_to_judge};
+use super::{Judged, Medium, Reading, read_to_judge};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::Dialect;
 use crate::ir::marker::{Notch, Piece};
@@ -58,8 +58,8 @@ pub fn judge_program(
     if diagnostics.has_errors() {
         return Ok(None);
     }
-    let Judged { input, read } = judged;
-    let audit = audited(source, input.dialect, read, job);
+    let Judged { input, reading } = judged;
+    let audit = audited(source, (input.dialect, reading), job);
     judge(source, (&input.marker, &audit), job, program).map(Some)
 }
 
@@ -104,7 +104,8 @@ pub(super) fn judge(
 }
 
 /// What was read of the source against its bytes, and what the passes kept of that.
-pub(super) fn audited(source: &Source, dialect: &Dialect, Read { census, kept }: Read, job: &Job) -> Vec<Finding> {
+pub(super) fn audited(source: &Source, (dialect, reading): (&Dialect, Reading), job: &Job) -> Vec<Finding> {
+    let Reading { census, kept } = reading;
     let audit = verify::source_audit(dialect.name, source.bytes(), &census, &job.profile);
     audit.into_iter().flatten().chain([kept]).collect()
 }

@@ -12,12 +12,12 @@ pub use spent::{Spent, word};
 
 pub use crate::verify::{RULES, Verdict};
 
-use std::io::{self, BufWriter, Seek, Write};
+use std::io::{self, BufWriter, Read, Seek, Write};
 use std::path::Path;
 
 use tempfile::SpooledTempFile;
 
-use self::program::Sink;
+use self::program::{Sink, Written};
 use self::toolpaths::Toolpaths;
 use crate::back::{Context, Emit, Proof, SETPOINTS, Target};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -34,9 +34,9 @@ use crate::verify::{Census, Works};
 const SCRATCH_BYTES: usize = 64 << 20;
 
 /// Where a program is written, and read back from.
-pub trait Medium: io::Read + Write + Seek {}
+pub trait Medium: Read + Write + Seek {}
 
-impl<T: io::Read + Write + Seek> Medium for T {}
+impl<T: Read + Write + Seek> Medium for T {}
 
 /// A file as read and passed: what is cut, in which order.
 #[derive(Debug)]
@@ -53,12 +53,12 @@ pub struct Judged {
     /// What is cut.
     pub input: Input,
     /// What is known of how it was read.
-    pub read: Read,
+    pub reading: Reading,
 }
 
 /// What a file says in all, as it was read, and what passes kept of that.
 #[derive(Debug)]
-pub struct Read {
+pub struct Reading {
     /// Before any pass.
     pub census: Census,
     /// Whether all of it is still cut behind them.
@@ -117,7 +117,7 @@ pub fn read_to_judge(
     let (census, works) = rayon::join(|| Census::of(&input.marker), || Works::of(&input.marker));
     run_passes(&mut input.marker, job, None, diagnostics);
     let kept = works.kept(&input.marker);
-    Some(Judged { input, read: Read { census, kept } })
+    Some(Judged { input, reading: Reading { census, kept } })
 }
 
 /// The marker as the source says it, before any pass.
@@ -177,11 +177,11 @@ pub fn compile_all(
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Option<Compiled>> {
     let judged = if verify {
-        read_to_judge(source, from, job, diagnostics).map(|Judged { input, read }| (input, Some(read)))
+        read_to_judge(source, from, job, diagnostics).map(|Judged { input, reading }| (input, Some(reading)))
     } else {
         read(source, from, job, diagnostics).map(|input| (input, None))
     };
-    let Some((input, read)) = judged.filter(|_| !diagnostics.has_errors()) else { return Ok(None) };
+    let Some((input, reading)) = judged.filter(|_| !diagnostics.has_errors()) else { return Ok(None) };
     let Input { dialect, marker } = &input;
     let mut report = Report::of(marker, dialect.name);
     let context = Context { source, job, marker };
@@ -199,17 +199,20 @@ pub fn compile_all(
     }
     let is_planned = !sinks.is_empty();
     let mut audit = Vec::new();
-    rayon::in_place_scope(|scope| {
+    let written = rayon::in_place_scope(|scope| {
         // The source is looked at beside all that is done with what was read of it.
-        scope.spawn(|_| audit.extend(read.into_iter().flat_map(|read| judge::audited(source, dialect, read, job))));
-        if is_planned {
-            let toolpaths = Toolpaths::new(marker, job, diagnostics);
-            let written = program::write(toolpaths, &mut sinks, (&context, false), diagnostics)?;
-            report.program = written.program;
-            report.controller = written.estimate.map(Controller::from);
+        scope.spawn(|_| {
+            let audited = |reading| judge::audited(source, (dialect, reading), job);
+            audit.extend(reading.into_iter().flat_map(audited));
+        });
+        if !is_planned {
+            return Ok(Written::default());
         }
-        io::Result::Ok(())
+        let toolpaths = Toolpaths::new(marker, job, diagnostics);
+        program::write(toolpaths, &mut sinks, (&context, false), diagnostics)
     })?;
+    report.program = written.program;
+    report.controller = written.estimate.map(Controller::from);
     drop(sinks);
     for Product { target, out } in &mut *products {
         if let Emit::Marker(emit) = target.emit {

@@ -349,7 +349,16 @@ impl<'a> Places<'a> {
         let needed = |word: Option<f64>, letter: char| word.ok_or_else(|| format!("has no {letter}"));
         let code = needed(words.g, 'G')?;
         let to = Point::new(needed(words.x, 'X')?, needed(words.y, 'Y')?);
-        let c_to = self.turned_to(needed(words.c, self.profile.gcode.letter.byte().into())?);
+        let letter = char::from(self.profile.gcode.letter.byte());
+        let c_to = match words.c {
+            None if self.profile.gcode.wrapped => from.c_deg,
+            told => self.turned_to(needed(told, letter)?),
+        };
+        let is_told = words.c.is_some() && self.profile.gcode.wrapped;
+        if is_told && from.knife && (c_to - from.c_deg).abs() < TURN_EPSILON {
+            // It unwraps what it is told by its own sums, which may lie a hair's breadth beyond.
+            return Err(format!("has {letter} where that axis stands, which a controller may turn all round for"));
+        }
         if code == 0.0 && from.knife {
             return Err("is a rapid move while the knife is down".to_owned());
         }

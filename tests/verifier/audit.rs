@@ -103,9 +103,9 @@ fn faults(bytes: &[u8], job: &Job) -> Option<Vec<Finding>> {
     let source = Source::new("a.cut", bytes.to_vec()).expect("small");
     let mut diagnostics = Diagnostics::default();
     let judged = pipeline::read_to_judge(&source, None, job, &mut diagnostics);
-    let Judged { read, .. } = judged.filter(|_| !diagnostics.has_errors())?;
-    let mut findings = source_audit("iso", bytes, &read.census, &job.profile)?;
-    findings.push(read.kept);
+    let Judged { reading, .. } = judged.filter(|_| !diagnostics.has_errors())?;
+    let mut findings = source_audit("iso", bytes, &reading.census, &job.profile)?;
+    findings.push(reading.kept);
     findings.retain(|finding| !finding.holds());
     Some(findings)
 }

@@ -326,7 +326,7 @@ mod tests {
         arcs
     }
 
-    /// By a measure that is not the fit's own: every place against the nearest chord and the sagitta of its bulge.
+    /// By a measure that is not the fit's own: every place against the nearest chord and the height of its bulge.
     fn check(tube: &Tube, arcs: &[Arc]) {
         for pair in arcs.windows(2) {
             assert!((pair[0].at(pair[0].length) - pair[1].from).norm() < 1e-9, "no gap");
@@ -337,7 +337,7 @@ mod tests {
             for place in (0..=20).map(|i| arc.at(arc.length * f64::from(i) / 20.0)) {
                 let away = |chord: usize| {
                     let ends = [tube.points[chord], tube.points[chord + 1]];
-                    polyline::distance_to_segment(place, ends[0], ends[1]) - tube.middle(chord).norm()
+                    polyline::distance_to_segment(place, ends[0], ends[1]) - tube.bulges[chord].norm()
                 };
                 let away = (0..tube.chords()).map(away).fold(f64::INFINITY, f64::min);
                 assert!(away <= 0.05, "{away} mm off at {place}");

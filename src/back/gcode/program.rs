@@ -170,7 +170,7 @@ impl<'a> Program<'a> {
                 let away = centre - from.centre;
                 let speed = speed.min(self.pace.best_speed(piece.length, turn / piece.length));
                 self.plan(piece.to, (piece.length, turn, speed), Some(-away));
-                self.axes(piece.to);
+                self.axes_of_cut(piece.to);
                 self.word(b'I', away.x);
                 self.word(b'J', away.y);
                 self.push_feed(speed, piece.length);
@@ -193,7 +193,7 @@ impl<'a> Program<'a> {
                     self.number();
                     self.text.extend_from_slice(b"G1");
                     self.plan(to, (length, 0.0, speed), None);
-                    self.axes(to);
+                    self.axes_of_cut(to);
                     self.push_feed(speed, length);
                 }
             }
@@ -259,35 +259,56 @@ impl<'a> Program<'a> {
         self.text.push(b'\n');
     }
 
+    /// The words of the axes of a move in the air.
     fn axes(&mut self, to: Pose) {
-        self.word(b'X', to.centre.x);
-        self.word(b'Y', to.centre.y);
-        let profile = &self.job.profile;
-        let keys = &profile.gcode;
-        self.text.extend_from_slice(&[b' ', keys.letter.byte()]);
-        let shown = profile.c.shown_deg(to.c.0);
-        if keys.wrapped {
-            let was = profile.c.shown_deg(self.pose.c.0);
-            self.wrapped(shown, was);
-        } else {
-            push_fixed(&mut self.text, shown, keys.decimals);
+        self.place(to);
+        self.turn(to);
+        self.pose = to;
+    }
+
+    /// The same with the knife down. Where an axis that goes round rests it has no word: a controller that finds it a hair's
+    /// breadth before its place would turn it all round.
+    fn axes_of_cut(&mut self, to: Pose) {
+        self.place(to);
+        let gcode = &self.job.profile.gcode;
+        let [was, shown] = [self.pose, to].map(|pose| self.job.profile.c.shown_deg(pose.c.0));
+        let rests =
+            (self.within(shown) - self.within(was)).abs() < 0.5 * gcode.step() && (shown - was).abs() < 0.5 * TURN_DEG;
+        if !(gcode.wrapped && rests) {
+            self.turn(to);
         }
         self.pose = to;
     }
 
+    fn place(&mut self, to: Pose) {
+        self.word(b'X', to.centre.x);
+        self.word(b'Y', to.centre.y);
+    }
+
+    fn turn(&mut self, to: Pose) {
+        let profile = &self.job.profile;
+        let keys = &profile.gcode;
+        self.text.extend_from_slice(&[b' ', keys.letter.byte()]);
+        let [was, shown] = [self.pose, to].map(|pose| profile.c.shown_deg(pose.c.0));
+        let shown = if keys.wrapped { self.wrapped(shown, was) } else { shown };
+        push_fixed(&mut self.text, shown, keys.decimals);
+    }
+
     /// A position of an axis that goes round: from 0 to below 360, negative = reached by turning back. `was` is where it
     /// stands, degrees.
-    fn wrapped(&mut self, shown: f64, was: f64) {
-        let (step, decimals) = (self.job.profile.gcode.step(), self.job.profile.gcode.decimals);
-        // There is no negative zero, so there is none at all: the nearest place that has a sign stands for it.
-        let round = |value: f64| {
-            let within = ((value / step).round() * step).rem_euclid(TURN_DEG);
-            if within < 0.5 * step || TURN_DEG - within < 0.5 * step { step } else { within }
-        };
-        let within = round(shown);
+    fn wrapped(&self, shown: f64, was: f64) -> f64 {
+        let within = self.within(shown);
         // To turn back to where it stands would be a whole turn.
-        let is_back = shown < was && (within - round(was)).abs() > 0.5 * step;
-        push_fixed(&mut self.text, if is_back { -within } else { within }, decimals);
+        let is_back = shown < was && (within - self.within(was)).abs() > 0.5 * self.job.profile.gcode.step();
+        if is_back { -within } else { within }
+    }
+
+    /// A position of an axis that goes round as it is printed, but for its sign. There is no negative zero, so there is none at
+    /// all: the nearest place that has a sign stands for it.
+    fn within(&self, shown: f64) -> f64 {
+        let step = self.job.profile.gcode.step();
+        let within = ((shown / step).round() * step).rem_euclid(TURN_DEG);
+        if within < 0.5 * step || TURN_DEG - within < 0.5 * step { step } else { within }
     }
 
     fn word(&mut self, letter: u8, value: f64) {

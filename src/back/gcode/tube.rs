@@ -21,7 +21,7 @@ pub(super) struct Tube {
     /// Turn at each point, rad; 0 at the ends.
     pub(super) turns: Vec<f64>,
     /// Outward bulge in the middle of each chord.
-    bulges: Vec<Vector>,
+    pub(super) bulges: Vec<Vector>,
     /// The same as heights, to the left of the chord, mm.
     heights: Vec<f64>,
     /// Permitted deviation, mm.

@@ -102,8 +102,9 @@ impl<'a> Blocks<'a> {
     #[inline]
     pub(super) fn next_plain(&mut self) -> Option<([f64; 2], Span)> {
         self.skip_blanks();
-        let (after, place) = syntax::plain_block(self.bytes.get(self.at..)?)?;
-        Some((place, self.step_to(after)))
+        let rest = self.bytes.get(self.at..)?;
+        let (length, place) = syntax::plain_block(rest)?;
+        Some((place, self.step_to(&rest[length..])))
     }
 
     /// Calls `each` with the place and the span of the next blocks, as long as they are X and Y alone: most of a file.
@@ -111,12 +112,12 @@ impl<'a> Blocks<'a> {
     pub(super) fn each_plain(&mut self, mut each: impl FnMut([f64; 2], Span)) {
         let Self { bytes, mut at, mut number, .. } = *self;
         while let Some(rest) = bytes.get(at..) {
-            let rest = &rest[rest.iter().take_while(|&&byte| is_blank(byte)).count()..];
-            let Some((after, place)) = syntax::plain_block(rest) else { break };
-            let (start, end) = (bytes.len() - rest.len(), bytes.len() - after.len());
+            let blanks = rest.iter().take_while(|&&byte| is_blank(byte)).count();
+            let Some((length, place)) = syntax::plain_block(&rest[blanks..]) else { break };
+            let start = at + blanks;
+            at = start + length;
             number += 1;
-            each(place, Span { start: start as u32, end: end as u32 - 1, block: number });
-            at = end;
+            each(place, Span { start: start as u32, end: at as u32 - 1, block: number });
         }
         (self.at, self.number) = (at, number);
     }

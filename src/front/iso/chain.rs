@@ -78,11 +78,14 @@ impl Chain {
     }
 
     /// Its segments. The joint of the first one speaks for the plunge at the start and for the lift at the end.
-    pub(super) fn segments(&self) -> impl Iterator<Item = Segment> + Clone {
-        self.vertices.windows(2).enumerate().map(|(i, pair)| {
-            let mut joint = pair[0].joint;
-            joint.no_overcut |= i == 0 && self.lift == Some(Overcut::Forbidden);
-            Segment { from: pair[0].at, to: pair[1].at, span: pair[1].span, joint, percent: pair[1].percent }
+    pub(super) fn segments(&mut self) -> impl Iterator<Item = Segment> + Clone {
+        self.vertices[0].joint.no_overcut |= self.lift == Some(Overcut::Forbidden);
+        self.vertices.windows(2).map(|pair| Segment {
+            from: pair[0].at,
+            to: pair[1].at,
+            span: pair[1].span,
+            joint: pair[0].joint,
+            percent: pair[1].percent,
         })
     }
 }

@@ -150,19 +150,17 @@ pub(super) fn point(mut i: &[u8]) -> Out<'_, Point> {
     if i.len() < start { Ok((i, point)) } else { expected(i, "a point") }
 }
 
-/// `<block>`, when it is X and Y alone, both whole numbers, as nearly all blocks are: what [`block`] says of it, found with
-/// fewer steps. `None` = any other; then [`block`] and [`point`] decide.
+/// `<block>`, when it is X and Y alone, both whole numbers, as nearly all blocks are: its length, and what [`block`] says of
+/// it, found with fewer steps. `None` = any other; then [`block`] and [`point`] decide.
 #[inline] // most of a file is read here
-pub(super) fn plain_block(i: &[u8]) -> Option<(&[u8], [f64; 2])> {
-    let (length, place) = if let Some(start) = i.first_chunk() {
-        plain_block_at(start)
-    } else {
-        // Near the end of the file: a byte that no block holds stands for what is not there.
-        let mut start = [0; PLAIN_BYTES];
-        start[..i.len()].copy_from_slice(i);
-        plain_block_at(&start)
-    }?;
-    Some((&i[length..], place))
+pub(super) fn plain_block(i: &[u8]) -> Option<(usize, [f64; 2])> {
+    if let Some(start) = i.first_chunk() {
+        return plain_block_at(start);
+    }
+    // Near the end of the file: a byte that no block holds stands for what is not there.
+    let mut start = [0; PLAIN_BYTES];
+    start[..i.len()].copy_from_slice(i);
+    plain_block_at(&start)
 }
 
 /// Bytes that a plain block is looked for in: more than it can have, so that none of its places need be looked at with care.
@@ -182,11 +180,14 @@ fn plain_coordinate(i: &[u8; PLAIN_BYTES], at: usize, letter: u8) -> Option<(usi
     if i[at] != letter {
         return None;
     }
-    let is_negative = i[at + 1] == b'-';
-    let start = at + 1 + usize::from(is_negative);
+    // First as if there were no sign, as there mostly is none: then where the digits begin need not be waited for.
+    let start = at + 1;
+    if let Some((magnitude, count)) = digits::leading(&i[start..]) {
+        return Some((start + count, f64::from(magnitude.cast_signed())));
+    }
+    let start = (i[start] == b'-').then_some(start + 1)?;
     let (magnitude, count) = digits::leading(&i[start..])?;
-    let value = magnitude.cast_signed();
-    Some((start + count, f64::from(if is_negative { -value } else { value })))
+    Some((start + count, f64::from(-magnitude.cast_signed())))
 }
 
 /// `<block>`, when it is one code alone, with a whole number or none, as most others are: likewise.
@@ -285,7 +286,8 @@ mod tests {
         let ends = ["*", "", "M31*", "*X1Y1*", "Y1*", " *"];
         for (x, y) in numbers.iter().flat_map(|x| numbers.map(|y| (x, y))) {
             for text in ends.map(|end| format!("X{x}Y{y}{end}")) {
-                let Some((rest, [x, y])) = plain_block(text.as_bytes()) else { continue };
+                let Some((length, [x, y])) = plain_block(text.as_bytes()) else { continue };
+                let rest = &text.as_bytes()[length..];
                 let (left, words) = block(text.as_bytes()).expect("a block");
                 let point = Point { x: Some(x), y: Some(y), ..Point::default() };
                 assert_eq!((rest, words), (left, Words { point: Some(point), ..Words::default() }), "{text}");

@@ -36,18 +36,22 @@ fn run(marker: &mut Marker, _: &Job, _: &mut Diagnostics) {
 
 /// The pieces that are cut-outs of others, each with its part.
 fn cut_outs(list: &SegmentList, pieces: &[Piece], spaces: &[Extent]) -> Vec<(usize, usize)> {
-    let mut by_start: Vec<usize> = (0..spaces.len()).filter(|&i| !spaces[i].is_empty()).collect();
-    by_start.sort_by(|&a, &b| spaces[a].min.x.total_cmp(&spaces[b].min.x).then(a.cmp(&b)));
+    // All at first, then those that are any: a vector that grows takes new memory each time, and that is slow.
+    let mut by_start: Vec<u32> = (0..spaces.len() as u32).collect();
+    by_start.retain(|&i| !spaces[i as usize].is_empty());
+    let start = |i: u32| spaces[i as usize].min.x;
+    by_start.sort_unstable_by(|&a, &b| start(a).total_cmp(&start(b)).then(a.cmp(&b)));
     let mut work = Budget::of_a_marker();
     // Those that begin no farther than here along X and have not ended.
     let mut open: Vec<usize> = Vec::new();
     let mut found = Vec::new();
-    for (k, &i) in by_start.iter().enumerate() {
+    for (k, i) in by_start.iter().map(|&i| i as usize).enumerate() {
         let (extent, Some(point)) = (&spaces[i], point_on(list, &pieces[i])) else { continue };
         open.retain(|&other| spaces[other].max.x >= extent.min.x);
         // Others may begin at the very same place.
-        let level = by_start[k + 1..].iter().take_while(|&&other| spaces[other].min.x <= extent.min.x);
-        let wider = open.iter().chain(level).copied().filter(|&other| spaces[other].covers(extent));
+        let level = by_start[k + 1..].iter().map(|&other| other as usize);
+        let level = level.take_while(|&other| spaces[other].min.x <= extent.min.x);
+        let wider = open.iter().copied().chain(level).filter(|&other| spaces[other].covers(extent));
         if !work.spend(open.len() + 1) {
             break;
         }

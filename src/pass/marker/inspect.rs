@@ -50,23 +50,29 @@ fn open_contour(marker: &Marker, piece: usize, contour: &Contour, diagnostics: &
     }
 }
 
+/// A contour: the place of its piece among all, and its own in that.
+type Place = [u32; 2];
+
 /// The bits of the lower left corner of a contour's box, the same for all that cut the same segments, wherever they start
-/// and whichever way they go; and the contour's place among all.
-type Print = ([u64; 2], u32);
+/// and whichever way they go; and the contour.
+type Print = ([u64; 2], Place);
 
 fn twice(marker: &Marker, diagnostics: &mut Diagnostics) {
+    let piece = |[piece, _]: Place| &marker.pieces[piece as usize];
+    let range = |contour: Place| piece(contour).contours[contour[1] as usize].range;
+    let corner = |contour: Place| bits(Extent::of(&marker.list.points(range(contour))).min);
     // Counted first: what a vector grows by is new memory each time, and that is slow.
-    let mut contours: Vec<(usize, &Contour)> = Vec::with_capacity(marker.contours().count());
-    contours.extend(marker.contours());
-    let range = |contour: u32| contours[contour as usize].1.range;
-    let corner = |contour: u32| bits(Extent::of(&marker.list.points(range(contour))).min);
-    let mut prints: Vec<Print> =
-        (0..contours.len() as u32).into_par_iter().map(|contour| (corner(contour), contour)).collect();
+    let mut prints: Vec<Print> = Vec::with_capacity(marker.contours().count());
+    for (piece, i) in marker.pieces.iter().zip(0..) {
+        prints.extend((0..piece.contours.len() as u32).map(|k| ([0; 2], [i, k])));
+    }
+    prints.par_iter_mut().for_each(|(print, contour)| *print = corner(*contour));
     prints.sort_unstable();
-    let mut repeats: Vec<(u32, u32)> = Vec::new();
+    let mut repeats: Vec<(Place, Place)> = Vec::new();
     for alike in prints.chunk_by(|a, b| a.0 == b.0).filter(|alike| alike.len() > 1) {
         // Equal corners are a hint only; the segments themselves decide.
-        let mut exact: Vec<(Vec<Edge>, u32)> = alike.iter().map(|&(_, i)| (edges(&marker.list, range(i)), i)).collect();
+        let mut exact: Vec<(Vec<Edge>, Place)> =
+            alike.iter().map(|&(_, i)| (edges(&marker.list, range(i)), i)).collect();
         exact.sort();
         for same in exact.chunk_by(|a, b| a.0 == b.0) {
             repeats.extend(same[1..].iter().map(|later| (later.1, same[0].1)));
@@ -74,7 +80,7 @@ fn twice(marker: &Marker, diagnostics: &mut Diagnostics) {
     }
     repeats.sort_unstable();
     for (later, earlier) in repeats {
-        let number = |contour: u32| marker.pieces[contours[contour as usize].0].number;
+        let number = |contour: Place| piece(contour).number;
         let before = first(&marker.list, range(earlier)).span;
         let message = format!(
             "a contour of piece {} is the same as the one of piece {} in block {}",

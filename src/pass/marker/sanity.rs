@@ -75,7 +75,7 @@ struct Alone {
 
 impl Alone {
     fn of(marker: &Marker, pieces: Range<usize>, mut work: Budget) -> Self {
-        let mut alone = Self::default();
+        let mut alone = Self { boxes: Vec::with_capacity(pieces.len()), ..Self::default() };
         let mut part = Part::default();
         for i in pieces {
             part.gather(marker, i);
@@ -388,12 +388,15 @@ fn pairs(boxes: &[Extent], work: &mut Budget, mut met: impl FnMut(usize, usize, 
     }
     let (width, height) = all.size();
     let side = |&Extent { min, max }: &Extent| if width >= height { [min.x, max.x] } else { [min.y, max.y] };
-    let sides = boxes.iter().enumerate().filter(|(_, extent)| !extent.is_empty());
-    let mut order: Vec<([f64; 2], usize)> = sides.map(|(i, extent)| (side(extent), i)).collect();
-    order.sort_unstable_by(|(a, i), (b, k)| a[0].total_cmp(&b[0]).then(i.cmp(k)));
+    // All at first, then those that are any: a vector that grows takes new memory each time, and that is slow.
+    let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
+    order.retain(|&i| !boxes[i as usize].is_empty());
+    let start = |i: u32| side(&boxes[i as usize])[0];
+    order.sort_unstable_by(|&i, &k| start(i).total_cmp(&start(k)).then(i.cmp(&k)));
     // Boxes that are not left behind yet: where they end, and which they are.
     let mut active: Vec<(f64, usize)> = Vec::new();
-    for ([start, end], i) in order {
+    for i in order.into_iter().map(|i| i as usize) {
+        let [start, end] = side(&boxes[i]);
         if !work.spend(active.len()) {
             return;
         }
