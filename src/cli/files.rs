@@ -167,6 +167,10 @@ impl Asked<'_> {
                 format!("leave -t out, or write to `-o {}`", file.with_extension(one.extension).display()),
             )),
             ([], Some(told), _) => Ok(vec![told]),
+            ([], None, Some(file)) if names_program(file) => Err(failure(
+                format!("`-o {}` may be G-code or a cut file: its name does not say", file.display()),
+                "say which with `-t gcode` or `-t iso`; alone `.ngc` is G-code here, `.iso` a cut file",
+            )),
             ([], None, _) => Ok(vec![&TARGETS[0]]),
             (typed, _, _) => Ok(typed.to_vec()),
         }
@@ -230,6 +234,12 @@ impl Asked<'_> {
 /// Whether a path is a directory, or written as one.
 fn names_directory(path: &Path) -> bool {
     path.is_dir() || path.as_os_str().to_string_lossy().ends_with(MAIN_SEPARATOR)
+}
+
+/// Whether a path has an extension that others give to programs of machines: setpoints must not come by such a name unseen.
+fn names_program(path: &Path) -> bool {
+    let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
+    matches!(extension.as_deref(), Some("nc" | "gcode" | "gco" | "tap" | "cnc" | "cut" | "gbr" | "ggt"))
 }
 
 /// A directory that was made for programs; it goes when it is still empty in the end.
@@ -405,6 +415,8 @@ mod tests {
             assert_eq!(written("x.txt", &[target]), Ok(vec![target.name]));
         }
         assert_eq!(written("x.txt", &[]), Ok(vec![TARGETS[0].name]));
+        assert!(written("x.NC", &[]).expect_err("refused").contains("-t gcode"));
+        assert_eq!(written("x.nc", &[&TARGETS[1]]), Ok(vec![TARGETS[1].name]));
         let [first, second] = [&TARGETS[0], &TARGETS[1]];
         let refused = written(&format!("x.{}", second.extension), &[first]).expect_err("refused");
         assert!(refused.contains("disagree") && refused.contains("x.csv"), "{refused}");

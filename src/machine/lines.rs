@@ -12,6 +12,9 @@ const MOVES: &[&str] = &["G28", "G30", "G38.2", "G65", "M98"];
 /// Words that end the program.
 const ENDS: &[&str] = &["M2", "M02", "M30", "%"];
 
+/// Words that switch outputs, but only where the next move begins: the knife would come down as it is led on.
+const LATE: &[&str] = &["M62", "M63", "M67"];
+
 /// The lines of a profile by their keys.
 fn texts(gcode: &Gcode) -> [(&'static str, &String); 8] {
     [
@@ -34,13 +37,19 @@ pub(super) fn harmful(gcode: &Gcode) -> Vec<(&'static str, String)> {
         let harms = |word: &String| {
             let is_axis = axes.contains(&word.as_bytes()[0]) && word.len() > 1;
             let is_any = |list: &[&str]| list.contains(&word.as_str());
-            // F would hold where a move has none, O begins a subroutine.
-            let is_call = word.starts_with(['F', 'O']);
+            // F would hold where a move has none, O begins a subroutine, N is the number that the program gives.
+            let is_call = word.starts_with(['F', 'O', 'N']);
             is_any(MODES) || is_call || !is_last && (is_axis || is_any(MOVES) || is_any(ENDS))
         };
         Some((key, text.lines().flat_map(words).find(harms)?))
     });
     found.collect()
+}
+
+/// The lines of a profile by their keys, and the first word of each that acts too late.
+pub(super) fn late(gcode: &Gcode) -> Vec<(&'static str, String)> {
+    let first = |text: &str| text.lines().flat_map(words).find(|word| LATE.contains(&word.as_str()));
+    texts(gcode).into_iter().filter_map(|(key, text)| Some((key, first(text)?))).collect()
 }
 
 /// Two keys that must not say the same: what puts a tool down and what lifts it.
@@ -111,5 +120,13 @@ mod tests {
             assert_eq!(found(header, "M2"), [("gcode.header", word.to_owned())], "{header}");
         }
         assert_eq!(found("", "G91\nM2"), [("gcode.footer", "G91".to_owned())]);
+        assert_eq!(found("N5 G54", "M2"), [("gcode.header", "N5".to_owned())]);
+    }
+
+    #[test]
+    fn outputs_that_wait_for_a_move_are_found() {
+        let with = |down: &str| late(&Gcode { knife_down: down.to_owned(), ..Gcode::default() });
+        assert_eq!(with("M64 P0"), []);
+        assert_eq!(with("m62 p0"), [("gcode.knife_down", "M62".to_owned())]);
     }
 }

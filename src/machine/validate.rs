@@ -114,6 +114,10 @@ fn rules(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault
             "modes, moves of the axes and the end are the program's own; only `gcode.footer` may move, and end it";
         broken(&[key], message, hint);
     }
+    for (key, word) in lines::late(&profile.gcode) {
+        let message = format!("`{key}` has {word}, which acts only where the next move begins");
+        broken(&[key], message, "M64 and M65 act at once, before the rest that the knife is given");
+    }
     for key in lines::blank(&profile.gcode) {
         let message = format!("`{key}` says nothing");
         broken(
