@@ -34,7 +34,7 @@ impl<T: Copy> Scattered<T> {
         let block = &mut self.blocks[place];
         if block.is_empty() {
             let first = (place * BLOCK) as u32;
-            block.extend((first..first + BLOCK as u32).map(usual));
+            block.extend((0..BLOCK as u32).map(|i| usual(first.wrapping_add(i))));
         }
         &mut block[id as usize % BLOCK]
     }
