@@ -17,8 +17,9 @@ const PAIRS: [[u8; 2]; 100] = {
     pairs
 };
 
-/// The most decimals that are printed by integers, and the powers of ten up to that.
+/// The most decimals that any format here prints.
 const DECIMALS_MAX: usize = 9;
+/// The powers of ten up to that.
 const POWERS: [f64; DECIMALS_MAX + 1] = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
 
 /// Appends `value` with exactly `decimals` decimals (at most 9), rounded half away from zero, never as `-0.0`.
@@ -26,7 +27,7 @@ const POWERS: [f64; DECIMALS_MAX + 1] = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7,
 /// Values beyond the integer path (and the non-finite, which no program holds) are printed by the standard library.
 pub fn push_fixed(out: &mut Vec<u8>, value: f64, decimals: u32) {
     let decimals = decimals as usize;
-    debug_assert!(decimals <= DECIMALS_MAX, "more decimals than any format here prints");
+    assert!(decimals <= DECIMALS_MAX, "more decimals than any format here prints");
     let scaled = value * POWERS[decimals];
     if scaled.is_nan() || scaled.abs() > INTEGER_PATH_MAX {
         out.extend_from_slice(format!("{value:.decimals$}").as_bytes());

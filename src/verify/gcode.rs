@@ -1,8 +1,9 @@
 //! Reads G-code as places along the way of the axes: no time, but at each place how the axes go there, as F asks for.
 //!
 //! Knows the words of the target alone: G0 to G4 with full coordinates, the lines of the profile for head, knife, drill,
-//! operator and end, comments, however people spell them. Arcs are followed as a controller does: around the centre that I and J give, with C linear
-//! in their angle. Where a line cannot be read nothing is said about the rest: all that follows from it would be wrong.
+//! operator and end, comments, however people spell them. Arcs are followed as a controller does: around the centre that I
+//! and J give, with C linear in their angle. Where a line cannot be read nothing is said about the rest: all that follows
+//! from it would be wrong.
 
 use std::collections::VecDeque;
 use std::f64::consts::TAU;

@@ -45,8 +45,8 @@ pub(super) fn bowed_ends(line: &Line, blade: Blade) -> [f64; 2] {
     [blade.bowed_way(|| line.points(), reach), blade.bowed_way(|| line.points().rev(), reach)]
 }
 
-/// The stretches of a line that may be nibbled where it is too tight or begins or ends bowed, by stations, in order, with as much before and behind as the blade is wide:
-/// what nibbles may reach as far. On a ring they may go on past its end.
+/// The stretches of a line that may be nibbled where it is too tight or begins or ends bowed, by stations, in order, with as
+/// much before and behind as the blade is wide: what nibbles may reach as far. On a ring they may go on past its end.
 pub(super) fn stretches(line: &Line, (tight, ends): (&[[f64; 2]], [f64; 2]), blade: Blade) -> Vec<[f64; 2]> {
     let (length, width) = (line.length(), blade.knife.width_mm);
     let mut found: Vec<[f64; 2]> = Vec::new();

@@ -29,7 +29,8 @@ impl Order {
     /// Something of the marker is told or drilled, or begins to be cut, at a tick.
     pub(super) fn see(&mut self, tick: u64, rank: usize, place: Sighting) {
         let Sighting { point, block, .. } = place;
-        self.seen.push(Seen { tick, point, rank: rank as u32, block });
+        let rank = u32::try_from(rank).expect("a source below 4 GiB has fewer than 2^32 lines");
+        self.seen.push(Seen { tick, point, rank, block });
     }
 
     /// Takes what another saw of the same program.

@@ -114,10 +114,13 @@ fn find_exceptions(line: &mut Line, blade: Blade) {
     let is_bowed = ends != [0.0; 2] || is_lifted && nibbles::bows_anywhere(line, blade);
     let is_nibbling = knife.tight_curves == TightCurves::Nibble;
     let tight = if is_nibbling || knife.follow == Follow::Chord { chord::tight(line, knife) } else { Vec::new() };
-    let nibbled = match is_bowed || is_nibbling && !tight.is_empty() {
-        false => Vec::new(),
-        true if is_lifted => vec![[f64::NEG_INFINITY, f64::INFINITY]],
-        true => nibbles::stretches(line, (&tight, ends), blade),
+    let may_nibble = is_bowed || is_nibbling && !tight.is_empty();
+    let nibbled = if !may_nibble {
+        Vec::new()
+    } else if is_lifted {
+        vec![[f64::NEG_INFINITY, f64::INFINITY]]
+    } else {
+        nibbles::stretches(line, (&tight, ends), blade)
     };
     line.except(Exceptions { tight, nibbled });
 }

@@ -29,7 +29,7 @@ const SECONDS_PER_MINUTE: f64 = 60.0;
 /// Bytes of a large file for each of its segments: fewer than most have, since to move them all takes longer than room that
 /// nothing comes into.
 const BYTES_A_SEGMENT: usize = 12;
-/// The same for pieces.
+/// Bytes that a piece takes at the least, as a rule: room is made for so many pieces, and grows where they are shorter.
 const BYTES_A_PIECE: usize = 512;
 /// Farthest place from the origin, mm: a kilometre, far beyond any table.
 const FARTHEST: f64 = 1e6;
