@@ -78,9 +78,14 @@ pub fn turn(a: Vector, b: Vector) -> f64 {
 /// Whether the direction of `b` is turned from that of `a` by more than `limit` rad, either way. Most are far from any limit,
 /// so that the angle itself need not be known.
 pub fn is_turned(a: Vector, b: Vector, limit: f64) -> bool {
-    // An angle is less than its tangent.
-    let is_less = super::cross(a, b).abs() < limit * (1.0 - SURE_EPSILON) * a.dot(&b);
-    !is_less && turn(a, b).abs() > limit
+    let (sine, cosine) = (super::cross(a, b).abs(), a.dot(&b));
+    // An angle is less than its tangent, and more than its sine.
+    if sine < limit * (1.0 - SURE_EPSILON) * cosine {
+        return false;
+    }
+    let is_more = (cosine < 0.0 && limit < 1.0)
+        || sine * sine > limit * limit * (1.0 + SURE_EPSILON) * a.norm_squared() * b.norm_squared();
+    is_more || turn(a, b).abs() > limit
 }
 
 #[cfg(test)]

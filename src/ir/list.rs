@@ -145,6 +145,18 @@ impl SegmentList {
         Some(Range { first, last, backward: false, in_order: true })
     }
 
+    /// Appends the segments between points as a range of their own; `None` when there are none. Beside each point stands the
+    /// block that it came from; the file asks for nothing on them.
+    pub fn append_line(&mut self, points: &[Point], spans: &[Span]) -> Option<Range> {
+        let (_, [_, ..]) = points.split_first()? else { return None };
+        let front = self.ends.len();
+        self.ends.extend_from_slice(points);
+        self.spans.push(Span::default());
+        self.spans.extend_from_slice(&spans[1..points.len()]);
+        let [first, last] = [front + 1, self.ends.len() - 1].map(id);
+        Some(Range { first, last, backward: false, in_order: true })
+    }
+
     /// Walks a range in its direction. A segment that is walked backward comes out turned round.
     pub fn walk(&self, range: Range) -> Walk<'_> {
         let (at, end) = if range.backward { (range.last, range.first) } else { (range.first, range.last) };
@@ -161,6 +173,14 @@ impl SegmentList {
         let mut points = Vec::with_capacity(nodes().count());
         points.extend(nodes().map(|id| self.ends[id as usize]));
         Cow::Owned(points)
+    }
+
+    /// The blocks that the segments of a range came from, in its direction.
+    pub fn spans(&self, range: Range) -> Cow<'_, [Span]> {
+        if range.in_order && !range.backward {
+            return Cow::Borrowed(&self.spans[range.first.0 as usize..=range.last.0 as usize]);
+        }
+        self.walk(range).map(|(_, segment)| segment.span).collect()
     }
 
     /// The points of a range in its direction, each with the span of the segment that leads there; to the first none does.
@@ -498,6 +518,7 @@ mod tests {
             let ends = list.walk(range).map(|(_, segment)| (segment.to, segment.span));
             let expected: Vec<_> = std::iter::once((first.from, Span::default())).chain(ends).collect();
             assert_eq!(list.vertices(range).collect::<Vec<_>>(), expected);
+            assert!(list.spans(range).iter().eq(expected[1..].iter().map(|(_, span)| span)));
             let ends: Vec<_> = expected.windows(2).map(|pair| [pair[0].0, pair[1].0]).collect();
             assert_eq!(list.lines(range).collect::<Vec<_>>(), ends);
         }

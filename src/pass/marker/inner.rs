@@ -36,21 +36,19 @@ fn run(marker: &mut Marker, _: &Job, _: &mut Diagnostics) {
 
 /// The pieces that are cut-outs of others, each with its part.
 fn cut_outs(list: &SegmentList, pieces: &[Piece], spaces: &[Extent]) -> Vec<(usize, usize)> {
-    // All at first, then those that are any: a vector that grows takes new memory each time, and that is slow.
-    let mut by_start: Vec<u32> = (0..spaces.len() as u32).collect();
-    by_start.retain(|&i| !spaces[i as usize].is_empty());
-    let start = |i: u32| spaces[i as usize].min.x;
-    by_start.sort_unstable_by(|&a, &b| start(a).total_cmp(&start(b)).then(a.cmp(&b)));
+    // Room for all: a vector that grows takes new memory each time, and that is slow.
+    let mut by_start: Vec<(f64, usize)> = Vec::with_capacity(spaces.len());
+    by_start.extend(spaces.iter().map(|space| space.min.x).zip(0..).filter(|&(_, i)| !spaces[i].is_empty()));
+    by_start.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let mut work = Budget::of_a_marker();
     // Those that begin no farther than here along X and have not ended.
     let mut open: Vec<usize> = Vec::new();
     let mut found = Vec::new();
-    for (k, i) in by_start.iter().map(|&i| i as usize).enumerate() {
+    for (k, &(_, i)) in by_start.iter().enumerate() {
         let (extent, Some(point)) = (&spaces[i], point_on(list, &pieces[i])) else { continue };
         open.retain(|&other| spaces[other].max.x >= extent.min.x);
         // Others may begin at the very same place.
-        let level = by_start[k + 1..].iter().map(|&other| other as usize);
-        let level = level.take_while(|&other| spaces[other].min.x <= extent.min.x);
+        let level = by_start[k + 1..].iter().take_while(|(start, _)| *start <= extent.min.x).map(|&(_, other)| other);
         let wider = open.iter().copied().chain(level).filter(|&other| spaces[other].covers(extent));
         if !work.spend(open.len() + 1) {
             break;

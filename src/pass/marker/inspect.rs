@@ -53,24 +53,27 @@ fn open_contour(marker: &Marker, piece: usize, contour: &Contour, diagnostics: &
 /// A contour: the place of its piece among all, and its own in that.
 type Place = [u32; 2];
 
-/// The bits of the lower left corner of a contour's box, the same for all that cut the same segments, wherever they start
-/// and whichever way they go; and the contour.
-type Print = ([u64; 2], Place);
+/// A number made of the lower left corner of a contour's box, the same for all that cut the same segments, wherever they
+/// start and whichever way they go; and the contour.
+type Print = (u64, Place);
 
 fn twice(marker: &Marker, diagnostics: &mut Diagnostics) {
     let piece = |[piece, _]: Place| &marker.pieces[piece as usize];
     let range = |contour: Place| piece(contour).contours[contour[1] as usize].range;
-    let corner = |contour: Place| bits(Extent::of(&marker.list.points(range(contour))).min);
+    let print = |contour: Place| {
+        let [x, y] = bits(Extent::of(&marker.list.points(range(contour))).min);
+        x ^ y.rotate_left(u64::BITS / 2)
+    };
     // Counted first: what a vector grows by is new memory each time, and that is slow.
     let mut prints: Vec<Print> = Vec::with_capacity(marker.contours().count());
     for (piece, i) in marker.pieces.iter().zip(0..) {
-        prints.extend((0..piece.contours.len() as u32).map(|k| ([0; 2], [i, k])));
+        prints.extend((0..piece.contours.len() as u32).map(|k| (0, [i, k])));
     }
-    prints.par_iter_mut().for_each(|(print, contour)| *print = corner(*contour));
+    prints.par_iter_mut().for_each(|(number, contour)| *number = print(*contour));
     prints.sort_unstable();
     let mut repeats: Vec<(Place, Place)> = Vec::new();
     for alike in prints.chunk_by(|a, b| a.0 == b.0).filter(|alike| alike.len() > 1) {
-        // Equal corners are a hint only; the segments themselves decide.
+        // Equal numbers are a hint only; the segments themselves decide.
         let mut exact: Vec<(Vec<Edge>, Place)> =
             alike.iter().map(|&(_, i)| (edges(&marker.list, range(i)), i)).collect();
         exact.sort();

@@ -56,7 +56,9 @@ fn run(marker: &mut Marker, _: &Job, _: &mut Diagnostics) {
                 let counter_clockwise = ring::area(outline.ring()) > 0.0;
                 let is_left = counter_clockwise != is_cut_out(&outlines, k, &mut work);
                 let part = if is_left { Side::Left } else { Side::Right };
-                piece.vees.extend(outline.vees(list, part));
+                let vees = outline.vees(list, part);
+                piece.vees.reserve_exact(vees.len());
+                piece.vees.extend(vees);
             }
         }
     });
@@ -96,20 +98,17 @@ impl<'a> Outline<'a> {
         &self.points[..self.points.len() - 1]
     }
 
-    /// Gives notches, in the order of their apexes, the blocks that those came from.
+    /// Gives notches the blocks that their apexes came from.
     fn give_spans(&self, list: &SegmentList, vees: &mut [(usize, Vee)]) {
-        let mut spans = list.vertices(self.range).map(|(_, span)| span).enumerate();
-        for (i, vee) in &mut *vees {
-            vee.span = spans.find(|(k, _)| k == i).map(|(_, span)| span).unwrap_or_default();
-        }
-        // The last vertex is the first one, and knows what led there.
-        if let Some((0, vee)) = vees.first_mut() {
-            vee.span = list.walk(self.range.reversed()).next().map(|(_, last)| last.span).unwrap_or_default();
+        let spans = list.spans(self.range);
+        for (i, vee) in vees {
+            // The segment in front of it leads there.
+            vee.span = spans[i.checked_sub(1).unwrap_or(spans.len() - 1)];
         }
     }
 
     /// Its notches, when its part lies on the given side.
-    fn vees(&self, list: &SegmentList, part: Side) -> impl Iterator<Item = Vee> + use<> {
+    fn vees(&self, list: &SegmentList, part: Side) -> impl ExactSizeIterator<Item = Vee> + use<> {
         let points = self.ring();
         let count = points.len();
         let vee = |&i: &usize| {
@@ -206,12 +205,12 @@ fn is_on_edge(points: &[Point], i: usize, unit: f64) -> bool {
                 let was_far = std::mem::replace(far, way.norm() >= width);
                 (!was_far).then_some(way)
             })
-            .any(|way| angle::turn(way, mouth).abs() <= most)
+            .any(|way| !angle::is_turned(way, mouth, most))
     };
     goes_on(before, &|step| at.back(1 + step), -1.0) && goes_on(after, &|step| at.ahead(1 + step), 1.0)
 }
 
-/// The vertices of a ring, seen from one of them.
+/// The vertices of a ring, seen from one of them: once round it at the most, either way.
 struct Around<'a> {
     points: &'a [Point],
     i: usize,
@@ -219,10 +218,11 @@ struct Around<'a> {
 
 impl Around<'_> {
     fn ahead(&self, steps: usize) -> Point {
-        self.points[(self.i + steps) % self.points.len()]
+        let place = self.i + steps;
+        self.points[place.checked_sub(self.points.len()).unwrap_or(place)]
     }
 
     fn back(&self, steps: usize) -> Point {
-        self.points[(self.i + self.points.len() - steps) % self.points.len()]
+        self.points[self.i.checked_sub(steps).unwrap_or(self.i + self.points.len() - steps)]
     }
 }

@@ -8,6 +8,7 @@
 //! - A hole lies in no part. Where nothing is closed there are no parts to tell.
 //! - The number of a piece comes again.
 
+use std::borrow::Cow;
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -95,6 +96,9 @@ impl Alone {
 
 /// Numbers that start again from one that was there already, or stay.
 fn numbers(marker: &Marker, diagnostics: &mut Diagnostics) {
+    if marker.pieces.is_sorted_by(|before, after| before.number < after.number) {
+        return; // as in most files
+    }
     let mut seen = BTreeSet::new();
     let mut repeated = BTreeSet::new();
     let mut before = 0;
@@ -115,45 +119,55 @@ fn numbers(marker: &Marker, diagnostics: &mut Diagnostics) {
 
 /// The outlines of a piece.
 #[derive(Debug)]
-struct Part {
+struct Part<'a> {
     /// Its points, one contour behind the other; a closed one ends with its first point.
-    points: Vec<Point>,
+    points: Cow<'a, [Point]>,
     /// Where each contour starts among the points, and whether it is closed.
     contours: Vec<(usize, bool)>,
-    /// Monotone chains with their boxes, and the contour of each.
-    chains: Vec<(Extent, Chain, usize)>,
+    /// Monotone chains, and their boxes.
+    chains: Vec<Chain>,
+    boxes: Vec<Extent>,
     extent: Extent,
 }
 
-impl Default for Part {
+impl Default for Part<'_> {
     fn default() -> Self {
-        Self { points: Vec::new(), contours: Vec::new(), chains: Vec::new(), extent: Extent::EMPTY }
+        let points = Cow::default();
+        Self { points, contours: Vec::new(), chains: Vec::new(), boxes: Vec::new(), extent: Extent::EMPTY }
     }
 }
 
-impl Part {
-    fn of(marker: &Marker, piece: usize) -> Self {
+impl<'a> Part<'a> {
+    fn of(marker: &'a Marker, piece: usize) -> Self {
         let mut part = Self::default();
         part.gather(marker, piece);
         part
     }
 
     /// Takes the outlines of a piece in place of those that are here: one part serves all pieces of a marker in turn.
-    fn gather(&mut self, marker: &Marker, piece: usize) {
-        let Self { points, contours, chains, extent } = self;
-        points.clear();
+    fn gather(&mut self, marker: &'a Marker, piece: usize) {
+        let Self { points, contours, chains, boxes, extent } = self;
+        *points = Cow::default();
         contours.clear();
         chains.clear();
+        boxes.clear();
         *extent = Extent::EMPTY;
-        for (k, contour) in marker.pieces[piece].contours.iter().enumerate() {
+        for contour in &marker.pieces[piece].contours {
             let start = points.len();
             contours.push((start, contour.closed));
-            points.extend_from_slice(&marker.list.points(contour.range));
+            let of_contour = marker.list.points(contour.range);
+            // A piece of one contour, as most are, is looked at where it stands.
+            if start == 0 {
+                *points = of_contour;
+            } else {
+                points.to_mut().extend_from_slice(&of_contour);
+            }
             for chain in monotone::chains(&points[start..]) {
                 let chain = Chain { first: chain.first + start as u32, last: chain.last + start as u32 };
                 let of_chain = chain.extent(points);
                 extent.join(&of_chain);
-                chains.push((of_chain, chain, k));
+                chains.push(chain);
+                boxes.push(of_chain);
             }
         }
     }
@@ -221,11 +235,9 @@ impl Part {
             let [a, b] = crossing.segments;
             self.leads_across(a, ends(b), slack(marker)) && self.leads_across(b, ends(a), slack(marker))
         };
-        let boxes: Vec<Extent> = self.chains.iter().map(|chain| chain.0).collect();
         let mut found: Option<Crossing> = None;
-        pairs(&boxes, work, |i, k, work| {
-            let (earlier, later) = (i.min(k), i.max(k));
-            let both = [self.chains[earlier].1, self.chains[later].1];
+        pairs(&self.boxes, work, |i, k, work| {
+            let both = [i.min(k), i.max(k)].map(|chain| self.chains[chain]);
             if !work.spend(both.iter().map(|chain| chain.segments()).sum()) {
                 return false;
             }
@@ -249,8 +261,8 @@ fn slack(marker: &Marker) -> f64 {
 /// The span of the segment of a piece that starts at one of its points.
 fn span(marker: &Marker, (piece, part): (usize, &Part), point: usize) -> Span {
     let k = part.contour_of(point);
-    let mut segments = marker.list.walk(marker.pieces[piece].contours[k].range);
-    segments.nth(point - part.contours[k].0).map(|(_, segment)| segment.span).unwrap_or_default()
+    let spans = marker.list.spans(marker.pieces[piece].contours[k].range);
+    spans.get(point - part.contours[k].0).copied().unwrap_or_default()
 }
 
 /// What all searches look at.
@@ -259,7 +271,7 @@ struct Search<'a> {
     /// The boxes of the pieces.
     boxes: Vec<Extent>,
     /// The outlines of pieces, as far as they are looked at beside others: most pieces of a marker lie apart.
-    parts: Vec<OnceCell<Box<Part>>>,
+    parts: Vec<OnceCell<Box<Part<'a>>>>,
 }
 
 impl<'a> Search<'a> {
@@ -268,7 +280,7 @@ impl<'a> Search<'a> {
         Self { marker, boxes: Vec::with_capacity(marker.pieces.len()), parts }
     }
 
-    fn part(&self, piece: usize) -> &Part {
+    fn part(&self, piece: usize) -> &Part<'a> {
         self.parts[piece].get_or_init(|| Box::new(Part::of(self.marker, piece)))
     }
 
@@ -301,7 +313,8 @@ impl<'a> Search<'a> {
     fn overlap(&self, i: usize, k: usize, work: &mut Budget) -> Option<(Point, Span)> {
         let (a, b) = (self.part(i), self.part(k));
         let common = |part: &Part, other: &Part| -> Vec<Chain> {
-            part.chains.iter().filter(|(extent, ..)| extent.overlaps(&other.extent)).map(|chain| chain.1).collect()
+            let near = part.chains.iter().zip(&part.boxes).filter(|(_, extent)| extent.overlaps(&other.extent));
+            near.map(|(chain, _)| *chain).collect()
         };
         let (of_a, of_b) = (common(a, b), common(b, a));
         if of_a.is_empty() || of_b.is_empty() || !work.spend(a.chains.len() + b.chains.len()) {
@@ -388,15 +401,15 @@ fn pairs(boxes: &[Extent], work: &mut Budget, mut met: impl FnMut(usize, usize, 
     }
     let (width, height) = all.size();
     let side = |&Extent { min, max }: &Extent| if width >= height { [min.x, max.x] } else { [min.y, max.y] };
-    // All at first, then those that are any: a vector that grows takes new memory each time, and that is slow.
-    let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
-    order.retain(|&i| !boxes[i as usize].is_empty());
-    let start = |i: u32| side(&boxes[i as usize])[0];
-    order.sort_unstable_by(|&i, &k| start(i).total_cmp(&start(k)).then(i.cmp(&k)));
+    // Room for all: a vector that grows takes new memory each time, and that is slow.
+    let mut order: Vec<(f64, u32)> = Vec::with_capacity(boxes.len());
+    order
+        .extend(boxes.iter().zip(0..).filter(|(extent, _)| !extent.is_empty()).map(|(extent, i)| (side(extent)[0], i)));
+    order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     // Boxes that are not left behind yet: where they end, and which they are.
     let mut active: Vec<(f64, usize)> = Vec::new();
-    for i in order.into_iter().map(|i| i as usize) {
-        let [start, end] = side(&boxes[i]);
+    for (start, i) in order.into_iter().map(|(start, i)| (start, i as usize)) {
+        let [_, end] = side(&boxes[i]);
         if !work.spend(active.len()) {
             return;
         }
