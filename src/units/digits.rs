@@ -13,21 +13,53 @@ const WORD: usize = size_of::<u64>();
 /// The number that the digits at the start of some bytes write, and how many digits it has, one to eight; `None` when
 /// there are none or more, or fewer than eight bytes are left.
 pub fn leading(bytes: &[u8]) -> Option<(u32, usize)> {
-    // The first byte is the lowest of the word; digits become 0 to 9.
-    let word = u64::from_le_bytes(*bytes.first_chunk::<WORD>()?) ^ ZEROS;
-    // A carry of this sum reaches later bytes only, and the first byte that is no digit counts.
-    let others = (word | word.wrapping_add(ABOVE_NINE)) & HIGHEST;
-    let count = others.trailing_zeros() as usize / WORD;
+    let word = *bytes.first_chunk::<WORD>()?;
+    let count = others(word).trailing_zeros() as usize / WORD;
     if count == 0 || (count == WORD && bytes.get(WORD).is_some_and(u8::is_ascii_digit)) {
         return None;
     }
-    // With the last digit in the highest byte, zeros stand before the first. Then neighbours become numbers of two digits,
-    // of four, of eight (D. Lemire, "Quickly parsing eight digits", 2018).
-    let digits = word << (8 * (WORD - count));
+    Some((value(word, count), count))
+}
+
+/// Bytes that [`pair`] looks at.
+pub const PAIR: usize = 3 * WORD;
+
+/// Two numbers with a byte between them that is no digit, as in `105Y2326*`: the numbers, and the places of that byte and of
+/// the one behind, which is no digit if the first is below 0x80. `None` when one has no digits, or too many to be looked at.
+#[inline] // most of a file is read here
+pub fn pair(bytes: &[u8; PAIR]) -> Option<([u32; 2], [usize; 2])> {
+    let [first, second, _] = [0, 1, 2].map(|word| bytes.as_chunks().0[word]);
+    // Both ends are looked for at once: the next number of a file, which begins behind the second, waits for them alone.
+    let ends = others(first);
+    let behind = ends & ends.wrapping_sub(1);
+    let middle = ends.trailing_zeros() as usize / WORD;
+    let end = match behind {
+        0 => WORD + others(second).trailing_zeros() as usize / WORD,
+        _ => behind.trailing_zeros() as usize / WORD,
+    };
+    let count = end.wrapping_sub(middle + 1);
+    if middle == 0 || !(1..=WORD).contains(&count) {
+        return None;
+    }
+    Some(([value(first, middle), value(*bytes[middle + 1..].first_chunk()?, count)], [middle, end]))
+}
+
+/// The highest bit of each byte that is no digit. A carry reaches later bytes only, from bytes above 0x7f: the first that is
+/// no digit counts.
+fn others(word: [u8; WORD]) -> u64 {
+    let word = u64::from_le_bytes(word) ^ ZEROS; // digits become 0 to 9
+    (word | word.wrapping_add(ABOVE_NINE)) & HIGHEST
+}
+
+/// The number that the first digits write, one to eight.
+fn value(word: [u8; WORD], count: usize) -> u32 {
+    // The first byte is the lowest of the word. With the last digit in the highest byte, zeros stand before the first. Then
+    // neighbours become numbers of two digits, of four, of eight (D. Lemire, "Quickly parsing eight digits", 2018).
+    let digits = (u64::from_le_bytes(word) ^ ZEROS) << (8 * (WORD - count));
     let twos = digits.wrapping_mul(10 * (1 << 8) + 1) >> 8 & 0x00ff_00ff_00ff_00ff;
     let fours = twos.wrapping_mul(100 * (1 << 16) + 1) >> 16 & 0x0000_ffff_0000_ffff;
     let eight = fours.wrapping_mul(10_000 * (1 << 32) + 1) >> 32;
-    Some((eight as u32, count))
+    eight as u32
 }
 
 #[cfg(test)]
@@ -54,6 +86,28 @@ mod tests {
         for number in (0..99_999_999_u32).step_by(98_765) {
             let text = format!("{number}*Y00000000");
             check(text.as_bytes(), Some((number, text.find('*').expect("an asterisk"))));
+        }
+    }
+
+    #[test]
+    fn two_numbers_are_found_with_what_is_between_them() {
+        let of = |text: &str| {
+            let mut bytes = [b'*'; PAIR];
+            bytes[..text.len()].copy_from_slice(text.as_bytes());
+            pair(&bytes)
+        };
+        assert_eq!(of("105Y2326*"), Some(([105, 2326], [3, 8])));
+        assert_eq!(of("1Y2*"), Some(([1, 2], [1, 3])));
+        assert_eq!(of("1Y234567*9"), Some(([1, 234_567], [1, 8])));
+        assert_eq!(of("1234567Y12345678*"), Some(([1_234_567, 12_345_678], [7, 16])));
+        for (first, second) in (1..8).flat_map(|first| (1..=8).map(move |second| (first, second))) {
+            let [x, y] = ["98765432", "12345678"].map(str::to_owned);
+            let (x, y) = (&x[..first], &y[..second]);
+            let numbers = [x, y].map(|digits| digits.parse().expect("a number"));
+            assert_eq!(of(&format!("{x}Y{y}*")), Some((numbers, [first, first + 1 + second])));
+        }
+        for none in ["", "Y1*", "1*", "1Y*", "12345678Y1*", "123456789Y1*", "1Y123456789*", "-1Y1*", "1Y-1*"] {
+            assert_eq!(of(none), None, "{none}");
         }
     }
 

@@ -2,7 +2,7 @@
 
 use nom::Err;
 
-use super::syntax::{self, Fault, FaultKind, Point, Words};
+use super::syntax::{self, Code, Fault, FaultKind, Point, Words};
 use crate::diagnostic::{Diagnostic, code};
 use crate::source::Span;
 
@@ -84,12 +84,11 @@ impl<'a> Blocks<'a> {
 
     /// The next block; `None` at the end.
     pub(super) fn next(&mut self) -> Option<Block> {
-        self.skip_blanks();
-        let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
-        if let Some((after, code)) = syntax::plain_code(rest) {
+        if let Some((code, span)) = self.next_code() {
             let words = Words { codes: std::iter::once(code).collect(), point: None };
-            return Some(Block { span: self.step_to(after), words: Ok(words) });
+            return Some(Block { span, words: Ok(words) });
         }
+        let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
         // Nearly every block has no blanks inside and is read where it stands.
         if let Ok((after, words)) = syntax::block(rest) {
             return Some(Block { span: self.step_to(after), words: Ok(words) });
@@ -97,27 +96,32 @@ impl<'a> Blocks<'a> {
         self.next_with_blanks()
     }
 
-    /// The next block if it is X and Y alone, as nearly all are: what [`Self::next`] reads, with far fewer steps. Otherwise
-    /// it stays the next one.
-    #[inline]
-    pub(super) fn next_plain(&mut self) -> Option<([f64; 2], Span)> {
+    /// The next block if it is one code alone; otherwise it stays the next one. Reads what [`Self::next`] reads, without
+    /// making room for other codes.
+    pub(super) fn next_code(&mut self) -> Option<(Code, Span)> {
         self.skip_blanks();
-        let rest = self.bytes.get(self.at..)?;
-        let (length, place) = syntax::plain_block(rest)?;
-        Some((place, self.step_to(&rest[length..])))
+        let (after, code) = syntax::plain_code(self.bytes.get(self.at..)?)?;
+        Some((code, self.step_to(after)))
     }
 
-    /// Calls `each` with the place and the span of the next blocks, as long as they are X and Y alone: most of a file.
+    /// Calls `each` with the place and the span of the next blocks, as long as they are X and Y alone, as most of a file is:
+    /// with far fewer steps than [`Self::next_point`] takes, which reads the very last ones.
     #[inline]
     pub(super) fn each_plain(&mut self, mut each: impl FnMut([f64; 2], Span)) {
         let Self { bytes, mut at, mut number, .. } = *self;
         while let Some(rest) = bytes.get(at..) {
+            if let Some((length, place)) = rest.first_chunk().and_then(syntax::plain_block) {
+                let start = at;
+                at += length;
+                number += 1;
+                each(place, Span { start: start as u32, end: at as u32 - 1, block: number });
+                continue;
+            }
             let blanks = rest.iter().take_while(|&&byte| is_blank(byte)).count();
-            let Some((length, place)) = syntax::plain_block(&rest[blanks..]) else { break };
-            let start = at + blanks;
-            at = start + length;
-            number += 1;
-            each(place, Span { start: start as u32, end: at as u32 - 1, block: number });
+            if blanks == 0 {
+                break;
+            }
+            at += blanks;
         }
         (self.at, self.number) = (at, number);
     }

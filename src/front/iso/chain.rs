@@ -1,39 +1,13 @@
 //! Chains of vertices: what the knife cuts between two interruptions, and beyond them.
 
+use super::vertex::Vertices;
 use crate::geom::Point;
-use crate::ir::list::{Joint, Segment};
+use crate::ir::list::{Range, SegmentList};
 use crate::ir::marker::Notch;
 use crate::source::Span;
 
 /// Most vertices of a stroke: one that goes to and fro more often is no slit.
 const STROKE_VERTICES: usize = 8;
-
-/// A place that the knife comes to.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Vertex {
-    pub(super) at: Point,
-    pub(super) span: Span,
-    pub(super) joint: Joint,
-    /// Speed of the way to it, percent.
-    pub(super) percent: u8,
-}
-
-/// A cut that was begun, with what codes ask for in force.
-#[derive(Debug)]
-pub(super) struct Cutting<'a> {
-    pub(super) vertices: &'a mut Vec<Vertex>,
-    /// Where the knife is, mm.
-    pub(super) at: &'a mut Point,
-    pub(super) percent: u8,
-}
-
-impl Cutting<'_> {
-    /// A move, mm, behind another one.
-    pub(super) fn go(&mut self, to: Point, span: Span) {
-        self.vertices.push(Vertex { at: to, span, joint: Joint::default(), percent: self.percent });
-        *self.at = to;
-    }
-}
 
 /// Whether the lift at the end of a chain goes past it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,7 +23,7 @@ pub(super) enum Overcut {
 pub(super) struct Chain {
     /// In a file without N, a stroke has none before a contour claims it.
     pub(super) piece: Option<usize>,
-    pub(super) vertices: Vec<Vertex>,
+    pub(super) vertices: Vertices,
     /// Whether it is a slit: those are cut before the outlines.
     pub(super) slit: bool,
     /// The lift at its end, if it was left by one that is meant, not for a slit.
@@ -57,36 +31,42 @@ pub(super) struct Chain {
 }
 
 impl Chain {
+    /// The points that it goes through.
+    pub(super) fn points(&self) -> &[Point] {
+        self.vertices.points()
+    }
+
+    /// Where it starts in the source.
+    pub(super) fn start(&self) -> Span {
+        self.vertices.get(0).expect("a chain has a vertex").span
+    }
+
     /// Whether it has no extent: all of its points are equal.
     pub(super) fn is_point(&self) -> bool {
-        self.vertices.iter().all(|vertex| vertex.at == self.vertices[0].at)
+        self.points().iter().all(|&at| at == self.points()[0])
     }
 
     pub(super) fn ends(&self) -> (Point, Point) {
-        (self.vertices[0].at, self.vertices[self.vertices.len() - 1].at)
+        let points = self.points();
+        (points[0], points[points.len() - 1])
     }
 
     /// Whether it goes between two near places only, as slits and crossbars do.
     pub(super) fn is_stroke(&self) -> bool {
-        if self.vertices.len() > STROKE_VERTICES {
+        if self.points().len() > STROKE_VERTICES {
             return false;
         }
-        let first = self.vertices[0].at;
-        let Some(second) = self.vertices.iter().map(|vertex| vertex.at).find(|&at| at != first) else { return false };
-        (second - first).norm() <= Notch::LONGEST
-            && self.vertices.iter().all(|vertex| vertex.at == first || vertex.at == second)
+        let first = self.points()[0];
+        let Some(second) = self.points().iter().copied().find(|&at| at != first) else { return false };
+        (second - first).norm() <= Notch::LONGEST && self.points().iter().all(|&at| at == first || at == second)
     }
 
-    /// Its segments. The joint of the first one speaks for the plunge at the start and for the lift at the end.
-    pub(super) fn segments(&mut self) -> impl Iterator<Item = Segment> + Clone {
-        self.vertices[0].joint.no_overcut |= self.lift == Some(Overcut::Forbidden);
-        self.vertices.windows(2).map(|pair| Segment {
-            from: pair[0].at,
-            to: pair[1].at,
-            span: pair[1].span,
-            joint: pair[0].joint,
-            percent: pair[1].percent,
-        })
+    /// Writes it into a list. The joint of its first segment speaks for the plunge at the start and for the lift at the end.
+    pub(super) fn write(&mut self, list: &mut SegmentList) -> Option<Range> {
+        if self.lift == Some(Overcut::Forbidden) {
+            self.vertices.joint_mut(0).no_overcut = true;
+        }
+        self.vertices.write(list)
     }
 }
 

@@ -5,8 +5,9 @@
 
 use std::collections::HashMap;
 
-use super::chain::{Chain, Cutting, Overcut, Vertex};
+use super::chain::{Chain, Overcut};
 use super::lost::{Deferred, Uncut};
+use super::vertex::{Vertex, Vertices};
 use super::{kept, owner};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Extent, Point, bits};
@@ -36,7 +37,7 @@ pub(super) struct Draft {
     /// Chains of the pieces that are not finished.
     chains: Vec<Chain>,
     /// Room of those that are, for the next ones: it need not grow again for each.
-    room: Vec<Vec<Vertex>>,
+    room: Vec<Vertices>,
     /// The open ones, by the bits of their end.
     open: HashMap<[u64; 2], usize>,
     /// The piece that N began; `None` in a file without N.
@@ -126,7 +127,8 @@ impl Draft {
                 let start = Vertex { at: self.at, span: *from, joint: *joint, percent };
                 let joint = Joint { lift: std::mem::take(&mut self.corner_lift), ..Joint::default() };
                 let mut vertices = self.room.pop().unwrap_or_default();
-                vertices.extend([start, Vertex { at: to, span, joint, percent }]);
+                vertices.push(start);
+                vertices.push(Vertex { at: to, span, joint, percent });
                 let piece = self.piece_of_new_chain(start.span);
                 cap(&mut self.pieces[piece], self.feed);
                 let piece = Some(piece);
@@ -137,10 +139,14 @@ impl Draft {
         self.at = to;
     }
 
-    /// The cut that is being made: where no code stands between moves, it goes on through them.
-    pub(super) fn cutting(&mut self) -> Option<Cutting<'_>> {
-        let State::Cutting(chain) = self.state else { return None };
-        Some(Cutting { vertices: &mut self.chains[chain].vertices, at: &mut self.at, percent: self.percent })
+    /// Lets `add` add what is cut next: where no code stands between moves, the cut that is being made goes on through them.
+    pub(super) fn cut_on(&mut self, add: impl FnOnce(&mut Vertices)) {
+        let State::Cutting(chain) = self.state else { return };
+        let vertices = &mut self.chains[chain].vertices;
+        let first = vertices.points().len();
+        add(vertices);
+        vertices.set_speed(first, self.percent);
+        self.at = *vertices.points().last().expect("a cut begins with two vertices");
     }
 
     /// The piece that a chain which begins at `span` belongs to. Without N every contour is a piece.
@@ -216,16 +222,15 @@ impl Draft {
         let full_advance = std::mem::take(&mut self.advance);
         if let Some(index) = self.open.remove(&bits(self.at)).or_else(|| self.take_spur()) {
             if self.chains[index].piece.is_none() {
-                let start = self.chains[index].vertices[0].span;
+                let start = self.chains[index].start();
                 self.chains[index].piece = Some(self.piece_of_new_chain(start));
             }
             let chain = &mut self.chains[index];
-            if let Some(last) = chain.vertices.last_mut() {
-                last.joint.lift |= chain.lift.is_some();
-                last.joint.full_advance |= full_advance;
-                last.joint.no_overcut |= chain.lift == Some(Overcut::Forbidden);
-            }
-            chain.lift = None;
+            let lift = chain.lift.take();
+            let joint = chain.vertices.joint_mut(chain.points().len() - 1);
+            joint.lift |= lift.is_some();
+            joint.full_advance |= full_advance;
+            joint.no_overcut |= lift == Some(Overcut::Forbidden);
             let piece = &mut self.pieces[chain.piece.expect("it was given one")];
             // Without N: what the file holds while it interrupts a contour belongs to that contour.
             piece.drills.append(&mut self.waiting.drills);
@@ -298,7 +303,7 @@ impl Draft {
     /// slits and drills do. (Whether it is a slit is for the passes to tell.)
     fn let_wait(&mut self, index: usize) {
         let chain = &mut self.chains[index];
-        let begun = self.pieces.pop_if(|piece| piece.span == chain.vertices[0].span);
+        let begun = self.pieces.pop_if(|piece| piece.span == chain.start());
         if let Some(mut piece) = begun {
             self.events.splice(..0, piece.events.drain(..));
             self.waiting = piece;
@@ -320,7 +325,8 @@ impl Draft {
     fn take_spur(&mut self) -> Option<usize> {
         let index = self.left?;
         let chain = &mut self.chains[index];
-        let &[.., _, root, tip] = &chain.vertices[..] else { return None };
+        let before = chain.points().len().checked_sub(2).filter(|&before| before > 0)?;
+        let (root, tip) = chain.vertices.get(before).zip(chain.vertices.get(before + 1))?;
         if root.at != self.at || root.at == tip.at || (tip.at - root.at).norm() > Notch::LONGEST {
             return None;
         }
@@ -394,7 +400,7 @@ impl Draft {
                 }
                 points[0].joint.full_advance = true;
                 let lift = Some(Overcut::Forbidden);
-                self.chains.push(Chain { piece, vertices: points, slit: true, lift });
+                self.chains.push(Chain { piece, vertices: points.into_iter().collect(), slit: true, lift });
             }
         }
     }
@@ -504,10 +510,13 @@ impl Draft {
         for slit in [true, false] {
             for chain in self.chains.iter_mut().filter(|chain| chain.slit == slit && !chain.is_point()) {
                 let (first, last) = chain.ends();
-                if let Some(range) = self.list.append(chain.segments()) {
-                    self.extent.join(&Extent::of(&self.list.points(range)));
+                if let Some(range) = chain.write(&mut self.list) {
+                    self.extent.join(&Extent::of(chain.points()));
                     let piece = chain.piece.expect("every stroke was claimed");
-                    self.pieces[piece].contours.push(Contour { range, closed: first == last });
+                    let contours = &mut self.pieces[piece].contours;
+                    // Most pieces have one.
+                    contours.reserve_exact(usize::from(contours.is_empty()));
+                    contours.push(Contour { range, closed: first == last });
                 }
             }
         }

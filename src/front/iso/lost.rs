@@ -64,14 +64,14 @@ impl Deferred {
     /// A piece whose N comes while `chain` is cut.
     pub(super) fn new(number: Option<u32>, span: Span, chain: Option<&Chain>) -> Self {
         let closed = chain.filter(|chain| chain.ends().0 == chain.ends().1 && !chain.is_point());
-        Self { number, span, closed_at: closed.map(|chain| chain.vertices.len()) }
+        Self { number, span, closed_at: closed.map(|chain| chain.points().len()) }
     }
 
     /// Whether the knife has cut on from an outline that had closed: some controllers insert an N amid an outline, and
     /// that one goes on.
     pub(super) fn leads_on(&self, chain: &Chain) -> bool {
-        let behind = self.closed_at.and_then(|length| chain.vertices.get(length..)).unwrap_or_default();
-        behind.iter().any(|vertex| vertex.at != chain.vertices[0].at)
+        let behind = self.closed_at.and_then(|length| chain.points().get(length..)).unwrap_or_default();
+        behind.iter().any(|&at| at != chain.points()[0])
     }
 
     /// Refuses it.

@@ -7,7 +7,7 @@ use super::block::Blocks;
 use super::draft::{Draft, LabelId};
 use super::label;
 use super::meaning::{Meaning, meaning, name, whole};
-use super::syntax::{Code, Point, Words};
+use super::syntax::{Code, Point};
 use super::tally::Tally;
 use super::title::Title;
 use super::trailer;
@@ -113,31 +113,30 @@ impl Lowering<'_> {
         let mut ended = false;
         let mut last = Span::default();
         loop {
-            while let Some((place, span)) = self.blocks.next_plain() {
-                self.place = place.map(Some);
-                let to = convert(place, self.unit.convert(), span, &mut self.far);
-                self.go_to(to, span);
-                last = self.cut_on().unwrap_or(span);
-            }
             if let Some((point, span)) = self.blocks.next_point() {
-                last = span;
                 self.go(point, span);
+                last = self.cut_on().unwrap_or(span);
                 continue;
             }
-            let Some(block) = self.blocks.next() else { break };
-            last = block.span;
-            match block.words {
-                Ok(words) => {
-                    if self.obey(&words, block.span).is_break() {
-                        ended = true;
-                        self.ended = Some(self.blocks.offset());
-                        break;
+            let flow = if let Some((code, span)) = self.blocks.next_code() {
+                last = span;
+                self.obey((&[code], None), span)
+            } else {
+                let Some(block) = self.blocks.next() else { break };
+                last = block.span;
+                match block.words {
+                    Ok(words) => self.obey((&words.codes, words.point), block.span),
+                    Err(fault) => {
+                        self.damaged = true;
+                        self.out.push(fault);
+                        ControlFlow::Continue(())
                     }
                 }
-                Err(fault) => {
-                    self.damaged = true;
-                    self.out.push(fault);
-                }
+            };
+            if flow.is_break() {
+                ended = true;
+                self.ended = Some(self.blocks.offset());
+                break;
             }
         }
         if !self.blocks.all_ended() {
@@ -159,12 +158,14 @@ impl Lowering<'_> {
     /// Cuts on as far as blocks are X and Y alone: most of a file, and nothing but vertices, since the first block behind a
     /// code has what that asked for. Gives the last of them; `None` when there is none, or the knife is not cutting.
     fn cut_on(&mut self) -> Option<Span> {
-        let mut cut = self.knife.cutting()?;
-        let unit = self.unit.convert();
+        let Self { knife, blocks, unit, far, .. } = self;
         let mut last = None;
-        self.blocks.each_plain(|place, span| {
-            cut.go(convert(place, unit, span, &mut self.far), span);
-            last = Some((place, span));
+        knife.cut_on(|vertices| {
+            let unit = unit.convert();
+            blocks.each_plain(|place, span| {
+                vertices.add(convert(place, unit, span, far), span);
+                last = Some((place, span));
+            });
         });
         let (place, span) = last?;
         self.place = place.map(Some);
@@ -246,7 +247,7 @@ impl Lowering<'_> {
 
     /// Obeys the codes of a block, then its move; labels and drills belong to the place where the block ends. (A knife
     /// code that shares a block with a move acts before it, says the vendor; no file seen has one.)
-    fn obey(&mut self, words: &Words, span: Span) -> ControlFlow<()> {
+    fn obey(&mut self, (codes, point): (&[Code], Option<Point>), span: Span) -> ControlFlow<()> {
         let mut at_place = None;
         let mut label = None;
         let mut moves = true;
@@ -254,13 +255,13 @@ impl Lowering<'_> {
         let mut radius = None;
         // What shares the block of the end is obeyed, too.
         let mut flow = ControlFlow::Continue(());
-        for &code in &words.codes {
+        for &code in codes {
             let obeyed = self.obeys(code);
             match meaning(code) {
                 Meaning::Park => moves = false,
                 Meaning::BiteSize => {
                     moves = false;
-                    let size = code.number.or(words.point.and_then(|point| point.x));
+                    let size = code.number.or(point.and_then(|point| point.x));
                     self.bite = size.filter(|_| obeyed).map(|size| (code, size, span)).or(self.bite);
                 }
                 Meaning::Message => self.message(),
@@ -293,7 +294,7 @@ impl Lowering<'_> {
                 Meaning::SpeedOfPiece(percent) => self.knife.speed_of_piece(percent),
                 Meaning::Feed => self.feed(code, span),
                 Meaning::Event(kind) => self.knife.event(Event { kind, span }),
-                Meaning::Origin => self.origin(code, words, span),
+                Meaning::Origin => self.origin(code, point, span),
                 Meaning::Slit => self.knife.slit(span),
                 Meaning::FullAdvance => self.knife.full_advance(),
                 Meaning::NoOvercut => self.knife.no_overcut(),
@@ -302,11 +303,11 @@ impl Lowering<'_> {
                 Meaning::End => flow = ControlFlow::Break(()),
                 Meaning::NotObeyed(what) => self.tally.ignore(code, what, span),
                 Meaning::Housekeeping => {}
-                Meaning::Unknown if code.letter == b'R' && words.point.is_some() => radius = Some(code),
+                Meaning::Unknown if code.letter == b'R' && point.is_some() => radius = Some(code),
                 Meaning::Unknown => self.tally.unknown(code, span),
             }
         }
-        let point = words.point.filter(|_| moves);
+        let point = point.filter(|_| moves);
         // G02 and G03 last, so a radius alone makes an arc as well as a centre does.
         turn = turn.or(radius.and(self.turn));
         if let Some(code) = radius.filter(|_| turn.is_none() || at_place.is_some() || label.is_some()) {
@@ -315,7 +316,7 @@ impl Lowering<'_> {
         if let Some(tool) = at_place {
             let hole = Hole { tool, span };
             // Behind the end no place follows, and the one behind M31 is the label's.
-            let may_wait = label.is_none() && words.codes.iter().all(|&code| meaning(code) != Meaning::End);
+            let may_wait = label.is_none() && codes.iter().all(|&code| meaning(code) != Meaning::End);
             match point {
                 _ if self.knife.is_down() => self.refuse_hole(hole),
                 Some(point) => {
@@ -365,8 +366,8 @@ impl Lowering<'_> {
 
     /// G04 and M70: before the first place of the file the origin is where it always is. What it should be later the
     /// vendors leave open, and all coordinates are absolute.
-    fn origin(&mut self, code: Code, words: &Words, span: Span) {
-        if self.place != [None, None] || words.point.is_some() {
+    fn origin(&mut self, code: Code, point: Option<Point>, span: Span) {
+        if self.place != [None, None] || point.is_some() {
             self.tally.ignore(code, "origin amid the file", span);
         }
     }
@@ -496,9 +497,14 @@ impl Lowering<'_> {
 fn convert(place: [f64; 2], unit: f64, span: Span, far: &mut Option<(geom::Point, Span)>) -> geom::Point {
     let to = scale(place, unit);
     if (to.x.abs() > FARTHEST) | (to.y.abs() > FARTHEST) {
-        *far = far.or(Some((to, span)));
+        keep_first(far, to, span);
     }
     to
+}
+
+#[cold]
+fn keep_first(far: &mut Option<(geom::Point, Span)>, to: geom::Point, span: Span) {
+    far.get_or_insert((to, span));
 }
 
 /// One multiplication, so that equal numbers of the file are equal to the bit.

@@ -101,7 +101,8 @@ pub(super) fn meaning(code: Code) -> Meaning {
 
 /// A number that is whole and not negative.
 pub(super) fn whole(number: f64) -> Option<u32> {
-    (number >= 0.0 && number.fract() == 0.0).then_some(number as u32)
+    let whole = number as u32;
+    (f64::from(whole) == number).then_some(whole)
 }
 
 fn m_code(number: u32) -> Meaning {

@@ -8,7 +8,7 @@
 //!
 //! Arcs are chords. [`block`] cuts the bytes into blocks, [`syntax`] is the grammar of one, [`mod@meaning`] the table of
 //! codes, [`label`] the layouts of text, [`trailer`] the list of labels at the end; [`lower`] follows the file, [`draft`]
-//! gathers what it cuts, [`lost`] finds signs of lost knife codes, and [`owner`] says whose slits are whose where pieces have no numbers.
+//! gathers what it cuts in [`chain`]s of places ([`vertex`]), [`lost`] finds signs of lost knife codes, and [`owner`] says whose slits are whose where pieces have no numbers.
 
 mod arc;
 mod block;
@@ -25,6 +25,7 @@ mod tally;
 mod title;
 mod trailer;
 mod unit;
+mod vertex;
 
 use self::block::Blocks;
 use self::meaning::{Meaning, meaning};

@@ -150,44 +150,41 @@ pub(super) fn point(mut i: &[u8]) -> Out<'_, Point> {
     if i.len() < start { Ok((i, point)) } else { expected(i, "a point") }
 }
 
+/// Bytes that a plain block is looked for in: more than it can have, so that none of its places need be looked at with care.
+pub(super) const PLAIN_BYTES: usize = 40;
+
 /// `<block>`, when it is X and Y alone, both whole numbers, as nearly all blocks are: its length, and what [`block`] says of
 /// it, found with fewer steps. `None` = any other; then [`block`] and [`point`] decide.
 #[inline] // most of a file is read here
-pub(super) fn plain_block(i: &[u8]) -> Option<(usize, [f64; 2])> {
-    if let Some(start) = i.first_chunk() {
-        return plain_block_at(start);
+pub(super) fn plain_block(i: &[u8; PLAIN_BYTES]) -> Option<(usize, [f64; 2])> {
+    // First as if there were no signs, as there mostly are none.
+    let digits = i[1..].first_chunk()?;
+    match digits::pair(digits) {
+        Some((place, [middle, end])) if [i[0], digits[middle], digits[end]] == *b"XY*" => {
+            Some((end + 2, place.map(f64::from)))
+        }
+        _ => signed_block(i),
     }
-    // Near the end of the file: a byte that no block holds stands for what is not there.
-    let mut start = [0; PLAIN_BYTES];
-    start[..i.len()].copy_from_slice(i);
-    plain_block_at(&start)
 }
 
-/// Bytes that a plain block is looked for in: more than it can have, so that none of its places need be looked at with care.
-const PLAIN_BYTES: usize = 40;
-
-/// How long the plain block at the start of some bytes is, and its place.
-#[inline]
-fn plain_block_at(i: &[u8; PLAIN_BYTES]) -> Option<(usize, [f64; 2])> {
+/// The same with signs.
+#[inline(never)] // apart, it is not in the way of the others
+fn signed_block(i: &[u8; PLAIN_BYTES]) -> Option<(usize, [f64; 2])> {
     let (at, x) = plain_coordinate(i, 0, b'X')?;
     let (at, y) = plain_coordinate(i, at, b'Y')?;
     (i[at] == b'*').then_some((at + 1, [x, y]))
 }
 
 /// A letter at a place and a whole number of at most eight digits, below [`VALUE_MAX`]: where it ends, and the number.
-#[inline]
 fn plain_coordinate(i: &[u8; PLAIN_BYTES], at: usize, letter: u8) -> Option<(usize, f64)> {
     if i[at] != letter {
         return None;
     }
-    // First as if there were no sign, as there mostly is none: then where the digits begin need not be waited for.
-    let start = at + 1;
-    if let Some((magnitude, count)) = digits::leading(&i[start..]) {
-        return Some((start + count, f64::from(magnitude.cast_signed())));
-    }
-    let start = (i[start] == b'-').then_some(start + 1)?;
+    let is_negative = i[at + 1] == b'-';
+    let start = at + 1 + usize::from(is_negative);
     let (magnitude, count) = digits::leading(&i[start..])?;
-    Some((start + count, f64::from(-magnitude.cast_signed())))
+    let value = magnitude.cast_signed();
+    Some((start + count, f64::from(if is_negative { -value } else { value })))
 }
 
 /// `<block>`, when it is one code alone, with a whole number or none, as most others are: likewise.
@@ -217,6 +214,13 @@ fn number(i: &[u8]) -> Out<'_, f64> {
         Some((b'+', rest)) => (false, rest),
         _ => (false, i),
     };
+    // As nearly all are: whole, and far below the largest.
+    if let Some((magnitude, count)) = digits::leading(unsigned)
+        && unsigned[count..].first() != Some(&b'.')
+    {
+        let value = i64::from(magnitude);
+        return Ok((&unsigned[count..], (if negative { -value } else { value }) as f64));
+    }
     let (mut rest, whole) = digits(unsigned)?;
     let mantissa = append(0, whole);
     let mut magnitude = mantissa as f64;
@@ -280,13 +284,20 @@ mod tests {
         check("M00*", None, None, "M0");
     }
 
+    /// The start of a file: behind its text bytes that no block holds.
+    fn padded(text: &[u8]) -> [u8; PLAIN_BYTES] {
+        let mut start = [0; PLAIN_BYTES];
+        start[..text.len()].copy_from_slice(text);
+        start
+    }
+
     #[test]
     fn a_plain_block_is_what_the_grammar_says() {
         let numbers = ["0", "-0", "7", "-7", "+7", "0042", "1234567", "-99999999", "100000000", "1.5", "3.", "", "-"];
         let ends = ["*", "", "M31*", "*X1Y1*", "Y1*", " *"];
         for (x, y) in numbers.iter().flat_map(|x| numbers.map(|y| (x, y))) {
             for text in ends.map(|end| format!("X{x}Y{y}{end}")) {
-                let Some((length, [x, y])) = plain_block(text.as_bytes()) else { continue };
+                let Some((length, [x, y])) = plain_block(&padded(text.as_bytes())) else { continue };
                 let rest = &text.as_bytes()[length..];
                 let (left, words) = block(text.as_bytes()).expect("a block");
                 let point = Point { x: Some(x), y: Some(y), ..Point::default() };
@@ -294,7 +305,7 @@ mod tests {
                 assert!([x, y].iter().all(|value| *value != 0.0 || value.is_sign_positive()));
             }
         }
-        assert!(plain_block(b"X12Y-34*X56789*").is_some());
+        assert!(plain_block(&padded(b"X12Y-34*X56789*")).is_some());
     }
 
     #[test]
