@@ -140,13 +140,16 @@ impl Draft {
     }
 
     /// Lets `add` add what is cut next: where no code stands between moves, the cut that is being made goes on through them.
-    pub(super) fn cut_on(&mut self, add: impl FnOnce(&mut Vertices)) {
-        let State::Cutting(chain) = self.state else { return };
+    /// Gives the block of its last place; `None` when nothing is cut.
+    pub(super) fn cut_on(&mut self, add: impl FnOnce(&mut Vertices)) -> Option<Span> {
+        let State::Cutting(chain) = self.state else { return None };
         let vertices = &mut self.chains[chain].vertices;
         let first = vertices.points().len();
         add(vertices);
         vertices.set_speed(first, self.percent);
-        self.at = *vertices.points().last().expect("a cut begins with two vertices");
+        let last = vertices.get(vertices.points().len() - 1)?;
+        self.at = last.at;
+        Some(last.span)
     }
 
     /// The piece that a chain which begins at `span` belongs to. Without N every contour is a piece.
@@ -220,7 +223,9 @@ impl Draft {
             }
         }
         let full_advance = std::mem::take(&mut self.advance);
-        if let Some(index) = self.open.remove(&bits(self.at)).or_else(|| self.take_spur()) {
+        // Mostly there is none, and to look for it would take longer than to see that.
+        let open = if self.open.is_empty() { None } else { self.open.remove(&bits(self.at)) };
+        if let Some(index) = open.or_else(|| self.take_spur()) {
             if self.chains[index].piece.is_none() {
                 let start = self.chains[index].start();
                 self.chains[index].piece = Some(self.piece_of_new_chain(start));

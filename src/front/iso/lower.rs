@@ -160,16 +160,15 @@ impl Lowering<'_> {
     fn cut_on(&mut self) -> Option<Span> {
         let Self { knife, blocks, unit, far, .. } = self;
         let mut last = None;
-        knife.cut_on(|vertices| {
+        let span = knife.cut_on(|vertices| {
             let unit = unit.convert();
             blocks.each_plain(|place, span| {
                 vertices.add(convert(place, unit, span, far), span);
-                last = Some((place, span));
+                last = Some(place);
             });
         });
-        let (place, span) = last?;
-        self.place = place.map(Some);
-        Some(span)
+        self.place = last?.map(Some);
+        span
     }
 
     /// What was read, judged as a whole.

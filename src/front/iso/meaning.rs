@@ -5,9 +5,6 @@ use super::syntax::Code;
 use crate::ir::toolpath::Event;
 use crate::machine::FileUnit;
 
-/// Letters whose number is a value and not a part of the name.
-const VALUED: &[u8] = b"FHNZ";
-
 /// What a code asks for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Meaning {
@@ -141,7 +138,8 @@ fn m_code(number: u32) -> Meaning {
 
 /// The code without its number where that is a value and not a part of the name.
 pub(super) fn kind(code: Code) -> Code {
-    let number = if VALUED.contains(&code.letter) { None } else { code.number };
+    let is_value = matches!(code.letter, b'F' | b'H' | b'N' | b'Z');
+    let number = if is_value { None } else { code.number };
     Code { number, ..code }
 }
 

@@ -116,8 +116,10 @@ fn alone(extent: &Extent, places: impl Iterator<Item = Place>) -> Option<Vec<Pla
 
 /// The only place that makes a drawing too large: without it the rest `fits`. It has a half of the box to itself.
 fn far_from_others(extent: &Extent, marker: &Marker, fits: impl Fn(&Extent) -> bool) -> Option<Place> {
-    // That there is none the first places of the contours tell nearly always.
-    alone(extent, marker.contours().flat_map(|(_, contour)| marker.list.vertices(contour.range).take(2)))?;
+    // That there is none the first places of the contours tell nearly always, and soon from both ends of the marker.
+    let both = marker.pieces.iter().zip(marker.pieces.iter().rev()).flat_map(|(one, other)| [one, other]);
+    let contours = both.flat_map(|piece| &piece.contours);
+    alone(extent, contours.flat_map(|contour| marker.list.vertices(contour.range).take(2)))?;
     alone(extent, places(marker))?.into_iter().find(|(far, _)| {
         let mut rest = Extent::EMPTY;
         places(marker).filter(|(at, _)| at != far).for_each(|(at, _)| rest.add(at));

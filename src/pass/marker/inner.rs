@@ -81,7 +81,7 @@ fn holds(list: &SegmentList, piece: &Piece, point: Point, work: &mut Budget) -> 
 fn space(list: &SegmentList, piece: &Piece) -> Extent {
     let mut space = Extent::EMPTY;
     for contour in piece.contours.iter().filter(|contour| contour.closed) {
-        list.points(contour.range).iter().for_each(|&point| space.add(point));
+        space.join(&Extent::of(&list.points(contour.range)));
     }
     space
 }

@@ -46,8 +46,9 @@ fn run(marker: &mut Marker, _: &Job, _: &mut Diagnostics) {
     let parts = in_parts(pieces.len());
     pieces.par_chunks_mut(parts.size).for_each(|pieces| {
         let mut outlines: Vec<Outline> = Vec::new();
+        let mut found: Vec<Found> = Vec::with_capacity(pieces.len());
         let mut work = parts.budget();
-        for piece in pieces {
+        for piece in &mut *pieces {
             outlines.clear();
             let closed = piece.contours.iter().filter(|contour| contour.closed);
             outlines.extend(closed.map(|contour| Outline::of(list, contour.range, *unit)));
@@ -56,12 +57,35 @@ fn run(marker: &mut Marker, _: &Job, _: &mut Diagnostics) {
                 let counter_clockwise = ring::area(outline.ring()) > 0.0;
                 let is_left = counter_clockwise != is_cut_out(&outlines, k, &mut work);
                 let part = if is_left { Side::Left } else { Side::Right };
-                let vees = outline.vees(list, part);
+                let vees = outline.vees(part);
+                if vees.is_empty() {
+                    continue;
+                }
                 piece.vees.reserve_exact(vees.len());
-                piece.vees.extend(vees);
+                piece.vees.extend(vees.iter().map(|(_, vee)| vee));
+                let apexes = vees.iter().map(|&(apex, _)| apex).collect();
+                found.push(Found { spans: list.spans(outline.range), apexes });
             }
         }
+        // All in a row, since blocks stand far from points in memory: then none waits for the one before.
+        let spans = found.iter().flat_map(Found::spans);
+        pieces.iter_mut().flat_map(|piece| &mut piece.vees).zip(spans).for_each(|(vee, span)| vee.span = span);
     });
+}
+
+/// The notches of an outline.
+struct Found<'a> {
+    /// The blocks of its segments.
+    spans: Cow<'a, [Span]>,
+    /// The vertices that are apexes.
+    apexes: Vec<usize>,
+}
+
+impl Found<'_> {
+    /// The blocks that the apexes came from: those of the segments that lead there.
+    fn spans(&self) -> impl Iterator<Item = Span> {
+        self.apexes.iter().map(|apex| self.spans[apex.checked_sub(1).unwrap_or(self.spans.len() - 1)])
+    }
 }
 
 /// The side of an outline, seen along it.
@@ -98,17 +122,8 @@ impl<'a> Outline<'a> {
         &self.points[..self.points.len() - 1]
     }
 
-    /// Gives notches the blocks that their apexes came from.
-    fn give_spans(&self, list: &SegmentList, vees: &mut [(usize, Vee)]) {
-        let spans = list.spans(self.range);
-        for (i, vee) in vees {
-            // The segment in front of it leads there.
-            vee.span = spans[i.checked_sub(1).unwrap_or(spans.len() - 1)];
-        }
-    }
-
-    /// Its notches, when its part lies on the given side.
-    fn vees(&self, list: &SegmentList, part: Side) -> impl ExactSizeIterator<Item = Vee> + use<> {
+    /// Its notches, when its part lies on the given side, each with the vertex that is its apex.
+    fn vees(&self, part: Side) -> Vec<(usize, Vee)> {
         let points = self.ring();
         let count = points.len();
         let vee = |&i: &usize| {
@@ -141,8 +156,7 @@ impl<'a> Outline<'a> {
         if 3 * kept.len() + LEAST_OTHERS > count {
             kept.clear();
         }
-        self.give_spans(list, &mut kept);
-        kept.into_iter().map(|(_, vee)| vee)
+        kept
     }
 }
 

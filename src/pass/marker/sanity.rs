@@ -58,7 +58,8 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     let mut work = Budget::of_a_marker();
     search.overlaps(&mut work, diagnostics);
     // Where nothing is closed there are no parts to tell.
-    if any_closed {
+    if any_closed && !loose.is_empty() {
+        search.make_room();
         loose.retain(|(_, drill)| !search.is_in_a_part(drill, &mut work));
         search.report_drills(&loose, diagnostics);
     }
@@ -270,14 +271,19 @@ struct Search<'a> {
     marker: &'a Marker,
     /// The boxes of the pieces.
     boxes: Vec<Extent>,
-    /// The outlines of pieces, as far as they are looked at beside others: most pieces of a marker lie apart.
+    /// The outlines of pieces, as far as they are looked at beside others: most pieces of a marker lie apart. Empty as long as
+    /// none is.
     parts: Vec<OnceCell<Box<Part<'a>>>>,
 }
 
 impl<'a> Search<'a> {
     fn new(marker: &'a Marker) -> Self {
-        let parts = marker.pieces.iter().map(|_| OnceCell::new()).collect();
-        Self { marker, boxes: Vec::with_capacity(marker.pieces.len()), parts }
+        Self { marker, boxes: Vec::with_capacity(marker.pieces.len()), parts: Vec::new() }
+    }
+
+    /// Makes room for outlines that are to be looked at.
+    fn make_room(&mut self) {
+        self.parts.resize_with(self.boxes.len(), OnceCell::new);
     }
 
     fn part(&self, piece: usize) -> &Part<'a> {
@@ -290,6 +296,10 @@ impl<'a> Search<'a> {
             near.push((i.min(k) as u32, i.max(k) as u32));
             true
         });
+        if near.is_empty() {
+            return;
+        }
+        self.make_room();
         near.sort_unstable();
         for of_one in near.chunk_by(|one, other| one.0 == other.0) {
             for (i, k) in of_one.iter().map(|&(i, k)| (i as usize, k as usize)) {
