@@ -33,6 +33,9 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
         } else {
             Vec::new()
         };
+        if shorts.is_empty() && piece.notches.is_empty() {
+            continue; // as in many
+        }
         search.take_slits(piece, &mut shorts);
         drop_doubles(piece, search.diagnostics);
         search.take_crossbars(piece, &mut shorts);
