@@ -32,7 +32,7 @@ pub(super) const BODY_SHARES: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 /// A blade that goes along a line.
 #[derive(Clone, Copy)]
 pub(super) struct Blade<'a> {
-    pub(super) line: &'a Line,
+    pub(super) line: &'a Line<'a>,
     /// From its centre to its tip and to its tail, mm.
     pub(super) ends: [f64; 2],
     pub(super) cut: &'a Cut,

@@ -27,7 +27,7 @@ pub(super) struct Foot {
 /// Stands on a line and moves along it.
 #[derive(Debug, Clone)]
 pub(super) struct Follower<'a> {
-    line: &'a Line,
+    line: &'a Line<'a>,
     /// +1 with the line, -1 against it.
     sign: f64,
     foot: Foot,
@@ -38,7 +38,7 @@ pub(super) struct Follower<'a> {
 
 impl<'a> Follower<'a> {
     /// Starts at a point near a chord, moving with the line (`sign` +1) or against it (-1).
-    pub(super) fn new(line: &'a Line, chord: usize, point: Point, sign: f64) -> Self {
+    pub(super) fn new(line: &'a Line<'a>, chord: usize, point: Point, sign: f64) -> Self {
         let chord = line.chord(chord);
         let mut follower = Self { line, sign, foot: chord.foot(line, point), chord, point };
         follower.step(point);

@@ -1,5 +1,7 @@
 //! A grid over the chords of all lines, to find those near a point.
 
+use std::ops::RangeInclusive;
+
 use super::line::Line;
 use super::reference::Reference;
 use crate::geom::{Extent, Point};
@@ -7,7 +9,7 @@ use crate::geom::{Extent, Point};
 /// Least size of a cell, mm.
 const CELL_MIN: f64 = 4.0;
 /// Cells for each chord, at the most; and the least and greatest number of all.
-const CELLS_A_CHORD: f64 = 1.0;
+const CELLS_A_CHORD: f64 = 0.25;
 const CELLS: [f64; 2] = [4096.0, 4_194_304.0];
 
 /// Cells that a chord passes on average, at the most.
@@ -15,7 +17,7 @@ const CELLS_A_CHORD_PASSES: f64 = 8.0;
 /// By how much rounding may shift an edge of a cell, mm: markers are shorter than a thousand kilometres.
 const EDGE: f64 = 1e-6;
 
-/// For each cell the chords that pass it: (line, chord), laid out one cell after the other.
+/// For each cell the chords that pass it, laid out one cell after the other.
 #[derive(Debug)]
 pub(super) struct Grid {
     origin: Point,
@@ -23,7 +25,27 @@ pub(super) struct Grid {
     columns: usize,
     rows: usize,
     starts: Vec<u32>,
-    chords: Vec<(u32, u32)>,
+    runs: Vec<Run>,
+}
+
+/// Chords of a line that follow each other in a cell, as most of them do.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Run {
+    line: u32,
+    first: u32,
+    last: u32,
+}
+
+impl Run {
+    /// Index of the line.
+    pub(super) fn line(&self) -> usize {
+        self.line as usize
+    }
+
+    /// The chords, as places on the line.
+    pub(super) fn chords(&self) -> RangeInclusive<usize> {
+        self.first as usize..=self.last as usize
+    }
 }
 
 impl Grid {
@@ -46,27 +68,34 @@ impl Grid {
         let by_length = length / (CELLS_A_CHORD_PASSES * chords.max(1) as f64);
         let cell = CELL_MIN.max((width * height / count).sqrt()).max(width.max(height) / count).max(by_length);
         let (columns, rows) = ((width / cell) as usize + 1, (height / cell) as usize + 1);
-        let mut grid = Self { origin: extent.min, cell, columns, rows, starts: Vec::new(), chords: Vec::new() };
+        let mut grid = Self { origin: extent.min, cell, columns, rows, starts: Vec::new(), runs: Vec::new() };
         // Counting sort: first how many, then where; what is then the end of a cell is the start of the next.
         let mut starts = vec![0_u32; columns * rows + 1];
-        grid.each(reference, |cell, _| starts[cell] += 1);
+        grid.each(reference, |cell, _, is_led_on| starts[cell] += u32::from(!is_led_on));
         let mut count = 0;
         for start in &mut starts {
             count += std::mem::replace(start, count);
         }
-        let mut chords = vec![(0, 0); count as usize];
-        grid.each(reference, |cell, chord| {
-            chords[starts[cell] as usize] = chord;
-            starts[cell] += 1;
+        let mut runs = vec![Run::default(); count as usize];
+        grid.each(reference, |cell, (line, chord), is_led_on| {
+            if is_led_on {
+                runs[starts[cell] as usize - 1].last = chord;
+            } else {
+                runs[starts[cell] as usize] = Run { line, first: chord, last: chord };
+                starts[cell] += 1;
+            }
         });
         starts.rotate_right(1);
         starts[0] = 0;
-        (grid.starts, grid.chords) = (starts, chords);
+        (grid.starts, grid.runs) = (starts, runs);
         grid
     }
 
-    /// Calls `see` for each cell that a chord passes, of each chord: column by column, the rows between which it lies there.
-    fn each(&self, reference: &Reference, mut see: impl FnMut(usize, (u32, u32))) {
+    /// Calls `see` for each cell that a chord passes, of each chord, and tells whether the one before it passes there, too:
+    /// column by column, the rows between which it lies there.
+    fn each(&self, reference: &Reference, mut see: impl FnMut(usize, (u32, u32), bool)) {
+        // The last chord of each cell. Between the last one of a line and the first one of the next a number is left out.
+        let (mut number, mut passed) = (0, vec![u32::MAX; self.columns * self.rows]);
         for (l, line) in reference.lines.iter().enumerate() {
             for (c, (a, b)) in line.points().zip(line.points().skip(1)).enumerate() {
                 let [from, to] = if a.x <= b.x { [a, b] } else { [b, a] };
@@ -77,9 +106,14 @@ impl Grid {
                     let enters = if column == first { from.y } else { y_at(edge(column)) };
                     let leaves = if column == last { to.y } else { y_at(edge(column + 1)) };
                     let [low, high] = [enters.min(leaves) - EDGE, enters.max(leaves) + EDGE].map(|y| self.row(y));
-                    (low..=high).for_each(|row| see(row * self.columns + column, (l as u32, c as u32)));
+                    for cell in (low..=high).map(|row| row * self.columns + column) {
+                        let before = std::mem::replace(&mut passed[cell], number + 1);
+                        see(cell, (l as u32, c as u32), before == number);
+                    }
                 }
+                number += 1;
             }
+            number += 1;
         }
     }
 
@@ -91,14 +125,13 @@ impl Grid {
         (((y - self.origin.y) / self.cell).max(0.0) as usize).min(self.rows - 1)
     }
 
-    /// The chords that come nearer to a point than `reach` mm, and others; one that passes several cells comes several
-    /// times.
-    pub(super) fn near(&self, point: Point, reach: f64) -> impl Iterator<Item = (u32, u32)> + '_ {
+    /// The chords that come nearer to a point than `reach` mm, and others: those of a line that follow each other. One that
+    /// passes several cells comes several times.
+    pub(super) fn near(&self, point: Point, reach: f64) -> impl Iterator<Item = &Run> + '_ {
         let reach = reach + EDGE;
         let rows = self.row(point.y - reach)..=self.row(point.y + reach);
         let columns = self.column(point.x - reach)..=self.column(point.x + reach);
         rows.flat_map(move |r| columns.clone().map(move |c| r * self.columns + c))
-            .flat_map(|cell| &self.chords[self.starts[cell] as usize..self.starts[cell + 1] as usize])
-            .copied()
+            .flat_map(|cell| &self.runs[self.starts[cell] as usize..self.starts[cell + 1] as usize])
     }
 }

@@ -151,7 +151,7 @@ fn fading(x: f64) -> f64 {
 /// A blade that plunges on a line: where its tail and its tip stand, and which way it goes from there.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plunge<'a> {
-    pub(super) line: &'a Line,
+    pub(super) line: &'a Line<'a>,
     pub(super) tail: Foot,
     pub(super) tip: Foot,
     /// +1 with the line, -1 against it.

@@ -1,18 +1,21 @@
 //! A stretch that is cut from one end to the other, and what can be asked of it: places, stations, chords, caps.
 
+use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
 use super::caps::{BothWays, Pick};
-use crate::geom::{Point, Vector, angle, left};
+use crate::geom::{Point, Vector, angle, left, polyline};
 
 /// Such a stretch, mm.
 #[derive(Debug)]
-pub(super) struct Line {
+pub(super) struct Line<'a> {
     /// Index of its piece.
-    pub(super) piece: usize,
+    pub(super) piece: u32,
     /// Rank of its contour or slit among events, holes, slits and contours, in cut order.
-    pub(super) rank: usize,
-    /// Its points; a ring ends with its first one.
+    pub(super) rank: u32,
+    /// Its points; a ring ends with its first one. Those of the marker, wherever they stand there side by side.
+    points: Cow<'a, [Point]>,
+    /// What is known of each of them.
     path: Box<[Vertex]>,
     /// How fast the tip may be: before a corner it may have to be slower.
     caps: BothWays,
@@ -33,11 +36,9 @@ pub(super) struct Exceptions {
     pub(super) nibbled: Vec<[f64; 2]>,
 }
 
-/// A point of a line, and the chord that begins there: side by side, since who asks for the one needs the other. The last
-/// one begins none.
+/// What is known of a point of a line, and of the chord that begins there. The last one begins none.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Vertex {
-    pub(super) at: Point,
     /// Length of the line from its first point, mm.
     pub(super) station: f64,
     /// Outward bulge of the chord in its middle, to its left, in lengths of the chord. In single precision, which is far
@@ -87,10 +88,16 @@ impl Chord {
     }
 }
 
-impl Line {
-    /// A line of a piece, at a rank, along which the blade goes as the law has it.
-    pub(super) fn new([piece, rank]: [usize; 2], path: Box<[Vertex]>, caps: BothWays, ring: bool) -> Self {
-        Self { piece, rank, path, caps, ring, winds: false, exceptions: None }
+impl<'a> Line<'a> {
+    /// A line of a piece, at a rank, along which the blade goes as the law has it; `path` is what is known of its points.
+    pub(super) fn new(
+        [piece, rank]: [u32; 2],
+        (points, path): (Cow<'a, [Point]>, Box<[Vertex]>),
+        caps: BothWays,
+        ring: bool,
+    ) -> Self {
+        debug_assert_eq!(points.len(), path.len(), "all is known of every point");
+        Self { piece, rank, points, path, caps, ring, winds: false, exceptions: None }
     }
 
     /// The same line, but for these stretches.
@@ -101,12 +108,12 @@ impl Line {
 
     /// One of its points.
     pub(super) fn point(&self, vertex: usize) -> Point {
-        self.path[vertex].at
+        self.points[vertex]
     }
 
     /// All of them.
-    pub(super) fn points(&self) -> impl DoubleEndedIterator<Item = Point> + ExactSizeIterator {
-        self.path.iter().map(|vertex| vertex.at)
+    pub(super) fn points(&self) -> impl DoubleEndedIterator<Item = Point> + ExactSizeIterator + '_ {
+        self.points.iter().copied()
     }
 
     /// Length from its first point to another, mm.
@@ -147,28 +154,40 @@ impl Line {
     /// Unit vector along a chord.
     pub(super) fn direction(&self, chord: usize) -> Vector {
         let [from, to] = self.ends(chord);
-        (to.at - from.at) / (to.station - from.station)
+        (to - from) / self.length_of(chord)
     }
 
     /// One of its chords.
     pub(super) fn chord(&self, index: usize) -> Chord {
         let [from, to] = self.ends(index);
-        let (way, length) = (to.at - from.at, to.station - from.station);
-        let bulge = left(way) * f64::from(from.bulge);
-        Chord { index, from: from.at, start: from.station, length, along: way / length, bulge }
+        let Vertex { station: start, bulge, .. } = self.path[index];
+        let (way, length) = (to - from, self.length_of(index));
+        Chord { index, from, start, length, along: way / length, bulge: left(way) * f64::from(bulge) }
     }
 
     /// The two ends of a chord.
-    fn ends(&self, chord: usize) -> [&Vertex; 2] {
-        let [from, to] = &self.path[chord..chord + 2] else { unreachable!("a chord has two ends") };
+    fn ends(&self, chord: usize) -> [Point; 2] {
+        let [from, to] = self.points[chord..chord + 2] else { unreachable!("a chord has two ends") };
         [from, to]
+    }
+
+    /// Length of a chord, mm.
+    fn length_of(&self, chord: usize) -> f64 {
+        let [from, to] = &self.path[chord..chord + 2] else { unreachable!("a chord has two ends") };
+        to.station - from.station
+    }
+
+    /// Distance of a point from a chord, mm.
+    pub(super) fn distance_to_chord(&self, chord: usize, point: Point) -> f64 {
+        let [from, to] = self.ends(chord);
+        polyline::distance_to_segment(point, from, to)
     }
 
     /// Whether a point may be nearer than `reach` mm to the tube's core beside a chord, as far as its box tells.
     pub(super) fn may_reach(&self, chord: usize, point: Point, reach: f64) -> bool {
         let [from, to] = self.ends(chord);
-        let reach = reach + f64::from(from.bulge).abs() * (to.station - from.station);
-        let (from, to) = (from.at - point, to.at - point);
+        let reach = reach + f64::from(self.path[chord].bulge).abs() * self.length_of(chord);
+        let (from, to) = (from - point, to - point);
         let is_between = |a: f64, b: f64| a.min(b) <= reach && a.max(b) >= -reach;
         is_between(from.x, to.x) && is_between(from.y, to.y)
     }
@@ -198,8 +217,8 @@ impl Line {
 
     /// Its points; of a ring those of two laps.
     pub(super) fn twice_round(&self) -> Vec<Point> {
-        let more = if self.ring { &self.path[1..] } else { &[] };
-        self.path.iter().chain(more).map(|vertex| vertex.at).collect()
+        let more = if self.ring { &self.points[1..] } else { &[] };
+        [&self.points, more].concat()
     }
 
     /// Whether it may be nibbled at a station, which on a ring may lie on any lap.

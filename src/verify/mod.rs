@@ -31,6 +31,7 @@ mod nibbles;
 mod notches;
 mod npy;
 mod order;
+mod outline;
 mod overcut;
 mod passing;
 mod read;

@@ -9,7 +9,7 @@ use std::ops::RangeInclusive;
 
 use super::body::Cut;
 use super::follow::Foot;
-use super::grid::Grid;
+use super::grid::{Grid, Run};
 use super::inside::Inside;
 use super::line::Line;
 use super::reference::Reference;
@@ -71,7 +71,7 @@ pub(super) struct Stroke<'a> {
     pub(super) feet: &'a [Foot],
     /// The places that are held to the line.
     pub(super) held: &'a RangeInclusive<usize>,
-    pub(super) line: &'a Line,
+    pub(super) line: &'a Line<'a>,
     /// The joints between which it is a stab that fits what was left of its line; where the knife may have been lifted
     /// anywhere, the ends of what it cuts anew.
     pub(super) fits: Option<[[f64; 2]; 2]>,
@@ -176,7 +176,7 @@ impl<'a> Overcut<'a> {
     /// What lies at a place beyond an end of a line. A part in which the line itself lies is no neighbour: so it is drawn.
     fn at(&self, point: Point, line: &Line, lines: Lines) -> Cloth {
         let pieces = self.inside.pieces_at(point);
-        if pieces.contains(&self.inside.part_of(line.piece)) {
+        if pieces.contains(&self.inside.part_of(line.piece as usize)) {
             return Cloth::Part;
         }
         let is_drawn_in = |piece: &usize| {
@@ -303,18 +303,19 @@ impl Stroke<'_> {
 impl Lines<'_> {
     /// Whether a place is farther than `slack` mm from all that is cut.
     fn is_away(self, point: Point, slack: f64) -> bool {
-        self.grid.near(point, slack).all(|chord| self.distance(chord, point) > slack)
+        self.grid.near(point, slack).all(|run| self.is_away_from_run(run, point, slack))
     }
 
     /// Whether it is from what is cut of a piece.
     fn is_away_from(self, point: Point, piece: usize, slack: f64) -> bool {
-        let mut near =
-            self.grid.near(point, slack).filter(|chord| self.reference.lines[chord.0 as usize].piece == piece);
-        near.all(|chord| self.distance(chord, point) > slack)
+        let mut near = self.grid.near(point, slack);
+        near.all(|run| {
+            self.reference.lines[run.line()].piece as usize != piece || self.is_away_from_run(run, point, slack)
+        })
     }
 
-    fn distance(self, (line, chord): (u32, u32), point: Point) -> f64 {
-        let (line, chord) = (&self.reference.lines[line as usize], chord as usize);
-        polyline::distance_to_segment(point, line.point(chord), line.point(chord + 1))
+    fn is_away_from_run(self, run: &Run, point: Point, slack: f64) -> bool {
+        let line = &self.reference.lines[run.line()];
+        run.chords().all(|chord| line.distance_to_chord(chord, point) > slack)
     }
 }

@@ -106,11 +106,7 @@ pub(super) struct Trace {
 impl Tracer<'_> {
     /// Follows a cut along the line that has `block`. Nearly always the tip shows where; if it does not, the blade may.
     pub(super) fn trace(&self, cut: &Cut, block: u32) -> Trace {
-        let named = |probes: Vec<usize>| {
-            let mut candidates = self.candidates(cut, &probes);
-            candidates.retain(|candidate| self.is_named(candidate.line, block));
-            candidates
-        };
+        let named = |probes: Vec<usize>| self.candidates(cut, &probes, |line| self.is_named(line, block));
         let mut candidates = named(cut.tip_probes());
         if candidates.is_empty() {
             candidates = named(cut.probes());
@@ -133,7 +129,7 @@ impl Tracer<'_> {
         // all that it cuts: nearly always, and then the others need not be looked at.
         let enough = tolerance.max(cut.length() - self.slack);
         if !trials.iter().any(|trial| trial.fresh >= enough) {
-            let candidates = self.candidates(cut, &cut.probes());
+            let candidates = self.candidates(cut, &cut.probes(), |_| true);
             trials = candidates.iter().map(|candidate| self.follow(cut, candidate)).collect();
             self.weigh(&mut trials, coverage);
         }
@@ -159,31 +155,36 @@ impl Tracer<'_> {
         }
     }
 
-    /// Where to begin following: the lines that pass near some places of the stroke, the nearest first.
-    fn candidates(&self, cut: &Cut, probes: &[usize]) -> Vec<Candidate> {
+    /// Where to begin following: the lines `meant` that pass near some places of the stroke, the nearest first.
+    fn candidates(&self, cut: &Cut, probes: &[usize], meant: impl Fn(usize) -> bool) -> Vec<Candidate> {
         let mut found: Vec<Candidate> = Vec::new();
+        // Runs of one line come one after the other.
+        let mut last = (usize::MAX, false);
         for &probe in probes {
             let point = cut.points[probe];
-            self.grid.near(point, REACH).for_each(|(line, chord)| {
-                let (line, chord) = (line as usize, chord as usize);
-                if !self.reference.lines[line].may_reach(chord, point, REACH) {
-                    return;
+            for run in self.grid.near(point, REACH) {
+                if last.0 != run.line() {
+                    last = (run.line(), meant(run.line()));
                 }
-                let foot = self.reference.lines[line].chord(chord).foot(&self.reference.lines[line], point);
-                let away = if foot.beyond > 0.0 { foot.deviation.hypot(foot.beyond) } else { foot.deviation };
-                let next = Candidate { line, chord, probe, station: foot.station, away };
-                if next.away > REACH {
-                    return;
+                if !last.1 {
+                    continue;
                 }
-                match found
-                    .iter_mut()
-                    .find(|known| known.line == line && next.continues(known, cut, &self.reference.lines[line]))
-                {
-                    Some(known) if next.away < known.away => *known = next,
-                    Some(_) => {}
-                    None => found.push(next),
+                let line = &self.reference.lines[run.line()];
+                for chord in run.chords().filter(|&chord| line.may_reach(chord, point, REACH)) {
+                    let foot = line.chord(chord).foot(line, point);
+                    let away = if foot.beyond > 0.0 { foot.deviation.hypot(foot.beyond) } else { foot.deviation };
+                    if away > REACH {
+                        continue;
+                    }
+                    let next = Candidate { line: run.line(), chord, probe, station: foot.station, away };
+                    let known = |known: &&mut Candidate| known.line == next.line && next.continues(known, cut, line);
+                    match found.iter_mut().find(known) {
+                        Some(known) if next.away < known.away => *known = next,
+                        Some(_) => {}
+                        None => found.push(next),
+                    }
                 }
-            });
+            }
         }
         found.sort_by(|a, b| a.away.total_cmp(&b.away).then(a.line.cmp(&b.line)).then(a.probe.cmp(&b.probe)));
         found.truncate(TRIALS);

@@ -16,7 +16,7 @@ const TURN_EPSILON: f64 = 1e-6;
 
 /// The directions of the chords of a line, unwrapped.
 pub(super) struct Winding<'a> {
-    line: &'a Line,
+    line: &'a Line<'a>,
     knife: &'a Knife,
     /// Of one lap, rad.
     headings: Vec<f64>,
@@ -27,14 +27,14 @@ pub(super) struct Winding<'a> {
 impl<'a> Winding<'a> {
     /// Whether C would leave a range, rad, or come too near to its ends, from wherever it follows a line that turns at its
     /// inner vertices by `turned` rad, whatever the side.
-    pub(super) fn is_past(line: &'a Line, turned: f64, (range, profile): ([f64; 2], &'a MachineProfile)) -> bool {
+    pub(super) fn is_past(line: &'a Line<'a>, turned: f64, (range, profile): ([f64; 2], &'a MachineProfile)) -> bool {
         let [least, greatest] = range;
         // Where there is room for a period more than it turns, one of the equivalents of C fits.
         let is_sure = !line.ring && turned + 2.0 * CLEAR_OF_ENDS + profile.knife.period() <= greatest - least;
         line.chords() > 1 && !is_sure && Self::new(line, profile).leaves(range)
     }
 
-    fn new(line: &'a Line, profile: &'a MachineProfile) -> Self {
+    fn new(line: &'a Line<'a>, profile: &'a MachineProfile) -> Self {
         let first = line.direction(0);
         let mut heading = first.y.atan2(first.x);
         let mut headings = vec![heading];
