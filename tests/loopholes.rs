@@ -389,7 +389,7 @@ fn the_bow_under_a_plunged_blade_is_reported() {
     let marker = support::marker(&(0..=24).map(arc).collect::<Vec<_>>());
     let job = Job::default();
     let program = support::program::setpoints(&marker, &job);
-    let verdict = verify::setpoints(&mut program.as_slice(), &marker, &job);
+    let verdict = verify::setpoints(&mut program.as_slice(), &verify::Ground::new(&marker, &job.profile), &job);
     assert!(verdict.passes(), "{:?}", broken(&verdict));
     let body = verdict.findings.iter().find(|finding| finding.rule == "verify/body").expect("it is reported");
     // w^2 / 8 R of the plunge is the least; on its way the tail leaves the circle farther.

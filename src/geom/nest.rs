@@ -17,17 +17,18 @@ pub struct Shape {
 
 impl Shape {
     /// The shape that rings bound; whether they repeat their first points does not matter.
-    pub fn new(rings: &[Vec<Point>]) -> Self {
+    pub fn new<R: AsRef<[Point]>>(rings: &[R]) -> Self {
         let mut extent = Extent::EMPTY;
-        rings.iter().flatten().for_each(|&point| extent.add(point));
+        rings.iter().flat_map(AsRef::as_ref).for_each(|&point| extent.add(point));
         Self { extent, inner: inner_point(rings, extent) }
     }
 }
 
-fn inner_point(rings: &[Vec<Point>], extent: Extent) -> Option<Point> {
+fn inner_point<R: AsRef<[Point]>>(rings: &[R], extent: Extent) -> Option<Point> {
     let (_, height) = extent.size();
     let y = extent.min.y + LEVEL * height;
-    let edges = rings.iter().flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
+    let rings = rings.iter().map(AsRef::as_ref);
+    let edges = rings.flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
     let crossing = edges.filter(|(a, b)| (a.y > y) != (b.y > y));
     let mut crossings: Vec<f64> = crossing.map(|(a, b)| a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y)).collect();
     crossings.sort_by(f64::total_cmp);
@@ -74,7 +75,7 @@ mod tests {
     }
 
     fn nested(rings: &[Vec<Point>]) -> Vec<u32> {
-        let index = Regions::new(0..rings.len() as u32, |owner| vec![rings[owner as usize].clone()]);
+        let index = Regions::new(0..rings.len() as u32, |owner| vec![rings[owner as usize][..].into()]);
         let shapes: Vec<Shape> = rings.iter().map(|ring| Shape::new(std::slice::from_ref(ring))).collect();
         regions(&shapes, |point| index.owners_at(point))
     }

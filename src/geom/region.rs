@@ -1,6 +1,7 @@
 //! Regions of the plane, each bounded by the rings of one owner by the even-odd rule, and how far one may go straight on
 //! before entering one. Every question looks at what is near only, so that asking it everywhere is nearly linear.
 
+use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
 use rayon::prelude::*;
@@ -19,9 +20,9 @@ const PROBES: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 
 /// Regions, indexed.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Regions {
+pub struct Regions<'a> {
     /// Each owner's region, in order.
-    owners: Vec<Region>,
+    owners: Vec<Region<'a>>,
     /// Regions by the cells that their boxes meet.
     boxes: Lattice,
 }
@@ -72,11 +73,11 @@ struct Lattice {
 
 /// The region of one owner.
 #[derive(Debug, Clone, PartialEq)]
-struct Region {
+struct Region<'a> {
     owner: u32,
     extent: Extent,
-    /// Its rings, one behind the other; each ends with the point that it begins with.
-    points: Vec<Point>,
+    /// Its rings, one behind the other; each ends with the point that it begins with. Nearly all are one ring like that.
+    points: Cow<'a, [Point]>,
     bands: Bands,
 }
 
@@ -182,13 +183,13 @@ impl Bands {
     }
 }
 
-impl Regions {
+impl<'a> Regions<'a> {
     /// The regions of owners, in this order, each bounded by the rings that `rings` gives for it; whether a ring repeats its
     /// first point does not matter. They are asked for one owner at a time, so that not all are there at once.
-    pub fn new(owners: impl IntoIterator<Item = u32>, rings: impl Fn(u32) -> Vec<Vec<Point>> + Sync) -> Self {
+    pub fn new(owners: impl IntoIterator<Item = u32>, rings: impl Fn(u32) -> Vec<Cow<'a, [Point]>> + Sync) -> Self {
         let owners: Vec<u32> = owners.into_iter().collect();
-        let owners: Vec<Region> =
-            owners.into_par_iter().filter_map(|owner| Region::new(owner, &rings(owner))).collect();
+        let owners: Vec<Region<'a>> =
+            owners.into_par_iter().filter_map(|owner| Region::new(owner, rings(owner))).collect();
         let mut extent = Extent::EMPTY;
         for region in &owners {
             extent.join(&region.extent);
@@ -250,16 +251,26 @@ fn around(point: Point, reach: f64) -> Extent {
     Extent { min: point - reach, max: point + reach }
 }
 
-impl Region {
+impl<'a> Region<'a> {
     /// The region that the rings of one owner bound; `None` when they have no edges.
-    fn new(owner: u32, rings: &[Vec<Point>]) -> Option<Self> {
+    fn new(owner: u32, mut rings: Vec<Cow<'a, [Point]>>) -> Option<Self> {
+        if let [ring] = &mut rings[..]
+            && let [first, .., last] = **ring
+            && first == last
+            && ring.windows(2).all(|ends| ends[0] != ends[1])
+        {
+            let mut extent = Extent::EMPTY;
+            ring.iter().for_each(|&point| extent.add(point));
+            let bands = Bands::new(ring, &[ring.len() - 1], extent);
+            return Some(Self { owner, extent, points: std::mem::take(ring), bands });
+        }
         let (mut points, mut ends, mut extent) = (Vec::new(), Vec::new(), Extent::EMPTY);
         points.reserve_exact(rings.iter().map(|ring| ring.len() + 1).sum());
         for ring in rings {
             let Some(&last) = ring.last() else { continue };
             let first = points.len();
             points.push(last);
-            for &to in ring {
+            for &to in &*ring {
                 if points[points.len() - 1] != to {
                     extent.add(to);
                     points.push(to);
@@ -273,7 +284,7 @@ impl Region {
             }
         }
         let bands = (!ends.is_empty()).then(|| Bands::new(&points, &ends, extent))?;
-        Some(Self { owner, extent, points, bands })
+        Some(Self { owner, extent, points: points.into(), bands })
     }
 
     fn edge(&self, i: u32) -> Edge {
@@ -333,8 +344,8 @@ impl Edge {
 mod tests {
     use super::*;
 
-    fn square(x: f64, y: f64, side: f64) -> Vec<Point> {
-        [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)].map(|(dx, dy)| Point::new(x + dx, y + dy)).to_vec()
+    fn square(x: f64, y: f64, side: f64) -> Cow<'static, [Point]> {
+        [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)].map(|(dx, dy)| Point::new(x + dx, y + dy)).to_vec().into()
     }
 
     fn east(x: f64, y: f64) -> Ray {
@@ -344,7 +355,7 @@ mod tests {
     #[test]
     fn a_cut_out_belongs_to_no_region_and_what_lies_in_it_to_its_own() {
         let mut turned = square(10.0, 10.0, 30.0);
-        turned.reverse();
+        turned.to_mut().reverse();
         let regions = Regions::new([1, 2], |owner| match owner {
             1 => vec![square(0.0, 0.0, 50.0), turned.clone()],
             _ => vec![square(20.0, 20.0, 10.0)],

@@ -12,7 +12,7 @@ use crate::ir::{Finding, Marker};
 use crate::machine::{Job, Mode};
 use crate::source::{Source, Span};
 use crate::units::number::{exact, fixed};
-use crate::verify::{self, Kind, RULES, Verdict};
+use crate::verify::{self, Ground, Kind, RULES, Verdict};
 
 /// The rule on what can be read.
 const FORMAT: &str = "verify/format";
@@ -60,7 +60,7 @@ pub fn judge_program(
     }
     let Judged { input, reading } = judged;
     let audit = audited(source, (input.dialect, reading), job);
-    judge(source, (&input.marker, &audit), job, program).map(Some)
+    judge(source, (&input.marker, None, &audit), job, program).map(Some)
 }
 
 /// Why a file is no program that can be judged, by how it begins, and what to do about it; `None` when it is one.
@@ -69,13 +69,14 @@ pub fn foreign(file: &mut dyn Medium) -> io::Result<Option<[String; 2]>> {
     verify::foreign(&mut BufReader::with_capacity(BLOCK, file))
 }
 
-/// Reads a program back from its start and judges it; `audit` is what is known of its source.
+/// Reads a program back from its start and judges it; `audit` is what is known of its source, `ground` that of the marker
+/// where it was made before.
 ///
 /// Where the knife stays up nothing may be cut: the program is judged against a marker without lines, so that every
 /// stroke is one too many, and the rules on how something is cut say nothing.
 pub(super) fn judge(
     source: &Source,
-    (marker, audit): (&Marker, &[Finding]),
+    (marker, ground, audit): (&Marker, Option<&Ground>, &[Finding]),
     job: &Job,
     program: &mut dyn Medium,
 ) -> io::Result<Verdict> {
@@ -89,10 +90,13 @@ pub(super) fn judge(
         }
         kind => {
             let judge_motion = if kind == Some(Kind::Positions) { verify::positions } else { verify::setpoints };
-            if job.mode.cuts() {
-                judge_motion(&mut input, marker, job)
+            let mut judge_by = |ground: &Ground| judge_motion(&mut input, ground, job);
+            if let Some(ground) = ground {
+                judge_by(ground)
+            } else if job.mode.cuts() {
+                judge_by(&Ground::new(marker, &job.profile))
             } else {
-                let mut verdict = judge_motion(&mut input, &uncut(marker, job.mode), job);
+                let mut verdict = judge_by(&Ground::new(&uncut(marker, job.mode), &job.profile));
                 verdict.findings.retain(|finding| !OF_CUTS.contains(&finding.rule));
                 verdict
             }

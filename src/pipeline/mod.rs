@@ -28,7 +28,7 @@ use crate::pass::marker::MARKER_PASSES;
 use crate::pass::toolpath::{Scene, TOOLPATH_PASSES, trace};
 use crate::plan;
 use crate::source::Source;
-use crate::verify::{Census, Works};
+use crate::verify::{Census, Ground, Works};
 
 /// Bytes of setpoints that are kept in memory when they are made only to be judged; more go to a temporary file.
 const SCRATCH_BYTES: usize = 64 << 20;
@@ -189,6 +189,7 @@ pub fn compile_all(
     // A target that cannot be judged by its own bytes shows the verdict on setpoints. When no target's own bytes are
     // those, they are made beside the others to be judged, so that a picture can show the worst places.
     let beside = verify && has(products, Proof::None) && !has(products, Proof::Setpoints);
+    let by_motion = beside || has(products, Proof::Setpoints) || has(products, Proof::Positions);
     let mut scratch = SpooledTempFile::new(SCRATCH_BYTES);
     let mut sinks: Vec<Sink> = products
         .iter_mut()
@@ -224,11 +225,12 @@ pub fn compile_all(
 
     let mut verdict: Option<Verdict> = None;
     if verify && !diagnostics.has_errors() {
+        let ground = (by_motion && job.mode.cuts()).then(|| Ground::new(marker, &job.profile));
         let judged_alone = products.iter_mut().filter(|product| product.target.proof != Proof::None);
         let programs = judged_alone.map(|product| &mut *product.out);
         let scratch: Option<&mut dyn Medium> = if beside { Some(&mut scratch) } else { None };
         for program in programs.chain(scratch) {
-            let next = judge::judge(source, (marker, &audit), job, program)?;
+            let next = judge::judge(source, (marker, ground.as_ref(), &audit), job, program)?;
             verdict = Some(match verdict {
                 Some(verdict) => judge::both(verdict, next),
                 None => next,

@@ -1,12 +1,12 @@
-//! Planning and writing: toolpaths come a window at a time and are planned on all cores; while they are written, in
-//! order, the next ones are made.
+//! Planning and writing: toolpaths come a window at a time and go through stages, each at work on a window of its own on all
+//! cores: made one by one, linked to each other, planned, and written in order.
 
 use std::io::{self, BufWriter, Write};
 
 use rayon::prelude::*;
 
 use super::spent::Clock;
-use super::toolpaths::Toolpaths;
+use super::toolpaths::{Toolpaths, Window};
 use super::{Axes, Medium, Program, Sides};
 use crate::back::{Context, Emit, Estimate, Fit, Fitting, Parts, Ways};
 use crate::diagnostic::{Diagnostic, Diagnostics};
@@ -70,7 +70,7 @@ pub(super) struct Written {
 }
 
 /// Toolpaths, and what was made of them side by side.
-struct Window {
+struct Made {
     toolpaths: Vec<Toolpath>,
     /// The planned cuts of each; none where no motion is wanted.
     cuts: Vec<Result<Vec<Cut>, Vec<Diagnostic>>>,
@@ -87,14 +87,12 @@ struct Wanted<'a> {
 }
 
 impl Wanted<'_> {
-    fn next(&self, toolpaths: &mut Toolpaths) -> Window {
-        let mut findings = Diagnostics::default();
-        let toolpaths = toolpaths.window(&mut findings);
+    fn of(&self, Window { toolpaths, findings }: Window) -> Made {
         let planned = if self.motion { &toolpaths[..] } else { &[] };
         let cuts = planned.par_iter().map(|toolpath| plan::solve(toolpath, self.job)).collect();
         let ways = |fit: &&'static Fit| toolpaths.par_iter().map(|toolpath| (fit.ways)(toolpath, self.job)).collect();
         let ways = self.fits.iter().map(ways).collect();
-        Window { toolpaths, cuts, ways, findings }
+        Made { toolpaths, cuts, ways, findings }
     }
 }
 
@@ -117,17 +115,18 @@ pub(super) fn write(
     }
     let (planner, tally) = (Planner::new(context.job), Tally::default());
     let mut writer = Writer { sinks, context, planner, tally, refused: Vec::new() };
-    let mut window = wanted.next(&mut toolpaths);
-    while !window.toolpaths.is_empty() {
-        let mut next = None;
-        let written = rayon::in_place_scope(|scope| {
-            scope.spawn(|_| next = Some(wanted.next(&mut toolpaths)));
-            writer.take(window, diagnostics)
-        });
-        written?;
-        window = next.expect("the scope waits for it");
+    let (mut drawing, mut linking) = toolpaths.stages();
+    // Each stage has a window of its own: no core waits for the slowest.
+    let (mut drawn, mut linked, mut made) = (drawing.next(), None, None);
+    while drawn.is_some() || linked.is_some() || made.is_some() {
+        let before = (drawn.take(), linked.take(), made.take());
+        rayon::in_place_scope(|scope| {
+            scope.spawn(|_| made = before.1.map(|window| wanted.of(window)));
+            scope.spawn(|_| linked = before.0.map(|window| linking.link(window)));
+            scope.spawn(|_| drawn = drawing.next());
+            before.2.map_or(Ok(()), |made| writer.take(made, diagnostics))
+        })?;
     }
-    diagnostics.extend(window.findings);
     writer.finish(wanted.motion, diagnostics)
 }
 
@@ -142,8 +141,8 @@ struct Writer<'w, 's, 'c> {
 }
 
 impl Writer<'_, '_, '_> {
-    fn take(&mut self, window: Window, diagnostics: &mut Diagnostics) -> io::Result<()> {
-        let Window { toolpaths, cuts, ways, findings } = window;
+    fn take(&mut self, made: Made, diagnostics: &mut Diagnostics) -> io::Result<()> {
+        let Made { toolpaths, cuts, ways, findings } = made;
         diagnostics.extend(findings);
         for (toolpath, cuts) in toolpaths.iter().zip(cuts) {
             match cuts {

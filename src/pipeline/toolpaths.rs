@@ -18,6 +18,25 @@ pub(super) struct Toolpaths<'a> {
     raw: Box<dyn Iterator<Item = Toolpath> + Send + 'a>,
     /// What the passes look at; nothing where there is nothing to pass.
     scene: Option<Scene<'a>>,
+    /// Where the first one begins.
+    home: Pose,
+}
+
+/// Some toolpaths that follow each other, and what their passes found.
+pub(super) struct Window {
+    pub(super) toolpaths: Vec<Toolpath>,
+    pub(super) findings: Diagnostics,
+}
+
+/// The first stage: what is made of each toolpath by itself.
+pub(super) struct Drawing<'t, 'a> {
+    raw: &'t mut Box<dyn Iterator<Item = Toolpath> + Send + 'a>,
+    scene: Option<&'t Scene<'a>>,
+}
+
+/// The second stage: what is made of one toolpath after the other.
+pub(super) struct Linking<'t, 'a> {
+    scene: Option<&'t Scene<'a>>,
     /// Where the last one ends.
     pose: Pose,
 }
@@ -25,41 +44,67 @@ pub(super) struct Toolpaths<'a> {
 impl<'a> Toolpaths<'a> {
     /// Those of a job over a marker; none is made yet.
     pub(super) fn new(marker: &'a Marker, job: &'a Job, diagnostics: &mut Diagnostics) -> Self {
-        let pose = plan::home(job);
+        let home = plan::home(job);
         if job.mode == Mode::Frame {
-            let frame = frame(marker, pose, job, diagnostics);
+            let frame = frame(marker, home, job, diagnostics);
             assert_sound("frame", || check::toolpath(&frame));
-            return Self { raw: Box::new(std::iter::once(frame)), scene: None, pose };
+            return Self { raw: Box::new(std::iter::once(frame)), scene: None, home };
         }
         let scene = Scene::new(marker, job);
         check_depths(marker, &scene, diagnostics);
-        Self { raw: Box::new(trace(marker, job)), scene: Some(scene), pose }
+        Self { raw: Box::new(trace(marker, job)), scene: Some(scene), home }
     }
 
-    /// The next ones; none when there are no more.
-    pub(super) fn window(&mut self, diagnostics: &mut Diagnostics) -> Vec<Toolpath> {
-        let mut window: Vec<Toolpath> = self.raw.by_ref().take(WINDOW).collect();
-        let Some(scene) = &self.scene else { return window };
-        let chained = TOOLPATH_PASSES.iter().position(|pass| pass.chained).unwrap_or(TOOLPATH_PASSES.len());
-        let (alone, chained) = TOOLPATH_PASSES.split_at(chained);
-        let pass = |toolpath: &mut Toolpath, passes: &[ToolpathPass], found: &mut Diagnostics| {
-            for pass in passes {
-                (pass.run)(toolpath, scene, found);
-                assert_sound(pass.name, || check::toolpath(toolpath));
-            }
-        };
+    /// The two stages that make them, which work on different ones at the same time.
+    pub(super) fn stages(&mut self) -> (Drawing<'_, 'a>, Linking<'_, 'a>) {
+        let scene = self.scene.as_ref();
+        (Drawing { raw: &mut self.raw, scene }, Linking { scene, pose: self.home })
+    }
+}
+
+impl Drawing<'_, '_> {
+    /// The next ones; `None` when there are no more.
+    pub(super) fn next(&mut self) -> Option<Window> {
+        let mut toolpaths: Vec<Toolpath> = self.raw.by_ref().take(WINDOW).collect();
+        if toolpaths.is_empty() {
+            return None;
+        }
+        let mut findings = Diagnostics::default();
+        let Some(scene) = self.scene else { return Some(Window { toolpaths, findings }) };
         let by_itself = |toolpath: &mut Toolpath| {
             let mut found = Diagnostics::default();
-            pass(toolpath, alone, &mut found);
+            run(passes()[0], toolpath, scene, &mut found);
             found
         };
-        let findings: Vec<Diagnostics> = window.par_iter_mut().map(by_itself).collect();
-        for (toolpath, found) in window.iter_mut().zip(findings) {
-            diagnostics.extend(found);
+        let found: Vec<Diagnostics> = toolpaths.par_iter_mut().map(by_itself).collect();
+        found.into_iter().for_each(|found| findings.extend(found));
+        Some(Window { toolpaths, findings })
+    }
+}
+
+impl Linking<'_, '_> {
+    /// Finishes the next ones.
+    pub(super) fn link(&mut self, mut window: Window) -> Window {
+        let Some(scene) = self.scene else { return window };
+        for toolpath in &mut window.toolpaths {
             toolpath.entry = self.pose;
-            pass(toolpath, chained, diagnostics);
+            run(passes()[1], toolpath, scene, &mut window.findings);
             self.pose = toolpath.exit();
         }
         window
+    }
+}
+
+/// The passes that look at one toolpath alone, and those from the first on that looks at the one before it.
+fn passes() -> [&'static [ToolpathPass]; 2] {
+    let chained = TOOLPATH_PASSES.iter().position(|pass| pass.chained).unwrap_or(TOOLPATH_PASSES.len());
+    let (alone, chained) = TOOLPATH_PASSES.split_at(chained);
+    [alone, chained]
+}
+
+fn run(passes: &[ToolpathPass], toolpath: &mut Toolpath, scene: &Scene, found: &mut Diagnostics) {
+    for pass in passes {
+        (pass.run)(toolpath, scene, found);
+        assert_sound(pass.name, || check::toolpath(toolpath));
     }
 }

@@ -1,16 +1,16 @@
 //! Which parts a point lies in: even-odd containment in the closed contours of each piece.
 
-use std::ops::RangeInclusive;
+use std::borrow::Cow;
 
 use rayon::prelude::*;
 
 use crate::geom::nest::{self, Shape};
 use crate::geom::{Extent, Point};
+use crate::ir::Marker;
 use crate::ir::marker::Piece;
-use crate::ir::{Marker, Segment, SegmentId, SegmentList};
 
 /// Edges that a band of a part holds on average, at the least.
-const EDGES_A_BAND: usize = 4;
+const EDGES_A_BAND: usize = 8;
 /// Parts that a cell holds on average, at the least; and the most cells along a side.
 const PARTS_A_CELL: usize = 2;
 const CELLS_MAX: usize = 1024;
@@ -23,29 +23,29 @@ pub(super) struct Inside<'a> {
     cell: [f64; 2],
     columns: usize,
     cells: Vec<Vec<u32>>,
-    list: &'a SegmentList,
-    parts: Vec<Part>,
+    parts: Vec<Part<'a>>,
     /// The part to which each piece belongs.
     part_of: Vec<usize>,
 }
 
 /// The edges of a piece's closed contours, in bands along Y.
 #[derive(Debug)]
-struct Part {
+struct Part<'a> {
     piece: usize,
+    /// Its contours, each of which ends with its first point.
+    rings: Box<[Cow<'a, [Point]>]>,
     extent: Extent,
     height: f64,
     /// Where the edges of each band begin, and where those of the last one end.
     starts: Vec<u32>,
-    /// The edges, one band after the other.
-    edges: Vec<SegmentId>,
+    /// The edges, one band after the other: the places where they start in all rings, one behind the other.
+    edges: Vec<u32>,
 }
 
 impl<'a> Inside<'a> {
     /// The index of a marker.
     pub(super) fn new(marker: &'a Marker) -> Self {
-        let list = &marker.list;
-        let part = |(i, piece)| Part::new(i, piece, list);
+        let part = |(i, piece)| Part::new(i, (piece, marker));
         let parts: Vec<Part> = marker.pieces.par_iter().enumerate().filter_map(part).collect();
         let mut extent = Extent::EMPTY;
         for part in &parts {
@@ -63,7 +63,7 @@ impl<'a> Inside<'a> {
         let (columns, rows) = (along(width), along(height));
         let cell = [width / columns as f64, height / rows as f64].map(|size| size.max(f64::MIN_POSITIVE));
         let cells = vec![Vec::new(); columns * rows];
-        let mut inside = Self { extent, cell, columns, cells, list, parts, part_of: Vec::new() };
+        let mut inside = Self { extent, cell, columns, cells, parts, part_of: Vec::new() };
         for i in 0..inside.parts.len() {
             let [low, high] = [inside.parts[i].extent.min, inside.parts[i].extent.max].map(|at| inside.place(at));
             for row in low[1]..=high[1] {
@@ -76,7 +76,7 @@ impl<'a> Inside<'a> {
         let holders = |point| inside.rings_at(point).map(|piece| piece as u32).collect();
         let shape = |piece: &Piece| {
             let closed = piece.contours.iter().filter(|contour| contour.closed);
-            Shape::new(&closed.map(|contour| marker.points(contour)).collect::<Vec<_>>())
+            Shape::new(&closed.map(|contour| marker.list.points(contour.range)).collect::<Vec<_>>())
         };
         let shapes: Vec<Shape> = marker.pieces.par_iter().map(shape).collect();
         inside.part_of = nest::regions(&shapes, holders).into_iter().map(|part| part as usize).collect();
@@ -112,66 +112,81 @@ impl<'a> Inside<'a> {
     fn rings_at(&self, point: Point) -> impl Iterator<Item = usize> + '_ {
         let [column, row] = self.place(point);
         let near = self.cells[row * self.columns + column].iter().map(|&part| &self.parts[part as usize]);
-        near.filter(move |part| part.holds(point, self.list)).map(|part| part.piece)
+        near.filter(move |part| part.holds(point)).map(|part| part.piece)
     }
 }
 
-impl Part {
+impl<'a> Part<'a> {
     /// The part that a piece is; `None` when it bounds nothing.
-    fn new(index: usize, piece: &Piece, list: &SegmentList) -> Option<Self> {
-        let closed = || piece.contours.iter().filter(|contour| contour.closed);
-        let edges = || closed().flat_map(|contour| list.walk(contour.range));
-        closed().next()?;
-        let (mut extent, mut count) = (Extent::EMPTY, 0);
-        for (_, edge) in edges() {
-            extent.add(edge.from);
-            count += 1;
+    fn new(index: usize, (piece, marker): (&Piece, &'a Marker)) -> Option<Self> {
+        let closed = piece.contours.iter().filter(|contour| contour.closed);
+        let rings: Box<[Cow<[Point]>]> = closed.map(|contour| marker.list.points(contour.range)).collect();
+        let mut extent = Extent::EMPTY;
+        rings.iter().flat_map(|ring| ring.iter()).for_each(|&point| extent.add(point));
+        let count: usize = rings.iter().map(|ring| ring.len() - 1).sum();
+        if count == 0 {
+            return None;
         }
         let bands = (count / EDGES_A_BAND).max(1);
         let height = (extent.size().1 / bands as f64).max(f64::MIN_POSITIVE);
-        let mut part = Self { piece: index, extent, height, starts: vec![0; bands + 1], edges: Vec::new() };
+        let mut starts = vec![0; bands + 1];
+        let mut part = Self { piece: index, rings, extent, height, starts: Vec::new(), edges: Vec::new() };
         // How many each band has, then where it ends, and, as they are filled in from behind, where it begins.
-        for (_, edge) in edges() {
-            for band in part.bands(&edge) {
-                part.starts[band] += 1;
-            }
-        }
+        part.each(bands, |_, band| starts[band] += 1);
         for band in 1..=bands {
-            part.starts[band] += part.starts[band - 1];
+            starts[band] += starts[band - 1];
         }
-        let (first, _) = edges().next()?;
-        part.edges = vec![first; part.starts[bands] as usize];
-        for (id, edge) in edges() {
-            for band in part.bands(&edge) {
-                part.starts[band] -= 1;
-                part.edges[part.starts[band] as usize] = id;
-            }
-        }
+        let mut edges = vec![0; starts[bands] as usize];
+        part.each(bands, |edge, band| {
+            starts[band] -= 1;
+            edges[starts[band] as usize] = edge;
+        });
+        (part.starts, part.edges) = (starts, edges);
         Some(part)
     }
 
-    /// The bands that an edge reaches into.
-    fn bands(&self, edge: &Segment) -> RangeInclusive<usize> {
-        let [a, b] = [edge.from, edge.to].map(|end| self.band(end.y));
-        a.min(b)..=a.max(b)
+    /// Calls `see` for each edge with each band, of so many, that it reaches into.
+    fn each(&self, bands: usize, mut see: impl FnMut(u32, usize)) {
+        let mut start = 0;
+        for ring in &self.rings {
+            let mut before = self.band(ring[0].y, bands);
+            for (edge, end) in (start..).zip(&ring[1..]) {
+                let band = self.band(end.y, bands);
+                (before.min(band)..=before.max(band)).for_each(|band| see(edge, band));
+                before = band;
+            }
+            start += ring.len() as u32;
+        }
     }
 
-    fn band(&self, y: f64) -> usize {
-        (((y - self.extent.min.y) / self.height).max(0.0) as usize).min(self.starts.len() - 2)
+    fn band(&self, y: f64, bands: usize) -> usize {
+        (((y - self.extent.min.y) / self.height).max(0.0) as usize).min(bands - 1)
     }
 
-    /// Whether a ray to the right of a point crosses the edges, which stand in a list, an odd number of times.
-    fn holds(&self, point: Point, list: &SegmentList) -> bool {
+    /// The ends of an edge.
+    fn ends(&self, edge: u32) -> [Point; 2] {
+        let mut start = edge as usize;
+        for ring in &self.rings {
+            if let Some(&[from, to]) = ring.get(start..start + 2) {
+                return [from, to];
+            }
+            start -= ring.len();
+        }
+        unreachable!("an edge stands in a ring")
+    }
+
+    /// Whether a ray to the right of a point crosses the edges an odd number of times.
+    fn holds(&self, point: Point) -> bool {
         let Extent { min, max } = self.extent;
         if point.y < min.y || point.y > max.y || point.x < min.x || point.x > max.x {
             return false;
         }
-        let is_crossed = |&&id: &&SegmentId| {
-            let [from, to] = list.ends(id);
+        let is_crossed = |&&edge: &&u32| {
+            let [from, to] = self.ends(edge);
             (from.y > point.y) != (to.y > point.y)
                 && from.x + (to.x - from.x) * (point.y - from.y) / (to.y - from.y) > point.x
         };
-        let band = self.band(point.y);
+        let band = self.band(point.y, self.starts.len() - 1);
         let edges = &self.edges[self.starts[band] as usize..self.starts[band + 1] as usize];
         edges.iter().filter(is_crossed).count() % 2 == 1
     }

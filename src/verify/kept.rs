@@ -19,20 +19,17 @@ const NO_BLOCK: u32 = 0;
 /// All that a marker cuts or drills, to be compared with what passes make of it: two dozen bytes a segment.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Works {
-    pieces: Vec<OfPiece>,
+    /// Each piece, and where its places end.
+    pieces: Vec<(Name, usize)>,
+    /// Where the knife or a drill comes to, in cut order: one line behind the other. In one block of memory, which is given
+    /// back as one.
+    places: Vec<Place>,
 }
 
 /// A piece by its number and the byte at which it starts: numbers may come again.
 type Name = (u32, u32);
 /// The ends of a stroke by the bits of their coordinates, whichever way round.
 type Ends = [[u64; 2]; 2];
-
-#[derive(Debug, Clone, PartialEq)]
-struct OfPiece {
-    name: Name,
-    /// Where the knife or a drill comes to, in cut order: one line behind the other.
-    places: Vec<Place>,
-}
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Place {
@@ -62,61 +59,70 @@ impl Stroke {
     }
 }
 
-impl OfPiece {
-    fn of(piece: &Piece, marker: &Marker) -> Self {
-        let lines = piece.contours.len() + piece.notches.len() + piece.drills.len();
-        let segments = piece.contours.iter().map(|contour| marker.list.points(contour.range).len());
-        let mut places: Vec<Place> = Vec::with_capacity(segments.sum::<usize>() + lines);
-        let mut add = |Stroke { from, to, block }: Stroke| {
-            if places.last().is_none_or(|last| last.at != from) {
-                places.push(Place { at: from, block: NO_BLOCK });
+/// Adds the places of a piece.
+fn add_places(piece: &Piece, marker: &Marker, places: &mut Vec<Place>) {
+    let first = places.len();
+    let mut add = |Stroke { from, to, block }: Stroke| {
+        if places[first..].last().is_none_or(|last| last.at != from) {
+            places.push(Place { at: from, block: NO_BLOCK });
+        }
+        places.push(Place { at: to, block });
+    };
+    for drill in &piece.drills {
+        add(Stroke { from: drill.at, to: drill.at, block: drill.span.block });
+    }
+    // What has no length cuts nothing.
+    for stroke in piece.notches.iter().flat_map(Notch::strokes).filter(|stroke| stroke.from != stroke.to) {
+        add(Stroke { from: stroke.from, to: stroke.to, block: stroke.span.block });
+    }
+    for contour in &piece.contours {
+        let mut before = None;
+        for (to, span) in marker.list.vertices(contour.range) {
+            if let Some(from) = before.replace(to).filter(|from| *from != to) {
+                add(Stroke { from, to, block: span.block });
             }
-            places.push(Place { at: to, block });
-        };
-        for drill in &piece.drills {
-            add(Stroke { from: drill.at, to: drill.at, block: drill.span.block });
         }
-        // What has no length cuts nothing.
-        for stroke in piece.notches.iter().flat_map(Notch::strokes).filter(|stroke| stroke.from != stroke.to) {
-            add(Stroke { from: stroke.from, to: stroke.to, block: stroke.span.block });
-        }
-        let segments = piece.contours.iter().flat_map(|contour| marker.list.walk(contour.range));
-        for (_, segment) in segments.filter(|(_, segment)| segment.from != segment.to) {
-            add(Stroke { from: segment.from, to: segment.to, block: segment.span.block });
-        }
-        Self { name: name(piece), places }
     }
+}
 
-    /// What a block of the file cuts or drills: what has none is from no file.
-    fn strokes(&self) -> impl Iterator<Item = Stroke> {
-        let all = self.places.windows(2).map(|w| Stroke { from: w[0].at, to: w[1].at, block: w[1].block });
-        all.filter(|stroke| stroke.block != NO_BLOCK)
-    }
+/// What a block of the file cuts or drills: what has none is from no file.
+fn strokes(places: &[Place]) -> impl Iterator<Item = Stroke> {
+    let all = places.windows(2).map(|w| Stroke { from: w[0].at, to: w[1].at, block: w[1].block });
+    all.filter(|stroke| stroke.block != NO_BLOCK)
+}
 
-    /// What is done here and no more in `cut`.
-    fn lost_in(&self, cut: &Self) -> Vec<Stroke> {
-        if self == cut {
-            return Vec::new(); // as of nearly all
-        }
-        let mut blocks: Vec<u32> = cut.strokes().map(|stroke| stroke.block).collect();
-        blocks.sort_unstable();
-        let mut lost: Vec<Stroke> =
-            self.strokes().filter(|stroke| blocks.binary_search(&stroke.block).is_err()).collect();
-        if lost.is_empty() {
-            return lost;
-        }
-        let mut ends: Vec<Ends> = cut.strokes().map(|stroke| stroke.ends()).collect();
-        ends.sort_unstable();
-        lost.retain(|stroke| stroke.is_hole() || ends.binary_search(&stroke.ends()).is_err());
-        lost.dedup_by_key(|stroke| stroke.block); // the chords of an arc are one block
-        lost
+/// What is done in the places of a piece and no more in those of the piece as it is cut.
+fn lost(read: &[Place], cut: &[Place]) -> Vec<Stroke> {
+    if read == cut {
+        return Vec::new(); // as of nearly all
     }
+    let mut blocks: Vec<u32> = strokes(cut).map(|stroke| stroke.block).collect();
+    blocks.sort_unstable();
+    let mut lost: Vec<Stroke> = strokes(read).filter(|stroke| blocks.binary_search(&stroke.block).is_err()).collect();
+    if lost.is_empty() {
+        return lost;
+    }
+    let mut ends: Vec<Ends> = strokes(cut).map(|stroke| stroke.ends()).collect();
+    ends.sort_unstable();
+    lost.retain(|stroke| stroke.is_hole() || ends.binary_search(&stroke.ends()).is_err());
+    lost.dedup_by_key(|stroke| stroke.block); // the chords of an arc are one block
+    lost
 }
 
 impl Works {
     /// What a marker cuts and drills, block by block.
     pub fn of(marker: &Marker) -> Self {
-        Self { pieces: marker.pieces.par_iter().map(|piece| OfPiece::of(piece, marker)).collect() }
+        let (mut pieces, mut places) = (Vec::with_capacity(marker.pieces.len()), Vec::new());
+        let of_piece = |piece: &Piece| {
+            let points = piece.contours.iter().map(|contour| marker.list.points(contour.range).len());
+            points.sum::<usize>() + 4 * piece.notches.len() + 2 * piece.drills.len()
+        };
+        places.reserve_exact(marker.pieces.iter().map(of_piece).sum());
+        for piece in &marker.pieces {
+            add_places(piece, marker, &mut places);
+            pieces.push((name(piece), places.len()));
+        }
+        Self { pieces, places }
     }
 
     /// Whether all of it is still cut in what passes made of the marker, of the pieces that are there: those that were not
@@ -124,11 +130,15 @@ impl Works {
     pub fn kept(&self, marker: &Marker) -> Finding {
         let mut cut: Vec<&Piece> = marker.pieces.iter().collect();
         cut.sort_by_key(|piece| name(piece));
-        let lost = |piece: &OfPiece| {
-            let place = cut.binary_search_by_key(&piece.name, |piece| name(piece));
-            place.map_or_else(|_| Vec::new(), |place| piece.lost_in(&OfPiece::of(cut[place], marker)))
+        let lost_of = |i: usize| {
+            let (name_of, end) = self.pieces[i];
+            let Ok(place) = cut.binary_search_by_key(&name_of, |piece| name(piece)) else { return Vec::new() };
+            let start = if i == 0 { 0 } else { self.pieces[i - 1].1 };
+            let mut places = Vec::with_capacity(end - start);
+            add_places(cut[place], marker, &mut places);
+            lost(&self.places[start..end], &places)
         };
-        let lost: Vec<Vec<Stroke>> = self.pieces.par_iter().map(lost).collect();
+        let lost: Vec<Vec<Stroke>> = (0..self.pieces.len()).into_par_iter().map(lost_of).collect();
         let mut worst = Worst::new("source/kept", "blocks", Some(0.0));
         for (lost, count) in lost.into_iter().flatten().zip(1..) {
             worst.see(f64::from(count), || Sighting { time: None, point: lost.to, block: lost.block });

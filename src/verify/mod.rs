@@ -68,12 +68,12 @@ use self::order::Order;
 use self::read::{Going, Rounding, Row, Rows};
 use self::reference::Reference;
 use self::rest::Rest;
-use self::stroke::{Ground, Judge, Strokes, Traced};
+use self::stroke::{Judge, Strokes, Traced};
 use self::table::Table;
 use self::worst::Worst;
 use self::worsts::Worsts;
 use crate::ir::{Finding, Marker, finding};
-use crate::machine::Job;
+use crate::machine::{Job, MachineProfile};
 
 /// Rows of strokes that are judged at a time: enough to keep all cores busy, few enough to keep memory small.
 const ROWS_AT_A_TIME: usize = 8192;
@@ -297,20 +297,35 @@ impl Watch<'_> {
     }
 }
 
-/// What lies where on the cloth.
-fn ground<'a>(reference: &Reference<'a>) -> Ground<'a> {
-    let (grid, inside) = rayon::join(|| Grid::new(reference), || Inside::new(reference.marker));
-    Ground { grid, inside }
+/// What must be cut of a marker, and what lies where on the cloth: what programs are judged by.
+#[derive(Debug)]
+pub struct Ground<'a> {
+    reference: Reference<'a>,
+    /// The chords of all lines.
+    grid: Grid,
+    /// The parts.
+    inside: Inside<'a>,
 }
 
-/// Judges timed setpoints, as the targets `csv`, `npy`, `counts` and `hal` write them, against what the marker says must
-/// be cut.
-pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdict {
-    let reference = Reference::new(marker, &job.profile);
+impl<'a> Ground<'a> {
+    /// The ground of a marker.
+    pub fn new(marker: &'a Marker, profile: &MachineProfile) -> Self {
+        let lines = || {
+            let reference = Reference::new(marker, profile);
+            let grid = Grid::new(&reference);
+            (reference, grid)
+        };
+        let ((reference, grid), inside) = rayon::join(lines, || Inside::new(marker));
+        Self { reference, grid, inside }
+    }
+}
+
+/// Judges timed setpoints, as the targets `csv`, `npy`, `counts` and `hal` write them, against what must be cut.
+pub fn setpoints(program: &mut dyn BufRead, ground: &Ground, job: &Job) -> Verdict {
     let mut rows = Rows::new(program, &job.profile);
-    let judge = Judge::new((&reference, ground(&reference)), &job.profile, rows.rounding());
     let rounding = rows.rounding();
-    let mut findings = simulate(|| Some((rows.next()?, None)), (&reference, judge, rounding), job);
+    let judge = Judge::new(ground, &job.profile, rounding);
+    let mut findings = simulate(|| Some((rows.next()?, None)), (&ground.reference, judge, rounding), job);
     let is_broken = rows.is_broken();
     let (format, unread) = rows.findings();
     if is_broken {
@@ -322,15 +337,13 @@ pub fn setpoints(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdi
     Verdict { findings, unread: None, untimed: Vec::new() }
 }
 
-/// Judges positions without time, as the target `gcode` writes them, against what the marker says must be cut.
-pub fn positions(program: &mut dyn BufRead, marker: &Marker, job: &Job) -> Verdict {
-    let reference = Reference::new(marker, &job.profile);
+/// Judges positions without time, as the target `gcode` writes them, against what must be cut.
+pub fn positions(program: &mut dyn BufRead, ground: &Ground, job: &Job) -> Verdict {
     let mut places = Places::new(program, &job.profile);
     let rounding = Places::rounding(&job.profile);
-    let judge =
-        Judge::new((&reference, ground(&reference)), &job.profile, rounding).with_exact_directions(&job.profile);
+    let judge = Judge::new(ground, &job.profile, rounding).with_exact_directions(&job.profile);
     let next = || places.next().map(|(row, going)| (row, Some(going)));
-    let mut findings = simulate(next, (&reference, judge, rounding), job);
+    let mut findings = simulate(next, (&ground.reference, judge, rounding), job);
     let is_broken = places.is_broken();
     let ([format, dwell], unread) = places.findings();
     if is_broken {

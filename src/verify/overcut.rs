@@ -31,7 +31,7 @@ const HALVINGS: usize = 20;
 /// Judges overcuts.
 #[derive(Debug)]
 pub(super) struct Overcut<'a> {
-    inside: Inside<'a>,
+    inside: &'a Inside<'a>,
     /// Rounding of a tip's place, mm.
     rounding: f64,
     tolerance: f64,
@@ -95,7 +95,7 @@ enum Cloth {
 impl<'a> Overcut<'a> {
     /// For parts in which places lie, a tip that may leave its line by `tolerance` mm, and places that are rounded to
     /// `rounding` mm.
-    pub(super) fn new((tolerance, inside): (f64, Inside<'a>), profile: &MachineProfile, rounding: f64) -> Self {
+    pub(super) fn new((tolerance, inside): (f64, &'a Inside<'a>), profile: &MachineProfile, rounding: f64) -> Self {
         let (knife, verify) = (&profile.knife, &profile.verify);
         Self {
             inside,

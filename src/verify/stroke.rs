@@ -5,15 +5,12 @@
 
 use std::ops::{Range, RangeToInclusive};
 
-use super::Done;
 use super::body::{BODY_STEP, Bow, Cut};
 use super::chord::{self, BODY_SHARES, Blade, Trailing};
 use super::covered::Covered;
 use super::follow::Foot;
 use super::gcode::SAGITTA;
-use super::grid::Grid;
 use super::heading::{self, Moving, Plunge};
-use super::inside::Inside;
 use super::joints::{Around, Joints};
 use super::line::Line;
 use super::naming::Naming;
@@ -23,6 +20,7 @@ use super::reference::Reference;
 use super::trial::{REACH, Trace, Tracer, Trial};
 use super::worst::{Worst, at};
 use super::worsts::Worsts;
+use super::{Done, Ground};
 use crate::geom::{Point, Vector, angle, left};
 use crate::ir::finding::Sighting;
 use crate::machine::{Fit, Follow, Knife, MachineProfile};
@@ -122,14 +120,6 @@ impl Traced<'_> {
     }
 }
 
-/// What lies where on the cloth.
-pub(super) struct Ground<'a> {
-    /// The chords of all lines.
-    pub(super) grid: Grid,
-    /// The parts.
-    pub(super) inside: Inside<'a>,
-}
-
 /// Judges strokes.
 pub(super) struct Judge<'a> {
     reference: &'a Reference<'a>,
@@ -154,7 +144,7 @@ pub(super) struct Judge<'a> {
 impl<'a> Judge<'a> {
     /// Judges by what must be cut and what lies where a program whose rows are rounded.
     pub(super) fn new(
-        (reference, Ground { grid, inside }): (&'a Reference, Ground<'a>),
+        Ground { reference, grid, inside }: &'a Ground<'a>,
         profile: &'a MachineProfile,
         rounding: Rounding,
     ) -> Self {
@@ -344,7 +334,7 @@ impl<'a> Judge<'a> {
         let allowed = self.tracer.allowed;
         let Some(Covered { sag }) = trial.covered.filter(|covered| covered.sag > allowed) else { return 0.0 };
         let line = &self.reference.lines[trial.line];
-        let lines = Lines { reference: self.reference, grid: &self.tracer.grid };
+        let lines = Lines { reference: self.reference, grid: self.tracer.grid };
         if sag > self.overcut.of_nibbles(line, lines) + allowed { sag } else { 0.0 }
     }
 
@@ -539,7 +529,7 @@ impl<'a> Judge<'a> {
         let is_known = |ends: &[[f64; 2]; 2]| ends.iter().flatten().all(|station| station.is_finite());
         let fits = fits.map(|ends| if is_known(&ends) { ends } else { hull.map(|station| [station; 2]) });
         let stroke = overcut::Stroke { cut, feet, held, line: &self.reference.lines[trial.line], fits };
-        self.overcut.see(&stroke, Lines { reference: self.reference, grid: &self.tracer.grid }, seen, harm);
+        self.overcut.see(&stroke, Lines { reference: self.reference, grid: self.tracer.grid }, seen, harm);
     }
 
     /// How far the path bows away from the plunged blade, and the tail leaves it while the blade moves.

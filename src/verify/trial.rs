@@ -84,7 +84,7 @@ pub(super) struct Trial {
 /// Finds the lines near strokes, and follows strokes along them.
 pub(super) struct Tracer<'a> {
     pub(super) reference: &'a Reference<'a>,
-    pub(super) grid: Grid,
+    pub(super) grid: &'a Grid,
     pub(super) joints: Joints,
     /// Width of the blade, mm.
     pub(super) width: f64,

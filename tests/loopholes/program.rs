@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use cutc::geom::{Heading, Point};
 use cutc::ir::Marker;
 use cutc::machine::Job;
-use cutc::verify::{self, Verdict};
+use cutc::verify::{self, Ground, Verdict};
 
 use crate::support;
 
@@ -115,7 +115,7 @@ impl Program {
             let t = i as f64 * self.job.profile.time.period();
             let _ = writeln!(text, "{t:.6},{x:.6},{y:.6},{c:.6},{knife},{drill},{event},{block}");
         }
-        verify::setpoints(&mut text.as_bytes(), marker, &self.job)
+        verify::setpoints(&mut text.as_bytes(), &Ground::new(marker, &self.job.profile), &self.job)
     }
 }
 

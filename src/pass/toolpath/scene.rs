@@ -1,5 +1,6 @@
 //! What passes look at beside a toolpath: the job, and the cloth around it.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
@@ -20,17 +21,17 @@ pub struct Scene<'a> {
     /// The job.
     pub job: &'a Job,
     /// The parts: inside their outlines, not inside their cut-outs, whichever way round these are drawn.
-    parts: Regions,
+    parts: Regions<'a>,
     /// The part to which each piece belongs: one that lies in another is a cut-out of that.
     part_of: Vec<u32>,
 }
 
 impl<'a> Scene<'a> {
     /// The scene of a marker. Contours that do not close bound nothing.
-    pub fn new(marker: &Marker, job: &'a Job) -> Self {
-        let rings = |piece: u32| -> Vec<Vec<Point>> {
+    pub fn new(marker: &'a Marker, job: &'a Job) -> Self {
+        let rings = |piece: u32| -> Vec<Cow<'a, [Point]>> {
             let closed = marker.pieces[piece as usize].contours.iter().filter(|contour| contour.closed);
-            closed.map(|contour| marker.points(contour)).collect()
+            closed.map(|contour| marker.list.points(contour.range)).collect()
         };
         let count = marker.pieces.len() as u32;
         let pieces = Regions::new(0..count, rings);
@@ -58,7 +59,7 @@ impl<'a> Scene<'a> {
 }
 
 /// The regions of parts whose cut-outs are pieces; `rings` gives the rings of a piece.
-fn whole_parts(part_of: &[u32], rings: impl Fn(u32) -> Vec<Vec<Point>> + Sync) -> Regions {
+fn whole_parts<'a>(part_of: &[u32], rings: impl Fn(u32) -> Vec<Cow<'a, [Point]>> + Sync) -> Regions<'a> {
     let mut members: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
     for (&part, piece) in part_of.iter().zip(0..) {
         members.entry(part).or_default().push(piece);
