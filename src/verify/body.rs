@@ -3,6 +3,7 @@
 use super::follow::Foot;
 use super::joints::is_curve;
 use super::line::Line;
+use super::trial::Trial;
 use crate::geom::{Point, polyline};
 use crate::machine::Knife;
 
@@ -124,4 +125,22 @@ impl Body {
         let sag = if first < i && i < last { self.sag } else { 0.0 };
         (foot.deviation - sag.max(self.turned * foot.beyond)).max(0.0)
     }
+}
+
+/// Whether a tail, row by row, surely stays nearer to its line than `known` mm: it comes by where the tip was one width of
+/// the blade before, or where the blade plunged, and how far that is off the line is known. Between two places of a cut the
+/// line bows by no more than [`BODY_STEP`].
+pub(super) fn trails(cut: &Cut, tails: impl Iterator<Item = Point>, trial: &Trial, known: f64) -> bool {
+    let width = cut.stations[cut.body];
+    let (mut place, mut behind) = (cut.body, 0);
+    tails.enumerate().all(|(row, tail)| {
+        place += usize::from(cut.rows.get(place - cut.body + 1) == Some(&row));
+        while cut.stations[behind + 1] < cut.stations[place] - width {
+            behind += 1;
+        }
+        let [from, to] = [behind, behind + 1];
+        let aside = polyline::distance_to_segment(tail, cut.points[from], cut.points[to]);
+        let off = trial.feet[from].deviation.max(trial.feet[to].deviation).max(trial.worst.0);
+        aside + off + BODY_STEP < known
+    })
 }

@@ -1,7 +1,7 @@
 //! Events: what the controller or the operator is asked for comes as often, of the kind and in the order that the marker
 //! has it, with the knife up.
 
-use super::order::Order;
+use super::order::Seen;
 use super::read::Row;
 use super::reference::Reference;
 use super::worst::Worst;
@@ -37,14 +37,14 @@ impl Events {
         Self { asked, told: 0, wrong: 0.0, worst: Worst::new("verify/events", "events", Some(0.0)) }
     }
 
-    /// Sees a row; each that tells an event tells one. What is told and not asked for is one too many.
-    pub(super) fn see(&mut self, row: &Row, order: &mut Order) {
+    /// Sees a row; each that tells an event tells one, which joins what was `told`. What is told and not asked for is one too many.
+    pub(super) fn see(&mut self, row: &Row, told: &mut Vec<Seen>) {
         if row.event == 0 {
             return;
         }
         if let Some(asked) = self.asked.get(self.told).filter(|asked| asked.number == row.event && !row.knife) {
             self.told += 1;
-            order.see(row.tick, asked.rank, row.sighting());
+            told.push(Seen { tick: row.tick, rank: asked.rank, place: row.sighting() });
         } else {
             self.wrong += 1.0;
             self.worst.see(self.wrong, || row.sighting());

@@ -85,9 +85,7 @@ impl<'a> Follower<'a> {
         };
         let mut best = on(&self.chord, laps);
         let mut look = |chord: usize, lap: f64| {
-            // What a chord is led on by at an end of the line may be nearer than its box tells.
-            let is_end = !line.ring && (chord == 0 || chord + 1 == line.chords());
-            if !is_end && !line.may_reach(chord, point, best.deviation) {
+            if !line.may_reach(chord, point, best.deviation) && !line.is_led_on(chord, point) {
                 return;
             }
             let foot = on(&line.chord(chord), lap);

@@ -192,6 +192,14 @@ impl<'a> Line<'a> {
         is_between(from.x, to.x) && is_between(from.y, to.y)
     }
 
+    /// Whether a point stands beyond an end of the line, where the chord that ends there is led on straight.
+    pub(super) fn is_led_on(&self, chord: usize, point: Point) -> bool {
+        let [from, to] = self.ends(chord);
+        let is_before = chord == 0 && (point - from).dot(&(to - from)) < 0.0;
+        let is_behind = || chord + 1 == self.chords() && (point - to).dot(&(to - from)) > 0.0;
+        !self.ring && (is_before || is_behind())
+    }
+
     /// The vertices between two stations; on a ring these may lie on any lap, and its last point is left to its first.
     pub(super) fn vertices(&self, low: f64, high: f64) -> impl Iterator<Item = usize> + '_ {
         let length = self.length();

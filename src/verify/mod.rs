@@ -64,7 +64,7 @@ use self::grid::Grid;
 use self::inside::Inside;
 use self::limits::Limits;
 use self::naming::Naming;
-use self::order::Order;
+use self::order::{Order, Seen};
 use self::read::{Going, Rounding, Row, Rows};
 use self::reference::Reference;
 use self::rest::Rest;
@@ -201,7 +201,7 @@ pub fn foreign(bytes: &mut dyn BufRead) -> std::io::Result<Option<[String; 2]>> 
 /// What was cut so far, as the strokes tell it.
 struct Done<'a> {
     coverage: Coverage<'a>,
-    order: Order,
+    order: Order<'a>,
     worsts: Worsts,
 }
 
@@ -212,8 +212,10 @@ impl Done<'_> {
         for stroke in &mut traced {
             judge.settle(stroke, self);
         }
+        let known = &self.worsts;
         let check = |strokes: &[Traced]| {
-            let mut worsts = judge.worsts();
+            // What is no worse than anything so far need not be known.
+            let mut worsts = known.clone();
             for stroke in strokes {
                 judge.check(stroke, &mut worsts);
             }
@@ -249,7 +251,8 @@ struct Watch<'a> {
     rest: Rest<'a>,
     table: Table,
     events: Events,
-    order: Order,
+    /// Events and holes, as they are told.
+    told: Vec<Seen>,
     block: Worst,
     yaw_deg: f64,
     last: Option<Row>,
@@ -271,7 +274,7 @@ impl Watch<'_> {
             let blade = Row { c_deg: row.c_deg - self.yaw_deg, ..row };
             self.table.see(&blade);
             self.block.see(Naming::in_air(&row), || row.sighting());
-            self.events.see(&row, &mut self.order);
+            self.events.see(&row, &mut self.told);
             if row.knife || strokes.are_open() {
                 // The row of the lift command still holds the pose at the end of the cut.
                 strokes.push(&blade, going);
@@ -287,12 +290,12 @@ impl Watch<'_> {
         strokes
     }
 
-    fn findings(self, done: &mut Done) -> Vec<Finding> {
-        done.order.add(self.order);
+    fn findings(mut self, done: &mut Done) -> Vec<Finding> {
         done.worsts.block.add(&self.block);
         let mut findings = self.limits.findings(self.last.as_ref());
-        findings.extend(self.rest.findings(self.last.as_ref(), &mut done.order));
+        findings.extend(self.rest.findings(self.last.as_ref(), &mut self.told));
         findings.extend([self.table.finding(), self.events.finding()]);
+        done.order.add(self.told);
         findings
     }
 }
@@ -372,13 +375,12 @@ fn simulate(
         rest: Rest::new(reference, profile, rounding),
         table: Table::new(profile, rounding),
         events: Events::new(reference),
-        order: Order::default(),
+        told: Vec::new(),
         block: judge.worsts().block,
         yaw_deg: profile.knife.yaw_deg,
         last: None,
     };
-    // A line is one stroke, as a rule.
-    let order = Order::with_room(reference.lines.len());
+    let order = Order::new(&reference.lines);
     let mut done = Done { coverage: Coverage::new(reference), order, worsts: judge.worsts() };
     let mut strokes = watch.gather(&mut next);
     while strokes.rows() > 0 {

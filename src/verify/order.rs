@@ -1,58 +1,74 @@
 //! Whether events, holes, slits and contours come in the order of the marker.
 
+use super::line::Line;
 use super::worst::{Worst, at};
-use crate::geom::Point;
 use crate::ir::Finding;
 use crate::ir::finding::Sighting;
 
 /// What was told, drilled and cut, each with its time and its rank in the marker.
-#[derive(Debug, Default)]
-pub(super) struct Order {
-    seen: Vec<Seen>,
-}
-
-/// Kept small: a marker has a hundred thousand of them.
 #[derive(Debug)]
-struct Seen {
-    tick: u64,
-    point: Point,
-    rank: u32,
-    block: u32,
+pub(super) struct Order<'a> {
+    lines: &'a [Line<'a>],
+    /// The strokes, in time: a large marker has a hundred thousand of them.
+    strokes: Vec<Begun>,
+    others: Vec<Seen>,
 }
 
-impl Order {
-    /// Nothing yet, with room for so many.
-    pub(super) fn with_room(count: usize) -> Self {
-        Self { seen: Vec::with_capacity(count) }
+/// When a line begins to be cut.
+#[derive(Debug, Clone, Copy)]
+struct Begun {
+    tick: u64,
+    line: u32,
+}
+
+/// Something else of the marker that is told or drilled.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Seen {
+    pub(super) tick: u64,
+    /// Its rank in the marker.
+    pub(super) rank: usize,
+    pub(super) place: Sighting,
+}
+
+impl<'a> Order<'a> {
+    /// Nothing yet, of these lines.
+    pub(super) fn new(lines: &'a [Line<'a>]) -> Self {
+        // A line is one stroke, as a rule.
+        Self { lines, strokes: Vec::with_capacity(lines.len()), others: Vec::new() }
     }
 
-    /// Something of the marker is told or drilled, or begins to be cut, at a tick.
-    pub(super) fn see(&mut self, tick: u64, rank: usize, place: Sighting) {
-        let Sighting { point, block, .. } = place;
-        let rank = u32::try_from(rank).expect("a source below 4 GiB has fewer than 2^32 lines");
-        self.seen.push(Seen { tick, point, rank, block });
+    /// A line begins to be cut at a tick, no earlier than the one before.
+    pub(super) fn cut(&mut self, tick: u64, line: usize) {
+        self.strokes.push(Begun { tick, line: line as u32 });
     }
 
-    /// Takes what another saw of the same program.
-    pub(super) fn add(&mut self, other: Self) {
-        self.seen.extend(other.seen);
+    /// Takes what else was told and drilled.
+    pub(super) fn add(&mut self, others: Vec<Seen>) {
+        self.others.extend(others);
     }
 
     /// How many come behind a later one, a tick being that long, s. Holes are known only when the program is over, so all are
     /// brought into time first.
     pub(super) fn finding(mut self, period: f64) -> Finding {
         let mut worst = Worst::new("verify/order", "operations", Some(0.0));
-        if !self.seen.is_sorted_by_key(|seen| seen.tick) {
-            self.seen.sort_by_key(|seen| seen.tick);
-        }
         let (mut greatest, mut late) = (0, 0.0);
-        for seen in &self.seen {
-            if seen.rank < greatest {
+        let mut see = |Seen { tick, rank, place }: Seen| {
+            if rank < greatest {
                 late += 1.0;
-                worst.see(late, || at(seen.tick as f64 * period, seen.point, seen.block));
+                worst.see(late, || at(tick as f64 * period, place.point, place.block));
             }
-            greatest = greatest.max(seen.rank);
+            greatest = greatest.max(rank);
+        };
+        self.others.sort_by_key(|seen| seen.tick);
+        let mut others = self.others.into_iter().peekable();
+        for Begun { tick, line } in self.strokes {
+            while let Some(other) = others.next_if(|other| other.tick < tick) {
+                see(other);
+            }
+            let line = &self.lines[line as usize];
+            see(Seen { tick, rank: line.rank as usize, place: at(0.0, line.point(0), line.block(0)) });
         }
+        others.for_each(see);
         worst.finding()
     }
 }

@@ -1,6 +1,6 @@
 //! What happens at rest: start and end of the program, plunges, lifts, events, and the holes that are drilled.
 
-use super::order::Order;
+use super::order::Seen;
 use super::read::{Rounding, Row};
 use super::reference::Reference;
 use super::worst::Worst;
@@ -137,8 +137,8 @@ impl<'a> Rest<'a> {
         self.dwell.see(missing, || row.sighting());
     }
 
-    /// What was found; the holes of the marker that were drilled join the `order`.
-    pub(super) fn findings(mut self, last: Option<&Row>, order: &mut Order) -> Vec<Finding> {
+    /// What was found; the holes of the marker that were drilled join what was `told`.
+    pub(super) fn findings(mut self, last: Option<&Row>, told: &mut Vec<Seen>) -> Vec<Finding> {
         if let Some(last) = last {
             self.finish(last);
             self.rise(last);
@@ -149,12 +149,12 @@ impl<'a> Rest<'a> {
                 self.end.see(distance(last, park), || last.sighting());
             }
         }
-        let (drills, place) = self.holes(order);
+        let (drills, place) = self.holes(told);
         vec![self.start.finding(), self.end.finding(), self.still.finding(), self.dwell.finding(), drills, place]
     }
 
     /// Compares the holes of the program with those of the marker: each takes the nearest one that is left.
-    fn holes(&mut self, order: &mut Order) -> (Finding, Finding) {
+    fn holes(&mut self, told: &mut Vec<Seen>) -> (Finding, Finding) {
         let mut wrong = Worst::new("verify/drills", "holes", Some(0.0));
         let mut place = Worst::new("verify/drill-place", "mm", Some(2.0 * self.same));
         let mut left = std::mem::take(&mut self.drilled);
@@ -173,7 +173,7 @@ impl<'a> Rest<'a> {
                 taken[i] = true;
                 let row = &left[i].2;
                 place.see(away(&i), || row.sighting());
-                order.see(row.tick, rank, row.sighting());
+                told.push(Seen { tick: row.tick, rank, place: row.sighting() });
             } else {
                 count += 1.0;
                 wrong.see(count, || Sighting { time: None, point: drill.at, block: drill.span.block });

@@ -5,7 +5,7 @@
 
 use std::ops::{Range, RangeToInclusive};
 
-use super::body::{BODY_STEP, Bow, Cut};
+use super::body::{self, BODY_STEP, Bow, Cut};
 use super::chord::{self, BODY_SHARES, Blade, Trailing};
 use super::covered::Covered;
 use super::follow::Foot;
@@ -235,7 +235,7 @@ impl<'a> Judge<'a> {
         if let (true, Some(hull)) = (cut.is_stab(), uncut(&best.held_stretches()).or_else(|| uncut(&best.stretches))) {
             (best.hull, best.fits) = (hull, self.fits(line, hull));
         }
-        done.order.see(first.tick, line.rank as usize, stroke.sighting(cut, cut.body));
+        done.order.cut(first.tick, best.line);
         done.coverage.add(best.line, &best.stretches);
         traced.best = Some(best);
     }
@@ -549,6 +549,11 @@ impl<'a> Judge<'a> {
             Follow::Chord => &BODY_SHARES,
         };
         for &share in shares {
+            let tails =
+                || stroke.rows.iter().zip(&traced.blades).map(|(row, blade)| row.centre - blade * traced.ends[1]);
+            if share == 0.0 && body::trails(cut, tails(), trial, body.value()) {
+                continue;
+            }
             for (foot, row) in chord::along(stroke.rows, self.blade(traced, trial), share).iter().zip(stroke.rows) {
                 if foot.beyond == 0.0 {
                     body.see(foot.deviation, || row.sighting());
