@@ -13,7 +13,7 @@ use cutc::machine::{Follow, Job, MachineProfile, load};
 use cutc::pipeline::{self, Compiled, Order, Verdict};
 use cutc::source::Source;
 use cutc::units::S_PER_MIN;
-use cutc::verify;
+use cutc::verify::{self, Ground};
 
 fn fixture(name: &str) -> Source {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(name);
@@ -44,7 +44,7 @@ fn compile(source: &Source, job: &Job) -> (String, Compiled) {
 fn judge(program: &str, source: &Source, job: &Job) -> Verdict {
     let mut diagnostics = Diagnostics::default();
     let input = pipeline::read(source, None, job, &mut diagnostics).expect("it is read");
-    verify::positions(&mut BufReader::new(program.as_bytes()), &input.marker, job)
+    verify::positions(&mut BufReader::new(program.as_bytes()), &Ground::new(&input.marker, &job.profile), job)
 }
 
 /// The markers that are damaged, each with a machine of its own.

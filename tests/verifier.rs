@@ -40,7 +40,7 @@ use std::io::BufReader;
 
 use cutc::ir::Marker;
 use cutc::machine::{Fit, Follow, Job, MachineProfile, TightCurves};
-use cutc::verify::{self, RULES, Verdict};
+use cutc::verify::{self, Ground, RULES, Verdict};
 use fastrand::Rng;
 use rayon::prelude::*;
 
@@ -99,7 +99,7 @@ fn assert_told(figures: &str) {
 }
 
 fn judge(program: &[u8], marker: &Marker, job: &Job) -> Verdict {
-    verify::setpoints(&mut BufReader::new(program), marker, job)
+    verify::setpoints(&mut BufReader::new(program), &Ground::new(marker, &job.profile), job)
 }
 
 #[test]
