@@ -1,8 +1,8 @@
 //! What a stroke cuts: the body of the blade where it plunges, then the way of its tip.
 
 use super::follow::Foot;
-use super::joints::is_curve;
 use super::line::Line;
+use super::nibbles::is_curve;
 use super::trial::Trial;
 use crate::geom::{Point, polyline};
 use crate::machine::Knife;

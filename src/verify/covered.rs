@@ -2,7 +2,7 @@
 
 use super::body::Cut;
 use super::line::Line;
-use super::nibbles::BEND_SHARE;
+use super::nibbles::is_curve;
 use crate::geom::polyline;
 
 /// Cosine of the blade with the line at its start below which it stands across it, by a little.
@@ -37,11 +37,10 @@ impl Covered {
         }
         let turns: Vec<f64> = turns.iter().map(|turn| turn.abs()).collect();
         let all = turns.iter().sum::<f64>();
-        let is_curve = turns.iter().all(|&turn| turn <= BEND_SHARE * all);
         // It turns along both halves of the chords at its ends, too.
         let arc = all + f64::midpoint(turns[0], turns[turns.len() - 1]);
         let away = line.points().map(|point| polyline::distance_to_segment(point, start, end));
         let sag = away.fold(0.0, f64::max);
-        (is_curve && sag <= polyline::sagitta(along.norm(), arc) + allowed).then_some(Self { sag })
+        (is_curve(&turns) && sag <= polyline::sagitta(along.norm(), arc) + allowed).then_some(Self { sag })
     }
 }

@@ -145,12 +145,7 @@ impl Joints {
 /// Whether a line turns at one bend between two stations, and not little by little.
 fn is_bent(line: &Line, [a, b]: [f64; 2]) -> bool {
     let turns: Vec<f64> = line.vertices(a.min(b), a.max(b)).map(|vertex| line.turn(vertex).abs()).collect();
-    !is_curve(&turns)
-}
-
-/// Whether turns are those of a curve: none of them makes most of what they are together.
-pub(super) fn is_curve(turns: &[f64]) -> bool {
-    turns.iter().fold(0.0, |sharpest: f64, &turn| sharpest.max(turn)) <= CURVE_SHARE * turns.iter().sum::<f64>()
+    turns.iter().fold(0.0, |sharpest: f64, &turn| sharpest.max(turn)) > CURVE_SHARE * turns.iter().sum::<f64>()
 }
 
 /// A path led straight on beyond its end.

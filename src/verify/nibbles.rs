@@ -15,7 +15,7 @@ const ENTRY_SHARE: f64 = 0.4;
 /// The same of the tolerance of a cut that the blade covers.
 const TOLERANCE_SHARE: f64 = 0.5;
 /// Greatest part of the turn under a blade that one vertex of a curve makes, by a little; one that makes more is a bend.
-pub(super) const BEND_SHARE: f64 = 0.75;
+const BEND_SHARE: f64 = 0.75;
 
 /// What a line is cut with.
 #[derive(Debug, Clone, Copy)]
@@ -119,6 +119,12 @@ struct Bow {
     is_curve: bool,
 }
 
+/// Whether turns are those of a curve: none of them makes most of what they are together, by a little.
+pub(super) fn is_curve(turns: &[f64]) -> bool {
+    let all: f64 = turns.iter().sum();
+    turns.iter().all(|&turn| turn <= BEND_SHARE * all)
+}
+
 impl Bow {
     /// The bow at the start of a path, by a heel overlap; `None` where there is no path.
     fn new(path: &[Point], heel: f64, knife: &Knife) -> Option<Self> {
@@ -138,7 +144,7 @@ impl Bow {
             away,
             arc: if is_across { 0.0 } else { polyline::sagitta((tip - tail).norm(), turned) },
             is_whole: reached.is_none(),
-            is_curve: turns.iter().all(|&turn| turn <= BEND_SHARE * turned),
+            is_curve: is_curve(&turns),
         })
     }
 

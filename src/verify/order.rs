@@ -11,6 +11,9 @@ pub(super) struct Order<'a> {
     lines: &'a [Line<'a>],
     /// The strokes, in time: a large marker has a hundred thousand of them.
     strokes: Vec<Begun>,
+    /// Where those began that come behind a later one, each with its place among them; and the greatest rank so far.
+    late: Vec<(usize, Sighting)>,
+    greatest: u32,
     others: Vec<Seen>,
 }
 
@@ -34,11 +37,17 @@ impl<'a> Order<'a> {
     /// Nothing yet, of these lines.
     pub(super) fn new(lines: &'a [Line<'a>]) -> Self {
         // A line is one stroke, as a rule.
-        Self { lines, strokes: Vec::with_capacity(lines.len()), others: Vec::new() }
+        let strokes = Vec::with_capacity(lines.len());
+        Self { lines, strokes, late: Vec::new(), greatest: 0, others: Vec::new() }
     }
 
-    /// A line begins to be cut at a tick, no earlier than the one before.
-    pub(super) fn cut(&mut self, tick: u64, line: usize) {
+    /// A line begins to be cut somewhere at a tick, no earlier than the one before.
+    pub(super) fn cut(&mut self, tick: u64, line: usize, place: Sighting) {
+        let rank = self.lines[line].rank;
+        if rank < self.greatest {
+            self.late.push((self.strokes.len(), place));
+        }
+        self.greatest = self.greatest.max(rank);
         self.strokes.push(Begun { tick, line: line as u32 });
     }
 
@@ -60,13 +69,15 @@ impl<'a> Order<'a> {
             greatest = greatest.max(rank);
         };
         self.others.sort_by_key(|seen| seen.tick);
-        let mut others = self.others.into_iter().peekable();
-        for Begun { tick, line } in self.strokes {
+        let (mut others, mut places) = (self.others.into_iter().peekable(), self.late.into_iter().peekable());
+        for (i, Begun { tick, line }) in self.strokes.into_iter().enumerate() {
             while let Some(other) = others.next_if(|other| other.tick < tick) {
                 see(other);
             }
             let line = &self.lines[line as usize];
-            see(Seen { tick, rank: line.rank as usize, place: at(0.0, line.point(0), line.block(0)) });
+            let place = places.next_if(|late| late.0 == i).map(|late| late.1);
+            let place = place.unwrap_or_else(|| at(0.0, line.point(0), line.block(0)));
+            see(Seen { tick, rank: line.rank as usize, place });
         }
         others.for_each(see);
         worst.finding()

@@ -235,7 +235,7 @@ impl<'a> Judge<'a> {
         if let (true, Some(hull)) = (cut.is_stab(), uncut(&best.held_stretches()).or_else(|| uncut(&best.stretches))) {
             (best.hull, best.fits) = (hull, self.fits(line, hull));
         }
-        done.order.cut(first.tick, best.line);
+        done.order.cut(first.tick, best.line, stroke.sighting(cut, cut.body));
         done.coverage.add(best.line, &best.stretches);
         traced.best = Some(best);
     }
