@@ -4,6 +4,9 @@
 #[path = "clients/linuxcnc.rs"]
 mod linuxcnc;
 
+#[path = "clients/tables.rs"]
+mod tables;
+
 use std::path::Path;
 use std::process::{Command, Output};
 
@@ -22,6 +25,17 @@ fn is_there(name: &str, probe: &mut Command) -> bool {
 fn tell(line: &str) {
     let line = format!("{line}\n");
     std::io::Write::write_all(&mut std::io::stderr(), line.as_bytes()).expect("standard error is open");
+}
+
+/// What the interpreter of `LinuxCNC` would have the machine do for a program in a folder; otherwise what it says. One at a
+/// time: it keeps its tools in a file that all of a computer share.
+fn interpret(program: &str, folder: &Path) -> Result<String, String> {
+    let lock = std::env::temp_dir().join("cutc-rs274.lock");
+    let mut interpret = Command::new("flock");
+    interpret.args(["-w", "600"]).arg(lock).args(["rs274", "-g", program, "canon.txt"]).current_dir(folder);
+    let ran = interpret.output().expect("flock starts");
+    let canon = std::fs::read_to_string(folder.join("canon.txt")).expect("text");
+    ran.status.success().then_some(canon).ok_or_else(|| format!("{ran:?}"))
 }
 
 fn python(script: &str, directory: &Path) -> Output {

@@ -454,6 +454,27 @@ fn an_axis_that_goes_round_is_told_nothing_where_it_rests_in_the_cloth() {
 }
 
 #[test]
+fn the_f_of_a_plunge_is_none_of_the_cut_behind_it() {
+    let mut job = Job::default();
+    "G1 Z-2 F60".clone_into(&mut job.profile.gcode.knife_down);
+    "G0 Z5".clone_into(&mut job.profile.gcode.knife_up);
+    let source = fixture("iso/seed-circle.cut");
+    let (program, _) = compile(&source, &job);
+    let cut = program.lines().find(|line| line.starts_with("G2 ") || line.starts_with("G3 ")).expect("a cut");
+    let bare = cut.split(" F").next().expect("words");
+    let verdict = judge(&program.replacen(cut, bare, 1), &source, &job);
+    assert!(verdict.unread.is_some_and(|why| why.contains("has no F")));
+}
+
+#[test]
+fn a_drill_is_lifted_by_its_own_lines() {
+    let (source, job) = (fixture("markers/drills-and-slits.cut"), Job::default());
+    let (program, _) = compile(&source, &job);
+    let verdict = judge(&program.replacen("M65 P1", "M65 P3", 1), &source, &job);
+    assert!(verdict.unread.is_some_and(|why| why.contains("lifts drill 3 while drill 1 is down")));
+}
+
+#[test]
 fn g_code_of_others_is_told_apart() {
     let foreign = |text: &str| verify::foreign(&mut text.as_bytes()).expect("memory is readable");
     for text in ["%\nO1000\n", "G21\nG0 X1\n", "(a comment)\nG90\n", "N10 G90\n"] {

@@ -108,37 +108,8 @@ fn rules(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault
             broken(&[key, "c.range_deg"], message, "C stands there, too");
         }
     }
-    for (key, word) in lines::harmful(&profile.gcode) {
-        let message = format!("`{key}` has {word}, which undoes what the program says");
-        let hint =
-            "modes, moves of the axes and the end are the program's own; only `gcode.footer` may move, and end it";
-        broken(&[key], message, hint);
-    }
-    for (key, word) in lines::late(&profile.gcode) {
-        let message = format!("`{key}` has {word}, which acts only where the next move begins");
-        broken(&[key], message, "M64 and M65 act at once, before the rest that the knife is given");
-    }
-    for key in lines::blank(&profile.gcode) {
-        let message = format!("`{key}` says nothing");
-        broken(
-            &[key],
-            message,
-            "give the lines that the controller needs, such as M3 and M5 for the knife, M2 for the end",
-        );
-    }
-    for keys in lines::same(&profile.gcode) {
-        let message = format!("`{}` and `{}` say the same", keys[0], keys[1]);
-        broken(&keys, message, "the controller must be told apart what goes down and what is lifted");
-    }
-    for key in lines::open_comments(&profile.gcode) {
-        broken(&[key], format!("`{key}` has a comment without its other bracket"), "controllers stop there");
-    }
-    if !lines::ends(&profile.gcode) && !lines::blank(&profile.gcode).contains(&"gcode.footer") {
-        broken(&["gcode.footer"], "`gcode.footer` does not end the program".to_owned(), "its last line is M2 or M30");
-    }
-    for (key, character) in lines::foreign(&profile.gcode) {
-        let message = format!("`{key}` has {character:?}, which no controller reads");
-        broken(&[key], message, "lines of G-code are plain ASCII, comments too");
+    for fault in lines::faults(profile) {
+        broken(&fault.keys, fault.message, &fault.hint);
     }
     faults
 }

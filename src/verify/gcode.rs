@@ -82,6 +82,8 @@ enum Meaning {
     Down,
     Up,
     Drill(u8),
+    /// A drill is lifted.
+    Raise(u8),
     Event(u8),
     End,
 }
@@ -90,6 +92,13 @@ enum Meaning {
 struct Text {
     lines: Vec<Rc<Expected>>,
     meaning: Meaning,
+}
+
+impl Text {
+    fn ends_by_move(&self) -> bool {
+        let first = plain(self.lines[0].text.as_bytes());
+        self.meaning == Meaning::End && matches!(first.as_deref(), Some([b'G', b'0'..=b'3', b' ', b'X', ..]))
+    }
 }
 
 /// The places of a program.
@@ -113,6 +122,8 @@ pub(super) struct Places<'a> {
     last: Going,
     /// Steps since the knife is down.
     in_stroke: f64,
+    /// Whether the lines at the end begin with a move, which is none of the program's.
+    ends_by_move: bool,
     /// Whether the lines at the end were read.
     over: bool,
     /// Why a line cannot be read, and where the axes stood.
@@ -128,6 +139,7 @@ impl<'a> Places<'a> {
         Self {
             input,
             profile,
+            ends_by_move: texts.iter().any(Text::ends_by_move),
             over: texts.iter().all(|text| text.meaning != Meaning::End),
             due: texts[0].lines.iter().cloned().collect(),
             texts,
@@ -236,10 +248,10 @@ impl<'a> Places<'a> {
             self.linger(time - rest);
             return Ok(());
         }
-        if matches!(line, [b'G', b'0'..=b'3', b' ', b'X', ..]) {
+        if matches!(line, [b'G', b'0'..=b'3', b' ', b'X', ..]) && !(self.ends_by_move && self.is_end(line)) {
             return self.go(&Words::of(line, self.profile)?);
         }
-        if let Some(text) = self.texts.iter().find(|text| text.lines[0].is(line)) {
+        if let Some(text) = self.text(line) {
             let (meaning, rest) = (text.meaning, text.lines[1..].to_vec());
             self.obey(meaning)?;
             self.due.extend(rest);
@@ -269,6 +281,22 @@ impl<'a> Places<'a> {
         Ok(())
     }
 
+    /// The text that begins with a line: what lifts several tools alike lifts the one that is down.
+    fn text(&self, line: &[u8]) -> Option<&Text> {
+        let fits = |text: &&Text| match text.meaning {
+            Meaning::Up => self.now.drill == 0,
+            Meaning::Raise(tool) => self.now.drill == tool,
+            Meaning::Head | Meaning::Down | Meaning::Drill(_) | Meaning::Event(_) | Meaning::End => true,
+        };
+        let mut found = self.texts.iter().filter(|text| text.lines[0].is(line));
+        found.clone().find(fits).or_else(|| found.next())
+    }
+
+    /// Whether the lines at the end begin with a line.
+    fn is_end(&self, line: &[u8]) -> bool {
+        self.texts.iter().any(|text| text.meaning == Meaning::End && text.lines[0].is(line))
+    }
+
     /// The axes rest longer than the profile asks for, s.
     fn linger(&mut self, time: f64) {
         self.too_long += time;
@@ -291,6 +319,7 @@ impl<'a> Places<'a> {
             Meaning::Down => !was_down,
             Meaning::Up => was_down,
             Meaning::Drill(tool) => self.now.drill != tool,
+            Meaning::Raise(_) => self.now.drill != 0,
             Meaning::Head | Meaning::Event(_) | Meaning::End => false,
         };
         match meaning {
@@ -310,6 +339,10 @@ impl<'a> Places<'a> {
             Meaning::Down => self.now.knife = true,
             Meaning::Up => self.now.knife = false,
             Meaning::Drill(tool) => self.now.drill = tool,
+            Meaning::Raise(tool) if ![0, tool].contains(&self.now.drill) => {
+                return Err(format!("lifts drill {tool} while drill {} is down", self.now.drill));
+            }
+            Meaning::Raise(_) => self.now.drill = 0,
         }
         if is_change {
             self.too_long = 0.0;
@@ -318,8 +351,8 @@ impl<'a> Places<'a> {
         let rest = match meaning {
             Meaning::Down => knife.plunge(),
             Meaning::Up => knife.lift(),
-            Meaning::Drill(1..) => self.profile.drill.dwell(),
-            Meaning::Drill(_) | Meaning::Head | Meaning::Event(_) | Meaning::End => 0.0,
+            Meaning::Drill(_) => self.profile.drill.dwell(),
+            Meaning::Raise(_) | Meaning::Head | Meaning::Event(_) | Meaning::End => 0.0,
         };
         self.rest_due = Some(rest).filter(|&rest| rest > 0.0);
         let going = if was_down { self.last } else { Going::default() };
@@ -511,7 +544,7 @@ fn texts(profile: &MachineProfile) -> Vec<Text> {
     add(&keys.knife_up, Meaning::Up);
     for tool in DRILLS {
         add(&keys.drill_down.replace('#', &tool.to_string()), Meaning::Drill(tool));
-        add(&keys.drill_up.replace('#', &tool.to_string()), Meaning::Drill(0));
+        add(&keys.drill_up.replace('#', &tool.to_string()), Meaning::Raise(tool));
     }
     add(&keys.stop, Meaning::Event(1));
     add(&keys.advance, Meaning::Event(2));

@@ -9,7 +9,7 @@ use cutc::geom::{Point, polyline};
 use cutc::machine::{MachineProfile, load};
 use cutc::source::Source;
 
-use crate::{is_there, tell, unprivileged};
+use crate::{interpret, is_there, tell, unprivileged};
 
 /// By how much the estimate may be off, as a part of the time; and the longest time that the program may take, s.
 const ESTIMATE_SHARE: f64 = 0.05;
@@ -106,12 +106,8 @@ fn the_interpreter_of_linuxcnc_takes_every_program_and_means_the_same_places() {
             if compile(input, machine, folder.path()).is_none() {
                 continue;
             }
-            let mut interpret = Command::new("rs274");
-            let ran = interpret.args(["-g", "program.ngc", "canon.txt"]).current_dir(folder.path()).output();
-            let ran = ran.expect("rs274 starts");
-            assert!(ran.status.success(), "{name}: {}", String::from_utf8_lossy(&ran.stderr));
-            let read = |file: &str| std::fs::read_to_string(folder.path().join(file)).expect("text");
-            let (program, commands) = (read("program.ngc"), read("canon.txt"));
+            let commands = interpret("program.ngc", folder.path()).unwrap_or_else(|why| panic!("{name}: {why}"));
+            let program = std::fs::read_to_string(folder.path().join("program.ngc")).expect("text");
             let (moves, commands) = (moves(&program, keys.letter.byte().into()), canon(&commands));
             assert_eq!(moves.len(), commands.len(), "{name}");
             for (step, (command, numbers)) in moves.iter().zip(&commands) {
@@ -207,13 +203,7 @@ fn the_interpreter_of_linuxcnc_and_the_verifier_read_a_program_that_is_spelled_b
     let program = std::fs::read_to_string(path("program.ngc")).expect("text");
     let hand: String = program.lines().enumerate().map(by_hand).collect();
     std::fs::write(path("hand.ngc"), hand).expect("writable");
-    let canon_of = |file: &str| {
-        let mut interpret = Command::new("rs274");
-        let ran = interpret.args(["-g", file, "canon.txt"]).current_dir(folder.path()).output();
-        let ran = ran.expect("rs274 starts");
-        assert!(ran.status.success(), "{file}: {}", String::from_utf8_lossy(&ran.stderr));
-        std::fs::read_to_string(path("canon.txt")).expect("text")
-    };
+    let canon_of = |file: &str| interpret(file, folder.path()).unwrap_or_else(|why| panic!("{file}: {why}"));
     let [written, hand] = ["program.ngc", "hand.ngc"].map(canon_of);
     assert!(canon(&written).len() > 100 && canon(&written) == canon(&hand));
     let mut verify = Command::new(env!("CARGO_BIN_EXE_cutc"));

@@ -15,6 +15,8 @@ use crate::units::{S_PER_MIN, rad};
 
 /// Decimals of F and of dwells.
 const FEED_DECIMALS: u32 = 3;
+/// Longest name in a comment, characters: with more a line could be longer than controllers read.
+const NAME_CHARS: usize = 100;
 /// A whole turn, degrees.
 const TURN_DEG: f64 = 360.0;
 
@@ -22,7 +24,7 @@ const TURN_DEG: f64 = 360.0;
 fn comment(text: &str) -> String {
     let is_plain = |c: char| matches!(c, ' '..='~') && !matches!(c, '(' | ')' | ';');
     let name = text.rsplit(['/', '\\']).next().unwrap_or_default();
-    name.chars().map(|c| if is_plain(c) { c } else { '_' }).collect()
+    name.chars().take(NAME_CHARS).map(|c| if is_plain(c) { c } else { '_' }).collect()
 }
 
 /// A program in the making.
