@@ -546,6 +546,28 @@ fn cuts_that_are_refused_for_one_reason_are_one_message() {
 }
 
 #[test]
+fn what_the_lines_of_a_profile_cannot_say_is_refused() {
+    let check = |change: fn(&mut Job), file: &str, expected: &str| {
+        let mut job = Job::default();
+        change(&mut job);
+        let mut diagnostics = Diagnostics::default();
+        let order = Order { from: None, target: target(), verify: true };
+        let compiled = pipeline::compile(&fixture(file), &job, order, &mut Cursor::new(Vec::new()), &mut diagnostics);
+        assert!(compiled.expect("memory takes it").is_none(), "{expected}");
+        let errors: Vec<_> = diagnostics.iter().filter(|said| said.code.name != "path/overcut").collect();
+        assert!(errors[0].code.name == "target/refused" && errors[0].message.starts_with(expected), "{errors:?}");
+    };
+    let (drills, events) = ("markers/drills-and-slits.cut", "iso/speeds-and-events.cut");
+    let down = "`gcode.drill_down` says nothing, but the file drills";
+    check(|job| job.profile.gcode.drill_down.clear(), drills, down);
+    check(|job| job.profile.gcode.drill_up.clear(), drills, "`gcode.drill_up` says nothing");
+    let alike = "`gcode.drill_down` tells no drills apart, but the file asks for drill 2";
+    check(|job| "M64 P9".clone_into(&mut job.profile.gcode.drill_down), drills, alike);
+    check(|job| job.profile.gcode.stop.clear(), events, "`gcode.stop` says nothing, but the file stops");
+    check(|job| job.profile.gcode.advance.clear(), events, "`gcode.advance` says nothing, but the file advances");
+}
+
+#[test]
 fn a_small_program_reads_well() {
     let (program, _) = compile(&fixture("iso/seed-circle.cut"), &Job::default());
     insta::assert_snapshot!(program);

@@ -356,6 +356,23 @@ mod tests {
     }
 
     #[test]
+    fn keys_of_g_code_that_contradict_each_other_are_a_fault() {
+        let check = |sets: &[&str], expected: &str| assert_eq!(messages("", sets), [expected]);
+        check(
+            &["gcode.wrapped=true", "c.range_deg=[-400, 400]"],
+            "profile/range: --set c.range_deg=[-400, 400]: `gcode.wrapped` is true, but `c.range_deg` gives the axis ends",
+        );
+        check(
+            &["gcode.heading_tolerance_deg=1"],
+            "profile/range: --set gcode.heading_tolerance_deg=1: `gcode.heading_tolerance_deg` is 1 degrees, more than \
+             `verify.max_heading_deg`, 0.5 degrees",
+        );
+        // Nobody asked for its default.
+        let strict = profile("", &["verify.max_heading_deg=0.05"]);
+        assert!((strict.blade_tolerance() - 0.05_f64.to_radians()).abs() < 1e-12);
+    }
+
+    #[test]
     fn no_text_makes_it_panic() {
         for text in
             ["\u{feff}", "=", "[[knife]]", "[knife.width_mm]", "[codes.M1]\nx=1", "a.b.c.d=1", "\"\"=1", "home=[1,2]"]

@@ -108,6 +108,20 @@ fn rules(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault
             broken(&[key, "c.range_deg"], message, "C stands there, too");
         }
     }
+    let gcode = &profile.gcode;
+    if gcode.wrapped && profile.c.range_deg.is_some() {
+        let message = "`gcode.wrapped` is true, but `c.range_deg` gives the axis ends".to_owned();
+        let hint = "an axis that counts from 0 to 360 degrees goes round without end: leave one of the two out";
+        broken(&["gcode.wrapped", "c.range_deg"], message, hint);
+    }
+    let (askew, judged) = (gcode.heading_tolerance_deg, profile.verify.max_heading_deg);
+    if is_given("gcode.heading_tolerance_deg") && askew > judged {
+        let message = format!(
+            "`gcode.heading_tolerance_deg` is {askew} degrees, more than `verify.max_heading_deg`, {judged} degrees"
+        );
+        let hint = "the program would be refused by what it is judged by";
+        broken(&["gcode.heading_tolerance_deg", "verify.max_heading_deg"], message, hint);
+    }
     for fault in lines::faults(profile) {
         broken(&fault.keys, fault.message, &fault.hint);
     }

@@ -223,7 +223,7 @@ impl<'a> Program<'a> {
         let keys = &self.job.profile.gcode;
         piece.arc.map_or(1, |(_, turn)| {
             // A chord of turn t is off its arc by t / 2 in direction at its ends, and by l t / 8 in the middle.
-            let by_heading = turn.abs() / (2.0 * LINE_SHARE * rad(keys.heading_tolerance_deg));
+            let by_heading = turn.abs() / (2.0 * LINE_SHARE * self.job.profile.blade_tolerance());
             let by_bow = (piece.length * turn.abs() / (8.0 * keys.chord_mm)).sqrt();
             // Rounding by d turns a chord of length l by d / l: shorter than sqrt(2 d l / t) it turns more than the arc.
             let by_decimals = (piece.length * turn.abs() / (2.0 * keys.step())).sqrt();

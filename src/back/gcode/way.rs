@@ -6,7 +6,6 @@ use super::tube::Tube;
 use crate::geom::{Heading, Point, Rotation, Vector, angle, left, polyline};
 use crate::ir::toolpath::{Pose, Run, Shape};
 use crate::machine::Job;
-use crate::units::rad;
 
 /// Part of the permitted angle by which C may be off where it turns evenly along arcs; the rest is for decimals.
 const TURN_SHARE: f64 = 0.9;
@@ -193,7 +192,7 @@ pub(super) fn way(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Point> {
     let pose = |tip: Point, c: f64| Pose { centre: tip - Rotation(c).unit() * radius, c: Rotation(c) };
     let c = Rotation(run.start.c.0 - run.edge.turn()).nearest(first).0;
     let at = pose(tube.points[0], c);
-    let permitted = if keys.arcs { TURN_SHARE } else { LINE_SHARE } * rad(keys.heading_tolerance_deg);
+    let permitted = if keys.arcs { TURN_SHARE } else { LINE_SHARE } * job.profile.blade_tolerance();
     let mut pieces = Pieces::with_room(arcs.len(), at, [STEPS_MIN * keys.step(), ASKEW_SHARE * permitted]);
     let fade = Fade::new(lead, [knife.width_mm, length], radius, permitted);
     let mut tangent = c + lead;
