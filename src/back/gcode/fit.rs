@@ -131,6 +131,10 @@ pub(super) struct Ends {
     pub(super) end: Vector,
     /// Vertices at which an arc must end, in order.
     pub(super) stops: Vec<usize>,
+    /// Greatest curvature where a gentler way stays in the tube, per mm: infinite where arcs are told as they are.
+    pub(super) curvature: f64,
+    /// How far about a place on a shorter chord the way is looked at for its direction, in tolerances; 0 = on the chord alone.
+    pub(super) reach: f64,
 }
 
 /// The arcs along a tube; otherwise the point at which none stays inside.
@@ -145,16 +149,20 @@ pub(super) fn fit(tube: &Tube, ends: &Ends) -> Result<Vec<Arc>, Point> {
         }
         let stop = (i + 1..nodes.len()).find(|&k| nodes[k].stops).unwrap_or(nodes.len() - 1);
         let end = aims.partition_point(|&aim| aim <= stop);
-        let (to, found) = farthest(tube, &nodes[..=stop], (i, &aims[ahead..end])).ok_or(nodes[i].at)?;
+        let reach = |curvature: f64| farthest(tube, &nodes[..=stop], (i, &aims[ahead..end]), curvature);
+        let gentle = Some(ends.curvature).filter(|curvature| curvature.is_finite()).and_then(reach);
+        let (to, found) = gentle.or_else(|| reach(f64::INFINITY)).ok_or(nodes[i].at)?;
         arcs.extend(found.into_iter().flatten());
         i = to;
     }
     Ok(arcs)
 }
 
-/// The farthest place that a biarc from place `i` reaches, and that biarc; `aims` are those behind it that lie on the curve.
-fn farthest(tube: &Tube, nodes: &[Node], (i, aims): (usize, &[usize])) -> Option<(usize, Found)> {
-    let try_to = |j: usize| biarc(tube, &nodes[i], &nodes[j]);
+/// The farthest place that a biarc from place `i` reaches, none of its arcs of more than a curvature, and that biarc; `aims`
+/// are those behind it that lie on the curve.
+fn farthest(tube: &Tube, nodes: &[Node], (i, aims): (usize, &[usize]), curvature: f64) -> Option<(usize, Found)> {
+    let is_gentle = |found: &Found| found.iter().flatten().all(|arc| arc.curvature.abs() <= curvature);
+    let try_to = |j: usize| biarc(tube, &nodes[i], &nodes[j]).filter(is_gentle);
     let mut best: Option<(usize, Found)> = None;
     // Twice as far each time, then halving between what fits and what does not.
     let (mut reached, mut bad) = (0, aims.len() + 1);
@@ -213,7 +221,10 @@ fn nodes(tube: &Tube, ends: &Ends) -> Vec<Node> {
             nodes.push(Node { is_aim: false, ..place(before) });
         }
         let middle = place(0.5 * length);
-        nodes.push(Node { at: middle.at + tube.middle(chord), ..middle });
+        // Of chords as short as numbers of a file are coarse only several together show where the curve goes.
+        let reach = ends.reach * tube.tolerance;
+        let along = if length < reach { tube.around(middle.station, reach) } else { along };
+        nodes.push(Node { at: middle.at + tube.middle(chord), along, ..middle });
         if behind < SHOULDER_SHARE * length {
             nodes.push(Node { is_aim: false, ..place(length - behind) });
         }
@@ -316,7 +327,13 @@ mod tests {
     }
 
     fn ends(tube: &Tube) -> Ends {
-        Ends { start: tube.direction(0), end: tube.direction(tube.chords() - 1), stops: Vec::new() }
+        Ends {
+            start: tube.direction(0),
+            end: tube.direction(tube.chords() - 1),
+            stops: Vec::new(),
+            curvature: f64::INFINITY,
+            reach: 0.0,
+        }
     }
 
     fn fitted(points: Vec<Point>) -> Vec<Arc> {
@@ -395,7 +412,9 @@ mod tests {
             ([0.0; 2], &MachineProfile::default()),
         );
         let along = tube.direction(0);
-        let arcs = fit(&tube, &Ends { start: along, end: along, stops: vec![1, 3] }).expect("it fits");
+        let arcs =
+            fit(&tube, &Ends { start: along, end: along, stops: vec![1, 3], curvature: f64::INFINITY, reach: 0.0 })
+                .expect("it fits");
         let ends: Vec<(usize, bool)> = arcs.iter().map(|arc| (arc.chord, arc.stops)).collect();
         assert_eq!(ends, [(0, true), (2, true), (3, false)]);
     }

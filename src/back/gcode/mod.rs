@@ -49,7 +49,7 @@ fn ways(toolpath: &Toolpath, job: &Job) -> Result<Ways, Vec<Diagnostic>> {
                 Ok(way) => ways.push(way.turned(run.edge.turn() + yaw)),
                 Err(diagnostic) => refused.push(diagnostic),
             },
-            Step::Stab(stab) => ways.push(Way { start: stab.pose, pieces: Vec::new() }.turned(yaw)),
+            Step::Stab(stab) => ways.push(Way::rest(stab.pose).turned(yaw)),
             Step::Drill(drill) => refused.extend(unsaid_drill(drill, job)),
             Step::Event(event) => refused.extend(unsaid_event(*event, job)),
             Step::Turn(_) | Step::Travel(_) => {}

@@ -15,6 +15,9 @@ use crate::units::{S_PER_MIN, rad};
 
 /// Decimals of F and of dwells.
 const FEED_DECIMALS: u32 = 3;
+/// Decimals of a smaller F: rounding would change it too much.
+const FINE_DECIMALS: u32 = 6;
+const FEED_FINE: f64 = 10.0;
 /// Longest name in a comment, characters: with more a line could be longer than controllers read.
 const NAME_CHARS: usize = 100;
 /// A whole turn, degrees.
@@ -112,7 +115,7 @@ impl<'a> Program<'a> {
             self.order(&keys.knife_down, knife.plunge());
         }
         for piece in &way.pieces {
-            self.feed(piece);
+            self.feed(piece, way);
         }
         if job.mode.cuts() {
             self.order(&keys.knife_up, knife.lift());
@@ -161,9 +164,10 @@ impl<'a> Program<'a> {
         self.text.push(b'\n');
     }
 
-    fn feed(&mut self, piece: &Piece) {
+    fn feed(&mut self, piece: &Piece, way: &Way) {
         let [x, y, _] = self.job.profile.axes.limits();
-        let speed = piece.speed.min(x.speed).min(y.speed);
+        let fastest = x.speed.min(y.speed);
+        let speed = piece.speed.min(fastest);
         let from = self.pose;
         match piece.arc {
             Some((centre, turn)) if self.job.profile.gcode.arcs => {
@@ -178,7 +182,7 @@ impl<'a> Program<'a> {
                 self.push_feed(speed, piece.length);
             }
             _ => {
-                let parts = self.chords(piece);
+                let parts = self.chords(piece, way.bow);
                 for i in 1..=parts {
                     let share = i as f64 / parts as f64;
                     let c = Rotation(from.c.0 + (piece.to.c.0 - from.c.0) * share);
@@ -191,7 +195,8 @@ impl<'a> Program<'a> {
                         Some(_) | None => piece.to.centre,
                     };
                     let to = Pose { centre, c };
-                    let length = (centre - self.pose.centre).norm();
+                    let (length, ratio) = self.told([self.pose, to], way);
+                    let speed = fastest.min(piece.feed * ratio);
                     self.number();
                     self.text.extend_from_slice(b"G1");
                     self.plan(to, (length, 0.0, speed), None);
@@ -218,13 +223,28 @@ impl<'a> Program<'a> {
         });
     }
 
-    /// How many straight lines stand for a piece.
-    fn chords(&self, piece: &Piece) -> usize {
+    /// The length of a straight move between two poses as they are told, mm, and how much faster the axis is than the tip
+    /// where that is fastest: rounding lengthens short ones, of which F of inverse time knows nothing.
+    fn told(&self, ends: [Pose; 2], beside: &Way) -> (f64, f64) {
+        let step = self.job.profile.gcode.step();
+        let [from, to] = ends.map(|pose| pose.centre.map(|value| (value / step).round() * step));
+        let (way, turned) = (to - from, ends[1].c.0 - ends[0].c.0);
+        let tip = |pose: &Pose| {
+            let blade = Rotation(pose.c.0 - beside.yaw).unit();
+            (way + left(blade) * (beside.radius * turned)).norm()
+        };
+        let length = way.norm();
+        let fastest = ends.iter().map(tip).fold(0.0, f64::max);
+        (length, if fastest > 0.0 { length / fastest } else { 1.0 })
+    }
+
+    /// How many straight lines stand for a piece that they may leave by `bow` mm.
+    fn chords(&self, piece: &Piece, bow: f64) -> usize {
         let keys = &self.job.profile.gcode;
         piece.arc.map_or(1, |(_, turn)| {
             // A chord of turn t is off its arc by t / 2 in direction at its ends, and by l t / 8 in the middle.
             let by_heading = turn.abs() / (2.0 * LINE_SHARE * self.job.profile.blade_tolerance());
-            let by_bow = (piece.length * turn.abs() / (8.0 * keys.chord_mm)).sqrt();
+            let by_bow = (piece.length * turn.abs() / (8.0 * bow)).sqrt();
             // Rounding by d turns a chord of length l by d / l: shorter than sqrt(2 d l / t) it turns more than the arc.
             let by_decimals = (piece.length * turn.abs() / (2.0 * keys.step())).sqrt();
             by_heading.max(by_bow).min(by_decimals).ceil().max(1.0) as usize
@@ -256,8 +276,9 @@ impl<'a> Program<'a> {
             FeedMode::G94 => speed * S_PER_MIN,
             FeedMode::G93 => speed / length * S_PER_MIN,
         };
+        let decimals = if feed < FEED_FINE { FINE_DECIMALS } else { FEED_DECIMALS };
         self.text.extend_from_slice(b" F");
-        push_fixed(&mut self.text, feed, FEED_DECIMALS);
+        push_fixed(&mut self.text, feed, decimals);
         self.text.push(b'\n');
     }
 

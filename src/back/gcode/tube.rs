@@ -72,6 +72,17 @@ impl Tube {
         (self.points[chord + 1] - self.points[chord]) / (self.stations[chord + 1] - self.stations[chord])
     }
 
+    /// Unit vector along the way from so far before a station to as far behind it.
+    pub(super) fn around(&self, station: f64, reach: f64) -> Vector {
+        let at = |station: f64| {
+            let chord = self.chord_at(station);
+            self.points[chord] + self.direction(chord) * (station - self.stations[chord])
+        };
+        let reach = reach.min(station).min(self.stations[self.chords()] - station);
+        let here = self.direction(self.chord_at(station));
+        (at(station + reach) - at(station - reach)).try_normalize(0.0).unwrap_or(here)
+    }
+
     /// From the middle of a chord to where the curve is likely to run: by the smaller of the turns at its ends, because the
     /// greater one may be a bend of its own.
     pub(super) fn middle(&self, chord: usize) -> Vector {
