@@ -24,6 +24,8 @@ use crate::units::number::{exact, fixed};
 
 /// How every such program begins, behind the number of its line.
 const HEAD: &[u8] = b"G17 G21 G40 G80 G90 G91.1";
+/// Most characters of a first line that a message shows.
+const FIRST_CHARS: usize = 60;
 /// The longest line that is read, bytes.
 const LINE_MAX: u64 = 1024;
 /// Farthest that a straight step may leave an arc, mm: a tenth of the least tolerance of a path.
@@ -65,13 +67,18 @@ pub(super) fn begins(bytes: &[u8]) -> bool {
 pub(super) fn foreign(bytes: &[u8]) -> Option<[String; 2]> {
     let line = bytes.split(|&byte| byte == b'\n').next().unwrap_or_default();
     // Cut files end blocks by an asterisk.
-    let is_code = matches!(line, [b'G' | b'N', b'0'..=b'9', ..] | [b'%' | b'(', ..]) && !line.contains(&b'*');
+    let is_code =
+        matches!(line, [b'G' | b'g' | b'N' | b'n', b'0'..=b'9', ..] | [b'%' | b'(', ..]) && !line.contains(&b'*');
     is_code.then(|| {
         let head = String::from_utf8_lossy(HEAD);
-        [
-            format!("its first line is {}, not `{head}`", quoted(line)),
-            "G-code of the target gcode alone is judged".to_owned(),
-        ]
+        let text = String::from_utf8_lossy(line);
+        let first: String = text.trim_end().escape_debug().take(FIRST_CHARS).collect();
+        let hint = if first == "%" {
+            "leave the lines of % out: the program ends by M2 or M30"
+        } else {
+            "G-code of the target gcode alone is judged, its first line with the words in that order"
+        };
+        [format!("its first line is `{first}`, not `{head}`"), hint.to_owned()]
     })
 }
 
