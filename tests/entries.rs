@@ -166,3 +166,39 @@ fn rounded_outlines_as_coarse_as_files_have_them_become_programs_of_every_kind()
         }
     }
 }
+
+/// A piece on whose upper edge a short curve stands between two V notches.
+fn between_notches(random: &mut ChaCha8Rng) -> Vec<[f64; 2]> {
+    let (radius, length) = (random.random_range(12.0..60.0), random.random_range(3.0..9.0));
+    let middle: f64 = random.random_range(1.2..1.9);
+    let half = length / radius / 2.0;
+    let centre = [100.0, 150.0 - radius];
+    let at = |angle: f64, reach: f64| [centre[0] + reach * angle.cos(), centre[1] + reach * angle.sin()];
+    let (chords, mouth) = (random.random_range(2..6), 2.2 / radius);
+    let mut points = vec![[0.0, 0.0], [200.0, 0.0], [200.0, 100.0]];
+    // From right to left: a notch, the curve, a notch.
+    let [first, last] = [middle - half, middle + half];
+    points.extend([at(first - mouth, radius), at(first - mouth / 2.0, radius - 5.0)]);
+    let shares = (0..=chords).map(|i| f64::from(i) / f64::from(chords));
+    // Chords of a curve are seldom all of one length.
+    let uneven = random.random_range(0.8..1.25);
+    points.extend(shares.map(|share: f64| at(first + (last - first) * share.powf(uneven), radius)));
+    points.extend([at(last + mouth / 2.0, radius - 5.0), at(last + mouth, radius), [0.0, 100.0]]);
+    points
+}
+
+#[test]
+fn short_curves_between_two_notches_become_programs_of_every_kind() {
+    let mut random = ChaCha8Rng::seed_from_u64(9);
+    let mut pieces: Vec<Vec<[f64; 2]>> = (0..120).map(|_| between_notches(&mut random)).collect();
+    // One whose sharper vertex makes two thirds of the turn under the blade.
+    let tenths = [[1860, 1825], [3380, 1825], [3380, 3425], [2377, 2570], [2297, 2617], [2283, 2625]];
+    let more = [[2260, 2636], [2244, 2641], [2222, 2595], [2224, 2646], [1860, 2650]];
+    pieces.push(tenths.iter().chain(&more).map(|&[x, y]| [f64::from(x), f64::from(y)].map(|v| v / 10.0)).collect());
+    for (case, points) in pieces.iter().enumerate() {
+        let source = source(points);
+        for (blade, target) in BLADES.iter().flat_map(|blade| [(blade, "gcode"), (blade, "csv")]) {
+            proven(&source, &job(*blade), (target, &format!("case {case}, blade {blade:?}")));
+        }
+    }
+}

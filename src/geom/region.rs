@@ -141,12 +141,19 @@ impl Lattice {
         (((value - origin) / self.size[axis]).max(0.0) as usize).min(self.count[axis] - 1)
     }
 
-    /// The regions of all cells that a box meets; some more than once.
-    fn near(&self, extent: Extent) -> impl Iterator<Item = usize> + '_ {
-        let cells = (!self.items.is_empty()).then(|| self.met(extent)).into_iter().flatten();
-        cells
-            .flat_map(|cell| &self.items[self.starts[cell] as usize..self.starts[cell + 1] as usize])
-            .map(|&i| i as usize)
+    /// The regions of all cells that a box meets, each once, in order.
+    fn near(&self, extent: Extent) -> Cow<'_, [u32]> {
+        if self.items.is_empty() {
+            return Cow::Borrowed(&[]);
+        }
+        let items = |cell: usize| &self.items[self.starts[cell] as usize..self.starts[cell + 1] as usize];
+        let mut cells = self.met(extent);
+        let first = cells.next().map_or(&[][..], items);
+        let Some(second) = cells.next() else { return Cow::Borrowed(first) };
+        let mut near: Vec<u32> = first.iter().chain(items(second)).chain(cells.flat_map(items)).copied().collect();
+        near.sort_unstable();
+        near.dedup();
+        Cow::Owned(near)
     }
 }
 
@@ -202,7 +209,8 @@ impl<'a> Regions<'a> {
 
     /// The owners in whose region a point lies, in order. A point on an edge may count either way.
     pub fn owners_at(&self, point: Point) -> Vec<u32> {
-        let near = self.boxes.near(Extent { min: point, max: point }).map(|i| &self.owners[i]);
+        let near = self.boxes.near(Extent { min: point, max: point });
+        let near = near.iter().map(|&i| &self.owners[i as usize]);
         let mut owners: Vec<u32> = near.filter(|region| region.holds(point)).map(|region| region.owner).collect();
         owners.sort_unstable();
         owners
@@ -216,28 +224,31 @@ impl<'a> Regions<'a> {
         let to = around(ray.from + ray.along * ray.reach, SAME_EPSILON);
         extent.add(to.min);
         extent.add(to.max);
-        let mut near: Vec<usize> = self.boxes.near(extent).filter(|&i| self.owners[i].extent.meets(&extent)).collect();
-        near.sort_unstable();
-        near.dedup();
-        let near = || near.iter().map(|&i| &self.owners[i]);
-        let mut cuts = vec![0.0, ray.reach];
+        // What a way may meet; it is short, and nearly always in one cell.
+        let near = self.boxes.near(extent);
+        let near = || near.iter().map(|&i| &self.owners[i as usize]).filter(|region| region.extent.meets(&extent));
+        let mut cuts = Vec::new();
         for region in near() {
             region.near(extent).for_each(|edge| edge.crossings(ray, &mut cuts));
         }
         cuts.sort_by(f64::total_cmp);
         let at = |way: f64| ray.from + ray.along * way;
-        for ends in cuts.windows(2).filter(|ends| ends[1] - ends[0] > SAME_EPSILON) {
-            let [a, b] = [ends[0], ends[1]];
-            let middle = at(f64::midpoint(a, b));
+        let mut a = 0.0;
+        for b in cuts.into_iter().chain([ray.reach]) {
+            let from = std::mem::replace(&mut a, b);
+            if b - from <= SAME_EPSILON {
+                continue;
+            }
+            let middle = at(f64::midpoint(from, b));
             for region in near().filter(|region| region.holds(middle)) {
                 let so_far = if region.owner == owner { room.own } else { room.other };
-                if a >= so_far || !PROBES.iter().any(|share| region.is_deep(at(a + (b - a) * share), slack)) {
+                if from >= so_far || !PROBES.iter().any(|share| region.is_deep(at(from + (b - from) * share), slack)) {
                     continue;
                 }
                 if region.owner == owner {
-                    room.own = a;
+                    room.own = from;
                 } else if !(region.holds(ray.from) && region.is_deep(ray.from, slack)) {
-                    room.other = a;
+                    room.other = from;
                 }
             }
         }

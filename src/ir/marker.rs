@@ -262,7 +262,11 @@ impl Marker {
 
     /// Length of all contours and slits, mm, without overlaps.
     pub fn cut_length(&self) -> f64 {
-        let contours: f64 = self.contours().flat_map(|(_, c)| self.list.walk(c.range)).map(|(_, s)| s.length()).sum();
+        let mut contours = 0.0;
+        for (_, contour) in self.contours() {
+            let points = self.list.points(contour.range);
+            contours = points.windows(2).fold(contours, |sum, ends| sum + (ends[1] - ends[0]).norm());
+        }
         let notches: f64 =
             self.pieces.iter().flat_map(|p| &p.notches).flat_map(Notch::strokes).map(|s| s.length()).sum();
         contours + notches

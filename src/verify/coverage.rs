@@ -1,12 +1,18 @@
 //! What has been cut of each line, and how often.
 
+use arrayvec::ArrayVec;
+use rayon::prelude::*;
+
+use super::line::Line;
 use super::read::PLACE_ROUNDING;
 use super::reference::Reference;
 use super::worst::Worst;
-use crate::geom::Point;
 use crate::ir::Finding;
 use crate::ir::finding::Sighting;
 use crate::machine::MachineProfile;
+
+/// Lines that are looked at in one go.
+const LINES_AT_A_TIME: usize = 8192;
 
 /// The stretches of each line that were cut.
 #[derive(Debug)]
@@ -94,38 +100,51 @@ impl<'a> Coverage<'a> {
     }
 
     /// A stretch inside the line; on a ring, brought back to its first lap.
-    fn on_line(&self, line: usize, [a, b]: [f64; 2]) -> Vec<[f64; 2]> {
+    fn on_line(&self, line: usize, [a, b]: [f64; 2]) -> ArrayVec<[f64; 2], 2> {
         let line = &self.reference.lines[line];
         let length = line.length();
         if !line.ring {
-            return vec![[a.max(0.0), b.min(length)]];
+            return ArrayVec::from_iter([[a.max(0.0), b.min(length)]]);
         }
         if b - a >= length {
-            return vec![[0.0, length]];
+            return ArrayVec::from_iter([[0.0, length]]);
         }
         let lap = (a / length).floor() * length;
         let (a, b) = (a - lap, b - lap);
-        if b <= length { vec![[a, b]] } else { vec![[a, length], [0.0, b - length]] }
+        let over = (b > length).then_some([0.0, b - length]);
+        ArrayVec::from_iter(std::iter::once([a, b.min(length)]).chain(over))
     }
 
     /// The longest stretch that was left uncut.
     pub(super) fn findings(self, profile: &MachineProfile) -> Vec<Finding> {
         // Rounding may part the two ends that meet.
         let limit = profile.verify.max_uncut_mm + 2.0 * PLACE_ROUNDING;
-        let mut worst = Worst::new("verify/complete", "mm", Some(limit));
-        for (line, cut) in self.reference.lines.iter().zip(&self.cut) {
-            let mut from = 0.0;
-            for &[a, b] in cut.all().iter().chain(std::iter::once(&[line.length(), line.length()])) {
-                worst.see(a - from, || {
-                    let middle = f64::midpoint(a, from);
-                    let chord = line.chord_at(middle);
-                    let point: Point = line.point(chord) + line.direction(chord) * (middle - line.station(chord));
-                    Sighting { time: None, point, block: line.block(chord) }
-                });
-                from = from.max(b);
+        let nothing = Worst::new("verify/complete", "mm", Some(limit));
+        let of_lines = |(lines, cuts): (&[Line], &[Stretches])| {
+            let mut worst = nothing.clone();
+            for (line, cut) in lines.iter().zip(cuts) {
+                see_uncut(line, cut.all(), &mut worst);
             }
+            worst
+        };
+        let lines = self.reference.lines.par_chunks(LINES_AT_A_TIME).zip(self.cut.par_chunks(LINES_AT_A_TIME));
+        let mut worst = nothing.clone();
+        for of_some in lines.map(of_lines).collect::<Vec<Worst>>() {
+            worst.add(&of_some);
         }
         vec![worst.finding()]
+    }
+}
+
+/// Sees how long the stretches of a line are that were left uncut.
+fn see_uncut(line: &Line, cut: &[[f64; 2]], worst: &mut Worst) {
+    let mut from = 0.0;
+    for &[a, b] in cut.iter().chain(std::iter::once(&[line.length(), line.length()])) {
+        worst.see(a - from, || {
+            let middle = f64::midpoint(a, from);
+            Sighting { time: None, point: line.place(middle), block: line.block(line.chord_at(middle)) }
+        });
+        from = from.max(b);
     }
 }
 

@@ -15,14 +15,22 @@ use crate::ir::{Finding, Marker};
 
 /// Block of a place to which nothing is cut.
 const NO_BLOCK: u32 = 0;
+/// Pieces that are kept together.
+const PIECES_OF_A_PART: usize = 512;
 
 /// All that a marker cuts or drills, to be compared with what passes make of it: two dozen bytes a segment.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Works {
+    /// Those of many pieces together: large blocks of memory are given back as a whole.
+    parts: Vec<OfPieces>,
+}
+
+/// What some pieces cut or drill.
+#[derive(Debug, Clone, PartialEq, Default)]
+struct OfPieces {
     /// Each piece, and where its places end.
     pieces: Vec<(Name, usize)>,
-    /// Where the knife or a drill comes to, in cut order: one line behind the other. In one block of memory, which is given
-    /// back as one.
+    /// Where the knife or a drill comes to, in cut order: one line behind the other.
     places: Vec<Place>,
 }
 
@@ -109,20 +117,33 @@ fn lost(read: &[Place], cut: &[Place]) -> Vec<Stroke> {
     lost
 }
 
-impl Works {
-    /// What a marker cuts and drills, block by block.
-    pub fn of(marker: &Marker) -> Self {
-        let (mut pieces, mut places) = (Vec::with_capacity(marker.pieces.len()), Vec::new());
-        let of_piece = |piece: &Piece| {
+impl OfPieces {
+    fn of(pieces: &[Piece], marker: &Marker) -> Self {
+        let mut of_pieces = Self { pieces: Vec::with_capacity(pieces.len()), places: Vec::new() };
+        let room = |piece: &Piece| {
             let points = piece.contours.iter().map(|contour| marker.list.points(contour.range).len());
             points.sum::<usize>() + 4 * piece.notches.len() + 2 * piece.drills.len()
         };
-        places.reserve_exact(marker.pieces.iter().map(of_piece).sum());
-        for piece in &marker.pieces {
-            add_places(piece, marker, &mut places);
-            pieces.push((name(piece), places.len()));
+        of_pieces.places.reserve_exact(pieces.iter().map(room).sum());
+        for piece in pieces {
+            add_places(piece, marker, &mut of_pieces.places);
+            of_pieces.pieces.push((name(piece), of_pieces.places.len()));
         }
-        Self { pieces, places }
+        of_pieces
+    }
+
+    /// Each piece with its places.
+    fn each(&self) -> impl Iterator<Item = (Name, &[Place])> {
+        let starts = std::iter::once(0).chain(self.pieces.iter().map(|(_, end)| *end));
+        self.pieces.iter().zip(starts).map(|(&(name, end), start)| (name, &self.places[start..end]))
+    }
+}
+
+impl Works {
+    /// What a marker cuts and drills, block by block.
+    pub fn of(marker: &Marker) -> Self {
+        let parts = marker.pieces.par_chunks(PIECES_OF_A_PART).map(|pieces| OfPieces::of(pieces, marker)).collect();
+        Self { parts }
     }
 
     /// Whether all of it is still cut in what passes made of the marker, of the pieces that are there: those that were not
@@ -130,15 +151,18 @@ impl Works {
     pub fn kept(&self, marker: &Marker) -> Finding {
         let mut cut: Vec<&Piece> = marker.pieces.iter().collect();
         cut.sort_by_key(|piece| name(piece));
-        let lost_of = |i: usize| {
-            let (name_of, end) = self.pieces[i];
-            let Ok(place) = cut.binary_search_by_key(&name_of, |piece| name(piece)) else { return Vec::new() };
-            let start = if i == 0 { 0 } else { self.pieces[i - 1].1 };
-            let mut places = Vec::with_capacity(end - start);
-            add_places(cut[place], marker, &mut places);
-            lost(&self.places[start..end], &places)
+        let lost_of = |part: &OfPieces| {
+            let (mut all, mut places) = (Vec::new(), Vec::new());
+            for (of, read) in part.each() {
+                if let Ok(place) = cut.binary_search_by_key(&of, |piece| name(piece)) {
+                    places.clear();
+                    add_places(cut[place], marker, &mut places);
+                    all.extend(lost(read, &places));
+                }
+            }
+            all
         };
-        let lost: Vec<Vec<Stroke>> = (0..self.pieces.len()).into_par_iter().map(lost_of).collect();
+        let lost: Vec<Vec<Stroke>> = self.parts.par_iter().map(lost_of).collect();
         let mut worst = Worst::new("source/kept", "blocks", Some(0.0));
         for (lost, count) in lost.into_iter().flatten().zip(1..) {
             worst.see(f64::from(count), || Sighting { time: None, point: lost.to, block: lost.block });

@@ -207,8 +207,7 @@ struct Done<'a> {
 
 impl Done<'_> {
     /// Judges strokes, in their order: on all cores, but for what depends on the strokes before.
-    fn see(&mut self, strokes: &Strokes, judge: &Judge) {
-        let mut traced: Vec<Traced> = strokes.all().into_par_iter().map(|stroke| judge.trace(stroke)).collect();
+    fn see(&mut self, mut traced: Vec<Traced>, judge: &Judge) {
         for stroke in &mut traced {
             judge.settle(stroke, self);
         }
@@ -229,7 +228,7 @@ impl Done<'_> {
 }
 
 /// Parts strokes, in their order, into those that are judged one after the other, whatever the number of cores.
-fn in_a_row<'t, 's>(mut traced: &'t [Traced<'s>]) -> Vec<&'t [Traced<'s>]> {
+fn in_a_row(mut traced: &[Traced]) -> Vec<&[Traced]> {
     let mut parts = Vec::new();
     while !traced.is_empty() {
         let mut rows = 0;
@@ -313,12 +312,8 @@ pub struct Ground<'a> {
 impl<'a> Ground<'a> {
     /// The ground of a marker.
     pub fn new(marker: &'a Marker, profile: &MachineProfile) -> Self {
-        let lines = || {
-            let reference = Reference::new(marker, profile);
-            let grid = Grid::new(&reference);
-            (reference, grid)
-        };
-        let ((reference, grid), inside) = rayon::join(lines, || Inside::new(marker));
+        let reference = Reference::new(marker, profile);
+        let (grid, inside) = rayon::join(|| Grid::new(&reference), || Inside::new(marker));
         Self { reference, grid, inside }
     }
 }
@@ -362,8 +357,7 @@ pub fn positions(program: &mut dyn BufRead, ground: &Ground, job: &Job) -> Verdi
     Verdict { findings, unread: None, untimed: left.iter().map(|finding| finding.rule).collect() }
 }
 
-/// Follows the rows of a program, each with how the axes go there where that is told: while strokes are judged, the
-/// next ones are read.
+/// Follows the rows of a program, each with how the axes go there where that is told.
 fn simulate(
     mut next: impl FnMut() -> Option<(Row, Option<Going>)>,
     (reference, judge, rounding): (&Reference, Judge, Rounding),
@@ -382,12 +376,14 @@ fn simulate(
     };
     let order = Order::new(&reference.lines);
     let mut done = Done { coverage: Coverage::new(reference), order, worsts: judge.worsts() };
-    let mut strokes = watch.gather(&mut next);
-    while strokes.rows() > 0 {
-        let ready = std::mem::take(&mut strokes);
+    // What is read, what is followed and what is judged are at work beside each other, each on strokes of its own.
+    let (mut read, mut traced) = (watch.gather(&mut next), Vec::new());
+    while read.rows() > 0 || !traced.is_empty() {
+        let (strokes, followed) = (std::mem::take(&mut read), std::mem::take(&mut traced));
         rayon::in_place_scope(|scope| {
-            scope.spawn(|_| done.see(&ready, &judge));
-            strokes = watch.gather(&mut next);
+            scope.spawn(|_| done.see(followed, &judge));
+            scope.spawn(|_| traced = strokes.all().into_par_iter().map(|stroke| judge.trace(stroke)).collect());
+            read = watch.gather(&mut next);
         });
     }
     let mut findings = watch.findings(&mut done);

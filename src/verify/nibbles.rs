@@ -126,9 +126,11 @@ pub(super) fn is_curve(turns: &[f64]) -> bool {
 }
 
 impl Bow {
-    /// The bow at the start of a path, by a heel overlap; `None` where there is no path.
+    /// The bow at the start of a path, by a heel overlap; `None` where there is none.
     fn new(path: &[Point], heel: f64, knife: &Knife) -> Option<Self> {
-        let along = polyline::direction(path[0], *path.get(1)?)?;
+        // What is straight does not bow.
+        path.get(2)?;
+        let along = polyline::direction(path[0], path[1])?;
         let tail = path[0] - along * heel;
         let reached = path.iter().position(|point| (point - tail).norm() >= knife.width_mm);
         let near = reached.unwrap_or(path.len() - 1);

@@ -4,6 +4,7 @@
 //! of the reference that they belong to.
 
 use std::ops::{Range, RangeToInclusive};
+use std::sync::Arc;
 
 use super::body::{self, BODY_STEP, Bow, Cut};
 use super::chord::{self, BODY_SHARES, Blade, Trailing};
@@ -35,72 +36,83 @@ const PARTS_MAX: f64 = 32.0;
 /// than its middle.
 const FEED_EPSILON: f64 = 1e-3;
 
-/// The rows of strokes, one stroke behind the other.
+/// Strokes, one behind the other; the last one may not have ended yet.
 #[derive(Debug, Default)]
 pub(super) struct Strokes {
-    rows: Vec<Row>,
-    /// How the axes go at each row, when the rows have no time but tell that.
-    goings: Vec<Going>,
-    /// Where each stroke ends among them; the last one may not have ended yet.
+    rows: Rows,
+    /// Where each stroke ends among the rows.
     ends: Vec<usize>,
+}
+
+/// The rows of strokes, and how the axes go at each when they have no time but tell that.
+#[derive(Debug, Default)]
+struct Rows {
+    rows: Vec<Row>,
+    goings: Vec<Going>,
 }
 
 impl Strokes {
     /// None yet, with room for so many rows.
     pub(super) fn with_room(rows: usize) -> Self {
-        Self { rows: Vec::with_capacity(rows), goings: Vec::with_capacity(rows), ends: Vec::new() }
+        Self { rows: Rows { rows: Vec::with_capacity(rows), goings: Vec::with_capacity(rows) }, ends: Vec::new() }
     }
 
     /// A row of the stroke that has not ended.
     pub(super) fn push(&mut self, row: &Row, going: Option<Going>) {
-        self.rows.push(*row);
-        self.goings.extend(going);
+        self.rows.rows.push(*row);
+        self.rows.goings.extend(going);
     }
 
     /// Whether a stroke has begun that has not ended.
     pub(super) fn are_open(&self) -> bool {
-        self.rows.len() > self.ends.last().copied().unwrap_or(0)
+        self.rows() > self.ends.last().copied().unwrap_or(0)
     }
 
     /// Ends the stroke that has begun.
     pub(super) fn end(&mut self) {
-        self.ends.push(self.rows.len());
+        self.ends.push(self.rows());
     }
 
     /// Number of rows.
     pub(super) fn rows(&self) -> usize {
-        self.rows.len()
+        self.rows.rows.len()
     }
 
     /// The strokes that have ended.
-    pub(super) fn all(&self) -> Vec<Stroke<'_>> {
-        let starts = std::iter::once(0).chain(self.ends.iter().copied());
-        let goings = |range: Range<usize>| self.goings.get(range).unwrap_or_default();
-        starts
-            .zip(&self.ends)
-            .map(|(from, &to)| Stroke { rows: &self.rows[from..to], goings: goings(from..to) })
-            .collect()
+    pub(super) fn all(self) -> Vec<Stroke> {
+        let Self { rows, ends } = self;
+        let rows = Arc::new(rows);
+        let starts = std::iter::once(0).chain(ends.iter().copied());
+        starts.zip(&ends).map(|(from, &to)| Stroke { all: Arc::clone(&rows), range: from..to }).collect()
     }
 }
 
 /// The rows of a stroke, from that of the plunge to that of the lift.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Stroke<'s> {
-    rows: &'s [Row],
-    goings: &'s [Going],
+#[derive(Debug, Clone)]
+pub(super) struct Stroke {
+    all: Arc<Rows>,
+    range: Range<usize>,
 }
 
-impl Stroke<'_> {
+impl Stroke {
+    fn rows(&self) -> &[Row] {
+        &self.all.rows[self.range.clone()]
+    }
+
+    fn goings(&self) -> &[Going] {
+        self.all.goings.get(self.range.clone()).unwrap_or_default()
+    }
+
     /// Place `i` of what it cut.
     fn sighting(&self, cut: &Cut, i: usize) -> Sighting {
-        let row = &self.rows[cut.rows[i.saturating_sub(cut.body)]];
+        let row = &self.rows()[cut.rows[i.saturating_sub(cut.body)]];
         at(row.t, cut.points[i], row.block)
     }
 }
 
 /// What a stroke cut, and the line that it was meant for once that is known.
-pub(super) struct Traced<'s> {
-    stroke: Stroke<'s>,
+pub(super) struct Traced {
+    stroke: Stroke,
     /// The end of the blade that goes first, at each row, and the direction to it from the other end.
     tips: Vec<Point>,
     blades: Vec<Vector>,
@@ -113,10 +125,10 @@ pub(super) struct Traced<'s> {
     best: Option<Trial>,
 }
 
-impl Traced<'_> {
+impl Traced {
     /// Number of rows of its stroke.
     pub(super) fn rows(&self) -> usize {
-        self.stroke.rows.len()
+        self.stroke.range.len()
     }
 }
 
@@ -192,8 +204,8 @@ impl<'a> Judge<'a> {
     }
 
     /// What a stroke cut, of the lines near it.
-    pub(super) fn trace<'s>(&self, stroke: Stroke<'s>) -> Traced<'s> {
-        let rows = stroke.rows;
+    pub(super) fn trace(&self, stroke: Stroke) -> Traced {
+        let rows = stroke.rows();
         let mut blades: Vec<Vector> = Vec::with_capacity(rows.len());
         for (i, row) in rows.iter().enumerate() {
             // Where C rests the blade lies as before.
@@ -210,10 +222,10 @@ impl<'a> Judge<'a> {
         let [lead, heel] = ends;
         // The tip swings about the centre as the blade turns.
         let way = |(going, &blade): (&Going, &Vector)| going.way + left(blade) * (lead * going.turn);
-        let ways = stroke.goings.iter().zip(&blades).map(way).collect();
+        let ways = stroke.goings().iter().zip(&blades).map(way).collect();
         let tips: Vec<Point> = rows.iter().zip(&blades).map(|(row, &along)| row.centre + along * lead).collect();
         let tail = rows[0].centre - blades[0] * heel;
-        let bow = if stroke.goings.is_empty() { Bow::Timed } else { Bow::Within(SAGITTA) };
+        let bow = if stroke.goings().is_empty() { Bow::Timed } else { Bow::Within(SAGITTA) };
         let cut = Cut { bow, ..Cut::new(&tips, tail, self.knife) };
         let trace = self.tracer.trace(&cut, rows[0].block);
         Traced { stroke, tips, blades, ends, ways, cut, trace, best: None }
@@ -228,7 +240,7 @@ impl<'a> Judge<'a> {
     /// Finds the line that a stroke was meant for, which depends on what was cut before, and marks what it cut.
     pub(super) fn settle(&self, traced: &mut Traced, done: &mut Done) {
         let Traced { stroke, cut, trace, .. } = traced;
-        let first = &stroke.rows[0];
+        let first = &stroke.rows()[0];
         let Some(mut best) = self.tracer.choose(trace, cut, &done.coverage) else { return };
         let line = &self.reference.lines[best.line];
         let uncut = |stretches: &[[f64; 2]]| done.coverage.uncut(best.line, stretches);
@@ -243,7 +255,7 @@ impl<'a> Judge<'a> {
     /// Judges a stroke whose line is known.
     pub(super) fn check(&self, traced: &Traced, worsts: &mut Worsts) {
         let Traced { stroke, cut, best, .. } = traced;
-        let rows = stroke.rows;
+        let rows = stroke.rows();
         let seen = |i: usize| stroke.sighting(cut, i);
         worsts.down.see(cut.way(), || rows[rows.len() - 1].sighting());
         self.check_feed(traced, &mut worsts.feed);
@@ -262,7 +274,7 @@ impl<'a> Judge<'a> {
         worsts.once.see(self.twice(best), || seen(cut.body));
         self.check_overcut(cut, best, &seen, &mut worsts.harm);
         self.check_body(traced, best, &mut worsts.body);
-        if stroke.goings.is_empty() {
+        if stroke.goings().is_empty() {
             // Only rows with a time name their blocks one by one.
             self.check_names(rows, cut, best, &mut worsts.block);
         }
@@ -374,7 +386,7 @@ impl<'a> Judge<'a> {
         let is_chord = self.knife.follow == Follow::Chord && self.knife.width_mm > 0.0 && !cut.is_stab();
         let (true, Some(trial)) = (is_chord, best) else { return self.check_tangent(traced, heading) };
         let mut chord = self.worsts.heading.clone();
-        let rows = stroke.rows;
+        let rows = stroke.rows();
         if !trial.laps {
             // At the plunge the laws are one: how far the way of the tip then leads the blade is known of its line.
             let first = tips.iter().position(|tip| (tip - tips[0]).norm() >= self.way_min).unwrap_or(0);
@@ -405,14 +417,14 @@ impl<'a> Judge<'a> {
             Some(trial) => self.plunge(cut, trial).lead(),
         };
         let fade = self.knife.width_mm.min(cut.way());
-        Moving { lead, fade, ..self.moving(traced, ..=stroke.rows.len() - 1) }.check(heading);
+        Moving { lead, fade, ..self.moving(traced, ..=stroke.rows().len() - 1) }.check(heading);
     }
 
     /// The first rows of a stroke, to be compared with the way of their tip.
     fn moving<'t>(&self, traced: &'t Traced, rows: RangeToInclusive<usize>) -> Moving<'t> {
         let Traced { stroke, tips, blades, ways, .. } = traced;
         Moving {
-            rows: &stroke.rows[rows],
+            rows: &stroke.rows()[rows],
             ways: ways.get(rows).unwrap_or_default(),
             tips: &tips[rows],
             blades: &blades[rows],
@@ -464,7 +476,8 @@ impl<'a> Judge<'a> {
 
     /// The way of the tip from row to row, or what F asks for there, against the greatest cap that holds anywhere on it.
     fn check_feed(&self, traced: &Traced, feed: &mut Worst) {
-        let Traced { stroke: Stroke { rows, .. }, ways, cut, best, .. } = traced;
+        let Traced { stroke, ways, cut, best, .. } = traced;
+        let rows = stroke.rows();
         let slack = self.reference.tolerance + CAP_ASIDE;
         let cap = |i: usize| {
             best.as_ref().map_or(self.knife.feed_mm_s.unwrap_or(f64::INFINITY), |trial| {
@@ -496,7 +509,8 @@ impl<'a> Judge<'a> {
 
     /// What F asks for at the least, against the least cap that holds anywhere on a step and the limits of the axes.
     fn check_crawl(&self, traced: &Traced, crawl: &mut Worst) {
-        let Traced { stroke: Stroke { rows, goings }, ways, cut, best: Some(trial), .. } = traced else { return };
+        let Traced { stroke, ways, cut, best: Some(trial), .. } = traced else { return };
+        let (rows, goings) = (stroke.rows(), stroke.goings());
         let (line, sign) = (&self.reference.lines[trial.line], trial.sign(cut));
         let (only, slack) = (line.only_cap(sign), self.reference.tolerance + CAP_ASIDE);
         // A tip that turns on the spot stands at one place of its cut all along.
@@ -550,11 +564,11 @@ impl<'a> Judge<'a> {
         };
         for &share in shares {
             let tails =
-                || stroke.rows.iter().zip(&traced.blades).map(|(row, blade)| row.centre - blade * traced.ends[1]);
+                || stroke.rows().iter().zip(&traced.blades).map(|(row, blade)| row.centre - blade * traced.ends[1]);
             if share == 0.0 && body::trails(cut, tails(), trial, body.value()) {
                 continue;
             }
-            for (foot, row) in chord::along(stroke.rows, self.blade(traced, trial), share).iter().zip(stroke.rows) {
+            for (foot, row) in chord::along(stroke.rows(), self.blade(traced, trial), share).iter().zip(stroke.rows()) {
                 if foot.beyond == 0.0 {
                     body.see(foot.deviation, || row.sighting());
                 }

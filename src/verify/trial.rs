@@ -42,14 +42,14 @@ impl Candidate {
 
 impl Cut {
     /// Places of the tip that are looked at to find the lines near it.
-    fn tip_probes(&self) -> Vec<usize> {
+    fn tip_probes(&self) -> [usize; 3] {
         let tips = self.points.len() - self.body;
-        [1, 2, 3].iter().map(|part| self.body + (tips - 1) * part / 4).collect()
+        [1, 2, 3].map(|part| self.body + (tips - 1) * part / 4)
     }
 
     /// The same, and some of the body: on a short line the tip may stand beyond its end all the time.
     fn probes(&self) -> Vec<usize> {
-        let mut probes = self.tip_probes();
+        let mut probes = self.tip_probes().to_vec();
         if self.body > 0 {
             probes.extend([0, 1, 2, 3].iter().map(|part| self.body * part / 4));
         }
@@ -106,10 +106,10 @@ pub(super) struct Trace {
 impl Tracer<'_> {
     /// Follows a cut along the line that has `block`. Nearly always the tip shows where; if it does not, the blade may.
     pub(super) fn trace(&self, cut: &Cut, block: u32) -> Trace {
-        let named = |probes: Vec<usize>| self.candidates(cut, &probes, |line| self.is_named(line, block));
-        let mut candidates = named(cut.tip_probes());
+        let named = |probes: &[usize]| self.candidates(cut, probes, |line| self.is_named(line, block));
+        let mut candidates = named(&cut.tip_probes());
         if candidates.is_empty() {
-            candidates = named(cut.probes());
+            candidates = named(&cut.probes());
         }
         Trace { trials: candidates.iter().map(|candidate| self.follow(cut, candidate)).collect(), block }
     }

@@ -30,7 +30,7 @@ impl Worst {
         let value = if value.is_nan() { f64::INFINITY } else { value };
         if value > self.value {
             self.value = value;
-            self.note(value, place);
+            self.note(weight(value, self.limit), place);
         }
     }
 
@@ -65,7 +65,7 @@ impl Worst {
                 self.place = None;
             }
             (self.value, self.limit) = (value, Some(limit).filter(|limit| limit.is_finite()));
-            self.note(if limit.is_finite() { badness(value, limit) } else { value }, place);
+            self.note(weight(value, self.limit), place);
         }
     }
 
@@ -96,6 +96,11 @@ impl Worst {
 /// How bad a value is against a limit: 1 = just allowed; any value is infinitely beyond a limit of nothing.
 fn badness(value: f64, limit: f64) -> f64 {
     if value > 0.0 { value / limit } else { 0.0 }
+}
+
+/// What values at places are compared by: part of the limit, or the value where there is none or any is infinitely beyond.
+fn weight(value: f64, limit: Option<f64>) -> f64 {
+    limit.filter(|&limit| limit > 0.0).map_or(value, |limit| value / limit)
 }
 
 /// A sighting in a program.
@@ -133,6 +138,23 @@ mod tests {
         let finding = worst.finding();
         assert_eq!((finding.worst, finding.limit), (45.0, Some(50.0)));
         assert_eq!(finding.place.and_then(|place| place.time), Some(1.0));
+    }
+
+    #[test]
+    fn what_goes_on_from_the_worst_so_far_tells_the_same_as_what_saw_all() {
+        for limit in [None, Some(0.0), Some(0.07)] {
+            let mut all = Worst::new("verify/on-path", "mm", limit);
+            let mut so_far = all.clone();
+            for part in [[0.02, 0.05], [0.04, 0.9], [0.95, 0.3]] {
+                let mut later = so_far.clone();
+                for value in part {
+                    all.see(value, || at(value, Point::origin(), 0));
+                    later.see(value, || at(value, Point::origin(), 0));
+                }
+                so_far.add(&later);
+            }
+            assert_eq!(so_far.finding(), all.finding(), "{limit:?}");
+        }
     }
 
     #[test]
