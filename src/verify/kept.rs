@@ -15,22 +15,14 @@ use crate::ir::{Finding, Marker};
 
 /// Block of a place to which nothing is cut.
 const NO_BLOCK: u32 = 0;
-/// Pieces that are kept together.
-const PIECES_OF_A_PART: usize = 512;
 
 /// All that a marker cuts or drills, to be compared with what passes make of it: two dozen bytes a segment.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Works {
-    /// Those of many pieces together: large blocks of memory are given back as a whole.
-    parts: Vec<OfPieces>,
-}
-
-/// What some pieces cut or drill.
-#[derive(Debug, Clone, PartialEq, Default)]
-struct OfPieces {
     /// Each piece, and where its places end.
     pieces: Vec<(Name, usize)>,
-    /// Where the knife or a drill comes to, in cut order: one line behind the other.
+    /// Where the knife or a drill comes to, in cut order: one line behind the other. In one block of memory, which is given
+    /// back as a whole.
     places: Vec<Place>,
 }
 
@@ -84,12 +76,12 @@ fn add_places(piece: &Piece, marker: &Marker, places: &mut Vec<Place>) {
         add(Stroke { from: stroke.from, to: stroke.to, block: stroke.span.block });
     }
     for contour in &piece.contours {
-        let mut before = None;
-        for (to, span) in marker.list.vertices(contour.range) {
-            if let Some(from) = before.replace(to).filter(|from| *from != to) {
-                add(Stroke { from, to, block: span.block });
-            }
+        let (points, spans) = (marker.list.points(contour.range), marker.list.spans(contour.range));
+        if places[first..].last().is_none_or(|last| last.at != points[0]) {
+            places.push(Place { at: points[0], block: NO_BLOCK });
         }
+        let ways = points.windows(2).zip(spans.iter()).filter(|(ends, _)| ends[0] != ends[1]);
+        places.extend(ways.map(|(ends, span)| Place { at: ends[1], block: span.block }));
     }
 }
 
@@ -117,19 +109,20 @@ fn lost(read: &[Place], cut: &[Place]) -> Vec<Stroke> {
     lost
 }
 
-impl OfPieces {
-    fn of(pieces: &[Piece], marker: &Marker) -> Self {
-        let mut of_pieces = Self { pieces: Vec::with_capacity(pieces.len()), places: Vec::new() };
+impl Works {
+    /// What a marker cuts and drills, block by block.
+    pub fn of(marker: &Marker) -> Self {
+        let mut works = Self { pieces: Vec::with_capacity(marker.pieces.len()), places: Vec::new() };
         let room = |piece: &Piece| {
             let points = piece.contours.iter().map(|contour| marker.list.points(contour.range).len());
             points.sum::<usize>() + 4 * piece.notches.len() + 2 * piece.drills.len()
         };
-        of_pieces.places.reserve_exact(pieces.iter().map(room).sum());
-        for piece in pieces {
-            add_places(piece, marker, &mut of_pieces.places);
-            of_pieces.pieces.push((name(piece), of_pieces.places.len()));
+        works.places.reserve_exact(marker.pieces.iter().map(room).sum());
+        for piece in &marker.pieces {
+            add_places(piece, marker, &mut works.places);
+            works.pieces.push((name(piece), works.places.len()));
         }
-        of_pieces
+        works
     }
 
     /// Each piece with its places.
@@ -137,32 +130,20 @@ impl OfPieces {
         let starts = std::iter::once(0).chain(self.pieces.iter().map(|(_, end)| *end));
         self.pieces.iter().zip(starts).map(|(&(name, end), start)| (name, &self.places[start..end]))
     }
-}
-
-impl Works {
-    /// What a marker cuts and drills, block by block.
-    pub fn of(marker: &Marker) -> Self {
-        let parts = marker.pieces.par_chunks(PIECES_OF_A_PART).map(|pieces| OfPieces::of(pieces, marker)).collect();
-        Self { parts }
-    }
 
     /// Whether all of it is still cut in what passes made of the marker, of the pieces that are there: those that were not
     /// selected are gone as a whole.
     pub fn kept(&self, marker: &Marker) -> Finding {
         let mut cut: Vec<&Piece> = marker.pieces.iter().collect();
         cut.sort_by_key(|piece| name(piece));
-        let lost_of = |part: &OfPieces| {
-            let (mut all, mut places) = (Vec::new(), Vec::new());
-            for (of, read) in part.each() {
-                if let Ok(place) = cut.binary_search_by_key(&of, |piece| name(piece)) {
-                    places.clear();
-                    add_places(cut[place], marker, &mut places);
-                    all.extend(lost(read, &places));
-                }
-            }
-            all
+        let lost_of = |(of, read): (Name, &[Place])| {
+            let Ok(place) = cut.binary_search_by_key(&of, |piece| name(piece)) else { return Vec::new() };
+            let mut places = Vec::with_capacity(read.len());
+            add_places(cut[place], marker, &mut places);
+            lost(read, &places)
         };
-        let lost: Vec<Vec<Stroke>> = self.parts.par_iter().map(lost_of).collect();
+        let read: Vec<(Name, &[Place])> = self.each().collect();
+        let lost: Vec<Vec<Stroke>> = read.into_par_iter().map(lost_of).collect();
         let mut worst = Worst::new("source/kept", "blocks", Some(0.0));
         for (lost, count) in lost.into_iter().flatten().zip(1..) {
             worst.see(f64::from(count), || Sighting { time: None, point: lost.to, block: lost.block });

@@ -76,11 +76,11 @@ use crate::ir::{Finding, Marker, finding};
 use crate::machine::{Job, MachineProfile};
 
 /// Rows of strokes that are judged at a time: enough to keep all cores busy, few enough to keep memory small.
-const ROWS_AT_A_TIME: usize = 8192;
+const ROWS_AT_A_TIME: usize = 4096;
 /// Room for them: the last stroke is taken whole.
 const ROOM: usize = ROWS_AT_A_TIME + ROWS_AT_A_TIME / 8;
 /// Rows of strokes that are judged one after the other: what was worst in one stroke spares work on the next ones.
-const ROWS_IN_A_ROW: usize = 1024;
+const ROWS_IN_A_ROW: usize = 512;
 
 /// Every rule: its code and what it says. The order is that of reports.
 pub const RULES: &[(&str, &str)] = &[
@@ -378,6 +378,8 @@ fn simulate(
     let mut done = Done { coverage: Coverage::new(reference), order, worsts: judge.worsts() };
     // What is read, what is followed and what is judged are at work beside each other, each on strokes of its own.
     let (mut read, mut traced) = (watch.gather(&mut next), Vec::new());
+    // Who makes room for rows gives it back: only then it is at hand for the next ones.
+    let mut given_back = Strokes::default();
     while read.rows() > 0 || !traced.is_empty() {
         let (strokes, followed) = (std::mem::take(&mut read), std::mem::take(&mut traced));
         rayon::in_place_scope(|scope| {
@@ -385,7 +387,9 @@ fn simulate(
             scope.spawn(|_| traced = strokes.all().into_par_iter().map(|stroke| judge.trace(stroke)).collect());
             read = watch.gather(&mut next);
         });
+        given_back = strokes;
     }
+    drop(given_back);
     let mut findings = watch.findings(&mut done);
     findings.extend(done.worsts.findings());
     findings.extend(done.coverage.findings(profile));

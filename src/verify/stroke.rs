@@ -39,7 +39,7 @@ const FEED_EPSILON: f64 = 1e-3;
 /// Strokes, one behind the other; the last one may not have ended yet.
 #[derive(Debug, Default)]
 pub(super) struct Strokes {
-    rows: Rows,
+    rows: Arc<Rows>,
     /// Where each stroke ends among the rows.
     ends: Vec<usize>,
 }
@@ -54,13 +54,16 @@ struct Rows {
 impl Strokes {
     /// None yet, with room for so many rows.
     pub(super) fn with_room(rows: usize) -> Self {
-        Self { rows: Rows { rows: Vec::with_capacity(rows), goings: Vec::with_capacity(rows) }, ends: Vec::new() }
+        let rows = Rows { rows: Vec::with_capacity(rows), goings: Vec::with_capacity(rows) };
+        Self { rows: Arc::new(rows), ends: Vec::new() }
     }
 
     /// A row of the stroke that has not ended.
     pub(super) fn push(&mut self, row: &Row, going: Option<Going>) {
-        self.rows.rows.push(*row);
-        self.rows.goings.extend(going);
+        let Rows { rows, goings } =
+            Arc::get_mut(&mut self.rows).expect("no stroke is given out before all are gathered");
+        rows.push(*row);
+        goings.extend(going);
     }
 
     /// Whether a stroke has begun that has not ended.
@@ -79,11 +82,9 @@ impl Strokes {
     }
 
     /// The strokes that have ended.
-    pub(super) fn all(self) -> Vec<Stroke> {
-        let Self { rows, ends } = self;
-        let rows = Arc::new(rows);
-        let starts = std::iter::once(0).chain(ends.iter().copied());
-        starts.zip(&ends).map(|(from, &to)| Stroke { all: Arc::clone(&rows), range: from..to }).collect()
+    pub(super) fn all(&self) -> Vec<Stroke> {
+        let starts = std::iter::once(0).chain(self.ends.iter().copied());
+        starts.zip(&self.ends).map(|(from, &to)| Stroke { all: Arc::clone(&self.rows), range: from..to }).collect()
     }
 }
 
