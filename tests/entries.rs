@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use std::io::Cursor;
 
 use cutc::back::TARGETS;
+use cutc::diagnostic::code::Severity;
 use cutc::diagnostic::{Diagnostics, render};
 use cutc::machine::{Follow, Job, TightCurves};
 use cutc::pipeline::{self, Compiled, Order};
@@ -47,15 +48,22 @@ fn source(points: &[[f64; 2]]) -> Source {
     Source::new("piece.cut", text.into_bytes()).expect("small")
 }
 
-/// A program that is proven, and the codes of what was said.
-fn proven(source: &Source, job: &Job, (target, what): (&str, &str)) -> (Compiled, Vec<&'static str>) {
+/// A program that is proven; else what was said.
+fn tried(source: &Source, job: &Job, target: &str) -> Result<(Compiled, Diagnostics), Diagnostics> {
     let target = TARGETS.iter().find(|known| known.name == target).expect("a target");
     let (mut out, mut found) = (Cursor::new(Vec::new()), Diagnostics::default());
     let order = Order { from: None, target, verify: true };
-    let compiled = pipeline::compile(source, job, order, &mut out, &mut found).expect("memory takes everything");
-    let compiled = compiled.unwrap_or_else(|| panic!("{what}, {}: {}", target.name, render(&found, source)));
-    let codes = found.iter().map(|said| said.code.name).collect();
-    (compiled, codes)
+    match pipeline::compile(source, job, order, &mut out, &mut found).expect("memory takes everything") {
+        Some(compiled) => Ok((compiled, found)),
+        None => Err(found),
+    }
+}
+
+/// A program that is proven, and the codes of what was said.
+fn proven(source: &Source, job: &Job, (target, what): (&str, &str)) -> (Compiled, Vec<&'static str>) {
+    let (compiled, found) =
+        tried(source, job, target).unwrap_or_else(|found| panic!("{what}, {target}: {}", render(&found, source)));
+    (compiled, found.iter().map(|said| said.code.name).collect())
 }
 
 /// An arc about a centre, from one angle to another, its chords as flat as a unit.
@@ -195,16 +203,20 @@ fn short_curves_between_two_notches_become_programs_of_every_kind() {
     let tenths = [[1860, 1825], [3380, 1825], [3380, 3425], [2377, 2570], [2297, 2617], [2283, 2625]];
     let more = [[2260, 2636], [2244, 2641], [2222, 2595], [2224, 2646], [1860, 2650]];
     pieces.push(tenths.iter().chain(&more).map(|&[x, y]| [f64::from(x), f64::from(y)].map(|v| v / 10.0)).collect());
+    let mut refused = Vec::new();
     for (case, points) in pieces.iter().enumerate() {
         let source = source(points);
         for blade in BLADES {
             let what = format!("case {case}, blade {blade:?}");
-            let (_, codes) = proven(&source, &job(blade), ("csv", &what));
-            // From where the plunged blade lies far beside the curve it may have less than a millimetre to come to the tangent in:
-            // arcs of the controller's decimals are too coarse for that.
-            if !codes.contains(&"path/bowed-plunge") {
-                proven(&source, &job(blade), ("gcode", &what));
+            proven(&source, &job(blade), ("csv", &what));
+            if let Err(found) = tried(&source, &job(blade), "gcode") {
+                let broken = found.iter().filter(|said| said.code.severity == Severity::Error);
+                assert!(broken.clone().all(|said| said.message.starts_with("verify/heading")), "{what}");
+                refused.push(what);
             }
         }
     }
+    // Where a blade that lies askew has a few tenths of a millimetre to come to the tangent in, arcs of the controller's
+    // decimals are too coarse for that.
+    assert!(refused.len() <= pieces.len() * BLADES.len() / 100, "{refused:?}");
 }
