@@ -77,7 +77,9 @@ impl Drawing<'_, '_> {
             found
         };
         let found: Vec<Diagnostics> = toolpaths.par_iter_mut().map(by_itself).collect();
-        found.into_iter().for_each(|found| findings.extend(found));
+        for found in found {
+            findings.extend(found);
+        }
         Some(Window { toolpaths, findings })
     }
 }

@@ -112,7 +112,7 @@ impl<'a> Coverage<'a> {
         let lap = (a / length).floor() * length;
         let (a, b) = (a - lap, b - lap);
         let over = (b > length).then_some([0.0, b - length]);
-        ArrayVec::from_iter(std::iter::once([a, b.min(length)]).chain(over))
+        std::iter::once([a, b.min(length)]).chain(over).collect()
     }
 
     /// The longest stretch that was left uncut.

@@ -81,7 +81,7 @@ impl<'a> Outline<'a> {
                     self.segments.rotate_left(first);
                     self.turns.rotate_left(first);
                     self.first = first;
-                    corners.iter_mut().for_each(|corner| *corner -= first);
+                    corners = corners.into_iter().map(|corner| corner - first).collect();
                 }
                 None => ring = true,
             }

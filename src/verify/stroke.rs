@@ -3,8 +3,7 @@
 //! What a stroke cuts is the blade's body where it plunges, then the track of the tip. Both are followed along the line
 //! of the reference that they belong to.
 
-use std::ops::{Range, RangeToInclusive};
-use std::sync::Arc;
+use std::ops::RangeToInclusive;
 
 use super::body::{self, BODY_STEP, Bow, Cut};
 use super::chord::{self, BODY_SHARES, Blade, Trailing};
@@ -18,6 +17,7 @@ use super::naming::Naming;
 use super::overcut::{self, Harm, Lines, Overcut};
 use super::read::{Going, Rounding, Row};
 use super::reference::Reference;
+use super::strokes::Stroke;
 use super::trial::{REACH, Trace, Tracer, Trial};
 use super::worst::{Worst, at};
 use super::worsts::Worsts;
@@ -36,74 +36,7 @@ const PARTS_MAX: f64 = 32.0;
 /// than its middle.
 const FEED_EPSILON: f64 = 1e-3;
 
-/// Strokes, one behind the other; the last one may not have ended yet.
-#[derive(Debug, Default)]
-pub(super) struct Strokes {
-    rows: Arc<Rows>,
-    /// Where each stroke ends among the rows.
-    ends: Vec<usize>,
-}
-
-/// The rows of strokes, and how the axes go at each when they have no time but tell that.
-#[derive(Debug, Default)]
-struct Rows {
-    rows: Vec<Row>,
-    goings: Vec<Going>,
-}
-
-impl Strokes {
-    /// None yet, with room for so many rows.
-    pub(super) fn with_room(rows: usize) -> Self {
-        let rows = Rows { rows: Vec::with_capacity(rows), goings: Vec::with_capacity(rows) };
-        Self { rows: Arc::new(rows), ends: Vec::new() }
-    }
-
-    /// A row of the stroke that has not ended.
-    pub(super) fn push(&mut self, row: &Row, going: Option<Going>) {
-        let Rows { rows, goings } =
-            Arc::get_mut(&mut self.rows).expect("no stroke is given out before all are gathered");
-        rows.push(*row);
-        goings.extend(going);
-    }
-
-    /// Whether a stroke has begun that has not ended.
-    pub(super) fn are_open(&self) -> bool {
-        self.rows() > self.ends.last().copied().unwrap_or(0)
-    }
-
-    /// Ends the stroke that has begun.
-    pub(super) fn end(&mut self) {
-        self.ends.push(self.rows());
-    }
-
-    /// Number of rows.
-    pub(super) fn rows(&self) -> usize {
-        self.rows.rows.len()
-    }
-
-    /// The strokes that have ended.
-    pub(super) fn all(&self) -> Vec<Stroke> {
-        let starts = std::iter::once(0).chain(self.ends.iter().copied());
-        starts.zip(&self.ends).map(|(from, &to)| Stroke { all: Arc::clone(&self.rows), range: from..to }).collect()
-    }
-}
-
-/// The rows of a stroke, from that of the plunge to that of the lift.
-#[derive(Debug, Clone)]
-pub(super) struct Stroke {
-    all: Arc<Rows>,
-    range: Range<usize>,
-}
-
 impl Stroke {
-    fn rows(&self) -> &[Row] {
-        &self.all.rows[self.range.clone()]
-    }
-
-    fn goings(&self) -> &[Going] {
-        self.all.goings.get(self.range.clone()).unwrap_or_default()
-    }
-
     /// Place `i` of what it cut.
     fn sighting(&self, cut: &Cut, i: usize) -> Sighting {
         let row = &self.rows()[cut.rows[i.saturating_sub(cut.body)]];
@@ -129,7 +62,7 @@ pub(super) struct Traced {
 impl Traced {
     /// Number of rows of its stroke.
     pub(super) fn rows(&self) -> usize {
-        self.stroke.range.len()
+        self.stroke.rows().len()
     }
 }
 
