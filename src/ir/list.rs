@@ -149,6 +149,7 @@ impl SegmentList {
     /// block that it came from; the file asks for nothing on them.
     pub fn append_line(&mut self, points: &[Point], spans: &[Span]) -> Option<Range> {
         let (_, [_, ..]) = points.split_first()? else { return None };
+        debug_assert_eq!(points.len(), spans.len(), "a block stands beside each point");
         let front = self.ends.len();
         self.ends.extend_from_slice(points);
         self.spans.push(Span::default());

@@ -76,7 +76,7 @@ struct Made {
     cuts: Vec<Result<Vec<Cut>, Vec<Diagnostic>>>,
     /// For each target that fits: the ways of each.
     ways: Vec<Vec<Result<Ways, Vec<Diagnostic>>>>,
-    findings: Diagnostics,
+    findings: Vec<Diagnostics>,
 }
 
 /// What is made of toolpaths beside each other.
@@ -143,7 +143,9 @@ struct Writer<'w, 's, 'c> {
 impl Writer<'_, '_, '_> {
     fn take(&mut self, made: Made, diagnostics: &mut Diagnostics) -> io::Result<()> {
         let Made { toolpaths, cuts, ways, findings } = made;
-        diagnostics.extend(findings);
+        for found in findings {
+            diagnostics.extend(found);
+        }
         for (toolpath, cuts) in toolpaths.iter().zip(cuts) {
             match cuts {
                 Err(refused) => refused.into_iter().for_each(|finding| diagnostics.push(finding)),

@@ -10,7 +10,7 @@ use crate::machine::{Job, Mode};
 use crate::pass::toolpath::{Scene, TOOLPATH_PASSES, ToolpathPass, check_depths, frame, trace};
 use crate::plan;
 
-/// Toolpaths that are made, planned and written at a time: enough to keep all cores busy, few enough to keep memory small.
+/// Toolpaths of a window, of which every stage has one: enough to keep all cores busy, few enough to keep memory small.
 const WINDOW: usize = 128;
 
 /// Makes toolpaths in cut order.
@@ -25,7 +25,8 @@ pub(super) struct Toolpaths<'a> {
 /// Some toolpaths that follow each other, and what their passes found.
 pub(super) struct Window {
     pub(super) toolpaths: Vec<Toolpath>,
-    pub(super) findings: Diagnostics,
+    /// Those of each.
+    pub(super) findings: Vec<Diagnostics>,
 }
 
 /// The first stage: what is made of each toolpath by itself.
@@ -69,17 +70,13 @@ impl Drawing<'_, '_> {
         if toolpaths.is_empty() {
             return None;
         }
-        let mut findings = Diagnostics::default();
-        let Some(scene) = self.scene else { return Some(Window { toolpaths, findings }) };
+        let Some(scene) = self.scene else { return Some(Window { toolpaths, findings: Vec::new() }) };
         let by_itself = |toolpath: &mut Toolpath| {
             let mut found = Diagnostics::default();
             run(passes()[0], toolpath, scene, &mut found);
             found
         };
-        let found: Vec<Diagnostics> = toolpaths.par_iter_mut().map(by_itself).collect();
-        for found in found {
-            findings.extend(found);
-        }
+        let findings = toolpaths.par_iter_mut().map(by_itself).collect();
         Some(Window { toolpaths, findings })
     }
 }
@@ -88,9 +85,9 @@ impl Linking<'_, '_> {
     /// Finishes the next ones.
     pub(super) fn link(&mut self, mut window: Window) -> Window {
         let Some(scene) = self.scene else { return window };
-        for toolpath in &mut window.toolpaths {
+        for (toolpath, found) in window.toolpaths.iter_mut().zip(&mut window.findings) {
             toolpath.entry = self.pose;
-            run(passes()[1], toolpath, scene, &mut window.findings);
+            run(passes()[1], toolpath, scene, found);
             self.pose = toolpath.exit();
         }
         window

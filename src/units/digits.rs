@@ -38,7 +38,7 @@ pub fn pair(bytes: &[u8; PAIR]) -> Option<([u32; 2], [usize; 2])> {
         _ => behind.trailing_zeros() as usize / WORD,
     };
     let count = end.wrapping_sub(middle + 1);
-    if middle == 0 || !(1..=WORD).contains(&count) {
+    if !(1..WORD).contains(&middle) || !(1..=WORD).contains(&count) {
         return None;
     }
     Some(([value(first, middle), value(*bytes[middle + 1..].first_chunk()?, count)], [middle, end]))
@@ -106,7 +106,19 @@ mod tests {
             let numbers = [x, y].map(|digits| digits.parse().expect("a number"));
             assert_eq!(of(&format!("{x}Y{y}*")), Some((numbers, [first, first + 1 + second])));
         }
-        for none in ["", "Y1*", "1*", "1Y*", "12345678Y1*", "123456789Y1*", "1Y123456789*", "-1Y1*", "1Y-1*"] {
+        for none in [
+            "",
+            "Y1*",
+            "1*",
+            "1Y*",
+            "12345678Y1*",
+            "123456789Y1*",
+            "1234567812*",
+            "12345678901*",
+            "1Y123456789*",
+            "-1Y1*",
+            "1Y-1*",
+        ] {
             assert_eq!(of(none), None, "{none}");
         }
     }

@@ -128,8 +128,9 @@ impl Body {
 }
 
 /// Whether a tail, row by row, surely stays nearer to its line than `known` mm: it comes by where the tip was one width of
-/// the blade before, or where the blade plunged, and how far that is off the line is known. Between two places of a cut the
-/// line bows by no more than [`BODY_STEP`].
+/// the blade before, or where the blade plunged. How far that is off the line is known at places; what lies between two of
+/// them is within half of their distance of one. Where the way between is known to bow by so much, no vertex of the line
+/// lies farther beside it than was seen, and so nothing does, but for as much again at its ends.
 pub(super) fn trails(cut: &Cut, tails: impl Iterator<Item = Point>, trial: &Trial, known: f64) -> bool {
     let width = cut.stations[cut.body];
     let (mut place, mut behind) = (cut.body, 0);
@@ -140,7 +141,11 @@ pub(super) fn trails(cut: &Cut, tails: impl Iterator<Item = Point>, trial: &Tria
         }
         let [from, to] = [behind, behind + 1];
         let aside = polyline::distance_to_segment(tail, cut.points[from], cut.points[to]);
-        let off = trial.feet[from].deviation.max(trial.feet[to].deviation).max(trial.worst.0);
-        aside + off + BODY_STEP < known
+        let off = trial.feet[from].deviation.max(trial.feet[to].deviation);
+        let between = match cut.bow {
+            Bow::Within(bow) if from >= cut.body => off.max(trial.worst.0) + bow,
+            Bow::Within(_) | Bow::Timed => (cut.points[to] - cut.points[from]).norm() / 2.0,
+        };
+        aside + off + between < known
     })
 }

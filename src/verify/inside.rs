@@ -34,6 +34,8 @@ struct Part<'a> {
     piece: usize,
     /// Its contours, each of which ends with its first point.
     rings: Box<[Cow<'a, [Point]>]>,
+    /// How many points stand before those of each ring.
+    firsts: Box<[u32]>,
     extent: Extent,
     height: f64,
     /// Where the edges of each band begin, and where those of the last one end.
@@ -129,8 +131,10 @@ impl<'a> Part<'a> {
         }
         let bands = (count / EDGES_A_BAND).max(1);
         let height = (extent.size().1 / bands as f64).max(f64::MIN_POSITIVE);
+        let before = |sum: &mut u32, ring: &Cow<[Point]>| Some(std::mem::replace(sum, *sum + ring.len() as u32));
+        let firsts = rings.iter().scan(0, before).collect();
         let mut starts = vec![0; bands + 1];
-        let mut part = Self { piece: index, rings, extent, height, starts: Vec::new(), edges: Vec::new() };
+        let mut part = Self { piece: index, rings, firsts, extent, height, starts: Vec::new(), edges: Vec::new() };
         // How many each band has, then where it ends, and, as they are filled in from behind, where it begins.
         part.each(bands, |_, band| starts[band] += 1);
         for band in 1..=bands {
@@ -147,15 +151,13 @@ impl<'a> Part<'a> {
 
     /// Calls `see` for each edge with each band, of so many, that it reaches into.
     fn each(&self, bands: usize, mut see: impl FnMut(u32, usize)) {
-        let mut start = 0;
-        for ring in &self.rings {
+        for (ring, &first) in self.rings.iter().zip(&self.firsts) {
             let mut before = self.band(ring[0].y, bands);
-            for (edge, end) in (start..).zip(&ring[1..]) {
+            for (edge, end) in (first..).zip(&ring[1..]) {
                 let band = self.band(end.y, bands);
                 (before.min(band)..=before.max(band)).for_each(|band| see(edge, band));
                 before = band;
             }
-            start += ring.len() as u32;
         }
     }
 
@@ -165,14 +167,10 @@ impl<'a> Part<'a> {
 
     /// The ends of an edge.
     fn ends(&self, edge: u32) -> [Point; 2] {
-        let mut start = edge as usize;
-        for ring in &self.rings {
-            if let Some(&[from, to]) = ring.get(start..start + 2) {
-                return [from, to];
-            }
-            start -= ring.len();
-        }
-        unreachable!("an edge stands in a ring")
+        let ring = self.firsts.partition_point(|&first| first <= edge) - 1;
+        let place = (edge - self.firsts[ring]) as usize;
+        let [from, to] = self.rings[ring][place..place + 2] else { unreachable!("an edge has two ends") };
+        [from, to]
     }
 
     /// Whether a ray to the right of a point crosses the edges an odd number of times.

@@ -5,6 +5,7 @@
 use super::body::Cut;
 use super::chord::stands_across;
 use super::line::Line;
+use super::nibbles::sharpest_share;
 use crate::geom::{Point, polyline};
 use crate::machine::Knife;
 
@@ -145,7 +146,7 @@ impl Joints {
 /// Whether a line turns at one bend between two stations, and not little by little.
 fn is_bent(line: &Line, [a, b]: [f64; 2]) -> bool {
     let turns: Vec<f64> = line.vertices(a.min(b), a.max(b)).map(|vertex| line.turn(vertex).abs()).collect();
-    turns.iter().fold(0.0, |sharpest: f64, &turn| sharpest.max(turn)) > CURVE_SHARE * turns.iter().sum::<f64>()
+    sharpest_share(&turns) > CURVE_SHARE
 }
 
 /// A path led straight on beyond its end.

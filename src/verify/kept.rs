@@ -62,24 +62,25 @@ impl Stroke {
 /// Adds the places of a piece.
 fn add_places(piece: &Piece, marker: &Marker, places: &mut Vec<Place>) {
     let first = places.len();
-    let mut add = |Stroke { from, to, block }: Stroke| {
-        if places[first..].last().is_none_or(|last| last.at != from) {
-            places.push(Place { at: from, block: NO_BLOCK });
+    let begin = |places: &mut Vec<Place>, at: Point| {
+        if places[first..].last().is_none_or(|last| last.at != at) {
+            places.push(Place { at, block: NO_BLOCK });
         }
+    };
+    let mut add = |Stroke { from, to, block }: Stroke| {
+        begin(places, from);
         places.push(Place { at: to, block });
     };
     for drill in &piece.drills {
         add(Stroke { from: drill.at, to: drill.at, block: drill.span.block });
     }
-    // What has no length cuts nothing.
+    // What has no length cuts nothing, here and below.
     for stroke in piece.notches.iter().flat_map(Notch::strokes).filter(|stroke| stroke.from != stroke.to) {
         add(Stroke { from: stroke.from, to: stroke.to, block: stroke.span.block });
     }
     for contour in &piece.contours {
         let (points, spans) = (marker.list.points(contour.range), marker.list.spans(contour.range));
-        if places[first..].last().is_none_or(|last| last.at != points[0]) {
-            places.push(Place { at: points[0], block: NO_BLOCK });
-        }
+        begin(places, points[0]);
         let ways = points.windows(2).zip(spans.iter()).filter(|(ends, _)| ends[0] != ends[1]);
         places.extend(ways.map(|(ends, span)| Place { at: ends[1], block: span.block }));
     }

@@ -121,8 +121,13 @@ struct Bow {
 
 /// Whether turns are those of a curve: none of them makes most of what they are together, by a little.
 pub(super) fn is_curve(turns: &[f64]) -> bool {
+    sharpest_share(turns) <= BEND_SHARE
+}
+
+/// Which part of all turns the greatest makes; none of nothing.
+pub(super) fn sharpest_share(turns: &[f64]) -> f64 {
     let all: f64 = turns.iter().sum();
-    turns.iter().all(|&turn| turn <= BEND_SHARE * all)
+    if all > 0.0 { turns.iter().copied().fold(0.0, f64::max) / all } else { 0.0 }
 }
 
 impl Bow {

@@ -11,10 +11,12 @@ pub(super) struct Order<'a> {
     lines: &'a [Line<'a>],
     /// The strokes, in time: a large marker has a hundred thousand of them.
     strokes: Vec<Begun>,
-    /// Where those began that come behind a later one, each with its place among them; and the greatest rank so far.
+    /// Where those began that come behind a later one, each with its place among them.
     late: Vec<(usize, Sighting)>,
+    /// The greatest rank of them so far.
     greatest: u32,
-    others: Vec<Seen>,
+    /// Events and holes.
+    told: Vec<Seen>,
 }
 
 /// When a line begins to be cut.
@@ -38,7 +40,7 @@ impl<'a> Order<'a> {
     pub(super) fn new(lines: &'a [Line<'a>]) -> Self {
         // A line is one stroke, as a rule.
         let strokes = Vec::with_capacity(lines.len());
-        Self { lines, strokes, late: Vec::new(), greatest: 0, others: Vec::new() }
+        Self { lines, strokes, late: Vec::new(), greatest: 0, told: Vec::new() }
     }
 
     /// A line begins to be cut somewhere at a tick, no earlier than the one before.
@@ -51,9 +53,9 @@ impl<'a> Order<'a> {
         self.strokes.push(Begun { tick, line: line as u32 });
     }
 
-    /// Takes what else was told and drilled.
-    pub(super) fn add(&mut self, others: Vec<Seen>) {
-        self.others.extend(others);
+    /// Takes what was told and drilled.
+    pub(super) fn add(&mut self, told: Vec<Seen>) {
+        self.told.extend(told);
     }
 
     /// How many come behind a later one, a tick being that long, s. Holes are known only when the program is over, so all are
@@ -68,18 +70,19 @@ impl<'a> Order<'a> {
             }
             greatest = greatest.max(rank);
         };
-        self.others.sort_by_key(|seen| seen.tick);
-        let (mut others, mut places) = (self.others.into_iter().peekable(), self.late.into_iter().peekable());
+        self.told.sort_by_key(|seen| seen.tick);
+        let (mut told, mut places) = (self.told.into_iter().peekable(), self.late.into_iter().peekable());
         for (i, Begun { tick, line }) in self.strokes.into_iter().enumerate() {
-            while let Some(other) = others.next_if(|other| other.tick < tick) {
-                see(other);
+            while let Some(before) = told.next_if(|told| told.tick < tick) {
+                see(before);
             }
             let line = &self.lines[line as usize];
+            // What is late against holes and events alone is shown where its line begins.
             let place = places.next_if(|late| late.0 == i).map(|late| late.1);
             let place = place.unwrap_or_else(|| at(0.0, line.point(0), line.block(0)));
             see(Seen { tick, rank: line.rank as usize, place });
         }
-        others.for_each(see);
+        told.for_each(see);
         worst.finding()
     }
 }

@@ -1,4 +1,6 @@
 //! A contour as lines: parted at its corners, each line with its tube and with how fast the tip may be on it.
+//!
+//! Corners and the tube are found anew from the marker and the profile; see the module doc of the stage.
 
 use std::borrow::Cow;
 

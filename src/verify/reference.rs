@@ -1,6 +1,4 @@
-//! What must be cut, as lines: the stretches of contours between corners, and the slits.
-//!
-//! Corners and the tube are found anew from the marker and the profile; see the module doc of the stage.
+//! What must be cut, as lines: the stretches of contours between corners, as `outline` finds them, and the slits.
 
 use std::borrow::Cow;
 

@@ -259,7 +259,8 @@ impl<'a> Judge<'a> {
             worsts.heading.see(least.max(-greatest).max(0.0).to_degrees(), || seen(cut.body));
             return;
         }
-        // Where the knife may have been lifted anywhere the blade lies between the directions of the chords that it cuts; the tube turns a blade by a little.
+        // Where the knife may have been lifted anywhere the blade lies between the directions of the chords that it cuts; the
+        // tube turns a blade by a little.
         let (first, last) = (trial.feet[*trial.held.start()].station, trial.feet[*trial.held.end()].station);
         let blade = (cut.points[cut.body] - cut.points[0]) * if last < first { -1.0 } else { 1.0 };
         let chords = line.chords_between([first.min(last), first.max(last)]);

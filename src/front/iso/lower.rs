@@ -11,7 +11,7 @@ use super::syntax::{Code, Point};
 use super::tally::Tally;
 use super::title::Title;
 use super::trailer;
-use super::unit::{Sized, Unit, check_plausible};
+use super::unit::{Sized, Unit, check_plausible, convert, scale};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{self, Heading, Vector};
 use crate::ir::Marker;
@@ -31,8 +31,6 @@ const SECONDS_PER_MINUTE: f64 = 60.0;
 const BYTES_A_SEGMENT: usize = 12;
 /// Bytes that a piece takes at the least, as a rule: room is made for so many pieces, and grows where they are shorter.
 const BYTES_A_PIECE: usize = 512;
-/// Farthest place from the origin, mm: a kilometre, far beyond any table.
-const FARTHEST: f64 = 1e6;
 
 /// Whether a label is obeyed, or only passed over because the profile ignores M31.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -85,7 +83,7 @@ struct Lowering<'a> {
     place: [Option<f64>; 2],
     /// Whether a block could not be read: it may have held the place that is missing.
     damaged: bool,
-    /// The first place beyond [`FARTHEST`], mm, and its block.
+    /// The first place beyond [`FARTHEST`](super::unit::FARTHEST), mm, and its block.
     far: Option<(geom::Point, Span)>,
     /// Whether the knife was moved here in the air and nothing was done here yet: a drill code without a point means here.
     fresh: bool,
@@ -490,25 +488,6 @@ impl Lowering<'_> {
         let place = [point.x.or(self.place[0]), point.y.or(self.place[1])].map(Option::unwrap_or_default);
         scale(place, self.unit.convert())
     }
-}
-
-/// A place of the file, mm; the first that is too far is kept, to be reported in the end.
-fn convert(place: [f64; 2], unit: f64, span: Span, far: &mut Option<(geom::Point, Span)>) -> geom::Point {
-    let to = scale(place, unit);
-    if (to.x.abs() > FARTHEST) | (to.y.abs() > FARTHEST) {
-        keep_first(far, to, span);
-    }
-    to
-}
-
-#[cold]
-fn keep_first(far: &mut Option<(geom::Point, Span)>, to: geom::Point, span: Span) {
-    far.get_or_insert((to, span));
-}
-
-/// One multiplication, so that equal numbers of the file are equal to the bit.
-fn scale(place: [f64; 2], unit: f64) -> geom::Point {
-    geom::Point::new(place[0] * unit, place[1] * unit)
 }
 
 fn direction(from: geom::Point, to: geom::Point) -> Option<Heading> {

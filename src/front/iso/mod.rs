@@ -8,7 +8,8 @@
 //!
 //! Arcs are chords. [`block`] cuts the bytes into blocks, [`syntax`] is the grammar of one, [`mod@meaning`] the table of
 //! codes, [`label`] the layouts of text, [`trailer`] the list of labels at the end; [`lower`] follows the file, [`draft`]
-//! gathers what it cuts in [`chain`]s of places ([`vertex`]), [`lost`] finds signs of lost knife codes, and [`owner`] says whose slits are whose where pieces have no numbers.
+//! gathers what it cuts in [`chain`]s of places ([`vertex`]), [`lost`] finds signs of lost knife codes, and [`owner`] says
+//! whose slits are whose where pieces have no numbers.
 
 mod arc;
 mod block;

@@ -12,6 +12,9 @@ use crate::source::Span;
 /// says with the unit that would fit.
 const DEFAULT_MM: f64 = crate::units::MM_PER_INCH / 100.0;
 
+/// Farthest place from the origin, mm: a kilometre, far beyond any table.
+pub(super) const FARTHEST: f64 = 1e6;
+
 /// Widest marker that a table takes, longest one that is spread, and the smallest thing worth cutting, mm. Tables are up to
 /// some 3 m wide, and cloth is spread over a few dozen metres.
 const WIDEST: f64 = 3500.0;
@@ -187,4 +190,23 @@ pub(super) fn check_plausible(sized: Sized, marker: &Marker, out: &mut Diagnosti
             finding.hint("no unit of cut files would fit: check that the drawing is whole, and its title its own");
     }
     out.push(finding);
+}
+
+/// A place of the file, mm; the first that is too far is kept, to be reported in the end.
+pub(super) fn convert(place: [f64; 2], unit: f64, span: Span, far: &mut Option<(Point, Span)>) -> Point {
+    let to = scale(place, unit);
+    if (to.x.abs() > FARTHEST) | (to.y.abs() > FARTHEST) {
+        keep_first(far, to, span);
+    }
+    to
+}
+
+#[cold]
+fn keep_first(far: &mut Option<(Point, Span)>, to: Point, span: Span) {
+    far.get_or_insert((to, span));
+}
+
+/// One multiplication, so that equal numbers of the file are equal to the bit.
+pub(super) fn scale(place: [f64; 2], unit: f64) -> Point {
+    Point::new(place[0] * unit, place[1] * unit)
 }
