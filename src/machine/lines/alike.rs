@@ -24,14 +24,21 @@ pub(super) fn faults(texts: &[Lines]) -> Vec<Fault> {
     let mut faults: Vec<Fault> = Vec::new();
     for (i, order) in orders.iter().enumerate() {
         for before in &orders[..i] {
-            let keys = vec![before.key, order.key];
+            let keys = keys_of(before, order);
+            // What lifts is told by the drill that is down; what puts one down by its first line alone.
+            let are_read = before.key != order.key || order.key == "gcode.drill_down";
             // Of the drills the first is enough.
-            if before.key != order.key && faults.iter().all(|fault| fault.keys != keys) && mixed_up(before, order) {
+            if are_read && faults.iter().all(|fault| fault.keys != keys) && mixed_up(before, order) {
                 faults.push(fault(before, order));
             }
         }
     }
     faults
+}
+
+/// The keys of two orders, which may be those of two drills.
+fn keys_of(a: &Order, b: &Order) -> Vec<&'static str> {
+    if a.key == b.key { vec![a.key] } else { vec![a.key, b.key] }
 }
 
 /// What a key orders: a drill's lines hold its number.
@@ -64,12 +71,14 @@ fn mixed_up(a: &Order, b: &Order) -> bool {
 }
 
 fn fault(a: &Order, b: &Order) -> Fault {
-    let keys = vec![a.key, b.key];
+    let keys = keys_of(a, b);
     let of = |order: &Order| order.drill.map_or(String::new(), |drill| format!(" of drill {drill}"));
     let both = format!("`{}`{} and `{}`{}", a.key, of(a), b.key, of(b));
     let message = if a.lines == b.lines { format!("{both} say the same") } else { format!("{both} begin alike") };
     let is = |key: &str| keys.contains(&key);
-    let hint = if is("gcode.footer") {
+    let hint = if a.key == b.key {
+        "write # in the first line, as in M64 P#, or a comment before it, such as (drill #)"
+    } else if is("gcode.footer") {
         "leave that line out of `gcode.footer`: the program has lifted the knife before it"
     } else if is("gcode.drill_down") || is("gcode.drill_up") {
         "give the drills other lines; where there are none, gcode.drill_down = \"\" and gcode.drill_up = \"\""
@@ -122,6 +131,16 @@ mod tests {
             |profile| "M65 P0\nM2".clone_into(&mut profile.gcode.footer),
             &["`gcode.knife_up` and `gcode.footer` begin alike"],
         );
+        check(
+            |profile| "(drill)\nM64 P#".clone_into(&mut profile.gcode.drill_down),
+            &["`gcode.drill_down` of drill 1 and `gcode.drill_down` of drill 2 begin alike"],
+        );
+        check(
+            |profile| "G4 P0.02 (drill #)\nM64 P#".clone_into(&mut profile.gcode.drill_down),
+            &["`gcode.drill_down` of drill 1 and `gcode.drill_down` of drill 2 begin alike"],
+        );
+        check(|profile| "(drill #)\nG4 P0.02\nM64 P#".clone_into(&mut profile.gcode.drill_down), &[]);
+        check(|profile| "(up)\nM65 P#".clone_into(&mut profile.gcode.drill_up), &[]);
         check(
             |profile| "M0".clone_into(&mut profile.gcode.advance),
             &["`gcode.stop` and `gcode.advance` say the same"],
