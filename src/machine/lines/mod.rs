@@ -2,7 +2,8 @@
 //!
 //! Each line is words of the plain language RS274/NGC ([`words`]) whose codes stand in a list ([`codes`]); what is down
 //! and what is up again must be told apart ([`alike`]). An interpreter then refuses no line of a program, whichever the
-//! table, and nothing in a table changes what the lines around it mean.
+//! table, and nothing in a table changes what the lines around it mean. One thing a profile cannot know: the tool that
+//! T chooses must stand in the controller's own tool table.
 
 mod alike;
 mod codes;
