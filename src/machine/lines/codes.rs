@@ -75,6 +75,7 @@ const CODES: &[Code] = &[
     Code { takes: AXES, ..mode("G30", 0, At::End) },
     mode("G40", 7, At::Ends),
     mode("G49", 8, At::Ends),
+    // A move may be told in the coordinates of the machine.
     mode("G53", 0, At::Anywhere),
     mode("G54", 12, At::Ends),
     mode("G55", 12, At::Ends),
@@ -183,7 +184,6 @@ fn codes(words: &[Word], place: Place) -> Result<Vec<&'static Code>, Flaw> {
             return Err(misplaced(word, code.at));
         }
         if let Some(other) = codes.iter().find(|other| other.group == code.group) {
-            // A move may be told in the coordinates of the machine.
             let both = format!("{} and {} on a line", other.name, code.name);
             return Err(Flaw::new(both, "no interpreter takes two codes of a kind on one: write two lines"));
         }

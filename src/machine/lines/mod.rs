@@ -71,8 +71,7 @@ impl<'a> Lines<'a> {
 fn texts(profile: &MachineProfile) -> [Lines<'_>; 8] {
     let (keys, knife) = (&profile.gcode, &profile.knife);
     let text = |key, text, place| Lines { key, text, place, rest: None };
-    let tool =
-        |key, text, rest| Lines { rest: Some(rest), ..self::Lines { key, text, place: Place::Tool, rest: None } };
+    let tool = |key, lines, rest| Lines { rest: Some(rest), ..text(key, lines, Place::Tool) };
     [
         text("gcode.header", keys.header.as_str(), Place::Start),
         tool("gcode.knife_down", &keys.knife_down, (knife.plunge(), "knife.plunge_ms")),

@@ -9,7 +9,7 @@ use super::Flaw;
 const ACTIVE: &[&str] =
     &["ABORT", "DEBUG", "LOG", "LOGAPPEND", "LOGCLOSE", "LOGOPEN", "PRINT", "PROBECLOSE", "PROBEOPEN", "PY"];
 /// Longest number that is read, characters: more digits say nothing.
-const NUMBER_MAX: usize = 16;
+const NUMBER_CHARS: usize = 16;
 
 /// A letter with its number.
 #[derive(Debug, Clone, PartialEq)]
@@ -72,7 +72,7 @@ fn comment(text: &str) -> Result<(), Flaw> {
 /// A number as words have it: digits, perhaps a point, perhaps a sign before them.
 fn number(text: &str) -> Option<f64> {
     let digits = text.strip_prefix(['+', '-']).unwrap_or(text);
-    let is_plain = digits.len() <= NUMBER_MAX
+    let is_plain = digits.len() <= NUMBER_CHARS
         && digits.bytes().filter(|&byte| byte == b'.').count() <= 1
         && digits.bytes().any(|byte| byte.is_ascii_digit())
         && digits.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
