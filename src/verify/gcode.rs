@@ -481,7 +481,10 @@ impl<'a> Places<'a> {
         let back = told.is_sign_negative();
         let way = if back { shown - told.abs() } else { told - shown }.rem_euclid(TURN_DEG);
         let way = if TURN_DEG - way < TURN_EPSILON { way - TURN_DEG } else { way };
-        self.now.c_deg + sign * if back { -way } else { way }
+        let to = shown + if back { -way } else { way };
+        // It is told in steps of the last decimal.
+        let step = self.profile.gcode.step();
+        c.offset_deg + sign * (to / step).round() * step
     }
 
     /// The position of C that differs by whole turns and is nearest to where it rests at the end.

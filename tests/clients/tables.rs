@@ -38,7 +38,7 @@ const LEGAL: &[Table] = &[
     &[("wrapped", "true"), ("knife_down", "G1 Z-1 F50"), ("knife_up", "G0 Z1")],
     &[("arcs", "false"), ("knife_down", "G1 Z-1 F50"), ("knife_up", "G0 Z1"), ("line_numbers", "true")],
     &[("blend_mm", "off"), ("knife_down", "G1 Z-1 F50"), ("knife_up", "G0 Z1"), ("drill_up", "G0 Z1")],
-    &[("blend_mm", "0"), ("decimals", "6")],
+    &[("blend_mm", "0.001"), ("decimals", "6")],
     &[("drill_down", "M64 P#"), ("drill_up", "M65 P1\nM65 P2\nM65 P3\nM65 P4")],
     &[("drill_down", "M3 S#00\nG1 Z-5 F200"), ("drill_up", "G0 Z5\nM5")],
     &[("drill_down", "(drill #)\nM64 P#"), ("drill_up", "(drill # up)\nM65 P#")],
