@@ -403,7 +403,7 @@ pub const KEYS: &[Key] = &[
     Key { name: "gcode.wrapped", takes: Takes::Flag, about: "Whether that axis counts from 0 to 360 degrees only; a negative number then means to turn back." },
     Key { name: "gcode.arcs", takes: Takes::Flag, about: "Whether the controller knows arcs (G2, G3) on which that axis turns, too." },
     Key { name: "gcode.feed_mode", takes: Takes::Word(&["G93", "G94"]), about: "What F says: the speed of X and Y (G94), or one over the time of each move (G93), for controllers\nthat would count degrees as mm." },
-    Key { name: "gcode.blend_mm", takes: Takes::NumberOr(from(0.001, 10.0), "off"), about: "How far the controller may leave the path to keep its speed (G64 P; P0 would be any distance), beside\npath.tolerance_mm; \"off\" = no G64 is written: the controller does as it was set." },
+    Key { name: "gcode.blend_mm", takes: Takes::NumberOr(from(0.001, 10.0), "off"), about: "How far the controller may leave the path to keep its speed (G64 P), beside path.tolerance_mm;\n\"off\" = no G64 is written: the controller does as it was set." },
     Key { name: "gcode.decimals", takes: Takes::Whole(&[3, 4, 5, 6]), about: "Decimals of positions." },
     Key { name: "gcode.line_numbers", takes: Takes::Flag, about: "Whether lines are numbered (N)." },
     Key { name: "gcode.heading_tolerance_deg", takes: Takes::Number(from(0.001, 10.0)), about: "How far the blade may be turned from its law where the axis turns evenly along a piece." },
