@@ -13,7 +13,7 @@ struct Order {
 
 /// A line as it is told from others: its words in any order, or its text where it has none.
 #[derive(Debug, Clone, PartialEq)]
-enum Line {
+pub(super) enum Line {
     Words(Vec<(u8, f64)>),
     Comment(String),
 }
@@ -56,7 +56,8 @@ fn orders(text: Lines) -> Vec<Order> {
     orders.into_iter().filter(is_told).map(|(drill, lines)| Order { key: text.key, drill, lines }).collect()
 }
 
-fn line(text: &str) -> Line {
+/// A line as it is told from others.
+pub(super) fn line(text: &str) -> Line {
     let mut words: Vec<_> =
         words(text).unwrap_or_default().into_iter().map(|word| (word.letter, word.number)).collect();
     words.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));

@@ -1,12 +1,13 @@
 //! Lines of G-code that a profile gives: what they may say, so that every interpreter takes the program around them.
 //!
 //! Each line is words of the plain language RS274/NGC ([`words`]) whose codes stand in a list ([`codes`]); what is down
-//! and what is up again must be told apart ([`alike`]). An interpreter then refuses no line of a program, whichever the
-//! table, and nothing in a table changes what the lines around it mean. One thing a profile cannot know: the tool that
-//! T chooses must stand in the controller's own tool table.
+//! and what is up again must be told apart ([`alike`]), and none but its own lines puts the knife down ([`unasked`]). An
+//! interpreter then refuses no line of a program, whichever the table, and nothing in a table changes what the lines around
+//! it mean. One thing a profile cannot know: the tool that T chooses must stand in the controller's own tool table.
 
 mod alike;
 mod codes;
+mod unasked;
 mod words;
 
 use self::codes::{Does, does};
@@ -92,6 +93,8 @@ pub(super) fn faults(profile: &MachineProfile) -> Vec<Fault> {
     let broken: Vec<&str> = faults.iter().flat_map(|fault| fault.keys.clone()).collect();
     let sound: Vec<Lines> = texts.into_iter().filter(|text| !broken.contains(&text.key)).collect();
     faults.extend(alike::faults(&sound));
+    let told: Vec<&str> = faults.iter().flat_map(|fault| fault.keys.clone()).collect();
+    faults.extend(unasked::faults(&sound).into_iter().filter(|fault| !told.contains(&fault.keys[0])));
     faults
 }
 
