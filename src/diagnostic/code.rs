@@ -180,6 +180,10 @@ mod table {
     pub static MARKER_OVERLAPPING: Code = warning("marker/overlapping-pieces", "The outlines of two pieces overlap: each is cut into the other. Pieces that only touch are no such case.");
     /// A hole in no part.
     pub static MARKER_DRILL_OUTSIDE: Code = warning("marker/drill-outside", "A hole is drilled where no part is: in the waste or in a cut-out.");
+    /// Outlines that cannot be told from cut-outs.
+    pub static MARKER_TOO_MANY: Code = error("marker/too-many-outlines", "So many outlines lie in one another that the search for which lies in which was ended: parts would be cut before their cut-outs.");
+    /// A search that was not brought to its end.
+    pub static MARKER_SEARCH_ENDED: Code = warning("marker/search-ended", "So many lines lie near one another that a search was ended; the message says for what.");
     /// Numbers that start again.
     pub static MARKER_NUMBER_TWICE: Code = warning("marker/piece-number-twice", "The number of a piece comes again: two jobs may stand in one file, and both are cut.");
 
@@ -309,6 +313,8 @@ pub static ALL: &[&Code] = &[
     &MARKER_SELF_CROSSING,
     &MARKER_OVERLAPPING,
     &MARKER_DRILL_OUTSIDE,
+    &MARKER_TOO_MANY,
+    &MARKER_SEARCH_ENDED,
     &MARKER_NUMBER_TWICE,
     &SELECT_UNKNOWN_PIECE,
     &SELECT_NOTHING_LEFT,

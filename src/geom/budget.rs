@@ -1,7 +1,7 @@
 //! Bounds on searches that a drawing made to be slow would keep busy for ever.
 
 /// Comparisons of boxes, and visits of vertices, that one search over one marker may cost: some hundred times what the
-/// largest real markers need, and about a second. What is left then stays unsearched.
+/// largest real markers need, and about a second. What is left then stays unsearched, and the marker says so.
 const MOST_WORK: usize = 400_000_000;
 
 /// How much more a search may do.
@@ -23,6 +23,11 @@ impl Budget {
     /// Takes some, in comparisons of boxes; `false` when there is no more.
     pub fn spend(&mut self, amount: usize) -> bool {
         self.0 = self.0.saturating_sub(amount);
-        self.0 > 0
+        !self.is_spent()
+    }
+
+    /// Whether there is no more: what was searched for was not looked for to the end.
+    pub fn is_spent(&self) -> bool {
+        self.0 == 0
     }
 }

@@ -4,6 +4,7 @@
 //! never knows what the geometry is for.
 
 pub mod angle;
+pub mod boxes;
 pub mod budget;
 pub mod fade;
 pub mod moments;
@@ -13,6 +14,7 @@ pub mod nest;
 pub mod polyline;
 pub mod region;
 pub mod ring;
+pub mod slots;
 pub mod spline;
 
 pub use angle::{Heading, Rotation};

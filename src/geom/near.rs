@@ -33,6 +33,11 @@ impl Near {
         self.slack
     }
 
+    /// Whether the search was ended before its time.
+    pub fn is_cut_short(&self) -> bool {
+        self.budget.is_spent()
+    }
+
     /// Calls `found` with the place of each of the [`sorted`] points that lies on the segment between two ends.
     pub fn each(&mut self, points: &[(Point, usize)], [a, b]: [Point; 2], mut found: impl FnMut(usize)) {
         let (least, greatest) = (a.x.min(b.x) - self.slack, a.x.max(b.x) + self.slack);

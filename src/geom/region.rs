@@ -6,13 +6,12 @@ use std::ops::RangeInclusive;
 
 use rayon::prelude::*;
 
+use super::boxes::Boxes;
+use super::slots::Slots;
 use super::{Extent, Point, Vector, cross, polyline};
 
 /// Edges that a band of a region holds on average, at the least.
 const EDGES_A_BAND: usize = 4;
-/// Regions that a cell of the lattice of boxes holds on average, at the least; and the most cells along a side.
-const REGIONS_A_BOX: usize = 2;
-const BOXES_MAX: usize = 1024;
 /// Places nearer than this are the same, mm: rounding of coordinates of some metres.
 const SAME_EPSILON: f64 = 1e-9;
 /// Where between two crossings it is seen whether a way lies well inside.
@@ -23,8 +22,8 @@ const PROBES: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 pub struct Regions<'a> {
     /// Each owner's region, in order.
     owners: Vec<Region<'a>>,
-    /// Regions by the cells that their boxes meet.
-    boxes: Lattice,
+    /// Their boxes.
+    boxes: Boxes,
 }
 
 /// A straight way.
@@ -61,16 +60,6 @@ struct Edge {
     to: Point,
 }
 
-/// Cells of one size side by side, each with the regions that it holds, one cell after the other.
-#[derive(Debug, Clone, PartialEq, Default)]
-struct Lattice {
-    origin: Point,
-    size: [f64; 2],
-    count: [usize; 2],
-    starts: Vec<u32>,
-    items: Vec<u32>,
-}
-
 /// The region of one owner.
 #[derive(Debug, Clone, PartialEq)]
 struct Region<'a> {
@@ -86,75 +75,9 @@ struct Region<'a> {
 struct Bands {
     bottom: f64,
     height: f64,
-    /// Where each band begins among the items, and where the last one ends.
-    starts: Vec<u32>,
-    /// Edges by the place of their first point, one band after the other.
-    items: Vec<u32>,
-}
-
-/// Sorts items into slots by counting, first how many, then where: where each slot begins, and the items slot by slot.
-/// `each` calls out the slot and the item of all.
-fn sorted(slots: usize, each: impl Fn(&mut dyn FnMut(usize, u32))) -> (Vec<u32>, Vec<u32>) {
-    // A slot's count stands two places on, so that what is counted up one place on is where it begins, then where it ends.
-    let mut starts = vec![0_u32; slots + 2];
-    each(&mut |slot, _| starts[slot + 2] += 1);
-    for i in 2..starts.len() {
-        starts[i] += starts[i - 1];
-    }
-    let mut items = vec![0; starts[slots + 1] as usize];
-    each(&mut |slot, item| {
-        let next = &mut starts[slot + 1];
-        items[*next as usize] = item;
-        *next += 1;
-    });
-    starts.truncate(slots + 1);
-    (starts, items)
-}
-
-impl Lattice {
-    /// Puts each region into the cells that its box meets.
-    fn new(regions: &[Region], extent: Extent) -> Self {
-        let (width, height) = extent.size();
-        let wanted = (regions.len() / REGIONS_A_BOX).max(1) as f64;
-        // As many cells as that, about as high as wide.
-        let side = (width * height / wanted).sqrt().max(f64::MIN_POSITIVE);
-        let count = [width, height].map(|length| ((length / side) as usize).clamp(1, BOXES_MAX));
-        let size = [width / count[0] as f64, height / count[1] as f64].map(|size| size.max(f64::MIN_POSITIVE));
-        let mut lattice = Self { origin: extent.min, size, count, starts: Vec::new(), items: Vec::new() };
-        (lattice.starts, lattice.items) = sorted(count[0] * count[1], |see| {
-            for (region, i) in regions.iter().zip(0..) {
-                lattice.met(region.extent).for_each(|cell| see(cell, i));
-            }
-        });
-        lattice
-    }
-
-    /// The cells that a box meets.
-    fn met(&self, extent: Extent) -> impl Iterator<Item = usize> + '_ {
-        let rows = self.place(extent.min.y, 1)..=self.place(extent.max.y, 1);
-        let columns = self.place(extent.min.x, 0)..=self.place(extent.max.x, 0);
-        rows.flat_map(move |row| columns.clone().map(move |column| row * self.count[0] + column))
-    }
-
-    fn place(&self, value: f64, axis: usize) -> usize {
-        let origin = [self.origin.x, self.origin.y][axis];
-        (((value - origin) / self.size[axis]).max(0.0) as usize).min(self.count[axis] - 1)
-    }
-
-    /// The regions of all cells that a box meets, each once, in order.
-    fn near(&self, extent: Extent) -> Cow<'_, [u32]> {
-        if self.items.is_empty() {
-            return Cow::Borrowed(&[]);
-        }
-        let items = |cell: usize| &self.items[self.starts[cell] as usize..self.starts[cell + 1] as usize];
-        let mut cells = self.met(extent);
-        let first = cells.next().map_or(&[][..], items);
-        let Some(second) = cells.next() else { return Cow::Borrowed(first) };
-        let mut near: Vec<u32> = first.iter().chain(items(second)).chain(cells.flat_map(items)).copied().collect();
-        near.sort_unstable();
-        near.dedup();
-        Cow::Owned(near)
-    }
+    count: usize,
+    /// The edges of each band by the place of their first point.
+    edges: Slots,
 }
 
 impl Bands {
@@ -163,8 +86,8 @@ impl Bands {
         let edges = points.len() - ends.len();
         let count = (edges / EDGES_A_BAND).max(1);
         let height = (extent.size().1 / count as f64).max(f64::MIN_POSITIVE);
-        let mut bands = Self { bottom: extent.min.y, height, starts: vec![0; count + 1], items: Vec::new() };
-        (bands.starts, bands.items) = sorted(count, |see| {
+        let mut bands = Self { bottom: extent.min.y, height, count, edges: Slots::default() };
+        bands.edges = Slots::new(count, |see| {
             let mut first = 0;
             for &end in ends {
                 for (ends, i) in points[first..=end].windows(2).zip(first as u32..) {
@@ -178,15 +101,14 @@ impl Bands {
 
     /// The bands between two heights.
     fn met(&self, low: f64, high: f64) -> RangeInclusive<usize> {
-        let last = self.starts.len() - 2;
-        let [low, high] = [low, high].map(|y| (((y - self.bottom) / self.height).max(0.0) as usize).min(last));
+        let [low, high] =
+            [low, high].map(|y| (((y - self.bottom) / self.height).max(0.0) as usize).min(self.count - 1));
         low..=high
     }
 
     /// The edges of the bands between two heights; some more than once.
     fn near(&self, low: f64, high: f64) -> &[u32] {
-        let bands = self.met(low, high);
-        &self.items[self.starts[*bands.start()] as usize..self.starts[bands.end() + 1] as usize]
+        self.edges.of_all(self.met(low, high))
     }
 }
 
@@ -197,20 +119,12 @@ impl<'a> Regions<'a> {
         let owners: Vec<u32> = owners.into_iter().collect();
         let owners: Vec<Region<'a>> =
             owners.into_par_iter().filter_map(|owner| Region::new(owner, rings(owner))).collect();
-        let mut extent = Extent::EMPTY;
-        for region in &owners {
-            extent.join(&region.extent);
-        }
-        if owners.is_empty() {
-            return Self::default();
-        }
-        Self { boxes: Lattice::new(&owners, extent), owners }
+        Self { boxes: Boxes::new(owners.iter().map(|region| region.extent).collect()), owners }
     }
 
     /// The owners in whose region a point lies, in order. A point on an edge may count either way.
     pub fn owners_at(&self, point: Point) -> Vec<u32> {
-        let near = self.boxes.near(Extent { min: point, max: point });
-        let near = near.iter().map(|&i| &self.owners[i as usize]);
+        let near = self.boxes.at(point).map(|i| &self.owners[i]);
         let mut owners: Vec<u32> = near.filter(|region| region.holds(point)).map(|region| region.owner).collect();
         owners.sort_unstable();
         owners
@@ -224,11 +138,9 @@ impl<'a> Regions<'a> {
         let to = around(ray.from + ray.along * ray.reach, SAME_EPSILON);
         extent.add(to.min);
         extent.add(to.max);
-        // What a way may meet; it is short, and nearly always in one cell.
-        let near = self.boxes.near(extent);
-        let near = || near.iter().map(|&i| &self.owners[i as usize]).filter(|region| region.extent.meets(&extent));
+        let near: Vec<&Region> = self.boxes.near(extent).map(|i| &self.owners[i]).collect();
         let mut cuts = Vec::new();
-        for region in near() {
+        for region in &near {
             region.near(extent).for_each(|edge| edge.crossings(ray, &mut cuts));
         }
         cuts.sort_by(f64::total_cmp);
@@ -240,7 +152,7 @@ impl<'a> Regions<'a> {
                 continue;
             }
             let middle = at(f64::midpoint(from, b));
-            for region in near().filter(|region| region.holds(middle)) {
+            for region in near.iter().filter(|region| region.holds(middle)) {
                 let so_far = if region.owner == owner { room.own } else { room.other };
                 if from >= so_far || !PROBES.iter().any(|share| region.is_deep(at(from + (b - from) * share), slack)) {
                     continue;

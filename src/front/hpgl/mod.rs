@@ -8,12 +8,11 @@
 //! [`reader`] makes statements of bytes with [`syntax`], [`escape`], [`label`] and [`encoded`]; [`instruction`] is the table
 //! of what they mean; [`mod@lower`] follows them with the [`plotter`], its [`scale`] and [`curve`], into a [`drawing`].
 //! [`classify`] then decides what is cut: [`chain`] joins strokes as [`joint`] pairs their ends, [`shape`] measures them,
-//! [`nest`], [`notch`], [`spike`] and [`text`] recognise, [`beside`] finds what may be missed, [`piece`] makes the marker with [`boxes`] to find its parts and
-//! [`vee`] to lead outlines into V notches. [`mod@unit`] doubts the size; [`tally`] counts what was not obeyed; [`nothing`]
-//! says why nothing is cut.
+//! [`nest`], [`notch`], [`spike`] and [`text`] recognise, [`beside`] finds what may be missed, [`piece`] makes the marker
+//! with [`vee`] to lead outlines into V notches. [`mod@unit`] doubts the size; [`tally`] counts what was not obeyed;
+//! [`nothing`] says why nothing is cut.
 
 mod beside;
-mod boxes;
 mod chain;
 mod classify;
 mod curve;

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use super::boxes::Boxes;
 use super::classify::{Sorted, depth};
 use super::drawing::{Vertex, led_to, moments};
 use super::notch::Found;
@@ -10,6 +9,7 @@ use super::shape::{CLASSES, Class, LONGEST_NOTCH, Shape};
 use super::spike::{self, Pruned, prune};
 use super::vee::{Material, Outline};
 use crate::diagnostic::{Diagnostic, code};
+use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, Vector, cross, ring};
 use crate::ir::Marker;
 use crate::ir::list::{FULL_SPEED, Joint, Segment, SegmentList};
@@ -39,7 +39,7 @@ pub(super) fn marker(sorted: &Sorted, labels: Vec<Label>, job: &Job) -> Made {
         list: SegmentList::default(),
         aside: Aside { points: moved.points, moments: moved.moments, bounds: moved.bounds },
         parts: Vec::new(),
-        boxes: Boxes::new(&[]),
+        boxes: Boxes::default(),
         pieces: Vec::new(),
         vees: BTreeMap::new(),
         spikes: 0,
@@ -122,8 +122,7 @@ impl Making<'_> {
             .collect();
         keys.sort_unstable();
         self.parts = keys.into_iter().map(|(_, _, k)| k).collect();
-        let extents: Vec<Extent> = self.parts.iter().map(|&k| *self.shape(k).extent()).collect();
-        self.boxes = Boxes::new(&extents);
+        self.boxes = Boxes::new(self.parts.iter().map(|&k| *self.shape(k).extent()).collect());
         self.pieces =
             self.parts.iter().map(|&k| Piece { span: self.span(self.shape(k)), ..Piece::default() }).collect();
     }
@@ -307,14 +306,14 @@ impl Making<'_> {
     /// The piece of the least part that holds a place; of equal ones the first.
     fn part_around(&mut self, at: Point) -> Option<usize> {
         let mut best: Option<(f64, usize)> = None;
-        for piece in self.boxes.near(at) {
+        self.work = self.work.saturating_sub(self.boxes.looked_at(at));
+        for piece in self.boxes.at(at) {
             if self.work == 0 {
                 return None;
             }
-            self.work -= 1;
             let shape = self.shape(self.parts[piece]);
             let rank = (shape.area.abs(), piece);
-            if !shape.extent().holds(at) || best.is_some_and(|best| rank >= best) {
+            if best.is_some_and(|best| rank >= best) {
                 continue;
             }
             let vertices = shape.vertices(&self.sorted.drawing);

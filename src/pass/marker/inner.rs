@@ -6,8 +6,9 @@
 
 use rayon::prelude::*;
 
-use super::MarkerPass;
+use super::{MarkerPass, too_many_outlines};
 use crate::diagnostic::Diagnostics;
+use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, ring};
 use crate::ir::list::SegmentList;
@@ -17,10 +18,20 @@ use crate::machine::Job;
 pub(super) const PASS: MarkerPass =
     MarkerPass { name: "inner", about: "puts a cut-out that is a piece of its own before its part", run };
 
-fn run(marker: &mut Marker, _: &Job, _: &mut Diagnostics) {
+/// Parts lie in one another less deep than this.
+const DEEP: usize = 16;
+/// What a piece costs for each other that it lies in beyond that, beside the comparison of two boxes: whatever is asked of a
+/// place in it looks at them all.
+const HELD: usize = 200;
+
+fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     let Marker { list, pieces, .. } = marker;
-    let spaces: Vec<Extent> = pieces.par_iter().map(|piece| space(list, piece)).collect();
-    let mut moved = cut_outs(list, pieces, &spaces);
+    let spaces = Boxes::new(pieces.par_iter().map(|piece| space(list, piece)).collect());
+    let mut work = Budget::of_a_marker();
+    let mut moved = cut_outs(list, pieces, &spaces, &mut work);
+    if work.is_spent() {
+        diagnostics.push(too_many_outlines());
+    }
     moved.retain(|&(inner, part)| part < inner && pieces[inner].events.is_empty());
     if !moved.is_empty() {
         let mut places: Vec<(usize, usize)> = (0..pieces.len()).map(|i| (i, pieces.len())).collect();
@@ -35,34 +46,25 @@ fn run(marker: &mut Marker, _: &Job, _: &mut Diagnostics) {
 }
 
 /// The pieces that are cut-outs of others, each with its part.
-fn cut_outs(list: &SegmentList, pieces: &[Piece], spaces: &[Extent]) -> Vec<(usize, usize)> {
-    // Room for all: a vector that grows takes new memory each time, and that is slow.
-    let mut by_start: Vec<(f64, usize)> = Vec::with_capacity(spaces.len());
-    by_start.extend(spaces.iter().map(|space| space.min.x).zip(0..).filter(|&(_, i)| !spaces[i].is_empty()));
-    by_start.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    let mut work = Budget::of_a_marker();
-    // Those that begin no farther than here along X and have not ended.
-    let mut open: Vec<usize> = Vec::new();
+fn cut_outs(list: &SegmentList, pieces: &[Piece], spaces: &Boxes, work: &mut Budget) -> Vec<(usize, usize)> {
     let mut found = Vec::new();
-    for (k, &(_, i)) in by_start.iter().enumerate() {
-        let (extent, Some(point)) = (&spaces[i], point_on(list, &pieces[i])) else { continue };
-        open.retain(|&other| spaces[other].max.x >= extent.min.x);
-        // Others may begin at the very same place.
-        let level = by_start[k + 1..].iter().take_while(|(start, _)| *start <= extent.min.x).map(|&(_, other)| other);
-        let wider = open.iter().copied().chain(level).filter(|&other| spaces[other].covers(extent));
-        if !work.spend(open.len() + 1) {
+    for (i, (piece, space)) in pieces.iter().zip(spaces.all()).enumerate() {
+        let Some(point) = point_on(list, piece) else { continue };
+        if !work.spend(spaces.looked_at(space.min)) {
             break;
         }
-        let holders: Vec<usize> = wider.filter(|&other| holds(list, &pieces[other], point, &mut work)).collect();
+        // What covers a box holds its corner.
+        let wider = spaces.at(space.min).filter(|&other| other != i && spaces.all()[other].covers(space));
+        let holders: Vec<usize> = wider.filter(|&other| holds(list, &pieces[other], point, work)).collect();
+        work.spend(HELD * holders.len().saturating_sub(DEEP));
         if holders.len() % 2 == 1 {
             let area = |&i: &usize| {
-                let (width, height) = spaces[i].size();
+                let (width, height) = spaces.all()[i].size();
                 width * height
             };
             let smallest = holders.into_iter().min_by(|a, b| area(a).total_cmp(&area(b)).then(a.cmp(b)));
             found.extend(smallest.map(|part| (i, part)));
         }
-        open.push(i);
     }
     found
 }

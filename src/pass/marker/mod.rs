@@ -1,6 +1,6 @@
 //! Passes over the marker.
 
-use crate::diagnostic::Diagnostics;
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::budget::Budget;
 use crate::ir::Marker;
 use crate::machine::Job;
@@ -29,6 +29,8 @@ pub struct MarkerPass {
 pub const MARKER_PASSES: &[MarkerPass] =
     &[weld::PASS, slit::PASS, inspect::PASS, order::PASS, inner::PASS, notch::PASS, sanity::PASS, select::PASS];
 
+/// What helps against too many lines.
+const SPLIT: &str = "split the marker, or leave fills and hatchings out";
 /// Parts in which the pieces of a marker are looked at side by side: more than any machine that compiles has cores.
 const PARTS: usize = 16;
 
@@ -44,6 +46,18 @@ struct Parts {
 fn in_parts(pieces: usize) -> Parts {
     let size = pieces.div_ceil(PARTS).max(1);
     Parts { size, count: pieces.div_ceil(size) }
+}
+
+/// The search for what lies in what was ended: no program may come of it.
+fn too_many_outlines() -> Diagnostic {
+    let message = "there are too many outlines in one another to tell which lies in which: parts would be cut before their cut-outs";
+    Diagnostic::new(&code::MARKER_TOO_MANY, message).hint(SPLIT)
+}
+
+/// The search for something was ended before its time; `left` says what of it may be left.
+fn search_ended(left: &str) -> Diagnostic {
+    let message = format!("there are too many lines near one another to look at each pair: {left}");
+    Diagnostic::new(&code::MARKER_SEARCH_ENDED, message).hint(SPLIT)
 }
 
 impl Parts {

@@ -4,9 +4,12 @@
 //! otherwise contours keep the order of the file. Holes and slits come before all contours anyway.
 
 use std::borrow::Cow;
+use std::cmp::Reverse;
 
-use super::MarkerPass;
+use super::{MarkerPass, too_many_outlines};
 use crate::diagnostic::Diagnostics;
+use crate::geom::boxes::Boxes;
+use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point, ring};
 use crate::ir::list::SegmentList;
 use crate::ir::marker::{Contour, Marker};
@@ -15,18 +18,17 @@ use crate::machine::Job;
 pub(super) const PASS: MarkerPass =
     MarkerPass { name: "order", about: "puts what lies inside a contour before it, the outline last", run };
 
-/// Contours and vertices that are looked at to tell what lies inside what, in one marker: far more than real ones need. In a
-/// drawing made to be slow, the pieces that are left keep the order of the file.
-const MOST_WORK: usize = 100_000_000;
-
-fn run(marker: &mut Marker, _: &Job, _: &mut Diagnostics) {
-    let mut work = MOST_WORK;
+fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
+    let mut work = Budget::of_a_marker();
     let Marker { list, pieces, .. } = marker;
     for piece in pieces.iter_mut().filter(|piece| piece.contours.len() > 1) {
         let shapes: Vec<Shape> = piece.contours.iter().map(|contour| Shape::of(list, contour)).collect();
-        let Some(places) = (0..shapes.len()).map(|i| place(i, &shapes, &mut work)).collect::<Option<Vec<_>>>() else {
+        let boxes = Boxes::new(shapes.iter().map(|shape| shape.extent).collect());
+        let places: Vec<_> = (0..shapes.len()).map(|i| place(i, &shapes, &boxes, &mut work)).collect();
+        if work.is_spent() {
+            diagnostics.push(too_many_outlines().at(piece.span));
             return;
-        };
+        }
         let mut order: Vec<usize> = (0..shapes.len()).collect();
         order.sort_by_key(|&i| places[i]); // stable: the order of the file among equals
         piece.contours = order.into_iter().map(|i| piece.contours[i]).collect();
@@ -55,14 +57,13 @@ impl<'a> Shape<'a> {
 }
 
 /// By what a contour is sorted: the first contour among those that hold it and are held by none, then how many hold it, most
-/// first. `None` when that would take too long.
-fn place(i: usize, shapes: &[Shape], work: &mut usize) -> Option<(usize, std::cmp::Reverse<usize>)> {
+/// first. Without work left it is anything.
+fn place(i: usize, shapes: &[Shape], boxes: &Boxes, work: &mut Budget) -> (usize, Reverse<usize>) {
     let point = shapes[i].place();
     let (mut depth, mut outermost) = (0, (i, shapes[i].extent));
-    for (k, other) in shapes.iter().enumerate() {
-        let is_near = k != i && other.closed && other.extent.holds(point);
-        *work = work.checked_sub(if is_near { other.points.len() } else { 1 })?;
-        if is_near && ring::contains(&other.points, point) {
+    work.spend(boxes.looked_at(point));
+    for (k, other) in boxes.at(point).map(|k| (k, &shapes[k])).filter(|(k, other)| *k != i && other.closed) {
+        if work.spend(other.points.len()) && ring::contains(&other.points, point) {
             depth += 1;
             // Of contours that hold one place, the wider one holds the other.
             let (wide, high) = (other.extent.size(), outermost.1.size());
@@ -71,5 +72,5 @@ fn place(i: usize, shapes: &[Shape], work: &mut usize) -> Option<(usize, std::cm
             }
         }
     }
-    Some((outermost.0, std::cmp::Reverse(depth)))
+    (outermost.0, Reverse(depth))
 }

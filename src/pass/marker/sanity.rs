@@ -15,8 +15,9 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::{MarkerPass, in_parts};
+use super::{MarkerPass, in_parts, search_ended};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::monotone::{Chain, Crossing, crossing};
 use crate::geom::{Extent, Point, cross, monotone, polyline, ring};
@@ -32,8 +33,8 @@ pub(super) const PASS: MarkerPass =
 const MOST_STEPS: usize = 64;
 /// Places of an outline that are tried for lying in another.
 const PROBES: usize = 16;
-/// Pairs of near pieces that room is made for, for each piece: what a vector grows by is new memory each time.
-const PAIRS_A_PIECE: usize = 4;
+/// What it takes to say that two pieces overlap, beside the comparison of two boxes.
+const SAYING: usize = 500;
 /// Decimals of a place, mm.
 const PLACE_DECIMALS: u32 = 1;
 
@@ -46,15 +47,17 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
         .enumerate()
         .map(|(k, pieces)| Alone::of(marker, k * parts.size..k * parts.size + pieces.len(), parts.budget()))
         .collect();
-    let mut search = Search::new(marker);
+    let mut boxes = Vec::with_capacity(marker.pieces.len());
     let mut loose: Vec<(usize, Drill)> = Vec::new();
-    let mut any_closed = false;
+    let (mut any_closed, mut is_cut_short) = (false, false);
     for part in alone {
         part.findings.into_iter().for_each(|finding| diagnostics.push(finding));
         loose.extend(part.loose);
         any_closed |= part.any_closed;
-        search.boxes.extend(part.boxes);
+        is_cut_short |= part.is_cut_short;
+        boxes.extend(part.boxes);
     }
+    let mut search = Search::new(marker, Boxes::new(boxes));
     let mut work = Budget::of_a_marker();
     search.overlaps(&mut work, diagnostics);
     // Where nothing is closed there are no parts to tell.
@@ -62,6 +65,9 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
         search.make_room();
         loose.retain(|(_, drill)| !search.is_in_a_part(drill, &mut work));
         search.report_drills(&loose, diagnostics);
+    }
+    if is_cut_short || work.is_spent() {
+        diagnostics.push(search_ended("more outlines may cross, and more holes lie outside of them"));
     }
 }
 
@@ -72,6 +78,7 @@ struct Alone {
     /// Holes outside their own piece, and its place in the marker.
     loose: Vec<(usize, Drill)>,
     any_closed: bool,
+    is_cut_short: bool,
     boxes: Vec<Extent>,
 }
 
@@ -91,6 +98,7 @@ impl Alone {
             alone.any_closed |= part.closed().next().is_some();
             alone.boxes.push(part.extent);
         }
+        alone.is_cut_short = work.is_spent();
         alone
     }
 }
@@ -270,20 +278,20 @@ fn span(marker: &Marker, (piece, part): (usize, &Part), point: usize) -> Span {
 struct Search<'a> {
     marker: &'a Marker,
     /// The boxes of the pieces.
-    boxes: Vec<Extent>,
+    boxes: Boxes,
     /// The outlines of pieces, as far as they are looked at beside others: most pieces of a marker lie apart. Empty as long as
     /// none is.
     parts: Vec<OnceCell<Box<Part<'a>>>>,
 }
 
 impl<'a> Search<'a> {
-    fn new(marker: &'a Marker) -> Self {
-        Self { marker, boxes: Vec::with_capacity(marker.pieces.len()), parts: Vec::new() }
+    fn new(marker: &'a Marker, boxes: Boxes) -> Self {
+        Self { marker, boxes, parts: Vec::new() }
     }
 
     /// Makes room for outlines that are to be looked at.
     fn make_room(&mut self) {
-        self.parts.resize_with(self.boxes.len(), OnceCell::new);
+        self.parts.resize_with(self.boxes.all().len(), OnceCell::new);
     }
 
     fn part(&self, piece: usize) -> &Part<'a> {
@@ -291,31 +299,28 @@ impl<'a> Search<'a> {
     }
 
     fn overlaps(&mut self, work: &mut Budget, diagnostics: &mut Diagnostics) {
-        let mut near: Vec<(u32, u32)> = Vec::with_capacity(self.boxes.len() * PAIRS_A_PIECE);
-        pairs(&self.boxes, work, |i, k, _| {
-            near.push((i.min(k) as u32, i.max(k) as u32));
-            true
-        });
-        if near.is_empty() {
-            return;
-        }
-        self.make_room();
-        near.sort_unstable();
-        for of_one in near.chunk_by(|one, other| one.0 == other.0) {
-            for (i, k) in of_one.iter().map(|&(i, k)| (i as usize, k as usize)) {
-                if let Some((place, span)) = self.overlap(i, k, work) {
-                    let message = format!(
-                        "the outlines of {} and {} overlap at {}",
-                        name(self.marker, i),
-                        name(self.marker, k),
-                        at(place)
-                    );
-                    let finding = Diagnostic::new(&code::MARKER_OVERLAPPING, message).at(span);
-                    diagnostics.push(finding.hint("move one of the two in the marker"));
-                }
+        for i in 0..self.boxes.all().len() {
+            let extent = self.boxes.all()[i];
+            if !work.spend(self.boxes.looked_at_near(&extent)) {
+                return;
+            }
+            let overlaps = |&k: &usize| k > i && extent.overlaps(&self.boxes.all()[k]);
+            let mut later: Vec<usize> = self.boxes.near(extent).filter(overlaps).collect();
+            if later.is_empty() {
+                continue;
+            }
+            later.sort_unstable();
+            self.make_room();
+            for k in later {
+                let Some((place, span)) = self.overlap(i, k, work) else { continue };
+                let (one, other) = (name(self.marker, i), name(self.marker, k));
+                let message = format!("the outlines of {one} and {other} overlap at {}", at(place));
+                let finding = Diagnostic::new(&code::MARKER_OVERLAPPING, message).at(span);
+                diagnostics.push(finding.hint("move one of the two in the marker"));
+                work.spend(SAYING);
             }
             // Behind its pairs as the earlier one it has no others: those as the later one came before.
-            self.parts[of_one[0].0 as usize].take();
+            self.parts[i].take();
         }
     }
 
@@ -375,10 +380,8 @@ impl<'a> Search<'a> {
 
     /// Whether a hole lies in any part.
     fn is_in_a_part(&self, drill: &Drill, work: &mut Budget) -> bool {
-        (0..self.boxes.len()).any(|piece| {
-            let near = self.boxes[piece].holds(drill.at);
-            if near { self.part(piece).may_hold(drill, work) } else { !work.spend(1) }
-        })
+        !work.spend(self.boxes.looked_at(drill.at))
+            || self.boxes.at(drill.at).any(|piece| self.part(piece).may_hold(drill, work))
     }
 
     /// Holes outside all parts, with their pieces.

@@ -13,7 +13,7 @@
 
 use std::collections::BTreeSet;
 
-use super::MarkerPass;
+use super::{MarkerPass, search_ended};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::near::{Near, sorted};
 use crate::geom::{Point, bits};
@@ -42,6 +42,9 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
         let mut taken = shorts.iter().filter(|short| short.taken).map(|short| short.contour).peekable();
         let mut place = 0..;
         piece.contours.retain(|_| taken.next_if_eq(&place.next().expect("it never ends")).is_none());
+    }
+    if search.near.is_cut_short() {
+        search.diagnostics.push(search_ended("more of the short ones may be notches, and are cut as lines"));
     }
 }
 
