@@ -6,7 +6,7 @@ use super::{Extent, Point};
 /// Boxes for each cell, about.
 const BOXES_A_CELL: usize = 2;
 /// Cells that a box meets on average, at the most: large ones that lie over each other would fill every cell.
-const CELLS_A_BOX: usize = 16;
+const CELLS_A_BOX: f64 = 32.0;
 
 /// Some boxes, each known by its place among them.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,11 +39,9 @@ impl Boxes {
         let cells = (number / BOXES_A_CELL).max(1) as f64;
         // As many cells as that, about as high as wide; what is long and narrow has as many as it is long.
         let side = (width * height / cells).sqrt().max(width.max(height) / cells).max(f64::MIN_POSITIVE);
-        let most = number.saturating_mul(CELLS_A_BOX).min(u32::MAX as usize);
+        let most = (number as f64 * CELLS_A_BOX).min(u32::MAX.into());
         let mut boxes = Self::bare(extents, &all, side);
-        while boxes.count != [1, 1]
-            && boxes.extents.iter().map(|extent| boxes.met(extent).count()).sum::<usize>() > most
-        {
+        while boxes.count != [1, 1] && boxes.filled() > most {
             let side = 2.0 * boxes.cell[0].max(boxes.cell[1]);
             boxes = Self::bare(boxes.extents, &all, side);
         }
@@ -63,6 +61,13 @@ impl Boxes {
         Self { extents, origin: all.min, cell, count, cells: Slots::default() }
     }
 
+    /// In how many cells the boxes are, at the most.
+    fn filled(&self) -> f64 {
+        let along = |length: f64, axis: usize| length / self.cell[axis] + 2.0;
+        let met = |(width, height): (f64, f64)| along(width, 0) * along(height, 1);
+        self.extents.iter().map(|extent| met(extent.size())).sum()
+    }
+
     /// All boxes, in order.
     pub fn all(&self) -> &[Extent] {
         &self.extents
@@ -74,13 +79,15 @@ impl Boxes {
         there.filter(move |&i| self.extents[i].holds(point))
     }
 
-    /// The boxes that meet a box, each once, in no order.
-    pub fn near(&self, extent: Extent) -> impl Iterator<Item = usize> + '_ {
+    /// The boxes that meet a box, from the `first`th on, each once, in no order.
+    pub fn near(&self, extent: Extent, first: usize) -> impl Iterator<Item = usize> + '_ {
         let those_of = |cell: usize| self.cells.of(cell).iter().map(move |&i| (cell, i as usize));
-        let near = self.met(&extent).flat_map(those_of).filter(move |&(_, i)| self.extents[i].meets(&extent));
+        let those = self.met(&extent).flat_map(those_of);
+        let near = those.filter(move |&(_, i)| i >= first && self.extents[i].meets(&extent));
         // Two boxes may have several cells in common: the one in which what they share begins counts.
-        let first = move |i: usize| self.cell_of(self.extents[i].min.sup(&extent.min));
-        near.filter(move |&(cell, i)| cell == first(i)).map(|(_, i)| i)
+        let is_in_one = self.cell_of(extent.min) == self.cell_of(extent.max);
+        let beginning = move |i: usize| self.cell_of(self.extents[i].min.sup(&extent.min));
+        near.filter(move |&(cell, i)| is_in_one || cell == beginning(i)).map(|(_, i)| i)
     }
 
     /// How many boxes are looked at to find those that hold a point.
@@ -138,9 +145,11 @@ mod tests {
         for _ in 0..1000 {
             let around = extent(&mut random, 30.0);
             assert_eq!(boxes.at(around.min).collect::<Vec<_>>(), those(&|extent| extent.holds(around.min)));
-            let mut near: Vec<usize> = boxes.near(around).collect();
+            let mut near: Vec<usize> = boxes.near(around, 0).collect();
             near.sort_unstable();
             assert_eq!(near, those(&|extent| extent.meets(&around)));
+            near.retain(|&i| i >= 1000);
+            assert_eq!(boxes.near(around, 1000).count(), near.len());
             assert!(boxes.looked_at_near(&around) < 120, "{}", boxes.looked_at_near(&around));
         }
     }
@@ -157,7 +166,7 @@ mod tests {
             let at = extents[4000].min;
             let boxes = Boxes::new(extents);
             let cells = boxes.cells.count();
-            assert!(cells <= 9000 && boxes.cells.of_all(0..=cells - 1).len() <= 9000 * CELLS_A_BOX);
+            assert!(cells <= 9000 && boxes.cells.of_all(0..=cells - 1).len() as f64 <= 9000.0 * CELLS_A_BOX);
             assert!(boxes.at(at).any(|i| i == 4000));
         }
         let dots = Boxes::new(places().map(dot).collect());
@@ -167,8 +176,8 @@ mod tests {
     #[test]
     fn empty_boxes_are_nowhere() {
         for boxes in [Boxes::default(), Boxes::new(vec![Extent::EMPTY; 3])] {
-            assert_eq!((boxes.at(Point::origin()).count(), boxes.near(Extent::EMPTY).count()), (0, 0));
-            assert_eq!(boxes.near(Extent::between(Point::origin(), Point::new(1.0, 1.0))).count(), 0);
+            assert_eq!((boxes.at(Point::origin()).count(), boxes.near(Extent::EMPTY, 0).count()), (0, 0));
+            assert_eq!(boxes.near(Extent::between(Point::origin(), Point::new(1.0, 1.0)), 0).count(), 0);
         }
     }
 }

@@ -138,7 +138,7 @@ impl<'a> Regions<'a> {
         let to = around(ray.from + ray.along * ray.reach, SAME_EPSILON);
         extent.add(to.min);
         extent.add(to.max);
-        let near: Vec<&Region> = self.boxes.near(extent).map(|i| &self.owners[i]).collect();
+        let near: Vec<&Region> = self.boxes.near(extent, 0).map(|i| &self.owners[i]).collect();
         let mut cuts = Vec::new();
         for region in &near {
             region.near(extent).for_each(|edge| edge.crossings(ray, &mut cuts));

@@ -304,8 +304,8 @@ impl<'a> Search<'a> {
             if !work.spend(self.boxes.looked_at_near(&extent)) {
                 return;
             }
-            let overlaps = |&k: &usize| k > i && extent.overlaps(&self.boxes.all()[k]);
-            let mut later: Vec<usize> = self.boxes.near(extent).filter(overlaps).collect();
+            let overlaps = |&k: &usize| extent.overlaps(&self.boxes.all()[k]);
+            let mut later: Vec<usize> = self.boxes.near(extent, i + 1).filter(overlaps).collect();
             if later.is_empty() {
                 continue;
             }
