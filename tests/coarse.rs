@@ -1,4 +1,5 @@
-//! Programs of G-code in few decimals, or of straight lines alone: what a compile makes passes its own verifier.
+//! Programs of G-code in few decimals, of straight lines alone, or truer than the chords of the file: what a compile makes
+//! passes its own verifier.
 
 use std::fmt::Write as _;
 use std::io::Cursor;
@@ -27,13 +28,26 @@ fn staircase() -> Source {
     Source::new("staircase.cut", format!("{text}M15*M0*").into_bytes()).expect("it is small")
 }
 
+fn job(keys: &[&str]) -> Job {
+    let keys: Vec<String> = keys.iter().map(|&key| key.to_owned()).collect();
+    Job { profile: load(None, &keys).expect("a legal profile"), ..Job::default() }
+}
+
 fn jobs() -> Vec<Job> {
-    let job = |profile| Job { profile, ..Job::default() };
-    let with = |set: &str| job(load(None, &[set.to_owned()]).expect("a legal profile"));
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/machines/fluidnc.toml");
     let table = Source::new("fluidnc.toml", std::fs::read(path).expect("readable")).expect("it is small");
-    let fluidnc = job(load(Some(&table), &[]).expect("a legal profile"));
-    vec![with("gcode.decimals=3"), with("gcode.arcs=false"), fluidnc]
+    let fluidnc = Job { profile: load(Some(&table), &[]).expect("a legal profile"), ..Job::default() };
+    vec![job(&["gcode.decimals=3"]), job(&["gcode.arcs=false"]), fluidnc]
+}
+
+/// The files of the project.
+fn files() -> impl Iterator<Item = Source> {
+    let folders =
+        ["markers", "iso", "hpgl"].map(|name| Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(name));
+    let paths = folders.into_iter().flat_map(|folder| std::fs::read_dir(folder).expect("a folder"));
+    paths
+        .map(|file| file.expect("readable").path())
+        .map(|path| Source::new(path.to_string_lossy(), std::fs::read(&path).expect("readable")).expect("small"))
 }
 
 /// Whether a source makes a program; the verifier refuses none.
@@ -49,17 +63,9 @@ fn compiles(source: &Source, job: &Job) -> bool {
 
 #[test]
 fn what_a_verifier_refuses_is_not_made_of_the_files_of_the_project() {
-    let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures");
-    let mut programs = 0;
-    for folder in ["markers", "iso", "hpgl"] {
-        let files = std::fs::read_dir(fixtures.join(folder)).expect("a folder");
-        for path in files.map(|file| file.expect("readable").path()) {
-            let source = Source::new(path.to_string_lossy(), std::fs::read(&path).expect("readable")).expect("small");
-            for job in jobs() {
-                programs += usize::from(compiles(&source, &job));
-            }
-        }
-    }
+    let jobs = jobs();
+    let made = |source: &Source| jobs.iter().filter(|job| compiles(source, job)).count();
+    let programs: usize = files().map(|source| made(&source)).sum();
     assert!(programs >= PROGRAMS_MIN, "{programs} programs");
 }
 
@@ -67,5 +73,13 @@ fn what_a_verifier_refuses_is_not_made_of_the_files_of_the_project() {
 fn a_staircase_of_rounded_points_is_cut_as_the_curve_that_it_was() {
     for job in jobs() {
         assert!(compiles(&staircase(), &job), "{:?}", job.profile.gcode);
+    }
+}
+
+#[test]
+fn what_can_be_cut_can_be_cut_truer_than_the_chords_of_the_file() {
+    let fine = [job(&["path.tolerance_mm=0.02"]), job(&["path.tolerance_mm=0.005"])];
+    for source in files().filter(|source| compiles(source, &Job::default())) {
+        assert!(fine.iter().all(|job| compiles(&source, job)), "{}", source.name());
     }
 }

@@ -117,10 +117,20 @@ struct Node {
     station: f64,
     /// The chord that it lies on.
     chord: usize,
-    /// Whether it lies on the curve that the polyline stands for; else it is a shoulder of a bend.
-    is_aim: bool,
+    kind: Kind,
     /// Whether an arc must end here: it stands at the end of its chord, where the feed changes.
     stops: bool,
+}
+
+/// What a place is on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    /// The curve that the polyline stands for.
+    Aim,
+    /// The shoulder of a bend.
+    Shoulder,
+    /// A shoulder of any other vertex, for when nothing else can be reached: from one to the next a line or an arc fits.
+    Spare,
 }
 
 /// What is asked of a way beside its tube.
@@ -133,6 +143,8 @@ pub(super) struct Ends {
     pub(super) stops: Vec<usize>,
     /// Greatest curvature where a gentler way stays in the tube, per mm: infinite where arcs are told as they are.
     pub(super) curvature: f64,
+    /// Whether every vertex has shoulders, for where no other place can be reached.
+    pub(super) spares: bool,
     /// How far about a place on a shorter chord the way is looked at for its direction, in tolerances; 0 = on the chord alone.
     pub(super) reach: f64,
 }
@@ -140,7 +152,7 @@ pub(super) struct Ends {
 /// The arcs along a tube; otherwise the point at which none stays inside.
 pub(super) fn fit(tube: &Tube, ends: &Ends) -> Result<Vec<Arc>, Point> {
     let nodes = nodes(tube, ends);
-    let aims: Vec<usize> = (1..nodes.len()).filter(|&i| nodes[i].is_aim).collect();
+    let aims: Vec<usize> = (1..nodes.len()).filter(|&i| nodes[i].kind == Kind::Aim).collect();
     let mut arcs = Vec::new();
     let (mut i, mut ahead) = (0, 0);
     while i + 1 < nodes.len() {
@@ -184,7 +196,8 @@ fn farthest(tube: &Tube, nodes: &[Node], (i, aims): (usize, &[usize]), curvature
     // A shoulder behind it, if there is one, ends a straight line at the bend.
     let from = best.map_or(i, |(reached, _)| reached);
     let next = aims.get(reached).copied().unwrap_or(from);
-    let beyond = (from + 1..next.max(from + 1)).rev().find_map(|j| Some((j, try_to(j)?)));
+    let mut shoulders = (from + 1..next.max(from + 1)).rev().filter(|&j| nodes[j].kind == Kind::Shoulder);
+    let beyond = shoulders.find_map(|j| Some((j, try_to(j)?)));
     beyond.or(best).or_else(|| {
         let last = (i + FIRST_TRIES).min(nodes.len() - 1);
         (i + 1..=last).rev().find_map(|j| Some((j, try_to(j)?)))
@@ -199,7 +212,7 @@ fn nodes(tube: &Tube, ends: &Ends) -> Vec<Node> {
         along,
         station,
         chord,
-        is_aim: true,
+        kind: Kind::Aim,
         stops: false,
     };
     // Two shoulders and a middle a chord at the most, but for where the feed changes.
@@ -209,25 +222,27 @@ fn nodes(tube: &Tube, ends: &Ends) -> Vec<Node> {
     // curve it is none.
     let shoulder = |chord: usize, vertex: usize| {
         let turn = tube.turns[vertex].abs();
-        let is_bend = turn > TURN_EPSILON && tube.is_bend(chord, vertex);
-        if is_bend { ROUNDING_SHARE * tube.tolerance / (turn / 4.0).tan() } else { f64::INFINITY }
+        let way = ROUNDING_SHARE * tube.tolerance / (turn / 4.0).tan();
+        let longest = SHOULDER_SHARE * (tube.stations[chord + 1] - tube.stations[chord]);
+        if turn <= TURN_EPSILON {
+            None
+        } else if way < longest && tube.is_bend(chord, vertex) {
+            Some((way, Kind::Shoulder))
+        } else {
+            ends.spares.then_some((way.min(longest), Kind::Spare))
+        }
     };
     for chord in 0..last {
         let (a, length) = (tube.points[chord], tube.stations[chord + 1] - tube.stations[chord]);
         let along = tube.direction(chord);
         let place = |way: f64| node(chord, (a + along * way, along), tube.stations[chord] + way);
-        let (before, behind) = (shoulder(chord, chord), shoulder(chord, chord + 1));
-        if before < SHOULDER_SHARE * length {
-            nodes.push(Node { is_aim: false, ..place(before) });
-        }
+        nodes.extend(shoulder(chord, chord).map(|(way, kind)| Node { kind, ..place(way) }));
         let middle = place(0.5 * length);
         // Of chords as short as numbers of a file are coarse only several together show where the curve goes.
         let reach = ends.reach * tube.tolerance;
         let along = if length < reach { tube.around(middle.station, reach) } else { along };
         nodes.push(Node { at: middle.at + tube.middle(chord), along, ..middle });
-        if behind < SHOULDER_SHARE * length {
-            nodes.push(Node { is_aim: false, ..place(length - behind) });
-        }
+        nodes.extend(shoulder(chord, chord + 1).map(|(way, kind)| Node { kind, ..place(length - way) }));
         if ends.stops.binary_search(&(chord + 1)).is_ok() {
             let along = (along + tube.direction(chord + 1)).normalize();
             let end = (tube.points[chord + 1], along);
@@ -332,6 +347,7 @@ mod tests {
             end: tube.direction(tube.chords() - 1),
             stops: Vec::new(),
             curvature: f64::INFINITY,
+            spares: false,
             reach: 0.0,
         }
     }
@@ -412,9 +428,11 @@ mod tests {
             ([0.0; 2], &MachineProfile::default()),
         );
         let along = tube.direction(0);
-        let arcs =
-            fit(&tube, &Ends { start: along, end: along, stops: vec![1, 3], curvature: f64::INFINITY, reach: 0.0 })
-                .expect("it fits");
+        let arcs = fit(
+            &tube,
+            &Ends { start: along, end: along, stops: vec![1, 3], curvature: f64::INFINITY, spares: false, reach: 0.0 },
+        )
+        .expect("it fits");
         let ends: Vec<(usize, bool)> = arcs.iter().map(|arc| (arc.chord, arc.stops)).collect();
         assert_eq!(ends, [(0, true), (2, true), (3, false)]);
     }

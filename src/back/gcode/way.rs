@@ -286,10 +286,11 @@ pub(super) fn way(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Point> {
     let start = if ring { at_seam(run) } else { tube.direction(0) };
     let end = if ring && run.front == 0.0 { start } else { tube.direction(tube.chords() - 1) };
     let stops = (1..chords.len()).filter(|&k| run.feeds[chords[k - 1]] != run.feeds[chords[k]]).collect();
-    let ends = Ends { start, end, stops, curvature: f64::INFINITY, reach: 0.0 };
+    let ends = Ends { start, end, stops, curvature: f64::INFINITY, spares: false, reach: 0.0 };
     let gentle = |&reach: &f64| fit(&tube, &Ends { curvature: GENTLE, reach, ..ends.clone() }).ok();
     let gentle = if keys.arcs { None } else { GENTLE_REACHES.iter().find_map(gentle) };
-    let arcs = gentle.map_or_else(|| fit(&tube, &ends), Ok)?;
+    let arcs = gentle.map_or_else(|| fit(&tube, &ends), Ok);
+    let arcs = arcs.or_else(|_| fit(&tube, &Ends { spares: true, ..ends }))?;
     // Plunged as a chord, the blade lags behind its way and fades into it over its width.
     let length: f64 = arcs.iter().map(|arc| arc.length).sum();
     let lead = tail.map_or(0.0, |tail| angle::turn(tube.points[0] - tail, start));

@@ -10,6 +10,8 @@ use crate::ir::toolpath::{Run, Shape};
 
 /// Part of the tolerance that the polyline may take here; smoothing moves the tip by up to the rest.
 const SHARE: f64 = 0.45;
+/// The same of the polyline as it is seen without what came before it, which no more may add to.
+const SEEN_SHARE: f64 = 0.95;
 /// Greatest part of all the turn under a blade that one vertex of a curve makes; one that makes more is a bend.
 const BEND_SHARE: f64 = 0.7;
 /// Length of a run, in widths of the blade, that is looked at from where it plunges: on any curve that it lies on it spans
@@ -62,14 +64,19 @@ impl Bow {
         };
         let blade = tip - path[0];
         let is_across = polyline::direction(path[0], path[1]).is_some_and(|first| stands_across(blade, first));
-        let arc = if is_across { 0.0 } else { polyline::sagitta(blade.norm(), turned + outer) };
+        let arc = |turn: f64| if is_across { 0.0 } else { polyline::sagitta(blade.norm(), turn) };
+        // A single vertex under the blade tells nobody that the curve begins before it.
+        let under = &turns[..chord.min(turns.len())];
+        let sharpest = under.iter().copied().fold(0.0, f64::max);
+        let seen = if sharpest <= BEND_SHARE * under.iter().sum::<f64>() { turned + outer } else { turned };
         let away = |i: usize| polyline::distance_to_segment(path[i], path[0], tip);
         let inner = (skipped + 1..=chord).filter(|&i| i - skipped + 1 < run.points.len());
         let worst = inner.max_by(|&a, &b| away(a).total_cmp(&away(b)))?;
         Some(Self {
             at: worst - skipped,
             away: away(worst),
-            fits: away(worst) <= arc + SHARE * around.tolerance(),
+            fits: away(worst) <= arc(turned + outer) + SHARE * around.tolerance()
+                && away(worst) <= arc(seen) + SEEN_SHARE * around.tolerance(),
             is_whole: reached.is_none(),
             is_curve,
             turned: signed.iter().sum::<f64>().abs(),
