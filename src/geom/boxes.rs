@@ -3,6 +3,8 @@
 use super::slots::Slots;
 use super::{Extent, Point};
 
+/// Part of all boxes that the cells need not reach on each side: a few far away would leave all others in one cell.
+const FAR_SHARE: f64 = 0.01;
 /// Boxes for each cell, about.
 const BOXES_A_CELL: usize = 2;
 /// Cells that a box meets on average, at the most: large ones that lie over each other would fill every cell.
@@ -30,20 +32,17 @@ impl Default for Boxes {
 impl Boxes {
     /// An index of boxes; empty ones are nowhere.
     pub fn new(extents: Vec<Extent>) -> Self {
-        let (mut all, mut number) = (Extent::EMPTY, 0_usize);
-        for extent in extents.iter().filter(|extent| !extent.is_empty()) {
-            all.join(extent);
-            number += 1;
-        }
-        let (width, height) = all.size();
+        let number = extents.iter().filter(|extent| !extent.is_empty()).count();
+        let bulk = bulk(&extents);
+        let (width, height) = bulk.size();
         let cells = (number / BOXES_A_CELL).max(1) as f64;
         // As many cells as that, about as high as wide; what is long and narrow has as many as it is long.
         let side = (width * height / cells).sqrt().max(width.max(height) / cells).max(f64::MIN_POSITIVE);
         let most = (number as f64 * CELLS_A_BOX).min(u32::MAX.into());
-        let mut boxes = Self::bare(extents, &all, side);
+        let mut boxes = Self::bare(extents, &bulk, side);
         while boxes.count != [1, 1] && boxes.filled() > most {
             let side = 2.0 * boxes.cell[0].max(boxes.cell[1]);
-            boxes = Self::bare(boxes.extents, &all, side);
+            boxes = Self::bare(boxes.extents, &bulk, side);
         }
         boxes.cells = Slots::new(boxes.count[0] * boxes.count[1], |see| {
             for (extent, i) in boxes.extents.iter().zip(0..) {
@@ -53,19 +52,19 @@ impl Boxes {
         boxes
     }
 
-    /// Boxes that lie in this one, with cells of about this side, mm, that they are not in yet.
-    fn bare(extents: Vec<Extent>, all: &Extent, side: f64) -> Self {
-        let (width, height) = all.size();
+    /// The lattice over `bulk` of cells of about this side, mm, still without the boxes.
+    fn bare(extents: Vec<Extent>, bulk: &Extent, side: f64) -> Self {
+        let (width, height) = bulk.size();
         let count = [width, height].map(|length| ((length / side) as usize).max(1));
         let cell = [width / count[0] as f64, height / count[1] as f64].map(|size| size.max(f64::MIN_POSITIVE));
-        Self { extents, origin: all.min, cell, count, cells: Slots::default() }
+        Self { extents, origin: bulk.min, cell, count, cells: Slots::default() }
     }
 
     /// In how many cells the boxes are, at the most.
     fn filled(&self) -> f64 {
-        let along = |length: f64, axis: usize| length / self.cell[axis] + 2.0;
+        let along = |length: f64, axis: usize| (length / self.cell[axis] + 2.0).min(self.count[axis] as f64);
         let met = |(width, height): (f64, f64)| along(width, 0) * along(height, 1);
-        self.extents.iter().map(|extent| met(extent.size())).sum()
+        self.extents.iter().filter(|extent| !extent.is_empty()).map(|extent| met(extent.size())).sum()
     }
 
     /// All boxes, in order.
@@ -79,8 +78,13 @@ impl Boxes {
         there.filter(move |&i| self.extents[i].holds(point))
     }
 
-    /// The boxes that meet a box, from the `first`th on, each once, in no order.
-    pub fn near(&self, extent: Extent, first: usize) -> impl Iterator<Item = usize> + '_ {
+    /// The boxes that meet a box, each once, in no order.
+    pub fn near(&self, extent: Extent) -> impl Iterator<Item = usize> + '_ {
+        self.near_from(0, extent)
+    }
+
+    /// The boxes from the `first`th on that meet a box, each once, in no order.
+    pub fn near_from(&self, first: usize, extent: Extent) -> impl Iterator<Item = usize> + '_ {
         let those_of = |cell: usize| self.cells.of(cell).iter().map(move |&i| (cell, i as usize));
         let those = self.met(&extent).flat_map(those_of);
         let near = those.filter(move |&(_, i)| i >= first && self.extents[i].meets(&extent));
@@ -90,13 +94,13 @@ impl Boxes {
         near.filter(move |&(cell, i)| is_in_one || cell == beginning(i)).map(|(_, i)| i)
     }
 
-    /// How many boxes are looked at to find those that hold a point.
-    pub fn looked_at(&self, point: Point) -> usize {
+    /// What [`Boxes::at`] costs, in comparisons of boxes.
+    pub fn cost_at(&self, point: Point) -> usize {
         self.cells.of(self.cell_of(point)).len()
     }
 
-    /// How many are looked at to find those that meet a box.
-    pub fn looked_at_near(&self, extent: &Extent) -> usize {
+    /// What [`Boxes::near`] costs, likewise.
+    pub fn cost_near(&self, extent: &Extent) -> usize {
         self.met(extent).map(|cell| self.cells.of(cell).len()).sum()
     }
 
@@ -123,6 +127,24 @@ impl Boxes {
     }
 }
 
+/// The box of nearly all of some boxes: of all when they are few.
+fn bulk(extents: &[Extent]) -> Extent {
+    let mut values: Vec<f64> = Vec::with_capacity(extents.len());
+    // The value of a corner that only so few are beyond.
+    let mut beyond = |corner: &dyn Fn(&Extent) -> f64, is_above: bool| {
+        values.clear();
+        values.extend(extents.iter().filter(|extent| !extent.is_empty()).map(corner));
+        let last = values.len().checked_sub(1)?;
+        let far = (FAR_SHARE * last as f64) as usize;
+        Some(*values.select_nth_unstable_by(if is_above { last - far } else { far }, f64::total_cmp).1)
+    };
+    let min = beyond(&|extent| extent.min.x, false).zip(beyond(&|extent| extent.min.y, false));
+    let max = beyond(&|extent| extent.max.x, true).zip(beyond(&|extent| extent.max.y, true));
+    let corners =
+        min.zip(max).map(|(min, max)| Extent { min: Point::new(min.0, min.1), max: Point::new(max.0, max.1) });
+    corners.unwrap_or(Extent::EMPTY)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -145,12 +167,12 @@ mod tests {
         for _ in 0..1000 {
             let around = extent(&mut random, 30.0);
             assert_eq!(boxes.at(around.min).collect::<Vec<_>>(), those(&|extent| extent.holds(around.min)));
-            let mut near: Vec<usize> = boxes.near(around, 0).collect();
+            let mut near: Vec<usize> = boxes.near(around).collect();
             near.sort_unstable();
             assert_eq!(near, those(&|extent| extent.meets(&around)));
             near.retain(|&i| i >= 1000);
-            assert_eq!(boxes.near(around, 1000).count(), near.len());
-            assert!(boxes.looked_at_near(&around) < 120, "{}", boxes.looked_at_near(&around));
+            assert_eq!(boxes.near_from(1000, around).count(), near.len());
+            assert!(boxes.cost_near(&around) < 120, "{}", boxes.cost_near(&around));
         }
     }
 
@@ -170,14 +192,28 @@ mod tests {
             assert!(boxes.at(at).any(|i| i == 4000));
         }
         let dots = Boxes::new(places().map(dot).collect());
-        assert!(dots.looked_at(dot(5000.0).min) < 8);
+        assert!(dots.cost_at(dot(5000.0).min) < 8);
+    }
+
+    #[test]
+    fn neither_empty_boxes_nor_a_few_far_away_make_the_cells_coarse() {
+        let squares =
+            (0..100).flat_map(|k| (0..100).map(move |l| Point::new(10.0 * f64::from(k), 10.0 * f64::from(l))));
+        let mut extents: Vec<Extent> = squares.map(|at| Extent { min: at, max: at + Vector::new(9.0, 9.0) }).collect();
+        extents.extend(std::iter::repeat_n(Extent::EMPTY, 200_000));
+        let far = Point::new(9e5, -9e5);
+        extents.push(Extent::between(far, far));
+        let boxes = Boxes::new(extents);
+        let costs = boxes.all()[..10_000].iter().map(|extent| boxes.cost_near(extent));
+        assert!(costs.max().is_some_and(|most| most < 60));
+        assert!(boxes.at(far).eq([210_000]) && boxes.near(boxes.all()[17]).eq([17]));
     }
 
     #[test]
     fn empty_boxes_are_nowhere() {
         for boxes in [Boxes::default(), Boxes::new(vec![Extent::EMPTY; 3])] {
-            assert_eq!((boxes.at(Point::origin()).count(), boxes.near(Extent::EMPTY, 0).count()), (0, 0));
-            assert_eq!(boxes.near(Extent::between(Point::origin(), Point::new(1.0, 1.0)), 0).count(), 0);
+            assert_eq!((boxes.at(Point::origin()).count(), boxes.near(Extent::EMPTY).count()), (0, 0));
+            assert_eq!(boxes.near(Extent::between(Point::origin(), Point::new(1.0, 1.0))).count(), 0);
         }
     }
 }

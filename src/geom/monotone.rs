@@ -2,7 +2,8 @@
 //! and the box of any part of it is that of its two ends, so halving finds the crossings of two chains fast.
 //! (Monotone chains: Park & Shin, "Self-intersection elimination by monotone chains", CAD 34, 2002.)
 
-use super::{Extent, Point, cross};
+use super::budget::Budget;
+use super::{Extent, Point, Vector, cross};
 
 /// A stretch of a polyline along which neither x nor y turns back: indices of its first and last point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -67,20 +68,23 @@ fn turning(points: &[Point]) -> usize {
 }
 
 /// The first crossing of a chain of one polyline with a chain of another (or the same) that `wanted` accepts. Segments
-/// that merely touch, or lie in one line, do not cross.
+/// that merely touch, or lie in one line, do not cross. `None` when there is no work left, too.
 pub fn crossing(
     points: [&[Point]; 2],
     [a, b]: [Chain; 2],
+    work: &mut Budget,
     wanted: &mut impl FnMut(&Crossing) -> bool,
 ) -> Option<Crossing> {
     let boxes = [a.extent(points[0]), b.extent(points[1])];
-    if boxes[0].overlaps(&boxes[1]) { crossing_in(points, [(a, boxes[0]), (b, boxes[1])], wanted) } else { None }
+    let may_cross = work.spend(1) && boxes[0].overlaps(&boxes[1]);
+    if may_cross { crossing_in(points, [(a, boxes[0]), (b, boxes[1])], work, wanted) } else { None }
 }
 
 /// The same of chains whose boxes, which stand beside them, overlap.
 fn crossing_in(
     points: [&[Point]; 2],
     [(a, box_a), (b, box_b)]: [(Chain, Extent); 2],
+    work: &mut Budget,
     wanted: &mut impl FnMut(&Crossing) -> bool,
 ) -> Option<Crossing> {
     if a.segments() == 1 && b.segments() == 1 {
@@ -93,8 +97,28 @@ fn crossing_in(
     halves.into_iter().find_map(|half| {
         let extent = half.extent(of_longer);
         let pair = if is_a { [(half, extent), (b, box_b)] } else { [(a, box_a), (half, extent)] };
-        if extent.overlaps(&other) { crossing_in(points, pair, wanted) } else { None }
+        let may_cross = work.spend(1) && extent.overlaps(&other);
+        if may_cross { crossing_in(points, pair, work, wanted) } else { None }
     })
+}
+
+/// Whether two chains may come as near to each other as `slack` mm: the boxes of two of their segments do. So they may when
+/// there is no work left.
+pub fn come_near(points: [&[Point]; 2], [a, b]: [Chain; 2], slack: f64, work: &mut Budget) -> bool {
+    let reach = Vector::new(slack, slack);
+    let Extent { min, max } = a.extent(points[0]);
+    let around = Extent { min: min - reach, max: max + reach };
+    if !work.spend(1) {
+        return true;
+    }
+    if !around.meets(&b.extent(points[1])) {
+        return false;
+    }
+    if a.segments() == 1 && b.segments() == 1 {
+        return true;
+    }
+    let halves = if a.segments() >= b.segments() { a.halves().map(|a| [a, b]) } else { b.halves().map(|b| [a, b]) };
+    halves.into_iter().any(|pair| come_near(points, pair, slack, work))
 }
 
 /// Nearer to a line than this a point lies on it, mm: rounding of coordinates of some metres.
@@ -121,7 +145,8 @@ mod tests {
     }
 
     fn first(a: &[Point], b: &[Point]) -> Option<Crossing> {
-        chains(a).find_map(|k| chains(b).find_map(|l| crossing([a, b], [k, l], &mut |_| true)))
+        chains(a)
+            .find_map(|k| chains(b).find_map(|l| crossing([a, b], [k, l], &mut Budget::of_a_marker(), &mut |_| true)))
     }
 
     #[test]
@@ -130,6 +155,20 @@ mod tests {
         let ends: Vec<_> = chains(&ring).map(|c| (c.first, c.last)).collect();
         assert_eq!(ends, [(0, 3), (3, 4), (4, 5)]);
         assert_eq!(chains(&ring[..1]).next(), None);
+    }
+
+    #[test]
+    fn lines_side_by_side_are_near_within_the_slack() {
+        let wave = |lift: f64| -> Vec<Point> {
+            (0..=500).map(|i| Point::new(f64::from(i), 20.0 * (f64::from(i) / 50.0).sin() + lift)).collect()
+        };
+        let near = |a: &[Point], b: &[Point], slack: f64| {
+            let mut work = Budget::of_a_marker();
+            chains(a).any(|k| chains(b).any(|l| come_near([a, b], [k, l], slack, &mut work)))
+        };
+        let line = points(&[(0.0, 25.0), (500.0, 25.0)]);
+        assert!(near(&wave(0.0), &wave(0.0), 0.0) && near(&wave(0.0), &wave(1.0), 1.0) && near(&wave(0.0), &line, 5.1));
+        assert!(!near(&wave(0.0), &line, 4.9) && !near(&wave(0.0), &wave(40.0), 1.0));
     }
 
     #[test]

@@ -22,6 +22,11 @@ impl Shape {
         rings.iter().flat_map(AsRef::as_ref).for_each(|&point| extent.add(point));
         Self { extent, inner: inner_point(rings, extent) }
     }
+
+    /// A point well inside; `None` when there is no inside.
+    pub fn inner(&self) -> Option<Point> {
+        self.inner
+    }
 }
 
 fn inner_point<R: AsRef<[Point]>>(rings: &[R], extent: Extent) -> Option<Point> {

@@ -12,6 +12,8 @@ use super::{Extent, Point, Vector, cross, polyline};
 
 /// Edges that a band of a region holds on average, at the least.
 const EDGES_A_BAND: usize = 4;
+/// Bands that an edge reaches into on average, at the most: long ones side by side would fill every band.
+const BANDS_AN_EDGE: f64 = 4.0;
 /// Places nearer than this are the same, mm: rounding of coordinates of some metres.
 const SAME_EPSILON: f64 = 1e-9;
 /// Where between two crossings it is seen whether a way lies well inside.
@@ -85,7 +87,9 @@ impl Bands {
     fn new(points: &[Point], ends: &[usize], extent: Extent) -> Self {
         let edges = points.len() - ends.len();
         let count = (edges / EDGES_A_BAND).max(1);
-        let height = (extent.size().1 / count as f64).max(f64::MIN_POSITIVE);
+        let rise: f64 = points.windows(2).map(|ends| (ends[1].y - ends[0].y).abs()).sum();
+        let least = rise / (BANDS_AN_EDGE * edges as f64);
+        let height = (extent.size().1 / count as f64).max(least).max(f64::MIN_POSITIVE);
         let mut bands = Self { bottom: extent.min.y, height, count, edges: Slots::default() };
         bands.edges = Slots::new(count, |see| {
             let mut first = 0;
@@ -130,6 +134,12 @@ impl<'a> Regions<'a> {
         owners
     }
 
+    /// What [`Regions::owners_at`] costs, in comparisons of boxes and of edges.
+    pub fn cost_at(&self, point: Point) -> usize {
+        let near = self.boxes.at(point).map(|i| self.owners[i].bands.near(point.y, point.y).len());
+        self.boxes.cost_at(point) + near.sum::<usize>()
+    }
+
     /// How far a way of `owner` goes before it enters a region, its own or another's. What comes no deeper than `slack` mm
     /// enters nothing: it lies along an edge. A region of another in which the way starts is no obstacle.
     pub fn room(&self, ray: &Ray, owner: u32, slack: f64) -> Room {
@@ -138,7 +148,7 @@ impl<'a> Regions<'a> {
         let to = around(ray.from + ray.along * ray.reach, SAME_EPSILON);
         extent.add(to.min);
         extent.add(to.max);
-        let near: Vec<&Region> = self.boxes.near(extent, 0).map(|i| &self.owners[i]).collect();
+        let near: Vec<&Region> = self.boxes.near(extent).map(|i| &self.owners[i]).collect();
         let mut cuts = Vec::new();
         for region in &near {
             region.near(extent).for_each(|edge| edge.crossings(ray, &mut cuts));

@@ -11,7 +11,7 @@ pub struct Slots {
 }
 
 impl Slots {
-    /// Sorts items into `count` slots by counting, first how many, then where. `each` calls out the slot and the item of all,
+    /// Sorts items, fewer than 2^32, into `count` slots by counting, first how many, then where. `each` calls out the slot and the item of all,
     /// each time the same; in a slot they stay in this order.
     pub fn new(count: usize, each: impl Fn(&mut dyn FnMut(usize, u32))) -> Self {
         // A slot's count stands two places on, so that what is counted up one place on is where it begins, then where it ends.

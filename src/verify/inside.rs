@@ -13,6 +13,8 @@ use crate::ir::marker::Piece;
 
 /// Edges that a band of a part holds on average, at the least.
 const EDGES_A_BAND: usize = 8;
+/// Bands that an edge reaches into on average, at the most.
+const BANDS_AN_EDGE: f64 = 4.0;
 
 /// The parts, each by its box.
 #[derive(Debug)]
@@ -94,7 +96,9 @@ impl<'a> Part<'a> {
             return None;
         }
         let bands = (count / EDGES_A_BAND).max(1);
-        let height = (extent.size().1 / bands as f64).max(f64::MIN_POSITIVE);
+        let rise = |ring: &Cow<[Point]>| ring.windows(2).map(|ends| (ends[1].y - ends[0].y).abs()).sum::<f64>();
+        let least = rings.iter().map(rise).sum::<f64>() / (BANDS_AN_EDGE * count as f64);
+        let height = (extent.size().1 / bands as f64).max(least).max(f64::MIN_POSITIVE);
         let before = |sum: &mut u32, ring: &Cow<[Point]>| Some(std::mem::replace(sum, *sum + ring.len() as u32));
         let firsts = rings.iter().scan(0, before).collect();
         let mut part = Self { piece: index, rings, firsts, extent, height, bands, edges: Slots::default() };

@@ -306,7 +306,7 @@ impl Making<'_> {
     /// The piece of the least part that holds a place; of equal ones the first.
     fn part_around(&mut self, at: Point) -> Option<usize> {
         let mut best: Option<(f64, usize)> = None;
-        self.work = self.work.saturating_sub(self.boxes.looked_at(at));
+        self.work = self.work.saturating_sub(self.boxes.cost_at(at));
         for piece in self.boxes.at(at) {
             if self.work == 0 {
                 return None;

@@ -567,7 +567,7 @@ impl Draft {
             piece.drills.iter().for_each(|drill| self.extent.add(drill.at));
         }
         if self.current.is_none() {
-            owner::settle(&self.list, &mut self.pieces, unit);
+            owner::settle(&self.list, &mut self.pieces, unit, out);
         }
         let mut closing = Vec::new();
         kept::drop_empty(&mut self.pieces, &mut closing);

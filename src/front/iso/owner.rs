@@ -3,6 +3,7 @@
 //! Such files write slits before the outline that they belong to, or behind it. Where they stand does not tell, but their
 //! roots do: a slit starts on an outline of its piece.
 
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
 use crate::geom::near::{Near, sorted};
 use crate::ir::list::SegmentList;
@@ -23,8 +24,8 @@ struct Loose {
 
 /// Gives slits, and strokes that may be slits, to the piece on whose outline they start: to the one that they came to, if
 /// it is among several. A crossbar goes with its slit, and what starts on no outline stays. `unit` is the grid of the
-/// file, mm.
-pub(super) fn settle(list: &SegmentList, pieces: &mut [Piece], unit: f64) {
+/// file, mm. Where they are too many to look at each, what is left stays.
+pub(super) fn settle(list: &SegmentList, pieces: &mut [Piece], unit: f64, out: &mut Diagnostics) {
     let mut loose = gather(list, pieces);
     if pieces.len() < 2 || loose.is_empty() {
         return;
@@ -50,6 +51,10 @@ pub(super) fn settle(list: &SegmentList, pieces: &mut [Piece], unit: f64) {
             owner = owner.or(loose[i].owner.filter(|_| loose[i].piece == bar.piece));
         });
         loose[k].owner = owner;
+    }
+    if near.is_cut_short() {
+        let message = "there are too many short lines to find the outline of each: some may be cut with another piece";
+        out.push(Diagnostic::new(&code::MARKER_SEARCH_ENDED, message).hint("give every piece its number (N)"));
     }
     for Loose { piece, stroke, owner, contour } in loose {
         let Some(owner) = owner.filter(|&owner| owner != piece) else { continue };

@@ -1,94 +1,183 @@
-//! Inner: a cut-out that is a piece of its own is cut before the part that it lies in: a part that is free shifts.
+//! Inner: a piece that lies in another is cut before it: what is cut out is free and shifts, with all that lies in it.
 //!
-//! Needs: welded contours. In a file without numbers of pieces every contour is a piece. Leaves true: no piece that is a
-//! cut-out of another comes behind it, unless something is asked of the operator before it; otherwise pieces keep the
-//! order of the file.
+//! Needs: welded contours. In a file without numbers of pieces every contour is a piece. Leaves true: no piece that lies
+//! within the outline of another comes behind it, unless something is asked of the operator between them; otherwise pieces
+//! keep the order of the file.
+
+use std::collections::{BTreeMap, BTreeSet};
 
 use rayon::prelude::*;
 
-use super::{MarkerPass, too_many_outlines};
+use super::{MarkerPass, depth_cost, too_many_outlines};
 use crate::diagnostic::Diagnostics;
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
-use crate::geom::{Extent, Point, ring};
+use crate::geom::nest::Shape;
+use crate::geom::region::Regions;
+use crate::geom::{Extent, ring};
 use crate::ir::list::SegmentList;
-use crate::ir::marker::{Marker, Piece};
+use crate::ir::marker::{Contour, Marker, Piece};
 use crate::machine::Job;
 
 pub(super) const PASS: MarkerPass =
-    MarkerPass { name: "inner", about: "puts a cut-out that is a piece of its own before its part", run };
-
-/// Parts lie in one another less deep than this.
-const DEEP: usize = 16;
-/// What a piece costs for each other that it lies in beyond that, beside the comparison of two boxes: whatever is asked of a
-/// place in it looks at them all.
-const HELD: usize = 200;
+    MarkerPass { name: "inner", about: "puts a piece that lies in another before it", run };
 
 fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     let Marker { list, pieces, .. } = marker;
-    let spaces = Boxes::new(pieces.par_iter().map(|piece| space(list, piece)).collect());
-    let mut work = Budget::of_a_marker();
-    let mut moved = cut_outs(list, pieces, &spaces, &mut work);
-    if work.is_spent() {
-        diagnostics.push(too_many_outlines());
-    }
-    moved.retain(|&(inner, part)| part < inner && pieces[inner].events.is_empty());
-    if !moved.is_empty() {
-        let mut places: Vec<(usize, usize)> = (0..pieces.len()).map(|i| (i, pieces.len())).collect();
-        for (inner, part) in moved {
-            places[inner] = (part, inner);
+    let mut search = Search::new(list, pieces);
+    // The pieces that wait for others that the file has behind them, each with these.
+    let mut waiting: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    // The last piece so far before which something is asked: no other is brought past it.
+    let mut asked = None;
+    for (i, piece) in pieces.iter().enumerate() {
+        asked = if piece.events.is_empty() { asked } else { Some(i) };
+        let mut holders = search.holders(i);
+        holders.retain(|&holder| holder < i && asked.is_none_or(|asked| holder > asked));
+        if let Some(part) = search.least(&holders) {
+            waiting.entry(part).or_default().push(i);
         }
-        let mut order: Vec<usize> = (0..pieces.len()).collect();
-        order.sort_by_key(|&i| places[i]);
+    }
+    if let Some(i) = search.ended {
+        diagnostics.push(too_many_outlines(&pieces[i]));
+        return;
+    }
+    if !waiting.is_empty() {
         let mut left: Vec<Option<Piece>> = pieces.drain(..).map(Some).collect();
-        pieces.extend(order.into_iter().filter_map(|i| left[i].take()));
+        pieces.extend(inside_out(left.len(), waiting).into_iter().filter_map(|i| left[i].take()));
     }
 }
 
-/// The pieces that are cut-outs of others, each with its part.
-fn cut_outs(list: &SegmentList, pieces: &[Piece], spaces: &Boxes, work: &mut Budget) -> Vec<(usize, usize)> {
-    let mut found = Vec::new();
-    for (i, (piece, space)) in pieces.iter().zip(spaces.all()).enumerate() {
-        let Some(point) = point_on(list, piece) else { continue };
-        if !work.spend(spaces.looked_at(space.min)) {
-            break;
+/// The order of so many pieces in which each comes when all that it waits for has come, and otherwise as in the file.
+fn inside_out(count: usize, mut waiting: BTreeMap<usize, Vec<usize>>) -> Vec<usize> {
+    for inner in waiting.values_mut() {
+        inner.reverse(); // the first is the last to be taken
+    }
+    let (mut order, mut is_done, mut open) = (Vec::with_capacity(count), vec![false; count], Vec::new());
+    for next in 0..count {
+        if !is_done[next] {
+            open.push(next);
+        }
+        while let Some(&piece) = open.last() {
+            if let Some(inner) = waiting.get_mut(&piece).and_then(Vec::pop) {
+                open.push(inner);
+            } else {
+                is_done[piece] = true;
+                order.push(piece);
+                open.pop();
+            }
+        }
+    }
+    order
+}
+
+/// What it takes to tell what lies in what.
+struct Search<'a> {
+    list: &'a SegmentList,
+    pieces: &'a [Piece],
+    /// The boxes around the closed contours of the pieces.
+    spaces: Boxes,
+    /// The pieces whose boxes others cover.
+    covered: BTreeSet<usize>,
+    /// The closed contours of these others, and the piece of each.
+    wide: Regions<'a>,
+    piece_of: Vec<usize>,
+    /// The area within the widest contour of each of them, mm^2.
+    areas: BTreeMap<usize, f64>,
+    work: Budget,
+    /// The piece at which no work was left.
+    ended: Option<usize>,
+}
+
+impl<'a> Search<'a> {
+    fn new(list: &'a SegmentList, pieces: &'a [Piece]) -> Self {
+        let space = |piece: &Piece| {
+            let mut space = Extent::EMPTY;
+            closed(piece).for_each(|contour| space.join(&Extent::of(&list.points(contour.range))));
+            space
+        };
+        let mut search = Self {
+            list,
+            pieces,
+            spaces: Boxes::new(pieces.par_iter().map(space).collect()),
+            covered: BTreeSet::new(),
+            wide: Regions::default(),
+            piece_of: Vec::new(),
+            areas: BTreeMap::new(),
+            work: Budget::of_a_marker(),
+            ended: None,
+        };
+        let mut is_wide = vec![false; pieces.len()];
+        for i in 0..pieces.len() {
+            let mut depth = 0;
+            for wider in search.wider(i) {
+                is_wide[wider] = true;
+                depth += 1;
+            }
+            if depth > 0 {
+                search.covered.insert(i);
+            }
+            search.spend(depth_cost(depth), i);
+        }
+        let wide = (0..pieces.len()).filter(|&i| is_wide[i]);
+        let contours = |i: usize| closed(&pieces[i]).map(move |contour| (contour.range, i));
+        let (ranges, piece_of): (Vec<_>, Vec<_>) = wide.flat_map(contours).unzip();
+        for (&range, &i) in ranges.iter().zip(&piece_of) {
+            let area = ring::area(&list.points(range)).abs();
+            search.areas.entry(i).and_modify(|widest| *widest = widest.max(area)).or_insert(area);
+        }
+        search.wide = Regions::new(0..ranges.len() as u32, |i| vec![list.points(ranges[i as usize])]);
+        search.piece_of = piece_of;
+        search
+    }
+
+    /// The pieces whose boxes cover that of a piece.
+    fn wider(&mut self, i: usize) -> Vec<usize> {
+        let space = self.spaces.all()[i];
+        if space.is_empty() || !self.spend(self.spaces.cost_at(space.min), i) {
+            return Vec::new();
         }
         // What covers a box holds its corner.
-        let wider = spaces.at(space.min).filter(|&other| other != i && spaces.all()[other].covers(space));
-        let holders: Vec<usize> = wider.filter(|&other| holds(list, &pieces[other], point, work)).collect();
-        work.spend(HELD * holders.len().saturating_sub(DEEP));
-        if holders.len() % 2 == 1 {
-            let area = |&i: &usize| {
-                let (width, height) = spaces.all()[i].size();
-                width * height
-            };
-            let smallest = holders.into_iter().min_by(|a, b| area(a).total_cmp(&area(b)).then(a.cmp(b)));
-            found.extend(smallest.map(|part| (i, part)));
+        let others = self.spaces.at(space.min).filter(|&k| k != i);
+        others.filter(|&k| self.spaces.all()[k].covers(&space)).collect()
+    }
+
+    /// The pieces within whose outlines a piece lies, in order.
+    fn holders(&mut self, i: usize) -> Vec<usize> {
+        if !self.covered.contains(&i) {
+            return Vec::new(); // as nearly all
         }
+        let mut wider = self.wider(i);
+        let rings: Vec<_> = closed(&self.pieces[i]).map(|contour| self.list.points(contour.range)).collect();
+        let Some(place) = Shape::new(&rings).inner() else { return Vec::new() };
+        if !self.spend(self.wide.cost_at(place), i) {
+            return Vec::new();
+        }
+        let around = self.wide.owners_at(place);
+        let around: BTreeSet<usize> = around.into_iter().map(|contour| self.piece_of[contour as usize]).collect();
+        let space = self.spaces.all()[i];
+        let is_larger = |k: &usize| self.spaces.all()[*k] != space || self.areas[k] > self.areas[&i];
+        wider.retain(|k| around.contains(k) && is_larger(k));
+        self.spend(depth_cost(wider.len()), i);
+        wider
     }
-    found
-}
 
-/// Whether a point lies in a piece: in an odd number of its closed contours.
-fn holds(list: &SegmentList, piece: &Piece, point: Point, work: &mut Budget) -> bool {
-    let closed = piece.contours.iter().filter(|contour| contour.closed);
-    let holding = closed.filter(|contour| {
-        let points = list.points(contour.range);
-        work.spend(points.len()) && ring::contains(&points, point)
-    });
-    holding.count() % 2 == 1
-}
-
-/// The box around the closed contours of a piece.
-fn space(list: &SegmentList, piece: &Piece) -> Extent {
-    let mut space = Extent::EMPTY;
-    for contour in piece.contours.iter().filter(|contour| contour.closed) {
-        space.join(&Extent::of(&list.points(contour.range)));
+    /// Takes work for a piece; `false` when none is left.
+    fn spend(&mut self, amount: usize, i: usize) -> bool {
+        let is_left = self.work.spend(amount);
+        self.ended = self.ended.or(Some(i).filter(|_| !is_left));
+        is_left
     }
-    space
+
+    /// The least of some pieces.
+    fn least(&self, pieces: &[usize]) -> Option<usize> {
+        let size = |&i: &usize| {
+            let (width, height) = self.spaces.all()[i].size();
+            width * height
+        };
+        pieces.iter().copied().min_by(|a, b| size(a).total_cmp(&size(b)))
+    }
 }
 
-/// A point on the first closed contour of a piece; none when none is closed.
-fn point_on(list: &SegmentList, piece: &Piece) -> Option<Point> {
-    piece.contours.iter().find(|contour| contour.closed).map(|contour| list.ends_of(contour.range)[0])
+fn closed(piece: &Piece) -> impl Iterator<Item = &Contour> {
+    piece.contours.iter().filter(|contour| contour.closed)
 }

@@ -3,6 +3,7 @@
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::budget::Budget;
 use crate::ir::Marker;
+use crate::ir::marker::Piece;
 use crate::machine::Job;
 
 mod inner;
@@ -29,8 +30,13 @@ pub struct MarkerPass {
 pub const MARKER_PASSES: &[MarkerPass] =
     &[weld::PASS, slit::PASS, inspect::PASS, order::PASS, inner::PASS, notch::PASS, sanity::PASS, select::PASS];
 
-/// What helps against too many lines.
-const SPLIT: &str = "split the marker, or leave fills and hatchings out";
+/// Parts lie in one another less deep than this.
+const DEEP: usize = 16;
+/// What a shape costs for each other that it lies in beyond that, beside the comparison of two boxes: whatever is asked of a
+/// place in it looks at them all.
+const HELD: usize = 200;
+/// What helps where a search was ended.
+const SPLIT: &str = "split the marker, or leave fills, hatchings and patterns of rings out";
 /// Parts in which the pieces of a marker are looked at side by side: more than any machine that compiles has cores.
 const PARTS: usize = 16;
 
@@ -48,21 +54,30 @@ fn in_parts(pieces: usize) -> Parts {
     Parts { size, count: pieces.div_ceil(size) }
 }
 
-/// The search for what lies in what was ended: no program may come of it.
-fn too_many_outlines() -> Diagnostic {
-    let message = "there are too many outlines in one another to tell which lies in which: parts would be cut before their cut-outs";
-    Diagnostic::new(&code::MARKER_TOO_MANY, message).hint(SPLIT)
+impl Parts {
+    /// What a search over one of them may do.
+    fn budget(self) -> Budget {
+        Budget::of_a_part(self.count)
+    }
+}
+
+/// The search for what lies in what was ended at a piece: no program may come of it.
+fn too_many_outlines(piece: &Piece) -> Diagnostic {
+    let message = format!(
+        "there are too many outlines in one another to tell which lies in which, as those around piece {}: parts would be \
+         cut before their cut-outs",
+        piece.number
+    );
+    Diagnostic::new(&code::MARKER_TOO_MANY, message).at(piece.span).hint(SPLIT)
+}
+
+/// What a shape that lies in so many others costs, in comparisons of boxes.
+fn depth_cost(depth: usize) -> usize {
+    HELD * depth.saturating_sub(DEEP)
 }
 
 /// The search for something was ended before its time; `left` says what of it may be left.
 fn search_ended(left: &str) -> Diagnostic {
     let message = format!("there are too many lines near one another to look at each pair: {left}");
     Diagnostic::new(&code::MARKER_SEARCH_ENDED, message).hint(SPLIT)
-}
-
-impl Parts {
-    /// What a search over one of them may do.
-    fn budget(self) -> Budget {
-        Budget::of_a_part(self.count)
-    }
 }

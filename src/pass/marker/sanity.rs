@@ -19,7 +19,7 @@ use super::{MarkerPass, in_parts, search_ended};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
-use crate::geom::monotone::{Chain, Crossing, crossing};
+use crate::geom::monotone::{Chain, Crossing, come_near, crossing};
 use crate::geom::{Extent, Point, cross, monotone, polyline, ring};
 use crate::ir::marker::{Drill, Marker};
 use crate::machine::Job;
@@ -67,7 +67,7 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
         search.report_drills(&loose, diagnostics);
     }
     if is_cut_short || work.is_spent() {
-        diagnostics.push(search_ended("more outlines may cross, and more holes lie outside of them"));
+        diagnostics.push(search_ended("more outlines may cross, and more holes may lie outside every part"));
     }
 }
 
@@ -247,11 +247,8 @@ impl<'a> Part<'a> {
         let mut found: Option<Crossing> = None;
         pairs(&self.boxes, work, |i, k, work| {
             let both = [i.min(k), i.max(k)].map(|chain| self.chains[chain]);
-            if !work.spend(both.iter().map(|chain| chain.segments()).sum()) {
-                return false;
-            }
-            found = found.or_else(|| crossing([&self.points, &self.points], both, &mut wanted));
-            found.is_none()
+            found = crossing([&self.points, &self.points], both, work, &mut wanted);
+            found.is_none() && !work.is_spent()
         });
         found.map(|crossing| (crossing.at, span(marker, (piece, self), crossing.segments[1])))
     }
@@ -301,11 +298,11 @@ impl<'a> Search<'a> {
     fn overlaps(&mut self, work: &mut Budget, diagnostics: &mut Diagnostics) {
         for i in 0..self.boxes.all().len() {
             let extent = self.boxes.all()[i];
-            if !work.spend(self.boxes.looked_at_near(&extent)) {
+            if !work.spend(self.boxes.cost_near(&extent)) {
                 return;
             }
             let overlaps = |&k: &usize| extent.overlaps(&self.boxes.all()[k]);
-            let mut later: Vec<usize> = self.boxes.near(extent, i + 1).filter(overlaps).collect();
+            let mut later: Vec<usize> = self.boxes.near_from(i + 1, extent).filter(overlaps).collect();
             if later.is_empty() {
                 continue;
             }
@@ -331,8 +328,11 @@ impl<'a> Search<'a> {
             let near = part.chains.iter().zip(&part.boxes).filter(|(_, extent)| extent.overlaps(&other.extent));
             near.map(|(chain, _)| *chain).collect()
         };
+        if !work.spend(a.chains.len() + b.chains.len()) {
+            return None;
+        }
         let (of_a, of_b) = (common(a, b), common(b, a));
-        if of_a.is_empty() || of_b.is_empty() || !work.spend(a.chains.len() + b.chains.len()) {
+        if of_a.is_empty() || of_b.is_empty() {
             return None;
         }
         let mut wanted = |crossing: &Crossing| {
@@ -342,16 +342,24 @@ impl<'a> Search<'a> {
         };
         for &of_b in &of_b {
             for &of_a in &of_a {
-                if !work.spend(1) {
+                if work.is_spent() {
                     return None;
                 }
-                if let Some(found) = crossing([&a.points, &b.points], [of_a, of_b], &mut wanted) {
+                if let Some(found) = crossing([&a.points, &b.points], [of_a, of_b], work, &mut wanted) {
                     return Some((found.at, span(self.marker, (k, b), found.segments[1])));
                 }
             }
         }
-        let place = self.straddles(b, a, work).map(|(place, point)| (place, span(self.marker, (k, b), point)));
-        place.or_else(|| self.straddles(a, b, work).map(|(place, _)| (place, self.marker.pieces[k].span)))
+        let mut is_near = |of_a| {
+            let near = |&of_b: &Chain| come_near([&a.points, &b.points], [of_a, of_b], slack(self.marker), work);
+            of_b.iter().any(near)
+        };
+        let is_near = of_a.iter().any(|&of_a| is_near(of_a));
+        // A line that comes nowhere near another is on one side of it.
+        let may_straddle = |part: &Part| is_near || part.contours.len() > 1;
+        let mut straddles = |part, other| if may_straddle(part) { self.straddles(part, other, work) } else { None };
+        let place = straddles(b, a).map(|(place, point)| (place, span(self.marker, (k, b), point)));
+        place.or_else(|| straddles(a, b).map(|(place, _)| (place, self.marker.pieces[k].span)))
     }
 
     /// A place of `part` that lies well inside `other`, while another place of it lies well outside: they overlap though
@@ -380,7 +388,7 @@ impl<'a> Search<'a> {
 
     /// Whether a hole lies in any part.
     fn is_in_a_part(&self, drill: &Drill, work: &mut Budget) -> bool {
-        !work.spend(self.boxes.looked_at(drill.at))
+        !work.spend(self.boxes.cost_at(drill.at))
             || self.boxes.at(drill.at).any(|piece| self.part(piece).may_hold(drill, work))
     }
 
