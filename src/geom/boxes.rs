@@ -3,8 +3,10 @@
 use super::slots::Slots;
 use super::{Extent, Point};
 
-/// Part of all boxes that the cells need not reach on each side: a few far away would leave all others in one cell.
+/// Part of all boxes that the cells need not reach on each side: a few far away would leave all others in one cell. It is
+/// that of a sample of so many of them at the most.
 const FAR_SHARE: f64 = 0.01;
+const SAMPLE: usize = 500;
 /// Boxes for each cell, about.
 const BOXES_A_CELL: usize = 2;
 /// Cells that a box meets on average, at the most: large ones that lie over each other would fill every cell.
@@ -33,7 +35,7 @@ impl Boxes {
     /// An index of boxes; empty ones are nowhere.
     pub fn new(extents: Vec<Extent>) -> Self {
         let number = extents.iter().filter(|extent| !extent.is_empty()).count();
-        let bulk = bulk(&extents);
+        let bulk = bulk(&extents, number.div_ceil(SAMPLE).max(1));
         let (width, height) = bulk.size();
         let cells = (number / BOXES_A_CELL).max(1) as f64;
         // As many cells as that, about as high as wide; what is long and narrow has as many as it is long.
@@ -127,13 +129,13 @@ impl Boxes {
     }
 }
 
-/// The box of nearly all of some boxes: of all when they are few.
-fn bulk(extents: &[Extent]) -> Extent {
-    let mut values: Vec<f64> = Vec::with_capacity(extents.len());
+/// The box of nearly all of some boxes, seen at each `step`th that is not empty: of all when they are few.
+fn bulk(extents: &[Extent], step: usize) -> Extent {
+    let mut values: Vec<f64> = Vec::with_capacity(SAMPLE);
     // The value of a corner that only so few are beyond.
     let mut beyond = |corner: &dyn Fn(&Extent) -> f64, is_above: bool| {
         values.clear();
-        values.extend(extents.iter().filter(|extent| !extent.is_empty()).map(corner));
+        values.extend(extents.iter().filter(|extent| !extent.is_empty()).step_by(step).map(corner));
         let last = values.len().checked_sub(1)?;
         let far = (FAR_SHARE * last as f64) as usize;
         Some(*values.select_nth_unstable_by(if is_above { last - far } else { far }, f64::total_cmp).1)
