@@ -174,8 +174,8 @@ mod table {
     pub static MARKER_SLIT_NO_LENGTH: Code = warning("marker/slit-no-length", "A slit ends where it starts: nothing is cut there.");
     /// A contour that is one place.
     pub static MARKER_NO_LENGTH: Code = warning("marker/no-length", "All points of a contour are the same place: nothing is cut there.");
-    /// A contour that crosses itself.
-    pub static MARKER_SELF_CROSSING: Code = warning("marker/self-crossing", "A contour crosses itself: the knife cuts through what was cut before, and the part has loose corners.");
+    /// Contours of a piece that cross.
+    pub static MARKER_SELF_CROSSING: Code = warning("marker/self-crossing", "A contour crosses itself, or another one of its piece: the knife cuts through what was cut before, and the part has loose corners.");
     /// Contours of two pieces that cross.
     pub static MARKER_OVERLAPPING: Code = warning("marker/overlapping-pieces", "The outlines of two pieces overlap: each is cut into the other. Pieces that only touch are no such case.");
     /// A hole in no part.

@@ -88,8 +88,15 @@ impl Alone {
         let mut part = Part::default();
         for i in pieces {
             part.gather(marker, i);
-            if let Some((place, span)) = part.self_crossing((marker, i), &mut work) {
-                let message = format!("an outline of {} crosses itself at {}", name(marker, i), at(place));
+            if let Some(crossing) = part.self_crossing(marker, &mut work) {
+                let [one, other] = crossing.segments.map(|segment| part.contour_of(segment));
+                let (piece, at) = (name(marker, i), at(crossing.at));
+                let message = if one == other {
+                    format!("an outline of {piece} crosses itself at {at}")
+                } else {
+                    format!("two outlines or lines of {piece} cross at {at}")
+                };
+                let span = span(marker, (i, &part), crossing.segments[1]);
                 alone.findings.push(Diagnostic::new(&code::MARKER_SELF_CROSSING, message).at(span));
             }
             // Its own piece is the likeliest.
@@ -237,8 +244,8 @@ impl<'a> Part<'a> {
         departs(&|k| Some(start + 1 + k)) && departs(&back)
     }
 
-    /// Where its outlines cross themselves or each other, and the span there.
-    fn self_crossing(&self, (marker, piece): (&Marker, usize), work: &mut Budget) -> Option<(Point, Span)> {
+    /// Where its outlines cross themselves or each other.
+    fn self_crossing(&self, marker: &Marker, work: &mut Budget) -> Option<Crossing> {
         let ends = |segment: usize| [self.points[segment], self.points[segment + 1]];
         let mut wanted = |crossing: &Crossing| {
             let [a, b] = crossing.segments;
@@ -250,7 +257,7 @@ impl<'a> Part<'a> {
             found = crossing([&self.points, &self.points], both, work, &mut wanted);
             found.is_none() && !work.is_spent()
         });
-        found.map(|crossing| (crossing.at, span(marker, (piece, self), crossing.segments[1])))
+        found
     }
 }
 
