@@ -49,25 +49,27 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
         .collect();
     let mut boxes = Vec::with_capacity(marker.pieces.len());
     let mut loose: Vec<(usize, Drill)> = Vec::new();
-    let (mut any_closed, mut is_cut_short) = (false, false);
+    let (mut any_closed, mut ended) = (false, None);
     for part in alone {
         part.findings.into_iter().for_each(|finding| diagnostics.push(finding));
         loose.extend(part.loose);
         any_closed |= part.any_closed;
-        is_cut_short |= part.is_cut_short;
+        ended = ended.or(part.ended);
         boxes.extend(part.boxes);
     }
     let mut search = Search::new(marker, Boxes::new(boxes));
     let mut work = Budget::of_a_marker();
-    search.overlaps(&mut work, diagnostics);
+    ended = ended.or(search.overlaps(&mut work, diagnostics));
     // Where nothing is closed there are no parts to tell.
-    if any_closed && !loose.is_empty() {
+    if let Some(&(first, _)) = loose.first().filter(|_| any_closed) {
         search.make_room();
         loose.retain(|(_, drill)| !search.is_in_a_part(drill, &mut work));
         search.report_drills(&loose, diagnostics);
+        ended = ended.or(work.is_spent().then_some(first));
     }
-    if is_cut_short || work.is_spent() {
-        diagnostics.push(search_ended("more outlines may cross, and more holes may lie outside every part"));
+    if let Some(i) = ended {
+        let finding = search_ended("from this piece on outlines may cross, or holes lie outside every part, unsaid");
+        diagnostics.push(finding.at(marker.pieces[i].span));
     }
 }
 
@@ -78,7 +80,8 @@ struct Alone {
     /// Holes outside their own piece, and its place in the marker.
     loose: Vec<(usize, Drill)>,
     any_closed: bool,
-    is_cut_short: bool,
+    /// The piece at which no work was left.
+    ended: Option<usize>,
     boxes: Vec<Extent>,
 }
 
@@ -104,8 +107,10 @@ impl Alone {
             alone.loose.extend(outside.map(|drill| (i, *drill)));
             alone.any_closed |= part.closed().next().is_some();
             alone.boxes.push(part.extent);
+            if work.is_spent() {
+                alone.ended.get_or_insert(i);
+            }
         }
-        alone.is_cut_short = work.is_spent();
         alone
     }
 }
@@ -302,11 +307,12 @@ impl<'a> Search<'a> {
         self.parts[piece].get_or_init(|| Box::new(Part::of(self.marker, piece)))
     }
 
-    fn overlaps(&mut self, work: &mut Budget, diagnostics: &mut Diagnostics) {
+    /// Says which pieces overlap; the piece at which no work was left.
+    fn overlaps(&mut self, work: &mut Budget, diagnostics: &mut Diagnostics) -> Option<usize> {
         for i in 0..self.boxes.all().len() {
             let extent = self.boxes.all()[i];
             if !work.spend(self.boxes.cost_near(&extent)) {
-                return;
+                return Some(i);
             }
             let overlaps = |&k: &usize| extent.overlaps(&self.boxes.all()[k]);
             let mut later: Vec<usize> = self.boxes.near_from(i + 1, extent).filter(overlaps).collect();
@@ -325,7 +331,11 @@ impl<'a> Search<'a> {
             }
             // Behind its pairs as the earlier one it has no others: those as the later one came before.
             self.parts[i].take();
+            if work.is_spent() {
+                return Some(i);
+            }
         }
+        None
     }
 
     /// A place where the outlines of two pieces overlap, and the span of the later one there.
