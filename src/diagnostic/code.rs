@@ -181,7 +181,7 @@ mod table {
     /// A hole in no part.
     pub static MARKER_DRILL_OUTSIDE: Code = warning("marker/drill-outside", "A hole is drilled where no part is: in the waste or in a cut-out.");
     /// Outlines that cannot be told from cut-outs.
-    pub static MARKER_TOO_MANY: Code = error("marker/too-many-outlines", "So many outlines lie in one another that the search for which lies in which was ended: parts would be cut before their cut-outs.");
+    pub static MARKER_TOO_MANY: Code = error("marker/too-many-outlines", "So many outlines lie in or over one another that the search for which lies in which was ended: parts would be cut before their cut-outs.");
     /// A search that was not brought to its end.
     pub static MARKER_SEARCH_ENDED: Code = warning("marker/search-ended", "So many lines lie near one another that a search was ended; the message says for what.");
     /// Numbers that start again.

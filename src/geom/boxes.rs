@@ -3,9 +3,9 @@
 use super::slots::Slots;
 use super::{Extent, Point};
 
-/// Part of all boxes that the cells need not reach on each side: a few far away would leave all others in one cell. It is
-/// that of a sample of so many of them at the most.
+/// Part of all boxes that the cells need not reach on each side: a few far away would leave all others in one cell.
 const FAR_SHARE: f64 = 0.01;
+/// Boxes that are looked at for that, at the most.
 const SAMPLE: usize = 500;
 /// Boxes for each cell, about.
 const BOXES_A_CELL: usize = 2;

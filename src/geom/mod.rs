@@ -99,6 +99,13 @@ impl Extent {
         self.max = Point::new(greater(self.max.x, other.max.x), greater(self.max.y, other.max.y));
     }
 
+    /// The box with so much more on all sides, mm.
+    #[must_use]
+    pub fn grown(&self, reach: f64) -> Self {
+        let reach = Vector::new(reach, reach);
+        Self { min: self.min - reach, max: self.max + reach }
+    }
+
     /// Whether the two boxes have more than a part of their edges in common: only then a line in the one may cross a line
     /// in the other. (Lines in boxes that touch at an edge meet along it at most.)
     pub fn overlaps(&self, other: &Self) -> bool {

@@ -3,7 +3,7 @@
 //! (Monotone chains: Park & Shin, "Self-intersection elimination by monotone chains", CAD 34, 2002.)
 
 use super::budget::Budget;
-use super::{Extent, Point, Vector, cross};
+use super::{Extent, Point, cross};
 
 /// A stretch of a polyline along which neither x nor y turns back: indices of its first and last point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -105,13 +105,10 @@ fn crossing_in(
 /// Whether two chains may come as near to each other as `slack` mm: the boxes of two of their segments do. So they may when
 /// there is no work left.
 pub fn come_near(points: [&[Point]; 2], [a, b]: [Chain; 2], slack: f64, work: &mut Budget) -> bool {
-    let reach = Vector::new(slack, slack);
-    let Extent { min, max } = a.extent(points[0]);
-    let around = Extent { min: min - reach, max: max + reach };
     if !work.spend(1) {
         return true;
     }
-    if !around.meets(&b.extent(points[1])) {
+    if !a.extent(points[0]).grown(slack).meets(&b.extent(points[1])) {
         return false;
     }
     if a.segments() == 1 && b.segments() == 1 {

@@ -2,7 +2,7 @@
 //!
 //! Needs: welded contours. In a file without numbers of pieces every contour is a piece. Leaves true: no piece that lies
 //! within the outline of another comes behind it, unless something is asked of the operator between them; otherwise pieces
-//! keep the order of the file.
+//! keep the order of the file. What is asked stays where it is: before the pieces that are brought before the one behind it.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,9 +14,9 @@ use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::nest::Shape;
 use crate::geom::region::Regions;
-use crate::geom::{Extent, ring};
+use crate::geom::{Extent, Point, ring};
 use crate::ir::list::SegmentList;
-use crate::ir::marker::{Contour, Marker, Piece};
+use crate::ir::marker::{Contour, Event, Marker, Piece};
 use crate::machine::Job;
 
 pub(super) const PASS: MarkerPass =
@@ -27,14 +27,12 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     let mut search = Search::new(list, pieces);
     // The pieces that wait for others that the file has behind them, each with these.
     let mut waiting: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    // The last piece so far before which something is asked: no other is brought past it.
-    let mut asked = None;
+    // The last piece so far before which something is asked: no other is brought past that.
+    let mut asked = 0;
     for (i, piece) in pieces.iter().enumerate() {
-        asked = if piece.events.is_empty() { asked } else { Some(i) };
-        let mut holders = search.holders(i);
-        holders.retain(|&holder| holder < i && asked.is_none_or(|asked| holder > asked));
-        if let Some(part) = search.least(&holders) {
-            waiting.entry(part).or_default().push(i);
+        asked = if piece.events.is_empty() { asked } else { i };
+        for holder in search.holders(i).into_iter().filter(|holder| (asked..i).contains(holder)) {
+            waiting.entry(holder).or_default().push(i);
         }
     }
     if let Some(i) = search.ended {
@@ -42,8 +40,13 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
         return;
     }
     if !waiting.is_empty() {
+        // Pieces move only between two places where something is asked, so that these are still the first of theirs.
+        let events: Vec<Vec<Event>> = pieces.iter_mut().map(|piece| std::mem::take(&mut piece.events)).collect();
         let mut left: Vec<Option<Piece>> = pieces.drain(..).map(Some).collect();
         pieces.extend(inside_out(left.len(), waiting).into_iter().filter_map(|i| left[i].take()));
+        for (piece, events) in pieces.iter_mut().zip(events) {
+            piece.events = events;
+        }
     }
 }
 
@@ -54,12 +57,10 @@ fn inside_out(count: usize, mut waiting: BTreeMap<usize, Vec<usize>>) -> Vec<usi
     }
     let (mut order, mut is_done, mut open) = (Vec::with_capacity(count), vec![false; count], Vec::new());
     for next in 0..count {
-        if !is_done[next] {
-            open.push(next);
-        }
+        open.extend((!is_done[next]).then_some(next));
         while let Some(&piece) = open.last() {
             if let Some(inner) = waiting.get_mut(&piece).and_then(Vec::pop) {
-                open.push(inner);
+                open.extend((!is_done[inner]).then_some(inner));
             } else {
                 is_done[piece] = true;
                 order.push(piece);
@@ -90,11 +91,7 @@ struct Search<'a> {
 
 impl<'a> Search<'a> {
     fn new(list: &'a SegmentList, pieces: &'a [Piece]) -> Self {
-        let space = |piece: &Piece| {
-            let mut space = Extent::EMPTY;
-            closed(piece).for_each(|contour| space.join(&Extent::of(&list.points(contour.range))));
-            space
-        };
+        let space = |piece: &Piece| extent(list, closed(piece));
         let mut search = Self {
             list,
             pieces,
@@ -132,7 +129,7 @@ impl<'a> Search<'a> {
 
     /// The pieces whose boxes cover that of a piece.
     fn wider(&mut self, i: usize) -> Vec<usize> {
-        let space = self.spaces.all()[i];
+        let space = self.extent(i);
         if space.is_empty() || !self.spend(self.spaces.cost_at(space.min), i) {
             return Vec::new();
         }
@@ -147,18 +144,34 @@ impl<'a> Search<'a> {
             return Vec::new(); // as nearly all
         }
         let mut wider = self.wider(i);
-        let rings: Vec<_> = closed(&self.pieces[i]).map(|contour| self.list.points(contour.range)).collect();
-        let Some(place) = Shape::new(&rings).inner() else { return Vec::new() };
+        let Some(place) = self.place(i) else { return Vec::new() };
         if !self.spend(self.wide.cost_at(place), i) {
             return Vec::new();
         }
         let around = self.wide.owners_at(place);
         let around: BTreeSet<usize> = around.into_iter().map(|contour| self.piece_of[contour as usize]).collect();
-        let space = self.spaces.all()[i];
-        let is_larger = |k: &usize| self.spaces.all()[*k] != space || self.areas[k] > self.areas[&i];
+        let space = self.extent(i);
+        let area = |piece: &usize| self.areas.get(piece).copied().unwrap_or_default();
+        let is_larger = |k: &usize| self.spaces.all()[*k] != space || area(k) > area(&i);
         wider.retain(|k| around.contains(k) && is_larger(k));
         self.spend(depth_cost(wider.len()), i);
         wider
+    }
+
+    /// The box of a piece: around its closed contours, or around the others where none is closed.
+    fn extent(&self, i: usize) -> Extent {
+        let space = self.spaces.all()[i];
+        if space.is_empty() { extent(self.list, self.pieces[i].contours.iter()) } else { space }
+    }
+
+    /// A place of a piece: well inside it, or the middle of the first segment of a line, which may begin on an outline.
+    fn place(&self, i: usize) -> Option<Point> {
+        let rings: Vec<_> = closed(&self.pieces[i]).map(|contour| self.list.points(contour.range)).collect();
+        if !rings.is_empty() {
+            return Shape::new(&rings).inner();
+        }
+        let line = self.list.points(self.pieces[i].contours.first()?.range);
+        Some(line[0] + (line[1] - line[0]) / 2.0)
     }
 
     /// Takes work for a piece; `false` when none is left.
@@ -167,15 +180,12 @@ impl<'a> Search<'a> {
         self.ended = self.ended.or(Some(i).filter(|_| !is_left));
         is_left
     }
+}
 
-    /// The least of some pieces.
-    fn least(&self, pieces: &[usize]) -> Option<usize> {
-        let size = |&i: &usize| {
-            let (width, height) = self.spaces.all()[i].size();
-            width * height
-        };
-        pieces.iter().copied().min_by(|a, b| size(a).total_cmp(&size(b)))
-    }
+fn extent<'a>(list: &SegmentList, contours: impl Iterator<Item = &'a Contour>) -> Extent {
+    let mut extent = Extent::EMPTY;
+    contours.for_each(|contour| extent.join(&Extent::of(&list.points(contour.range))));
+    extent
 }
 
 fn closed(piece: &Piece) -> impl Iterator<Item = &Contour> {

@@ -54,23 +54,28 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
         part.findings.into_iter().for_each(|finding| diagnostics.push(finding));
         loose.extend(part.loose);
         any_closed |= part.any_closed;
-        ended = ended.or(part.ended);
+        ended = earlier(ended, part.ended);
         boxes.extend(part.boxes);
     }
     let mut search = Search::new(marker, Boxes::new(boxes));
     let mut work = Budget::of_a_marker();
-    ended = ended.or(search.overlaps(&mut work, diagnostics));
+    ended = earlier(ended, search.overlaps(&mut work, diagnostics));
     // Where nothing is closed there are no parts to tell.
     if let Some(&(first, _)) = loose.first().filter(|_| any_closed) {
         search.make_room();
         loose.retain(|(_, drill)| !search.is_in_a_part(drill, &mut work));
         search.report_drills(&loose, diagnostics);
-        ended = ended.or(work.is_spent().then_some(first));
+        ended = earlier(ended, work.is_spent().then_some(first));
     }
     if let Some(i) = ended {
         let finding = search_ended("from this piece on outlines may cross, or holes lie outside every part, unsaid");
         diagnostics.push(finding.at(marker.pieces[i].span));
     }
+}
+
+/// The earlier of two pieces.
+fn earlier(one: Option<usize>, other: Option<usize>) -> Option<usize> {
+    one.into_iter().chain(other).min()
 }
 
 /// What is found of pieces by themselves.
@@ -367,16 +372,26 @@ impl<'a> Search<'a> {
                 }
             }
         }
-        let mut is_near = |of_a| {
-            let near = |&of_b: &Chain| come_near([&a.points, &b.points], [of_a, of_b], slack(self.marker), work);
-            of_b.iter().any(near)
-        };
-        let is_near = of_a.iter().any(|&of_a| is_near(of_a));
+        let is_near = self.are_near(a, b, work);
         // A line that comes nowhere near another is on one side of it.
         let may_straddle = |part: &Part| is_near || part.contours.len() > 1;
         let mut straddles = |part, other| if may_straddle(part) { self.straddles(part, other, work) } else { None };
         let place = straddles(b, a).map(|(place, point)| (place, span(self.marker, (k, b), point)));
         place.or_else(|| straddles(a, b).map(|(place, _)| (place, self.marker.pieces[k].span)))
+    }
+
+    /// Whether lines of two parts come so near to each other that rounding may have put one on the other.
+    fn are_near(&self, a: &Part, b: &Part, work: &mut Budget) -> bool {
+        let slack = slack(self.marker);
+        let beside = |part: &Part, other: &Part| -> Vec<Chain> {
+            let around = other.extent.grown(slack);
+            let beside = part.chains.iter().zip(&part.boxes).filter(|(_, extent)| extent.meets(&around));
+            beside.map(|(chain, _)| *chain).collect()
+        };
+        let (of_a, of_b) = (beside(a, b), beside(b, a));
+        let mut is_near =
+            |a_chain| of_b.iter().any(|&b_chain| come_near([&a.points, &b.points], [a_chain, b_chain], slack, work));
+        of_a.into_iter().any(&mut is_near)
     }
 
     /// A place of `part` that lies well inside `other`, while another place of it lies well outside: they overlap though
