@@ -93,17 +93,10 @@ fn fault(a: &Order, b: &Order) -> Fault {
 
 #[cfg(test)]
 mod tests {
-    use crate::machine::MachineProfile;
-    use crate::machine::lines;
+    use crate::machine::lines::tests::check;
 
     #[test]
     fn lines_of_two_keys_begin_otherwise() {
-        let check = |change: fn(&mut MachineProfile), expected: &[&str]| {
-            let mut profile = MachineProfile::default();
-            change(&mut profile);
-            let found: Vec<String> = lines::faults(&profile).into_iter().map(|fault| fault.message).collect();
-            assert_eq!(found, expected);
-        };
         check(|_| (), &[]);
         check(
             |profile| "P0 M064".clone_into(&mut profile.gcode.knife_up),

@@ -178,6 +178,14 @@ mod tests {
     use super::*;
     use crate::machine::controller::{Gcode, Letter};
 
+    /// Checks what is said about the lines of the default profile, changed.
+    pub(super) fn check(change: fn(&mut MachineProfile), expected: &[&str]) {
+        let mut profile = MachineProfile::default();
+        change(&mut profile);
+        let found: Vec<String> = faults(&profile).into_iter().map(|fault| fault.message).collect();
+        assert_eq!(found, expected);
+    }
+
     /// What is said about lines of a key.
     fn said(key: &str, lines: &str) -> Vec<String> {
         let mut profile = MachineProfile::default();

@@ -36,17 +36,10 @@ fn switches(text: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use crate::machine::MachineProfile;
-    use crate::machine::lines;
+    use crate::machine::lines::tests::check;
 
     #[test]
     fn the_knife_is_put_down_by_its_own_lines_alone() {
-        let check = |change: fn(&mut MachineProfile), expected: &[&str]| {
-            let mut profile = MachineProfile::default();
-            change(&mut profile);
-            let found: Vec<String> = lines::faults(&profile).into_iter().map(|fault| fault.message).collect();
-            assert_eq!(found, expected);
-        };
         check(
             |profile| "(MSG, cloth)\nM64 P0\nG4 P1".clone_into(&mut profile.gcode.advance),
             &["`gcode.advance` has M64 P0, which puts the knife down"],
