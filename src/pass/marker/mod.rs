@@ -64,7 +64,7 @@ impl Parts {
 /// The search for what lies in what was ended at a piece: no program may come of it.
 fn too_many_outlines(piece: &Piece) -> Diagnostic {
     let message = format!(
-        "there are too many outlines in or over one another to tell which lies in which, as about piece {}: parts would be \
+        "there are too many outlines in or over one another to tell which lies in which, first at piece {}: parts would be \
          cut before their cut-outs",
         piece.number
     );
