@@ -8,7 +8,7 @@
 //! of the axes is planned; a target writes it; and what was written is read again and judged.
 //!
 //! ```text
-//! bytes -> front -> Marker -> pass -> Toolpath -> plan -> Motion -> back -> bytes -> verify
+//! bytes -> front (-> Drawing -> recognise) -> Marker -> pass -> Toolpath -> plan -> Motion -> back -> bytes -> verify
 //! ```
 //!
 //! Three forms carry everything, each in [`ir`]: the *Marker* is what the file says, in mm; the *Toolpath* is what the
@@ -26,7 +26,8 @@
 //! | [`geom`] | points, headings and rotations, polylines, curves |
 //! | [`machine`] | the profile of a machine, the job, closed-form moves of one axis |
 //! | [`ir`] | the three forms, the segment list, the checker, the text form |
-//! | [`front`] | dialects: bytes to Marker, a file or folder each, rows of [`front::DIALECTS`] |
+//! | [`front`] | dialects: bytes to Marker or Drawing, a file or folder each, rows of [`front::DIALECTS`] |
+//! | [`recognise`] | what of a drawing is cut: Drawing to Marker, whatever the dialect |
 //! | [`pass`] | edits of Marker and Toolpath, a file each, rows of two tables in order |
 //! | `plan` | smooth curves, speed along them, moves in the air, samples that keep the limits |
 //! | [`back`] | targets: a form to bytes, a file each, rows of [`back::TARGETS`] |
@@ -73,6 +74,7 @@ pub mod machine;
 pub mod pass;
 pub mod pipeline;
 pub mod plan;
+pub mod recognise;
 pub mod source;
 pub mod units;
 pub mod verify;

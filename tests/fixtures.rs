@@ -40,7 +40,7 @@ fn source(path: &Path, bytes: Vec<u8>) -> Source {
 
 fn read(dialect: &Dialect, source: &Source) -> (Marker, Diagnostics) {
     let mut found = Diagnostics::default();
-    let marker = (dialect.read)(source, &Job::default(), &mut found);
+    let marker = cutc::pipeline::marker_of(dialect, source, &Job::default(), &mut found);
     (marker, found)
 }
 

@@ -3,8 +3,8 @@
 
 #[path = "hpgl/audit.rs"]
 mod audit;
-#[path = "hpgl/beside.rs"]
-mod beside;
+#[path = "hpgl/classes.rs"]
+mod classes;
 #[path = "hpgl/curves.rs"]
 mod curves;
 #[path = "hpgl/notches.rs"]
@@ -18,7 +18,7 @@ use cutc::diagnostic::Diagnostics;
 use cutc::front::{self, by_name};
 use cutc::geom::Point;
 use cutc::ir::Marker;
-use cutc::machine::plot::{LineKind, Lines, PenUse, PlotUnit};
+use cutc::machine::plot::{Inner, Lines, PenUse, PlotUnit};
 use cutc::machine::{Job, Numbers};
 use cutc::pipeline::{self, Report};
 use cutc::source::Source;
@@ -36,7 +36,7 @@ fn read(source: &Source, job: &Job) -> (Marker, Vec<&'static str>) {
 
 /// The marker as it was read, before any pass.
 fn as_read(source: &Source, job: &Job) -> Marker {
-    (by_name("hpgl").expect("a dialect").read)(source, job, &mut Diagnostics::default())
+    pipeline::marker_of(by_name("hpgl").expect("a dialect"), source, job, &mut Diagnostics::default())
 }
 
 /// A closed rectangle, in units of the file.
@@ -217,20 +217,31 @@ fn pens_and_options_decide_what_is_cut() {
         let (marker, found) = read(&two_pens(), &job);
         assert_eq!(counts(&marker), expected, "{found:?}");
     };
-    let kind = |kind| move |job: &mut Job| job.lines.kind = Some(kind);
+    let inner = |inner| move |job: &mut Job| job.lines.inner = Some(inner);
     let pen = |pen: &'static str, usage| move |job: &mut Job| _ = job.profile.hpgl.pens.insert(pen.to_owned(), usage);
     let only = |pens| move |job: &mut Job| job.lines.pens = Some(Numbers::parse(pens).expect("numbers"));
-    check(&|_| {}, [1, 3, 0, 0]);
-    check(&kind(LineKind::All), [1, 4, 0, 0]);
-    check(&kind(LineKind::Closed), [1, 3, 0, 0]);
-    check(&kind(LineKind::Open), [1, 1, 0, 0]);
-    check(&pen("4", PenUse::Pen), [1, 2, 0, 0]);
-    check(&pen("4", PenUse::Ignore), [1, 2, 0, 0]);
-    check(&pen("1", PenUse::Pen), [1, 1, 0, 0]);
-    check(&pen("1", PenUse::Knife), [1, 4, 0, 0]);
+    check(&|_| {}, [1, 1, 0, 0]);
+    check(&inner(Inner::Ignore), [1, 1, 0, 0]);
+    check(&inner(Inner::Cut), [1, 3, 0, 0]);
+    check(&|job| job.profile.hpgl.inner = Inner::Cut, [1, 3, 0, 0]);
+    check(&|job| job.lines.all = true, [1, 4, 0, 0]);
+    check(&pen("4", PenUse::Knife), [1, 2, 0, 0]);
+    check(&pen("1", PenUse::Knife), [1, 2, 0, 0]);
+    check(&pen("1", PenUse::Pen), [0, 0, 0, 0]);
+    check(&pen("1", PenUse::Ignore), [1, 1, 0, 0]);
     check(&only("4"), [1, 1, 0, 0]);
-    check(&only("1-4"), [1, 4, 0, 0]);
-    check(&|job| job.lines = Lines { pens: Numbers::parse("1").ok(), kind: Some(LineKind::Open) }, [1, 1, 0, 0]);
+    check(&only("1-4"), [1, 3, 0, 0]);
+    check(&|job| job.lines = Lines { pens: Numbers::parse("1").ok(), all: true, inner: None }, [1, 3, 0, 0]);
+    // What a pen that only draws adds to the edge of a part that is cut is a notch; what an ignored one adds is nothing.
+    let text = format!("IN;SP4;{}SP1;PU4000,0;PD4000,200;PU;SP0;", rectangle(0, 0, 8000, 8000));
+    for (usage, notches) in [(PenUse::Pen, 1), (PenUse::Knife, 1), (PenUse::Ignore, 0)] {
+        let mut job = Job::default();
+        only("4")(&mut job);
+        assert_eq!(counts(&read(&source(text.clone()), &job).0), [1, 1, 1, 0]);
+        let mut job = Job::default();
+        pen("1", usage)(&mut job);
+        assert_eq!(counts(&read(&source(text.clone()), &job).0), [1, 1, notches, 0], "{usage:?}");
+    }
 }
 
 #[test]
@@ -238,26 +249,34 @@ fn small_squares_and_circles_are_holes_when_the_profile_wants_that() {
     let small = [rectangle(2000, 2000, 120, 120), "PU4000,4000;CI80;".to_owned(), rectangle(6000, 2000, 120, 400)];
     let text = source(format!("IN;{}{}PU;", rectangle(0, 0, 8000, 8000), small.concat()));
     let mut job = Job::default();
-    assert_eq!(counts(&read(&text, &job).0), [1, 4, 0, 0]);
+    assert_eq!(counts(&read(&text, &job).0), [1, 1, 0, 0]);
     job.profile.hpgl.drill_max_mm = Some(5.0);
     let (marker, _) = read(&text, &job);
-    assert_eq!(counts(&marker), [1, 2, 0, 2]);
+    assert_eq!(counts(&marker), [1, 1, 0, 2]);
     assert!((marker.pieces[0].drills[0].at - Point::new(51.5, 51.5)).norm() < 1e-9);
     assert!((marker.pieces[0].drills[1].at - Point::new(100.0, 100.0)).norm() < 1e-9);
 }
 
 #[test]
-fn an_outline_is_whole_when_its_strokes_miss_each_other_by_a_unit_and_named_when_by_more() {
+fn an_outline_is_whole_when_its_strokes_miss_each_other_by_a_few_units_and_named_when_by_more() {
     let strokes = |gap: i64| {
         let miss = 4000 + gap;
         format!("IN;PU0,0;PD4000,0;PU{miss},0;PD4000,4000;PU4000,{miss};PD0,4000;PU{},4000;PD0,{gap};PU;", -gap)
     };
-    let (marker, found) = read(&source(strokes(1)), &Job::default());
-    assert_eq!((counts(&marker), found), ([1, 1, 0, 0], vec![]));
-    assert!(marker.contours().all(|(_, contour)| contour.closed));
-    for gap in [3, 39] {
+    let one = |gap: i64| format!("IN;PU0,0;PD4000,0,4000,4000,0,4000,0,{gap};PU;");
+    for gap in 1..=4 {
+        for text in [strokes(gap), one(gap)] {
+            let (marker, found) = read(&source(text), &Job::default());
+            assert_eq!((counts(&marker), found), ([1, 1, 0, 0], vec![]), "{gap}");
+            assert!(marker.contours().all(|(_, contour)| contour.closed));
+        }
+    }
+    for gap in [5, 39] {
         let (_, found) = read(&source(strokes(gap)), &Job::default());
-        assert_eq!(found, ["hpgl/open-outline", "hpgl/nothing-to-cut"], "{gap}");
+        assert_eq!(found, ["drawing/nothing-to-cut"], "{gap}");
+        let text = rectangle(10_000, 0, 4000, 4000) + &one(gap);
+        let (_, found) = read(&source(text), &Job::default());
+        assert_eq!(found, ["drawing/open-outlines"], "{gap}");
     }
 }
 
@@ -289,11 +308,10 @@ fn when_nothing_is_cut_the_hint_names_the_pens_and_what_left_them_out() {
         let mut job = Job::default();
         edit(&mut job);
         let said = said(open, &job);
-        assert!(said.contains("hpgl/nothing-to-cut") && said.contains(expected), "{expected}: {said}");
+        assert!(said.contains("drawing/nothing-to-cut") && said.contains(expected), "{expected}: {said}");
     };
     check(&|_| {}, "the file draws with pens 3,5");
     check(&|job| job.lines.pens = Numbers::parse("7").ok(), "`--cut-pens 7` leaves all lines out");
-    check(&|job| job.lines.kind = Some(LineKind::Closed), "`--cut closed` leaves out every open line");
     let ignore = |job: &mut Job| {
         let pens = ["3", "5"].map(|pen| (pen.to_owned(), PenUse::Ignore));
         job.profile.hpgl.pens.extend(pens);
@@ -301,41 +319,6 @@ fn when_nothing_is_cut_the_hint_names_the_pens_and_what_left_them_out() {
     check(&ignore, "`hpgl.pens` of the profile leaves them out; the file draws with pens 3,5; `--cut-pens 3,5`");
     let without = open.replace("SP3", "SP0").replace("SP5", "SP0");
     assert!(said(&without, &Job::default()).contains("let the CAD take pen 1"));
-}
-
-#[test]
-fn an_outline_whose_halves_cancel_is_cut_when_asked_for_and_named_otherwise() {
-    let bow_tie = format!("IN;SP1;{}PU0,0;PD4000,0,0,4000,4000,4000,0,0;PU;", rectangle(10_000, 0, 4000, 4000));
-    let (marker, found) = read(&source(bow_tie.clone()), &Job::default());
-    assert_eq!((counts(&marker), found), ([1, 1, 0, 0], vec!["hpgl/crossed-outline"]));
-    for kind in [LineKind::Closed, LineKind::All] {
-        let job = Job { lines: Lines { kind: Some(kind), ..Lines::default() }, ..Job::default() };
-        let (marker, found) = read(&source(bow_tie.clone()), &job);
-        assert_eq!((counts(&marker), found), ([2, 2, 0, 0], vec!["marker/self-crossing"]));
-    }
-    // A line that goes out and back goes around nothing, straight or not.
-    for line in ["PU0,0;PD4000,0,1000,0,0,0;PU;", "PU0,0;PD4000,0,4000,4000,4000,0,0,0;PU;"] {
-        let job = Job { lines: Lines { kind: Some(LineKind::Closed), ..Lines::default() }, ..Job::default() };
-        assert_eq!(counts(&read(&source(format!("{line}{}", rectangle(9000, 0, 400, 400))), &job).0), [1, 1, 0, 0]);
-    }
-}
-
-#[test]
-fn letters_are_told_from_small_parts_by_the_row_that_they_stand_in() {
-    let check = |drawn: &str, contours: usize, is_text: bool| {
-        let text = format!("IN;{}{drawn}PU;", rectangle(0, 0, 8000, 8000));
-        let (marker, found) = read(&source(text), &Job::default());
-        assert_eq!(counts(&marker)[1], contours, "{drawn}");
-        assert_eq!(found.contains(&"hpgl/taken-for-text"), is_text, "{drawn}: {found:?}");
-    };
-    let small = rectangle(2000, 2000, 100, 200);
-    check(&small, 2, false);
-    // Digits of one height; another line; a grain line in a part; a third shape makes a row.
-    check(&format!("{small}PU1950,2000;PD1950,2200;"), 1, true);
-    check(&format!("{small}PU1950,2000;PD1950,2150;"), 2, false);
-    check(&format!("{small}PU2050,2050;PD2050,2150;PU1950,2000;PD1950,2200;"), 2, false);
-    check(&format!("{small}PU1950,2000;PD1950,2150;PU2150,2000;PD2150,2150;"), 1, true);
-    check(&format!("{small}PU1990,1800;PD2390,1900;PU1990,2300;PD2390,2400;"), 2, false);
 }
 
 // ---- Recognition.

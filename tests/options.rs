@@ -182,7 +182,7 @@ fn lines_of_a_plot_are_chosen_by_pen_and_kind_and_the_program_says_so() {
     let said = run(&room, "info p.plt", 0);
     for line in [
         "part                  2        670.000",
-        "cut-out               1         70.000",
+        "inner line            1         70.000  not cut",
         "pen down                       740.000",
     ] {
         assert!(said.contains(line), "{line} in {said}");
@@ -200,11 +200,10 @@ fn lines_of_a_plot_are_chosen_by_pen_and_kind_and_the_program_says_so() {
             .collect();
         assert_eq!(found, classes, "{choice}");
     };
-    check("", 0, &[("part", 2, true), ("cut-out", 1, true)]);
-    check("--cut closed", 0, &[("part", 2, true), ("cut-out", 1, true)]);
-    check("--cut-pens 2", 0, &[("part", 1, true), ("other pen", 2, false)]);
-    check("--cut-pens 1 --cut all", 0, &[("part", 2, true), ("other pen", 1, false)]);
-    check("--cut open", 1, &[("other line", 3, false)]);
+    check("", 0, &[("part", 2, true), ("inner line", 1, false)]);
+    check("--inner cut", 0, &[("part", 2, true), ("inner line", 1, true)]);
+    check("--cut-pens 2", 0, &[("part", 1, true), ("part", 1, false), ("inner line", 1, false)]);
+    check("--cut-pens 1 --cut-all", 0, &[("part", 1, true), ("part", 1, false), ("inner line", 1, true)]);
     let said = run(&room, "compile p.plt -o p.csv --cut-pens 2", 0);
     assert!(said.contains("--cut-pens 2"), "{said}");
     run(&room, "verify p.csv --source p.plt --cut-pens 2", 0);
@@ -217,7 +216,7 @@ fn lines_of_a_plot_are_chosen_by_pen_and_kind_and_the_program_says_so() {
     }
     let said = run(&room, "info p.plt --set hpgl.pens.0=knife", 2);
     assert!(said.contains("profile/unknown-key") && said.contains("pen 0 is none"), "{said}");
-    for choice in ["--cut closed", "--cut-pens 1"] {
+    for choice in ["--inner cut", "--cut-all", "--cut-pens 1"] {
         assert!(run(&room, &format!("info m.cut {choice}"), 0).contains("source/no-plot"), "{choice}");
     }
     assert!(!run(&room, "info m.cut", 0).contains("source/no-plot"));

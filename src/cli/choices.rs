@@ -5,7 +5,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use crate::back::{TARGETS, Target};
 use crate::front::{DIALECTS, Dialect};
-use crate::machine::plot::LineKind;
+use crate::machine::plot;
 use crate::pass::marker::MARKER_PASSES;
 use crate::pass::toolpath::TOOLPATH_PASSES;
 
@@ -18,23 +18,23 @@ pub(super) enum Format {
     Json,
 }
 
-/// Which lines of a plot are cut.
+/// Which closed lines inside the parts of a plot are cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum Cut {
-    /// Every line
+pub(super) enum Inner {
+    /// None
+    Ignore,
+    /// All but seam lines, and none that takes more than half of its part
+    Cut,
+    /// All, seam lines too
     All,
-    /// Lines that end where they start
-    Closed,
-    /// Lines that do not
-    Open,
 }
 
-impl From<Cut> for LineKind {
-    fn from(cut: Cut) -> Self {
-        match cut {
-            Cut::All => Self::All,
-            Cut::Closed => Self::Closed,
-            Cut::Open => Self::Open,
+impl From<Inner> for plot::Inner {
+    fn from(inner: Inner) -> Self {
+        match inner {
+            Inner::Ignore => Self::Ignore,
+            Inner::Cut => Self::Cut,
+            Inner::All => Self::All,
         }
     }
 }

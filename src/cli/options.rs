@@ -7,7 +7,7 @@ use clap::Args;
 use super::{FAULTY, Finished, USAGE, choices, failure, files, say};
 use crate::diagnostic::{Severity, render};
 use crate::front::Dialect;
-use crate::machine::plot::{LineKind, Lines};
+use crate::machine::plot::{Inner, Lines};
 use crate::machine::{Faults, Job, MachineProfile, Mode, NotNumbers, Numbers, Selection, load};
 use crate::source::Source;
 
@@ -48,23 +48,29 @@ pub(super) struct Reading {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Plots (HPGL)")]
 struct Plotted {
-    /// Of a plot, cut the lines of these pens only, as in `--cut-pens 4`
+    /// The pens that are knives, as in `--cut-pens 4`; what others draw is not cut, but for notches on cut edges
     ///
-    /// Overrides `hpgl.pens` of the profile. `cutc info` shows what the lines of a plot were taken for.
+    /// Cuts their outermost closed lines and the closed lines inside these that are no seam lines. Overrides `hpgl.pens` of
+    /// the profile, but for pens that it ignores. `cutc info` and `-t svg` show what lines were taken for.
     #[arg(long, value_name = "NUMBERS", value_parser = pens)]
     cut_pens: Option<Numbers>,
 
-    /// Of a plot, cut every line, or all closed or all open ones, whatever their shapes say
+    /// Which closed lines inside parts are cut
     ///
-    /// Without it closed outlines and their notches are cut; frames, texts and other lines are not.
+    /// Without it `hpgl.inner` of the profile holds, by default none: seam lines are drawn like cut-outs.
     #[arg(long, value_name = "LINES", value_enum)]
-    cut: Option<choices::Cut>,
+    inner: Option<choices::Inner>,
+
+    /// Cut every line as it is drawn, letters and seam lines too; with --cut-pens every line of these pens
+    #[arg(long)]
+    cut_all: bool,
 }
 
 impl Reading {
     /// The job on this machine with these lines, or what is wrong with its profile.
     pub(super) fn job(&self) -> anyhow::Result<Result<Job, Finished>> {
-        let lines = Lines { pens: self.lines.cut_pens.clone(), kind: self.lines.cut.map(Into::into) };
+        let Plotted { cut_pens, inner, cut_all } = &self.lines;
+        let lines = Lines { pens: cut_pens.clone(), inner: inner.map(Into::into), all: *cut_all };
         Ok(self.machine.job()?.map(|job| Job { lines, ..job }))
     }
 }
@@ -127,14 +133,15 @@ pub(super) fn typed(job: &Job) -> String {
     let Selection { pieces, skip, resume_from } = &job.selection;
     let mut words = Vec::new();
     words.extend(job.lines.pens.iter().map(|numbers| format!("--cut-pens {numbers}")));
-    words.extend(job.lines.kind.iter().map(|kind| {
-        let name = match kind {
-            LineKind::All => "all",
-            LineKind::Closed => "closed",
-            LineKind::Open => "open",
+    words.extend(job.lines.inner.iter().map(|inner| {
+        let name = match inner {
+            Inner::Ignore => "ignore",
+            Inner::Cut => "cut",
+            Inner::All => "all",
         };
-        format!("--cut {name}")
+        format!("--inner {name}")
     }));
+    words.extend(job.lines.all.then(|| "--cut-all".to_owned()));
     words.extend(pieces.iter().map(|numbers| format!("--pieces {numbers}")));
     words.extend(skip.iter().map(|numbers| format!("--skip {numbers}")));
     words.extend(resume_from.iter().map(|number| format!("--resume-from {number}")));

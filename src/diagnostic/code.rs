@@ -45,7 +45,7 @@ mod table {
     /// No dialect recognises the content.
     pub static SOURCE_UNKNOWN: Code = error("source/unknown-format", "The content is none of the dialects that cutc reads; the message names what it looks like.");
     /// Options for plots, and no plot.
-    pub static SOURCE_NO_PLOT: Code = warning("source/no-plot", "`--cut` or `--cut-pens` is given for a file that is no plot; they change nothing.");
+    pub static SOURCE_NO_PLOT: Code = warning("source/no-plot", "`--cut-pens`, `--inner` or `--cut-all` is given for a file that is no drawing; they change nothing.");
 
     // ISO cut files.
     /// A block that is not words.
@@ -116,14 +116,6 @@ mod table {
     pub static HPGL_SCALE: Code = warning("hpgl/scale-of-device", "The size of a plot depends on the plotter: it is scaled to corners or a page that it does not give, or its SC, IP, IR or RO is broken and ignored.");
     /// More than one page.
     pub static HPGL_PAGES: Code = warning("hpgl/several-pages", "A plot draws on after a page went out; the pages lie on each other.");
-    /// The file ends amid a line.
-    pub static HPGL_ENDS_PEN_DOWN: Code = error("hpgl/ends-pen-down", "A plot ends while the pen draws a line that does not close: it is most likely cut short.");
-    /// A plot whose last number may lack digits.
-    pub static HPGL_ENDS_AMID_NUMBER: Code = warning("hpgl/ends-amid-number", "A plot ends with a number that draws, without a semicolon: its last digits may be cut off.");
-    /// An outline with a gap.
-    pub static HPGL_OPEN_OUTLINE: Code = warning("hpgl/open-outline", "A line of a plot, or several in a ring, nearly close, but not quite: they may be an outline, and are not cut.");
-    /// A rectangle around all.
-    pub static HPGL_FRAME: Code = warning("hpgl/frame", "A rectangle that holds all outlines of a plot is taken for the frame of the marker and is not cut.");
     /// A place that no table reaches.
     pub static HPGL_FAR_PLACE: Code = error("hpgl/far-place", "A place of a plot lies more than a kilometre from the origin: a digit is doubled, or the unit is wrong.");
     /// Curves that fill the memory.
@@ -132,24 +124,30 @@ mod table {
     pub static HPGL_PLACE_UNKNOWN: Code = warning("hpgl/place-unknown", "A plot draws from where a text has left the pen, which depends on the letters of the plotter.");
     /// Drawing with SP0.
     pub static HPGL_NO_PEN: Code = warning("hpgl/no-pen", "A plot draws lines while no pen is taken (SP0); they are not cut.");
-    /// Letters in strokes.
-    pub static HPGL_TEXT: Code = warning("hpgl/taken-for-text", "Small closed lines of a plot that stand in a row with open ones of their height are taken for letters and are not cut; the message gives their count and first place.");
-    /// Marks or letters that were not looked for to the end.
-    pub static HPGL_SEARCH_ENDED: Code = warning("hpgl/search-ended", "A plot has so many lines that the search for notches and letters was ended; some are not recognised.");
-    /// A figure of eight.
-    pub static HPGL_CROSSED: Code = warning("hpgl/crossed-outline", "A closed line of a plot crosses itself so that its halves cancel each other: it may be an outline, and is not cut.");
-    /// A line from joint to joint.
-    pub static HPGL_DIVIDING: Code = warning("hpgl/dividing-line", "A line of a plot leads between places where three lines meet, or from one place of an outline to another, and is in no outline: it may part two pieces, and is not cut.");
-    /// A mark that is no notch.
-    pub static HPGL_MISSED_MARK: Code = warning("hpgl/missed-mark", "Short lines of a plot stand within 2 mm of an edge, or across an outline or a notch, and are no notches: they are not cut; the message gives their count and first place.");
-    /// A seam line, or a frame.
-    pub static HPGL_LARGE_CUT_OUT: Code = warning("hpgl/large-cut-out", "A cut-out of a plot leaves little of its part, or another pen draws it: it may be a seam line, or the part a frame; both are cut.");
-    /// Parts that cannot be told from cut-outs.
-    pub static HPGL_TOO_MANY: Code = error("hpgl/too-many-lines", "A plot has so many closed lines that the search for which lies in which was ended: cut-outs would be cut as parts.");
     /// Another size than the texts say, or than any table has.
     pub static HPGL_UNIT_DOUBTFUL: Code = warning("hpgl/unit-doubtful", "The extent of a plot, or a length that stands in its texts, suggests another unit; set `hpgl.unit` if it is.");
-    /// No part.
-    pub static HPGL_NOTHING_TO_CUT: Code = error("hpgl/nothing-to-cut", "The plot was read to its end and no line of it is taken for something to cut.");
+    /// A polygon that does not end.
+    pub static HPGL_ENDS_IN_POLYGON: Code = error("hpgl/ends-in-polygon", "A plot ends amid a polygon (PM), which is not drawn: it is most likely cut short.");
+
+    // What drawings want cut.
+    /// The file is not whole.
+    pub static DRAWING_CUT_SHORT: Code = error("drawing/cut-short", "A drawing ends amid a number, or amid a line outside all parts that does not close: it is most likely cut short.");
+    /// A search without an end.
+    pub static DRAWING_TOO_MANY: Code = error("drawing/too-many-lines", "A drawing has so many closed lines that the search for which lies in which was ended: inner lines would be cut as parts.");
+    /// No line is to be cut.
+    pub static DRAWING_NOTHING_TO_CUT: Code = error("drawing/nothing-to-cut", "A drawing was read to its end and no line of it is taken for something to cut.");
+    /// A part with several others in it.
+    pub static DRAWING_MAY_BE_FRAME: Code = warning("drawing/may-be-frame", "A part holds several closed lines that are not cut: it may be a frame or the edge of the table, and they the parts.");
+    /// Lines that nobody closed.
+    pub static DRAWING_OPEN_OUTLINES: Code = warning("drawing/open-outlines", "Long lines of a drawing do not close and lie in no part: they may be outlines, and are not cut.");
+    /// A rectangle around a few parts.
+    pub static DRAWING_FRAME: Code = warning("drawing/frame", "A rectangle around a few parts is taken for the frame of the drawing, and is not cut; it may be a part with cut-outs.");
+    /// Closed lines inside parts.
+    pub static DRAWING_INNER_LINES: Code = warning("drawing/inner-lines", "Closed lines lie inside parts and are no seam lines: they may be cut-outs, and are not cut unless somebody asks for it (`--inner cut`).");
+    /// Too small for parts.
+    pub static DRAWING_SMALL_OUTLINES: Code = warning("drawing/small-outlines", "Small closed lines of a drawing lie in no part; they are not cut.");
+    /// The searches for notches, letters and seam lines.
+    pub static DRAWING_SEARCH_ENDED: Code = warning("drawing/search-ended", "A drawing has so many lines that the search for notches, letters and seam lines was ended; some are not recognised.");
 
     // CSV polylines.
     /// The header is missing.
@@ -283,23 +281,21 @@ pub static ALL: &[&Code] = &[
     &HPGL_LEFT_OUT,
     &HPGL_SCALE,
     &HPGL_PAGES,
-    &HPGL_ENDS_PEN_DOWN,
-    &HPGL_ENDS_AMID_NUMBER,
-    &HPGL_OPEN_OUTLINE,
-    &HPGL_FRAME,
     &HPGL_FAR_PLACE,
     &HPGL_CURVES,
     &HPGL_PLACE_UNKNOWN,
     &HPGL_NO_PEN,
-    &HPGL_TEXT,
-    &HPGL_SEARCH_ENDED,
-    &HPGL_CROSSED,
-    &HPGL_DIVIDING,
-    &HPGL_MISSED_MARK,
-    &HPGL_LARGE_CUT_OUT,
-    &HPGL_TOO_MANY,
     &HPGL_UNIT_DOUBTFUL,
-    &HPGL_NOTHING_TO_CUT,
+    &HPGL_ENDS_IN_POLYGON,
+    &DRAWING_CUT_SHORT,
+    &DRAWING_TOO_MANY,
+    &DRAWING_NOTHING_TO_CUT,
+    &DRAWING_MAY_BE_FRAME,
+    &DRAWING_OPEN_OUTLINES,
+    &DRAWING_FRAME,
+    &DRAWING_INNER_LINES,
+    &DRAWING_SMALL_OUTLINES,
+    &DRAWING_SEARCH_ENDED,
     &CSV_HEADER,
     &CSV_ROW,
     &CSV_NO_LENGTH,

@@ -3,7 +3,7 @@
 //! Receives decimal numbers in mm, promises a contour and a piece for each polyline; one that ends where it starts is
 //! closed. Never guesses at decimal commas or other columns.
 
-use super::{Dialect, Likeness, foreign};
+use super::{Dialect, Likeness, Read, foreign};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
 use crate::ir::Marker;
@@ -18,7 +18,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     extensions: &["csv"],
     sniff,
     syntax: check_syntax,
-    read,
+    read: Read::Marker(read),
 };
 
 const HEADER: &[u8] = b"x_mm,y_mm";

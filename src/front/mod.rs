@@ -1,6 +1,6 @@
-//! Reading: bytes of a dialect to a [`Marker`].
+//! Reading: bytes of a dialect to a [`Marker`], or to a [`Drawing`] where the dialect does not say what is cut.
 //!
-//! Receives a [`Source`] and promises a marker in mm in which nobody need think any more about the dialect: its units,
+//! Receives a [`Source`] and promises a form in mm in which nobody need think any more about the dialect: its units,
 //! line breaks, codes and layouts. Everything keeps the span that it came from. Faults are reported all in one run;
 //! a marker with an error among the diagnostics is never compiled. Never guesses silently, never does I/O.
 
@@ -10,7 +10,7 @@ mod hpgl;
 mod iso;
 
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::ir::Marker;
+use crate::ir::{Drawing, Marker};
 use crate::machine::Job;
 use crate::source::Source;
 
@@ -28,7 +28,16 @@ pub struct Dialect {
     /// Whether the bytes follow the grammar, without regard to meaning.
     pub syntax: fn(&Source, &mut Diagnostics),
     /// Reads the file.
-    pub read: fn(&Source, &Job, &mut Diagnostics) -> Marker,
+    pub read: Read,
+}
+
+/// What a dialect says.
+#[derive(Debug, Clone, Copy)]
+pub enum Read {
+    /// What is cut.
+    Marker(fn(&Source, &Job, &mut Diagnostics) -> Marker),
+    /// What a pen draws: what of it is cut must be recognised.
+    Drawing(fn(&Source, &Job, &mut Diagnostics) -> Drawing),
 }
 
 /// How much some bytes look like a dialect.

@@ -1,8 +1,8 @@
 //! What the file says, in mm: pieces in cut order, with their contours, notches, drills and labels.
 
+use super::drawing::Account;
 use super::list::{Range, SegmentList};
 use super::toolpath;
-use crate::geom::moments::Moments;
 use crate::geom::{Extent, Heading, Point, Vector};
 use crate::source::Span;
 
@@ -17,46 +17,8 @@ pub struct Marker {
     pub unit: f64,
     /// What happens behind the last piece.
     pub closing: Vec<Event>,
-    /// Of a plot: what all of its lines were taken for.
-    pub drawing: Option<Drawing>,
-}
-
-/// The lines of a plot. A plot does not say what is cut; the reader decides by pens and shapes, and keeps account of it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Drawing {
-    /// Way of the pen while it is down, mm; texts that the plotter letters are not in it.
-    pub pen_down: f64,
-    /// What the lines were taken for, in a fixed order.
-    pub classes: Vec<DrawnClass>,
-    /// Texts that stand in no part: they belong to no piece.
-    pub texts_outside: usize,
-    /// What is drawn beyond what the marker cuts.
-    pub aside: Aside,
-}
-
-/// Lines of a plot that were taken for the same thing.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DrawnClass {
-    /// What they were taken for, in a word or two.
-    pub name: &'static str,
-    /// Whether such lines are cut or drilled.
-    pub cut: bool,
-    /// How many there are.
-    pub count: usize,
-    /// Length as drawn, mm.
-    pub length: f64,
-}
-
-/// What is drawn and not cut: lines, the way back of notches, outlines of holes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Aside {
-    /// Places that the pen is led to; the chords of a curve are one. Negative when there are more in what is cut: an outline
-    /// that goes into a mark is divided where the mark begins and ends.
-    pub points: isize,
-    /// Its moments, and so its length, mm.
-    pub moments: Moments,
-    /// The box around it, mm.
-    pub bounds: Extent,
+    /// Of a drawing: what all of its lines were taken for.
+    pub drawing: Option<Account>,
 }
 
 /// A piece of the garment, or what the file calls one.

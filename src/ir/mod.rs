@@ -1,5 +1,6 @@
 //! The three forms in which stages meet: [`marker`] (what the file says), [`toolpath`] (what the knife does, untimed)
-//! and [`motion`] (when the axes are where).
+//! and [`motion`] (when the axes are where). Before a marker can be made of a plot there is a [`drawing`]: what its pens
+//! draw.
 //!
 //! Invariants, checked by [`check`] after every pass in tests and debug builds:
 //!
@@ -11,6 +12,7 @@
 //! - every run has one span a chord, overlaps that are not negative and a positive speed cap
 
 pub mod check;
+pub mod drawing;
 pub mod finding;
 mod links;
 pub mod list;
@@ -20,6 +22,7 @@ mod scattered;
 pub mod text;
 pub mod toolpath;
 
+pub use drawing::Drawing;
 pub use finding::Finding;
 pub use list::{Range, Segment, SegmentId, SegmentList};
 pub use marker::Marker;

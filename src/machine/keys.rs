@@ -425,8 +425,10 @@ pub const KEYS: &[Key] = &[
     Key { name: "verify.max_overcut_waste_mm", takes: Takes::NumberOr(from(0.0, 1000.0), "off"), about: "Farthest overcut into waste." },
 
     Key { name: "hpgl.unit", takes: Takes::Length(from(LEAST_UNIT_MM, GREATEST_UNIT_MM)), about: "Unit of the numbers in plots, mm. Plotters count 1/40 mm; other programs write 0.0254, 0.1, 0.01\nor the dots of a printer. The extent is always printed: compare it with the cloth." },
-    Key { name: "hpgl.drill_max_mm", takes: Takes::NumberOr(from(0.0, 1000.0), "off"), about: "Closed squares and circles of a plot up to this size are holes to drill; \"off\" = they are cut." },
-    Key { name: "hpgl.pens.<pen>", takes: Takes::Word(&["knife", "pen", "ignore"]), about: "What a pen of a plot stands for: its lines are cut (\"knife\"), drawn only (\"pen\") or passed over\n(\"ignore\"). Of pens without a key the closed outlines and their notches are cut." },
+    Key { name: "hpgl.drill_max_mm", takes: Takes::NumberOr(from(0.0, 1000.0), "off"), about: "Closed squares and circles of a plot up to this size are holes to drill; \"off\" = none is." },
+    Key { name: "hpgl.inner", takes: Takes::Word(&["ignore", "cut", "all"]), about: "Which closed lines inside parts are cut: \"ignore\" = none, but those of a pen that is a knife; \"cut\" = all that are\nno seam lines and take no more than half of their part; \"all\" = seam lines, too." },
+    Key { name: "hpgl.frame", takes: Takes::Word(&["auto", "none", "outermost"]), about: "Whether a frame is drawn around the parts: \"auto\" = a rectangle around two parts or more is one; \"none\" = there is\nnone; \"outermost\" = the largest closed line is one." },
+    Key { name: "hpgl.pens.<pen>", takes: Takes::Word(&["knife", "pen", "ignore"]), about: "What a pen of a plot stands for: its outermost and inner lines are cut (\"knife\"), its lines are drawn only, but for\nnotches on cut edges (\"pen\"), or do not matter (\"ignore\"). Of pens without a key shapes decide." },
     Key { name: "labels.encoding", takes: Takes::Encoding, about: "Encoding of label texts that are no UTF-8: \"windows-1251\" (Cyrillic), \"latin1\", \"gbk\" (Chinese),\n\"big5\", \"shift_jis\", \"euc-kr\" and more. What is no text in it is shown as \u{fffd}." },
 
     Key { name: "codes.<code>", takes: Takes::Word(&["use", "ignore"]), about: "A code of the cutter file to obey or to skip, as the USE/IGNORE switches of a cutter." },

@@ -17,14 +17,18 @@ pub struct Hpgl {
     /// Largest closed square or circle that is a hole to drill, mm; `None` = none is.
     #[serde(with = "OrWord::<Off>")]
     pub drill_max_mm: Option<f64>,
+    /// Which closed lines inside parts are cut.
+    pub inner: Inner,
+    /// Whether a frame is drawn around the parts.
+    pub frame: Frame,
     /// What a pen stands for, by its number.
     pub pens: BTreeMap<String, PenUse>,
 }
 
 impl Hpgl {
-    /// What the pen of that number stands for; `None` when the profile does not say.
-    pub fn pen(&self, number: u16) -> Option<PenUse> {
-        self.pens.get(&number.to_string()).copied()
+    /// What the pen of that name stands for; `None` when the profile does not say.
+    pub fn pen(&self, name: &str) -> Option<PenUse> {
+        self.pens.get(name).copied()
     }
 }
 
@@ -38,6 +42,32 @@ pub enum PenUse {
     Pen,
     /// Its lines do not matter.
     Ignore,
+}
+
+/// Which closed lines inside the parts of a plot are cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Inner {
+    /// None, but those of a pen that is a knife.
+    #[default]
+    Ignore,
+    /// Those that are no seam lines, and take no more than half of their part.
+    Cut,
+    /// All of them, seam lines too.
+    All,
+}
+
+/// Whether a plot draws a frame around its parts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Frame {
+    /// A rectangle around several parts is one.
+    #[default]
+    Auto,
+    /// There is none.
+    None,
+    /// The largest closed line is one, whatever its shape.
+    Outermost,
 }
 
 /// The length of one unit of a plot: a number of mm, or a text such as `1/40 mm`, `1/1000 in`, `600 dpi`.
@@ -118,24 +148,15 @@ impl Serialize for PlotUnit {
     }
 }
 
-/// Which lines of a plot one compile cuts, whatever their shapes say.
+/// Which lines of a plot one compile cuts, where its user says something of them.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Lines {
     /// Only those of these pens; `None` = as the profile and the shapes say.
     pub pens: Option<Numbers>,
-    /// Only these; `None` = as the shapes say.
-    pub kind: Option<LineKind>,
-}
-
-/// Kinds of lines.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LineKind {
-    /// Every line.
-    All,
-    /// Those that end where they start.
-    Closed,
-    /// The others.
-    Open,
+    /// Which closed lines inside parts; `None` = as the profile says.
+    pub inner: Option<Inner>,
+    /// Every line, whatever it is taken for.
+    pub all: bool,
 }
 
 #[cfg(test)]

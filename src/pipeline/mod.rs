@@ -21,12 +21,13 @@ use self::program::{Sink, Written};
 use self::toolpaths::Toolpaths;
 use crate::back::{Context, Emit, Proof, SETPOINTS, Target};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::front::{self, Dialect};
+use crate::front::{self, Dialect, Read as Reader};
 use crate::ir::{Finding, Marker, check, text};
 use crate::machine::{Job, plot};
 use crate::pass::marker::MARKER_PASSES;
 use crate::pass::toolpath::{Scene, TOOLPATH_PASSES, trace};
 use crate::plan;
+use crate::recognise;
 use crate::source::Source;
 use crate::verify::{Census, Ground, Works};
 
@@ -129,14 +130,26 @@ fn read_alone(
 ) -> Option<Input> {
     let extension = Path::new(source.name()).extension().and_then(|e| e.to_str());
     let dialect = from.or_else(|| front::detect(source, extension, diagnostics))?;
-    let marker = (dialect.read)(source, job, diagnostics);
-    // Only a plot leaves it to others which of its lines are cut.
+    let marker = marker_of(dialect, source, job, diagnostics);
+    // Only a drawing leaves it to others which of its lines are cut.
     if marker.drawing.is_none() && job.lines != plot::Lines::default() && !diagnostics.has_errors() {
-        let message = "`--cut` and `--cut-pens` choose among the lines of a plot, and this is none: all of it is cut";
+        let message = "`--cut-pens`, `--inner` and `--cut-all` choose among the lines of a plot, and this is none: all of it is cut";
         let finding = Diagnostic::new(&code::SOURCE_NO_PLOT, message);
         diagnostics.push(finding.hint("leave them out; `--pieces` and `--skip` choose pieces of any file"));
     }
     Some(Input { dialect, marker })
+}
+
+/// What a source says is cut, as a dialect reads it, or as it is recognised in what the dialect says is drawn.
+pub fn marker_of(dialect: &Dialect, source: &Source, job: &Job, diagnostics: &mut Diagnostics) -> Marker {
+    match dialect.read {
+        Reader::Marker(read) => read(source, job, diagnostics),
+        Reader::Drawing(read) => {
+            let drawing = read(source, job, diagnostics);
+            // What is not read to its end would only be recognised wrongly.
+            if diagnostics.has_errors() { Marker::default() } else { recognise::marker(drawing, job, diagnostics) }
+        }
+    }
 }
 
 /// Runs the marker passes up to and with `last`; `None` = all.

@@ -8,7 +8,8 @@ use serde::{Serialize, Serializer};
 use super::spent::Spent;
 use crate::back::Estimate;
 use crate::ir::Marker;
-use crate::ir::marker::{Drawing, DrawnClass, NotchKind};
+use crate::ir::drawing::{Account, LineClass};
+use crate::ir::marker::NotchKind;
 use crate::machine::{Follow, NotchStyle};
 use crate::units::{MM_PER_M, deg};
 
@@ -89,26 +90,28 @@ pub struct Drawn {
 pub struct Lines {
     /// What they were taken for.
     pub class: &'static str,
+    /// How such lines are told from others.
+    pub about: &'static str,
     /// Whether they are cut or drilled.
     pub cut: bool,
     /// How many there are.
     pub count: usize,
-    /// Length as drawn, mm; that of notches which are spikes counts with their outline.
+    /// Length as drawn, mm; that of notches in an outline counts with it.
     #[serde(serialize_with = "micro")]
     pub length_mm: f64,
 }
 
 impl Drawn {
-    fn of(drawing: &Drawing) -> Self {
-        let lines = |class: &DrawnClass| Lines {
+    fn of(account: &Account) -> Self {
+        let lines = |class: &LineClass| Lines {
             class: class.name,
+            about: class.about,
             cut: class.cut,
             count: class.count,
             length_mm: class.length,
         };
-        let there = drawing.classes.iter().filter(|class| class.count > 0);
-        let texts_outside = drawing.texts_outside;
-        Self { pen_down_mm: drawing.pen_down, texts_outside, lines: there.map(lines).collect() }
+        let lines = account.classes.iter().map(lines).collect();
+        Self { pen_down_mm: account.pen_down, texts_outside: account.texts_outside, lines }
     }
 }
 

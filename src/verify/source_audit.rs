@@ -6,7 +6,8 @@ use super::source_hpgl;
 use super::worst::Worst;
 use crate::geom::moments::{Allowance, Difference, Moments};
 use crate::geom::{Extent, Point};
-use crate::ir::marker::{Drawing, Notch};
+use crate::ir::drawing::Account;
+use crate::ir::marker::Notch;
 use crate::ir::{Finding, Marker};
 use crate::machine::MachineProfile;
 
@@ -71,17 +72,28 @@ impl Census {
                 }
             }
         }
-        // A plot draws more than is cut, and its marker keeps account of that.
-        if let Some(Drawing { aside, .. }) = &marker.drawing {
-            census.points = census.points.saturating_add_signed(aside.points);
-            census.length += aside.moments.length();
-            census.moments += aside.moments;
-            if !aside.bounds.is_empty() {
-                census.bounds.add(aside.bounds.min);
-                census.bounds.add(aside.bounds.max);
-            }
+        if let Some(account) = &marker.drawing {
+            census.add_aside(account);
         }
         census
+    }
+
+    /// Adds what a plot draws beyond what is cut: its marker keeps all of it.
+    fn add_aside(&mut self, Account { aside, .. }: &Account) {
+        for (_, vertices) in aside.each() {
+            let mut span = None;
+            let moments = Moments::of(vertices.iter().map(|vertex| vertex.at));
+            self.length += moments.length();
+            self.moments += moments;
+            vertices.iter().for_each(|vertex| self.bounds.add(vertex.at));
+            self.points +=
+                vertices.iter().skip(1).filter(|vertex| span.replace(vertex.span) != Some(vertex.span)).count();
+        }
+        let moved = &aside.moved;
+        self.points += moved.points;
+        self.length += moved.moments.length();
+        self.moments += moved.moments;
+        self.bounds.join(&moved.bounds);
     }
 }
 

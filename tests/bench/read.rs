@@ -48,7 +48,7 @@ fn main() -> io::Result<()> {
 fn reading(source: &Source, dialect: &front::Dialect) -> f64 {
     let mut found = Diagnostics::default();
     let start = Instant::now();
-    let marker = (dialect.read)(source, &Job::default(), &mut found);
+    let marker = cutc::pipeline::marker_of(dialect, source, &Job::default(), &mut found);
     let duration = start.elapsed().as_secs_f64();
     drop(marker);
     duration

@@ -3,7 +3,7 @@
 use cutc::geom::Point;
 use cutc::ir::Marker;
 use cutc::machine::Job;
-use cutc::machine::plot::{LineKind, Lines};
+use cutc::machine::plot::Lines;
 
 use super::audit::audit;
 use super::{as_read, read, source};
@@ -28,7 +28,7 @@ fn arcs_through_places_on_a_line_are_lines_whatever_the_scale() {
             at(from)
         );
         let source = source(text.clone());
-        let job = Job { lines: Lines { kind: Some(LineKind::All), ..Lines::default() }, ..Job::default() };
+        let job = Job { lines: Lines { all: true, ..Lines::default() }, ..Job::default() };
         let marker = as_read(&source, &job);
         assert!(marker.pieces.iter().flat_map(|p| &p.contours).all(|c| marker.points(c).len() <= 4), "{text}");
         assert_eq!(audit(&source, &marker, &job), [], "{text}");
@@ -100,7 +100,7 @@ const SCALINGS: [Scaling; 5] = [
 
 #[test]
 fn arcs_are_ellipses_where_the_two_axes_are_scaled_differently() {
-    let job = Job { lines: Lines { kind: Some(LineKind::All), ..Lines::default() }, ..Job::default() };
+    let job = Job { lines: Lines { all: true, ..Lines::default() }, ..Job::default() };
     let sagitta = job.profile.tolerance(job.profile.hpgl.unit.mm()) / 4.0;
     for (&Arc { drawn, from, by, to }, Scaling { scale, offset, factor }, degrees) in combinations() {
         let text = format!("IN;PS8000,4000;RO{degrees};IP0,0,8000,4000;{scale}SP1;{drawn}SP0;");
@@ -154,6 +154,6 @@ fn combinations() -> impl Iterator<Item = (&'static Arc, &'static Scaling, u32)>
 #[test]
 fn a_polygon_that_is_drawn_twice_may_lack_twice_as_much() {
     let text = "IN;SP1;PU0,0;PM0;PD;AA4000,0,180;PD8000,4000,0,4000;PM2;EP;EP;EP;PU;SP0;";
-    let job = Job { lines: Lines { kind: Some(LineKind::All), ..Lines::default() }, ..Job::default() };
+    let job = Job { lines: Lines { all: true, ..Lines::default() }, ..Job::default() };
     assert_eq!(audit(&source(text), &as_read(&source(text), &job), &job), []);
 }

@@ -1,116 +1,114 @@
-//! Notches: what a plot draws as marks is what a cut file has in its outline.
+//! Notches that a plot draws as strokes of their own: from the edge of a part inwards, of any pen that is not ignored.
 
-use cutc::front::by_name;
-use cutc::geom::Point;
 use cutc::ir::Marker;
+use cutc::ir::marker::NotchKind;
 use cutc::machine::Job;
-use cutc::pipeline::{self, Report};
+use cutc::machine::plot::Inner;
 
 use super::audit::audit;
-use super::{as_read, read, rectangle, source};
+use super::{as_read, key, read, rectangle, source};
 
-/// The points of the first outline from its least one on, in 1/40 mm.
-fn outline(marker: &Marker) -> Vec<[i64; 2]> {
-    let contour = marker.contours().next().expect("an outline").1;
-    let mut points: Vec<[i64; 2]> = marker.points(contour).into_iter().map(super::key).collect();
-    points.pop();
-    let least = (0..points.len()).min_by_key(|&i| points[i]).expect("points");
-    points.rotate_left(least);
-    points
+/// The slits of each piece of a plot behind the passes, root and tip in units; the account of the lines is whole.
+fn slits(text: &str, job: &Job) -> Vec<Vec<[[i64; 2]; 2]>> {
+    let source = source(format!("IN;SP1;{text}PU;SP0;"));
+    assert_eq!(audit(&source, &as_read(&source, job), job), [], "{text}");
+    let marker: Marker = read(&source, job).0;
+    let of = |piece: &cutc::ir::marker::Piece| {
+        let mut slits: Vec<_> = piece.notches.iter().map(|notch| [key(notch.root), key(notch.tip)]).collect();
+        slits.sort_unstable();
+        slits
+    };
+    marker.pieces.iter().map(of).collect()
 }
 
-/// A part of 200 by 100 mm with a mark of two legs; the notches of each kind in the marker behind the passes.
-fn check(mark: &str, slits: usize, vees: usize) -> Marker {
-    let source = source(format!("IN;SP1;{}{mark}PU;SP0;", rectangle(0, 0, 8000, 4000)));
-    assert_eq!(audit(&source, &as_read(&source, &Job::default()), &Job::default()), [], "{mark}");
-    let (marker, found) = read(&source, &Job::default());
-    let report = Report::of(&marker, "hpgl");
-    assert_eq!((report.notches.slit, report.notches.v), (slits, vees), "{mark} {found:?}");
-    marker
+/// A part of 300 by 300 mm from (100, 100) on.
+fn part() -> String {
+    rectangle(4000, 4000, 12_000, 12_000)
+}
+
+/// The one notch that a mark on that part is, or none.
+fn check(mark: &str, expected: Option<[[i64; 2]; 2]>) {
+    let found = slits(&(part() + mark), &Job::default());
+    assert_eq!(found, [Vec::from_iter(expected)], "{mark}");
 }
 
 #[test]
-fn a_mark_of_two_legs_is_one_v_notch_and_the_marker_is_that_of_a_cut_file() {
-    let cut = "H1*G71*M15*N1*X0Y0*M14*X970Y0*X1000Y60*X1030Y0*X2000Y0*X2000Y1000*X0Y1000*X0Y0*M15*M0*";
-    let cut = source(cut);
-    let mut found = cutc::diagnostic::Diagnostics::default();
-    let cut = pipeline::read(&cut, by_name("iso"), &Job::default(), &mut found).expect("a cut file").marker;
-    assert_eq!(Report::of(&cut, "iso").notches.v, 1);
+fn a_stroke_from_the_edge_inwards_is_a_notch_however_it_is_drawn() {
+    let notch = Some([[8000, 4000], [8000, 4240]]);
+    check("PU8000,4000;PD8000,4240;", notch);
+    check("PU8000,4240;PD8000,4000;", notch);
+    check("PU8000,4000;PD8000,4240,8000,4000;", notch);
+    check("PU8000,4000;PD8000,4120,8000,4240;", notch);
+    check("PU8000,4000;PD8000,4120;PU8000,4240;PD8000,4120;", notch);
+    check("SP7;PU8000,4000;PD8000,4240;", notch);
+    check("PU4000,9000;PD4240,9100;", Some([[4000, 9000], [4240, 9100]]));
+}
+
+#[test]
+fn what_is_too_short_too_long_outside_or_in_the_midst_is_no_notch() {
     for mark in [
-        "PU3880,0;PD4000,240,4120,0;",
-        "PU4120,0;PD4000,240,3880,0;",
-        "PU3880,0;PD4000,240;PU4120,0;PD4000,240;",
-        "PU4000,240;PD3880,0;PU4000,240;PD4120,0;",
+        "PU8000,4000;PD8000,4030;",
+        "PU8000,4000;PD8000,4640;",
+        "PU8000,4000;PD8000,3760;",
+        "PU8000,4800;PD8000,5000;",
+        "PU8000,4000;PD8200,4000;",
+        "PU8000,3840;PD8000,4160;",
+        "PU8000,4000;PD8000,4240,8240,4240,8240,4000;",
     ] {
-        let plotted = check(mark, 0, 1);
-        assert_eq!(outline(&plotted), outline(&cut), "{mark}");
-        let [a, b] = [&cut, &plotted].map(|marker| marker.pieces[0].vees[0]);
-        assert_eq!(super::key(a.apex), super::key(b.apex));
-        assert!((a.depth() - b.depth()).abs() < 1e-9 && (a.width() - b.width()).abs() < 1e-9);
-        assert!((a.direction() - b.direction()).norm() < 1e-9);
+        check(mark, None);
     }
 }
 
 #[test]
-fn marks_on_an_outline_with_a_small_gap_are_cut_like_the_outline() {
-    let gapped = "PU0,0;PD8000,0,8000,4000,0,4000,0,20;";
-    let marks =
-        "PU1000,0;PD1000,200;PU2000,4000;PD2000,3800,2000,4000;PU3880,0;PD4000,240,4120,0;PU6000,2000;PD6000,2200;";
-    let source = source(format!("IN;SP1;{gapped}{marks}PU;SP0;"));
-    let marker = as_read(&source, &Job::default());
-    assert_eq!(audit(&source, &marker, &Job::default()), []);
-    assert_eq!(marker.pieces.len(), 1);
-    let mut tips: Vec<[i64; 2]> = marker.pieces[0].notches.iter().map(|notch| super::key(notch.tip)).collect();
-    tips.sort_unstable();
-    assert_eq!(tips, [[1000, 200], [2000, 3800], [4000, 240], [4000, 240]]);
-}
-
-#[test]
-fn a_slit_in_short_steps_is_one_slit_however_the_outline_draws_it() {
-    for step in [32, 100] {
-        let place = |i: i64| format!("4000,{},", i * step);
-        let out: String = (1..=200 / step).map(place).collect();
-        let back: String = (0..200 / step).rev().map(place).collect();
-        let drawn = format!("IN;SP1;PU0,0;PD4000,0,{out}{back}8000,0,8000,4000,0,4000,0,0;PU;SP0;");
-        let source = source(drawn);
-        let marker = as_read(&source, &Job::default());
-        assert_eq!(audit(&source, &marker, &Job::default()), []);
-        let slits: Vec<_> = marker.pieces[0].notches.iter().map(|n| [super::key(n.root), super::key(n.tip)]).collect();
-        assert_eq!(slits, [[[4000, 0], [4000, 200 / step * step]]], "{step}");
+fn a_mark_that_misses_its_edge_by_some_units_reaches_it() {
+    for miss in [1, 4, 16] {
+        let found = slits(&(part() + &format!("PU8000,{};PD8000,4240;", 4000 + miss)), &Job::default());
+        assert_eq!(found[0].len(), 1, "{miss}");
     }
+    check("PU8000,4040;PD8000,4240;", None);
 }
 
 #[test]
-fn two_legs_that_make_no_v_notch_are_slits() {
-    check("PU3600,0;PD4000,240,4400,0;", 2, 0); // wider than deep
-    check("PU3880,3;PD4000,240,4120,3;", 2, 0); // beside the edge
-    check("PU3880,0;PD4000,-240,4120,0;", 2, 0); // out of the part
-    check("PU3880,4000;PD4000,3760,4120,4000;PU1000,0;PD1000,200;", 1, 1);
-}
-
-#[test]
-fn a_v_notch_on_an_edge_of_two_parts_is_of_the_one_that_it_leads_into() {
-    for (tip, piece) in [(4240, 1), (3760, 0)] {
-        let parts = [rectangle(0, 0, 8000, 4000), rectangle(0, 4000, 8000, 4000)].concat();
-        let text = format!("IN;SP1;{parts}PU3880,4000;PD4000,{tip},4120,4000;PU;SP0;");
-        let source = source(text);
-        assert_eq!(audit(&source, &as_read(&source, &Job::default()), &Job::default()), []);
-        let (marker, _) = read(&source, &Job::default());
-        let vees: Vec<usize> = marker.pieces.iter().map(|piece| piece.vees.len()).collect();
-        assert_eq!(vees, if piece == 0 { [1, 0] } else { [0, 1] });
-        assert_eq!(marker.pieces[piece].vees[0].apex, Point::new(100.0, f64::from(tip) / 40.0));
+fn two_legs_that_meet_are_two_slits_to_one_tip_and_none_alone() {
+    let legs = vec![[[7880, 4000], [8000, 4240]], [[8120, 4000], [8000, 4240]]];
+    for mark in ["PU7880,4000;PD8000,4240,8120,4000;", "PU7880,4000;PD8000,4240;PU8120,4000;PD8000,4240;"] {
+        assert_eq!(slits(&(part() + mark), &Job::default()), std::slice::from_ref(&legs), "{mark}");
     }
+    check("PU7880,4000;PD8000,4240,8120,4200;", None);
 }
 
 #[test]
-fn v_notches_in_a_cut_out_and_beside_spikes_keep_the_account() {
-    let cut_out = rectangle(2000, 1000, 3000, 2000);
-    let marker = check(&format!("{cut_out}PU3000,1000;PD3100,800,3200,1000;"), 0, 1);
-    assert_eq!(marker.pieces[0].contours.len(), 2);
-    let spiked = "IN;SP1;PU0,0;PD2000,0,2000,200,2000,0,8000,0,8000,4000,0,4000,0,0;\
-                  PU3880,0;PD4000,240,4120,0;PU5880,0;PD6000,240,6120,0;PU;SP0;";
-    let source = source(spiked);
+fn a_stroke_over_the_tip_of_a_notch_is_its_crossbar() {
+    let text = format!("IN;SP1;{}PU8000,4000;PD8000,4200;PU7900,4200;PD8100,4200;PU;SP0;", part());
+    let source = source(text);
     assert_eq!(audit(&source, &as_read(&source, &Job::default()), &Job::default()), []);
-    let report = Report::of(&read(&source, &Job::default()).0, "hpgl");
-    assert_eq!((report.notches.slit, report.notches.v), (1, 2));
+    let marker = read(&source, &Job::default()).0;
+    assert!(matches!(marker.pieces[0].notches[..], [notch] if matches!(notch.kind, NotchKind::T(_))));
+    assert_eq!(marker.contours().count(), 1);
+}
+
+#[test]
+fn a_mark_on_an_edge_of_two_parts_is_a_notch_of_the_one_that_it_leads_into() {
+    for gap in [-4, 0, 4] {
+        let parts = [rectangle(0, 0, 8000, 4000), rectangle(0, 4000 + gap, 8000, 4000)].concat();
+        for (tip, counts) in [(4240, [0, 1]), (3760, [1, 0])] {
+            let found = slits(&format!("{parts}PU3000,4000;PD3000,{tip};"), &Job::default());
+            assert_eq!(found.iter().map(Vec::len).collect::<Vec<_>>(), counts, "{gap} {tip}");
+        }
+    }
+}
+
+#[test]
+fn an_outline_that_is_lifted_where_a_mark_starts_is_whole_and_has_the_notch() {
+    let outline = "PU4000,4000;PD8000,4000;PU8000,4000;PD16000,4000,16000,16000,4000,16000,4000,4000;";
+    let found = slits(&format!("{outline}PU8000,4000;PD8000,4240;"), &Job::default());
+    assert_eq!(found, [vec![[[8000, 4000], [8000, 4240]]]]);
+}
+
+#[test]
+fn a_mark_beside_a_cut_out_is_no_notch() {
+    let job =
+        Job { lines: cutc::machine::plot::Lines { inner: Some(Inner::Cut), ..Default::default() }, ..Job::default() };
+    let found = slits(&format!("{}{}PU8000,8000;PD8000,7800;", part(), rectangle(7000, 8000, 2000, 2000)), &job);
+    assert!(found[0].is_empty() && found.len() == 1, "{found:?}");
 }

@@ -12,7 +12,7 @@ use super::{read, rectangle, source};
 #[test]
 fn a_nesting_that_was_cut_short_is_an_error() {
     let nested: String = (0..20_000).map(|i| rectangle(i, i, 100_000 - 2 * i, 100_000 - 2 * i)).collect();
-    assert!(within_patience("nested outlines", nested.into_bytes()).contains(&"hpgl/too-many-lines"));
+    assert!(within_patience("nested outlines", nested.into_bytes()).contains(&"drawing/too-many-lines"));
 }
 
 /// The longest that a hostile file may take in a test build on a busy machine: some ten times what it takes on an idle one,
@@ -27,7 +27,7 @@ fn in_time(what: &str, bytes: Vec<u8>, job: &Job) -> Vec<&'static str> {
     let source = source(bytes);
     let mut found = Diagnostics::default();
     let start = Instant::now();
-    (by_name("hpgl").expect("a dialect").read)(&source, job, &mut found);
+    cutc::pipeline::marker_of(by_name("hpgl").expect("a dialect"), &source, job, &mut found);
     assert!(start.elapsed() < PATIENCE, "{what}: {:?}", start.elapsed());
     found.iter().map(|diagnostic| diagnostic.code.name).collect()
 }
@@ -59,7 +59,7 @@ fn a_hundred_megabytes_of_garbage_are_refused_quickly() {
     {
         let bytes: Vec<u8> = word.bytes().cycle().take(SIZE).collect();
         let found = within_patience(what, bytes);
-        let refused = ["hpgl/not-a-plot", "hpgl/nothing-to-cut", "source/unknown-format"];
+        let refused = ["hpgl/not-a-plot", "drawing/nothing-to-cut", "source/unknown-format"];
         assert!(found.iter().any(|code| refused.contains(code)), "{what}: {found:?}");
     }
 }
@@ -73,25 +73,21 @@ fn many(count: i64, line: &dyn Fn(i64) -> String) -> String {
 #[test]
 fn drawings_made_to_be_slow_are_read_in_time_and_what_was_not_searched_is_said() {
     let specks = many(200_000, &|i| rectangle(i % 500, i / 500, 1, 1) + "PU5,5;PD6,6;");
-    check("specks", &specks, &["hpgl/search-ended"]);
+    check("specks", &specks, &["drawing/search-ended", "drawing/nothing-to-cut"]);
     let comb = rectangle(0, 100, 40_000, 10_000) + &many(40_000, &|i| format!("PU{i},100;PD{i},200;"));
     check("marks", &comb, &[]);
     let fan = many(60_000, &|i| format!("PU0,0;PD{i},900;"));
-    check("strokes that all meet", &fan, &["hpgl/nothing-to-cut"]);
+    check("strokes that all meet", &fan, &["drawing/nothing-to-cut"]);
     let bars = many(200_000, &|i| rectangle(0, 20 * i, 100_000, 10));
-    check("outlines that lie beside each other", &bars, &["hpgl/too-many-lines"]);
+    check("outlines that lie beside each other", &bars, &[]);
     let marks = many(200_000, &|i| format!("PU{},-1000;PD{},-1100;", i % 90_000, i % 90_000));
-    check(
-        "marks beside many outlines",
-        &(marks + &bars[..bars.len() / 2]),
-        &["hpgl/too-many-lines", "hpgl/search-ended"],
-    );
+    check("marks beside many outlines", &(marks + &bars[..bars.len() / 2]), &["drawing/search-ended"]);
     let zigzag = many(50_000, &|i| format!("{},{},", 90_000 * (i % 2), 40 * i));
     let marks = many(100_000, &|i| format!("PU{},2000;PD{},2090;", i % 90_000, i % 90_000));
     check(
         "an outline with long segments",
         &format!("PU0,0;PD{zigzag}-900000,0,0,0;{marks}"),
-        &["hpgl/unit-doubtful", "hpgl/search-ended"],
+        &["hpgl/unit-doubtful", "drawing/search-ended"],
     );
     let way = many(200_000, &|i| format!("{},0,", 3 * (200_000 - i)));
     let back = many(200_000, &|i| format!(",{},0", 3 * (i + 1)));
@@ -107,10 +103,10 @@ fn holes_and_texts_whose_part_was_not_found_in_time_are_said() {
     let holes: String =
         (0..15_000).map(|i| rectangle(20_000 + i % 1000 * 20, 20_000 + i / 1000 * 20, 40, 40)).collect();
     let found = in_time("holes", format!("{parts}{holes}PU;").into_bytes(), &drilling);
-    assert_eq!(found, ["hpgl/too-many-lines"]);
+    assert_eq!(found, ["drawing/too-many-lines"]);
     let texts = many(15_000, &|i| format!("PU{},20000;LBx\u{3};", 20_000 + i));
     let found = in_time("texts", format!("{parts}{texts}PU;").into_bytes(), &Job::default());
-    assert_eq!(found, ["hpgl/search-ended"]);
+    assert_eq!(found, ["drawing/too-many-lines"]);
 }
 
 #[test]
@@ -120,11 +116,10 @@ fn curves_and_polygons_that_never_end_are_refused_in_time() {
     check(
         "near circles",
         &format!("PU0,0;{}", repeated("CI30000000;", 3000)),
-        // The last circle has no end.
-        &["hpgl/too-many-chords", "hpgl/unit-doubtful", "hpgl/dividing-line"],
+        &["hpgl/too-many-chords", "hpgl/unit-doubtful"],
     );
     let arcs = repeated("AA0,0,360;", 200_000);
-    check("arcs with the pen up", &format!("PU30000000,0;{arcs}"), &["hpgl/nothing-to-cut"]);
+    check("arcs with the pen up", &format!("PU30000000,0;{arcs}"), &["drawing/nothing-to-cut"]);
     check("a polygon of arcs with the pen up", &format!("PU30000000,0;PM0;{arcs}"), &["hpgl/too-many-chords"]);
     let edges = repeated("EP;", 100_000);
     for places in ["PD9,9,5,5,", "PU9,9,5,5,", "PD9,9,9,9,"] {
@@ -136,7 +131,7 @@ fn curves_and_polygons_that_never_end_are_refused_in_time() {
 
 #[test]
 fn labels_without_their_terminator_are_read_in_time() {
-    check("labels", &"IN;LBx;".repeat(1 << 20), &["hpgl/open-label", "hpgl/nothing-to-cut"]);
+    check("labels", &"IN;LBx;".repeat(1 << 20), &["hpgl/open-label", "drawing/nothing-to-cut"]);
 }
 
 #[test]
@@ -168,7 +163,7 @@ fn an_outline_that_is_cut_short_is_never_cut_in_silence() {
             !whole[..length].rsplit_once('P').is_some_and(|(_, last)| last.starts_with('D') && last.len() > 1);
         // What ends amid a pair of numbers leaves one of them without its partner.
         let is_named =
-            |code: &&str| ["hpgl/ends-pen-down", "hpgl/odd-coordinate", "hpgl/nothing-to-cut"].contains(code);
+            |code: &&str| ["drawing/cut-short", "hpgl/odd-coordinate", "drawing/nothing-to-cut"].contains(code);
         assert!(
             is_complete || is_whole || pen_is_up || found.iter().any(is_named),
             "after {length} bytes: {}",
@@ -182,6 +177,6 @@ fn marks_that_cross_many_edges_are_searched_in_time_and_what_was_not_searched_is
     let zigzag = many(20_000, &|i| format!("{},{},", 90_000 * (i % 2), 40 * i));
     let marks = many(20_000, &|i| format!("PU{},2000;PD{},2600,{},2600;", 4 * i, 4 * i, 4 * i + 40));
     let found = within_patience("marks", format!("PU0,0;PD{zigzag}-900000,0,0,0;{marks}PU;").into_bytes());
-    assert!(found.contains(&"hpgl/search-ended"), "{found:?}");
+    assert!(found.contains(&"drawing/search-ended"), "{found:?}");
     assert!(!found.contains(&"hpgl/missed-mark"), "{found:?}");
 }

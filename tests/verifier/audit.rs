@@ -32,7 +32,7 @@ fn sources() -> Vec<(Source, Marker)> {
         let mut diagnostics = Diagnostics::default();
         let input = pipeline::read(&source, None, &Job::default(), &mut diagnostics).expect("it is read");
         assert_eq!(input.dialect.name, "iso", "{}", source.name());
-        let marker = (input.dialect.read)(&source, &Job::default(), &mut diagnostics);
+        let marker = cutc::pipeline::marker_of(input.dialect, &source, &Job::default(), &mut diagnostics);
         (source, marker)
     };
     paths.iter().map(read).collect()

@@ -4,10 +4,11 @@
 //! in it is one of the program; text and legend stand outside that transform. Strokes keep their width on the screen at
 //! any zoom, symbols are as large as the blade suggests: the whole shows pieces, a corner shows its overlaps.
 //!
-//! Layers from the bottom: pieces with their notches and numbers, labels, the knife's way (a group for each contour, notch
+//! Layers from the bottom: what a plot draws and nobody cuts, pieces with their notches and numbers, labels, the knife's way (a group for each contour, notch
 //! and drill), the worst places that the verifier saw, the legend. In a browser the picture fills the window; a piece's number is a link
 //! to a view of that piece, and the legend links to the whole and to the actual size.
 
+mod aside;
 mod findings;
 mod knife;
 mod label;
@@ -37,6 +38,7 @@ fn head(context: &Context, out: &mut dyn Output) -> io::Result<()> {
     let labels = label::layer(&mut shapes, &sheet, context);
     text.push_str(&sheet::style(&piece::colour_rules(&shapes)));
     text.push_str(&sheet.ground(context));
+    text.push_str(&aside::layer(context));
     text.push_str(&piece::layer(&shapes, &sheet));
     text.push_str(&labels);
     text.push_str("<g id=\"knife\" inkscape:groupmode=\"layer\" inkscape:label=\"knife\" transform=\"scale(1,-1)\">\n");

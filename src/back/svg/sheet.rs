@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use super::findings;
 use super::markup::{PathData, escape, mm};
 use super::piece::PALETTE;
+use super::{aside, findings};
 use crate::back::Context;
 use crate::geom::{Extent, Point, Vector};
 use crate::ir::Finding;
@@ -42,6 +42,7 @@ path{vector-effect:non-scaling-stroke;fill:none;stroke-linejoin:round}
 .number{fill:currentColor;fill-opacity:.8;font-weight:bold;text-anchor:middle}
 .label{fill:#333;fill-opacity:.85}
 .notch{stroke:currentColor;stroke-opacity:.5;stroke-width:6;stroke-linecap:round}
+.aside{stroke:#9a9a9a;stroke-width:.6}
 .run{stroke:currentColor;stroke-width:1.5}
 .air{stroke:#8c8c8c;stroke-width:.7;stroke-dasharray:5 4}
 .over{fill:#d6006c;stroke:#d6006c;stroke-width:1.3}
@@ -88,6 +89,8 @@ impl Sheet {
         let mut drawn = extent;
         context.marker.pieces.iter().flat_map(|piece| &piece.labels).filter_map(|l| l.at).for_each(|at| drawn.add(at));
         drawn.add(Point::new(profile.home[0], profile.home[1]));
+        let aside = context.marker.drawing.iter().flat_map(|account| &account.aside.vertices);
+        aside.for_each(|vertex| drawn.add(vertex.at));
         // Only the marker decides the scale: the head does not know the findings yet.
         let (w, h) = drawn.size();
         let px = (w / WINDOW_PX[0]).max(h / WINDOW_PX[1]).max(LEAST_PX);
@@ -102,7 +105,7 @@ impl Sheet {
         let (left, top) = (drawn.min.x - margin, -drawn.max.y - margin);
         let legend = -drawn.min.y + margin;
         let mut sheet = Self { px, extent, left, top, width, height: 0.0, legend };
-        let lines = 2 + ITEMS.len().div_ceil(sheet.columns()) + found.len() + usize::from(!found.is_empty());
+        let lines = 2 + items(context).count().div_ceil(sheet.columns()) + found.len() + usize::from(!found.is_empty());
         sheet.height = legend - top + LINE_PX * px * (lines as f64 + 0.5);
         sheet
     }
@@ -181,13 +184,13 @@ impl Sheet {
         y += line;
         text.push_str(&self.text("", Point::new(left, y), &caption(context)));
         y += line;
-        for (i, item) in ITEMS.iter().enumerate() {
+        for (i, item) in items(context).enumerate() {
             let (row, column) = (i / self.columns(), i % self.columns());
             let at = Point::new(left + CELL_PX * self.px * column as f64, y + line * row as f64);
-            let _infallible = writeln!(text, "<g color=\"{}\">{}</g>", PALETTE[0], self.symbol(item, at));
-            text.push_str(&self.text("", at + Vector::new((SYMBOL_PX + 8.0) * self.px, 0.0), item.meaning));
+            let _infallible = writeln!(text, "<g color=\"{}\">{}</g>", PALETTE[0], self.symbol(&item, at));
+            text.push_str(&self.text("", at + Vector::new((SYMBOL_PX + 8.0) * self.px, 0.0), &item.meaning));
         }
-        y += line * ITEMS.len().div_ceil(self.columns()) as f64;
+        y += line * items(context).count().div_ceil(self.columns()) as f64;
         if limited + reported > 0 {
             let failing = found.iter().filter(|finding| !finding.holds()).count();
             let class = if failing == 0 { "verdict" } else { "fails-text" };
@@ -269,9 +272,10 @@ impl Sheet {
 struct Item {
     class: &'static str,
     symbol: Symbol,
-    meaning: &'static str,
+    meaning: String,
 }
 
+#[derive(Clone, Copy)]
 enum Symbol {
     Line,
     /// A bar, as a blade and an overlap look when zoomed.
@@ -281,17 +285,28 @@ enum Symbol {
     Target,
 }
 
-const ITEMS: [Item; 10] = [
-    Item { class: "run", symbol: Symbol::Line, meaning: "cut, in the piece's colour" },
-    Item { class: "over", symbol: Symbol::Bar, meaning: "overlap past an end" },
-    Item { class: "harm", symbol: Symbol::Bar, meaning: "stab into a part" },
-    Item { class: "blade", symbol: Symbol::Bar, meaning: "blade at plunge and lift" },
-    Item { class: "stab", symbol: Symbol::Bar, meaning: "stab: plunge only" },
-    Item { class: "plunge", symbol: Symbol::Circle(4.0), meaning: "plunge, at the tip" },
-    Item { class: "lift", symbol: Symbol::Circle(3.0), meaning: "lift, at the tip" },
-    Item { class: "air", symbol: Symbol::Line, meaning: "knife up (C axis)" },
-    Item { class: "drill", symbol: Symbol::Target, meaning: "drill" },
-    Item { class: "notch", symbol: Symbol::Line, meaning: "notch: slit or V" },
+/// The entries of a picture: those of all, then what of a plot is drawn and not cut.
+fn items(context: &Context) -> impl Iterator<Item = Item> {
+    let aside = aside::classes(context).map(|class| Item {
+        class: aside::ASIDE,
+        symbol: Symbol::Line,
+        meaning: format!("{}: {}, {} m, uncut", class.name, class.count, fixed(class.length / MM_PER_M, 1)),
+    });
+    let all = ITEMS.iter().map(|&(class, symbol, meaning)| Item { class, symbol, meaning: meaning.to_owned() });
+    all.chain(aside)
+}
+
+const ITEMS: [(&str, Symbol, &str); 10] = [
+    ("run", Symbol::Line, "cut, in the piece's colour"),
+    ("over", Symbol::Bar, "overlap past an end"),
+    ("harm", Symbol::Bar, "stab into a part"),
+    ("blade", Symbol::Bar, "blade at plunge and lift"),
+    ("stab", Symbol::Bar, "stab: plunge only"),
+    ("plunge", Symbol::Circle(4.0), "plunge, at the tip"),
+    ("lift", Symbol::Circle(3.0), "lift, at the tip"),
+    ("air", Symbol::Line, "knife up (C axis)"),
+    ("drill", Symbol::Target, "drill"),
+    ("notch", Symbol::Line, "notch: slit or V"),
 ];
 
 /// The style element: what is common, then the colours of the pieces.

@@ -3,25 +3,19 @@
 use std::f64::consts::TAU;
 
 use super::curve::{Arc, Bezier, Through};
-use super::drawing::{Drawing, NO_PEN};
 use super::encoded::{Ending, Item};
 use super::instruction::Instruction;
-use super::plotter::{Plotter, Refusal, Sheet};
+use super::plotter::{NO_PEN, Plotter, Refusal, Sheet};
 use super::reader::{Next, Reader, Statement};
 use super::scale::{Frame, Pair, Unknown};
 use super::tally::Tally;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Heading, Vector};
+use crate::ir::Drawing;
+use crate::ir::drawing::Ending as FileEnding;
 use crate::ir::marker::Label;
 use crate::source::{Source, Span};
 use crate::units::rad;
-
-/// What a plot draws and writes.
-#[derive(Debug, Default)]
-pub(super) struct Plot {
-    pub(super) drawing: Drawing,
-    pub(super) labels: Vec<Label>,
-}
 
 /// How a plot is measured.
 #[derive(Debug, Clone, Copy)]
@@ -33,7 +27,7 @@ pub(super) struct Measure {
 }
 
 /// Follows a plot to its end.
-pub(super) fn lower(source: &Source, measure: Measure, out: &mut Diagnostics) -> Plot {
+pub(super) fn lower(source: &Source, measure: Measure, out: &mut Diagnostics) -> Drawing {
     let mut lowering = Lowering {
         reader: Reader::new(source.bytes()),
         plotter: Plotter::new(Sheet { unit: measure.unit, bytes: source.bytes().len() }),
@@ -50,7 +44,9 @@ pub(super) fn lower(source: &Source, measure: Measure, out: &mut Diagnostics) ->
     lowering.run();
     lowering.end();
     lowering.tally.report(lowering.plotter.drawing.strokes.len(), lowering.out);
-    Plot { drawing: lowering.plotter.drawing, labels: lowering.labels }
+    let mut drawing = lowering.plotter.drawing;
+    drawing.texts = lowering.labels;
+    drawing
 }
 
 struct Lowering<'a> {
@@ -119,22 +115,21 @@ impl Lowering<'_> {
     fn end(&mut self) {
         if let Some(last) = self.plotter.unfinished() {
             let message = "the file ends amid a polygon (PM), which is not drawn";
-            let finding = Diagnostic::new(&code::HPGL_ENDS_PEN_DOWN, message).at(last);
+            let finding = Diagnostic::new(&code::HPGL_ENDS_IN_POLYGON, message).at(last);
             self.out.push(finding.hint("the file is most likely cut short; export it again"));
         }
         let drawing = &mut self.plotter.drawing;
-        if !drawing.is_lifted() {
-            drawing.unended = drawing.vertices.last().map(|vertex| vertex.span);
-        }
-        if let Some(vertex) = drawing.vertices.last().filter(|_| self.last_drew && self.reader.ends_with_digit()) {
-            let message = "the file ends with a number that draws, and without its semicolon";
-            let finding = Diagnostic::new(&code::HPGL_ENDS_AMID_NUMBER, message).at(vertex.span);
-            self.out
-                .push(finding.hint("its last digits may be cut off: compare the size of the file with the original"));
+        if let Some(last) = drawing.vertices.last() {
+            drawing.ending = match (self.last_drew && self.reader.ends_with_digit(), drawing.is_lifted()) {
+                (true, _) => FileEnding::AmidNumber(last.span),
+                (false, false) => FileEnding::PenDown(last.span),
+                (false, true) => FileEnding::Proper,
+            };
         }
         self.plotter.lift();
         self.tally.adrift(self.plotter.adrift);
-        let pens = || self.plotter.drawing.strokes.iter().filter(|stroke| stroke.pen == NO_PEN);
+        let Drawing { strokes, pens, .. } = &self.plotter.drawing;
+        let pens = || strokes.iter().filter(|stroke| !pens[usize::from(stroke.pen)].draws);
         if let Some(first) = pens().next() {
             let lines = if pens().count() == 1 { "a line is" } else { &format!("{} lines are", pens().count()) };
             let message = format!("{lines} drawn while no pen is taken (SP0), the first one here: not cut");
@@ -192,6 +187,8 @@ impl Lowering<'_> {
                 self.check(drawn, span);
             }
             Instruction::Page => {
+                // Whatever is drawn next, what was drawn is whole.
+                self.plotter.drawing.lift();
                 let drawn = self.plotter.drawing.strokes.len();
                 if drawn > 0 {
                     self.page_out.get_or_insert((drawn, span));

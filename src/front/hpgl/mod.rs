@@ -1,60 +1,42 @@
 //! HPGL plots: HP-GL and HP-GL/2 as garment CAD writes them (a subset is ASTM D6959).
 //!
 //! Receives bytes: instructions of two letters with numbers, in all the spellings that plotters tolerate, compact encodings,
-//! curves, scales. Promises a marker in mm like that of a cut file: parts with their cut-outs, slits as notches, equal
-//! places equal to the bit, texts never cut; and an account of every line, what it was taken for. Curves are chords within
-//! a quarter of the tolerance. Never closes an outline that the file leaves open, but for what rounding has parted.
+//! curves, scales. Promises a drawing in mm: strokes with the numbers of their pens, texts, and how the file ends. Equal
+//! places are equal to the bit; curves are chords within a quarter of the tolerance. Never decides what is cut.
 //!
 //! [`reader`] makes statements of bytes with [`syntax`], [`escape`], [`label`] and [`encoded`]; [`instruction`] is the table
-//! of what they mean; [`mod@lower`] follows them with the [`plotter`], its [`scale`] and [`curve`], into a [`drawing`].
-//! [`classify`] then decides what is cut: [`chain`] joins strokes as [`joint`] pairs their ends, [`shape`] measures them,
-//! [`nest`], [`notch`], [`spike`] and [`text`] recognise, [`beside`] finds what may be missed, [`piece`] makes the marker
-//! with [`vee`] to lead outlines into V notches. [`mod@unit`] doubts the size; [`tally`] counts what was not obeyed;
-//! [`nothing`] says why nothing is cut.
+//! of what they mean; [`mod@lower`] follows them with the [`plotter`], its [`scale`] and [`curve`]. [`mod@unit`] doubts the
+//! size; [`tally`] counts what was not obeyed.
 
-mod beside;
-mod chain;
-mod classify;
 mod curve;
-mod drawing;
 mod encoded;
 mod escape;
 mod instruction;
-mod joint;
 mod label;
 mod lower;
-mod nest;
-mod notch;
-mod nothing;
-mod piece;
 mod plotter;
 mod reader;
 mod scale;
-mod shape;
-mod spike;
 mod syntax;
 mod tally;
-mod text;
 mod unit;
-mod vee;
 
 use self::instruction::Instruction;
 use self::lower::{Measure, lower};
 use self::reader::{Flaw, Reader, Statement};
-use super::{Dialect, Likeness, foreign};
+use super::{Dialect, Likeness, Read, foreign};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::Extent;
-use crate::ir::Marker;
+use crate::ir::Drawing;
 use crate::machine::Job;
 use crate::source::Source;
 
 pub(super) const DIALECT: Dialect = Dialect {
     name: "hpgl",
-    about: "HPGL plot of garment CAD: `PU`, `PD` and coordinates; closed lines are cut",
+    about: "HPGL plot of garment CAD: `PU`, `PD` and coordinates; outermost closed lines are cut",
     extensions: &["plt", "hpgl", "hpg", "hgl"],
     sniff,
     syntax: check_syntax,
-    read,
+    read: Read::Drawing(read),
 };
 
 /// Statements that are looked at to recognise a file, and bytes of it.
@@ -114,23 +96,13 @@ fn check_syntax(source: &Source, out: &mut Diagnostics) {
     }
 }
 
-fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker {
+fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Drawing {
     if foreign::refuse_unread(source, out) {
-        return Marker::default();
+        return Drawing::default();
     }
     let unit = &job.profile.hpgl.unit;
     let sagitta = job.profile.tolerance(unit.mm()) * SAGITTA;
-    let plot = lower(source, Measure { unit: unit.mm(), sagitta }, out);
-    let mut extent = Extent::EMPTY;
-    for stroke in &plot.drawing.strokes {
-        extent.add(stroke.extent.min);
-        extent.add(stroke.extent.max);
-    }
-    let pens = nothing::pens(&plot.drawing);
-    unit::check_plausible(unit::Sized { unit, extent: &extent, source, labels: &plot.labels }, out);
-    let marker = classify::classify(plot.drawing, plot.labels, job, out);
-    if marker.pieces.is_empty() && !out.has_errors() {
-        out.push(nothing::finding(&pens, job));
-    }
-    marker
+    let drawing = lower(source, Measure { unit: unit.mm(), sagitta }, out);
+    unit::check_plausible(unit::Sized { unit, extent: &drawing.extent(), source, labels: &drawing.texts }, out);
+    drawing
 }

@@ -1,14 +1,16 @@
 //! The state of the plotter: pen, mode, place, scale, polygon buffer. Makes strokes of moves.
 
-use super::drawing::Drawing;
 use super::scale::{Frame, Pair};
 use super::syntax::VALUE_MAX;
 use super::tally::Count;
 use crate::geom::Point;
+use crate::ir::Drawing;
 use crate::source::Span;
 
 /// The pen that draws when the file takes none: many files do.
 const FIRST_PEN: u16 = 1;
+/// The number that stands for no pen (SP0).
+pub(super) const NO_PEN: u16 = 0;
 /// Farthest place from the origin, mm: no table is a kilometre long.
 const FARTHEST: f64 = 1e6;
 /// Moves that curves and repeated polygons may make beyond one for each byte of the file: a hundred times what the largest
@@ -30,6 +32,8 @@ pub(super) struct Plotter {
     /// Lines that were drawn from such a place.
     pub(super) adrift: Count,
     pen: u16,
+    /// The same among the pens of the drawing, once it draws.
+    drawing_pen: Option<u16>,
     is_down: bool,
     is_relative: bool,
     /// Where it is, in units of the plotter before RO.
@@ -85,13 +89,14 @@ impl Plotter {
     pub(super) fn new(Sheet { unit, bytes }: Sheet) -> Self {
         Self {
             frame: Frame::new(),
-            drawing: Drawing::with_room(bytes / BYTES_A_VERTEX),
+            drawing: Drawing::with_room(unit, bytes / BYTES_A_VERTEX),
             unit,
             farthest: (FARTHEST / unit).min(VALUE_MAX),
             moves_left: bytes + MOST_CURVED,
             standing: Standing::Known,
             adrift: Count::default(),
             pen: FIRST_PEN,
+            drawing_pen: None,
             is_down: false,
             is_relative: false,
             at: [0.0, 0.0],
@@ -175,7 +180,7 @@ impl Plotter {
     pub(super) fn take_pen(&mut self, pen: u16) {
         if pen != self.pen {
             self.drawing.lift();
-            self.pen = pen;
+            (self.pen, self.drawing_pen) = (pen, None);
         }
     }
 
@@ -222,7 +227,9 @@ impl Plotter {
             self.polygon.push(Corner { at: to, span, is_edge: true });
         } else {
             if self.drawing.is_lifted() {
-                self.drawing.begin(self.point(self.at), span, self.pen);
+                let (number, drawing) = (self.pen, &mut self.drawing);
+                let pen = *self.drawing_pen.get_or_insert_with(|| drawing.pen(&number.to_string(), number != NO_PEN));
+                self.drawing.begin(self.point(self.at), span, pen);
             }
             self.drawing.line(self.point(to), span);
         }

@@ -30,7 +30,7 @@ mod vertex;
 
 use self::block::Blocks;
 use self::meaning::{Meaning, meaning};
-use super::{Dialect, Likeness, foreign};
+use super::{Dialect, Likeness, Read, foreign};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::ir::Marker;
 use crate::machine::Job;
@@ -42,7 +42,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     extensions: &["cut", "iso", "ggt", "nc"],
     sniff,
     syntax: check_syntax,
-    read,
+    read: Read::Marker(read),
 };
 
 /// Blocks that are looked at to recognise a file, and bytes of it.

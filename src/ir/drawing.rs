@@ -1,0 +1,212 @@
+//! What a plot or a drawing draws, in mm: strokes of named pens or layers, and texts. It does not say what is cut.
+
+use super::marker::Label;
+use crate::geom::{Extent, Point};
+use crate::source::Span;
+
+/// Everything that is drawn.
+#[derive(Debug, Clone, Default)]
+pub struct Drawing {
+    /// Places of all strokes, those of one behind the other.
+    pub vertices: Vec<Vertex>,
+    /// Strokes in the order in which they are drawn.
+    pub strokes: Vec<Stroke>,
+    /// The pens or layers that draw, in the order in which they first do.
+    pub pens: Vec<Pen>,
+    /// Texts; they are never cut.
+    pub texts: Vec<Label>,
+    /// What the numbers of the file are multiples of, mm; 0 when they are not rounded.
+    pub unit: f64,
+    /// How the file ends.
+    pub ending: Ending,
+    /// Whether the last stroke goes on.
+    goes_on: bool,
+}
+
+/// A place that a stroke is led to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Vertex {
+    /// The place, mm.
+    pub at: Point,
+    /// What led there.
+    pub span: Span,
+}
+
+/// A line between two lifts: places of [`Drawing::vertices`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Stroke {
+    /// Its first place.
+    pub first: u32,
+    /// One past its last.
+    pub end: u32,
+    /// Which of [`Drawing::pens`] draws it.
+    pub pen: u16,
+}
+
+/// A pen of a plotter, or a layer.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Pen {
+    /// Its number or its name.
+    pub name: String,
+    /// Whether it leaves a line at all: plotters move without drawing while no pen is taken.
+    pub draws: bool,
+}
+
+/// How a file ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Ending {
+    /// As files end.
+    #[default]
+    Proper,
+    /// With a complete instruction, while the pen draws: what led it there.
+    PenDown(Span),
+    /// Amid a number that draws, or behind one that may lack digits.
+    AmidNumber(Span),
+}
+
+impl Stroke {
+    /// Its places among the vertices.
+    pub fn range(&self) -> std::ops::Range<usize> {
+        self.first as usize..self.end as usize
+    }
+}
+
+impl Drawing {
+    /// An empty drawing on a grid of `unit` mm, with room for so many vertices.
+    pub fn with_room(unit: f64, vertices: usize) -> Self {
+        Self { unit, vertices: Vec::with_capacity(vertices), ..Self::default() }
+    }
+
+    /// The pen of that name, which draws from here on; it is new unless it has drawn before.
+    pub fn pen(&mut self, name: &str, draws: bool) -> u16 {
+        let known = self.pens.iter().position(|pen| pen.name == name);
+        let place = known.unwrap_or_else(|| {
+            self.pens.push(Pen { name: name.to_owned(), draws });
+            self.pens.len() - 1
+        });
+        u16::try_from(place).unwrap_or(u16::MAX)
+    }
+
+    /// Whether the next line starts a stroke, so that [`Drawing::begin`] comes first.
+    pub fn is_lifted(&self) -> bool {
+        !self.goes_on
+    }
+
+    /// Starts a stroke.
+    pub fn begin(&mut self, at: Point, span: Span, pen: u16) {
+        let first = self.vertices.len() as u32;
+        self.vertices.push(Vertex { at, span });
+        self.strokes.push(Stroke { first, end: first + 1, pen });
+        self.goes_on = true;
+    }
+
+    /// Draws on. A line without length changes nothing.
+    pub fn line(&mut self, at: Point, span: Span) {
+        let (Some(last), Some(stroke)) = (self.vertices.last(), self.strokes.last_mut()) else { return };
+        if last.at == at {
+            return;
+        }
+        stroke.end += 1;
+        self.vertices.push(Vertex { at, span });
+    }
+
+    /// Lifts the pen. A stroke without length is a dot, and none.
+    pub fn lift(&mut self) {
+        if !std::mem::take(&mut self.goes_on) {
+            return;
+        }
+        if self.strokes.last().is_some_and(|stroke| stroke.end - stroke.first == 1) {
+            self.strokes.pop();
+            self.vertices.pop();
+        }
+    }
+
+    /// The box around all strokes.
+    pub fn extent(&self) -> Extent {
+        let mut extent = Extent::EMPTY;
+        self.vertices.iter().for_each(|vertex| extent.add(vertex.at));
+        extent
+    }
+}
+
+/// What the lines of a drawing were taken for, and which of them are not cut. Together with what the marker cuts, this is
+/// all that was drawn.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Account {
+    /// Lines by what they were taken for, in a fixed order; none without lines.
+    pub classes: Vec<LineClass>,
+    /// Way of the pen while it is down, mm; texts that a plotter letters are not in it.
+    pub pen_down: f64,
+    /// Texts that stand in no part: they belong to no piece.
+    pub texts_outside: usize,
+    /// What is drawn and not cut.
+    pub aside: Aside,
+}
+
+/// Lines of a drawing that were taken for the same thing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LineClass {
+    /// What they were taken for, in a word or two.
+    pub name: &'static str,
+    /// How they are told from others, in a phrase.
+    pub about: &'static str,
+    /// Whether these are cut or drilled.
+    pub cut: bool,
+    /// How many there are.
+    pub count: usize,
+    /// Length as drawn, mm.
+    pub length: f64,
+}
+
+/// What is drawn and not cut.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Aside {
+    /// Places of the lines, those of one behind the other.
+    pub vertices: Vec<Vertex>,
+    /// The lines.
+    pub lines: Vec<AsideLine>,
+    /// What joining has changed.
+    pub moved: Moved,
+}
+
+/// A line that is not cut.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AsideLine {
+    /// Its first place in [`Aside::vertices`].
+    pub first: u32,
+    /// One past its last.
+    pub end: u32,
+    /// What it was taken for; `None` for the way back of a mark that is drawn out and back.
+    pub class: Option<&'static str>,
+}
+
+impl Aside {
+    /// Each line: what it was taken for, and its places.
+    pub fn each(&self) -> impl Iterator<Item = (Option<&'static str>, &[Vertex])> {
+        self.lines.iter().map(|line| (line.class, &self.vertices[line.first as usize..line.end as usize]))
+    }
+
+    /// Adds a line.
+    pub fn add(&mut self, class: Option<&'static str>, vertices: &[Vertex]) {
+        let first = self.vertices.len() as u32;
+        self.vertices.extend_from_slice(vertices);
+        self.lines.push(AsideLine { first, end: self.vertices.len() as u32, class });
+    }
+}
+
+/// What lines were before their ends were moved together.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Moved {
+    /// Places that lines no longer have of their own: where two meet that one instruction of the file draws.
+    pub points: usize,
+    /// What lines had more than they have now; less than nothing where they were shorter.
+    pub moments: crate::geom::moments::Moments,
+    /// The box around the places as they were.
+    pub bounds: Extent,
+}
+
+impl Default for Moved {
+    fn default() -> Self {
+        Self { points: 0, moments: crate::geom::moments::Moments::default(), bounds: Extent::EMPTY }
+    }
+}

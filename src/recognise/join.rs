@@ -1,0 +1,347 @@
+//! Strokes that continue each other become one line: plots lift the pen inside an outline, some write every line by itself,
+//! in any direction, and outlines end a unit or a few from where they start.
+//!
+//! Ends of one pen that meet to the bit are at one place, and so are two that lie within reach of each other and of no
+//! third. Where two ends are left at a place once lines that lead nowhere are put aside, they continue each other; where
+//! more are, a line that comes back to the place closes, and else the two that go straightest continue each other.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::line::Line;
+use super::pens::{self, Use};
+use crate::geom::moments::Moments;
+use crate::geom::{Vector, angle, bits};
+use crate::ir::drawing::{Drawing, Moved, Stroke, Vertex};
+use crate::machine::Job;
+
+/// Farthest that two ends may miss each other along an axis, in units of the file and in mm: plots of several CAD systems
+/// end their outlines 0.025 to 0.1 mm from where they start. Four units, and half a one for what fractions round to.
+const REACH_UNITS: f64 = 4.5;
+const REACH: f64 = 0.2;
+/// Fewest places of a line that goes around something and comes back: a triangle's.
+const LEAST_RING: usize = 4;
+/// Most ends at one place among which a continuation is looked for: more are the middle of a star or a hatching.
+const MOST_ENDS: usize = 8;
+/// A line that turns by more than this does not go on, rad.
+const SHARPEST: f64 = FRAC_PI_2;
+/// The stretch of a line that its direction at an end is taken from, mm, and how many places are looked at for it.
+const STRETCH: f64 = 1.0;
+const MOST_STEPS: usize = 64;
+
+/// An end of a stroke: twice its index, and one more for its last place.
+type End = usize;
+
+/// The pen, and the cell of a grid.
+type Cell = (u16, [i64; 2]);
+
+const fn other(end: End) -> End {
+    end ^ 1
+}
+
+/// Joins the strokes of a drawing: its lines, whose places are among its vertices, and what was changed for that.
+pub(super) fn join(drawing: &mut Drawing, job: &Job) -> (Vec<Line>, Moved) {
+    let uses: Vec<Use> = drawing.pens.iter().map(|pen| pens::usage(pen, job)).collect();
+    let mut joining = Joining { reach: (REACH_UNITS * drawing.unit).min(REACH), drawing, moved: Moved::default() };
+    joining.close_alone();
+    let links = joining.links();
+    let strokes = std::mem::take(&mut joining.drawing.strokes);
+    let mut taken = vec![false; strokes.len()];
+    let mut lines = Vec::with_capacity(strokes.len());
+    for i in 0..strokes.len() {
+        if taken[i] {
+            continue;
+        }
+        let stroke = if links[2 * i].is_none() && links[2 * i + 1].is_none() {
+            strokes[i]
+        } else {
+            joining.chain(&strokes, (&links, start(i, &links)), &mut taken)
+        };
+        let usage = uses.get(usize::from(stroke.pen)).copied().unwrap_or(Use::Ignore);
+        lines.push(Line::of(&joining.drawing.vertices[stroke.range()], (stroke.first, usage)));
+    }
+    (lines, joining.moved)
+}
+
+/// Where a chain that holds a stroke starts. One that closes starts with that stroke itself.
+fn start(stroke: usize, links: &[Option<End>]) -> End {
+    let mut at = 2 * stroke;
+    while let Some(before) = links[at] {
+        at = other(before);
+        if at / 2 == stroke {
+            return 2 * stroke;
+        }
+    }
+    at
+}
+
+struct Joining<'a> {
+    reach: f64,
+    drawing: &'a mut Drawing,
+    moved: Moved,
+}
+
+impl Joining<'_> {
+    fn place(&self, end: End) -> Vertex {
+        let stroke = self.drawing.strokes[end / 2];
+        self.drawing.vertices[if end.is_multiple_of(2) { stroke.first } else { stroke.end - 1 } as usize]
+    }
+
+    /// Moves the last place of a stroke that nearly closes to its first.
+    fn close_alone(&mut self) {
+        for k in 0..self.drawing.strokes.len() {
+            let range = self.drawing.strokes[k].range();
+            let vertices = &mut self.drawing.vertices[range];
+            let (first, last) = (vertices[0].at, vertices.len() - 1);
+            let gap = (vertices[last].at - first).amax();
+            if vertices.len() < LEAST_RING || gap == 0.0 || gap > self.reach || vertices[last - 1].at == first {
+                continue;
+            }
+            let from = std::mem::replace(&mut vertices[last].at, first);
+            let before = vertices[last - 1].at;
+            self.moved.moments += Moments::line(before, from);
+            self.moved.moments -= Moments::line(before, first);
+            self.moved.bounds.add(from);
+        }
+    }
+
+    /// Of each end the one that continues it.
+    fn links(&self) -> Vec<Option<End>> {
+        let open = |k: &usize| self.place(2 * k).at != self.place(2 * k + 1).at;
+        let ends: Vec<End> = (0..self.drawing.strokes.len()).filter(open).flat_map(|k| [2 * k, 2 * k + 1]).collect();
+        if ends.is_empty() {
+            return vec![None; 2 * self.drawing.strokes.len()];
+        }
+        let mut graph = Graph::new(self, self.nodes(ends));
+        graph.put_dead_ends_aside();
+        graph.link();
+        graph.links
+    }
+
+    /// Ends that are at one place, two at least.
+    fn nodes(&self, ends: Vec<End>) -> Vec<Vec<End>> {
+        let key = |end: End| (self.drawing.strokes[end / 2].pen, bits(self.place(end).at), end);
+        let mut keyed: Vec<(u16, [u64; 2], End)> = ends.into_iter().map(key).collect();
+        keyed.sort_unstable();
+        let (mut alone, mut nodes) = (Vec::new(), Vec::new());
+        for group in keyed.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+            match group {
+                [one] => alone.push(one.2),
+                _ => nodes.push(group.iter().map(|(.., end)| *end).collect()),
+            }
+        }
+        nodes.extend(self.near_pairs(&alone));
+        nodes
+    }
+
+    /// Pairs of ends within reach of each other and of no third.
+    fn near_pairs(&self, ends: &[End]) -> Vec<Vec<End>> {
+        let cell = |end: End| {
+            let at = self.place(end).at;
+            let [x, y] = [at.x, at.y].map(|mm| (mm / self.reach).floor() as i64);
+            ((self.drawing.strokes[end / 2].pen, [x, y]), end)
+        };
+        let mut cells: Vec<(Cell, End)> = ends.iter().map(|&end| cell(end)).collect();
+        cells.sort_unstable();
+        let only = self.only_near(&cells);
+        let pair = |k: usize| only[k].filter(|&other| k < other && only[other] == Some(k)).map(|other| [k, other]);
+        (0..cells.len()).filter_map(pair).map(|pair| pair.map(|k| cells[k].1).to_vec()).collect()
+    }
+
+    /// Of each of some ends, sorted by their cells, the only other one within reach, as an index; nothing when there are
+    /// more, and the other end of the same stroke does not count.
+    fn only_near(&self, cells: &[(Cell, End)]) -> Vec<Option<usize>> {
+        let cell = |k: usize| cells.get(k).map(|(cell, _)| *cell);
+        // Where the cells below and beside an end begin, in the three columns around it: they go on as the ends do.
+        let mut starts = [0; 3];
+        let mut only = Vec::with_capacity(cells.len());
+        for (k, &((pen, [x, y]), end)) in cells.iter().enumerate() {
+            for (start, column) in starts.iter_mut().zip(x - 1..) {
+                while cell(*start).is_some_and(|cell| cell < (pen, [column, y - 1])) {
+                    *start += 1;
+                }
+            }
+            // Where many meet in one cell, nothing is searched.
+            if (k.saturating_sub(2)..=k + 2).filter(|&other| cell(other) == cell(k)).count() > 2 {
+                only.push(None);
+                continue;
+            }
+            let at = self.place(end).at;
+            let columns = starts.iter().zip(x - 1..).flat_map(|(&start, column)| {
+                (start..).take_while(move |&k| cell(k).is_some_and(|cell| cell <= (pen, [column, y + 1])))
+            });
+            let is_near = |&there: &usize| {
+                let beside = cells[there].1;
+                beside != end && beside != other(end) && (self.place(beside).at - at).amax() <= self.reach
+            };
+            let mut near = columns.filter(is_near);
+            only.push(near.next().filter(|_| near.next().is_none()));
+        }
+        only
+    }
+
+    /// Puts the strokes of a chain together in one, from an end on.
+    fn chain(&mut self, strokes: &[Stroke], (links, start): (&[Option<End>], End), taken: &mut [bool]) -> Stroke {
+        let first = self.drawing.vertices.len();
+        let mut at = start;
+        loop {
+            taken[at / 2] = true;
+            self.append(&strokes[at / 2], at.is_multiple_of(2), first);
+            let Some(next) = links[other(at)] else { break };
+            if next == start {
+                self.close(first);
+                break;
+            }
+            at = next;
+        }
+        let end = self.drawing.vertices.len() as u32;
+        Stroke { first: first as u32, end, pen: strokes[start / 2].pen }
+    }
+
+    /// Adds the places of a stroke, in its own direction or the other; each line keeps what drew it.
+    fn append(&mut self, stroke: &Stroke, is_forward: bool, first: usize) {
+        let range = stroke.range();
+        let last = range.end - 1;
+        let mut before = self.drawing.vertices.last().copied().filter(|_| self.drawing.vertices.len() > first);
+        for step in 0..range.len() {
+            let k = if is_forward { range.start + step } else { last - step };
+            let lead = if is_forward { k } else { (k + 1).min(last) };
+            let vertex = Vertex { at: self.drawing.vertices[k].at, span: self.drawing.vertices[lead].span };
+            let Some(end) = before.filter(|_| step < 2) else {
+                self.drawing.vertices.push(vertex);
+                continue;
+            };
+            if step == 0 {
+                // It starts where the one before it ends, but for rounding.
+                self.moved.bounds.add(vertex.at);
+                continue;
+            }
+            let from = self.drawing.vertices[if is_forward { range.start } else { last }].at;
+            self.moved.moments += Moments::line(from, vertex.at);
+            self.moved.moments -= Moments::line(end.at, vertex.at);
+            self.moved.points += usize::from(end.span == vertex.span || end.at == vertex.at);
+            if end.at != vertex.at {
+                self.drawing.vertices.push(vertex);
+            }
+            before = None;
+        }
+    }
+
+    /// Ends a chain where it starts.
+    fn close(&mut self, first: usize) {
+        let at = self.drawing.vertices[first].at;
+        let [.., before, last] = &mut self.drawing.vertices[first..] else { return };
+        let from = std::mem::replace(&mut last.at, at);
+        if from != at {
+            self.moved.moments += Moments::line(before.at, from);
+            self.moved.moments -= Moments::line(before.at, at);
+            self.moved.bounds.add(from);
+        }
+    }
+
+    /// The way from an end into its stroke.
+    fn way(&self, end: End) -> Vector {
+        let stroke = &self.drawing.strokes[end / 2];
+        let vertices = &self.drawing.vertices[stroke.range()];
+        let at = |i: usize| vertices[if end.is_multiple_of(2) { i } else { vertices.len() - 1 - i }].at;
+        let ways = (1..vertices.len().min(MOST_STEPS)).map(|i| at(i) - at(0));
+        let mut last = Vector::zeros();
+        for way in ways {
+            last = way;
+            if way.norm() >= STRETCH {
+                break;
+            }
+        }
+        last
+    }
+}
+
+/// Strokes and the places where their ends meet, while it is decided which ends continue each other.
+struct Graph<'a, 'b> {
+    joining: &'a Joining<'b>,
+    nodes: Vec<Vec<End>>,
+    /// Of each end the place where it meets others.
+    node: Vec<Option<u32>>,
+    links: Vec<Option<End>>,
+    /// Of each end of a chain of linked strokes the other one.
+    far: Vec<End>,
+    /// Strokes that lead nowhere.
+    is_dead: Vec<bool>,
+}
+
+impl<'a, 'b> Graph<'a, 'b> {
+    fn new(joining: &'a Joining<'b>, nodes: Vec<Vec<End>>) -> Self {
+        let ends = 2 * joining.drawing.strokes.len();
+        let mut node = vec![None; ends];
+        for (k, end) in nodes.iter().enumerate().flat_map(|(k, node)| node.iter().map(move |end| (k, *end))) {
+            node[end] = Some(k as u32);
+        }
+        let is_dead = vec![false; joining.drawing.strokes.len()];
+        Self { joining, nodes, node, links: vec![None; ends], far: (0..ends).map(other).collect(), is_dead }
+    }
+
+    /// Finds the strokes of which an end meets no other, and those that then lead nowhere.
+    fn put_dead_ends_aside(&mut self) {
+        let mut degree: Vec<usize> = self.nodes.iter().map(Vec::len).collect();
+        let mut queue: Vec<usize> = (0..self.is_dead.len()).filter(|k| self.is_free(*k, &degree)).collect();
+        while let Some(stroke) = queue.pop() {
+            if std::mem::replace(&mut self.is_dead[stroke], true) {
+                continue;
+            }
+            for node in [2 * stroke, 2 * stroke + 1].into_iter().filter_map(|end| self.node[end]) {
+                degree[node as usize] -= 1;
+                if degree[node as usize] == 1 {
+                    queue.extend(self.nodes[node as usize].iter().map(|end| end / 2).filter(|k| !self.is_dead[*k]));
+                }
+            }
+        }
+    }
+
+    fn is_free(&self, stroke: usize, degree: &[usize]) -> bool {
+        [2 * stroke, 2 * stroke + 1].iter().any(|&end| self.node[end].is_none_or(|node| degree[node as usize] < 2))
+    }
+
+    /// Decides at every place, first where two lines meet, then where more do, then among those that lead nowhere.
+    fn link(&mut self) {
+        for k in 0..self.nodes.len() {
+            if let [a, b] = self.open(k, false)[..] {
+                self.join([a, b]);
+            }
+        }
+        for k in 0..self.nodes.len() {
+            while let Some(pair) = self.continuation(k) {
+                self.join(pair);
+            }
+        }
+        for k in 0..self.nodes.len() {
+            if let [a, b] = self.open(k, true)[..] {
+                self.join([a, b]);
+            }
+        }
+    }
+
+    /// The ends at a place that nothing continues yet.
+    fn open(&self, node: usize, with_dead: bool) -> Vec<End> {
+        let is_open = |end: &End| self.links[*end].is_none() && (with_dead || !self.is_dead[end / 2]);
+        self.nodes[node].iter().copied().filter(is_open).collect()
+    }
+
+    fn continuation(&self, node: usize) -> Option<[End; 2]> {
+        let open = self.open(node, false);
+        if open.len() > MOST_ENDS {
+            return None;
+        }
+        let pairs = || open.iter().enumerate().flat_map(|(i, &a)| open[i + 1..].iter().map(move |&b| [a, b]));
+        let ring = pairs().find(|&[a, b]| self.far[a] == b && self.joining.drawing.strokes.len() > 1);
+        let turn = |[a, b]: [End; 2]| angle::turn(-self.joining.way(a), self.joining.way(b)).abs();
+        ring.or_else(|| pairs().filter(|&pair| turn(pair) <= SHARPEST).min_by(|&a, &b| turn(a).total_cmp(&turn(b))))
+    }
+
+    /// Makes one chain of two.
+    fn join(&mut self, [a, b]: [End; 2]) {
+        (self.links[a], self.links[b]) = (Some(b), Some(a));
+        let [start, end] = [self.far[a], self.far[b]];
+        if start != b {
+            (self.far[start], self.far[end]) = (end, start);
+        }
+    }
+}

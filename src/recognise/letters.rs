@@ -1,0 +1,90 @@
+//! Letters drawn as lines: rows of small strokes.
+
+use std::collections::BTreeMap;
+
+use super::line::{Class, Line, is_straight};
+use crate::geom::Extent;
+use crate::geom::budget::Budget;
+use crate::ir::drawing::Vertex;
+
+/// Largest letter, mm: what is larger is a part or an inner line, whatever stands beside it.
+const LARGEST: f64 = 15.0;
+/// How many times higher than another a letter of the same text may be: a capital beside a small letter.
+const RATIO: f64 = 2.0;
+/// Share of its height that a letter stands beside another, at least, and of its width that it stands over it, at the most.
+const BESIDE: f64 = 0.5;
+/// Strokes that make a row at least.
+const ROW: usize = 3;
+
+/// Marks the letters among the lines that are not taken for anything yet.
+pub(super) fn mark(lines: &mut [Line], vertices: &[Vertex], work: &mut Budget) {
+    let is_small = |line: &Line| line.is_open_question() && line.size() <= LARGEST;
+    let mut cells: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
+    let small: Vec<usize> = (0..lines.len()).filter(|&i| is_small(&lines[i])).collect();
+    if small.len() < ROW || !small.iter().any(|&i| lines[i].is_closed) {
+        return; // only closed letters may be taken for something that is cut
+    }
+    small.iter().for_each(|&i| cells.entry(cell(&lines[i])).or_default().push(i));
+    for first in small {
+        let row = row(first, lines, (&mut cells, work));
+        let is_shaped = |&i: &usize| !is_straight(lines[i].vertices(vertices));
+        let is_text = row.len() >= ROW && row.iter().any(|&i| !lines[i].is_closed) && row.iter().any(is_shaped);
+        row.into_iter().filter(|_| is_text).for_each(|i| lines[i].class = Class::Letter);
+    }
+}
+
+/// The lines that stand in a row with one, itself included; they are taken out of the cells.
+fn row(first: usize, lines: &[Line], (cells, work): (&mut BTreeMap<[i64; 2], Vec<usize>>, &mut Budget)) -> Vec<usize> {
+    if !take(first, lines, cells) {
+        return Vec::new();
+    }
+    let mut row = vec![first];
+    let mut next = 0;
+    while let Some(&letter) = row.get(next) {
+        next += 1;
+        let [column, line] = cell(&lines[letter]);
+        for near in (column - 2..=column + 2).flat_map(|c| (line - 2..=line + 2).map(move |r| [c, r])) {
+            let Some(there) = cells.get_mut(&near) else { continue };
+            if !work.spend(there.len()) {
+                return row;
+            }
+            let beside: Vec<usize> = there.extract_if(.., |k| are_beside(&lines[letter], &lines[*k])).collect();
+            row.extend(beside);
+        }
+    }
+    row
+}
+
+fn take(i: usize, lines: &[Line], cells: &mut BTreeMap<[i64; 2], Vec<usize>>) -> bool {
+    let Some(there) = cells.get_mut(&cell(&lines[i])) else { return false };
+    let Some(place) = there.iter().position(|&k| k == i) else { return false };
+    there.swap_remove(place);
+    true
+}
+
+fn cell(line: &Line) -> [i64; 2] {
+    let Extent { min, max } = line.extent;
+    [f64::midpoint(min.x, max.x), f64::midpoint(min.y, max.y)].map(|mm| (mm / LARGEST).floor() as i64)
+}
+
+/// Whether two lines stand as letters of a text do that runs along X or along Y.
+fn are_beside(a: &Line, b: &Line) -> bool {
+    let spans = |line: &Line| {
+        let Extent { min, max } = line.extent;
+        [[min.x, max.x], [min.y, max.y]]
+    };
+    let ([ax, ay], [bx, by]) = (spans(a), spans(b));
+    along([ax, ay], [bx, by]) || along([ay, ax], [by, bx])
+}
+
+/// The same for a text in one direction: the spans of each line along it and across it.
+fn along([a, a_across]: [[f64; 2]; 2], [b, b_across]: [[f64; 2]; 2]) -> bool {
+    let size = |span: [f64; 2]| span[1] - span[0];
+    let common = |a: [f64; 2], b: [f64; 2]| a[1].min(b[1]) - a[0].max(b[0]);
+    let (less, greater) = (size(a_across).min(size(b_across)), size(a_across).max(size(b_across)));
+    less > 0.0
+        && greater <= RATIO * less
+        && common(a_across, b_across) >= BESIDE * less
+        && common(a, b) >= -greater
+        && common(a, b) <= BESIDE * size(a).min(size(b))
+}

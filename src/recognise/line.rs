@@ -1,0 +1,174 @@
+//! Lines of a drawing with their measures, and the table of what they are taken for.
+
+use super::pens::Use;
+use crate::geom::{Extent, Point, cross};
+use crate::ir::drawing::Vertex;
+use crate::source::Span;
+
+/// What a line is taken for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Class {
+    Part,
+    Notch,
+    Hole,
+    Inner,
+    Seam,
+    Sign,
+    SmallOutline,
+    FromEdge,
+    Letter,
+    Frame,
+    Other,
+    Ignored,
+}
+
+/// Whether lines of a class are cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Cut {
+    /// Unless their pen only draws.
+    Always,
+    /// When their pen is said to be a knife.
+    Knife,
+    /// When their pen is a knife, or inner lines are asked for.
+    Inner,
+    /// When seam lines are asked for, too.
+    All,
+    /// Only when every line is asked for.
+    Never,
+}
+
+/// A row of the table.
+#[derive(Debug)]
+pub(super) struct Rule {
+    pub(super) class: Class,
+    /// The name that people read.
+    pub(super) name: &'static str,
+    /// How such lines are told from others; the first row that fits a line holds.
+    pub(super) about: &'static str,
+    pub(super) cut: Cut,
+}
+
+/// What lines are taken for, and whether they are then cut: a wrong cut inside a part cannot be mended, one that is missing
+/// can. They are shown in this order.
+#[rustfmt::skip] // a table: one row a class
+pub(super) const RULES: [Rule; 12] = [
+    Rule { class: Class::Part, name: "part", about: "an outermost closed line", cut: Cut::Always },
+    Rule { class: Class::Notch, name: "notch", about: "a stroke of 1 to 15 mm from the edge of a part inwards", cut: Cut::Always },
+    Rule { class: Class::Hole, name: "hole", about: "a closed square or circle up to hpgl.drill_max_mm, drilled", cut: Cut::Always },
+    Rule { class: Class::Inner, name: "inner line", about: "a closed line inside a part that is not its seam line", cut: Cut::Inner },
+    Rule { class: Class::Seam, name: "seam line", about: "a closed line that follows the outline around it from inside", cut: Cut::All },
+    Rule { class: Class::Sign, name: "small sign", about: "a closed line below 10 mm", cut: Cut::Never },
+    Rule { class: Class::SmallOutline, name: "small outline", about: "a closed line of 10 to 25 mm in no part", cut: Cut::Knife },
+    Rule { class: Class::FromEdge, name: "line from edge", about: "an open line longer than 15 mm from the edge of a part", cut: Cut::Never },
+    Rule { class: Class::Letter, name: "letter", about: "one of a row of small strokes", cut: Cut::Never },
+    Rule { class: Class::Frame, name: "frame", about: "a rectangle around all parts", cut: Cut::Never },
+    Rule { class: Class::Other, name: "other line", about: "an open line", cut: Cut::Never },
+    Rule { class: Class::Ignored, name: "ignored pen", about: "a line of a pen that does not matter", cut: Cut::Never },
+];
+
+impl Class {
+    pub(super) fn rule(self) -> &'static Rule {
+        RULES.iter().find(|rule| rule.class == self).expect("the table has every class")
+    }
+}
+
+/// Two places nearer than this, in units of the file, may be one that was rounded twice: the diagonal of a unit.
+pub(super) const ROUNDING: f64 = std::f64::consts::SQRT_2;
+/// An area below this share of the squared length is the rounding of a line that goes out and back, or of an eight.
+const FLAT_EPSILON: f64 = 1e-9;
+/// Largest closed line that is no part, mm.
+pub(super) const SMALL_OUTLINE: f64 = 25.0;
+/// Largest sign, mm: blades are as wide as that.
+pub(super) const SIGN: f64 = 10.0;
+/// Shortest and longest notch, mm.
+pub(super) const SHORTEST_NOTCH: f64 = 1.0;
+pub(super) const LONGEST_NOTCH: f64 = 15.0;
+
+/// A line with its measures.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Line {
+    /// Its places among the vertices, the last one excluded.
+    pub(super) first: u32,
+    pub(super) end: u32,
+    /// What its pen stands for.
+    pub(super) usage: Use,
+    /// Whether it ends where it starts and has an inside.
+    pub(super) is_closed: bool,
+    /// mm.
+    pub(super) length: f64,
+    /// mm2; never negative.
+    pub(super) area: f64,
+    pub(super) extent: Extent,
+    pub(super) class: Class,
+    pub(super) is_cut: bool,
+}
+
+impl Line {
+    /// Measures the line of some places.
+    pub(super) fn of(vertices: &[Vertex], (first, usage): (u32, Use)) -> Self {
+        let origin = vertices[0].at;
+        let (mut length, mut doubled, mut extent) = (0.0, 0.0, Extent::EMPTY);
+        extent.add(origin);
+        for pair in vertices.windows(2) {
+            let (from, to) = (pair[0].at, pair[1].at);
+            length += (to - from).norm();
+            doubled += cross(from - origin, to - origin);
+            extent.add(to);
+        }
+        let is_flat = doubled.abs() <= FLAT_EPSILON * length * length;
+        let is_closed = !is_flat && origin == vertices[vertices.len() - 1].at;
+        let class = if usage == Use::Ignore { Class::Ignored } else { Class::Other };
+        let end = first + vertices.len() as u32;
+        Self { first, end, usage, is_closed, length, area: doubled.abs() / 2.0, extent, class, is_cut: false }
+    }
+
+    /// Its places.
+    pub(super) fn vertices<'a>(&self, all: &'a [Vertex]) -> &'a [Vertex] {
+        &all[self.first as usize..self.end as usize]
+    }
+
+    /// The same without what led there.
+    pub(super) fn points(&self, all: &[Vertex]) -> Vec<Point> {
+        self.vertices(all).iter().map(|vertex| vertex.at).collect()
+    }
+
+    /// The first of its places that something was drawn to.
+    pub(super) fn span(&self, all: &[Vertex]) -> Span {
+        self.vertices(all)[1].span
+    }
+
+    /// Greater side of its box, mm.
+    pub(super) fn size(&self) -> f64 {
+        let (width, height) = self.extent.size();
+        width.max(height)
+    }
+
+    /// Whether nothing was found out about it yet.
+    pub(super) fn is_open_question(&self) -> bool {
+        self.class == Class::Other
+    }
+
+    /// Whether it is a closed line that may hold others: large enough for a part, and neither ignored nor a frame.
+    pub(super) fn is_outline(&self) -> bool {
+        self.is_closed && self.class != Class::Ignored && self.class != Class::Frame
+    }
+
+    /// Whether it is its own box, but for rounding.
+    pub(super) fn is_rectangle(&self, slack: f64) -> bool {
+        let (width, height) = self.extent.size();
+        self.area >= width * height - slack * (width + height)
+    }
+}
+
+/// Farthest that a place of a straight stroke lies off it, mm.
+const STRAIGHT: f64 = 0.1;
+
+/// Whether a stroke is one straight line, there and back or once.
+pub(super) fn is_straight(vertices: &[Vertex]) -> bool {
+    let first = vertices[0].at;
+    let far = vertices.iter().map(|vertex| vertex.at).max_by(|a, b| (a - first).norm().total_cmp(&(b - first).norm()));
+    far.is_some_and(|far| {
+        let off = |vertex: &Vertex| crate::geom::polyline::distance_to_segment(vertex.at, first, far);
+        vertices.iter().all(|vertex| off(vertex) <= STRAIGHT)
+    })
+}

@@ -1,0 +1,227 @@
+//! Notches that are drawn as strokes of their own: from the edge of a part inwards.
+
+use arrayvec::ArrayVec;
+
+use super::line::{Class, LONGEST_NOTCH, Line, ROUNDING, SHORTEST_NOTCH, is_straight};
+use crate::geom::boxes::Boxes;
+use crate::geom::budget::Budget;
+use crate::geom::near::{Near, sorted};
+use crate::geom::{Extent, Point, polyline, ring};
+use crate::ir::drawing::Vertex;
+
+/// How far from the edge a stroke may start and still be a notch, mm: CAD systems leave it by some units.
+const MOUTH: f64 = 0.5;
+/// How far beside its edge the other end of a mark is on the edge, too, mm: such a line lies along it, or leads from edge to
+/// edge.
+const TOUCH: f64 = 0.1;
+/// Outlines that meet at one place, at the most.
+const MEETING: usize = 4;
+
+/// A stroke that is a notch of an outline.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Mark {
+    /// The line that draws it, and the outline that it stands on, as indices of lines.
+    pub(super) line: usize,
+    pub(super) outline: usize,
+    /// From the edge inwards.
+    pub(super) cut: [Point; 2],
+    /// Which of its places leads to the tip.
+    pub(super) leg: usize,
+    /// The line that is its crossbar.
+    pub(super) bar: Option<usize>,
+}
+
+/// A stroke that may be a notch, by its shape: one line, or a leg of two that meet at its tip.
+struct Candidate {
+    line: usize,
+    leg: usize,
+    ends: [Point; 2],
+    /// The outlines that each end stands on, with the distance.
+    on: [ArrayVec<(f64, usize), MEETING>; 2],
+}
+
+/// What is looked at.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Search<'a> {
+    pub(super) lines: &'a [Line],
+    pub(super) vertices: &'a [Vertex],
+    /// Length of a unit, mm.
+    pub(super) unit: f64,
+    /// Closed lines that may have notches.
+    pub(super) outlines: &'a [usize],
+}
+
+/// The strokes of a line that may be notches, each with its place in the line.
+fn strokes(vertices: &[Vertex]) -> ArrayVec<(usize, [Point; 2]), 2> {
+    let is_notch = |[a, b]: [Point; 2]| (SHORTEST_NOTCH..=LONGEST_NOTCH).contains(&(b - a).norm());
+    let mut strokes = ArrayVec::new();
+    let (first, last) = (vertices[0].at, vertices[vertices.len() - 1].at);
+    if is_straight(vertices) {
+        let far = |(_, a): &(usize, &Vertex), (_, b): &(usize, &Vertex)| {
+            (a.at - first).norm().total_cmp(&(b.at - first).norm())
+        };
+        if let Some((place, tip)) = vertices.iter().enumerate().max_by(far) {
+            strokes.push((place, [first, tip.at]));
+        }
+    } else if let [_, tip, _] = vertices
+        && tip.span != vertices[2].span
+    {
+        // The chords of an arc are no legs.
+        strokes.extend([(1, [first, tip.at]), (2, [last, tip.at])]);
+    }
+    if strokes.iter().all(|(_, ends)| is_notch(*ends)) { strokes } else { ArrayVec::new() }
+}
+
+/// The notches among the open lines that were not taken for anything yet.
+pub(super) fn on_outlines(search: Search, work: &mut Budget) -> Vec<Mark> {
+    let Search { lines, vertices, unit, .. } = search;
+    let open = (0..lines.len()).filter(|&i| !lines[i].is_closed && lines[i].is_open_question());
+    let mut candidates: Vec<Candidate> = Vec::new();
+    for line in open.filter(|&i| lines[i].length <= 4.0 * LONGEST_NOTCH) {
+        for (leg, ends) in strokes(lines[line].vertices(vertices)) {
+            candidates.push(Candidate { line, leg, ends, on: [ArrayVec::new(), ArrayVec::new()] });
+        }
+    }
+    if candidates.is_empty() {
+        return Vec::new();
+    }
+    let slack = ROUNDING * unit;
+    meet(&mut candidates, search, (MOUTH + slack, work));
+    let mut marks: Vec<Mark> =
+        candidates.iter().filter_map(|candidate| mark(candidate, search, (TOUCH + slack, work))).collect();
+    // Of two legs both are cut or none is.
+    let is_leg = |mark: &Mark| {
+        lines[mark.line].end - lines[mark.line].first == 3 && !is_straight(lines[mark.line].vertices(vertices))
+    };
+    let pairs: Vec<bool> = marks
+        .iter()
+        .enumerate()
+        .map(|(k, mark)| {
+            let beside = [k.checked_sub(1), Some(k + 1)].into_iter().flatten().filter_map(|k| marks.get(k));
+            !is_leg(mark) || beside.filter(|other| other.line == mark.line).count() == 1
+        })
+        .collect();
+    let mut keep = pairs.into_iter();
+    marks.retain(|_| keep.next().unwrap_or_default());
+    marks
+}
+
+/// Finds the outlines that the ends of candidates stand on.
+fn meet(candidates: &mut [Candidate], search: Search, (reach, work): (f64, &mut Budget)) {
+    let Search { lines, vertices, outlines, .. } = search;
+    let ends: Vec<Extent> =
+        candidates.iter().flat_map(|c| c.ends).map(|end| Extent::between(end, end).grown(reach)).collect();
+    let boxes = Boxes::new(ends);
+    let place = |candidates: &[Candidate], end: usize| candidates[end / 2].ends[end % 2];
+    for &outline in outlines {
+        let extent = &lines[outline].extent;
+        if !work.spend(boxes.cost_near(extent)) {
+            return;
+        }
+        let mut near: Vec<usize> = boxes.near(*extent).collect();
+        near.sort_by(|&a, &b| place(candidates, a).x.total_cmp(&place(candidates, b).x).then(a.cmp(&b)));
+        if near.is_empty() {
+            continue;
+        }
+        for edge in lines[outline].vertices(vertices).windows(2) {
+            let [a, b] = [edge[0].at, edge[1].at];
+            let beside = Extent::between(a, b).grown(reach);
+            let first = near.partition_point(|&end| place(candidates, end).x < beside.min.x);
+            for &end in &near[first..] {
+                let at = place(candidates, end);
+                if at.x > beside.max.x {
+                    break;
+                }
+                if !work.spend(1) {
+                    return;
+                }
+                let distance = if beside.holds(at) { polyline::distance_to_segment(at, a, b) } else { f64::INFINITY };
+                if distance <= reach {
+                    note(&mut candidates[end / 2].on[end % 2], outline, distance);
+                }
+            }
+        }
+    }
+}
+
+/// Notes that an end stands on an outline, so near.
+fn note(on: &mut ArrayVec<(f64, usize), MEETING>, outline: usize, distance: f64) {
+    if let Some(known) = on.iter_mut().find(|(_, known)| *known == outline) {
+        known.0 = known.0.min(distance);
+    } else if !on.is_full() {
+        on.push((distance, outline));
+    }
+}
+
+/// The notch that a candidate is: of the outline that it starts on and leads into.
+fn mark(candidate: &Candidate, search: Search, (touch, work): (f64, &mut Budget)) -> Option<Mark> {
+    let Search { lines, vertices, .. } = search;
+    let mut best: Option<(f64, Mark)> = None;
+    for (from, to) in [(0, 1), (1, 0)] {
+        for &(distance, outline) in &candidate.on[from] {
+            let tip = candidate.ends[to];
+            let lies_on =
+                candidate.on[to].iter().any(|&(beside, other)| other == outline && beside <= touch.max(distance));
+            let points = || lines[outline].points(vertices);
+            if lies_on
+                || best.is_some_and(|(least, _)| least <= distance)
+                || !work.spend(lines[outline].vertices(vertices).len())
+            {
+                continue;
+            }
+            // Into a part, and from a cut-out into what is around it.
+            let is_in = ring::contains(&points(), tip);
+            if is_in == (lines[outline].class == Class::Part) {
+                let Candidate { line, leg, ends, .. } = *candidate;
+                let mark = Mark { line, outline, cut: [ends[from], ends[to]], leg, bar: None };
+                best = Some((distance, mark));
+            }
+        }
+    }
+    best.map(|(_, mark)| mark)
+}
+
+/// Gives the strokes that the tip of a notch divides to that notch, as its crossbar: the lines that are such.
+pub(super) fn take_crossbars(marks: &mut [Mark], search: Search) -> Vec<usize> {
+    let Search { lines, vertices, unit, .. } = search;
+    let tips = sorted(marks.iter().map(|mark| mark.cut[1]));
+    let mut near = Near::on_grid(unit);
+    let mut bars = Vec::new();
+    let is_bar = |&i: &usize| {
+        let line = &lines[i];
+        line.is_open_question() && line.end - line.first == 2 && line.length <= LONGEST_NOTCH
+    };
+    for bar in (0..lines.len()).filter(is_bar) {
+        let [a, b] = [0, 1].map(|k| lines[bar].vertices(vertices)[k].at);
+        let mut divided = None;
+        near.each(&tips, [a, b], |i| divided = divided.or(Some(i)));
+        let stem = divided.map(|i| &mut marks[i]);
+        let divides = |mark: &&mut Mark| {
+            let tip = mark.cut[1];
+            mark.line != bar && mark.bar.is_none() && (tip - a).norm().min((tip - b).norm()) > SHORTEST_NOTCH / 2.0
+        };
+        if let Some(mark) = stem.filter(divides) {
+            mark.bar = Some(bar);
+            bars.push(bar);
+        }
+    }
+    bars
+}
+
+/// Open lines, longer than notches, that start or end on the edge of a part.
+pub(super) fn from_edges(search: Search, work: &mut Budget) -> Vec<usize> {
+    let Search { lines, vertices, unit, .. } = search;
+    let is_long = |line: &Line| !line.is_closed && line.is_open_question() && line.length > LONGEST_NOTCH;
+    let ends = |line: usize| {
+        let all = lines[line].vertices(vertices);
+        [all[0].at, all[all.len() - 1].at]
+    };
+    let long = (0..lines.len()).filter(|&i| is_long(&lines[i]));
+    let mut candidates: Vec<Candidate> =
+        long.map(|line| Candidate { line, leg: 0, ends: ends(line), on: [ArrayVec::new(), ArrayVec::new()] }).collect();
+    if !candidates.is_empty() {
+        meet(&mut candidates, search, (TOUCH + ROUNDING * unit, work));
+    }
+    let stands = |candidate: &&Candidate| candidate.on.iter().any(|on| !on.is_empty());
+    candidates.iter().filter(stands).map(|candidate| candidate.line).collect()
+}

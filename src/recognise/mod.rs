@@ -1,0 +1,211 @@
+//! Recognising: a [`Drawing`] to a [`Marker`]. A plot says what a pen draws, not what a knife cuts.
+//!
+//! Receives strokes and texts with the names of their pens, whatever dialect they came from. Promises a marker like that of a
+//! cut file - parts with their notches, equal places equal to the bit, texts never cut - and an account of every line: what
+//! it was taken for, and whether it is cut. Wrong cuts inside a part cannot be mended and a cut that is missing can, so
+//! nothing inside a part is cut but notches on its edge, unless a pen or an option asks for it.
+//!
+//! [`join`] makes lines of strokes. [`frame`] finds the frames, [`nest`] what lies in what, [`marks`] the notches,
+//! [`letters`] and [`seam`] what their names say; [`line`] has the table of classes, and of when each is cut, [`pens`] what
+//! pens stand for. [`piece`] makes the marker, [`say`] names what is doubtful.
+
+mod frame;
+mod join;
+mod letters;
+mod line;
+mod marks;
+mod nest;
+mod pens;
+mod piece;
+mod say;
+mod seam;
+
+use self::line::{Class, Cut, Line, ROUNDING, SIGN, SMALL_OUTLINE};
+use self::marks::{Mark, Search};
+use self::nest::Nest;
+use self::pens::Use;
+use crate::diagnostic::Diagnostics;
+use crate::geom::budget::Budget;
+use crate::ir::Marker;
+use crate::ir::drawing::{Drawing, Ending, Moved, Pen, Vertex};
+use crate::ir::marker::Label;
+use crate::machine::Job;
+use crate::machine::plot::{Frame, Inner};
+
+/// Lines that touch may lie so far in one another, mm, or a diagonal of the unit: each was rounded by itself.
+const BAND: f64 = 0.2;
+/// How much longer one side of a hole's box may be than the other.
+const HOLE_RATIO: f64 = 1.1;
+/// Share of its box that a circle of eight chords fills; a square fills all of it.
+const HOLE_FILL: f64 = 0.7;
+/// Share of its part that an inner line takes at most to be cut: more is the part itself, drawn once more.
+const LARGEST_INNER: f64 = 0.5;
+/// Closed lines of a part that are tried for its seam line, the largest first.
+const SEAM_CANDIDATES: usize = 3;
+
+/// A drawing whose lines are sorted out.
+#[derive(Debug)]
+struct Sheet {
+    vertices: Vec<Vertex>,
+    lines: Vec<Line>,
+    nest: Nest,
+    marks: Vec<Mark>,
+    /// The lines that the marks are drawn by, and outlines of holes.
+    pens: Vec<Pen>,
+    texts: Vec<Label>,
+    unit: f64,
+    ending: Ending,
+    moved: Moved,
+    /// Whether a search ended before its time.
+    is_cut_short: bool,
+}
+
+/// Decides what of a drawing is cut, and makes the marker of it.
+pub fn marker(mut drawing: Drawing, job: &Job, diagnostics: &mut Diagnostics) -> Marker {
+    let (lines, moved) = join::join(&mut drawing, job);
+    let Drawing { vertices, pens, texts, unit, ending, .. } = drawing;
+    let mut sheet = Sheet {
+        vertices,
+        lines,
+        nest: Nest::default(),
+        marks: Vec::new(),
+        pens,
+        texts,
+        unit,
+        ending,
+        moved,
+        is_cut_short: false,
+    };
+    sheet.sort_out(job);
+    sheet.decide(job);
+    say::all(&sheet, job, diagnostics);
+    piece::marker(sheet, diagnostics)
+}
+
+impl Sheet {
+    /// Finds what every line is.
+    fn sort_out(&mut self, job: &Job) {
+        let band = BAND.max(ROUNDING * self.unit);
+        let frame = if job.lines.all { Frame::None } else { job.profile.hpgl.frame };
+        frame::mark(&mut self.lines, frame, band);
+        let mut work = Budget::of_a_marker();
+        self.nest = Nest::of(&self.lines, &self.vertices, &mut work);
+        for i in 0..self.lines.len() {
+            let line = &mut self.lines[i];
+            if line.is_outline() && self.nest.parent(i).is_none() && line.size() > SMALL_OUTLINE {
+                line.class = Class::Part;
+            }
+        }
+        let mut work = Budget::of_a_marker();
+        self.find_marks(&mut work);
+        letters::mark(&mut self.lines, &self.vertices, &mut work);
+        self.find_holes(job);
+        self.find_seams(&mut work);
+        for i in 0..self.lines.len() {
+            let line = &mut self.lines[i];
+            if line.is_outline() && line.is_open_question() {
+                line.class = match self.nest.parent(i) {
+                    _ if line.size() < SIGN => Class::Sign,
+                    None => Class::SmallOutline,
+                    Some(_) => Class::Inner,
+                };
+            }
+        }
+        let parts = self.indices(|line| line.class == Class::Part);
+        for line in marks::from_edges(self.search(&parts), &mut work) {
+            self.lines[line].class = Class::FromEdge;
+        }
+        self.is_cut_short = work.is_spent();
+    }
+
+    /// The lines of some kind.
+    fn indices(&self, is: impl Fn(&Line) -> bool) -> Vec<usize> {
+        (0..self.lines.len()).filter(|&i| is(&self.lines[i])).collect()
+    }
+
+    fn search<'a>(&'a self, outlines: &'a [usize]) -> Search<'a> {
+        Search { lines: &self.lines, vertices: &self.vertices, unit: self.unit, outlines }
+    }
+
+    /// Finds the notches that are strokes, on the edges of parts.
+    fn find_marks(&mut self, work: &mut Budget) {
+        let parts = self.indices(|line| line.class == Class::Part);
+        let mut marks = marks::on_outlines(self.search(&parts), work);
+        marks.iter().for_each(|mark| self.lines[mark.line].class = Class::Notch);
+        for bar in marks::take_crossbars(&mut marks, self.search(&parts)) {
+            self.lines[bar].class = Class::Notch;
+        }
+        self.marks = marks;
+    }
+
+    /// Finds the closed squares and circles of the size of a hole.
+    fn find_holes(&mut self, job: &Job) {
+        let Some(most) = job.profile.hpgl.drill_max_mm else { return };
+        for line in self.lines.iter_mut().filter(|line| line.is_outline() && line.is_open_question()) {
+            let (width, height) = line.extent.size();
+            let (greater, less) = (width.max(height), width.min(height));
+            if greater <= most && greater <= HOLE_RATIO * less && line.area >= HOLE_FILL * width * height {
+                line.class = Class::Hole;
+            }
+        }
+    }
+
+    /// Finds the seam line of each closed line that has one: inside a part, or inside one that a frame was taken for.
+    fn find_seams(&mut self, work: &mut Budget) {
+        let may_be = |line: &Line| line.is_outline() && line.is_open_question() && line.size() >= SIGN;
+        let mut inner = self.indices(may_be);
+        inner.retain(|&i| self.nest.parent(i).is_some());
+        inner.sort_by(|&a, &b| {
+            let key = |i: usize| (self.nest.parent(i), self.lines[i].area);
+            key(a).0.cmp(&key(b).0).then(key(b).1.total_cmp(&key(a).1)).then(a.cmp(&b))
+        });
+        let mut seams = Vec::new();
+        for children in inner.chunk_by(|&a, &b| self.nest.parent(a) == self.nest.parent(b)) {
+            let Some(parent) = self.nest.parent(children[0]) else { continue };
+            let outline = self.lines[parent].points(&self.vertices);
+            let tried = children.iter().take(SEAM_CANDIDATES);
+            let mut is_seam = |&&i: &&usize| {
+                work.spend(seam::COST * outline.len()) && seam::follows(&self.lines[i].points(&self.vertices), &outline)
+            };
+            seams.extend(tried.filter(|i| is_seam(i)).copied().next());
+        }
+        // What follows a seam line is a cut-out in it: a part has one seam line.
+        seams.sort_unstable();
+        let is_seam = |i: Option<usize>| i.is_some_and(|i| seams.binary_search(&i).is_ok());
+        for &i in seams.iter().filter(|&&i| !is_seam(self.nest.parent(i))) {
+            self.lines[i].class = Class::Seam;
+        }
+    }
+
+    /// Whether each line is cut, after the table.
+    fn decide(&mut self, job: &Job) {
+        let inner = job.lines.inner.unwrap_or(job.profile.hpgl.inner);
+        for i in 0..self.lines.len() {
+            let line = &self.lines[i];
+            let is_knife = line.usage == Use::Knife;
+            let by_rule = match line.class.rule().cut {
+                Cut::Always => true,
+                Cut::Knife => is_knife,
+                Cut::Inner => inner == Inner::All || (is_knife || inner == Inner::Cut) && !self.is_too_large(i),
+                Cut::All => inner == Inner::All,
+                Cut::Never => false,
+            };
+            let may_be = match line.usage {
+                Use::Unsaid | Use::Knife => true,
+                Use::Drawn => line.class == Class::Notch,
+                Use::Ignore => false,
+            };
+            self.lines[i].is_cut = may_be && (by_rule || job.lines.all);
+        }
+        for mark in &self.marks {
+            let is_cut = self.lines[mark.outline].is_cut;
+            mark.bar.into_iter().chain([mark.line]).for_each(|line| self.lines[line].is_cut = is_cut);
+        }
+    }
+
+    /// Whether an inner line takes most of its part.
+    fn is_too_large(&self, line: usize) -> bool {
+        let part = self.nest.outermost(line).map_or(f64::INFINITY, |part| self.lines[part].area);
+        self.lines[line].area > LARGEST_INNER * part
+    }
+}

@@ -1,0 +1,241 @@
+//! The marker of a drawing whose lines are sorted out, and the account of what it does not cut.
+
+use super::line::{Class, Line, RULES, Rule};
+use super::{Mark, Sheet};
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::boxes::Boxes;
+use crate::geom::budget::Budget;
+use crate::geom::{Point, Vector, cross, ring};
+use crate::ir::Marker;
+use crate::ir::drawing::{Account, Aside, LineClass, Vertex};
+use crate::ir::list::{FULL_SPEED, SegmentList};
+use crate::ir::marker::{Contour, Drill, Label, Notch, NotchKind, Piece, Stroke};
+
+/// The drill that makes the holes.
+const DRILL: u8 = 1;
+
+/// Makes the marker.
+pub(super) fn marker(mut sheet: Sheet, diagnostics: &mut Diagnostics) -> Marker {
+    let texts = std::mem::take(&mut sheet.texts);
+    let mut making = Making::new(&sheet);
+    making.add_notches();
+    making.add_holes();
+    making.add_contours();
+    let texts_outside = making.add_labels(texts);
+    if making.work.is_spent() && !sheet.nest.is_cut_short {
+        let message = "there are too many lines to find the part of every hole, text and line";
+        let finding = Diagnostic::new(&code::DRAWING_SEARCH_ENDED, message);
+        diagnostics.push(finding.hint("split the plot, or leave texts out"));
+    }
+    let Making { list, mut pieces, .. } = making;
+    let aside = aside(&sheet);
+    let account = Account { classes: classes(&sheet.lines), pen_down: pen_down(&sheet), texts_outside, aside };
+    for (piece, number) in pieces.iter_mut().zip(1..) {
+        piece.number = number;
+    }
+    Marker { list, pieces, unit: sheet.unit, drawing: Some(account), ..Marker::default() }
+}
+
+struct Making<'a> {
+    sheet: &'a Sheet,
+    list: SegmentList,
+    pieces: Vec<Piece>,
+    /// The closed lines that pieces are of, in cut order, and their boxes.
+    owners: Vec<usize>,
+    boxes: Boxes,
+    /// Of each line the piece that it is of, plus one.
+    piece_of: Vec<u32>,
+    work: Budget,
+}
+
+impl<'a> Making<'a> {
+    /// A piece for each part that is cut, or in which something is, in the order of the file.
+    fn new(sheet: &'a Sheet) -> Self {
+        let lines = &sheet.lines;
+        let mut owns = vec![false; lines.len()];
+        let cut = (0..lines.len()).filter(|&i| lines[i].is_cut && lines[i].is_outline());
+        for i in cut {
+            // What lies in a part that is not cut is one of its own.
+            let part = sheet.nest.outermost(i).filter(|&part| lines[part].is_cut);
+            owns[part.unwrap_or(i)] |= lines[i].class != Class::Hole || part.is_some();
+        }
+        let owners: Vec<usize> = (0..lines.len()).filter(|&i| owns[i]).collect();
+        let mut piece_of = vec![0; lines.len()];
+        owners.iter().zip(1..).for_each(|(&owner, piece)| piece_of[owner] = piece);
+        let span = |&i: &usize| Piece { span: lines[i].span(&sheet.vertices), ..Piece::default() };
+        let boxes = Boxes::new(owners.iter().map(|&i| lines[i].extent).collect());
+        let pieces = owners.iter().map(span).collect();
+        let mut list = SegmentList::default();
+        let cut = || lines.iter().filter(|line| line.is_cut);
+        list.reserve(cut().map(|line| (line.end - line.first) as usize).sum(), cut().count());
+        Self { sheet, list, pieces, owners, boxes, piece_of, work: Budget::of_a_marker() }
+    }
+
+    fn add_notches(&mut self) {
+        for mark in &self.sheet.marks {
+            let Some(piece) = self.piece_of[mark.outline].checked_sub(1) else { continue };
+            if self.sheet.lines[mark.line].is_cut {
+                let notch = notch(mark, self.sheet);
+                self.pieces[piece as usize].notches.push(notch);
+            }
+        }
+    }
+
+    fn add_holes(&mut self) {
+        for line in self.sheet.lines.iter().filter(|line| line.is_cut && line.class == Class::Hole) {
+            let vertices = line.vertices(&self.sheet.vertices);
+            let (at, span) = (centroid(vertices), line.span(&self.sheet.vertices));
+            let piece = self.piece_around(at, line);
+            self.pieces[piece].drills.push(Drill { at, tool: DRILL, span });
+        }
+    }
+
+    /// Lines inside a part come before its outline.
+    fn add_contours(&mut self) {
+        let sheet = self.sheet;
+        let is_line =
+            |i: &usize| sheet.lines[*i].is_cut && !matches!(sheet.lines[*i].class, Class::Hole | Class::Notch);
+        let all: Vec<usize> = (0..sheet.lines.len()).filter(is_line).collect();
+        for is_outline in [false, true] {
+            for &i in &all {
+                if (self.piece_of[i] > 0) != is_outline {
+                    continue;
+                }
+                let line = &sheet.lines[i];
+                let owner = sheet.nest.outermost(i).map_or(0, |part| self.piece_of[part]);
+                let piece = match (self.piece_of[i].checked_sub(1), owner.checked_sub(1)) {
+                    (Some(own), _) => own as usize,
+                    (None, Some(part)) => part as usize,
+                    (None, None) => self.piece_around(line.vertices(&sheet.vertices)[0].at, line),
+                };
+                self.add_contour(piece, line);
+            }
+        }
+    }
+
+    fn add_contour(&mut self, piece: usize, line: &Line) {
+        let vertices = line.vertices(&self.sheet.vertices);
+        let (points, spans): (Vec<Point>, Vec<_>) = vertices.iter().map(|vertex| (vertex.at, vertex.span)).unzip();
+        if let Some(range) = self.list.append_line(&points, &spans) {
+            self.pieces[piece].contours.push(Contour { range, closed: points.first() == points.last() });
+        }
+    }
+
+    /// The piece whose outline holds a place most closely; a new one when none does.
+    fn piece_around(&mut self, at: Point, line: &Line) -> usize {
+        self.part_around(at).unwrap_or_else(|| {
+            self.pieces.push(Piece { span: line.span(&self.sheet.vertices), ..Piece::default() });
+            self.pieces.len() - 1
+        })
+    }
+
+    fn part_around(&mut self, at: Point) -> Option<usize> {
+        let lines = &self.sheet.lines;
+        let mut best: Option<(f64, usize)> = None;
+        if !self.work.spend(self.boxes.cost_at(at)) {
+            return None;
+        }
+        for piece in self.boxes.at(at) {
+            let line = &lines[self.owners[piece]];
+            let rank = (line.area, piece);
+            if best.is_some_and(|best| rank >= best) {
+                continue;
+            }
+            let points = line.points(&self.sheet.vertices);
+            if self.work.spend(points.len()) && ring::contains(&points, at) {
+                best = Some(rank);
+            }
+        }
+        best.map(|(_, piece)| piece)
+    }
+
+    /// A text goes to the part that it stands in; titles beside the parts go to none: how many there are.
+    fn add_labels(&mut self, texts: Vec<Label>) -> usize {
+        let mut outside = 0;
+        for text in texts {
+            match text.at.and_then(|at| self.part_around(at)) {
+                Some(piece) => self.pieces[piece].labels.push(text),
+                None => outside += 1,
+            }
+        }
+        outside
+    }
+}
+
+/// The notch of a mark.
+fn notch(mark: &Mark, sheet: &Sheet) -> Notch {
+    let [root, tip] = mark.cut;
+    let kind = mark.bar.map_or(NotchKind::Slit, |bar| {
+        let vertices = sheet.lines[bar].vertices(&sheet.vertices);
+        NotchKind::T(Stroke { from: vertices[0].at, to: vertices[1].at, span: vertices[1].span })
+    });
+    let span = sheet.lines[mark.line].vertices(&sheet.vertices)[mark.leg].span;
+    Notch { kind, root, tip, percent: FULL_SPEED, span }
+}
+
+/// The centre of gravity of a closed line: that of a circle whatever its chords.
+fn centroid(vertices: &[Vertex]) -> Point {
+    let origin = vertices[0].at;
+    let part = |pair: &[Vertex]| {
+        let (a, b) = (pair[0].at - origin, pair[1].at - origin);
+        ((a + b) * cross(a, b), cross(a, b))
+    };
+    let add = |sum: (Vector, f64), part: (Vector, f64)| (sum.0 + part.0, sum.1 + part.1);
+    let (sum, doubled) = vertices.windows(2).map(part).fold((Vector::zeros(), 0.0), add);
+    origin + sum / (3.0 * doubled)
+}
+
+/// What is drawn and not cut.
+fn aside(sheet: &Sheet) -> Aside {
+    let mut aside = Aside { moved: sheet.moved, ..Aside::default() };
+    for line in &sheet.lines {
+        let vertices = line.vertices(&sheet.vertices);
+        match (line.is_cut, line.class) {
+            // The outline of a hole is drilled, not cut.
+            (false, _) | (true, Class::Hole) => aside.add(Some(line.class.rule().name), vertices),
+            (true, _) => {}
+        }
+    }
+    // Two legs of one line are both cut.
+    for marks in sheet.marks.chunk_by(|a, b| a.line == b.line) {
+        if let [mark] = marks
+            && sheet.lines[mark.line].is_cut
+        {
+            leave_beside_cut(sheet.lines[mark.line].vertices(&sheet.vertices), mark, &mut aside);
+        }
+    }
+    aside
+}
+
+/// Of a stroke with more places than the two of its cut: all of it is left aside, but for the cut.
+fn leave_beside_cut(vertices: &[Vertex], mark: &Mark, aside: &mut Aside) {
+    if vertices.len() == 2 {
+        return;
+    }
+    aside.add(None, &vertices[mark.leg..]);
+    if mark.leg > 1 {
+        aside.moved.points += mark.leg - 1;
+        let straight = crate::geom::moments::Moments::line(vertices[0].at, vertices[mark.leg].at);
+        aside.moved.moments += crate::geom::moments::Moments::of(vertices[..=mark.leg].iter().map(|v| v.at));
+        aside.moved.moments -= straight;
+        vertices.iter().for_each(|vertex| aside.moved.bounds.add(vertex.at));
+    }
+}
+
+fn pen_down(sheet: &Sheet) -> f64 {
+    sheet.lines.iter().fold(0.0, |sum, line| sum + line.length) + sheet.moved.moments.length()
+}
+
+/// How many lines were taken for what.
+fn classes(lines: &[Line]) -> Vec<LineClass> {
+    let row = |cut, rule: &Rule| LineClass { name: rule.name, about: rule.about, cut, count: 0, length: 0.0 };
+    let mut classes: Vec<LineClass> = RULES.iter().flat_map(|rule| [row(true, rule), row(false, rule)]).collect();
+    for line in lines {
+        let name = line.class.rule().name;
+        if let Some(class) = classes.iter_mut().find(|class| class.cut == line.is_cut && class.name == name) {
+            (class.count, class.length) = (class.count + 1, class.length + line.length);
+        }
+    }
+    classes.retain(|class| class.count > 0);
+    classes
+}

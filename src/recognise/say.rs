@@ -1,0 +1,252 @@
+//! What is doubtful in a drawing, in words: each thing once, with how many lines it concerns and what to type.
+
+use std::collections::BTreeMap;
+
+use super::Sheet;
+use super::line::{Class, Line};
+use super::pens::Use;
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
+use crate::geom::boxes::Boxes;
+use crate::geom::ring;
+use crate::ir::drawing::Ending;
+use crate::machine::Job;
+use crate::machine::plot::Inner;
+use crate::units::MM_PER_M;
+use crate::units::number::fixed;
+
+/// Shortest line outside all parts that is named, mm: shorter ones are letters and signs.
+const SHORTEST_NAMED: f64 = 100.0;
+/// Shortest line that may be an outline which the end of the file has cut short, mm.
+const SHORTEST_CUT_SHORT: f64 = 25.0;
+/// Closed lines in a part that make one doubt whether it is one.
+const DOUBTFUL: usize = 2;
+/// Parts in a frame that make nobody doubt that it is one.
+const SURE_PARTS: usize = 4;
+/// Most pens that a message names.
+const SHOWN_PENS: usize = 8;
+
+/// Says all of it, the worst first.
+pub(super) fn all(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
+    if sheet.nest.is_cut_short {
+        let message = "there are too many closed lines to tell which lies in which: inner lines would be cut as parts";
+        let finding = Diagnostic::new(&code::DRAWING_TOO_MANY, message);
+        out.push(finding.hint("split the plot, or leave out fills and hatchings"));
+        return;
+    }
+    if sheet.is_cut_short {
+        let message = "there are too many lines to find every notch, letter and seam line among them";
+        let finding = Diagnostic::new(&code::DRAWING_SEARCH_ENDED, message);
+        out.push(finding.hint("split the plot, or leave texts out"));
+    }
+    if let Some(finding) = cut_short(sheet) {
+        out.push(finding);
+        return;
+    }
+    if !sheet.lines.iter().any(|line| line.is_cut) {
+        out.push(nothing(sheet, job));
+        return;
+    }
+    inner_lines(sheet, job, out);
+    lines_outside(sheet, out);
+    frames(sheet, out);
+}
+
+/// Several lines: how many, and how long in all.
+fn counted(lines: &[&Line], noun: &str) -> String {
+    let total = lines.iter().fold(0.0, |sum, line| sum + line.length);
+    let length =
+        if total < MM_PER_M { format!("{} mm", fixed(total, 1)) } else { format!("{} m", fixed(total / MM_PER_M, 2)) };
+    match lines.len() {
+        1 => format!("one {noun} of {length}"),
+        n => format!("{n} {noun}s of {length} in all"),
+    }
+}
+
+fn finding(code: &'static Code, message: String, first: &Line, sheet: &Sheet) -> Diagnostic {
+    Diagnostic::new(code, message).at(first.span(&sheet.vertices))
+}
+
+/// Closed lines inside parts that are not cut: cut-outs, or parts in a frame that was not known for one.
+fn inner_lines(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
+    let mut by_part: BTreeMap<usize, Vec<&Line>> = BTreeMap::new();
+    for i in sheet.indices(|line| line.class == Class::Inner && !line.is_cut && line.usage != Use::Drawn) {
+        by_part.entry(sheet.nest.outermost(i).unwrap_or(i)).or_default().push(&sheet.lines[i]);
+    }
+    let doubtful: Vec<(usize, &[&Line])> =
+        by_part.iter().filter(|(_, held)| held.len() >= DOUBTFUL).map(|(&part, held)| (part, &held[..])).collect();
+    if let Some(&(part, held)) = doubtful.first() {
+        let (width, height) = sheet.lines[part].extent.size();
+        let others = match doubtful.len() {
+            1 => String::new(),
+            n => format!("; so do {} others", n - 1),
+        };
+        let message = format!(
+            "a part of {} x {} mm holds {} that are not cut: it may be a frame or the edge of the table{others}",
+            fixed(width, 1),
+            fixed(height, 1),
+            counted(held, "closed line")
+        );
+        let found = finding(&code::DRAWING_MAY_BE_FRAME, message, &sheet.lines[part], sheet);
+        out.push(found.hint("`--set hpgl.frame=outermost` if it is one; `--inner cut` if the lines are cut-outs"));
+    }
+    let single: Vec<&Line> = by_part.values().filter(|held| held.len() < DOUBTFUL).flatten().copied().collect();
+    if let Some(first) = single.first() {
+        let lines = counted(&single, "closed line");
+        let is_asked = job.lines.inner.unwrap_or(job.profile.hpgl.inner) == Inner::Cut;
+        let (message, hint) = if is_asked {
+            (
+                format!("not cut, since it takes more than half of its part: {lines}"),
+                "`--inner all` cuts every closed line",
+            )
+        } else {
+            (
+                format!("not cut, but maybe cut-outs: {lines} inside parts"),
+                "`--inner cut` cuts cut-outs; `cutc info` and `-t svg` show what lines were taken for",
+            )
+        };
+        out.push(finding(&code::DRAWING_INNER_LINES, message, first, sheet).hint(hint));
+    }
+}
+
+/// Small closed lines, and long open ones, that are in no part.
+fn lines_outside(sheet: &Sheet, out: &mut Diagnostics) {
+    let small: Vec<&Line> =
+        sheet.lines.iter().filter(|line| line.class == Class::SmallOutline && !line.is_cut).collect();
+    if let Some(first) = small.first() {
+        let message = format!("not cut: {} up to 25 mm large in no part", counted(&small, "closed line"));
+        let found = finding(&code::DRAWING_SMALL_OUTLINES, message, first, sheet);
+        out.push(found.hint("if they are parts, name their pen as a knife: `--cut-pens`"));
+    }
+    let is_long = |line: &Line| {
+        let is_open = matches!(line.class, Class::Other | Class::FromEdge);
+        is_open && !line.is_cut && line.usage != Use::Drawn && line.length >= SHORTEST_NAMED
+    };
+    let parts = Parts::of(sheet);
+    let open: Vec<&Line> = sheet.lines.iter().filter(|line| is_long(line) && !parts.hold(line)).collect();
+    if let Some(first) = open.first() {
+        let places = first.vertices(&sheet.vertices);
+        let gap = (places[places.len() - 1].at - places[0].at).norm();
+        let ends = match gap {
+            0.0 => "closes, but crosses itself so that its halves cancel".to_owned(),
+            gap => format!("ends {} mm from where it starts", fixed(gap, 1)),
+        };
+        let first_one = if open.len() == 1 { "it" } else { "the first one" };
+        let message = format!("not cut: {} in no part; {first_one} {ends}", counted(&open, "open line"));
+        let found = finding(&code::DRAWING_OPEN_OUTLINES, message, first, sheet);
+        out.push(
+            found.hint("if they are outlines, let the CAD close them; `--cut-all` cuts every line as it is drawn"),
+        );
+    }
+}
+
+/// Frames that may be a part with cut-outs.
+fn frames(sheet: &Sheet, out: &mut Diagnostics) {
+    let parts = sheet.indices(|line| line.class == Class::Part).len();
+    if parts >= SURE_PARTS {
+        return;
+    }
+    if let Some(frame) = sheet.lines.iter().filter(|line| line.class == Class::Frame).last() {
+        let (width, height) = frame.extent.size();
+        let message = format!(
+            "a rectangle of {} x {} mm around {parts} parts is taken for the frame: not cut",
+            fixed(width, 1),
+            fixed(height, 1)
+        );
+        let found = finding(&code::DRAWING_FRAME, message, frame, sheet);
+        out.push(found.hint("if it is a part, `--set hpgl.frame=none`"));
+    }
+}
+
+/// Parts by their place.
+struct Parts<'a> {
+    sheet: &'a Sheet,
+    lines: Vec<usize>,
+    boxes: Boxes,
+}
+
+/// Places of a line that are looked at, and parts that are looked at for each.
+const PROBES: usize = 5;
+const MOST_PARTS: usize = 16;
+
+impl<'a> Parts<'a> {
+    fn of(sheet: &'a Sheet) -> Self {
+        let lines = sheet.indices(|line| line.class == Class::Part);
+        let boxes = Boxes::new(lines.iter().map(|&i| sheet.lines[i].extent).collect());
+        Self { sheet, lines, boxes }
+    }
+
+    /// Whether most of a line lies in parts.
+    fn hold(&self, line: &Line) -> bool {
+        let vertices = line.vertices(&self.sheet.vertices);
+        let probe = |k: usize| {
+            let place = k * (vertices.len() - 1) / PROBES;
+            let share = (k as f64 + 0.5) / PROBES as f64 * (vertices.len() - 1) as f64 - place as f64;
+            vertices[place].at + (vertices[place + 1].at - vertices[place].at) * share.clamp(0.0, 1.0)
+        };
+        let is_in = |k: &usize| {
+            let at = probe(*k);
+            let mut around = self.boxes.at(at).take(MOST_PARTS);
+            around.any(|part| ring::contains(&self.sheet.lines[self.lines[part]].points(&self.sheet.vertices), at))
+        };
+        2 * (0..PROBES).filter(is_in).count() > PROBES
+    }
+}
+
+/// Refuses a file that is cut short: amid a number, or amid an outline where there are others.
+fn cut_short(sheet: &Sheet) -> Option<Diagnostic> {
+    let (span, is_amid_number) = match sheet.ending {
+        Ending::Proper => return None,
+        Ending::PenDown(span) => (span, false),
+        Ending::AmidNumber(span) => (span, true),
+    };
+    let is_last = |line: &&Line| line.vertices(&sheet.vertices).iter().any(|vertex| vertex.span == span);
+    // A line that returns to its start is whole, unless a curve does so whatever its last number was.
+    let is_curve = |line: &Line| {
+        let vertices = line.vertices(&sheet.vertices);
+        is_amid_number && vertices.iter().filter(|vertex| vertex.span == span).count() > 1
+    };
+    let last = sheet.lines.iter().find(is_last).filter(|line| !line.is_closed || is_curve(line))?;
+    let has_parts = sheet.lines.iter().any(|line| line.class == Class::Part);
+    let may_be_outline =
+        has_parts && last.class != Class::Notch && last.length > SHORTEST_CUT_SHORT && !Parts::of(sheet).hold(last);
+    let message = match (is_amid_number, may_be_outline) {
+        (true, _) if last.is_closed => "the file ends amid a number, which the size of its last curve depends on",
+        (true, _) => "the file ends amid a number, and the line that it draws does not close",
+        (false, true) => "the file ends amid a line outside all parts that does not close",
+        (false, false) => return None,
+    };
+    let found = Diagnostic::new(&code::DRAWING_CUT_SHORT, message).at(span);
+    Some(found.hint("most likely it is cut short: export it again; if it is complete, put `PU;` at its end"))
+}
+
+/// Why nothing is cut: which pens there are, and what left them out.
+fn nothing(sheet: &Sheet, job: &Job) -> Diagnostic {
+    if sheet.lines.is_empty() {
+        let finding = Diagnostic::new(&code::DRAWING_NOTHING_TO_CUT, "the drawing has no line");
+        return finding.hint("check that the export finished, and that it was not told to leave out the outlines");
+    }
+    let finding = Diagnostic::new(&code::DRAWING_NOTHING_TO_CUT, "no line is taken for something to cut");
+    let held: Vec<&str> = sheet.pens.iter().filter(|pen| pen.draws).map(|pen| pen.name.as_str()).collect();
+    let Some(&first) = held.first() else {
+        return finding.hint("every line is drawn while no pen is taken (SP0); let the CAD take pen 1 for outlines");
+    };
+    let listed = held[..held.len().min(SHOWN_PENS)].join(",");
+    let drawn = match held.len() {
+        1 => format!("the file draws with pen {first}"),
+        n => format!("the file draws with pens {listed}{}", if n > SHOWN_PENS { " and others" } else { "" }),
+    };
+    let is_wanted =
+        |name: &&str| name.parse().is_ok_and(|number| job.lines.pens.as_ref().is_none_or(|p| p.has(number)));
+    if let Some(only) = job.lines.pens.as_ref().filter(|_| !held.iter().any(|name| is_wanted(&name))) {
+        return finding.hint(format!("`--cut-pens {only}` leaves all lines out: {drawn}"));
+    }
+    if held.iter().all(|name| job.profile.hpgl.pen(name).is_some()) {
+        return finding
+            .hint(format!("`hpgl.pens` of the profile leaves them out; {drawn}; `--cut-pens {listed}` cuts them"));
+    }
+    if sheet.lines.iter().any(|line| line.class == Class::SmallOutline) {
+        let hint = format!("{drawn}; closed lines up to 25 mm are parts with `--cut-pens {listed}`");
+        return finding.hint(hint);
+    }
+    finding.hint(format!("{drawn}, no line closes; `--cut-all` cuts every line"))
+}

@@ -1,0 +1,92 @@
+//! Seam lines: closed lines that follow the outline around them at a nearly even distance along each of its edges. The
+//! distance may differ from edge to edge: hems are wider than seams.
+
+use crate::geom::{Point, Vector, cross, polyline};
+
+/// Farthest that a seam line lies from its outline, mm: hems are up to that wide.
+const FARTHEST: f64 = 60.0;
+/// The same for the sides of their boxes: at a sharp point of a part the two are farther apart.
+const BOX_MARGIN: f64 = 2.5 * FARTHEST;
+/// Sine of the greatest angle between a seam line and the edge beside it: edges that curve are hemmed along their chord.
+const LARGEST_TURN: f64 = 0.5;
+/// Shares of a line that must be near the outline, and go along it.
+const NEAR: f64 = 0.75;
+const ALONG: f64 = 0.7;
+/// Places of a line that are looked at.
+const SAMPLES: usize = 48;
+/// What it costs to look at one edge from all of them.
+pub(super) const COST: usize = SAMPLES;
+
+/// Whether a closed line follows the outline that it lies in.
+pub(super) fn follows(line: &[Point], outline: &[Point]) -> bool {
+    let (inner, outer) = (crate::geom::Extent::of(line), crate::geom::Extent::of(outline));
+    let margins = [inner.min - outer.min, outer.max - inner.max];
+    if margins.iter().any(|margin| margin.x > BOX_MARGIN || margin.y > BOX_MARGIN) {
+        return false;
+    }
+    let samples = samples(line);
+    let (mut near, mut along) = (0, 0);
+    for (at, way) in &samples {
+        let edges = outline.windows(2).map(|edge| (polyline::distance_to_segment(*at, edge[0], edge[1]), edge));
+        let Some((distance, edge)) = edges.min_by(|a, b| a.0.total_cmp(&b.0)) else { return false };
+        near += usize::from(distance <= FARTHEST);
+        let edge = edge[1] - edge[0];
+        along += usize::from(cross(*way, edge).abs() <= LARGEST_TURN * way.norm() * edge.norm());
+    }
+    let share = |count: usize| count as f64 / samples.len() as f64;
+    share(near) >= NEAR && share(along) >= ALONG
+}
+
+/// Places along a line at even distances, each with the way of the line there.
+fn samples(line: &[Point]) -> Vec<(Point, Vector)> {
+    let step = polyline::length(line) / SAMPLES as f64;
+    let mut samples = Vec::with_capacity(SAMPLES);
+    let mut next = step / 2.0;
+    for ends in line.windows(2) {
+        let way = ends[1] - ends[0];
+        let length = way.norm();
+        while next <= length && samples.len() < SAMPLES {
+            samples.push((ends[0] + way * (next / length), way));
+            next += step;
+        }
+        next -= length;
+    }
+    samples
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ring(places: &[(f64, f64)]) -> Vec<Point> {
+        places.iter().chain(&places[..1]).map(|&(x, y)| Point::new(x, y)).collect()
+    }
+
+    fn rectangle(x: f64, y: f64, width: f64, height: f64) -> Vec<Point> {
+        ring(&[(x, y), (x + width, y), (x + width, y + height), (x, y + height)])
+    }
+
+    #[test]
+    fn a_line_at_an_even_distance_from_each_edge_is_a_seam_line_whatever_the_hems() {
+        let part = rectangle(0.0, 0.0, 400.0, 300.0);
+        for (seam, is_seam) in [
+            (rectangle(10.0, 10.0, 380.0, 280.0), true),
+            (rectangle(10.0, 50.0, 380.0, 240.0), true),
+            (rectangle(10.0, 10.0, 380.0, 100.0), false),
+            (rectangle(100.0, 100.0, 100.0, 100.0), false),
+            // A slot beside an edge goes along it, but not around.
+            (rectangle(10.0, 10.0, 100.0, 4.0), false),
+        ] {
+            assert_eq!(follows(&seam, &part), is_seam, "{seam:?}");
+        }
+    }
+
+    #[test]
+    fn a_round_hole_follows_no_straight_edges() {
+        let hole: Vec<(f64, f64)> = (0..40)
+            .map(|k| f64::from(k) / 40.0 * std::f64::consts::TAU)
+            .map(|a| (75.0 + 30.0 * a.cos(), 75.0 + 30.0 * a.sin()))
+            .collect();
+        assert!(!follows(&ring(&hole), &rectangle(0.0, 0.0, 150.0, 150.0)));
+    }
+}
