@@ -20,6 +20,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("machine", &["units", "diagnostic", "source"]),
     ("ir", &["source", "units", "geom", "diagnostic", "machine"]),
     ("front", FOUNDATION),
+    ("recognise", FOUNDATION),
     ("pass", FOUNDATION),
     ("plan", FOUNDATION),
     ("back", FOUNDATION),
@@ -33,7 +34,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
 const FOUNDATION: &[&str] = &["source", "diagnostic", "units", "geom", "ir", "machine"];
 
 const ALL_BUT_CLI: &[&str] =
-    &["source", "diagnostic", "units", "geom", "ir", "machine", "front", "pass", "plan", "back", "verify"];
+    &["source", "diagnostic", "units", "geom", "ir", "machine", "front", "recognise", "pass", "plan", "back", "verify"];
 
 /// What is named in some modules only.
 const NAMED_ONLY_IN: &[(&str, &[&str])] = &[
