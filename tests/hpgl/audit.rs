@@ -256,7 +256,7 @@ fn whatever_lines_meet_where_nothing_is_lost() {
             assert_eq!(audit(&source, &marker, &job), [], "{kind:?} {text}");
             assert_eq!(Census::of(&marker), Census::of(&as_read(&source, &job)));
             closed += marker.contours().filter(|(_, contour)| contour.closed).count();
-            vees += super::read(&source, &job).0.pieces.iter().map(|piece| piece.vees.len()).sum::<usize>();
+            vees += super::read(&source, &job).0.pieces.iter().map(|piece| piece.outline_notches.len()).sum::<usize>();
         }
     }
     assert!(closed > 1000 && vees > 20, "{closed} {vees}");

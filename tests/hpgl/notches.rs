@@ -44,10 +44,10 @@ fn a_mark_of_two_legs_is_one_v_notch_and_the_marker_is_that_of_a_cut_file() {
     ] {
         let plotted = check(mark, 0, 1);
         assert_eq!(outline(&plotted), outline(&cut), "{mark}");
-        let [a, b] = [&cut, &plotted].map(|marker| marker.pieces[0].vees[0]);
-        assert_eq!(super::key(a.apex), super::key(b.apex));
+        let [a, b] = [&cut, &plotted].map(|marker| marker.pieces[0].outline_notches[0]);
+        assert_eq!(super::key(a.tip), super::key(b.tip));
         assert!((a.depth() - b.depth()).abs() < 1e-9 && (a.width() - b.width()).abs() < 1e-9);
-        assert!((a.direction() - b.direction()).norm() < 1e-9);
+        assert!((a.inwards() - b.inwards()).norm() < 1e-9);
     }
 }
 
@@ -96,9 +96,9 @@ fn a_v_notch_on_an_edge_of_two_parts_is_of_the_one_that_it_leads_into() {
         let source = source(text);
         assert_eq!(audit(&source, &as_read(&source, &Job::default()), &Job::default()), []);
         let (marker, _) = read(&source, &Job::default());
-        let vees: Vec<usize> = marker.pieces.iter().map(|piece| piece.vees.len()).collect();
+        let vees: Vec<usize> = marker.pieces.iter().map(|piece| piece.outline_notches.len()).collect();
         assert_eq!(vees, if piece == 0 { [1, 0] } else { [0, 1] });
-        assert_eq!(marker.pieces[piece].vees[0].apex, Point::new(100.0, f64::from(tip) / 40.0));
+        assert_eq!(marker.pieces[piece].outline_notches[0].tip, Point::new(100.0, f64::from(tip) / 40.0));
     }
 }
 

@@ -4,10 +4,35 @@ use super::drawing::Vertex;
 use super::shape::{ROUNDING, is_near};
 use crate::geom::moments::Moments;
 use crate::geom::{Extent, Point, polyline, ring};
-use crate::ir::marker::Vee;
 
 /// How much longer than the mouth is wide the outline may be between its ends: a longer way is no edge that is notched.
 const LONGEST_EDGE: f64 = 1.1;
+
+/// How much longer than the other a leg may be.
+const LEG_RATIO: f64 = 1.25;
+
+/// A mark of two legs.
+struct Vee {
+    apex: Point,
+    mouth: [Point; 2],
+}
+
+impl Vee {
+    /// Whether it has the shape of a V notch: 2 to 15 mm deep, no wider than that, the legs equal within a quarter.
+    fn has_shape(&self) -> bool {
+        let depth = (self.apex - (self.mouth[0] + (self.mouth[1] - self.mouth[0]) / 2.0)).norm();
+        let legs = self.mouth.map(|end| (self.apex - end).norm());
+        (2.0..=15.0).contains(&depth)
+            && self.width() <= depth
+            && self.width() > 0.0
+            && legs[0].max(legs[1]) <= LEG_RATIO * legs[0].min(legs[1])
+    }
+
+    /// Width of the mouth, mm.
+    fn width(&self) -> f64 {
+        (self.mouth[1] - self.mouth[0]).norm()
+    }
+}
 
 /// Where the material is that a notch goes into.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,7 +97,7 @@ impl Outline {
     /// the material, on a stretch of the outline that is straight; the mouth, if it did.
     pub(super) fn notch(&mut self, mark: [Vertex; 3]) -> Option<Mouth> {
         let [first, apex, last] = mark;
-        let vee = Vee { apex: apex.at, mouth: [first.at, last.at], span: apex.span };
+        let vee = Vee { apex: apex.at, mouth: [first.at, last.at] };
         let (a, b) = (self.station(first.at)?, self.station(last.at)?);
         if !vee.has_shape() {
             return None;
