@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 use super::{MarkerPass, search_ended};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::near::{Near, sorted};
-use crate::geom::{Point, bits, cross};
+use crate::geom::{Point, bits, cross, polyline};
 use crate::ir::list::SegmentList;
 use crate::ir::marker::{Contour, Marker, Notch, NotchKind, Piece, Stroke};
 use crate::machine::Job;
@@ -123,9 +123,24 @@ impl Search<'_> {
             return;
         }
         let starts = sorted(shorts.iter().map(|short| short.stroke.from));
+        // What a tip divides is a crossbar, also when it ends beside an edge.
+        let tips =
+            sorted(piece.notches.iter().map(|notch| notch.tip).chain(shorts.iter().map(|short| short.stroke.to)));
+        let slack = self.near.slack();
+        let mut is_divided = vec![false; shorts.len()];
+        for (short, is_divided) in shorts.iter().zip(&mut is_divided) {
+            let Stroke { from, to, .. } = short.stroke;
+            let tip_of = |k: usize| piece.notches.get(k).map(|notch| notch.tip);
+            let tip = |k: usize| tip_of(k).unwrap_or_else(|| shorts[k - piece.notches.len()].stroke.to);
+            self.near.each(&tips, [from, to], |k| {
+                *is_divided |= (tip(k) - from).norm().min((tip(k) - to).norm()) > slack;
+            });
+        }
         for ends in outlines(self.list, piece) {
             self.near.each(&starts, ends, |i| shorts[i].taken = true);
-            self.around.each(&starts, ends, |i| shorts[i].taken |= back_to(&shorts[i].stroke, ends).is_some());
+            self.around.each(&starts, ends, |i| {
+                shorts[i].taken |= !is_divided[i] && back_to(&shorts[i].stroke, ends).is_some();
+            });
         }
         for Short { stroke, percent, .. } in shorts.iter().filter(|short| short.taken) {
             let Stroke { from: root, to: tip, span } = *stroke;
@@ -142,6 +157,10 @@ impl Search<'_> {
         for ends in outlines(self.list, piece) {
             self.around.each(&starts, ends, |i| {
                 let stroke = slit(&piece.notches[i]);
+                // At a vertex no edge may be met, by rounding.
+                if polyline::distance_to_segment(stroke.from, ends[0], ends[1]) <= self.least_miss {
+                    missed[i] = None;
+                }
                 if let Some(back) = back_to(&stroke, ends) {
                     // What crosses an edge has reached it.
                     missed[i] = missed[i].filter(|_| back >= self.least_miss).map(|least| least.min(back));
