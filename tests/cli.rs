@@ -104,7 +104,8 @@ fn the_figures_come_as_json_with_every_key() {
     assert_eq!(keys(&figures), FIGURES);
     assert!(!stderr.contains("acceleration"), "{stderr}");
     assert_eq!((&figures["contours"], &figures["closed_contours"]), (&1.into(), &1.into()));
-    assert_eq!(keys(&figures["notches"]), ["slit", "t", "v"]);
+    let kinds = ["castle", "castle-out", "slit", "t", "u", "u-out", "v", "v-out"];
+    assert_eq!(keys(&figures["notches"]), kinds);
     assert_eq!(figures["errors"], Value::Array(Vec::new()));
     for axis in ["x", "y", "c"] {
         for limit in ["speed", "acceleration", "jerk"] {

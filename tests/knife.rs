@@ -154,7 +154,7 @@ fn notches_are_cut_in_the_style_of_the_profile() {
         steps.filter(|step| matches!(step, Step::Run(_) | Step::Stab(_))).count()
     };
     let marker = read("markers/metric-four-pieces.cut");
-    let vees = marker.pieces.iter().map(|piece| piece.vees.len()).sum::<usize>();
+    let vees = marker.pieces.iter().map(|piece| piece.outline_notches.len()).sum::<usize>();
     let drawn = cuts(NotchStyle::AsDrawn, None);
     assert!(vees > 0);
     // Two legs and two parts of the edge become one cut over the mouth, and a slit.

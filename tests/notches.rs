@@ -20,10 +20,10 @@ const NOTCHED: &str = "H1*G71*M15*N1*X0Y0*M14*X490Y0*X500Y50*X510Y0*X1000Y0*X100
 fn a_v_notch_is_listed_with_its_measures_and_stays_on_the_outline() {
     let (marker, found) = read(NOTCHED);
     let piece = &marker.pieces[0];
-    let vee = piece.vees[0];
-    assert_eq!((piece.vees.len(), piece.notches.len(), marker.points(&piece.contours[0]).len()), (1, 0, 8));
+    let vee = piece.outline_notches[0];
+    assert_eq!((piece.outline_notches.len(), piece.notches.len(), marker.points(&piece.contours[0]).len()), (1, 0, 8));
     assert!((vee.depth() - 5.0).abs() < 1e-9 && (vee.width() - 2.0).abs() < 1e-9);
-    assert!((vee.direction().y - 1.0).abs() < 1e-9 && (vee.apex.x - 50.0).abs() < 1e-9);
+    assert!((vee.inwards().y - 1.0).abs() < 1e-9 && (vee.tip.x - 50.0).abs() < 1e-9);
     assert_eq!(found, [""; 0]);
     let report = Report::of(&marker, "iso");
     assert_eq!((report.notches.slit, report.notches.v), (0, 1));

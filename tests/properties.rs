@@ -90,7 +90,7 @@ fn spans(marker: &Marker) -> Vec<Span> {
         spans.push(piece.span);
         spans.extend(piece.notches.iter().flat_map(Notch::strokes).map(|stroke| stroke.span));
         spans.extend(piece.drills.iter().map(|drill| drill.span));
-        spans.extend(piece.vees.iter().map(|vee| vee.span));
+        spans.extend(piece.outline_notches.iter().map(|vee| vee.span));
         spans.extend(piece.labels.iter().flat_map(|label| [Some(label.span), label.mirrored]).flatten());
         spans.extend(piece.fields.iter().map(|field| field.span));
         spans.extend(piece.events.iter().map(|event| event.span));

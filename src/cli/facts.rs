@@ -67,11 +67,12 @@ impl Facts {
     pub(super) fn text(&self) -> String {
         let mut out = String::new();
         // Writing into a `String` cannot fail, so the results of `writeln!` are dropped throughout.
+        let width = self.notch_depths.iter().map(|alike| alike.kind.len()).max().unwrap_or(0).max("notch".len());
         if !self.notch_depths.is_empty() {
-            out.push_str("\n  notch  depth mm  count\n");
+            let _ = writeln!(out, "\n  {:width$}  depth mm  count", "notch");
         }
         for Alike { kind, depth_mm, count } in &self.notch_depths {
-            let _ = writeln!(out, "  {kind:5}  {:>8}  {count:>5}", fixed(*depth_mm, 1));
+            let _ = writeln!(out, "  {kind:width$}  {:>8}  {count:>5}", fixed(*depth_mm, 1));
         }
         if self.speeds.iter().any(|speed| speed.feed_mm_s.is_some() || speed.percent != FULL) {
             out.push_str("\n  feed mm/s  percent     cut m  pieces\n");
@@ -105,8 +106,8 @@ fn depths(marker: &Marker) -> Vec<Alike> {
             };
             *counts.entry((kind, rounded(notch.depth()))).or_default() += 1;
         }
-        for vee in &piece.vees {
-            *counts.entry(("v", rounded(vee.depth()))).or_default() += 1;
+        for notch in &piece.outline_notches {
+            *counts.entry((notch.word(), rounded(notch.depth()))).or_default() += 1;
         }
     }
     let depth = |((kind, depth), count)| Alike { kind, depth_mm: depth as f64 / DEPTHS_PER_MM, count };

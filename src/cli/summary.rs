@@ -34,14 +34,16 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
     let open = report.contours - report.closed_contours;
     line("contours", format!("{} ({} closed, {open} open)", report.contours, report.closed_contours));
     let notches = report.notches;
-    let all = notches.slit + notches.t + notches.v;
-    let with_t = if notches.t > 0 { format!("{} t, ", notches.t) } else { String::new() };
+    let all: usize = notches.by_kind().iter().map(|(_, count)| count).sum();
+    // Of the rarer kinds those that are there.
+    let said = notches.by_kind().into_iter().filter(|&(kind, count)| count > 0 || matches!(kind, "slit" | "v"));
+    let said: Vec<String> = said.map(|(kind, count)| format!("{count} {kind}")).collect();
     let style = match report.program.notch_style {
         Some(NotchStyle::Slit) => ", all cut as slits",
         Some(NotchStyle::Skip) => ", none is cut",
         Some(NotchStyle::AsDrawn) | None => "",
     };
-    line("notches", format!("{all} ({} slit, {with_t}{} v){style}", notches.slit, notches.v));
+    line("notches", format!("{all} ({}){style}", said.join(", ")));
     line("drills", report.drills.to_string());
     line("labels", report.labels.to_string());
     line("cut", format!("{} m", fixed(report.cut_m, 3)));
@@ -243,7 +245,7 @@ mod tests {
             pieces: 12,
             contours: 14,
             closed_contours: 13,
-            notches: Notches { slit: 31, t: 0, v: 0 },
+            notches: Notches { slit: 31, ..Notches::default() },
             drills: 2,
             labels: 12,
             cut_m: 20.123_456,

@@ -176,6 +176,8 @@ mod table {
     pub static MARKER_SELF_CROSSING: Code = warning("marker/self-crossing", "A contour crosses itself, or another one of its piece: the knife cuts through what was cut before, and the part has loose corners.");
     /// Contours of two pieces that cross.
     pub static MARKER_OVERLAPPING: Code = warning("marker/overlapping-pieces", "The outlines of two pieces overlap: each is cut into the other. Pieces that only touch are no such case.");
+    /// A notch that stands out into another piece.
+    pub static MARKER_NOTCH_OVER: Code = warning("marker/notch-over-piece", "A notch that stands out of its part lies over another piece, which is cut into; the message says how deep.");
     /// A hole in no part.
     pub static MARKER_DRILL_OUTSIDE: Code = warning("marker/drill-outside", "A hole is drilled where no part is: in the waste or in a cut-out.");
     /// Outlines that cannot be told from cut-outs.
@@ -308,6 +310,7 @@ pub static ALL: &[&Code] = &[
     &MARKER_NO_LENGTH,
     &MARKER_SELF_CROSSING,
     &MARKER_OVERLAPPING,
+    &MARKER_NOTCH_OVER,
     &MARKER_DRILL_OUTSIDE,
     &MARKER_TOO_MANY,
     &MARKER_SEARCH_ENDED,

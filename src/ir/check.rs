@@ -40,11 +40,12 @@ pub fn marker(marker: &Marker) -> Faults {
                 ));
             }
         }
-        for vee in &piece.vees {
-            if !(finite(vee.apex) && vee.mouth.into_iter().all(finite)) {
-                faults.push(format!("piece {}: a V notch is not finite", i + 1));
-            } else if vee.depth() == 0.0 || vee.width() == 0.0 {
-                faults.push(format!("piece {}: a V notch has no depth or no width", i + 1));
+        for notch in &piece.outline_notches {
+            let word = notch.word();
+            if !(finite(notch.tip) && notch.mouth.into_iter().all(finite)) {
+                faults.push(format!("piece {}: a notch of an outline ({word}) is not finite", i + 1));
+            } else if notch.depth() == 0.0 || notch.width() == 0.0 || notch.segments < 2 {
+                faults.push(format!("piece {}: a notch of an outline ({word}) has no depth or no width", i + 1));
             }
         }
         let mut strokes = piece.notches.iter().flat_map(Notch::strokes);

@@ -34,9 +34,8 @@ pub struct Piece {
     pub notches: Vec<Notch>,
     /// Contours, in cut order.
     pub contours: Vec<Contour>,
-    /// V notches, in the order in which the contours come to them. Their legs are segments of the contours, which cut
-    /// them: nothing is cut for a row of this list.
-    pub vees: Vec<Vee>,
+    /// Notches that the contours make, in the order in which they come to them: nothing is cut for a row of this list.
+    pub outline_notches: Vec<OutlineNotch>,
     /// Texts.
     pub labels: Vec<Label>,
     /// What happens before the piece is cut, in order.
@@ -138,38 +137,38 @@ impl Notch {
     }
 }
 
-/// A V notch: two legs of an outline that meet inside the part.
+/// A notch that an outline makes: it goes into the part and comes back, or out of it. The outline cuts it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Vee {
-    /// Its innermost point.
-    pub apex: Point,
+pub struct OutlineNotch {
+    /// Its form.
+    pub form: NotchForm,
+    /// Whether it stands out of the part.
+    pub outwards: bool,
     /// The two points of the edge between which it opens, in the order of the outline.
     pub mouth: [Point; 2],
-    /// Where its apex stands in the source.
+    /// The middle of its bottom; the apex of a V.
+    pub tip: Point,
+    /// How many segments the outline has from one end of the mouth to the other.
+    pub segments: u32,
+    /// Where its tip stands in the source.
     pub span: Span,
 }
 
-impl Vee {
-    /// Least and greatest depth, mm.
-    pub const LEAST_DEPTH: f64 = 2.0;
-    const GREATEST_DEPTH: f64 = 15.0;
-    /// How much longer than the other a leg may be.
-    pub const LEG_RATIO: f64 = 1.25;
+/// What a notch that an outline makes looks like.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum NotchForm {
+    /// Two legs that meet.
+    V,
+    /// A rectangle.
+    Castle,
+    /// A round bottom, between straight sides or alone.
+    U,
+}
 
-    /// Whether it has the shape of a V notch: 2 to 15 mm deep, no wider than that, the legs equal within a quarter. What
-    /// is wider or deeper is a corner, or the point of a dart.
-    pub fn has_shape(&self) -> bool {
-        let (depth, width) = (self.depth(), self.width());
-        let legs = self.mouth.map(|end| (self.apex - end).norm());
-        (Self::LEAST_DEPTH..=Self::GREATEST_DEPTH).contains(&depth)
-            && width <= depth
-            && width > 0.0
-            && legs[0].max(legs[1]) <= Self::LEG_RATIO * legs[0].min(legs[1])
-    }
-
-    /// From the middle of the mouth to the apex, mm.
+impl OutlineNotch {
+    /// From the middle of the mouth to the tip, mm.
     pub fn depth(&self) -> f64 {
-        self.inward().norm()
+        (self.tip - self.root()).norm()
     }
 
     /// Width of the mouth, mm.
@@ -177,13 +176,27 @@ impl Vee {
         (self.mouth[1] - self.mouth[0]).norm()
     }
 
-    /// Unit vector from the edge into the part.
-    pub fn direction(&self) -> Vector {
-        self.inward() / self.depth()
+    /// The middle of the mouth.
+    pub fn root(&self) -> Point {
+        self.mouth[0] + (self.mouth[1] - self.mouth[0]) / 2.0
     }
 
-    fn inward(&self) -> Vector {
-        self.apex - (self.mouth[0] + (self.mouth[1] - self.mouth[0]) / 2.0)
+    /// Unit vector from the edge into the part, whichever way the notch goes.
+    pub fn inwards(&self) -> Vector {
+        let along = (self.tip - self.root()) / self.depth();
+        if self.outwards { -along } else { along }
+    }
+
+    /// What lists call it: its form, and whether it stands out.
+    pub fn word(&self) -> &'static str {
+        match (self.form, self.outwards) {
+            (NotchForm::V, false) => "v",
+            (NotchForm::V, true) => "v-out",
+            (NotchForm::Castle, false) => "castle",
+            (NotchForm::Castle, true) => "castle-out",
+            (NotchForm::U, false) => "u",
+            (NotchForm::U, true) => "u-out",
+        }
     }
 }
 

@@ -350,8 +350,9 @@ pub const KEYS: &[Key] = &[
     Key { name: "knife.edges", takes: Takes::Whole(&[1, 2]), about: "Cutting edges: a blade with 2 may run either way round, heel first where C then turns less." },
     Key { name: "knife.yaw_deg", takes: Takes::Number(from(-45.0, 45.0)), about: "C yaw: a constant correction of the blade's angle, which is added to C in every cut." },
 
-    Key { name: "notch.style", takes: Takes::Word(&["as-drawn", "slit", "skip"]), about: "How notches are cut: \"as-drawn\"; \"slit\" = V and T notches as slits, too; \"skip\" = none is cut,\nthe outline runs straight over the mouths of V notches." },
-    Key { name: "notch.depth_mm", takes: Takes::NumberOr(DEPTH, "as-drawn"), about: "How deep slits go into the part; V notches that stay what they are keep their depth." },
+    Key { name: "notch.style", takes: Takes::Word(&["as-drawn", "slit", "skip"]), about: "How notches of all kinds, inwards and outwards, are cut: \"as-drawn\"; \"slit\" = each by one\nstraight cut into the part, as deep as the notch is high; \"skip\" = none. The outline then runs\nstraight over their mouths." },
+    Key { name: "notch.depth_mm", takes: Takes::NumberOr(DEPTH, "as-drawn"), about: "How deep slits go into the part, also those that notches of another kind become; V, castle and U\nnotches that are cut as drawn keep their depth." },
+    Key { name: "notch.box_max_mm", takes: Takes::Number(from(0.0, 2.0)), about: "A notch that the outline draws as a box or needle up to so wide is a slit along its middle." },
     Key { name: "drill.dwell_ms", takes: Takes::Number(REST), about: "Time for one drill hole; the axes rest." },
     Key { name: "drill.offset_mm", takes: Takes::Point, about: "Where the drill stands, seen from the C axis." },
 

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::word::{AsDrawn, OrWord};
 
 /// How notches are cut, whatever the file draws.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Notches {
     /// Which shape they get.
@@ -13,6 +13,14 @@ pub struct Notches {
     /// How deep slits go into the part, mm.
     #[serde(with = "OrWord::<AsDrawn>")]
     pub depth_mm: Option<f64>,
+    /// Boxes up to so wide are slits, mm.
+    pub box_max_mm: f64,
+}
+
+impl Default for Notches {
+    fn default() -> Self {
+        Self { style: NotchStyle::AsDrawn, depth_mm: None, box_max_mm: 0.6 }
+    }
 }
 
 /// The shape of notches.
@@ -22,7 +30,7 @@ pub enum NotchStyle {
     /// As the file draws them.
     #[default]
     AsDrawn,
-    /// V and T notches as slits: one straight cut from the edge into the part.
+    /// Notches of all kinds as slits: one straight cut from the edge into the part.
     Slit,
     /// None is cut: the outline runs straight over their mouths.
     Skip,

@@ -117,7 +117,7 @@ pub fn read_to_judge(
     let mut input = read_alone(source, from, job, diagnostics)?;
     let (census, works) = rayon::join(|| Census::of(&input.marker), || Works::of(&input.marker));
     run_passes(&mut input.marker, job, None, diagnostics);
-    let kept = works.kept(&input.marker);
+    let kept = works.kept(&input.marker, &job.profile);
     Some(Judged { input, reading: Reading { census, kept } })
 }
 

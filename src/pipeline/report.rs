@@ -9,7 +9,7 @@ use super::spent::Spent;
 use crate::back::Estimate;
 use crate::ir::Marker;
 use crate::ir::drawing::{Account, LineClass};
-use crate::ir::marker::NotchKind;
+use crate::ir::marker::{NotchForm, NotchKind};
 use crate::machine::{Follow, NotchStyle};
 use crate::units::{MM_PER_M, deg};
 
@@ -122,8 +122,59 @@ pub struct Notches {
     pub slit: usize,
     /// A slit with a crossbar over its tip.
     pub t: usize,
-    /// Two legs that meet inside.
+    /// Two legs of an outline that meet inside.
     pub v: usize,
+    /// Rectangles that an outline makes.
+    pub castle: usize,
+    /// Notches of an outline with a round bottom.
+    pub u: usize,
+    /// Of the outlines, those that stand out of the part.
+    #[serde(rename = "v-out")]
+    pub v_out: usize,
+    /// Rectangles that stand out.
+    #[serde(rename = "castle-out")]
+    pub castle_out: usize,
+    /// Round ones that stand out.
+    #[serde(rename = "u-out")]
+    pub u_out: usize,
+}
+
+impl Notches {
+    /// Those of a marker.
+    fn of(marker: &Marker) -> Self {
+        let mut counts = Self::default();
+        for piece in &marker.pieces {
+            let slits = piece.notches.iter().filter(|notch| notch.kind == NotchKind::Slit).count();
+            counts.slit += slits;
+            counts.t += piece.notches.len() - slits;
+            for notch in &piece.outline_notches {
+                let count = match (notch.form, notch.outwards) {
+                    (NotchForm::V, false) => &mut counts.v,
+                    (NotchForm::V, true) => &mut counts.v_out,
+                    (NotchForm::Castle, false) => &mut counts.castle,
+                    (NotchForm::Castle, true) => &mut counts.castle_out,
+                    (NotchForm::U, false) => &mut counts.u,
+                    (NotchForm::U, true) => &mut counts.u_out,
+                };
+                *count += 1;
+            }
+        }
+        counts
+    }
+
+    /// Each kind with its count, in the order of a summary.
+    pub fn by_kind(&self) -> [(&'static str, usize); 8] {
+        [
+            ("slit", self.slit),
+            ("t", self.t),
+            ("v", self.v),
+            ("castle", self.castle),
+            ("u", self.u),
+            ("v-out", self.v_out),
+            ("castle-out", self.castle_out),
+            ("u-out", self.u_out),
+        ]
+    }
 }
 
 /// The figures of a program.
@@ -235,9 +286,6 @@ impl Report {
     /// What is in a marker, before any planning.
     pub fn of(marker: &Marker, dialect: &'static str) -> Self {
         let (width, height) = marker.extent().size();
-        let all = marker.pieces.iter().map(|p| p.notches.len()).sum::<usize>();
-        let slit = marker.pieces.iter().flat_map(|p| &p.notches).filter(|n| n.kind == NotchKind::Slit).count();
-        let v = marker.pieces.iter().map(|p| p.vees.len()).sum();
         Self {
             dialect,
             unit_mm: marker.unit,
@@ -245,7 +293,7 @@ impl Report {
             pieces: marker.pieces.len(),
             contours: marker.contours().count(),
             closed_contours: marker.contours().filter(|(_, c)| c.closed).count(),
-            notches: Notches { slit, t: all - slit, v },
+            notches: Notches::of(marker),
             drills: marker.pieces.iter().map(|p| p.drills.len()).sum(),
             labels: marker.pieces.iter().map(|p| p.labels.len()).sum(),
             cut_m: marker.cut_length() / MM_PER_M,

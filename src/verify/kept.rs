@@ -8,10 +8,20 @@
 use rayon::prelude::*;
 
 use super::worst::Worst;
-use crate::geom::{Point, bits};
+use crate::geom::{Point, bits, polyline};
 use crate::ir::finding::Sighting;
 use crate::ir::marker::{Notch, Piece};
 use crate::ir::{Finding, Marker};
+use crate::machine::MachineProfile;
+
+/// How far rounding moves one place against another, in units of the file: its diagonal.
+const DIAGONAL: f64 = std::f64::consts::SQRT_2;
+/// The same where the file has no grid, mm.
+const NO_GRID: f64 = 0.01;
+/// Steps out and back that are shorter may be left out, mm.
+const SHORTEST_STEP: f64 = 1.0;
+/// Places of a stroke are looked at so far from each other, mm.
+const SAMPLE: f64 = 0.2;
 
 /// Block of a place to which nothing is cut.
 const NO_BLOCK: u32 = 0;
@@ -54,6 +64,23 @@ impl Stroke {
         ends
     }
 
+    fn length(&self) -> f64 {
+        (self.to - self.from).norm()
+    }
+
+    /// Whether each place of it lies so near to one of some others, mm.
+    fn is_near(&self, others: &[Self], reach: f64) -> bool {
+        let middle = self.from + (self.to - self.from) / 2.0;
+        let around = reach + self.length() / 2.0;
+        let near = others.iter().filter(|other| polyline::distance_to_segment(middle, other.from, other.to) <= around);
+        let near: Vec<&Self> = near.collect();
+        let steps = (self.length() / SAMPLE).ceil().max(1.0);
+        (0..=steps as usize).all(|k| {
+            let at = self.from + (self.to - self.from) * (k as f64 / steps);
+            near.iter().any(|other| polyline::distance_to_segment(at, other.from, other.to) <= reach)
+        })
+    }
+
     fn is_hole(&self) -> bool {
         self.from == self.to
     }
@@ -93,7 +120,7 @@ fn strokes(places: &[Place]) -> impl Iterator<Item = Stroke> {
 }
 
 /// What is done in the places of a piece and no more in those of the piece as it is cut.
-fn lost(read: &[Place], cut: &[Place]) -> Vec<Stroke> {
+fn lost(read: &[Place], cut: &[Place], reach: f64) -> Vec<Stroke> {
     if read == cut {
         return Vec::new(); // as of nearly all
     }
@@ -106,6 +133,17 @@ fn lost(read: &[Place], cut: &[Place]) -> Vec<Stroke> {
     let mut ends: Vec<Ends> = strokes(cut).map(|stroke| stroke.ends()).collect();
     ends.sort_unstable();
     lost.retain(|stroke| stroke.is_hole() || ends.binary_search(&stroke.ends()).is_err());
+    let still: Vec<Stroke> = if lost.is_empty() { Vec::new() } else { strokes(cut).collect() };
+    let mut of_lost: Vec<Ends> = lost.iter().map(Stroke::ends).collect();
+    of_lost.sort_unstable();
+    let is_twice = |stroke: &Stroke| {
+        of_lost.partition_point(|ends| *ends <= stroke.ends()) - of_lost.partition_point(|ends| *ends < stroke.ends())
+            > 1
+    };
+    lost.retain(|stroke| {
+        let is_step = stroke.length() < SHORTEST_STEP && is_twice(stroke);
+        stroke.is_hole() || !stroke.is_near(&still, if is_step { SHORTEST_STEP } else { reach })
+    });
     lost.dedup_by_key(|stroke| stroke.block); // the chords of an arc are one block
     lost
 }
@@ -134,14 +172,16 @@ impl Works {
 
     /// Whether all of it is still cut in what passes made of the marker, of the pieces that are there: those that were not
     /// selected are gone as a whole.
-    pub fn kept(&self, marker: &Marker) -> Finding {
+    pub fn kept(&self, marker: &Marker, profile: &MachineProfile) -> Finding {
+        let rounding = if marker.unit > 0.0 { DIAGONAL * marker.unit } else { NO_GRID };
+        let reach = profile.notch.box_max_mm / 2.0 + rounding;
         let mut cut: Vec<&Piece> = marker.pieces.iter().collect();
         cut.sort_by_key(|piece| name(piece));
         let lost_of = |(of, read): (Name, &[Place])| {
             let Ok(place) = cut.binary_search_by_key(&of, |piece| name(piece)) else { return Vec::new() };
             let mut places = Vec::with_capacity(read.len());
             add_places(cut[place], marker, &mut places);
-            lost(read, &places)
+            lost(read, &places, reach)
         };
         let read: Vec<(Name, &[Place])> = self.each().collect();
         let lost: Vec<Vec<Stroke>> = read.into_par_iter().map(lost_of).collect();

@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use crate::geom::bits;
 use crate::ir::list::Segment;
-use crate::ir::marker::{NotchKind, Piece, Stroke, Vee};
+use crate::ir::marker::{NotchKind, OutlineNotch, Piece, Stroke};
 use crate::machine::{NotchStyle, Notches};
 
-/// The slits of a piece, each with its speed in percent: those that are drawn, with their crossbars, and V notches that
+/// The slits of a piece, each with its speed in percent: those that are drawn, with their crossbars, and those that
 /// outlines no longer have.
-pub(super) fn slits(piece: &Piece, notches: Notches, replaced: &[(Vee, u8)]) -> Vec<(Stroke, u8)> {
+pub(super) fn slits(piece: &Piece, notches: Notches, replaced: &[(OutlineNotch, u8)]) -> Vec<(Stroke, u8)> {
     let mut slits = Vec::new();
     if notches.style == NotchStyle::Skip {
         return slits;
@@ -22,43 +22,52 @@ pub(super) fn slits(piece: &Piece, notches: Notches, replaced: &[(Vee, u8)]) -> 
             slits.push((Stroke { from: bar.from + deeper, to: bar.to + deeper, span: bar.span }, notch.percent));
         }
     }
-    for (vee, percent) in replaced {
-        let inward = vee.direction() * notches.depth_mm.unwrap_or_else(|| vee.depth());
-        let root = vee.apex - vee.direction() * vee.depth();
-        slits.push((Stroke { from: root, to: root + inward, span: vee.span }, *percent));
+    for (notch, percent) in replaced {
+        let [one, other] = notch.mouth;
+        let root = one + (other - one) / 2.0;
+        let drawn = notch.tip - root;
+        let depth = notches.depth_mm.unwrap_or_else(|| drawn.norm());
+        let inward = drawn.normalize() * if notch.outwards { -depth } else { depth };
+        slits.push((Stroke { from: root, to: root + inward, span: notch.span }, *percent));
     }
     slits
 }
 
-/// Takes the V notches that are not cut as they are drawn out of an outline; gives them with the speed of their slower leg.
-pub(super) fn straighten(segments: &mut Vec<Segment>, piece: &Piece, notches: Notches) -> Vec<(Vee, u8)> {
+/// Takes the notches that are not cut as they are drawn out of an outline; gives them with the least speed of what they were.
+pub(super) fn straighten(segments: &mut Vec<Segment>, piece: &Piece, notches: Notches) -> Vec<(OutlineNotch, u8)> {
     if notches.style == NotchStyle::AsDrawn {
         return Vec::new();
     }
-    let by_mouth: BTreeMap<[u64; 2], &Vee> = piece.vees.iter().map(|vee| (bits(vee.mouth[0]), vee)).collect();
-    let (mut kept, mut taken) = (Vec::with_capacity(segments.len()), Vec::new());
-    let mut rest = segments.iter().peekable();
-    // An outline may begin at an apex: then its last segment is the first leg.
-    let (first, last) = (segments[0], segments[segments.len() - 1]);
-    let is_leg = |leg: &Segment, other: &Segment| {
-        by_mouth.get(&bits(leg.from)).copied().filter(|vee| leg.to == vee.apex && other.to == vee.mouth[1])
-    };
-    let around = is_leg(&last, &first);
-    if around.is_some() {
-        rest.next();
-    }
-    while let Some(&segment) = rest.next() {
-        let other = rest.peek().copied().copied();
-        let over = other.is_none().then_some(around).flatten();
-        let Some(vee) = other.and_then(|other| is_leg(&segment, &other)).or(over) else {
+    let count = segments.len();
+    // By the two ends of the way that is no longer cut.
+    let by_mouth: BTreeMap<[[u64; 2]; 2], &OutlineNotch> =
+        piece.outline_notches.iter().map(|notch| (notch.mouth.map(bits), notch)).collect();
+    let mut by_length: Vec<usize> = piece.outline_notches.iter().map(|notch| notch.segments as usize).collect();
+    by_length.sort_unstable();
+    by_length.dedup();
+    by_length.retain(|&length| length < count);
+    let (mut kept, mut taken) = (Vec::with_capacity(count), Vec::new());
+    // What is left of a way that goes over the end of the list stands at its beginning.
+    let (mut k, mut carried_over) = (0, 0);
+    while k < count {
+        let segment = segments[k];
+        let ways = by_length.iter().map(|&length| (length, segments[(k + length - 1) % count]));
+        let opened = ways.clone().find_map(|(length, last)| {
+            let notch = by_mouth.get(&[bits(segment.from), bits(last.to)])?;
+            (notch.segments as usize == length).then_some((**notch, length, last))
+        });
+        let Some((notch, length, last)) = opened else {
             kept.push(segment);
+            k += 1;
             continue;
         };
-        let other = rest.next().copied().unwrap_or(first);
-        let percent = segment.percent.min(other.percent);
-        kept.push(Segment { to: vee.mouth[1], span: other.span, percent, ..segment });
-        taken.push((*vee, percent));
+        let percent = (k..k + length).map(|i| segments[i % count].percent).min().unwrap_or(segment.percent);
+        kept.push(Segment { to: last.to, span: last.span, percent, ..segment });
+        taken.push((notch, percent));
+        k += length;
+        carried_over = k.saturating_sub(count);
     }
+    kept.drain(..carried_over);
     *segments = kept;
     taken
 }

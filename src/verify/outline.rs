@@ -11,7 +11,7 @@ use super::winding::Winding;
 use crate::geom::{Point, angle};
 use crate::ir::Marker;
 use crate::ir::list::Segment;
-use crate::ir::marker::{Contour, Piece, Vee};
+use crate::ir::marker::{Contour, OutlineNotch, Piece};
 use crate::machine::{Fit, MachineProfile, Notches};
 
 /// Longest chord that counts as a chord of a curve, mm.
@@ -47,23 +47,23 @@ pub(super) struct Outline<'a> {
 }
 
 impl<'a> Outline<'a> {
-    /// A contour of a piece, and the V notches of it that are cut otherwise than they are drawn, with their speeds.
+    /// A contour of a piece, and the notches that it makes and that are cut otherwise than they are drawn, with their speeds.
     pub(super) fn new(
         contour: &Contour,
         (piece, marker): (&Piece, &'a Marker),
         notch: Notches,
-    ) -> (Self, Vec<(Vee, u8)>) {
+    ) -> (Self, Vec<(OutlineNotch, u8)>) {
         let mut segments: Vec<Segment> = marker.list.walk(contour.range).map(|(_, segment)| segment).collect();
-        let vees = notches::straighten(&mut segments, piece, notch);
+        let replaced = notches::straighten(&mut segments, piece, notch);
         let points = match marker.list.points(contour.range) {
-            Cow::Borrowed(points) if vees.is_empty() => points,
+            Cow::Borrowed(points) if replaced.is_empty() => points,
             Cow::Borrowed(_) | Cow::Owned(_) => &[],
         };
         let count = segments.len();
         let before = |i: usize| &segments[(i + count - 1) % count];
         let way = |segment: &Segment| segment.to - segment.from;
         let turns = (0..count).map(|i| angle::turn(way(before(i)), way(&segments[i]))).collect();
-        (Self { segments, turns, closed: contour.closed, points, first: 0 }, vees)
+        (Self { segments, turns, closed: contour.closed, points, first: 0 }, replaced)
     }
 
     /// Its lines, which end at its corners.

@@ -74,8 +74,8 @@ impl<'a> OfPiece<'a> {
             .contours
             .iter()
             .map(|contour| {
-                let (outline, vees) = Outline::new(contour, (piece, marker), profile.notch);
-                replaced.extend(vees);
+                let (outline, bridged) = Outline::new(contour, (piece, marker), profile.notch);
+                replaced.extend(bridged);
                 outline
             })
             .collect();

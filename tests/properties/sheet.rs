@@ -4,7 +4,9 @@ use std::f64::consts::TAU;
 
 use cutc::geom::{Heading, Point, Vector};
 use cutc::ir::list::{FULL_SPEED, Joint, Segment};
-use cutc::ir::marker::{Contour, Drill, Event, Label, Marker, Notch, NotchKind, Piece, Stroke, Vee};
+use cutc::ir::marker::{
+    Contour, Drill, Event, Label, Marker, Notch, NotchForm, NotchKind, OutlineNotch, Piece, Stroke,
+};
 use cutc::ir::toolpath;
 use cutc::source::Span;
 use fastrand::Rng;
@@ -217,10 +219,11 @@ impl Part {
                 .map_or(NotchKind::Slit, |[from, to]| NotchKind::T(Stroke { from: point(from), to: point(to), span }));
             piece.notches.push(Notch { kind, root: point(*at), tip: point(tip), percent, span });
         }
-        piece.vees = (self.vees.iter())
+        piece.outline_notches = (self.vees.iter())
             .map(|&i| {
                 let [before, apex, after] = [i - 1, i, (i + 1) % self.outline.len()].map(|i| point(self.outline[i].at));
-                Vee { apex, mouth: [before, after], span }
+                let mouth = [before, after];
+                OutlineNotch { form: NotchForm::V, outwards: false, mouth, tip: apex, segments: 2, span }
             })
             .collect();
         piece.drills = self.drills.iter().map(|&(at, tool)| Drill { at: point(at), tool, span }).collect();

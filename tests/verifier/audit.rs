@@ -60,7 +60,7 @@ fn the_passes_lose_nothing_of_any_cut_file() {
         let mut diagnostics = Diagnostics::default();
         let input = pipeline::read(&source, None, &Job::default(), &mut diagnostics).expect("it is read");
         if !diagnostics.has_errors() {
-            let finding = Works::of(&read).kept(&input.marker);
+            let finding = Works::of(&read).kept(&input.marker, &Job::default().profile);
             assert!(finding.holds(), "{}: {finding:?}", source.name());
         }
     }
@@ -74,7 +74,7 @@ fn what_a_pass_loses_is_seen_but_for_slits_that_stand_twice_and_pieces_not_chose
     let lost = |change: &dyn Fn(&mut Marker)| {
         let mut marker = read.clone();
         change(&mut marker);
-        works.kept(&marker).worst
+        works.kept(&marker, &Job::default().profile).worst
     };
     let with_slits = read.pieces.iter().position(|piece| !piece.notches.is_empty()).expect("it has slits");
     let with_holes = read.pieces.iter().position(|piece| !piece.drills.is_empty()).expect("it has holes");
@@ -88,7 +88,7 @@ fn what_a_pass_loses_is_seen_but_for_slits_that_stand_twice_and_pieces_not_chose
     let mut twin = twice.pieces[with_slits].notches[0];
     (twin.root, twin.tip, twin.span.block) = (twin.tip, twin.root, 9999);
     twice.pieces[with_slits].notches.push(twin);
-    assert!(Works::of(&twice).kept(&read).holds());
+    assert!(Works::of(&twice).kept(&read, &Job::default().profile).holds());
 }
 
 /// A job that ignores some codes.

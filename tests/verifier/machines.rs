@@ -1,6 +1,6 @@
 //! Programs that were made for another machine.
 
-use cutc::ir::marker::{Notch, Vee};
+use cutc::ir::marker::{Notch, OutlineNotch};
 use cutc::machine::{Job, MachineProfile, NotchStyle};
 
 use crate::case::Case;
@@ -37,11 +37,23 @@ const BLUNT_DEG: f64 = 75.0;
 
 pub(crate) const DAMAGES: &[Damage] = &[
     damage("V notches passed over", "verify/complete", |case, _| {
-        let depth = case.marker.pieces.iter().flat_map(|piece| &piece.vees).map(Vee::depth).reduce(f64::min)?;
+        let depth = case
+            .marker
+            .pieces
+            .iter()
+            .flat_map(|piece| &piece.outline_notches)
+            .map(OutlineNotch::depth)
+            .reduce(f64::min)?;
         Some(Harm::anywhere(case.on(|job| job.profile.notch.style = NotchStyle::Skip), depth))
     }),
     damage("V notches cut as slits", "verify/complete", |case, _| {
-        let depth = case.marker.pieces.iter().flat_map(|piece| &piece.vees).map(Vee::depth).reduce(f64::min)?;
+        let depth = case
+            .marker
+            .pieces
+            .iter()
+            .flat_map(|piece| &piece.outline_notches)
+            .map(OutlineNotch::depth)
+            .reduce(f64::min)?;
         Some(Harm::anywhere(case.on(|job| job.profile.notch.style = NotchStyle::Slit), depth / 2.0))
     }),
     damage("slits of another depth", "verify/complete", |case, _| {

@@ -7,7 +7,7 @@ use super::sheet::Sheet;
 use super::spot::{self, Spot};
 use crate::geom::{Extent, Point};
 use crate::ir::Marker;
-use crate::ir::marker::{self, NotchKind, Piece};
+use crate::ir::marker::{self, NotchForm, NotchKind, Piece};
 use crate::source::Span;
 use crate::units::number::fixed;
 
@@ -50,7 +50,7 @@ pub(super) struct Contour {
     pub(super) closed: bool,
 }
 
-/// A notch as it is drawn: a slit has two points, a V notch three.
+/// A notch as it is drawn: a slit has two points, one of an outline three.
 #[derive(Debug)]
 struct Notch {
     points: Vec<Point>,
@@ -123,12 +123,18 @@ fn notches(piece: &Piece) -> Vec<Notch> {
         };
         Notch { points: [vec![notch.root, notch.tip], bar].concat(), title }
     });
-    let vees = piece.vees.iter().map(|vee| {
-        let (depth, width) = (fixed(vee.depth(), 1), fixed(vee.width(), 1));
-        let title = format!("V notch, {depth} mm deep, {width} mm wide{}", blocks([vee.span]));
-        Notch { points: vec![vee.mouth[0], vee.apex, vee.mouth[1]], title }
+    let of_outlines = piece.outline_notches.iter().map(|notch| {
+        let (depth, width) = (fixed(notch.depth(), 1), fixed(notch.width(), 1));
+        let kind = match notch.form {
+            NotchForm::V => "V notch",
+            NotchForm::Castle => "castle notch",
+            NotchForm::U => "U notch",
+        };
+        let way = if notch.outwards { " outwards" } else { "" };
+        let title = format!("{kind}{way}, {depth} mm deep, {width} mm wide{}", blocks([notch.span]));
+        Notch { points: vec![notch.mouth[0], notch.tip, notch.mouth[1]], title }
     });
-    slits.chain(vees).collect()
+    slits.chain(of_outlines).collect()
 }
 
 /// Style rules that give each piece number its colour.

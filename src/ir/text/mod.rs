@@ -15,7 +15,8 @@
 //!   from 0 0 to 100 0 @4..9#2
 //!   to 100 80 @10..19#3 percent 75 lift full-advance no-overcut
 //!   to 0 0 @20..29#4
-//! vee 59 0 to 60 5 to 61 0 @70..80#14
+//! notch v 59 0 to 60 5 to 61 0 segments 2 @70..80#14
+//! notch castle out 79 0 to 80 -4 to 81 0 segments 3 @81..88#15
 //! label at 10 10 heading-rad 0 @30..39#5 mirrored @40..44#6
 //! field D @80..89#15
 //! closing advance @90..93#16
@@ -46,6 +47,7 @@
 //! before it ends, so `from` stands where a contour starts. The words behind a segment are what the file asks for where it
 //! starts, those behind a point what it asks for there. A contour is printed in the direction that it is walked in and
 //! read as one that is walked in list order: the same segments, the same joints.
+//! A `notch` is one that the contours make: the ends of its mouth with its tip between them, and how many segments lie there.
 //! `harm` has what is cut too far of the part itself and of others before the start, and the same past the end.
 //! `sides` stands where an end has another than `waste`, `part` behind the number of a piece that is not the first.
 
@@ -56,6 +58,7 @@ pub use print::{print_marker, print_toolpath};
 pub use read::{ReadError, read_marker, read_toolpath};
 
 use super::list::Joint;
+use super::marker::NotchForm;
 use super::toolpath::{End, Event, Law, Shape, Side};
 
 /// Picks one flag of a joint.
@@ -67,6 +70,8 @@ const JOINTS: [(&str, Flag); 3] = [
     ("full-advance", |joint| &mut joint.full_advance),
     ("no-overcut", |joint| &mut joint.no_overcut),
 ];
+
+const FORMS: [(&str, NotchForm); 3] = [("v", NotchForm::V), ("castle", NotchForm::Castle), ("u", NotchForm::U)];
 
 const SHAPES: [(&str, Shape); 2] = [("open", Shape::Open), ("ring", Shape::Ring)];
 

@@ -2,10 +2,10 @@
 
 use std::fmt::{self, Display, Formatter, Write as _};
 
-use super::{ENDS, EVENTS, JOINTS, LAWS, SHAPES, SIDES};
+use super::{ENDS, EVENTS, FORMS, JOINTS, LAWS, SHAPES, SIDES};
 use crate::geom::Point;
 use crate::ir::list::{FULL_SPEED, Joint, Segment};
-use crate::ir::marker::{Label, Marker, NotchKind, Piece, Vee};
+use crate::ir::marker::{Label, Marker, NotchKind, OutlineNotch, Piece};
 use crate::ir::toolpath::{Edge, End, Harm, Pose, Run, Side, Stab, Step, Toolpath};
 use crate::source::Span;
 use crate::units::number::exact;
@@ -50,8 +50,8 @@ fn print_piece(out: &mut String, marker: &Marker, piece: &Piece) {
             end = Some(segment.to);
         }
     }
-    for Vee { apex, mouth: [before, after], span } in &piece.vees {
-        line(out, format_args!("vee {} to {} to {}{}", Xy(*before), Xy(*apex), Xy(*after), At(*span)));
+    for notch in &piece.outline_notches {
+        print_outline_notch(out, notch);
     }
     for label in &piece.labels {
         print_label(out, label);
@@ -59,6 +59,14 @@ fn print_piece(out: &mut String, marker: &Marker, piece: &Piece) {
     for field in &piece.fields {
         line(out, format_args!("field {}{}", char::from(field.letter), At(field.span)));
     }
+}
+
+fn print_outline_notch(out: &mut String, notch: &OutlineNotch) {
+    let form = FORMS.iter().find(|row| row.1 == notch.form).map_or("", |row| row.0);
+    let way = if notch.outwards { " out" } else { "" };
+    let [before, tip, after] = [notch.mouth[0], notch.tip, notch.mouth[1]].map(Xy);
+    push(out, format_args!("notch {form}{way} {before} to {tip} to {after}"));
+    line(out, format_args!(" segments {}{}", notch.segments, At(notch.span)));
 }
 
 fn print_segment(out: &mut String, segment: &Segment, end: Option<Point>) {

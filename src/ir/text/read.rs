@@ -4,10 +4,10 @@ use std::str::{FromStr, SplitWhitespace};
 
 use thiserror::Error;
 
-use super::{ENDS, EVENTS, JOINTS, LAWS, SHAPES, SIDES};
+use super::{ENDS, EVENTS, FORMS, JOINTS, LAWS, SHAPES, SIDES};
 use crate::geom::{Heading, Point, Vector};
 use crate::ir::list::{FULL_SPEED, Joint, Segment};
-use crate::ir::marker::{Contour, Drill, Event, Field, Label, Marker, Notch, NotchKind, Piece, Stroke, Vee};
+use crate::ir::marker::{Contour, Drill, Event, Field, Label, Marker, Notch, NotchKind, OutlineNotch, Piece, Stroke};
 use crate::ir::toolpath::{self, Air, Edge, End, Harm, Pose, Run, Stab, Step, Toolpath};
 use crate::source::Span;
 
@@ -24,7 +24,7 @@ pub struct ReadError {
 type Read<T> = Result<T, ReadError>;
 
 /// What a line of a marker starts with.
-const LINES: &str = "piece, event, feed-mm-s, drill, slit, contour, vee, label, field or closing";
+const LINES: &str = "piece, event, feed-mm-s, drill, slit, contour, notch, label, field or closing";
 
 /// Reads the text of a marker.
 pub fn read_marker(text: &str) -> Read<Marker> {
@@ -66,14 +66,7 @@ pub fn read_marker(text: &str) -> Read<Marker> {
                 let range = marker.list.append(chain).ok_or_else(|| line.error("a segment in the next line"))?;
                 piece.contours.push(Contour { range, closed });
             }
-            "vee" => {
-                let before = line.point()?;
-                line.expect("to")?;
-                let apex = line.point()?;
-                line.expect("to")?;
-                let mouth = [before, line.point()?];
-                piece.vees.push(Vee { apex, mouth, span: line.span()? });
-            }
+            "notch" => piece.outline_notches.push(outline_notch(&mut line)?),
             "label" => {
                 let at = if line.has("at") { Some(line.point()?) } else { None };
                 let heading = if line.has("heading-rad") { Some(Heading::new(line.number()?)) } else { None };
@@ -97,6 +90,19 @@ pub fn read_marker(text: &str) -> Read<Marker> {
 
 fn event(line: &mut Line<'_>) -> Read<Event> {
     Ok(Event { kind: line.choice(&EVENTS)?, span: line.span()? })
+}
+
+fn outline_notch(line: &mut Line<'_>) -> Read<OutlineNotch> {
+    let form = line.choice(&FORMS)?;
+    let outwards = line.has("out");
+    let before = line.point()?;
+    line.expect("to")?;
+    let tip = line.point()?;
+    line.expect("to")?;
+    let mouth = [before, line.point()?];
+    line.expect("segments")?;
+    let segments = line.whole("a number of segments")?;
+    Ok(OutlineNotch { form, outwards, mouth, tip, segments, span: line.span()? })
 }
 
 fn drill(line: &mut Line<'_>) -> Read<(Point, u8, Span)> {

@@ -1,7 +1,7 @@
 use super::*;
 use crate::geom::{Heading, Point, Rotation, Vector};
 use crate::ir::list::Segment;
-use crate::ir::marker::{self, Contour, Drill, Field, Label, Marker, Notch, NotchKind, Piece, Vee};
+use crate::ir::marker::{self, Contour, Drill, Field, Label, Marker, Notch, NotchForm, NotchKind, OutlineNotch, Piece};
 use crate::ir::toolpath::{self, Air, Edge, Harm, Pose, Run, Stab, Step, Toolpath};
 use crate::source::Span;
 
@@ -90,7 +90,14 @@ fn marker(random: &mut Random) -> Marker {
                 span: r.span(),
             }),
             contours: Vec::new(),
-            vees: random.some(2, |r| Vee { apex: r.point(), mouth: [r.point(), r.point()], span: r.span() }),
+            outline_notches: random.some(2, |r| OutlineNotch {
+                form: [NotchForm::V, NotchForm::Castle, NotchForm::U][r.span().block as usize % 3],
+                outwards: r.span().block % 2 == 1,
+                mouth: [r.point(), r.point()],
+                tip: r.point(),
+                segments: r.span().block,
+                span: r.span(),
+            }),
             labels: random.some(2, |r| {
                 let at = r.flag().then(|| r.point());
                 let heading = r.flag().then(|| Heading::new(r.number()));
@@ -180,7 +187,10 @@ fn a_marker_survives_the_round_trip_to_the_bit() {
         assert_eq!((after.pieces.len(), &after.closing), (before.pieces.len(), &before.closing));
         for (a, b) in after.pieces.iter().zip(&before.pieces) {
             assert_eq!((a.number, a.span), (b.number, b.span));
-            assert_eq!((&a.drills, &a.notches, &a.vees, &a.labels), (&b.drills, &b.notches, &b.vees, &b.labels));
+            assert_eq!(
+                (&a.drills, &a.notches, &a.outline_notches, &a.labels),
+                (&b.drills, &b.notches, &b.outline_notches, &b.labels)
+            );
             assert_eq!((&a.events, a.feed, &a.fields), (&b.events, b.feed, &b.fields));
             let contents = |m: &Marker, c: &Contour| {
                 let both_ways = [c.range, c.range.reversed()];

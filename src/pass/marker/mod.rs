@@ -13,6 +13,7 @@ mod order;
 mod sanity;
 mod select;
 mod slit;
+mod spike;
 mod weld;
 
 /// A pass over the marker: a row of [`MARKER_PASSES`].
@@ -27,8 +28,17 @@ pub struct MarkerPass {
 }
 
 /// Every pass over the marker, in order.
-pub const MARKER_PASSES: &[MarkerPass] =
-    &[weld::PASS, slit::PASS, inspect::PASS, order::PASS, inner::PASS, notch::PASS, sanity::PASS, select::PASS];
+pub const MARKER_PASSES: &[MarkerPass] = &[
+    weld::PASS,
+    spike::PASS,
+    slit::PASS,
+    inspect::PASS,
+    order::PASS,
+    inner::PASS,
+    notch::PASS,
+    sanity::PASS,
+    select::PASS,
+];
 
 /// Parts lie in one another less deep than this.
 const DEEP: usize = 16;

@@ -8,15 +8,15 @@
 //!   outline.
 //! - Any other stays an open contour, as do all longer ones: internal lines, darts, outlines with a gap.
 //!
-//! Leaves true: notches in the order of the file; none without length, and no slit twice, whichever way round. Plain
-//! polylines, which lie on no grid, have no notches.
+//! A slit that starts up to [`MISS`] inside its edge reaches it: where its own line leads back there. Leaves true: notches in
+//! the order of the file; none without length, and no slit twice, whichever way round.
 
 use std::collections::BTreeSet;
 
 use super::{MarkerPass, search_ended};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::near::{Near, sorted};
-use crate::geom::{Point, bits};
+use crate::geom::{Point, bits, cross, polyline};
 use crate::ir::list::SegmentList;
 use crate::ir::marker::{Contour, Marker, Notch, NotchKind, Piece, Stroke};
 use crate::machine::Job;
@@ -24,26 +24,37 @@ use crate::machine::Job;
 pub(super) const PASS: MarkerPass =
     MarkerPass { name: "slit", about: "makes notches of short strokes at an outline, and cuts none twice", run };
 
+/// How far from its edge a slit may start, mm, beside the rounding of the file.
+const MISS: f64 = 0.5;
+/// What a slit may miss its edge by and stay as it is: half a unit of the file, and this where there is none, mm.
+const MISS_EPSILON: f64 = 0.01;
+/// Slack where there is no grid, in the place of a unit, mm: files without one are written with two or three decimals.
+const NO_GRID: f64 = 0.01;
+/// How much more that may be by rounding, mm: the diagonal of the coarsest unit.
+const ROUNDED: f64 = 0.36;
+/// Sine of the least angle between a slit and its edge: 20 degrees.
+const LEAST_ANGLE: f64 = 0.34;
+
 fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     let Marker { list, pieces, unit, .. } = marker;
-    let mut search = Search { list, near: Near::on_grid(*unit), diagnostics };
+    let grid = if *unit > 0.0 { *unit } else { NO_GRID };
+    let (near, around) = (Near::on_grid(grid), Near::on_grid(grid + MISS));
+    let mut search = Search { list, near, around, least_miss: (*unit / 2.0).max(MISS_EPSILON), diagnostics };
     for piece in pieces {
-        let mut shorts: Vec<Short> = if *unit > 0.0 {
-            piece.contours.iter().zip(0..).filter_map(|(contour, i)| short(search.list, contour, i)).collect()
-        } else {
-            Vec::new()
-        };
+        let contours = piece.contours.iter().zip(0..);
+        let mut shorts: Vec<Short> = contours.filter_map(|(contour, i)| short(search.list, contour, i)).collect();
         if shorts.is_empty() && piece.notches.is_empty() {
             continue; // as in many
         }
         search.take_slits(piece, &mut shorts);
+        search.reach_edges(piece);
         drop_doubles(piece, search.diagnostics);
         search.take_crossbars(piece, &mut shorts);
         let mut taken = shorts.iter().filter(|short| short.taken).map(|short| short.contour).peekable();
         let mut place = 0..;
         piece.contours.retain(|_| taken.next_if_eq(&place.next().expect("it never ends")).is_none());
     }
-    if search.near.is_cut_short() {
+    if search.near.is_cut_short() || search.around.is_cut_short() {
         search.diagnostics.push(search_ended("more of the short ones may be notches, and are cut as lines"));
     }
 }
@@ -98,6 +109,10 @@ fn is_short_slit(notch: &Notch) -> bool {
 struct Search<'a> {
     list: &'a SegmentList,
     near: Near,
+    /// The same, as far as a slit may miss its edge.
+    around: Near,
+    /// The least that a slit is led on to its edge, mm.
+    least_miss: f64,
     diagnostics: &'a mut Diagnostics,
 }
 
@@ -108,14 +123,56 @@ impl Search<'_> {
             return;
         }
         let starts = sorted(shorts.iter().map(|short| short.stroke.from));
+        // What a tip divides is a crossbar, also when it ends beside an edge.
+        let tips =
+            sorted(piece.notches.iter().map(|notch| notch.tip).chain(shorts.iter().map(|short| short.stroke.to)));
+        let slack = self.near.slack();
+        let mut is_divided = vec![false; shorts.len()];
+        for (short, is_divided) in shorts.iter().zip(&mut is_divided) {
+            let Stroke { from, to, .. } = short.stroke;
+            let tip_of = |k: usize| piece.notches.get(k).map(|notch| notch.tip);
+            let tip = |k: usize| tip_of(k).unwrap_or_else(|| shorts[k - piece.notches.len()].stroke.to);
+            self.near.each(&tips, [from, to], |k| {
+                *is_divided |= (tip(k) - from).norm().min((tip(k) - to).norm()) > slack;
+            });
+        }
         for ends in outlines(self.list, piece) {
             self.near.each(&starts, ends, |i| shorts[i].taken = true);
+            self.around.each(&starts, ends, |i| {
+                shorts[i].taken |= !is_divided[i] && back_to(&shorts[i].stroke, ends).is_some();
+            });
         }
         for Short { stroke, percent, .. } in shorts.iter().filter(|short| short.taken) {
             let Stroke { from: root, to: tip, span } = *stroke;
             piece.notches.push(Notch { kind: NotchKind::Slit, root, tip, percent: *percent, span });
         }
         piece.notches.sort_by_key(|notch| notch.span); // stable: what comes from no block keeps its order
+    }
+
+    /// Leads slits that start inside their edge back to it, along their own lines.
+    fn reach_edges(&mut self, piece: &mut Piece) {
+        let slit = |notch: &Notch| Stroke { from: notch.root, to: notch.tip, span: notch.span };
+        let starts = sorted(piece.notches.iter().map(|notch| notch.root));
+        let mut missed: Vec<Option<f64>> = vec![Some(f64::INFINITY); piece.notches.len()];
+        for ends in outlines(self.list, piece) {
+            self.around.each(&starts, ends, |i| {
+                let stroke = slit(&piece.notches[i]);
+                // At a vertex no edge may be met, by rounding.
+                if polyline::distance_to_segment(stroke.from, ends[0], ends[1]) <= self.least_miss {
+                    missed[i] = None;
+                }
+                if let Some(back) = back_to(&stroke, ends) {
+                    // What crosses an edge has reached it.
+                    missed[i] = missed[i].filter(|_| back >= self.least_miss).map(|least| least.min(back));
+                }
+            });
+        }
+        for (notch, missed) in piece.notches.iter_mut().zip(missed) {
+            let back = missed.filter(|&back| back <= MISS + self.near.slack() && notch.depth() > 0.0);
+            if let Some(back) = back {
+                notch.root -= (notch.tip - notch.root) * (back / notch.depth());
+            }
+        }
     }
 
     /// The strokes that may be crossbars: slits that touch no outline, then contours.
@@ -180,6 +237,20 @@ impl Search<'_> {
         let mut place = 0..;
         piece.notches.retain(|_| !is_bar[place.next().expect("it never ends")]);
     }
+}
+
+/// How far behind its start the line of a stroke meets a segment, mm; negative when it does so behind that, no farther on than
+/// the stroke is long.
+fn back_to(stroke: &Stroke, [a, b]: [Point; 2]) -> Option<f64> {
+    let (way, edge) = (stroke.to - stroke.from, b - a);
+    let length = way.norm();
+    let across = cross(edge, way / length);
+    if length == 0.0 || across.abs() < LEAST_ANGLE * edge.norm() {
+        return None; // it runs along the edge
+    }
+    let back = cross(edge, stroke.from - a) / across;
+    let place = (stroke.from - way * (back / length) - a).dot(&edge) / edge.norm_squared();
+    ((0.0..=1.0).contains(&place) && back >= -length && back <= MISS + ROUNDED).then_some(back)
 }
 
 /// Takes out slits without length and slits that stand twice, whichever way round.

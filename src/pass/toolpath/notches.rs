@@ -1,7 +1,7 @@
 //! Notches in the style of the profile: which slits are cut, and what of the outline they replace.
 //!
-//! A V notch that is cut as a slit, or not at all, leaves the outline: that runs straight over its mouth. The marker keeps
-//! it as it is drawn.
+//! A notch of an outline that is cut as a slit, or not at all, leaves the outline: that runs straight over its mouth. The
+//! marker keeps it as it is drawn.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::bits;
 use crate::ir::Marker;
 use crate::ir::list::Segment;
-use crate::ir::marker::{Notch, NotchKind, Stroke, Vee};
+use crate::ir::marker::{Notch, NotchKind, OutlineNotch, Stroke};
 use crate::machine::{NotchStyle, Notches};
 use crate::units::number::fixed;
 
@@ -35,9 +35,9 @@ pub fn check_depths(marker: &Marker, scene: &Scene, diagnostics: &mut Diagnostic
     let Some(depth) = notches.depth_mm.filter(|_| notches.style != NotchStyle::Skip) else { return };
     for (index, piece) in marker.pieces.iter().enumerate() {
         let slits = piece.notches.iter().map(|notch| Stroke { from: notch.root, to: notch.tip, span: notch.span });
-        let vees = piece.vees.iter().filter(|_| notches.style == NotchStyle::Slit);
-        let vees = vees.map(|vee| slit(vee, Notches { depth_mm: None, ..notches }));
-        for drawn in slits.chain(vees).filter(|drawn| drawn.length() < depth) {
+        let drawn = piece.outline_notches.iter().filter(|_| notches.style == NotchStyle::Slit);
+        let drawn = drawn.map(|notch| slit(notch, Notches { depth_mm: None, ..notches }));
+        for drawn in slits.chain(drawn).filter(|drawn| drawn.length() < depth) {
             let along = (drawn.to - drawn.from) / drawn.length();
             let deeper = depth - drawn.length();
             let steps = (deeper / STEP).ceil();
@@ -66,29 +66,34 @@ fn deepened(notch: &Notch, depth: Option<f64>) -> Notch {
     Notch { kind, tip, ..*notch }
 }
 
-/// The slit that a V notch becomes, from the middle of its mouth.
-pub(super) fn slit(vee: &Vee, notches: Notches) -> Stroke {
-    let from = vee.mouth[0] + (vee.mouth[1] - vee.mouth[0]) / 2.0;
-    let depth = notches.depth_mm.unwrap_or(vee.depth());
-    Stroke { from, to: from + vee.direction() * depth, span: vee.span }
+/// The slit that a notch of an outline becomes: from the middle of its mouth into the part, also where the notch stands out.
+pub(super) fn slit(notch: &OutlineNotch, notches: Notches) -> Stroke {
+    let depth = notches.depth_mm.unwrap_or(notch.depth());
+    Stroke { from: notch.root(), to: notch.root() + notch.inwards() * depth, span: notch.span }
 }
 
-/// Leads an outline straight over the mouths of its V notches: these, in the order of the outline, each with the speed of
-/// its legs in percent.
-pub(super) fn bridge(outline: &mut Vec<Segment>, vees: &[Vee]) -> Vec<(Vee, u8)> {
-    let at: BTreeMap<[u64; 2], &Vee> = vees.iter().map(|vee| (bits(vee.apex), vee)).collect();
-    let legs: Vec<(Segment, Segment)> = outline.iter().copied().zip(outline.iter().copied().cycle().skip(1)).collect();
-    let mut bridged = Vec::new();
-    let mut is_second = vec![false; outline.len()];
-    for (i, (first, second)) in legs.into_iter().enumerate() {
-        let vee = at.get(&bits(first.to)).filter(|vee| vee.mouth == [first.from, second.to]);
-        let Some(&&vee) = vee else { continue };
-        let percent = first.percent.min(second.percent);
-        outline[i] = Segment { to: second.to, span: second.span, percent, ..first };
-        is_second[(i + 1) % outline.len()] = true;
-        bridged.push((vee, percent));
+/// Leads an outline straight over the mouths of its notches: these, in the order of the outline, each with the least speed
+/// of what it replaces in percent.
+pub(super) fn bridge(outline: &mut Vec<Segment>, notches: &[OutlineNotch]) -> Vec<(OutlineNotch, u8)> {
+    let mut at: BTreeMap<[u64; 2], Vec<&OutlineNotch>> = BTreeMap::new();
+    for notch in notches {
+        at.entry(bits(notch.mouth[0])).or_default().push(notch);
     }
-    let mut is_second = is_second.into_iter();
-    outline.retain(|_| !is_second.next().unwrap_or_default());
+    let (drawn, count) = (outline.clone(), outline.len());
+    let mut bridged = Vec::new();
+    let mut is_gone = vec![false; count];
+    for (i, first) in drawn.iter().enumerate() {
+        let opens = at.get(&bits(first.from)).map_or(&[][..], Vec::as_slice);
+        let last = |notch: &OutlineNotch| drawn[(i + notch.segments as usize - 1) % count];
+        let fits = |notch: &&&OutlineNotch| (notch.segments as usize) < count && last(notch).to == notch.mouth[1];
+        let Some(&&notch) = opens.iter().find(fits).filter(|_| !is_gone[i]) else { continue };
+        let replaced = (0..notch.segments as usize).map(|k| (i + k) % count);
+        let percent = replaced.clone().map(|k| drawn[k].percent).min().unwrap_or(first.percent);
+        replaced.skip(1).for_each(|k| is_gone[k] = true);
+        outline[i] = Segment { to: notch.mouth[1], span: last(&notch).span, percent, ..*first };
+        bridged.push((notch, percent));
+    }
+    let mut is_gone = is_gone.into_iter();
+    outline.retain(|_| !is_gone.next().unwrap_or_default());
     bridged
 }

@@ -5,7 +5,7 @@
 use super::notches;
 use crate::ir::Marker;
 use crate::ir::list::{FULL_SPEED, Joint, Segment};
-use crate::ir::marker::{Contour, Event, Notch, Piece, Stroke, Vee};
+use crate::ir::marker::{Contour, Event, Notch, OutlineNotch, Piece, Stroke};
 use crate::ir::toolpath::{Drill, Edge, End, Law, Pose, Run, Shape, Step, Toolpath};
 use crate::machine::{Follow, Job, NotchStyle, Notches};
 
@@ -25,8 +25,9 @@ pub fn trace<'a>(marker: &'a Marker, job: &'a Job) -> impl Iterator<Item = Toolp
             })
         };
         let drawn = piece.contours.iter().map(|contour| outline(marker, piece, contour, style));
-        let (outlines, vees): (Vec<_>, Vec<_>) = drawn.unzip();
-        let slits = vees.into_iter().flatten().map(move |(vee, percent)| (percent, notches::slit(&vee, style)));
+        let (outlines, bridged): (Vec<_>, Vec<_>) = drawn.unzip();
+        let slits = bridged.into_iter().flatten();
+        let slits = slits.map(move |(notch, percent)| (percent, notches::slit(&notch, style)));
         let slits = slits.filter(move |_| style.style == NotchStyle::Slit);
         let notches = piece.notches.iter().flat_map(strokes).chain(slits);
         let notches =
@@ -71,12 +72,17 @@ fn feed(piece: &Piece, percent: u8, job: &Job) -> f64 {
     feed.min(x.speed).min(y.speed) * f64::from(percent) / f64::from(FULL_SPEED)
 }
 
-/// A contour in the style of the profile, with the V notches that it no longer has and their speed in percent.
-fn outline(marker: &Marker, piece: &Piece, contour: &Contour, style: Notches) -> (Vec<Segment>, Vec<(Vee, u8)>) {
+/// A contour in the style of the profile, with the notches that it no longer has and their speed in percent.
+fn outline(
+    marker: &Marker,
+    piece: &Piece,
+    contour: &Contour,
+    style: Notches,
+) -> (Vec<Segment>, Vec<(OutlineNotch, u8)>) {
     let mut outline: Vec<Segment> = marker.list.walk(contour.range).map(|(_, segment)| segment).collect();
     let bridged = match style.style {
         NotchStyle::AsDrawn => Vec::new(),
-        NotchStyle::Slit | NotchStyle::Skip => notches::bridge(&mut outline, &piece.vees),
+        NotchStyle::Slit | NotchStyle::Skip => notches::bridge(&mut outline, &piece.outline_notches),
     };
     (outline, bridged)
 }

@@ -1,0 +1,297 @@
+//! Notch: recognises the notches that outlines make, and lists them with their piece. The outlines keep them.
+//!
+//! Needs: welded contours without narrow boxes and spikes, which are slits. A notch is a way between two places of a closed
+//! contour, of which all of this is true, to rounding:
+//!
+//! - it is a V (mouth 1 to 12 mm, legs equal within a quarter), a castle or a U (mouth 1.5 to 12 mm), 1.5 to 15 mm deep;
+//! - the outline comes to the mouth and leaves it within 30 degrees of the mouth's direction;
+//! - on either side the next notch is farther than the mouth is wide: closer ones are the teeth of a pinked hem;
+//! - three vertices at least belong to none of the contour's notches.
+//!
+//! So the point of a dart (too deep, or too wide), a corner, a row of teeth, a strap and a triangular cut-out are none. What
+//! lies in the part goes inwards: on the inner side of a contour that lies within none or two others of its piece, on the
+//! outer side of a cut-out. Any other stands out; where that is over another piece there is a warning.
+
+mod mouth;
+
+use std::borrow::Cow;
+use std::cell::OnceCell;
+
+use rayon::prelude::*;
+
+use self::mouth::Mouth;
+use super::{MarkerPass, in_parts};
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::budget::Budget;
+use crate::geom::region::Regions;
+use crate::geom::{Extent, Point, polyline, ring};
+use crate::ir::list::{Range, SegmentList};
+use crate::ir::marker::{Marker, OutlineNotch};
+use crate::machine::Job;
+use crate::source::Span;
+use crate::units::number::fixed;
+
+pub(super) const PASS: MarkerPass =
+    MarkerPass { name: "notch", about: "finds the notches that outlines make, and leaves them there", run };
+
+/// Vertices that must belong to no notch.
+const LEAST_OTHERS: usize = 3;
+/// What a vertex that is looked at to tell cut-outs from parts costs beside the comparison of two boxes. In a drawing made to
+/// be slow, what is left counts as a part.
+const VERTEX: usize = 4;
+/// How deep a notch may lie in another piece without a word, mm, beside the diagonal of the file's unit: pieces that touch.
+const TOUCH: f64 = 0.2;
+/// Decimals of depths in messages, mm.
+const DEPTH_DECIMALS: u32 = 1;
+
+fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
+    let Marker { pieces, list, unit, .. } = marker;
+    let parts = in_parts(pieces.len());
+    pieces.par_chunks_mut(parts.size).for_each(|pieces| {
+        let mut outlines: Vec<Outline> = Vec::new();
+        let mut found: Vec<Found> = Vec::with_capacity(pieces.len());
+        let mut work = parts.budget();
+        for piece in &mut *pieces {
+            outlines.clear();
+            let closed = piece.contours.iter().filter(|contour| contour.closed);
+            outlines.extend(closed.map(|contour| Outline::of(list, contour.range, *unit)));
+            piece.outline_notches.clear();
+            for (k, outline) in outlines.iter().enumerate().filter(|(_, outline)| !outline.mouths.is_empty()) {
+                let counter_clockwise = ring::area(outline.ring()) > 0.0;
+                let is_left = counter_clockwise != is_cut_out(&outlines, k, &mut work);
+                let mouths = outline.notches(is_left);
+                if mouths.is_empty() {
+                    continue;
+                }
+                piece.outline_notches.reserve_exact(mouths.len());
+                piece.outline_notches.extend(mouths.iter().map(|mouth| outline.notch(mouth, is_left)));
+                let tips = mouths.iter().map(|mouth| mouth.deepest).collect();
+                found.push(Found { spans: list.spans(outline.range), tips });
+            }
+        }
+        // All in a row, since blocks stand far from points in memory: then none waits for the one before.
+        let spans = found.iter().flat_map(Found::spans);
+        let notches = pieces.iter_mut().flat_map(|piece| &mut piece.outline_notches);
+        notches.zip(spans).for_each(|(notch, span)| notch.span = span);
+    });
+    warn_of_neighbours(marker, diagnostics);
+}
+
+/// The notches of an outline.
+struct Found<'a> {
+    /// The blocks of its segments.
+    spans: Cow<'a, [Span]>,
+    /// The vertices at their tips.
+    tips: Vec<usize>,
+}
+
+impl Found<'_> {
+    /// The blocks that the tips came from: those of the segments that lead there.
+    fn spans(&self) -> impl Iterator<Item = Span> {
+        self.tips.iter().map(|tip| self.spans[tip.checked_sub(1).unwrap_or(self.spans.len() - 1)])
+    }
+}
+
+/// A closed contour.
+struct Outline<'a> {
+    range: Range,
+    /// Its points; the last is the first again.
+    points: Cow<'a, [Point]>,
+    /// The box around it, once it was asked for.
+    extent: OnceCell<Extent>,
+    /// What may be notches, whichever side the part is on.
+    mouths: Vec<Mouth>,
+}
+
+impl<'a> Outline<'a> {
+    fn of(list: &'a SegmentList, range: Range, unit: f64) -> Self {
+        let points = list.points(range);
+        let mouths = if points.len() > LEAST_OTHERS + 3 { mouth::find(&points, unit) } else { Vec::new() };
+        Self { range, extent: OnceCell::new(), mouths, points }
+    }
+
+    fn extent(&self) -> &Extent {
+        self.extent.get_or_init(|| Extent::of(&self.points))
+    }
+
+    /// Its vertices, the first not repeated.
+    fn ring(&self) -> &[Point] {
+        &self.points[..self.points.len() - 1]
+    }
+
+    fn at(&self, i: usize) -> Point {
+        self.points[i % (self.points.len() - 1)]
+    }
+
+    /// A notch, when the part lies on the left or not.
+    fn notch(&self, mouth: &Mouth, is_left: bool) -> OutlineNotch {
+        let Mouth { first, segments, form, tip, is_left: notch_is_left, .. } = *mouth;
+        OutlineNotch {
+            form,
+            outwards: notch_is_left != is_left,
+            mouth: [self.at(first), self.at(first + segments)],
+            tip,
+            segments: u32::try_from(segments).expect("a notch has few segments"),
+            span: Span::default(),
+        }
+    }
+
+    /// Its notches, when its part lies on the left or not, in their order.
+    fn notches(&self, is_left: bool) -> Vec<Mouth> {
+        let count = self.points.len() - 1;
+        let [inward, outward] = [true, false].map(|is_inward| {
+            let there = self.mouths.iter().filter(|mouth| (mouth.is_left == is_left) == is_inward);
+            self.apart(there.copied())
+        });
+        let straight = [straighter(&inward, &outward, count), straighter(&outward, &inward, count)];
+        let [inward, outward] = [&inward, &outward].map(|all| self.alone(all));
+        let kept = inward.into_iter().chain(outward).zip(straight.concat());
+        let mut kept: Vec<Mouth> = kept.filter_map(|(mouth, is_straight)| mouth.filter(|_| is_straight)).collect();
+        kept.sort_by_key(|mouth| mouth.first);
+        if kept.iter().map(|mouth| mouth.segments + 1).sum::<usize>() + LEAST_OTHERS > count {
+            kept.clear();
+        }
+        kept
+    }
+
+    /// Of notches that share a segment the one with the shortest way.
+    fn apart(&self, mouths: impl Iterator<Item = Mouth>) -> Vec<Mouth> {
+        let count = self.points.len() - 1;
+        let length = |mouth: &Mouth| {
+            (mouth.first..mouth.first + mouth.segments).map(|i| (self.at(i + 1) - self.at(i)).norm()).sum::<f64>()
+        };
+        let mut kept: Vec<Mouth> = Vec::new();
+        for mouth in mouths {
+            match kept.last_mut() {
+                Some(last) if mouth.first < last.first + last.segments => {
+                    if length(&mouth) < length(last) {
+                        *last = mouth;
+                    }
+                }
+                Some(_) | None => kept.push(mouth),
+            }
+        }
+        // The last may go over the start of the outline, where the first lies.
+        if let [first, .., last] = kept[..]
+            && last.first + last.segments > count + first.first
+        {
+            if length(&last) < length(&first) {
+                kept.remove(0);
+            } else {
+                kept.pop();
+            }
+        }
+        kept
+    }
+
+    /// Notches that go the same way, those that are teeth in a row left out.
+    fn alone(&self, all: &[Mouth]) -> Vec<Option<Mouth>> {
+        let count = self.points.len() - 1;
+        // Whether one and the next, round the ring, are nearer than their mouths are wide.
+        let is_crowded = |k: usize| {
+            let (mouth, next) = (all[k], all[(k + 1) % all.len()]);
+            let width = |mouth: &Mouth| (self.at(mouth.first + mouth.segments) - self.at(mouth.first)).norm();
+            let end = mouth.first + mouth.segments;
+            // A notch alone has the whole ring before itself.
+            let flat = (next.first + 2 * count - end - 1) % count + 1;
+            let flat = if next.first == end % count { 0 } else { flat };
+            let most = width(&mouth).max(width(&next));
+            let mut length = 0.0;
+            (0..flat).all(|step| {
+                length += (self.at(end + step + 1) - self.at(end + step)).norm();
+                length < most
+            })
+        };
+        let crowded: Vec<bool> = (0..all.len()).map(is_crowded).collect();
+        let is_alone = |k: usize| !crowded[k] && !crowded[(k + all.len() - 1) % all.len()];
+        (0..all.len()).map(|k| is_alone(k).then_some(all[k])).collect()
+    }
+}
+
+/// Of each of some notches, whether it is one beside others that go the other way: between two of those, and beside one with
+/// which it shares a segment and whose edge is straighter, stands none.
+fn straighter(mouths: &[Mouth], others: &[Mouth], count: usize) -> Vec<bool> {
+    if mouths.is_empty() || others.is_empty() {
+        return vec![true; mouths.len()];
+    }
+    let segments = |mouth: &Mouth| (mouth.first..mouth.first + mouth.segments).map(move |i| i % count);
+    let mut owners = vec![None; count];
+    for (k, other) in others.iter().enumerate() {
+        segments(other).for_each(|i| owners[i] = Some(k));
+    }
+    let is_straighter = |mouth: &Mouth| {
+        let mut met: Vec<usize> = segments(mouth).filter_map(|i| owners[i]).collect();
+        met.dedup();
+        met.len() < 2 && met.iter().all(|&k| mouth.askew <= others[k].askew)
+    };
+    mouths.iter().map(is_straighter).collect()
+}
+
+/// Whether an outline bounds a hole: an odd number of others of the piece hold it. Other pieces do not matter, since two
+/// jobs in one file may lie on each other.
+fn is_cut_out(outlines: &[Outline], k: usize, work: &mut Budget) -> bool {
+    let point = outlines[k].points[0];
+    let holds = |(i, other): &(usize, &Outline)| {
+        let is_near = *i != k && other.extent().holds(point);
+        work.spend(VERTEX * if is_near { other.ring().len() } else { 1 })
+            && is_near
+            && ring::contains(other.ring(), point)
+    };
+    outlines.iter().enumerate().filter(holds).count() % 2 == 1
+}
+
+/// A notch over another piece.
+struct Over {
+    depth: f64,
+    notch: OutlineNotch,
+    /// The pieces: its own, and the one that it is cut into.
+    pieces: [usize; 2],
+}
+
+/// Says how many notches that stand out lie over other pieces, and which of them does farthest.
+fn warn_of_neighbours(marker: &Marker, diagnostics: &mut Diagnostics) {
+    let stands_out = |notch: &&OutlineNotch| notch.outwards;
+    let notches = marker.pieces.iter().enumerate();
+    let out = notches.flat_map(|(i, piece)| piece.outline_notches.iter().filter(stands_out).map(move |n| (i, *n)));
+    let out: Vec<(usize, OutlineNotch)> = out.collect();
+    if out.is_empty() {
+        return; // as in most files
+    }
+    let closed = |i: usize| marker.pieces[i].contours.iter().filter(|contour| contour.closed);
+    let rings = |i: u32| closed(i as usize).map(|contour| marker.list.points(contour.range)).collect();
+    let regions = Regions::new(0..marker.pieces.len() as u32, rings);
+    let mut work = Budget::of_a_marker();
+    let depth_in = |piece: usize, at: Point| {
+        let edges = closed(piece).flat_map(|contour| marker.list.lines(contour.range));
+        edges.map(|[a, b]| polyline::distance_to_segment(at, a, b)).fold(f64::INFINITY, f64::min)
+    };
+    let mut over: Vec<Over> = Vec::new();
+    for (own, notch) in out {
+        let at = notch.tip;
+        if !work.spend(regions.cost_at(at)) {
+            break;
+        }
+        let others = regions.owners_at(at).into_iter().map(|owner| owner as usize).filter(|&other| other != own);
+        let deepest = others.map(|other| (depth_in(other, at), other)).max_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some((depth, other)) =
+            deepest.filter(|(depth, _)| *depth > TOUCH.max(std::f64::consts::SQRT_2 * marker.unit))
+        {
+            // No more of it lies there than there is.
+            over.push(Over { depth: depth.min(notch.depth()), notch, pieces: [own, other] });
+        }
+    }
+    let Some(worst) = over.iter().reduce(|a, b| if b.depth > a.depth { b } else { a }) else { return };
+    let [own, other] = worst.pieces.map(|i| marker.pieces[i].number);
+    let depth = fixed(worst.depth, DEPTH_DECIMALS);
+    let message = if over.len() == 1 {
+        format!("a notch that stands out of piece {own} lies {depth} mm deep in piece {other}")
+    } else {
+        let count = over.len();
+        format!(
+            "{count} notches stand out into other pieces, farthest that of piece {own}: {depth} mm deep in piece {other}"
+        )
+    };
+    let finding = Diagnostic::new(&code::MARKER_NOTCH_OVER, message).at(worst.notch.span);
+    diagnostics
+        .push(finding.hint("move the pieces apart, or have notches cut into their own part: notch.style = \"slit\""));
+}

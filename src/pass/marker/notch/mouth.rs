@@ -1,0 +1,278 @@
+//! What an outline makes between two places of its edge: whether that is a V, a castle or a U notch, whichever way it goes.
+//!
+//! The mouth is found from its first end. There an outline turns off, and it comes back to the line that its edge had, on a
+//! short way. Nearly all vertices are passed over at their turn, nearly all others at the next vertex.
+
+use std::f64::consts::PI;
+
+use crate::geom::{Point, Vector, angle, cross, polyline};
+use crate::ir::marker::NotchForm;
+
+/// Width of mouths, mm: of a V, and of a castle or U.
+const V_MOUTH: [f64; 2] = [1.0, 12.0];
+const MOUTH: [f64; 2] = [1.5, 12.0];
+/// Depth, mm.
+const DEPTH: [f64; 2] = [1.5, 15.0];
+/// How much longer than the other a leg of a V may be.
+const LEG_RATIO: f64 = 1.25;
+/// How far the sides of a castle may lean, of its depth.
+const LEAN: f64 = 0.2;
+/// Least turn at the bottom of a castle, rad: it is round where the turn is spread.
+const CORNER: f64 = 65.0 * PI / 180.0;
+/// Least area of a U, of the rectangle around it: a semicircle has 0.785, a V 0.5.
+const U_AREA: f64 = 0.68;
+/// How far the outline may turn where the mouth begins or ends, against the mouth, rad; of the segment beside it, which may
+/// be short, more.
+const MOUTH_TURN: f64 = PI / 6.0;
+const NEXT_TURN: f64 = PI / 3.0;
+/// Square of the cosine of the least turn at the end of a mouth: 12 degrees.
+const LEAST_TURN: f64 = 0.957;
+/// The edge before a mouth has its direction over so much of it, mm.
+const EDGE: f64 = 2.0;
+/// How far from the first end a notch can go, mm: the far corner of the largest.
+const FAR: f64 = 21.0;
+/// How many vertices a notch may have, and how many are looked at for the direction of an edge: a guard against tangles.
+const MOST_STEPS: usize = 64;
+/// How far the rounding of two points to a grid may move one against the other, in units of the grid: its diagonal.
+const ROUNDING: f64 = std::f64::consts::SQRT_2;
+/// The same where there is no grid, mm: files without one are written with two or three decimals.
+const LEAST_SLACK: f64 = 0.01;
+
+/// What may be a notch of an outline.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Mouth {
+    /// The vertex at which it begins, and how many segments it has.
+    pub(super) first: usize,
+    pub(super) segments: usize,
+    pub(super) form: NotchForm,
+    /// The middle of its bottom, and the vertex there or before it.
+    pub(super) tip: Point,
+    pub(super) deepest: usize,
+    /// Whether it lies to the left of the outline.
+    pub(super) is_left: bool,
+    /// How far the outline beside it is turned from the direction of the mouth, rad.
+    pub(super) askew: f64,
+}
+
+/// What may be notches of a ring, whose last point is the first again; in the order of their first vertices.
+pub(super) fn find(points: &[Point], unit: f64) -> Vec<Mouth> {
+    let count = points.len() - 1;
+    let mut found = Vec::new();
+    let ring = Ring { points: &points[..count], slack: if unit > 0.0 { ROUNDING * unit } else { LEAST_SLACK } };
+    let mut before = points[0] - points[count - 1];
+    let mut squared = before.norm_squared();
+    for (i, ends) in points.windows(2).enumerate() {
+        let after = ends[1] - ends[0];
+        let (dot, next) = (before.dot(&after), after.norm_squared());
+        if dot <= 0.0 || dot * dot < LEAST_TURN * squared * next {
+            let is_left = cross(before, after) > 0.0;
+            // Beside a tooth the edge is short, on a grid it has the direction of the grid where it is.
+            let [long, short] = [EDGE.max(4.0 * ring.slack), 2.0 * ring.slack].map(|least| ring.edge(i, least));
+            let by_long = long.and_then(|edge| ring.mouth(i, edge, is_left));
+            let short = short.filter(|_| by_long.is_none() && short != long);
+            found.extend(by_long.or_else(|| short.and_then(|edge| ring.mouth(i, edge, is_left))));
+        }
+        (before, squared) = (after, next);
+    }
+    found
+}
+
+/// The vertices of a closed line.
+#[derive(Clone, Copy)]
+struct Ring<'a> {
+    points: &'a [Point],
+    /// How far rounding may move one point against another, mm.
+    slack: f64,
+}
+
+/// A way between the ends of a mouth: from its first end along the mouth, and into the notch.
+struct Way {
+    /// Its vertices.
+    points: Vec<[f64; 2]>,
+    width: f64,
+    depth: f64,
+}
+
+impl Ring<'_> {
+    fn at(&self, i: usize) -> Point {
+        self.points[i % self.points.len()]
+    }
+
+    /// The notch that begins at a vertex, to that side of the edge that leads there.
+    fn mouth(&self, i: usize, edge: Vector, is_left: bool) -> Option<Mouth> {
+        let count = self.points.len();
+        let side = if is_left { 1.0 } else { -1.0 };
+        let from = self.points[i];
+        let mut highest: f64 = 0.0;
+        for steps in 1..count.min(MOST_STEPS) {
+            let way = self.at(i + steps) - from;
+            let height = side * cross(edge, way);
+            // It came back too soon, or never will.
+            if way.norm() > FAR || height <= self.slack && highest < DEPTH[0] - self.slack {
+                return None;
+            }
+            highest = highest.max(height);
+            let width = way.norm();
+            let is_back = height.abs() <= width * MOUTH_TURN.tan() + self.slack;
+            if steps > 1 && is_back && width <= MOUTH[1] + self.slack && width >= V_MOUTH[0] - self.slack {
+                let found = self.between(i, steps, side);
+                if found.is_some() {
+                    return found;
+                }
+            }
+        }
+        None
+    }
+
+    /// The direction of the edge that leads to a vertex, over so much of it, mm.
+    fn edge(&self, i: usize, least: f64) -> Option<Vector> {
+        let count = self.points.len();
+        let ways = (1..count.min(MOST_STEPS)).map(|k| self.points[i] - self.at(i + count - k));
+        let way = ways.reduce(|so_far, next| if so_far.norm() < least { next } else { so_far })?;
+        (way.norm() > 0.0).then(|| way / way.norm())
+    }
+
+    /// The notch between a vertex and the one so many steps ahead.
+    fn between(&self, i: usize, steps: usize, side: f64) -> Option<Mouth> {
+        let chord = self.at(i + steps) - self.points[i];
+        let width = chord.norm();
+        let along = chord / width;
+        let local = |k: usize| {
+            let way = self.at(i + k) - self.points[i];
+            [way.dot(&along), side * cross(along, way)]
+        };
+        let points: Vec<[f64; 2]> = (0..=steps).map(local).collect();
+        let depth = points.iter().map(|point| point[1]).fold(0.0, f64::max);
+        let way = Way { points, width, depth };
+        if !is_within(depth, DEPTH, self.slack) || way.points.iter().any(|point| point[1] < -self.slack) {
+            return None;
+        }
+        let (form, tip) = way.form(self.slack)?;
+        let askew = self.askew(i, (false, steps), chord)?.max(self.askew(i, (true, steps), chord)?);
+        let deepest = (0..=steps).find(|&k| way.points[k][1] >= depth - self.slack)?;
+        let across = Vector::new(-along.y, along.x) * side;
+        Some(Mouth {
+            first: i,
+            segments: steps,
+            form,
+            tip: if form == NotchForm::V {
+                self.at(i + way.apex())
+            } else {
+                self.points[i] + along * tip[0] + across * tip[1]
+            },
+            deepest: (i + if form == NotchForm::V { way.apex() } else { deepest }) % self.points.len(),
+            is_left: side > 0.0,
+            askew,
+        })
+    }
+
+    /// How far the outline that comes to a mouth, or leaves it, is turned from its direction, rad; `None` when that is too
+    /// far. Near the mouth it may have very short segments, whose direction is that of the grid; a stretch as long as the
+    /// mouth is wide has its own.
+    fn askew(&self, i: usize, (is_end, steps): (bool, usize), mouth: Vector) -> Option<f64> {
+        let count = self.points.len();
+        let beside = |k: usize| {
+            if is_end { self.at(i + steps + k) - self.at(i + steps) } else { self.points[i] - self.at(i + count - k) }
+        };
+        let width = mouth.norm();
+        let (mut least, mut is_next) = (f64::INFINITY, None);
+        for k in 1..(count - steps).min(MOST_STEPS) {
+            let way = beside(k);
+            let turn = angle::turn(way, mouth).abs();
+            least = least.min(turn);
+            if way.norm() >= 2.0 * self.slack {
+                is_next.get_or_insert(turn <= NEXT_TURN + self.slack.atan2(way.norm()));
+            }
+            if way.norm() >= width {
+                break;
+            }
+        }
+        (least <= MOUTH_TURN + self.slack.atan2(width) && is_next.unwrap_or(true)).then_some(least)
+    }
+}
+
+/// Whether a length lies between two, to rounding.
+fn is_within(length: f64, [least, most]: [f64; 2], slack: f64) -> bool {
+    (least - slack..=most + slack).contains(&length)
+}
+
+impl Way {
+    /// What it looks like, and the middle of its bottom.
+    fn form(&self, slack: f64) -> Option<(NotchForm, [f64; 2])> {
+        if is_within(self.width, V_MOUTH, slack) && self.is_v(slack) {
+            return Some((NotchForm::V, self.points[self.apex()]));
+        }
+        if !is_within(self.width, MOUTH, slack) {
+            return None;
+        }
+        if let Some(bottom) = self.castle(slack) {
+            return Some((NotchForm::Castle, bottom));
+        }
+        self.is_u(slack).then_some((NotchForm::U, [self.width / 2.0, self.depth]))
+    }
+
+    /// The vertex that lies deepest.
+    fn apex(&self) -> usize {
+        (0..self.points.len()).max_by(|&a, &b| self.points[a][1].total_cmp(&self.points[b][1])).unwrap_or(0)
+    }
+
+    fn place(&self, k: usize) -> Point {
+        Point::new(self.points[k][0], self.points[k][1])
+    }
+
+    /// Whether the vertices between two lie on the line between them.
+    fn is_straight(&self, [from, to]: [usize; 2], slack: f64) -> bool {
+        let [a, b] = [from, to].map(|k| self.place(k));
+        (from + 1..to).all(|k| polyline::distance_to_segment(self.place(k), a, b) <= slack)
+    }
+
+    /// Two legs, equal within a quarter.
+    fn is_v(&self, slack: f64) -> bool {
+        let (apex, last) = (self.apex(), self.points.len() - 1);
+        let legs = [0, last].map(|end| (self.place(apex) - self.place(end)).norm());
+        let [shorter, longer] = [legs[0].min(legs[1]), legs[0].max(legs[1])];
+        longer <= LEG_RATIO * shorter + slack
+            && self.is_straight([0, apex], slack)
+            && self.is_straight([apex, last], slack)
+    }
+
+    /// The middle of the bottom, if it is a rectangle.
+    fn castle(&self, slack: f64) -> Option<[f64; 2]> {
+        let last = self.points.len() - 1;
+        let low = |k: &usize| self.points[*k][1] >= self.depth - slack;
+        let (left, right) = ((1..last).find(low)?, (1..last).rfind(low)?);
+        let most = slack + LEAN * self.depth.min(self.width);
+        let leans = [self.points[left][0].abs(), (self.points[right][0] - self.width).abs()];
+        let is_castle = leans.into_iter().all(|lean| lean <= most)
+            && self.is_straight([0, left], slack)
+            && self.is_straight([left, right], slack)
+            && self.is_straight([right, last], slack)
+            && [left, right].into_iter().all(|k| self.is_corner(k, slack));
+        let middle = self.place(left) + (self.place(right) - self.place(left)) / 2.0;
+        is_castle.then_some([middle.x, middle.y])
+    }
+
+    /// Whether it turns by nearly a right angle at a vertex, and not little by little around it.
+    fn is_corner(&self, k: usize, slack: f64) -> bool {
+        let least = (self.depth.min(self.width) / 4.0).max(2.0 * slack);
+        let at = self.place(k);
+        let far = |place: &Point| (place - at).norm() >= least;
+        let before = (0..k).rev().map(|i| self.place(i)).find(far).unwrap_or_else(|| self.place(0));
+        let after = (k + 1..self.points.len()).map(|i| self.place(i)).find(far);
+        let after = after.unwrap_or_else(|| self.place(self.points.len() - 1));
+        angle::is_turned(at - before, after - at, CORNER)
+    }
+
+    /// A way down, across and up again that fills most of the rectangle around it.
+    fn is_u(&self, slack: f64) -> bool {
+        let (apex, last) = (self.apex(), self.points.len() - 1);
+        let (left, right) = (-slack - LEAN * self.width, self.width * (1.0 + LEAN) + slack);
+        let steps = || self.points.windows(2);
+        let is_round = self.points.iter().all(|point| (left..=right).contains(&point[0]))
+            && steps().all(|ends| ends[1][0] >= ends[0][0] - 2.0 * slack)
+            && steps().take(apex).all(|ends| ends[1][1] >= ends[0][1] - 2.0 * slack)
+            && steps().skip(apex).all(|ends| ends[1][1] <= ends[0][1] + 2.0 * slack);
+        let doubled: f64 = steps().map(|ends| (ends[1][0] - ends[0][0]) * (ends[1][1] + ends[0][1])).sum();
+        last > 3 && is_round && doubled / 2.0 >= U_AREA * self.width * self.depth
+    }
+}

@@ -1,0 +1,355 @@
+//! Spike: ways of an outline that go out and straight back, and boxes that are too narrow to be anything else, become slits.
+//!
+//! Needs: welded contours. From the tip of such a way, or its narrow bottom, both sides lead back to the mouth:
+//!
+//! - sides within rounding of each other are one line that is drawn twice. 1 to 25 mm of it is a slit; less that comes back to
+//!   its root to the bit is the jitter of a digitiser and is dropped; all else stays as it is drawn;
+//! - sides up to `notch.box_max_mm` apart and 1.5 to 15 mm long are a box or a needle, and that is a slit along its middle.
+//!
+//! Where the way does not come back to its root to the bit, the outline must leave the mouth to both sides: sides that go on
+//! are those of a strap, or of a corner. A way that bends is cut by its straight stretches. Leaves true: three segments at
+//! least in each outline; these run straight over the mouths, and each slit starts on the edge at the middle of its mouth.
+
+use rayon::prelude::*;
+
+use super::MarkerPass;
+use crate::diagnostic::Diagnostics;
+use crate::geom::{Point, Vector, bits, polyline};
+use crate::ir::list::{Joint, Range, Segment, SegmentList};
+use crate::ir::marker::{Marker, Notch, NotchKind};
+use crate::machine::Job;
+
+pub(super) const PASS: MarkerPass =
+    MarkerPass { name: "spike", about: "makes slits of narrow boxes and of ways out and back in an outline", run };
+
+/// Lengths of a line that is drawn out and back, mm: shorter ones are jitter, longer ones no notch.
+const SHORTEST: f64 = 1.0;
+const LONGEST: f64 = 25.0;
+/// Depths of boxes, mm.
+const BOX_DEPTH: [f64; 2] = [1.5, 15.0];
+/// How far the rounding of two points to a grid may move one against the other, in units of the grid: its diagonal.
+const ROUNDING: f64 = std::f64::consts::SQRT_2;
+/// The same where there is no grid, mm: files without one are written with two or three decimals.
+const LEAST_SLACK: f64 = 0.01;
+/// Cosine of the least angle between a slit and the outline beside its mouth: 25 degrees.
+const LEAVING: f64 = 0.906;
+/// The outline beside a mouth has its direction over so much of it, mm: shorter segments may have that of the grid.
+const BESIDE: f64 = 1.0;
+/// Vertices that one side may have, and that are looked at beside a mouth: a guard against tangles.
+const MOST_STEPS: usize = 256;
+/// How often an outline is looked at again, since a way may have ways of its own.
+const MOST_ROUNDS: usize = 8;
+/// What an outline has left at least, segments.
+const LEAST_LEFT: usize = 3;
+
+fn run(marker: &mut Marker, job: &Job, _: &mut Diagnostics) {
+    let Marker { pieces, list, unit, .. } = marker;
+    let measure = Measure::new(*unit, job);
+    let outlines: Vec<[usize; 2]> = pieces
+        .par_iter()
+        .enumerate()
+        .flat_map_iter(|(i, piece)| {
+            let closed = piece.contours.iter().enumerate().filter(|(_, contour)| contour.closed);
+            let may_be = closed.filter(|(_, contour)| measure.has_tip(&list.points(contour.range)));
+            may_be.map(|(k, _)| [i, k]).collect::<Vec<_>>()
+        })
+        .collect();
+    for [i, k] in outlines {
+        let slits = prune(list, &mut pieces[i].contours[k].range, measure);
+        let piece = &mut pieces[i];
+        if !slits.is_empty() {
+            piece.notches.extend(slits);
+            piece.notches.sort_by_key(|notch| notch.span); // stable: what comes from no block keeps its order
+        }
+    }
+}
+
+/// Takes the ways out of an outline, again until there are no more: the slits that they are.
+fn prune(list: &mut SegmentList, range: &mut Range, measure: Measure) -> Vec<Notch> {
+    let mut segments: Vec<Segment> = list.walk(*range).map(|(_, segment)| segment).collect();
+    let mut slits = Vec::new();
+    let mut is_changed = false;
+    for _ in 0..MOST_ROUNDS {
+        let ways = ways(&segments, measure);
+        if ways.is_empty() {
+            break;
+        }
+        slits.extend(ways.iter().flat_map(|way| way.slits.iter().copied()));
+        segments = without(&segments, &ways);
+        is_changed = true;
+    }
+    if is_changed && let Some(rest) = list.append(segments) {
+        *range = rest;
+    }
+    slits
+}
+
+/// How ways are told from what else lies near itself, mm.
+#[derive(Debug, Clone, Copy)]
+struct Measure {
+    /// What rounding may part.
+    slack: f64,
+    /// Greatest distance between two sides.
+    width: f64,
+}
+
+/// A way out and back of an outline.
+#[derive(Debug)]
+struct Way {
+    /// Its first segment and how many it has.
+    first: usize,
+    count: usize,
+    /// Where the outline goes on.
+    root: Point,
+    /// What is cut for it.
+    slits: Vec<Notch>,
+}
+
+impl Measure {
+    fn new(unit: f64, job: &Job) -> Self {
+        let slack = if unit > 0.0 { ROUNDING * unit } else { LEAST_SLACK };
+        Self { slack, width: job.profile.notch.box_max_mm + slack }
+    }
+
+    /// Whether a closed line has a tip; the last of its points is the first again.
+    fn has_tip(self, points: &[Point]) -> bool {
+        let count = points.len() - 1;
+        if count <= LEAST_LEFT {
+            return false;
+        }
+        let most = self.width * self.width;
+        let mut before = points[count] - points[count - 1];
+        let mut bottom = points[1] - points[0];
+        for i in 0..count {
+            let next = if i + 2 <= count { points[i + 2] - points[i + 1] } else { points[1] - points[0] };
+            if is_tip([before, bottom, next], most) {
+                return true;
+            }
+            (before, bottom) = (bottom, next);
+        }
+        false
+    }
+}
+
+/// Whether a line turns back where the first of three segments ends, or over the second when that is short; `most` is the
+/// square of how long that may be.
+fn is_tip([before, bottom, next]: [Vector; 3], most: f64) -> bool {
+    before.dot(&bottom) < 0.0 || before.dot(&next) < 0.0 && bottom.norm_squared() <= most
+}
+
+/// The ways of an outline, none of which has a segment of another.
+fn ways(segments: &[Segment], measure: Measure) -> Vec<Way> {
+    let count = segments.len();
+    let mut found: Vec<Way> = Vec::new();
+    if count <= LEAST_LEFT {
+        return found;
+    }
+    let way = |i: usize| segments[i % count].to - segments[i % count].from;
+    let most = measure.width * measure.width;
+    let (mut is_taken, mut left) = (vec![false; count], count);
+    for i in 0..count {
+        let [before, bottom, next] = [i + count - 1, i, i + 1].map(way);
+        if !is_tip([before, bottom, next], most) {
+            continue;
+        }
+        // The bottom of a box first: a way back that starts askew may look like a tip of its own.
+        let bottoms = [bottom.norm_squared() <= most && before.dot(&next) < 0.0, before.dot(&bottom) < 0.0];
+        let tips = [[i, i + 1], [i, i]].into_iter().zip(bottoms).filter(|(_, may_be)| *may_be);
+        let best = tips.filter_map(|(tip, _)| Sides::new(segments, tip).way(measure)).max_by_key(|way| way.count);
+        let Some(way) = best else { continue };
+        let mut of_way = (way.first..way.first + way.count).map(|k| k % count);
+        if way.count + LEAST_LEFT > left || of_way.clone().any(|k| is_taken[k]) {
+            continue;
+        }
+        left -= way.count;
+        of_way.by_ref().for_each(|k| is_taken[k] = true);
+        found.push(way);
+    }
+    found
+}
+
+/// The two sides of a way, from its tip on.
+struct Sides<'a> {
+    segments: &'a [Segment],
+    /// The vertices at the ends of the bottom, the same at a tip.
+    tip: [usize; 2],
+    /// How many vertices each side has left behind, back and ahead.
+    steps: [usize; 2],
+    /// Greatest distance between the two so far.
+    apart: f64,
+}
+
+impl<'a> Sides<'a> {
+    fn new(segments: &'a [Segment], tip: [usize; 2]) -> Self {
+        let mut sides = Self { segments, tip, steps: [0; 2], apart: 0.0 };
+        sides.apart = (sides.ahead(0) - sides.back(0)).norm();
+        sides
+    }
+
+    /// The vertex so many steps before the tip.
+    fn back(&self, steps: usize) -> Point {
+        let count = self.segments.len();
+        self.segments[(self.tip[0] + count - steps % count) % count].from
+    }
+
+    /// The vertex so many steps behind it.
+    fn ahead(&self, steps: usize) -> Point {
+        self.segments[(self.tip[1] + steps) % self.segments.len()].from
+    }
+
+    /// Follows both sides as far as they stay beside each other: the longest way that ends at a mouth.
+    fn way(mut self, measure: Measure) -> Option<Way> {
+        let most = self.segments.len().saturating_sub(LEAST_LEFT).min(MOST_STEPS);
+        let mut longest = None;
+        let mut reached = 0.0;
+        while self.steps[0] + self.steps[1] < most && reached <= LONGEST + measure.width {
+            let [back, ahead] = self.steps;
+            let (here, next) = ([self.back(back), self.ahead(ahead)], [self.back(back + 1), self.ahead(ahead + 1)]);
+            let both = (next[1] - next[0]).norm();
+            let one = polyline::distance_to_segment(next[0], here[1], next[1]);
+            let other = polyline::distance_to_segment(next[1], here[0], next[0]);
+            if both <= measure.width {
+                self.steps = [back + 1, ahead + 1];
+                self.apart = self.apart.max(both);
+                longest = self.judged(measure).or(longest);
+            } else if one <= measure.width && one <= other {
+                (self.steps[0], self.apart) = (back + 1, self.apart.max(one));
+            } else if other <= measure.width {
+                (self.steps[1], self.apart) = (ahead + 1, self.apart.max(other));
+            } else {
+                break;
+            }
+            if self.steps[0] != self.steps[1] && self.gap() <= measure.width {
+                longest = self.judged(measure).or(longest);
+            }
+            reached = (self.back(self.steps[0]) - self.back(0)).norm();
+        }
+        longest
+    }
+
+    /// How wide the way is where its sides end now.
+    fn gap(&self) -> f64 {
+        (self.ahead(self.steps[1]) - self.back(self.steps[0])).norm()
+    }
+
+    /// The way up to here, if it is one.
+    fn judged(&self, measure: Measure) -> Option<Way> {
+        let [back, ahead] = self.steps;
+        if back == 0 || ahead == 0 {
+            return None;
+        }
+        let mouth = [self.back(back), self.ahead(ahead)];
+        let is_exact = bits(mouth[0]) == bits(mouth[1]);
+        let middle = |[a, b]: [Point; 2]| a + (b - a) / 2.0;
+        let (root, tip) = (middle(mouth), middle([self.back(0), self.ahead(0)]));
+        let depth = (tip - root).norm();
+        let is_line = self.apart <= measure.slack;
+        let outwards: Vec<Point> = (0..=back).rev().map(|k| self.back(k)).collect();
+        let line = [&[root], &outwards[1..back], &[tip]].concat();
+        let length = polyline::length(&line);
+        if is_exact && is_line && length < SHORTEST {
+            return Some(self.taken(root, Vec::new()));
+        }
+        let [least, most] = if is_line {
+            [SHORTEST - measure.slack, LONGEST]
+        } else {
+            [BOX_DEPTH[0] - measure.slack, BOX_DEPTH[1] + measure.slack]
+        };
+        let off = self.gap().max(self.apart) / 2.0 + measure.slack;
+        let sides = || (0..=back).map(|k| self.back(k)).chain((0..=ahead).map(|k| self.ahead(k)));
+        if is_line && is_exact && length <= LONGEST {
+            let ends = stretches(&line, measure.slack);
+            return Some(self.taken(root, ends.into_iter().map(|[from, to]| [line[from], line[to]]).collect()));
+        }
+        let is_slit = (least..=most).contains(&depth)
+            && sides().all(|point| polyline::distance_to_segment(point, root, tip) <= off)
+            && self.leaves((tip - root) / depth, measure);
+        is_slit.then(|| self.taken(root, vec![[root, tip]]))
+    }
+
+    /// Whether the outline leaves the mouth to both sides of a way in that direction.
+    fn leaves(&self, along: Vector, measure: Measure) -> bool {
+        let [back, ahead] = self.steps;
+        let least = BESIDE.max(2.0 * measure.slack);
+        let beside = |point: &dyn Fn(usize) -> Point, from: usize| {
+            let far = (1..MOST_STEPS.min(self.segments.len())).map(|k| point(from + k) - point(from));
+            far.reduce(|so_far, next| if so_far.norm() < least { next } else { so_far })
+        };
+        let sides = [beside(&|k| self.back(k), back), beside(&|k| self.ahead(k), ahead)];
+        sides.into_iter().flatten().all(|way| way.dot(&along).abs() < LEAVING * way.norm())
+    }
+
+    /// The way, with a slit between each two ends.
+    fn taken(&self, root: Point, cuts: Vec<[Point; 2]>) -> Way {
+        let total = self.segments.len();
+        let [back, ahead] = self.steps;
+        let first = (self.tip[0] + total - back) % total;
+        let count = back + ahead + (self.tip[1] - self.tip[0]);
+        let percent = (first..first + count).map(|k| self.segments[k % total].percent).min().unwrap_or_default();
+        let span = self.segments[(self.tip[0] + total - 1) % total].span;
+        // Of a way in several stretches each has the block that leads to its end.
+        let span_of = |to: Point| {
+            let leads = (first..first + back).map(|k| &self.segments[k % total]).find(|segment| segment.to == to);
+            leads.map_or(span, |segment| segment.span)
+        };
+        let slit = |[root, tip]: [Point; 2]| Notch { kind: NotchKind::Slit, root, tip, percent, span: span_of(tip) };
+        Way { first, count, root, slits: cuts.into_iter().map(slit).collect() }
+    }
+}
+
+/// The straight stretches of a line, by their ends: none of their places is farther off them than `slack`, mm.
+fn stretches(line: &[Point], slack: f64) -> Vec<[usize; 2]> {
+    let mut stretches = Vec::new();
+    let mut first = 0;
+    while first + 1 < line.len() {
+        let is_straight = |&last: &usize| {
+            let between = &line[first + 1..last];
+            between.iter().all(|&at| polyline::distance_to_segment(at, line[first], line[last]) <= slack)
+        };
+        let last = (first + 1..line.len()).take_while(is_straight).last().unwrap_or(first + 1);
+        stretches.push([first, last]);
+        first = last;
+    }
+    stretches
+}
+
+/// An outline that runs straight over the mouths of its ways.
+fn without(segments: &[Segment], ways: &[Way]) -> Vec<Segment> {
+    let count = segments.len();
+    let mut way_of: Vec<Option<&Way>> = vec![None; count];
+    for way in ways {
+        (way.first..way.first + way.count).for_each(|k| way_of[k % count] = Some(way));
+    }
+    let mut left: Vec<Segment> = Vec::with_capacity(count);
+    // What is asked at the mouth is asked where the outline goes on; at the start of the contour, for all of it.
+    let mut asked = Joint::default();
+    for (i, segment) in segments.iter().enumerate() {
+        let [before, after] = [i + count - 1, i + 1].map(|k| way_of[k % count]);
+        if let Some(way) = way_of[i] {
+            if i == way.first || i == 0 {
+                asked = merged(asked, segment.joint);
+            }
+            continue;
+        }
+        let from = before.map_or(segment.from, |way| way.root);
+        let to = after.map_or(segment.to, |way| way.root);
+        if from == to {
+            asked = merged(asked, segment.joint);
+            continue;
+        }
+        let joint = merged(std::mem::take(&mut asked), segment.joint);
+        left.push(Segment { from, to, joint, ..*segment });
+    }
+    if let Some(first) = left.first_mut() {
+        first.joint = merged(first.joint, Joint { lift: asked.lift, ..Joint::default() });
+    }
+    left
+}
+
+fn merged(one: Joint, other: Joint) -> Joint {
+    Joint {
+        lift: one.lift | other.lift,
+        full_advance: one.full_advance | other.full_advance,
+        no_overcut: one.no_overcut | other.no_overcut,
+    }
+}
