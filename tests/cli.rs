@@ -21,7 +21,7 @@ fn keys(value: &Value) -> Vec<&str> {
 }
 
 /// The keys of the figures as JSON, sorted.
-const FIGURES: [&str; 23] = [
+const FIGURES: [&str; 25] = [
     "axes",
     "closed_contours",
     "contours",
@@ -31,11 +31,13 @@ const FIGURES: [&str; 23] = [
     "errors",
     "extent_mm",
     "follow",
+    "knife",
     "labels",
     "lifts",
     "notch_style",
     "notches",
     "pieces",
+    "profile",
     "runs",
     "sides",
     "spent",
@@ -65,7 +67,8 @@ fn a_compile_writes_the_program_with_its_provenance_and_a_summary() {
     assert_eq!(meta["profile_sha256"], MachineProfile::default().digest());
     assert_eq!((&meta["target"], &meta["verified"]), (&Value::from("csv"), &Value::from("yes")));
     assert_eq!(meta["period_ms"], 1.0);
-    let expected = ["period_ms", "profile_sha256", "source", "source_sha256", "target", "units", "verified", "version"];
+    let expected =
+        ["period_ms", "profile", "profile_sha256", "source", "source_sha256", "target", "units", "verified", "version"];
     assert_eq!(keys(&meta), expected);
 }
 

@@ -183,10 +183,14 @@ fn program(last: &Motion, runs: u64, context: &Context) -> String {
     let period = context.job.profile.time.period();
     let moving = last.phases.iter().filter(|phase| phase.kind != Kind::Rest);
     let ticks = last.first_tick + moving.clone().map(|phase| u64::from(phase.ticks)).sum::<u64>();
+    let knife = &context.job.profile.knife;
     let time = moving.fold(last.first_time, |sum, phase| sum + phase.duration);
     format!(
-        "\n],\n\"program\": {{\"runs\": {runs}, \"pieces\": {}, \"time_s\": {}, \"period_s\": {}, \"ticks\": {ticks}, \
+        "\n],\n\"program\": {{\"profile\": {}, \"knife_width_mm\": {}, \"knife_radius_mm\": {}, \"runs\": {runs}, \"pieces\": {}, \"time_s\": {}, \"period_s\": {}, \"ticks\": {ticks}, \
          \"setpoints_s\": {}}}",
+        serde_json::Value::from(context.job.origin.name()),
+        exact(knife.width_mm),
+        fixed(knife.radius(), DECIMALS),
         context.marker.pieces.len(),
         exact(time),
         exact(period),

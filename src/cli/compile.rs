@@ -10,7 +10,7 @@ use super::choices::{self, Format};
 use super::files::{self, Asked, Destination, Draft, MadeDirectory, Place};
 use super::options::{Choice, Reading, counted};
 use super::provenance::{self, Made};
-use super::{DONE, FAULTY, Finished, Stdout, USAGE, failure, report, say, summary};
+use super::{DONE, FAULTY, Finished, Stdout, USAGE, failure, report, say, setup, summary};
 use crate::back::Target;
 use crate::diagnostic::{Diagnostics, Severity, code, render};
 use crate::machine::Job;
@@ -194,12 +194,13 @@ impl Compile<'_> {
     fn finish(&self, compiled: Option<&Compiled>, diagnostics: &Diagnostics, paths: &[PathBuf]) -> Finished {
         let mut said = render(diagnostics, &self.source);
         let stdout = match self.arguments.format {
-            Format::Json => report::json(compiled.map(|c| &c.report), diagnostics, &self.source),
+            Format::Json => report::json(compiled.map(|c| &c.report), diagnostics, (&self.source, &self.job)),
             Format::Text => String::new(),
         };
         match (compiled, self.arguments.format) {
             (Some(Compiled { report, verdict }), Format::Text) => {
                 said.push_str(&summary::text(report, self.source.name(), diagnostics));
+                said.push_str(&setup::text(&self.job));
                 said.push_str(&summary::choice(&self.job));
                 said.push_str(&summary::verdict(verdict.as_ref()));
             }

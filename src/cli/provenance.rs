@@ -22,6 +22,8 @@ struct Provenance<'a> {
     /// Name of the input, without its directory.
     source: String,
     source_sha256: String,
+    /// Name of the machine profile, without its directory, or that of the default machine.
+    profile: &'a str,
     /// Of the values in effect, `--set` included.
     profile_sha256: String,
     target: &'a str,
@@ -68,6 +70,7 @@ pub(super) fn json(Made { source, job, target, verdict }: &Made) -> String {
         version: env!("CARGO_PKG_VERSION"),
         source: name.unwrap_or_else(|| source.name().to_owned()),
         source_sha256: sha256_hex(source.bytes()),
+        profile: job.origin.name(),
         profile_sha256: job.profile.digest(),
         target: target.name,
         period_ms: job.profile.time.period_ms,
