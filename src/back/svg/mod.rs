@@ -5,7 +5,7 @@
 //! any zoom, symbols are as large as the blade suggests: the whole shows pieces, a corner shows its overlaps.
 //!
 //! Layers from the bottom: pieces with their notches and numbers, labels, the knife's way (a group for each contour, notch
-//! and drill), the worst places that the verifier saw, the legend. In a browser the picture fills the window; a piece's number is a link
+//! and drill), the word `refused` where no program is written, the worst places that the verifier saw, the legend. In a browser the picture fills the window; a piece's number is a link
 //! to a view of that piece, and the legend links to the whole and to the actual size.
 
 mod findings;
@@ -51,6 +51,9 @@ fn tail(context: &Context, found: &[Finding], out: &mut dyn Output) -> io::Resul
     let shown = findings::worth_a_ring(found);
     let sheet = Sheet::of(context, &shown);
     let mut text = String::from("</g>\n");
+    if found.iter().any(|finding| !finding.holds()) {
+        text.push_str(&sheet.refused());
+    }
     text.push_str(&findings::layer(&shown, &sheet, &context.job.profile.knife));
     text.push_str(&sheet.legend(context, &shown, finding::counts(found)));
     text.push_str("</svg>\n");
