@@ -161,10 +161,10 @@ impl Machine {
         match &self.profile {
             Some(path) if !path.exists() => {
                 let path = path.display();
-                return Err(failure(
+                Err(failure(
                     format!("there is no profile `{path}`"),
                     format!("check the spelling, or begin one with `cutc profile init -o {path}`"),
-                ));
+                ))
             }
             Some(path) => files::read(path).map(Some),
             None => Ok(None),

@@ -84,7 +84,7 @@ impl Unit {
         let mut parts = text.split('/').map(str::trim);
         let mut unit = Self::named(parts.next()?)?;
         for part in parts {
-            let (name, power) = powered(part)?;
+            let (name, power) = powered(part);
             let time = Self::named(name).filter(|time| time.base == Base::Time)?;
             unit.per += power;
             unit.times *= time.over.powi(power);
@@ -131,13 +131,13 @@ impl Unit {
 }
 
 /// A name and the power behind it: `s`, `s2`, `s^2`.
-fn powered(text: &str) -> Option<(&str, i32)> {
+fn powered(text: &str) -> (&str, i32) {
     for (ends, power) in [(["^2", "2", "\u{b2}"], 2), (["^3", "3", "\u{b3}"], 3)] {
         if let Some(name) = ends.iter().find_map(|end| text.strip_suffix(end)) {
-            return Some((name.trim_end(), power));
+            return (name.trim_end(), power);
         }
     }
-    Some((text, 1))
+    (text, 1)
 }
 
 /// The number at the start of a text, also a quotient such as `1/4`, and what stands behind it; `None` when one of the
