@@ -16,7 +16,7 @@
 //! each motion and each rest is stretched to the next one, and at least one: `ticks` says how many a run really takes, and
 //! all of them add up to the program's `ticks` and, times the period, to `setpoints_s`, the time of the last setpoint.
 //!
-//! Runs are written as they come; `program`, which sums them up, stands behind them.
+//! Runs are written as they come; `program`, which sums them up and names profile and knife, stands behind them.
 
 use std::io;
 
