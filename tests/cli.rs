@@ -21,7 +21,7 @@ fn keys(value: &Value) -> Vec<&str> {
 }
 
 /// The keys of the figures as JSON, sorted.
-const FIGURES: [&str; 23] = [
+const FIGURES: [&str; 25] = [
     "axes",
     "closed_contours",
     "contours",
@@ -31,11 +31,13 @@ const FIGURES: [&str; 23] = [
     "errors",
     "extent_mm",
     "follow",
+    "knife",
     "labels",
     "lifts",
     "notch_style",
     "notches",
     "pieces",
+    "profile",
     "runs",
     "sides",
     "spent",
@@ -65,7 +67,8 @@ fn a_compile_writes_the_program_with_its_provenance_and_a_summary() {
     assert_eq!(meta["profile_sha256"], MachineProfile::default().digest());
     assert_eq!((&meta["target"], &meta["verified"]), (&Value::from("csv"), &Value::from("yes")));
     assert_eq!(meta["period_ms"], 1.0);
-    let expected = ["period_ms", "profile_sha256", "source", "source_sha256", "target", "units", "verified", "version"];
+    let expected =
+        ["period_ms", "profile", "profile_sha256", "source", "source_sha256", "target", "units", "verified", "version"];
     assert_eq!(keys(&meta), expected);
 }
 
@@ -532,4 +535,63 @@ fn the_help_is_enough_to_begin() {
     room.expect("", USAGE);
     room.expect("complie circle.cut", USAGE);
     assert!(room.expect("--version", DONE).0.starts_with("cutc "));
+}
+
+#[test]
+fn a_picture_of_what_was_refused_is_written_and_the_program_is_not() {
+    let room = Room::new();
+    room.expect("compile circle.cut -t csv,svg", DONE);
+    let (_, stderr) = room.expect(&format!("compile circle.cut -t csv,svg {TOO_STRICT}"), FAULTY);
+    for words in [
+        "no program was written to `circle.csv`",
+        "moved to `circle.csv.stale`",
+        "wrote `circle.svg`, a picture of what was refused",
+    ] {
+        assert!(stderr.contains(words), "{words}\n{stderr}");
+    }
+    assert!(!room.has("circle.csv") && !room.has("circle.csv.meta.json"));
+    let picture = room.text("circle.svg");
+    for words in [">refused</text>", "class=\"fails\"", "REFUSED, no program was written", "verify/body"] {
+        assert!(picture.contains(words), "{words}");
+    }
+    let meta: Value = serde_json::from_slice(&room.read("circle.svg.meta.json")).expect("JSON");
+    assert_eq!(meta["verified"], "refused");
+    let (piped, _) = room.expect(&format!("compile circle.cut -t svg -o - {TOO_STRICT}"), FAULTY);
+    assert_eq!(piped, picture);
+    // What is never read has no picture.
+    room.expect("compile junk.cut -t svg", FAULTY);
+    assert!(!room.has("junk.svg"));
+}
+
+#[test]
+fn what_the_planner_refuses_is_marked_in_the_picture() {
+    let room = Room::new();
+    let strict = "--set table.x_mm=[0,100] --set table.y_mm=[0,1000] --set table.strict=true";
+    let (_, stderr) = room.expect(&format!("compile circle.cut -t gcode,svg {strict}"), FAULTY);
+    assert!(
+        stderr.contains("no program was written to `circle.ngc`") && stderr.contains("wrote `circle.svg`"),
+        "{stderr}"
+    );
+    let picture = room.text("circle.svg");
+    for words in [">refused</text>", "class=\"fails\"", "path/off-table-strict  FAILS, at X "] {
+        assert!(picture.contains(words), "{words}");
+    }
+    assert!(!room.has("circle.ngc"));
+}
+
+#[test]
+fn programs_and_figures_name_machine_and_knife() {
+    let room = Room::new();
+    room.write("left (2).toml", b"knife.width_mm = \"0.28 in\"\n");
+    room.write("left.toml", &room.read("left (2).toml"));
+    let (_, stderr) = room.expect("compile circle.cut", DONE);
+    assert!(stderr.contains("machine    default machine; no -p was given\n  knife      6.6 mm wide"), "{stderr}");
+    let (stdout, _) = room.expect("compile circle.cut -p left.toml --format json", DONE);
+    let figures: Value = serde_json::from_str(&stdout).expect("JSON");
+    assert_eq!((&figures["profile"]["file"], &figures["knife"]["axis"]), (&"left.toml".into(), &"assumed".into()));
+    let gcode = ["compile", "circle.cut", "-t", "gcode", "-p", "left (2).toml"];
+    let ran = room.command("").args(gcode).output().expect("it runs");
+    assert!(ran.status.success(), "{}", String::from_utf8_lossy(&ran.stderr));
+    let program = room.text("circle.ngc");
+    assert!(program.contains("(machine: left _2_.toml)\n(knife: 7.112 mm wide, axis 0.762 mm behind the tip)\n"));
 }

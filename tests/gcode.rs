@@ -346,8 +346,8 @@ fn a_line_that_cannot_be_read_is_named_with_the_reason() {
     };
     check("G94\n", "G93\n", "line 3 is `G93` where `G94` belongs");
     check("G64 P0.05 Q0\n", "", "line 2 is `G94` where `G64 P0.05 Q0` belongs");
-    check("M64 P0\n", "M3\n", "line 9 has `M3`, which is no word of the target gcode with this profile");
-    check("G4 P", "G4 X", "line 6 is `G4 X0.060` where a rest of 0.06 s belongs");
+    check("M64 P0\n", "M3\n", "line 11 has `M3`, which is no word of the target gcode with this profile");
+    check("G4 P", "G4 X", "line 8 is `G4 X0.060` where a rest of 0.06 s belongs");
     check("G4 P0.080", "G4 P0.010", "where a rest of 0.08 s belongs");
     check("\nG2 ", "\n(x) G1 X500 Y500 C0 F60 (y))\nG2 ", "has `(x)`, which is no word");
     check("\nG2 ", "\n/G2 ", "has `/G2`, which is no word");

@@ -188,7 +188,7 @@ fn the_worst_places_are_ringed_red_where_a_rule_fails_and_amber_where_it_holds()
             "B  verify/overcut-part  1.500 mm, limit 1.000 mm: FAILS, at X 90.00 Y 80.00 mm, 1.500 s, block 3"
         )
     );
-    assert!(text.contains("FAILED: 1 of 2 rules are broken"));
+    assert!(text.contains("REFUSED, no program was written: 1 of 2 rules are broken"));
     let height = |text: &str| numbers(attribute(text, "viewBox"))[3];
     assert!(height(&text) > height(&plain) && elements(&text).len() > elements(&plain).len());
     assert_eq!(attribute(&text, "height"), format!("{:.3}mm", height(&text)));

@@ -16,7 +16,7 @@
 //! each motion and each rest is stretched to the next one, and at least one: `ticks` says how many a run really takes, and
 //! all of them add up to the program's `ticks` and, times the period, to `setpoints_s`, the time of the last setpoint.
 //!
-//! Runs are written as they come; `program`, which sums them up, stands behind them.
+//! Runs are written as they come; `program`, which sums them up and names profile and knife, stands behind them.
 
 use std::io;
 
@@ -183,10 +183,14 @@ fn program(last: &Motion, runs: u64, context: &Context) -> String {
     let period = context.job.profile.time.period();
     let moving = last.phases.iter().filter(|phase| phase.kind != Kind::Rest);
     let ticks = last.first_tick + moving.clone().map(|phase| u64::from(phase.ticks)).sum::<u64>();
+    let knife = &context.job.profile.knife;
     let time = moving.fold(last.first_time, |sum, phase| sum + phase.duration);
     format!(
-        "\n],\n\"program\": {{\"runs\": {runs}, \"pieces\": {}, \"time_s\": {}, \"period_s\": {}, \"ticks\": {ticks}, \
+        "\n],\n\"program\": {{\"profile\": {}, \"knife_width_mm\": {}, \"knife_radius_mm\": {}, \"runs\": {runs}, \"pieces\": {}, \"time_s\": {}, \"period_s\": {}, \"ticks\": {ticks}, \
          \"setpoints_s\": {}}}",
+        serde_json::Value::from(context.job.origin.name()),
+        exact(knife.width_mm),
+        fixed(knife.radius(), DECIMALS),
         context.marker.pieces.len(),
         exact(time),
         exact(period),

@@ -71,7 +71,8 @@ pub struct Parts<T> {
     pub head: fn(&Context, &mut dyn Output) -> io::Result<()>,
     /// Written for each form, in order.
     pub body: fn(&T, &Context, &mut dyn Output) -> io::Result<()>,
-    /// Written last, with what the verifier found in the setpoints of the same compile; may go back to the head.
+    /// Written last, with what the verifier found in the setpoints of the same compile, or why there is no program; may
+    /// go back to the head.
     pub tail: fn(&Context, &[Finding], &mut dyn Output) -> io::Result<()>,
 }
 

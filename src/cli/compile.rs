@@ -9,8 +9,8 @@ use tempfile::SpooledTempFile;
 use super::choices::{self, Format};
 use super::files::{self, Asked, Destination, Draft, MadeDirectory, Place};
 use super::options::{Choice, Reading, counted};
-use super::provenance::{self, Made};
-use super::{DONE, FAULTY, Finished, Stdout, USAGE, failure, report, say, summary};
+use super::provenance::{self, Made, Verified};
+use super::{DONE, FAULTY, Finished, Stdout, USAGE, failure, report, say, setup, summary};
 use crate::back::Target;
 use crate::diagnostic::{Diagnostics, Severity, code, render};
 use crate::machine::Job;
@@ -28,12 +28,13 @@ pub(super) struct Arguments {
     /// By default `<stem of FILE>.<extension of the target>` in the current directory. The input is never overwritten.
     /// A name without extension is taken for a directory that is there, else refused.
     /// Beside the program stands its `.meta.json`: what it was made from. A program is read back and judged before it
-    /// is written (see `cutc verify`); when it fails, or the compile does, nothing is written and an older program of
-    /// the same name is moved to `<name>.stale`.
+    /// is written (see `cutc verify`); when it fails, or the compile does, no program is written and an older one of
+    /// the same name is moved to `<name>.stale`. A picture is written all the same when the file can be read, with
+    /// `refused` across it and the places marked.
     #[arg(short, long)]
     out: Option<PathBuf>,
 
-    /// What to write; several, as in `-t csv,svg`, are written together or not at all
+    /// What to write; several programs are written together or not at all, as in `-t csv,svg`
     ///
     /// Without it the extension of -o chooses, as in `-o marker.svg`; else csv.
     #[arg(
@@ -66,6 +67,14 @@ pub(super) struct Arguments {
 
 /// Bytes of a program for standard output that are kept in memory; a longer one goes to a temporary file.
 const SPOOL_BYTES: usize = 64 << 20;
+
+/// What a compile left.
+struct Emitted {
+    /// The programs; `None` when they were refused.
+    compiled: Option<Compiled>,
+    /// Which of the targets are pictures of what was refused: they alone are worth keeping then.
+    pictures: Vec<bool>,
+}
 
 /// One compile, ready to run.
 struct Compile<'a> {
@@ -128,11 +137,11 @@ impl Compile<'_> {
     fn to_stdout(&self) -> anyhow::Result<Finished> {
         let mut spool = SpooledTempFile::new(SPOOL_BYTES);
         let mut diagnostics = Diagnostics::default();
-        let compiled = self.emit(vec![&mut spool], &mut diagnostics).map_err(|error| {
+        let Emitted { compiled, pictures } = self.emit(vec![&mut spool], &mut diagnostics).map_err(|error| {
             failure(format!("cannot spool the program: {error}"), "make room for temporary files, or write to a file")
         })?;
         let mut finished = self.finish(compiled.as_ref(), &diagnostics, &[]);
-        if compiled.is_some() {
+        if compiled.is_some() || pictures[0] {
             finished.stdout = Stdout::Program(spool);
         }
         Ok(finished)
@@ -140,66 +149,82 @@ impl Compile<'_> {
 
     fn to_files(&self, paths: &[PathBuf]) -> Finished {
         let mut diagnostics = Diagnostics::default();
-        let written = self.write(paths, &mut diagnostics);
-        let mut finished = self.finish(written.as_ref().unwrap_or(&None).as_ref(), &diagnostics, paths);
-        match written {
-            Ok(Some(_)) => {
-                for path in paths {
-                    say(&mut finished.stderr, format_args!("wrote `{}`", path.display()));
-                }
-            }
-            Ok(None) => finished.stderr.push_str(&move_aside(paths)),
+        let Emitted { compiled, pictures } = match self.write(paths, &mut diagnostics) {
+            Ok(emitted) => emitted,
             Err(error) => {
                 let aside = move_aside(paths);
                 let said = format!("{}error: {error:#}\n{aside}", render(&diagnostics, &self.source));
                 return Finished::text(String::new(), said, USAGE);
             }
+        };
+        let (shown, programs): (Vec<_>, Vec<_>) = paths.iter().cloned().zip(&pictures).partition(|(_, shows)| **shows);
+        let programs: Vec<PathBuf> = programs.into_iter().map(|(path, _)| path).collect();
+        let mut finished = self.finish(compiled.as_ref(), &diagnostics, &programs);
+        if compiled.is_some() {
+            for path in &programs {
+                say(&mut finished.stderr, format_args!("wrote `{}`", path.display()));
+            }
+        } else {
+            finished.stderr.push_str(&move_aside(&programs));
+        }
+        for (path, _) in shown {
+            say(&mut finished.stderr, format_args!("wrote `{}`, a picture of what was refused", path.display()));
         }
         finished
     }
 
-    /// Writes the programs and their provenance, all whole or none at all; `None` when the data has errors.
-    fn write(&self, paths: &[PathBuf], diagnostics: &mut Diagnostics) -> anyhow::Result<Option<Compiled>> {
+    /// Writes the programs and their provenance, all whole or none at all; of what is refused the pictures alone.
+    fn write(&self, paths: &[PathBuf], diagnostics: &mut Diagnostics) -> anyhow::Result<Emitted> {
         // Outlives the drafts in it.
         let _made = MadeDirectory::of(&paths[0])?;
         let mut programs = paths.iter().map(|path| Draft::new(path)).collect::<anyhow::Result<Vec<_>>>()?;
         let outs = programs.iter_mut().map(|program| program.file() as &mut dyn Medium).collect();
-        let Some(compiled) = self.emit(outs, diagnostics).map_err(|error| files::cannot_write(&paths[0], &error))?
-        else {
-            return Ok(None);
+        let emitted = self.emit(outs, diagnostics).map_err(|error| files::cannot_write(&paths[0], &error))?;
+        let verified = match &emitted.compiled {
+            None => Verified::Refused,
+            Some(Compiled { verdict: None, .. }) => Verified::No,
+            Some(Compiled { verdict: Some(_), .. }) => Verified::Yes,
         };
-        let mut metas = Vec::new();
-        for (path, target) in paths.iter().zip(&self.targets) {
+        let is_kept = |shows_refusal: bool| shows_refusal || emitted.compiled.is_some();
+        let mut drafts = Vec::new();
+        for ((path, target), &shows_refusal) in paths.iter().zip(&self.targets).zip(&emitted.pictures) {
+            if !is_kept(shows_refusal) {
+                continue;
+            }
             let path = files::meta(path);
             let mut meta = Draft::new(&path)?;
-            let made = Made { source: &self.source, job: &self.job, target, verdict: compiled.verdict.as_ref() };
-            let text = provenance::json(&made);
+            let text = provenance::json(&Made { source: &self.source, job: &self.job, target, verified });
             meta.file().write_all(text.as_bytes()).map_err(|error| files::cannot_write(&path, &error))?;
-            metas.push(meta);
+            drafts.push(meta);
         }
+        let kept = programs.into_iter().zip(&emitted.pictures).filter(|(_, shows)| is_kept(**shows));
+        drafts.extend(kept.map(|(program, _)| program));
         // Nothing takes its place before all is there.
-        metas.into_iter().chain(programs).try_for_each(Draft::publish)?;
-        Ok(Some(compiled))
+        drafts.into_iter().try_for_each(Draft::publish)?;
+        Ok(emitted)
     }
 
-    /// Compiles into `outs`, one for each target, which are worth nothing unless something comes back.
-    fn emit(&self, outs: Vec<&mut dyn Medium>, diagnostics: &mut Diagnostics) -> io::Result<Option<Compiled>> {
+    /// Compiles into `outs`, one for each target, which are worth nothing but as [`Emitted`] says.
+    fn emit(&self, outs: Vec<&mut dyn Medium>, diagnostics: &mut Diagnostics) -> io::Result<Emitted> {
         let Arguments { reading, no_verify, .. } = self.arguments;
         let mut products: Vec<Product> =
-            self.targets.iter().zip(outs).map(|(target, out)| Product { target, out }).collect();
-        pipeline::compile_all(&self.source, &self.job, (reading.from, !no_verify), &mut products, diagnostics)
+            self.targets.iter().zip(outs).map(|(target, out)| Product::new(target, out)).collect();
+        let asked = (reading.from, !no_verify);
+        let compiled = pipeline::compile_all(&self.source, &self.job, asked, &mut products, diagnostics)?;
+        Ok(Emitted { compiled, pictures: products.iter().map(|product| product.shows_refusal).collect() })
     }
 
     /// What is said about the data and the program, which goes to a file or to standard output.
     fn finish(&self, compiled: Option<&Compiled>, diagnostics: &Diagnostics, paths: &[PathBuf]) -> Finished {
         let mut said = render(diagnostics, &self.source);
         let stdout = match self.arguments.format {
-            Format::Json => report::json(compiled.map(|c| &c.report), diagnostics, &self.source),
+            Format::Json => report::json(compiled.map(|c| &c.report), diagnostics, (&self.source, &self.job)),
             Format::Text => String::new(),
         };
         match (compiled, self.arguments.format) {
             (Some(Compiled { report, verdict }), Format::Text) => {
                 said.push_str(&summary::text(report, self.source.name(), diagnostics));
+                said.push_str(&setup::text(&self.job));
                 said.push_str(&summary::choice(&self.job));
                 said.push_str(&summary::verdict(verdict.as_ref()));
             }

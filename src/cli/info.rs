@@ -10,9 +10,10 @@ use super::facts::Facts;
 use super::labels::{self, Labelled};
 use super::options::Reading;
 use super::times::{self, Timed};
-use super::{DONE, FAULTY, Finished, drawn, files, report, summary};
+use super::{DONE, FAULTY, Finished, drawn, files, report, setup, summary};
 use crate::diagnostic::{Diagnostics, render};
 use crate::ir::Marker;
+use crate::machine::Job;
 use crate::pipeline::{self, Report};
 use crate::source::Source;
 
@@ -40,7 +41,7 @@ pub(super) struct Arguments {
 
     /// How to give the figures
     ///
-    /// JSON has the keys of `cutc compile`, with null for what only planning knows, and `notch_depths`, `speeds` and
+    /// JSON has the keys of `cutc compile`, `profile` and `knife` among them, with null for what only planning knows, and `notch_depths`, `speeds` and
     /// `events`; with --labels also `labels_by_piece`, with --time what planning knows, and `time_by_piece`.
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -67,12 +68,12 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
         known = Some(all);
     }
     let stdout = match (arguments.format, &known) {
-        (Format::Json, Some(known)) => report::json_of(known, &diagnostics, &source),
+        (Format::Json, Some(known)) => report::json_of(known, &diagnostics, (&source, &job)),
         (Format::Json, None) => {
             let blank = Known::of(&Marker::default(), "");
-            report::json_of(report::nothing(&blank), &diagnostics, &source)
+            report::json_of(report::nothing(&blank), &diagnostics, (&source, &job))
         }
-        (Format::Text, Some(known)) => known.text(&source, &diagnostics),
+        (Format::Text, Some(known)) => known.text((&source, &job), &diagnostics),
         (Format::Text, None) => String::new(),
     };
     let code = if known.is_none() || diagnostics.has_errors() { FAULTY } else { DONE };
@@ -104,7 +105,7 @@ impl Known {
         }
     }
 
-    fn text(&self, source: &Source, diagnostics: &Diagnostics) -> String {
+    fn text(&self, (source, job): (&Source, &Job), diagnostics: &Diagnostics) -> String {
         let mut out = summary::text(&self.report, source.name(), diagnostics);
         out += &drawn::text(&self.report);
         out += &self.facts.text();
@@ -112,6 +113,7 @@ impl Known {
             out += &labels::text(labels);
         }
         if let Some(times) = &self.time_by_piece {
+            out += &setup::text(job);
             out += &times::text(times);
         }
         out

@@ -19,6 +19,7 @@ mod options;
 mod profile;
 mod provenance;
 mod report;
+mod setup;
 mod summary;
 mod times;
 mod verdict;

@@ -8,7 +8,7 @@ use super::{FAULTY, Finished, USAGE, choices, failure, files, say};
 use crate::diagnostic::{Severity, render};
 use crate::front::Dialect;
 use crate::machine::plot::{Inner, Lines};
-use crate::machine::{Faults, Job, MachineProfile, Mode, NotNumbers, Numbers, Selection, load};
+use crate::machine::{Faults, Job, Mode, NotNumbers, Numbers, Selection, load_given};
 use crate::source::Source;
 
 /// Which machine.
@@ -23,7 +23,7 @@ pub(super) struct Machine {
     /// Set one key of the profile, as in `--set knife.width_mm=7.2`; may be repeated
     ///
     /// Overrides the profile. `cutc profile init` explains the keys. A bare word needs no quotes: `--set
-    /// knife.feed_mm_s=off`.
+    /// knife.feed_mm_s=off`. A value may have a unit: `--set "knife.feed_mm_s=45 m/min"`.
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
 }
@@ -154,25 +154,28 @@ pub(super) fn typed(job: &Job) -> String {
 }
 
 impl Machine {
-    /// The job on this machine, or what is wrong with its profile.
+    /// The job on this machine, or what is wrong with its profile: [`FAULTY`] when the file is, [`USAGE`] when only
+    /// arguments are.
     pub(super) fn job(&self) -> anyhow::Result<Result<Job, Finished>> {
-        Ok(self.load()?.map(|profile| Job { profile, ..Job::default() }))
+        let file = self.file()?;
+        let loaded = load_given(file.as_ref(), &self.set);
+        Ok(loaded
+            .map(|(profile, origin)| Job { profile, origin, ..Job::default() })
+            .map_err(|faults| refuse(&faults, file.as_ref())))
     }
 
-    /// The profile, or what is wrong with it: [`FAULTY`] when the file is, [`USAGE`] when only arguments are.
-    pub(super) fn load(&self) -> anyhow::Result<Result<MachineProfile, Finished>> {
-        let file = match &self.profile {
+    fn file(&self) -> anyhow::Result<Option<Source>> {
+        match &self.profile {
             Some(path) if !path.exists() => {
                 let path = path.display();
-                return Err(failure(
+                Err(failure(
                     format!("there is no profile `{path}`"),
                     format!("check the spelling, or begin one with `cutc profile init -o {path}`"),
-                ));
+                ))
             }
-            Some(path) => Some(files::read(path)?),
-            None => None,
-        };
-        Ok(load(file.as_ref(), &self.set).map_err(|faults| refuse(&faults, file.as_ref())))
+            Some(path) => files::read(path).map(Some),
+            None => Ok(None),
+        }
     }
 }
 

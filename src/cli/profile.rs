@@ -14,6 +14,7 @@ use crate::machine::{Comments, MachineProfile, load};
 const HEAD: &str = "\
 # Machine profile of cutc. Every key is here with its default: change what differs on your machine and
 # delete the rest. `cutc profile check FILE` says what is wrong, `cutc profile show -p FILE` what holds.
+# A number may be a text with a unit of your own: \"45 m/min\", \"0.25 in\", \"2 rev/s\", \"50 ms\".
 
 ";
 
@@ -47,8 +48,8 @@ enum Command {
 
 pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     match &arguments.command {
-        Command::Show { machine } => Ok(match machine.load()? {
-            Ok(profile) => Finished::text(profile.effective().to_toml(Comments::Plain), String::new(), DONE),
+        Command::Show { machine } => Ok(match machine.job()? {
+            Ok(job) => Finished::text(job.profile.effective().to_toml(Comments::Plain), String::new(), DONE),
             Err(refused) => refused,
         }),
         Command::Init { out } => init(out.as_ref()),

@@ -11,7 +11,6 @@ use super::report::pretty;
 use super::say;
 use crate::back::Target;
 use crate::machine::{Job, sha256_hex};
-use crate::pipeline::Verdict;
 use crate::source::Source;
 
 /// Everything that made a program, for whoever finds it later. No date and no path: the same input gives the same bytes.
@@ -22,6 +21,8 @@ struct Provenance<'a> {
     /// Name of the input, without its directory.
     source: String,
     source_sha256: String,
+    /// Name of the machine profile, without its directory, or that of the default machine.
+    profile: &'a str,
     /// Of the values in effect, `--set` included.
     profile_sha256: String,
     target: &'a str,
@@ -42,13 +43,15 @@ struct Units {
 }
 
 /// Whether the program was read back and proven to cut what the input says.
-#[derive(Serialize)]
+#[derive(Debug, Clone, Copy, Serialize)]
 #[serde(rename_all = "lowercase")]
-enum Verified {
+pub(super) enum Verified {
     /// Not by this compile.
     No,
     /// By this compile.
     Yes,
+    /// It is the picture of a program that was refused.
+    Refused,
 }
 
 /// What a program was made from.
@@ -57,22 +60,23 @@ pub(super) struct Made<'a> {
     pub(super) source: &'a Source,
     pub(super) job: &'a Job,
     pub(super) target: &'a Target,
-    /// What it is worth; `None` when nobody asked.
-    pub(super) verdict: Option<&'a Verdict>,
+    /// What it is worth.
+    pub(super) verified: Verified,
 }
 
 /// The provenance of a program as JSON.
-pub(super) fn json(Made { source, job, target, verdict }: &Made) -> String {
+pub(super) fn json(Made { source, job, target, verified }: &Made) -> String {
     let name = Path::new(source.name()).file_name().map(|name| name.to_string_lossy().into_owned());
     pretty(&Provenance {
         version: env!("CARGO_PKG_VERSION"),
         source: name.unwrap_or_else(|| source.name().to_owned()),
         source_sha256: sha256_hex(source.bytes()),
+        profile: job.origin.name(),
         profile_sha256: job.profile.digest(),
         target: target.name,
         period_ms: job.profile.time.period_ms,
         units: Units { time: "s", length: "mm", angle: "deg" },
-        verified: verdict.map_or(Verified::No, |_| Verified::Yes),
+        verified: *verified,
         options: typed(job),
     })
 }

@@ -2,13 +2,17 @@
 
 use serde::Serialize;
 
+use super::setup::Setup;
 use crate::diagnostic::{Diagnostics, Json, Severity};
 use crate::ir::Marker;
+use crate::machine::Job;
 use crate::pipeline::Report;
 use crate::source::Source;
 
 #[derive(Serialize)]
 struct Figures<T: Serialize> {
+    #[serde(flatten)]
+    setup: Setup,
     #[serde(flatten)]
     report: T,
     #[serde(flatten)]
@@ -31,17 +35,17 @@ impl Findings {
     }
 }
 
-/// A report with the findings as one JSON object; without a report all its keys are null.
-pub(super) fn json(report: Option<&Report>, diagnostics: &Diagnostics, source: &Source) -> String {
+/// A report with its machine and the findings as one JSON object; without a report all its keys are null.
+pub(super) fn json(report: Option<&Report>, diagnostics: &Diagnostics, of: (&Source, &Job)) -> String {
     match report {
-        Some(report) => json_of(report, diagnostics, source),
-        None => json_of(nothing(&Report::of(&Marker::default(), "")), diagnostics, source),
+        Some(report) => json_of(report, diagnostics, of),
+        None => json_of(nothing(&Report::of(&Marker::default(), "")), diagnostics, of),
     }
 }
 
 /// Any figures with the findings as one JSON object.
-pub(super) fn json_of(figures: impl Serialize, diagnostics: &Diagnostics, source: &Source) -> String {
-    pretty(&Figures { report: figures, findings: Findings::of(diagnostics, source) })
+pub(super) fn json_of(figures: impl Serialize, diagnostics: &Diagnostics, (source, job): (&Source, &Job)) -> String {
+    pretty(&Figures { setup: Setup::of(job), report: figures, findings: Findings::of(diagnostics, source) })
 }
 
 /// The keys of some figures, all null.
@@ -63,8 +67,10 @@ mod tests {
     use super::*;
     use crate::diagnostic::{Diagnostic, code};
 
-    const KEYS: [&str; 23] = [
+    const KEYS: [&str; 25] = [
         "dialect",
+        "profile",
+        "knife",
         "unit_mm",
         "extent_mm",
         "pieces",
@@ -96,7 +102,7 @@ mod tests {
         found.push(Diagnostic::new(&code::SOURCE_EMPTY, "the file holds nothing"));
         let report = Report::of(&Marker::default(), "iso");
         for report in [Some(&report), None] {
-            let text = json(report, &found, &source);
+            let text = json(report, &found, (&source, &Job::default()));
             let value: serde_json::Value = serde_json::from_str(&text).expect("JSON");
             let mut keys: Vec<_> = value.as_object().expect("an object").keys().map(String::as_str).collect();
             let mut expected = KEYS;

@@ -132,6 +132,9 @@ fn number(value: &toml::Value) -> Option<f64> {
 /// From this magnitude on a number is shown with an exponent: nobody counts more zeros.
 const EXPONENT_FROM: f64 = 1.0e7;
 
+/// Units of the numbers of a pose.
+const POSE_UNITS: [&str; 3] = ["mm", "mm", "degrees"];
+
 /// A number as people write it.
 fn shown(value: f64) -> String {
     if value.abs() >= EXPONENT_FROM { format!("{value:e}") } else { exact(value) }
@@ -182,6 +185,16 @@ impl Key {
         ];
         let percent = self.name.ends_with("_percent").then_some("percent");
         UNITS.iter().find(|(end, _)| self.name.ends_with(end)).map(|&(_, unit)| unit).or(percent).unwrap_or("")
+    }
+
+    /// The unit of its n-th number, which may be given in others; empty where it has none.
+    pub fn unit_of(&self, n: usize) -> &'static str {
+        match self.takes {
+            Takes::Number(_) | Takes::NumberOr(..) | Takes::Percent | Takes::Point | Takes::RangeOr(_) => self.unit(),
+            Takes::Pose | Takes::PoseOr(_) => POSE_UNITS.get(n).copied().unwrap_or(""),
+            // A length of a plot's unit is a text of its own kind.
+            Takes::Length(_) | Takes::Whole(_) | Takes::Word(_) | Takes::Encoding | Takes::Text | Takes::Flag => "",
+        }
     }
 
     /// What it takes, as a message says it: `a number from 0 to 1000 mm, or "off"`.
@@ -299,25 +312,6 @@ fn is_pen(word: &str) -> bool {
 /// Whether the name is that of a table of keys, such as `axes.x`.
 pub fn is_section(name: &str) -> bool {
     KEYS.iter().any(|key| key.name.strip_prefix(name).is_some_and(|rest| rest.starts_with('.')))
-}
-
-/// The key or table whose name is nearest to one that does not exist.
-pub fn nearest(name: &str) -> String {
-    if let Some(code) = near_codes(name).and_then(|codes| codes.into_iter().next()) {
-        return code;
-    }
-    let last = |name: &str| name.rsplit('.').next().unwrap_or_default().to_owned();
-    let sections = KEYS.iter().flat_map(|key| key.name.match_indices('.').map(|(dot, _)| &key.name[..dot]));
-    let likeness = |other: &str| {
-        let whole = strsim::normalized_damerau_levenshtein(name, other);
-        // The right key in the wrong table is a common slip.
-        whole.max(strsim::normalized_damerau_levenshtein(&last(name), &last(other)))
-    };
-    let best = KEYS.iter().map(|key| key.name).chain(sections).max_by(|a, b| {
-        let whole = |other: &str| strsim::normalized_damerau_levenshtein(name, other);
-        likeness(a).total_cmp(&likeness(b)).then(whole(a).total_cmp(&whole(b)))
-    });
-    best.unwrap_or_default().to_owned()
 }
 
 /// Every key, in the order in which a profile is written.
@@ -458,20 +452,6 @@ mod tests {
         let mut listed: Vec<_> = KEYS.iter().map(|key| key.name).filter(|name| !name.contains('<')).collect();
         listed.sort_unstable();
         assert_eq!(typed, listed);
-    }
-
-    #[test]
-    fn a_mistyped_key_has_its_nearest() {
-        let check = |typed: &str, expected: &str| assert_eq!(nearest(typed), expected, "{typed}");
-        check("knife.widht_mm", "knife.width_mm");
-        check("knife.width", "knife.width_mm");
-        check("knive", "knife");
-        check("axis", "axes");
-        check("width_mm", "knife.width_mm");
-        check("knife.angle_deg", "corner.angle_deg");
-        check("axis.x.speed_mm_s", "axes.x.speed_mm_s");
-        check("codes.m19", "codes.M19");
-        check("time.period", "time.period_ms");
     }
 
     #[test]

@@ -5,7 +5,10 @@ use std::ops::Range;
 use serde::Deserialize as _;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
 
-use super::keys::{self, CODES};
+use super::keys::{self, CODES, Key};
+use super::measured::{self, Mismeasured};
+use super::near;
+use super::origin;
 use super::profile::MachineProfile;
 use super::validate::validate;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -22,6 +25,11 @@ pub struct Faults {
 
 /// Reads a profile: the defaults, overridden by the file, overridden by `key=value` arguments in their order.
 pub fn load(file: Option<&Source>, sets: &[String]) -> Result<MachineProfile, Faults> {
+    load_given(file, sets).map(|(profile, _)| profile)
+}
+
+/// The same, with where it came from.
+pub fn load_given(file: Option<&Source>, sets: &[String]) -> Result<(MachineProfile, origin::Origin), Faults> {
     let mut draft = Draft::default();
     if let Some(file) = file {
         draft.read(file);
@@ -29,7 +37,12 @@ pub fn load(file: Option<&Source>, sets: &[String]) -> Result<MachineProfile, Fa
     for argument in sets {
         draft.set(argument);
     }
-    draft.finish()
+    let name = file.map(|file| file.name().rsplit(['/', '\\']).next().unwrap_or_default().to_owned());
+    let given = draft.given.iter().map(|(key, _)| key.clone()).collect();
+    let is_set = |(key, origin): &(String, Origin)| matches!(origin, Origin::Argument(_)).then(|| key.clone());
+    let set = draft.given.iter().filter_map(is_set).collect();
+    let origin = origin::Origin { file: name, set, given };
+    Ok((draft.finish()?, origin))
 }
 
 /// Where a value came from.
@@ -112,23 +125,33 @@ impl Draft {
         if DeValue::parse(text).is_ok() {
             return self.take(Entry { name, origin, text });
         }
-        let quoted = toml::Value::String(text.to_owned()).to_string();
-        self.take(Entry { name, origin, text: &quoted });
+        let text = match text.strip_prefix('[').and_then(|list| list.strip_suffix(']')) {
+            // The items of a list need no quotes either.
+            Some(list) => {
+                format!("[{}]", list.split(',').map(|item| quoted(item.trim())).collect::<Vec<_>>().join(", "))
+            }
+            None => quoted(text),
+        };
+        self.take(Entry { name, origin, text: &text });
     }
 
     /// Takes one value in, if its key exists and wants such a value.
     fn take(&mut self, entry: Entry<'_>) {
         let Entry { name, origin, text } = entry;
         let name = keys::canonical(&name);
-        if keys::find(&name).is_none() {
+        let Some(key) = keys::find(&name) else {
             if keys::is_section(&name) {
                 let fault = Diagnostic::new(&code::PROFILE_TYPE, format!("`{name}` is a table of keys, not a key"));
                 return self.fault(origin, fault.hint(format!("write `[{name}]`, and its keys below it")));
             }
             return self.unknown(&name, origin);
-        }
-        let value = ValueDeserializer::parse(text).and_then(toml::Value::deserialize);
-        let typed = value.ok().filter(|value| MachineProfile::deserialize(nested(&name, value.clone())).is_ok());
+        };
+        let value = ValueDeserializer::parse(text).and_then(toml::Value::deserialize).ok();
+        let value = match value.map(|value| measured::plain(key, value)).transpose() {
+            Ok(value) => value,
+            Err(wrong) => return self.mismeasured(&name, origin, (text, key, &wrong)),
+        };
+        let typed = value.filter(|value| MachineProfile::deserialize(nested(&name, value.clone())).is_ok());
         match typed {
             Some(value) => {
                 merge(&mut self.values, nested(&name, value));
@@ -145,12 +168,25 @@ impl Draft {
         self.fault(origin, Diagnostic::new(&code::PROFILE_TYPE, message));
     }
 
+    /// A number with a unit that is none of the key's.
+    fn mismeasured(&mut self, name: &str, origin: Origin, (text, key, wrong): (&str, &Key, &Mismeasured)) {
+        let measures =
+            wrong.measures.map_or_else(|| ", whose unit is not known".to_owned(), |what| format!(", {what}"));
+        let message = format!("`{name}` must be {}, but is {}{measures}", key.expects(), shortened(text));
+        let fault = Diagnostic::new(&code::PROFILE_TYPE, message);
+        self.fault(origin, wrong.hint().into_iter().fold(fault, Diagnostic::hint));
+    }
+
     fn unknown(&mut self, name: &str, origin: Origin) {
         let hint = match keys::near_codes(name).as_deref() {
             Some([code]) => format!("it is spelled `{code}`"),
             Some(codes) => format!("near ones are `{}`; the README lists all codes", codes.join("`, `")),
             None if name == keys::NO_PEN => "pen 0 is none: plotters draw nothing with it, nor is it cut".to_owned(),
-            None => format!("the nearest is `{}`; `cutc profile init` lists all keys", keys::nearest(name)),
+            None => {
+                let near = near::nearest(name);
+                let takes = keys::find(&near).map_or_else(String::new, |key| format!(" ({})", key.expects()));
+                format!("the nearest is `{near}`{takes}; `cutc profile init` lists all keys")
+            }
         };
         let fault = Diagnostic::new(&code::PROFILE_UNKNOWN_KEY, format!("there is no key `{name}`"));
         self.fault(origin, fault.hint(hint));
@@ -194,6 +230,11 @@ impl Draft {
         }
         Err(faults)
     }
+}
+
+/// A value as TOML has it: as it is, or as a text.
+fn quoted(text: &str) -> String {
+    if DeValue::parse(text).is_ok() { text.to_owned() } else { toml::Value::String(text.to_owned()).to_string() }
 }
 
 fn span(bytes: Range<usize>) -> Origin {
@@ -240,6 +281,7 @@ fn merge(base: &mut toml::Table, over: toml::Table) {
 mod tests {
     use super::*;
     use crate::diagnostic::render;
+    use crate::machine::Axis;
 
     fn source(text: &str) -> Source {
         Source::new("machine.toml", text.as_bytes().to_vec()).expect("small")
@@ -274,6 +316,53 @@ mod tests {
         assert_eq!((knife.radius(), knife.back()), (0.0, 0.0));
         let knife = profile("", &["knife.width_mm=3"]).knife;
         assert_eq!((knife.radius(), knife.back()), (0.0, 3.0));
+    }
+
+    #[test]
+    fn a_value_may_have_another_unit_than_its_key() {
+        let text = "knife.width_mm = \"0.25 in\"\ntable.x_mm = [\"0 m\", 10000]\nhome = [\"1 cm\", 2, \"0.25 rev\"]";
+        let sets = ["knife.feed_mm_s=\"45 m/min\"", "axes.c.speed_deg_s=2 rev/s", "knife.plunge_ms=0.05 s"];
+        let read = profile(text, &[&sets[..], &["table.y_mm=[0, 1.8 m]", "knife.slow_percent=60 %"]].concat());
+        assert_eq!((read.knife.width_mm, read.knife.feed_mm_s), (6.35, Some(750.0)));
+        assert_eq!((read.axes.c.speed_deg_s, read.knife.plunge_ms, read.knife.slow_percent), (720.0, 50.0, 60.0));
+        assert_eq!((read.table.x_mm, read.table.y_mm), (Some([0.0, 10_000.0]), Some([0.0, 1800.0])));
+        assert_eq!(read.home, [10.0, 2.0, 90.0]);
+    }
+
+    #[test]
+    fn a_unit_of_something_else_is_a_fault_that_says_what_is_wanted() {
+        let text = "knife.width_mm = \"45 m/min\"\nknife.plunge_ms = \"50 msec\"\nhome = [0, 0, \"1 m\"]";
+        let faults = load(Some(&source(text)), &["knife.edges=2 mm".to_owned()]).expect_err("a faulty profile");
+        let found: Vec<_> = faults.file.iter().map(|d| (d.message.as_str(), d.hints[0].as_str())).collect();
+        assert_eq!(
+            found,
+            [
+                (
+                    "`knife.width_mm` must be a number from 0 to 1000 mm, but is \"45 m/min\", a speed",
+                    "it is a length: a plain number of mm, or a text such as \"6.35 mm\" or \"0.25 in\"",
+                ),
+                (
+                    "`knife.plunge_ms` must be a number from 0 to 10000 ms, but is \"50 msec\", whose unit is not known",
+                    "it is a time: a plain number of ms, or a text such as \"50 ms\" or \"0.05 s\"",
+                ),
+                (
+                    "`home` must be three numbers [x_mm, y_mm, c_deg], but is [0, 0, \"1 m\"], a length",
+                    "it is an angle: a plain number of degrees, or a text such as \"45 deg\" or \"0.125 rev\"",
+                ),
+            ]
+        );
+        assert_eq!(faults.arguments.iter().count(), 1);
+    }
+
+    #[test]
+    fn a_profile_knows_where_it_came_from() {
+        let file = Source::new("cutters/left.toml", b"knife.width_mm = 7\nknife.back_mm = 5".to_vec()).expect("small");
+        let (_, from) = load_given(Some(&file), &["knife.width_mm=6".to_owned()]).expect("legal");
+        assert_eq!((from.name(), from.described().as_str()), ("left.toml", "left.toml, with knife.width_mm set"));
+        assert_eq!(from.axis(), Axis::Told);
+        let (_, from) = load_given(None, &["knife.width_mm=7".to_owned()]).expect("legal");
+        assert_eq!((from.name(), from.axis()), ("default machine", Axis::Assumed));
+        assert_eq!(load_given(None, &[]).expect("legal").1, origin::Origin::default());
     }
 
     #[test]

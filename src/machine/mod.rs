@@ -12,7 +12,10 @@ pub mod kinematics;
 pub mod knife;
 mod lines;
 mod load;
+mod measured;
+mod near;
 pub mod notches;
+mod origin;
 pub mod plot;
 pub mod profile;
 mod selection;
@@ -23,8 +26,9 @@ mod word;
 pub use digest::sha256_hex;
 pub use kinematics::Limits;
 pub use knife::{Follow, Knife, TightCurves};
-pub use load::{Faults, load};
+pub use load::{Faults, load, load_given};
 pub use notches::{NotchStyle, Notches};
+pub use origin::{Axis, Origin};
 pub use profile::{FileUnit, Fit, MachineProfile};
 pub use selection::{Mode, NotNumbers, Numbers, Selection};
 pub use show::Comments;
@@ -34,6 +38,8 @@ pub use show::Comments;
 pub struct Job {
     /// The machine and the cutting room.
     pub profile: MachineProfile,
+    /// Where that came from.
+    pub origin: Origin,
     /// Which pieces it cuts.
     pub selection: Selection,
     /// What it does with the knife.

@@ -2,6 +2,7 @@
 
 mod judge;
 mod program;
+mod refused;
 mod report;
 mod spent;
 mod toolpaths;
@@ -83,6 +84,15 @@ pub struct Product<'a> {
     pub target: &'static Target,
     /// Where it goes.
     pub out: &'a mut dyn Medium,
+    /// Set where the compile fails and this is a picture of what was refused: it is worth keeping, a program is not.
+    pub shows_refusal: bool,
+}
+
+impl<'a> Product<'a> {
+    /// A program that is not written yet.
+    pub fn new(target: &'static Target, out: &'a mut dyn Medium) -> Self {
+        Self { target, out, shows_refusal: false }
+    }
 }
 
 /// What a compile gives.
@@ -176,12 +186,12 @@ pub fn compile(
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Option<Compiled>> {
     let Order { from, target, verify } = order;
-    compile_all(source, job, (from, verify), &mut [Product { target, out }], diagnostics)
+    compile_all(source, job, (from, verify), &mut [Product::new(target, out)], diagnostics)
 }
 
 /// Compiles a source to several programs at once: each stage runs once for all of them. `read` is the dialect, if not
 /// what the content looks like, and whether the programs are judged. `None` when the diagnostics hold errors: then all
-/// that was written must be thrown away.
+/// that was written must be thrown away, but for pictures that show what was refused.
 pub fn compile_all(
     source: &Source,
     job: &Job,
@@ -228,7 +238,7 @@ pub fn compile_all(
     report.program = written.program;
     report.controller = written.estimate.map(Controller::from);
     drop(sinks);
-    for Product { target, out } in &mut *products {
+    for Product { target, out, .. } in &mut *products {
         if let Emit::Marker(emit) = target.emit {
             let mut out = BufWriter::new(&mut **out);
             emit(&context, &mut out, diagnostics)?;
@@ -250,17 +260,19 @@ pub fn compile_all(
             });
         }
     }
-    let findings = verdict.as_ref().map_or(&[][..], |verdict| &verdict.findings);
-    for Product { target, out } in products {
+    if let Some(verdict) = &verdict {
+        judge::report(verdict, (marker, job), diagnostics);
+    }
+    let mut findings = refused::findings(marker, diagnostics);
+    findings.extend(verdict.iter().flat_map(|verdict| verdict.findings.iter().cloned()));
+    for Product { target, out, shows_refusal } in products {
+        *shows_refusal = diagnostics.has_errors() && refused::is_picture(target);
         if let Emit::Toolpath(parts) = &target.emit {
             let mut out = BufWriter::new(&mut **out);
-            (parts.tail)(&context, findings, &mut out)?;
+            (parts.tail)(&context, &findings, &mut out)?;
             out.flush()?;
         }
         out.flush()?;
-    }
-    if let Some(verdict) = &verdict {
-        judge::report(verdict, (marker, job), diagnostics);
     }
     Ok((!diagnostics.has_errors()).then_some(Compiled { report, verdict }))
 }

@@ -2,6 +2,7 @@
 
 pub mod digits;
 pub mod number;
+pub mod quantity;
 
 /// Millimetres in an inch (exact).
 pub const MM_PER_INCH: f64 = 25.4;

@@ -10,7 +10,7 @@ use crate::ir::toolpath::{Drill, Event, Pose};
 use crate::machine::Job;
 use crate::machine::controller::FeedMode;
 use crate::source::Span;
-use crate::units::number::{exact, push_fixed, push_integer};
+use crate::units::number::{exact, push_fixed, push_integer, short};
 use crate::units::{S_PER_MIN, rad};
 
 /// Decimals of F and of dwells.
@@ -65,6 +65,15 @@ impl<'a> Program<'a> {
         self.say(&keys.header);
         self.say(keys.feed_mode.code());
         self.say(&format!("(from {})", comment(self.source)));
+        let Job { profile, origin, .. } = self.job;
+        let changed = match origin.set.len() {
+            0 => String::new(),
+            1 => ", with a key set".to_owned(),
+            n => format!(", with {n} keys set"),
+        };
+        self.say(&format!("(machine: {}{changed})", comment(origin.name())));
+        let [width, radius] = [profile.knife.width_mm, profile.knife.radius()].map(short);
+        self.say(&format!("(knife: {width} mm wide, axis {radius} mm behind the tip)"));
         // Whatever ran before may have left the knife in the cloth.
         self.order(&keys.knife_up, self.job.profile.knife.lift());
     }

@@ -80,6 +80,8 @@ pub(super) fn sentence(n: usize, finding: &Finding) -> String {
     let unit = if finding.unit.is_empty() { String::new() } else { format!(" {}", finding.unit) };
     let value = |value: f64| format!("{}{unit}", shown(value));
     let verdict = match finding.limit {
+        // Beyond measure: something is missing, or no program can be made.
+        Some(_) if finding.worst.is_infinite() => "FAILS".to_owned(),
         None => format!("{} (no limit)", value(finding.worst)),
         Some(limit) if finding.holds() => format!("{}, limit {}: holds", value(finding.worst), value(limit)),
         Some(limit) => format!("{}, limit {}: FAILS", value(finding.worst), value(limit)),

@@ -9,7 +9,7 @@ use crate::back::Context;
 use crate::geom::{Extent, Point, Vector};
 use crate::ir::Finding;
 use crate::units::number::fixed;
-use crate::units::{MM_PER_INCH, MM_PER_M};
+use crate::units::{MM_PER_INCH, MM_PER_M, deg};
 
 /// Window in which the whole drawing should be readable, pixels: text and margins are sized for it.
 const WINDOW_PX: [f64; 2] = [1400.0, 800.0];
@@ -29,6 +29,10 @@ const SYMBOL_PX: f64 = 30.0;
 const ARROW_PX: f64 = 26.0;
 /// The scale bar is at most this part of the sheet's width.
 const SCALE_PART: f64 = 0.2;
+/// Width of the word `refused` and height of its letters, in sizes of its font, and how much of the drawing it fills.
+const WORD_EMS: f64 = 4.6;
+const LETTER_EMS: f64 = 1.0;
+const WORD_SHARE: f64 = 0.92;
 /// Bytes of the opening tag, padded with blanks so that the tail can write it once more with the final size.
 const OPENING_BYTES: usize = 480;
 
@@ -198,7 +202,10 @@ impl Sheet {
                 0 => {
                     format!("verified: {limited} rules hold, {reported} only reported; the worst places on the cloth:")
                 }
-                n => format!("FAILED: {n} of {limited} rules are broken:"),
+                n if found.iter().all(|finding| finding.holds() || finding.rule.starts_with("verify/")) => {
+                    format!("REFUSED, no program was written: {n} of {limited} rules are broken:")
+                }
+                _ => "REFUSED, no program was written:".to_owned(),
             };
             text.push_str(&self.text(class, Point::new(left, y), &verdict));
             for (n, finding) in found.iter().enumerate() {
@@ -209,6 +216,28 @@ impl Sheet {
         }
         let _infallible = writeln!(text, "</g>\n<view id=\"whole\" viewBox=\"{}\"/>", self.view_box());
         text
+    }
+
+    /// The word across the drawing that tells everybody what the picture is of: no program.
+    pub(super) fn refused(&self) -> String {
+        let (width, height) = (self.width, self.legend - self.top);
+        let slope = height.atan2(width);
+        let (sin, cos) = slope.sin_cos();
+        // As large as the drawing is wide and high for the box around the word, turned along the diagonal.
+        let by_width = width / (WORD_EMS * cos + LETTER_EMS * sin);
+        let by_height = height / (WORD_EMS * sin + LETTER_EMS * cos);
+        let size = WORD_SHARE * by_width.min(by_height);
+        // The middle of the letters stands on the diagonal.
+        format!(
+            "<g id=\"refused\" inkscape:groupmode=\"layer\" inkscape:label=\"refused\" transform=\"translate({},{}) \
+             rotate({})\"><text y=\"{}\" font-size=\"{}\" style=\"fill:#d00000;fill-opacity:.2;font-weight:bold;\
+             text-anchor:middle;pointer-events:none\">refused</text></g>\n",
+            mm(self.left + width / 2.0),
+            mm(self.top + height / 2.0),
+            fixed(-deg(slope), 2),
+            mm(0.27 * size),
+            mm(size)
+        )
     }
 
     fn text(&self, class: &str, at: Point, words: &str) -> String {

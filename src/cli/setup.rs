@@ -1,0 +1,164 @@
+//! Which machine and which knife the figures of a run are for: a line each for people, an object each for programs.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+
+use crate::machine::{Axis, Job, MachineProfile};
+use crate::units::number::short;
+
+/// Columns that the text of a line may take.
+const WIDTH: usize = 66;
+
+/// Machine and knife as JSON.
+#[derive(Debug, Serialize)]
+pub(super) struct Setup {
+    profile: Profile,
+    knife: Knife,
+}
+
+/// Where the values came from.
+#[derive(Debug, Serialize)]
+struct Profile {
+    /// Name of the file, without its directory; null = none was given, the default machine was used.
+    file: Option<String>,
+    /// Of the values in effect, as the provenance of a program has it.
+    sha256: String,
+    /// Keys that `--set` changed.
+    set: Vec<String>,
+}
+
+/// The blade.
+#[derive(Debug, Serialize)]
+struct Knife {
+    width_mm: f64,
+    /// From the C axis back to the heel.
+    back_mm: f64,
+    /// From the C axis forward to the tip.
+    radius_mm: f64,
+    /// "told", or "assumed" where only a width was given.
+    axis: &'static str,
+}
+
+impl Setup {
+    /// The machine and knife of a job.
+    pub(super) fn of(job: &Job) -> Self {
+        let MachineProfile { knife, .. } = job.profile.effective();
+        let axis = match job.origin.axis() {
+            Axis::Told => "told",
+            Axis::Assumed => "assumed",
+        };
+        let back = knife.back_mm.unwrap_or_default();
+        Self {
+            profile: Profile {
+                file: job.origin.file.clone(),
+                sha256: job.profile.digest(),
+                set: job.origin.set.iter().cloned().collect(),
+            },
+            knife: Knife { width_mm: knife.width_mm, back_mm: back, radius_mm: rounded(knife.width_mm - back), axis },
+        }
+    }
+}
+
+/// Without what the subtraction adds, mm.
+fn rounded(value: f64) -> f64 {
+    (value * 1e9).round() / 1e9
+}
+
+/// A line on the machine and one on its knife, for the summary of a program.
+pub(super) fn text(job: &Job) -> String {
+    let mut out = String::from("\n");
+    let mut line = |label: &str, text: &str| {
+        // Writing into a `String` cannot fail.
+        let _ = writeln!(out, "  {label:10} {}", wrapped(text));
+    };
+    let origin = &job.origin;
+    let without = if origin.file.is_none() { "; no -p was given" } else { "" };
+    line("machine", &format!("{}{without}", origin.described()));
+    let knife = &job.profile.knife;
+    let place = format!("{} mm wide, C axis {} mm behind the tip", short(knife.width_mm), short(knife.radius()));
+    let why = match origin.axis() {
+        Axis::Told => String::new(),
+        Axis::Assumed => format!(
+            "; neither knife.back_mm nor knife.radius_mm is given: so it was put {} mm before the heel",
+            short(knife.back())
+        ),
+    };
+    line("knife", &format!("{place}{why}"));
+    out
+}
+
+/// The text in lines that fit behind their label.
+fn wrapped(text: &str) -> String {
+    let (mut out, mut column) = (String::new(), 0);
+    for word in text.split(' ') {
+        let width = word.chars().count();
+        if column > 0 && column + 1 + width > WIDTH {
+            out.push_str("\n             ");
+            column = 0;
+        } else if column > 0 {
+            out.push(' ');
+            column += 1;
+        }
+        out.push_str(word);
+        column += width;
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::load_given;
+    use crate::source::Source;
+
+    fn job(file: &str, sets: &[&str]) -> Job {
+        let sets: Vec<String> = sets.iter().map(ToString::to_string).collect();
+        let source = Source::new("left.toml", file.as_bytes().to_vec()).expect("small");
+        let (profile, origin) = load_given(Some(&source).filter(|_| !file.is_empty()), &sets).expect("legal");
+        Job { profile, origin, ..Job::default() }
+    }
+
+    #[test]
+    fn the_summary_names_machine_and_knife_and_says_where_the_axis_was_put() {
+        let all = [
+            text(&job("", &[])),
+            text(&job("knife.width_mm = 7.2", &[])),
+            text(&job("knife.width_mm = 7.2", &["knife.back_mm=5", "path.tolerance_mm=0.1"])),
+            text(&job("", &["knife.width_mm=0.25 in"])),
+        ];
+        let all = all.concat();
+        assert!(all.lines().all(|line| line.chars().count() <= 80), "{all}");
+        insta::assert_snapshot!(all, @r"
+
+          machine    default machine; no -p was given
+          knife      6.6 mm wide, C axis 0.25 mm behind the tip
+
+          machine    left.toml
+          knife      7.2 mm wide, C axis 0.85 mm behind the tip; neither knife.back_mm
+                     nor knife.radius_mm is given: so it was put 6.35 mm before the
+                     heel
+
+          machine    left.toml, with knife.back_mm, path.tolerance_mm set
+          knife      7.2 mm wide, C axis 2.2 mm behind the tip
+
+          machine    default machine, with knife.width_mm set; no -p was given
+          knife      6.35 mm wide, C axis 0 mm behind the tip; neither knife.back_mm
+                     nor knife.radius_mm is given: so it was put 6.35 mm before the
+                     heel
+        ");
+    }
+
+    #[test]
+    fn the_same_as_json() {
+        let setup = serde_json::to_value(Setup::of(&job("knife.width_mm = 7.2", &["time.period_ms=2"]))).expect("JSON");
+        let knife = r#"{"axis":"assumed","back_mm":6.35,"radius_mm":0.85,"width_mm":7.2}"#;
+        assert_eq!(setup["knife"].to_string(), knife);
+        assert_eq!(
+            (&setup["profile"]["file"], &setup["profile"]["set"][0]),
+            (&"left.toml".into(), &"time.period_ms".into())
+        );
+        let setup = serde_json::to_value(Setup::of(&Job::default())).expect("JSON");
+        assert!(setup["profile"]["file"].is_null() && setup["knife"]["axis"] == "told");
+    }
+}
