@@ -8,11 +8,11 @@ use tempfile::SpooledTempFile;
 
 use super::choices::{self, Format};
 use super::files::{self, Asked, Destination, Draft, MadeDirectory, Place};
-use super::options::{Choice, Reading, counted};
+use super::options::{Choice, Messages, Reading, counted};
 use super::provenance::{self, Made};
 use super::{DONE, FAULTY, Finished, Stdout, USAGE, failure, report, say, summary};
 use crate::back::Target;
-use crate::diagnostic::{Diagnostics, Severity, code, render};
+use crate::diagnostic::{Diagnostics, Severity, code, render_with};
 use crate::machine::Job;
 use crate::pipeline::{self, Compiled, Medium, Product};
 use crate::source::Source;
@@ -47,6 +47,9 @@ pub(super) struct Arguments {
 
     #[command(flatten)]
     reading: Reading,
+
+    #[command(flatten)]
+    messages: Messages,
 
     #[command(flatten)]
     choice: Choice,
@@ -121,7 +124,8 @@ fn dump(arguments: &Arguments, pass: &str) -> anyhow::Result<Finished> {
     let mut diagnostics = Diagnostics::default();
     let text = pipeline::dump(&source, arguments.reading.from, &job, pass, &mut diagnostics);
     let code = if text.is_none() || diagnostics.has_errors() { FAULTY } else { DONE };
-    Ok(Finished::text(text.unwrap_or_default(), render(&diagnostics, &source), code))
+    let said = render_with(&diagnostics, &source, arguments.messages.detail(Format::Text));
+    Ok(Finished::text(text.unwrap_or_default(), said, code))
 }
 
 impl Compile<'_> {
@@ -143,6 +147,7 @@ impl Compile<'_> {
         let written = self.write(paths, &mut diagnostics);
         let mut finished = self.finish(written.as_ref().unwrap_or(&None).as_ref(), &diagnostics, paths);
         match written {
+            Ok(Some(_)) if self.arguments.messages.quiet => {}
             Ok(Some(_)) => {
                 for path in paths {
                     say(&mut finished.stderr, format_args!("wrote `{}`", path.display()));
@@ -151,7 +156,7 @@ impl Compile<'_> {
             Ok(None) => finished.stderr.push_str(&move_aside(paths)),
             Err(error) => {
                 let aside = move_aside(paths);
-                let said = format!("{}error: {error:#}\n{aside}", render(&diagnostics, &self.source));
+                let said = format!("{}error: {error:#}\n{aside}", self.said(&diagnostics));
                 return Finished::text(String::new(), said, USAGE);
             }
         }
@@ -190,20 +195,25 @@ impl Compile<'_> {
         pipeline::compile_all(&self.source, &self.job, (reading.from, !no_verify), &mut products, diagnostics)
     }
 
+    /// What is said about the data.
+    fn said(&self, diagnostics: &Diagnostics) -> String {
+        render_with(diagnostics, &self.source, self.arguments.messages.detail(self.arguments.format))
+    }
+
     /// What is said about the data and the program, which goes to a file or to standard output.
     fn finish(&self, compiled: Option<&Compiled>, diagnostics: &Diagnostics, paths: &[PathBuf]) -> Finished {
-        let mut said = render(diagnostics, &self.source);
+        let mut said = self.said(diagnostics);
         let stdout = match self.arguments.format {
             Format::Json => report::json(compiled.map(|c| &c.report), diagnostics, &self.source),
             Format::Text => String::new(),
         };
         match (compiled, self.arguments.format) {
-            (Some(Compiled { report, verdict }), Format::Text) => {
+            (Some(Compiled { report, verdict }), Format::Text) if !self.arguments.messages.quiet => {
                 said.push_str(&summary::text(report, self.source.name(), diagnostics));
                 said.push_str(&summary::choice(&self.job));
                 said.push_str(&summary::verdict(verdict.as_ref()));
             }
-            (Some(_), Format::Json) => {}
+            (Some(_), Format::Json | Format::Text) => {}
             (None, Format::Text | Format::Json) => {
                 let errors = counted(diagnostics.count(Severity::Error), "error");
                 let warnings = counted(diagnostics.count(Severity::Warning), "warning");

@@ -25,7 +25,7 @@ pub use kinematics::Limits;
 pub use knife::{Follow, Knife, TightCurves};
 pub use load::{Faults, load};
 pub use notches::{NotchStyle, Notches};
-pub use profile::{FileUnit, Fit, MachineProfile};
+pub use profile::{FileUnit, Fit, MachineProfile, Table};
 pub use selection::{Mode, NotNumbers, Numbers, Selection};
 pub use show::Comments;
 

@@ -6,6 +6,7 @@ use crate::ir::Marker;
 use crate::ir::marker::Piece;
 use crate::machine::Job;
 
+mod depth;
 mod inner;
 mod inspect;
 mod notch;
@@ -13,6 +14,7 @@ mod order;
 mod sanity;
 mod select;
 mod slit;
+mod table;
 mod weld;
 
 /// A pass over the marker: a row of [`MARKER_PASSES`].
@@ -27,8 +29,17 @@ pub struct MarkerPass {
 }
 
 /// Every pass over the marker, in order.
-pub const MARKER_PASSES: &[MarkerPass] =
-    &[weld::PASS, slit::PASS, inspect::PASS, order::PASS, inner::PASS, notch::PASS, sanity::PASS, select::PASS];
+pub const MARKER_PASSES: &[MarkerPass] = &[
+    weld::PASS,
+    slit::PASS,
+    inspect::PASS,
+    order::PASS,
+    inner::PASS,
+    notch::PASS,
+    sanity::PASS,
+    select::PASS,
+    table::PASS,
+];
 
 /// Parts lie in one another less deep than this.
 const DEEP: usize = 16;
