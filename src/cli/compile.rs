@@ -70,6 +70,9 @@ pub(super) struct Arguments {
 /// Bytes of a program for standard output that are kept in memory; a longer one goes to a temporary file.
 const SPOOL_BYTES: usize = 64 << 20;
 
+/// Lines about the data that leave room for all of the summary.
+const MOST_LINES: usize = 10;
+
 /// One compile, ready to run.
 struct Compile<'a> {
     arguments: &'a Arguments,
@@ -209,7 +212,10 @@ impl Compile<'_> {
         };
         match (compiled, self.arguments.format) {
             (Some(Compiled { report, verdict }), Format::Text) if !self.arguments.messages.quiet => {
-                said.push_str(&summary::text(report, self.source.name(), diagnostics));
+                let text = summary::text(report, self.source.name(), diagnostics);
+                // Where there is much to read about the data, the table of the axes waits to be asked for.
+                let is_long = said.lines().count() > MOST_LINES && !self.arguments.messages.all;
+                said.push_str(if is_long { text.split(summary::AXES).next().unwrap_or(&text) } else { &text });
                 said.push_str(&summary::choice(&self.job));
                 said.push_str(&summary::verdict(verdict.as_ref()));
             }

@@ -35,7 +35,7 @@ pub(super) struct Machine {
 pub(super) struct Messages {
     /// Tell every finding; without it at most three of a code, and how many more there are
     #[arg(long, conflicts_with = "quiet")]
-    all: bool,
+    pub(super) all: bool,
 
     /// Tell errors only
     #[arg(short, long)]
