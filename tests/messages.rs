@@ -54,7 +54,7 @@ fn what_touches_but_for_rounding_does_not_overlap() {
 fn a_marker_off_the_table_is_told_how_to_move() {
     let room = Room::with("row.cut", &overlapping(1));
     let (_, said) = room.expect("check row.cut --set table.x_mm=[5,300]", FAULTY);
-    assert!(said.contains("error[marker/off-table]") && said.contains("move the marker by X +12.1 mm"), "{said}");
+    assert!(said.contains("error[marker/off-table]") && said.contains("move the marker by X +12.4 mm"), "{said}");
     let (_, said) = room.expect("check row.cut --set table.x_mm=[5,100]", FAULTY);
     assert!(said.contains("does not fit") && said.contains("5.0 mm more"), "{said}");
     let (_, said) = room.expect("check row.cut --set table.x_mm=[0.5,300]", DONE);

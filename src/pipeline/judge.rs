@@ -235,16 +235,18 @@ pub fn figures(finding: &Finding) -> (String, Option<String>) {
     };
     // Rounded up, so that the worst value passes where it is set as the limit.
     let above = |digits| {
+        if !finding.worst.is_normal() || finding.worst < NOISE_EPSILON {
+            return finding.worst;
+        }
         let near = significant(finding.worst, digits);
         let step = 10_f64.powi(finding.worst.abs().log10().floor() as i32 + 1 - digits);
         if near < finding.worst && digits < MOST_DIGITS { near + step } else { finding.worst }
     };
-    let at = |digits| (shown(above(digits), digits), finding.limit.map(|limit| shown(limit, digits)));
-    let apart = |digits: &i32| {
-        let (worst, limit) = at(*digits);
-        finding.holds() || limit.is_none_or(|limit| limit != worst)
-    };
-    at((DIGITS..MOST_DIGITS).find(apart).unwrap_or(MOST_DIGITS))
+    let limit = |digits| finding.limit.map(|limit| shown(limit, digits));
+    let apart =
+        |digits: &i32| finding.holds() || limit(*digits).is_none_or(|limit| limit != shown(finding.worst, *digits));
+    let digits = (DIGITS..MOST_DIGITS).find(apart).unwrap_or(MOST_DIGITS);
+    (shown(above(digits), digits), limit(digits))
 }
 
 /// The span of a source block that is cut.

@@ -137,8 +137,8 @@ mod tests {
         };
         assert_eq!(advice([0.0, 100.0], [0.0, 100.0]), (None, None));
         // As far as the blade reaches, beside what it takes.
-        check([-5.0, 100.0], [0.0, 205.0], "5.0 mm beyond X 0.0", "move the marker by X +12.1 mm");
-        check([100.0, 305.01], [0.0, 300.0], "5.1 mm beyond X 300.0", "move the marker by X -12.2 mm");
+        check([-5.0, 100.0], [0.0, 205.0], "5.0 mm beyond X 0.0", "move the marker by X +12.4 mm");
+        check([100.0, 305.01], [0.0, 300.0], "5.1 mm beyond X 300.0", "move the marker by X -12.5 mm");
         // As far as there is room.
         check([-5.0, 100.0], [0.0, 105.0], "5.0 mm beyond X 0.0", "move the marker by X +5.000 mm");
         let hint = "along X the marker does not fit: its 105.0 mm are 5.0 mm more than the table has, 100.0 mm";
