@@ -20,6 +20,8 @@ const MOST_TOLD: usize = 3;
 const ROOM: usize = 6;
 /// Decimals of a place on the cloth, mm.
 const PLACE_DECIMALS: u32 = 1;
+/// Findings that are no farther apart are alike, mm: they stand as in the file.
+const ALIKE: f64 = 0.01;
 /// Columns of the tally.
 const COLUMNS: usize = 100;
 
@@ -84,7 +86,7 @@ impl Group<'_> {
     fn render(&mut self, out: &mut String, (source, lines): (&Source, &mut Lines), most: usize) {
         // Those that can be measured by how bad they are, the others as they stand in the file.
         self.findings.sort_by(|a, b| {
-            let bad = |finding: &Diagnostic| finding.by.unwrap_or(0.0);
+            let bad = |finding: &Diagnostic| (finding.by.unwrap_or(0.0) / ALIKE).round();
             bad(b).total_cmp(&bad(a)).then_with(|| a.span.cmp(&b.span))
         });
         let told = &self.findings[..self.findings.len().min(most)];
