@@ -17,7 +17,7 @@ const WINDOW_AFTER: usize = 40;
 /// How many findings of a code are told.
 const MOST_TOLD: usize = 3;
 /// Findings that are told in all before there is only one of each code.
-const ROOM: usize = 6;
+const ROOM: usize = 4;
 /// Decimals of a place on the cloth, mm.
 const PLACE_DECIMALS: u32 = 1;
 /// Findings that are no farther apart are alike, mm: they stand as in the file.
