@@ -44,9 +44,36 @@ impl Source {
 
     /// Where a span starts, counted as people count: block and line from 1, byte from 0.
     pub fn place(&self, span: Span) -> Place {
-        let before = &self.bytes[..(span.start as usize).min(self.bytes.len())];
-        let line = 1 + memchr::memchr_iter(b'\n', before).count() as u32;
-        Place { block: span.block, line, byte: span.start }
+        self.lines().place(span)
+    }
+
+    /// The same for many spans, best in their order.
+    pub fn lines(&self) -> Lines<'_> {
+        Lines { bytes: &self.bytes, at: 0, breaks: 0 }
+    }
+}
+
+/// Counts the lines of a [`Source`] on from the place that was asked for before, forwards or back.
+#[derive(Debug)]
+pub struct Lines<'a> {
+    bytes: &'a [u8],
+    /// Bytes counted, and the line breaks among them.
+    at: usize,
+    breaks: usize,
+}
+
+impl Lines<'_> {
+    /// Where a span starts.
+    pub fn place(&mut self, span: Span) -> Place {
+        let start = (span.start as usize).min(self.bytes.len());
+        let count = |bytes: &[u8]| memchr::memchr_iter(b'\n', bytes).count();
+        if start >= self.at {
+            self.breaks += count(&self.bytes[self.at..start]);
+        } else {
+            self.breaks -= count(&self.bytes[start..self.at]);
+        }
+        self.at = start;
+        Place { block: span.block, line: 1 + self.breaks as u32, byte: span.start }
     }
 }
 

@@ -66,6 +66,7 @@ const NO_GRAMMAR: &[(&str, &str)] = &[];
 const BESIDE_A_TABLE: &[(&str, &str)] = &[
     ("bow", "says how a blade lies over the start of a run, for the passes that act on it"),
     ("chord", "finds where a blade cannot be a chord of a run, for the pass that acts on it"),
+    ("depth", "measures how far two parts overlap, for the pass that warns of it"),
     ("foreign", "names the formats that are no dialect of ours"),
     ("frame", "makes the one toolpath that no pass edits"),
     ("lap", "says how far C turns along a run, for the passes that keep it in its range"),

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use cutc::diagnostic::render;
+use cutc::diagnostic::{Detail, render, render_with};
 use cutc::machine::{Fit, MachineProfile, load};
 use cutc::source::Source;
 
@@ -23,7 +23,7 @@ fn every_fault_of_a_profile_is_shown_at_its_place() {
         let source = source(path);
         let faults = load(Some(&source), &[]).expect_err("a faulty profile");
         assert_eq!(faults.arguments.iter().count(), 0);
-        insta::assert_snapshot!(render(&faults.file, &source));
+        insta::assert_snapshot!(render_with(&faults.file, &source, Detail::All));
     });
 }
 

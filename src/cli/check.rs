@@ -7,10 +7,10 @@ use serde::Serialize;
 
 use super::choices::Format;
 use super::files;
-use super::options::{Reading, counted};
+use super::options::{Messages, Reading, counted};
 use super::report::{Findings, pretty};
 use super::{DONE, FAULTY, Finished, USAGE, say};
-use crate::diagnostic::{Diagnostics, Severity, render};
+use crate::diagnostic::{Diagnostics, Severity, render_with};
 use crate::pipeline;
 
 /// Arguments of `cutc check`.
@@ -22,6 +22,9 @@ pub(super) struct Arguments {
 
     #[command(flatten)]
     reading: Reading,
+
+    #[command(flatten)]
+    messages: Messages,
 
     /// How to give the findings
     #[arg(long, value_enum, default_value = "text")]
@@ -58,10 +61,12 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
             code = code.max(FAULTY);
         }
         let dialect = input.map(|input| input.dialect.name);
-        said.push_str(&render(&diagnostics, &source));
-        let errors = counted(diagnostics.count(Severity::Error), "error");
-        let warnings = counted(diagnostics.count(Severity::Warning), "warning");
-        say(&mut said, format_args!("{}: {}, {errors}, {warnings}", source.name(), dialect.unwrap_or("unknown")));
+        said.push_str(&render_with(&diagnostics, &source, arguments.messages.detail(arguments.format)));
+        if !arguments.messages.quiet || diagnostics.has_errors() {
+            let errors = counted(diagnostics.count(Severity::Error), "error");
+            let warnings = counted(diagnostics.count(Severity::Warning), "warning");
+            say(&mut said, format_args!("{}: {}, {errors}, {warnings}", source.name(), dialect.unwrap_or("unknown")));
+        }
         verdicts.push(Verdict {
             file: source.name().to_owned(),
             dialect,

@@ -8,11 +8,11 @@ use tempfile::SpooledTempFile;
 
 use super::choices::{self, Format};
 use super::files::{self, Asked, Destination, Draft, MadeDirectory, Place};
-use super::options::{Choice, Reading, counted};
+use super::options::{Choice, Messages, Reading, counted};
 use super::provenance::{self, Made, Verified};
 use super::{DONE, FAULTY, Finished, Stdout, USAGE, failure, report, say, setup, summary};
 use crate::back::Target;
-use crate::diagnostic::{Diagnostics, Severity, code, render};
+use crate::diagnostic::{Diagnostics, Severity, code, render_with};
 use crate::machine::Job;
 use crate::pipeline::{self, Compiled, Medium, Product};
 use crate::source::Source;
@@ -50,6 +50,9 @@ pub(super) struct Arguments {
     reading: Reading,
 
     #[command(flatten)]
+    messages: Messages,
+
+    #[command(flatten)]
     choice: Choice,
 
     /// Do not read the program back and judge it; summary and provenance say so
@@ -67,6 +70,9 @@ pub(super) struct Arguments {
 
 /// Bytes of a program for standard output that are kept in memory; a longer one goes to a temporary file.
 const SPOOL_BYTES: usize = 64 << 20;
+
+/// Lines about the data that leave room for all of the summary.
+const MOST_LINES: usize = 10;
 
 /// What a compile left.
 struct Emitted {
@@ -130,7 +136,8 @@ fn dump(arguments: &Arguments, pass: &str) -> anyhow::Result<Finished> {
     let mut diagnostics = Diagnostics::default();
     let text = pipeline::dump(&source, arguments.reading.from, &job, pass, &mut diagnostics);
     let code = if text.is_none() || diagnostics.has_errors() { FAULTY } else { DONE };
-    Ok(Finished::text(text.unwrap_or_default(), render(&diagnostics, &source), code))
+    let said = render_with(&diagnostics, &source, arguments.messages.detail(Format::Text));
+    Ok(Finished::text(text.unwrap_or_default(), said, code))
 }
 
 impl Compile<'_> {
@@ -153,7 +160,7 @@ impl Compile<'_> {
             Ok(emitted) => emitted,
             Err(error) => {
                 let aside = move_aside(paths);
-                let said = format!("{}error: {error:#}\n{aside}", render(&diagnostics, &self.source));
+                let said = format!("{}error: {error:#}\n{aside}", self.said(&diagnostics));
                 return Finished::text(String::new(), said, USAGE);
             }
         };
@@ -161,7 +168,7 @@ impl Compile<'_> {
         let programs: Vec<PathBuf> = programs.into_iter().map(|(path, _)| path).collect();
         let mut finished = self.finish(compiled.as_ref(), &diagnostics, &programs);
         if compiled.is_some() {
-            for path in &programs {
+            for path in programs.iter().filter(|_| !self.arguments.messages.quiet) {
                 say(&mut finished.stderr, format_args!("wrote `{}`", path.display()));
             }
         } else {
@@ -214,21 +221,29 @@ impl Compile<'_> {
         Ok(Emitted { compiled, pictures: products.iter().map(|product| product.shows_refusal).collect() })
     }
 
+    /// What is said about the data.
+    fn said(&self, diagnostics: &Diagnostics) -> String {
+        render_with(diagnostics, &self.source, self.arguments.messages.detail(self.arguments.format))
+    }
+
     /// What is said about the data and the program, which goes to a file or to standard output.
     fn finish(&self, compiled: Option<&Compiled>, diagnostics: &Diagnostics, paths: &[PathBuf]) -> Finished {
-        let mut said = render(diagnostics, &self.source);
+        let mut said = self.said(diagnostics);
         let stdout = match self.arguments.format {
             Format::Json => report::json(compiled.map(|c| &c.report), diagnostics, (&self.source, &self.job)),
             Format::Text => String::new(),
         };
         match (compiled, self.arguments.format) {
-            (Some(Compiled { report, verdict }), Format::Text) => {
-                said.push_str(&summary::text(report, self.source.name(), diagnostics));
+            (Some(Compiled { report, verdict }), Format::Text) if !self.arguments.messages.quiet => {
+                let text = summary::text(report, self.source.name(), diagnostics);
+                // Where there is much to read about the data, the table of the axes waits to be asked for.
+                let is_long = said.lines().count() > MOST_LINES && !self.arguments.messages.all;
+                said.push_str(if is_long { text.split(summary::AXES).next().unwrap_or(&text) } else { &text });
                 said.push_str(&setup::text(&self.job));
                 said.push_str(&summary::choice(&self.job));
                 said.push_str(&summary::verdict(verdict.as_ref()));
             }
-            (Some(_), Format::Json) => {}
+            (Some(_), Format::Json | Format::Text) => {}
             (None, Format::Text | Format::Json) => {
                 let errors = counted(diagnostics.count(Severity::Error), "error");
                 let warnings = counted(diagnostics.count(Severity::Warning), "warning");

@@ -8,10 +8,10 @@ use serde::Serialize;
 use super::choices::Format;
 use super::facts::Facts;
 use super::labels::{self, Labelled};
-use super::options::Reading;
+use super::options::{Messages, Reading};
 use super::times::{self, Timed};
 use super::{DONE, FAULTY, Finished, drawn, files, report, setup, summary};
-use crate::diagnostic::{Diagnostics, render};
+use crate::diagnostic::{Diagnostics, render_with};
 use crate::ir::Marker;
 use crate::machine::Job;
 use crate::pipeline::{self, Report};
@@ -25,6 +25,9 @@ pub(super) struct Arguments {
 
     #[command(flatten)]
     reading: Reading,
+
+    #[command(flatten)]
+    messages: Messages,
 
     /// Also list the labels of each piece: place, angle, text, and the fields of the list behind M0
     ///
@@ -77,7 +80,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
         (Format::Text, None) => String::new(),
     };
     let code = if known.is_none() || diagnostics.has_errors() { FAULTY } else { DONE };
-    Ok(Finished::text(stdout, render(&diagnostics, &source), code))
+    Ok(Finished::text(stdout, render_with(&diagnostics, &source, arguments.messages.detail(arguments.format)), code))
 }
 
 /// What is known of a file.

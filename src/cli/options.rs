@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::choices::Format;
 use super::{FAULTY, Finished, USAGE, choices, failure, files, say};
-use crate::diagnostic::{Severity, render};
+use crate::diagnostic::{Detail, Severity, render_with};
 use crate::front::Dialect;
 use crate::machine::plot::{Inner, Lines};
 use crate::machine::{Faults, Job, Mode, NotNumbers, Numbers, Selection, load_given};
@@ -26,6 +27,31 @@ pub(super) struct Machine {
     /// knife.feed_mm_s=off`. A value may have a unit: `--set "knife.feed_mm_s=45 m/min"`.
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
+}
+
+/// How much is said about a file.
+#[derive(Debug, Clone, Copy, Args)]
+#[command(next_help_heading = "Messages")]
+pub(super) struct Messages {
+    /// Tell every finding; without it at most three of a code, and how many more there are
+    #[arg(long, conflicts_with = "quiet")]
+    pub(super) all: bool,
+
+    /// Tell errors only
+    #[arg(short, long)]
+    pub(super) quiet: bool,
+}
+
+impl Messages {
+    /// What is told on standard error; beside JSON, which holds every finding, only how many there are.
+    pub(super) fn detail(self, format: Format) -> Detail {
+        match (self, format) {
+            (Self { all: true, .. }, _) => Detail::All,
+            (Self { quiet: true, .. }, _) => Detail::Errors,
+            (_, Format::Json) => Detail::Counts,
+            (_, Format::Text) => Detail::Short,
+        }
+    }
 }
 
 /// How an input is read.
@@ -183,10 +209,10 @@ impl Machine {
 pub(super) fn refuse(faults: &Faults, file: Option<&Source>) -> Finished {
     let mut said = String::new();
     if let Some(file) = file {
-        said.push_str(&render(&faults.file, file));
+        said.push_str(&render_with(&faults.file, file, Detail::All));
     }
     let arguments = Source::new("command line", Vec::new()).expect("nothing is small");
-    said.push_str(&render(&faults.arguments, &arguments));
+    said.push_str(&render_with(&faults.arguments, &arguments, Detail::All));
     let count = faults.file.count(Severity::Error) + faults.arguments.count(Severity::Error);
     let name = file.map_or_else(String::new, |file| format!(" `{}`", file.name()));
     say(&mut said, format_args!("the machine profile{name} has {}", counted(count, "error")));

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::setup::Setup;
-use crate::diagnostic::{Diagnostics, Json, Severity};
+use crate::diagnostic::{Code, Diagnostics, Json, Severity};
 use crate::ir::Marker;
 use crate::machine::Job;
 use crate::pipeline::Report;
@@ -24,14 +24,28 @@ struct Figures<T: Serialize> {
 pub(super) struct Findings {
     warnings: Vec<Json>,
     errors: Vec<Json>,
+    /// How many of each code were found, the worst first: a flood of one code is counted here to its end.
+    tally: Vec<Count>,
+}
+
+#[derive(Serialize)]
+struct Count {
+    code: &'static str,
+    severity: Severity,
+    count: usize,
 }
 
 impl Findings {
     /// The findings about a source.
     pub(super) fn of(diagnostics: &Diagnostics, source: &Source) -> Self {
-        let of =
-            |severity| diagnostics.iter().filter(|d| d.code.severity == severity).map(|d| d.to_json(source)).collect();
-        Self { warnings: of(Severity::Warning), errors: of(Severity::Error) }
+        let mut lines = source.lines();
+        let mut of = |severity| {
+            let of_severity = diagnostics.iter().filter(|finding| finding.code.severity == severity);
+            of_severity.map(|finding| finding.to_json(source.name(), &mut lines)).collect()
+        };
+        let count = |(code, count): (&Code, usize)| Count { code: code.name, severity: code.severity, count };
+        let tally = diagnostics.tally().into_iter().map(count).collect();
+        Self { warnings: of(Severity::Warning), errors: of(Severity::Error), tally }
     }
 }
 
@@ -67,7 +81,7 @@ mod tests {
     use super::*;
     use crate::diagnostic::{Diagnostic, code};
 
-    const KEYS: [&str; 25] = [
+    const KEYS: [&str; 26] = [
         "dialect",
         "profile",
         "knife",
@@ -89,6 +103,7 @@ mod tests {
         "axes",
         "warnings",
         "errors",
+        "tally",
         "sides",
         "notch_style",
         "follow",

@@ -14,6 +14,8 @@ use crate::units::number::{fixed, short};
 const ON_PATH: &str = "verify/on-path";
 /// The rule that says how far the blade itself is off.
 const BODY: &str = "verify/body";
+/// The heading of the table of the axes, which ends a summary.
+pub(super) const AXES: &str = "\n  greatest value of limit\n";
 /// Columns that a line of shares may take.
 const SHARES_WIDTH: usize = 66;
 /// Below this limit two decimals are shown, else none.
@@ -211,7 +213,7 @@ fn peaks(out: &mut String, axes: &Axes) {
     let worst = |column: usize| rows.iter().map(|(_, cells)| cells[column].0.len()).max().unwrap_or(0);
     let limit = |column: usize| rows.iter().map(|(_, cells)| cells[column].1.len()).max().unwrap_or(0);
     let width = |column: usize| titles[column].len().max(worst(column) + 4 + limit(column));
-    out.push_str("\n  greatest value of limit\n");
+    out.push_str(AXES);
     let title = |i: usize| format!("   {:>1$}", titles[i], width(i));
     let _ = writeln!(out, "  {:9}{}", "axis", [0, 1, 2].map(title).concat());
     for (axis, cells) in &rows {

@@ -211,7 +211,7 @@ mod tests {
 
         FAIL  verify/end                infinite  0.000001  mm, deg    1.500    10.0  20.0
               the rule: the program ends with knife and drill up, and parked if the profile says so
-        FAIL  verify/acceleration-x         8123      8012  mm/s2     12.345  1695.4  20.0    268
+        FAIL  verify/acceleration-x         8124      8012  mm/s2     12.345  1695.4  20.0    268
               the rule: X never accelerates more than its limit
 
         FAIL  `a.csv` must not run: it breaks 2 of 4 rules

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::choices::Format;
-use super::options::{Choice, Reading, counted};
+use super::options::{Choice, Messages, Reading, counted};
 use super::verdict::{self, Judgement};
 use super::{DONE, FAULTY, Finished, failure, files, provenance, say};
-use crate::diagnostic::{Diagnostics, Severity, render};
+use crate::diagnostic::{Diagnostics, Severity, render_with};
 use crate::pipeline::{self, Verdict};
 
 /// Arguments of `cutc verify`.
@@ -27,6 +27,9 @@ pub(super) struct Arguments {
 
     #[command(flatten)]
     reading: Reading,
+
+    #[command(flatten)]
+    messages: Messages,
 
     /// What the program was compiled with
     #[command(flatten)]
@@ -65,8 +68,10 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     let mut diagnostics = Diagnostics::default();
     let judged = pipeline::judge_program(&mut program, &source, arguments.reading.from, &job, &mut diagnostics)
         .map_err(cannot)?;
-    let mut said = render(&diagnostics, &source);
-    said.push_str(&provenance::doubts(&arguments.program, &source, &job));
+    let mut said = render_with(&diagnostics, &source, arguments.messages.detail(arguments.format));
+    if !arguments.messages.quiet {
+        said.push_str(&provenance::doubts(&arguments.program, &source, &job));
+    }
     if judged.is_none() {
         let errors = counted(diagnostics.count(Severity::Error), "error");
         say(&mut said, format_args!("{}: {errors}; `{name}` was not judged", source.name()));

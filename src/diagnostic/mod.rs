@@ -3,14 +3,14 @@
 //! A stage pushes what it finds into a [`Diagnostics`] and goes on, so that one run reports every fault of a file.
 
 pub mod code;
+mod json;
 mod text;
 
-use serde::Serialize;
+pub use code::{Code, Fault, Harm, Severity};
+pub use json::Json;
+pub use text::{Detail, render, render_with};
 
-pub use code::{Code, Severity};
-pub use text::render;
-
-use crate::source::{Source, Span};
+use crate::source::Span;
 
 /// One finding about the user's data.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,16 +19,31 @@ pub struct Diagnostic {
     pub code: &'static Code,
     /// Where in the source; `None` when it concerns the file as a whole.
     pub span: Option<Span>,
+    /// The piece that lies there, if it is in one.
+    pub piece: Option<PieceName>,
+    /// The place on the cloth, X and Y in mm.
+    pub at: Option<[f64; 2]>,
+    /// How bad it is, mm, where that can be measured: of its code the worst are told first.
+    pub by: Option<f64>,
     /// What is wrong and where: lower case, no full stop, values with units.
     pub message: String,
     /// What to do about it.
     pub hints: Vec<String>,
 }
 
+/// A piece as people know it.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct PieceName {
+    /// Its number in the file.
+    pub number: u32,
+    /// Its first label, when it has one.
+    pub label: Option<String>,
+}
+
 impl Diagnostic {
     /// A finding about the file as a whole.
     pub fn new(code: &'static Code, message: impl Into<String>) -> Self {
-        Self { code, span: None, message: message.into(), hints: Vec::new() }
+        Self { code, span: None, piece: None, at: None, by: None, message: message.into(), hints: Vec::new() }
     }
 
     /// The finding, at a place.
@@ -38,84 +53,70 @@ impl Diagnostic {
         self
     }
 
+    /// The finding, at a place on the cloth, X and Y in mm.
+    #[must_use]
+    pub fn on_cloth(mut self, at: impl Into<[f64; 2]>) -> Self {
+        self.at = Some(at.into());
+        self
+    }
+
+    /// The finding, so many mm bad.
+    #[must_use]
+    pub fn by(mut self, by: f64) -> Self {
+        self.by = Some(by);
+        self
+    }
+
     /// The finding, with one more hint.
     #[must_use]
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hints.push(hint.into());
         self
     }
-
-    /// The form for programs: code, severity, place, message, hints.
-    pub fn to_json(&self, source: &Source) -> Json {
-        Json {
-            code: self.code.name,
-            severity: self.code.severity,
-            file: source.name().to_owned(),
-            place: self.span.map(|span| {
-                let place = source.place(span);
-                JsonPlace { block: place.block, line: place.line, byte: place.byte, end_byte: span.end }
-            }),
-            message: self.message.clone(),
-            hints: self.hints.clone(),
-        }
-    }
-}
-
-/// A diagnostic as JSON; `place` is null when it concerns the file as a whole.
-#[derive(Debug, Serialize)]
-pub struct Json {
-    code: &'static str,
-    severity: Severity,
-    file: String,
-    #[serde(flatten)]
-    place: Option<JsonPlace>,
-    message: String,
-    hints: Vec<String>,
-}
-
-#[derive(Debug, Serialize)]
-struct JsonPlace {
-    block: u32,
-    line: u32,
-    byte: u32,
-    end_byte: u32,
 }
 
 /// All findings of a run about one source, in the order in which they were found.
 #[derive(Debug, Default)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
-    /// Findings of a code beyond [`Diagnostics::MOST_OF_A_CODE`]: counted, not kept.
-    surplus: Vec<(&'static Code, usize)>,
+    /// How many of each code were found: those beyond [`Diagnostics::MOST_OF_A_CODE`] are counted, not kept.
+    counts: Vec<(&'static Code, usize)>,
 }
 
 impl Diagnostics {
-    /// How many findings of one code are kept: a megabyte of junk has a fault a byte.
-    pub const MOST_OF_A_CODE: usize = 50;
+    /// How many findings of one code are kept: a megabyte of junk has a fault a byte. No marker has so many of another kind.
+    pub const MOST_OF_A_CODE: usize = 10_000;
 
     /// Adds a finding.
     pub fn push(&mut self, diagnostic: Diagnostic) {
-        let code = diagnostic.code;
-        if self.list.iter().filter(|d| d.code == code).count() < Self::MOST_OF_A_CODE {
+        let count = self.count_of(diagnostic.code);
+        *count += 1;
+        if *count <= Self::MOST_OF_A_CODE {
             self.list.push(diagnostic);
-        } else if let Some((_, count)) = self.surplus.iter_mut().find(|(c, _)| *c == code) {
-            *count += 1;
-        } else {
-            self.surplus.push((code, 1));
         }
     }
 
     /// Adds all findings of another run over the same source.
     pub fn extend(&mut self, other: Self) {
+        let mut counted = other.counts;
         for diagnostic in other.list {
+            if let Some((_, left)) = counted.iter_mut().find(|(code, _)| *code == diagnostic.code) {
+                *left -= 1;
+            }
             self.push(diagnostic);
         }
-        for (code, count) in other.surplus {
-            match self.surplus.iter_mut().find(|(c, _)| *c == code) {
-                Some((_, total)) => *total += count,
-                None => self.surplus.push((code, count)),
-            }
+        for (code, left) in counted {
+            *self.count_of(code) += left;
         }
+    }
+
+    fn count_of(&mut self, code: &'static Code) -> &mut usize {
+        let known = self.counts.iter().position(|(known, _)| std::ptr::eq(*known, code));
+        let row = known.unwrap_or_else(|| {
+            self.counts.push((code, 0));
+            self.counts.len() - 1
+        });
+        &mut self.counts[row].1
     }
 
     /// The findings that were kept.
@@ -123,15 +124,21 @@ impl Diagnostics {
         self.list.iter()
     }
 
-    /// Codes of which more were found than kept, and how many more.
-    pub fn surplus(&self) -> &[(&'static Code, usize)] {
-        &self.surplus
+    /// The same, to say better where they are.
+    pub fn iter_mut(&mut self) -> std::slice::IterMut<'_, Diagnostic> {
+        self.list.iter_mut()
     }
 
-    /// Number of findings of a severity, the surplus included.
+    /// How many of each code were found, kept or not, the worst code first.
+    pub fn tally(&self) -> Vec<(&'static Code, usize)> {
+        let mut tally: Vec<_> = self.counts.iter().copied().filter(|&(_, count)| count > 0).collect();
+        tally.sort_by_key(|(code, _)| code.rank());
+        tally
+    }
+
+    /// Number of findings of a severity, kept or not.
     pub fn count(&self, severity: Severity) -> usize {
-        self.list.iter().filter(|d| d.code.severity == severity).count()
-            + self.surplus.iter().filter(|(c, _)| c.severity == severity).map(|(_, n)| n).sum::<usize>()
+        self.counts.iter().filter(|(code, _)| code.severity == severity).map(|(_, count)| count).sum()
     }
 
     /// Whether anything found forbids a program.
@@ -156,10 +163,14 @@ mod tests {
     #[test]
     fn a_flood_of_one_code_is_counted_but_not_kept() {
         let mut found = Diagnostics::default();
-        for _ in 0..1000 {
+        for _ in 0..2 * Diagnostics::MOST_OF_A_CODE {
             found.push(Diagnostic::new(&code::SOURCE_EMPTY, "x"));
         }
         assert_eq!(found.iter().count(), Diagnostics::MOST_OF_A_CODE);
-        assert_eq!(found.count(Severity::Error), 1000);
+        assert_eq!(found.count(Severity::Error), 2 * Diagnostics::MOST_OF_A_CODE);
+        let mut all = Diagnostics::default();
+        all.push(Diagnostic::new(&code::SOURCE_EMPTY, "y"));
+        all.extend(found);
+        assert_eq!(all.tally(), [(&code::SOURCE_EMPTY, 1 + 2 * Diagnostics::MOST_OF_A_CODE)]);
     }
 }

@@ -1,26 +1,139 @@
-//! The text rendering: place, message, a window of the source with a caret, hints.
+//! The text rendering: message, place, a window of the source where the text is at fault, hints.
+//!
+//! A marker of hundreds of pieces has hundreds of findings of one kind. So findings stand by their code, the worst code first;
+//! of each a few are told, what all of them say is said once, and a tally stands at the end.
 //!
 //! A cut file is often one line of 59 kB, so never a whole line is shown, only a window around the place.
 
 use std::fmt::Write as _;
 
-use super::{Diagnostic, Diagnostics, Severity};
-use crate::source::{Source, Span};
+use super::{Code, Diagnostic, Diagnostics, Fault, Severity};
+use crate::source::{Lines, Source, Span};
+use crate::units::number::fixed;
 
 /// Bytes of source shown before and after the place.
 const WINDOW_BEFORE: usize = 28;
 const WINDOW_AFTER: usize = 40;
+/// How many findings of a code are told.
+const MOST_TOLD: usize = 3;
+/// Findings that are told in all before there is only one of each code.
+const ROOM: usize = 4;
+/// Decimals of a place on the cloth, mm.
+const PLACE_DECIMALS: u32 = 1;
+/// Findings that are no farther apart are alike, mm: they stand as in the file.
+const ALIKE: f64 = 0.01;
+/// Columns of the tally.
+const COLUMNS: usize = 100;
 
-/// Renders all findings, errors and warnings in the order found, then what was counted only.
+/// How much is told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Detail {
+    /// A few of each code.
+    #[default]
+    Short,
+    /// Every finding.
+    All,
+    /// Errors only, a few of each code.
+    Errors,
+    /// How many of each code: every finding is told elsewhere.
+    Counts,
+}
+
+/// Renders what is told when nothing else is asked for.
 pub fn render(diagnostics: &Diagnostics, source: &Source) -> String {
-    let mut out = String::new();
-    for diagnostic in diagnostics {
-        render_one(&mut out, diagnostic, source);
+    render_with(diagnostics, source, Detail::Short)
+}
+
+/// Renders findings, the worst code first, then the tally when not all of them are told.
+pub fn render_with(diagnostics: &Diagnostics, source: &Source, detail: Detail) -> String {
+    let mut groups: Vec<Group> =
+        diagnostics.tally().into_iter().map(|(code, count)| Group { code, count, findings: Vec::new() }).collect();
+    if detail == Detail::Errors {
+        groups.retain(|group| group.code.severity == Severity::Error);
     }
-    for (code, count) in diagnostics.surplus() {
-        let _ = writeln!(out, "{}[{}]: {count} more like the ones above", word(code.severity), code.name);
+    for finding in diagnostics {
+        if let Some(group) = groups.iter_mut().find(|group| std::ptr::eq(group.code, finding.code)) {
+            group.findings.push(finding);
+        }
+    }
+    let mut out = String::new();
+    let most = match detail {
+        Detail::Short | Detail::Errors => (ROOM / groups.len().max(1)).clamp(1, MOST_TOLD),
+        Detail::All => usize::MAX,
+        Detail::Counts => 0,
+    };
+    let mut lines = source.lines();
+    for group in &mut groups {
+        let told = if most > 0 && group.code.severity == Severity::Error { most.max(MOST_TOLD) } else { most };
+        group.render(&mut out, (source, &mut lines), told);
+    }
+    if groups.iter().any(|group| group.count > most) {
+        tally(&mut out, &groups);
     }
     out
+}
+
+/// The findings of one code.
+struct Group<'a> {
+    code: &'static Code,
+    /// How many were found, kept or not.
+    count: usize,
+    findings: Vec<&'a Diagnostic>,
+}
+
+// Writing into a `String` cannot fail, so the results of `writeln!` are dropped throughout.
+impl Group<'_> {
+    fn render(&mut self, out: &mut String, (source, lines): (&Source, &mut Lines), most: usize) {
+        // Those that can be measured by how bad they are, the others as they stand in the file.
+        self.findings.sort_by(|a, b| {
+            let bad = |finding: &Diagnostic| (finding.by.unwrap_or(0.0) / ALIKE).round();
+            bad(b).total_cmp(&bad(a)).then_with(|| a.span.cmp(&b.span))
+        });
+        let told = &self.findings[..self.findings.len().min(most)];
+        for (i, finding) in told.iter().enumerate() {
+            render_one(out, finding, (source, &mut *lines));
+            // What the next one says as well is said behind that.
+            if told.get(i + 1).is_none_or(|next| next.hints != finding.hints) {
+                for hint in &finding.hints {
+                    let _ = writeln!(out, "  = hint: {hint}");
+                }
+            }
+        }
+        match self.count - told.len() {
+            0 => {}
+            _ if most == 0 => {}
+            more if self.findings.len() > told.len() => {
+                let _ = writeln!(out, "  ... and {more} more (`--all`)");
+            }
+            more => {
+                let _ = writeln!(out, "  ... and {more} more like these");
+            }
+        }
+    }
+}
+
+/// How many there are of each code, the worst first.
+fn tally(out: &mut String, groups: &[Group]) {
+    for severity in [Severity::Error, Severity::Warning] {
+        let of_severity = || groups.iter().filter(|group| group.code.severity == severity);
+        let count: usize = of_severity().map(|group| group.count).sum();
+        if count == 0 {
+            continue;
+        }
+        let mut line = format!("{count} {}{}:", word(severity), if count == 1 { "" } else { "s" });
+        let mut words = of_severity().map(|group| format!(" {} {}", group.count, group.code.name)).peekable();
+        while let Some(mut next) = words.next() {
+            if words.peek().is_some() {
+                next.push(',');
+            }
+            if line.len() + next.len() > COLUMNS {
+                let _ = writeln!(out, "{line}");
+                line = " ".to_owned();
+            }
+            line += &next;
+        }
+        let _ = writeln!(out, "{line}");
+    }
 }
 
 fn word(severity: Severity) -> &'static str {
@@ -30,26 +143,42 @@ fn word(severity: Severity) -> &'static str {
     }
 }
 
-// Writing into a `String` cannot fail, so the results of `writeln!` are dropped throughout.
-fn render_one(out: &mut String, diagnostic: &Diagnostic, source: &Source) {
+fn render_one(out: &mut String, diagnostic: &Diagnostic, (source, lines): (&Source, &mut Lines)) {
     let _ = writeln!(out, "{}[{}]: {}", word(diagnostic.code.severity), diagnostic.code.name, diagnostic.message);
-    match diagnostic.span {
-        None => {
-            let _ = writeln!(out, "  --> {}", source.name());
-        }
-        Some(span) => {
-            let place = source.place(span);
-            let _ = write!(out, "  --> {}: line {}, ", source.name(), place.line);
-            if place.block > 0 {
-                let _ = write!(out, "block {}, ", place.block);
-            }
-            let _ = writeln!(out, "byte {}", place.byte);
-            window(out, source.bytes(), span);
+    let mut place = on_cloth(diagnostic);
+    if let Some(span) = diagnostic.span {
+        let in_text = in_text(span, lines, place.is_empty());
+        place = if place.is_empty() { in_text } else { format!("{place} ({in_text})") };
+    }
+    let colon = if place.is_empty() { "" } else { ": " };
+    let _ = writeln!(out, "  --> {}{colon}{place}", source.name());
+    if let (Some(span), Fault::Text) = (diagnostic.span, diagnostic.code.fault) {
+        window(out, source.bytes(), span);
+    }
+}
+
+/// The piece and the place on the cloth, as far as they are known: what people find in the picture and on the table.
+fn on_cloth(diagnostic: &Diagnostic) -> String {
+    let mut place = String::new();
+    if let Some(piece) = &diagnostic.piece {
+        let _ = write!(place, "piece {}", piece.number);
+        if let Some(label) = &piece.label {
+            let _ = write!(place, " \"{label}\"");
         }
     }
-    for hint in &diagnostic.hints {
-        let _ = writeln!(out, "  = hint: {hint}");
+    if let Some([x, y]) = diagnostic.at.map(|at| at.map(|value| fixed(value, PLACE_DECIMALS))) {
+        let space = if place.is_empty() { "" } else { " " };
+        let _ = write!(place, "{space}at {x}, {y} mm");
     }
+    place
+}
+
+/// Block and byte; the line, too, where there is more than one or nothing else is told.
+fn in_text(span: Span, lines: &mut Lines, alone: bool) -> String {
+    let place = lines.place(span);
+    let line = if alone || place.line > 1 { format!("line {}, ", place.line) } else { String::new() };
+    let block = if place.block > 0 { format!("block {}, ", place.block) } else { String::new() };
+    format!("{line}{block}byte {}", place.byte)
 }
 
 /// Two lines: the bytes around the span, and carets under the span.

@@ -384,7 +384,6 @@ pub const KEYS: &[Key] = &[
 
     Key { name: "table.x_mm", takes: Takes::RangeOr("unlimited"), about: "Where the table begins and ends along X." },
     Key { name: "table.y_mm", takes: Takes::RangeOr("unlimited"), about: "Where the table begins and ends along Y." },
-    Key { name: "table.strict", takes: Takes::Flag, about: "Whether a program that leaves the table is an error, not only a warning." },
 
     Key { name: "time.period_ms", takes: Takes::Number(from(0.1, 100.0)), about: "Time between two setpoints: the cycle of the controller." },
     Key { name: "counts.x.per_mm", takes: Takes::Number(COUNTS), about: "Target counts: encoder counts of a millimetre along the table." },

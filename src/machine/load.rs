@@ -181,6 +181,9 @@ impl Draft {
         let hint = match keys::near_codes(name).as_deref() {
             Some([code]) => format!("it is spelled `{code}`"),
             Some(codes) => format!("near ones are `{}`; the README lists all codes", codes.join("`, `")),
+            None if name == "table.strict" => {
+                "leave it out: what leaves the table by more than a millimetre is an error now, anyway".to_owned()
+            }
             None if name == keys::NO_PEN => "pen 0 is none: plotters draw nothing with it, nor is it cut".to_owned(),
             None => {
                 let near = near::nearest(name);

@@ -29,7 +29,7 @@ pub use knife::{Follow, Knife, TightCurves};
 pub use load::{Faults, load, load_given};
 pub use notches::{NotchStyle, Notches};
 pub use origin::{Axis, Origin};
-pub use profile::{FileUnit, Fit, MachineProfile};
+pub use profile::{FileUnit, Fit, MachineProfile, Table};
 pub use selection::{Mode, NotNumbers, Numbers, Selection};
 pub use show::Comments;
 

@@ -346,8 +346,19 @@ pub struct Table {
     /// Reach along Y, mm.
     #[serde(with = "OrWord::<Unlimited>")]
     pub y_mm: Option<[f64; 2]>,
-    /// Whether leaving the table is an error.
-    pub strict: bool,
+}
+
+impl Table {
+    /// A program that leaves the table by more is refused, mm: a hand puts a marker down no better than that.
+    pub const EDGE_MM: f64 = 1.0;
+
+    /// How far a place lies off the table, mm; not above 0 on it.
+    pub fn off(&self, place: [f64; 2]) -> f64 {
+        let beyond = |value: f64, range: Option<[f64; 2]>| {
+            range.map_or(f64::NEG_INFINITY, |[least, most]| (least - value).max(value - most))
+        };
+        beyond(place[0], self.x_mm).max(beyond(place[1], self.y_mm))
+    }
 }
 
 /// The clock of the controller.

@@ -11,11 +11,14 @@ use crate::ir::marker::{Notch, Piece};
 use crate::ir::{Finding, Marker};
 use crate::machine::{Job, Mode};
 use crate::source::{Source, Span};
-use crate::units::number::{exact, fixed};
+use crate::units::number::{exact, fixed, up};
 use crate::verify::{self, Ground, Kind, RULES, Verdict};
 
 /// The rule on what can be read.
 const FORMAT: &str = "verify/format";
+/// The rule on the table, and the least that is said of it while it holds, mm.
+const TABLE: &str = "verify/table";
+const EDGE_SHOWN: f64 = 0.01;
 /// Rules that a run may break which is parted where the blade has no room for that.
 const OF_PARTS: &[&str] =
     &["verify/on-path", "verify/stray", "verify/once", "verify/complete", "verify/heading", "verify/body"];
@@ -157,7 +160,6 @@ pub(super) fn report(verdict: &Verdict, (marker, job): (&Marker, &Job), diagnost
         }
         let mut span = None;
         if let Some(place) = finding.place {
-            let _ = write!(message, " at X {} Y {} mm", fixed(place.point.x, 3), fixed(place.point.y, 3));
             if let Some(time) = place.time {
                 let _ = write!(message, ", {} s into the program", fixed(time, 3));
             }
@@ -169,13 +171,30 @@ pub(super) fn report(verdict: &Verdict, (marker, job): (&Marker, &Job), diagnost
                 format!("{keys} parts this cut into pieces that the blade is too wide for: give it more")
             }
             (Some(key), _) => format!("the limit is the profile's `{key}`"),
-            (None, _) => {
-                "no cutter file should lead here: please report it, with the file and the profile; a narrower blade or a smoother outline there may help".to_owned()
+            (None, _) if finding.rule == TABLE => {
+                format!(
+                    "move the marker {} mm away from that edge: the blade reaches beyond its lines",
+                    up(finding.worst, 1)
+                )
             }
+            (None, _) => "no cutter file should lead here: please report it, with the file and the profile".to_owned(),
         };
-        let diagnostic = Diagnostic { span, ..Diagnostic::new(&code::VERIFY_BROKEN, message) };
+        let at = finding.place.map(|place| place.point.into());
+        let diagnostic = Diagnostic { span, at, ..Diagnostic::new(&code::VERIFY_BROKEN, message) };
         diagnostics.push(diagnostic.hint(rule).hint(hint));
     }
+    over_the_edge(verdict, diagnostics);
+}
+
+/// One line on a blade that leaves the table by less than is refused, unless the marker itself is known to.
+fn over_the_edge(verdict: &Verdict, diagnostics: &mut Diagnostics) {
+    let over = verdict.findings.iter().find(|finding| finding.rule == TABLE && finding.holds());
+    let Some((by, place)) = over.and_then(|finding| Some((finding.worst, finding.place?))) else { return };
+    if by < EDGE_SHOWN || diagnostics.iter().any(|finding| finding.code == &code::MARKER_OVER_EDGE) {
+        return;
+    }
+    let message = format!("the knife reaches over the edge of the table: {} mm", up(by, 2));
+    diagnostics.push(Diagnostic::new(&code::MARKER_OVER_EDGE, message).on_cloth(place.point).by(by));
 }
 
 /// The keys of the profile by which runs are parted amid a line, as a sentence begins with them; `None` when none does.
@@ -214,12 +233,20 @@ pub fn figures(finding: &Finding) -> (String, Option<String>) {
         noise if noise < NOISE_EPSILON && finding.holds() => "0".to_owned(),
         _ => exact(significant(value, digits)),
     };
-    let at = |digits| (shown(finding.worst, digits), finding.limit.map(|limit| shown(limit, digits)));
-    let apart = |digits: &i32| {
-        let (worst, limit) = at(*digits);
-        finding.holds() || limit.is_none_or(|limit| limit != worst)
+    // Rounded up, so that the worst value passes where it is set as the limit.
+    let above = |digits| {
+        if !finding.worst.is_normal() || finding.worst < NOISE_EPSILON {
+            return finding.worst;
+        }
+        let near = significant(finding.worst, digits);
+        let step = 10_f64.powi(finding.worst.abs().log10().floor() as i32 + 1 - digits);
+        if near < finding.worst && digits < MOST_DIGITS { near + step } else { finding.worst }
     };
-    at((DIGITS..MOST_DIGITS).find(apart).unwrap_or(MOST_DIGITS))
+    let limit = |digits| finding.limit.map(|limit| shown(limit, digits));
+    let apart =
+        |digits: &i32| finding.holds() || limit(*digits).is_none_or(|limit| limit != shown(finding.worst, *digits));
+    let digits = (DIGITS..MOST_DIGITS).find(apart).unwrap_or(MOST_DIGITS);
+    (shown(above(digits), digits), limit(digits))
 }
 
 /// The span of a source block that is cut.
@@ -240,7 +267,7 @@ mod tests {
             let (worst, limit) = figures(&finding);
             assert_eq!((worst.as_str(), limit.as_deref()), expected);
         };
-        check(0.061_234, Some(0.071), ("0.06123", Some("0.071")));
+        check(0.061_234, Some(0.071), ("0.06124", Some("0.071")));
         check(0.071_000_2, Some(0.071), ("0.0710002", Some("0.071")));
         check(204_000.2, Some(204_000.0), ("204000.2", Some("204000")));
         check(203_999.8, Some(204_000.0), ("204000", Some("204000")));

@@ -1,6 +1,7 @@
 //! The compiler, each stage named once, in order.
 
 mod judge;
+mod place;
 mod program;
 mod refused;
 mod report;
@@ -113,7 +114,7 @@ pub fn read(
     diagnostics: &mut Diagnostics,
 ) -> Option<Input> {
     let mut input = read_alone(source, from, job, diagnostics)?;
-    run_passes(&mut input.marker, job, None, diagnostics);
+    run_passes(&mut input.marker, (source, job), None, diagnostics);
     Some(input)
 }
 
@@ -126,7 +127,7 @@ pub fn read_to_judge(
 ) -> Option<Judged> {
     let mut input = read_alone(source, from, job, diagnostics)?;
     let (census, works) = rayon::join(|| Census::of(&input.marker), || Works::of(&input.marker));
-    run_passes(&mut input.marker, job, None, diagnostics);
+    run_passes(&mut input.marker, (source, job), None, diagnostics);
     let kept = works.kept(&input.marker, &job.profile);
     Some(Judged { input, reading: Reading { census, kept } })
 }
@@ -147,6 +148,7 @@ fn read_alone(
         let finding = Diagnostic::new(&code::SOURCE_NO_PLOT, message);
         diagnostics.push(finding.hint("leave them out; `--pieces` and `--skip` choose pieces of any file"));
     }
+    place::place(diagnostics, 0, (&marker, source, job));
     Some(Input { dialect, marker })
 }
 
@@ -162,13 +164,15 @@ pub fn marker_of(dialect: &Dialect, source: &Source, job: &Job, diagnostics: &mu
     }
 }
 
-/// Runs the marker passes up to and with `last`; `None` = all.
-fn run_passes(marker: &mut Marker, job: &Job, last: Option<&str>, diagnostics: &mut Diagnostics) {
+/// Runs the marker passes up to and with `last`; `None` = all. What they find is placed before a pass can take it away.
+fn run_passes(marker: &mut Marker, (source, job): (&Source, &Job), last: Option<&str>, diagnostics: &mut Diagnostics) {
     for pass in MARKER_PASSES {
         if diagnostics.has_errors() {
             break;
         }
+        let known = diagnostics.iter().len();
         (pass.run)(marker, job, diagnostics);
+        place::place(diagnostics, known, (marker, source, job));
         assert_sound(pass.name, || check::marker(marker));
         if last == Some(pass.name) {
             break;
@@ -206,6 +210,7 @@ pub fn compile_all(
     };
     let Some((input, reading)) = judged.filter(|_| !diagnostics.has_errors()) else { return Ok(None) };
     let Input { dialect, marker } = &input;
+    let known = diagnostics.iter().len();
     let mut report = Report::of(marker, dialect.name);
     let context = Context { source, job, marker };
     let has = |products: &[Product], proof: Proof| products.iter().any(|product| product.target.proof == proof);
@@ -263,6 +268,7 @@ pub fn compile_all(
     if let Some(verdict) = &verdict {
         judge::report(verdict, (marker, job), diagnostics);
     }
+    place::place(diagnostics, known, (marker, source, job));
     let mut findings = refused::findings(marker, diagnostics);
     findings.extend(verdict.iter().flat_map(|verdict| verdict.findings.iter().cloned()));
     for Product { target, out, shows_refusal } in products {
@@ -282,7 +288,10 @@ pub fn compile_all(
 pub fn estimate(input: &Input, source: &Source, job: &Job, diagnostics: &mut Diagnostics) -> io::Result<Program> {
     let toolpaths = Toolpaths::new(&input.marker, job, diagnostics);
     let context = Context { job, marker: &input.marker, source };
-    Ok(program::write(toolpaths, &mut [], (&context, true), diagnostics)?.program)
+    let known = diagnostics.iter().len();
+    let written = program::write(toolpaths, &mut [], (&context, true), diagnostics)?;
+    place::place(diagnostics, known, (&input.marker, source, job));
+    Ok(written.program)
 }
 
 /// The form after a pass, as text; `None` when no pass has that name or nothing could be read.
@@ -294,7 +303,7 @@ pub fn dump(
     diagnostics: &mut Diagnostics,
 ) -> Option<String> {
     let mut input = read_alone(source, from, job, diagnostics)?;
-    run_passes(&mut input.marker, job, Some(pass), diagnostics);
+    run_passes(&mut input.marker, (source, job), Some(pass), diagnostics);
     if diagnostics.has_errors() {
         return None;
     }

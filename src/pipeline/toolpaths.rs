@@ -47,7 +47,7 @@ impl<'a> Toolpaths<'a> {
     pub(super) fn new(marker: &'a Marker, job: &'a Job, diagnostics: &mut Diagnostics) -> Self {
         let home = plan::home(job);
         if job.mode == Mode::Frame {
-            let frame = frame(marker, home, job, diagnostics);
+            let frame = frame(marker, home, job);
             assert_sound("frame", || check::toolpath(&frame));
             return Self { raw: Box::new(std::iter::once(frame)), scene: None, home };
         }

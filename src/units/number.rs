@@ -81,6 +81,13 @@ pub fn fixed(value: f64, decimals: u32) -> String {
     String::from_utf8(out).expect("digits are ASCII")
 }
 
+/// `value` with so many decimals, rounded up: what is set as a limit lets the value pass.
+pub fn up(value: f64, decimals: u32) -> String {
+    let step = POWERS[decimals as usize];
+    let nearest = (value * step).round() / step;
+    fixed(if nearest < value { nearest + 1.0 / step } else { nearest }, decimals)
+}
+
 /// The shortest text that reads back as the same `f64`; zero has no sign.
 pub fn exact(value: f64) -> String {
     format!("{}", if value == 0.0 { 0.0 } else { value })
@@ -106,6 +113,15 @@ mod tests {
         assert_eq!(fixed(-12.345_678_9, 3), "-12.346");
         assert_eq!(fixed(0.05, 6), "0.050000");
         assert_eq!(fixed(1e20, 2), "100000000000000000000.00");
+    }
+
+    #[test]
+    fn a_limit_that_is_printed_passes_when_it_is_set() {
+        assert_eq!([up(0.121, 2), up(0.12, 2), up(0.1, 1), up(5.000_000_1, 1)], ["0.13", "0.12", "0.1", "5.1"]);
+        for i in 1..2000 {
+            let value = f64::from(i) * 0.003_7;
+            assert!(up(value, 2).parse::<f64>().expect("a number") >= value - 1e-12, "{value}");
+        }
     }
 
     #[test]

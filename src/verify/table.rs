@@ -3,7 +3,7 @@
 use super::read::{Rounding, Row};
 use super::worst::Worst;
 use crate::ir::Finding;
-use crate::machine::MachineProfile;
+use crate::machine::{self, MachineProfile};
 
 /// Watches the rows.
 pub(super) struct Table {
@@ -25,8 +25,8 @@ impl Table {
             down[axis].map(|range| poses.iter().flatten().fold(range, wider))
         });
         let blade = [profile.knife.radius(), -profile.knife.back()];
-        let limit = profile.table.strict.then_some(rounding.place());
-        Self { down, up, blade, off: Worst::new("verify/table", "mm", limit) }
+        let limit = machine::Table::EDGE_MM + rounding.place();
+        Self { down, up, blade, off: Worst::new("verify/table", "mm", Some(limit)) }
     }
 
     pub(super) fn see(&mut self, row: &Row) {

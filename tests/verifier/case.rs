@@ -31,14 +31,14 @@ impl Case {
     /// The program of another marker on the same machine, which is not asked about its table.
     pub(crate) fn redrawn(&self, marker: &Marker) -> Vec<u8> {
         let mut job = self.job.clone();
-        job.profile.table.strict = false;
+        job.profile.table = cutc::machine::Table::default();
         setpoints(marker, &job)
     }
 
     /// The same, planned to a third of the tolerance: what is off is the marker.
     pub(crate) fn redrawn_closely(&self, marker: &Marker) -> Vec<u8> {
         let mut job = self.job.clone();
-        job.profile.table.strict = false;
+        job.profile.table = cutc::machine::Table::default();
         job.profile.path.tolerance_mm = Some(self.tolerance() * HARMLESS);
         setpoints(marker, &job)
     }
@@ -82,7 +82,6 @@ fn case(name: &'static str, change: Change) -> Case {
     profile.c.range_deg = Some([-1080.0, 1080.0]);
     profile.table.x_mm = Some([-60.0, 4000.0]);
     profile.table.y_mm = Some([-60.0, 2000.0]);
-    profile.table.strict = true;
     profile.knife.feed_mm_s = Some(400.0);
     change(&mut job);
     let marker = marker(name, &job);

@@ -182,7 +182,7 @@ fn off_table(case: &Case, axis: usize) -> Option<Harm> {
     let table = [case.job.profile.table.x_mm, case.job.profile.table.y_mm][axis]?;
     let places = case.rows.iter().filter(|row| row.knife == 1).flat_map(|row| [row.tip(knife), row.tail(knife)]);
     let least = places.map(|place| [place.x, place.y][axis]).fold(f64::INFINITY, f64::min);
-    let amount = DAMAGING * PLACE_ROUNDING;
+    let amount = DAMAGING * (cutc::machine::Table::EDGE_MM + PLACE_ROUNDING);
     let mut by = [0.0; 2];
     by[axis] = table[0] - least - amount - PLACE_ROUNDING;
     Some(Harm::anywhere(all(case, |p| p + Vector::new(by[0], by[1])), amount))

@@ -6,6 +6,7 @@ use crate::ir::Marker;
 use crate::ir::marker::Piece;
 use crate::machine::Job;
 
+mod depth;
 mod inner;
 mod inspect;
 mod notch;
@@ -14,6 +15,7 @@ mod sanity;
 mod select;
 mod slit;
 mod spike;
+mod table;
 mod weld;
 
 /// A pass over the marker: a row of [`MARKER_PASSES`].
@@ -38,6 +40,7 @@ pub const MARKER_PASSES: &[MarkerPass] = &[
     notch::PASS,
     sanity::PASS,
     select::PASS,
+    table::PASS,
 ];
 
 /// Parts lie in one another less deep than this.

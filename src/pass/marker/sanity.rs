@@ -15,6 +15,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use super::depth::depth;
 use super::{MarkerPass, in_parts, search_ended};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::boxes::Boxes;
@@ -35,8 +36,8 @@ const MOST_STEPS: usize = 64;
 const PROBES: usize = 16;
 /// What it takes to say that two pieces overlap, beside the comparison of two boxes.
 const SAYING: usize = 500;
-/// Decimals of a place, mm.
-const PLACE_DECIMALS: u32 = 1;
+/// Decimals of how far pieces overlap, mm.
+const DEPTH_DECIMALS: u32 = 2;
 
 fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     numbers(marker, diagnostics);
@@ -98,14 +99,15 @@ impl Alone {
             part.gather(marker, i);
             if let Some(crossing) = part.self_crossing(marker, &mut work) {
                 let [one, other] = crossing.segments.map(|segment| part.contour_of(segment));
-                let (piece, at) = (name(marker, i), at(crossing.at));
+                let piece = name(marker, i);
                 let message = if one == other {
-                    format!("an outline of {piece} crosses itself at {at}")
+                    format!("an outline of {piece} crosses itself")
                 } else {
-                    format!("two outlines or lines of {piece} cross at {at}")
+                    format!("two outlines or lines of {piece} cross")
                 };
                 let span = span(marker, (i, &part), crossing.segments[1]);
-                alone.findings.push(Diagnostic::new(&code::MARKER_SELF_CROSSING, message).at(span));
+                let finding = Diagnostic::new(&code::MARKER_SELF_CROSSING, message);
+                alone.findings.push(finding.at(span).on_cloth(crossing.at));
             }
             // Its own piece is the likeliest.
             let outside = marker.pieces[i].drills.iter().filter(|drill| !part.may_hold(drill, &mut work));
@@ -145,15 +147,15 @@ fn numbers(marker: &Marker, diagnostics: &mut Diagnostics) {
 
 /// The outlines of a piece.
 #[derive(Debug)]
-struct Part<'a> {
+pub(super) struct Part<'a> {
     /// Its points, one contour behind the other; a closed one ends with its first point.
-    points: Cow<'a, [Point]>,
+    pub(super) points: Cow<'a, [Point]>,
     /// Where each contour starts among the points, and whether it is closed.
-    contours: Vec<(usize, bool)>,
+    pub(super) contours: Vec<(usize, bool)>,
     /// Monotone chains, and their boxes.
     chains: Vec<Chain>,
     boxes: Vec<Extent>,
-    extent: Extent,
+    pub(super) extent: Extent,
 }
 
 impl Default for Part<'_> {
@@ -199,7 +201,7 @@ impl<'a> Part<'a> {
     }
 
     /// The points of a contour.
-    fn contour(&self, k: usize) -> &[Point] {
+    pub(super) fn contour(&self, k: usize) -> &[Point] {
         let end = self.contours.get(k + 1).map_or(self.points.len(), |next| next.0);
         &self.points[self.contours[k].0..end]
     }
@@ -209,7 +211,7 @@ impl<'a> Part<'a> {
     }
 
     /// Whether a point lies in the part: within its outline and in no cut-out.
-    fn holds(&self, point: Point) -> bool {
+    pub(super) fn holds(&self, point: Point) -> bool {
         self.extent.holds(point) && self.closed().filter(|points| ring::contains(points, point)).count() % 2 == 1
     }
 
@@ -220,7 +222,7 @@ impl<'a> Part<'a> {
     }
 
     /// Distance of a point from the outlines, mm.
-    fn distance(&self, point: Point) -> f64 {
+    pub(super) fn distance(&self, point: Point) -> f64 {
         let contours = (0..self.contours.len()).map(|k| self.contour(k));
         let ends = contours.flat_map(|points| points.windows(2));
         ends.map(|w| polyline::distance_to_segment(point, w[0], w[1])).fold(f64::INFINITY, f64::min)
@@ -329,10 +331,18 @@ impl<'a> Search<'a> {
             for k in later {
                 let Some((place, span)) = self.overlap(i, k, work) else { continue };
                 let (one, other) = (name(self.marker, i), name(self.marker, k));
-                let message = format!("the outlines of {one} and {other} overlap at {}", at(place));
-                let finding = Diagnostic::new(&code::MARKER_OVERLAPPING, message).at(span);
-                diagnostics.push(finding.hint("move one of the two in the marker"));
                 work.spend(SAYING);
+                let [a, b] = [i, k].map(|piece| self.part(piece));
+                let Some(depth) = depth([a, b], work) else { continue };
+                // Both outlines are rounded, each by half of this at the most.
+                if depth.by <= slack(self.marker) {
+                    continue;
+                }
+                let by = fixed(depth.by, DEPTH_DECIMALS);
+                let message = format!("the outlines of {one} and {other} overlap by {by} mm");
+                let finding = Diagnostic::new(&code::MARKER_OVERLAPPING, message).at(span).by(depth.by);
+                let finding = finding.on_cloth(if depth.by > 0.0 { depth.at } else { place });
+                diagnostics.push(finding.hint("move one of the two in the marker: each is cut into the other"));
             }
             // Behind its pairs as the earlier one it has no others: those as the later one came before.
             self.parts[i].take();
@@ -432,16 +442,11 @@ impl<'a> Search<'a> {
                 0 => String::new(),
                 more => format!(", and {more} more of this piece"),
             };
-            let message =
-                format!("a hole of {} at {} lies outside every part{more}", name(self.marker, piece), at(first.at));
-            let finding = Diagnostic::new(&code::MARKER_DRILL_OUTSIDE, message).at(first.span);
+            let message = format!("a hole of {} lies outside every part{more}", name(self.marker, piece));
+            let finding = Diagnostic::new(&code::MARKER_DRILL_OUTSIDE, message).at(first.span).on_cloth(first.at);
             diagnostics.push(finding.hint("look where it is in the picture (`-t svg`); its part may be missing"));
         }
     }
-}
-
-fn at(place: Point) -> String {
-    format!("X {} Y {} mm", fixed(place.x, PLACE_DECIMALS), fixed(place.y, PLACE_DECIMALS))
 }
 
 /// Calls `met` for each pair of boxes that overlap, until it says no: a sweep along the longer side of what they cover.

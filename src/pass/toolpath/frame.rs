@@ -1,8 +1,5 @@
 //! The frame of a marker: once around its box with the knife up, to see on the cloth where it will lie.
 
-use super::scene::Scene;
-use super::table;
-use crate::diagnostic::Diagnostics;
 use crate::geom::Point;
 use crate::ir::Marker;
 use crate::ir::toolpath::{Air, Pose, Step, Toolpath};
@@ -10,7 +7,7 @@ use crate::machine::Job;
 
 /// The C axis from `home` along the box around everything that is cut or drilled, and back; C does not turn. An empty
 /// marker has no frame.
-pub fn frame(marker: &Marker, home: Pose, job: &Job, diagnostics: &mut Diagnostics) -> Toolpath {
+pub fn frame(marker: &Marker, home: Pose, job: &Job) -> Toolpath {
     let extent = marker.extent();
     let tolerance = job.profile.tolerance(marker.unit);
     let mut toolpath = Toolpath { piece: 0, part: 0, tolerance, entry: home, steps: Vec::new() };
@@ -27,6 +24,5 @@ pub fn frame(marker: &Marker, home: Pose, job: &Job, diagnostics: &mut Diagnosti
             from = to;
         }
     }
-    (table::PASS.run)(&mut toolpath, &Scene::bare(job), diagnostics);
     toolpath
 }

@@ -18,7 +18,6 @@ mod scene;
 mod slow;
 mod stab;
 mod stretch;
-mod table;
 mod tight;
 mod trace;
 mod turn;
@@ -57,5 +56,4 @@ pub const TOOLPATH_PASSES: &[ToolpathPass] = &[
     overlap::PASS,
     stab::PASS,
     place::PASS,
-    table::PASS,
 ];

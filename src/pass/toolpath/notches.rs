@@ -44,9 +44,8 @@ pub fn check_depths(marker: &Marker, scene: &Scene, diagnostics: &mut Diagnostic
             let is_in = |i: usize| scene.is_in_part(index, drawn.to + along * (deeper * i as f64 / steps).max(INSIDE));
             // A slit that is drawn outside of all parts is nobody's.
             if is_in(0) && !(1..=steps as usize).all(is_in) {
-                let (block, depth) = (drawn.span.block, fixed(depth, 2));
-                let message =
-                    format!("block {block}: a slit of {depth} mm leads out of its part, which is narrower here");
+                let depth = fixed(depth, 2);
+                let message = format!("a slit of {depth} mm leads out of its part, which is narrower here");
                 let hint = "take a smaller notch.depth_mm, or give the piece a profile of its own";
                 diagnostics.push(Diagnostic::new(&code::PATH_NOTCH_THROUGH, message).at(drawn.span).hint(hint));
             }

@@ -158,6 +158,7 @@ impl Shortened {
         diagnostics.push(
             Diagnostic::new(&code::PATH_SHORTENED, message)
                 .at(self.span)
+                .by(self.worst)
                 .hint("leave more room between the parts, or take smaller overlaps"),
         );
     }

@@ -46,11 +46,6 @@ impl<'a> Scene<'a> {
         self.parts.owners_at(place).contains(&self.part_of[piece])
     }
 
-    /// A scene without parts.
-    pub(super) fn bare(job: &'a Job) -> Self {
-        Self { job, parts: Regions::default(), part_of: Vec::new() }
-    }
-
     /// The scene as the cuts of a toolpath see it.
     pub(super) fn around(&self, toolpath: &Toolpath) -> Around<'_> {
         let part = self.part_of.get(toolpath.part as usize).copied().unwrap_or(toolpath.part);

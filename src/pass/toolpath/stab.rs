@@ -162,15 +162,12 @@ fn beyond(stab: &Stab) -> String {
 fn harm(stab: &Stab, count: usize, around: &Around) -> Diagnostic {
     let length = fixed(polyline::length(&stab.points), 2);
     let width = fixed(around.knife().width_mm, 2);
-    let block = stab.spans[stab.spans.len() - 1].block;
     let more = and_more(count);
     Diagnostic::new(
         &code::PATH_OVERCUT,
-        format!(
-            "block {block}: the blade of {width} mm is longer than this cut of {length} mm: it cuts {}{more}",
-            beyond(stab)
-        ),
+        format!("the blade of {width} mm is longer than this cut of {length} mm: it cuts {}{more}", beyond(stab)),
     )
     .at(stab.spans[stab.spans.len() - 1])
+    .by(stab.harm.into_iter().map(|harm| harm.total()).fold(0.0, f64::max))
     .hint("a narrower blade cuts less far")
 }

@@ -28,7 +28,7 @@ use crate::geom::{left, polyline, ring};
 use crate::ir::toolpath::{Law, Run, Shape, Side, Step, Toolpath};
 use crate::machine::TightCurves;
 use crate::source::Span;
-use crate::units::number::fixed;
+use crate::units::number::{fixed, up};
 
 pub(super) const PASS: ToolpathPass = ToolpathPass {
     name: "tight",
@@ -273,10 +273,8 @@ impl Worst {
             Done::Refused => (&code::PATH_TIGHT_CURVE_REFUSED, REFUSED.to_owned(), HOW_TO_CUT),
         };
         let more = and_more(self.curves);
-        let (block, radius, width) = (span.block, fixed(radius, 2), fixed(knife.width_mm, 2));
-        let message = format!(
-            "block {block}: a curve of radius {radius} mm is tighter than the blade of {width} mm: {done}{more}"
-        );
+        let (radius, width) = (fixed(radius, 2), fixed(knife.width_mm, 2));
+        let message = format!("a curve of radius {radius} mm is tighter than the blade of {width} mm: {done}{more}");
         diagnostics.push(Diagnostic::new(code, message).at(span).hint(hint));
     }
 }
@@ -325,7 +323,7 @@ impl Bowed {
     }
 
     fn report(&self, settling: &Settling, diagnostics: &mut Diagnostics) {
-        let Some((away, span, beside)) = self.worst else { return };
+        let Some((bowed, span, beside)) = self.worst else { return };
         let (code, done, hint) = match beside {
             Beside::Left => {
                 let hint = "`knife.tight_curves = \"nibble\"` cuts such starts by steps, from `knife.max_bow_mm` on";
@@ -345,14 +343,15 @@ impl Bowed {
             }
             Beside::Refused => (&code::PATH_TIGHT_CURVE_REFUSED, REFUSED.to_owned(), HOW_TO_CUT),
         };
-        let (block, away, more) = (span.block, fixed(away, 2), and_more(self.starts));
+        let (away, more) = (up(bowed, 2), and_more(self.starts));
         let width = fixed(settling.around.knife().width_mm, 2);
         let message = format!(
-            "block {block}: a cut begins on a curve, which bows {away} mm away from the plunged blade of {width} mm: {done}{more}"
+            "a cut begins on a curve, which bows {away} mm away from the plunged blade of {width} mm: {done}{more}"
         );
         diagnostics.push(
             Diagnostic::new(code, message)
                 .at(span)
+                .by(bowed)
                 .hint("a narrower blade bows less; so does a corner that is drawn where the outline is straighter")
                 .hint(hint),
         );

@@ -1,0 +1,63 @@
+//! The form for programs: code, severity, place, message, hints.
+
+use serde::Serialize;
+
+use super::{Diagnostic, Severity};
+use crate::source::Lines;
+
+/// A diagnostic as JSON. Where it lies on the cloth is null when that is not known; block, line and bytes are not there when
+/// it concerns the file as a whole.
+#[derive(Debug, Serialize)]
+pub struct Json {
+    code: &'static str,
+    severity: Severity,
+    file: String,
+    piece: Option<u32>,
+    label: Option<String>,
+    x_mm: Option<f64>,
+    y_mm: Option<f64>,
+    /// How bad it is, where that can be measured.
+    by_mm: Option<f64>,
+    #[serde(flatten)]
+    place: Option<Place>,
+    message: String,
+    hints: Vec<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct Place {
+    block: u32,
+    line: u32,
+    byte: u32,
+    end_byte: u32,
+}
+
+/// A place in JSON has so many steps a millimetre: nothing is cut finer.
+const STEPS_A_MM: f64 = 1e4;
+
+fn rounded(value: f64) -> f64 {
+    (value * STEPS_A_MM).round() / STEPS_A_MM + 0.0 // no -0
+}
+
+impl Diagnostic {
+    /// The form for programs.
+    pub fn to_json(&self, file: &str, lines: &mut Lines) -> Json {
+        let [x_mm, y_mm] = [0, 1].map(|axis| self.at.map(|at| rounded(at[axis])));
+        Json {
+            code: self.code.name,
+            severity: self.code.severity,
+            file: file.to_owned(),
+            piece: self.piece.as_ref().map(|piece| piece.number),
+            label: self.piece.as_ref().and_then(|piece| piece.label.clone()),
+            x_mm,
+            y_mm,
+            by_mm: self.by.map(rounded),
+            place: self.span.map(|span| {
+                let place = lines.place(span);
+                Place { block: place.block, line: place.line, byte: place.byte, end_byte: span.end }
+            }),
+            message: self.message.clone(),
+            hints: self.hints.clone(),
+        }
+    }
+}

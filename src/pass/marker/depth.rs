@@ -1,0 +1,85 @@
+//! How far two parts overlap: the distance from the deepest place of one in the other to the edge of that.
+//!
+//! An estimate: the vertices are tried, and some places of each segment within the box that the two share. The depth of an
+//! overlap by edges that lie along each other, as in a nest, is exact.
+
+use super::sanity::Part;
+use crate::geom::budget::Budget;
+use crate::geom::{Extent, Point};
+
+/// Places of a segment that are tried, the ends among them.
+const PLACES: usize = 5;
+
+/// The deepest place.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Depth {
+    /// How deep it is, mm.
+    pub(super) by: f64,
+    pub(super) at: Point,
+}
+
+/// How far two parts overlap; `None` when the work was spent before that was known.
+pub(super) fn depth([a, b]: [&Part; 2], work: &mut Budget) -> Option<Depth> {
+    let common = common(&a.extent, &b.extent);
+    let mut deepest = Depth { by: 0.0, at: common.min };
+    for (part, other) in [(a, b), (b, a)] {
+        for k in 0..part.contours.len() {
+            for ends in part.contour(k).windows(2) {
+                let Some([from, to]) = clipped([ends[0], ends[1]], &common) else { continue };
+                for i in 0..PLACES {
+                    if !work.spend(2 * other.points.len()) {
+                        return None;
+                    }
+                    let at = from + (to - from) * (i as f64 / (PLACES - 1) as f64);
+                    if !other.holds(at) {
+                        continue;
+                    }
+                    let by = other.distance(at);
+                    if by > deepest.by {
+                        deepest = Depth { by, at };
+                    }
+                }
+            }
+        }
+    }
+    Some(deepest)
+}
+
+/// The box that two boxes share.
+fn common(a: &Extent, b: &Extent) -> Extent {
+    let min = Point::new(a.min.x.max(b.min.x), a.min.y.max(b.min.y));
+    Extent { min, max: Point::new(a.max.x.min(b.max.x), a.max.y.min(b.max.y)) }
+}
+
+/// What of a segment lies in a box (Liang and Barsky, *A new concept and method for line clipping*, 1984).
+fn clipped([from, to]: [Point; 2], within: &Extent) -> Option<[Point; 2]> {
+    let way = to - from;
+    let (mut start, mut end) = (0.0_f64, 1.0_f64);
+    for axis in 0..2 {
+        let room = [within.min[axis] - from[axis], within.max[axis] - from[axis]];
+        if way[axis] == 0.0 {
+            if room[0] > 0.0 || room[1] < 0.0 {
+                return None;
+            }
+        } else {
+            let [a, b] = room.map(|room| room / way[axis]);
+            start = start.max(a.min(b));
+            end = end.min(a.max(b));
+        }
+    }
+    (start <= end).then(|| [from + way * start, from + way * end])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_segment_is_clipped_to_a_box() {
+        let within = Extent { min: Point::new(0.0, 0.0), max: Point::new(10.0, 5.0) };
+        let clip = |a: [f64; 2], b: [f64; 2]| clipped([a.into(), b.into()], &within);
+        assert_eq!(clip([-5.0, 2.0], [15.0, 2.0]), Some([Point::new(0.0, 2.0), Point::new(10.0, 2.0)]));
+        assert_eq!(clip([-5.0, 6.0], [15.0, 6.0]), None);
+        assert_eq!(clip([1.0, 1.0], [2.0, 2.0]), Some([Point::new(1.0, 1.0), Point::new(2.0, 2.0)]));
+    }
+}

@@ -1,0 +1,63 @@
+//! Where findings lie on the cloth: the piece and the point that a span of the source became.
+
+use std::collections::BTreeMap;
+
+use crate::diagnostic::{Diagnostics, PieceName};
+use crate::geom::Point;
+use crate::ir::Marker;
+use crate::ir::marker::{Notch, Piece};
+use crate::machine::Job;
+use crate::source::{Source, Span};
+
+/// The most letters of a label that are shown.
+const LETTERS: usize = 24;
+
+/// Tells findings that have a span in which piece they are and where, as far as the marker knows; what is known stays, and so
+/// do the first `known` ones. One walk over the marker, and none when there is nothing to tell.
+pub(super) fn place(diagnostics: &mut Diagnostics, known: usize, (marker, source, job): (&Marker, &Source, &Job)) {
+    let mut wanted: BTreeMap<u32, Option<Place>> = BTreeMap::new();
+    for finding in diagnostics.iter().skip(known).filter(|finding| finding.piece.is_none()) {
+        wanted.extend(finding.span.map(|span| (span.start, None)));
+    }
+    if wanted.is_empty() {
+        return;
+    }
+    for (i, piece) in marker.pieces.iter().enumerate() {
+        let mut see = |span: Span, point: Option<Point>| {
+            if let Some(place) = wanted.get_mut(&span.start) {
+                place.get_or_insert(Place { piece: i, point });
+            }
+        };
+        for contour in &piece.contours {
+            // The first segment of a contour stands for its first point as well, which is in no other's span.
+            marker.list.walk(contour.range).for_each(|(_, segment)| see(segment.span, Some(segment.to)));
+        }
+        piece.notches.iter().flat_map(Notch::strokes).for_each(|stroke| see(stroke.span, Some(stroke.to)));
+        piece.drills.iter().for_each(|drill| see(drill.span, Some(drill.at)));
+        piece.labels.iter().for_each(|label| see(label.span, label.at));
+        piece.events.iter().for_each(|event| see(event.span, None));
+        see(piece.span, None);
+    }
+    for finding in diagnostics.iter_mut().skip(known).filter(|finding| finding.piece.is_none()) {
+        let Some(Some(place)) = finding.span.and_then(|span| wanted.get(&span.start)) else { continue };
+        finding.piece = Some(name(&marker.pieces[place.piece], source, job));
+        finding.at = finding.at.or(place.point.map(Into::into));
+    }
+}
+
+/// A piece, by its index, and a point of it.
+struct Place {
+    piece: usize,
+    point: Option<Point>,
+}
+
+/// A piece by its number and the start of its first label.
+fn name(piece: &Piece, source: &Source, job: &Job) -> PieceName {
+    let texts = piece.labels.iter().map(|label| job.profile.labels.text(source.slice(label.span)));
+    let mut texts = texts.map(|text| text.trim().to_owned()).filter(|text| !text.is_empty());
+    let label = texts.next().map(|text| match text.char_indices().nth(LETTERS) {
+        Some((end, _)) => format!("{}...", text[..end].trim_end()),
+        None => text,
+    });
+    PieceName { number: piece.number, label }
+}
