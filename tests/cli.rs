@@ -565,16 +565,16 @@ fn a_picture_of_what_was_refused_is_written_and_the_program_is_not() {
 }
 
 #[test]
-fn what_the_planner_refuses_is_marked_in_the_picture() {
+fn what_is_refused_before_it_is_planned_is_marked_in_the_picture() {
     let room = Room::new();
-    let strict = "--set table.x_mm=[0,100] --set table.y_mm=[0,1000] --set table.strict=true";
+    let strict = "--set table.x_mm=[0,100] --set table.y_mm=[0,1000]";
     let (_, stderr) = room.expect(&format!("compile circle.cut -t gcode,svg {strict}"), FAULTY);
     assert!(
         stderr.contains("no program was written to `circle.ngc`") && stderr.contains("wrote `circle.svg`"),
         "{stderr}"
     );
     let picture = room.text("circle.svg");
-    for words in [">refused</text>", "class=\"fails\"", "path/off-table-strict  FAILS, at X "] {
+    for words in [">refused</text>", "class=\"fails\"", "marker/off-table  FAILS, at X "] {
         assert!(picture.contains(words), "{words}");
     }
     assert!(!room.has("circle.ngc"));

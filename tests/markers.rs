@@ -8,6 +8,7 @@ use std::io::Cursor;
 use cutc::back::TARGETS;
 use cutc::diagnostic::{Diagnostics, render};
 use cutc::ir::{Finding, Marker};
+use cutc::machine::plot::Inner;
 use cutc::machine::{Job, MachineProfile};
 use cutc::pipeline::{self, Compiled};
 use cutc::source::Source;
@@ -123,6 +124,7 @@ fn plots_with_spikes_compile_and_keep_the_limits() {
         let order = Order { pieces: PIECES, cutouts, seed, ..Order::default() };
         let mut job = eccentric();
         job.profile.hpgl.drill_max_mm = Some(4.0);
+        job.profile.hpgl.inner = Inner::Cut;
         let (Compiled { report, verdict }, program) = compile(&make_plot(&order), &job);
         let contours = PIECES + if cutouts { CUTOUTS } else { 0 };
         assert_eq!((report.contours, report.closed_contours, report.drills), (contours, contours, 2), "{order:?}");

@@ -29,7 +29,7 @@ fn three_of_a_code_are_told_and_how_many_more_there_are() {
     assert_eq!(said.matches("warning[marker/overlapping-pieces]").count(), 3, "{said}");
     assert!(said.contains("... and 64 more (`--all`)") && said.contains("67 marker/overlapping-pieces"), "{said}");
     assert!(said.contains("overlap by 0.30 mm") && said.lines().count() < 15, "{said}");
-    assert!(said.contains("--> row.cut: piece 2 \"FRONT 1\" at 99.7, "), "{said}");
+    assert!(said.contains("--> row.cut: piece 2 \"FRONT 1\" at 100.0, "), "{said}");
     let (_, all) = room.expect("check --all row.cut", DONE);
     assert_eq!(all.matches("warning[marker/overlapping-pieces]").count(), 67, "{all}");
     assert_eq!(room.expect("check -q row.cut", DONE).1, "");

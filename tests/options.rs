@@ -202,8 +202,8 @@ fn lines_of_a_plot_are_chosen_by_pen_and_kind_and_the_program_says_so() {
     };
     check("", 0, &[("part", 2, true), ("inner line", 1, false)]);
     check("--inner cut", 0, &[("part", 2, true), ("inner line", 1, true)]);
-    check("--cut-pens 2", 0, &[("part", 1, true), ("part", 1, false), ("inner line", 1, false)]);
-    check("--cut-pens 1 --cut-all", 0, &[("part", 1, true), ("part", 1, false), ("inner line", 1, true)]);
+    check("--cut-pens 2", 0, &[("part", 2, false), ("inner line", 1, true)]);
+    check("--cut-pens 1 --cut-all", 0, &[("part", 2, true), ("inner line", 1, false)]);
     let said = run(&room, "compile p.plt -o p.csv --cut-pens 2", 0);
     assert!(said.contains("--cut-pens 2"), "{said}");
     run(&room, "verify p.csv --source p.plt --cut-pens 2", 0);
@@ -231,5 +231,5 @@ fn figures_of_a_plot_count_its_texts_beside_the_parts_and_have_no_negative_zeros
     }
     assert!(run(&room, "info labels.plt", 0).contains("texts beside          1"));
     let said = run(&room, "info spikes-in-an-outline.plt --format json", 0);
-    assert!(said.contains("\"notch\"") && !said.contains("-0.0"), "{said}");
+    assert!(said.contains("\"slit\": 2") && !said.contains("-0.0"), "{said}");
 }

@@ -207,7 +207,7 @@ mod tests {
               rule                         worst     limit  unit        at s    X mm  Y mm  block
         ok    verify/format                    0         0  bad rows
         ok    verify/complete            0.00012      0.01  mm                   5.0  20.0      7
-        info  verify/overcut-neighbour    0.3333      none  mm        80.000     0.0  20.0      9
+        info  verify/overcut-neighbour    0.3334      none  mm        80.000     0.0  20.0      9
 
         FAIL  verify/end                infinite  0.000001  mm, deg    1.500    10.0  20.0
               the rule: the program ends with knife and drill up, and parked if the profile says so

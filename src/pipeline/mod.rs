@@ -48,6 +48,8 @@ pub struct Input {
     pub dialect: &'static Dialect,
     /// What it says, as far as the job wants it cut.
     pub marker: Marker,
+    /// Whether the source was read without errors: then there is something to show, whatever passes say of it.
+    pub is_whole: bool,
 }
 
 /// An input that programs are judged against.
@@ -149,7 +151,7 @@ fn read_alone(
         diagnostics.push(finding.hint("leave them out; `--pieces` and `--skip` choose pieces of any file"));
     }
     place::place(diagnostics, 0, (&marker, source, job));
-    Some(Input { dialect, marker })
+    Some(Input { dialect, marker, is_whole: !diagnostics.has_errors() })
 }
 
 /// What a source says is cut, as a dialect reads it, or as it is recognised in what the dialect says is drawn.
@@ -208,11 +210,17 @@ pub fn compile_all(
     } else {
         read(source, from, job, diagnostics).map(|input| (input, None))
     };
-    let Some((input, reading)) = judged.filter(|_| !diagnostics.has_errors()) else { return Ok(None) };
-    let Input { dialect, marker } = &input;
+    let Some((input, reading)) = judged else { return Ok(None) };
+    let Input { dialect, marker, is_whole } = &input;
+    let context = Context { source, job, marker };
+    if diagnostics.has_errors() {
+        if *is_whole {
+            refused::draw(&context, products, diagnostics)?;
+        }
+        return Ok(None);
+    }
     let known = diagnostics.iter().len();
     let mut report = Report::of(marker, dialect.name);
-    let context = Context { source, job, marker };
     let has = |products: &[Product], proof: Proof| products.iter().any(|product| product.target.proof == proof);
     // A target that cannot be judged by its own bytes shows the verdict on setpoints. When no target's own bytes are
     // those, they are made beside the others to be judged, so that a picture can show the worst places.
@@ -269,7 +277,7 @@ pub fn compile_all(
         judge::report(verdict, (marker, job), diagnostics);
     }
     place::place(diagnostics, known, (marker, source, job));
-    let mut findings = refused::findings(marker, diagnostics);
+    let mut findings = refused::findings(diagnostics);
     findings.extend(verdict.iter().flat_map(|verdict| verdict.findings.iter().cloned()));
     for Product { target, out, shows_refusal } in products {
         *shows_refusal = diagnostics.has_errors() && refused::is_picture(target);
