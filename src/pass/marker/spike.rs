@@ -111,6 +111,12 @@ impl Measure {
         Self { slack, width: job.profile.notch.box_max_mm + slack }
     }
 
+    /// Whether two sides that start at a tip, or beside each other at a narrow bottom, stay beside each other at first.
+    fn may_follow(self, one: [Point; 2], other: [Point; 2]) -> bool {
+        let off = |[_, end]: [Point; 2], [from, to]: [Point; 2]| polyline::distance_to_segment(end, from, to);
+        off(one, other).min(off(other, one)) <= self.width
+    }
+
     /// Whether a closed line has a tip; the last of its points is the first again.
     fn has_tip(self, points: &[Point]) -> bool {
         let count = points.len() - 1;
@@ -123,7 +129,11 @@ impl Measure {
         for i in 0..count {
             let next = if i + 2 <= count { points[i + 2] - points[i + 1] } else { points[1] - points[0] };
             if is_tip([before, bottom, next], most) {
-                return true;
+                let [a, b] = [points[if i == 0 { count - 1 } else { i - 1 }], points[i]];
+                let [c, d] = [points[i + 1], points[if i + 2 <= count { i + 2 } else { 1 }]];
+                if self.may_follow([b, a], [b, c]) || self.may_follow([b, a], [c, d]) {
+                    return true;
+                }
             }
             (before, bottom) = (bottom, next);
         }
@@ -273,7 +283,12 @@ impl<'a> Sides<'a> {
         let least = BESIDE.max(2.0 * measure.slack);
         let beside = |point: &dyn Fn(usize) -> Point, from: usize| {
             let far = (1..MOST_STEPS.min(self.segments.len())).map(|k| point(from + k) - point(from));
-            far.reduce(|so_far, next| if so_far.norm() < least { next } else { so_far })
+            let mut last = None;
+            far.map_while(|way| {
+                let is_short = last.is_none_or(|last: Vector| last.norm() < least);
+                is_short.then(|| *last.insert(way))
+            })
+            .last()
         };
         let sides = [beside(&|k| self.back(k), back), beside(&|k| self.ahead(k), ahead)];
         sides.into_iter().flatten().all(|way| way.dot(&along).abs() < LEAVING * way.norm())

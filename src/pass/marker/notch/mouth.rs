@@ -64,7 +64,8 @@ pub(super) fn find(points: &[Point], unit: f64) -> Vec<Mouth> {
     for (i, ends) in points.windows(2).enumerate() {
         let after = ends[1] - ends[0];
         let (dot, next) = (before.dot(&after), after.norm_squared());
-        if dot <= 0.0 || dot * dot < LEAST_TURN * squared * next {
+        let may_begin = next <= FAR * FAR && (dot <= 0.0 || dot * dot < LEAST_TURN * squared * next);
+        if may_begin {
             let is_left = cross(before, after) > 0.0;
             // Beside a tooth the edge is short, on a grid it has the direction of the grid where it is.
             let [long, short] = [EDGE.max(4.0 * ring.slack), 2.0 * ring.slack].map(|least| ring.edge(i, least));
@@ -127,8 +128,13 @@ impl Ring<'_> {
     /// The direction of the edge that leads to a vertex, over so much of it, mm.
     fn edge(&self, i: usize, least: f64) -> Option<Vector> {
         let count = self.points.len();
-        let ways = (1..count.min(MOST_STEPS)).map(|k| self.points[i] - self.at(i + count - k));
-        let way = ways.reduce(|so_far, next| if so_far.norm() < least { next } else { so_far })?;
+        let mut ways = (1..count.min(MOST_STEPS)).map(|k| self.points[i] - self.at(i + count - k));
+        let mut way = ways.next()?;
+        while way.norm() < least
+            && let Some(next) = ways.next()
+        {
+            way = next;
+        }
         (way.norm() > 0.0).then(|| way / way.norm())
     }
 
