@@ -25,11 +25,12 @@ pub(super) struct Findings {
     warnings: Vec<Json>,
     errors: Vec<Json>,
     /// How many of each code were found, the worst first: a flood of one code is counted here to its end.
-    tally: Vec<Count>,
+    tally: Vec<Tally>,
 }
 
+/// A code, and how often it was found.
 #[derive(Serialize)]
-struct Count {
+struct Tally {
     code: &'static str,
     severity: Severity,
     count: usize,
@@ -43,7 +44,7 @@ impl Findings {
             let of_severity = diagnostics.iter().filter(|finding| finding.code.severity == severity);
             of_severity.map(|finding| finding.to_json(source.name(), &mut lines)).collect()
         };
-        let count = |(code, count): (&Code, usize)| Count { code: code.name, severity: code.severity, count };
+        let count = |(code, count): (&Code, usize)| Tally { code: code.name, severity: code.severity, count };
         let tally = diagnostics.tally().into_iter().map(count).collect();
         Self { warnings: of(Severity::Warning), errors: of(Severity::Error), tally }
     }

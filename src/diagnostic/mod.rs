@@ -20,7 +20,7 @@ pub struct Diagnostic {
     /// Where in the source; `None` when it concerns the file as a whole.
     pub span: Option<Span>,
     /// The piece that lies there, if it is in one.
-    pub piece: Option<PieceName>,
+    pub piece: Option<Box<PieceName>>,
     /// The place on the cloth, X and Y in mm.
     pub at: Option<[f64; 2]>,
     /// How bad it is, mm, where that can be measured: of its code the worst are told first.
@@ -124,9 +124,9 @@ impl Diagnostics {
         self.list.iter()
     }
 
-    /// The same, to say better where they are.
-    pub fn iter_mut(&mut self) -> std::slice::IterMut<'_, Diagnostic> {
-        self.list.iter_mut()
+    /// Says of each from the `first`th on where it is, or anything else that is better known by now.
+    pub fn revise(&mut self, first: usize, revise: impl FnMut(&mut Diagnostic)) {
+        self.list.iter_mut().skip(first).for_each(revise);
     }
 
     /// How many of each code were found, kept or not, the worst code first.

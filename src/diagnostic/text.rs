@@ -128,7 +128,7 @@ fn tally(out: &mut String, groups: &[Group]) {
             }
             if line.len() + next.len() > COLUMNS {
                 let _ = writeln!(out, "{line}");
-                line = " ".to_owned();
+                " ".clone_into(&mut line);
             }
             line += &next;
         }

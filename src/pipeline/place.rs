@@ -25,7 +25,7 @@ pub(super) fn place(diagnostics: &mut Diagnostics, known: usize, (marker, source
     for (i, piece) in marker.pieces.iter().enumerate() {
         let mut see = |span: Span, point: Option<Point>| {
             if let Some(place) = wanted.get_mut(&span.start) {
-                place.get_or_insert(Place { piece: i, point });
+                place.get_or_insert(Place { piece: Some(i), point });
             }
         };
         for contour in &piece.contours {
@@ -38,16 +38,23 @@ pub(super) fn place(diagnostics: &mut Diagnostics, known: usize, (marker, source
         piece.events.iter().for_each(|event| see(event.span, None));
         see(piece.span, None);
     }
-    for finding in diagnostics.iter_mut().skip(known).filter(|finding| finding.piece.is_none()) {
-        let Some(Some(place)) = finding.span.and_then(|span| wanted.get(&span.start)) else { continue };
-        finding.piece = Some(name(&marker.pieces[place.piece], source, job));
-        finding.at = finding.at.or(place.point.map(Into::into));
+    // What a drawing has beside that is of no piece.
+    for vertex in marker.drawing.iter().flat_map(|account| &account.aside.vertices) {
+        if let Some(place) = wanted.get_mut(&vertex.span.start) {
+            place.get_or_insert(Place { piece: None, point: Some(vertex.at) });
+        }
     }
+    diagnostics.revise(known, |finding| {
+        let place = finding.span.and_then(|span| wanted.get(&span.start)?.as_ref());
+        let Some(place) = place.filter(|_| finding.piece.is_none()) else { return };
+        finding.piece = place.piece.map(|piece| Box::new(name(&marker.pieces[piece], source, job)));
+        finding.at = finding.at.or(place.point.map(Into::into));
+    });
 }
 
-/// A piece, by its index, and a point of it.
+/// A piece, by its index, and a point of it or of what is not cut.
 struct Place {
-    piece: usize,
+    piece: Option<usize>,
     point: Option<Point>,
 }
 

@@ -40,7 +40,9 @@ pub(super) fn mark(lines: &mut [Line], how: Frame, slack: f64) {
             let (Some(&frame), [largest, others @ ..]) = (frames.last(), inner) else { return };
             let filled = outermost_area(lines, inner);
             if !others.is_empty() && !holds(lines, *largest, others) && filled >= LEAST_FILL * lines[frame].area {
-                frames.iter().for_each(|&frame| lines[frame].class = Class::Frame);
+                for &frame in frames {
+                    lines[frame].class = Class::Frame;
+                }
             }
         }
     }

@@ -24,7 +24,9 @@ pub(super) fn mark(lines: &mut [Line], vertices: &[Vertex], work: &mut Budget) {
     if small.len() < ROW || !small.iter().any(|&i| lines[i].is_closed) {
         return; // only closed letters may be taken for something that is cut
     }
-    small.iter().for_each(|&i| cells.entry(cell(&lines[i])).or_default().push(i));
+    for &i in &small {
+        cells.entry(cell(&lines[i])).or_default().push(i);
+    }
     for first in small {
         let row = row(first, lines, (&mut cells, work));
         let is_shaped = |&i: &usize| !is_straight(lines[i].vertices(vertices));

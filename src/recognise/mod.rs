@@ -5,9 +5,9 @@
 //! it was taken for, and whether it is cut. Wrong cuts inside a part cannot be mended and a cut that is missing can, so
 //! nothing inside a part is cut but notches on its edge, unless a pen or an option asks for it.
 //!
-//! [`join`] makes lines of strokes. [`frame`] finds the frames, [`nest`] what lies in what, [`marks`] the notches,
-//! [`letters`] and [`seam`] what their names say; [`line`] has the table of classes, and of when each is cut, [`pens`] what
-//! pens stand for. [`piece`] makes the marker, [`say`] names what is doubtful.
+//! `join` makes lines of strokes. `frame` finds the frames, `nest` what lies in what, `marks` the notches,
+//! `letters` and `seam` what their names say; `line` has the table of classes, and of when each is cut, `pens` what
+//! pens stand for. `piece` makes the marker, `say` names what is doubtful.
 
 mod frame;
 mod join;
@@ -131,7 +131,9 @@ impl Sheet {
     fn find_marks(&mut self, work: &mut Budget) {
         let parts = self.indices(|line| line.class == Class::Part);
         let mut marks = marks::on_outlines(self.search(&parts), work);
-        marks.iter().for_each(|mark| self.lines[mark.line].class = Class::Notch);
+        for mark in &marks {
+            self.lines[mark.line].class = Class::Notch;
+        }
         for bar in marks::take_crossbars(&mut marks, self.search(&parts)) {
             self.lines[bar].class = Class::Notch;
         }

@@ -218,7 +218,9 @@ fn leave_beside_cut(vertices: &[Vertex], mark: &Mark, aside: &mut Aside) {
         let straight = crate::geom::moments::Moments::line(vertices[0].at, vertices[mark.leg].at);
         aside.moved.moments += crate::geom::moments::Moments::of(vertices[..=mark.leg].iter().map(|v| v.at));
         aside.moved.moments -= straight;
-        vertices.iter().for_each(|vertex| aside.moved.bounds.add(vertex.at));
+        for vertex in vertices {
+            aside.moved.bounds.add(vertex.at);
+        }
     }
 }
 

@@ -145,7 +145,7 @@ fn frames(sheet: &Sheet, out: &mut Diagnostics) {
     if parts >= SURE_PARTS {
         return;
     }
-    if let Some(frame) = sheet.lines.iter().filter(|line| line.class == Class::Frame).last() {
+    if let Some(frame) = sheet.lines.iter().rfind(|line| line.class == Class::Frame) {
         let (width, height) = frame.extent.size();
         let message = format!(
             "a rectangle of {} x {} mm around {parts} parts is taken for the frame: not cut",
@@ -237,7 +237,7 @@ fn nothing(sheet: &Sheet, job: &Job) -> Diagnostic {
     };
     let is_wanted =
         |name: &&str| name.parse().is_ok_and(|number| job.lines.pens.as_ref().is_none_or(|p| p.has(number)));
-    if let Some(only) = job.lines.pens.as_ref().filter(|_| !held.iter().any(|name| is_wanted(&name))) {
+    if let Some(only) = job.lines.pens.as_ref().filter(|_| !held.iter().any(is_wanted)) {
         return finding.hint(format!("`--cut-pens {only}` leaves all lines out: {drawn}"));
     }
     if held.iter().all(|name| job.profile.hpgl.pen(name).is_some()) {

@@ -85,7 +85,9 @@ impl Census {
             let moments = Moments::of(vertices.iter().map(|vertex| vertex.at));
             self.length += moments.length();
             self.moments += moments;
-            vertices.iter().for_each(|vertex| self.bounds.add(vertex.at));
+            for vertex in vertices {
+                self.bounds.add(vertex.at);
+            }
             self.points +=
                 vertices.iter().skip(1).filter(|vertex| span.replace(vertex.span) != Some(vertex.span)).count();
         }

@@ -168,10 +168,10 @@ fn every_line_of_any_drawing_is_in_a_stated_class() {
                         text += &rectangle(x + inset, y + inset, size - 2 * inset, size - 2 * inset);
                     }
                 }),
-                1 => text += &format!("PU{x},{y};PD{},{},{},{};", x + size, y + size, x - size, y + size),
-                2 => text += &format!("PU{x},{y};LBtext\u{3};"),
+                1 => _ = write!(text, "PU{x},{y};PD{},{},{},{};", x + size, y + size, x - size, y + size),
+                2 => _ = write!(text, "PU{x},{y};LBtext\u{3};"),
                 3 => (0..random.i64(1..6)).for_each(|k| text += &rectangle(x + 300 * k, y, 200, 320)),
-                _ => text += &format!("SP{};PU{x},{y};PD{x},{};SP1;", random.u8(1..4), y + random.i64(10..700)),
+                _ => _ = write!(text, "SP{};PU{x},{y};PD{x},{};SP1;", random.u8(1..4), y + random.i64(10..700)),
             }
         }
         let plot = source(format!("IN;SP1;{text}PU;SP0;"));

@@ -168,6 +168,6 @@ fn harm(stab: &Stab, count: usize, around: &Around) -> Diagnostic {
         format!("the blade of {width} mm is longer than this cut of {length} mm: it cuts {}{more}", beyond(stab)),
     )
     .at(stab.spans[stab.spans.len() - 1])
-    .by(stab.harm.into_iter().map(|harm| harm.total()).fold(0.0, f64::max))
+    .by(stab.harm.into_iter().map(Harm::total).fold(0.0, f64::max))
     .hint("a narrower blade cuts less far")
 }
