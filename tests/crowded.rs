@@ -165,7 +165,8 @@ fn open_lines_and_a_far_part_are_no_crowd() {
 fn what_was_not_looked_at_is_said() {
     let across = (0..2000).map(|k| [0, 2 * k, 4000, 2 * k + 1]);
     let along = (0..2000).map(|k| [2 * k, 0, 2 * k + 1, 4000]);
-    assert_eq!(read(&pieces(across.chain(along))).1, ["marker/search-ended"]);
+    let (_, codes) = read(&pieces(across.chain(along)));
+    assert!(codes.contains(&"marker/overlapping-pieces") && codes.contains(&"marker/search-ended"), "{codes:?}");
     // Short strokes under long edges.
     let mut teeth = "N1*M15*X0Y0*M14*".to_owned();
     for k in 0..5000 {

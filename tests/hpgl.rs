@@ -316,7 +316,10 @@ fn when_nothing_is_cut_the_hint_names_the_pens_and_what_left_them_out() {
         let pens = ["3", "5"].map(|pen| (pen.to_owned(), PenUse::Ignore));
         job.profile.hpgl.pens.extend(pens);
     };
-    check(&ignore, "`hpgl.pens` of the profile leaves them out; the file draws with pens 3,5; `--cut-pens 3,5`");
+    check(
+        &ignore,
+        "`hpgl.pens` of the profile leaves them out; the file draws with pens 3,5; `--set hpgl.pens.3=knife`",
+    );
     let without = open.replace("SP3", "SP0").replace("SP5", "SP0");
     assert!(said(&without, &Job::default()).contains("let the CAD take pen 1"));
 }

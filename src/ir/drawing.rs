@@ -194,19 +194,21 @@ impl Aside {
     }
 }
 
-/// What lines were before their ends were moved together.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// What lines were before they were joined and straightened.
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Moved {
-    /// Places that lines no longer have of their own: where two meet that one instruction of the file draws.
+    /// Places that lines no longer have of their own: where two meet that one instruction of the file draws, and those
+    /// that a straight stroke has on its way.
     pub points: usize,
-    /// What lines had more than they have now; less than nothing where they were shorter.
-    pub moments: crate::geom::moments::Moments,
-    /// The box around the places as they were.
-    pub bounds: Extent,
+    /// Lines that were drawn a little otherwise.
+    pub redrawn: Vec<Redrawn>,
 }
 
-impl Default for Moved {
-    fn default() -> Self {
-        Self { points: 0, moments: crate::geom::moments::Moments::default(), bounds: Extent::EMPTY }
-    }
+/// A line that was drawn a little otherwise than it is now.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Redrawn {
+    /// Its places as drawn, mm.
+    pub drawn: Vec<Point>,
+    /// Where it starts and ends now; both may be the same place.
+    pub now: [Point; 2],
 }

@@ -24,7 +24,10 @@ pub(super) fn place(diagnostics: &mut Diagnostics, known: usize, (marker, source
     }
     for (i, piece) in marker.pieces.iter().enumerate() {
         let mut see = |span: Span, point: Option<Point>| {
-            if let Some(place) = wanted.get_mut(&span.start) {
+            // What came from no block is at no place of the source.
+            if span.block > 0
+                && let Some(place) = wanted.get_mut(&span.start)
+            {
                 place.get_or_insert(Place { piece: Some(i), point });
             }
         };

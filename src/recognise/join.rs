@@ -9,9 +9,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::line::Line;
 use super::pens::{self, Use};
-use crate::geom::moments::Moments;
 use crate::geom::{Vector, angle, bits};
-use crate::ir::drawing::{Drawing, Moved, Stroke, Vertex};
+use crate::ir::drawing::{Drawing, Moved, Redrawn, Stroke, Vertex};
 use crate::machine::Job;
 
 /// Farthest that two ends may miss each other along an axis, in units of the file and in mm: plots of several CAD systems
@@ -41,7 +40,11 @@ const fn other(end: End) -> End {
 /// Joins the strokes of a drawing: its lines, whose places are among its vertices, and what was changed for that.
 pub(super) fn join(drawing: &mut Drawing, job: &Job) -> (Vec<Line>, Moved) {
     let uses: Vec<Use> = drawing.pens.iter().map(|pen| pens::usage(pen, job)).collect();
-    let mut joining = Joining { reach: (REACH_UNITS * drawing.unit).min(REACH), drawing, moved: Moved::default() };
+    let mut joining = Joining {
+        reach: if drawing.unit > 0.0 { (REACH_UNITS * drawing.unit).min(REACH) } else { REACH },
+        drawing,
+        moved: Moved::default(),
+    };
     joining.close_alone();
     let links = joining.links();
     let strokes = std::mem::take(&mut joining.drawing.strokes);
@@ -98,9 +101,7 @@ impl Joining<'_> {
             }
             let from = std::mem::replace(&mut vertices[last].at, first);
             let before = vertices[last - 1].at;
-            self.moved.moments += Moments::line(before, from);
-            self.moved.moments -= Moments::line(before, first);
-            self.moved.bounds.add(from);
+            self.moved.redrawn.push(Redrawn { drawn: vec![before, from], now: [before, first] });
         }
     }
 
@@ -211,13 +212,12 @@ impl Joining<'_> {
                 continue;
             };
             if step == 0 {
-                // It starts where the one before it ends, but for rounding.
-                self.moved.bounds.add(vertex.at);
-                continue;
+                continue; // it starts where the one before it ends, but for rounding
             }
             let from = self.drawing.vertices[if is_forward { range.start } else { last }].at;
-            self.moved.moments += Moments::line(from, vertex.at);
-            self.moved.moments -= Moments::line(end.at, vertex.at);
+            if from != end.at {
+                self.moved.redrawn.push(Redrawn { drawn: vec![from, vertex.at], now: [end.at, vertex.at] });
+            }
             self.moved.points += usize::from(end.span == vertex.span || end.at == vertex.at);
             if end.at != vertex.at {
                 self.drawing.vertices.push(vertex);
@@ -232,9 +232,7 @@ impl Joining<'_> {
         let [.., before, last] = &mut self.drawing.vertices[first..] else { return };
         let from = std::mem::replace(&mut last.at, at);
         if from != at {
-            self.moved.moments += Moments::line(before.at, from);
-            self.moved.moments -= Moments::line(before.at, at);
-            self.moved.bounds.add(from);
+            self.moved.redrawn.push(Redrawn { drawn: vec![before.at, from], now: [before.at, at] });
         }
     }
 

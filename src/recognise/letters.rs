@@ -28,6 +28,9 @@ pub(super) fn mark(lines: &mut [Line], vertices: &[Vertex], work: &mut Budget) {
         cells.entry(cell(&lines[i])).or_default().push(i);
     }
     for first in small {
+        if work.is_spent() {
+            return;
+        }
         let row = row(first, lines, (&mut cells, work));
         let is_shaped = |&i: &usize| !is_straight(lines[i].vertices(vertices));
         let is_text = row.len() >= ROW && row.iter().any(|&i| !lines[i].is_closed) && row.iter().any(is_shaped);

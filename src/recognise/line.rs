@@ -148,7 +148,7 @@ impl Line {
         self.class == Class::Other
     }
 
-    /// Whether it is a closed line that may hold others: large enough for a part, and neither ignored nor a frame.
+    /// Whether it is a closed line that may hold others: neither ignored nor a frame.
     pub(super) fn is_outline(&self) -> bool {
         self.is_closed && self.class != Class::Ignored && self.class != Class::Frame
     }

@@ -50,7 +50,7 @@ struct Sheet {
     lines: Vec<Line>,
     nest: Nest,
     marks: Vec<Mark>,
-    /// The lines that the marks are drawn by, and outlines of holes.
+    /// The pens that draw them.
     pens: Vec<Pen>,
     texts: Vec<Label>,
     unit: f64,
@@ -166,8 +166,10 @@ impl Sheet {
             let Some(parent) = self.nest.parent(children[0]) else { continue };
             let outline = self.lines[parent].points(&self.vertices);
             let tried = children.iter().take(SEAM_CANDIDATES);
+            // What nobody has looked at is not cut for a cut-out.
             let mut is_seam = |&&i: &&usize| {
-                work.spend(seam::COST * outline.len()) && seam::follows(&self.lines[i].points(&self.vertices), &outline)
+                !work.spend(seam::COST * outline.len())
+                    || seam::follows(&self.lines[i].points(&self.vertices), &outline)
             };
             seams.extend(tried.filter(|i| is_seam(i)).copied().next());
         }
@@ -199,9 +201,12 @@ impl Sheet {
             };
             self.lines[i].is_cut = may_be && (by_rule || job.lines.all);
         }
-        for mark in &self.marks {
-            let is_cut = self.lines[mark.outline].is_cut;
-            mark.bar.into_iter().chain([mark.line]).for_each(|line| self.lines[line].is_cut = is_cut);
+        // A notch is cut with its outline.
+        for marks in self.marks.chunk_by(|a, b| a.line == b.line) {
+            let is_cut = job.lines.all || marks.iter().any(|mark| self.lines[mark.outline].is_cut);
+            for line in marks.iter().filter_map(|mark| mark.bar).chain([marks[0].line]) {
+                self.lines[line].is_cut &= is_cut;
+            }
         }
     }
 

@@ -5,9 +5,9 @@ use super::{Mark, Sheet};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
-use crate::geom::{Point, Vector, cross, ring};
+use crate::geom::{Point, Vector, cross, polyline, ring};
 use crate::ir::Marker;
-use crate::ir::drawing::{Account, Aside, LineClass, Vertex};
+use crate::ir::drawing::{Account, Aside, LineClass, Redrawn, Vertex};
 use crate::ir::list::{FULL_SPEED, SegmentList};
 use crate::ir::marker::{Contour, Drill, Label, Notch, NotchKind, Piece, Stroke};
 
@@ -72,12 +72,11 @@ impl<'a> Making<'a> {
     }
 
     fn add_notches(&mut self) {
-        for mark in &self.sheet.marks {
-            let Some(piece) = self.piece_of[mark.outline].checked_sub(1) else { continue };
-            if self.sheet.lines[mark.line].is_cut {
-                let notch = notch(mark, self.sheet);
-                self.pieces[piece as usize].notches.push(notch);
-            }
+        let sheet = self.sheet;
+        for mark in sheet.marks.iter().filter(|mark| sheet.lines[mark.line].is_cut) {
+            let own = self.piece_of[mark.outline].checked_sub(1);
+            let piece = own.map_or_else(|| self.piece_around(mark.cut[1], &sheet.lines[mark.line]), |own| own as usize);
+            self.pieces[piece].notches.push(notch(mark, sheet));
         }
     }
 
@@ -187,7 +186,7 @@ fn centroid(vertices: &[Vertex]) -> Point {
 
 /// What is drawn and not cut.
 fn aside(sheet: &Sheet) -> Aside {
-    let mut aside = Aside { moved: sheet.moved, ..Aside::default() };
+    let mut aside = Aside { moved: sheet.moved.clone(), ..Aside::default() };
     for line in &sheet.lines {
         let vertices = line.vertices(&sheet.vertices);
         match (line.is_cut, line.class) {
@@ -215,17 +214,16 @@ fn leave_beside_cut(vertices: &[Vertex], mark: &Mark, aside: &mut Aside) {
     aside.add(None, &vertices[mark.leg..]);
     if mark.leg > 1 {
         aside.moved.points += mark.leg - 1;
-        let straight = crate::geom::moments::Moments::line(vertices[0].at, vertices[mark.leg].at);
-        aside.moved.moments += crate::geom::moments::Moments::of(vertices[..=mark.leg].iter().map(|v| v.at));
-        aside.moved.moments -= straight;
-        for vertex in vertices {
-            aside.moved.bounds.add(vertex.at);
-        }
+        let drawn: Vec<Point> = vertices[..=mark.leg].iter().map(|vertex| vertex.at).collect();
+        let now = [drawn[0], drawn[mark.leg]];
+        aside.moved.redrawn.push(Redrawn { drawn, now });
     }
 }
 
 fn pen_down(sheet: &Sheet) -> f64 {
-    sheet.lines.iter().fold(0.0, |sum, line| sum + line.length) + sheet.moved.moments.length()
+    let lines = sheet.lines.iter().fold(0.0, |sum, line| sum + line.length);
+    let longer = |Redrawn { drawn, now: [from, to] }: &Redrawn| polyline::length(drawn) - (to - from).norm();
+    sheet.moved.redrawn.iter().map(longer).fold(lines, |sum, longer| sum + longer)
 }
 
 /// How many lines were taken for what.

@@ -1,5 +1,6 @@
 //! What is doubtful in a drawing, in words: each thing once, with how many lines it concerns and what to type.
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 use super::Sheet;
@@ -7,10 +8,11 @@ use super::line::{Class, Line};
 use super::pens::Use;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
 use crate::geom::boxes::Boxes;
+use crate::geom::budget::Budget;
 use crate::geom::ring;
 use crate::ir::drawing::Ending;
 use crate::machine::Job;
-use crate::machine::plot::Inner;
+use crate::machine::plot::{Inner, PenUse};
 use crate::units::MM_PER_M;
 use crate::units::number::fixed;
 
@@ -78,6 +80,7 @@ fn inner_lines(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
         let (width, height) = sheet.lines[part].extent.size();
         let others = match doubtful.len() {
             1 => String::new(),
+            2 => "; so does another".to_owned(),
             n => format!("; so do {} others", n - 1),
         };
         let message = format!(
@@ -110,8 +113,11 @@ fn inner_lines(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
 
 /// Small closed lines, and long open ones, that are in no part.
 fn lines_outside(sheet: &Sheet, out: &mut Diagnostics) {
-    let small: Vec<&Line> =
-        sheet.lines.iter().filter(|line| line.class == Class::SmallOutline && !line.is_cut).collect();
+    let small: Vec<&Line> = sheet
+        .lines
+        .iter()
+        .filter(|line| line.class == Class::SmallOutline && !line.is_cut && line.usage != Use::Drawn)
+        .collect();
     if let Some(first) = small.first() {
         let message = format!("not cut: {} up to 25 mm large in no part", counted(&small, "closed line"));
         let found = finding(&code::DRAWING_SMALL_OUTLINES, message, first, sheet);
@@ -148,9 +154,10 @@ fn frames(sheet: &Sheet, out: &mut Diagnostics) {
     if let Some(frame) = sheet.lines.iter().rfind(|line| line.class == Class::Frame) {
         let (width, height) = frame.extent.size();
         let message = format!(
-            "a rectangle of {} x {} mm around {parts} parts is taken for the frame: not cut",
+            "a rectangle of {} x {} mm around {parts} part{} is taken for the frame: not cut",
             fixed(width, 1),
-            fixed(height, 1)
+            fixed(height, 1),
+            if parts == 1 { "" } else { "s" }
         );
         let found = finding(&code::DRAWING_FRAME, message, frame, sheet);
         out.push(found.hint("if it is a part, `--set hpgl.frame=none`"));
@@ -162,6 +169,8 @@ struct Parts<'a> {
     sheet: &'a Sheet,
     lines: Vec<usize>,
     boxes: Boxes,
+    /// What may still be looked at: then lines count as lying in parts, and nothing is said of them.
+    work: RefCell<Budget>,
 }
 
 /// Places of a line that are looked at, and parts that are looked at for each.
@@ -172,7 +181,7 @@ impl<'a> Parts<'a> {
     fn of(sheet: &'a Sheet) -> Self {
         let lines = sheet.indices(|line| line.class == Class::Part);
         let boxes = Boxes::new(lines.iter().map(|&i| sheet.lines[i].extent).collect());
-        Self { sheet, lines, boxes }
+        Self { sheet, lines, boxes, work: RefCell::new(Budget::of_a_marker()) }
     }
 
     /// Whether most of a line lies in parts.
@@ -186,7 +195,11 @@ impl<'a> Parts<'a> {
         let is_in = |k: &usize| {
             let at = probe(*k);
             let mut around = self.boxes.at(at).take(MOST_PARTS);
-            around.any(|part| ring::contains(&self.sheet.lines[self.lines[part]].points(&self.sheet.vertices), at))
+            around.any(|part| {
+                let part = &self.sheet.lines[self.lines[part]];
+                let cost = (part.end - part.first) as usize;
+                !self.work.borrow_mut().spend(cost) || ring::contains(&part.points(&self.sheet.vertices), at)
+            })
         };
         2 * (0..PROBES).filter(is_in).count() > PROBES
     }
@@ -240,13 +253,16 @@ fn nothing(sheet: &Sheet, job: &Job) -> Diagnostic {
     if let Some(only) = job.lines.pens.as_ref().filter(|_| !held.iter().any(is_wanted)) {
         return finding.hint(format!("`--cut-pens {only}` leaves all lines out: {drawn}"));
     }
-    if held.iter().all(|name| job.profile.hpgl.pen(name).is_some()) {
-        return finding
-            .hint(format!("`hpgl.pens` of the profile leaves them out; {drawn}; `--cut-pens {listed}` cuts them"));
+    let is_left_out = |name: &&str| matches!(job.profile.hpgl.pen(name), Some(PenUse::Pen | PenUse::Ignore));
+    if held.iter().all(is_left_out) {
+        let hint = format!("`hpgl.pens` of the profile leaves them out; {drawn}; `--set hpgl.pens.{first}=knife`");
+        return finding.hint(hint);
     }
     if sheet.lines.iter().any(|line| line.class == Class::SmallOutline) {
         let hint = format!("{drawn}; closed lines up to 25 mm are parts with `--cut-pens {listed}`");
         return finding.hint(hint);
     }
-    finding.hint(format!("{drawn}, no line closes; `--cut-all` cuts every line"))
+    let closed = sheet.lines.iter().any(|line| line.is_closed);
+    let why = if closed { "no closed line is a part" } else { "no line closes" };
+    finding.hint(format!("{drawn}, {why}; `--cut-all` cuts every line"))
 }

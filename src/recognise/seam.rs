@@ -1,7 +1,7 @@
 //! Seam lines: closed lines that follow the outline around them at a nearly even distance along each of its edges. The
 //! distance may differ from edge to edge: hems are wider than seams.
 
-use crate::geom::{Point, Vector, cross, polyline};
+use crate::geom::{Extent, Point, Vector, cross, polyline, ring};
 
 /// Farthest that a seam line lies from its outline, mm: hems are up to that wide.
 const FARTHEST: f64 = 60.0;
@@ -12,6 +12,8 @@ const LARGEST_TURN: f64 = 0.5;
 /// Shares of a line that must be near the outline, and go along it.
 const NEAR: f64 = 0.75;
 const ALONG: f64 = 0.7;
+/// Least share of its part that a seam line goes around: what is smaller goes along edges, but not around.
+const LEAST_AREA: f64 = 0.15;
 /// Places of a line that are looked at.
 const SAMPLES: usize = 48;
 /// What it costs to look at one edge from all of them.
@@ -19,9 +21,10 @@ pub(super) const COST: usize = SAMPLES;
 
 /// Whether a closed line follows the outline that it lies in.
 pub(super) fn follows(line: &[Point], outline: &[Point]) -> bool {
-    let (inner, outer) = (crate::geom::Extent::of(line), crate::geom::Extent::of(outline));
+    let (inner, outer) = (Extent::of(line), Extent::of(outline));
     let margins = [inner.min - outer.min, outer.max - inner.max];
-    if margins.iter().any(|margin| margin.x > BOX_MARGIN || margin.y > BOX_MARGIN) {
+    let goes_around = ring::area(line).abs() >= LEAST_AREA * ring::area(outline).abs();
+    if !goes_around || margins.iter().any(|margin| margin.x > BOX_MARGIN || margin.y > BOX_MARGIN) {
         return false;
     }
     let samples = samples(line);
@@ -58,12 +61,12 @@ fn samples(line: &[Point]) -> Vec<(Point, Vector)> {
 mod tests {
     use super::*;
 
-    fn ring(places: &[(f64, f64)]) -> Vec<Point> {
+    fn closed(places: &[(f64, f64)]) -> Vec<Point> {
         places.iter().chain(&places[..1]).map(|&(x, y)| Point::new(x, y)).collect()
     }
 
     fn rectangle(x: f64, y: f64, width: f64, height: f64) -> Vec<Point> {
-        ring(&[(x, y), (x + width, y), (x + width, y + height), (x, y + height)])
+        closed(&[(x, y), (x + width, y), (x + width, y + height), (x, y + height)])
     }
 
     #[test]
@@ -79,6 +82,13 @@ mod tests {
         ] {
             assert_eq!(follows(&seam, &part), is_seam, "{seam:?}");
         }
+        for (part, slot) in
+            [([160.0, 90.0], [60.0, 4.0]), ([250.0, 110.0], [80.0, 14.0]), ([200.0, 100.0], [80.0, 20.0])]
+        {
+            let at = [0, 1].map(|axis| (part[axis] - slot[axis]) / 2.0);
+            let (slot, part) = (rectangle(at[0], at[1], slot[0], slot[1]), rectangle(0.0, 0.0, part[0], part[1]));
+            assert!(!follows(&slot, &part), "{slot:?}");
+        }
     }
 
     #[test]
@@ -87,6 +97,6 @@ mod tests {
             .map(|k| f64::from(k) / 40.0 * std::f64::consts::TAU)
             .map(|a| (75.0 + 30.0 * a.cos(), 75.0 + 30.0 * a.sin()))
             .collect();
-        assert!(!follows(&ring(&hole), &rectangle(0.0, 0.0, 150.0, 150.0)));
+        assert!(!follows(&closed(&hole), &rectangle(0.0, 0.0, 150.0, 150.0)));
     }
 }

@@ -67,7 +67,8 @@ pub fn value_in(text: &str, wanted: &str) -> Result<f64, NotQuantity> {
     if (given.base, given.per) != (wanted.base, wanted.per) {
         return Err(NotQuantity::Measures(given.measures()));
     }
-    Ok(number * (given.times * wanted.over) / (given.over * wanted.times))
+    let value = number * (given.times * wanted.over) / (given.over * wanted.times);
+    if value.is_finite() { Ok(value) } else { Err(NotQuantity::NoQuantity) }
 }
 
 /// What a unit measures, such as `a speed`, and values in others of its kind; `None` when others do not stand for it.

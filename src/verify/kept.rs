@@ -134,12 +134,12 @@ fn lost(read: &[Place], cut: &[Place], reach: f64) -> Vec<Stroke> {
     ends.sort_unstable();
     lost.retain(|stroke| stroke.is_hole() || ends.binary_search(&stroke.ends()).is_err());
     let still: Vec<Stroke> = if lost.is_empty() { Vec::new() } else { strokes(cut).collect() };
-    let mut of_lost: Vec<Ends> = lost.iter().map(Stroke::ends).collect();
-    of_lost.sort_unstable();
-    let is_twice = |stroke: &Stroke| {
-        of_lost.partition_point(|ends| *ends <= stroke.ends()) - of_lost.partition_point(|ends| *ends < stroke.ends())
-            > 1
-    };
+    // Out and straight back in a row, to the bit.
+    let mut back_and_forth: Vec<Ends> = Vec::new();
+    let ways = read.windows(3).filter(|w| bits(w[0].at) == bits(w[2].at) && w[1].block != NO_BLOCK);
+    back_and_forth.extend(ways.map(|w| Stroke { from: w[0].at, to: w[1].at, block: w[1].block }.ends()));
+    back_and_forth.sort_unstable();
+    let is_twice = |stroke: &Stroke| back_and_forth.binary_search(&stroke.ends()).is_ok();
     lost.retain(|stroke| {
         let is_step = stroke.length() < SHORTEST_STEP && is_twice(stroke);
         stroke.is_hole() || !stroke.is_near(&still, if is_step { SHORTEST_STEP } else { reach })

@@ -5,8 +5,8 @@ use super::scan::scan_iso;
 use super::source_hpgl;
 use super::worst::Worst;
 use crate::geom::moments::{Allowance, Difference, Moments};
-use crate::geom::{Extent, Point};
-use crate::ir::drawing::Account;
+use crate::geom::{Extent, Point, polyline};
+use crate::ir::drawing::{Account, Redrawn};
 use crate::ir::marker::Notch;
 use crate::ir::{Finding, Marker};
 use crate::machine::MachineProfile;
@@ -18,6 +18,8 @@ const MOMENT_EPSILON: f64 = 1e-10;
 /// Farthest that the chords of an arc may lie off it, as a part of the tolerance: a curve that is drawn coarser leaves the
 /// knife no room.
 pub(super) const ARC_SAGITTA: f64 = 0.25;
+/// Farthest that a place of a drawing may be moved so that lines meet, mm: a third of a millimetre shows on no part.
+const REDRAWN: f64 = 0.3;
 
 /// What is cut: points reached with the knife down, holes, length and bounds.
 #[derive(Debug, Clone, PartialEq)]
@@ -91,12 +93,26 @@ impl Census {
             self.points +=
                 vertices.iter().skip(1).filter(|vertex| span.replace(vertex.span) != Some(vertex.span)).count();
         }
-        let moved = &aside.moved;
-        self.points += moved.points;
-        self.length += moved.moments.length();
-        self.moments += moved.moments;
-        self.bounds.join(&moved.bounds);
+        self.points += aside.moved.points;
+        // What was drawn elsewhere is another line, whatever the account says.
+        for Redrawn { drawn, now: [from, to] } in aside.moved.redrawn.iter().filter(|line| is_redrawn_nearby(line)) {
+            let moments = [Moments::of(drawn.iter().copied()), Moments::line(*from, *to)];
+            self.length += moments[0].length() - moments[1].length();
+            self.moments += moments[0];
+            self.moments -= moments[1];
+            for &place in drawn {
+                self.bounds.add(place);
+            }
+        }
     }
+}
+
+/// Whether every place of a line as it was drawn lies near to what it is now, and its ends near to the ends.
+fn is_redrawn_nearby(Redrawn { drawn, now: [from, to] }: &Redrawn) -> bool {
+    let [Some(first), Some(last)] = [drawn.first(), drawn.last()] else { return false };
+    let off = |place: &Point| polyline::distance_to_segment(*place, *from, *to);
+    let ends = [(first - from).norm(), (last - to).norm()];
+    drawn.iter().map(off).chain(ends).all(|distance| distance <= REDRAWN)
 }
 
 /// Compares a marker as it was read with a scan of the bytes; `None` when there is no scan for the dialect.

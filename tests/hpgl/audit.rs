@@ -3,9 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use cutc::geom::moments::Moments;
 use cutc::geom::{Extent, Point, Vector};
-use cutc::ir::drawing::{Aside, Vertex};
+use cutc::ir::drawing::{Aside, Redrawn, Vertex};
 use cutc::ir::marker::Contour;
 use cutc::ir::{Finding, Marker};
 use cutc::machine::Job;
@@ -89,21 +88,27 @@ type Damage<'a> = (&'static str, &'a dyn Fn(&mut Aside));
 #[test]
 fn an_account_of_what_is_left_aside_that_is_wrong_in_anything_is_refused() {
     let job = Job::default();
-    let far = Point::new(1e4, 1e4);
-    let line = |y: f64| Moments::line(Point::new(10.0, y), Point::new(110.0, y));
-    let add = |aside: &mut Aside, xs: [f64; 2]| {
-        let vertex = |(x, block)| Vertex { at: Point::new(x, 10.0), span: Span { start: block, end: block, block } };
-        aside.add(None, &xs.into_iter().zip(1..).map(vertex).collect::<Vec<_>>());
+    let line = |y: f64| [Point::new(10.0, y), Point::new(110.0, y)];
+    let redraw = |aside: &mut Aside, by: f64| {
+        aside.moved.redrawn.push(Redrawn { drawn: line(10.0).to_vec(), now: line(10.0 + by) });
     };
-    let damages: [Damage; 5] = [
+    let add_at = |aside: &mut Aside, places: [[f64; 2]; 2]| {
+        let vertex =
+            |(at, block): ([f64; 2], u32)| Vertex { at: at.into(), span: Span { start: block, end: block, block } };
+        aside.add(None, &places.into_iter().zip(1..).map(vertex).collect::<Vec<_>>());
+    };
+    let add = |aside: &mut Aside, xs: [f64; 2]| add_at(aside, xs.map(|x| [x, 10.0]));
+    let damages: [Damage; 6] = [
         ("source/points", &|aside| aside.moved.points += 1),
         ("source/points", &|aside| add(aside, [10.0, 10.0])),
-        ("source/bounds", &|aside| aside.moved.bounds.add(far)),
+        ("source/bounds", &|aside| add_at(aside, [[1e4, 1e4], [1e4, 1e4 + 1.0]])),
         ("source/length", &|aside| add(aside, [10.0, 110.0])),
         // Something drawn is accounted for beside its place.
-        ("source/moments", &|aside| {
-            aside.moved.moments -= line(10.0);
-            aside.moved.moments += line(20.0);
+        ("source/moments", &|aside| redraw(aside, 0.29)),
+        // One that was moved farther than rounding parts lines is not accounted for at all.
+        ("source/length", &|aside| {
+            add(aside, [10.0, 110.0]);
+            aside.moved.redrawn.push(Redrawn { drawn: line(400.0).to_vec(), now: line(10.0) });
         }),
     ];
     for (name, source) in fixtures() {

@@ -7,8 +7,9 @@ use super::sanity::Part;
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point};
 
-/// Places of a segment that are tried, the ends among them.
-const PLACES: usize = 5;
+/// Places of a segment that are tried, the ends among them: one every so many mm, and so many at the least and at the most.
+const STEP: f64 = 2.0;
+const PLACES: std::ops::RangeInclusive<usize> = 5..=500;
 
 /// The deepest place.
 #[derive(Debug, Clone, Copy)]
@@ -26,11 +27,12 @@ pub(super) fn depth([a, b]: [&Part; 2], work: &mut Budget) -> Option<Depth> {
         for k in 0..part.contours.len() {
             for ends in part.contour(k).windows(2) {
                 let Some([from, to]) = clipped([ends[0], ends[1]], &common) else { continue };
-                for i in 0..PLACES {
+                let places = (((to - from).norm() / STEP) as usize).clamp(*PLACES.start(), *PLACES.end());
+                for i in 0..places {
                     if !work.spend(2 * other.points.len()) {
                         return None;
                     }
-                    let at = from + (to - from) * (i as f64 / (PLACES - 1) as f64);
+                    let at = from + (to - from) * (i as f64 / (places - 1) as f64);
                     if !other.holds(at) {
                         continue;
                     }

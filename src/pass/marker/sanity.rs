@@ -333,15 +333,20 @@ impl<'a> Search<'a> {
                 let (one, other) = (name(self.marker, i), name(self.marker, k));
                 work.spend(SAYING);
                 let [a, b] = [i, k].map(|piece| self.part(piece));
-                let Some(depth) = depth([a, b], work) else { continue };
-                // Both outlines are rounded, each by half of this at the most.
-                if depth.by <= slack(self.marker) {
-                    continue;
-                }
-                let by = fixed(depth.by, DEPTH_DECIMALS);
-                let message = format!("the outlines of {one} and {other} overlap by {by} mm");
-                let finding = Diagnostic::new(&code::MARKER_OVERLAPPING, message).at(span).by(depth.by);
-                let finding = finding.on_cloth(if depth.by > 0.0 { depth.at } else { place });
+                let finding = match depth([a, b], work) {
+                    // Both outlines are rounded, each by half of this at the most.
+                    Some(depth) if depth.by <= slack(self.marker) => continue,
+                    Some(depth) => {
+                        let by = fixed(depth.by, DEPTH_DECIMALS);
+                        let message = format!("the outlines of {one} and {other} overlap by {by} mm");
+                        Diagnostic::new(&code::MARKER_OVERLAPPING, message).at(span).by(depth.by).on_cloth(depth.at)
+                    }
+                    // Nobody has looked how far.
+                    None => {
+                        let message = format!("the outlines of {one} and {other} overlap");
+                        Diagnostic::new(&code::MARKER_OVERLAPPING, message).at(span).on_cloth(place)
+                    }
+                };
                 diagnostics.push(finding.hint("move one of the two in the marker: each is cut into the other"));
             }
             // Behind its pairs as the earlier one it has no others: those as the later one came before.

@@ -159,7 +159,7 @@ fn ways(segments: &[Segment], measure: Measure) -> Vec<Way> {
     let (mut is_taken, mut left) = (vec![false; count], count);
     for i in 0..count {
         let [before, bottom, next] = [i + count - 1, i, i + 1].map(way);
-        if !is_tip([before, bottom, next], most) {
+        if is_taken[i] || !is_tip([before, bottom, next], most) {
             continue;
         }
         // The bottom of a box first: a way back that starts askew may look like a tip of its own.

@@ -20,7 +20,7 @@ use std::cell::OnceCell;
 use rayon::prelude::*;
 
 use self::mouth::Mouth;
-use super::{MarkerPass, in_parts};
+use super::{MarkerPass, in_parts, search_ended};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::budget::Budget;
 use crate::geom::region::Regions;
@@ -269,9 +269,15 @@ fn warn_of_neighbours(marker: &Marker, diagnostics: &mut Diagnostics) {
     for (own, notch) in out {
         let at = notch.tip;
         if !work.spend(regions.cost_at(at)) {
+            diagnostics.push(search_ended("more notches may stand out into other pieces, unsaid"));
             break;
         }
         let others = regions.owners_at(at).into_iter().map(|owner| owner as usize).filter(|&other| other != own);
+        let others: Vec<usize> = others.collect();
+        work.spend(
+            others.iter().flat_map(|&piece| closed(piece)).map(|c| VERTEX * marker.list.points(c.range).len()).sum(),
+        );
+        let others = others.into_iter();
         let deepest = others.map(|other| (depth_in(other, at), other)).max_by(|a, b| a.0.total_cmp(&b.0));
         if let Some((depth, other)) =
             deepest.filter(|(depth, _)| *depth > TOUCH.max(std::f64::consts::SQRT_2 * marker.unit))
@@ -291,7 +297,10 @@ fn warn_of_neighbours(marker: &Marker, diagnostics: &mut Diagnostics) {
             "{count} notches stand out into other pieces, farthest that of piece {own}: {depth} mm deep in piece {other}"
         )
     };
-    let finding = Diagnostic::new(&code::MARKER_NOTCH_OVER, message).at(worst.notch.span);
+    let finding = Diagnostic::new(&code::MARKER_NOTCH_OVER, message)
+        .at(worst.notch.span)
+        .by(worst.depth)
+        .on_cloth(worst.notch.tip);
     diagnostics
         .push(finding.hint("move the pieces apart, or have notches cut into their own part: notch.style = \"slit\""));
 }
