@@ -104,12 +104,17 @@ fn key_text(key: &Key) -> String {
     let default = key.name.split('.').try_fold(&table, |inner, part| inner.get(part));
     let default = default.map_or_else(String::new, |value| format!(" Its default is {}.", keys::shown_value(value)));
     let takes = format!("It must be {}.{default}", key.expects());
-    format!("{}\nkey of the profile\n\n{}\n\n{}\n", key.name, wrapped(&key.about.replace('\n', " ")), wrapped(&takes))
+    format!(
+        "{}\nkey of the profile\n\n{}\n\n{}\n",
+        key.name,
+        wrapped(&key.about.replace('\n', " "), COLUMNS),
+        wrapped(&takes, COLUMNS)
+    )
 }
 
 /// A row of README's table as a paragraph.
 fn row_text(codes: &str, about: &str) -> String {
-    wrapped(&format!("{codes}: {}", sentence(about)))
+    wrapped(&format!("{codes}: {}", sentence(about)), COLUMNS)
 }
 
 fn list() -> String {
@@ -133,7 +138,7 @@ fn consequence(kind: &str) -> &'static str {
 
 fn explained((name, kind, about): Topic) -> String {
     let more = EXPLANATIONS.iter().find(|(code, _)| *code == name).map_or("", |(_, text)| text);
-    format!("{name}\n{}\n\n{}\n\n{}\n", consequence(kind), wrapped(&sentence(about)), paragraphs(more))
+    format!("{name}\n{}\n\n{}\n\n{}\n", consequence(kind), wrapped(&sentence(about), COLUMNS), paragraphs(more))
 }
 
 /// Rules are said in lower case without a full stop, codes as sentences.
@@ -145,16 +150,17 @@ fn sentence(about: &str) -> String {
 
 /// Paragraphs stand on a line each; an indented line is an example and stays as it is.
 fn paragraphs(text: &str) -> String {
-    let paragraph = |line: &str| if line.starts_with(' ') { line.to_owned() } else { wrapped(line) };
+    let paragraph = |line: &str| if line.starts_with(' ') { line.to_owned() } else { wrapped(line, COLUMNS) };
     text.lines().map(paragraph).collect::<Vec<_>>().join("\n")
 }
 
-fn wrapped(text: &str) -> String {
+/// A text in lines of so many columns.
+pub(super) fn wrapped(text: &str, columns: usize) -> String {
     let mut out = String::new();
     let mut column = 0;
     for word in text.split(' ') {
         let width = word.chars().count();
-        if column > 0 && column + 1 + width > COLUMNS {
+        if column > 0 && column + 1 + width > columns {
             out.push('\n');
             column = 0;
         } else if column > 0 {

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
+use super::explain::wrapped;
 use crate::machine::{Axis, Job, MachineProfile};
 use crate::units::number::short;
 
@@ -70,7 +71,7 @@ pub(super) fn text(job: &Job) -> String {
     let mut out = String::from("\n");
     let mut line = |label: &str, text: &str| {
         // Writing into a `String` cannot fail.
-        let _ = writeln!(out, "  {label:10} {}", wrapped(text));
+        let _ = writeln!(out, "  {label:10} {}", wrapped(text, WIDTH).replace('\n', "\n             "));
     };
     let origin = &job.origin;
     let without = if origin.file.is_none() { "; no -p was given" } else { "" };
@@ -85,24 +86,6 @@ pub(super) fn text(job: &Job) -> String {
         ),
     };
     line("knife", &format!("{place}{why}"));
-    out
-}
-
-/// The text in lines that fit behind their label.
-fn wrapped(text: &str) -> String {
-    let (mut out, mut column) = (String::new(), 0);
-    for word in text.split(' ') {
-        let width = word.chars().count();
-        if column > 0 && column + 1 + width > WIDTH {
-            out.push_str("\n             ");
-            column = 0;
-        } else if column > 0 {
-            out.push(' ');
-            column += 1;
-        }
-        out.push_str(word);
-        column += width;
-    }
     out
 }
 

@@ -111,6 +111,7 @@ impl Sheet {
                 };
             }
         }
+        self.find_parts_of_knives(&mut work);
         let parts = self.indices(|line| line.class == Class::Part);
         for line in marks::from_edges(self.search(&parts), &mut work) {
             self.lines[line].class = Class::FromEdge;
@@ -130,14 +131,37 @@ impl Sheet {
     /// Finds the notches that are strokes, on the edges of parts.
     fn find_marks(&mut self, work: &mut Budget) {
         let parts = self.indices(|line| line.class == Class::Part);
-        let mut marks = marks::on_outlines(self.search(&parts), work);
+        self.find_marks_on(&parts, work);
+    }
+
+    fn find_marks_on(&mut self, parts: &[usize], work: &mut Budget) {
+        let mut marks = marks::on_outlines(self.search(parts), work);
         for mark in &marks {
             self.lines[mark.line].class = Class::Notch;
         }
-        for bar in marks::take_crossbars(&mut marks, self.search(&parts)) {
+        for bar in marks::take_crossbars(&mut marks, self.search(parts)) {
             self.lines[bar].class = Class::Notch;
         }
-        self.marks = marks;
+        self.marks.extend(marks);
+    }
+
+    /// Takes the outermost lines of a pen that is a knife for parts, whatever others draw around them: the edge of a table.
+    fn find_parts_of_knives(&mut self, work: &mut Budget) {
+        let is_drawn = |i: usize| self.nest.parent(i).is_some_and(|parent| self.lines[parent].usage == Use::Drawn);
+        let is_knife =
+            |line: &Line| line.class == Class::Inner && line.usage == Use::Knife && line.size() > SMALL_OUTLINE;
+        let mut parts = self.indices(is_knife);
+        parts.retain(|&i| is_drawn(i));
+        for &part in &parts {
+            self.lines[part].class = Class::Part;
+        }
+        self.find_marks_on(&parts, work);
+    }
+
+    /// The part that is cut around a line.
+    fn part_around(&self, line: usize) -> Option<usize> {
+        let around = std::iter::successors(self.nest.parent(line), |&outer| self.nest.parent(outer));
+        around.filter(|&outer| self.lines[outer].class == Class::Part && self.lines[outer].is_cut).last()
     }
 
     /// Finds the closed squares and circles of the size of a hole.
@@ -212,7 +236,7 @@ impl Sheet {
 
     /// Whether an inner line takes most of its part.
     fn is_too_large(&self, line: usize) -> bool {
-        let part = self.nest.outermost(line).map_or(f64::INFINITY, |part| self.lines[part].area);
+        let part = self.nest.parent(line).map_or(f64::INFINITY, |part| self.lines[part].area);
         self.lines[line].area > LARGEST_INNER * part
     }
 }

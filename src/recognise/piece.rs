@@ -56,7 +56,7 @@ impl<'a> Making<'a> {
         let cut = (0..lines.len()).filter(|&i| lines[i].is_cut && lines[i].is_outline());
         for i in cut {
             // What lies in a part that is not cut is one of its own.
-            let part = sheet.nest.outermost(i).filter(|&part| lines[part].is_cut);
+            let part = sheet.part_around(i);
             owns[part.unwrap_or(i)] |= lines[i].class != Class::Hole || part.is_some();
         }
         let owners: Vec<usize> = (0..lines.len()).filter(|&i| owns[i]).collect();
@@ -101,7 +101,7 @@ impl<'a> Making<'a> {
                     continue;
                 }
                 let line = &sheet.lines[i];
-                let owner = sheet.nest.outermost(i).map_or(0, |part| self.piece_of[part]);
+                let owner = sheet.part_around(i).map_or(0, |part| self.piece_of[part]);
                 let piece = match (self.piece_of[i].checked_sub(1), owner.checked_sub(1)) {
                     (Some(own), _) => own as usize,
                     (None, Some(part)) => part as usize,

@@ -95,6 +95,16 @@ fn a_rectangle_around_a_few_parts_is_a_frame_and_named_and_one_that_is_nearly_em
     assert_eq!(found(&empty, &job), ("2 part*, 1 frame".to_owned(), vec!["drawing/frame"]));
 }
 
+/// The edge of a table of a pen of its own, whatever its shape: what the knife's pen draws in it are parts.
+#[test]
+fn the_outermost_lines_of_a_knife_are_parts_whatever_other_pens_draw_around_them() {
+    let edge = "SP4;PU0,0;PD40000,0,42000,20000,0,24000,0,0;SP1;";
+    let text = format!("{edge}{}{}{}PU4000,9000;PD4200,9000;", part(), seam(), cut_out());
+    asked(&text, Lines::default(), "1 part*, 2 inner line, 1 seam line, 1 other line");
+    let pens = Lines { pens: Numbers::parse("1").ok(), ..Lines::default() };
+    asked(&text, pens, "1 part*, 1 part, 1 notch*, 1 inner line*, 1 seam line");
+}
+
 #[test]
 fn letters_are_told_by_the_row_that_they_stand_in() {
     let letters = "PU9000,9000;PD9000,9320,9200,9320,9200,9000,9000,9000;PU9300,9000;PD9300,9320,9500,9320,9500,9000;\
