@@ -27,7 +27,8 @@ pub(super) fn depth([a, b]: [&Part; 2], work: &mut Budget) -> Option<Depth> {
         for k in 0..part.contours.len() {
             for ends in part.contour(k).windows(2) {
                 let Some([from, to]) = clipped([ends[0], ends[1]], &common) else { continue };
-                let places = (((to - from).norm() / STEP) as usize).clamp(*PLACES.start(), *PLACES.end());
+                // An odd number, so that the middle is among them.
+                let places = (((to - from).norm() / STEP) as usize).clamp(*PLACES.start(), *PLACES.end()) | 1;
                 for i in 0..places {
                     if !work.spend(2 * other.points.len()) {
                         return None;
