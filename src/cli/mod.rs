@@ -3,10 +3,13 @@
 //! Receives parsed arguments, reads and writes files, and hands back what is to be printed: only `main.rs` prints and
 //! exits. Help texts, flag values and names come from the tables of the stages.
 
+mod batch;
 mod check;
 mod choices;
 mod compile;
 mod completions;
+mod destination;
+mod draft;
 mod drawn;
 mod explain;
 mod explanations;
@@ -20,10 +23,13 @@ mod profile;
 mod provenance;
 mod report;
 mod setup;
+mod stop;
 mod summary;
 mod times;
 mod verdict;
 mod verify;
+
+pub use stop::stop;
 
 use std::ffi::OsString;
 use std::fmt::Write as _;
@@ -58,7 +64,7 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Compile a cutter file to a machine program
+    /// Compile cutter files to machine programs
     Compile(compile::Arguments),
     /// Judge a program, edited by hand or not: does it cut what its cutter file says?
     Verify(verify::Arguments),
@@ -74,6 +80,14 @@ enum Command {
     Completions(completions::Arguments),
     /// Print the manual page of the program, or of a command
     Man(completions::Page),
+}
+
+/// Where a command that takes long says what it has found so far.
+pub struct Console<'a> {
+    /// Standard output.
+    pub out: &'a mut dyn Write,
+    /// Standard error.
+    pub err: &'a mut dyn Write,
 }
 
 /// What a command leaves to print, and its exit code.
@@ -141,8 +155,8 @@ fn say(said: &mut String, line: std::fmt::Arguments<'_>) {
     let _ = writeln!(said, "{line}");
 }
 
-/// Runs a command line, the name of the program first, to its end.
-pub fn run(words: impl IntoIterator<Item = OsString>) -> Finished {
+/// Runs a command line, the name of the program first, to its end. What takes long is told on `console` meanwhile.
+pub fn run(words: impl IntoIterator<Item = OsString>, console: &mut Console) -> Finished {
     let arguments = match Arguments::try_parse_from(words) {
         Ok(arguments) => arguments,
         Err(misuse) if misuse.use_stderr() => return Finished::text(String::new(), misuse.render().to_string(), USAGE),
@@ -150,7 +164,7 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> Finished {
         Err(asked) => return Finished::text(asked.render().to_string(), String::new(), DONE),
     };
     let finished = match &arguments.command {
-        Command::Compile(arguments) => compile::run(arguments),
+        Command::Compile(arguments) => compile::run(arguments, console),
         Command::Verify(arguments) => verify::run(arguments),
         Command::Check(arguments) => check::run(arguments),
         Command::Info(arguments) => info::run(arguments),

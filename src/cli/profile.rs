@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
-use super::files::{self, Draft};
+use super::draft::Draft;
+use super::files;
 use super::options::{Machine, refuse};
 use super::{DONE, Finished};
 use crate::machine::{Comments, MachineProfile, load};

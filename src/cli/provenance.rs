@@ -81,6 +81,12 @@ pub(super) fn json(Made { source, job, target, verified }: &Made) -> String {
     })
 }
 
+/// Name of the input that a program was made from, if that stands beside it.
+pub(super) fn source_of(program: &Path) -> Option<String> {
+    let meta: serde_json::Value = serde_json::from_slice(&fs::read(files::meta(program)).ok()?).ok()?;
+    meta["source"].as_str().map(str::to_owned)
+}
+
 /// What the provenance beside a program, if there is one, says against judging it by this source and profile: warnings.
 pub(super) fn doubts(program: &Path, source: &Source, job: &Job) -> String {
     let path = files::meta(program);

@@ -1,5 +1,7 @@
 //! The figures of a file as JSON: every key always there, null for what is not known.
 
+use std::path::Path;
+
 use serde::Serialize;
 
 use super::setup::Setup;
@@ -56,6 +58,25 @@ pub(super) fn json(report: Option<&Report>, diagnostics: &Diagnostics, of: (&Sou
         Some(report) => json_of(report, diagnostics, of),
         None => json_of(nothing(&Report::of(&Marker::default(), "")), diagnostics, of),
     }
+}
+
+/// A report with its machine and the findings as one of a list of JSON objects.
+pub(super) fn json_of_file(
+    file: &Path,
+    report: Option<&Report>,
+    diagnostics: &Diagnostics,
+    (source, job): (&Source, &Job),
+) -> String {
+    #[derive(Serialize)]
+    struct OfFile<T: Serialize> {
+        file: String,
+        #[serde(flatten)]
+        figures: T,
+    }
+    let blank = || nothing(&Report::of(&Marker::default(), ""));
+    let report = report.map_or_else(blank, |report| serde_json::to_value(report).expect("a report is plain data"));
+    let figures = Figures { setup: Setup::of(job), report, findings: Findings::of(diagnostics, source) };
+    pretty(&OfFile { file: file.display().to_string(), figures })
 }
 
 /// Any figures with the findings as one JSON object.

@@ -10,6 +10,10 @@ use crate::units::number::fixed;
 /// Digits that are kept of times: far below a control period.
 const DIGITS: i32 = 9;
 
+/// Seconds of a minute and of an hour.
+const S_PER_MINUTE: u64 = 60;
+const S_PER_HOUR: u64 = 3600;
+
 /// The time of one piece, as JSON has it.
 #[derive(Debug, Serialize)]
 pub(super) struct Timed {
@@ -28,6 +32,13 @@ pub(super) fn of(program: &Program) -> Vec<Timed> {
     program.by_piece.iter().map(timed).collect()
 }
 
+/// A time as people say it of a long job: hours, minutes and seconds, as in `1:02:05`.
+pub(super) fn clock(seconds: f64) -> String {
+    let all = seconds.round() as u64;
+    let (hours, minutes, seconds) = (all / S_PER_HOUR, all % S_PER_HOUR / S_PER_MINUTE, all % S_PER_MINUTE);
+    if hours > 0 { format!("{hours}:{minutes:02}:{seconds:02}") } else { format!("{minutes}:{seconds:02}") }
+}
+
 /// A row for each piece: its time, what the machine does in it, and what bounds most of its cutting.
 pub(super) fn text(pieces: &[Timed]) -> String {
     let mut out = String::from("\n  piece    time s     cut  travel    turn  plunge    lift   other  limited by\n");
@@ -43,4 +54,14 @@ pub(super) fn text(pieces: &[Timed]) -> String {
         out.push('\n');
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_times_are_told_by_the_clock() {
+        assert_eq!([0.4, 59.6, 3599.0, 3725.0, 90_000.0].map(clock), ["0:00", "1:00", "59:59", "1:02:05", "25:00:00"]);
+    }
 }

@@ -1,15 +1,35 @@
 //! Digests for the provenance of a program.
 
 use std::fmt::Write as _;
+use std::io::{self, Read};
 
 use sha2::{Digest, Sha256};
 
 use super::MachineProfile;
 
+/// Bytes that are read at a time.
+const BLOCK_BYTES: usize = 1 << 16;
+
 /// The SHA-256 of some bytes, 64 lower-case hexadecimal digits.
 pub fn sha256_hex(bytes: &[u8]) -> String {
-    let mut hex = String::with_capacity(64);
-    for byte in Sha256::digest(bytes) {
+    hex(&Sha256::digest(bytes))
+}
+
+/// The same of all that a reader gives.
+pub fn sha256_of(mut bytes: impl Read) -> io::Result<String> {
+    let mut digest = Sha256::new();
+    let mut block = vec![0; BLOCK_BYTES];
+    loop {
+        match bytes.read(&mut block)? {
+            0 => return Ok(hex(&digest.finalize())),
+            n => digest.update(&block[..n]),
+        }
+    }
+}
+
+fn hex(digest: &[u8]) -> String {
+    let mut hex = String::with_capacity(2 * digest.len());
+    for byte in digest {
         // Writing into a `String` cannot fail.
         let _ = write!(hex, "{byte:02x}");
     }

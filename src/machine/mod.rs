@@ -23,7 +23,7 @@ mod show;
 mod validate;
 mod word;
 
-pub use digest::sha256_hex;
+pub use digest::{sha256_hex, sha256_of};
 pub use kinematics::Limits;
 pub use knife::{Follow, Knife, TightCurves};
 pub use load::{Faults, load, load_given};

@@ -283,6 +283,11 @@ impl Axes {
 }
 
 impl Report {
+    /// What the program takes, s, as planned here or as a controller is likely to; `None` when it was not planned.
+    pub fn time_s(&self) -> Option<f64> {
+        self.program.time_s.or(self.controller.map(|controller| controller.time_s))
+    }
+
     /// What is in a marker, before any planning.
     pub fn of(marker: &Marker, dialect: &'static str) -> Self {
         let (width, height) = marker.extent().size();

@@ -1,0 +1,289 @@
+//! What became of each file, a line each: `cutc.jsonl` beside the programs. A run adds a line with every file that it
+//! ends, and leaves the lines sorted, so that the same files give the same manifest in whatever order they were done.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ffi::OsStr;
+use std::fs::{File, OpenOptions};
+use std::io::{self, BufReader, Read as _, Seek as _, SeekFrom, Write as _};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use serde::{Deserialize, Serialize};
+
+use super::shard::Shard;
+use crate::cli::draft::{self, Draft};
+use crate::cli::files::{cannot_write, directory, meta};
+use crate::machine::sha256_of;
+
+/// The name of a manifest, and how those of parts begin and end.
+const NAME: &str = "cutc.jsonl";
+const PART: [&str; 2] = ["cutc.", ".jsonl"];
+
+/// What a program is made from: the same gives the same bytes.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub(in crate::cli) struct Made {
+    /// The input's name below its folder.
+    pub(in crate::cli) source: String,
+    /// What was written of it.
+    pub(in crate::cli) targets: Vec<String>,
+    pub(in crate::cli) source_sha256: String,
+    /// Of the values in effect.
+    pub(in crate::cli) profile_sha256: String,
+    /// What else was asked, as it is typed.
+    pub(in crate::cli) options: String,
+    /// Version of this program.
+    pub(in crate::cli) version: String,
+}
+
+/// A file that was written.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::cli) struct Output {
+    /// Below the folder of the manifest.
+    pub(in crate::cli) path: String,
+    pub(in crate::cli) sha256: String,
+}
+
+/// What a file was found to be worth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(in crate::cli) enum Verdict {
+    /// Its programs were read back and proven.
+    Verified,
+    /// They were not, as `--no-verify` asked.
+    Unverified,
+    /// It has errors, or its programs failed: there are none.
+    Refused,
+}
+
+/// What became of one file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::cli) struct Line {
+    #[serde(flatten)]
+    pub(in crate::cli) made: Made,
+    pub(in crate::cli) verdict: Verdict,
+    /// Programs, and pictures of what was refused.
+    pub(in crate::cli) outputs: Vec<Output>,
+    /// None of what could not be read.
+    pub(in crate::cli) pieces: Option<usize>,
+    /// Length of what is cut, m.
+    pub(in crate::cli) cut_m: Option<f64>,
+    /// What the program takes, s, where it was planned.
+    pub(in crate::cli) time_s: Option<f64>,
+    /// The code of the worst finding, if there is any.
+    pub(in crate::cli) worst: Option<String>,
+}
+
+/// The manifest of a folder of programs.
+#[derive(Debug)]
+pub(in crate::cli) struct Manifest {
+    path: PathBuf,
+    /// Those of parts whose lines are known, too.
+    parts: Vec<PathBuf>,
+    lines: Mutex<Lines>,
+}
+
+/// What was made of each input and its targets, the latest last.
+type Known = BTreeMap<Key, Vec<Line>>;
+
+/// An input and its targets.
+type Key = (String, Vec<String>);
+
+#[derive(Debug)]
+struct Lines {
+    /// Held against other runs for as long as this one writes.
+    file: File,
+    known: Known,
+    /// What this run wrote or kept.
+    fresh: Known,
+}
+
+impl Line {
+    fn key(&self) -> Key {
+        (self.made.source.clone(), self.made.targets.clone())
+    }
+}
+
+impl Manifest {
+    /// Opens that of a folder, or of one part of its programs. Waits for another run that writes to it.
+    pub(in crate::cli) fn open(folder: &Path, shard: Option<Shard>) -> anyhow::Result<Self> {
+        let name = shard.map_or_else(|| NAME.to_owned(), |shard| format!("{}{shard}{}", PART[0], PART[1]));
+        let path = folder.join(name);
+        let mut file = held(&path).map_err(|error| cannot_write(&path, &error))?;
+        let mut parts = parts(folder);
+        parts.retain(|part| *part != path);
+        let others = parts.iter().cloned().chain(shard.map(|_| folder.join(NAME)));
+        let mut texts: Vec<Vec<u8>> = others.filter_map(|path| std::fs::read(path).ok()).collect();
+        texts.push(own(&mut file).map_err(|error| cannot_write(&path, &error))?);
+        let mut known = Known::new();
+        for line in texts.iter().flat_map(|text| text.split(|&byte| byte == b'\n')) {
+            // What is no line of ours tells nothing.
+            if let Ok(line) = serde_json::from_slice::<Line>(line) {
+                known.entry(line.key()).or_default().push(line);
+            }
+        }
+        let lines = Mutex::new(Lines { file, known, fresh: Known::new() });
+        Ok(Self { path, parts, lines })
+    }
+
+    fn lines(&self) -> MutexGuard<'_, Lines> {
+        self.lines.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Where it stands.
+    pub(in crate::cli) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// What was made of the same before, if that still stands where it was written.
+    pub(in crate::cli) fn standing(&self, made: &Made) -> Option<Line> {
+        let line = self
+            .lines()
+            .known
+            .get(&(made.source.clone(), made.targets.clone()))?
+            .iter()
+            .rev()
+            .find(|line| line.made == *made)?
+            .clone();
+        let is_made = match line.verdict {
+            Verdict::Verified | Verdict::Unverified => true,
+            Verdict::Refused => false,
+        };
+        (is_made && line.outputs.iter().all(|output| self.stands(output))).then_some(line)
+    }
+
+    /// Whether the last thing that was made of an input and its targets is that the same was refused.
+    pub(in crate::cli) fn refused(&self, made: &Made) -> bool {
+        let lines = self.lines();
+        let last = lines.known.get(&(made.source.clone(), made.targets.clone())).and_then(|lines| lines.last());
+        last.is_some_and(|line| line.made == *made && line.verdict == Verdict::Refused)
+    }
+
+    fn stands(&self, output: &Output) -> bool {
+        let path = self.folder().join(&output.path);
+        let digest = File::open(&path).and_then(|file| sha256_of(BufReader::new(file)));
+        meta(&path).is_file() && digest.is_ok_and(|digest| digest == output.sha256)
+    }
+
+    fn folder(&self) -> &Path {
+        self.path.parent().unwrap_or(Path::new(""))
+    }
+
+    /// The name of a program as lines have it.
+    pub(in crate::cli) fn name_of(&self, program: &Path) -> String {
+        let below = program.strip_prefix(self.folder()).unwrap_or(program);
+        let parts: Vec<_> = below.iter().map(|part| part.to_string_lossy()).collect();
+        parts.join("/")
+    }
+
+    /// Adds a line; what cannot be written whole leaves nothing.
+    pub(in crate::cli) fn add(&self, line: Line) -> anyhow::Result<()> {
+        let mut text = serde_json::to_vec(&line).expect("plain data with text keys");
+        text.push(b'\n');
+        let Lines { file, known, fresh } = &mut *self.lines();
+        let end = file.seek(SeekFrom::End(0));
+        let added = end.and_then(|end| {
+            file.write_all(&text).inspect_err(|_| {
+                // The next line would end up behind half of this one.
+                let _ = file.set_len(end);
+            })
+        });
+        added.map_err(|error| cannot_write(&self.path, &error))?;
+        known.insert(line.key(), vec![line.clone()]);
+        fresh.insert(line.key(), vec![line]);
+        Ok(())
+    }
+
+    /// Keeps a line of an earlier run.
+    pub(in crate::cli) fn keep(&self, line: Line) {
+        self.lines().fresh.insert(line.key(), vec![line]);
+    }
+
+    /// Leaves a sorted line for each input and its targets: of this run, or of earlier ones as long as what it names is
+    /// there and nothing newer has its place. That of a whole folder takes in those of its parts whose runs are over.
+    pub(in crate::cli) fn finish(self) -> anyhow::Result<()> {
+        let folder = self.folder().to_owned();
+        let Lines { file, known, fresh } = self.lines.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let (mut taken, mut kept) = (BTreeSet::new(), BTreeMap::new());
+        let earlier = known.into_values().flat_map(|lines| lines.into_iter().rev());
+        let earlier = earlier.filter(|line| line.outputs.iter().all(|output| folder.join(&output.path).is_file()));
+        for line in fresh.into_values().flatten().chain(earlier) {
+            if kept.contains_key(&line.key()) || line.outputs.iter().any(|output| taken.contains(&output.path)) {
+                continue;
+            }
+            taken.extend(line.outputs.iter().map(|output| output.path.clone()));
+            kept.insert(line.key(), line);
+        }
+        let text = |line: &Line| serde_json::to_string(line).expect("plain data with text keys") + "\n";
+        let mut texts: Vec<String> = kept.values().map(text).collect();
+        // As `sort` does it, so that those of parts may be joined by it, too.
+        texts.sort_unstable();
+        let mut draft = Draft::new(&self.path)?;
+        draft.file().write_all(texts.concat().as_bytes()).map_err(|error| cannot_write(&self.path, &error))?;
+        draft::publish(vec![draft], || Ok(()))?;
+        drop(file);
+        if self.path.file_name().is_some_and(|name| name == NAME) {
+            for part in &self.parts {
+                if File::open(part).is_ok_and(|file| file.try_lock().is_ok()) {
+                    let _ = std::fs::remove_file(part); // its lines stand in the whole one, too
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Opens a manifest and holds it against other runs.
+fn held(path: &Path) -> io::Result<File> {
+    loop {
+        let file = OpenOptions::new().read(true).append(true).create(true).open(path)?;
+        // A file system without locks leaves it to the user that one run at a time writes to a folder.
+        let _ = file.lock();
+        // The run that held it before may have put another in its place.
+        if same(&file, path) {
+            return Ok(file);
+        }
+    }
+}
+
+/// Whether an open file is the one at a path.
+fn same(file: &File, path: &Path) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt as _;
+        let known = |found: std::fs::Metadata| (found.dev(), found.ino());
+        file.metadata().ok().map(known) == path.metadata().ok().map(known)
+    }
+    #[cfg(not(unix))]
+    {
+        // An open file cannot be replaced there.
+        let _ = (file, path);
+        true
+    }
+}
+
+/// The text of a manifest, without what a full disk or a power cut left of a last line.
+fn own(file: &mut File) -> io::Result<Vec<u8>> {
+    let mut text = Vec::new();
+    file.read_to_end(&mut text)?;
+    let end = text.iter().rposition(|&byte| byte == b'\n').map_or(0, |last| last + 1);
+    if end < text.len() {
+        file.set_len(end as u64)?;
+        text.truncate(end);
+    }
+    Ok(text)
+}
+
+/// The manifests of parts in a folder, sorted.
+fn parts(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(directory(&folder.join(NAME))).into_iter().flatten().flatten();
+    let mut names: Vec<_> = entries.map(|entry| entry.file_name()).filter(|name| is_part(name)).collect();
+    names.sort();
+    names.into_iter().map(|name| folder.join(name)).collect()
+}
+
+fn is_part(name: &OsStr) -> bool {
+    let name = name.to_string_lossy();
+    let part = name.strip_prefix(PART[0]).and_then(|rest| rest.strip_suffix(PART[1]));
+    let numbers = part.and_then(|part| part.split_once("-of-"));
+    numbers.is_some_and(|(index, count)| Shard::parse(&format!("{index}/{count}")).is_ok())
+}

@@ -1,0 +1,166 @@
+//! The table that ends a batch: a row a file, what failed last, and a sum.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use super::Telling;
+use crate::cli::options::counted;
+use crate::cli::times::clock;
+use crate::units::number::fixed;
+
+/// Columns that the name of a file may take: of longer ones the end is shown.
+const NAME_COLUMNS: usize = 40;
+
+/// How a file ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::cli) enum State {
+    /// As it should.
+    Done,
+    /// There was nothing to do: what was made of it before still stands.
+    Unchanged,
+    /// It has errors, or could not be read, or nothing could be written.
+    Failed,
+}
+
+/// What there is to tell of a file.
+#[derive(Debug, Clone)]
+pub(in crate::cli) struct Row {
+    pub(in crate::cli) file: String,
+    pub(in crate::cli) state: State,
+    pub(in crate::cli) pieces: Option<usize>,
+    /// Length of what is cut, m.
+    pub(in crate::cli) cut_m: Option<f64>,
+    /// What the program takes, s.
+    pub(in crate::cli) time_s: Option<f64>,
+    /// The worst of what was found; empty when nothing was.
+    pub(in crate::cli) worst: String,
+}
+
+impl Row {
+    /// A row of which no more is known.
+    pub(in crate::cli) fn new(file: &Path, state: State) -> Self {
+        let file = file.display().to_string();
+        Self { file, state, pieces: None, cut_m: None, time_s: None, worst: String::new() }
+    }
+}
+
+/// Which figures the rows have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::cli) enum Columns {
+    /// Pieces and metres: what is known of a file that is read.
+    Read,
+    /// The time, too, of a program.
+    Planned,
+    /// None but the verdict.
+    Judged,
+}
+
+/// The table of some rows; with `quiet` only of those that failed.
+pub(super) fn text(rows: &[Row], Telling { columns, quiet, .. }: Telling) -> String {
+    let is_failed = |row: &&Row| row.state == State::Failed;
+    let well = rows.iter().filter(|row| !quiet && !is_failed(row));
+    let shown: Vec<&Row> = well.chain(rows.iter().filter(is_failed)).collect();
+    let mut cells = vec![titles(columns)];
+    cells.extend(shown.iter().map(|row| row.cells(columns)));
+    if shown.len() > 1 && columns != Columns::Judged && !quiet {
+        cells.push(sum(rows).cells(columns));
+    }
+    let width = |column: usize| cells.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..cells[0].len()).map(width).collect();
+    let mut out = String::new();
+    // Writing into a `String` cannot fail, so the results of `writeln!` are dropped throughout.
+    if !shown.is_empty() {
+        let last = widths.len() - 1;
+        for row in &cells {
+            let mut line = format!("  {:1$}", row[0], widths[0]);
+            for column in 1..last {
+                let _ = write!(line, "  {:>1$}", row[column], widths[column]);
+            }
+            let _ = writeln!(out, "{}", format!("{line}  {}", row[last]).trim_end());
+        }
+    }
+    let count = |state: State| rows.iter().filter(|row| row.state == state).count();
+    let (done, unchanged, failed) = (count(State::Done), count(State::Unchanged), count(State::Failed));
+    let mut said = vec![counted(rows.len(), "file")];
+    said.extend((done > 0).then(|| format!("{done} done")));
+    said.extend((unchanged > 0).then(|| format!("{unchanged} unchanged")));
+    said.extend((failed > 0).then(|| format!("{failed} failed")));
+    let _ = writeln!(out, "{}", said.join(", "));
+    out
+}
+
+fn titles(columns: Columns) -> Vec<String> {
+    let titles: &[&str] = match columns {
+        Columns::Read => &["file", "pieces", "cut m", "worst finding"],
+        Columns::Planned => &["file", "pieces", "cut m", "time", "worst finding"],
+        Columns::Judged => &["file", "verdict"],
+    };
+    titles.iter().map(|&title| title.to_owned()).collect()
+}
+
+/// All rows as one.
+fn sum(rows: &[Row]) -> Row {
+    Row {
+        file: "all".to_owned(),
+        state: State::Done,
+        pieces: Some(rows.iter().filter_map(|row| row.pieces).sum()),
+        cut_m: Some(rows.iter().filter_map(|row| row.cut_m).sum()),
+        time_s: Some(rows.iter().filter_map(|row| row.time_s).sum()),
+        worst: String::new(),
+    }
+}
+
+impl Row {
+    fn cells(&self, columns: Columns) -> Vec<String> {
+        let count = self.file.chars().count();
+        let file = if count > NAME_COLUMNS {
+            format!("...{}", self.file.chars().skip(count - NAME_COLUMNS + 3).collect::<String>())
+        } else {
+            self.file.clone()
+        };
+        let pieces = self.pieces.map_or_else(String::new, |pieces| pieces.to_string());
+        let cut = self.cut_m.map_or_else(String::new, |cut| fixed(cut, 1));
+        let worst = match self.state {
+            State::Unchanged if self.worst.is_empty() => "unchanged".to_owned(),
+            State::Unchanged => format!("unchanged, {}", self.worst),
+            State::Failed => format!("FAILED {}", self.worst),
+            State::Done => self.worst.clone(),
+        };
+        match columns {
+            Columns::Read => vec![file, pieces, cut, worst],
+            Columns::Planned => vec![file, pieces, cut, self.time_s.map_or_else(String::new, clock), worst],
+            Columns::Judged => vec![file, worst],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_failed_stands_last_before_the_sum() {
+        let row = |file: &str, state, worst: &str| Row { worst: worst.to_owned(), ..Row::new(Path::new(file), state) };
+        let rows = [
+            Row { pieces: Some(8), cut_m: Some(12.34), time_s: Some(61.2), ..row("a.cut", State::Done, "") },
+            row("b.cut", State::Failed, "iso/not-a-word"),
+            Row { pieces: Some(160), cut_m: Some(400.0), time_s: Some(3725.0), ..row("c.cut", State::Unchanged, "") },
+            Row { pieces: Some(2), ..row(&format!("{}/d.cut", "x".repeat(50)), State::Done, "iso/no-end") },
+        ];
+        let told = |quiet| text(&rows, Telling { columns: Columns::Planned, quiet, json: false });
+        insta::assert_snapshot!(told(false), @r"
+          file                                      pieces  cut m     time  worst finding
+          a.cut                                          8   12.3     1:01
+          c.cut                                        160  400.0  1:02:05  unchanged
+          ...xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx/d.cut       2                  iso/no-end
+          b.cut                                                             FAILED iso/not-a-word
+          all                                          170  412.3  1:03:06
+        4 files, 2 done, 1 unchanged, 1 failed
+        ");
+        insta::assert_snapshot!(told(true), @r"
+          file   pieces  cut m  time  worst finding
+          b.cut                       FAILED iso/not-a-word
+        4 files, 2 done, 1 unchanged, 1 failed
+        ");
+    }
+}

@@ -1,0 +1,141 @@
+//! Programs that are written: all of a file whole, with their provenance beside them, or none at all.
+
+use std::io::{self, Seek as _, Write as _};
+use std::path::PathBuf;
+
+use super::Making;
+use crate::back::Target;
+use crate::cli::draft::{self, Draft};
+use crate::cli::provenance::{self, Made, Verified};
+use crate::cli::{files, say};
+use crate::diagnostic::Diagnostics;
+use crate::machine::{Job, sha256_of};
+use crate::pipeline::{self, Compiled, Medium, Product};
+use crate::source::Source;
+
+/// One compile, ready to run.
+#[derive(Clone, Copy)]
+pub(in crate::cli) struct Compile<'a> {
+    pub(in crate::cli) making: &'a Making,
+    pub(in crate::cli) targets: &'a [&'static Target],
+    pub(in crate::cli) source: &'a Source,
+    pub(in crate::cli) job: &'a Job,
+}
+
+/// What a compile left.
+pub(in crate::cli) struct Emitted {
+    /// The programs; `None` when they were refused.
+    pub(in crate::cli) compiled: Option<Compiled>,
+    /// Which of the targets are pictures of what was refused: they alone are worth keeping then.
+    pub(in crate::cli) pictures: Vec<bool>,
+}
+
+/// How a compile to files ended.
+pub(in crate::cli) struct Ended {
+    /// What was compiled, `None` when it was refused; or why nothing could be written.
+    pub(in crate::cli) compiled: anyhow::Result<Option<Compiled>>,
+    /// What was found.
+    pub(in crate::cli) diagnostics: Diagnostics,
+    /// Where programs were written, or would have been.
+    pub(in crate::cli) programs: Vec<PathBuf>,
+    /// Lines on what was done beside that: pictures of what was refused, older programs that were moved aside.
+    pub(in crate::cli) beside: String,
+}
+
+/// A file that is whole and about to take its place.
+pub(in crate::cli) struct Whole {
+    pub(in crate::cli) path: PathBuf,
+    pub(in crate::cli) sha256: String,
+}
+
+impl Whole {
+    fn of(draft: &mut Draft) -> anyhow::Result<Self> {
+        let path = draft.path().to_owned();
+        let digest = draft.file().rewind().and_then(|()| sha256_of(draft.file()));
+        let sha256 = digest.map_err(|error| files::cannot_write(&path, &error))?;
+        Ok(Self { path, sha256 })
+    }
+}
+
+/// What belongs to the writing of programs: it is done together with it or not at all.
+type Record<'r> = &'r dyn Fn(Option<&Compiled>, &Diagnostics, Vec<Whole>) -> anyhow::Result<()>;
+
+impl Compile<'_> {
+    /// Compiles to files, one for each target. `record` is told of what was written or refused.
+    pub(in crate::cli) fn to_files(&self, paths: &[PathBuf], record: Option<Record>) -> Ended {
+        let mut diagnostics = Diagnostics::default();
+        let Emitted { compiled, pictures } = match self.write(paths, &mut diagnostics, record) {
+            Ok(emitted) => emitted,
+            Err(error) => {
+                let beside = move_aside(paths);
+                return Ended { compiled: Err(error), diagnostics, programs: paths.to_vec(), beside };
+            }
+        };
+        let (shown, programs): (Vec<_>, Vec<_>) = paths.iter().cloned().zip(&pictures).partition(|(_, shows)| **shows);
+        let programs: Vec<PathBuf> = programs.into_iter().map(|(path, _)| path).collect();
+        let mut beside = if compiled.is_some() { String::new() } else { move_aside(&programs) };
+        for (path, _) in shown {
+            say(&mut beside, format_args!("wrote `{}`, a picture of what was refused", path.display()));
+        }
+        Ended { compiled: Ok(compiled), diagnostics, programs, beside }
+    }
+
+    /// Writes the programs and their provenance; of what is refused the pictures alone.
+    fn write(
+        &self,
+        paths: &[PathBuf],
+        diagnostics: &mut Diagnostics,
+        record: Option<Record>,
+    ) -> anyhow::Result<Emitted> {
+        let mut programs = paths.iter().map(|path| Draft::new(path)).collect::<anyhow::Result<Vec<_>>>()?;
+        let outs = programs.iter_mut().map(|program| program.file() as &mut dyn Medium).collect();
+        let emitted = self.emit(outs, diagnostics).map_err(|error| files::cannot_write(&paths[0], &error))?;
+        let verified = match &emitted.compiled {
+            None => Verified::Refused,
+            Some(Compiled { verdict: None, .. }) => Verified::No,
+            Some(Compiled { verdict: Some(_), .. }) => Verified::Yes,
+        };
+        let is_kept = |shows_refusal: bool| shows_refusal || emitted.compiled.is_some();
+        let mut drafts = Vec::new();
+        for ((path, target), &shows_refusal) in paths.iter().zip(self.targets).zip(&emitted.pictures) {
+            if !is_kept(shows_refusal) {
+                continue;
+            }
+            let path = files::meta(path);
+            let mut meta = Draft::new(&path)?;
+            let text = provenance::json(&Made { source: self.source, job: self.job, target, verified });
+            meta.file().write_all(text.as_bytes()).map_err(|error| files::cannot_write(&path, &error))?;
+            drafts.push(meta);
+        }
+        let kept = programs.into_iter().zip(&emitted.pictures).filter(|(_, shows)| is_kept(**shows));
+        let mut kept: Vec<Draft> = kept.map(|(program, _)| program).collect();
+        let whole =
+            if record.is_some() { kept.iter_mut().map(Whole::of).collect::<anyhow::Result<_>>()? } else { vec![] };
+        drafts.extend(kept);
+        // Nothing takes its place before all is there.
+        draft::publish(drafts, || match record {
+            Some(record) => record(emitted.compiled.as_ref(), diagnostics, whole),
+            None => Ok(()),
+        })?;
+        Ok(emitted)
+    }
+
+    /// Compiles into `outs`, one for each target, which are worth nothing but as [`Emitted`] says.
+    pub(in crate::cli) fn emit(
+        &self,
+        outs: Vec<&mut dyn Medium>,
+        diagnostics: &mut Diagnostics,
+    ) -> io::Result<Emitted> {
+        let Making { reading, no_verify, .. } = self.making;
+        let mut products: Vec<Product> =
+            self.targets.iter().zip(outs).map(|(target, out)| Product::new(target, out)).collect();
+        let asked = (reading.from, !no_verify);
+        let compiled = pipeline::compile_all(self.source, self.job, asked, &mut products, diagnostics)?;
+        Ok(Emitted { compiled, pictures: products.iter().map(|product| product.shows_refusal).collect() })
+    }
+}
+
+/// Moves older programs aside, and says so.
+pub(in crate::cli) fn move_aside(paths: &[PathBuf]) -> String {
+    paths.iter().map(|path| files::move_aside(path)).collect()
+}

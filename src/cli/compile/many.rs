@@ -1,0 +1,223 @@
+//! Many files, each to its place below one folder.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use super::made::{Compile, Ended, Whole};
+use super::{Arguments, Making, one};
+use crate::back::Target;
+use crate::cli::batch::{self, Columns, Input, Line, Made, Manifest, Outcome, Output, Row, State, Telling, Verdict};
+use crate::cli::choices::Format;
+use crate::cli::destination::{below, not_of_another, targets_of_many};
+use crate::cli::draft::MadeFolders;
+use crate::cli::options::{Messages, typed};
+use crate::cli::{Console, FAULTY, Finished, failure, files, report, say};
+use crate::diagnostic::{Diagnostics, render_with};
+use crate::machine::{Job, sha256_hex};
+use crate::pipeline::Compiled;
+use crate::source::Source;
+
+/// Collisions that are told; more are counted.
+const MOST_TOLD: usize = 10;
+
+pub(super) fn run(
+    arguments: &Arguments,
+    inputs: &[Input],
+    threads: usize,
+    console: &mut Console,
+) -> anyhow::Result<Finished> {
+    let Arguments { making, messages, format, changed, shard, .. } = arguments;
+    let out = making.out.as_deref().unwrap_or(Path::new(""));
+    let targets = targets_of_many(out, &making.targets)?;
+    let job = match making.reading.job()? {
+        Ok(job) => making.choice.of(job),
+        Err(refused) => return Ok(refused),
+    };
+    let places: Vec<Vec<PathBuf>> = inputs.iter().map(|input| below(out, &input.name, &targets)).collect();
+    refuse_collisions(inputs, &places)?;
+    let mut folders = MadeFolders::of(places.iter().flatten().map(PathBuf::as_path))?;
+    if shard.is_some() {
+        // What this part does not need another may be about to write to.
+        folders.keep();
+    }
+    let manifest = Manifest::open(out, *shard)?;
+    let many = Many { making, targets: &targets, job: &job, manifest: &manifest };
+    let work = |i: usize, input: &Input| {
+        let source = match files::read(&input.path) {
+            Ok(source) => source,
+            Err(error) => return Outcome::failed(input, &error),
+        };
+        let made = many.made(input, &source);
+        if shard.is_some_and(|shard| !shard.has(&made.source_sha256)) {
+            return Outcome::elsewhere();
+        }
+        match many.manifest.standing(&made).filter(|_| *changed) {
+            Some(line) => many.unchanged(input, line),
+            None => many.compile((input, &source), &made, &places[i]).outcome(input, *messages, *format),
+        }
+    };
+    let telling = Telling { columns: Columns::Planned, quiet: messages.quiet, json: *format == Format::Json };
+    let mut finished = batch::run(inputs, threads, (telling, console), work);
+    let path = manifest.path().display().to_string();
+    if let Err(error) = manifest.finish() {
+        say(&mut finished.stderr, format_args!("error: {error:#}"));
+        finished.code = FAULTY;
+    } else if !messages.quiet {
+        say(&mut finished.stderr, format_args!("wrote `{path}`"));
+    }
+    Ok(finished)
+}
+
+/// Refuses files of which two would be written to one place, or one over an input.
+fn refuse_collisions(inputs: &[Input], places: &[Vec<PathBuf>]) -> anyhow::Result<()> {
+    let mut wanted: BTreeMap<&Path, Vec<&Input>> = BTreeMap::new();
+    for (input, paths) in inputs.iter().zip(places) {
+        for path in paths {
+            wanted.entry(path).or_default().push(input);
+        }
+    }
+    let known: BTreeMap<_, _> =
+        inputs.iter().filter_map(|input| Some((input.path.canonicalize().ok()?, input))).collect();
+    let mut told = Vec::new();
+    for (path, of) in wanted {
+        let names: Vec<_> = of.iter().map(|input| format!("`{}`", input.path.display())).collect();
+        if names.len() > 1 {
+            told.push(format!("`{}` would be written for {}", path.display(), names.join(" and ")));
+        }
+        if let Some(over) = path.canonicalize().ok().and_then(|path| known.get(&path)) {
+            told.push(format!("`{}` is an input: it is never overwritten for {}", over.path.display(), names[0]));
+        }
+    }
+    if told.is_empty() {
+        return Ok(());
+    }
+    let more = told.len().saturating_sub(MOST_TOLD);
+    told.truncate(MOST_TOLD);
+    if more > 0 {
+        told.push(format!("and {more} more"));
+    }
+    Err(failure(
+        format!("nothing was compiled, because programs would collide:\n  {}", told.join("\n  ")),
+        "name the folder that holds them all, whose structure is kept below -o, or choose some by a pattern, as in \
+         `'in/**/*.cut'`",
+    ))
+}
+
+/// What all files of a batch share.
+#[derive(Clone, Copy)]
+pub(in crate::cli) struct Many<'a> {
+    pub(in crate::cli) making: &'a Making,
+    pub(in crate::cli) targets: &'a [&'static Target],
+    pub(in crate::cli) job: &'a Job,
+    pub(in crate::cli) manifest: &'a Manifest,
+}
+
+impl<'a> Many<'a> {
+    /// What programs of an input are made from.
+    pub(in crate::cli) fn made(&self, input: &Input, source: &Source) -> Made {
+        let mut options = vec![typed(self.job)];
+        options.extend(self.making.reading.from.map(|dialect| format!("--from {}", dialect.name)));
+        options.extend(self.making.no_verify.then(|| "--no-verify".to_owned()));
+        options.retain(|option| !option.is_empty());
+        Made {
+            source: input.key(),
+            targets: self.targets.iter().map(|target| target.name.to_owned()).collect(),
+            source_sha256: sha256_hex(source.bytes()),
+            profile_sha256: self.job.profile.digest(),
+            options: options.join(" "),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+        }
+    }
+
+    /// Compiles a file to its places and adds its line to the manifest.
+    pub(in crate::cli) fn compile<'s>(
+        &self,
+        (input, source): (&Input, &'s Source),
+        made: &Made,
+        paths: &[PathBuf],
+    ) -> One<'s>
+    where
+        'a: 's,
+    {
+        let compile = Compile { making: self.making, targets: self.targets, source, job: self.job };
+        let others = paths.iter().filter(|_| !self.making.force);
+        if let Some(error) = others.map(|path| not_of_another(path, &input.path)).find_map(Result::err) {
+            let (diagnostics, programs, beside) = (Diagnostics::default(), Vec::new(), String::new());
+            return One { compile, ended: Ended { compiled: Err(error), diagnostics, programs, beside } };
+        }
+        let record = |compiled: Option<&Compiled>, diagnostics: &Diagnostics, whole: Vec<Whole>| {
+            let outputs = whole.into_iter();
+            let output = |Whole { path, sha256 }| Output { path: self.manifest.name_of(&path), sha256 };
+            let report = compiled.map(|compiled| &compiled.report);
+            let verdict = match compiled {
+                None => Verdict::Refused,
+                Some(Compiled { verdict: None, .. }) => Verdict::Unverified,
+                Some(Compiled { verdict: Some(_), .. }) => Verdict::Verified,
+            };
+            self.manifest.add(Line {
+                made: made.clone(),
+                verdict,
+                outputs: outputs.map(output).collect(),
+                pieces: report.map(|report| report.pieces),
+                cut_m: report.map(|report| rounded(report.cut_m)),
+                time_s: report.and_then(|report| report.time_s()).map(rounded),
+                worst: batch::worst(diagnostics).map(str::to_owned),
+            })
+        };
+        One { compile, ended: compile.to_files(paths, Some(&record)) }
+    }
+
+    /// A file of which everything still stands.
+    fn unchanged(&self, input: &Input, line: Line) -> Outcome {
+        let row = Row {
+            pieces: line.pieces,
+            cut_m: line.cut_m,
+            time_s: line.time_s,
+            worst: line.worst.clone().unwrap_or_default(),
+            ..Row::new(&input.path, State::Unchanged)
+        };
+        self.manifest.keep(line);
+        Outcome { row: Some(row), said: String::new(), json: None }
+    }
+}
+
+/// How the compile of one of many files ended.
+pub(in crate::cli) struct One<'s> {
+    compile: Compile<'s>,
+    pub(in crate::cli) ended: Ended,
+}
+
+impl One<'_> {
+    /// Its row, and what is said about it.
+    pub(in crate::cli) fn outcome(self, input: &Input, messages: Messages, format: Format) -> Outcome {
+        let Self { compile, ended } = self;
+        let Ended { compiled, diagnostics, programs, beside } = ended;
+        let mut said = render_with(&diagnostics, compile.source, messages.detail(format));
+        let compiled = match compiled {
+            Ok(compiled) => compiled,
+            Err(error) => {
+                let Outcome { row, said: failed, .. } = Outcome::failed(input, &error);
+                return Outcome { row, said: said + &failed + &beside, json: None };
+            }
+        };
+        let report = compiled.as_ref().map(|compiled| &compiled.report);
+        if compiled.is_none() {
+            said.push_str(&one::refused(&compile, &programs, &diagnostics));
+        }
+        let json = (format == Format::Json)
+            .then(|| report::json_of_file(&input.path, report, &diagnostics, (compile.source, compile.job)));
+        let row = Row {
+            pieces: report.map(|report| report.pieces),
+            cut_m: report.map(|report| report.cut_m),
+            time_s: report.and_then(|report| report.time_s()),
+            worst: batch::worst(&diagnostics).unwrap_or_default().to_owned(),
+            ..Row::new(&input.path, if compiled.is_some() { State::Done } else { State::Failed })
+        };
+        Outcome { row: Some(row), said: said + &beside, json }
+    }
+}
+
+/// Micrometres of a metre, microseconds of a second: far below what a machine resolves.
+fn rounded(value: f64) -> f64 {
+    (value * 1e6).round() / 1e6
+}

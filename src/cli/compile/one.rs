@@ -1,0 +1,115 @@
+//! One file, and all that there is to say of it.
+
+use std::path::Path;
+
+use tempfile::SpooledTempFile;
+
+use super::made::{Compile, Emitted, Ended, move_aside};
+use super::{Arguments, Making};
+use crate::cli::choices::Format;
+use crate::cli::destination::{Asked, Destination, Place};
+use crate::cli::draft::MadeFolders;
+use crate::cli::options::counted;
+use crate::cli::{DONE, FAULTY, Finished, Stdout, USAGE, failure, files, report, say, setup, summary};
+use crate::diagnostic::{Diagnostics, Severity, code, render_with};
+use crate::pipeline::Compiled;
+
+/// Bytes of a program for standard output that are kept in memory; a longer one goes to a temporary file.
+const SPOOL_BYTES: usize = 64 << 20;
+
+/// Lines about the data that leave room for all of the summary.
+const MOST_LINES: usize = 10;
+
+pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished> {
+    let Making { out, targets, force, reading, choice, .. } = &arguments.making;
+    let profile = reading.machine.profile.as_deref();
+    let asked = Asked { out: out.as_deref(), targets, input: file, profile, force: *force };
+    let Destination { targets, place } = asked.destination()?;
+    if place == Place::Stdout && arguments.format == Format::Json {
+        return Err(failure(
+            "`-o -` and `--format json` both want standard output",
+            "write the program to a file with -o FILE, or leave --format out",
+        ));
+    }
+    let source = files::read(file)?;
+    let job = match reading.job()? {
+        Ok(job) => choice.of(job),
+        Err(mut refused) => {
+            // A slip in an argument is no verdict on the program that is there.
+            if let (FAULTY, Place::Files(paths)) = (refused.code, &place) {
+                refused.stderr.push_str(&move_aside(paths));
+            }
+            return Ok(refused);
+        }
+    };
+    let compile = Compile { making: &arguments.making, targets: &targets, source: &source, job: &job };
+    match place {
+        Place::Stdout => to_stdout(&compile, arguments),
+        Place::Files(paths) => {
+            let _made = MadeFolders::of(paths.iter().map(|path| path.as_path()))?;
+            Ok(told(&compile, arguments, compile.to_files(&paths, None)))
+        }
+    }
+}
+
+fn to_stdout(compile: &Compile, arguments: &Arguments) -> anyhow::Result<Finished> {
+    let mut spool = SpooledTempFile::new(SPOOL_BYTES);
+    let mut diagnostics = Diagnostics::default();
+    let Emitted { compiled, pictures } = compile.emit(vec![&mut spool], &mut diagnostics).map_err(|error| {
+        failure(format!("cannot spool the program: {error}"), "make room for temporary files, or write to a file")
+    })?;
+    let shows_refusal = compiled.is_none() && pictures[0];
+    let ended = Ended { compiled: Ok(compiled), diagnostics, programs: Vec::new(), beside: String::new() };
+    let is_program = matches!(ended.compiled, Ok(Some(_))) || shows_refusal;
+    let mut finished = told(compile, arguments, ended);
+    if is_program {
+        finished.stdout = Stdout::Program(spool);
+    }
+    Ok(finished)
+}
+
+/// What is said about the data and the program, which goes to files or to standard output.
+fn told(compile: &Compile, arguments: &Arguments, ended: Ended) -> Finished {
+    let Ended { compiled, diagnostics, programs, beside } = ended;
+    let mut said = render_with(&diagnostics, compile.source, arguments.messages.detail(arguments.format));
+    let compiled = match compiled {
+        Ok(compiled) => compiled,
+        Err(error) => return Finished::text(String::new(), format!("{said}error: {error:#}\n{beside}"), USAGE),
+    };
+    let stdout = match arguments.format {
+        Format::Json => report::json(compiled.as_ref().map(|c| &c.report), &diagnostics, (compile.source, compile.job)),
+        Format::Text => String::new(),
+    };
+    match (&compiled, arguments.format) {
+        (Some(Compiled { report, verdict }), Format::Text) if !arguments.messages.quiet => {
+            let text = summary::text(report, compile.source.name(), &diagnostics);
+            // Where there is much to read about the data, the table of the axes waits to be asked for.
+            let is_long = said.lines().count() > MOST_LINES && !arguments.messages.all;
+            said.push_str(if is_long { text.split(summary::AXES).next().unwrap_or(&text) } else { &text });
+            said.push_str(&setup::text(compile.job));
+            said.push_str(&summary::choice(compile.job));
+            said.push_str(&summary::verdict(verdict.as_ref()));
+        }
+        (Some(_), Format::Json | Format::Text) => {}
+        (None, Format::Text | Format::Json) => said.push_str(&refused(compile, &programs, &diagnostics)),
+    }
+    for path in programs.iter().filter(|_| compiled.is_some() && !arguments.messages.quiet) {
+        say(&mut said, format_args!("wrote `{}`", path.display()));
+    }
+    said.push_str(&beside);
+    Finished::text(stdout, said, if compiled.is_some() { DONE } else { FAULTY })
+}
+
+/// A line on why there is no program.
+pub(super) fn refused(compile: &Compile, programs: &[std::path::PathBuf], diagnostics: &Diagnostics) -> String {
+    let errors = counted(diagnostics.count(Severity::Error), "error");
+    let warnings = counted(diagnostics.count(Severity::Warning), "warning");
+    let broken = diagnostics.iter().filter(|d| d.code == &code::VERIFY_BROKEN).count();
+    let why = match broken {
+        0 => format!("{errors}, {warnings}"),
+        n => format!("the program breaks {} of its verification", counted(n, "rule")),
+    };
+    let places: Vec<_> = programs.iter().map(|path| format!("`{}`", path.display())).collect();
+    let place = if places.is_empty() { String::new() } else { format!(" to {}", places.join(" or ")) };
+    format!("{}: {why}; no program was written{place}\n", compile.source.name())
+}

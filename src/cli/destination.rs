@@ -1,0 +1,305 @@
+//! Where a program goes: never over an input, nor over a program that was made from another one.
+
+use std::ffi::OsString;
+use std::fs;
+use std::path::{MAIN_SEPARATOR, Path, PathBuf};
+
+use super::files::{STDIN, directory, is_dash, meta, stale};
+use super::{failure, provenance};
+use crate::back::{TARGETS, Target};
+
+/// What is a directory everywhere.
+const DIRECTORY: &str = ".";
+
+/// What a compile reads, and what the user said of where its programs go.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Asked<'a> {
+    /// The place as typed.
+    pub(super) out: Option<&'a Path>,
+    /// The targets as typed; none = what the place says.
+    pub(super) targets: &'a [&'static Target],
+    /// The cutter file.
+    pub(super) input: &'a Path,
+    /// The machine profile.
+    pub(super) profile: Option<&'a Path>,
+    /// Whether a program that was made from another input may be overwritten.
+    pub(super) force: bool,
+}
+
+/// The programs of a compile, and where they go.
+#[derive(Debug, Clone)]
+pub(super) struct Destination {
+    /// What is written, at least one.
+    pub(super) targets: Vec<&'static Target>,
+    /// Where.
+    pub(super) place: Place,
+}
+
+/// Where programs go.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Place {
+    /// Standard output.
+    Stdout,
+    /// Files, one for each target, with their `.meta.json` beside them.
+    Files(Vec<PathBuf>),
+}
+
+impl Asked<'_> {
+    /// Finds what is written and where: `out` as typed, a directory for `<stem>.<extension>`, or without it the current
+    /// directory. Never over the input itself, nor the profile. Without a target the extension of `out` chooses it.
+    pub(super) fn destination(self) -> anyhow::Result<Destination> {
+        let targets = self.targets()?;
+        let is_stdout = self.out.is_some_and(is_dash);
+        if let Some(out) = self.out.filter(|out| targets.len() > 1 && (is_stdout || !names_directory(out))) {
+            return Err(failure(
+                format!("`-o {}` is one place for {} programs", out.display(), targets.len()),
+                "name a directory, as in `-o out/`, or leave -o out: each gets a name of its own",
+            ));
+        }
+        if is_stdout {
+            return Ok(Destination { targets, place: Place::Stdout });
+        }
+        let paths: anyhow::Result<_> = targets.iter().map(|target| self.path(target)).collect();
+        Ok(Destination { targets, place: Place::Files(paths?) })
+    }
+
+    /// What is written: what was typed, else what the extension of the place says, else the default.
+    fn targets(&self) -> anyhow::Result<Vec<&'static Target>> {
+        let extensions: Vec<&str> = self.targets.iter().map(|target| target.extension).collect();
+        if let Some(twice) = extensions.iter().enumerate().find_map(|(i, e)| extensions[..i].contains(e).then_some(e)) {
+            return Err(failure(
+                format!("two of the targets would write the same file, of extension `{twice}`"),
+                "name each target once",
+            ));
+        }
+        let file = self.out.filter(|out| !is_dash(out) && !names_directory(out));
+        let name = file.and_then(Path::file_name).map(|name| name.to_string_lossy().to_ascii_lowercase());
+        let ends =
+            |target: &&Target| name.as_ref().is_some_and(|name| name.ends_with(&format!(".{}", target.extension)));
+        let told = TARGETS.iter().find(ends);
+        match (self.targets, told, file) {
+            ([one], Some(told), Some(file)) if one.extension != told.extension => Err(failure(
+                format!(
+                    "`-t {}` and `-o {}` disagree: the name is one of target {}",
+                    one.name,
+                    file.display(),
+                    told.name
+                ),
+                format!("leave -t out, or write to `-o {}`", file.with_extension(one.extension).display()),
+            )),
+            ([], Some(told), _) => Ok(vec![told]),
+            ([], None, Some(file)) if names_program(file) => Err(failure(
+                format!("`-o {}` may be G-code or a cut file: its name does not say", file.display()),
+                "say which with `-t gcode` or `-t iso`; alone `.ngc` is G-code here, `.iso` a cut file",
+            )),
+            ([], None, _) => Ok(vec![&TARGETS[0]]),
+            (typed, _, _) => Ok(typed.to_vec()),
+        }
+    }
+
+    /// The file of one program.
+    fn path(&self, target: &Target) -> anyhow::Result<PathBuf> {
+        let Self { out, input, profile, force, .. } = *self;
+        let name = program_name(input, target);
+        let path = match out {
+            None if is_dash(input) => {
+                return Err(failure(
+                    "a program that is made from standard input has no name",
+                    "say where it goes with -o FILE, -o DIRECTORY or `-o -`",
+                ));
+            }
+            None if input.file_name() == Some(&name) => {
+                return Err(failure(
+                    format!("the program would have the name of its input, `{}`", name.display()),
+                    "say where it goes with -o FILE or -o DIRECTORY",
+                ));
+            }
+            None => PathBuf::from(&name),
+            Some(out) if names_directory(out) => out.join(&name),
+            // A file of that name would surprise whoever meant a directory, and the other way round.
+            Some(out) if out.extension().is_none() && !out.exists() => {
+                let shown = out.display();
+                return Err(failure(
+                    format!("`-o {shown}` may be a file or a directory"),
+                    format!("write `-o {shown}/` for a directory, which is made, or `-o {shown}.{}`", target.extension),
+                ));
+            }
+            Some(out) => out.to_owned(),
+        };
+        let (shown, folder) = (path.display(), directory(&path));
+        // A directory that is not there yet is made where another holds it.
+        let is_made = || out.is_some_and(names_directory) && !folder.exists() && directory(folder).is_dir();
+        if !folder.is_dir() && !is_made() {
+            let message = format!("cannot write `{shown}`: there is no directory `{}`", folder.display());
+            return Err(failure(message, "create it first, or name another one"));
+        }
+        let inputs = [Some(input).filter(|input| !is_dash(input)), profile];
+        let inputs: Vec<&Path> = inputs.into_iter().flatten().collect();
+        writable(&path, &inputs)?;
+        if !force {
+            not_of_another(&path, input)?;
+        }
+        Ok(path)
+    }
+}
+
+/// The name of the program that a target makes from an input.
+pub(super) fn program_name(input: &Path, target: &Target) -> OsString {
+    let stem = if is_dash(input) { STDIN.as_ref() } else { input.file_stem().unwrap_or(input.as_os_str()) };
+    let mut name = OsString::from(stem);
+    name.push(format!(".{}", target.extension));
+    name
+}
+
+/// The targets of many files, which go below a folder.
+pub(super) fn targets_of_many(out: &Path, typed: &[&'static Target]) -> anyhow::Result<Vec<&'static Target>> {
+    let is_file = !out.is_dir() && (out.is_file() || (!names_directory(out) && out.extension().is_some()));
+    if is_dash(out) || is_file {
+        return Err(failure(
+            format!("`-o {}` is one place for many programs", out.display()),
+            "name a directory, as in `-o out/`",
+        ));
+    }
+    let folder = Path::new(DIRECTORY);
+    Asked { out: Some(folder), targets: typed, input: folder, profile: None, force: false }.targets()
+}
+
+/// Where the programs of one of many files go: below a folder, in the structure that the file was found in.
+pub(super) fn below(out: &Path, name: &Path, targets: &[&'static Target]) -> Vec<PathBuf> {
+    let folder = out.join(name.parent().unwrap_or(Path::new("")));
+    targets.iter().map(|target| folder.join(program_name(name, target))).collect()
+}
+
+/// Whether a program can stand at a path: no directory or device is there, and neither it nor what stands beside it is
+/// one of some inputs.
+fn writable(path: &Path, inputs: &[&Path]) -> anyhow::Result<()> {
+    if fs::metadata(path).is_ok_and(|target| !target.is_file()) {
+        return Err(failure(
+            format!("`{}` is not a regular file", path.display()),
+            "write to a file, or to a pipe with `-o -`",
+        ));
+    }
+    for made in [path.to_owned(), meta(path), stale(path), stale(&meta(path))] {
+        if let Some(read) = inputs.iter().find(|read| same_file(&made, read)) {
+            let message = format!("`{}` is an input: it is never overwritten", read.display());
+            return Err(failure(message, "give the program another name with -o"));
+        }
+    }
+    Ok(())
+}
+
+/// Whether the program at a path, if there is one, was made from an input of the same name.
+pub(super) fn not_of_another(path: &Path, input: &Path) -> anyhow::Result<()> {
+    let input = if is_dash(input) { STDIN.into() } else { input.file_name().unwrap_or_default().to_string_lossy() };
+    match provenance::source_of(path).filter(|made_from| path.exists() && *made_from != input) {
+        None => Ok(()),
+        Some(made_from) => Err(failure(
+            format!("`{}` was made from `{made_from}`, not from `{input}`: it is not overwritten", path.display()),
+            "give the new program another place with -o, or say --force",
+        )),
+    }
+}
+
+/// Whether a path is a directory, or written as one.
+fn names_directory(path: &Path) -> bool {
+    path.is_dir() || path.as_os_str().to_string_lossy().ends_with(MAIN_SEPARATOR)
+}
+
+/// Whether a path has an extension that others give to programs of machines: setpoints must not come by such a name unseen.
+fn names_program(path: &Path) -> bool {
+    let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
+    matches!(extension.as_deref(), Some("nc" | "gcode" | "gco" | "tap" | "cnc" | "cut" | "gbr" | "ggt"))
+}
+
+fn same_file(a: &Path, b: &Path) -> bool {
+    a.canonicalize().is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cli::files;
+
+    fn find(out: Option<&Path>, input: &Path) -> Result<Place, String> {
+        let asked = Asked { out, targets: &[], input, profile: None, force: false };
+        asked.destination().map(|found| found.place).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_program_takes_the_stem_of_its_input() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let at = |name: &str| directory.path().join(name);
+        let input = at("marker.one.cut");
+        assert_eq!(find(None, &input), Ok(Place::Files(vec!["marker.one.csv".into()])));
+        assert_eq!(find(Some(directory.path()), &input), Ok(Place::Files(vec![at("marker.one.csv")])));
+        assert_eq!(find(Some(&at("x.txt")), &input), Ok(Place::Files(vec![at("x.txt")])));
+        assert_eq!(find(Some(Path::new("-")), &input), Ok(Place::Stdout));
+        assert_eq!(find(Some(directory.path()), Path::new("-")), Ok(Place::Files(vec![at("stdin.csv")])));
+        assert!(find(None, Path::new("-")).expect_err("refused").contains("-o FILE"));
+    }
+
+    #[test]
+    fn without_a_target_the_extension_chooses_it() {
+        let written = |out: &str, targets: &[&'static Target]| {
+            let asked =
+                Asked { out: Some(Path::new(out)), targets, input: Path::new("a.cut"), profile: None, force: false };
+            let found = asked.destination().map_err(|error| error.to_string())?;
+            Ok::<_, String>(found.targets.iter().map(|target| target.name).collect::<Vec<_>>())
+        };
+        for target in TARGETS {
+            assert_eq!(written(&format!("x.{}", target.extension), &[]), Ok(vec![target.name]));
+            assert_eq!(written(&format!("x.{}", target.extension.to_uppercase()), &[]), Ok(vec![target.name]));
+            assert_eq!(written("x.txt", &[target]), Ok(vec![target.name]));
+        }
+        assert_eq!(written("x.txt", &[]), Ok(vec![TARGETS[0].name]));
+        assert!(written("x.NC", &[]).expect_err("refused").contains("-t gcode"));
+        assert_eq!(written("x.nc", &[&TARGETS[1]]), Ok(vec![TARGETS[1].name]));
+        let [first, second] = [&TARGETS[0], &TARGETS[1]];
+        let refused = written(&format!("x.{}", second.extension), &[first]).expect_err("refused");
+        assert!(refused.contains("disagree") && refused.contains("x.csv"), "{refused}");
+        assert!(written("x.csv", &[first, second]).expect_err("refused").contains("one place for 2"));
+        assert!(written("x", &[]).expect_err("refused").contains("`-o x/`"));
+    }
+
+    #[test]
+    fn an_input_is_never_written() {
+        let directory = tempfile::tempdir().expect("a directory");
+        for name in ["x.csv", "y.csv.meta.json", "y.csv.stale", "y.csv.meta.json.stale"] {
+            let input = directory.path().join(name);
+            fs::write(&input, "x_mm,y_mm\n").expect("writable");
+            let program = directory.path().join(".").join(if name == "x.csv" { "x.csv" } else { "y.csv" });
+            assert!(find(Some(&program), &input).expect_err("refused").contains("is an input"), "{name}");
+            fs::remove_file(&input).expect("removable");
+        }
+        assert!(find(None, &directory.path().join("x.csv")).expect_err("refused").contains("name of its input"));
+    }
+
+    #[test]
+    fn a_program_of_another_source_is_not_overwritten() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let program = directory.path().join("m05.csv");
+        fs::write(&program, "t_s").expect("writable");
+        fs::write(meta(&program), r#"{"source": "m05.cut"}"#).expect("writable");
+        let find = |input: &str, force| {
+            let asked =
+                Asked { out: Some(directory.path()), targets: &[], input: Path::new(input), profile: None, force };
+            asked.destination().map(|found| found.place).map_err(|error| error.to_string())
+        };
+        assert!(find("in/m05.plt", false).expect_err("refused").contains("made from `m05.cut`, not from `m05.plt`"));
+        let written = Ok(Place::Files(vec![program.clone()]));
+        assert_eq!(find("in/m05.cut", false), written);
+        assert_eq!(find("in/m05.plt", true), written);
+        fs::remove_file(&program).expect("removable");
+        assert_eq!(find("in/m05.plt", false), written);
+    }
+
+    #[test]
+    fn places_that_cannot_be_written_are_named() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let nowhere = directory.path().join("no").join("x.csv");
+        assert!(find(Some(&nowhere), Path::new("x.cut")).expect_err("refused").contains("there is no directory"));
+        let slash = PathBuf::from(format!("{}{MAIN_SEPARATOR}", directory.path().join("no").join("no").display()));
+        assert!(find(Some(&slash), Path::new("x.cut")).expect_err("refused").contains("create it first"));
+        assert!(files::read(directory.path()).expect_err("refused").to_string().contains("is a directory"));
+    }
+}

@@ -1,0 +1,272 @@
+//! Files in the making: written beside their place and moved there when they are whole.
+//!
+//! A draft is named after its machine and process, and locked by it. Who is stopped takes its own away; what a process
+//! left that could not, the next one that writes there does.
+
+use std::collections::BTreeSet;
+use std::fs::{self, File, TryLockError};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use tempfile::NamedTempFile;
+
+use super::failure;
+use super::files::{cannot_write, directory};
+
+/// How the name of a draft begins and ends: between stand machine, process and some letters of chance.
+const PREFIX: &str = ".cutc-";
+const SUFFIX: &str = ".tmp";
+
+/// What this process has to take away when it is stopped.
+static MAKING: Mutex<Making> =
+    Mutex::new(Making { drafts: BTreeSet::new(), folders: BTreeSet::new(), swept: BTreeSet::new() });
+
+struct Making {
+    drafts: BTreeSet<PathBuf>,
+    /// Made for programs; they stay with what is in them.
+    folders: BTreeSet<PathBuf>,
+    /// Folders in which nothing is left of processes that are gone.
+    swept: BTreeSet<PathBuf>,
+}
+
+fn making() -> MutexGuard<'static, Making> {
+    // Each change is one call: there is nothing half-changed that a panic could leave.
+    MAKING.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Takes away what this process has in the making, and keeps it from making more: it is about to end.
+pub(super) fn abandon() {
+    let making = making();
+    // What cannot be removed is left to the next process.
+    for draft in &making.drafts {
+        let _ = fs::remove_file(draft);
+    }
+    for folder in making.folders.iter().rev() {
+        let _ = fs::remove_dir(folder);
+    }
+    std::mem::forget(making);
+}
+
+/// A file that is not there yet.
+#[derive(Debug)]
+pub(super) struct Draft {
+    file: NamedTempFile,
+    path: PathBuf,
+    known: Known,
+}
+
+/// The name of a draft among those in the making, for as long as it is one.
+#[derive(Debug)]
+struct Known(PathBuf);
+
+impl Drop for Known {
+    fn drop(&mut self) {
+        making().drafts.remove(&self.0);
+    }
+}
+
+impl Draft {
+    /// Opens a draft of the file at `path`.
+    pub(super) fn new(path: &Path) -> anyhow::Result<Self> {
+        let folder = directory(path);
+        let prefix = format!("{PREFIX}{}-{}-", machine(), std::process::id());
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(&prefix).suffix(SUFFIX);
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt as _;
+            // Readable to whom the umask lets it be, as any new file: a temporary one would be its owner's alone.
+            builder.permissions(fs::Permissions::from_mode(0o666));
+        }
+        let mut making = making();
+        if making.swept.insert(folder.to_owned()) {
+            sweep(folder);
+        }
+        loop {
+            let file = builder.tempfile_in(folder).map_err(|error| cannot_write(path, &error))?;
+            // Until it is locked another process may take it for one that nobody makes any more.
+            if !matches!(file.as_file().try_lock(), Err(TryLockError::WouldBlock)) && file.path().exists() {
+                let known = Known(file.path().to_owned());
+                making.drafts.insert(known.0.clone());
+                return Ok(Self { file, path: path.to_owned(), known });
+            }
+        }
+    }
+
+    /// The file to write to.
+    pub(super) fn file(&mut self) -> &mut File {
+        self.file.as_file_mut()
+    }
+
+    /// Where it will stand.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Moves the whole file to its place, where nothing may be.
+    pub(super) fn publish_new(self) -> anyhow::Result<()> {
+        let Self { file, path, known: _known } = self;
+        let _making = making();
+        file.persist_noclobber(&path).map_err(|error| match error.error.kind() {
+            io::ErrorKind::AlreadyExists => exists(&path),
+            _ => cannot_write(&path, &error.error),
+        })?;
+        Ok(())
+    }
+}
+
+/// Moves whole files to their places, over what was there, and then does what belongs to that. Who is stopped meanwhile
+/// is stopped before or behind all of it. `then` must not begin a draft.
+pub(super) fn publish(drafts: Vec<Draft>, then: impl FnOnce() -> anyhow::Result<()>) -> anyhow::Result<()> {
+    for Draft { file, path, .. } in &drafts {
+        file.as_file().sync_all().map_err(|error| cannot_write(path, &error))?;
+    }
+    let mut known = Vec::new();
+    let _making = making();
+    for draft in drafts {
+        known.push(draft.known);
+        draft.file.persist(&draft.path).map_err(|error| cannot_write(&draft.path, &error.error))?;
+    }
+    then()
+}
+
+/// Removes the drafts in a folder that processes of this machine left there and that nobody holds any more.
+fn sweep(folder: &Path) {
+    let ours = format!("{PREFIX}{}-", machine());
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let Some(rest) = name.strip_prefix(&ours).and_then(|rest| rest.strip_suffix(SUFFIX)) else { continue };
+        // The name of another machine may begin like that of this one.
+        if !rest.split_once('-').is_some_and(|(process, _)| process.parse::<u32>().is_ok()) {
+            continue;
+        }
+        // Held until the file is gone, so that its maker, if it has only just begun, begins another.
+        if let Ok(file) = File::open(entry.path())
+            && file.try_lock().is_ok()
+        {
+            let _ = fs::remove_file(entry.path()); // it may be another user's
+        }
+    }
+}
+
+/// The name of this machine, as far as it can be part of a file name.
+fn machine() -> String {
+    let name = gethostname::gethostname();
+    name.to_string_lossy().chars().map(|c| if c.is_ascii_alphanumeric() || c == '.' { c } else { '_' }).collect()
+}
+
+fn exists(path: &Path) -> anyhow::Error {
+    failure(format!("`{}` exists: it is not overwritten", path.display()), "give another name, or move it away first")
+}
+
+/// Folders that were made for programs; those that are still empty in the end go.
+#[derive(Debug, Default)]
+pub(super) struct MadeFolders(Vec<PathBuf>);
+
+impl MadeFolders {
+    /// Makes the folders of some files, and those that hold them.
+    pub(super) fn of<'p>(paths: impl IntoIterator<Item = &'p Path>) -> anyhow::Result<Self> {
+        let mut made = Self::default();
+        for path in paths {
+            made.make(directory(path)).map_err(|error| cannot_write(path, &error))?;
+        }
+        Ok(made)
+    }
+
+    fn make(&mut self, folder: &Path) -> io::Result<()> {
+        if folder.as_os_str().is_empty() || folder.is_dir() {
+            return Ok(());
+        }
+        self.make(folder.parent().unwrap_or(Path::new("")))?;
+        let mut making = making();
+        match fs::create_dir(folder) {
+            Ok(()) => {
+                making.folders.insert(folder.to_owned());
+                self.0.push(folder.to_owned());
+                Ok(())
+            }
+            // Another process was quicker.
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => Ok(()),
+            Err(error) => Err(error),
+        }
+    }
+}
+
+impl MadeFolders {
+    /// Leaves them there, empty or not.
+    pub(super) fn keep(&mut self) {
+        let mut making = making();
+        for folder in self.0.drain(..) {
+            making.folders.remove(&folder);
+        }
+    }
+}
+
+impl Drop for MadeFolders {
+    fn drop(&mut self) {
+        let mut making = making();
+        for folder in self.0.iter().rev() {
+            // Only an empty one can be removed: that is what is meant.
+            let _ = fs::remove_dir(folder);
+            making.folders.remove(folder);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Write as _;
+
+    use super::*;
+
+    #[test]
+    fn folders_that_were_made_stay_with_what_is_in_them() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let program = directory.path().join("out").join("a").join("x.csv");
+        let other = directory.path().join("out").join("b").join("x.csv");
+        drop(MadeFolders::of([program.as_path(), &other]).expect("writable"));
+        assert!(!directory.path().join("out").exists());
+        let made = MadeFolders::of([program.as_path(), &other]).expect("writable");
+        fs::write(&program, "t_s").expect("writable");
+        drop(made);
+        assert!(program.exists() && !directory.path().join("out").join("b").exists());
+        assert!(MadeFolders::of([program.as_path()]).expect("writable").0.is_empty());
+    }
+
+    #[test]
+    fn a_draft_leaves_nothing_until_it_is_whole() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let path = directory.path().join("x.csv");
+        let mut draft = Draft::new(&path).expect("a draft");
+        draft.file().write_all(b"half").expect("writable");
+        assert!(!path.exists());
+        drop(draft);
+        assert_eq!(fs::read_dir(directory.path()).expect("readable").count(), 0);
+        let mut draft = Draft::new(&path).expect("a draft");
+        draft.file().write_all(b"whole").expect("writable");
+        publish(vec![draft], || Ok(())).expect("published");
+        assert_eq!(fs::read(&path).expect("readable"), b"whole");
+        let refused = Draft::new(&path).expect("a draft").publish_new().expect_err("refused");
+        assert!(refused.to_string().contains("not overwritten"));
+        assert_eq!(fs::read(&path).expect("readable"), b"whole");
+    }
+
+    #[test]
+    fn what_gone_processes_left_is_swept_and_nothing_else() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let at = |name: String| directory.path().join(name);
+        let left = at(format!("{PREFIX}{}-4194305-a1B2c3{SUFFIX}", machine()));
+        let kept = [
+            at(format!("{PREFIX}{}-other-4194305-a1B2c3{SUFFIX}", machine())),
+            at(format!("{PREFIX}elsewhere-1-a1B2c3{SUFFIX}")),
+            at(format!("{PREFIX}notes.txt")),
+        ];
+        fs::write(&left, "half").expect("writable");
+        kept.iter().for_each(|path| fs::write(path, "kept").expect("writable"));
+        let draft = Draft::new(&at("x.csv".to_owned())).expect("a draft");
+        sweep(directory.path());
+        assert!(!left.exists() && kept.iter().all(|path| path.exists()));
+        assert!(draft.file.path().exists(), "a draft that is held stays");
+    }
+}
