@@ -35,6 +35,30 @@ fn making() -> MutexGuard<'static, Making> {
     MAKING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+impl Making {
+    /// Removes what is left in a folder, once: what comes later is another process's to remove.
+    fn sweep(&mut self, folder: &Path) {
+        if self.swept.insert(folder.to_owned()) {
+            sweep(folder);
+        }
+    }
+}
+
+/// Removes what processes that are gone left in the folders of some files.
+pub(super) fn sweep_folders<'p>(paths: impl IntoIterator<Item = &'p Path>) {
+    let mut making = making();
+    for path in paths {
+        making.sweep(directory(path));
+    }
+}
+
+/// The same of a folder and all below it.
+pub(super) fn sweep_below(folder: &Path) {
+    let folders = walkdir::WalkDir::new(folder).into_iter().flatten().filter(|entry| entry.file_type().is_dir());
+    let mut making = making();
+    folders.for_each(|entry| making.sweep(entry.path()));
+}
+
 /// Takes away what this process has in the making, and keeps it from making more: it is about to end.
 pub(super) fn abandon() {
     let making = making();
@@ -80,9 +104,7 @@ impl Draft {
             builder.permissions(fs::Permissions::from_mode(0o666));
         }
         let mut making = making();
-        if making.swept.insert(folder.to_owned()) {
-            sweep(folder);
-        }
+        making.sweep(folder);
         loop {
             let file = builder.tempfile_in(folder).map_err(|error| cannot_write(path, &error))?;
             // Until it is locked another process may take it for one that nobody makes any more.

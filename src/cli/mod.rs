@@ -28,6 +28,7 @@ mod summary;
 mod times;
 mod verdict;
 mod verify;
+mod watch;
 
 pub use stop::stop;
 
@@ -66,6 +67,8 @@ struct Arguments {
 enum Command {
     /// Compile cutter files to machine programs
     Compile(compile::Arguments),
+    /// Compile every cutter file that comes into a folder, until it is stopped
+    Watch(watch::Arguments),
     /// Judge a program, edited by hand or not: does it cut what its cutter file says?
     Verify(verify::Arguments),
     /// Read cutter files and say everything that is wrong with them; writes nothing
@@ -157,7 +160,8 @@ fn say(said: &mut String, line: std::fmt::Arguments<'_>) {
 
 /// Runs a command line, the name of the program first, to its end. What takes long is told on `console` meanwhile.
 pub fn run(words: impl IntoIterator<Item = OsString>, console: &mut Console) -> Finished {
-    let arguments = match Arguments::try_parse_from(words) {
+    let words: Vec<OsString> = words.into_iter().collect();
+    let arguments = match Arguments::try_parse_from(&words) {
         Ok(arguments) => arguments,
         Err(misuse) if misuse.use_stderr() => return Finished::text(String::new(), misuse.render().to_string(), USAGE),
         // Help and version come this way too.
@@ -165,6 +169,7 @@ pub fn run(words: impl IntoIterator<Item = OsString>, console: &mut Console) -> 
     };
     let finished = match &arguments.command {
         Command::Compile(arguments) => compile::run(arguments, console),
+        Command::Watch(arguments) => watch::run(arguments, &words[2..], console),
         Command::Verify(arguments) => verify::run(arguments),
         Command::Check(arguments) => check::run(arguments),
         Command::Info(arguments) => info::run(arguments),

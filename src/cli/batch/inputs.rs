@@ -88,10 +88,22 @@ pub(in crate::cli) fn is_cutter_file(path: &Path) -> bool {
     known.any(|known| known.eq_ignore_ascii_case(&extension))
 }
 
+/// The extensions by which cutter files in folders are told.
+pub(in crate::cli) fn extensions() -> String {
+    let known: Vec<_> = DIALECTS.iter().flat_map(|dialect| dialect.extensions).map(|e| format!(".{e}")).collect();
+    known.join(" ")
+}
+
 /// What to do when a folder has no cutter files.
 pub(in crate::cli) fn hint() -> String {
-    let known: Vec<_> = DIALECTS.iter().flat_map(|dialect| dialect.extensions).map(|e| format!(".{e}")).collect();
-    format!("cutter files are told by {}; name others by a pattern, as in `'in/**/*.001'`", known.join(" "))
+    format!("cutter files are told by {}; name others by a pattern, as in `'in/**/*.001'`", extensions())
+}
+
+/// The files below a folder, as a pattern that all names fit would find them; none is no mistake.
+pub(in crate::cli) fn files_in(folder: &Path) -> anyhow::Result<Vec<Input>> {
+    let mut inputs = Vec::new();
+    walk(folder, |_, _| true, &mut inputs)?;
+    Ok(inputs)
 }
 
 /// The files below a folder, each folder's in the order of their names; neither hidden ones nor programs of ours.

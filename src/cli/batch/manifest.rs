@@ -158,6 +158,13 @@ impl Manifest {
         last.is_some_and(|line| line.made == *made && line.verdict == Verdict::Refused)
     }
 
+    /// The inputs of which the last thing that was made is nothing, by their names.
+    pub(in crate::cli) fn refused_names(&self) -> Vec<String> {
+        let lines = self.lines();
+        let last = lines.known.values().filter_map(|lines| lines.last());
+        last.filter(|line| line.verdict == Verdict::Refused).map(|line| line.made.source.clone()).collect()
+    }
+
     fn stands(&self, output: &Output) -> bool {
         let path = self.folder().join(&output.path);
         let digest = File::open(&path).and_then(|file| sha256_of(BufReader::new(file)));

@@ -13,14 +13,18 @@ use std::thread;
 
 use clap::Args;
 
-pub(super) use inputs::{Input, Inputs, find, hint, is_cutter_file};
+pub(super) use inputs::{Input, Inputs, extensions, files_in, find, hint, is_cutter_file};
 pub(super) use manifest::{Line, Made, Manifest, Output, Verdict};
 pub(super) use shard::Shard;
+pub(super) use side_by_side::run as side_by_side;
 pub(super) use table::{Columns, Row, State};
 
 use self::progress::Progress;
 use super::{Console, DONE, FAULTY, Finished};
 use crate::diagnostic::Diagnostics;
+
+/// What is said of a file that no file should do.
+const BROKEN: &str = "cutc broke down over it, which is a fault of cutc";
 
 /// How many files are worked on.
 #[derive(Debug, Clone, Copy, Args)]
@@ -65,6 +69,12 @@ impl Outcome {
         Self { row: Some(row), said: format!("error: {message}\n"), json: None }
     }
 
+    /// A file that the program itself broke down over.
+    fn broken(input: &Input, said: String) -> Self {
+        let row = Row { worst: BROKEN.to_owned(), ..Row::new(&input.path, State::Failed) };
+        Self { row: Some(row), said, json: None }
+    }
+
     /// A file that is left to others.
     pub(super) fn elsewhere() -> Self {
         Self { row: None, said: String::new(), json: None }
@@ -99,7 +109,8 @@ pub(super) fn run(
     let (mut rows, mut objects, mut failed) = (Vec::new(), 0, 0);
     let work = |i: usize| {
         let input = &inputs[i];
-        let outcome = catch_unwind(AssertUnwindSafe(|| work(i, input))).unwrap_or_else(|_| broken(input));
+        let outcome = unless_broken(input, || work(i, input));
+        let outcome = outcome.unwrap_or_else(|said| Outcome::broken(input, said));
         let is_failed = outcome.row.as_ref().is_some_and(|row| row.state == State::Failed);
         progress.step(is_failed);
         outcome
@@ -128,10 +139,12 @@ pub(super) fn run(
     Finished::text(closing.to_owned(), table, if failed > 0 { FAULTY } else { DONE })
 }
 
-/// What is said of a file that the program itself broke down over: the others go on.
-fn broken(input: &Input) -> Outcome {
-    let message = "cutc broke down over this file: that is a fault of cutc, not of the file";
-    Outcome::failed(input, &super::failure(format!("`{}`: {message}", input.path.display()), "send it to its makers"))
+/// What comes of work on a file; or what is said of a file that the program itself broke down over: the others go on.
+pub(super) fn unless_broken<T>(input: &Input, work: impl FnOnce() -> T) -> Result<T, String> {
+    catch_unwind(AssertUnwindSafe(work)).map_err(|_| {
+        let file = input.path.display();
+        format!("error: `{file}`: {BROKEN}\n  = hint: send it to the makers of cutc, with what is said above\n")
+    })
 }
 
 /// An object as one of a list is printed.

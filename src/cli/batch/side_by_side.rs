@@ -12,7 +12,7 @@ const LARGE_BYTES: u64 = 1 << 20;
 
 /// Does `work` on each file, given by their sizes, on so many threads, and hands each result to `each` in the order of
 /// the files.
-pub(super) fn run<T: Send>(
+pub(in crate::cli) fn run<T: Send>(
     sizes: &[u64],
     threads: usize,
     work: impl Fn(usize) -> T + Sync,

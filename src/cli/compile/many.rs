@@ -9,7 +9,7 @@ use crate::back::Target;
 use crate::cli::batch::{self, Columns, Input, Line, Made, Manifest, Outcome, Output, Row, State, Telling, Verdict};
 use crate::cli::choices::Format;
 use crate::cli::destination::{below, not_of_another, targets_of_many};
-use crate::cli::draft::MadeFolders;
+use crate::cli::draft::{self, MadeFolders};
 use crate::cli::options::{Messages, typed};
 use crate::cli::{Console, FAULTY, Finished, failure, files, report, say};
 use crate::diagnostic::{Diagnostics, render_with};
@@ -27,14 +27,15 @@ pub(super) fn run(
     console: &mut Console,
 ) -> anyhow::Result<Finished> {
     let Arguments { making, messages, format, changed, shard, .. } = arguments;
-    let out = making.out.as_deref().unwrap_or(Path::new(""));
+    let out = making.place();
     let targets = targets_of_many(out, &making.targets)?;
-    let job = match making.reading.job()? {
-        Ok(job) => making.choice.of(job),
+    let job = match making.job()? {
+        Ok(job) => job,
         Err(refused) => return Ok(refused),
     };
     let places: Vec<Vec<PathBuf>> = inputs.iter().map(|input| below(out, &input.name, &targets)).collect();
     refuse_collisions(inputs, &places)?;
+    draft::sweep_folders(places.iter().flatten().map(PathBuf::as_path));
     let mut folders = MadeFolders::of(places.iter().flatten().map(PathBuf::as_path))?;
     if shard.is_some() {
         // What this part does not need another may be about to write to.
@@ -103,7 +104,7 @@ fn refuse_collisions(inputs: &[Input], places: &[Vec<PathBuf>]) -> anyhow::Resul
     ))
 }
 
-/// What all files of a batch share.
+/// What all files of a batch or a hot folder share.
 #[derive(Clone, Copy)]
 pub(in crate::cli) struct Many<'a> {
     pub(in crate::cli) making: &'a Making,
@@ -184,10 +185,15 @@ impl<'a> Many<'a> {
 /// How the compile of one of many files ended.
 pub(in crate::cli) struct One<'s> {
     compile: Compile<'s>,
-    pub(in crate::cli) ended: Ended,
+    ended: Ended,
 }
 
 impl One<'_> {
+    /// Whether the file has a program now, `None` when none could be written.
+    pub(in crate::cli) fn is_compiled(&self) -> Option<bool> {
+        self.ended.compiled.as_ref().ok().map(Option::is_some)
+    }
+
     /// Its row, and what is said about it.
     pub(in crate::cli) fn outcome(self, input: &Input, messages: Messages, format: Format) -> Outcome {
         let Self { compile, ended } = self;

@@ -1,10 +1,10 @@
 //! `cutc compile`: cutter files to machine programs.
 
 mod made;
-mod many;
+pub(super) mod many;
 mod one;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -14,6 +14,7 @@ use super::options::{Choice, Messages, Reading};
 use super::{Console, DONE, FAULTY, Finished, failure, files};
 use crate::back::Target;
 use crate::diagnostic::{Diagnostics, render_with};
+use crate::machine::Job;
 use crate::pipeline;
 
 /// Arguments of `cutc compile`.
@@ -95,6 +96,28 @@ pub(super) struct Making {
     no_verify: bool,
 }
 
+impl Making {
+    /// The directory that `-o` names; the current one without it.
+    pub(super) fn place(&self) -> &Path {
+        self.out.as_deref().unwrap_or(Path::new(""))
+    }
+
+    /// The targets as typed.
+    pub(super) fn targets(&self) -> &[&'static Target] {
+        &self.targets
+    }
+
+    /// The machine profile as typed.
+    pub(super) fn profile(&self) -> Option<&Path> {
+        self.reading.machine.profile.as_deref()
+    }
+
+    /// The job, or what is wrong with its profile.
+    pub(super) fn job(&self) -> anyhow::Result<Result<Job, Finished>> {
+        Ok(self.reading.job()?.map(|job| self.choice.of(job)))
+    }
+}
+
 pub(super) fn run(arguments: &Arguments, console: &mut Console) -> anyhow::Result<Finished> {
     let threads = arguments.threads.set();
     let inputs = match batch::find(&arguments.files, batch::is_cutter_file, &batch::hint())? {
@@ -117,15 +140,14 @@ pub(super) fn run(arguments: &Arguments, console: &mut Console) -> anyhow::Resul
 }
 
 /// What `--dump-after` prints.
-fn dump(arguments: &Arguments, file: &std::path::Path, pass: &str) -> anyhow::Result<Finished> {
+fn dump(arguments: &Arguments, file: &Path, pass: &str) -> anyhow::Result<Finished> {
     let source = files::read(file)?;
-    let Making { reading, choice, .. } = &arguments.making;
-    let job = match reading.job()? {
-        Ok(job) => choice.of(job),
+    let job = match arguments.making.job()? {
+        Ok(job) => job,
         Err(refused) => return Ok(refused),
     };
     let mut diagnostics = Diagnostics::default();
-    let text = pipeline::dump(&source, reading.from, &job, pass, &mut diagnostics);
+    let text = pipeline::dump(&source, arguments.making.reading.from, &job, pass, &mut diagnostics);
     let code = if text.is_none() || diagnostics.has_errors() { FAULTY } else { DONE };
     let said = render_with(&diagnostics, &source, arguments.messages.detail(Format::Text));
     Ok(Finished::text(text.unwrap_or_default(), said, code))

@@ -21,8 +21,8 @@ const SPOOL_BYTES: usize = 64 << 20;
 const MOST_LINES: usize = 10;
 
 pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished> {
-    let Making { out, targets, force, reading, choice, .. } = &arguments.making;
-    let profile = reading.machine.profile.as_deref();
+    let Making { out, targets, force, .. } = &arguments.making;
+    let profile = arguments.making.profile();
     let asked = Asked { out: out.as_deref(), targets, input: file, profile, force: *force };
     let Destination { targets, place } = asked.destination()?;
     if place == Place::Stdout && arguments.format == Format::Json {
@@ -32,8 +32,8 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished
         ));
     }
     let source = files::read(file)?;
-    let job = match reading.job()? {
-        Ok(job) => choice.of(job),
+    let job = match arguments.making.job()? {
+        Ok(job) => job,
         Err(mut refused) => {
             // A slip in an argument is no verdict on the program that is there.
             if let (FAULTY, Place::Files(paths)) = (refused.code, &place) {

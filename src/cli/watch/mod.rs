@@ -1,0 +1,362 @@
+//! `cutc watch`: a hot folder. Every cutter file that is finished there is compiled; its program appears whole.
+//!
+//! What was done stands in the manifest beside the programs, as that of a batch with `--changed`: a run that was killed
+//! is taken up where it ended. A file without a program has a report.
+
+mod events;
+mod report;
+mod settings;
+mod settling;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use clap::Args;
+
+use self::events::{Events, Told};
+use self::settings::{Settings, Stamps};
+use self::settling::{STEADY, Settling, Stamp};
+use super::batch::{self, Input, Manifest, Outcome, Threads};
+use super::choices::Format;
+use super::compile::Making;
+use super::compile::many::Many;
+use super::destination::below;
+use super::draft::{self, MadeFolders};
+use super::options::{Messages, counted};
+use super::times::clock;
+use super::{Console, Finished, failure, files, stop};
+use crate::units::number::fixed;
+
+/// How long the folder is listened to before the clock and signals are looked at.
+const TICK: Duration = Duration::from_millis(200);
+/// How often the folder is looked through, for what nobody tells.
+const LOOK: Duration = Duration::from_secs(2);
+/// A folder in which looking takes longer is looked through less often: so many times as long as it takes.
+const LOOK_SHARE: u32 = 50;
+
+/// Arguments of `cutc watch`.
+///
+/// A file is finished when it was renamed into the folder, when its writer closed it, or when it stayed the same for a
+/// second. Of a file that is refused `NAME.report.txt` stands where its program would. `cutc.toml` in the folder may
+/// hold options of `cutc compile` by their long names, as in `target = ["gcode", "svg"]` or `profile = "machine.toml"`.
+#[derive(Debug, Args)]
+pub(super) struct Arguments {
+    /// Folder that cutter files come into, by themselves or in folders
+    #[arg(value_name = "FOLDER")]
+    folder: PathBuf,
+
+    #[command(flatten)]
+    making: Making,
+
+    #[command(flatten)]
+    messages: Messages,
+
+    #[command(flatten)]
+    threads: Threads,
+}
+
+pub(super) fn run(arguments: &Arguments, typed: &[OsString], console: &mut Console) -> anyhow::Result<Finished> {
+    let Arguments { folder, making, threads, .. } = arguments;
+    if !folder.is_dir() {
+        let message = format!("`{}` is no folder", folder.display());
+        return Err(failure(message, "name the folder that cutter files come into"));
+    }
+    let settings = match Settings::read(folder, typed)? {
+        Ok(settings) => settings,
+        Err(refused) => return Ok(refused),
+    };
+    let out = making.place();
+    if out.as_os_str().is_empty() {
+        return Err(failure("where the programs go is not said", "name a directory with -o, as in `-o out/`"));
+    }
+    MadeFolders::of([out.join(settings::NAME).as_path()])?.keep();
+    draft::sweep_below(out);
+    stop::finish_first();
+    let manifest = Manifest::open(out, None)?;
+    let hall = Hall { folder, out, inner: std::path::absolute(out).ok(), threads: threads.set(), manifest: &manifest };
+    let mut watch = Watch { hall, settings, changed: None, files: Settling::default(), told: BTreeMap::new() };
+    let _ = writeln!(console.err, "watching `{}`; programs go to `{}`", folder.display(), out.display());
+    let code = watch.go(typed, console);
+    manifest.finish()?;
+    Ok(Finished::text(String::new(), String::new(), code))
+}
+
+/// Where files come from and programs go to.
+struct Hall<'a> {
+    folder: &'a Path,
+    out: &'a Path,
+    /// The latter from the root: it may lie in the folder.
+    inner: Option<PathBuf>,
+    threads: usize,
+    manifest: &'a Manifest,
+}
+
+/// A hot folder at work.
+struct Watch<'a> {
+    hall: Hall<'a>,
+    settings: Settings,
+    /// What the files of the options look like, and since when, where that is not what was read: nothing is compiled then.
+    changed: Option<(Stamps, Instant)>,
+    files: Settling,
+    /// What was said last of files that nothing could be done with: it is said once.
+    told: BTreeMap<PathBuf, String>,
+}
+
+/// How a file was dealt with.
+enum Dealt {
+    /// There is nothing to say: nothing was to do, or others are quicker.
+    Quietly,
+    /// It has its program, or its report: a line on that.
+    With(String),
+    /// Nothing could be read or written: that is tried again. What went wrong.
+    Not(String),
+    /// It is not what it was when it was found to be finished, or the end was asked for.
+    Later,
+}
+
+impl Watch<'_> {
+    /// Works until a signal asks for the end; gives the exit code.
+    fn go(&mut self, typed: &[OsString], console: &mut Console) -> u8 {
+        let events = Events::of(self.hall.folder);
+        let mut next_look = Instant::now();
+        self.forget_reports();
+        loop {
+            if let Some(code) = stop::asked() {
+                return code;
+            }
+            self.mind_options(typed, console);
+            let now = Instant::now();
+            if now >= next_look {
+                self.look(console);
+                next_look = Instant::now() + LOOK.max(now.elapsed() * LOOK_SHARE);
+            }
+            for told in events.wait(TICK) {
+                self.hear(told);
+            }
+            if self.changed.is_none() {
+                self.work(console);
+            }
+        }
+    }
+
+    /// Looks whether the options were changed, and reads them when they stay as they are then.
+    fn mind_options(&mut self, typed: &[OsString], console: &mut Console) {
+        let (now, stamps) = (Instant::now(), self.settings.look());
+        match &self.changed {
+            None if stamps == *self.settings.stamps() => {}
+            Some((seen, since)) if *seen == stamps => {
+                if now >= *since + STEADY {
+                    self.read_options(typed, console);
+                }
+            }
+            None | Some(_) => self.changed = Some((stamps, now)),
+        }
+    }
+
+    /// Reads the options; those that were changed hold for all files.
+    fn read_options(&mut self, typed: &[OsString], console: &mut Console) {
+        let file = self.hall.folder.join(settings::NAME);
+        let wrong = match Settings::read(self.hall.folder, typed) {
+            Ok(Ok(settings)) => {
+                self.settings = settings;
+                self.changed = None;
+                self.told.remove(&file);
+                self.files.renew(Instant::now());
+                let _ = writeln!(console.err, "the options were changed: they hold for all files");
+                return;
+            }
+            Ok(Err(refused)) => refused.stderr,
+            Err(error) => format!("error: {error:#}\n"),
+        };
+        self.say_once(&file, &format!("{wrong}nothing is compiled until the options are mended\n"), console);
+    }
+
+    fn say_once(&mut self, about: &Path, said: &str, console: &mut Console) {
+        if self.told.get(about).is_none_or(|before| before != said) {
+            // Who closed standard error does not want to read it.
+            let _ = console.err.write_all(said.as_bytes());
+            self.told.insert(about.to_owned(), said.to_owned());
+        }
+    }
+
+    /// Looks through the folder: for what nobody told, and for what is gone.
+    fn look(&mut self, console: &mut Console) {
+        let found = match batch::files_in(self.hall.folder) {
+            Ok(found) => found,
+            Err(error) => return self.say_once(self.hall.folder, &format!("error: {error:#}\n"), console),
+        };
+        let now = Instant::now();
+        let mut there = BTreeSet::new();
+        for Input { path, .. } in found {
+            if self.is_left_alone(&path) {
+                continue;
+            }
+            if !batch::is_cutter_file(&path) {
+                let known = batch::extensions();
+                let said = format!(
+                    "{}: left alone, by its name it is no cutter file\n  = hint: cutter files end in {known}: rename it if it is one\n",
+                    path.display()
+                );
+                self.say_once(&path, &said, console);
+            } else if let Some(stamp) = Stamp::at(&path) {
+                self.files.see(&path, stamp, now);
+            }
+            there.insert(path);
+        }
+        for gone in self.files.keep(|path| there.contains(path)) {
+            report::remove(&report::path(self.hall.out, self.hall.name(&gone)));
+        }
+        self.told.retain(|path, _| there.contains(path) || path.ends_with(settings::NAME));
+    }
+
+    /// Reports on files that went while nobody watched go, too.
+    fn forget_reports(&self) {
+        for name in self.hall.manifest.refused_names() {
+            if !self.hall.folder.join(&name).exists() {
+                report::remove(&report::path(self.hall.out, Path::new(&name)));
+            }
+        }
+    }
+
+    fn is_left_alone(&self, path: &Path) -> bool {
+        let inner = self.hall.inner.as_deref();
+        let is_program =
+            || inner.is_some_and(|inner| std::path::absolute(path).is_ok_and(|path| path.starts_with(inner)));
+        self.settings.says(path) || is_program()
+    }
+
+    fn hear(&mut self, told: Told) {
+        let (told, is_closed) = match told {
+            Told::Closed(path) => (path, true),
+            Told::Changed(path) => (path, false),
+        };
+        let Some(path) = self.hall.as_typed(&told) else { return };
+        let is_hidden = self.hall.name(&path).iter().any(|part| part.to_string_lossy().starts_with('.'));
+        if is_hidden || !path.is_file() || !batch::is_cutter_file(&path) || self.is_left_alone(&path) {
+            return;
+        }
+        match Stamp::at(&path) {
+            Some(stamp) if is_closed => self.files.close(&path, stamp, Instant::now()),
+            Some(stamp) => self.files.see(&path, stamp, Instant::now()),
+            None => {}
+        }
+    }
+
+    /// Deals with every file that is finished, side by side.
+    fn work(&mut self, console: &mut Console) {
+        let (mut finished, mut taken) = (Vec::new(), BTreeSet::new());
+        for (path, stamp) in self.files.ready(Instant::now()) {
+            let places = below(self.hall.out, self.hall.name(&path), &self.settings.targets);
+            // Of two files for one place the second waits, to find whose it is.
+            if places.iter().all(|place| !taken.contains(place)) {
+                taken.extend(places.iter().cloned());
+                let name = self.hall.name(&path).to_owned();
+                finished.push(Finish { input: Input { path, name }, stamp, places });
+            }
+        }
+        let sizes: Vec<u64> = finished.iter().map(|finish| finish.input.size()).collect();
+        let mut dealt = Vec::new();
+        let (hall, settings) = (&self.hall, &self.settings);
+        let deal = |i: usize| {
+            let input = &finished[i].input;
+            batch::unless_broken(input, || hall.deal(&finished[i], settings)).unwrap_or_else(Dealt::Not)
+        };
+        batch::side_by_side(&sizes, self.hall.threads, deal, |i, how| {
+            if let Dealt::With(line) = &how {
+                let _ = writeln!(console.out, "{line}").and_then(|()| console.out.flush());
+            }
+            dealt.push((i, how));
+        });
+        for (i, how) in dealt {
+            let Finish { input: Input { path, .. }, stamp, .. } = &finished[i];
+            match how {
+                Dealt::Quietly | Dealt::With(_) => {
+                    self.told.remove(path);
+                    self.files.done(path, *stamp);
+                }
+                Dealt::Not(wrong) => {
+                    self.files.again(path, *stamp, Instant::now());
+                    self.say_once(path, &wrong, console);
+                }
+                Dealt::Later => {}
+            }
+        }
+    }
+}
+
+/// A file that is finished, as it looked then, and where its programs go.
+struct Finish {
+    input: Input,
+    stamp: Stamp,
+    places: Vec<PathBuf>,
+}
+
+impl Hall<'_> {
+    /// The name of a file below the folder.
+    fn name<'p>(&self, path: &'p Path) -> &'p Path {
+        path.strip_prefix(self.folder).unwrap_or(path)
+    }
+
+    /// A path that was told from the root, as the user would write it.
+    fn as_typed(&self, path: &Path) -> Option<PathBuf> {
+        let root = std::path::absolute(self.folder).ok()?;
+        Some(self.folder.join(path.strip_prefix(root).ok()?))
+    }
+
+    /// Compiles a file, unless that was done, or leaves a report.
+    fn deal(&self, Finish { input, stamp, places }: &Finish, settings: &Settings) -> Dealt {
+        if stop::asked().is_some() {
+            return Dealt::Later;
+        }
+        let report = report::path(self.out, &input.name);
+        let not = |error: &anyhow::Error| Dealt::Not(format!("error: {error:#}\n"));
+        let source = match files::read(&input.path) {
+            Ok(source) => source,
+            Err(_) if !input.path.exists() => return Dealt::Quietly,
+            Err(error) => return not(&error),
+        };
+        if Stamp::at(&input.path) != Some(*stamp) {
+            return Dealt::Later;
+        }
+        let Arguments { making, messages, .. } = &settings.arguments;
+        let many = Many { making, targets: &settings.targets, job: &settings.job, manifest: self.manifest };
+        let made = many.made(input, &source);
+        if self.manifest.standing(&made).is_some() {
+            report::remove(&report);
+            return Dealt::Quietly;
+        }
+        if self.manifest.refused(&made) && report.exists() {
+            return Dealt::Quietly;
+        }
+        match MadeFolders::of(places.iter().map(PathBuf::as_path)) {
+            Ok(mut folders) => folders.keep(),
+            Err(error) => return not(&error),
+        }
+        let one = many.compile((input, &source), &made, places);
+        let is_compiled = one.is_compiled();
+        let Outcome { row, said, .. } = one.outcome(input, *messages, Format::Text);
+        let worst = row.as_ref().map(|row| row.worst.as_str()).filter(|worst| !worst.is_empty());
+        if is_compiled == Some(true) {
+            report::remove(&report);
+            let figures = row.iter().flat_map(|row| {
+                let pieces = row.pieces.map(|pieces| counted(pieces, "piece"));
+                let cut = row.cut_m.map(|cut| format!("{} m", fixed(cut, 1)));
+                [pieces, cut, row.time_s.map(clock)].into_iter().flatten()
+            });
+            let figures: Vec<String> = figures.chain(worst.map(str::to_owned)).collect();
+            let places: Vec<_> = places.iter().map(|place| format!("`{}`", place.display())).collect();
+            return Dealt::With(format!("{}: {} -> {}", input.path.display(), figures.join(", "), places.join(" ")));
+        }
+        match (is_compiled, report::write(&report, &said)) {
+            (Some(_), Err(error)) => not(&error),
+            (Some(_), Ok(())) => {
+                let worst = worst.unwrap_or_default();
+                Dealt::With(format!("{}: FAILED {worst} -> `{}`", input.path.display(), report.display()))
+            }
+            // Nothing can be written, not even that.
+            (None, _) => Dealt::Not(said),
+        }
+    }
+}

@@ -1,0 +1,27 @@
+//! What stands beside the programs of a hot folder for each file of which there is none: `NAME.report.txt`.
+
+use std::fs;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use crate::cli::draft::{self, Draft};
+use crate::cli::files::cannot_write;
+
+/// The report on an input, by the input's name below its folder.
+pub(super) fn path(out: &Path, name: &Path) -> PathBuf {
+    let mut path = out.join(name).into_os_string();
+    path.push(".report.txt");
+    path.into()
+}
+
+/// Writes a report, whole.
+pub(super) fn write(path: &Path, said: &str) -> anyhow::Result<()> {
+    let mut draft = Draft::new(path)?;
+    draft.file().write_all(said.as_bytes()).map_err(|error| cannot_write(path, &error))?;
+    draft::publish(vec![draft], || Ok(()))
+}
+
+/// Takes a report away, if there is one.
+pub(super) fn remove(path: &Path) {
+    let _ = fs::remove_file(path); // there rarely is one
+}

@@ -1,0 +1,251 @@
+//! A hot folder: what is finished there is compiled, whatever happens meanwhile.
+#![cfg(unix)]
+
+use std::collections::BTreeMap;
+use std::fs::{self, OpenOptions};
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use fastrand::Rng;
+use tempfile::TempDir;
+
+/// The longest that anything in these tests is waited for.
+const PATIENCE: Duration = Duration::from_secs(120);
+/// Exit code of who was asked to end by SIGTERM.
+const TERMINATED: i32 = 143;
+
+/// A square of so many tenths of a millimetre.
+fn square(side: usize) -> String {
+    format!("H1*G71*N1*X0Y0*M14*X{side}*Y{side}*X0*Y0*M15*M0*")
+}
+
+/// A file that is none of the dialects.
+const JUNK: &str = "no cutter file at all\n";
+
+struct Hall {
+    room: TempDir,
+}
+
+impl Hall {
+    fn new() -> Self {
+        let room = tempfile::tempdir().expect("a directory");
+        fs::create_dir(room.path().join("in")).expect("writable");
+        Self { room }
+    }
+
+    fn at(&self, name: &str) -> PathBuf {
+        self.room.path().join(name)
+    }
+
+    fn put(&self, name: &str, text: &str) {
+        let path = self.at("in").join(name);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("writable");
+        fs::write(path, text).expect("writable");
+    }
+
+    fn watch(&self, options: &str) -> Child {
+        let log = |name| OpenOptions::new().create(true).append(true).open(self.at(name)).expect("writable");
+        let mut command = Command::new(env!("CARGO_BIN_EXE_cutc"));
+        command.args(["watch", "in", "-o", "out"]).args(options.split_whitespace()).current_dir(self.room.path());
+        command.stdout(log("told")).stderr(log("said")).stdin(Stdio::null()).spawn().expect("the program starts")
+    }
+
+    fn text(&self, name: &str) -> String {
+        fs::read_to_string(self.at(name)).unwrap_or_default()
+    }
+
+    fn wait_for(&self, what: &str, holds: impl Fn(&Self) -> bool) {
+        let begun = Instant::now();
+        while !holds(self) {
+            let files = files(&self.at("out"));
+            let names: Vec<_> = files.keys().collect();
+            assert!(begun.elapsed() < PATIENCE, "{what}: {names:?}\n{}{}", self.text("told"), self.text("said"));
+            thread::sleep(Duration::from_millis(20));
+        }
+    }
+
+    fn has(&self, name: &str) -> bool {
+        self.at("out").join(name).is_file()
+    }
+}
+
+/// Sends a signal.
+fn signal(child: &Child, name: &str) {
+    let sent = Command::new("kill").args(["-s", name, &child.id().to_string()]).status();
+    assert!(sent.expect("kill starts").success());
+}
+
+/// Asks a watch to end, and expects that it does.
+fn end(mut child: Child) {
+    signal(&child, "TERM");
+    assert_eq!(child.wait().expect("it ends").code(), Some(TERMINATED));
+}
+
+/// All files below a folder: their paths and bytes.
+fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(next) = folders.pop() {
+        for entry in fs::read_dir(next).into_iter().flatten().flatten() {
+            let path = entry.path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if let Ok(bytes) = fs::read(&path) {
+                found.insert(path.strip_prefix(folder).expect("below it").display().to_string(), bytes);
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn a_file_that_comes_in_is_compiled_and_a_bad_one_gets_a_report() {
+    let hall = Hall::new();
+    hall.put("early.cut", &square(500));
+    let watch = hall.watch("-t gcode");
+    hall.wait_for("what was there before is compiled", |hall| hall.has("early.ngc"));
+    hall.put("sub/late.cut", &square(600));
+    hall.put("bad.cut", JUNK);
+    hall.put("notes.pdf", JUNK);
+    hall.wait_for("folders keep their structure", |hall| {
+        hall.has("sub/late.ngc") && hall.has("sub/late.ngc.meta.json")
+    });
+    hall.wait_for("a bad one gets a report", |hall| hall.has("bad.cut.report.txt"));
+    hall.wait_for("what is no cutter file is said", |hall| hall.text("said").contains("notes.pdf: left alone"));
+    assert!(hall.text("out/bad.cut.report.txt").contains("source/unknown-format"));
+    // Mended, it has its program and no report; broken, the other way round.
+    hall.put("bad.cut", &square(700));
+    hall.put("early.cut", JUNK);
+    hall.wait_for("a mended one has its program", |hall| hall.has("bad.ngc") && !hall.has("bad.cut.report.txt"));
+    hall.wait_for("a broken one has a report", |hall| hall.has("early.cut.report.txt") && !hall.has("early.ngc"));
+    fs::remove_file(hall.at("in/early.cut")).expect("removable");
+    hall.wait_for("a report goes with its file", |hall| !hall.has("early.cut.report.txt"));
+    end(watch);
+    let told = hall.text("told");
+    assert!(told.contains("in/sub/late.cut: 1 piece, 0.2 m"), "{told}");
+    assert!(told.contains("in/bad.cut: FAILED source/unknown-format"), "{told}");
+}
+
+#[test]
+fn the_options_of_the_folder_hold_and_may_be_changed() {
+    let hall = Hall::new();
+    hall.put("a.cut", &square(500));
+    hall.put("cutc.toml", "target = [\"gcode\", \"svg\"]\n");
+    let watch = hall.watch("");
+    hall.wait_for("both targets are written", |hall| hall.has("a.ngc") && hall.has("a.svg"));
+    hall.put("cutc.toml", "target = \"nonsense\"\n");
+    hall.wait_for("wrong options are refused", |hall| hall.text("said").contains("until the options are mended"));
+    hall.put("b.cut", &square(600));
+    hall.put("cutc.toml", "target = \"csv\"\nno-verify = true\n");
+    hall.wait_for("all files are made anew", |hall| hall.has("a.csv") && hall.has("b.csv"));
+    assert!(!hall.has("b.ngc"));
+    assert!(hall.text("out/a.csv.meta.json").contains(r#""verified": "no""#));
+    end(watch);
+}
+
+#[test]
+fn two_files_for_one_program_do_not_take_turns() {
+    let hall = Hall::new();
+    hall.put("m.cut", &square(500));
+    hall.put("m.plt", "IN;SP1;PU0,0;PD4000,0,4000,4000,0,4000,0,0;PU;SP0;");
+    let watch = hall.watch("");
+    hall.wait_for("one has the program", |hall| hall.has("m.csv"));
+    hall.wait_for("the other a report", |hall| hall.has("m.plt.report.txt"));
+    assert!(hall.text("out/m.plt.report.txt").contains("made from `m.cut`"));
+    end(watch);
+    assert!(hall.text("out/m.csv.meta.json").contains(r#""source": "m.cut""#));
+}
+
+/// Brings a file into a folder as one of many programs would.
+fn bring(folder: &Path, name: &str, text: &str, random: &mut Rng) {
+    let path = folder.join(name);
+    let pause = |random: &mut Rng| thread::sleep(Duration::from_micros(random.u64(0..2000)));
+    match random.u8(0..4) {
+        // In one piece.
+        0 => fs::write(&path, text).expect("writable"),
+        // By rename.
+        1 => {
+            let aside = folder.join(format!(".{name}.part"));
+            fs::write(&aside, text).expect("writable");
+            fs::rename(aside, &path).expect("movable");
+        }
+        // In pieces, opened once or again and again.
+        2 => {
+            let mut file = fs::File::create(&path).expect("writable");
+            for piece in text.as_bytes().chunks(9) {
+                file.write_all(piece).expect("writable");
+                pause(random);
+            }
+        }
+        _ => {
+            fs::write(&path, "").expect("writable");
+            for piece in text.as_bytes().chunks(20) {
+                let mut file = OpenOptions::new().append(true).open(&path).expect("writable");
+                file.write_all(piece).expect("writable");
+                drop(file);
+                pause(random);
+            }
+        }
+    }
+}
+
+/// A number that a longer run may set.
+fn many(variable: &str, usually: usize) -> usize {
+    std::env::var(variable).ok().and_then(|number| number.parse().ok()).unwrap_or(usually)
+}
+
+#[test]
+fn a_watch_that_is_killed_again_and_again_loses_nothing_and_leaves_nothing() {
+    let (count, kills) = (many("CUTC_WATCH_FILES", 60), many("CUTC_WATCH_KILLS", 12));
+    let hall = Hall::new();
+    let folder = hall.at("in");
+    let feeder = thread::spawn(move || {
+        let mut random = Rng::with_seed(21);
+        let mut last = BTreeMap::new();
+        // Some come once, some are replaced, by good ones or bad ones.
+        for i in (0..count).chain((0..count).step_by(3)).chain((0..count).step_by(4)) {
+            let (name, side) = (format!("f{i}.cut"), 300 + 10 * random.usize(0..300));
+            let text = if random.u8(0..5) == 0 { format!("{JUNK}{side}") } else { square(side) };
+            bring(&folder, &name, &text, &mut random);
+            last.insert(name, text);
+        }
+        last
+    });
+    let mut random = Rng::with_seed(12);
+    for _ in 0..kills {
+        let mut watch = hall.watch("--quiet");
+        thread::sleep(Duration::from_millis(random.u64(0..400)));
+        signal(&watch, "KILL");
+        watch.wait().expect("it ends");
+    }
+    let last = feeder.join().expect("all files came");
+    let watch = hall.watch("--quiet");
+    let is_good = |text: &str| text.starts_with("H1");
+    hall.wait_for("every file has its program or its report", |hall| {
+        last.iter().all(|(name, text)| {
+            let (program, stem) = (is_good(text), name.trim_end_matches(".cut"));
+            hall.has(&format!("{stem}.csv")) == program && hall.has(&format!("{name}.report.txt")) != program
+        })
+    });
+    // The programs are those of the files as they are now.
+    let reference = hall.at("reference");
+    let mut compile = Command::new(env!("CARGO_BIN_EXE_cutc"));
+    compile.args(["compile", "in", "-q", "-o"]).arg(&reference).current_dir(hall.room.path());
+    compile.output().expect("the program starts");
+    let programs = |folder: &Path| {
+        let mut files = files(folder);
+        files.retain(|name, _| !name.ends_with(".report.txt") && !name.ends_with(".stale") && name != "cutc.jsonl");
+        files
+    };
+    let expected = programs(&reference);
+    assert!(expected.len() > count);
+    hall.wait_for("every program is that of its file", |hall| programs(&hall.at("out")) == expected);
+    end(watch);
+    let left: Vec<_> = files(&hall.at("out")).into_keys().filter(|name| name.contains(".cutc-")).collect();
+    assert!(left.is_empty(), "{left:?}");
+    let lines = hall.text("out/cutc.jsonl");
+    assert_eq!(lines.lines().count(), count, "{lines}");
+}
