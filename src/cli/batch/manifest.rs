@@ -93,8 +93,10 @@ struct Lines {
     /// Held against other runs for as long as this one writes.
     file: File,
     known: Known,
+    /// What earlier runs left that this manifest may keep, the latest last.
+    earlier: Vec<Line>,
     /// What this run wrote or kept.
-    fresh: Known,
+    fresh: BTreeMap<Key, Line>,
 }
 
 impl Line {
@@ -112,16 +114,20 @@ impl Manifest {
         let mut parts = parts(folder);
         parts.retain(|part| *part != path);
         let others = parts.iter().cloned().chain(shard.map(|_| folder.join(NAME)));
-        let mut texts: Vec<Vec<u8>> = others.filter_map(|path| std::fs::read(path).ok()).collect();
-        texts.push(own(&mut file).map_err(|error| cannot_write(&path, &error))?);
-        let mut known = Known::new();
-        for line in texts.iter().flat_map(|text| text.split(|&byte| byte == b'\n')) {
+        let others: Vec<Vec<u8>> = others.filter_map(|path| std::fs::read(path).ok()).collect();
+        let own = own(&mut file).map_err(|error| cannot_write(&path, &error))?;
+        // The manifest of a part keeps what was its own; that of all takes in what its parts made.
+        let own_first = if shard.is_some() { others.len() } else { 0 };
+        let (mut known, mut earlier) = (Known::new(), Vec::new());
+        for (i, text) in others.iter().chain([&own]).enumerate() {
             // What is no line of ours tells nothing.
-            if let Ok(line) = serde_json::from_slice::<Line>(line) {
+            let lines = text.split(|&byte| byte == b'\n').filter_map(|line| serde_json::from_slice::<Line>(line).ok());
+            for line in lines {
+                earlier.extend((i >= own_first).then(|| line.clone()));
                 known.entry(line.key()).or_default().push(line);
             }
         }
-        let lines = Mutex::new(Lines { file, known, fresh: Known::new() });
+        let lines = Mutex::new(Lines { file, known, earlier, fresh: BTreeMap::new() });
         Ok(Self { path, parts, lines })
     }
 
@@ -186,7 +192,7 @@ impl Manifest {
     pub(in crate::cli) fn add(&self, line: Line) -> anyhow::Result<()> {
         let mut text = serde_json::to_vec(&line).expect("plain data with text keys");
         text.push(b'\n');
-        let Lines { file, known, fresh } = &mut *self.lines();
+        let Lines { file, known, fresh, .. } = &mut *self.lines();
         let end = file.seek(SeekFrom::End(0));
         let added = end.and_then(|end| {
             file.write_all(&text).inspect_err(|_| {
@@ -196,24 +202,26 @@ impl Manifest {
         });
         added.map_err(|error| cannot_write(&self.path, &error))?;
         known.insert(line.key(), vec![line.clone()]);
-        fresh.insert(line.key(), vec![line]);
+        fresh.insert(line.key(), line);
         Ok(())
     }
 
     /// Keeps a line of an earlier run.
     pub(in crate::cli) fn keep(&self, line: Line) {
-        self.lines().fresh.insert(line.key(), vec![line]);
+        self.lines().fresh.insert(line.key(), line);
     }
 
     /// Leaves a sorted line for each input and its targets: of this run, or of earlier ones as long as what it names is
     /// there and nothing newer has its place. That of a whole folder takes in those of its parts whose runs are over.
     pub(in crate::cli) fn finish(self) -> anyhow::Result<()> {
         let folder = self.folder().to_owned();
-        let Lines { file, known, fresh } = self.lines.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let Lines { file, earlier, fresh, .. } = self.lines.into_inner().unwrap_or_else(PoisonError::into_inner);
         let (mut taken, mut kept) = (BTreeSet::new(), BTreeMap::new());
-        let earlier = known.into_values().flat_map(|lines| lines.into_iter().rev());
-        let earlier = earlier.filter(|line| line.outputs.iter().all(|output| folder.join(&output.path).is_file()));
-        for line in fresh.into_values().flatten().chain(earlier) {
+        let earlier = earlier
+            .into_iter()
+            .rev()
+            .filter(|line| line.outputs.iter().all(|output| folder.join(&output.path).is_file()));
+        for line in fresh.into_values().chain(earlier) {
             if kept.contains_key(&line.key()) || line.outputs.iter().any(|output| taken.contains(&output.path)) {
                 continue;
             }
