@@ -180,12 +180,14 @@ fn a_program_with_errors_is_never_written() {
 fn an_older_program_is_moved_aside_when_a_compile_fails() {
     let room = Room::new();
     room.expect("compile circle.cut -o x.csv", DONE);
-    let older = room.read("x.csv");
-    let (_, stderr) = room.expect("compile junk.cut -o x.csv", FAULTY);
+    let (older, good) = (room.read("x.csv"), room.read("circle.cut"));
+    room.write("circle.cut", &room.read("junk.cut"));
+    let (_, stderr) = room.expect("compile circle.cut -o x.csv", FAULTY);
     assert!(stderr.contains("x.csv.stale"), "{stderr}");
     assert_eq!(room.read("x.csv.stale"), older);
     assert_eq!(room.names(), ["circle.cut", "junk.cut", "x.csv.meta.json.stale", "x.csv.stale"]);
 
+    room.write("circle.cut", &good);
     room.expect("compile circle.cut -o x.csv", DONE);
     room.write("bad.toml", b"[time]\nperiod_ms = 0\n");
     room.expect("compile circle.cut -p bad.toml -o x.csv", FAULTY);

@@ -16,7 +16,7 @@ use clap::Args;
 pub(super) use inputs::{Input, Inputs, extensions, files_in, find, hint, is_cutter_file};
 pub(super) use manifest::{Line, Made, Manifest, Output, Verdict};
 pub(super) use shard::Shard;
-pub(super) use side_by_side::run as side_by_side;
+pub(super) use side_by_side::{Stages, run as side_by_side};
 pub(super) use table::{Columns, Row, State};
 
 use self::progress::Progress;
@@ -98,24 +98,24 @@ pub(super) fn worst(diagnostics: &Diagnostics) -> Option<&'static str> {
 }
 
 /// Works on every input and tells what comes of it. The exit code is [`FAULTY`] when any failed.
-pub(super) fn run(
+pub(super) fn run<D: Send>(
     inputs: &[Input],
     threads: usize,
     (telling, console): (Telling, &mut Console),
-    work: impl Fn(usize, &Input) -> Outcome + Sync,
+    stages: Stages<impl Fn(usize, &Input) -> D + Sync, impl Fn(usize, D) -> Outcome + Sync>,
 ) -> Finished {
     let sizes: Vec<u64> = inputs.iter().map(Input::size).collect();
     let progress = Progress::new(inputs.len(), telling.quiet);
     let (mut rows, mut objects, mut failed) = (Vec::new(), 0, 0);
-    let work = |i: usize| {
-        let input = &inputs[i];
-        let outcome = unless_broken(input, || work(i, input));
-        let outcome = outcome.unwrap_or_else(|said| Outcome::broken(input, said));
-        let is_failed = outcome.row.as_ref().is_some_and(|row| row.state == State::Failed);
-        progress.step(is_failed);
+    let Stages { work, settle } = stages;
+    let work = |i: usize| unless_broken(&inputs[i], || work(i, &inputs[i]));
+    let settle = |i: usize, worked: Result<D, String>| {
+        let settled = worked.and_then(|worked| unless_broken(&inputs[i], || settle(i, worked)));
+        let outcome = settled.unwrap_or_else(|said| Outcome::broken(&inputs[i], said));
+        progress.step(outcome.row.as_ref().is_some_and(|row| row.state == State::Failed));
         outcome
     };
-    side_by_side::run(&sizes, threads, work, |_, outcome| {
+    side_by_side(&sizes, threads, Stages { work, settle }, |_, outcome| {
         let Outcome { row, said, json } = outcome;
         progress.aside(|| {
             // Who closed a stream does not want to read it.

@@ -10,37 +10,57 @@ use rayon::ThreadPoolBuilder;
 /// A file of so many bytes keeps all cores busy by itself.
 const LARGE_BYTES: u64 = 1 << 20;
 
-/// Does `work` on each file, given by their sizes, on so many threads, and hands each result to `each` in the order of
+/// Files that wait for a disk, at most, for each thread: what they hold in memory stays bounded.
+const WAITING: usize = 4;
+
+/// What is done with a file: the work, and what waits for a disk, so that no core waits with it.
+pub(in crate::cli) struct Stages<W, S> {
+    /// On a thread of its own, or on all.
+    pub(in crate::cli) work: W,
+    /// Beside that, one file after the other.
+    pub(in crate::cli) settle: S,
+}
+
+/// Does the work on each file, given by their sizes, on so many threads, and hands each result to `each` in the order of
 /// the files.
-pub(in crate::cli) fn run<T: Send>(
+pub(in crate::cli) fn run<D: Send, T: Send>(
     sizes: &[u64],
     threads: usize,
-    work: impl Fn(usize) -> T + Sync,
+    stages: Stages<impl Fn(usize) -> D + Sync, impl Fn(usize, D) -> T + Sync>,
     mut each: impl FnMut(usize, T),
 ) {
+    let Stages { work, settle } = stages;
     let (large, small): (Vec<usize>, Vec<usize>) = (0..sizes.len()).partition(|&i| sizes[i] >= LARGE_BYTES);
     // Fewer files than cores: alone each has all of them.
     let (large, small) = if small.len() < threads { ((0..sizes.len()).collect(), Vec::new()) } else { (large, small) };
     let mut in_order = InOrder { next: 0, waiting: BTreeMap::new(), each: &mut each };
     for i in large {
-        in_order.take(i, work(i));
+        in_order.take(i, settle(i, work(i)));
     }
-    let (work, small, next) = (&work, &small, &AtomicUsize::new(0));
-    let (sender, results) = mpsc::channel();
+    let (work, settle, small, next) = (&work, &settle, &small, &AtomicUsize::new(0));
+    let (worked, to_settle) = mpsc::sync_channel(WAITING * threads);
+    let (settled, results) = mpsc::channel();
     thread::scope(|scope| {
         for _ in 0..threads.min(small.len()) {
-            let sender = sender.clone();
+            let worked = worked.clone();
             scope.spawn(move || {
                 // All that would be shared out stays on this thread. Without such a pool it is only slower.
                 let _alone = ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
                 while let Some(&i) = small.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    if sender.send((i, work(i))).is_err() {
+                    if worked.send((i, work(i))).is_err() {
                         break;
                     }
                 }
             });
         }
-        drop(sender);
+        drop(worked);
+        scope.spawn(move || {
+            for (i, done) in to_settle {
+                if settled.send((i, settle(i, done))).is_err() {
+                    break;
+                }
+            }
+        });
         for (i, result) in results {
             in_order.take(i, result);
         }
@@ -73,7 +93,8 @@ mod tests {
         for threads in [1, 2, 5] {
             for sizes in [vec![], vec![1], vec![1, LARGE_BYTES, 1, 1, 2 * LARGE_BYTES, 1], vec![1; 100]] {
                 let mut told = Vec::new();
-                run(&sizes, threads, |i| i * i, |i, square| told.push((i, square)));
+                let stages = Stages { work: |i| i * i, settle: |i, square| (i, square) };
+                run(&sizes, threads, stages, |_, square| told.push(square));
                 assert_eq!(told, (0..sizes.len()).map(|i| (i, i * i)).collect::<Vec<_>>());
             }
         }
@@ -93,7 +114,7 @@ mod tests {
                 }
                 running.fetch_sub(1, Ordering::SeqCst);
             };
-            run(sizes, 2, work, |_, ()| {});
+            run(sizes, 2, Stages { work, settle: |_, ()| () }, |_, ()| {});
             most.load(Ordering::SeqCst)
         };
         assert_eq!(most(&[1; 4]), 2);

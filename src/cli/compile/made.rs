@@ -42,6 +42,14 @@ pub(in crate::cli) struct Ended {
     pub(in crate::cli) beside: String,
 }
 
+impl Ended {
+    /// Nothing was compiled.
+    pub(in crate::cli) fn failed(error: anyhow::Error) -> Self {
+        let diagnostics = Diagnostics::default();
+        Self { compiled: Err(error), diagnostics, programs: Vec::new(), beside: String::new() }
+    }
+}
+
 /// A file that is whole and about to take its place.
 pub(in crate::cli) struct Whole {
     pub(in crate::cli) path: PathBuf,
@@ -60,33 +68,33 @@ impl Whole {
 /// What belongs to the writing of programs: it is done together with it or not at all.
 type Record<'r> = &'r dyn Fn(Option<&Compiled>, &Diagnostics, Vec<Whole>) -> anyhow::Result<()>;
 
+/// Programs that are whole, but not yet where they belong.
+pub(in crate::cli) struct Drafted {
+    paths: Vec<PathBuf>,
+    diagnostics: Diagnostics,
+    /// What was written, or why nothing could be.
+    written: anyhow::Result<Written>,
+}
+
+/// What was written of a compile.
+struct Written {
+    emitted: Emitted,
+    /// The programs that are worth keeping.
+    programs: Vec<Draft>,
+    /// The provenance of each.
+    metas: Vec<Draft>,
+}
+
 impl Compile<'_> {
-    /// Compiles to files, one for each target. `record` is told of what was written or refused.
-    pub(in crate::cli) fn to_files(&self, paths: &[PathBuf], record: Option<Record>) -> Ended {
+    /// Compiles to drafts of files, one for each target.
+    pub(in crate::cli) fn draft(&self, paths: &[PathBuf]) -> Drafted {
         let mut diagnostics = Diagnostics::default();
-        let Emitted { compiled, pictures } = match self.write(paths, &mut diagnostics, record) {
-            Ok(emitted) => emitted,
-            Err(error) => {
-                let beside = move_aside(paths);
-                return Ended { compiled: Err(error), diagnostics, programs: paths.to_vec(), beside };
-            }
-        };
-        let (shown, programs): (Vec<_>, Vec<_>) = paths.iter().cloned().zip(&pictures).partition(|(_, shows)| **shows);
-        let programs: Vec<PathBuf> = programs.into_iter().map(|(path, _)| path).collect();
-        let mut beside = if compiled.is_some() { String::new() } else { move_aside(&programs) };
-        for (path, _) in shown {
-            say(&mut beside, format_args!("wrote `{}`, a picture of what was refused", path.display()));
-        }
-        Ended { compiled: Ok(compiled), diagnostics, programs, beside }
+        let written = self.write(paths, &mut diagnostics);
+        Drafted { paths: paths.to_vec(), diagnostics, written }
     }
 
     /// Writes the programs and their provenance; of what is refused the pictures alone.
-    fn write(
-        &self,
-        paths: &[PathBuf],
-        diagnostics: &mut Diagnostics,
-        record: Option<Record>,
-    ) -> anyhow::Result<Emitted> {
+    fn write(&self, paths: &[PathBuf], diagnostics: &mut Diagnostics) -> anyhow::Result<Written> {
         let mut programs = paths.iter().map(|path| Draft::new(path)).collect::<anyhow::Result<Vec<_>>>()?;
         let outs = programs.iter_mut().map(|program| program.file() as &mut dyn Medium).collect();
         let emitted = self.emit(outs, diagnostics).map_err(|error| files::cannot_write(&paths[0], &error))?;
@@ -96,28 +104,18 @@ impl Compile<'_> {
             Some(Compiled { verdict: Some(_), .. }) => Verified::Yes,
         };
         let is_kept = |shows_refusal: bool| shows_refusal || emitted.compiled.is_some();
-        let mut drafts = Vec::new();
-        for ((path, target), &shows_refusal) in paths.iter().zip(self.targets).zip(&emitted.pictures) {
-            if !is_kept(shows_refusal) {
-                continue;
+        let (mut kept, mut metas) = (Vec::new(), Vec::new());
+        for ((program, target), &shows_refusal) in programs.into_iter().zip(self.targets).zip(&emitted.pictures) {
+            if is_kept(shows_refusal) {
+                let path = files::meta(program.path());
+                let mut meta = Draft::new(&path)?;
+                let text = provenance::json(&Made { source: self.source, job: self.job, target, verified });
+                meta.file().write_all(text.as_bytes()).map_err(|error| files::cannot_write(&path, &error))?;
+                metas.push(meta);
+                kept.push(program);
             }
-            let path = files::meta(path);
-            let mut meta = Draft::new(&path)?;
-            let text = provenance::json(&Made { source: self.source, job: self.job, target, verified });
-            meta.file().write_all(text.as_bytes()).map_err(|error| files::cannot_write(&path, &error))?;
-            drafts.push(meta);
         }
-        let kept = programs.into_iter().zip(&emitted.pictures).filter(|(_, shows)| is_kept(**shows));
-        let mut kept: Vec<Draft> = kept.map(|(program, _)| program).collect();
-        let whole =
-            if record.is_some() { kept.iter_mut().map(Whole::of).collect::<anyhow::Result<_>>()? } else { vec![] };
-        drafts.extend(kept);
-        // Nothing takes its place before all is there.
-        draft::publish(drafts, || match record {
-            Some(record) => record(emitted.compiled.as_ref(), diagnostics, whole),
-            None => Ok(()),
-        })?;
-        Ok(emitted)
+        Ok(Written { emitted, programs: kept, metas })
     }
 
     /// Compiles into `outs`, one for each target, which are worth nothing but as [`Emitted`] says.
@@ -132,6 +130,38 @@ impl Compile<'_> {
         let asked = (reading.from, !no_verify);
         let compiled = pipeline::compile_all(self.source, self.job, asked, &mut products, diagnostics)?;
         Ok(Emitted { compiled, pictures: products.iter().map(|product| product.shows_refusal).collect() })
+    }
+}
+
+impl Drafted {
+    /// Puts all in its place, or nothing. `record` is told of what was written or refused.
+    pub(in crate::cli) fn publish(self, record: Option<Record>) -> Ended {
+        let Self { paths, diagnostics, written } = self;
+        let published = written.and_then(|Written { emitted, mut programs, metas }| {
+            // Only who records them asks for their digests.
+            let recorded = if record.is_some() { &mut programs[..] } else { &mut [] };
+            let whole = recorded.iter_mut().map(Whole::of).collect::<anyhow::Result<_>>()?;
+            // Nothing takes its place before all is there.
+            draft::publish(metas.into_iter().chain(programs).collect(), || match record {
+                Some(record) => record(emitted.compiled.as_ref(), &diagnostics, whole),
+                None => Ok(()),
+            })?;
+            Ok(emitted)
+        });
+        let Emitted { compiled, pictures } = match published {
+            Ok(emitted) => emitted,
+            Err(error) => {
+                let beside = move_aside(&paths);
+                return Ended { compiled: Err(error), diagnostics, programs: paths, beside };
+            }
+        };
+        let (shown, programs): (Vec<_>, Vec<_>) = paths.into_iter().zip(&pictures).partition(|(_, shows)| **shows);
+        let programs: Vec<PathBuf> = programs.into_iter().map(|(path, _)| path).collect();
+        let mut beside = if compiled.is_some() { String::new() } else { move_aside(&programs) };
+        for (path, _) in shown {
+            say(&mut beside, format_args!("wrote `{}`, a picture of what was refused", path.display()));
+        }
+        Ended { compiled: Ok(compiled), diagnostics, programs, beside }
     }
 }
 

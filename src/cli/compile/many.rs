@@ -3,10 +3,12 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::made::{Compile, Ended, Whole};
+use super::made::{Compile, Drafted, Ended, Whole};
 use super::{Arguments, Making, one};
 use crate::back::Target;
-use crate::cli::batch::{self, Columns, Input, Line, Made, Manifest, Outcome, Output, Row, State, Telling, Verdict};
+use crate::cli::batch::{
+    self, Columns, Input, Line, Made, Manifest, Outcome, Output, Row, Stages, State, Telling, Verdict,
+};
 use crate::cli::choices::Format;
 use crate::cli::destination::{below, not_of_another, targets_of_many};
 use crate::cli::draft::{self, MadeFolders};
@@ -46,19 +48,23 @@ pub(super) fn run(
     let work = |i: usize, input: &Input| {
         let source = match files::read(&input.path) {
             Ok(source) => source,
-            Err(error) => return Outcome::failed(input, &error),
+            Err(error) => return Step::Over(Outcome::failed(input, &error)),
         };
         let made = many.made(input, &source);
         if shard.is_some_and(|shard| !shard.has(&made.source_sha256)) {
-            return Outcome::elsewhere();
+            return Step::Over(Outcome::elsewhere());
         }
         match many.manifest.standing(&made).filter(|_| *changed) {
-            Some(line) => many.unchanged(input, line),
-            None => many.compile((input, &source), &made, &places[i]).outcome(input, *messages, *format),
+            Some(line) => Step::Over(many.unchanged(input, line)),
+            None => Step::Drafted(many.draft(input, source, made, &places[i])),
         }
     };
+    let settle = |i: usize, step: Step| match step {
+        Step::Over(outcome) => outcome,
+        Step::Drafted(one) => many.publish(one).outcome(&inputs[i], many.job, *messages, *format),
+    };
     let telling = Telling { columns: Columns::Planned, quiet: messages.quiet, json: *format == Format::Json };
-    let mut finished = batch::run(inputs, threads, (telling, console), work);
+    let mut finished = batch::run(inputs, threads, (telling, console), Stages { work, settle });
     let path = manifest.path().display().to_string();
     if let Err(error) = manifest.finish() {
         say(&mut finished.stderr, format_args!("error: {error:#}"));
@@ -67,6 +73,14 @@ pub(super) fn run(
         say(&mut finished.stderr, format_args!("wrote `{path}`"));
     }
     Ok(finished)
+}
+
+/// How far one of many files is when it was worked on.
+enum Step {
+    /// There is no more to do.
+    Over(Outcome),
+    /// It was compiled, but is not yet in its places.
+    Drafted(One),
 }
 
 /// Refuses files of which two would be written to one place, or one over an input.
@@ -130,24 +144,23 @@ impl<'a> Many<'a> {
         }
     }
 
-    /// Compiles a file to its places and adds its line to the manifest.
-    pub(in crate::cli) fn compile<'s>(
-        &self,
-        (input, source): (&Input, &'s Source),
-        made: &Made,
-        paths: &[PathBuf],
-    ) -> One<'s>
-    where
-        'a: 's,
-    {
-        let compile = Compile { making: self.making, targets: self.targets, source, job: self.job };
+    fn of(&self, source: &'a Source) -> Compile<'a> {
+        Compile { making: self.making, targets: self.targets, source, job: self.job }
+    }
+
+    /// Compiles a file to drafts of what belongs in its places.
+    pub(in crate::cli) fn draft(&self, input: &Input, source: Source, made: Made, paths: &[PathBuf]) -> One {
         let others = paths.iter().filter(|_| !self.making.force);
-        if let Some(error) = others.map(|path| not_of_another(path, &input.path)).find_map(Result::err) {
-            let (diagnostics, programs, beside) = (Diagnostics::default(), Vec::new(), String::new());
-            return One { compile, ended: Ended { compiled: Err(error), diagnostics, programs, beside } };
-        }
+        let drafted = match others.map(|path| not_of_another(path, &input.path)).find_map(Result::err) {
+            Some(error) => Err(error),
+            None => Ok(Many::of(self, &source).draft(paths)),
+        };
+        One { source, made, drafted }
+    }
+
+    /// Puts what was compiled in its places, and its line in the manifest.
+    pub(in crate::cli) fn publish(&self, One { source, made, drafted }: One) -> Published {
         let record = |compiled: Option<&Compiled>, diagnostics: &Diagnostics, whole: Vec<Whole>| {
-            let outputs = whole.into_iter();
             let output = |Whole { path, sha256 }| Output { path: self.manifest.name_of(&path), sha256 };
             let report = compiled.map(|compiled| &compiled.report);
             let verdict = match compiled {
@@ -158,14 +171,18 @@ impl<'a> Many<'a> {
             self.manifest.add(Line {
                 made: made.clone(),
                 verdict,
-                outputs: outputs.map(output).collect(),
+                outputs: whole.into_iter().map(output).collect(),
                 pieces: report.map(|report| report.pieces),
                 cut_m: report.map(|report| rounded(report.cut_m)),
                 time_s: report.and_then(|report| report.time_s()).map(rounded),
                 worst: batch::worst(diagnostics).map(str::to_owned),
             })
         };
-        One { compile, ended: compile.to_files(paths, Some(&record)) }
+        let ended = match drafted {
+            Ok(drafted) => drafted.publish(Some(&record)),
+            Err(error) => Ended::failed(error),
+        };
+        Published { source, ended }
     }
 
     /// A file of which everything still stands.
@@ -182,23 +199,31 @@ impl<'a> Many<'a> {
     }
 }
 
+/// One of many files, compiled, but not yet in its places.
+pub(in crate::cli) struct One {
+    source: Source,
+    made: Made,
+    /// Why nothing was compiled, else what was.
+    drafted: anyhow::Result<Drafted>,
+}
+
 /// How the compile of one of many files ended.
-pub(in crate::cli) struct One<'s> {
-    compile: Compile<'s>,
+pub(in crate::cli) struct Published {
+    source: Source,
     ended: Ended,
 }
 
-impl One<'_> {
+impl Published {
     /// Whether the file has a program now, `None` when none could be written.
     pub(in crate::cli) fn is_compiled(&self) -> Option<bool> {
         self.ended.compiled.as_ref().ok().map(Option::is_some)
     }
 
     /// Its row, and what is said about it.
-    pub(in crate::cli) fn outcome(self, input: &Input, messages: Messages, format: Format) -> Outcome {
-        let Self { compile, ended } = self;
+    pub(in crate::cli) fn outcome(self, input: &Input, job: &Job, messages: Messages, format: Format) -> Outcome {
+        let Self { source, ended } = self;
         let Ended { compiled, diagnostics, programs, beside } = ended;
-        let mut said = render_with(&diagnostics, compile.source, messages.detail(format));
+        let mut said = render_with(&diagnostics, &source, messages.detail(format));
         let compiled = match compiled {
             Ok(compiled) => compiled,
             Err(error) => {
@@ -208,10 +233,10 @@ impl One<'_> {
         };
         let report = compiled.as_ref().map(|compiled| &compiled.report);
         if compiled.is_none() {
-            said.push_str(&one::refused(&compile, &programs, &diagnostics));
+            said.push_str(&one::refused(&source, &programs, &diagnostics));
         }
-        let json = (format == Format::Json)
-            .then(|| report::json_of_file(&input.path, report, &diagnostics, (compile.source, compile.job)));
+        let json =
+            (format == Format::Json).then(|| report::json_of_file(&input.path, report, &diagnostics, (&source, job)));
         let row = Row {
             pieces: report.map(|report| report.pieces),
             cut_m: report.map(|report| report.cut_m),

@@ -1,6 +1,6 @@
 //! One file, and all that there is to say of it.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use tempfile::SpooledTempFile;
 
@@ -13,6 +13,7 @@ use crate::cli::options::counted;
 use crate::cli::{DONE, FAULTY, Finished, Stdout, USAGE, failure, files, report, say, setup, summary};
 use crate::diagnostic::{Diagnostics, Severity, code, render_with};
 use crate::pipeline::Compiled;
+use crate::source::Source;
 
 /// Bytes of a program for standard output that are kept in memory; a longer one goes to a temporary file.
 const SPOOL_BYTES: usize = 64 << 20;
@@ -47,7 +48,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished
         Place::Stdout => to_stdout(&compile, arguments),
         Place::Files(paths) => {
             let _made = MadeFolders::of(paths.iter().map(|path| path.as_path()))?;
-            Ok(told(&compile, arguments, compile.to_files(&paths, None)))
+            Ok(told(&compile, arguments, compile.draft(&paths).publish(None)))
         }
     }
 }
@@ -91,7 +92,7 @@ fn told(compile: &Compile, arguments: &Arguments, ended: Ended) -> Finished {
             said.push_str(&summary::verdict(verdict.as_ref()));
         }
         (Some(_), Format::Json | Format::Text) => {}
-        (None, Format::Text | Format::Json) => said.push_str(&refused(compile, &programs, &diagnostics)),
+        (None, Format::Text | Format::Json) => said.push_str(&refused(compile.source, &programs, &diagnostics)),
     }
     for path in programs.iter().filter(|_| compiled.is_some() && !arguments.messages.quiet) {
         say(&mut said, format_args!("wrote `{}`", path.display()));
@@ -101,7 +102,7 @@ fn told(compile: &Compile, arguments: &Arguments, ended: Ended) -> Finished {
 }
 
 /// A line on why there is no program.
-pub(super) fn refused(compile: &Compile, programs: &[std::path::PathBuf], diagnostics: &Diagnostics) -> String {
+pub(super) fn refused(source: &Source, programs: &[PathBuf], diagnostics: &Diagnostics) -> String {
     let errors = counted(diagnostics.count(Severity::Error), "error");
     let warnings = counted(diagnostics.count(Severity::Warning), "warning");
     let broken = diagnostics.iter().filter(|d| d.code == &code::VERIFY_BROKEN).count();
@@ -111,5 +112,5 @@ pub(super) fn refused(compile: &Compile, programs: &[std::path::PathBuf], diagno
     };
     let places: Vec<_> = programs.iter().map(|path| format!("`{}`", path.display())).collect();
     let place = if places.is_empty() { String::new() } else { format!(" to {}", places.join(" or ")) };
-    format!("{}: {why}; no program was written{place}\n", compile.source.name())
+    format!("{}: {why}; no program was written{place}\n", source.name())
 }

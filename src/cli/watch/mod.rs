@@ -18,7 +18,7 @@ use clap::Args;
 use self::events::{Events, Told};
 use self::settings::{Settings, Stamps};
 use self::settling::{STEADY, Settling, Stamp};
-use super::batch::{self, Input, Manifest, Outcome, Threads};
+use super::batch::{self, Input, Manifest, Outcome, Stages, Threads};
 use super::choices::Format;
 use super::compile::Making;
 use super::compile::many::Many;
@@ -263,7 +263,7 @@ impl Watch<'_> {
             let input = &finished[i].input;
             batch::unless_broken(input, || hall.deal(&finished[i], settings)).unwrap_or_else(Dealt::Not)
         };
-        batch::side_by_side(&sizes, self.hall.threads, deal, |i, how| {
+        batch::side_by_side(&sizes, self.hall.threads, Stages { work: deal, settle: |_, how| how }, |i, how| {
             if let Dealt::With(line) = &how {
                 let _ = writeln!(console.out, "{line}").and_then(|()| console.out.flush());
             }
@@ -334,9 +334,9 @@ impl Hall<'_> {
             Ok(mut folders) => folders.keep(),
             Err(error) => return not(&error),
         }
-        let one = many.compile((input, &source), &made, places);
-        let is_compiled = one.is_compiled();
-        let Outcome { row, said, .. } = one.outcome(input, *messages, Format::Text);
+        let published = many.publish(many.draft(input, source, made, places));
+        let is_compiled = published.is_compiled();
+        let Outcome { row, said, .. } = published.outcome(input, &settings.job, *messages, Format::Text);
         let worst = row.as_ref().map(|row| row.worst.as_str()).filter(|worst| !worst.is_empty());
         if is_compiled == Some(true) {
             report::remove(&report);
