@@ -30,6 +30,8 @@ fn main() -> ExitCode {
 mod signals {
     //! Who is stopped leaves nothing half-made.
 
+    use std::io::{self, Write as _};
+
     use cutc::cli;
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
@@ -44,6 +46,7 @@ mod signals {
         std::thread::spawn(move || {
             for signal in signals.forever() {
                 if let Some(code) = cli::stop(signal) {
+                    let _ = writeln!(io::stderr(), "{}", cli::STOPPED);
                     std::process::exit(code.into());
                 }
             }

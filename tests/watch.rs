@@ -25,11 +25,11 @@ fn square(side: usize) -> String {
 /// A file that is none of the dialects.
 const JUNK: &str = "no cutter file at all\n";
 
-struct Hall {
+struct HotFolder {
     room: TempDir,
 }
 
-impl Hall {
+impl HotFolder {
     fn new() -> Self {
         let room = tempfile::tempdir().expect("a directory");
         fs::create_dir(room.path().join("in")).expect("writable");
@@ -103,60 +103,58 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 
 #[test]
 fn a_file_that_comes_in_is_compiled_and_a_bad_one_gets_a_report() {
-    let hall = Hall::new();
-    hall.put("early.cut", &square(500));
-    let watch = hall.watch("-t gcode");
-    hall.wait_for("what was there before is compiled", |hall| hall.has("early.ngc"));
-    hall.put("sub/late.cut", &square(600));
-    hall.put("bad.cut", JUNK);
-    hall.put("notes.pdf", JUNK);
-    hall.wait_for("folders keep their structure", |hall| {
-        hall.has("sub/late.ngc") && hall.has("sub/late.ngc.meta.json")
-    });
-    hall.wait_for("a bad one gets a report", |hall| hall.has("bad.cut.report.txt"));
-    hall.wait_for("what is no cutter file is said", |hall| hall.text("said").contains("notes.pdf: left alone"));
-    assert!(hall.text("out/bad.cut.report.txt").contains("source/unknown-format"));
+    let hot = HotFolder::new();
+    hot.put("early.cut", &square(500));
+    let watch = hot.watch("-t gcode");
+    hot.wait_for("what was there before is compiled", |hot| hot.has("early.ngc"));
+    hot.put("sub/late.cut", &square(600));
+    hot.put("bad.cut", JUNK);
+    hot.put("notes.pdf", JUNK);
+    hot.wait_for("folders keep their structure", |hot| hot.has("sub/late.ngc") && hot.has("sub/late.ngc.meta.json"));
+    hot.wait_for("a bad one gets a report", |hot| hot.has("bad.cut.report.txt"));
+    hot.wait_for("what is no cutter file is said", |hot| hot.text("said").contains("notes.pdf: left alone"));
+    assert!(hot.text("out/bad.cut.report.txt").contains("source/unknown-format"));
     // Mended, it has its program and no report; broken, the other way round.
-    hall.put("bad.cut", &square(700));
-    hall.put("early.cut", JUNK);
-    hall.wait_for("a mended one has its program", |hall| hall.has("bad.ngc") && !hall.has("bad.cut.report.txt"));
-    hall.wait_for("a broken one has a report", |hall| hall.has("early.cut.report.txt") && !hall.has("early.ngc"));
-    fs::remove_file(hall.at("in/early.cut")).expect("removable");
-    hall.wait_for("a report goes with its file", |hall| !hall.has("early.cut.report.txt"));
+    hot.put("bad.cut", &square(700));
+    hot.put("early.cut", JUNK);
+    hot.wait_for("a mended one has its program", |hot| hot.has("bad.ngc") && !hot.has("bad.cut.report.txt"));
+    hot.wait_for("a broken one has a report", |hot| hot.has("early.cut.report.txt") && !hot.has("early.ngc"));
+    fs::remove_file(hot.at("in/early.cut")).expect("removable");
+    hot.wait_for("a report goes with its file", |hot| !hot.has("early.cut.report.txt"));
     end(watch);
-    let told = hall.text("told");
+    let told = hot.text("told");
     assert!(told.contains("in/sub/late.cut: 1 piece, 0.2 m"), "{told}");
     assert!(told.contains("in/bad.cut: FAILED source/unknown-format"), "{told}");
 }
 
 #[test]
 fn the_options_of_the_folder_hold_and_may_be_changed() {
-    let hall = Hall::new();
-    hall.put("a.cut", &square(500));
-    hall.put("cutc.toml", "target = [\"gcode\", \"svg\"]\n");
-    let watch = hall.watch("");
-    hall.wait_for("both targets are written", |hall| hall.has("a.ngc") && hall.has("a.svg"));
-    hall.put("cutc.toml", "target = \"nonsense\"\n");
-    hall.wait_for("wrong options are refused", |hall| hall.text("said").contains("until the options are mended"));
-    hall.put("b.cut", &square(600));
-    hall.put("cutc.toml", "target = \"csv\"\nno-verify = true\n");
-    hall.wait_for("all files are made anew", |hall| hall.has("a.csv") && hall.has("b.csv"));
-    assert!(!hall.has("b.ngc"));
-    assert!(hall.text("out/a.csv.meta.json").contains(r#""verified": "no""#));
+    let hot = HotFolder::new();
+    hot.put("a.cut", &square(500));
+    hot.put("cutc.toml", "target = [\"gcode\", \"svg\"]\n");
+    let watch = hot.watch("");
+    hot.wait_for("both targets are written", |hot| hot.has("a.ngc") && hot.has("a.svg"));
+    hot.put("cutc.toml", "target = \"nonsense\"\n");
+    hot.wait_for("wrong options are refused", |hot| hot.text("said").contains("until the options are mended"));
+    hot.put("b.cut", &square(600));
+    hot.put("cutc.toml", "target = \"csv\"\nno-verify = true\n");
+    hot.wait_for("all files are made anew", |hot| hot.has("a.csv") && hot.has("b.csv"));
+    assert!(!hot.has("b.ngc"));
+    assert!(hot.text("out/a.csv.meta.json").contains(r#""verified": "no""#));
     end(watch);
 }
 
 #[test]
 fn two_files_for_one_program_do_not_take_turns() {
-    let hall = Hall::new();
-    hall.put("m.cut", &square(500));
-    hall.put("m.plt", "IN;SP1;PU0,0;PD4000,0,4000,4000,0,4000,0,0;PU;SP0;");
-    let watch = hall.watch("");
-    hall.wait_for("one has the program", |hall| hall.has("m.csv"));
-    hall.wait_for("the other a report", |hall| hall.has("m.plt.report.txt"));
-    assert!(hall.text("out/m.plt.report.txt").contains("made from `m.cut`"));
+    let hot = HotFolder::new();
+    hot.put("m.cut", &square(500));
+    hot.put("m.plt", "IN;SP1;PU0,0;PD4000,0,4000,4000,0,4000,0,0;PU;SP0;");
+    let watch = hot.watch("");
+    hot.wait_for("one has the program", |hot| hot.has("m.csv"));
+    hot.wait_for("the other a report", |hot| hot.has("m.plt.report.txt"));
+    assert!(hot.text("out/m.plt.report.txt").contains("made from `m.cut`"));
     end(watch);
-    assert!(hall.text("out/m.csv.meta.json").contains(r#""source": "m.cut""#));
+    assert!(hot.text("out/m.csv.meta.json").contains(r#""source": "m.cut""#));
 }
 
 /// Brings a file into a folder as one of many programs would.
@@ -200,8 +198,8 @@ fn many(variable: &str, usually: usize) -> usize {
 #[test]
 fn a_watch_that_is_killed_again_and_again_loses_nothing_and_leaves_nothing() {
     let (count, kills) = (many("CUTC_WATCH_FILES", 60), many("CUTC_WATCH_KILLS", 12));
-    let hall = Hall::new();
-    let folder = hall.at("in");
+    let hot = HotFolder::new();
+    let folder = hot.at("in");
     let feeder = thread::spawn(move || {
         let mut random = Rng::with_seed(21);
         let mut last = BTreeMap::new();
@@ -216,24 +214,24 @@ fn a_watch_that_is_killed_again_and_again_loses_nothing_and_leaves_nothing() {
     });
     let mut random = Rng::with_seed(12);
     for _ in 0..kills {
-        let mut watch = hall.watch("--quiet");
+        let mut watch = hot.watch("--quiet");
         thread::sleep(Duration::from_millis(random.u64(0..400)));
         signal(&watch, "KILL");
         watch.wait().expect("it ends");
     }
     let last = feeder.join().expect("all files came");
-    let watch = hall.watch("--quiet");
+    let watch = hot.watch("--quiet");
     let is_good = |text: &str| text.starts_with("H1");
-    hall.wait_for("every file has its program or its report", |hall| {
+    hot.wait_for("every file has its program or its report", |hot| {
         last.iter().all(|(name, text)| {
             let (program, stem) = (is_good(text), name.trim_end_matches(".cut"));
-            hall.has(&format!("{stem}.csv")) == program && hall.has(&format!("{name}.report.txt")) != program
+            hot.has(&format!("{stem}.csv")) == program && hot.has(&format!("{name}.report.txt")) != program
         })
     });
     // The programs are those of the files as they are now.
-    let reference = hall.at("reference");
+    let reference = hot.at("reference");
     let mut compile = Command::new(env!("CARGO_BIN_EXE_cutc"));
-    compile.args(["compile", "in", "-q", "-o"]).arg(&reference).current_dir(hall.room.path());
+    compile.args(["compile", "in", "-q", "-o"]).arg(&reference).current_dir(hot.room.path());
     compile.output().expect("the program starts");
     let programs = |folder: &Path| {
         let mut files = files(folder);
@@ -242,10 +240,10 @@ fn a_watch_that_is_killed_again_and_again_loses_nothing_and_leaves_nothing() {
     };
     let expected = programs(&reference);
     assert!(expected.len() > count);
-    hall.wait_for("every program is that of its file", |hall| programs(&hall.at("out")) == expected);
+    hot.wait_for("every program is that of its file", |hot| programs(&hot.at("out")) == expected);
     end(watch);
-    let left: Vec<_> = files(&hall.at("out")).into_keys().filter(|name| name.contains(".cutc-")).collect();
+    let left: Vec<_> = files(&hot.at("out")).into_keys().filter(|name| name.contains(".cutc-")).collect();
     assert!(left.is_empty(), "{left:?}");
-    let lines = hall.text("out/cutc.jsonl");
+    let lines = hot.text("out/cutc.jsonl");
     assert_eq!(lines.lines().count(), count, "{lines}");
 }

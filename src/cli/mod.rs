@@ -30,7 +30,7 @@ mod verdict;
 mod verify;
 mod watch;
 
-pub use stop::stop;
+pub use stop::{STOPPED, stop};
 
 use std::ffi::OsString;
 use std::fmt::Write as _;

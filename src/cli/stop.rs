@@ -11,6 +11,9 @@ static ASKED: AtomicI32 = AtomicI32::new(0);
 /// What shells add to the number of the signal that ended a program.
 const BY_SIGNAL: i32 = 128;
 
+/// What is said of that.
+pub const STOPPED: &str = "stopped: nothing is left half-written";
+
 /// Takes note of a signal. With an exit code the program must end at once, and all that it had in the making is gone;
 /// without one it ends by itself, soon. A second signal never waits.
 pub fn stop(signal: i32) -> Option<u8> {

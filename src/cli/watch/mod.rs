@@ -75,8 +75,14 @@ pub(super) fn run(arguments: &Arguments, typed: &[OsString], console: &mut Conso
     draft::sweep_below(out);
     stop::finish_first();
     let manifest = Manifest::open(out, None)?;
-    let hall = Hall { folder, out, inner: std::path::absolute(out).ok(), threads: threads.set(), manifest: &manifest };
-    let mut watch = Watch { hall, settings, changed: None, files: Settling::default(), told: BTreeMap::new() };
+    let folders = Folders {
+        from: folder,
+        out,
+        inner: std::path::absolute(out).ok(),
+        threads: threads.set(),
+        manifest: &manifest,
+    };
+    let mut watch = Watch { folders, settings, changed: None, files: Settling::default(), told: BTreeMap::new() };
     let _ = writeln!(console.err, "watching `{}`; programs go to `{}`", folder.display(), out.display());
     let code = watch.go(typed, console);
     manifest.finish()?;
@@ -84,8 +90,8 @@ pub(super) fn run(arguments: &Arguments, typed: &[OsString], console: &mut Conso
 }
 
 /// Where files come from and programs go to.
-struct Hall<'a> {
-    folder: &'a Path,
+struct Folders<'a> {
+    from: &'a Path,
     out: &'a Path,
     /// The latter from the root: it may lie in the folder.
     inner: Option<PathBuf>,
@@ -95,7 +101,7 @@ struct Hall<'a> {
 
 /// A hot folder at work.
 struct Watch<'a> {
-    hall: Hall<'a>,
+    folders: Folders<'a>,
     settings: Settings,
     /// What the files of the options look like, and since when, where that is not what was read: nothing is compiled then.
     changed: Option<(Stamps, Instant)>,
@@ -119,7 +125,7 @@ enum Dealt {
 impl Watch<'_> {
     /// Works until a signal asks for the end; gives the exit code.
     fn go(&mut self, typed: &[OsString], console: &mut Console) -> u8 {
-        let events = Events::of(self.hall.folder);
+        let events = Events::of(self.folders.from);
         let mut next_look = Instant::now();
         self.forget_reports();
         loop {
@@ -157,8 +163,8 @@ impl Watch<'_> {
 
     /// Reads the options; those that were changed hold for all files.
     fn read_options(&mut self, typed: &[OsString], console: &mut Console) {
-        let file = self.hall.folder.join(settings::NAME);
-        let wrong = match Settings::read(self.hall.folder, typed) {
+        let file = self.folders.from.join(settings::NAME);
+        let wrong = match Settings::read(self.folders.from, typed) {
             Ok(Ok(settings)) => {
                 self.settings = settings;
                 self.changed = None;
@@ -183,9 +189,9 @@ impl Watch<'_> {
 
     /// Looks through the folder: for what nobody told, and for what is gone.
     fn look(&mut self, console: &mut Console) {
-        let found = match batch::files_in(self.hall.folder) {
+        let found = match batch::files_in(self.folders.from) {
             Ok(found) => found,
-            Err(error) => return self.say_once(self.hall.folder, &format!("error: {error:#}\n"), console),
+            Err(error) => return self.say_once(self.folders.from, &format!("error: {error:#}\n"), console),
         };
         let now = Instant::now();
         let mut there = BTreeSet::new();
@@ -206,22 +212,22 @@ impl Watch<'_> {
             there.insert(path);
         }
         for gone in self.files.keep(|path| there.contains(path)) {
-            report::remove(&report::path(self.hall.out, self.hall.name(&gone)));
+            report::remove(&report::path(self.folders.out, self.folders.name(&gone)));
         }
         self.told.retain(|path, _| there.contains(path) || path.ends_with(settings::NAME));
     }
 
     /// Reports on files that went while nobody watched go, too.
     fn forget_reports(&self) {
-        for name in self.hall.manifest.refused_names() {
-            if !self.hall.folder.join(&name).exists() {
-                report::remove(&report::path(self.hall.out, Path::new(&name)));
+        for name in self.folders.manifest.refused_names() {
+            if !self.folders.from.join(&name).exists() {
+                report::remove(&report::path(self.folders.out, Path::new(&name)));
             }
         }
     }
 
     fn is_left_alone(&self, path: &Path) -> bool {
-        let inner = self.hall.inner.as_deref();
+        let inner = self.folders.inner.as_deref();
         let is_program =
             || inner.is_some_and(|inner| std::path::absolute(path).is_ok_and(|path| path.starts_with(inner)));
         self.settings.says(path) || is_program()
@@ -232,8 +238,8 @@ impl Watch<'_> {
             Told::Closed(path) => (path, true),
             Told::Changed(path) => (path, false),
         };
-        let Some(path) = self.hall.as_typed(&told) else { return };
-        let is_hidden = self.hall.name(&path).iter().any(|part| part.to_string_lossy().starts_with('.'));
+        let Some(path) = self.folders.as_typed(&told) else { return };
+        let is_hidden = self.folders.name(&path).iter().any(|part| part.to_string_lossy().starts_with('.'));
         if is_hidden || !path.is_file() || !batch::is_cutter_file(&path) || self.is_left_alone(&path) {
             return;
         }
@@ -248,22 +254,22 @@ impl Watch<'_> {
     fn work(&mut self, console: &mut Console) {
         let (mut finished, mut taken) = (Vec::new(), BTreeSet::new());
         for (path, stamp) in self.files.ready(Instant::now()) {
-            let places = below(self.hall.out, self.hall.name(&path), &self.settings.targets);
+            let places = below(self.folders.out, self.folders.name(&path), &self.settings.targets);
             // Of two files for one place the second waits, to find whose it is.
             if places.iter().all(|place| !taken.contains(place)) {
                 taken.extend(places.iter().cloned());
-                let name = self.hall.name(&path).to_owned();
+                let name = self.folders.name(&path).to_owned();
                 finished.push(Finish { input: Input { path, name }, stamp, places });
             }
         }
         let sizes: Vec<u64> = finished.iter().map(|finish| finish.input.size()).collect();
         let mut dealt = Vec::new();
-        let (hall, settings) = (&self.hall, &self.settings);
+        let (folders, settings) = (&self.folders, &self.settings);
         let deal = |i: usize| {
             let input = &finished[i].input;
-            batch::unless_broken(input, || hall.deal(&finished[i], settings)).unwrap_or_else(Dealt::Not)
+            batch::unless_broken(input, || folders.deal(&finished[i], settings)).unwrap_or_else(Dealt::Not)
         };
-        batch::side_by_side(&sizes, self.hall.threads, Stages { work: deal, settle: |_, how| how }, |i, how| {
+        batch::side_by_side(&sizes, self.folders.threads, Stages { work: deal, settle: |_, how| how }, |i, how| {
             if let Dealt::With(line) = &how {
                 let _ = writeln!(console.out, "{line}").and_then(|()| console.out.flush());
             }
@@ -293,16 +299,16 @@ struct Finish {
     places: Vec<PathBuf>,
 }
 
-impl Hall<'_> {
+impl Folders<'_> {
     /// The name of a file below the folder.
     fn name<'p>(&self, path: &'p Path) -> &'p Path {
-        path.strip_prefix(self.folder).unwrap_or(path)
+        path.strip_prefix(self.from).unwrap_or(path)
     }
 
     /// A path that was told from the root, as the user would write it.
     fn as_typed(&self, path: &Path) -> Option<PathBuf> {
-        let root = std::path::absolute(self.folder).ok()?;
-        Some(self.folder.join(path.strip_prefix(root).ok()?))
+        let root = std::path::absolute(self.from).ok()?;
+        Some(self.from.join(path.strip_prefix(root).ok()?))
     }
 
     /// Compiles a file, unless that was done, or leaves a report.
