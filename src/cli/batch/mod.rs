@@ -1,5 +1,6 @@
 //! Many files: which they are, work on them side by side, what is said of each, together and in order, and a table of all.
 
+mod figures;
 mod inputs;
 mod manifest;
 mod progress;
@@ -13,10 +14,11 @@ use std::thread;
 
 use clap::Args;
 
-pub(super) use inputs::{Input, Inputs, find, hint, is_cutter_file};
+pub(super) use figures::{Cloth, Figures};
+pub(super) use inputs::{Input, Inputs, find, find_programs, hint, is_cutter_file};
 pub(super) use manifest::{Line, Made, Manifest, Output, Verdict};
 pub(super) use shard::Shard;
-pub(super) use table::{Columns, Row, State};
+pub(super) use table::{Columns, Row, State, counts, failed_last, sum, text};
 
 use self::progress::Progress;
 use super::{Console, DONE, FAULTY, Finished};
@@ -87,16 +89,44 @@ pub(super) fn worst(diagnostics: &Diagnostics) -> Option<&'static str> {
     diagnostics.tally().first().map(|(code, _)| code.name)
 }
 
-/// Works on every input and tells what comes of it. The exit code is [`FAULTY`] when any failed.
+/// What is left to print of a batch.
+#[derive(Debug)]
+pub(super) struct Ended {
+    /// Of all files, in their order.
+    pub(super) rows: Vec<Row>,
+    /// What closes the list of JSON objects.
+    pub(super) closing: &'static str,
+}
+
+impl Ended {
+    /// [`FAULTY`] when any file failed.
+    pub(super) fn code(&self) -> u8 {
+        if self.rows.iter().any(|row| row.state == State::Failed) { FAULTY } else { DONE }
+    }
+}
+
+/// Works on every input and tells what comes of it, with a table on standard error. The exit code is [`FAULTY`] when any
+/// failed.
 pub(super) fn run(
     inputs: &[Input],
     threads: usize,
     (telling, console): (Telling, &mut Console),
     work: impl Fn(usize, &Input) -> Outcome + Sync,
 ) -> Finished {
+    let ended = run_untold(inputs, threads, (telling, console), work);
+    Finished::text(ended.closing.to_owned(), text(&ended.rows, telling), ended.code())
+}
+
+/// The same, but the table is left to others.
+pub(super) fn run_untold(
+    inputs: &[Input],
+    threads: usize,
+    (telling, console): (Telling, &mut Console),
+    work: impl Fn(usize, &Input) -> Outcome + Sync,
+) -> Ended {
     let sizes: Vec<u64> = inputs.iter().map(Input::size).collect();
     let progress = Progress::new(inputs.len(), telling.quiet);
-    let (mut rows, mut objects, mut failed) = (Vec::new(), 0, 0);
+    let (mut rows, mut objects) = (Vec::new(), 0);
     let work = |i: usize| {
         let input = &inputs[i];
         let outcome = catch_unwind(AssertUnwindSafe(|| work(i, input))).unwrap_or_else(|_| broken(input));
@@ -115,7 +145,6 @@ pub(super) fn run(
                 objects += 1;
             }
         });
-        failed += usize::from(row.as_ref().is_some_and(|row| row.state == State::Failed));
         rows.extend(row);
     });
     progress.end();
@@ -124,8 +153,7 @@ pub(super) fn run(
         (true, 0) => "[]\n",
         (true, _) => "\n]\n",
     };
-    let table = table::text(&rows, telling);
-    Finished::text(closing.to_owned(), table, if failed > 0 { FAULTY } else { DONE })
+    Ended { rows, closing }
 }
 
 /// What is said of a file that the program itself broke down over: the others go on.
