@@ -71,6 +71,12 @@ impl Pricing {
 }
 
 impl Price {
+    /// A price by money an hour, for tests of what it does.
+    #[cfg(test)]
+    pub(super) fn of(per_h: f64, plies: u32) -> Self {
+        Self { rate: Rate { per_s: per_h / S_PER_HOUR }, plies }
+    }
+
     /// The costs of so many pieces whose program takes `time_s` s.
     pub(super) fn costs(&self, time_s: f64, pieces: usize) -> Costs {
         let marker = time_s * self.rate.per_s;
@@ -95,7 +101,7 @@ mod tests {
 
     #[test]
     fn costs_are_shared_by_plies_and_parts() {
-        let price = Price { rate: Rate::parse("36/h").expect("a rate"), plies: 10 };
+        let price = Price::of(36.0, 10);
         let costs = price.costs(500.0, 4);
         assert_eq!((costs.marker, costs.ply, costs.part), (5.0, 0.5, Some(0.125)));
         assert_eq!(price.costs(0.0, 0).part, None);

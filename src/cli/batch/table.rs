@@ -182,6 +182,7 @@ fn shares(costs: &Costs) -> [String; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cli::batch::Cloth;
 
     #[test]
     fn what_failed_stands_last_before_the_sum() {
@@ -206,6 +207,38 @@ mod tests {
           file   pieces  cut m  time  worst finding
           b.cut                       FAILED iso/not-a-word
         4 files, 2 done, 1 unchanged, 1 failed
+        ");
+    }
+
+    #[test]
+    fn figures_stand_in_columns_and_add_up() {
+        let known =
+            |area_m2, length_mm| Some(Figures { notches: 4, area_m2, cloth: Cloth { length_mm, width_mm: 1500.0 } });
+        let row = |file: &str, figures| Row {
+            pieces: Some(8),
+            cut_m: Some(12.34),
+            time_s: Some(61.2),
+            figures,
+            ..Row::new(Path::new(file), State::Done)
+        };
+        let bad = Row { worst: "iso/not-a-word".to_owned(), ..Row::new(Path::new("b.cut"), State::Failed) };
+        let rows = [row("a.cut", known(2.4, 2000.0)), bad, row("c.cut", known(0.0, 0.0))];
+        let told = |price| text(&rows, Telling { columns: Columns::Counted(price), quiet: false, json: false });
+        insta::assert_snapshot!(told(None), @r"
+          file   pieces  cut m  time  notches  area m2     cloth mm  used %  worst finding
+          a.cut       8   12.3  1:01        4    2.400  2000 x 1500    80.0
+          c.cut       8   12.3  1:01        4    0.000     0 x 1500
+          b.cut                                                              FAILED iso/not-a-word
+          all        16   24.7  2:02        8    2.400  2000 x 1500    80.0
+        3 files, 2 done, 1 failed
+        ");
+        insta::assert_snapshot!(told(Some(Price::of(36.0, 5))), @r"
+          file   pieces  cut m  time  notches  area m2     cloth mm  used %  cost  a ply  a part  worst finding
+          a.cut       8   12.3  1:01        4    2.400  2000 x 1500    80.0  0.61  0.122  0.0153
+          c.cut       8   12.3  1:01        4    0.000     0 x 1500          0.61  0.122  0.0153
+          b.cut                                                                                   FAILED iso/not-a-word
+          all        16   24.7  2:02        8    2.400  2000 x 1500    80.0  1.22  0.245  0.0153
+        3 files, 2 done, 1 failed
         ");
     }
 }

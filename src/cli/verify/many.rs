@@ -42,7 +42,17 @@ impl Sources<'_> {
     fn of(&self, input: &Input) -> anyhow::Result<Shared<'_>> {
         match self {
             Self::File(source) => Ok(Shared::All(source)),
-            Self::Folder(folder) => files::read(&source_in(folder, input)?).map(Shared::Own),
+            Self::Folder(folder) => {
+                let path = source_in(folder, input)?;
+                if !path.exists() {
+                    return Err(failure(
+                        format!("there is no `{}`, which `{}` was made from", path.display(), input.path.display()),
+                        "name the folder that was compiled with --source, and the folder of all its programs, or a quoted \
+                         pattern: below these the folders are the same",
+                    ));
+                }
+                files::read(&path).map(Shared::Own)
+            }
         }
     }
 }
