@@ -13,8 +13,8 @@ const PERCENT: f64 = 100.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::cli) struct Figures {
     pub(in crate::cli) notches: usize,
-    /// Of the parts, less their cut-outs, m2.
-    pub(in crate::cli) area_m2: f64,
+    /// Of the parts, less their cut-outs, m2; `None` when it is not known.
+    pub(in crate::cli) area_m2: Option<f64>,
     pub(in crate::cli) cloth: Cloth,
 }
 
@@ -35,10 +35,10 @@ impl Cloth {
 }
 
 impl Figures {
-    /// How much of the cloth the parts take, percent; `None` of no cloth.
+    /// How much of the cloth the parts take, percent; `None` of no cloth, or of parts of no known area.
     pub(in crate::cli) fn utilisation_percent(&self) -> Option<f64> {
         let cloth = self.cloth.area_m2();
-        (cloth > 0.0).then(|| PERCENT * self.area_m2 / cloth)
+        self.area_m2.filter(|_| cloth > 0.0).map(|area| PERCENT * area / cloth)
     }
 
     /// Those of several files, their cloths one behind the other; `None` of none.
@@ -53,7 +53,7 @@ impl Figures {
                     let width_mm = if length_mm > 0.0 { cloth_m2 * MM_PER_M / length_mm * MM_PER_M } else { 0.0 };
                     Self {
                         notches: sum.notches + figures.notches,
-                        area_m2: sum.area_m2 + figures.area_m2,
+                        area_m2: sum.area_m2.zip(figures.area_m2).map(|(one, other)| one + other),
                         cloth: Cloth { length_mm, width_mm },
                     }
                 }
@@ -78,12 +78,15 @@ mod tests {
     fn several_cloths_are_used_as_one_behind_the_other() {
         let figures =
             |area_m2, length_mm, width_mm| Figures { notches: 2, area_m2, cloth: Cloth { length_mm, width_mm } };
-        let all = [figures(1.5, 2000.0, 1000.0), figures(0.75, 1000.0, 1500.0), figures(0.0, 0.0, 0.0)];
+        let all =
+            [figures(Some(1.5), 2000.0, 1000.0), figures(Some(0.75), 1000.0, 1500.0), figures(Some(0.0), 0.0, 0.0)];
         assert_eq!(all.map(|one| one.utilisation_percent()), [Some(75.0), Some(50.0), None]);
         let sum = Figures::sum(all.iter()).expect("some");
-        assert_eq!((sum.notches, sum.area_m2, sum.cloth.length_mm), (6, 2.25, 3000.0));
+        assert_eq!((sum.notches, sum.area_m2, sum.cloth.length_mm), (6, Some(2.25), 3000.0));
         assert!((sum.cloth.width_mm - 3500.0 / 3.0).abs() < 1e-9);
         assert!((sum.utilisation_percent().expect("cloth") - 225.0 / 3.5).abs() < 1e-9);
+        let unknown = Figures::sum([all[0], figures(None, 1.0, 1.0)].iter()).expect("some");
+        assert_eq!((unknown.area_m2, unknown.utilisation_percent()), (None, None));
         assert_eq!(Figures::sum([].iter()), None);
     }
 }

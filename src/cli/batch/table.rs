@@ -171,7 +171,7 @@ fn known(figures: &Figures) -> [String; 4] {
     let Figures { notches, area_m2, cloth } = figures;
     let cloth = format!("{} x {}", fixed(cloth.length_mm, 0), fixed(cloth.width_mm, 0));
     let used = figures.utilisation_percent().map_or_else(String::new, |used| fixed(used, 1));
-    [notches.to_string(), fixed(*area_m2, 3), cloth, used]
+    [notches.to_string(), area_m2.map_or_else(String::new, |area| fixed(area, 3)), cloth, used]
 }
 
 /// The cost of all, of a ply and of a part; of the last some more digits, for there are many.
@@ -222,7 +222,7 @@ mod tests {
             ..Row::new(Path::new(file), State::Done)
         };
         let bad = Row { worst: "iso/not-a-word".to_owned(), ..Row::new(Path::new("b.cut"), State::Failed) };
-        let rows = [row("a.cut", known(2.4, 2000.0)), bad, row("c.cut", known(0.0, 0.0))];
+        let rows = [row("a.cut", known(Some(2.4), 2000.0)), bad, row("c.cut", known(Some(0.0), 0.0))];
         let told = |price| text(&rows, Telling { columns: Columns::Counted(price), quiet: false, json: false });
         insta::assert_snapshot!(told(None), @r"
           file   pieces  cut m  time  notches  area m2     cloth mm  used %  worst finding

@@ -48,7 +48,7 @@ impl Arguments {
                 row.pieces = Some(report.pieces);
                 row.cut_m = Some(report.cut_m);
                 row.time_s = report.time_s();
-                row.figures = Some(self.figures(&read.marker, &report));
+                row.figures = Some(self.figures(Some(&read.marker), &report));
                 doubts = self.doubts(source.name(), &report);
             }
         }

@@ -96,12 +96,12 @@ fn width(text: &str) -> Result<f64, String> {
 }
 
 impl Arguments {
-    /// What is known of a marker beyond its report.
-    fn figures(&self, marker: &Marker, report: &Report) -> Figures {
+    /// What is known of a marker beyond its report; of one with errors no area.
+    fn figures(&self, marker: Option<&Marker>, report: &Report) -> Figures {
         let [length_mm, height_mm] = report.extent_mm;
         Figures {
             notches: report.notches.by_kind().iter().map(|(_, count)| count).sum(),
-            area_m2: pipeline::area(marker) / MM2_PER_M2,
+            area_m2: marker.and_then(pipeline::area).map(|area| area / MM2_PER_M2),
             cloth: Cloth { length_mm, width_mm: self.cloth_width.unwrap_or(height_mm) },
         }
     }

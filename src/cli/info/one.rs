@@ -30,7 +30,9 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished
     let input = pipeline::read(&source, arguments.reading.from, &job, &mut diagnostics);
     let mut known = None;
     if let Some(input) = input {
-        let mut all = Known::of(arguments, &input.marker, input.dialect.name);
+        let report = Report::of(&input.marker, input.dialect.name);
+        let figures = arguments.figures(Some(&input.marker).filter(|_| !diagnostics.has_errors()), &report);
+        let mut all = Known::of(report, Facts::of(&input.marker), figures);
         if arguments.labels {
             all.labels_by_piece = Some(labels::of(&input.marker, &source, &job));
         }
@@ -49,7 +51,8 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished
     let stdout = match (format, &known) {
         (Format::Json, Some(known)) => report::json_of(known, &diagnostics, (&source, &job)),
         (Format::Json, None) => {
-            let mut blank = Known::of(arguments, &Marker::default(), "");
+            let (nothing, report) = (Marker::default(), Report::of(&Marker::default(), ""));
+            let mut blank = Known::of(report.clone(), Facts::of(&nothing), arguments.figures(None, &report));
             blank.price(arguments);
             report::json_of(report::nothing(&blank), &diagnostics, (&source, &job))
         }
@@ -89,7 +92,8 @@ struct Known {
 /// How much of the cloth is used.
 #[derive(Debug, Serialize)]
 struct Used {
-    area_m2: f64,
+    /// Null of a file with errors, or when it is not known.
+    area_m2: Option<f64>,
     cloth_length_mm: f64,
     cloth_width_mm: f64,
     /// Null of no cloth.
@@ -99,7 +103,7 @@ struct Used {
 impl Used {
     fn of(figures: &Figures) -> Self {
         Self {
-            area_m2: significant(figures.area_m2, DIGITS),
+            area_m2: figures.area_m2.map(|area| significant(area, DIGITS)),
             cloth_length_mm: significant(figures.cloth.length_mm, DIGITS),
             cloth_width_mm: significant(figures.cloth.width_mm, DIGITS),
             utilisation_percent: figures.utilisation_percent().map(|used| significant(used, DIGITS)),
@@ -108,18 +112,10 @@ impl Used {
 }
 
 impl Known {
-    fn of(arguments: &Arguments, marker: &Marker, dialect: &'static str) -> Self {
-        let report = Report::of(marker, dialect);
-        let figures = arguments.figures(marker, &report);
-        Self {
-            facts: Facts::of(marker),
-            used: Used::of(&figures),
-            labels_by_piece: None,
-            time_by_piece: None,
-            costs: None,
-            figures,
-            report,
-        }
+    /// What is known without any more work.
+    fn of(report: Report, facts: Facts, figures: Figures) -> Self {
+        let used = Used::of(&figures);
+        Self { report, facts, used, labels_by_piece: None, time_by_piece: None, costs: None, figures }
     }
 
     /// Adds what it costs, if that is asked for and the time is known.
@@ -156,7 +152,9 @@ impl Known {
         let Figures { area_m2, cloth, .. } = &self.figures;
         let mut out = String::new();
         // Writing into a `String` cannot fail, so the results of `writeln!` are dropped throughout.
-        let _ = writeln!(out, "  area       {} m2 of parts", fixed(*area_m2, 4));
+        if let Some(area) = area_m2 {
+            let _ = writeln!(out, "  area       {} m2 of parts", fixed(*area, 4));
+        }
         if let Some(used) = self.figures.utilisation_percent() {
             let [length, width] = [cloth.length_mm, cloth.width_mm].map(|side| fixed(side, 1));
             let _ = writeln!(out, "  used       {} % of {length} x {width} mm of cloth", fixed(used, 1));

@@ -72,7 +72,7 @@ impl Figures {
             cut_m: row.cut_m.map(rounded),
             time_s: row.time_s.map(rounded),
             notches: known.map(|known| known.notches),
-            area_m2: known.map(|known| rounded(known.area_m2)),
+            area_m2: known.and_then(|known| known.area_m2).map(rounded),
             length_mm: known.map(|known| rounded(known.cloth.length_mm)),
             width_mm: known.map(|known| rounded(known.cloth.width_mm)),
             utilisation_percent: known.and_then(batch::Figures::utilisation_percent).map(rounded),
@@ -161,7 +161,7 @@ mod tests {
 
     fn rows() -> [Row; 2] {
         let cloth = Cloth { length_mm: 2000.0, width_mm: 1500.0 };
-        let known = batch::Figures { notches: 3, area_m2: 2.4, cloth };
+        let known = batch::Figures { notches: 3, area_m2: Some(2.4), cloth };
         let done = Row {
             pieces: Some(8),
             cut_m: Some(12.345_678_901_2),
