@@ -128,7 +128,8 @@ fn info_has_the_same_keys_and_more_and_null_for_what_only_planning_knows() {
     let room = Room::new();
     let (stdout, _) = room.expect("info circle.cut --format json", DONE);
     let figures: Value = serde_json::from_str(&stdout).expect("JSON");
-    let mut expected = [&FIGURES[..], &["events", "notch_depths", "speeds"]].concat();
+    let cloth = ["area_m2", "cloth_length_mm", "cloth_width_mm", "utilisation_percent"];
+    let mut expected = [&FIGURES[..], &["events", "notch_depths", "speeds"], &cloth].concat();
     expected.sort_unstable();
     assert_eq!(keys(&figures), expected);
     let (stdout, _) = room.expect("info junk.cut --format json", FAULTY);
@@ -150,9 +151,9 @@ fn check_reads_every_file_and_writes_none() {
     room.write("empty.cut", b"");
     room.expect("check circle.cut", DONE);
     let (_, stderr) = room.expect("check empty.cut junk.cut circle.cut", FAULTY);
-    assert!(stderr.contains("source/empty") && stderr.contains("circle.cut: iso, 0 errors"), "{stderr}");
-    let (_, stderr) = room.expect("check nowhere.cut junk.cut circle.cut", USAGE);
-    assert!(stderr.contains("there is no such file") && stderr.contains("circle.cut: iso, 0 errors"), "{stderr}");
+    assert!(stderr.contains("source/empty") && stderr.contains("3 files, 1 done, 2 failed"), "{stderr}");
+    let (_, stderr) = room.expect("check nowhere.cut junk.cut circle.cut", FAULTY);
+    assert!(stderr.contains("there is no such file") && stderr.contains("3 files, 1 done, 2 failed"), "{stderr}");
     let (stdout, _) = room.expect("check circle.cut junk.cut --format json", FAULTY);
     let verdicts: Value = serde_json::from_str(&stdout).expect("JSON");
     assert_eq!(keys(&verdicts[0]), ["dialect", "errors", "file", "tally", "warnings"]);
@@ -254,8 +255,8 @@ fn files_that_cannot_be_used_are_named_with_what_to_do() {
         assert!(stderr.lines().count() <= 3, "{stderr}");
     };
     check("compile nowhere.cut", "cannot read `nowhere.cut`: there is no such file");
-    check("compile folder", "`folder` is a directory");
-    check("info folder", "`folder` is a directory");
+    check("compile folder", "`folder` holds no files to work on");
+    check("info folder", "`folder` holds no files to work on");
     check("compile circle.cut -o nowhere/x.csv", "there is no directory `nowhere`");
     check("compile circle.cut -o nowhere/folder/", "there is no directory `nowhere/folder`");
     check("compile circle.cut -o junk.cut/x.csv", "there is no directory `junk.cut`");
@@ -513,7 +514,7 @@ fn what_cannot_be_verified_is_said() {
     check("circle.csv", USAGE, "--source");
     check("nowhere.csv --source circle.cut", USAGE, "cannot read `nowhere.csv`: there is no such file");
     check("circle.csv --source nowhere.cut", USAGE, "cannot read `nowhere.cut`: there is no such file");
-    check("folder --source circle.cut", USAGE, "`folder` is not a regular file");
+    check("folder --source circle.cut", USAGE, "`folder` holds no files to work on");
     check("circle.csv --source circle.cut -p nowhere.toml", USAGE, "there is no profile");
     check("circle.csv --source circle.cut --set time.period=1", USAGE, "time.period_ms");
     check("circle.csv --source circle.cut -p bad.toml", FAULTY, "profile/range");

@@ -1,22 +1,25 @@
 //! `cutc check`: everything that is wrong with some cutter files.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde::Serialize;
 
+use super::batch::{self, Batch, Columns, Input, Inputs, Outcome, Row, State, Telling, Threads};
 use super::choices::Format;
-use super::files;
 use super::options::{Messages, Reading, counted};
 use super::report::{Findings, pretty};
-use super::{DONE, FAULTY, Finished, USAGE, say};
+use super::{Console, DONE, FAULTY, Finished, USAGE, files, say};
 use crate::diagnostic::{Diagnostics, Severity, render_with};
+use crate::machine::Job;
 use crate::pipeline;
+use crate::source::Source;
+use crate::units::MM_PER_M;
 
 /// Arguments of `cutc check`.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
-    /// Cutter files to check; `-` for standard input
+    /// Cutter files to check, folders of such, or patterns as 'in/**/*.cut'; `-` for standard input
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
 
@@ -25,6 +28,9 @@ pub(super) struct Arguments {
 
     #[command(flatten)]
     messages: Messages,
+
+    #[command(flatten)]
+    threads: Threads,
 
     /// How to give the findings
     #[arg(long, value_enum, default_value = "text")]
@@ -40,42 +46,100 @@ struct Verdict {
     findings: Findings,
 }
 
-pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
+/// A file as it was found to be.
+struct Checked {
+    source: Source,
+    diagnostics: Diagnostics,
+    dialect: Option<&'static str>,
+    /// What of a good file is counted.
+    row: Row,
+}
+
+pub(super) fn run(arguments: &Arguments, console: &mut Console) -> anyhow::Result<Finished> {
+    let threads = arguments.threads.set();
+    let inputs = batch::find(&arguments.files, batch::is_cutter_file, &batch::hint())?;
     let job = match arguments.reading.job()? {
         Ok(job) => job,
         Err(refused) => return Ok(refused),
     };
+    match inputs {
+        Inputs::One(file) => Ok(one(arguments, &file, &job)),
+        Inputs::Many(inputs) => {
+            let Arguments { messages: Messages { quiet, .. }, format, .. } = *arguments;
+            let telling = Telling { columns: Columns::Read, quiet, json: format == Format::Json };
+            let work = |_, input: &Input| arguments.outcome(input, &job);
+            let batch = Batch { inputs: &inputs, threads, telling };
+            Ok(batch.run(console, work).finished(telling))
+        }
+    }
+}
+
+/// One file, with a line on how much is wrong with it.
+fn one(arguments: &Arguments, file: &Path, job: &Job) -> Finished {
     let (mut said, mut verdicts, mut code) = (String::new(), Vec::new(), DONE);
-    for file in &arguments.files {
-        let source = match files::read(file) {
-            Ok(source) => source,
-            Err(error) => {
-                say(&mut said, format_args!("error: {error:#}"));
-                code = USAGE;
-                continue;
+    match arguments.checked(file, job) {
+        Ok(checked) => {
+            let Checked { source, diagnostics, dialect, row } = &checked;
+            if row.state == State::Failed {
+                code = FAULTY;
             }
-        };
-        let mut diagnostics = Diagnostics::default();
-        let input = pipeline::read(&source, arguments.reading.from, &job, &mut diagnostics);
-        if diagnostics.has_errors() || input.is_none() {
-            code = code.max(FAULTY);
+            said.push_str(&arguments.said(&checked));
+            if !arguments.messages.quiet || diagnostics.has_errors() {
+                let errors = counted(diagnostics.count(Severity::Error), "error");
+                let warnings = counted(diagnostics.count(Severity::Warning), "warning");
+                let dialect = dialect.unwrap_or("unknown");
+                say(&mut said, format_args!("{}: {dialect}, {errors}, {warnings}", source.name()));
+            }
+            verdicts.push(checked.verdict());
         }
-        let dialect = input.map(|input| input.dialect.name);
-        said.push_str(&render_with(&diagnostics, &source, arguments.messages.detail(arguments.format)));
-        if !arguments.messages.quiet || diagnostics.has_errors() {
-            let errors = counted(diagnostics.count(Severity::Error), "error");
-            let warnings = counted(diagnostics.count(Severity::Warning), "warning");
-            say(&mut said, format_args!("{}: {}, {errors}, {warnings}", source.name(), dialect.unwrap_or("unknown")));
+        Err(error) => {
+            say(&mut said, format_args!("error: {error:#}"));
+            code = USAGE;
         }
-        verdicts.push(Verdict {
-            file: source.name().to_owned(),
-            dialect,
-            findings: Findings::of(&diagnostics, &source),
-        });
     }
     let stdout = match arguments.format {
         Format::Text => String::new(),
         Format::Json => pretty(&verdicts),
     };
-    Ok(Finished::text(stdout, said, code))
+    Finished::text(stdout, said, code)
+}
+
+impl Arguments {
+    fn checked(&self, file: &Path, job: &Job) -> anyhow::Result<Checked> {
+        let source = files::read(file)?;
+        let mut diagnostics = Diagnostics::default();
+        let input = pipeline::read(&source, self.reading.from, job, &mut diagnostics);
+        let dialect = input.as_ref().map(|input| input.dialect.name);
+        let good = input.filter(|_| !diagnostics.has_errors()).map(|input| input.marker);
+        let row = Row {
+            pieces: good.as_ref().map(|marker| marker.pieces.len()),
+            cut_m: good.as_ref().map(|marker| marker.cut_length() / MM_PER_M),
+            worst: batch::worst(&diagnostics).unwrap_or_default().to_owned(),
+            ..Row::new(Path::new(source.name()), if good.is_some() { State::Done } else { State::Failed })
+        };
+        Ok(Checked { source, diagnostics, dialect, row })
+    }
+
+    /// What is said of a file.
+    fn said(&self, Checked { source, diagnostics, .. }: &Checked) -> String {
+        render_with(diagnostics, source, self.messages.detail(self.format))
+    }
+
+    /// What becomes of one of many files.
+    fn outcome(&self, input: &Input, job: &Job) -> Outcome {
+        match self.checked(&input.path, job) {
+            Ok(checked) => {
+                let json = (self.format == Format::Json).then(|| pretty(&checked.verdict()));
+                Outcome { said: self.said(&checked), json, row: Some(checked.row) }
+            }
+            Err(error) => Outcome::failed(input, &error),
+        }
+    }
+}
+
+impl Checked {
+    fn verdict(&self) -> Verdict {
+        let Self { source, diagnostics, dialect, .. } = self;
+        Verdict { file: source.name().to_owned(), dialect: *dialect, findings: Findings::of(diagnostics, source) }
+    }
 }

@@ -18,6 +18,17 @@ pub(super) enum Format {
     Json,
 }
 
+/// How the figures of files are given.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Sheet {
+    /// For people
+    Text,
+    /// For programs: JSON on standard output
+    Json,
+    /// For spreadsheets: a header and a row a file on standard output
+    Csv,
+}
+
 /// Which closed lines inside the parts of a plot are cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Inner {

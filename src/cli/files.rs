@@ -93,6 +93,9 @@ pub(super) fn directory(path: &Path) -> &Path {
     path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
+/// What the name of a provenance ends in.
+const META: &str = ".meta.json";
+
 fn with_end(path: &Path, end: &str) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(end);
@@ -101,7 +104,12 @@ fn with_end(path: &Path, end: &str) -> PathBuf {
 
 /// Where the provenance of a program stands.
 pub(super) fn meta(program: &Path) -> PathBuf {
-    with_end(program, ".meta.json")
+    with_end(program, META)
+}
+
+/// Whether a file is a provenance by its name.
+pub(super) fn is_meta(path: &Path) -> bool {
+    path.to_string_lossy().ends_with(META)
 }
 
 /// Where an outdated program goes.

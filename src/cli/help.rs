@@ -13,9 +13,12 @@ pub(super) const EXAMPLES: &str = "  cutc compile marker.cut                    
   cutc compile marker.cut -o marker.svg       a picture: the extension chooses the target
   cutc compile - -o - < marker.cut | less     from standard input to standard output
   cutc verify marker.csv --source marker.cut  judges a program, after an edit by hand too
+  cutc verify out --source in                 all programs of a folder, each by its source
   cutc check *.cut                            says all that is wrong, writes nothing
   cutc info marker.cut --labels               what is in a file, and what its labels say
   cutc info marker.cut --format json          the same for a script
+  cutc info in --rate 45/h --plies 40 --format csv
+                                              a row a file: time, area, use of the cloth, costs
   cutc compile marker.cut --pieces 3,7-12     some pieces only; --skip and --resume-from likewise
   cutc compile marker.cut --dry-run           the same motion, knife up; --frame: once around the box
   cutc explain iso/open-slit                  what a message means and what to do

@@ -19,6 +19,7 @@ mod help;
 mod info;
 mod labels;
 mod options;
+mod price;
 mod profile;
 mod provenance;
 mod report;
@@ -69,11 +70,11 @@ enum Command {
     Compile(compile::Arguments),
     /// Compile every cutter file that comes into a folder, until it is stopped
     Watch(watch::Arguments),
-    /// Judge a program, edited by hand or not: does it cut what its cutter file says?
+    /// Judge programs, edited by hand or not: do they cut what their cutter files say?
     Verify(verify::Arguments),
     /// Read cutter files and say everything that is wrong with them; writes nothing
     Check(check::Arguments),
-    /// Say what is in a cutter file: pieces, notches, speeds, labels
+    /// Say what is in cutter files: pieces, notches, speeds, labels, area, costs
     Info(info::Arguments),
     /// Show, begin or check a machine profile
     Profile(profile::Arguments),
@@ -170,9 +171,9 @@ pub fn run(words: impl IntoIterator<Item = OsString>, console: &mut Console) -> 
     let finished = match &arguments.command {
         Command::Compile(arguments) => compile::run(arguments, console),
         Command::Watch(arguments) => watch::run(arguments, &words[2..], console),
-        Command::Verify(arguments) => verify::run(arguments),
-        Command::Check(arguments) => check::run(arguments),
-        Command::Info(arguments) => info::run(arguments),
+        Command::Verify(arguments) => verify::run(arguments, console),
+        Command::Check(arguments) => check::run(arguments, console),
+        Command::Info(arguments) => info::run(arguments, console),
         Command::Profile(arguments) => profile::run(arguments),
         Command::Explain(arguments) => explain::run(arguments),
         Command::Completions(arguments) => Ok(completions::run(arguments)),

@@ -9,7 +9,7 @@ use super::files;
 use super::options::typed;
 use super::report::pretty;
 use super::say;
-use crate::back::Target;
+use crate::back::{Proof, TARGETS, Target};
 use crate::machine::{Job, sha256_hex};
 use crate::source::Source;
 
@@ -83,8 +83,20 @@ pub(super) fn json(Made { source, job, target, verified }: &Made) -> String {
 
 /// Name of the input that a program was made from, if that stands beside it.
 pub(super) fn source_of(program: &Path) -> Option<String> {
+    told(program, "source")
+}
+
+/// Whether a program is one that can be judged, by the target that it was made by; `None` when nothing beside it says so.
+pub(super) fn is_judged(program: &Path) -> Option<bool> {
+    let made_by = told(program, "target")?;
+    let target = TARGETS.iter().find(|target| target.name == made_by);
+    Some(target.is_some_and(|target| target.proof != Proof::None))
+}
+
+/// What the provenance beside a program says under a key.
+fn told(program: &Path, key: &str) -> Option<String> {
     let meta: serde_json::Value = serde_json::from_slice(&fs::read(files::meta(program)).ok()?).ok()?;
-    meta["source"].as_str().map(str::to_owned)
+    meta[key].as_str().map(str::to_owned)
 }
 
 /// What the provenance beside a program, if there is one, says against judging it by this source and profile: warnings.

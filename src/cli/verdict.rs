@@ -1,5 +1,7 @@
 //! A verdict as a table for people and as JSON for programs.
 
+use std::path::Path;
+
 use serde::Serialize;
 
 use super::options::counted;
@@ -65,26 +67,43 @@ struct Where {
 
 /// The verdict as JSON; a program whose source has errors is proven by nothing: it fails, without rules.
 pub(super) fn json(verdict: Option<&Verdict>) -> String {
-    let rule = |finding: &Finding| Rule {
-        code: finding.rule,
-        worst: finding.worst.is_finite().then(|| pipeline::significant(finding.worst, DIGITS)),
-        limit: finding.limit.map(|limit| pipeline::significant(limit, DIGITS)),
-        unit: finding.unit,
-        r#where: finding.place.map(|place| Where {
-            time_s: place.time.map(|time| pipeline::significant(time, DIGITS)),
-            x_mm: pipeline::significant(place.point.x, DIGITS),
-            y_mm: pipeline::significant(place.point.y, DIGITS),
-            block: place.block,
-        }),
-        holds: finding.holds(),
-    };
-    let passes = verdict.is_some_and(Verdict::passes);
-    pretty(&Judged {
-        verdict: if passes { Word::Pass } else { Word::Fail },
-        rules: verdict.map_or_else(Vec::new, |verdict| verdict.findings.iter().map(rule).collect()),
-        unread: verdict.and_then(|verdict| verdict.unread.clone()),
-        untimed: verdict.map_or_else(Vec::new, |verdict| verdict.untimed.clone()),
-    })
+    pretty(&Judged::of(verdict))
+}
+
+/// The same as one of a list of JSON objects.
+pub(super) fn json_of(program: &Path, verdict: Option<&Verdict>) -> String {
+    #[derive(Serialize)]
+    struct OfProgram {
+        program: String,
+        #[serde(flatten)]
+        judged: Judged,
+    }
+    pretty(&OfProgram { program: program.display().to_string(), judged: Judged::of(verdict) })
+}
+
+impl Judged {
+    fn of(verdict: Option<&Verdict>) -> Self {
+        let rule = |finding: &Finding| Rule {
+            code: finding.rule,
+            worst: finding.worst.is_finite().then(|| pipeline::significant(finding.worst, DIGITS)),
+            limit: finding.limit.map(|limit| pipeline::significant(limit, DIGITS)),
+            unit: finding.unit,
+            r#where: finding.place.map(|place| Where {
+                time_s: place.time.map(|time| pipeline::significant(time, DIGITS)),
+                x_mm: pipeline::significant(place.point.x, DIGITS),
+                y_mm: pipeline::significant(place.point.y, DIGITS),
+                block: place.block,
+            }),
+            holds: finding.holds(),
+        };
+        let passes = verdict.is_some_and(Verdict::passes);
+        Self {
+            verdict: if passes { Word::Pass } else { Word::Fail },
+            rules: verdict.map_or_else(Vec::new, |verdict| verdict.findings.iter().map(rule).collect()),
+            unread: verdict.and_then(|verdict| verdict.unread.clone()),
+            untimed: verdict.map_or_else(Vec::new, |verdict| verdict.untimed.clone()),
+        }
+    }
 }
 
 /// A row of the table: mark, rule, worst, limit, unit, time, x, y, block.

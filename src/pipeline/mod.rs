@@ -1,5 +1,6 @@
 //! The compiler, each stage named once, in order.
 
+mod area;
 mod judge;
 mod place;
 mod program;
@@ -8,6 +9,7 @@ mod report;
 mod spent;
 mod toolpaths;
 
+pub use area::area;
 pub use judge::{about, figures, foreign, judge_program};
 pub use report::{Axes, Controller, Drawn, Lines, Notches, Peak, Peaks, Program, Report, Sides, significant};
 pub use spent::{Spent, word};

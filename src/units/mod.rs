@@ -12,8 +12,12 @@ pub const MS_PER_S: f64 = 1000.0;
 pub const NS_PER_S: f64 = 1e9;
 /// Seconds in a minute.
 pub const S_PER_MIN: f64 = 60.0;
+/// Seconds in an hour.
+pub const S_PER_HOUR: f64 = 3600.0;
 /// Millimetres in a metre.
 pub const MM_PER_M: f64 = 1000.0;
+/// Square millimetres in a square metre.
+pub const MM2_PER_M2: f64 = MM_PER_M * MM_PER_M;
 
 /// Degrees to radians.
 pub fn rad(degrees: f64) -> f64 {

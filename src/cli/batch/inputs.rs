@@ -6,8 +6,8 @@ use std::path::{Component, Path, PathBuf};
 use globset::{GlobBuilder, GlobMatcher};
 use walkdir::{DirEntry, WalkDir};
 
-use crate::cli::failure;
-use crate::cli::files::{STDIN, is_dash, meta};
+use crate::cli::files::{STDIN, is_dash, is_meta, meta};
+use crate::cli::{failure, provenance};
 use crate::front::DIALECTS;
 
 /// What makes a name a pattern.
@@ -44,13 +44,40 @@ pub(in crate::cli) enum Inputs {
     Many(Vec<Input>),
 }
 
-/// Finds what some arguments mean. `belongs` tells which files in folders are meant; a pattern names them itself. What is
-/// neither there nor a pattern is left for whoever opens it.
+/// Which files are meant by folders and patterns.
+#[derive(Clone, Copy)]
+struct Sought<'a> {
+    /// Whether a file in a folder is.
+    belongs: &'a dyn Fn(&Path) -> bool,
+    /// Whether a file may be that a pattern names.
+    may: &'a dyn Fn(&Path) -> bool,
+    /// What to do when there are none.
+    hint: &'a str,
+}
+
+/// Finds the cutter files that some arguments mean. `belongs` tells which files in folders are meant; a pattern names them
+/// itself; programs of ours are neither. What is neither there nor a pattern is left for whoever opens it.
 pub(in crate::cli) fn find(
     arguments: &[PathBuf],
     belongs: impl Fn(&Path) -> bool,
     hint: &str,
 ) -> anyhow::Result<Inputs> {
+    let is_of_others = |path: &Path| !meta(path).exists();
+    let belongs = |path: &Path| belongs(path) && is_of_others(path);
+    find_sought(arguments, Sought { belongs: &belongs, may: &is_of_others, hint })
+}
+
+/// Finds the programs that some arguments mean: in folders those whose provenance names a target that is judged, by a
+/// pattern all but provenances and what is made by other targets.
+pub(in crate::cli) fn find_programs(arguments: &[PathBuf]) -> anyhow::Result<Inputs> {
+    let belongs = |path: &Path| provenance::is_judged(path) == Some(true);
+    let may = |path: &Path| provenance::is_judged(path) != Some(false) && !is_meta(path);
+    let hint = "programs are told by the `.meta.json` beside them; name others by a pattern, as in `'out/**/*.csv'`";
+    find_sought(arguments, Sought { belongs: &belongs, may: &may, hint })
+}
+
+fn find_sought(arguments: &[PathBuf], sought: Sought) -> anyhow::Result<Inputs> {
+    let Sought { belongs, may, hint } = sought;
     if let [one] = arguments
         && !one.is_dir()
         && (one.exists() || pattern(one).is_none())
@@ -66,7 +93,7 @@ pub(in crate::cli) fn find(
             walk(argument, |path, _| belongs(path), &mut inputs)?;
         } else if let Some(pattern) = pattern(argument).filter(|_| !argument.exists()) {
             let Pattern { folder, matcher } = pattern?;
-            walk(&folder, |_, name| matcher.is_match(name), &mut inputs)?;
+            walk(&folder, |path, name| matcher.is_match(name) && may(path), &mut inputs)?;
         } else {
             let name = argument.file_name().map_or_else(|| argument.clone(), PathBuf::from);
             inputs.push(Input { path: argument.clone(), name });
@@ -106,7 +133,7 @@ pub(in crate::cli) fn files_in(folder: &Path) -> anyhow::Result<Vec<Input>> {
     Ok(inputs)
 }
 
-/// The files below a folder, each folder's in the order of their names; neither hidden ones nor programs of ours.
+/// The files below a folder, each folder's in the order of their names, but hidden ones.
 fn walk(folder: &Path, is_meant: impl Fn(&Path, &Path) -> bool, inputs: &mut Vec<Input>) -> anyhow::Result<()> {
     let is_seen = |entry: &DirEntry| entry.depth() == 0 || !entry.file_name().to_string_lossy().starts_with('.');
     for entry in WalkDir::new(folder).follow_links(true).sort_by_file_name().into_iter().filter_entry(is_seen) {
@@ -115,7 +142,7 @@ fn walk(folder: &Path, is_meant: impl Fn(&Path, &Path) -> bool, inputs: &mut Vec
         })?;
         let path = entry.path();
         let name = path.strip_prefix(folder).unwrap_or(path);
-        if entry.file_type().is_file() && is_meant(path, name) && !meta(path).exists() {
+        if entry.file_type().is_file() && is_meant(path, name) {
             // Written as its user would: `./a.cut` is `a.cut`.
             let path = path.strip_prefix(".").unwrap_or(path);
             inputs.push(Input { path: path.to_owned(), name: name.to_owned() });
@@ -184,7 +211,26 @@ mod tests {
         check(&["in/b.cut"], &[("b.cut", "one")]);
         check(&["in/none.cut"], &[("none.cut", "one")]);
         check(&["in/b.cut", "in/sub/a.cut"], &[("in/b.cut", "b.cut"), ("in/sub/a.cut", "a.cut")]);
-        check(&["in/b.cut", "in", "in/../in/b.cut"], &[("in/b.cut", "b.cut"), all[0].clone(), all[2].clone()]);
+        check(&["in/b.cut", "in", "in/../in/b.cut"], &[("in/b.cut", "b.cut"), all[0], all[2]]);
+    }
+
+    #[test]
+    fn programs_are_told_by_what_they_were_made_by() {
+        let room = tempfile::tempdir().expect("a directory");
+        let made = [("a.csv", "csv"), ("b.svg", "svg"), ("c.ngc", "gcode"), ("d.txt", "no-target")];
+        for (name, target) in made {
+            fs::write(room.path().join(name), "").expect("writable");
+            let provenance = format!("{{\"target\": \"{target}\"}}");
+            fs::write(meta(&room.path().join(name)), provenance).expect("writable");
+        }
+        fs::write(room.path().join("e.csv"), "").expect("writable");
+        let found = |argument: &str| match find_programs(&[room.path().join(argument)]).expect("readable") {
+            Inputs::One(path) => panic!("{}", path.display()),
+            Inputs::Many(inputs) => inputs.iter().map(Input::key).collect::<Vec<_>>(),
+        };
+        assert_eq!(found(""), ["a.csv", "c.ngc"]);
+        assert_eq!(found("*"), ["a.csv", "c.ngc", "e.csv"]);
+        assert!(find_programs(&[room.path().join("*.svg")]).expect_err("pictures").to_string().contains(".meta.json"));
     }
 
     #[test]

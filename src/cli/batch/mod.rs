@@ -1,5 +1,6 @@
 //! Many files: which they are, work on them side by side, what is said of each, together and in order, and a table of all.
 
+mod figures;
 mod inputs;
 mod manifest;
 mod progress;
@@ -13,11 +14,12 @@ use std::thread;
 
 use clap::Args;
 
-pub(super) use inputs::{Input, Inputs, extensions, files_in, find, hint, is_cutter_file};
+pub(super) use figures::{Cloth, Figures};
+pub(super) use inputs::{Input, Inputs, extensions, files_in, find, find_programs, hint, is_cutter_file};
 pub(super) use manifest::{Line, Made, Manifest, Output, Verdict};
 pub(super) use shard::Shard;
 pub(super) use side_by_side::{Stages, run as side_by_side};
-pub(super) use table::{Columns, Row, State};
+pub(super) use table::{Columns, Row, State, counts, failed_last, sum, text};
 
 use self::progress::Progress;
 use super::{Console, DONE, FAULTY, Finished};
@@ -97,46 +99,83 @@ pub(super) fn worst(diagnostics: &Diagnostics) -> Option<&'static str> {
     diagnostics.tally().first().map(|(code, _)| code.name)
 }
 
-/// Works on every input and tells what comes of it. The exit code is [`FAULTY`] when any failed.
-pub(super) fn run<D: Send>(
-    inputs: &[Input],
-    threads: usize,
-    (telling, console): (Telling, &mut Console),
-    stages: Stages<impl Fn(usize, &Input) -> D + Sync, impl Fn(usize, D) -> Outcome + Sync>,
-) -> Finished {
-    let sizes: Vec<u64> = inputs.iter().map(Input::size).collect();
-    let progress = Progress::new(inputs.len(), telling.quiet);
-    let (mut rows, mut objects, mut failed) = (Vec::new(), 0, 0);
-    let Stages { work, settle } = stages;
-    let work = |i: usize| unless_broken(&inputs[i], || work(i, &inputs[i]));
-    let settle = |i: usize, worked: Result<D, String>| {
-        let settled = worked.and_then(|worked| unless_broken(&inputs[i], || settle(i, worked)));
-        let outcome = settled.unwrap_or_else(|said| Outcome::broken(&inputs[i], said));
-        progress.step(outcome.row.as_ref().is_some_and(|row| row.state == State::Failed));
-        outcome
-    };
-    side_by_side(&sizes, threads, Stages { work, settle }, |_, outcome| {
-        let Outcome { row, said, json } = outcome;
-        progress.aside(|| {
-            // Who closed a stream does not want to read it.
-            let _ = console.err.write_all(said.as_bytes());
-            if let Some(json) = json {
-                let before = if objects == 0 { "[\n" } else { ",\n" };
-                let _ = write!(console.out, "{before}{}", indented(&json));
-                objects += 1;
-            }
+/// Files to work on.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Batch<'b> {
+    /// Which.
+    pub(super) inputs: &'b [Input],
+    /// By how many threads.
+    pub(super) threads: usize,
+    /// How that is told.
+    pub(super) telling: Telling,
+}
+
+/// What is left to print of a batch.
+#[derive(Debug)]
+pub(super) struct Ended {
+    /// Of all files, in their order.
+    pub(super) rows: Vec<Row>,
+    /// What closes the list of JSON objects.
+    pub(super) closing: &'static str,
+}
+
+impl Ended {
+    /// [`FAULTY`] when any file failed.
+    pub(super) fn code(&self) -> u8 {
+        if self.rows.iter().any(|row| row.state == State::Failed) { FAULTY } else { DONE }
+    }
+
+    /// The end of the list on standard output, and the table on standard error.
+    pub(super) fn finished(self, telling: Telling) -> Finished {
+        Finished::text(self.closing.to_owned(), text(&self.rows, telling), self.code())
+    }
+}
+
+impl Batch<'_> {
+    /// Works on every input and tells what comes of it, but for the table.
+    pub(super) fn run(self, console: &mut Console, work: impl Fn(usize, &Input) -> Outcome + Sync) -> Ended {
+        self.run_in_stages(console, Stages { work, settle: |_, outcome| outcome })
+    }
+
+    /// The same, where a part of the work waits for a disk.
+    pub(super) fn run_in_stages<D: Send>(
+        self,
+        console: &mut Console,
+        stages: Stages<impl Fn(usize, &Input) -> D + Sync, impl Fn(usize, D) -> Outcome + Sync>,
+    ) -> Ended {
+        let Self { inputs, threads, telling } = self;
+        let sizes: Vec<u64> = inputs.iter().map(Input::size).collect();
+        let progress = Progress::new(inputs.len(), telling.quiet);
+        let (mut rows, mut objects) = (Vec::new(), 0);
+        let Stages { work, settle } = stages;
+        let work = |i: usize| unless_broken(&inputs[i], || work(i, &inputs[i]));
+        let settle = |i: usize, worked: Result<D, String>| {
+            let settled = worked.and_then(|worked| unless_broken(&inputs[i], || settle(i, worked)));
+            let outcome = settled.unwrap_or_else(|said| Outcome::broken(&inputs[i], said));
+            progress.step(outcome.row.as_ref().is_some_and(|row| row.state == State::Failed));
+            outcome
+        };
+        side_by_side(&sizes, threads, Stages { work, settle }, |_, outcome| {
+            let Outcome { row, said, json } = outcome;
+            progress.aside(|| {
+                // Who closed a stream does not want to read it.
+                let _ = console.err.write_all(said.as_bytes());
+                if let Some(json) = json {
+                    let before = if objects == 0 { "[\n" } else { ",\n" };
+                    let _ = write!(console.out, "{before}{}", indented(&json));
+                    objects += 1;
+                }
+            });
+            rows.extend(row);
         });
-        failed += usize::from(row.as_ref().is_some_and(|row| row.state == State::Failed));
-        rows.extend(row);
-    });
-    progress.end();
-    let closing = match (telling.json, objects) {
-        (false, _) => "",
-        (true, 0) => "[]\n",
-        (true, _) => "\n]\n",
-    };
-    let table = table::text(&rows, telling);
-    Finished::text(closing.to_owned(), table, if failed > 0 { FAULTY } else { DONE })
+        progress.end();
+        let closing = match (telling.json, objects) {
+            (false, _) => "",
+            (true, 0) => "[]\n",
+            (true, _) => "\n]\n",
+        };
+        Ended { rows, closing }
+    }
 }
 
 /// What comes of work on a file; or what is said of a file that the program itself broke down over: the others go on.

@@ -4,7 +4,9 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use super::Telling;
+use super::figures::Figures;
 use crate::cli::options::counted;
+use crate::cli::price::{Costs, Price};
 use crate::cli::times::clock;
 use crate::units::number::fixed;
 
@@ -32,7 +34,9 @@ pub(in crate::cli) struct Row {
     pub(in crate::cli) cut_m: Option<f64>,
     /// What the program takes, s.
     pub(in crate::cli) time_s: Option<f64>,
-    /// The worst of what was found; empty when nothing was.
+    /// Where they were asked for.
+    pub(in crate::cli) figures: Option<Figures>,
+    /// The worst of what was found, or the verdict; empty when there is nothing to say.
     pub(in crate::cli) worst: String,
 }
 
@@ -40,26 +44,27 @@ impl Row {
     /// A row of which no more is known.
     pub(in crate::cli) fn new(file: &Path, state: State) -> Self {
         let file = file.display().to_string();
-        Self { file, state, pieces: None, cut_m: None, time_s: None, worst: String::new() }
+        Self { file, state, pieces: None, cut_m: None, time_s: None, figures: None, worst: String::new() }
     }
 }
 
 /// Which figures the rows have.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::cli) enum Columns {
     /// Pieces and metres: what is known of a file that is read.
     Read,
     /// The time, too, of a program.
     Planned,
+    /// All that is known of a file, with what it costs at a price.
+    Counted(Option<Price>),
     /// None but the verdict.
     Judged,
 }
 
 /// The table of some rows; with `quiet` only of those that failed.
-pub(super) fn text(rows: &[Row], Telling { columns, quiet, .. }: Telling) -> String {
-    let is_failed = |row: &&Row| row.state == State::Failed;
-    let well = rows.iter().filter(|row| !quiet && !is_failed(row));
-    let shown: Vec<&Row> = well.chain(rows.iter().filter(is_failed)).collect();
+pub(in crate::cli) fn text(rows: &[Row], Telling { columns, quiet, .. }: Telling) -> String {
+    let mut shown = failed_last(rows);
+    shown.retain(|row| !quiet || row.state == State::Failed);
     let mut cells = vec![titles(columns)];
     cells.extend(shown.iter().map(|row| row.cells(columns)));
     if shown.len() > 1 && columns != Columns::Judged && !quiet {
@@ -79,33 +84,49 @@ pub(super) fn text(rows: &[Row], Telling { columns, quiet, .. }: Telling) -> Str
             let _ = writeln!(out, "{}", format!("{line}  {}", row[last]).trim_end());
         }
     }
+    out + &counts(rows)
+}
+
+/// The rows in their order, those of what failed behind the others.
+pub(in crate::cli) fn failed_last(rows: &[Row]) -> Vec<&Row> {
+    let (failed, well): (Vec<_>, Vec<_>) = rows.iter().partition(|row| row.state == State::Failed);
+    [well, failed].concat()
+}
+
+/// A line on how many files ended how.
+pub(in crate::cli) fn counts(rows: &[Row]) -> String {
     let count = |state: State| rows.iter().filter(|row| row.state == state).count();
     let (done, unchanged, failed) = (count(State::Done), count(State::Unchanged), count(State::Failed));
     let mut said = vec![counted(rows.len(), "file")];
     said.extend((done > 0).then(|| format!("{done} done")));
     said.extend((unchanged > 0).then(|| format!("{unchanged} unchanged")));
     said.extend((failed > 0).then(|| format!("{failed} failed")));
-    let _ = writeln!(out, "{}", said.join(", "));
-    out
+    said.join(", ") + "\n"
 }
 
 fn titles(columns: Columns) -> Vec<String> {
-    let titles: &[&str] = match columns {
-        Columns::Read => &["file", "pieces", "cut m", "worst finding"],
-        Columns::Planned => &["file", "pieces", "cut m", "time", "worst finding"],
-        Columns::Judged => &["file", "verdict"],
+    let costs: &[&str] = &["cost", "a ply", "a part"];
+    let titles: &[&[&str]] = match columns {
+        Columns::Read => &[&["pieces", "cut m", "worst finding"]],
+        Columns::Planned => &[&["pieces", "cut m", "time", "worst finding"]],
+        Columns::Counted(price) => {
+            let known: &[&str] = &["pieces", "cut m", "time", "notches", "area m2", "cloth mm", "used %"];
+            &[known, if price.is_some() { costs } else { &[] }, &["worst finding"]]
+        }
+        Columns::Judged => &[&["verdict"]],
     };
-    titles.iter().map(|&title| title.to_owned()).collect()
+    std::iter::once("file").chain(titles.concat()).map(str::to_owned).collect()
 }
 
 /// All rows as one.
-fn sum(rows: &[Row]) -> Row {
+pub(in crate::cli) fn sum(rows: &[Row]) -> Row {
     Row {
         file: "all".to_owned(),
         state: State::Done,
         pieces: Some(rows.iter().filter_map(|row| row.pieces).sum()),
         cut_m: Some(rows.iter().filter_map(|row| row.cut_m).sum()),
         time_s: Some(rows.iter().filter_map(|row| row.time_s).sum()),
+        figures: Figures::sum(rows.iter().filter_map(|row| row.figures.as_ref())),
         worst: String::new(),
     }
 }
@@ -126,17 +147,42 @@ impl Row {
             State::Failed => format!("FAILED {}", self.worst),
             State::Done => self.worst.clone(),
         };
+        let time = || self.time_s.map_or_else(String::new, clock);
         match columns {
             Columns::Read => vec![file, pieces, cut, worst],
-            Columns::Planned => vec![file, pieces, cut, self.time_s.map_or_else(String::new, clock), worst],
+            Columns::Planned => vec![file, pieces, cut, time(), worst],
+            Columns::Counted(price) => {
+                let mut cells = vec![file, pieces, cut, time()];
+                cells.extend(self.figures.map_or_else(Default::default, |figures| known(&figures)));
+                cells.extend(price.into_iter().flat_map(|price| {
+                    let costs = self.costs(price);
+                    costs.map_or_else(Default::default, |costs| shares(&costs))
+                }));
+                cells.push(worst);
+                cells
+            }
             Columns::Judged => vec![file, worst],
         }
     }
 }
 
+/// Notches, area, cloth and how much of it is used.
+fn known(figures: &Figures) -> [String; 4] {
+    let Figures { notches, area_m2, cloth } = figures;
+    let cloth = format!("{} x {}", fixed(cloth.length_mm, 0), fixed(cloth.width_mm, 0));
+    let used = figures.utilisation_percent().map_or_else(String::new, |used| fixed(used, 1));
+    [notches.to_string(), area_m2.map_or_else(String::new, |area| fixed(area, 3)), cloth, used]
+}
+
+/// The cost of all, of a ply and of a part; of the last some more digits, for there are many.
+fn shares(costs: &Costs) -> [String; 3] {
+    [fixed(costs.marker, 2), fixed(costs.ply, 3), costs.part.map_or_else(String::new, |part| fixed(part, 4))]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cli::batch::Cloth;
 
     #[test]
     fn what_failed_stands_last_before_the_sum() {
@@ -161,6 +207,38 @@ mod tests {
           file   pieces  cut m  time  worst finding
           b.cut                       FAILED iso/not-a-word
         4 files, 2 done, 1 unchanged, 1 failed
+        ");
+    }
+
+    #[test]
+    fn figures_stand_in_columns_and_add_up() {
+        let known =
+            |area_m2, length_mm| Some(Figures { notches: 4, area_m2, cloth: Cloth { length_mm, width_mm: 1500.0 } });
+        let row = |file: &str, figures| Row {
+            pieces: Some(8),
+            cut_m: Some(12.34),
+            time_s: Some(61.2),
+            figures,
+            ..Row::new(Path::new(file), State::Done)
+        };
+        let bad = Row { worst: "iso/not-a-word".to_owned(), ..Row::new(Path::new("b.cut"), State::Failed) };
+        let rows = [row("a.cut", known(Some(2.4), 2000.0)), bad, row("c.cut", known(Some(0.0), 0.0))];
+        let told = |price| text(&rows, Telling { columns: Columns::Counted(price), quiet: false, json: false });
+        insta::assert_snapshot!(told(None), @r"
+          file   pieces  cut m  time  notches  area m2     cloth mm  used %  worst finding
+          a.cut       8   12.3  1:01        4    2.400  2000 x 1500    80.0
+          c.cut       8   12.3  1:01        4    0.000     0 x 1500
+          b.cut                                                              FAILED iso/not-a-word
+          all        16   24.7  2:02        8    2.400  2000 x 1500    80.0
+        3 files, 2 done, 1 failed
+        ");
+        insta::assert_snapshot!(told(Some(Price::of(36.0, 5))), @r"
+          file   pieces  cut m  time  notches  area m2     cloth mm  used %  cost  a ply  a part  worst finding
+          a.cut       8   12.3  1:01        4    2.400  2000 x 1500    80.0  0.61  0.122  0.0153
+          c.cut       8   12.3  1:01        4    0.000     0 x 1500          0.61  0.122  0.0153
+          b.cut                                                                                   FAILED iso/not-a-word
+          all        16   24.7  2:02        8    2.400  2000 x 1500    80.0  1.22  0.245  0.0153
+        3 files, 2 done, 1 failed
         ");
     }
 }

@@ -7,7 +7,7 @@ use super::made::{Compile, Drafted, Ended, Whole};
 use super::{Arguments, Making, one};
 use crate::back::Target;
 use crate::cli::batch::{
-    self, Columns, Input, Line, Made, Manifest, Outcome, Output, Row, Stages, State, Telling, Verdict,
+    self, Batch, Columns, Input, Line, Made, Manifest, Outcome, Output, Row, Stages, State, Telling, Verdict,
 };
 use crate::cli::choices::Format;
 use crate::cli::destination::{below, not_of_another, targets_of_many};
@@ -64,7 +64,8 @@ pub(super) fn run(
         Step::Drafted(one) => many.publish(one).outcome(&inputs[i], many.job, *messages, *format),
     };
     let telling = Telling { columns: Columns::Planned, quiet: messages.quiet, json: *format == Format::Json };
-    let mut finished = batch::run(inputs, threads, (telling, console), Stages { work, settle });
+    let mut finished =
+        Batch { inputs, threads, telling }.run_in_stages(console, Stages { work, settle }).finished(telling);
     let path = manifest.path().display().to_string();
     if let Err(error) = manifest.finish() {
         say(&mut finished.stderr, format_args!("error: {error:#}"));

@@ -1,0 +1,109 @@
+//! What a marker costs: the time of the machine at its rate, shared by plies and parts. Money has no currency here.
+
+use clap::Args;
+
+use crate::units::{S_PER_HOUR, S_PER_MIN};
+
+/// What one asks for on the command line.
+#[derive(Debug, Clone, Copy, Args)]
+#[command(next_help_heading = "Costs")]
+pub(super) struct Pricing {
+    /// What the machine costs, as in `--rate 45/h` or `--rate 0.75/min`: adds the cost of the marker by the time of its
+    /// program, of each ply and of each part
+    ///
+    /// The number is money of any currency.
+    #[arg(long, value_name = "MONEY/TIME", value_parser = Rate::parse)]
+    rate: Option<Rate>,
+
+    /// Plies of cloth that are cut at once; without it one
+    #[arg(long, value_name = "N", requires = "rate", value_parser = clap::value_parser!(u32).range(1..))]
+    plies: Option<u32>,
+}
+
+/// What a machine costs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Rate {
+    /// Money a second.
+    per_s: f64,
+}
+
+impl Rate {
+    /// Reads `45/h`.
+    fn parse(text: &str) -> Result<Self, String> {
+        let rate = text.split_once('/').and_then(|(money, time)| {
+            let seconds = match time.trim() {
+                "h" => S_PER_HOUR,
+                "min" => S_PER_MIN,
+                "s" => 1.0,
+                _ => return None,
+            };
+            let money: f64 = money.trim().parse().ok()?;
+            (money.is_finite() && money >= 0.0).then_some(Self { per_s: money / seconds })
+        });
+        rate.ok_or_else(|| "a rate is a number and a time, as in 45/h or 0.75/min, without a currency".to_owned())
+    }
+}
+
+/// What cutting costs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Price {
+    rate: Rate,
+    /// Cut at once, at least one.
+    pub(super) plies: u32,
+}
+
+/// The costs of some parts, money.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Costs {
+    /// Of all plies.
+    pub(super) marker: f64,
+    /// Of one ply.
+    pub(super) ply: f64,
+    /// Of one part of one ply; `None` when there are none.
+    pub(super) part: Option<f64>,
+}
+
+impl Pricing {
+    /// The price, if costs are asked for.
+    pub(super) fn price(self) -> Option<Price> {
+        self.rate.map(|rate| Price { rate, plies: self.plies.unwrap_or(1) })
+    }
+}
+
+impl Price {
+    /// A price by money an hour, for tests of what it does.
+    #[cfg(test)]
+    pub(super) fn of(per_h: f64, plies: u32) -> Self {
+        Self { rate: Rate { per_s: per_h / S_PER_HOUR }, plies }
+    }
+
+    /// The costs of so many pieces whose program takes `time_s` s.
+    pub(super) fn costs(&self, time_s: f64, pieces: usize) -> Costs {
+        let marker = time_s * self.rate.per_s;
+        let ply = marker / f64::from(self.plies);
+        Costs { marker, ply, part: (pieces > 0).then(|| ply / pieces as f64) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rate_is_money_by_time() {
+        for text in ["45/h", "0.75/min", "0.0125/s", " 45 / h"] {
+            assert!((Rate::parse(text).expect("a rate").per_s - 0.0125).abs() < 1e-12, "{text}");
+        }
+        for text in ["45", "45/d", "-1/h", "inf/h", "EUR 45/h", "/h", ""] {
+            assert!(Rate::parse(text).expect_err("refused").contains("45/h"), "{text}");
+        }
+    }
+
+    #[test]
+    fn costs_are_shared_by_plies_and_parts() {
+        let price = Price::of(36.0, 10);
+        let costs = price.costs(500.0, 4);
+        assert_eq!((costs.marker, costs.ply, costs.part), (5.0, 0.5, Some(0.125)));
+        assert_eq!(price.costs(0.0, 0).part, None);
+    }
+}

@@ -1,0 +1,139 @@
+//! Many programs, each against the file that it was made from, or all against one.
+
+use std::path::{Path, PathBuf};
+
+use super::Arguments;
+use super::one::{Judged, Program};
+use crate::cli::batch::{Batch, Columns, Input, Outcome, Row, State, Telling};
+use crate::cli::choices::Format;
+use crate::cli::options::counted;
+use crate::cli::{Console, Finished, Stdout, failure, files, provenance, say, verdict};
+use crate::machine::Job;
+use crate::pipeline::Verdict;
+use crate::source::Source;
+
+/// Broken rules that a row names; more are counted.
+const MOST_RULES: usize = 3;
+
+/// What programs are judged by.
+enum Sources<'a> {
+    /// All by one file.
+    File(Source),
+    /// Each by its own, somewhere in a folder.
+    Folder(&'a Path),
+}
+
+/// A source that is owned only when no other program has it.
+enum Shared<'a> {
+    All(&'a Source),
+    Own(Source),
+}
+
+impl Shared<'_> {
+    fn get(&self) -> &Source {
+        match self {
+            Self::All(source) => source,
+            Self::Own(source) => source,
+        }
+    }
+}
+
+impl Sources<'_> {
+    fn of(&self, input: &Input) -> anyhow::Result<Shared<'_>> {
+        match self {
+            Self::File(source) => Ok(Shared::All(source)),
+            Self::Folder(folder) => {
+                let path = source_in(folder, input)?;
+                if !path.exists() {
+                    return Err(failure(
+                        format!("there is no `{}`, which `{}` was made from", path.display(), input.path.display()),
+                        "name the folder that was compiled with --source, and the folder of all its programs, or a quoted \
+                         pattern: below these the folders are the same",
+                    ));
+                }
+                files::read(&path).map(Shared::Own)
+            }
+        }
+    }
+}
+
+pub(super) fn run(
+    arguments: &Arguments,
+    programs: &[Input],
+    threads: usize,
+    console: &mut Console,
+) -> anyhow::Result<Finished> {
+    let Arguments { source, reading, messages, choice, format, .. } = arguments;
+    let sources = if source.is_dir() { Sources::Folder(source) } else { Sources::File(files::read(source)?) };
+    let job = match reading.job()? {
+        Ok(job) => choice.of(job),
+        Err(refused) => return Ok(refused),
+    };
+    let is_json = *format == Format::Json;
+    let telling = Telling { columns: Columns::Judged, quiet: messages.quiet, json: is_json };
+    let work = |_, input: &Input| {
+        let failed = |error: anyhow::Error| {
+            let json = is_json.then(|| verdict::json_of(&input.path, None));
+            Outcome { json, ..Outcome::failed(input, &error) }
+        };
+        arguments.outcome(input, &sources, &job).unwrap_or_else(failed)
+    };
+    let mut finished = Batch { inputs: programs, threads, telling }.run(console, work).finished(telling);
+    if !is_json {
+        // The verdicts are what is asked for.
+        finished.stdout = Stdout::Text(std::mem::take(&mut finished.stderr));
+    }
+    Ok(finished)
+}
+
+/// Where the source of a program stands in a folder: below it as the program below its own folder, under the name that its
+/// provenance tells.
+pub(super) fn source_in(folder: &Path, program: &Input) -> anyhow::Result<PathBuf> {
+    let name = provenance::source_of(&program.path);
+    // A name is none of another place.
+    let name = name.as_deref().map(Path::new).and_then(Path::file_name).ok_or_else(|| {
+        failure(
+            format!(
+                "`{}` does not say what it was made from: there is no `{}`, or it names no source",
+                program.path.display(),
+                files::meta(&program.path).display()
+            ),
+            "name its cutter file, as in `--source marker.cut`, not a folder; or compile it anew",
+        )
+    })?;
+    Ok(folder.join(program.name.parent().unwrap_or(Path::new(""))).join(name))
+}
+
+impl Arguments {
+    /// What becomes of one of many programs.
+    fn outcome(&self, input: &Input, sources: &Sources, job: &Job) -> anyhow::Result<Outcome> {
+        let mut program = Program::open(&input.path)??;
+        let source = sources.of(input)?;
+        let Judged { verdict, mut said } = self.judge(&mut program, source.get(), job)?;
+        let (state, worst) = match &verdict {
+            Some(verdict) if verdict.passes() => (State::Done, "PASS".to_owned()),
+            Some(verdict) => {
+                let (name, source) = (input.path.display(), source.get().name());
+                let rules = counted(verdict.broken().count(), "rule");
+                say(
+                    &mut said,
+                    format_args!("{name}: breaks {rules}; `cutc verify {name} --source {source}` says more"),
+                );
+                (State::Failed, broken(verdict))
+            }
+            None => (State::Failed, "not judged: its cutter file has errors".to_owned()),
+        };
+        let row = Row { worst, ..Row::new(&input.path, state) };
+        let json = (self.format == Format::Json).then(|| verdict::json_of(&input.path, verdict.as_ref()));
+        Ok(Outcome { row: Some(row), said, json })
+    }
+}
+
+/// The first of the rules that are broken.
+fn broken(verdict: &Verdict) -> String {
+    let mut rules: Vec<String> = verdict.broken().map(|finding| finding.rule.to_owned()).collect();
+    let more = rules.len().saturating_sub(MOST_RULES);
+    rules.truncate(MOST_RULES);
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    rules.join(", ") + &more
+}

@@ -1,0 +1,94 @@
+//! One program, and all that its verdict says.
+
+use std::fs::File;
+use std::io;
+use std::path::Path;
+
+use super::Arguments;
+use crate::cli::choices::Format;
+use crate::cli::options::counted;
+use crate::cli::verdict::{self, Judgement};
+use crate::cli::{DONE, FAULTY, Finished, failure, files, provenance, say};
+use crate::diagnostic::{Diagnostics, Severity, render_with};
+use crate::machine::Job;
+use crate::pipeline::{self, Verdict};
+use crate::source::Source;
+
+/// A program that can be judged.
+pub(super) struct Program<'a> {
+    path: &'a Path,
+    file: File,
+}
+
+/// What was found of a program.
+pub(super) struct Judged {
+    /// `None` when its source has errors.
+    pub(super) verdict: Option<Verdict>,
+    /// What is said of the source, and of whether the program was made from it.
+    pub(super) said: String,
+}
+
+pub(super) fn run(arguments: &Arguments, program: &Path, source: &Path) -> anyhow::Result<Finished> {
+    let mut program = match Program::open(program)? {
+        Ok(program) => program,
+        Err(foreign) => {
+            let stdout = match arguments.format {
+                Format::Json => verdict::json(None),
+                Format::Text => String::new(),
+            };
+            return Ok(Finished::text(stdout, format!("error: {foreign}\n"), FAULTY));
+        }
+    };
+    let source = files::read(source)?;
+    let job = match arguments.reading.job()? {
+        Ok(job) => arguments.choice.of(job),
+        Err(refused) => return Ok(refused),
+    };
+    let Judged { verdict, said } = arguments.judge(&mut program, &source, &job)?;
+    let stdout = match (arguments.format, &verdict) {
+        (Format::Json, verdict) => verdict::json(verdict.as_ref()),
+        (Format::Text, Some(verdict)) => {
+            let program = program.path.display().to_string();
+            verdict::text(&Judgement { verdict, mode: job.mode, program: &program, source: source.name() })
+        }
+        (Format::Text, None) => String::new(),
+    };
+    let code = if verdict.is_some_and(|verdict| Verdict::passes(&verdict)) { DONE } else { FAULTY };
+    Ok(Finished::text(stdout, said, code))
+}
+
+impl<'a> Program<'a> {
+    /// Opens a file; the inner error is of one that is no program.
+    pub(super) fn open(path: &'a Path) -> anyhow::Result<Result<Self, anyhow::Error>> {
+        let mut file = files::open(path)?;
+        let foreign = pipeline::foreign(&mut file).map_err(|error| cannot_read(path, &error))?;
+        let Some([what, hint]) = foreign else { return Ok(Ok(Self { path, file })) };
+        let first =
+            "first comes what `cutc compile` wrote with a target that is judged, then its cutter file as --source";
+        let message = format!("not a program: `{}`: {what}", path.display());
+        Ok(Err(failure(message, format!("{hint}; {first}"))))
+    }
+}
+
+impl Arguments {
+    /// Judges a program by a source.
+    pub(super) fn judge(&self, program: &mut Program, source: &Source, job: &Job) -> anyhow::Result<Judged> {
+        let Program { path, file } = program;
+        let mut diagnostics = Diagnostics::default();
+        let verdict = pipeline::judge_program(file, source, self.reading.from, job, &mut diagnostics)
+            .map_err(|error| cannot_read(path, &error))?;
+        let mut said = render_with(&diagnostics, source, self.messages.detail(self.format));
+        if !self.messages.quiet {
+            said.push_str(&provenance::doubts(path, source, job));
+        }
+        if verdict.is_none() {
+            let errors = counted(diagnostics.count(Severity::Error), "error");
+            say(&mut said, format_args!("{}: {errors}; `{}` was not judged", source.name(), path.display()));
+        }
+        Ok(Judged { verdict, said })
+    }
+}
+
+fn cannot_read(path: &Path, error: &io::Error) -> anyhow::Error {
+    failure(format!("cannot read `{}`: {error}", path.display()), "check the disk that it is on")
+}
