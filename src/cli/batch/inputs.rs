@@ -184,7 +184,7 @@ mod tests {
         check(&["in/b.cut"], &[("b.cut", "one")]);
         check(&["in/none.cut"], &[("none.cut", "one")]);
         check(&["in/b.cut", "in/sub/a.cut"], &[("in/b.cut", "b.cut"), ("in/sub/a.cut", "a.cut")]);
-        check(&["in/b.cut", "in", "in/../in/b.cut"], &[("in/b.cut", "b.cut"), all[0].clone(), all[2].clone()]);
+        check(&["in/b.cut", "in", "in/../in/b.cut"], &[("in/b.cut", "b.cut"), all[0], all[2]]);
     }
 
     #[test]
