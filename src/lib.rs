@@ -33,6 +33,7 @@
 //! | [`back`] | targets: a form to bytes, a file each, rows of [`back::TARGETS`] |
 //! | `verify` | reads what was written with readers of its own and judges it against the Marker |
 //! | [`pipeline`] | names every stage once, in order |
+//! | [`manual`] | the manual, a page a topic, rows of [`manual::PAGES`] |
 //! | `cli` | arguments as typed to a job as meant; the binary adds printing and the exit code |
 //!
 //! To find a thing, follow the data: a wrong coordinate is `front`'s, a wrong order or overlap `pass`'s, a shaking axis
@@ -71,6 +72,7 @@ pub mod front;
 pub mod geom;
 pub mod ir;
 pub mod machine;
+pub mod manual;
 pub mod pass;
 pub mod pipeline;
 pub mod plan;

@@ -26,8 +26,9 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("back", FOUNDATION),
     ("verify", FOUNDATION),
     ("pipeline", ALL_BUT_CLI),
+    ("manual", &[]),
     // The tables of the stages, but not what they do.
-    ("cli", &["pipeline", "front", "back", "pass", "source", "machine", "diagnostic", "ir", "units"]),
+    ("cli", &["pipeline", "front", "back", "pass", "source", "machine", "diagnostic", "ir", "units", "manual"]),
     ("main", &["cli"]),
 ];
 

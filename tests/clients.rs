@@ -1,8 +1,16 @@
 //! Programs of others open what is written here. One that is not installed is named on standard error and left out;
 //! with `CUTC_REQUIRE_CLIENTS=1` that is a failure.
 
+#[cfg(unix)] // it kills processes by their group
+#[path = "clients/dask.rs"]
+mod dask;
+
 #[path = "clients/linuxcnc.rs"]
 mod linuxcnc;
+
+#[cfg(unix)]
+#[path = "support/page.rs"]
+mod page;
 
 #[path = "clients/tables.rs"]
 mod tables;

@@ -6,6 +6,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use crate::back::{TARGETS, Target};
 use crate::front::{DIALECTS, Dialect};
 use crate::machine::plot;
+use crate::manual::{PAGES, Page};
 use crate::pass::marker::MARKER_PASSES;
 use crate::pass::toolpath::TOOLPATH_PASSES;
 
@@ -62,6 +63,12 @@ pub(super) fn dialects() -> impl TypedValueParser<Value = &'static Dialect> {
     names(DIALECTS.iter().map(|dialect| (dialect.name, dialect.about))).map(|name| {
         DIALECTS.iter().find(|dialect| dialect.name == name).expect("clap lets only the names of the table pass")
     })
+}
+
+/// Reads the name of a page of the manual.
+pub(super) fn pages() -> impl TypedValueParser<Value = &'static Page> {
+    names(PAGES.iter().map(|page| (page.name, page.about)))
+        .map(|name| PAGES.iter().find(|page| page.name == name).expect("clap lets only the names of the table pass"))
 }
 
 /// Reads the name of a pass.

@@ -4,7 +4,7 @@
 //! left that could not, the next one that writes there does.
 
 use std::collections::BTreeSet;
-use std::fs::{self, File, TryLockError};
+use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -160,11 +160,12 @@ fn sweep(folder: &Path) {
         let name = entry.file_name().to_string_lossy().into_owned();
         let Some(rest) = name.strip_prefix(&ours).and_then(|rest| rest.strip_suffix(SUFFIX)) else { continue };
         // The name of another machine may begin like that of this one.
-        if !rest.split_once('-').is_some_and(|(process, _)| process.parse::<u32>().is_ok()) {
+        if rest.split_once('-').is_none_or(|(process, _)| process.parse::<u32>().is_err()) {
             continue;
         }
-        // Held until the file is gone, so that its maker, if it has only just begun, begins another.
-        if let Ok(file) = File::open(entry.path())
+        // Held until the file is gone, so that its maker, if it has only just begun, begins another. Open for writing:
+        // file systems over a network lock no other files.
+        if let Ok(file) = OpenOptions::new().read(true).write(true).open(entry.path())
             && file.try_lock().is_ok()
         {
             let _ = fs::remove_file(entry.path()); // it may be another user's
@@ -285,7 +286,9 @@ mod tests {
             at(format!("{PREFIX}notes.txt")),
         ];
         fs::write(&left, "half").expect("writable");
-        kept.iter().for_each(|path| fs::write(path, "kept").expect("writable"));
+        for path in &kept {
+            fs::write(path, "kept").expect("writable");
+        }
         let draft = Draft::new(&at("x.csv".to_owned())).expect("a draft");
         sweep(directory.path());
         assert!(!left.exists() && kept.iter().all(|path| path.exists()));

@@ -18,6 +18,7 @@ mod files;
 mod help;
 mod info;
 mod labels;
+mod manual;
 mod options;
 mod price;
 mod profile;
@@ -80,6 +81,8 @@ enum Command {
     Profile(profile::Arguments),
     /// Explain a code of a message or a rule of the verifier; without one, list them all
     Explain(explain::Arguments),
+    /// Print a page of the manual; without one, list them
+    Manual(manual::Arguments),
     /// Print completions of the command line for a shell
     Completions(completions::Arguments),
     /// Print the manual page of the program, or of a command
@@ -176,6 +179,7 @@ pub fn run(words: impl IntoIterator<Item = OsString>, console: &mut Console) -> 
         Command::Info(arguments) => info::run(arguments, console),
         Command::Profile(arguments) => profile::run(arguments),
         Command::Explain(arguments) => explain::run(arguments),
+        Command::Manual(arguments) => Ok(manual::run(arguments)),
         Command::Completions(arguments) => Ok(completions::run(arguments)),
         Command::Man(page) => completions::man(page),
     };

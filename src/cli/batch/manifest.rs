@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsStr;
-use std::fs::{File, OpenOptions};
+use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, BufReader, Read as _, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -77,8 +77,6 @@ pub(in crate::cli) struct Line {
 #[derive(Debug)]
 pub(in crate::cli) struct Manifest {
     path: PathBuf,
-    /// Those of parts whose lines are known, too.
-    parts: Vec<PathBuf>,
     lines: Mutex<Lines>,
 }
 
@@ -120,15 +118,13 @@ impl Manifest {
         let own_first = if shard.is_some() { others.len() } else { 0 };
         let (mut known, mut earlier) = (Known::new(), Vec::new());
         for (i, text) in others.iter().chain([&own]).enumerate() {
-            // What is no line of ours tells nothing.
-            let lines = text.split(|&byte| byte == b'\n').filter_map(|line| serde_json::from_slice::<Line>(line).ok());
-            for line in lines {
+            for line in lines_of(text) {
                 earlier.extend((i >= own_first).then(|| line.clone()));
                 known.entry(line.key()).or_default().push(line);
             }
         }
         let lines = Mutex::new(Lines { file, known, earlier, fresh: BTreeMap::new() });
-        Ok(Self { path, parts, lines })
+        Ok(Self { path, lines })
     }
 
     fn lines(&self) -> MutexGuard<'_, Lines> {
@@ -215,7 +211,15 @@ impl Manifest {
     /// there and nothing newer has its place. That of a whole folder takes in those of its parts whose runs are over.
     pub(in crate::cli) fn finish(self) -> anyhow::Result<()> {
         let folder = self.folder().to_owned();
-        let Lines { file, earlier, fresh, .. } = self.lines.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let Lines { file, known, mut earlier, fresh } = self.lines.into_inner().unwrap_or_else(PoisonError::into_inner);
+        // Held until they are gone, so that whoever waits for one begins another.
+        let is_whole = self.path.file_name().is_some_and(|name| name == NAME);
+        let parts = if is_whole { parts(&folder) } else { Vec::new() };
+        let over: Vec<(PathBuf, File)> =
+            parts.into_iter().filter_map(|part| over(&part).map(|file| (part, file))).collect();
+        // What was added to them while this run went on is newer than all that was there.
+        let added = over.iter().filter_map(|(part, _)| std::fs::read(part).ok()).flat_map(|text| lines_of(&text));
+        earlier.extend(added.filter(|line| known.get(&line.key()).is_none_or(|known| !known.contains(line))));
         let (mut taken, mut kept) = (BTreeSet::new(), BTreeMap::new());
         let earlier = earlier
             .into_iter()
@@ -236,15 +240,24 @@ impl Manifest {
         draft.file().write_all(texts.concat().as_bytes()).map_err(|error| cannot_write(&self.path, &error))?;
         draft::publish(vec![draft], || Ok(()))?;
         drop(file);
-        if self.path.file_name().is_some_and(|name| name == NAME) {
-            for part in &self.parts {
-                if File::open(part).is_ok_and(|file| file.try_lock().is_ok()) {
-                    let _ = std::fs::remove_file(part); // its lines stand in the whole one, too
-                }
-            }
+        for (part, _) in &over {
+            let _ = std::fs::remove_file(part); // its lines stand in the whole one, too
         }
         Ok(())
     }
+}
+
+/// The lines of a text; what is no line of ours tells nothing.
+fn lines_of(text: &[u8]) -> Vec<Line> {
+    text.split(|&byte| byte == b'\n').filter_map(|line| serde_json::from_slice(line).ok()).collect()
+}
+
+/// Holds the manifest of a part, unless a run still writes to it.
+fn over(part: &Path) -> Option<File> {
+    // Open for writing, though nothing is written: file systems over a network lock no other files.
+    let file = OpenOptions::new().read(true).write(true).open(part).ok()?;
+    // Without locks there is nothing that says that a run goes on, as when one begins.
+    (!matches!(file.try_lock(), Err(TryLockError::WouldBlock))).then_some(file)
 }
 
 /// Opens a manifest and holds it against other runs.
@@ -266,7 +279,9 @@ fn same(file: &File, path: &Path) -> bool {
     {
         use std::os::unix::fs::MetadataExt as _;
         let known = |found: std::fs::Metadata| (found.dev(), found.ino());
-        file.metadata().ok().map(known) == path.metadata().ok().map(known)
+        // Opened anew: what a file system over a network remembers of a name may be seconds old.
+        let there = File::open(path).and_then(|file| file.metadata());
+        file.metadata().ok().map(known) == there.ok().map(known)
     }
     #[cfg(not(unix))]
     {
