@@ -215,16 +215,14 @@ fn drafts(room: &Room, folder: &str) -> Vec<String> {
 
 /// A marker that takes long enough to be stopped amid it.
 fn long() -> String {
-    let mut text = "H1*G71*".to_owned();
-    for piece in 0..400_usize {
+    let piece = |piece: usize| {
         let (x, y) = (piece / 20 * 800, piece % 20 * 800);
-        text += &format!("N{}*X{x}Y{y}*M14*", piece + 1);
-        for (i, j) in [(700, 0), (750, 300), (700, 650), (350, 700), (30, 680), (0, 350), (0, 0)] {
-            text += &format!("X{}Y{}*", x + i, y + j);
-        }
-        text += "M15*";
-    }
-    text + "M0*"
+        let outline = [(700, 0), (750, 300), (700, 650), (350, 700), (30, 680), (0, 350), (0, 0)];
+        let points: String = outline.iter().map(|(i, j)| format!("X{}Y{}*", x + i, y + j)).collect();
+        format!("N{}*X{x}Y{y}*M14*{points}M15*", piece + 1)
+    };
+    let pieces: String = (0..400).map(piece).collect();
+    format!("H1*G71*{pieces}M0*")
 }
 
 /// Begins a run and waits until it has something in the making.

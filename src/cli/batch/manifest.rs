@@ -11,6 +11,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use serde::{Deserialize, Serialize};
 
 use super::shard::Shard;
+use crate::cli::Console;
 use crate::cli::draft::{self, Draft};
 use crate::cli::files::{cannot_write, directory, meta};
 use crate::machine::sha256_of;
@@ -104,11 +105,15 @@ impl Line {
 }
 
 impl Manifest {
-    /// Opens that of a folder, or of one part of its programs. Waits for another run that writes to it.
-    pub(in crate::cli) fn open(folder: &Path, shard: Option<Shard>) -> anyhow::Result<Self> {
+    /// Opens that of a folder, or of one part of its programs. Waits for another run that writes to it, and says so.
+    pub(in crate::cli) fn open(folder: &Path, shard: Option<Shard>, console: &mut Console) -> anyhow::Result<Self> {
         let name = shard.map_or_else(|| NAME.to_owned(), |shard| format!("{}{shard}{}", PART[0], PART[1]));
         let path = folder.join(name);
-        let mut file = held(&path).map_err(|error| cannot_write(&path, &error))?;
+        let waiting = || {
+            // Who closed standard error does not want to read it.
+            let _ = writeln!(console.err, "waiting for another run that writes to `{}`", folder.display());
+        };
+        let mut file = held(&path, waiting).map_err(|error| cannot_write(&path, &error))?;
         let mut parts = parts(folder);
         parts.retain(|part| *part != path);
         let others = parts.iter().cloned().chain(shard.map(|_| folder.join(NAME)));
@@ -261,11 +266,15 @@ fn over(part: &Path) -> Option<File> {
 }
 
 /// Opens a manifest and holds it against other runs.
-fn held(path: &Path) -> io::Result<File> {
+fn held(path: &Path, waiting: impl FnOnce()) -> io::Result<File> {
+    let mut waiting = Some(waiting);
     loop {
         let file = OpenOptions::new().read(true).append(true).create(true).open(path)?;
         // A file system without locks leaves it to the user that one run at a time writes to a folder.
-        let _ = file.lock();
+        if matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
+            waiting.take().into_iter().for_each(|say| say());
+            let _ = file.lock();
+        }
         // The run that held it before may have put another in its place.
         if same(&file, path) {
             return Ok(file);

@@ -16,7 +16,7 @@ use crate::cli::options::{Messages, typed};
 use crate::cli::{Console, FAULTY, Finished, failure, files, report, say};
 use crate::diagnostic::{Diagnostics, render_with};
 use crate::machine::{Job, sha256_hex};
-use crate::pipeline::Compiled;
+use crate::pipeline::{Compiled, Report};
 use crate::source::Source;
 
 /// Collisions that are told; more are counted.
@@ -43,7 +43,7 @@ pub(super) fn run(
         // What this part does not need another may be about to write to.
         folders.keep();
     }
-    let manifest = Manifest::open(out, *shard)?;
+    let manifest = Manifest::open(out, *shard, console)?;
     let many = Many { making, targets: &targets, job: &job, manifest: &manifest };
     let work = |i: usize, input: &Input| {
         let source = match files::read(&input.path) {
@@ -56,12 +56,12 @@ pub(super) fn run(
         }
         match many.manifest.standing(&made).filter(|_| *changed) {
             Some(line) => Step::Over(many.unchanged(input, line)),
-            None => Step::Drafted(many.draft(input, source, made, &places[i])),
+            None => Step::Drafted(Box::new(many.draft(input, source, made, &places[i]))),
         }
     };
     let settle = |i: usize, step: Step| match step {
         Step::Over(outcome) => outcome,
-        Step::Drafted(one) => many.publish(one).outcome(&inputs[i], many.job, *messages, *format),
+        Step::Drafted(one) => many.publish(*one).outcome(&inputs[i], many.job, *messages, *format),
     };
     let telling = Telling { columns: Columns::Planned, quiet: messages.quiet, json: *format == Format::Json };
     let mut finished =
@@ -81,7 +81,7 @@ enum Step {
     /// There is no more to do.
     Over(Outcome),
     /// It was compiled, but is not yet in its places.
-    Drafted(One),
+    Drafted(Box<One>),
 }
 
 /// Refuses files of which two would be written to one place, or one over an input.
@@ -175,7 +175,7 @@ impl<'a> Many<'a> {
                 outputs: whole.into_iter().map(output).collect(),
                 pieces: report.map(|report| report.pieces),
                 cut_m: report.map(|report| rounded(report.cut_m)),
-                time_s: report.and_then(|report| report.time_s()).map(rounded),
+                time_s: report.and_then(Report::time_s).map(rounded),
                 worst: batch::worst(diagnostics).map(str::to_owned),
             })
         };
@@ -241,7 +241,7 @@ impl Published {
         let row = Row {
             pieces: report.map(|report| report.pieces),
             cut_m: report.map(|report| report.cut_m),
-            time_s: report.and_then(|report| report.time_s()),
+            time_s: report.and_then(Report::time_s),
             worst: batch::worst(&diagnostics).unwrap_or_default().to_owned(),
             ..Row::new(&input.path, if compiled.is_some() { State::Done } else { State::Failed })
         };

@@ -47,7 +47,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished
     match place {
         Place::Stdout => to_stdout(&compile, arguments),
         Place::Files(paths) => {
-            let _made = MadeFolders::of(paths.iter().map(|path| path.as_path()))?;
+            let _made = MadeFolders::of(paths.iter().map(PathBuf::as_path))?;
             Ok(told(&compile, arguments, compile.draft(&paths).publish(None)))
         }
     }

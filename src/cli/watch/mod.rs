@@ -74,7 +74,7 @@ pub(super) fn run(arguments: &Arguments, typed: &[OsString], console: &mut Conso
     MadeFolders::of([out.join(settings::NAME).as_path()])?.keep();
     draft::sweep_below(out);
     stop::finish_first();
-    let manifest = Manifest::open(out, None)?;
+    let manifest = Manifest::open(out, None, console)?;
     let folders = Folders {
         from: folder,
         out,
