@@ -218,11 +218,11 @@ fn long() -> String {
     let piece = |piece: usize| {
         let (x, y) = (piece / 20 * 800, piece % 20 * 800);
         let outline = [(700, 0), (750, 300), (700, 650), (350, 700), (30, 680), (0, 350), (0, 0)];
-        let points: String = outline.iter().map(|(i, j)| format!("X{}Y{}*", x + i, y + j)).collect();
+        let points = outline.map(|(i, j)| format!("X{}Y{}*", x + i, y + j)).concat();
         format!("N{}*X{x}Y{y}*M14*{points}M15*", piece + 1)
     };
-    let pieces: String = (0..400).map(piece).collect();
-    format!("H1*G71*{pieces}M0*")
+    let pieces: Vec<String> = (0..400).map(piece).collect();
+    format!("H1*G71*{}M0*", pieces.concat())
 }
 
 /// Begins a run and waits until it has something in the making.

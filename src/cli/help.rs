@@ -44,7 +44,8 @@ pub(super) fn reference() -> String {
 `cutc profile init` prints every key of a profile with its meaning, range and default.
 
 Exit codes: 0 done, 1 the data has errors or the program fails its verification,
-2 wrong usage, or a file that cannot be read or written.",
+2 wrong usage, or a file that cannot be read or written; 130, 143, 129 stopped
+by Ctrl-C, SIGTERM, SIGHUP.",
     );
     out
 }

@@ -14,8 +14,15 @@ pub struct Page {
 }
 
 /// Every page, in the order of reading.
-pub const PAGES: &[Page] = &[Page {
-    name: "many-files",
-    about: "Folders of files at once, only what was changed, several machines side by side",
-    text: include_str!("many-files.md"),
-}];
+pub const PAGES: &[Page] = &[
+    Page {
+        name: "many-files",
+        about: "Folders of files at once, only what was changed, several machines side by side",
+        text: include_str!("many-files.md"),
+    },
+    Page {
+        name: "hot-folder",
+        about: "Files that come into a folder are compiled there and then",
+        text: include_str!("hot-folder.md"),
+    },
+];

@@ -34,7 +34,7 @@ fn profile(name: &str) -> MachineProfile {
 /// Compiles a fixture for a machine of `fixtures/machines`; what it says as JSON, when it can be compiled.
 fn compile(input: &Path, machine: &str, folder: &Path) -> Option<serde_json::Value> {
     let mut compile = Command::new(env!("CARGO_BIN_EXE_cutc"));
-    compile.args(["compile", "-t", "gcode", "-o", "program.ngc", "--format", "json"]).arg(input);
+    compile.args(["compile", "--force", "-t", "gcode", "-o", "program.ngc", "--format", "json"]).arg(input);
     compile.arg("-p").arg(fixtures().join(format!("machines/{machine}.toml"))).current_dir(folder);
     let compiled = compile.output().expect("the program starts");
     compiled.status.success().then(|| serde_json::from_slice(&compiled.stdout).expect("JSON"))

@@ -137,7 +137,7 @@ fn the_interpreter_of_linuxcnc_takes_the_programs_of_every_table_that_is_legal()
         for table in LEGAL {
             for file in ["markers/drills-and-slits.cut", "iso/speeds-and-events.cut"] {
                 let mut compile = Command::new(env!("CARGO_BIN_EXE_cutc"));
-                compile.args(["compile", "-t", "gcode", "-o", "program.ngc"]).arg(fixtures.join(file));
+                compile.args(["compile", "--force", "-t", "gcode", "-o", "program.ngc"]).arg(fixtures.join(file));
                 compile.args(arguments(table)).args(arguments(&[("feed_mode", mode)])).current_dir(folder.path());
                 let compiled = compile.output().expect("the program starts");
                 let said = String::from_utf8_lossy(&compiled.stderr).into_owned();
