@@ -154,17 +154,19 @@ impl Watch<'_> {
             None if stamps == *self.settings.stamps() => {}
             Some((seen, since)) if *seen == stamps => {
                 if now >= *since + STEADY {
-                    self.read_options(typed, console);
+                    self.read_options(&stamps, typed, console);
                 }
             }
             None | Some(_) => self.changed = Some((stamps, now)),
         }
     }
 
-    /// Reads the options; those that were changed hold for all files.
-    fn read_options(&mut self, typed: &[OsString], console: &mut Console) {
+    /// Reads the options that look like that; those that were changed hold for all files.
+    fn read_options(&mut self, stamps: &Stamps, typed: &[OsString], console: &mut Console) {
         let file = self.folders.from.join(settings::NAME);
         let wrong = match Settings::read(self.folders.from, typed) {
+            // Changed just now, they may be half written: they are read again.
+            Ok(Ok(settings)) if settings.stamps()[0] != stamps[0] || settings.look() != *settings.stamps() => return,
             Ok(Ok(settings)) => {
                 self.settings = settings;
                 self.changed = None;
