@@ -255,6 +255,10 @@ fn who_is_stopped_leaves_nothing_half_made_and_a_true_manifest() {
         assert!(!room.has("alone"), "the directory was made for the program, and goes with it");
         fs::create_dir_all(room.at("out")).expect("writable");
         let mut batch = begun(&room, "compile in -o out -j 1", "out");
+        while !room.has("out/left/b.csv") || drafts(&room, "out").is_empty() {
+            assert!(batch.try_wait().expect("known").is_none(), "there is time to stop it");
+            thread::sleep(Duration::from_millis(1));
+        }
         signal(&batch, name);
         assert_eq!(batch.wait().expect("it ends").code(), Some(code));
         assert!(drafts(&room, "out").is_empty());
@@ -272,6 +276,7 @@ fn who_is_stopped_leaves_nothing_half_made_and_a_true_manifest() {
     let mut child = command.args(["-c", &nohup]).current_dir(folder).spawn().expect("sh starts");
     while drafts(&room, ".").is_empty() {
         assert!(child.try_wait().expect("known").is_none());
+        thread::sleep(Duration::from_millis(1));
     }
     signal(&child, "HUP");
     assert_eq!(child.wait().expect("it ends").code(), Some(DONE));

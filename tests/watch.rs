@@ -46,11 +46,17 @@ impl HotFolder {
         fs::write(path, text).expect("writable");
     }
 
-    fn watch(&self, options: &str) -> Child {
+    fn watch(&self, options: &str) -> Running {
+        self.watch_as("in", options)
+    }
+
+    /// Watches the folder under another name.
+    fn watch_as(&self, name: &str, options: &str) -> Running {
         let log = |name| OpenOptions::new().create(true).append(true).open(self.at(name)).expect("writable");
         let mut command = Command::new(env!("CARGO_BIN_EXE_cutc"));
-        command.args(["watch", "in", "-o", "out"]).args(options.split_whitespace()).current_dir(self.room.path());
-        command.stdout(log("told")).stderr(log("said")).stdin(Stdio::null()).spawn().expect("the program starts")
+        command.args(["watch", name, "-o", "out"]).args(options.split_whitespace()).current_dir(self.room.path());
+        let running = command.stdout(log("told")).stderr(log("said")).stdin(Stdio::null()).spawn();
+        Running(running.expect("the program starts"))
     }
 
     fn text(&self, name: &str) -> String {
@@ -72,6 +78,17 @@ impl HotFolder {
     }
 }
 
+/// A watch; it ends with its test.
+struct Running(Child);
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        // It has ended where the test holds.
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
 /// Sends a signal.
 fn signal(child: &Child, name: &str) {
     let sent = Command::new("kill").args(["-s", name, &child.id().to_string()]).status();
@@ -79,9 +96,9 @@ fn signal(child: &Child, name: &str) {
 }
 
 /// Asks a watch to end, and expects that it does.
-fn end(mut child: Child) {
-    signal(&child, "TERM");
-    assert_eq!(child.wait().expect("it ends").code(), Some(TERMINATED));
+fn end(mut watch: Running) {
+    signal(&watch.0, "TERM");
+    assert_eq!(watch.0.wait().expect("it ends").code(), Some(TERMINATED));
 }
 
 /// All files below a folder: their paths and bytes.
@@ -157,6 +174,68 @@ fn two_files_for_one_program_do_not_take_turns() {
     assert!(hot.text("out/m.csv.meta.json").contains(r#""source": "m.cut""#));
 }
 
+#[test]
+fn the_folder_may_have_any_name_and_links_to_nothing_in_it() {
+    for name in ["./in", "in/", "../ROOM/in"] {
+        let hot = HotFolder::new();
+        let root = hot.room.path().file_name().expect("a name").to_string_lossy().into_owned();
+        std::os::unix::fs::symlink("nowhere", hot.at("in/link.cut")).expect("writable");
+        hot.put("early.cut", &square(500));
+        hot.put("cutc.toml", "target = \"gcode\"\n");
+        let watch = hot.watch_as(&name.replace("ROOM", &root), "");
+        hot.wait_for("what was there is found", |hot| hot.has("early.ngc"));
+        hot.put("sub/late.cut", &square(600));
+        hot.put("bad.cut", JUNK);
+        hot.wait_for("what comes is heard", |hot| hot.has("sub/late.ngc") && hot.has("bad.cut.report.txt"));
+        // It is looked through meanwhile.
+        thread::sleep(Duration::from_secs(3));
+        end(watch);
+        let names: Vec<String> = files(&hot.at("out")).into_keys().collect();
+        let expected = [
+            "bad.cut.report.txt",
+            "cutc.jsonl",
+            "early.ngc",
+            "early.ngc.meta.json",
+            "sub/late.ngc",
+            "sub/late.ngc.meta.json",
+        ];
+        assert_eq!(names, expected, "{name}: {}", hot.text("said"));
+        assert!(!hot.text("said").contains("left alone"), "{}", hot.text("said"));
+    }
+    let hot = HotFolder::new();
+    let mut within = Command::new(env!("CARGO_BIN_EXE_cutc"));
+    let refused = within.args(["watch", "in", "-o", "in/"]).current_dir(hot.room.path()).output().expect("it starts");
+    assert_eq!(refused.status.code(), Some(2));
+}
+
+#[test]
+fn a_file_that_is_replaced_by_one_of_its_size_and_time_is_compiled_anew() {
+    let hot = HotFolder::new();
+    hot.put("a.cut", &square(500));
+    let watch = hot.watch("");
+    hot.wait_for("it has its program", |hot| hot.has("a.csv"));
+    let before = hot.text("out/a.csv");
+    let (old, new) = (hot.at("in/a.cut"), hot.at("in/.a.part"));
+    fs::write(&new, square(600)).expect("writable");
+    let time = old.metadata().and_then(|known| known.modified()).expect("known");
+    fs::File::options().write(true).open(&new).and_then(|file| file.set_modified(time)).expect("writable");
+    fs::rename(new, old).expect("movable");
+    hot.wait_for("it has another program", |hot| hot.has("a.csv") && hot.text("out/a.csv") != before);
+    end(watch);
+}
+
+#[test]
+fn who_waits_for_another_watch_ends_at_once() {
+    let hot = HotFolder::new();
+    hot.put("a.cut", &square(500));
+    let first = hot.watch("");
+    hot.wait_for("the first works", |hot| hot.has("a.csv"));
+    let second = hot.watch("");
+    hot.wait_for("the second waits", |hot| hot.text("said").contains("waiting for another run"));
+    end(second);
+    end(first);
+}
+
 /// Brings a file into a folder as one of many programs would.
 fn bring(folder: &Path, name: &str, text: &str, random: &mut Rng) {
     let path = folder.join(name);
@@ -216,8 +295,8 @@ fn a_watch_that_is_killed_again_and_again_loses_nothing_and_leaves_nothing() {
     for _ in 0..kills {
         let mut watch = hot.watch("--quiet");
         thread::sleep(Duration::from_millis(random.u64(0..400)));
-        signal(&watch, "KILL");
-        watch.wait().expect("it ends");
+        signal(&watch.0, "KILL");
+        watch.0.wait().expect("it ends");
     }
     let last = feeder.join().expect("all files came");
     let watch = hot.watch("--quiet");

@@ -144,13 +144,23 @@ pub(super) fn publish(drafts: Vec<Draft>, then: impl FnOnce() -> anyhow::Result<
     for Draft { file, path, .. } in &drafts {
         file.as_file().sync_all().map_err(|error| cannot_write(path, &error))?;
     }
-    let mut known = Vec::new();
+    // Names are forgotten behind the lock, which that needs.
+    let (known, files): (Vec<Known>, Vec<_>) =
+        drafts.into_iter().map(|Draft { file, path, known }| (known, (file, path))).unzip();
+    let published = put(files, then);
+    drop(known);
+    published
+}
+
+fn put(files: Vec<(NamedTempFile, PathBuf)>, then: impl FnOnce() -> anyhow::Result<()>) -> anyhow::Result<()> {
     let _making = making();
-    for draft in drafts {
-        known.push(draft.known);
-        draft.file.persist(&draft.path).map_err(|error| cannot_write(&draft.path, &error.error))?;
+    let mut there = Vec::new();
+    for (file, path) in files {
+        file.persist(&path).map_err(|error| cannot_write(&path, &error.error))?;
+        there.push(path);
     }
-    then()
+    // What nobody can be told of is not there.
+    then().inspect_err(|_| there.iter().for_each(|path| drop(fs::remove_file(path))))
 }
 
 /// Removes the drafts in a folder that processes of this machine left there and that nobody holds any more.
@@ -273,6 +283,20 @@ mod tests {
         let refused = Draft::new(&path).expect("a draft").publish_new().expect_err("refused");
         assert!(refused.to_string().contains("not overwritten"));
         assert_eq!(fs::read(&path).expect("readable"), b"whole");
+    }
+
+    #[test]
+    fn what_cannot_take_its_place_leaves_none_waiting() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let at = |name: &str| directory.path().join(name);
+        fs::create_dir(at("a")).expect("writable");
+        let drafts = || vec![Draft::new(&at("a")).expect("a draft"), Draft::new(&at("b")).expect("a draft")];
+        assert!(publish(drafts(), || Ok(())).is_err());
+        fs::remove_dir(at("a")).expect("removable");
+        assert!(publish(drafts(), || Err(failure("the disk is full", ""))).is_err());
+        assert_eq!(fs::read_dir(directory.path()).expect("readable").count(), 0);
+        publish(drafts(), || Ok(())).expect("nobody waits for anything");
+        assert!(at("a").is_file() && at("b").is_file());
     }
 
     #[test]

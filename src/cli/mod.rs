@@ -104,7 +104,7 @@ pub struct Finished {
     pub stdout: Stdout,
     /// For standard error.
     pub stderr: String,
-    /// [`DONE`], [`FAULTY`] or [`USAGE`].
+    /// [`DONE`], [`FAULTY`] or [`USAGE`]; of who was asked to end by a signal what shells make of that.
     pub code: u8,
 }
 

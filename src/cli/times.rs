@@ -6,13 +6,10 @@ use serde::Serialize;
 
 use crate::pipeline::{Program, Spent, significant, word};
 use crate::units::number::fixed;
+use crate::units::{S_PER_HOUR, S_PER_MIN};
 
 /// Digits that are kept of times: far below a control period.
 const DIGITS: i32 = 9;
-
-/// Seconds of a minute and of an hour.
-const S_PER_MINUTE: u64 = 60;
-const S_PER_HOUR: u64 = 3600;
 
 /// The time of one piece, as JSON has it.
 #[derive(Debug, Serialize)]
@@ -35,7 +32,8 @@ pub(super) fn of(program: &Program) -> Vec<Timed> {
 /// A time as people say it of a long job: hours, minutes and seconds, as in `1:02:05`.
 pub(super) fn clock(seconds: f64) -> String {
     let all = seconds.round() as u64;
-    let (hours, minutes, seconds) = (all / S_PER_HOUR, all % S_PER_HOUR / S_PER_MINUTE, all % S_PER_MINUTE);
+    let (hour, minute) = (S_PER_HOUR as u64, S_PER_MIN as u64);
+    let (hours, minutes, seconds) = (all / hour, all % hour / minute, all % minute);
     if hours > 0 { format!("{hours}:{minutes:02}:{seconds:02}") } else { format!("{minutes}:{seconds:02}") }
 }
 

@@ -1,7 +1,7 @@
 //! The files that are meant by files, folders and patterns on a command line.
 
 use std::collections::BTreeSet;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 use globset::{GlobBuilder, GlobMatcher};
 use walkdir::{DirEntry, WalkDir};
@@ -23,6 +23,13 @@ pub(in crate::cli) struct Input {
 }
 
 impl Input {
+    /// A file that is named itself.
+    pub(in crate::cli) fn named(path: &Path) -> Self {
+        let name =
+            if is_dash(path) { STDIN.into() } else { path.file_name().map_or_else(|| path.to_owned(), PathBuf::from) };
+        Self { path: path.to_owned(), name }
+    }
+
     /// Its bytes, as far as the file system knows.
     pub(in crate::cli) fn size(&self) -> u64 {
         self.path.metadata().map_or(0, |known| known.len())
@@ -88,18 +95,23 @@ fn find_sought(arguments: &[PathBuf], sought: Sought) -> anyhow::Result<Inputs> 
     for argument in arguments {
         let before = inputs.len();
         if is_dash(argument) {
-            inputs.push(Input { path: argument.clone(), name: STDIN.into() });
+            inputs.push(Input::named(argument));
         } else if argument.is_dir() {
-            walk(argument, |path, _| belongs(path), &mut inputs)?;
+            walk(argument, |path, _| belongs(path), &mut inputs);
         } else if let Some(pattern) = pattern(argument).filter(|_| !argument.exists()) {
             let Pattern { folder, matcher } = pattern?;
-            walk(&folder, |path, name| matcher.is_match(name) && may(path), &mut inputs)?;
+            walk(&folder, |path, name| matcher.is_match(name) && may(path), &mut inputs);
         } else {
-            let name = argument.file_name().map_or_else(|| argument.clone(), PathBuf::from);
-            inputs.push(Input { path: argument.clone(), name });
+            inputs.push(Input::named(argument));
         }
         if inputs.len() == before {
             return Err(failure(format!("`{}` holds no files to work on", argument.display()), hint));
+        }
+    }
+    for input in &mut inputs {
+        // Written as its user would: `./a.cut` is `a.cut`.
+        if let Ok(path) = input.path.strip_prefix(".") {
+            input.path = path.to_owned();
         }
     }
     // Named twice, as by two patterns, a file is meant once.
@@ -127,28 +139,27 @@ pub(in crate::cli) fn hint() -> String {
 }
 
 /// The files below a folder, as a pattern that all names fit would find them; none is no mistake.
-pub(in crate::cli) fn files_in(folder: &Path) -> anyhow::Result<Vec<Input>> {
+pub(in crate::cli) fn files_in(folder: &Path) -> Vec<Input> {
     let mut inputs = Vec::new();
-    walk(folder, |_, _| true, &mut inputs)?;
-    Ok(inputs)
+    walk(folder, |_, _| true, &mut inputs);
+    inputs
 }
 
-/// The files below a folder, each folder's in the order of their names, but hidden ones.
-fn walk(folder: &Path, is_meant: impl Fn(&Path, &Path) -> bool, inputs: &mut Vec<Input>) -> anyhow::Result<()> {
+/// The files below a folder, each folder's in the order of their names, but hidden ones. What cannot be looked into stands
+/// among them: who opens it says why.
+fn walk(folder: &Path, is_meant: impl Fn(&Path, &Path) -> bool, inputs: &mut Vec<Input>) {
     let is_seen = |entry: &DirEntry| entry.depth() == 0 || !entry.file_name().to_string_lossy().starts_with('.');
     for entry in WalkDir::new(folder).follow_links(true).sort_by_file_name().into_iter().filter_entry(is_seen) {
-        let entry = entry.map_err(|error| {
-            failure(format!("cannot look through `{}`: {error}", folder.display()), "name folders that you may read")
-        })?;
-        let path = entry.path();
+        let (path, is_file) = match &entry {
+            Ok(entry) => (entry.path(), entry.file_type().is_file()),
+            // A folder that nobody may read, a link to nothing.
+            Err(error) => (error.path().unwrap_or(folder), true),
+        };
         let name = path.strip_prefix(folder).unwrap_or(path);
-        if entry.file_type().is_file() && is_meant(path, name) {
-            // Written as its user would: `./a.cut` is `a.cut`.
-            let path = path.strip_prefix(".").unwrap_or(path);
+        if is_file && (path.is_dir() || is_meant(path, name)) {
             inputs.push(Input { path: path.to_owned(), name: name.to_owned() });
         }
     }
-    Ok(())
 }
 
 /// A pattern of names below a folder.
@@ -159,8 +170,15 @@ struct Pattern {
 
 /// What a path means as a pattern; `None` when it is none.
 fn pattern(path: &Path) -> Option<anyhow::Result<Pattern>> {
-    let is_plain = |part: &Component| !part.as_os_str().to_string_lossy().contains(PATTERN);
-    let folder: PathBuf = path.components().take_while(is_plain).collect();
+    let mut folder = PathBuf::new();
+    for part in path.components() {
+        let next = folder.join(part);
+        // A folder may have such letters in its name.
+        if part.as_os_str().to_string_lossy().contains(PATTERN) && !next.is_dir() {
+            break;
+        }
+        folder = next;
+    }
     let rest = path.strip_prefix(&folder).ok().filter(|rest| !rest.as_os_str().is_empty())?;
     let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
     let glob = GlobBuilder::new(&rest.to_string_lossy()).literal_separator(true).build();

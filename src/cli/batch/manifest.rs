@@ -107,8 +107,7 @@ impl Line {
 impl Manifest {
     /// Opens that of a folder, or of one part of its programs. Waits for another run that writes to it, and says so.
     pub(in crate::cli) fn open(folder: &Path, shard: Option<Shard>, console: &mut Console) -> anyhow::Result<Self> {
-        let name = shard.map_or_else(|| NAME.to_owned(), |shard| format!("{}{shard}{}", PART[0], PART[1]));
-        let path = folder.join(name);
+        let path = Self::place(folder, shard);
         let waiting = || {
             // Who closed standard error does not want to read it.
             let _ = writeln!(console.err, "waiting for another run that writes to `{}`", folder.display());
@@ -130,6 +129,11 @@ impl Manifest {
         }
         let lines = Mutex::new(Lines { file, known, earlier, fresh: BTreeMap::new() });
         Ok(Self { path, lines })
+    }
+
+    /// Where that of a folder stands, or of one part of its programs.
+    pub(in crate::cli) fn place(folder: &Path, shard: Option<Shard>) -> PathBuf {
+        folder.join(shard.map_or_else(|| NAME.to_owned(), |shard| format!("{}{shard}{}", PART[0], PART[1])))
     }
 
     fn lines(&self) -> MutexGuard<'_, Lines> {
@@ -158,11 +162,11 @@ impl Manifest {
         (is_made && line.outputs.iter().all(|output| self.stands(output))).then_some(line)
     }
 
-    /// Whether the last thing that was made of an input and its targets is that the same was refused.
-    pub(in crate::cli) fn refused(&self, made: &Made) -> bool {
+    /// The last thing that was made of an input and its targets, if it is that the same was refused.
+    pub(in crate::cli) fn refused(&self, made: &Made) -> Option<Line> {
         let lines = self.lines();
         let last = lines.known.get(&(made.source.clone(), made.targets.clone())).and_then(|lines| lines.last());
-        last.is_some_and(|line| line.made == *made && line.verdict == Verdict::Refused)
+        last.filter(|line| line.made == *made && line.verdict == Verdict::Refused).cloned()
     }
 
     /// The inputs of which the last thing that was made is nothing, by their names.
@@ -220,16 +224,24 @@ impl Manifest {
         // Held until they are gone, so that whoever waits for one begins another.
         let is_whole = self.path.file_name().is_some_and(|name| name == NAME);
         let parts = if is_whole { parts(&folder) } else { Vec::new() };
-        let over: Vec<(PathBuf, File)> =
+        let mut over: Vec<(PathBuf, File)> =
             parts.into_iter().filter_map(|part| over(&part).map(|file| (part, file))).collect();
         // What was added to them while this run went on is newer than all that was there.
-        let added = over.iter().filter_map(|(part, _)| std::fs::read(part).ok()).flat_map(|text| lines_of(&text));
+        let mut added = Vec::new();
+        over.retain_mut(|(_, file)| {
+            let mut text = Vec::new();
+            let is_read = file.read_to_end(&mut text).is_ok();
+            added.extend(lines_of(&text));
+            is_read
+        });
+        let added = added.into_iter();
         earlier.extend(added.filter(|line| known.get(&line.key()).is_none_or(|known| !known.contains(line))));
         let (mut taken, mut kept) = (BTreeSet::new(), BTreeMap::new());
-        let earlier = earlier
-            .into_iter()
-            .rev()
-            .filter(|line| line.outputs.iter().all(|output| folder.join(&output.path).is_file()));
+        // A refusal that this run does not repeat may be of a file that is gone.
+        let stands = |line: &Line| {
+            !line.outputs.is_empty() && line.outputs.iter().all(|output| folder.join(&output.path).is_file())
+        };
+        let earlier = earlier.into_iter().rev().filter(stands);
         for line in fresh.into_values().chain(earlier) {
             if kept.contains_key(&line.key()) || line.outputs.iter().any(|output| taken.contains(&output.path)) {
                 continue;

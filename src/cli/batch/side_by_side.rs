@@ -44,12 +44,17 @@ pub(in crate::cli) fn run<D: Send, T: Send>(
         for _ in 0..threads.min(small.len()) {
             let worked = worked.clone();
             scope.spawn(move || {
-                // All that would be shared out stays on this thread. Without such a pool it is only slower.
-                let _alone = ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
-                while let Some(&i) = small.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    if worked.send((i, work(i))).is_err() {
-                        break;
+                let work_on_all = || {
+                    while let Some(&i) = small.get(next.fetch_add(1, Ordering::Relaxed)) {
+                        if worked.send((i, work(i))).is_err() {
+                            break;
+                        }
                     }
+                };
+                // All that would be shared out stays on one thread. Without such a pool it is only slower.
+                match ThreadPoolBuilder::new().num_threads(1).build() {
+                    Ok(alone) => alone.install(work_on_all),
+                    Err(_) => work_on_all(),
                 }
             });
         }

@@ -13,7 +13,7 @@ use crate::cli::choices::Format;
 use crate::cli::destination::{below, not_of_another, targets_of_many};
 use crate::cli::draft::{self, MadeFolders};
 use crate::cli::options::{Messages, typed};
-use crate::cli::{Console, FAULTY, Finished, failure, files, report, say};
+use crate::cli::{Console, Finished, USAGE, failure, files, report, say};
 use crate::diagnostic::{Diagnostics, render_with};
 use crate::machine::{Job, sha256_hex};
 use crate::pipeline::{Compiled, Report};
@@ -37,13 +37,17 @@ pub(super) fn run(
     };
     let places: Vec<Vec<PathBuf>> = inputs.iter().map(|input| below(out, &input.name, &targets)).collect();
     refuse_collisions(inputs, &places)?;
+    let manifest_at = Manifest::place(out, *shard);
+    let mut folder = MadeFolders::of([manifest_at.as_path()])?;
+    // Behind another run that may take folders away that it left empty.
+    let manifest = Manifest::open(out, *shard, console)?;
     draft::sweep_folders(places.iter().flatten().map(PathBuf::as_path));
     let mut folders = MadeFolders::of(places.iter().flatten().map(PathBuf::as_path))?;
     if shard.is_some() {
         // What this part does not need another may be about to write to.
+        folder.keep();
         folders.keep();
     }
-    let manifest = Manifest::open(out, *shard, console)?;
     let many = Many { making, targets: &targets, job: &job, manifest: &manifest };
     let work = |i: usize, input: &Input| {
         let source = match files::read(&input.path) {
@@ -69,7 +73,7 @@ pub(super) fn run(
     let path = manifest.path().display().to_string();
     if let Err(error) = manifest.finish() {
         say(&mut finished.stderr, format_args!("error: {error:#}"));
-        finished.code = FAULTY;
+        finished.code = USAGE;
     } else if !messages.quiet {
         say(&mut finished.stderr, format_args!("wrote `{path}`"));
     }
@@ -179,11 +183,18 @@ impl<'a> Many<'a> {
                 worst: batch::worst(diagnostics).map(str::to_owned),
             })
         };
+        let is_taken = drafted.is_err();
         let ended = match drafted {
             Ok(drafted) => drafted.publish(Some(&record)),
             Err(error) => Ended::failed(error),
         };
-        Published { source, ended }
+        let became = match &ended.compiled {
+            Ok(Some(_)) => Became::Program,
+            Ok(None) => Became::Refused,
+            Err(_) if is_taken => Became::Refused,
+            Err(_) => Became::Unwritten,
+        };
+        Published { source, became, ended }
     }
 
     /// A file of which everything still stands.
@@ -208,21 +219,33 @@ pub(in crate::cli) struct One {
     drafted: anyhow::Result<Drafted>,
 }
 
+/// What became of one of many files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::cli) enum Became {
+    /// Its programs.
+    Program,
+    /// Nothing, and another try would not help: it has errors, or its place is that of a program of another file.
+    Refused,
+    /// Nothing could be written: a disk is full.
+    Unwritten,
+}
+
 /// How the compile of one of many files ended.
 pub(in crate::cli) struct Published {
     source: Source,
+    became: Became,
     ended: Ended,
 }
 
 impl Published {
-    /// Whether the file has a program now, `None` when none could be written.
-    pub(in crate::cli) fn is_compiled(&self) -> Option<bool> {
-        self.ended.compiled.as_ref().ok().map(Option::is_some)
+    /// What became of the file.
+    pub(in crate::cli) fn became(&self) -> Became {
+        self.became
     }
 
     /// Its row, and what is said about it.
     pub(in crate::cli) fn outcome(self, input: &Input, job: &Job, messages: Messages, format: Format) -> Outcome {
-        let Self { source, ended } = self;
+        let Self { source, ended, .. } = self;
         let Ended { compiled, diagnostics, programs, beside } = ended;
         let mut said = render_with(&diagnostics, &source, messages.detail(format));
         let compiled = match compiled {

@@ -127,10 +127,7 @@ pub(super) fn run(arguments: &Arguments, console: &mut Console) -> anyhow::Resul
                 None => one::run(arguments, &file),
             };
         }
-        Inputs::One(path) => {
-            let name = path.file_name().map_or_else(|| path.clone(), PathBuf::from);
-            vec![batch::Input { path, name }]
-        }
+        Inputs::One(path) => vec![batch::Input::named(&path)],
         Inputs::Many(inputs) => inputs,
     };
     if arguments.dump_after.is_some() {

@@ -76,10 +76,7 @@ pub(super) fn run(arguments: &Arguments, console: &mut Console) -> anyhow::Resul
     let threads = arguments.threads.set();
     let inputs = match batch::find(&arguments.files, batch::is_cutter_file, &batch::hint())? {
         Inputs::One(file) if arguments.format != Sheet::Csv => return one::run(arguments, &file),
-        Inputs::One(path) => {
-            let name = path.file_name().map_or_else(|| path.clone(), PathBuf::from);
-            vec![Input { path, name }]
-        }
+        Inputs::One(path) => vec![Input::named(&path)],
         Inputs::Many(inputs) => inputs,
     };
     if arguments.labels {

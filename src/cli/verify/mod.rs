@@ -61,8 +61,7 @@ pub(super) fn run(arguments: &Arguments, console: &mut Console) -> anyhow::Resul
     let threads = arguments.threads.set();
     match batch::find_programs(&arguments.programs)? {
         Inputs::One(program) if arguments.source.is_dir() => {
-            let name = program.file_name().map_or_else(|| program.clone(), PathBuf::from);
-            let source = many::source_in(&arguments.source, &batch::Input { path: program.clone(), name })?;
+            let source = many::source_in(&arguments.source, &batch::Input::named(&program))?;
             one::run(arguments, &program, &source)
         }
         Inputs::One(program) => one::run(arguments, &program, &arguments.source),

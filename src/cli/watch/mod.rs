@@ -18,10 +18,10 @@ use clap::Args;
 use self::events::{Events, Told};
 use self::settings::{Settings, Stamps};
 use self::settling::{STEADY, Settling, Stamp};
-use super::batch::{self, Input, Manifest, Outcome, Stages, Threads};
+use super::batch::{self, Input, Manifest, Outcome, Row, Stages, Threads};
 use super::choices::Format;
 use super::compile::Making;
-use super::compile::many::Many;
+use super::compile::many::{Became, Many};
 use super::destination::below;
 use super::draft::{self, MadeFolders};
 use super::options::{Messages, counted};
@@ -71,17 +71,16 @@ pub(super) fn run(arguments: &Arguments, typed: &[OsString], console: &mut Conso
     if out.as_os_str().is_empty() {
         return Err(failure("where the programs go is not said", "name a directory with -o, as in `-o out/`"));
     }
+    if out.canonicalize().is_ok_and(|out| folder.canonicalize().is_ok_and(|folder| folder == out)) {
+        let message = format!("programs in `{}` itself would be among the files that come in", folder.display());
+        return Err(failure(message, "name another directory with -o, as in `-o out/`"));
+    }
     MadeFolders::of([out.join(settings::NAME).as_path()])?.keep();
     draft::sweep_below(out);
-    stop::finish_first();
     let manifest = Manifest::open(out, None, console)?;
-    let folders = Folders {
-        from: folder,
-        out,
-        inner: std::path::absolute(out).ok(),
-        threads: threads.set(),
-        manifest: &manifest,
-    };
+    // Who only waits ends at once.
+    stop::finish_first();
+    let folders = Folders { from: folder, out, inner: inner(folder, out), threads: threads.set(), manifest: &manifest };
     let mut watch = Watch { folders, settings, changed: None, files: Settling::default(), told: BTreeMap::new() };
     let _ = writeln!(console.err, "watching `{}`; programs go to `{}`", folder.display(), out.display());
     let code = watch.go(typed, console);
@@ -93,10 +92,16 @@ pub(super) fn run(arguments: &Arguments, typed: &[OsString], console: &mut Conso
 struct Folders<'a> {
     from: &'a Path,
     out: &'a Path,
-    /// The latter from the root: it may lie in the folder.
+    /// The latter from the root, where it lies in the former.
     inner: Option<PathBuf>,
     threads: usize,
     manifest: &'a Manifest,
+}
+
+/// The folder of the programs from the root, where it lies in the one that files come into.
+fn inner(from: &Path, out: &Path) -> Option<PathBuf> {
+    let [from, out] = [from, out].map(|folder| folder.canonicalize().ok());
+    out.filter(|out| from.is_some_and(|from| out.starts_with(from)))
 }
 
 /// A hot folder at work.
@@ -191,13 +196,9 @@ impl Watch<'_> {
 
     /// Looks through the folder: for what nobody told, and for what is gone.
     fn look(&mut self, console: &mut Console) {
-        let found = match batch::files_in(self.folders.from) {
-            Ok(found) => found,
-            Err(error) => return self.say_once(self.folders.from, &format!("error: {error:#}\n"), console),
-        };
         let now = Instant::now();
         let mut there = BTreeSet::new();
-        for Input { path, .. } in found {
+        for Input { path, .. } in batch::files_in(self.folders.from) {
             if self.is_left_alone(&path) {
                 continue;
             }
@@ -230,9 +231,8 @@ impl Watch<'_> {
 
     fn is_left_alone(&self, path: &Path) -> bool {
         let inner = self.folders.inner.as_deref();
-        let is_program =
-            || inner.is_some_and(|inner| std::path::absolute(path).is_ok_and(|path| path.starts_with(inner)));
-        self.settings.says(path) || is_program()
+        let is_inside = || inner.is_some_and(|inner| path.canonicalize().is_ok_and(|path| path.starts_with(inner)));
+        self.settings.says(path) || files::meta(path).exists() || is_inside()
     }
 
     fn hear(&mut self, told: Told) {
@@ -264,12 +264,16 @@ impl Watch<'_> {
                 finished.push(Finish { input: Input { path, name }, stamp, places });
             }
         }
+        if finished.is_empty() {
+            return;
+        }
         let sizes: Vec<u64> = finished.iter().map(|finish| finish.input.size()).collect();
         let mut dealt = Vec::new();
         let (folders, settings) = (&self.folders, &self.settings);
         let deal = |i: usize| {
             let input = &finished[i].input;
-            batch::unless_broken(input, || folders.deal(&finished[i], settings)).unwrap_or_else(Dealt::Not)
+            let dealt = batch::unless_broken(input, || folders.deal(&finished[i], settings));
+            dealt.unwrap_or_else(|said| folders.refuse(input, &said, "cutc broke down over it"))
         };
         batch::side_by_side(&sizes, self.folders.threads, Stages { work: deal, settle: |_, how| how }, |i, how| {
             if let Dealt::With(line) = &how {
@@ -304,7 +308,7 @@ struct Finish {
 impl Folders<'_> {
     /// The name of a file below the folder.
     fn name<'p>(&self, path: &'p Path) -> &'p Path {
-        path.strip_prefix(self.from).unwrap_or(path)
+        path.strip_prefix(self.from).expect("files are found below the folder")
     }
 
     /// A path that was told from the root, as the user would write it.
@@ -319,7 +323,7 @@ impl Folders<'_> {
             return Dealt::Later;
         }
         let report = report::path(self.out, &input.name);
-        let not = |error: &anyhow::Error| Dealt::Not(format!("error: {error:#}\n"));
+        let not = |error: &anyhow::Error| self.not_now(input, &format!("error: {error:#}\n"));
         let source = match files::read(&input.path) {
             Ok(source) => source,
             Err(_) if !input.path.exists() => return Dealt::Quietly,
@@ -331,40 +335,57 @@ impl Folders<'_> {
         let Arguments { making, messages, .. } = &settings.arguments;
         let many = Many { making, targets: &settings.targets, job: &settings.job, manifest: self.manifest };
         let made = many.made(input, &source);
-        if self.manifest.standing(&made).is_some() {
+        if let Some(line) = self.manifest.standing(&made) {
+            self.manifest.keep(line);
             report::remove(&report);
             return Dealt::Quietly;
         }
-        if self.manifest.refused(&made) && report.exists() {
+        if let Some(line) = self.manifest.refused(&made).filter(|_| report.exists()) {
+            self.manifest.keep(line);
             return Dealt::Quietly;
         }
+        // It is of what the file was before.
+        report::remove(&report);
         match MadeFolders::of(places.iter().map(PathBuf::as_path)) {
             Ok(mut folders) => folders.keep(),
             Err(error) => return not(&error),
         }
         let published = many.publish(many.draft(input, source, made, places));
-        let is_compiled = published.is_compiled();
+        let became = published.became();
         let Outcome { row, said, .. } = published.outcome(input, &settings.job, *messages, Format::Text);
-        let worst = row.as_ref().map(|row| row.worst.as_str()).filter(|worst| !worst.is_empty());
-        if is_compiled == Some(true) {
-            report::remove(&report);
-            let figures = row.iter().flat_map(|row| {
-                let pieces = row.pieces.map(|pieces| counted(pieces, "piece"));
-                let cut = row.cut_m.map(|cut| format!("{} m", fixed(cut, 1)));
-                [pieces, cut, row.time_s.map(clock)].into_iter().flatten()
-            });
-            let figures: Vec<String> = figures.chain(worst.map(str::to_owned)).collect();
-            let places: Vec<_> = places.iter().map(|place| format!("`{}`", place.display())).collect();
-            return Dealt::With(format!("{}: {} -> {}", input.path.display(), figures.join(", "), places.join(" ")));
-        }
-        match (is_compiled, report::write(&report, &said)) {
-            (Some(_), Err(error)) => not(&error),
-            (Some(_), Ok(())) => {
-                let worst = worst.unwrap_or_default();
-                Dealt::With(format!("{}: FAILED {worst} -> `{}`", input.path.display(), report.display()))
-            }
-            // Nothing can be written, not even that.
-            (None, _) => Dealt::Not(said),
+        let worst = row.as_ref().map(|row| row.worst.clone()).unwrap_or_default();
+        match became {
+            Became::Program => Dealt::With(written(row.as_ref(), &input.path, places)),
+            Became::Refused => self.refuse(input, &said, &worst),
+            Became::Unwritten => self.not_now(input, &said),
         }
     }
+
+    /// Leaves a report on a file that has no program until it is changed.
+    fn refuse(&self, input: &Input, said: &str, worst: &str) -> Dealt {
+        let report = report::path(self.out, &input.name);
+        match report::write(&report, said) {
+            Ok(()) => Dealt::With(format!("{}: FAILED {worst} -> `{}`", input.path.display(), report.display())),
+            Err(error) => Dealt::Not(format!("{said}error: {error:#}\n")),
+        }
+    }
+
+    /// Leaves a report, if that can be written, on a file that is tried again.
+    fn not_now(&self, input: &Input, said: &str) -> Dealt {
+        let _ = report::write(&report::path(self.out, &input.name), said);
+        Dealt::Not(said.to_owned())
+    }
+}
+
+/// A line on a file that has its programs.
+fn written(row: Option<&Row>, file: &Path, places: &[PathBuf]) -> String {
+    let figures = row.iter().flat_map(|row| {
+        let pieces = row.pieces.map(|pieces| counted(pieces, "piece"));
+        let cut = row.cut_m.map(|cut| format!("{} m", fixed(cut, 1)));
+        let worst = Some(row.worst.clone()).filter(|worst| !worst.is_empty());
+        [pieces, cut, row.time_s.map(clock), worst].into_iter().flatten()
+    });
+    let figures: Vec<String> = figures.collect();
+    let places: Vec<_> = places.iter().map(|place| format!("`{}`", place.display())).collect();
+    format!("{}: {} -> {}", file.display(), figures.join(", "), places.join(" "))
 }

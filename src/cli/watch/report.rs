@@ -16,6 +16,10 @@ pub(super) fn path(out: &Path, name: &Path) -> PathBuf {
 
 /// Writes a report, whole.
 pub(super) fn write(path: &Path, said: &str) -> anyhow::Result<()> {
+    // What is tried again and again writes it once.
+    if fs::read(path).is_ok_and(|there| there == said.as_bytes()) {
+        return Ok(());
+    }
     let mut draft = Draft::new(path)?;
     draft.file().write_all(said.as_bytes()).map_err(|error| cannot_write(path, &error))?;
     draft::publish(vec![draft], || Ok(()))

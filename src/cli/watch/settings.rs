@@ -20,6 +20,9 @@ const PROFILE: &str = "profile";
 /// What some files look like; `None` = not there.
 pub(super) type Stamps = Vec<Option<Stamp>>;
 
+/// Options that hold for as long as the folder is watched.
+const OF_THE_RUN: [&str; 2] = ["out", "jobs"];
+
 /// What a hot folder is compiled with.
 pub(super) struct Settings {
     pub(super) arguments: Arguments,
@@ -51,7 +54,7 @@ impl Settings {
             let message = misuse.to_string();
             let message = message.trim_start_matches("error: ").split("\n\n").next().unwrap_or_default().to_owned();
             let from = if added { format!("`{}` and the command line: ", file.display()) } else { String::new() };
-            failure(format!("{from}{message}"), "its keys are the long options of `cutc compile`, each given once")
+            failure(format!("{from}{message}"), "its keys are the long options of `cutc watch`, each given once")
         })?;
         let targets = targets_of_many(arguments.making.place(), arguments.making.targets())?;
         let profile = arguments.making.profile().map(Path::to_owned);
@@ -88,6 +91,9 @@ fn words(file: &Path, folder: &Path) -> anyhow::Result<Vec<OsString>> {
     let table: toml::Table = text.parse().map_err(|error: toml::de::Error| wrong(error.to_string()))?;
     let mut words = Vec::new();
     for (key, value) in table {
+        if OF_THE_RUN.contains(&key.as_str()) {
+            return Err(wrong(format!("`{key}` is an option of the whole run: give it on the command line")));
+        }
         let values = match value {
             toml::Value::Array(values) => values,
             value => vec![value],
@@ -152,5 +158,6 @@ mod tests {
         assert!(refused("profile = \"machine.toml\"").contains("multiple times"));
         assert!(refused("set = [1.5]").contains("`set` is neither"));
         assert!(refused("= 1").contains("cutc.toml"));
+        assert!(refused("jobs = 2").contains("`jobs` is an option of the whole run"));
     }
 }

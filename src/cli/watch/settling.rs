@@ -15,12 +15,22 @@ const AGAIN: Duration = Duration::from_secs(5);
 pub(super) struct Stamp {
     bytes: u64,
     changed: Option<SystemTime>,
+    /// Which file it is, and when its bytes or name were changed, whatever time it was given: seconds, nanoseconds.
+    #[cfg(unix)]
+    file: (u64, i64, i64),
 }
 
 impl Stamp {
     /// That of a file as its file system knows it.
     pub(super) fn of(known: &Metadata) -> Self {
-        Self { bytes: known.len(), changed: known.modified().ok() }
+        #[cfg(unix)]
+        use std::os::unix::fs::MetadataExt as _;
+        Self {
+            bytes: known.len(),
+            changed: known.modified().ok(),
+            #[cfg(unix)]
+            file: (known.ino(), known.ctime(), known.ctime_nsec()),
+        }
     }
 
     /// That of the file at a path; `None` when there is none.
@@ -114,7 +124,12 @@ mod tests {
     use super::*;
 
     fn stamp(bytes: u64) -> Stamp {
-        Stamp { bytes, changed: None }
+        Stamp {
+            bytes,
+            changed: None,
+            #[cfg(unix)]
+            file: (0, 0, 0),
+        }
     }
 
     #[test]
