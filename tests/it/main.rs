@@ -1,0 +1,42 @@
+//! What holds of every part of the compiler, a module a topic; one program, because each is linked with all of the crate.
+
+#[path = "../bench/garment.rs"]
+mod garment;
+mod support;
+
+mod architecture;
+mod batch;
+mod chord;
+mod cli;
+mod coarse;
+mod codes;
+mod crowded;
+mod drives;
+mod edits;
+mod entries;
+mod fixtures;
+mod gcode;
+mod grammar;
+mod hpgl;
+mod knife;
+mod labels;
+mod loopholes;
+mod manual;
+mod many_info;
+mod markers;
+mod messages;
+mod motion;
+mod notch_forms;
+mod notches;
+mod options;
+mod passes;
+mod picture;
+mod places;
+mod profile;
+mod properties;
+mod readme;
+mod rewritten;
+mod targets;
+mod verifier;
+#[cfg(unix)]
+mod watch;
