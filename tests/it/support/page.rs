@@ -1,5 +1,4 @@
 //! Code blocks of the manual, and what folders hold.
-#![allow(dead_code, reason = "each test file uses its own part")]
 
 use std::collections::BTreeMap;
 use std::fs;
