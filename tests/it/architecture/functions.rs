@@ -1,0 +1,69 @@
+//! No function is too long to be understood as one.
+
+use super::{report, sources, without_tests};
+
+/// The most lines of code in a function, its signature included.
+const MOST_LINES: usize = 60;
+
+/// Functions that are known to be longer: file below `src` and name. To be emptied.
+const KNOWN_LONG: &[&str] = &[
+    "cli/summary.rs text",
+    "front/hpgl/lower.rs encoded",
+    "front/hpgl/lower.rs obey",
+    "front/hpgl/tally.rs report",
+    "front/iso/lower.rs obey",
+    "machine/validate.rs rules",
+    "pass/toolpath/tight.rs settle",
+    "pass/toolpath/wind.rs parts",
+    "pipeline/mod.rs compile_all",
+    "plan/mod.rs join",
+    "verify/cutter_file.rs cut",
+    "verify/cutter_file.rs read",
+    "verify/gcode.rs go",
+    "verify/overcut.rs see",
+    "verify/source_hpgl/mod.rs figure",
+    "verify/trial.rs follow",
+];
+
+/// The name and the lines of each function of formatted code: it ends with the first brace as far left as it begins.
+fn functions(code: &str) -> Vec<(String, usize)> {
+    let lines: Vec<&str> = code.lines().filter(|line| !line.trim().is_empty()).collect();
+    let mut found = Vec::new();
+    for (at, line) in lines.iter().enumerate() {
+        let Some((before, rest)) = line.split_once("fn ") else { continue };
+        let is_prefix = |word: &str| word == "const" || word.starts_with("pub");
+        if line.ends_with(';') || !before.split_whitespace().all(is_prefix) {
+            continue;
+        }
+        let name = rest.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default();
+        let indent = line.len() - line.trim_start().len();
+        let end = format!("{}}}", &line[..indent]);
+        let length = if line.ends_with('}') { Some(0) } else { lines[at..].iter().position(|other| *other == end) };
+        found.extend(length.map(|length| (name.to_owned(), length + 1)));
+    }
+    found
+}
+
+#[test]
+fn lines_of_functions_are_counted_without_blanks_and_comments() {
+    let code = "pub(crate) fn a() {\n    b();\n\n    \n}\nfn c() {}\nimpl X {\n    const fn d() {\n    }\n}\n";
+    let expected = [("a", 3), ("c", 1), ("d", 2)].map(|(name, lines)| (name.to_owned(), lines));
+    assert_eq!(functions(code), expected);
+}
+
+#[test]
+fn no_function_is_too_long_to_be_understood_as_one() {
+    let mut long = Vec::new();
+    for file in sources("src") {
+        let path = file.path.strip_prefix("src").expect("below the folder").display().to_string();
+        let functions = functions(&without_tests(&file.code)).into_iter().filter(|(_, lines)| *lines > MOST_LINES);
+        long.extend(functions.map(|(name, lines)| (format!("{path} {name}"), lines)));
+    }
+    let is_long = |known: &str| long.iter().any(|(name, _)| name == known);
+    let unknown = long.iter().filter(|(name, _)| !KNOWN_LONG.contains(&name.as_str()));
+    let mut faults: Vec<String> =
+        unknown.map(|(name, lines)| format!("{name}: {lines} lines of code, more than {MOST_LINES}")).collect();
+    let gone = KNOWN_LONG.iter().filter(|known| !is_long(known));
+    faults.extend(gone.map(|known| format!("KNOWN_LONG lists what is not long: {known}")));
+    report(&faults);
+}
