@@ -19,11 +19,13 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("diagnostic", &["source", "units"]),
     ("machine", &["units", "diagnostic", "source"]),
     ("ir", &["source", "units", "geom", "diagnostic", "machine"]),
+    ("analysis", &["units", "geom", "ir", "machine"]),
     ("front", FOUNDATION),
-    ("recognise", FOUNDATION),
-    ("pass", FOUNDATION),
-    ("plan", FOUNDATION),
-    ("back", FOUNDATION),
+    ("recognise", ASKING),
+    ("pass", ASKING),
+    ("plan", ASKING),
+    ("back", ASKING),
+    // A checker measures for itself what it checks.
     ("verify", FOUNDATION),
     ("pipeline", ALL_BUT_CLI),
     ("manual", &[]),
@@ -34,8 +36,24 @@ const IMPORTS: &[(&str, &[&str])] = &[
 
 const FOUNDATION: &[&str] = &["source", "diagnostic", "units", "geom", "ir", "machine"];
 
-const ALL_BUT_CLI: &[&str] =
-    &["source", "diagnostic", "units", "geom", "ir", "machine", "front", "recognise", "pass", "plan", "back", "verify"];
+/// Those who may ask of the cloth.
+const ASKING: &[&str] = &["source", "diagnostic", "units", "geom", "ir", "machine", "analysis"];
+
+const ALL_BUT_CLI: &[&str] = &[
+    "source",
+    "diagnostic",
+    "units",
+    "geom",
+    "ir",
+    "machine",
+    "analysis",
+    "front",
+    "recognise",
+    "pass",
+    "plan",
+    "back",
+    "verify",
+];
 
 /// What is named in some modules only.
 const NAMED_ONLY_IN: &[(&str, &[&str])] = &[
@@ -44,7 +62,7 @@ const NAMED_ONLY_IN: &[(&str, &[&str])] = &[
     ("clap::", &["cli"]),
     ("anyhow::", &["cli", "main"]),
     // What gives the same on any number of threads may be shared out; what writes, reads and plans goes in order.
-    ("rayon::", &["cli", "geom", "pass", "pipeline", "verify"]),
+    ("rayon::", &["analysis", "cli", "geom", "pass", "pipeline", "verify"]),
     // Stages are pure: files, clocks and the environment are for those who call them.
     ("tempfile::", &["cli", "pipeline"]),
     ("std::thread", &["cli", "pipeline", "main"]),
@@ -72,7 +90,6 @@ const BESIDE_A_TABLE: &[(&str, &str)] = &[
     ("frame", "makes the one toolpath that no pass edits"),
     ("lap", "says how far C turns along a run, for the passes that keep it in its range"),
     ("nibble", "parts runs into plunges for the pass that nibbles"),
-    ("notches", "draws notches in the style of the profile, before a pass edits them"),
     ("scene", "holds what passes look at beside a toolpath"),
     ("stretch", "parts runs for the passes that lift the knife amid one"),
     ("trace", "makes the toolpaths that the passes edit"),

@@ -11,7 +11,6 @@ mod entry;
 mod frame;
 mod lap;
 mod nibble;
-mod notches;
 mod overlap;
 mod place;
 mod scene;
@@ -24,7 +23,6 @@ mod turn;
 mod wind;
 
 pub use frame::frame;
-pub use notches::check_depths;
 pub use scene::Scene;
 pub use trace::trace;
 

@@ -41,11 +41,6 @@ impl<'a> Scene<'a> {
         Self { job, parts, part_of }
     }
 
-    /// Whether a place lies in the part to which a piece belongs.
-    pub(super) fn is_in_part(&self, piece: usize, place: Point) -> bool {
-        self.parts.owners_at(place).contains(&self.part_of[piece])
-    }
-
     /// The scene as the cuts of a toolpath see it.
     pub(super) fn around(&self, toolpath: &Toolpath) -> Around<'_> {
         let part = self.part_of.get(toolpath.part as usize).copied().unwrap_or(toolpath.part);

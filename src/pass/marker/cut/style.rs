@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use super::scene::Scene;
+use crate::analysis::cloth::Cloth;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::bits;
 use crate::ir::Marker;
@@ -30,9 +30,8 @@ pub(super) fn strokes(notch: &Notch, notches: Notches) -> impl Iterator<Item = S
 }
 
 /// Finds slits that the profile makes so deep that they lead out of their part.
-pub fn check_depths(marker: &Marker, scene: &Scene, diagnostics: &mut Diagnostics) {
-    let notches = scene.job.profile.notch;
-    let Some(depth) = notches.depth_mm.filter(|_| notches.style != NotchStyle::Skip) else { return };
+pub(super) fn check_depths(marker: &Marker, cloth: &Cloth, notches: Notches, diagnostics: &mut Diagnostics) {
+    let Some(depth) = notches.depth_mm else { return };
     for (index, piece) in marker.pieces.iter().enumerate() {
         let slits = piece.notches.iter().map(|notch| Stroke { from: notch.root, to: notch.tip, span: notch.span });
         let drawn = piece.outline_notches.iter().filter(|_| notches.style == NotchStyle::Slit);
@@ -41,7 +40,7 @@ pub fn check_depths(marker: &Marker, scene: &Scene, diagnostics: &mut Diagnostic
             let along = (drawn.to - drawn.from) / drawn.length();
             let deeper = depth - drawn.length();
             let steps = (deeper / STEP).ceil();
-            let is_in = |i: usize| scene.is_in_part(index, drawn.to + along * (deeper * i as f64 / steps).max(INSIDE));
+            let is_in = |i: usize| cloth.is_in_part(index, drawn.to + along * (deeper * i as f64 / steps).max(INSIDE));
             // A slit that is drawn outside of all parts is nobody's.
             if is_in(0) && !(1..=steps as usize).all(is_in) {
                 let depth = fixed(depth, 2);
