@@ -4,13 +4,14 @@
 //! reports every fault in it; [`keys::KEYS`] says what each key means, once, for the commented profile, the messages
 //! and the README.
 
-pub mod controller;
+pub mod counts;
 mod digest;
 mod encoding;
+mod fault;
+pub mod gcode;
 pub mod keys;
 pub mod kinematics;
 pub mod knife;
-mod lines;
 mod load;
 mod measured;
 mod near;

@@ -1,52 +1,19 @@
-//! What targets that address a controller need to know of it: keys of the profile.
+//! The controller that reads the programs of the target `gcode`: the keys `gcode.*`.
+//!
+//! What it does with knife, drills, operator and cloth are lists of [`Step`]s; only the head and the end of a program are
+//! free text, which may choose and switch but not move ([`text`]). [`rules`] holds them against each other.
+
+mod rules;
+mod step;
+mod text;
+mod words;
 
 use serde::{Deserialize, Serialize};
 
+pub(super) use self::rules::faults;
+pub use self::step::{Number, Parameter, Step};
+pub(super) use self::words::Flaw;
 use super::word::{Off, OrWord};
-
-/// The encoders of the drives, for the target `counts`.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Counts {
-    /// Along the table.
-    pub x: LinearCounts,
-    /// Across the table.
-    pub y: LinearCounts,
-    /// The blade's turn.
-    pub c: RotaryCounts,
-}
-
-/// The encoder of a linear axis.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct LinearCounts {
-    /// Counts per mm.
-    pub per_mm: f64,
-    /// Counts at 0 mm.
-    pub offset: f64,
-}
-
-/// The encoder of the rotary axis.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct RotaryCounts {
-    /// Counts per degree.
-    pub per_deg: f64,
-    /// Counts at 0 degrees of the controller.
-    pub offset: f64,
-}
-
-impl Default for LinearCounts {
-    fn default() -> Self {
-        Self { per_mm: 10_000.0, offset: 0.0 }
-    }
-}
-
-impl Default for RotaryCounts {
-    fn default() -> Self {
-        Self { per_deg: 10_000.0, offset: 0.0 }
-    }
-}
 
 /// A controller that reads G-code, for the target `gcode`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -71,22 +38,22 @@ pub struct Gcode {
     pub heading_tolerance_deg: f64,
     /// Without arcs: how far a chord may leave its arc, mm.
     pub chord_mm: f64,
-    /// Lines behind the units at the start.
+    /// Lines behind the units at the start; they move nothing.
     pub header: String,
-    /// Lines at the end.
+    /// Lines at the end, likewise.
     pub footer: String,
-    /// Lines that put the knife down.
-    pub knife_down: String,
-    /// Lines that lift it.
-    pub knife_up: String,
-    /// Lines that put a drill down; `#` is its number.
-    pub drill_down: String,
-    /// Lines that lift it.
-    pub drill_up: String,
-    /// Lines that wait for the operator.
-    pub stop: String,
-    /// Lines that advance the cloth.
-    pub advance: String,
+    /// What puts the knife down.
+    pub knife_down: Vec<Step>,
+    /// What lifts it.
+    pub knife_up: Vec<Step>,
+    /// What puts a drill down; `#` is its number.
+    pub drill_down: Vec<Step>,
+    /// What lifts it.
+    pub drill_up: Vec<Step>,
+    /// What waits for the operator.
+    pub stop: Vec<Step>,
+    /// What advances the cloth.
+    pub advance: Vec<Step>,
 }
 
 impl Gcode {
@@ -151,12 +118,12 @@ impl Default for Gcode {
             chord_mm: 0.002,
             header: String::new(),
             footer: "M2".to_owned(),
-            knife_down: "M64 P0".to_owned(),
-            knife_up: "M65 P0".to_owned(),
-            drill_down: "M64 P#".to_owned(),
-            drill_up: "M65 P#".to_owned(),
-            stop: "M0".to_owned(),
-            advance: "M1".to_owned(),
+            knife_down: vec![Step::Output { pin: Number::Plain(0.0), on: true }],
+            knife_up: vec![Step::Output { pin: Number::Plain(0.0), on: false }],
+            drill_down: vec![Step::Output { pin: Number::Drill, on: true }],
+            drill_up: vec![Step::Output { pin: Number::Drill, on: false }],
+            stop: vec![Step::Code { m: 0, parameters: Vec::new() }],
+            advance: vec![Step::Code { m: 1, parameters: Vec::new() }],
         }
     }
 }
