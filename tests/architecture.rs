@@ -5,7 +5,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use cutc::back::TARGETS;
-use cutc::diagnostic::code;
 use cutc::front::DIALECTS;
 use cutc::pass::marker::MARKER_PASSES;
 use cutc::pass::toolpath::TOOLPATH_PASSES;
@@ -262,16 +261,6 @@ fn tables_and_folders_agree() {
         }
     }
     report(&faults);
-}
-
-#[test]
-fn the_readme_lists_every_dialect_target_and_code() {
-    let readme = fs::read_to_string(root().join("README.md")).unwrap_or_default();
-    let dialects = DIALECTS.iter().map(|dialect| ("dialect", dialect.name));
-    let targets = TARGETS.iter().map(|target| ("target", target.name));
-    let codes = code::ALL.iter().map(|code| ("code", code.name));
-    let missing = dialects.chain(targets).chain(codes).filter(|(_, name)| !readme.contains(&format!("`{name}`")));
-    report(&missing.map(|(what, name)| format!("README.md has no row for the {what} `{name}`")).collect::<Vec<_>>());
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Every key of the profile: what it takes and what it means in a cutting room.
 //!
-//! The commented profile, the messages about wrong values, the help and the README come from this one table.
+//! The commented profile, the messages about wrong values, the help and the manual come from this one table.
 
 use std::fmt;
 use std::ops::{Bound, RangeBounds as _};

@@ -190,7 +190,7 @@ impl Draft {
     fn unknown(&mut self, name: &str, origin: Origin) {
         let hint = match keys::near_codes(name).as_deref() {
             Some([code]) => format!("it is spelled `{code}`"),
-            Some(codes) => format!("near ones are `{}`; the README lists all codes", codes.join("`, `")),
+            Some(codes) => format!("near ones are `{}`; `cutc manual inputs` lists all codes", codes.join("`, `")),
             None if name == "table.strict" => {
                 "leave it out: what leaves the table by more than a millimetre is an error now, anyway".to_owned()
             }
@@ -408,8 +408,8 @@ mod tests {
         assert_eq!(
             hints,
             [
-                "near ones are `codes.A`, `codes.B`, `codes.E`; the README lists all codes",
-                "near ones are `codes.M19`, `codes.M69`, `codes.G90`; the README lists all codes",
+                "near ones are `codes.A`, `codes.B`, `codes.E`; `cutc manual inputs` lists all codes",
+                "near ones are `codes.M19`, `codes.M69`, `codes.G90`; `cutc manual inputs` lists all codes",
                 "it is spelled `codes.M19`",
             ]
         );

@@ -2,7 +2,7 @@
 //!
 //! Receives TOML, promises validated numbers in mm, s and rad, never knows what is cut. [`load()`] reads a profile and
 //! reports every fault in it; [`keys::KEYS`] says what each key means, once, for the commented profile, the messages
-//! and the README.
+//! and the manual.
 
 pub mod counts;
 mod digest;

@@ -13,7 +13,7 @@ pub use judge::{about, figures, foreign, judge_program};
 pub use report::{Axes, Controller, Drawn, Lines, Notches, Peak, Peaks, Program, Report, Sides, significant};
 pub use spent::{Spent, word};
 
-pub use crate::verify::{RULES, Verdict};
+pub use crate::verify::{RULES, Rule, Verdict};
 
 use std::io::{self, BufWriter, Read, Seek, Write};
 use std::path::Path;
