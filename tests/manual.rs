@@ -174,7 +174,7 @@ fn with_lists(text: &str) -> String {
     for part in parts {
         let (name, rest) = part.split_once(" -->\n").expect("the mark of a list ends its line");
         let rest = rest.split_once("<!-- end -->").expect("a list has an end").1;
-        out += &format!("<!-- table: {name} -->\n{}<!-- end -->{rest}", list(name));
+        out.extend(["<!-- table: ", name, " -->\n", &list(name), "<!-- end -->", rest]);
     }
     out
 }
