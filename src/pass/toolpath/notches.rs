@@ -41,7 +41,8 @@ pub fn check_depths(marker: &Marker, scene: &Scene, diagnostics: &mut Diagnostic
             let along = (drawn.to - drawn.from) / drawn.length();
             let deeper = depth - drawn.length();
             let steps = (deeper / STEP).ceil();
-            let is_in = |i: usize| scene.is_in_part(index, drawn.to + along * (deeper * i as f64 / steps).max(INSIDE));
+            let is_in =
+                |i: usize| scene.cloth.is_in_part(index, drawn.to + along * (deeper * i as f64 / steps).max(INSIDE));
             // A slit that is drawn outside of all parts is nobody's.
             if is_in(0) && !(1..=steps as usize).all(is_in) {
                 let depth = fixed(depth, 2);
