@@ -1,10 +1,14 @@
-//! What stages ask of the cloth: which line lies in which.
+//! Questions about the drawing and the blade, asked by several stages and answered once.
 //!
-//! Receives a marker, or lines of a drawing; promises one answer to all who ask: what recognises parts, passes, the planner
-//! and the writers. Never edits anything, and is never asked by the verifier, which measures for itself.
+//! Receives forms of [`ir`](crate::ir) and a machine, answers questions: which line lies in which, how far a blade may go
+//! before it enters a part, where it lies when it is plunged. Never edits, and is never asked by `verify`, which measures for
+//! itself.
 
 mod area;
+mod chord;
 pub mod cloth;
 pub mod nesting;
+pub mod plunge;
+pub mod tight;
 
 pub use area::area;

@@ -13,8 +13,8 @@ use rayon::prelude::*;
 
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
-use crate::geom::nest::Shape;
 use crate::geom::region::Regions;
+use crate::geom::shape::Shape;
 use crate::geom::{Extent, Point, ring};
 use crate::ir::Marker;
 use crate::ir::list::SegmentList;

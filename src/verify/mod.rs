@@ -33,6 +33,7 @@ mod npy;
 mod order;
 mod outline;
 mod overcut;
+mod parts;
 mod passing;
 mod read;
 mod reference;

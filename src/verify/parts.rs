@@ -1,58 +1,22 @@
-//! What lies in what: whose cut-out a shape is.
+//! What lies in what: whose cut-out a piece is.
 
 use rayon::prelude::*;
 
-use super::{Extent, Point};
-
-/// Where between the bottom and the top of a shape a point inside it is looked for: seldom at the height of an edge.
-const LEVEL: f64 = 0.381_966;
-
-/// A shape: what there is to know of the rings that bound it by the even-odd rule.
-#[derive(Debug, Clone)]
-pub struct Shape {
-    extent: Extent,
-    /// A point well inside; `None` when there is no inside.
-    inner: Option<Point>,
-}
-
-impl Shape {
-    /// The shape that rings bound; whether they repeat their first points does not matter.
-    pub fn new<R: AsRef<[Point]>>(rings: &[R]) -> Self {
-        let mut extent = Extent::EMPTY;
-        rings.iter().flat_map(AsRef::as_ref).for_each(|&point| extent.add(point));
-        Self { extent, inner: inner_point(rings, extent) }
-    }
-
-    /// A point well inside; `None` when there is no inside.
-    pub fn inner(&self) -> Option<Point> {
-        self.inner
-    }
-}
-
-fn inner_point<R: AsRef<[Point]>>(rings: &[R], extent: Extent) -> Option<Point> {
-    let (_, height) = extent.size();
-    let y = extent.min.y + LEVEL * height;
-    let rings = rings.iter().map(AsRef::as_ref);
-    let edges = rings.flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
-    let crossing = edges.filter(|(a, b)| (a.y > y) != (b.y > y));
-    let mut crossings: Vec<f64> = crossing.map(|(a, b)| a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y)).collect();
-    crossings.sort_by(f64::total_cmp);
-    let inside = crossings.chunks_exact(2).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
-    Some(Point::new(f64::midpoint(inside[0], inside[1]), y))
-}
+use crate::geom::Point;
+use crate::geom::shape::Shape;
 
 /// For each shape the one to whose region it belongs: itself, or, when it lies in one other or in three, the smallest of
 /// these, of which it is a cut-out. A shape in a cut-out is a region of its own. `holders` names the shapes in whose rings a
 /// point lies.
-pub fn regions(shapes: &[Shape], holders: impl Fn(Point) -> Vec<u32> + Sync) -> Vec<u32> {
+pub(super) fn regions(shapes: &[Shape], holders: impl Fn(Point) -> Vec<u32> + Sync) -> Vec<u32> {
     let area = |shape: u32| {
-        let (width, height) = shapes[shape as usize].extent.size();
+        let (width, height) = shapes[shape as usize].extent().size();
         width * height
     };
     let holder = |own: u32| {
         let shape = &shapes[own as usize];
-        let mut holders = holders(shape.inner?);
-        holders.retain(|&other| other != own && shapes[other as usize].extent.covers(&shape.extent));
+        let mut holders = holders(shape.inner()?);
+        holders.retain(|&other| other != own && shapes[other as usize].extent().covers(&shape.extent()));
         let smallest = holders.iter().copied().min_by(|&a, &b| area(a).total_cmp(&area(b)).then(a.cmp(&b)));
         smallest.filter(|_| holders.len() % 2 == 1)
     };
