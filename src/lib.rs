@@ -28,6 +28,7 @@
 //! | [`ir`] | the three forms, the segment list, the checker, the text form |
 //! | [`front`] | dialects: bytes to Marker or Drawing, a file or folder each, rows of [`front::DIALECTS`] |
 //! | [`recognise`] | what of a drawing is cut: Drawing to Marker, whatever the dialect |
+//! | [`analysis`] | what lies in what: asked by `recognise`, `pass`, `plan`, `back`, never by `verify` |
 //! | [`pass`] | edits of Marker and Toolpath, a file each, rows of two tables in order |
 //! | `plan` | smooth curves, speed along them, moves in the air, samples that keep the limits |
 //! | [`back`] | targets: a form to bytes, a file each, rows of [`back::TARGETS`] |
@@ -65,6 +66,7 @@
 //! - **No repair of the drawing.** A gap or a repeated contour is named and cut as it stands: closing it would be a guess.
 //! - **No state between two compiles**, and no configuration but the profile and the arguments.
 
+pub mod analysis;
 pub mod back;
 pub mod cli;
 pub mod diagnostic;

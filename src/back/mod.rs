@@ -64,6 +64,16 @@ pub enum Emit {
     Motion(Parts<Motion>),
 }
 
+impl Emit {
+    /// Whether it is made from what the knife does.
+    pub fn needs_toolpaths(&self) -> bool {
+        match self {
+            Self::Marker(_) => false,
+            Self::Toolpath(_) | Self::Fit(_) | Self::Motion(_) => true,
+        }
+    }
+}
+
 /// A target that is written in parts: a head, a body for each form that comes, a tail.
 #[derive(Debug)]
 pub struct Parts<T> {

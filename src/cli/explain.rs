@@ -1,42 +1,54 @@
-//! `cutc explain`: what a code means, why it matters and what to do.
+//! `cutc explain`: what a code, a rule, a key or a word means, why it matters and what to do.
 
 use std::fmt::Write as _;
 
 use clap::Args;
 
-use super::explanations::EXPLANATIONS;
 use super::{DONE, Finished, failure};
 use crate::diagnostic::{Severity, code};
+use crate::front::DIALECTS;
 use crate::machine::MachineProfile;
 use crate::machine::keys::{self, KEYS, Key};
+use crate::manual;
 use crate::pipeline::RULES;
 
 /// Columns of an explanation.
 const COLUMNS: usize = 80;
 /// Likeness from which a name may have been meant, of 1: two swapped letters or a wrong ending are above it.
 const LEAST_LIKENESS: f64 = 0.8;
-/// Letters of an instruction of a plot.
-const MNEMONIC_LETTERS: usize = 2;
-/// Where the codes of cut files are explained.
-const README: &str = include_str!("../../README.md");
-/// The heading above their table.
-const CODES_OF_FILES: &str = "Codes of ISO cut files";
+/// Fewest letters that are looked for amid texts: shorter ones stand everywhere.
+const FEWEST_LETTERS: usize = 4;
 
 /// Arguments of `cutc explain`.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
-    /// A code as messages show it, `iso/open-slit`, a rule of the verifier, `verify/on-path`, a code of cut files, `M19`, or
-    /// a key of the profile, `knife.width_mm`
-    code: Option<String>,
+    /// A code as messages show it, `iso/open-slit`, a rule of the verifier, `verify/on-path`, a code of cut files or an
+    /// instruction of plots, `M19`, `SC`, a key of the profile, `knife.width_mm`, or a word, `overcut`
+    #[arg(num_args = 0.., value_name = "WORD")]
+    words: Vec<String>,
 }
 
-/// A code or a rule: name, what kind it is, what it says in a sentence.
-type Topic = (&'static str, &'static str, &'static str);
+/// A code of diagnostics or a rule.
+struct Topic {
+    name: &'static str,
+    /// "error", "warning" or "rule".
+    kind: &'static str,
+    /// What it says in a sentence.
+    about: &'static str,
+    /// What stands behind that.
+    more: &'static str,
+}
 
 /// Every code, then every rule.
 fn topics() -> impl Iterator<Item = Topic> {
-    let codes = code::ALL.iter().map(|code| (code.name, severity(code.severity), code.about));
-    codes.chain(RULES.iter().map(|&(name, about)| (name, "rule", about)))
+    let codes = code::ALL.iter().map(|code| Topic {
+        name: code.name,
+        kind: severity(code.severity),
+        about: code.about,
+        more: code.more,
+    });
+    let rules = RULES.iter().map(|rule| Topic { name: rule.name, kind: "rule", about: rule.about, more: rule.more });
+    codes.chain(rules)
 }
 
 fn severity(severity: Severity) -> &'static str {
@@ -47,27 +59,27 @@ fn severity(severity: Severity) -> &'static str {
 }
 
 pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
-    let Some(asked) = &arguments.code else { return Ok(Finished::text(list(), String::new(), DONE)) };
-    if let Some(topic) = topics().find(|(name, _, _)| name == asked) {
-        return Ok(Finished::text(explained(topic), String::new(), DONE));
+    let asked = arguments.words.join(" ");
+    if asked.is_empty() {
+        return Ok(Finished::text(list(), String::new(), DONE));
     }
-    if let Some(text) = code_of_files(asked).or_else(|| Some(key_text(keys::find(asked)?))) {
-        return Ok(Finished::text(text, String::new(), DONE));
-    }
-    Err(failure(format!("there is no code `{asked}`"), hint(asked)))
+    let topic = || topics().find(|topic| topic.name == asked).map(|topic| explained(&topic));
+    let key = || keys::find(&asked).map(key_text);
+    let found = topic().or_else(|| word_of_dialect(&asked)).or_else(key).or_else(|| word(&asked));
+    found
+        .map(|text| Finished::text(text, String::new(), DONE))
+        .ok_or_else(|| failure(format!("nothing is said of `{asked}`"), hint(&asked)))
 }
 
 /// What else may have been meant. A family of keys (`codes.<code>`) is like everything, and is no name.
 fn hint(asked: &str) -> String {
-    if asked.len() == MNEMONIC_LETTERS && asked.bytes().all(|byte| byte.is_ascii_alphabetic()) {
-        return "README has the instructions of plots (HPGL); `cutc explain` lists all codes".to_owned();
-    }
     let likeness = |name: &str| strsim::jaro_winkler(name, asked);
     let keys = KEYS.iter().map(|key| key.name).filter(|name| !name.contains('<'));
-    let near = topics().map(|topic| topic.0).chain(keys).filter(|name| likeness(name) >= LEAST_LIKENESS);
+    let names = topics().map(|topic| topic.name).chain(keys).chain(manual::glossary().map(|entry| entry.term));
+    let near = names.filter(|name| likeness(name) >= LEAST_LIKENESS);
     let nearest = near.max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
     let guess = nearest.map_or_else(String::new, |name| format!("did you mean `{name}`? "));
-    format!("{guess}`cutc explain` lists them all")
+    format!("{guess}`cutc explain` lists all codes and rules, `cutc manual glossary` the words")
 }
 
 /// A code of cut files by letter and number, as `M014` or `n`; `None` when it is none.
@@ -78,23 +90,37 @@ fn letter_and_number(word: &str) -> Option<(char, Option<u32>)> {
     Some((letter, number))
 }
 
-/// What README's table says about a code of cut files.
-fn code_of_files(asked: &str) -> Option<String> {
-    let asked = letter_and_number(asked)?;
-    let section = README.split_once(CODES_OF_FILES)?.1.split("\n#").next()?;
-    let rows = section.lines().filter_map(|line| line.strip_prefix("| ")?.strip_suffix(" |")?.split_once(" | "));
-    let named = |codes: &str| {
-        let words: Vec<_> = codes.split('`').skip(1).step_by(2).filter_map(letter_and_number).collect();
-        let within = |first, last| first <= asked && asked <= last;
-        words.contains(&asked) || codes.contains(" to ") && words.len() == 2 && within(words[0], words[1])
-    };
-    let told: Vec<String> =
-        rows.filter(|(codes, _)| named(codes)).map(|(codes, about)| row_text(codes, about)).collect();
-    let ((letter, number), switch) = (asked, "The profile can switch a code off:");
-    let code = number.map_or_else(|| letter.to_string(), |number| format!("{letter}{number:02}"));
-    let kind = "code of ISO cut files; README has all of them";
-    (!told.is_empty())
-        .then(|| format!("{code}\n{kind}\n\n{}\n\n{switch}\n  codes.{code} = \"ignore\"\n", told.join("\n")))
+/// Whether the words of a row are a code, or a range of codes that holds it.
+fn names(words: &str, asked: &str) -> bool {
+    let named: Vec<&str> = words.split('`').skip(1).step_by(2).collect();
+    if named.iter().any(|word| word.eq_ignore_ascii_case(asked)) {
+        return true;
+    }
+    let Some(asked) = letter_and_number(asked) else { return false };
+    let codes: Vec<_> = named.iter().filter_map(|word| letter_and_number(word)).collect();
+    let within = |first, last| first <= asked && asked <= last;
+    codes.contains(&asked) || words.contains(" to ") && codes.len() == 2 && within(codes[0], codes[1])
+}
+
+/// What a dialect's table says of one of its codes.
+fn word_of_dialect(asked: &str) -> Option<String> {
+    for dialect in DIALECTS {
+        let rows = dialect.words.iter().filter(|row| names(row.words, asked));
+        let told: Vec<String> =
+            rows.map(|row| wrapped(&format!("{}: {}", row.words, sentence(row.about)), COLUMNS)).collect();
+        if told.is_empty() {
+            continue;
+        }
+        let code = match letter_and_number(asked) {
+            Some((letter, Some(number))) => format!("{letter}{number:02}"),
+            Some(_) | None => asked.to_ascii_uppercase(),
+        };
+        let head = format!("{code}\nword of {}\n\n{}\n", dialect.about, told.join("\n"));
+        let can_be_off = keys::find(&format!("{}.{code}", keys::CODES)).is_some() && dialect.name == "iso";
+        let off = format!("\nThe profile can switch a code off:\n  {}.{code} = \"ignore\"\n", keys::CODES);
+        return Some(if can_be_off { head + &off } else { head });
+    }
+    None
 }
 
 /// What a key of the profile means, what it takes, and what it is when nothing is said.
@@ -112,15 +138,31 @@ fn key_text(key: &Key) -> String {
     )
 }
 
-/// A row of README's table as a paragraph.
-fn row_text(codes: &str, about: &str) -> String {
-    wrapped(&format!("{codes}: {}", sentence(about)), COLUMNS)
+/// What the glossary says of a word, and where else it stands.
+fn word(asked: &str) -> Option<String> {
+    let lower = asked.to_lowercase();
+    let mut out = String::new();
+    for entry in manual::glossary().filter(|entry| entry.term.to_lowercase() == lower) {
+        let _ = writeln!(out, "{}\nword of the trade\n\n{}\n", entry.term, wrapped(&sentence(&entry.text), COLUMNS));
+    }
+    let has = |text: &str| lower.len() >= FEWEST_LETTERS && text.to_lowercase().contains(&lower);
+    let topics = topics().filter(|topic| has(topic.name) || has(topic.about)).map(|topic| (topic.name, topic.about));
+    let keys = KEYS.iter().filter(|key| has(key.name) || has(key.about)).map(|key| (key.name, key.about));
+    let rows: Vec<(&str, &str)> = topics.chain(keys).collect();
+    if !rows.is_empty() {
+        let _ = writeln!(out, "Where `{asked}` stands:");
+        let width = rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
+        for (name, about) in rows {
+            let _ = writeln!(out, "  {name:width$}  {}", about.replace('\n', " "));
+        }
+    }
+    (!out.is_empty()).then_some(out)
 }
 
 fn list() -> String {
-    let width = topics().map(|topic| topic.0.len()).max().unwrap_or(0);
+    let width = topics().map(|topic| topic.name.len()).max().unwrap_or(0);
     let mut out = String::new();
-    for (name, kind, about) in topics() {
+    for Topic { name, kind, about, .. } in topics() {
         // Writing into a `String` cannot fail.
         let _ = writeln!(out, "{name:width$}  {kind:7}  {about}");
     }
@@ -136,8 +178,7 @@ fn consequence(kind: &str) -> &'static str {
     }
 }
 
-fn explained((name, kind, about): Topic) -> String {
-    let more = EXPLANATIONS.iter().find(|(code, _)| *code == name).map_or("", |(_, text)| text);
+fn explained(Topic { name, kind, about, more }: &Topic) -> String {
     format!("{name}\n{}\n\n{}\n\n{}\n", consequence(kind), wrapped(&sentence(about), COLUMNS), paragraphs(more))
 }
 
@@ -178,16 +219,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_code_and_rule_is_explained_once() {
-        let count = |name: &str| EXPLANATIONS.iter().filter(|(code, _)| *code == name).count();
-        let wrong: Vec<_> = topics().map(|topic| topic.0).filter(|name| count(name) != 1).collect();
-        assert!(wrong.is_empty(), "EXPLANATIONS must have one row for each of {wrong:?}");
+    fn every_code_and_rule_stands_once_with_its_explanation() {
+        let count = |name: &str| topics().filter(|topic| topic.name == name).count();
+        for topic in topics() {
+            assert!(count(topic.name) == 1 && !topic.about.is_empty() && !topic.more.is_empty(), "{}", topic.name);
+        }
     }
 
     #[test]
-    fn a_code_of_cut_files_is_explained_by_its_row() {
+    fn a_code_of_a_dialect_is_explained_by_its_row() {
         let check = |asked: &str, expected: &str| {
-            let text = code_of_files(asked).unwrap_or_else(|| panic!("{asked} is explained"));
+            let text = word_of_dialect(asked).unwrap_or_else(|| panic!("{asked} is explained"));
             assert!(text.contains(expected), "{text}");
             assert!(text.lines().all(|line| line.chars().count() <= COLUMNS), "{text}");
         };
@@ -196,9 +238,19 @@ mod tests {
         check("G1", "codes.G01");
         check("M63", "percent");
         check("N", "A piece begins");
-        for unknown in ["M99", "verify/nothing", "", "M", "é1"] {
-            assert_eq!(code_of_files(unknown), None, "{unknown}");
+        check("SC", "Obeyed");
+        check("pd", "Moves");
+        for unknown in ["M99", "verify/nothing", "", "M", "é1", "XX"] {
+            assert_eq!(word_of_dialect(unknown), None, "{unknown}");
         }
+    }
+
+    #[test]
+    fn a_word_is_found_in_the_glossary_and_wherever_it_stands() {
+        let text = word("overcut").expect("a word of the trade");
+        assert!(text.contains("word of the trade") && text.contains("verify/overcut-part"), "{text}");
+        assert!(text.contains("knife.front_overlap_mm"), "{text}");
+        assert_eq!(word("xyzzy"), None);
     }
 
     #[test]
@@ -206,23 +258,22 @@ mod tests {
         for (asked, expected) in [
             ("iso/open-slot", "did you mean `iso/open-slit`?"),
             ("knife.widht_mm", "did you mean `knife.width_mm`?"),
-            ("PE", "instructions of plots"),
-            ("aa", "instructions of plots"),
+            ("plunge cuts", "did you mean `plunge cut`?"),
         ] {
             assert!(hint(asked).contains(expected), "{asked}: {}", hint(asked));
         }
         for asked in ["foo", "M99", "", "codes.<code>x"] {
             assert!(!hint(asked).contains("did you mean `codes.<"), "{asked}");
         }
-        assert_eq!(hint("foo"), "`cutc explain` lists them all");
+        assert!(hint("foo").starts_with("`cutc explain` lists"));
     }
 
     #[test]
     fn an_explanation_says_more_than_the_table_and_fits_80_columns() {
         for topic in topics() {
-            let text = explained(topic);
+            let text = explained(&topic);
             assert!(text.lines().all(|line| line.chars().count() <= COLUMNS), "{text}");
-            assert!(text.len() > topic.2.len() + 150, "{text}");
+            assert!(text.len() > topic.about.len() + 150, "{text}");
         }
     }
 }

@@ -12,7 +12,6 @@ mod destination;
 mod draft;
 mod drawn;
 mod explain;
-mod explanations;
 mod facts;
 mod files;
 mod help;

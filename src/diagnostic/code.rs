@@ -43,8 +43,10 @@ pub struct Code {
     pub harm: Harm,
     /// What is at fault.
     pub fault: Fault,
-    /// What it means and what to do, in a sentence or two.
+    /// What it means, in a sentence or two.
     pub about: &'static str,
+    /// Why it matters in a cutting room, and what to do: a line a paragraph, an indented line an example.
+    pub more: &'static str,
 }
 
 impl Code {
@@ -55,12 +57,12 @@ impl Code {
     }
 }
 
-const fn error(fault: Fault, name: &'static str, about: &'static str) -> Code {
-    Code { name, severity: Severity::Error, harm: Harm::Spares, fault, about }
+const fn error(fault: Fault, name: &'static str, about: &'static str, more: &'static str) -> Code {
+    Code { name, severity: Severity::Error, harm: Harm::Spares, fault, about, more }
 }
 
-const fn warning(harm: Harm, fault: Fault, name: &'static str, about: &'static str) -> Code {
-    Code { name, severity: Severity::Warning, harm, fault, about }
+const fn warning(harm: Harm, fault: Fault, name: &'static str, about: &'static str, more: &'static str) -> Code {
+    Code { name, severity: Severity::Warning, harm, fault, about, more }
 }
 
 // The source as a whole.
@@ -71,212 +73,212 @@ mod table {
     use super::{Code, error, warning};
 
     /// Nothing in the file.
-    pub static SOURCE_EMPTY: Code = error(Text, "source/empty", "The file holds no bytes, or only blanks.");
+    pub static SOURCE_EMPTY: Code = error(Text, "source/empty", "The file holds no bytes, or only blanks.", "Nothing arrived: an export was cancelled, or the copy to the cutter failed. Export the marker again and compare the sizes of the files.");
     /// More bytes than spans can address.
-    pub static SOURCE_TOO_LARGE: Code = error(Text, "source/too-large", "The file has 4 GiB or more; split the marker.");
+    pub static SOURCE_TOO_LARGE: Code = error(Text, "source/too-large", "The file has 4 GiB or more; split the marker.", "Places in a file are kept as 32-bit numbers. No marker needs this much: most likely it is another file. Split a real one by pieces in the CAD system.");
     /// No dialect recognises the content.
-    pub static SOURCE_UNKNOWN: Code = error(Text, "source/unknown-format", "The content is none of the dialects that cutc reads; the message names what it looks like.");
+    pub static SOURCE_UNKNOWN: Code = error(Text, "source/unknown-format", "The content is none of the dialects that cutc reads; the message names what it looks like.", "Cutting from a guess could ruin a lay. Export an ISO cut file, or name the dialect if the file has an unusual head.\n  cutc check odd.txt --from iso");
     /// Options for plots, and no plot.
-    pub static SOURCE_NO_PLOT: Code = warning(Spares, Shape, "source/no-plot", "`--cut-pens`, `--inner` or `--cut-all` is given for a file that is no drawing; they change nothing.");
+    pub static SOURCE_NO_PLOT: Code = warning(Spares, Shape, "source/no-plot", "`--cut-pens`, `--inner` or `--cut-all` is given for a file that is no drawing; they change nothing.", "A cut file says itself what is cut, so there is nothing to choose by pens and shapes. To cut some of its pieces name them.\n  cutc compile marker.cut --pieces 3,7-12");
 
     // ISO cut files.
     /// A block that is not words.
-    pub static ISO_SYNTAX: Code = error(Text, "iso/syntax", "A block does not follow the grammar: a word is a letter and, mostly, a number.");
+    pub static ISO_SYNTAX: Code = error(Text, "iso/syntax", "A block does not follow the grammar: a word is a letter and, mostly, a number.", "A damaged block may hide a coordinate, and a cut to the wrong place cannot be taken back. Look at the excerpt; export or transfer the file again.\n  X100Y200*M14*   is right; X100Y2#0* is not.");
     /// X or Y without a number.
-    pub static ISO_NO_VALUE: Code = error(Text, "iso/no-value", "X, Y, I or J stands without its number.");
+    pub static ISO_NO_VALUE: Code = error(Text, "iso/no-value", "X, Y, I or J stands without its number.", "A coordinate without its number could be anything; taking it as 0 would cut across the lay. Export the file again, or write the number.\n  X100Y*   lacks the number of Y.");
     /// A place that no table reaches.
-    pub static ISO_FAR_PLACE: Code = error(Text, "iso/far-place", "A place lies more than a kilometre from the origin: a digit is doubled, or the unit is wrong.");
+    pub static ISO_FAR_PLACE: Code = error(Text, "iso/far-place", "A place lies more than a kilometre from the origin: a digit is doubled, or the unit is wrong.", "No table is a kilometre long, so the motion would be nonsense. Look at the block: two numbers may have run together, or an export in another unit was mixed in.\n  X30000500Y0* instead of X3000500Y0*");
     /// Lines of per cent signs.
-    pub static ISO_FRAME: Code = warning(Spares, Text, "iso/percent-frame", "A line that holds nothing but `%` stands at the start or the end of the file; it is passed over.");
+    pub static ISO_FRAME: Code = warning(Spares, Text, "iso/percent-frame", "A line that holds nothing but `%` stands at the start or the end of the file; it is passed over.", "Senders put such lines around programs for machine tools. In a cut file they mean nothing, but the file may have gone through the wrong sender.");
     /// A number too large to be a place on a table.
-    pub static ISO_OVERFLOW: Code = error(Text, "iso/number-overflow", "A number has more digits than a coordinate can have.");
+    pub static ISO_OVERFLOW: Code = error(Text, "iso/number-overflow", "A number has more digits than a coordinate can have.", "Two coordinates have run together, most likely because an asterisk was lost on the way. Transfer the file again.");
     /// M19 that never ends.
-    pub static ISO_OPEN_SLIT: Code = error(Text, "iso/open-slit", "A slit that M19 begins must end with M15 before the next piece, knife-down or end.");
+    pub static ISO_OPEN_SLIT: Code = error(Text, "iso/open-slit", "A slit that M19 begins must end with M15 before the next piece, knife-down or end.", "M19 promises a notch, and its end says how deep it is. Without M15 the next outline would be cut as a part of the notch.\n  M19*X0Y100*M14*X5Y100*M15*");
     /// M14 while the knife is down.
-    pub static ISO_KNIFE_DOWN_TWICE: Code = warning(Spares, Text, "iso/knife-down-twice", "M14 stands where the knife is down already; the second one is ignored.");
+    pub static ISO_KNIFE_DOWN_TWICE: Code = warning(Spares, Text, "iso/knife-down-twice", "M14 stands where the knife is down already; the second one is ignored.", "Some systems repeat M14. The cut is the same, but an M15 may have been lost: see in the picture (-t svg) whether two lines are joined that should not be.");
     /// N while the knife is down, and what follows is another piece.
-    pub static ISO_PIECE_KNIFE_DOWN: Code = error(Text, "iso/piece-knife-down", "A piece begins while the knife is down, and the cut leads on into it: an M15 is missing.");
+    pub static ISO_PIECE_KNIFE_DOWN: Code = error(Text, "iso/piece-knife-down", "A piece begins while the knife is down, and the cut leads on into it: an M15 is missing.", "Without the M15 the knife would cut from one piece to the next, through whatever lies between. Some controllers insert an N amid an outline: that is no fault, as long as the outline goes on.\n  X0Y0*M15*N2*X4000Y0*M14*   is right; X0Y0*N2*X4000Y0*M14* lacks the M15.");
     /// Places in the air where nothing is done.
-    pub static ISO_UNCUT_PLACES: Code = warning(Spares, Shape, "iso/uncut-places", "Places in a row are passed with the knife up and nothing is cut there: an M14 may be missing.");
+    pub static ISO_UNCUT_PLACES: Code = warning(Spares, Shape, "iso/uncut-places", "Places in a row are passed with the knife up and nothing is cut there: an M14 may be missing.", "A piece whose M14 is lost is passed in the air, and is missing on the table. Look at the picture (-t svg) and count the pieces; transfer the file again.\n  N2*X4000Y0*M14*X7000Y0*   is right; N2*X4000Y0*X7000Y0* cuts nothing.");
     /// The file ends with the knife in the cloth.
-    pub static ISO_ENDS_KNIFE_DOWN: Code = error(Text, "iso/ends-knife-down", "The file ends while the knife is down: it is most likely cut short.");
+    pub static ISO_ENDS_KNIFE_DOWN: Code = error(Text, "iso/ends-knife-down", "The file ends while the knife is down: it is most likely cut short.", "The end of the file is missing, and with it perhaps more pieces. Transfer it again and compare the sizes; add M15 and M0 only if you know that all is there.");
     /// Last block without its asterisk.
-    pub static ISO_NO_FINAL_ASTERISK: Code = warning(Spares, Text, "iso/no-final-asterisk", "The last block has no `*`; it is read all the same.");
+    pub static ISO_NO_FINAL_ASTERISK: Code = warning(Spares, Text, "iso/no-final-asterisk", "The last block has no `*`; it is read all the same.", "The last block was read as it stands. If its last digits were cut off, the coordinate is wrong: compare the size of the file with the original.");
     /// No M0.
-    pub static ISO_NO_END: Code = warning(Spares, Text, "iso/no-end", "The file has no M0 at its end; check that it is complete.");
+    pub static ISO_NO_END: Code = warning(Spares, Text, "iso/no-end", "The file has no M0 at its end; check that it is complete.", "Many systems write M0 last. Its absence may mean that the transfer stopped early: count the pieces with `cutc info` and compare with the marker.");
     /// A code that has no meaning here.
-    pub static ISO_UNKNOWN_CODE: Code = warning(Spares, Text, "iso/unknown-code", "A code that cutc does not know is ignored, as the standard says; the message gives its count and first block.");
+    pub static ISO_UNKNOWN_CODE: Code = warning(Spares, Text, "iso/unknown-code", "A code that cutc does not know is ignored, as the standard says; the message gives its count and first block.", "Cutters skip what they do not know, and so does this. If the code steers something that you rely on, such as a speed or a tool, the cut will lack it.");
     /// A code that is known but has no effect.
-    pub static ISO_IGNORED_CODE: Code = warning(Spares, Text, "iso/ignored-code", "A code that would change how the piece is cut is not obeyed; the message gives its count and first block.");
+    pub static ISO_IGNORED_CODE: Code = warning(Spares, Text, "iso/ignored-code", "A code that would change how the piece is cut is not obeyed; the message gives its count and first block.", "The file asks for a speed, a stop or another treatment that this program does not give. Decide whether the cloth can be cut without it; `[codes]` in the profile silences what you do not want.\n  codes.M25 = \"ignore\"");
     /// Units given twice, differently.
-    pub static ISO_UNITS_CHANGED: Code = error(Text, "iso/units-changed", "G70, G71 or G91 change the unit after coordinates were read; two jobs may stand in one file.");
+    pub static ISO_UNITS_CHANGED: Code = error(Text, "iso/units-changed", "G70, G71 or G91 change the unit after coordinates were read; two jobs may stand in one file.", "Half of the marker would be of another size. Two jobs may have been joined into one file: cut them as two files.");
     /// The drawing does not fit its own title or any table.
-    pub static ISO_UNIT_DOUBTFUL: Code = warning(Spoils, Shape, "iso/unit-doubtful", "The extent suggests that another unit is meant; set `units` if it is.");
+    pub static ISO_UNIT_DOUBTFUL: Code = warning(Spoils, Shape, "iso/unit-doubtful", "The extent suggests that another unit is meant; set `units` if it is.", "A marker that is 2.54 or 10 times too large or small spoils the whole lay. Compare the extent that `cutc info` prints with the width of the cloth, then set the unit.\n  cutc compile m.cut --set units=mm/10");
     /// An arc that is none.
-    pub static ISO_ARC_RADIUS: Code = error(Text, "iso/arc-radius", "An arc (G02, G03) has no centre, or its two ends are not equally far from it within one unit of the file.");
+    pub static ISO_ARC_RADIUS: Code = error(Text, "iso/arc-radius", "An arc (G02, G03) has no centre, or its two ends are not equally far from it within one unit of the file.", "An arc whose ends disagree goes somewhere else than its author meant, perhaps into the part. Let the CAD system write the arc again, or as short straight lines.\n  G03X0Y100I-50J0*   the centre stands beside the start.");
     /// Labels of nothing.
-    pub static ISO_TRAILER_PIECE: Code = warning(Spares, Shape, "iso/trailer-piece", "The list of labels behind M0 names a piece that the file does not hold; its fields are dropped.");
+    pub static ISO_TRAILER_PIECE: Code = warning(Spares, Shape, "iso/trailer-piece", "The list of labels behind M0 names a piece that the file does not hold; its fields are dropped.", "Labels that belong to no piece may come from another marker: then the list was copied to the wrong file. Nothing of it is cut.");
     /// M14 before any place.
-    pub static ISO_NO_POSITION: Code = warning(Spoils, Text, "iso/no-position", "The knife goes down before the file gave X and Y; what is missing is taken as 0.");
+    pub static ISO_NO_POSITION: Code = warning(Spoils, Text, "iso/no-position", "The knife goes down before the file gave X and Y; what is missing is taken as 0.", "The first cut may start at the corner of the table instead of its place. Look at the first contour in the picture (-t svg) before you cut.");
     /// A drill between M14 and M15.
-    pub static ISO_DRILL_KNIFE_DOWN: Code = error(Text, "iso/drill-knife-down", "A drill code stands where the knife is down; an M15 may be missing.");
+    pub static ISO_DRILL_KNIFE_DOWN: Code = error(Text, "iso/drill-knife-down", "A drill code stands where the knife is down; an M15 may be missing.", "A drill would come down beside a standing blade. Look at the blocks before it: where the outline ends there must be an M15.\n  X100Y0*M15*X50Y50M43*");
     /// No contour, slit or drill.
-    pub static ISO_NOTHING_TO_CUT: Code = error(Shape, "iso/nothing-to-cut", "The file was read to its end and holds no contour, slit or drill.");
+    pub static ISO_NOTHING_TO_CUT: Code = error(Shape, "iso/nothing-to-cut", "The file was read to its end and holds no contour, slit or drill.", "Only labels or titles are there, or the pieces are on a layer that was not exported. Export the marker with its cut lines.");
 
     // HPGL plots.
     /// Junk.
-    pub static HPGL_NOT_A_PLOT: Code = error(Text, "hpgl/not-a-plot", "Most of what stands in the file is no instruction of a plotter.");
+    pub static HPGL_NOT_A_PLOT: Code = error(Text, "hpgl/not-a-plot", "Most of what stands in the file is no instruction of a plotter.", "Reading went on until more was junk than not. The file is of another kind, or was damaged on the way: look at its first bytes, and let cutc recognise it.\n  cutc check odd.plt");
     /// A number too large to be a place on a table.
-    pub static HPGL_OVERFLOW: Code = error(Text, "hpgl/number-overflow", "A coordinate of a plot is beyond any table.");
+    pub static HPGL_OVERFLOW: Code = error(Text, "hpgl/number-overflow", "A coordinate of a plot is beyond any table.", "Numbers that have run together lead the knife off the table. A separator was lost on the way: transfer the file again.");
     /// Bytes of PE that mean nothing.
-    pub static HPGL_PE_DAMAGED: Code = error(Text, "hpgl/encoding-damaged", "An encoded polyline (PE) holds a byte that cannot stand there, or ends amid a number.");
+    pub static HPGL_PE_DAMAGED: Code = error(Text, "hpgl/encoding-damaged", "An encoded polyline (PE) holds a byte that cannot stand there, or ends amid a number.", "Every place behind the damage is relative to what is lost, so the outlines would be wrong. Transfer the file again as binary data: mail and editors change such bytes.");
     /// PE without its end.
-    pub static HPGL_PE_OPEN: Code = warning(Spoils, Text, "hpgl/encoding-open", "An encoded polyline (PE) has no semicolon, and the file ends with it.");
+    pub static HPGL_PE_OPEN: Code = warning(Spoils, Text, "hpgl/encoding-open", "An encoded polyline (PE) has no semicolon, and the file ends with it.", "Its numbers are whole, but nobody knows whether more should follow. Compare the size of the file with the original, and the pieces with the marker.");
     /// PE that became text.
-    pub static HPGL_PE_REPAIRED: Code = warning(Spares, Text, "hpgl/encoding-repaired", "The plot was saved again as UTF-8, which doubles bytes of encoded polylines (PE); they were put together again.");
+    pub static HPGL_PE_REPAIRED: Code = warning(Spares, Text, "hpgl/encoding-repaired", "The plot was saved again as UTF-8, which doubles bytes of encoded polylines (PE); they were put together again.", "An editor or a mail program took the plot for text. The repair is exact as long as nothing else was changed: look at the pieces in the picture (-t svg), and transfer plots as binary data.");
     /// LB without its end.
-    pub static HPGL_OPEN_LABEL: Code = warning(Spares, Text, "hpgl/open-label", "A label of a plot has no terminator; it ends with its line, or at a semicolon.");
+    pub static HPGL_OPEN_LABEL: Code = warning(Spares, Text, "hpgl/open-label", "A label of a plot has no terminator; it ends with its line, or at a semicolon.", "A text without its end would swallow the lines behind it. Count the pieces with `cutc info`; if the file sets another terminator than ETX (DT), it may have been lost.");
     /// Bytes between instructions.
-    pub static HPGL_JUNK: Code = warning(Spares, Text, "hpgl/junk", "Bytes of a plot begin no instruction and were passed over; the message gives their count and first place.");
+    pub static HPGL_JUNK: Code = warning(Spares, Text, "hpgl/junk", "Bytes of a plot begin no instruction and were passed over; the message gives their count and first place.", "Plotters pass over such bytes, too. A few at the beginning or end come from drivers; many in the middle hint at a damaged file.");
     /// X without Y.
-    pub static HPGL_ODD: Code = warning(Spoils, Text, "hpgl/odd-coordinate", "A list of coordinates in a plot has an odd number of values; the last one is ignored.");
+    pub static HPGL_ODD: Code = warning(Spoils, Text, "hpgl/odd-coordinate", "A list of coordinates in a plot has an odd number of values; the last one is ignored.", "Plotters ignore it as well. If it happens amid outlines a number was lost, and what follows is displaced: look at the picture (-t svg).");
     /// A mnemonic that is not in the table.
-    pub static HPGL_UNKNOWN: Code = warning(Spares, Text, "hpgl/unknown-instruction", "A plot has an instruction that cutc does not know; it is ignored, and the message gives its count and first place.");
+    pub static HPGL_UNKNOWN: Code = warning(Spares, Text, "hpgl/unknown-instruction", "A plot has an instruction that cutc does not know; it is ignored, and the message gives its count and first place.", "Private instructions of a plotter do not draw as a rule. If lines are missing from the picture (-t svg), this is where to look.");
     /// What draws and is not cut.
-    pub static HPGL_LEFT_OUT: Code = warning(Spares, Text, "hpgl/instruction-not-obeyed", "A plot has an instruction that draws or moves and is not obeyed: fills, drawn characters, windows.");
+    pub static HPGL_LEFT_OUT: Code = warning(Spares, Text, "hpgl/instruction-not-obeyed", "A plot has an instruction that draws or moves and is not obeyed: fills, drawn characters, windows.", "What it draws is no outline: fills and characters are not cut. A window (IW) that would clip lines is not applied, so lines may reach farther than on paper.");
     /// A size that depends on the plotter.
-    pub static HPGL_SCALE: Code = warning(Spoils, Shape, "hpgl/scale-of-device", "The size of a plot depends on the plotter: it is scaled to corners or a page that it does not give, or its SC, IP, IR or RO is broken and ignored.");
+    pub static HPGL_SCALE: Code = warning(Spoils, Shape, "hpgl/scale-of-device", "The size of a plot depends on the plotter: it is scaled to corners or a page that it does not give, or its SC, IP, IR or RO is broken and ignored.", "The size of the drawing depends on the plotter that it was made for, or a number of its scale was lost, so it is most likely wrong here. Let the CAD system write coordinates without scale, or with IP.");
     /// More than one page.
-    pub static HPGL_PAGES: Code = warning(Spoils, Shape, "hpgl/several-pages", "A plot draws on after a page went out; the pages lie on each other.");
+    pub static HPGL_PAGES: Code = warning(Spoils, Shape, "hpgl/several-pages", "A plot draws on after a page went out; the pages lie on each other.", "Two markers in one file would be cut into each other. If they are pages of one marker, export it as one long page; else split the file.");
     /// A place that no table reaches.
-    pub static HPGL_FAR_PLACE: Code = error(Text, "hpgl/far-place", "A place of a plot lies more than a kilometre from the origin: a digit is doubled, or the unit is wrong.");
+    pub static HPGL_FAR_PLACE: Code = error(Text, "hpgl/far-place", "A place of a plot lies more than a kilometre from the origin: a digit is doubled, or the unit is wrong.", "No table is a kilometre long, so the motion would be nonsense. Two numbers may have run together, relative moves may be damaged, or the unit is far too large.\n  cutc check marker.plt --set hpgl.unit=0.01");
     /// Curves that fill the memory.
-    pub static HPGL_CURVES: Code = error(Shape, "hpgl/too-many-chords", "The curves of a plot, or polygons that are drawn again and again, have more chords than a plot can need.");
+    pub static HPGL_CURVES: Code = error(Shape, "hpgl/too-many-chords", "The curves of a plot, or polygons that are drawn again and again, have more chords than a plot can need.", "Curves are read as chords within a quarter of the tolerance. So many of them come from a damaged radius, from a polygon that is drawn thousands of times, or from a tolerance far below what a knife can follow.");
     /// Drawing from where letters left the pen.
-    pub static HPGL_PLACE_UNKNOWN: Code = warning(Spoils, Shape, "hpgl/place-unknown", "A plot draws from where a text has left the pen, which depends on the letters of the plotter.");
+    pub static HPGL_PLACE_UNKNOWN: Code = warning(Spoils, Shape, "hpgl/place-unknown", "A plot draws from where a text has left the pen, which depends on the letters of the plotter.", "Behind a text the pen stands at its end, and only the plotter knows how wide its letters are. A relative move from there leads elsewhere on each machine. Let the CAD system write absolute places (PA), or leave the text out.");
     /// Drawing with SP0.
-    pub static HPGL_NO_PEN: Code = warning(Spares, Shape, "hpgl/no-pen", "A plot draws lines while no pen is taken (SP0); they are not cut.");
+    pub static HPGL_NO_PEN: Code = warning(Spares, Shape, "hpgl/no-pen", "A plot draws lines while no pen is taken (SP0); they are not cut.", "SP0 puts the pen away. Some programs write it at the start and draw all the same: then nothing would be cut. Let the CAD system choose pen 1 for the outlines.");
     /// Another size than the texts say, or than any table has.
-    pub static HPGL_UNIT_DOUBTFUL: Code = warning(Spoils, Shape, "hpgl/unit-doubtful", "The extent of a plot, or a length that stands in its texts, suggests another unit; set `hpgl.unit` if it is.");
+    pub static HPGL_UNIT_DOUBTFUL: Code = warning(Spoils, Shape, "hpgl/unit-doubtful", "The extent of a plot, or a length that stands in its texts, suggests another unit; set `hpgl.unit` if it is.", "Plots do not say their unit. 1/40 mm and 1/1000 inch differ by 1.6 percent, which nobody sees and every part would be wrong. Compare the extent with the marker.\n  cutc compile marker.plt --set hpgl.unit=0.0254");
     /// A polygon that does not end.
-    pub static HPGL_ENDS_IN_POLYGON: Code = error(Text, "hpgl/ends-in-polygon", "A plot ends amid a polygon (PM), which is not drawn: it is most likely cut short.");
+    pub static HPGL_ENDS_IN_POLYGON: Code = error(Text, "hpgl/ends-in-polygon", "A plot ends amid a polygon (PM), which is not drawn: it is most likely cut short.", "What PM gathers is drawn by EP, and the file ends before. Transfer it again and compare the sizes.");
 
     // What drawings want cut.
     /// The file is not whole.
-    pub static DRAWING_CUT_SHORT: Code = error(Text, "drawing/cut-short", "A drawing ends amid a number, or amid a line outside all parts that does not close: it is most likely cut short.");
+    pub static DRAWING_CUT_SHORT: Code = error(Text, "drawing/cut-short", "A drawing ends amid a number, or amid a line outside all parts that does not close: it is most likely cut short.", "The end of the file is missing, and with it the rest of an outline and perhaps more pieces. Transfer it again and compare the sizes. If only the last PU or a semicolon is missing, write it at the end.\n  PD4000,4000;PU;");
     /// A search without an end.
-    pub static DRAWING_TOO_MANY: Code = error(Shape, "drawing/too-many-lines", "A drawing has so many closed lines that the search for which lies in which was ended: inner lines would be cut as parts.");
+    pub static DRAWING_TOO_MANY: Code = error(Shape, "drawing/too-many-lines", "A drawing has so many closed lines that the search for which lies in which was ended: inner lines would be cut as parts.", "Nobody could tell which outline lies in which any more: inner lines would be cut as parts. Split the plot, or leave fills and hatchings out of the export.");
     /// No line is to be cut.
-    pub static DRAWING_NOTHING_TO_CUT: Code = error(Shape, "drawing/nothing-to-cut", "A drawing was read to its end and no line of it is taken for something to cut.");
+    pub static DRAWING_NOTHING_TO_CUT: Code = error(Shape, "drawing/nothing-to-cut", "A drawing was read to its end and no line of it is taken for something to cut.", "Its outlines may not close, be smaller than 25 mm, or belong to a pen that is no knife. `cutc info` says what the lines were taken for; options decide otherwise.\n  cutc compile marker.plt --cut-all");
     /// A part with several others in it.
-    pub static DRAWING_MAY_BE_FRAME: Code = warning(Spoils, Shape, "drawing/may-be-frame", "A part holds several closed lines that are not cut: it may be a frame or the edge of the table, and they the parts.");
+    pub static DRAWING_MAY_BE_FRAME: Code = warning(Spoils, Shape, "drawing/may-be-frame", "A part holds several closed lines that are not cut: it may be a frame or the edge of the table, and they the parts.", "Frames are known by their shape: rectangles around two parts or more, which fill half of them. One of another shape, or nearly empty, looks like a part with cut-outs, and only its edge would be cut. Say which it is.\n  cutc compile marker.plt --set hpgl.frame=outermost\n  cutc compile marker.plt --inner cut");
     /// Lines that nobody closed.
-    pub static DRAWING_OPEN_OUTLINES: Code = warning(Spares, Shape, "drawing/open-outlines", "Long lines of a drawing do not close and lie in no part: they may be outlines, and are not cut.");
+    pub static DRAWING_OPEN_OUTLINES: Code = warning(Spares, Shape, "drawing/open-outlines", "Long lines of a drawing do not close and lie in no part: they may be outlines, and are not cut.", "Only closed lines are taken for parts, and ends up to four units and 0.2 mm from each other are joined. A part whose outline has a wider gap would be missing on the table: close it in the CAD system, or cut every line.\n  cutc compile marker.plt --cut-all");
     /// A rectangle around a few parts.
-    pub static DRAWING_FRAME: Code = warning(Spoils, Shape, "drawing/frame", "A rectangle around a few parts is taken for the frame of the drawing, and is not cut; it may be a part with cut-outs.");
+    pub static DRAWING_FRAME: Code = warning(Spoils, Shape, "drawing/frame", "A rectangle around a few parts is taken for the frame of the drawing, and is not cut; it may be a part with cut-outs.", "Frames are drawn around markers, to show the cloth. A rectangular part with cut-outs that fill half of it looks the same: then say that there is no frame.\n  cutc compile marker.plt --set hpgl.frame=none");
     /// Closed lines inside parts.
-    pub static DRAWING_INNER_LINES: Code = warning(Spares, Shape, "drawing/inner-lines", "Closed lines lie inside parts and are no seam lines: they may be cut-outs, and are not cut unless somebody asks for it (`--inner cut`).");
+    pub static DRAWING_INNER_LINES: Code = warning(Spares, Shape, "drawing/inner-lines", "Closed lines lie inside parts and are no seam lines: they may be cut-outs, and are not cut unless somebody asks for it (`--inner cut`).", "A plot draws seam lines, pockets and cut-outs alike. A cut-out that is missing can be cut by hand, a pocket that was cut cannot be mended: so nothing inside a part is cut unless somebody asks for it. Seam lines stay whole with `cut`; `all` cuts them, too.\n  cutc compile marker.plt --inner cut");
     /// Too small for parts.
-    pub static DRAWING_SMALL_OUTLINES: Code = warning(Spares, Shape, "drawing/small-outlines", "Small closed lines of a drawing lie in no part; they are not cut.");
+    pub static DRAWING_SMALL_OUTLINES: Code = warning(Spares, Shape, "drawing/small-outlines", "Small closed lines of a drawing lie in no part; they are not cut.", "Closed lines of 10 to 25 mm outside all parts are letters, arrows and test squares as a rule. If they are parts, name their pen as a knife.\n  cutc compile marker.plt --cut-pens 1");
     /// The searches for notches, letters and seam lines.
-    pub static DRAWING_SEARCH_ENDED: Code = warning(Spares, Shape, "drawing/search-ended", "A drawing has so many lines that the search for notches, letters and seam lines was ended; some are not recognised.");
+    pub static DRAWING_SEARCH_ENDED: Code = warning(Spares, Shape, "drawing/search-ended", "A drawing has so many lines that the search for notches, letters and seam lines was ended; some are not recognised.", "A mark that is not recognised as a notch is not cut, and a seam line may count as a cut-out. Leave texts and clutter out of the export, or split the plot.");
 
     // CSV polylines.
     /// The header is missing.
-    pub static CSV_HEADER: Code = error(Text, "csv/header", "The first row must be `x_mm,y_mm`.");
+    pub static CSV_HEADER: Code = error(Text, "csv/header", "The first row must be `x_mm,y_mm`.", "The header tells a list of points from any other table, and says that the unit is mm. Write it above the rows.\n  x_mm,y_mm\n  0,0\n  100,0");
     /// A row that is not two numbers.
-    pub static CSV_ROW: Code = error(Text, "csv/row", "A row must hold two finite decimal numbers, separated by a comma.");
+    pub static CSV_ROW: Code = error(Text, "csv/row", "A row must hold two finite decimal numbers, separated by a comma.", "A row that is guessed would be a wrong cut. Use a point for decimals and a comma between the two numbers, without units.\n  12.5,-3");
     /// A contour of one point.
-    pub static CSV_NO_LENGTH: Code = error(Shape, "csv/no-length", "A contour must have two different points at least; a blank line ends a contour.");
+    pub static CSV_NO_LENGTH: Code = error(Shape, "csv/no-length", "A contour must have two different points at least; a blank line ends a contour.", "One point is nowhere to cut along, and points that are equal count as one. Remove it, or look for a blank line too many: it ends a contour.");
     /// No contour.
-    pub static CSV_NOTHING_TO_CUT: Code = error(Shape, "csv/nothing-to-cut", "The file holds a header and no contour.");
+    pub static CSV_NOTHING_TO_CUT: Code = error(Shape, "csv/nothing-to-cut", "The file holds a header and no contour.", "The export wrote a header and then stopped, or everything was on a layer that it leaves out. Look at the drawing, and export the points again.");
 
     // The marker, whatever the dialect.
     /// A contour that does not close.
-    pub static MARKER_OPEN: Code = warning(Spares, Shape, "marker/open-contour", "A contour does not end where it starts; it is cut as it stands.");
+    pub static MARKER_OPEN: Code = warning(Spares, Shape, "marker/open-contour", "A contour does not end where it starts; it is cut as it stands.", "A part whose outline does not close hangs on the cloth by a bridge, and is torn out by hand. Close it in the CAD system; if it is a line that is meant to be open, all is well.");
     /// The same contour twice.
-    pub static MARKER_TWICE: Code = warning(Spoils, Shape, "marker/contour-twice", "The same contour stands twice in the file and would be cut twice.");
+    pub static MARKER_TWICE: Code = warning(Spoils, Shape, "marker/contour-twice", "The same contour stands twice in the file and would be cut twice.", "The knife runs the same way again: that takes time, frays the edge and may shift the part, which is free by then. Delete one of the two in the CAD system.");
     /// Equal points in a row.
-    pub static MARKER_EQUAL_POINTS: Code = warning(Spares, Shape, "marker/equal-points", "Points that repeat the one before them were dropped; the message gives their count.");
+    pub static MARKER_EQUAL_POINTS: Code = warning(Spares, Shape, "marker/equal-points", "Points that repeat the one before them were dropped; the message gives their count.", "Harmless: a direction cannot be taken from two equal points, so one of them goes. Many of them hint at an export in too coarse a unit.");
     /// A slit again.
-    pub static MARKER_SLIT_TWICE: Code = warning(Spares, Shape, "marker/slit-twice", "The same slit stands twice in a piece; it is cut once.");
+    pub static MARKER_SLIT_TWICE: Code = warning(Spares, Shape, "marker/slit-twice", "The same slit stands twice in a piece; it is cut once.", "Some systems write a notch once for each of the two pieces or sizes. A second cut in the same place would only widen the notch.");
     /// A slit without length.
-    pub static MARKER_SLIT_NO_LENGTH: Code = warning(Spares, Shape, "marker/slit-no-length", "A slit ends where it starts: nothing is cut there.");
+    pub static MARKER_SLIT_NO_LENGTH: Code = warning(Spares, Shape, "marker/slit-no-length", "A slit ends where it starts: nothing is cut there.", "A notch was drawn there and its depth shrank to nothing, perhaps below the unit of the file. If the sewer needs it, give it a depth in the CAD system.");
     /// A contour that is one place.
-    pub static MARKER_NO_LENGTH: Code = warning(Spares, Shape, "marker/no-length", "All points of a contour are the same place: nothing is cut there.");
+    pub static MARKER_NO_LENGTH: Code = warning(Spares, Shape, "marker/no-length", "All points of a contour are the same place: nothing is cut there.", "Something was drawn there and shrank to a point, perhaps a notch below the unit of the file. If something is missing, export in a finer unit.");
     /// Contours of a piece that cross.
-    pub static MARKER_SELF_CROSSING: Code = warning(Spoils, Shape, "marker/self-crossing", "A contour crosses itself, or another one of its piece: the knife cuts through what was cut before, and the part has loose corners.");
+    pub static MARKER_SELF_CROSSING: Code = warning(Spoils, Shape, "marker/self-crossing", "A contour crosses itself, or another one of its piece: the knife cuts through what was cut before, and the part has loose corners.", "Where an outline crosses itself a small loose corner falls out, and the knife passes through cloth that is free. Mostly an offset or a seam allowance was folded over: mend the corner in the CAD system. Lines that cross are marks or hatchings that were not meant for the knife: leave them out of the export.");
     /// Contours of two pieces that cross.
-    pub static MARKER_OVERLAPPING: Code = warning(Spoils, Shape, "marker/overlapping-pieces", "The outlines of two pieces overlap: each is cut into the other. Pieces that only touch are no such case.");
+    pub static MARKER_OVERLAPPING: Code = warning(Spoils, Shape, "marker/overlapping-pieces", "The outlines of two pieces overlap: each is cut into the other. Pieces that only touch are no such case.", "One of the two parts is cut into and will not fit at its seam. Move the pieces apart in the marker; look at the place in the picture (-t svg).");
     /// A notch that stands out into another piece.
-    pub static MARKER_NOTCH_OVER: Code = warning(Spoils, Shape, "marker/notch-over-piece", "A notch that stands out of its part lies over another piece, which is cut into; the message says how deep.");
+    pub static MARKER_NOTCH_OVER: Code = warning(Spoils, Shape, "marker/notch-over-piece", "A notch that stands out of its part lies over another piece, which is cut into; the message says how deep.", "A notch that stands out needs waste beside its part. Here another part lies there, and the notch is cut into its edge. Move the two apart in the marker by the depth of the notch, or have such notches cut as slits into their own part.\n  cutc compile marker.cut --set notch.style=slit");
     /// A hole in no part.
-    pub static MARKER_DRILL_OUTSIDE: Code = warning(Spoils, Shape, "marker/drill-outside", "A hole is drilled where no part is: in the waste or in a cut-out.");
+    pub static MARKER_DRILL_OUTSIDE: Code = warning(Spoils, Shape, "marker/drill-outside", "A hole is drilled where no part is: in the waste or in a cut-out.", "A hole in the waste marks nothing: the drill belongs to another place, or the piece was moved without it. Look at it in the picture (-t svg).");
     /// Outlines that cannot be told from cut-outs.
-    pub static MARKER_TOO_MANY: Code = error(Shape, "marker/too-many-outlines", "So many outlines lie in or over one another that the search for which lies in which was ended: parts would be cut before their cut-outs.");
+    pub static MARKER_TOO_MANY: Code = error(Shape, "marker/too-many-outlines", "So many outlines lie in or over one another that the search for which lies in which was ended: parts would be cut before their cut-outs.", "Nobody could tell which outline lies in which any more, and a part that is cut before its cut-outs is free and shifts. No lay of parts looks so: the file holds fills, hatchings, a pattern of many rings or the same job many times. Leave them out of the export, or split the marker.");
     /// A search that was not brought to its end.
-    pub static MARKER_SEARCH_ENDED: Code = warning(Spoils, Shape, "marker/search-ended", "So many lines lie near one another that a search was ended; the message says for what.");
+    pub static MARKER_SEARCH_ENDED: Code = warning(Spoils, Shape, "marker/search-ended", "So many lines lie near one another that a search was ended; the message says for what.", "What was found is said; what was not looked at may be as wrong. No lay of parts looks so: the file holds fills or hatchings. Leave them out of the export, or split the marker.");
     /// Numbers that start again.
-    pub static MARKER_NUMBER_TWICE: Code = warning(Spares, Shape, "marker/piece-number-twice", "The number of a piece comes again: two jobs may stand in one file, and both are cut.");
+    pub static MARKER_NUMBER_TWICE: Code = warning(Spares, Shape, "marker/piece-number-twice", "The number of a piece comes again: two jobs may stand in one file, and both are cut.", "Two markers that were joined into one file are both cut, and --pieces takes both pieces of a number. If only one of them is meant, split the file.");
 
     // The choice of pieces.
     /// A number that no piece has.
-    pub static SELECT_UNKNOWN_PIECE: Code = error(Shape, "select/unknown-piece", "A piece number that was asked for is not in the file; the message names the flag, the hint the numbers that there are.");
+    pub static SELECT_UNKNOWN_PIECE: Code = error(Shape, "select/unknown-piece", "A piece number that was asked for is not in the file; the message names the flag, the hint the numbers that there are.", "It is a slip of the hand or the wrong file; cutting what is left of the choice could waste cloth. Both ends of a range must be numbers of the file. `--dump-after inspect` shows the pieces with their numbers.\n  cutc compile m.cut --pieces 3,7-12");
     /// Nothing is chosen.
-    pub static SELECT_NOTHING_LEFT: Code = error(Shape, "select/nothing-left", "The options that choose pieces leave nothing to cut.");
+    pub static SELECT_NOTHING_LEFT: Code = error(Shape, "select/nothing-left", "The options that choose pieces leave nothing to cut.", "--pieces, --skip and --resume-from act together: a piece is cut when all three leave it. Pieces that hold labels alone count for nothing.");
 
     // The knife's way.
     /// A smooth closed contour too small for the blade.
-    pub static PATH_TIGHT: Code = warning(Spoils, Shape, "path/tight-contour", "A smooth closed contour is narrower than the blade; it is cut all the same.");
+    pub static PATH_TIGHT: Code = warning(Spoils, Shape, "path/tight-contour", "A smooth closed contour is narrower than the blade; it is cut all the same.", "The blade is longer than the hole is wide: its body cuts the edge as it turns. Use a narrower knife or a drill for such holes, or accept a ragged edge.");
     /// A cut that begins on a curve from which the blade's body lies away.
-    pub static PATH_BOWED_PLUNGE: Code = warning(Spoils, Shape, "path/bowed-plunge", "A cut begins on a curve, and the body of the plunged blade cuts beside it by more than `knife.max_bow_mm`.");
+    pub static PATH_BOWED_PLUNGE: Code = warning(Spoils, Shape, "path/bowed-plunge", "A cut begins on a curve, and the body of the plunged blade cuts beside it by more than `knife.max_bow_mm`.", "The blade plunges straight, and the curve bows away from it: on a radius R by about w^2/8R. A narrower knife helps; knife.tight_curves = \"nibble\" cuts the start of the curve by short steps. Best is to let the outline begin, or turn its corner, on a straighter stretch.");
     /// A curve too tight for the blade.
-    pub static PATH_TIGHT_CURVE: Code = warning(Spoils, Shape, "path/tight-curve", "A curve is tighter than the blade, which would stand across it: it is cut along the tangent, or nibbled, as `knife.tight_curves` says.");
+    pub static PATH_TIGHT_CURVE: Code = warning(Spoils, Shape, "path/tight-curve", "A curve is tighter than the blade, which would stand across it: it is cut along the tangent, or nibbled, as `knife.tight_curves` says.", "On such a curve the blade is longer than the curve is wide: whatever its law, its heel swings out of the line and tears the cloth. A narrower knife helps; knife.tight_curves = \"nibble\" cuts the curve by plunges, which is slower and cuts past it along its tangents.");
     /// The same, refused.
-    pub static PATH_TIGHT_CURVE_REFUSED: Code = error(Shape, "path/tight-curve-refused", "A curve is tighter than the blade, and `knife.tight_curves` is \"refuse\".");
+    pub static PATH_TIGHT_CURVE_REFUSED: Code = error(Shape, "path/tight-curve-refused", "A curve is tighter than the blade, and `knife.tight_curves` is \"refuse\".", "The profile wants no curve cut that the blade cannot follow. Use a narrower knife, draw the curve wider, or set knife.tight_curves to \"follow\" or \"nibble\".");
     /// Overlaps that the gap between parts does not hold.
-    pub static PATH_SHORTENED: Code = warning(Spares, Shape, "path/overlap-shortened", "The gap beside a part is narrower than the overlaps; they are shortened so that they stay out of the next part.");
+    pub static PATH_SHORTENED: Code = warning(Spares, Shape, "path/overlap-shortened", "The gap beside a part is narrower than the overlaps; they are shortened so that they stay out of the next part.", "At a corner the blade cuts a little past the end, so that the threads there are cut for sure. Where the next part is nearer than that, the overlap ends before it: some threads may hold. Leave more room in the marker, or make the overlaps smaller.\n  knife.corner_front_overlap_mm = 0.4");
     /// A blade longer than its cut, with nowhere to go.
-    pub static PATH_OVERCUT: Code = warning(Spoils, Shape, "path/overcut", "The blade is longer than a short cut and there is no waste at its ends: it cuts past them, where that harms least.");
+    pub static PATH_OVERCUT: Code = warning(Spoils, Shape, "path/overcut", "The blade is longer than a short cut and there is no waste at its ends: it cuts past them, where that harms least.", "A cut shorter than the blade is one plunge, and what the blade is longer by lies beyond its ends: in the waste if there is any, otherwise in the part. A narrower knife cuts less far; a notch of another shape may need no such cut.");
     /// A slit that the profile makes deeper than its part is wide.
-    pub static PATH_NOTCH_THROUGH: Code = error(Shape, "path/notch-through", "A slit that `notch.depth_mm` makes deeper than it is drawn would cut through its part.");
+    pub static PATH_NOTCH_THROUGH: Code = error(Shape, "path/notch-through", "A slit that `notch.depth_mm` makes deeper than it is drawn would cut through its part.", "The profile asks for slits of one depth, and this part is too narrow for it: the slit would come out on the other side, or reach the next part. Take a smaller notch.depth_mm, or cut such pieces with a profile of their own.");
     /// A run that winds C past its range.
-    pub static PATH_C_RANGE: Code = error(Shape, "path/c-range", "A run winds the C axis past `c.range_deg` however it is entered and wherever it is parted.");
+    pub static PATH_C_RANGE: Code = error(Shape, "path/c-range", "A run winds the C axis past `c.range_deg` however it is entered and wherever it is parted.", "The cables of the blade's axis would be torn. Runs are lifted on the way and C unwound, but this one cannot be parted so: widen c.range_deg if the machine can turn farther.");
     /// Off the table, by a hair.
-    pub static MARKER_OVER_EDGE: Code = warning(Spares, Shape, "marker/over-the-edge", "The marker or the knife's way leaves the table of the profile, by a millimetre at the most.");
+    pub static MARKER_OVER_EDGE: Code = warning(Spares, Shape, "marker/over-the-edge", "The marker or the knife's way leaves the table of the profile, by a millimetre at the most.", "A hand puts a marker down no better than to a millimetre, so this is only said, in one line. Move the marker a little, or correct `table` in the profile.");
     /// Off the table.
-    pub static MARKER_OFF_TABLE: Code = error(Shape, "marker/off-table", "The marker leaves the table of the profile by more than a millimetre; the hint says how to move it.");
+    pub static MARKER_OFF_TABLE: Code = error(Shape, "marker/off-table", "The marker leaves the table of the profile by more than a millimetre; the hint says how to move it.", "The head would hit its end stop, and the cut stop in the middle of a part. Move the marker as the hint says, choose other pieces with --skip, or correct `table` in the profile.");
 
     // Motion.
     /// No curve inside the tube.
-    pub static PLAN_SMOOTH: Code = error(Shape, "plan/smooth", "No smooth curve was found inside the tolerance of a run; a larger `path.tolerance_mm` or a smaller `corner.angle_deg` helps.");
+    pub static PLAN_SMOOTH: Code = error(Shape, "plan/smooth", "No smooth curve was found inside the tolerance of a run; a larger `path.tolerance_mm` or a smaller `corner.angle_deg` helps.", "The points turn too sharply for a blade in the cloth and too gently to count as a corner. With a smaller corner.angle_deg the knife lifts there; with a larger path.tolerance_mm it may round it.");
     /// No motion within the limits.
-    pub static PLAN_PROFILE: Code = error(Shape, "plan/profile", "No motion within the limits was found for a run.");
+    pub static PLAN_PROFILE: Code = error(Shape, "plan/profile", "No motion within the limits was found for a run.", "No pace keeps speed, acceleration and jerk of all axes on this run. Limits that are far apart, such as a tiny jerk, cause it: check `axes` in the profile.");
     /// The samples break a limit.
-    pub static PLAN_CHORD: Code = error(Shape, "plan/chord", "The blade cannot be a chord of the smooth curve of a run, although it can be one of its points; the tangent law cuts it.");
+    pub static PLAN_CHORD: Code = error(Shape, "plan/chord", "The blade cannot be a chord of the smooth curve of a run, although it can be one of its points; the tangent law cuts it.", "With its tip on the smooth curve the blade finds no place for its heel there. It is a matter of a little: a smaller path.tolerance_mm, or knife.follow = \"tangent\", cuts the file.");
     /// The samples break a limit.
-    pub static PLAN_CERTIFY: Code = error(Shape, "plan/certify", "The samples of a run break a limit of the profile however far it is slowed down.");
+    pub static PLAN_CERTIFY: Code = error(Shape, "plan/certify", "The samples of a run break a limit of the profile however far it is slowed down.", "Every sample is checked before it leaves, and these could not be made to pass. Check time.period_ms and `axes` in the profile; if they are right, please report the file.");
 
     // Verification.
     /// A target that cannot say it.
-    pub static TARGET_REFUSED: Code = error(Shape, "target/refused", "The target cannot express something that the marker or the options ask for; the message says what.");
+    pub static TARGET_REFUSED: Code = error(Shape, "target/refused", "The target cannot express something that the marker or the options ask for; the message says what.", "Each target says what its reader understands: a cut file knows no dry run, a controller with arcs no blade that lies as a chord on tight curves. Nothing is written rather than something else; write another target, or change what the message names.");
     /// A rule does not hold.
-    pub static VERIFY_BROKEN: Code = error(Shape, "verify/broken", "The program, read back, breaks a rule; the message names the rule, the worst value, the limit, the time and the place.");
+    pub static VERIFY_BROKEN: Code = error(Shape, "verify/broken", "The program, read back, breaks a rule; the message names the rule, the worst value, the limit, the time and the place.", "The program was thrown away before it could reach the machine. The message names the rule; `cutc explain` with that name says what it protects. Where a rule has a key of its own in the profile, the hint names it.");
 
     // Machine profile.
     /// The TOML is broken.
-    pub static PROFILE_SYNTAX: Code = error(Text, "profile/syntax", "The profile is not valid TOML.");
+    pub static PROFILE_SYNTAX: Code = error(Text, "profile/syntax", "The profile is not valid TOML.", "TOML wants a key, an equals sign and a value on a line; text stands in quotes. `cutc profile init` prints a profile that is right.\n  knife.width_mm = 7.2");
     /// A key that does not exist.
-    pub static PROFILE_UNKNOWN_KEY: Code = error(Text, "profile/unknown-key", "The profile has a key that does not exist; the message names the nearest one.");
+    pub static PROFILE_UNKNOWN_KEY: Code = error(Text, "profile/unknown-key", "The profile has a key that does not exist; the message names the nearest one.", "A mistyped key would leave the default in force without a word, and the knife would be of another width than you think. Take the name that the message suggests.");
     /// A value of the wrong type.
-    pub static PROFILE_TYPE: Code = error(Text, "profile/type", "A value of the profile has the wrong type.");
+    pub static PROFILE_TYPE: Code = error(Text, "profile/type", "A value of the profile has the wrong type.", "A number in quotes, or text where a number belongs. The message says what the key takes.\n  knife.width_mm = 7.2     and not \"7.2\"");
     /// A value out of its range.
-    pub static PROFILE_RANGE: Code = error(Text, "profile/range", "A value of the profile is out of its range.");
+    pub static PROFILE_RANGE: Code = error(Text, "profile/range", "A value of the profile is out of its range.", "No machine has such a value: a comma may have slipped, or the unit is another. The message gives the range; the unit stands in the name of the key.");
 }
 
 pub use table::*;
 
-/// Every code, in the order of the README.
+/// Every code, in the order of the manual.
 pub static ALL: &[&Code] = &[
     &SOURCE_EMPTY,
     &SOURCE_TOO_LARGE,

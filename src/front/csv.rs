@@ -19,6 +19,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     sniff,
     syntax: check_syntax,
     read: Read::Marker(read),
+    words: &[],
 };
 
 const HEADER: &[u8] = b"x_mm,y_mm";

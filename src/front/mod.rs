@@ -29,6 +29,17 @@ pub struct Dialect {
     pub syntax: fn(&Source, &mut Diagnostics),
     /// Reads the file.
     pub read: Read,
+    /// What each of its codes does; none where it has no codes.
+    pub words: &'static [Word],
+}
+
+/// Codes of a dialect that do the same.
+#[derive(Debug)]
+pub struct Word {
+    /// The codes, as markdown: "`A`, `M15`", or a range, "`M60` to `M67`".
+    pub words: &'static str,
+    /// What is done about them.
+    pub about: &'static str,
 }
 
 /// What a dialect says.

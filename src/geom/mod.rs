@@ -10,10 +10,10 @@ pub mod fade;
 pub mod moments;
 pub mod monotone;
 pub mod near;
-pub mod nest;
 pub mod polyline;
 pub mod region;
 pub mod ring;
+pub mod shape;
 pub mod slots;
 pub mod spline;
 

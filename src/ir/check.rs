@@ -53,6 +53,30 @@ pub fn marker(marker: &Marker) -> Faults {
             faults.push(format!("piece {}: a notch or drill is not finite", i + 1));
         }
     }
+    faults.extend(cut_faults(marker));
+    faults
+}
+
+fn cut_faults(marker: &Marker) -> Faults {
+    let mut faults = Faults::new();
+    let pieces = marker.pieces.len() as u32;
+    for (i, cut) in marker.cuts.iter().enumerate() {
+        let mut wrong = |what: &str| faults.push(format!("cut {}: {what}", i + 1));
+        if cut.piece >= pieces || cut.sides.iter().flatten().any(|&part| part >= pieces) {
+            wrong("there is no such piece");
+        }
+        if !marker.list.is_linked(cut.range) {
+            wrong("its links do not agree");
+            continue;
+        }
+        let [start, end] = marker.list.ends_of(cut.range);
+        if (start == end) != cut.kind.is_closed() {
+            wrong("its ends do not agree with its kind");
+        }
+    }
+    if !marker.cuts.is_sorted_by_key(|cut| cut.piece) {
+        faults.push("the cuts do not come in the order of their pieces".to_owned());
+    }
     faults
 }
 

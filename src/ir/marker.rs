@@ -1,4 +1,4 @@
-//! What the file says, in mm: pieces in cut order, with their contours, notches, drills and labels.
+//! What the file says, in mm: the pieces, which lie on the cloth as they are drawn, and the cuts, which the knife makes.
 
 use super::drawing::Account;
 use super::list::{Range, SegmentList};
@@ -9,10 +9,13 @@ use crate::source::Span;
 /// The whole of a cutter file.
 #[derive(Debug, Clone, Default)]
 pub struct Marker {
-    /// Segments of all contours.
+    /// Segments of all contours and cuts.
     pub list: SegmentList,
     /// Pieces in cut order.
     pub pieces: Vec<Piece>,
+    /// What the knife cuts, in order, those of a piece behind each other in the order of the pieces; none before the pass
+    /// `cut`.
+    pub cuts: Vec<Cut>,
     /// What the numbers of the file are multiples of, mm; 0 when they are not rounded to a grid.
     pub unit: f64,
     /// What happens behind the last piece.
@@ -65,7 +68,43 @@ pub struct Field {
     pub span: Span,
 }
 
-/// A line that the knife cuts.
+/// What the knife cuts in one go, as far as the drawing tells.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cut {
+    /// What it is of the part that it cuts.
+    pub kind: CutKind,
+    /// The piece that it is cut with: its place in the marker.
+    pub piece: u32,
+    /// The parts on its left and on its right, by the pieces that their outlines are of; `None` = waste.
+    pub sides: [Option<u32>; 2],
+    /// Its segments: those of a contour where that is cut as it is drawn.
+    pub range: Range,
+}
+
+/// What a cut is of the part that it cuts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CutKind {
+    /// The closed line around it.
+    Outline,
+    /// The closed line around a cut-out of it.
+    Inner,
+    /// A stroke of a notch.
+    Slit,
+    /// A line that does not close.
+    Line,
+}
+
+impl CutKind {
+    /// Whether it ends where it starts.
+    pub fn is_closed(self) -> bool {
+        match self {
+            Self::Outline | Self::Inner => true,
+            Self::Slit | Self::Line => false,
+        }
+    }
+}
+
+/// A line of a piece, as it is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contour {
     /// Its segments.
@@ -228,6 +267,12 @@ impl Marker {
     /// All contours in cut order, with the index of their piece.
     pub fn contours(&self) -> impl Iterator<Item = (usize, &Contour)> {
         self.pieces.iter().enumerate().flat_map(|(i, piece)| piece.contours.iter().map(move |c| (i, c)))
+    }
+
+    /// The cuts of a piece, by its place.
+    pub fn cuts_of(&self, piece: u32) -> &[Cut] {
+        let first = |piece: u32| self.cuts.partition_point(|cut| cut.piece < piece);
+        &self.cuts[first(piece)..first(piece + 1)]
     }
 
     /// The points of a contour: one more than its segments; a closed one ends with its first point.

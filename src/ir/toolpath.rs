@@ -123,15 +123,20 @@ impl Run {
     /// The polyline of an open run with its overlaps: the heel straight back along the first chord, the front straight on
     /// along the last. The tail plunges at its first point, the tip is lifted at its last.
     pub fn extended(&self) -> Vec<Point> {
+        self.extended_by([self.heel, self.front])
+    }
+
+    /// The same with overlaps of other lengths at its start and its end, mm.
+    pub fn extended_by(&self, [heel, front]: [f64; 2]) -> Vec<Point> {
         let n = self.points.len();
         let direction = |a: Point, b: Point| polyline::direction(a, b).expect("no chord of a run has length zero");
         let mut points = Vec::with_capacity(n + 2);
-        if self.heel > 0.0 {
-            points.push(self.points[0] - direction(self.points[0], self.points[1]) * self.heel);
+        if heel > 0.0 {
+            points.push(self.points[0] - direction(self.points[0], self.points[1]) * heel);
         }
         points.extend_from_slice(&self.points);
-        if self.front > 0.0 {
-            points.push(self.points[n - 1] + direction(self.points[n - 2], self.points[n - 1]) * self.front);
+        if front > 0.0 {
+            points.push(self.points[n - 1] + direction(self.points[n - 2], self.points[n - 1]) * front);
         }
         points
     }

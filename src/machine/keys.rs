@@ -1,6 +1,6 @@
 //! Every key of the profile: what it takes and what it means in a cutting room.
 //!
-//! The commented profile, the messages about wrong values, the help and the README come from this one table.
+//! The commented profile, the messages about wrong values, the help and the manual come from this one table.
 
 use std::fmt;
 use std::ops::{Bound, RangeBounds as _};
@@ -47,6 +47,8 @@ pub enum Takes {
     Encoding,
     /// Lines of text.
     Text,
+    /// A list of steps of a controller.
+    Steps,
     /// True or false.
     Flag,
 }
@@ -120,6 +122,7 @@ impl Takes {
             Self::Text => {
                 value.as_str().is_some_and(|text| text.chars().all(|c| c == '\n' || (' '..='~').contains(&c)))
             }
+            Self::Steps => value.as_array().is_some(),
             Self::Flag => value.is_bool(),
         }
     }
@@ -193,7 +196,13 @@ impl Key {
             Takes::Number(_) | Takes::NumberOr(..) | Takes::Percent | Takes::Point | Takes::RangeOr(_) => self.unit(),
             Takes::Pose | Takes::PoseOr(_) => POSE_UNITS.get(n).copied().unwrap_or(""),
             // A length of a plot's unit is a text of its own kind.
-            Takes::Length(_) | Takes::Whole(_) | Takes::Word(_) | Takes::Encoding | Takes::Text | Takes::Flag => "",
+            Takes::Length(_)
+            | Takes::Whole(_)
+            | Takes::Word(_)
+            | Takes::Encoding
+            | Takes::Text
+            | Takes::Steps
+            | Takes::Flag => "",
         }
     }
 
@@ -219,6 +228,7 @@ impl Key {
             Takes::Word(words) => format!("\"{}\"", words.concat()),
             Takes::Encoding => "the name of an encoding, such as \"windows-1251\"".to_owned(),
             Takes::Text => "text, a line or several".to_owned(),
+            Takes::Steps => "a list of steps, such as [\"M64 P0\", \"G4 P0.05\"]".to_owned(),
             Takes::Flag => "true or false".to_owned(),
         }
     }
@@ -402,14 +412,14 @@ pub const KEYS: &[Key] = &[
     Key { name: "gcode.line_numbers", takes: Takes::Flag, about: "Whether lines are numbered (N)." },
     Key { name: "gcode.heading_tolerance_deg", takes: Takes::Number(from(0.001, 10.0)), about: "How far the blade may be turned from its law where the axis turns evenly along a piece." },
     Key { name: "gcode.chord_mm", takes: Takes::Number(from(0.0001, 1.0)), about: "Without arcs: how far a straight piece may leave its arc." },
-    Key { name: "gcode.header", takes: Takes::Text, about: "Lines behind the first one, which chooses mm and absolute positions." },
-    Key { name: "gcode.footer", takes: Takes::Text, about: "Lines at the end." },
-    Key { name: "gcode.knife_down", takes: Takes::Text, about: "Lines that put the knife down: an M code, a digital output or a move of Z." },
-    Key { name: "gcode.knife_up", takes: Takes::Text, about: "Lines that lift it." },
-    Key { name: "gcode.drill_down", takes: Takes::Text, about: "Lines that put a drill down; # stands for its number, 1 to 4." },
-    Key { name: "gcode.drill_up", takes: Takes::Text, about: "Lines that lift it." },
-    Key { name: "gcode.stop", takes: Takes::Text, about: "Lines that wait for the operator (event 1)." },
-    Key { name: "gcode.advance", takes: Takes::Text, about: "Lines that advance the cloth (event 2)." },
+    Key { name: "gcode.header", takes: Takes::Text, about: "Lines behind the first one, which chooses mm and absolute positions: a coordinate system (G54), a\ntool (T1 M6), what is switched. They move nothing." },
+    Key { name: "gcode.footer", takes: Takes::Text, about: "Lines at the end, the last one M2 or M30. They move nothing: park says where the axes end." },
+    Key { name: "gcode.knife_down", takes: Takes::Steps, about: "Steps that put the knife down: a digital output (M64 P0 on, M65 P0 off), a move of Z (G0 Z-2,\nG1 Z-2 F600), a rest (G4 P0.05, in s), or M3 to M5 with S, M7 to M9, M68 E Q, M66 P L Q." },
+    Key { name: "gcode.knife_up", takes: Takes::Steps, about: "Steps that lift it: they undo those of knife_down." },
+    Key { name: "gcode.drill_down", takes: Takes::Steps, about: "Steps that put a drill down; # stands for its number, 1 to 4." },
+    Key { name: "gcode.drill_up", takes: Takes::Steps, about: "Steps that lift it." },
+    Key { name: "gcode.stop", takes: Takes::Steps, about: "Steps that wait for the operator (event 1): M0, M1 or M60." },
+    Key { name: "gcode.advance", takes: Takes::Steps, about: "Steps that advance the cloth (event 2)." },
 
     Key { name: "verify.max_uncut_mm", takes: Takes::Number(from(0.0, 10.0)), about: "Longest stretch that may be left uncut: what the rounding of setpoints can leave." },
     Key { name: "verify.max_heading_deg", takes: Takes::Number(from(0.01, 45.0)), about: "Greatest angle between the blade and its law while it cuts." },

@@ -5,7 +5,8 @@ use std::ops::Range;
 use serde::Deserialize as _;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
 
-use super::keys::{self, CODES, Key};
+use super::gcode::{Flaw, Step};
+use super::keys::{self, CODES, Key, Takes};
 use super::measured::{self, Mismeasured};
 use super::near;
 use super::origin;
@@ -59,6 +60,8 @@ struct Draft {
     values: toml::Table,
     /// Their keys, the last one that was given last.
     given: Vec<(String, Origin)>,
+    /// Keys whose values say nothing, so that no rule holds their defaults against others.
+    broken: Vec<String>,
     faults: Vec<(Origin, Diagnostic)>,
 }
 
@@ -151,6 +154,11 @@ impl Draft {
             Ok(value) => value,
             Err(wrong) => return self.mismeasured(&name, origin, (text, key, &wrong)),
         };
+        if let Some(flaw) = value.as_ref().and_then(|value| flaw_of_steps(key, value)) {
+            let fault = Diagnostic::new(&code::PROFILE_RANGE, format!("`{name}` has {}", flaw.has));
+            self.broken.push(name);
+            return self.fault(origin, fault.hint(flaw.hint));
+        }
         let typed = value.filter(|value| MachineProfile::deserialize(nested(&name, value.clone())).is_ok());
         match typed {
             Some(value) => {
@@ -162,9 +170,11 @@ impl Draft {
         }
     }
 
+    /// What stands there is of another type.
     fn mistyped(&mut self, name: &str, origin: Origin, found: &str) {
         let expected = keys::find(name).map(keys::Key::expects).unwrap_or_default();
         let message = format!("`{name}` must be {expected}, but is {found}");
+        self.broken.push(name.to_owned());
         self.fault(origin, Diagnostic::new(&code::PROFILE_TYPE, message));
     }
 
@@ -180,7 +190,7 @@ impl Draft {
     fn unknown(&mut self, name: &str, origin: Origin) {
         let hint = match keys::near_codes(name).as_deref() {
             Some([code]) => format!("it is spelled `{code}`"),
-            Some(codes) => format!("near ones are `{}`; the README lists all codes", codes.join("`, `")),
+            Some(codes) => format!("near ones are `{}`; `cutc manual inputs` lists all codes", codes.join("`, `")),
             None if name == "table.strict" => {
                 "leave it out: what leaves the table by more than a millimetre is an error now, anyway".to_owned()
             }
@@ -211,7 +221,9 @@ impl Draft {
         let profile = MachineProfile::deserialize(std::mem::take(&mut self.values))
             .expect("values that fit the profile one by one fit it together");
         let given = std::mem::take(&mut self.given);
-        for fault in validate(&profile, &|key| given.iter().any(|(name, _)| name == key)) {
+        let faults = validate(&profile, &|key| given.iter().any(|(name, _)| name == key));
+        let broken = std::mem::take(&mut self.broken);
+        for fault in faults.into_iter().filter(|fault| !fault.keys.iter().any(|key| broken.contains(key))) {
             // The key that was given last is the one that broke the rule.
             let origin =
                 given.iter().rev().find(|(name, _)| fault.keys.contains(name)).map(|(_, origin)| origin.clone());
@@ -233,6 +245,12 @@ impl Draft {
         }
         Err(faults)
     }
+}
+
+/// What is wrong with the first step of a list that is none.
+fn flaw_of_steps(key: &Key, value: &toml::Value) -> Option<Flaw> {
+    let texts = value.as_array().filter(|_| matches!(key.takes, Takes::Steps))?.iter().filter_map(toml::Value::as_str);
+    texts.map(Step::read).find_map(Result::err)
 }
 
 /// A value as TOML has it: as it is, or as a text.
@@ -390,8 +408,8 @@ mod tests {
         assert_eq!(
             hints,
             [
-                "near ones are `codes.A`, `codes.B`, `codes.E`; the README lists all codes",
-                "near ones are `codes.M19`, `codes.M69`, `codes.G90`; the README lists all codes",
+                "near ones are `codes.A`, `codes.B`, `codes.E`; `cutc manual inputs` lists all codes",
+                "near ones are `codes.M19`, `codes.M69`, `codes.G90`; `cutc manual inputs` lists all codes",
                 "it is spelled `codes.M19`",
             ]
         );

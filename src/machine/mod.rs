@@ -2,15 +2,16 @@
 //!
 //! Receives TOML, promises validated numbers in mm, s and rad, never knows what is cut. [`load()`] reads a profile and
 //! reports every fault in it; [`keys::KEYS`] says what each key means, once, for the commented profile, the messages
-//! and the README.
+//! and the manual.
 
-pub mod controller;
+pub mod counts;
 mod digest;
 mod encoding;
+mod fault;
+pub mod gcode;
 pub mod keys;
 pub mod kinematics;
 pub mod knife;
-mod lines;
 mod load;
 mod measured;
 mod near;

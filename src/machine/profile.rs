@@ -7,7 +7,8 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::controller::{Counts, Gcode};
+use super::counts::Counts;
+use super::gcode::Gcode;
 use super::kinematics::Limits;
 use super::knife::Knife;
 use super::notches::Notches;

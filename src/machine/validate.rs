@@ -1,23 +1,12 @@
 //! The rules between the values of a profile, and each value's own range.
 
 use super::encoding;
+use super::fault::Fault;
+use super::gcode;
 use super::keys::{KEYS, Key, Takes, shown_value};
-use super::lines;
+use super::knife::Knife;
 use super::profile::MachineProfile;
-use crate::diagnostic::{Code, code};
-
-/// Something that a profile may not say.
-#[derive(Debug)]
-pub(super) struct Fault {
-    /// What it is a fault of.
-    pub(super) code: &'static Code,
-    /// The keys that it concerns; a message stands at the one that the user gave.
-    pub(super) keys: Vec<String>,
-    /// What is wrong.
-    pub(super) message: String,
-    /// What to do.
-    pub(super) hint: Option<String>,
-}
+use crate::diagnostic::code;
 
 /// How much `back_mm` and `radius_mm` together may miss the width, mm: they are read off a gauge in hundredths.
 const BLADE_EPSILON: f64 = 0.005;
@@ -61,69 +50,90 @@ fn hint(key: &Key, value: &toml::Value) -> Option<String> {
 
 /// One value against another.
 fn rules(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault> {
+    let mut faults = blade(&profile.knife, is_given);
+    faults.extend(times(&profile.knife));
+    faults.extend(headings(profile, is_given));
+    faults.extend(gcode::faults(profile));
+    faults
+}
+
+/// The lengths of the blade.
+fn blade(knife: &Knife, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault> {
     let mut faults = Vec::new();
-    let mut broken = |keys: &[&str], message: String, hint: &str| {
-        let keys = keys.iter().map(|&key| key.to_owned()).collect();
-        faults.push(Fault { code: &code::PROFILE_RANGE, keys, message, hint: Some(hint.to_owned()) });
-    };
-    let knife = &profile.knife;
     let width = knife.width_mm;
     let given_back = knife.back_mm.filter(|_| is_given("knife.back_mm") && width > 0.0);
     if let Some(back) = given_back.filter(|&back| back > width) {
         let message = format!("`knife.back_mm` is {back} mm, more than `knife.width_mm`, {width} mm");
-        broken(&["knife.back_mm", "knife.width_mm"], message, "the width is the blade from heel to tip, back included");
+        let hint = "the width is the blade from heel to tip, back included";
+        faults.push(Fault::of_range(&["knife.back_mm", "knife.width_mm"], message, hint));
     }
     match (knife.radius_mm, given_back) {
         (Some(radius), _) if radius > width => {
             let message = format!("`knife.radius_mm` is {radius} mm, more than `knife.width_mm`, {width} mm");
             let hint = "the width is the blade from heel to tip, radius included";
-            broken(&["knife.radius_mm", "knife.width_mm"], message, hint);
+            faults.push(Fault::of_range(&["knife.radius_mm", "knife.width_mm"], message, hint));
         }
         (Some(radius), Some(back)) if back <= width && (back + radius - width).abs() > BLADE_EPSILON => {
             let message = format!(
                 "`knife.back_mm` and `knife.radius_mm` disagree: {back} mm and {radius} mm are not the {width} mm of `knife.width_mm`"
             );
-            broken(&["knife.radius_mm", "knife.back_mm", "knife.width_mm"], message, "give only one of the two");
+            let keys = ["knife.radius_mm", "knife.back_mm", "knife.width_mm"];
+            faults.push(Fault::of_range(&keys, message, "give only one of the two"));
         }
         (Some(_) | None, _) => {}
     }
+    faults
+}
+
+/// How long the knife is up, and how long it may be down.
+fn times(knife: &Knife) -> Vec<Fault> {
+    let mut faults = Vec::new();
     if let Some(clear) = knife.clear_ms.filter(|&clear| clear > knife.lift_ms) {
         let message = format!("`knife.clear_ms` is {clear} ms, more than `knife.lift_ms`, {} ms", knife.lift_ms);
-        broken(&["knife.clear_ms", "knife.lift_ms"], message, "the blade is clear before it is all the way up");
+        let hint = "the blade is clear before it is all the way up";
+        faults.push(Fault::of_range(&["knife.clear_ms", "knife.lift_ms"], message, hint));
     }
     if let Some(longest) = knife.max_down_mm.filter(|&longest| longest <= knife.overlaps()) {
         let message =
             format!("`knife.max_down_mm` is {longest} mm, no more than the overlaps, {} mm", knife.overlaps());
-        broken(&["knife.max_down_mm"], message, "a cut is rejoined with its overlaps, which count");
+        faults.push(Fault::of_range(
+            &["knife.max_down_mm"],
+            message,
+            "a cut is rejoined with its overlaps, which count",
+        ));
     }
-    let reach = TURN_DEG / f64::from(knife.edges.clamp(1, 2)) + REACH_DEG;
-    if let Some([least, greatest]) = profile.c.range_deg.filter(|[least, greatest]| greatest - least < reach) {
-        let message = format!("`c.range_deg` spans {} degrees, less than {reach}", greatest - least);
-        broken(&["c.range_deg"], message, "the blade must reach every heading, and go on from it a little either way");
-    }
-    for (key, c) in [("home", Some(profile.home[2])), ("park", profile.park.map(|park| park[2]))] {
-        let outside = |[least, greatest]: &[f64; 2]| c.is_some_and(|c| c < *least || c > *greatest);
-        if let (Some([least, greatest]), Some(c)) = (profile.c.range_deg.filter(outside), c) {
-            let message = format!("C of `{key}` is {c} degrees, outside `c.range_deg`, {least} to {greatest}");
-            broken(&[key, "c.range_deg"], message, "C stands there, too");
+    faults
+}
+
+/// Where the C axis goes, and how closely.
+fn headings(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    let reach = TURN_DEG / f64::from(profile.knife.edges.clamp(1, 2)) + REACH_DEG;
+    if let Some([least, greatest]) = profile.c.range_deg {
+        if greatest - least < reach {
+            let message = format!("`c.range_deg` spans {} degrees, less than {reach}", greatest - least);
+            let hint = "the blade must reach every heading, and go on from it a little either way";
+            faults.push(Fault::of_range(&["c.range_deg"], message, hint));
+        }
+        for (key, pose) in [("home", Some(profile.home)), ("park", profile.park)] {
+            if let Some([.., c]) = pose.filter(|[.., c]| *c < least || *c > greatest) {
+                let message = format!("C of `{key}` is {c} degrees, outside `c.range_deg`, {least} to {greatest}");
+                faults.push(Fault::of_range(&[key, "c.range_deg"], message, "C stands there, too"));
+            }
+        }
+        if profile.gcode.wrapped {
+            let message = "`gcode.wrapped` is true, but `c.range_deg` gives the axis ends".to_owned();
+            let hint = "an axis that counts from 0 to 360 degrees goes round without end: leave one of the two out";
+            faults.push(Fault::of_range(&["gcode.wrapped", "c.range_deg"], message, hint));
         }
     }
-    let gcode = &profile.gcode;
-    if gcode.wrapped && profile.c.range_deg.is_some() {
-        let message = "`gcode.wrapped` is true, but `c.range_deg` gives the axis ends".to_owned();
-        let hint = "an axis that counts from 0 to 360 degrees goes round without end: leave one of the two out";
-        broken(&["gcode.wrapped", "c.range_deg"], message, hint);
-    }
-    let (askew, judged) = (gcode.heading_tolerance_deg, profile.verify.max_heading_deg);
+    let (askew, judged) = (profile.gcode.heading_tolerance_deg, profile.verify.max_heading_deg);
     if is_given("gcode.heading_tolerance_deg") && askew > judged {
         let message = format!(
             "`gcode.heading_tolerance_deg` is {askew} degrees, more than `verify.max_heading_deg`, {judged} degrees"
         );
         let hint = "the program would be refused by what it is judged by";
-        broken(&["gcode.heading_tolerance_deg", "verify.max_heading_deg"], message, hint);
-    }
-    for fault in lines::faults(profile) {
-        broken(&fault.keys, fault.message, &fault.hint);
+        faults.push(Fault::of_range(&["gcode.heading_tolerance_deg", "verify.max_heading_deg"], message, hint));
     }
     faults
 }

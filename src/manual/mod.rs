@@ -13,8 +13,54 @@ pub struct Page {
     pub text: &'static str,
 }
 
+/// A word of the trade.
+#[derive(Debug)]
+pub struct Entry {
+    /// The word.
+    pub term: &'static str,
+    /// What it means, without line breaks.
+    pub text: String,
+}
+
+/// The page that explains words: a paragraph each, which begins with the word in bold and a colon.
+const GLOSSARY: &str = include_str!("glossary.md");
+
+/// The words that the glossary explains, in its order.
+pub fn glossary() -> impl Iterator<Item = Entry> {
+    GLOSSARY.split("\n\n").filter_map(|paragraph| {
+        let (term, text) = paragraph.strip_prefix("**")?.split_once("**: ")?;
+        Some(Entry { term, text: text.trim_end().replace('\n', " ") })
+    })
+}
+
 /// Every page, in the order of reading.
 pub const PAGES: &[Page] = &[
+    Page {
+        name: "inputs",
+        about: "What is read: dialects, codes of cut files, lines of plots",
+        text: include_str!("inputs.md"),
+    },
+    Page {
+        name: "targets",
+        about: "What is written: setpoints, counts, HAL, G-code, cut files, JSON, pictures",
+        text: include_str!("targets.md"),
+    },
+    Page {
+        name: "cutting",
+        about: "How it cuts: corners, order, overlaps, notches, curves, the turn of the blade",
+        text: include_str!("cutting.md"),
+    },
+    Page {
+        name: "verification",
+        about: "How a program is verified, and every rule",
+        text: include_str!("verification.md"),
+    },
+    Page {
+        name: "profile",
+        about: "The machine profile: every key with its default, range and meaning",
+        text: include_str!("profile.md"),
+    },
+    Page { name: "diagnostics", about: "What is said of a file: every code", text: include_str!("diagnostics.md") },
     Page {
         name: "many-files",
         about: "Folders of files at once, only what was changed, several machines side by side",
@@ -25,4 +71,15 @@ pub const PAGES: &[Page] = &[
         about: "Files that come into a folder are compiled there and then",
         text: include_str!("hot-folder.md"),
     },
+    Page {
+        name: "figures",
+        about: "What was measured, with the commands that repeat it",
+        text: include_str!("figures.md"),
+    },
+    Page {
+        name: "extending",
+        about: "Adding a dialect or a target: a file and two lines",
+        text: include_str!("extending.md"),
+    },
+    Page { name: "glossary", about: "Words of the trade", text: GLOSSARY },
 ];

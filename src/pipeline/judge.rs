@@ -209,7 +209,7 @@ fn parting_keys(job: &Job) -> Option<&'static str> {
 
 /// What a rule says.
 pub fn about(rule: &str) -> &'static str {
-    RULES.iter().find(|(code, _)| *code == rule).map_or("", |(_, about)| about)
+    RULES.iter().find(|row| row.name == rule).map_or("", |row| row.about)
 }
 
 /// The key of the profile that is the limit of a rule and nothing else.
@@ -280,8 +280,8 @@ mod tests {
 
     #[test]
     fn every_rule_with_a_key_of_its_own_stands_in_the_table() {
-        let keyed = RULES.iter().filter(|(rule, _)| key(rule).is_some()).count();
+        let keyed = RULES.iter().filter(|rule| key(rule.name).is_some()).count();
         assert_eq!(keyed, 7);
-        assert!(RULES.iter().all(|(rule, _)| !about(rule).is_empty()));
+        assert!(RULES.iter().all(|rule| !about(rule.name).is_empty()));
     }
 }

@@ -1,6 +1,5 @@
 //! The compiler, each stage named once, in order.
 
-mod area;
 mod judge;
 mod place;
 mod program;
@@ -9,12 +8,12 @@ mod report;
 mod spent;
 mod toolpaths;
 
-pub use area::area;
+pub use crate::analysis::area;
 pub use judge::{about, figures, foreign, judge_program};
 pub use report::{Axes, Controller, Drawn, Lines, Notches, Peak, Peaks, Program, Report, Sides, significant};
 pub use spent::{Spent, word};
 
-pub use crate::verify::{RULES, Verdict};
+pub use crate::verify::{RULES, Rule, Verdict};
 
 use std::io::{self, BufWriter, Read, Seek, Write};
 use std::path::Path;
@@ -28,7 +27,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::{self, Dialect, Read as Reader};
 use crate::ir::{Finding, Marker, check, text};
 use crate::machine::{Job, plot};
-use crate::pass::marker::MARKER_PASSES;
+use crate::pass::marker::{MARKER_PASSES, MarkerPass};
 use crate::pass::toolpath::{Scene, TOOLPATH_PASSES, trace};
 use crate::plan;
 use crate::recognise;
@@ -83,6 +82,15 @@ pub struct Order {
     pub verify: bool,
 }
 
+/// What is chosen for a compile to several programs.
+#[derive(Debug, Clone, Copy)]
+pub struct Choices {
+    /// What the source is read as; `None` = what its content looks like.
+    pub from: Option<&'static Dialect>,
+    /// Whether the programs are read back and judged.
+    pub verify: bool,
+}
+
 /// One of the programs that a compile writes.
 pub struct Product<'a> {
     /// What is written.
@@ -118,7 +126,7 @@ pub fn read(
     diagnostics: &mut Diagnostics,
 ) -> Option<Input> {
     let mut input = read_alone(source, from, job, diagnostics)?;
-    run_passes(&mut input.marker, (source, job), None, diagnostics);
+    run_passes(marker_passes()[0], &mut input.marker, (source, job), diagnostics);
     Some(input)
 }
 
@@ -131,7 +139,7 @@ pub fn read_to_judge(
 ) -> Option<Judged> {
     let mut input = read_alone(source, from, job, diagnostics)?;
     let (census, works) = rayon::join(|| Census::of(&input.marker), || Works::of(&input.marker));
-    run_passes(&mut input.marker, (source, job), None, diagnostics);
+    run_passes(marker_passes()[0], &mut input.marker, (source, job), diagnostics);
     let kept = works.kept(&input.marker, &job.profile);
     Some(Judged { input, reading: Reading { census, kept } })
 }
@@ -168,9 +176,25 @@ pub fn marker_of(dialect: &Dialect, source: &Source, job: &Job, diagnostics: &mu
     }
 }
 
-/// Runs the marker passes up to and with `last`; `None` = all. What they find is placed before a pass can take it away.
-fn run_passes(marker: &mut Marker, (source, job): (&Source, &Job), last: Option<&str>, diagnostics: &mut Diagnostics) {
-    for pass in MARKER_PASSES {
+/// The passes that say what is drawn, and the one that makes cuts of it: only programs need these.
+fn marker_passes() -> [&'static [MarkerPass]; 2] {
+    let (last, first) = MARKER_PASSES.split_last().expect("there are passes");
+    [first, std::slice::from_ref(last)]
+}
+
+/// Makes the cuts of what was read.
+fn make_cuts(input: &mut Input, source: &Source, job: &Job, diagnostics: &mut Diagnostics) {
+    run_passes(marker_passes()[1], &mut input.marker, (source, job), diagnostics);
+}
+
+/// Runs marker passes. What they find is placed before a pass can take it away.
+fn run_passes(
+    passes: &[MarkerPass],
+    marker: &mut Marker,
+    (source, job): (&Source, &Job),
+    diagnostics: &mut Diagnostics,
+) {
+    for pass in passes {
         if diagnostics.has_errors() {
             break;
         }
@@ -178,9 +202,6 @@ fn run_passes(marker: &mut Marker, (source, job): (&Source, &Job), last: Option<
         (pass.run)(marker, job, diagnostics);
         place::place(diagnostics, known, (marker, source, job));
         assert_sound(pass.name, || check::marker(marker));
-        if last == Some(pass.name) {
-            break;
-        }
     }
 }
 
@@ -194,109 +215,163 @@ pub fn compile(
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Option<Compiled>> {
     let Order { from, target, verify } = order;
-    compile_all(source, job, (from, verify), &mut [Product::new(target, out)], diagnostics)
+    compile_all(source, job, Choices { from, verify }, &mut [Product::new(target, out)], diagnostics)
 }
 
-/// Compiles a source to several programs at once: each stage runs once for all of them. `read` is the dialect, if not
-/// what the content looks like, and whether the programs are judged. `None` when the diagnostics hold errors: then all
-/// that was written must be thrown away, but for pictures that show what was refused.
+/// Compiles a source to several programs at once: each stage runs once for all of them. `None` when the diagnostics hold
+/// errors: then all that was written must be thrown away, but for pictures that show what was refused.
 pub fn compile_all(
     source: &Source,
     job: &Job,
-    (from, verify): (Option<&'static Dialect>, bool),
+    choices: Choices,
     products: &mut [Product],
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Option<Compiled>> {
+    let Choices { from, verify } = choices;
     let judged = if verify {
         read_to_judge(source, from, job, diagnostics).map(|Judged { input, reading }| (input, Some(reading)))
     } else {
         read(source, from, job, diagnostics).map(|input| (input, None))
     };
-    let Some((input, reading)) = judged else { return Ok(None) };
-    let Input { dialect, marker, is_whole } = &input;
-    let context = Context { source, job, marker };
+    let Some((mut input, reading)) = judged else { return Ok(None) };
+    let proofs = Proofs::of(products, verify);
+    if proofs.beside || products.iter().any(|product| product.target.emit.needs_toolpaths()) {
+        make_cuts(&mut input, source, job, diagnostics);
+    }
+    let context = Context { source, job, marker: &input.marker };
     if diagnostics.has_errors() {
-        if *is_whole {
+        if input.is_whole {
             refused::draw(&context, products, diagnostics)?;
         }
         return Ok(None);
     }
     let known = diagnostics.iter().len();
-    let mut report = Report::of(marker, dialect.name);
-    let has = |products: &[Product], proof: Proof| products.iter().any(|product| product.target.proof == proof);
-    // A target that cannot be judged by its own bytes shows the verdict on setpoints. When no target's own bytes are
-    // those, they are made beside the others to be judged, so that a picture can show the worst places.
-    let beside = verify && has(products, Proof::None) && !has(products, Proof::Setpoints);
-    let by_motion = beside || has(products, Proof::Setpoints) || has(products, Proof::Positions);
     let mut scratch = SpooledTempFile::new(SCRATCH_BYTES);
-    let mut sinks: Vec<Sink> = products
-        .iter_mut()
-        .filter_map(|product| Sink::new(&product.target.emit, &context, &mut *product.out))
-        .collect();
-    if beside {
-        sinks.push(Sink::of_motion(&SETPOINTS, &mut scratch));
-    }
-    let is_planned = !sinks.is_empty();
     let mut audit = Vec::new();
     let written = rayon::in_place_scope(|scope| {
         // The source is looked at beside all that is done with what was read of it.
         scope.spawn(|_| {
-            let audited = |reading| judge::audited(source, (dialect, reading), job);
+            let audited = |reading| judge::audited(source, (input.dialect, reading), job);
             audit.extend(reading.into_iter().flat_map(audited));
         });
-        if !is_planned {
-            return Ok(Written::default());
-        }
-        let toolpaths = Toolpaths::new(marker, job, diagnostics);
-        program::write(toolpaths, &mut sinks, (&context, false), diagnostics)
+        write(&context, products, proofs.beside.then_some(&mut scratch), diagnostics)
     })?;
+    let mut report = Report::of(&input.marker, input.dialect.name);
     report.program = written.program;
     report.controller = written.estimate.map(Controller::from);
+    let mut verdict: Option<Verdict> = None;
+    if verify && !diagnostics.has_errors() {
+        verdict = proofs.judge(&context, &audit, products, &mut scratch)?;
+    }
+    if let Some(verdict) = &verdict {
+        judge::report(verdict, (&input.marker, job), diagnostics);
+    }
+    place::place(diagnostics, known, (&input.marker, source, job));
+    finish(&context, products, verdict.as_ref(), diagnostics)?;
+    Ok((!diagnostics.has_errors()).then_some(Compiled { report, verdict }))
+}
+
+/// Writes all programs but the tails of those that show a verdict; `beside` takes the setpoints that are only judged.
+fn write(
+    context: &Context,
+    products: &mut [Product],
+    beside: Option<&mut SpooledTempFile>,
+    diagnostics: &mut Diagnostics,
+) -> io::Result<Written> {
+    let mut sinks: Vec<Sink> =
+        products.iter_mut().filter_map(|product| Sink::new(&product.target.emit, context, &mut *product.out)).collect();
+    if let Some(beside) = beside {
+        sinks.push(Sink::of_motion(&SETPOINTS, beside));
+    }
+    let written = if sinks.is_empty() {
+        Written::default()
+    } else {
+        let toolpaths = Toolpaths::new(context.marker, context.job);
+        program::write(toolpaths, &mut sinks, (context, false), diagnostics)?
+    };
     drop(sinks);
-    for Product { target, out, .. } in &mut *products {
+    for Product { target, out, .. } in products {
         if let Emit::Marker(emit) = target.emit {
             let mut out = BufWriter::new(&mut **out);
-            emit(&context, &mut out, diagnostics)?;
+            emit(context, &mut out, diagnostics)?;
             out.flush()?;
         }
     }
+    Ok(written)
+}
 
-    let mut verdict: Option<Verdict> = None;
-    if verify && !diagnostics.has_errors() {
-        let ground = (by_motion && job.mode.cuts()).then(|| Ground::new(marker, &job.profile));
-        let judged_alone = products.iter_mut().filter(|product| product.target.proof != Proof::None);
-        let programs = judged_alone.map(|product| &mut *product.out);
-        let scratch: Option<&mut dyn Medium> = if beside { Some(&mut scratch) } else { None };
-        for program in programs.chain(scratch) {
-            let next = judge::judge(source, (marker, ground.as_ref(), &audit), job, program)?;
-            verdict = Some(match verdict {
-                Some(verdict) => judge::both(verdict, next),
-                None => next,
-            });
-        }
-    }
-    if let Some(verdict) = &verdict {
-        judge::report(verdict, (marker, job), diagnostics);
-    }
-    place::place(diagnostics, known, (marker, source, job));
+/// Ends the programs that show the verdict, and says which of them show what was refused.
+fn finish(
+    context: &Context,
+    products: &mut [Product],
+    verdict: Option<&Verdict>,
+    diagnostics: &Diagnostics,
+) -> io::Result<()> {
     let mut findings = refused::findings(diagnostics);
     findings.extend(verdict.iter().flat_map(|verdict| verdict.findings.iter().cloned()));
     for Product { target, out, shows_refusal } in products {
         *shows_refusal = diagnostics.has_errors() && refused::is_picture(target);
         if let Emit::Toolpath(parts) = &target.emit {
             let mut out = BufWriter::new(&mut **out);
-            (parts.tail)(&context, &findings, &mut out)?;
+            (parts.tail)(context, &findings, &mut out)?;
             out.flush()?;
         }
         out.flush()?;
     }
-    Ok((!diagnostics.has_errors()).then_some(Compiled { report, verdict }))
+    Ok(())
+}
+
+/// How the programs of a compile are judged.
+#[derive(Debug, Clone, Copy)]
+struct Proofs {
+    /// Whether setpoints are made only to be judged. A target that cannot be judged by its own bytes shows the verdict on
+    /// setpoints; when no target's own bytes are those, they are made beside the others, so that a picture can show the worst
+    /// places.
+    beside: bool,
+    /// Whether any program is judged by how it moves.
+    by_motion: bool,
+}
+
+impl Proofs {
+    fn of(products: &[Product], verify: bool) -> Self {
+        let has = |proof: Proof| products.iter().any(|product| product.target.proof == proof);
+        let beside = verify && has(Proof::None) && !has(Proof::Setpoints);
+        Self { beside, by_motion: beside || has(Proof::Setpoints) || has(Proof::Positions) }
+    }
+
+    /// The verdict on all programs.
+    fn judge(
+        self,
+        context: &Context,
+        audit: &[Finding],
+        products: &mut [Product],
+        scratch: &mut SpooledTempFile,
+    ) -> io::Result<Option<Verdict>> {
+        let Context { source, job, marker } = *context;
+        let ground = (self.by_motion && job.mode.cuts()).then(|| Ground::new(marker, &job.profile));
+        let judged_alone = products.iter_mut().filter(|product| product.target.proof != Proof::None);
+        let programs = judged_alone.map(|product| &mut *product.out);
+        let scratch: Option<&mut dyn Medium> = if self.beside { Some(scratch) } else { None };
+        let mut verdict: Option<Verdict> = None;
+        for program in programs.chain(scratch) {
+            let next = judge::judge(source, (marker, ground.as_ref(), audit), job, program)?;
+            verdict = Some(match verdict {
+                Some(verdict) => judge::both(verdict, next),
+                None => next,
+            });
+        }
+        Ok(verdict)
+    }
 }
 
 /// The figures of the program that an input would become, nothing written and nothing judged; when it cannot be planned
 /// the diagnostics say why.
-pub fn estimate(input: &Input, source: &Source, job: &Job, diagnostics: &mut Diagnostics) -> io::Result<Program> {
-    let toolpaths = Toolpaths::new(&input.marker, job, diagnostics);
+pub fn estimate(input: &mut Input, source: &Source, job: &Job, diagnostics: &mut Diagnostics) -> io::Result<Program> {
+    make_cuts(input, source, job, diagnostics);
+    if diagnostics.has_errors() {
+        return Ok(Program::default());
+    }
+    let toolpaths = Toolpaths::new(&input.marker, job);
     let context = Context { job, marker: &input.marker, source };
     let known = diagnostics.iter().len();
     let written = program::write(toolpaths, &mut [], (&context, true), diagnostics)?;
@@ -313,11 +388,13 @@ pub fn dump(
     diagnostics: &mut Diagnostics,
 ) -> Option<String> {
     let mut input = read_alone(source, from, job, diagnostics)?;
-    run_passes(&mut input.marker, (source, job), Some(pass), diagnostics);
+    let last = MARKER_PASSES.iter().position(|marker_pass| marker_pass.name == pass);
+    let passes = &MARKER_PASSES[..last.map_or(MARKER_PASSES.len(), |last| last + 1)];
+    run_passes(passes, &mut input.marker, (source, job), diagnostics);
     if diagnostics.has_errors() {
         return None;
     }
-    if MARKER_PASSES.iter().any(|marker_pass| marker_pass.name == pass) {
+    if last.is_some() {
         return Some(text::print_marker(&input.marker));
     }
     let last = TOOLPATH_PASSES.iter().position(|p| p.name == pass)?;

@@ -7,7 +7,7 @@ use crate::diagnostic::Diagnostics;
 use crate::ir::toolpath::Pose;
 use crate::ir::{Marker, Toolpath, check};
 use crate::machine::{Job, Mode};
-use crate::pass::toolpath::{Scene, TOOLPATH_PASSES, ToolpathPass, check_depths, frame, trace};
+use crate::pass::toolpath::{Scene, TOOLPATH_PASSES, ToolpathPass, frame, trace};
 use crate::plan;
 
 /// Toolpaths of a window, of which every stage has one: enough to keep all cores busy, few enough to keep memory small.
@@ -44,7 +44,7 @@ pub(super) struct Linking<'t, 'a> {
 
 impl<'a> Toolpaths<'a> {
     /// Those of a job over a marker; none is made yet.
-    pub(super) fn new(marker: &'a Marker, job: &'a Job, diagnostics: &mut Diagnostics) -> Self {
+    pub(super) fn new(marker: &'a Marker, job: &'a Job) -> Self {
         let home = plan::home(job);
         if job.mode == Mode::Frame {
             let frame = frame(marker, home, job);
@@ -52,7 +52,6 @@ impl<'a> Toolpaths<'a> {
             return Self { raw: Box::new(std::iter::once(frame)), scene: None, home };
         }
         let scene = Scene::new(marker, job);
-        check_depths(marker, &scene, diagnostics);
         Self { raw: Box::new(trace(marker, job)), scene: Some(scene), home }
     }
 

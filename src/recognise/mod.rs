@@ -22,8 +22,8 @@ mod seam;
 
 use self::line::{Class, Cut, Line, ROUNDING, SIGN, SMALL_OUTLINE};
 use self::marks::{Mark, Search};
-use self::nest::Nest;
 use self::pens::Use;
+use crate::analysis::nesting::Nesting;
 use crate::diagnostic::Diagnostics;
 use crate::geom::budget::Budget;
 use crate::ir::Marker;
@@ -48,7 +48,7 @@ const SEAM_CANDIDATES: usize = 3;
 struct Sheet {
     vertices: Vec<Vertex>,
     lines: Vec<Line>,
-    nest: Nest,
+    nest: Nesting,
     marks: Vec<Mark>,
     /// The pens that draw them.
     pens: Vec<Pen>,
@@ -67,7 +67,7 @@ pub fn marker(mut drawing: Drawing, job: &Job, diagnostics: &mut Diagnostics) ->
     let mut sheet = Sheet {
         vertices,
         lines,
-        nest: Nest::default(),
+        nest: Nesting::default(),
         marks: Vec::new(),
         pens,
         texts,
@@ -89,7 +89,7 @@ impl Sheet {
         let frame = if job.lines.all { Frame::None } else { job.profile.hpgl.frame };
         frame::mark(&mut self.lines, frame, band);
         let mut work = Budget::of_a_marker();
-        self.nest = Nest::of(&self.lines, &self.vertices, &mut work);
+        self.nest = nest::nesting(&self.lines, &self.vertices, &mut work);
         for i in 0..self.lines.len() {
             let line = &mut self.lines[i];
             if line.is_outline() && self.nest.parent(i).is_none() && line.size() > SMALL_OUTLINE {

@@ -22,7 +22,7 @@ pub(super) fn marker(mut sheet: Sheet, diagnostics: &mut Diagnostics) -> Marker 
     making.add_holes();
     making.add_contours();
     let texts_outside = making.add_labels(texts);
-    if making.work.is_spent() && !sheet.nest.is_cut_short {
+    if making.work.is_spent() && sheet.nest.ended().is_none() {
         let message = "there are too many lines to find the part of every hole, text and line";
         let finding = Diagnostic::new(&code::DRAWING_SEARCH_ENDED, message);
         diagnostics.push(finding.hint("split the plot, or leave texts out"));

@@ -29,7 +29,7 @@ const SHOWN_PENS: usize = 8;
 
 /// Says all of it, the worst first.
 pub(super) fn all(sheet: &Sheet, job: &Job, out: &mut Diagnostics) {
-    if sheet.nest.is_cut_short {
+    if sheet.nest.ended().is_some() {
         let message = "there are too many closed lines to tell which lies in which: inner lines would be cut as parts";
         let finding = Diagnostic::new(&code::DRAWING_TOO_MANY, message);
         out.push(finding.hint("split the plot, or leave out fills and hatchings"));

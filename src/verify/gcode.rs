@@ -18,7 +18,7 @@ use crate::geom::{Point, Vector};
 use crate::ir::Finding;
 use crate::ir::finding::Sighting;
 use crate::machine::MachineProfile;
-use crate::machine::controller::FeedMode;
+use crate::machine::gcode::{FeedMode, Step};
 use crate::units::S_PER_MIN;
 use crate::units::number::{exact, fixed};
 
@@ -101,13 +101,6 @@ struct Text {
     meaning: Meaning,
 }
 
-impl Text {
-    fn ends_by_move(&self) -> bool {
-        let first = plain(self.lines[0].text.as_bytes());
-        self.meaning == Meaning::End && matches!(first.as_deref(), Some([b'G', b'0'..=b'3', b' ', b'X', ..]))
-    }
-}
-
 /// The places of a program.
 pub(super) struct Places<'a> {
     input: &'a mut dyn BufRead,
@@ -129,8 +122,6 @@ pub(super) struct Places<'a> {
     last: Going,
     /// Steps since the knife is down.
     in_stroke: f64,
-    /// Whether the lines at the end begin with a move, which is none of the program's.
-    ends_by_move: bool,
     /// Whether the lines at the end were read.
     over: bool,
     /// Why a line cannot be read, and where the axes stood.
@@ -146,7 +137,6 @@ impl<'a> Places<'a> {
         Self {
             input,
             profile,
-            ends_by_move: texts.iter().any(Text::ends_by_move),
             over: texts.iter().all(|text| text.meaning != Meaning::End),
             due: texts[0].lines.iter().cloned().collect(),
             texts,
@@ -255,7 +245,7 @@ impl<'a> Places<'a> {
             self.linger(time - rest);
             return Ok(());
         }
-        if matches!(line, [b'G', b'0'..=b'3', b' ', b'X', ..]) && !(self.ends_by_move && self.is_end(line)) {
+        if matches!(line, [b'G', b'0'..=b'3', b' ', b'X', ..]) {
             return self.go(&Words::of(line, self.profile)?);
         }
         if let Some(text) = self.text(line) {
@@ -297,11 +287,6 @@ impl<'a> Places<'a> {
         };
         let mut found = self.texts.iter().filter(|text| text.lines[0].is(line));
         found.clone().find(fits).or_else(|| found.next())
-    }
-
-    /// Whether the lines at the end begin with a line.
-    fn is_end(&self, line: &[u8]) -> bool {
-        self.texts.iter().any(|text| text.meaning == Meaning::End && text.lines[0].is(line))
     }
 
     /// The axes rest longer than the profile asks for, s.
@@ -540,26 +525,28 @@ impl Arc {
 fn texts(profile: &MachineProfile) -> Vec<Text> {
     let keys = &profile.gcode;
     let blend = keys.blend_mm.map_or(String::new(), |blend| format!("G64 P{} Q0", exact(blend)));
-    let head = String::from_utf8_lossy(HEAD);
-    let mut texts = Vec::new();
-    let mut add = |text: &str, meaning: Meaning| {
-        let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
-        let lines: Vec<_> = lines.map(|line| Rc::new(Expected::new(line))).collect();
-        if !lines.is_empty() {
-            texts.push(Text { lines, meaning });
-        }
+    let head = format!("{}\n{blend}\n{}\n{}", String::from_utf8_lossy(HEAD), keys.header, keys.feed_mode.code());
+    let text = |lines: &str, meaning| Text { lines: lines_of(lines), meaning };
+    let steps = |steps: &[Step], drill: u8, meaning| {
+        let lines = steps.iter().map(|step| Rc::new(Expected::of_step(step, drill))).collect();
+        Text { lines, meaning }
     };
-    add(&format!("{head}\n{blend}\n{}\n{}", keys.header, keys.feed_mode.code()), Meaning::Head);
-    add(&keys.knife_down, Meaning::Down);
-    add(&keys.knife_up, Meaning::Up);
-    for tool in DRILLS {
-        add(&keys.drill_down.replace('#', &tool.to_string()), Meaning::Drill(tool));
-        add(&keys.drill_up.replace('#', &tool.to_string()), Meaning::Raise(tool));
-    }
-    add(&keys.stop, Meaning::Event(1));
-    add(&keys.advance, Meaning::Event(2));
-    add(&keys.footer, Meaning::End);
+    let drills = DRILLS.flat_map(|tool| {
+        [steps(&keys.drill_down, tool, Meaning::Drill(tool)), steps(&keys.drill_up, tool, Meaning::Raise(tool))]
+    });
+    let mut texts = vec![text(&head, Meaning::Head)];
+    texts.extend([steps(&keys.knife_down, 0, Meaning::Down), steps(&keys.knife_up, 0, Meaning::Up)]);
+    texts.extend(drills);
+    texts.extend([steps(&keys.stop, 0, Meaning::Event(1)), steps(&keys.advance, 0, Meaning::Event(2))]);
+    texts.push(text(&keys.footer, Meaning::End));
+    texts.retain(|text| !text.lines.is_empty());
     texts
+}
+
+/// The lines of a text that say something.
+fn lines_of(text: &str) -> Vec<Rc<Expected>> {
+    let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+    lines.map(|line| Rc::new(Expected::new(line))).collect()
 }
 
 /// Rules on what F asks for at the least: setpoints have none.

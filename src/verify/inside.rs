@@ -4,8 +4,9 @@ use std::borrow::Cow;
 
 use rayon::prelude::*;
 
+use super::parts;
 use crate::geom::boxes::Boxes;
-use crate::geom::nest::{self, Shape};
+use crate::geom::shape::Shape;
 use crate::geom::slots::Slots;
 use crate::geom::{Extent, Point};
 use crate::ir::Marker;
@@ -55,7 +56,7 @@ impl<'a> Inside<'a> {
             Shape::new(&closed.map(|contour| marker.list.points(contour.range)).collect::<Vec<_>>())
         };
         let shapes: Vec<Shape> = marker.pieces.par_iter().map(shape).collect();
-        inside.part_of = nest::regions(&shapes, holders).into_iter().map(|part| part as usize).collect();
+        inside.part_of = parts::regions(&shapes, holders).into_iter().map(|part| part as usize).collect();
         inside
     }
 

@@ -33,10 +33,12 @@ mod npy;
 mod order;
 mod outline;
 mod overcut;
+mod parts;
 mod passing;
 mod read;
 mod reference;
 mod rest;
+mod rules;
 mod scan;
 mod source_audit;
 mod source_hpgl;
@@ -52,6 +54,7 @@ mod worsts;
 
 pub use cutter_file::cutter_file;
 pub use kept::Works;
+pub use rules::{RULES, Rule};
 pub use source_audit::{Census, source_audit};
 
 use std::io::BufRead;
@@ -83,61 +86,6 @@ const ROWS_AT_A_TIME: usize = 4096;
 const ROOM: usize = ROWS_AT_A_TIME + ROWS_AT_A_TIME / 8;
 /// Rows of strokes that are judged one after the other: what was worst in one stroke spares work on the next ones.
 const ROWS_IN_A_ROW: usize = 512;
-
-/// Every rule: its code and what it says. The order is that of reports.
-pub const RULES: &[(&str, &str)] = &[
-    ("verify/format", "every row can be read: numbers are finite, outputs legal, no field is missing"),
-    ("verify/time", "rows follow each other at the period of the profile, without gap or repetition"),
-    ("verify/start", "the program starts at home"),
-    ("verify/end", "the program ends with knife and drill up, and parked if the profile says so"),
-    ("verify/speed-x", "X never is faster than its limit"),
-    ("verify/speed-y", "Y never is faster than its limit"),
-    ("verify/speed-c", "C never is faster than its limit"),
-    ("verify/acceleration-x", "X never accelerates more than its limit"),
-    ("verify/acceleration-y", "Y never accelerates more than its limit"),
-    ("verify/acceleration-c", "C never accelerates more than its limit"),
-    ("verify/jerk-x", "X never jerks more than its limit"),
-    ("verify/jerk-y", "Y never jerks more than its limit"),
-    ("verify/jerk-c", "C never jerks more than its limit"),
-    (
-        "verify/feed",
-        "the tip is never faster than the feed, the slowed parts of the file and the way before a corner let it be",
-    ),
-    (
-        "verify/crawl",
-        "while the knife is down F of G-code asks for a quarter of the speed that the feed and the axes allow, or more",
-    ),
-    ("verify/rest", "the axes rest while the knife plunges or lifts, while a drill works and at events"),
-    ("verify/dwell", "plunges, lifts and drills last as long as the profile says, and G-code rests nowhere else"),
-    ("verify/c-range", "C stays inside its range"),
-    ("verify/table", "the axes, and the blade while it is down, stay over the table"),
-    ("verify/on-path", "the tip stays inside the tube of the path while it cuts"),
-    ("verify/stray", "the knife cuts nothing that is not in the marker"),
-    ("verify/order", "events, holes, slits and contours come in the order of the marker"),
-    ("verify/once", "nothing is cut twice beyond the overlaps"),
-    ("verify/complete", "no stretch of a contour or slit is left uncut"),
-    ("verify/heading", "the blade points along its law while it cuts"),
-    ("verify/down", "how far the tip goes while the knife is down"),
-    ("verify/body", "how far the blade's body leaves the path on curves"),
-    ("verify/overcut-part", "how far the blade cuts into its own part beyond ends and corners"),
-    ("verify/overcut-neighbour", "how far the blade cuts into another part beyond ends and corners"),
-    ("verify/overcut-waste", "how far the blade cuts into waste beyond ends and corners"),
-    ("verify/drills", "every hole is drilled once, by its drill, and no other"),
-    ("verify/drill-place", "every hole is where the marker has it"),
-    ("verify/block", "rows that cut name the block that is cut there, and no others name one"),
-    ("verify/events", "the events of the marker are told, each once and with the knife up, and no others"),
-    (
-        "verify/same",
-        "a cut file that is written says what the marker says: pieces, events, speeds, holes, slits, contours, texts, fields",
-    ),
-    ("verify/same-place", "every place of a cut file that is written is that of the marker"),
-    ("source/points", "the marker has the points that the file cuts"),
-    ("source/drills", "the marker has the holes of the cut file; those of a plot are deduced from its shapes"),
-    ("source/length", "the marker has the cut length of the file"),
-    ("source/bounds", "the marker has the bounds of the file"),
-    ("source/moments", "the lines of a plot lie where the file draws them"),
-    ("source/kept", "every block that cuts or drills in the file as read does so in the marker that is cut"),
-];
 
 /// What a program is worth.
 #[derive(Debug, Clone, PartialEq)]
@@ -401,6 +349,6 @@ fn simulate(
 
 /// Brings findings into the order of [`RULES`].
 pub fn sort(findings: &mut [Finding]) {
-    let place = |finding: &Finding| RULES.iter().position(|(code, _)| *code == finding.rule);
+    let place = |finding: &Finding| RULES.iter().position(|rule| rule.name == finding.rule);
     findings.sort_by_key(|finding| place(finding).expect("every rule stands in the table"));
 }

@@ -2,6 +2,8 @@
 
 use super::read::{self, decimal, leading};
 use crate::machine::MachineProfile;
+use crate::machine::gcode::Step;
+use crate::units::number::exact;
 
 /// What comments begin with that controllers obey.
 const ACTIVE: &[&[u8]] = &[
@@ -145,6 +147,22 @@ impl Expected {
     /// A line of text.
     pub(super) fn new(text: &str) -> Self {
         Self { text: text.to_owned(), plain: plain(text.as_bytes()).filter(|plain| !plain.is_empty()) }
+    }
+
+    /// A step of the profile, with the number of a drill where it names one.
+    pub(super) fn of_step(step: &Step, drill: u8) -> Self {
+        let word = |letter: char, number: f64| format!(" {letter}{}", exact(number));
+        let text = match step {
+            Step::Output { pin, on } => format!("M{}{}", if *on { 64 } else { 65 }, word('P', pin.of(drill))),
+            Step::Z { to_mm, feed_mm_min: None } => format!("G0{}", word('Z', *to_mm)),
+            Step::Z { to_mm, feed_mm_min: Some(feed) } => format!("G1{}{}", word('Z', *to_mm), word('F', *feed)),
+            Step::Dwell { time } => format!("G4{}", word('P', *time)),
+            Step::Code { m, parameters } => {
+                let words = parameters.iter().map(|parameter| word(parameter.letter, parameter.number.of(drill)));
+                format!("M{m}{}", words.collect::<String>())
+            }
+        };
+        Self::new(&text)
     }
 
     /// Whether a line, as it is written or as the target would spell it, is that.

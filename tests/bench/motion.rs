@@ -57,9 +57,9 @@ fn main() -> Result<(), Failure> {
         garment::write(&garment::Order { pieces, ..garment::Order::default() }, &mut file)?;
         let (source, job) = (Source::new("marker.cut", file)?, Job::default());
         let mut diagnostics = Diagnostics::default();
-        let input = pipeline::read(&source, None, &job, &mut diagnostics).ok_or("no marker")?;
+        let mut input = pipeline::read(&source, None, &job, &mut diagnostics).ok_or("no marker")?;
         let seconds = median(ROUNDS, || {
-            let program = pipeline::estimate(&input, &source, &job, &mut Diagnostics::default());
+            let program = pipeline::estimate(&mut input, &source, &job, &mut Diagnostics::default());
             assert!(program.is_ok_and(|program| program.time_s.is_some()), "it has a motion");
         });
         println!("marker of {pieces:>3} pieces                {:>9.1} ms", 1e3 * seconds);

@@ -99,7 +99,7 @@ def compiled(binary, job, folder):
         else:
             file.write_bytes(DIGEST.sub(b"-", file.read_bytes()))
     for name, data in [("exit", b"%d" % run.returncode), ("stderr", run.stderr), ("stdout", run.stdout)]:
-        (folder / name).write_bytes(data.replace(str(folder).encode(), b""))
+        (folder / name).write_bytes(data.replace(str(folder).encode(), b"").replace(str(ROOT).encode(), b""))
 
 
 def difference(a, b):

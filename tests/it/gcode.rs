@@ -454,8 +454,8 @@ fn an_axis_that_goes_round_is_told_nothing_where_it_rests_in_the_cloth() {
 #[test]
 fn the_f_of_a_plunge_is_none_of_the_cut_behind_it() {
     let mut job = Job::default();
-    "G1 Z-2 F60".clone_into(&mut job.profile.gcode.knife_down);
-    "G0 Z5".clone_into(&mut job.profile.gcode.knife_up);
+    job.profile.gcode.knife_down = vec!["G1 Z-2 F60".parse().expect("a step")];
+    job.profile.gcode.knife_up = vec!["G0 Z5".parse().expect("a step")];
     let source = fixture("iso/seed-circle.cut");
     let (program, _) = compile(&source, &job);
     let cut = program.lines().find(|line| line.starts_with("G2 ") || line.starts_with("G3 ")).expect("a cut");
@@ -556,13 +556,13 @@ fn what_the_lines_of_a_profile_cannot_say_is_refused() {
         assert!(errors[0].code.name == "target/refused" && errors[0].message.starts_with(expected), "{errors:?}");
     };
     let (drills, events) = ("markers/drills-and-slits.cut", "iso/speeds-and-events.cut");
-    let down = "`gcode.drill_down` says nothing, but the file drills";
+    let down = "`gcode.drill_down` has no step, but the file drills";
     check(|job| job.profile.gcode.drill_down.clear(), drills, down);
-    check(|job| job.profile.gcode.drill_up.clear(), drills, "`gcode.drill_up` says nothing");
+    check(|job| job.profile.gcode.drill_up.clear(), drills, "`gcode.drill_up` has no step");
     let alike = "`gcode.drill_down` tells no drills apart, but the file asks for drill 2";
-    check(|job| "M64 P9".clone_into(&mut job.profile.gcode.drill_down), drills, alike);
-    check(|job| job.profile.gcode.stop.clear(), events, "`gcode.stop` says nothing, but the file stops");
-    check(|job| job.profile.gcode.advance.clear(), events, "`gcode.advance` says nothing, but the file advances");
+    check(|job| job.profile.gcode.drill_down = vec!["M64 P9".parse().expect("a step")], drills, alike);
+    check(|job| job.profile.gcode.stop.clear(), events, "`gcode.stop` has no step, but the file stops");
+    check(|job| job.profile.gcode.advance.clear(), events, "`gcode.advance` has no step, but the file advances");
 }
 
 #[test]

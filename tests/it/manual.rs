@@ -5,8 +5,13 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
+use cutc::back::TARGETS;
+use cutc::diagnostic::code;
 use cutc::front::DIALECTS;
-use cutc::manual::{PAGES, Page};
+use cutc::machine::MachineProfile;
+use cutc::machine::keys::{self, KEYS};
+use cutc::manual::{PAGES, Page, glossary};
+use cutc::verify::RULES;
 use yaml_rust2::{Yaml, YamlLoader};
 
 use crate::support::page::{blocks, commands, expect_same, page, search_path, section};
@@ -69,7 +74,9 @@ fn every_page_is_in_the_table_and_fits_a_terminal() {
     assert_eq!(files, PAGES.iter().map(|page| page.name.to_owned()).collect());
     for Page { name, text, .. } in PAGES {
         assert!(text.starts_with("# ") && text.ends_with('\n'), "{name} begins with its title and ends a line");
-        let long: Vec<&str> = text.lines().filter(|line| line.chars().count() > COLUMNS).collect();
+        // A table is as wide as it is.
+        let is_long = |line: &&str| line.chars().count() > COLUMNS && !line.starts_with('|');
+        let long: Vec<&str> = text.lines().filter(is_long).collect();
         assert!(long.is_empty(), "{name}: {long:?}");
     }
 }
@@ -89,6 +96,9 @@ fn pages_are_listed_and_printed_and_the_nearest_is_named() {
 #[test]
 fn every_command_of_the_manual_runs() {
     let room = room_of_many(false);
+    fs::copy(root().join("fixtures/pictures/marker.cut"), room.at("marker.cut")).expect("a copy");
+    room.write("machine.toml", b"knife.width_mm = 7.2\n");
+    room.expect("compile marker.cut", DONE);
     for Page { name, text, .. } in PAGES {
         let commands = commands(text);
         assert!(!commands.is_empty(), "{name}");
@@ -102,6 +112,90 @@ fn every_command_of_the_manual_runs() {
             let ran = shell(&command, &room, &[]);
             assert_eq!(ran.status.code(), Some(code), "{name}: `{command}`: {}", said(&ran));
         }
+    }
+}
+
+/// A row of a list in lines of the manual's width.
+fn item(text: &str) -> String {
+    let mut lines = vec!["-".to_owned()];
+    for word in text.split_whitespace() {
+        let last = lines.last_mut().expect("a line");
+        if last.chars().count() + 1 + word.chars().count() > COLUMNS {
+            lines.push(format!("  {word}"));
+        } else {
+            last.push(' ');
+            last.push_str(word);
+        }
+    }
+    lines.join("\n")
+}
+
+/// What a key is when nothing is said.
+fn default_of(name: &str) -> Option<String> {
+    let profile = toml::Value::try_from(MachineProfile::default()).expect("a profile is a table");
+    let value = name.split('.').try_fold(&profile, |inner, part| inner.get(part))?;
+    Some(keys::shown_value(value))
+}
+
+/// A list that the program's own tables give, by its name in the pages.
+fn list(name: &str) -> String {
+    let rows: Vec<String> = match name {
+        "dialects" => DIALECTS.iter().map(|dialect| format!("`{}`: {}.", dialect.name, dialect.about)).collect(),
+        "targets" => TARGETS.iter().map(|target| format!("`{}`: {}.", target.name, target.about)).collect(),
+        "rules" => RULES.iter().map(|rule| format!("`{}`: {}.", rule.name, rule.about)).collect(),
+        "codes" => {
+            let severity = |code: &code::Code| format!("{:?}", code.severity).to_lowercase();
+            code::ALL.iter().map(|code| format!("`{}` ({}): {}", code.name, severity(code), code.about)).collect()
+        }
+        "keys" => {
+            let default = |name: &str| default_of(name).map_or_else(String::new, |value| format!(" = `{value}`"));
+            KEYS.iter()
+                .map(|key| format!("`{}`{}: {}. {}", key.name, default(key.name), key.expects(), key.about))
+                .collect()
+        }
+        words => {
+            let dialect = words.strip_prefix("words ").and_then(|name| DIALECTS.iter().find(|row| row.name == name));
+            let words = dialect.unwrap_or_else(|| panic!("there is no list `{name}`")).words;
+            words.iter().map(|row| format!("{}: {}.", row.words, row.about)).collect()
+        }
+    };
+    rows.iter().map(|row| item(row) + "\n").collect()
+}
+
+/// A page with the lists of the program's tables between their marks.
+fn with_lists(text: &str) -> String {
+    let mut parts = text.split("<!-- table: ");
+    let mut out = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let (name, rest) = part.split_once(" -->\n").expect("the mark of a list ends its line");
+        let rest = rest.split_once("<!-- end -->").expect("a list has an end").1;
+        out.extend(["<!-- table: ", name, " -->\n", &list(name), "<!-- end -->", rest]);
+    }
+    out
+}
+
+#[test]
+fn the_lists_of_the_manual_are_those_of_the_program() {
+    for Page { name, .. } in PAGES {
+        let path = root().join(format!("src/manual/{name}.md"));
+        let text = fs::read_to_string(&path).expect("a page");
+        let right = with_lists(&text);
+        if std::env::var_os("CUTC_RENEW_MANUAL").is_some() && right != text {
+            fs::write(&path, &right).expect("writable");
+        } else {
+            assert!(right == text, "{name} is stale: CUTC_RENEW_MANUAL=1 cargo test manual writes its lists anew");
+        }
+    }
+}
+
+#[test]
+fn every_word_of_the_glossary_is_in_order_and_explained() {
+    let terms: Vec<&str> = glossary().map(|entry| entry.term).collect();
+    assert!(terms.len() > 30 && terms.is_sorted(), "{terms:?}");
+    assert!(glossary().all(|entry| entry.text.ends_with('.')), "each entry is a sentence");
+    let room = Room::new();
+    for term in terms {
+        assert!(room.expect(&format!("explain {term}"), DONE).0.starts_with(term));
     }
 }
 

@@ -22,7 +22,7 @@ use crate::diagnostic::{Diagnostic, code};
 use crate::geom::polyline;
 use crate::ir::Toolpath;
 use crate::ir::toolpath::{Drill, Event, Law, Run, Step};
-use crate::machine::Job;
+use crate::machine::{Job, gcode};
 use crate::units::number::fixed;
 
 pub(super) const TARGET: Target = Target {
@@ -35,7 +35,7 @@ pub(super) const TARGET: Target = Target {
 
 /// Decimals of places in messages.
 const PLACE_DECIMALS: u32 = 3;
-/// The drill of a table whose lines have no place for a number.
+/// The drill of a profile whose steps have no place for a number.
 const ONLY_DRILL: u8 = 1;
 
 /// The way of each run and stab of a toolpath, in order.
@@ -58,34 +58,37 @@ fn ways(toolpath: &Toolpath, job: &Job) -> Result<Ways, Vec<Diagnostic>> {
     if refused.is_empty() { Ok(Ways(ways)) } else { Err(refused) }
 }
 
-/// Why a hole cannot be told with the lines of the profile.
+/// Why a hole cannot be told with the steps of the profile.
 fn unsaid_drill(drill: &Drill, job: &Job) -> Option<Diagnostic> {
     let keys = &job.profile.gcode;
     let refused = |message: String, hint: &str| {
         Some(Diagnostic::new(&code::TARGET_REFUSED, message).at(drill.span).hint(hint)).filter(|_| job.mode.cuts())
     };
-    for (key, lines) in [("gcode.drill_down", &keys.drill_down), ("gcode.drill_up", &keys.drill_up)] {
-        if lines.trim().is_empty() {
-            return refused(format!("`{key}` says nothing, but the file drills"), "give its lines, such as M64 P#");
+    for (key, steps) in [("gcode.drill_down", &keys.drill_down), ("gcode.drill_up", &keys.drill_up)] {
+        if steps.is_empty() {
+            return refused(
+                format!("`{key}` has no step, but the file drills"),
+                "give its steps, such as [\"M64 P#\"]",
+            );
         }
     }
     let tool = drill.tool;
-    if tool != ONLY_DRILL && !keys.drill_down.contains('#') {
+    if tool != ONLY_DRILL && !keys.drill_down.iter().any(gcode::Step::names_drill) {
         let message = format!("`gcode.drill_down` tells no drills apart, but the file asks for drill {tool}");
         return refused(message, "put # where the number of the drill belongs, as in M64 P#");
     }
     None
 }
 
-/// Why something cannot be asked for with the lines of the profile.
+/// Why something cannot be asked for with the steps of the profile.
 fn unsaid_event(event: Event, job: &Job) -> Option<Diagnostic> {
     let keys = &job.profile.gcode;
-    let (key, lines, asks, hint) = match event {
-        Event::Stop => ("gcode.stop", &keys.stop, "stops for the operator", "give its lines, such as M0"),
-        Event::Advance => ("gcode.advance", &keys.advance, "advances the cloth", "give its lines, such as M1"),
+    let (key, steps, asks, hint) = match event {
+        Event::Stop => ("gcode.stop", &keys.stop, "stops for the operator", "give its steps, such as [\"M0\"]"),
+        Event::Advance => ("gcode.advance", &keys.advance, "advances the cloth", "give its steps, such as [\"M1\"]"),
     };
-    let message = || format!("`{key}` says nothing, but the file {asks}");
-    lines.trim().is_empty().then(|| Diagnostic::new(&code::TARGET_REFUSED, message()).hint(hint))
+    let message = || format!("`{key}` has no step, but the file {asks}");
+    steps.is_empty().then(|| Diagnostic::new(&code::TARGET_REFUSED, message()).hint(hint))
 }
 
 fn way_of(run: &Run, tolerance: f64, job: &Job) -> Result<Way, Diagnostic> {

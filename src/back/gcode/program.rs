@@ -8,7 +8,7 @@ use super::{Context, Output};
 use crate::geom::{Rotation, Vector, left};
 use crate::ir::toolpath::{Drill, Event, Pose};
 use crate::machine::Job;
-use crate::machine::controller::FeedMode;
+use crate::machine::gcode::{FeedMode, Step};
 use crate::source::Span;
 use crate::units::number::{exact, push_fixed, push_integer, short};
 use crate::units::{S_PER_MIN, rad};
@@ -138,15 +138,17 @@ impl<'a> Program<'a> {
         let [x, y] = job.profile.drill.offset_mm;
         self.rapid(Pose { centre: drill.at - Vector::new(x, y), c: self.pose.c });
         if job.mode.cuts() {
-            let tool = drill.tool.to_string();
-            self.order(&keys.drill_down.replace('#', &tool), job.profile.drill.dwell());
-            self.order(&keys.drill_up.replace('#', &tool), 0.0);
+            let with_drill = |steps: &[Step]| steps.iter().map(|step| step.with_drill(drill.tool)).collect::<Vec<_>>();
+            self.order(&with_drill(&keys.drill_down), job.profile.drill.dwell());
+            self.order(&with_drill(&keys.drill_up), 0.0);
         }
     }
 
-    /// Lines of text from the profile that wait for the axes, and a dwell behind them, s.
-    pub(super) fn order(&mut self, text: &str, dwell: f64) {
-        self.say(text);
+    /// Steps of the controller, which wait for the axes, and a dwell behind them, s.
+    fn order(&mut self, steps: &[Step], dwell: f64) {
+        for step in steps {
+            self.say(&step.to_string());
+        }
         self.pace.wait(0.0);
         if dwell > 0.0 {
             self.number();

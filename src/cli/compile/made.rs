@@ -10,7 +10,7 @@ use crate::cli::provenance::{self, Made, Verified};
 use crate::cli::{files, say};
 use crate::diagnostic::Diagnostics;
 use crate::machine::{Job, sha256_of};
-use crate::pipeline::{self, Compiled, Medium, Product};
+use crate::pipeline::{self, Choices, Compiled, Medium, Product};
 use crate::source::Source;
 
 /// One compile, ready to run.
@@ -127,8 +127,8 @@ impl Compile<'_> {
         let Making { reading, no_verify, .. } = self.making;
         let mut products: Vec<Product> =
             self.targets.iter().zip(outs).map(|(target, out)| Product::new(target, out)).collect();
-        let asked = (reading.from, !no_verify);
-        let compiled = pipeline::compile_all(self.source, self.job, asked, &mut products, diagnostics)?;
+        let choices = Choices { from: reading.from, verify: !no_verify };
+        let compiled = pipeline::compile_all(self.source, self.job, choices, &mut products, diagnostics)?;
         Ok(Emitted { compiled, pictures: products.iter().map(|product| product.shows_refusal).collect() })
     }
 }

@@ -40,8 +40,8 @@ impl Arguments {
         let mut diagnostics = Diagnostics::default();
         let read = pipeline::read(&source, self.reading.from, job, &mut diagnostics);
         let (mut row, mut doubts) = (Row::new(source.name().as_ref(), State::Failed), String::new());
-        if let Some(read) = read.filter(|_| !diagnostics.has_errors()) {
-            let program = pipeline::estimate(&read, &source, job, &mut diagnostics)?;
+        if let Some(mut read) = read.filter(|_| !diagnostics.has_errors()) {
+            let program = pipeline::estimate(&mut read, &source, job, &mut diagnostics)?;
             let report = Report { program, ..Report::of(&read.marker, read.dialect.name) };
             if !diagnostics.has_errors() {
                 row.state = State::Done;

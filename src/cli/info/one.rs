@@ -29,7 +29,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished
     let mut diagnostics = Diagnostics::default();
     let input = pipeline::read(&source, arguments.reading.from, &job, &mut diagnostics);
     let mut known = None;
-    if let Some(input) = input {
+    if let Some(mut input) = input {
         let report = Report::of(&input.marker, input.dialect.name);
         let figures = arguments.figures(Some(&input.marker).filter(|_| !diagnostics.has_errors()), &report);
         let mut all = Known::of(report, Facts::of(&input.marker), figures);
@@ -38,7 +38,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished
         }
         let is_planned = arguments.time || arguments.pricing.price().is_some();
         if is_planned && !diagnostics.has_errors() {
-            all.report.program = pipeline::estimate(&input, &source, &job, &mut diagnostics)?;
+            all.report.program = pipeline::estimate(&mut input, &source, &job, &mut diagnostics)?;
             all.time_by_piece = arguments.time.then(|| times::of(&all.report.program));
         }
         all.price(arguments);

@@ -20,6 +20,7 @@ mod scale;
 mod syntax;
 mod tally;
 mod unit;
+mod words;
 
 use self::instruction::Instruction;
 use self::lower::{Measure, lower};
@@ -37,6 +38,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     sniff,
     syntax: check_syntax,
     read: Read::Drawing(read),
+    words: words::WORDS,
 };
 
 /// Statements that are looked at to recognise a file, and bytes of it.

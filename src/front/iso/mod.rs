@@ -27,6 +27,7 @@ mod title;
 mod trailer;
 mod unit;
 mod vertex;
+mod words;
 
 use self::block::Blocks;
 use self::meaning::{Meaning, meaning};
@@ -43,6 +44,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     sniff,
     syntax: check_syntax,
     read: Read::Marker(read),
+    words: words::WORDS,
 };
 
 /// Blocks that are looked at to recognise a file, and bytes of it.

@@ -20,6 +20,9 @@
 //! label at 10 10 heading-rad 0 @30..39#5 mirrored @40..44#6
 //! field D @80..89#15
 //! closing advance @90..93#16
+//! cut slit piece 1 sides 1 1
+//!   from 20 0 to 20 5 @60..70#12 lift full-advance no-overcut
+//! cut outline piece 1 sides 1 - contour 1
 //! ```
 //!
 //! ```text
@@ -47,6 +50,8 @@
 //! before it ends, so `from` stands where a contour starts. The words behind a segment are what the file asks for where it
 //! starts, those behind a point what it asks for there. A contour is printed in the direction that it is walked in and
 //! read as one that is walked in list order: the same segments, the same joints.
+//! A `cut` is of the contour of its piece that it names, or of segments of its own. Its sides are the parts on its left and
+//! right, by the places of their pieces from 1, as its piece is, or `-` for waste.
 //! A `notch` is one that the contours make: the ends of its mouth with its tip between them, and how many segments lie there.
 //! `harm` has what is cut too far of the part itself and of others before the start, and the same past the end.
 //! `sides` stands where an end has another than `waste`, `part` behind the number of a piece that is not the first.
@@ -58,7 +63,7 @@ pub use print::{print_marker, print_toolpath};
 pub use read::{ReadError, read_marker, read_toolpath};
 
 use super::list::Joint;
-use super::marker::NotchForm;
+use super::marker::{CutKind, NotchForm};
 use super::toolpath::{End, Event, Law, Shape, Side};
 
 /// Picks one flag of a joint.
@@ -72,6 +77,9 @@ const JOINTS: [(&str, Flag); 3] = [
 ];
 
 const FORMS: [(&str, NotchForm); 3] = [("v", NotchForm::V), ("castle", NotchForm::Castle), ("u", NotchForm::U)];
+
+const KINDS: [(&str, CutKind); 4] =
+    [("outline", CutKind::Outline), ("inner", CutKind::Inner), ("slit", CutKind::Slit), ("line", CutKind::Line)];
 
 const SHAPES: [(&str, Shape); 2] = [("open", Shape::Open), ("ring", Shape::Ring)];
 

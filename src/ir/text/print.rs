@@ -2,10 +2,10 @@
 
 use std::fmt::{self, Display, Formatter, Write as _};
 
-use super::{ENDS, EVENTS, FORMS, JOINTS, LAWS, SHAPES, SIDES};
+use super::{ENDS, EVENTS, FORMS, JOINTS, KINDS, LAWS, SHAPES, SIDES};
 use crate::geom::Point;
-use crate::ir::list::{FULL_SPEED, Joint, Segment};
-use crate::ir::marker::{Label, Marker, NotchKind, OutlineNotch, Piece};
+use crate::ir::list::{FULL_SPEED, Joint, Range, Segment};
+use crate::ir::marker::{Cut, Label, Marker, NotchKind, OutlineNotch, Piece};
 use crate::ir::toolpath::{Edge, End, Harm, Pose, Run, Side, Stab, Step, Toolpath};
 use crate::source::Span;
 use crate::units::number::exact;
@@ -19,6 +19,9 @@ pub fn print_marker(marker: &Marker) -> String {
     }
     for event in &marker.closing {
         line(&mut out, format_args!("closing {}{}", word(&EVENTS, event.kind), At(event.span)));
+    }
+    for cut in &marker.cuts {
+        print_cut(&mut out, marker, cut);
     }
     out
 }
@@ -44,11 +47,7 @@ fn print_piece(out: &mut String, marker: &Marker, piece: &Piece) {
     }
     for contour in &piece.contours {
         line(out, format_args!("contour {}", if contour.closed { "closed" } else { "open" }));
-        let mut end = None;
-        for (_, segment) in marker.list.walk(contour.range) {
-            print_segment(out, &segment, end);
-            end = Some(segment.to);
-        }
+        print_segments(out, marker, contour.range);
     }
     for notch in &piece.outline_notches {
         print_outline_notch(out, notch);
@@ -67,6 +66,28 @@ fn print_outline_notch(out: &mut String, notch: &OutlineNotch) {
     let [before, tip, after] = [notch.mouth[0], notch.tip, notch.mouth[1]].map(Xy);
     push(out, format_args!("notch {form}{way} {before} to {tip} to {after}"));
     line(out, format_args!(" segments {}{}", notch.segments, At(notch.span)));
+}
+
+fn print_cut(out: &mut String, marker: &Marker, cut: &Cut) {
+    let Cut { kind, piece, sides, range } = cut;
+    let side = |side: Option<u32>| side.map_or("-".to_owned(), |part| (part + 1).to_string());
+    let [left, right] = sides.map(side);
+    push(out, format_args!("cut {} piece {} sides {left} {right}", word(&KINDS, *kind), piece + 1));
+    let contours = &marker.pieces[*piece as usize].contours;
+    if let Some(contour) = contours.iter().position(|contour| contour.range == *range) {
+        line(out, format_args!(" contour {}", contour + 1));
+    } else {
+        out.push('\n');
+        print_segments(out, marker, *range);
+    }
+}
+
+fn print_segments(out: &mut String, marker: &Marker, range: Range) {
+    let mut end = None;
+    for (_, segment) in marker.list.walk(range) {
+        print_segment(out, &segment, end);
+        end = Some(segment.to);
+    }
 }
 
 fn print_segment(out: &mut String, segment: &Segment, end: Option<Point>) {

@@ -4,10 +4,12 @@ use std::str::{FromStr, SplitWhitespace};
 
 use thiserror::Error;
 
-use super::{ENDS, EVENTS, FORMS, JOINTS, LAWS, SHAPES, SIDES};
+use super::{ENDS, EVENTS, FORMS, JOINTS, KINDS, LAWS, SHAPES, SIDES};
 use crate::geom::{Heading, Point, Vector};
-use crate::ir::list::{FULL_SPEED, Joint, Segment};
-use crate::ir::marker::{Contour, Drill, Event, Field, Label, Marker, Notch, NotchKind, OutlineNotch, Piece, Stroke};
+use crate::ir::list::{FULL_SPEED, Joint, Range, Segment};
+use crate::ir::marker::{
+    Contour, Cut, Drill, Event, Field, Label, Marker, Notch, NotchKind, OutlineNotch, Piece, Stroke,
+};
 use crate::ir::toolpath::{self, Air, Edge, End, Harm, Pose, Run, Stab, Step, Toolpath};
 use crate::source::Span;
 
@@ -24,7 +26,7 @@ pub struct ReadError {
 type Read<T> = Result<T, ReadError>;
 
 /// What a line of a marker starts with.
-const LINES: &str = "piece, event, feed-mm-s, drill, slit, contour, notch, label, field or closing";
+const LINES: &str = "piece, event, feed-mm-s, drill, slit, contour, notch, label, field, closing or cut";
 
 /// Reads the text of a marker.
 pub fn read_marker(text: &str) -> Read<Marker> {
@@ -36,56 +38,87 @@ pub fn read_marker(text: &str) -> Read<Marker> {
     marker.unit = head.number()?;
     head.end()?;
     while let Some(mut line) = lines.take() {
-        let word = line.word(LINES)?;
-        if word == "piece" {
-            let number = line.whole("a piece number")?;
-            marker.pieces.push(Piece { number, span: line.span()?, ..Piece::default() });
-            line.end()?;
-            continue;
-        }
-        if word == "closing" {
-            marker.closing.push(event(&mut line)?);
-            line.end()?;
-            continue;
-        }
-        let Some(piece) = marker.pieces.last_mut() else { return Err(line.error("piece")) };
-        match word {
-            "drill" => {
-                let (at, tool, span) = drill(&mut line)?;
-                piece.drills.push(Drill { at, tool, span });
+        match line.word(LINES)? {
+            "piece" => {
+                let number = line.whole("a piece number")?;
+                marker.pieces.push(Piece { number, span: line.span()?, ..Piece::default() });
             }
-            "slit" => {
-                let Stroke { from: root, to: tip, span } = stroke(&mut line)?;
-                let percent = line.percent()?;
-                let kind = if line.has("bar") { NotchKind::T(stroke(&mut line)?) } else { NotchKind::Slit };
-                piece.notches.push(Notch { kind, root, tip, percent, span });
+            "closing" => marker.closing.push(event(&mut line)?),
+            "cut" => {
+                let cut = cut(&mut line, &mut lines, &mut marker)?;
+                marker.cuts.push(cut);
             }
             "contour" => {
                 let closed = line.choice(&[("closed", true), ("open", false)])?;
-                let chain = segments(&mut lines)?;
-                let range = marker.list.append(chain).ok_or_else(|| line.error("a segment in the next line"))?;
+                let range = range(&line, &mut lines, &mut marker)?;
+                let piece = marker.pieces.last_mut().ok_or_else(|| line.error("piece"))?;
                 piece.contours.push(Contour { range, closed });
             }
-            "notch" => piece.outline_notches.push(outline_notch(&mut line)?),
-            "label" => {
-                let at = if line.has("at") { Some(line.point()?) } else { None };
-                let heading = if line.has("heading-rad") { Some(Heading::new(line.number()?)) } else { None };
-                let span = line.span()?;
-                let mirrored = if line.has("mirrored") { Some(line.span()?) } else { None };
-                piece.labels.push(Label { at, heading, span, mirrored });
-            }
-            "event" => piece.events.push(event(&mut line)?),
-            "feed-mm-s" => piece.feed = Some(line.number()?),
-            "field" => {
-                let letter = line.word("a letter")?;
-                let &[letter @ b'A'..=b'Z'] = letter.as_bytes() else { return Err(line.error("a letter")) };
-                piece.fields.push(Field { letter, span: line.span()? });
-            }
-            _ => return Err(line.error(LINES)),
+            word => of_piece(word, &mut line, &mut marker)?,
         }
         line.end()?;
     }
     Ok(marker)
+}
+
+/// Adds what a line says of the last piece.
+fn of_piece(word: &str, line: &mut Line<'_>, marker: &mut Marker) -> Read<()> {
+    let Some(piece) = marker.pieces.last_mut() else { return Err(line.error("piece")) };
+    match word {
+        "drill" => {
+            let (at, tool, span) = drill(line)?;
+            piece.drills.push(Drill { at, tool, span });
+        }
+        "slit" => {
+            let Stroke { from: root, to: tip, span } = stroke(line)?;
+            let percent = line.percent()?;
+            let kind = if line.has("bar") { NotchKind::T(stroke(line)?) } else { NotchKind::Slit };
+            piece.notches.push(Notch { kind, root, tip, percent, span });
+        }
+        "notch" => piece.outline_notches.push(outline_notch(line)?),
+        "label" => {
+            let at = if line.has("at") { Some(line.point()?) } else { None };
+            let heading = if line.has("heading-rad") { Some(Heading::new(line.number()?)) } else { None };
+            let span = line.span()?;
+            let mirrored = if line.has("mirrored") { Some(line.span()?) } else { None };
+            piece.labels.push(Label { at, heading, span, mirrored });
+        }
+        "event" => piece.events.push(event(line)?),
+        "feed-mm-s" => piece.feed = Some(line.number()?),
+        "field" => {
+            let letter = line.word("a letter")?;
+            let &[letter @ b'A'..=b'Z'] = letter.as_bytes() else { return Err(line.error("a letter")) };
+            piece.fields.push(Field { letter, span: line.span()? });
+        }
+        _ => return Err(line.error(LINES)),
+    }
+    Ok(())
+}
+
+/// A cut of a contour, or of the segments that follow.
+fn cut(line: &mut Line<'_>, lines: &mut Lines<'_>, marker: &mut Marker) -> Read<Cut> {
+    let kind = line.choice(&KINDS)?;
+    line.expect("piece")?;
+    let place: usize = line.whole("the place of a piece")?;
+    let Some(piece) = place.checked_sub(1).filter(|&piece| piece < marker.pieces.len()) else {
+        return Err(line.error("the place of a piece"));
+    };
+    line.expect("sides")?;
+    let sides = [line.side()?, line.side()?];
+    let range = if line.has("contour") {
+        let contour: usize = line.whole("the place of a contour")?;
+        let found = contour.checked_sub(1).and_then(|contour| marker.pieces[piece].contours.get(contour));
+        found.ok_or_else(|| line.error("the place of a contour"))?.range
+    } else {
+        range(line, lines, marker)?
+    };
+    Ok(Cut { kind, piece: piece as u32, sides, range })
+}
+
+/// The segments that follow a line.
+fn range(line: &Line<'_>, lines: &mut Lines<'_>, marker: &mut Marker) -> Read<Range> {
+    let chain = segments(lines)?;
+    marker.list.append(chain).ok_or_else(|| line.error("a segment in the next line"))
 }
 
 fn event(line: &mut Line<'_>) -> Read<Event> {
@@ -378,6 +411,15 @@ impl<'a> Line<'a> {
     /// A speed, or full speed where none stands.
     fn percent(&mut self) -> Read<u8> {
         if self.has("percent") { self.whole("a number of percents up to 255") } else { Ok(FULL_SPEED) }
+    }
+
+    /// A side of a cut: the place of a part, or waste.
+    fn side(&mut self) -> Read<Option<u32>> {
+        if self.has("-") {
+            return Ok(None);
+        }
+        let part: u32 = self.whole("the place of a part, or -")?;
+        part.checked_sub(1).map(Some).ok_or_else(|| self.error("the place of a part, or -"))
     }
 
     /// The words of a joint, in their order; none of them where none stands.

@@ -1,7 +1,9 @@
 use super::*;
 use crate::geom::{Heading, Point, Rotation, Vector};
 use crate::ir::list::Segment;
-use crate::ir::marker::{self, Contour, Drill, Field, Label, Marker, Notch, NotchForm, NotchKind, OutlineNotch, Piece};
+use crate::ir::marker::{
+    self, Contour, Cut, Drill, Field, Label, Marker, Notch, NotchForm, NotchKind, OutlineNotch, Piece,
+};
 use crate::ir::toolpath::{self, Air, Edge, Harm, Pose, Run, Stab, Step, Toolpath};
 use crate::source::Span;
 
@@ -123,6 +125,20 @@ fn marker(random: &mut Random) -> Marker {
         marker.pieces.push(piece);
     }
     marker.closing = random.some(2, Random::event);
+    for (place, piece) in (0..).zip(&marker.pieces) {
+        let sides = [random.flag().then_some(place), random.flag().then_some(0)];
+        for contour in &piece.contours {
+            let range = if random.flag() {
+                contour.range
+            } else {
+                let [from, to] = [random.point(), random.point()];
+                let (joint, percent) = (random.joint(), random.percent());
+                let segment = Segment { from, to, span: random.span(), joint, percent };
+                marker.list.append([segment]).expect("a segment")
+            };
+            marker.cuts.push(Cut { kind: KINDS[random.below(4) as usize].1, piece: place, sides, range });
+        }
+    }
     marker
 }
 

@@ -6,8 +6,8 @@ use crate::ir::Marker;
 use crate::ir::marker::Piece;
 use crate::machine::Job;
 
+mod cut;
 mod depth;
-mod inner;
 mod inspect;
 mod notch;
 mod order;
@@ -36,18 +36,13 @@ pub const MARKER_PASSES: &[MarkerPass] = &[
     slit::PASS,
     inspect::PASS,
     order::PASS,
-    inner::PASS,
     notch::PASS,
     sanity::PASS,
     select::PASS,
     table::PASS,
+    cut::PASS,
 ];
 
-/// Parts lie in one another less deep than this.
-const DEEP: usize = 16;
-/// What a shape costs for each other that it lies in beyond that, beside the comparison of two boxes: whatever is asked of a
-/// place in it looks at them all.
-const HELD: usize = 200;
 /// What helps where a search was ended.
 const SPLIT: &str = "split the marker, or leave fills, hatchings and patterns of rings out";
 /// Parts in which the pieces of a marker are looked at side by side: more than any machine that compiles has cores.
@@ -82,11 +77,6 @@ fn too_many_outlines(piece: &Piece) -> Diagnostic {
         piece.number
     );
     Diagnostic::new(&code::MARKER_TOO_MANY, message).at(piece.span).hint(SPLIT)
-}
-
-/// What a shape that lies in so many others costs, in comparisons of boxes.
-fn depth_cost(depth: usize) -> usize {
-    HELD * depth.saturating_sub(DEEP)
 }
 
 /// The search for something was ended before its time; `left` says what of it may be left.

@@ -1,88 +1,105 @@
-//! Order: inside each piece what lies within a contour is cut before it, the outline last: a part that is free shifts.
+//! Order: what lies within a contour is cut before it, the outline last: a part that is free shifts, with all that lies in it.
 //!
-//! Needs: welded contours. Leaves true: no contour of a piece comes behind a closed one of the same piece that holds it;
-//! otherwise contours keep the order of the file. Holes and slits come before all contours anyway.
+//! Needs: welded contours. In a file without numbers of pieces every contour is a piece. Leaves true: no contour comes behind
+//! a closed one of its piece that holds it, and no piece behind one within whose outline it lies, unless something is asked of
+//! the operator between them; otherwise contours and pieces keep the order of the file. What is asked stays where it is:
+//! before the pieces that are brought before the one behind it. Holes and slits come before all contours anyway.
 
-use std::borrow::Cow;
 use std::cmp::Reverse;
+use std::collections::BTreeMap;
+use std::ops::Range;
 
-use rayon::prelude::*;
-
-use super::{MarkerPass, depth_cost, in_parts, too_many_outlines};
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::geom::budget::Budget;
-use crate::geom::region::Regions;
-use crate::geom::{Extent, Point};
-use crate::ir::list::SegmentList;
-use crate::ir::marker::{Contour, Marker, Piece};
+use super::{MarkerPass, too_many_outlines};
+use crate::analysis::nesting::Nesting;
+use crate::diagnostic::Diagnostics;
+use crate::ir::marker::{Event, Marker, Piece};
 use crate::machine::Job;
 
 pub(super) const PASS: MarkerPass =
     MarkerPass { name: "order", about: "puts what lies inside a contour before it, the outline last", run };
 
 fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
-    let Marker { list, pieces, .. } = marker;
-    let parts = in_parts(pieces.len());
-    let sort = |pieces: &mut [Piece]| {
-        let mut work = parts.budget();
-        pieces.iter_mut().find_map(|piece| sort(list, piece, &mut work).err())
-    };
-    let ended: Vec<Option<Diagnostic>> = pieces.par_chunks_mut(parts.size).map(sort).collect();
-    ended.into_iter().flatten().for_each(|finding| diagnostics.push(finding));
+    let nesting = Nesting::of(marker);
+    if let Some(line) = nesting.ended() {
+        diagnostics.push(too_many_outlines(&marker.pieces[nesting.lines()[line].group as usize]));
+        return;
+    }
+    for (piece, i) in marker.pieces.iter_mut().zip(0..) {
+        sort_contours(piece, nesting.of_group(i), &nesting);
+    }
+    let waiting = waiting(&marker.pieces, &nesting);
+    sort_pieces(&mut marker.pieces, &waiting);
 }
 
-/// Puts the contours of a piece in order, unless there are too many in one another.
-fn sort(list: &SegmentList, piece: &mut Piece, work: &mut Budget) -> Result<(), Diagnostic> {
+/// Puts the contours of a piece in order: by the outermost contour that holds them, what the most contours hold first.
+fn sort_contours(piece: &mut Piece, lines: Range<usize>, nesting: &Nesting) {
     if piece.contours.len() < 2 {
-        return Ok(());
+        return;
     }
-    let shapes: Vec<Shape> = piece.contours.iter().map(|contour| Shape::of(list, contour)).collect();
-    let closed = (0..shapes.len() as u32).filter(|&i| shapes[i as usize].closed);
-    let regions = Regions::new(closed, |i| vec![Cow::Borrowed(&*shapes[i as usize].points)]);
-    let places: Option<Vec<_>> = (0..shapes.len()).map(|i| place(i, (&shapes, &regions), work)).collect();
-    let places = places.ok_or_else(|| too_many_outlines(piece))?;
-    let mut order: Vec<usize> = (0..shapes.len()).collect();
-    order.sort_by_key(|&i| places[i]); // stable: the order of the file among equals
-    piece.contours = order.into_iter().map(|i| piece.contours[i]).collect();
-    Ok(())
+    let place = |line: usize| {
+        let around = || nesting.around(line).filter(|outer| lines.contains(outer));
+        (around().next_back().unwrap_or(line), Reverse(around().count()))
+    };
+    let mut order: Vec<usize> = lines.clone().collect();
+    order.sort_by_key(|&line| place(line)); // stable: the order of the file among equals
+    piece.contours = order.into_iter().map(|line| piece.contours[line - lines.start]).collect();
 }
 
-/// A contour as a shape.
-struct Shape<'a> {
-    /// Its points; those of a closed one end with its first point.
-    points: Cow<'a, [Point]>,
-    extent: Extent,
-    closed: bool,
-}
-
-impl<'a> Shape<'a> {
-    fn of(list: &'a SegmentList, contour: &Contour) -> Self {
-        let points = list.points(contour.range);
-        Self { extent: Extent::of(&points), points, closed: contour.closed }
-    }
-
-    /// A place of it: the middle of its first segment, because an open line may begin on an outline.
-    fn place(&self) -> Point {
-        let (a, b) = (self.points[0], self.points[1]);
-        a + (b - a) / 2.0
-    }
-}
-
-/// By what a contour is sorted: the first contour among those that hold it and are held by none, then how many hold it, most
-/// first. `None` when there is no work left.
-fn place(i: usize, (shapes, regions): (&[Shape], &Regions), work: &mut Budget) -> Option<(usize, Reverse<usize>)> {
-    let point = shapes[i].place();
-    if !work.spend(regions.cost_at(point)) {
-        return None;
-    }
-    let (mut depth, mut outermost) = (0, (i, shapes[i].extent));
-    for k in regions.owners_at(point).into_iter().map(|k| k as usize).filter(|&k| k != i) {
-        depth += 1;
-        // Of contours that hold one place, the wider one holds the other.
-        let (wide, high) = (shapes[k].extent.size(), outermost.1.size());
-        if wide.0 * wide.1 > high.0 * high.1 {
-            outermost = (k, shapes[k].extent);
+/// The pieces that wait for others that the file has behind them, each with these.
+fn waiting(pieces: &[Piece], nesting: &Nesting) -> BTreeMap<usize, Vec<usize>> {
+    let mut waiting: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    // The last piece so far before which something is asked: no other is brought past that.
+    let mut asked = 0;
+    for (i, piece) in pieces.iter().enumerate() {
+        asked = if piece.events.is_empty() { asked } else { i };
+        for holder in holders(i, nesting).into_iter().filter(|holder| (asked..i).contains(holder)) {
+            waiting.entry(holder).or_default().push(i);
         }
     }
-    work.spend(depth_cost(depth)).then_some((outermost.0, Reverse(depth)))
+    waiting
+}
+
+/// The pieces within whose outlines a piece lies, in order.
+fn holders(piece: usize, nesting: &Nesting) -> Vec<usize> {
+    let group = |line: usize| nesting.lines()[line].group as usize;
+    // Its outline holds all else of it.
+    let others = |line: usize| nesting.around(line).map(group).filter(|&holder| holder != piece);
+    let Some(outline) = nesting.widest(piece) else { return Vec::new() };
+    let mut holders: Vec<usize> = others(outline).collect();
+    holders.sort_unstable();
+    holders.dedup();
+    holders
+}
+
+/// Puts pieces in the order in which each comes when all that it waits for has come, and otherwise as in the file.
+fn sort_pieces(pieces: &mut Vec<Piece>, waiting: &BTreeMap<usize, Vec<usize>>) {
+    if waiting.is_empty() {
+        return; // as in most files
+    }
+    // Pieces move only between two places where something is asked, so that these are still the first of theirs.
+    let events: Vec<Vec<Event>> = pieces.iter_mut().map(|piece| std::mem::take(&mut piece.events)).collect();
+    let mut left: Vec<Option<Piece>> = pieces.drain(..).map(Some).collect();
+    pieces.extend(inside_out(left.len(), waiting).into_iter().filter_map(|i| left[i].take()));
+    for (piece, events) in pieces.iter_mut().zip(events) {
+        piece.events = events;
+    }
+}
+
+fn inside_out(count: usize, waiting: &BTreeMap<usize, Vec<usize>>) -> Vec<usize> {
+    let mut left: BTreeMap<usize, std::slice::Iter<usize>> =
+        waiting.iter().map(|(&piece, inner)| (piece, inner.iter())).collect();
+    let (mut order, mut is_done, mut open) = (Vec::with_capacity(count), vec![false; count], Vec::new());
+    for next in 0..count {
+        open.extend((!is_done[next]).then_some(next));
+        while let Some(&piece) = open.last() {
+            if let Some(&inner) = left.get_mut(&piece).and_then(Iterator::next) {
+                open.extend((!is_done[inner]).then_some(inner));
+            } else {
+                is_done[piece] = true;
+                order.push(piece);
+                open.pop();
+            }
+        }
+    }
+    order
 }

@@ -3,11 +3,14 @@
 //! Needs raw runs. Leaves runs without a corner inside, each with its two ends named; a closed contour with corners
 //! starts at the one nearest to the file's start, a closed contour without any stays a ring.
 
-use super::ToolpathPass;
+use super::pass::ToolpathPass;
+use super::runs;
 use super::scene::Scene;
+use super::stretch::between;
 use crate::diagnostic::Diagnostics;
 use crate::geom::{angle, polyline};
-use crate::ir::toolpath::{End, Run, Shape, Step, Toolpath};
+use crate::ir::list::Joint;
+use crate::ir::toolpath::{End, Run, Shape, Toolpath};
 
 pub(super) const PASS: ToolpathPass = ToolpathPass {
     name: "corner",
@@ -17,17 +20,8 @@ pub(super) const PASS: ToolpathPass = ToolpathPass {
 };
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
-    let job = scene.job;
-    let angle = job.profile.corner.angle();
-    let steps = std::mem::take(&mut toolpath.steps);
-    for step in steps {
-        match step {
-            Step::Run(run) => toolpath.steps.extend(split(run, angle).into_iter().map(Step::Run)),
-            Step::Stab(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {
-                toolpath.steps.push(step);
-            }
-        }
-    }
+    let angle = scene.job.profile.corner.angle();
+    runs::replace(toolpath, |run| split(run, angle));
 }
 
 /// The runs between the corners of a run.
@@ -37,7 +31,7 @@ fn split(mut run: Run, angle: f64) -> Vec<Run> {
     if run.shape == Shape::Ring {
         let at_start = is_corner(&run, 0, angle);
         if corners.is_empty() && !at_start {
-            run.ends = ends(&run, [false, false], &[]);
+            run.ends = ends([false; 2], &run.joints[..1], &run.joints[1..]);
             return vec![run];
         }
         if !at_start {
@@ -49,24 +43,14 @@ fn split(mut run: Run, angle: f64) -> Vec<Run> {
         run.shape = Shape::Open;
     }
     let mut runs = Vec::with_capacity(corners.len() + 1);
-    let (mut asked_from, mut from) = (0, 0);
-    for &to in corners.iter().chain(std::iter::once(&last)) {
-        let points = run.points[from..=to].to_vec();
-        let joints = run.joints[from..=to].to_vec();
-        let spans = run.spans[from..to].to_vec();
-        let feeds = run.feeds[from..to].to_vec();
-        let asked = &run.joints[asked_from..=from];
-        let mut part = Run { points, spans, joints, feeds, ..empty_like(&run) };
-        part.ends = ends(&part, [from > 0, to < last], asked);
-        runs.push(part);
-        (asked_from, from) = (from + 1, to);
+    // The joints since the last plunge, whose codes act at the next one.
+    let (mut asked, mut from) = (0, 0);
+    for to in corners.into_iter().chain([last]) {
+        let ends = ends([from > 0, to < last], &run.joints[asked..=from], &run.joints[from + 1..=to]);
+        runs.push(between(&run, [from, to], ends));
+        (asked, from) = (from + 1, to);
     }
     runs
-}
-
-/// A run without points that is otherwise the same.
-fn empty_like(run: &Run) -> Run {
-    Run { points: Vec::new(), spans: Vec::new(), joints: Vec::new(), feeds: Vec::new(), ..*run }
 }
 
 /// Whether the knife is lifted at a point; point 0 of a ring lies between its last and its first chord.
@@ -95,20 +79,17 @@ fn rotate(run: &mut Run, first: usize) {
     run.joints.push(run.joints[0]);
 }
 
-/// The ends of a run: `corner` says which of them lie inside a contour; `asked` are the joints since the plunge before
-/// this one, because a code before a plunge acts at the next plunge, and one before a lift at the next lift.
-fn ends(run: &Run, corner: [bool; 2], asked: &[crate::ir::list::Joint]) -> [End; 2] {
-    let full_advance = run.joints[0].full_advance || asked.iter().any(|j| j.full_advance);
-    let no_overcut = run.joints[1..].iter().any(|j| j.no_overcut);
-    let end = |corner: bool, bare: bool| End { corner, bare, ..End::default() };
-    [end(corner[0], full_advance), end(corner[1], no_overcut)]
+/// The ends of a run: `corner` says which of them lie inside a contour. A code acts at the next plunge or lift: `before` are
+/// the joints from the plunge of the run before up to the plunge of this one, `along` those from there up to its lift.
+fn ends(corner: [bool; 2], before: &[Joint], along: &[Joint]) -> [End; 2] {
+    let bare = [before.iter().any(|joint| joint.full_advance), along.iter().any(|joint| joint.no_overcut)];
+    [0, 1].map(|i| End { corner: corner[i], bare: bare[i], ..End::default() })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::geom::Point;
-    use crate::ir::list::Joint;
     use crate::ir::toolpath::{Edge, Law, Pose};
     use crate::source::Span;
 

@@ -3,11 +3,12 @@
 //! Needs runs split at corners. Leaves none that with its overlaps is longer than `knife.max_down_mm`, when that is set: a
 //! longer one is lifted after equal parts and rejoined with the overlaps of a corner, which here lie along the contour.
 
-use super::ToolpathPass;
+use super::pass::ToolpathPass;
+use super::runs;
 use super::scene::Scene;
 use super::stretch::{REJOINED, Way};
 use crate::diagnostic::Diagnostics;
-use crate::ir::toolpath::{Run, Step, Toolpath};
+use crate::ir::toolpath::{Run, Toolpath};
 use crate::machine::Knife;
 
 pub(super) const PASS: ToolpathPass =
@@ -17,17 +18,9 @@ pub(super) const PASS: ToolpathPass =
 const SHARE_MIN: f64 = 0.5;
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
-    let job = scene.job;
-    let Some(longest) = job.profile.knife.longest_cut() else { return };
-    let steps = std::mem::take(&mut toolpath.steps);
-    for step in steps {
-        match step {
-            Step::Run(run) => toolpath.steps.extend(split(run, longest, &job.profile.knife).into_iter().map(Step::Run)),
-            Step::Stab(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {
-                toolpath.steps.push(step);
-            }
-        }
-    }
+    let knife = &scene.job.profile.knife;
+    let Some(longest) = knife.longest_cut() else { return };
+    runs::replace(toolpath, |run| split(run, longest, knife));
 }
 
 /// Parts of a run, as few as keep below `longest`, each led on along the contour by the overlaps of a corner. They are as long

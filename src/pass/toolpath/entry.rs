@@ -5,12 +5,14 @@
 //! that near to a start, though no corner, is cut as one: up to it, and on from it, without overlaps, because they would
 //! leave the path.
 
-use super::ToolpathPass;
-use super::bow::Bow;
-use super::scene::{Around, Scene};
-use super::stretch::REJOINED;
+use super::pass::ToolpathPass;
+use super::runs;
+use super::scene::Scene;
+use super::stretch::{REJOINED, between};
+use crate::analysis::cloth::Surroundings;
+use crate::analysis::plunge::Deviation;
 use crate::diagnostic::Diagnostics;
-use crate::ir::toolpath::{Run, Shape, Step, Toolpath};
+use crate::ir::toolpath::{Run, Shape, Toolpath};
 
 pub(super) const PASS: ToolpathPass = ToolpathPass {
     name: "entry",
@@ -21,49 +23,26 @@ pub(super) const PASS: ToolpathPass = ToolpathPass {
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
     let around = scene.around(toolpath);
-    if around.knife().width_mm == 0.0 {
+    if around.knife.width_mm == 0.0 {
         return;
     }
-    for step in std::mem::take(&mut toolpath.steps) {
-        match step {
-            Step::Run(mut run) if run.shape == Shape::Open => {
-                while let Some(bend) = bend(&run, &around) {
-                    let (before, behind) = split(&run, bend);
-                    toolpath.steps.push(Step::Run(before));
-                    run = behind;
-                }
-                toolpath.steps.push(Step::Run(run));
-            }
-            Step::Run(_) | Step::Stab(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {
-                toolpath.steps.push(step);
-            }
-        }
+    runs::replace(toolpath, |run| split(run, &around));
+}
+
+/// The parts of a run that the blade can enter.
+fn split(mut run: Run, around: &Surroundings) -> Vec<Run> {
+    let mut parts = Vec::new();
+    while let Some(bend) = bend(&run, around) {
+        let ([start, end], last) = (run.ends, run.points.len() - 1);
+        parts.push(between(&run, [0, bend], [start, REJOINED]));
+        run = between(&run, [bend, last], [REJOINED, end]);
     }
+    parts.push(run);
+    parts
 }
 
-/// The first point at which the path must be split so that the blade can enter it; `None` when it can.
-fn bend(run: &Run, around: &Around) -> Option<usize> {
-    Bow::new(run, around).filter(|bow| !bow.fits && !bow.is_curve).map(|bow| bow.at)
-}
-
-/// A run up to a point, and from there on.
-fn split(run: &Run, at: usize) -> (Run, Run) {
-    let [start, end] = run.ends;
-    let before = Run {
-        points: run.points[..=at].to_vec(),
-        spans: run.spans[..at].to_vec(),
-        joints: run.joints[..=at].to_vec(),
-        feeds: run.feeds[..at].to_vec(),
-        ends: [start, REJOINED],
-        ..*run
-    };
-    let behind = Run {
-        points: run.points[at..].to_vec(),
-        spans: run.spans[at..].to_vec(),
-        joints: run.joints[at..].to_vec(),
-        feeds: run.feeds[at..].to_vec(),
-        ends: [REJOINED, end],
-        ..*run
-    };
-    (before, behind)
+/// The first point at which an open run must be split so that the blade can enter it; `None` when it can.
+fn bend(run: &Run, around: &Surroundings) -> Option<usize> {
+    let deviation = if run.shape == Shape::Open { Deviation::of(run, around)? } else { return None };
+    (!deviation.fits && !deviation.is_curve).then_some(deviation.vertex)
 }

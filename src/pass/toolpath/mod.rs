@@ -3,46 +3,32 @@
 //! [`trace()`] makes it: one run as the file has it. The passes split it at corners, give it overlaps, and place it. They
 //! look at the cloth around it, the [`Scene`]: an overlap goes into the waste.
 
-mod bow;
-mod chord;
 mod corner;
 mod down;
 mod entry;
 mod frame;
 mod lap;
 mod nibble;
-mod notches;
 mod overlap;
+mod pass;
 mod place;
+mod runs;
 mod scene;
 mod slow;
 mod stab;
+mod start;
 mod stretch;
 mod tight;
+mod tight_report;
 mod trace;
 mod turn;
 mod wind;
+mod worst;
 
 pub use frame::frame;
-pub use notches::check_depths;
+pub use pass::ToolpathPass;
 pub use scene::Scene;
 pub use trace::trace;
-
-use crate::diagnostic::Diagnostics;
-use crate::ir::Toolpath;
-
-/// A pass over a toolpath: a row of [`TOOLPATH_PASSES`].
-#[derive(Debug)]
-pub struct ToolpathPass {
-    /// Name, as `--dump-after` takes it.
-    pub name: &'static str,
-    /// What it does, in a line.
-    pub about: &'static str,
-    /// Does it.
-    pub run: fn(&mut Toolpath, &Scene, &mut Diagnostics),
-    /// Whether it looks at where the toolpath before ends: it and all behind it see one toolpath after the other.
-    pub chained: bool,
-}
 
 /// Every pass over a toolpath, in order.
 pub const TOOLPATH_PASSES: &[ToolpathPass] = &[

@@ -1,115 +1,126 @@
 //! Nibbling: stretches of a run are cut by plunges without motion, each along as many chords as stay near to its blade.
 
-use super::chord::Tight;
-use super::scene::Around;
 use super::stretch::{REJOINED, Way};
-use super::{overlap, stab};
+use crate::analysis::cloth::Surroundings;
+use crate::analysis::plunge::{PASSING_SHARE, PlungeCut, overlaps};
+use crate::analysis::tight::TightCurve;
 use crate::geom::polyline;
 use crate::ir::toolpath::Run;
 
-/// Part of the tolerance by which a plunge may pass a vertex; rounding takes a little of the rest.
-pub(super) const NIBBLE_SHARE: f64 = 0.9;
 /// Halvings that make plunges alike: to a thousandth of a curve, which is finer than its chords.
 const HALVINGS: usize = 10;
 
-/// A part of a run, and whether it is meant to be one plunge.
-pub(super) struct Part {
+/// A stretch of a run that is nibbled, and whether it is meant to be one plunge.
+pub(super) struct Stretch {
     pub(super) run: Run,
     pub(super) is_plunge: bool,
 }
 
-/// What becomes of a run whose tight curves, one at least, are nibbled: what lies before, between and behind them, and the plunges.
-pub(super) fn parts(run: &Run, curves: &[Tight], around: &Around) -> Vec<Part> {
+/// What becomes of a run whose tight curves, one at least, are nibbled: what lies before, between and behind them, and the
+/// plunges.
+pub(super) fn nibbled(run: &Run, curves: &[TightCurve], around: &Surroundings) -> Vec<Stretch> {
     let way = Way::new(run);
     let chords = way.chords();
     // A ring begins at its first tight curve and ends where that begins again; an open run has its own ends.
     let start = if way.is_ring() { *curves[0].vertices.start() } else { 0 };
     let end = start + chords;
-    let station = |vertex: usize| way.station(vertex.cast_signed());
-    // What lies before or behind a curve and is shorter than the blade is cut with it: it could only be a plunge, too.
-    let is_short = |from: usize, to: usize| station(to) - station(from) < around.knife().width_mm;
-    let mut stretches: Vec<[usize; 2]> = Vec::new();
-    for curve in curves {
-        let (from, to) = ((*curve.vertices.start()).max(start), (*curve.vertices.end()).min(end));
-        let behind = stretches.last().map_or(start, |last| last[1]);
-        let from = if is_short(behind, from) { behind } else { from };
-        let to = if is_short(to, end) { end } else { to };
-        match stretches.last_mut() {
-            Some(last) if from <= last[1] => last[1] = to.max(last[1]),
-            _ => stretches.push([from, to]),
-        }
-    }
-    let mut parts = Vec::new();
+    let mut stretches = Vec::new();
     let mut add = |[from, to]: [usize; 2], is_plunge: bool| {
         let is_end = [from == 0, to == chords].map(|is_end| is_end && !way.is_ring());
         let ends = [0, 1].map(|i| if is_end[i] { run.ends[i] } else { REJOINED });
-        parts.push(Part { run: way.part(station(from), station(to), ends), is_plunge });
+        let run = way.part(way.station(from.cast_signed()), way.station(to.cast_signed()), ends);
+        stretches.push(Stretch { run, is_plunge });
     };
     let mut at = start;
-    for [from, to] in stretches {
+    for [from, to] in lengthened(&way, [start, end], curves, around.knife.width_mm) {
         if from > at {
             add([at, from], false);
         }
-        for piece in nibbles(&way, [from, to], NIBBLE_SHARE * around.tolerance()) {
-            add(piece, true);
+        for plunge in plunges(&way, [from, to], PASSING_SHARE * around.tolerance) {
+            add(plunge, true);
         }
         at = to;
     }
     if at < end {
         add([at, end], false);
     }
-    parts
+    stretches
+}
+
+/// The curves of a way that ends at two vertices, from vertex to vertex, each with what lies before or behind it and is
+/// shorter than the blade: that could only be a plunge, too. Those that meet are joined.
+fn lengthened(way: &Way, [start, end]: [usize; 2], curves: &[TightCurve], width: f64) -> Vec<[usize; 2]> {
+    let station = |vertex: usize| way.station(vertex.cast_signed());
+    let is_short = |from: usize, to: usize| station(to) - station(from) < width;
+    let mut lengthened: Vec<[usize; 2]> = Vec::new();
+    for curve in curves {
+        let (from, to) = ((*curve.vertices.start()).max(start), (*curve.vertices.end()).min(end));
+        let behind = lengthened.last().map_or(start, |last| last[1]);
+        let from = if is_short(behind, from) { behind } else { from };
+        let to = if is_short(to, end) { end } else { to };
+        match lengthened.last_mut() {
+            Some(last) if from <= last[1] => last[1] = to.max(last[1]),
+            _ => lengthened.push([from, to]),
+        }
+    }
+    lengthened
 }
 
 /// How far the worst of the plunges that a whole run is nibbled with would cut into parts beyond one of its ends, mm, when
 /// it does so alike at both.
-pub(super) fn harm(run: &Run, curve: &Tight, around: &Around) -> f64 {
-    let plunges = parts(run, std::slice::from_ref(curve), around).into_iter().map(|Part { mut run, .. }| {
-        overlap::give(&mut run, around);
-        stab::stab(&run, around).map_or(0.0, |stab| stab::total(&stab) / 2.0)
+pub(super) fn worst_overcut(run: &Run, curve: &TightCurve, around: &Surroundings) -> f64 {
+    let plunges = nibbled(run, std::slice::from_ref(curve), around).into_iter().map(|Stretch { run, .. }| {
+        let lengths = overlaps(&run, around).map(|overlap| overlap.length);
+        PlungeCut::of(&run, lengths, around).map_or(0.0, |cut| cut.overcut() / 2.0)
     });
     plunges.fold(0.0, f64::max)
 }
 
-/// The pieces of a stretch between two vertices, each within `allowed` of its chord: as few as there can be, and of these
-/// the ones whose longest is shortest, because what the blade before has cut is no piece.
-fn nibbles(way: &Way, stretch: [usize; 2], allowed: f64) -> Vec<[usize; 2]> {
-    let station = |vertex: usize| way.station(vertex.cast_signed());
-    let pieces = |longest: f64| {
-        let [mut from, last] = stretch;
-        let mut pieces = Vec::new();
+/// The plunges that cut a stretch between two vertices, each within `allowed` mm of its chord: as few as there can be, and of
+/// these the ones whose longest is shortest, so that none is a rest that the one before has cut already.
+fn plunges(way: &Way, [first, last]: [usize; 2], allowed: f64) -> Vec<[usize; 2]> {
+    let length = way.station(last.cast_signed()) - way.station(first.cast_signed());
+    let no_longer_than = |longest: f64| {
+        let (mut plunges, mut from) = (Vec::new(), first);
         while from < last {
-            let is_near = |to: usize| {
-                let (a, b) = (way.vertex(from), way.vertex(to));
-                (from + 1..to).all(|vertex| polyline::distance_to_segment(way.vertex(vertex), a, b) <= allowed)
-            };
-            let is_in = |to: &usize| station(*to) - station(from) <= longest && is_near(*to);
-            // Twice as far each time, then halving: each look costs as much as it looks at.
-            let (mut to, mut step) = (from + 1, 1);
-            while to + step <= last && is_in(&(to + step)) {
-                (to, step) = (to + step, 2 * step);
-            }
-            while step > 0 {
-                if to + step <= last && is_in(&(to + step)) {
-                    to += step;
-                }
-                step /= 2;
-            }
-            pieces.push([from, to]);
+            let to = plunge_end(way, [from, last], [longest, allowed]);
+            plunges.push([from, to]);
             from = to;
         }
-        pieces
+        plunges
     };
-    let length = station(stretch[1]) - station(stretch[0]);
-    let fewest = pieces(length).len();
+    let fewest = no_longer_than(length).len();
     let (mut low, mut high) = (0.0, length);
     for _ in 0..HALVINGS {
         let middle = f64::midpoint(low, high);
-        if pieces(middle).len() > fewest {
+        if no_longer_than(middle).len() > fewest {
             low = middle;
         } else {
             high = middle;
         }
     }
-    pieces(high)
+    no_longer_than(high)
+}
+
+/// The vertex up to which a plunge from another vertex on reaches, one chord on at the least: no longer than `longest` mm,
+/// and within `allowed` mm of all that lies between.
+fn plunge_end(way: &Way, [from, last]: [usize; 2], [longest, allowed]: [f64; 2]) -> usize {
+    let is_near = |to: usize| {
+        let (a, b) = (way.vertex(from), way.vertex(to));
+        (from + 1..to).all(|vertex| polyline::distance_to_segment(way.vertex(vertex), a, b) <= allowed)
+    };
+    let length = |to: usize| way.station(to.cast_signed()) - way.station(from.cast_signed());
+    let is_in = |to: usize| to <= last && length(to) <= longest && is_near(to);
+    // Twice as far each time, then halving: each look costs as much as it looks at.
+    let (mut to, mut step) = (from + 1, 1);
+    while is_in(to + step) {
+        (to, step) = (to + step, 2 * step);
+    }
+    while step > 0 {
+        if is_in(to + step) {
+            to += step;
+        }
+        step /= 2;
+    }
+    to
 }

@@ -4,8 +4,8 @@
 //! equivalent of its heading that is nearest to where C stands, inside `c.range_deg`; a turn or a travel before each step
 //! that starts elsewhere. Smoothing moves the headings of runs a little; `plan` goes by what the runs really have.
 
-use super::ToolpathPass;
 use super::lap::{Lap, SLIM_MARGIN, Winding};
+use super::pass::ToolpathPass;
 use super::scene::Scene;
 use super::stretch::Way;
 use super::wind;

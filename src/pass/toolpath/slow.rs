@@ -3,12 +3,13 @@
 //! Needs runs split at corners. Leaves the last `slow.before_corner_mm` of every run that ends at a corner capped at
 //! `slow.before_corner_percent` of the speed that holds there, with a point where that stretch begins.
 
-use super::ToolpathPass;
+use super::pass::ToolpathPass;
+use super::runs;
 use super::scene::Scene;
 use crate::diagnostic::Diagnostics;
 use crate::geom::polyline;
 use crate::ir::list::Joint;
-use crate::ir::toolpath::{Run, Step, Toolpath};
+use crate::ir::toolpath::{Run, Toolpath};
 
 pub(super) const PASS: ToolpathPass = ToolpathPass {
     name: "slow",
@@ -24,15 +25,10 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
     let [x, y, _] = job.profile.axes.limits();
     let fastest = x.speed.min(y.speed);
     let share = job.profile.slow.before_corner_percent / 100.0;
-    for step in &mut toolpath.steps {
-        match step {
-            Step::Run(run) if run.ends[1].corner => {
-                let first = divide(run, reach);
-                for feed in &mut run.feeds[first..] {
-                    *feed = feed.min(fastest) * share;
-                }
-            }
-            Step::Run(_) | Step::Stab(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {}
+    for run in runs::each(toolpath).filter(|run| run.ends[1].corner) {
+        let first = divide(run, reach);
+        for feed in &mut run.feeds[first..] {
+            *feed = feed.min(fastest) * share;
         }
     }
 }

@@ -16,6 +16,18 @@ const GENTLE_TURN: f64 = 0.2;
 /// Where a run is lifted on its way: its overlap already lies along the contour.
 pub(super) const REJOINED: End = End { corner: true, bare: true, side: Side::Contour };
 
+/// A run from one of its vertices to another.
+pub(super) fn between(run: &Run, [from, to]: [usize; 2], ends: [End; 2]) -> Run {
+    Run {
+        points: run.points[from..=to].to_vec(),
+        spans: run.spans[from..to].to_vec(),
+        joints: run.joints[from..=to].to_vec(),
+        feeds: run.feeds[from..to].to_vec(),
+        ends,
+        ..*run
+    }
+}
+
 /// The chords of a run by their stations; on a ring they go round and round.
 pub(super) struct Way<'a> {
     run: &'a Run,

@@ -5,42 +5,37 @@
 //! innermost point, where the tip stands exactly, and what the blade is longer by lies in the waste. Both legs of a V then
 //! point nearly the same way, so that the blade turns less between them.
 
-use super::ToolpathPass;
-use super::scene::{Around, Scene};
+use super::pass::ToolpathPass;
+use super::runs;
+use super::scene::Scene;
+use crate::analysis::cloth::Surroundings;
 use crate::diagnostic::Diagnostics;
 use crate::geom::polyline;
 use crate::geom::region::Ray;
 use crate::ir::marker::Notch;
-use crate::ir::toolpath::{Run, Shape, Step, Toolpath};
+use crate::ir::toolpath::{Run, Shape, Toolpath};
 
 pub(super) const PASS: ToolpathPass =
     ToolpathPass { name: "turn", about: "turns short cuts round that lead out of the part", run, chained: false };
 
 /// How far beyond an end the side is looked at, mm: farther than rounding, nearer than any notch is wide.
 const LOOK: f64 = 0.5;
-/// A way that enters the part within this length begins in it, mm: rounding.
-const INSIDE_EPSILON: f64 = 1e-6;
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
     let around = scene.around(toolpath);
-    for step in &mut toolpath.steps {
-        match step {
-            Step::Run(run) if leads_out(run, &around) => turn(run),
-            Step::Run(_) | Step::Stab(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {}
-        }
-    }
+    runs::each(toolpath).filter(|run| leads_out(run, &around)).for_each(turn);
 }
 
 /// Whether a run is short and straight, and begins inside the part and ends at its edge.
-fn leads_out(run: &Run, around: &Around) -> bool {
+fn leads_out(run: &Run, around: &Surroundings) -> bool {
     let (first, last) = (run.points[0], run.points[run.points.len() - 1]);
     let Some(along) = polyline::direction(first, last) else { return false };
     let is_short = run.shape == Shape::Open && (last - first).norm() <= Notch::LONGEST;
-    if !is_short || around.knife().width_mm == 0.0 || !polyline::is_straight(&run.points, around.tolerance()) {
+    if !is_short || around.knife.width_mm == 0.0 || !polyline::is_straight(&run.points, around.tolerance) {
         return false;
     }
-    let is_inside = |ray: Ray| around.room(&ray).own <= INSIDE_EPSILON;
-    is_inside(Ray { from: first, along: -along, reach: LOOK }) && !is_inside(Ray { from: last, along, reach: LOOK })
+    around.leads_inside(&Ray { from: first, along: -along, reach: LOOK })
+        && !around.leads_inside(&Ray { from: last, along, reach: LOOK })
 }
 
 fn turn(run: &mut Run) {

@@ -5,8 +5,8 @@
 //! along the contour by the overlaps of a corner. A hole that is too narrow to be parted is left as it is, for `place` to
 //! refuse.
 
-use super::ToolpathPass;
 use super::lap::{Lap, SLIM_MARGIN, Winding};
+use super::pass::ToolpathPass;
 use super::scene::Scene;
 use super::stretch::{REJOINED, Way};
 use crate::diagnostic::Diagnostics;

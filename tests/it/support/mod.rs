@@ -6,6 +6,7 @@ use cutc::ir::list::{Joint, Segment};
 use cutc::ir::marker::{Contour, Marker, Piece};
 use cutc::ir::toolpath::{Run, Step, Toolpath};
 use cutc::machine::Job;
+use cutc::pass::marker::MARKER_PASSES;
 use cutc::pass::toolpath::{Scene, TOOLPATH_PASSES, trace};
 use cutc::plan;
 use cutc::source::Span;
@@ -30,12 +31,21 @@ pub(crate) fn marker(points: &[Point]) -> Marker {
     marker
 }
 
+/// A marker with its cuts.
+pub(crate) fn with_cuts(marker: &Marker, job: &Job) -> Marker {
+    let mut marker = marker.clone();
+    let cut = MARKER_PASSES.iter().find(|pass| pass.name == "cut").expect("the pass makes the cuts");
+    (cut.run)(&mut marker, job, &mut Diagnostics::default());
+    marker
+}
+
 /// All toolpaths of a marker after all passes, which must find nothing wrong.
 pub(crate) fn toolpaths(marker: &Marker, job: &Job) -> Vec<Toolpath> {
     let mut diagnostics = Diagnostics::default();
     let mut pose = plan::home(job);
-    let scene = Scene::new(marker, job);
-    let mut toolpaths: Vec<Toolpath> = trace(marker, job).collect();
+    let marker = with_cuts(marker, job);
+    let scene = Scene::new(&marker, job);
+    let mut toolpaths: Vec<Toolpath> = trace(&marker, job).collect();
     for toolpath in &mut toolpaths {
         toolpath.entry = pose;
         for pass in TOOLPATH_PASSES {

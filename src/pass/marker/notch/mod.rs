@@ -21,10 +21,11 @@ use rayon::prelude::*;
 
 use self::mouth::Mouth;
 use super::{MarkerPass, in_parts, search_ended};
+use crate::analysis::nesting::Nesting;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::budget::Budget;
 use crate::geom::region::Regions;
-use crate::geom::{Extent, Point, polyline, ring};
+use crate::geom::{Point, polyline, ring};
 use crate::ir::list::{Range, SegmentList};
 use crate::ir::marker::{Marker, OutlineNotch};
 use crate::machine::Job;
@@ -46,19 +47,21 @@ const DEPTH_DECIMALS: u32 = 1;
 
 fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
     let Marker { pieces, list, unit, .. } = marker;
-    let parts = in_parts(pieces.len());
-    pieces.par_chunks_mut(parts.size).for_each(|pieces| {
-        let mut outlines: Vec<Outline> = Vec::new();
+    let size = in_parts(pieces.len()).size;
+    pieces.par_chunks_mut(size).for_each(|pieces| {
         let mut found: Vec<Found> = Vec::with_capacity(pieces.len());
-        let mut work = parts.budget();
         for piece in &mut *pieces {
-            outlines.clear();
-            let closed = piece.contours.iter().filter(|contour| contour.closed);
-            outlines.extend(closed.map(|contour| Outline::of(list, contour.range, *unit)));
             piece.outline_notches.clear();
-            for (k, outline) in outlines.iter().enumerate().filter(|(_, outline)| !outline.mouths.is_empty()) {
+            let nesting = OnceCell::new();
+            for (k, contour) in piece.contours.iter().enumerate().filter(|(_, contour)| contour.closed) {
+                let outline = Outline::of(list, contour.range, *unit);
+                if outline.mouths.is_empty() {
+                    continue;
+                }
                 let counter_clockwise = ring::area(outline.ring()) > 0.0;
-                let is_left = counter_clockwise != is_cut_out(&outlines, k, &mut work);
+                // Other pieces do not matter to what is a cut-out: two jobs in one file may lie on each other.
+                let nesting = nesting.get_or_init(|| Nesting::of_piece(list, piece));
+                let is_left = counter_clockwise != nesting.is_inner(k);
                 let mouths = outline.notches(is_left);
                 if mouths.is_empty() {
                     continue;
@@ -97,8 +100,6 @@ struct Outline<'a> {
     range: Range,
     /// Its points; the last is the first again.
     points: Cow<'a, [Point]>,
-    /// The box around it, once it was asked for.
-    extent: OnceCell<Extent>,
     /// What may be notches, whichever side the part is on.
     mouths: Vec<Mouth>,
 }
@@ -107,11 +108,7 @@ impl<'a> Outline<'a> {
     fn of(list: &'a SegmentList, range: Range, unit: f64) -> Self {
         let points = list.points(range);
         let mouths = if points.len() > LEAST_OTHERS + 3 { mouth::find(&points, unit) } else { Vec::new() };
-        Self { range, extent: OnceCell::new(), mouths, points }
-    }
-
-    fn extent(&self) -> &Extent {
-        self.extent.get_or_init(|| Extent::of(&self.points))
+        Self { range, points, mouths }
     }
 
     /// Its vertices, the first not repeated.
@@ -225,19 +222,6 @@ fn straighter(mouths: &[Mouth], others: &[Mouth], count: usize) -> Vec<bool> {
         met.len() < 2 && met.iter().all(|&k| mouth.askew <= others[k].askew)
     };
     mouths.iter().map(is_straighter).collect()
-}
-
-/// Whether an outline bounds a hole: an odd number of others of the piece hold it. Other pieces do not matter, since two
-/// jobs in one file may lie on each other.
-fn is_cut_out(outlines: &[Outline], k: usize, work: &mut Budget) -> bool {
-    let point = outlines[k].points[0];
-    let holds = |(i, other): &(usize, &Outline)| {
-        let is_near = *i != k && other.extent().holds(point);
-        work.spend(VERTEX * if is_near { other.ring().len() } else { 1 })
-            && is_near
-            && ring::contains(other.ring(), point)
-    };
-    outlines.iter().enumerate().filter(holds).count() % 2 == 1
 }
 
 /// A notch over another piece.

@@ -1,0 +1,82 @@
+//! The cloth around a cut: which parts lie on it, and how far a blade may go before it enters one.
+
+use std::collections::BTreeMap;
+
+use super::nesting::Nesting;
+use crate::geom::Point;
+use crate::geom::region::{Ray, Regions, Room};
+use crate::ir::marker::Contour;
+use crate::ir::{Marker, Toolpath};
+use crate::machine::Knife;
+
+/// Part of the tolerance by which a straight extension may lie in a part: then it runs along an edge that is cut anyway.
+/// The rest is for how far the tip may leave its path.
+const SLACK_SHARE: f64 = 0.9;
+/// A way that enters the part within this length begins in it, mm: rounding.
+pub const INSIDE_EPSILON: f64 = 1e-6;
+
+/// The parts that lie on the cloth.
+#[derive(Debug)]
+pub struct Cloth<'a> {
+    /// Inside their outlines, not inside their cut-outs, whichever way round these are drawn.
+    parts: Regions<'a>,
+    /// The part to which each piece belongs: one that lies in another is a cut-out of that.
+    part_of: Vec<u32>,
+}
+
+impl<'a> Cloth<'a> {
+    /// The cloth on which a marker lies. Contours that do not close bound nothing.
+    pub fn new(marker: &'a Marker) -> Self {
+        let nesting = Nesting::of(marker);
+        let contours: Vec<&Contour> = marker.contours().map(|(_, contour)| contour).collect();
+        // The closed lines of each part, by the piece that its outline is of.
+        let mut lines: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+        for line in (0..contours.len()).filter(|&line| contours[line].closed) {
+            let outline = nesting.outline(line).unwrap_or(line);
+            lines.entry(nesting.lines()[outline].group).or_default().push(line);
+        }
+        let points = |&line: &usize| marker.list.points(contours[line].range);
+        let parts = Regions::new(lines.keys().copied(), |part| lines[&part].iter().map(points).collect());
+        let part_of = (0..marker.pieces.len()).map(|piece| nesting.part_of(piece).unwrap_or(piece) as u32).collect();
+        Self { parts, part_of }
+    }
+
+    /// Whether a place lies in the part to which a piece belongs, by the piece's place in the marker.
+    pub fn is_in_part(&self, piece: usize, place: Point) -> bool {
+        self.parts.owners_at(place).contains(&self.part_of[piece])
+    }
+
+    /// The cloth as the cuts of a toolpath see it.
+    pub fn around(&'a self, toolpath: &Toolpath, knife: &'a Knife) -> Surroundings<'a> {
+        let part = self.part_of.get(toolpath.part as usize).copied().unwrap_or(toolpath.part);
+        Surroundings { knife, tolerance: toolpath.tolerance, cloth: self, part }
+    }
+}
+
+/// What the cuts of one piece go by: the blade, its tolerance, and the cloth as seen from the part of that piece.
+#[derive(Debug, Clone, Copy)]
+pub struct Surroundings<'a> {
+    /// The blade, and how far it should go past the ends of cuts.
+    pub knife: &'a Knife,
+    /// Permitted deviation of the tip, mm.
+    pub tolerance: f64,
+    cloth: &'a Cloth<'a>,
+    part: u32,
+}
+
+impl Surroundings<'_> {
+    /// How far a straight way goes before it enters a part.
+    pub fn room(&self, ray: &Ray) -> Room {
+        self.cloth.parts.room(ray, self.part, SLACK_SHARE * self.tolerance)
+    }
+
+    /// Whether a straight way leads into the part to which the piece belongs from its very start.
+    pub fn leads_inside(&self, ray: &Ray) -> bool {
+        begins_inside(self.room(ray))
+    }
+}
+
+/// Whether a way with this room begins in the part to which its piece belongs.
+pub fn begins_inside(room: Room) -> bool {
+    room.own <= INSIDE_EPSILON
+}

@@ -1,0 +1,286 @@
+//! Which line lies in which: what holds each line of a marker or a drawing, and which part each belongs to.
+//!
+//! A closed line holds another when a place well inside that lies in it, when it is the larger one, and when most of the
+//! other, as [`Hold`] says, does not stick out. What is held by an odd number of closed lines is an inner line: it
+//! bounds a cut-out of the part whose outline is the smallest around it. What lies in a cut-out is a part again.
+
+use std::borrow::Cow;
+use std::cell::OnceCell;
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use crate::geom::boxes::Boxes;
+use crate::geom::budget::Budget;
+use crate::geom::region::Regions;
+use crate::geom::shape::Shape;
+use crate::geom::{Extent, Point, ring};
+use crate::ir::Marker;
+use crate::ir::list::SegmentList;
+use crate::ir::marker::{Contour, Piece};
+
+/// Lines lie in one another less deep than this.
+const DEEP: usize = 16;
+/// What a line costs for each other that it lies in beyond that, beside the comparison of two boxes: whatever is asked of a
+/// place in it looks at them all.
+const HELD: usize = 200;
+/// Places of a line that are looked at to see whether it sticks out.
+const SAMPLES: usize = 12;
+
+/// A line that may lie in others.
+#[derive(Debug, Clone, Copy)]
+pub struct Line {
+    /// The box around it.
+    pub extent: Extent,
+    /// Which lines belong together, such as those of a piece.
+    pub group: u32,
+    /// Whether it is closed, so that it has an inside.
+    pub is_closed: bool,
+    /// Whether others may lie in it.
+    pub may_hold: bool,
+}
+
+/// What it takes for a line to hold another.
+#[derive(Debug, Clone, Copy)]
+pub struct Hold {
+    /// Share of the other's box that its own covers, at the least; within a group any share does.
+    pub box_share: f64,
+    /// Share of the other's places that lie in it, at the least.
+    pub share: f64,
+    /// Whether the first of two that are alike holds the other.
+    pub twins: bool,
+}
+
+/// Outlines of cutter files: their cut-outs lie wholly inside, and a part that is cut twice is no cut-out of itself.
+const WHOLLY: Hold = Hold { box_share: 1.0, share: 0.0, twins: false };
+
+/// What holds each line.
+#[derive(Debug, Default)]
+pub struct Nesting {
+    lines: Vec<Line>,
+    /// The lines around each that lies in any, the smallest first.
+    around: BTreeMap<usize, Vec<u32>>,
+    /// The line at which no work was left: of it and those behind it nothing is known.
+    ended: Option<usize>,
+}
+
+impl Nesting {
+    /// What holds each of some lines; `points` gives the points of one, a closed one ending with its first.
+    pub fn new<'a>(
+        lines: Vec<Line>,
+        hold: Hold,
+        points: impl Fn(usize) -> Cow<'a, [Point]> + Sync,
+        work: &mut Budget,
+    ) -> Self {
+        let areas = vec![OnceCell::new(); lines.len()];
+        let mut search = Search { boxes: holding(&lines), lines, areas, hold, points, work };
+        let (candidates, mut ended) = search.candidates();
+        let mut holders: Vec<u32> = candidates.values().flatten().copied().collect();
+        holders.sort_unstable();
+        holders.dedup();
+        let regions = Regions::new(holders, |holder| vec![(search.points)(holder as usize)]);
+        let mut around = BTreeMap::new();
+        for (line, candidates) in candidates {
+            let Some(held_by) = search.around(line, &candidates, &regions) else {
+                ended = Some(ended.map_or(line, |ended: usize| ended.min(line)));
+                break;
+            };
+            if !held_by.is_empty() {
+                around.insert(line, held_by);
+            }
+        }
+        Self { lines: search.lines, around, ended }
+    }
+
+    /// What holds each contour of a marker: its lines are those of [`Marker::contours`], in that order, the groups the places
+    /// of its pieces.
+    pub fn of(marker: &Marker) -> Self {
+        Self::of_contours(&marker.list, &marker.contours().collect::<Vec<_>>())
+    }
+
+    /// What holds each contour of a piece, seen by itself: its lines are the contours.
+    pub fn of_piece(list: &SegmentList, piece: &Piece) -> Self {
+        match &piece.contours[..] {
+            [_] => Self::default(), // as of nearly all
+            contours => Self::of_contours(list, &contours.iter().map(|contour| (0, contour)).collect::<Vec<_>>()),
+        }
+    }
+
+    /// What holds each of some contours, each with its group.
+    fn of_contours(list: &SegmentList, contours: &[(usize, &Contour)]) -> Self {
+        let line = |&(group, contour): &(usize, &Contour)| Line {
+            extent: Extent::of(&list.points(contour.range)),
+            group: group as u32,
+            is_closed: contour.closed,
+            may_hold: contour.closed,
+        };
+        let lines = contours.par_iter().map(line).collect();
+        let points = |line: usize| list.points(contours[line].1.range);
+        Self::new(lines, WHOLLY, points, &mut Budget::of_a_marker())
+    }
+
+    /// The lines.
+    pub fn lines(&self) -> &[Line] {
+        &self.lines
+    }
+
+    /// The lines of a group, where those of one stand behind each other and groups in order, as in a marker.
+    pub fn of_group(&self, group: usize) -> Range<usize> {
+        let first = |group: usize| self.lines.partition_point(|line| (line.group as usize) < group);
+        first(group)..first(group + 1)
+    }
+
+    /// The line at which the search was ended before its time.
+    pub fn ended(&self) -> Option<usize> {
+        self.ended
+    }
+
+    /// The lines around one, the smallest first.
+    pub fn around(&self, line: usize) -> impl DoubleEndedIterator<Item = usize> + ExactSizeIterator + '_ {
+        self.around.get(&line).map_or(&[][..], Vec::as_slice).iter().map(|&outer| outer as usize)
+    }
+
+    /// The smallest line around one.
+    pub fn parent(&self, line: usize) -> Option<usize> {
+        self.around(line).next()
+    }
+
+    /// The largest line around one.
+    pub fn outermost(&self, line: usize) -> Option<usize> {
+        self.around(line).next_back()
+    }
+
+    /// Whether an odd number of lines is around one: a closed one bounds a cut-out then, an open one lies in a part.
+    pub fn is_inner(&self, line: usize) -> bool {
+        self.around(line).len() % 2 == 1
+    }
+
+    /// The outline of the part to which a line belongs: of an outline that itself, of any other the smallest around it;
+    /// `None` of an open line that lies in no part.
+    pub fn outline(&self, line: usize) -> Option<usize> {
+        if self.is_inner(line) {
+            self.around(line).find(|&outer| !self.is_inner(outer))
+        } else {
+            Some(line).filter(|&line| self.lines[line].is_closed)
+        }
+    }
+
+    /// The widest closed line of a group; the first of all when none is closed.
+    pub fn widest(&self, group: usize) -> Option<usize> {
+        let closed = self.of_group(group).filter(|&i| self.lines[i].is_closed);
+        let area = |line: usize| box_area(&self.lines[line].extent);
+        let widest = closed.max_by(|&a, &b| area(a).total_cmp(&area(b)).then(b.cmp(&a)));
+        widest.or_else(|| self.of_group(group).next())
+    }
+
+    /// The part to which a group belongs, by the group of its outline; `None` of open lines that lie in no part.
+    pub fn part_of(&self, group: usize) -> Option<usize> {
+        let outline = self.widest(group).and_then(|line| self.outline(line));
+        outline.map(|outline| self.lines[outline].group as usize)
+    }
+}
+
+fn box_area(extent: &Extent) -> f64 {
+    let (width, height) = extent.size();
+    width * height
+}
+
+/// The boxes of the lines that may hold others; those of the others are empty.
+fn holding(lines: &[Line]) -> Boxes {
+    Boxes::new(lines.iter().map(|line| if line.may_hold { line.extent } else { Extent::EMPTY }).collect())
+}
+
+struct Search<'w, P> {
+    lines: Vec<Line>,
+    /// The area within each, mm2, once it was asked for: few lines lie near enough to others.
+    areas: Vec<OnceCell<f64>>,
+    boxes: Boxes,
+    hold: Hold,
+    points: P,
+    work: &'w mut Budget,
+}
+
+impl<'a, P: Fn(usize) -> Cow<'a, [Point]> + Sync> Search<'_, P> {
+    /// By their boxes alone, what may hold each line, and the line at which no work was left.
+    fn candidates(&mut self) -> (BTreeMap<usize, Vec<u32>>, Option<usize>) {
+        let mut candidates = BTreeMap::new();
+        for (i, line) in self.lines.iter().enumerate() {
+            let middle = line.extent.min + (line.extent.max - line.extent.min) / 2.0;
+            if line.extent.is_empty() || !self.work.spend(self.boxes.cost_at(middle)) {
+                if self.work.is_spent() {
+                    return (candidates, Some(i));
+                }
+                continue;
+            }
+            let holders = self.boxes.at(middle).filter(|&k| self.may_hold(k, i));
+            let holders: Vec<u32> = holders.map(|k| k as u32).collect();
+            if !self.work.spend(HELD * holders.len().saturating_sub(DEEP)) {
+                return (candidates, Some(i));
+            }
+            if !holders.is_empty() {
+                candidates.insert(i, holders);
+            }
+        }
+        (candidates, None)
+    }
+
+    /// Whether one line is larger than another and its box leaves little of the other's uncovered.
+    fn may_hold(&self, outer: usize, inner: usize) -> bool {
+        let (around, own) = (&self.lines[outer], &self.lines[inner]);
+        let both = Extent { min: own.extent.min.sup(&around.extent.min), max: own.extent.max.inf(&around.extent.max) };
+        let covers = if self.hold.box_share >= 1.0 {
+            around.group == own.group || around.extent.covers(&own.extent)
+        } else {
+            box_area(&both) >= self.hold.box_share * box_area(&own.extent)
+        };
+        covers && outer != inner && (!own.is_closed || self.is_larger(outer, inner))
+    }
+
+    fn is_larger(&self, one: usize, other: usize) -> bool {
+        let [a, b] = [one, other].map(|line| self.area(line));
+        a > b || self.hold.twins && a == b && one < other
+    }
+
+    fn area(&self, line: usize) -> f64 {
+        let area = || if self.lines[line].is_closed { ring::area(&(self.points)(line)).abs() } else { 0.0 };
+        *self.areas[line].get_or_init(area)
+    }
+
+    /// Those of the candidates that hold a line, the smallest first; `None` when the work is spent.
+    fn around(&mut self, line: usize, candidates: &[u32], regions: &Regions) -> Option<Vec<u32>> {
+        let points = (self.points)(line);
+        let is_closed = self.lines[line].is_closed;
+        // An open line may begin on an outline.
+        let place =
+            if is_closed { Shape::new(&[&points]).inner() } else { Some(points[0] + (points[1] - points[0]) / 2.0) };
+        let Some(place) = place else { return Some(Vec::new()) };
+        if !self.work.spend(regions.cost_at(place)) {
+            return None;
+        }
+        let holders = regions.owners_at(place);
+        let mut around: Vec<u32> =
+            candidates.iter().copied().filter(|candidate| holders.binary_search(candidate).is_ok()).collect();
+        if self.hold.share > 0.0 && !around.is_empty() {
+            if !self.work.spend(SAMPLES * regions.cost_at(place)) {
+                return None;
+            }
+            let samples: Vec<Vec<u32>> = samples(&points).map(|sample| regions.owners_at(sample)).collect();
+            let inside = |outer: &u32| samples.iter().filter(|owners| owners.binary_search(outer).is_ok()).count();
+            around.retain(|outer| inside(outer) as f64 >= self.hold.share * SAMPLES as f64);
+        }
+        let area = |line: u32| self.area(line as usize);
+        around.sort_by(|&a, &b| area(a).total_cmp(&area(b)).then(b.cmp(&a)));
+        Some(around)
+    }
+}
+
+/// Middles of edges of a ring, evenly among them: edges that lie on those of another ring count either way.
+fn samples(ring: &[Point]) -> impl Iterator<Item = Point> {
+    let edges = ring.len() - 1;
+    (0..SAMPLES).map(move |k| {
+        let place = (2 * k + 1) * edges;
+        let (edge, share) = (place / (2 * SAMPLES), (place % (2 * SAMPLES)) as f64 / (2 * SAMPLES) as f64);
+        ring[edge] + (ring[edge + 1] - ring[edge]) * share
+    })
+}

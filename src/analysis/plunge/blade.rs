@@ -1,0 +1,91 @@
+//! A blade plunged at the start of a path: where its tip stands, and on which chord of the path.
+
+use crate::geom::{Point, Vector, angle, polyline};
+
+/// Part of the tolerance by which a plunged blade may pass a point of what it cuts; rounding takes a little of the rest.
+pub const PASSING_SHARE: f64 = 0.9;
+
+/// Least cosine of the blade with the path at its heel: below it the heel darts along the path, and the blade swings. An arc
+/// of 0.55 blade widths has this.
+const HEEL_COSINE_MIN: f64 = 0.4;
+
+/// Whether a blade, from its heel to its tip, stands across a path that has a direction at its heel.
+pub fn stands_across(blade: Vector, direction: Vector) -> bool {
+    blade.dot(&direction) < HEEL_COSINE_MIN * blade.norm()
+}
+
+/// A blade plunged with its heel at the first point of a path, as a chord of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plunge {
+    /// Where its heel stands.
+    pub heel: Point,
+    /// Where its tip stands: where the path first is as far from its start as the blade is long, or at its end.
+    pub tip: Point,
+    /// The chord of the path on which the tip stands.
+    pub chord: usize,
+    /// Whether all of the path is nearer to its start than the blade is long: its tip stands at the end, or would beyond it.
+    pub covers_all: bool,
+}
+
+impl Plunge {
+    /// A blade of `width` mm at the start of a path of two points at least.
+    pub fn at_start(path: &[Point], width: f64) -> Self {
+        match polyline::first_at_distance(path, width) {
+            Some((tip, chord)) => Self { heel: path[0], tip, chord, covers_all: false },
+            None => Self::over(path),
+        }
+    }
+
+    /// A blade over all of a path, from its start to its end.
+    pub fn over(path: &[Point]) -> Self {
+        let last = path.len() - 1;
+        Self { heel: path[0], tip: path[last], chord: last - 1, covers_all: true }
+    }
+
+    /// Whether the blade has a way to go on the path between plunge and lift; one exactly as long as the path has none.
+    pub fn has_way(&self, path: &[Point]) -> bool {
+        !self.covers_all && self.tip != path[path.len() - 1]
+    }
+
+    /// From its heel to its tip, mm.
+    pub fn blade(&self) -> Vector {
+        self.tip - self.heel
+    }
+
+    /// How far a point lies beside the blade, mm.
+    pub fn distance(&self, point: Point) -> f64 {
+        polyline::distance_to_segment(point, self.heel, self.tip)
+    }
+
+    /// How far the blade is turned from the first chord of the path, rad, counted on along the path without jumps; zero when
+    /// it covers all of it.
+    pub fn lag(&self, path: &[Point]) -> f64 {
+        let Some(first) = polyline::direction(path[0], path[1]).filter(|_| !self.covers_all) else { return 0.0 };
+        let under = path[1..=self.chord].iter().chain([&self.tip]);
+        let directions = under.filter_map(|&point| polyline::direction(path[0], point));
+        directions.fold(0.0, |lag, along| lag + angle::wrap(angle::turn(first, along) - lag))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_blade_exactly_as_long_as_its_path_has_no_way_to_go() {
+        let path = [Point::new(0.0, 0.0), Point::new(4.0, 0.0), Point::new(6.0, 0.0)];
+        let plunges = [5.0, 6.0, 7.0].map(|width| Plunge::at_start(&path, width));
+        assert_eq!(plunges.map(|plunge| plunge.has_way(&path)), [true, false, false]);
+        assert_eq!(plunges.map(|plunge| plunge.covers_all), [false, false, true]);
+        assert_eq!(plunges.map(|plunge| plunge.tip.x), [5.0, 6.0, 6.0]);
+    }
+
+    #[test]
+    fn the_lag_is_counted_along_the_path() {
+        // Three quarters round to the left: the blade is turned by more than half a turn from its first chord.
+        let around = [(0.0, 0.0), (3.0, 0.0), (3.0, 1.0), (-1.0, 1.0), (-1.0, -9.0)];
+        let path = around.map(|(x, y)| Point::new(x, y));
+        let lag = Plunge::at_start(&path, 8.0).lag(&path);
+        assert!(lag > std::f64::consts::PI, "{lag}");
+    }
+}

@@ -1,0 +1,21 @@
+//! The instructions of plots, and what is done about them.
+
+use crate::front::Word;
+
+/// The instructions of plots, and what is done about them.
+#[rustfmt::skip] // a table: a row a line
+pub(super) const WORDS: &[Word] = &[
+    Word { words: "`PU`, `PD`, `PA`, `PR`, `SP`", about: "moves; without `SP` pen 1 draws" },
+    Word { words: "`PE`", about: "moves in 7 and 8 bits, with fractions; bytes that were saved as UTF-8 are repaired, lost ones refused" },
+    Word { words: "`AA`, `AR`, `AT`, `RT`, `CI`, `BZ`, `BR`", about: "curves, as chords within a quarter of the tolerance" },
+    Word { words: "`EA`, `ER`, `EW`, `PM`, `EP`", about: "edges of rectangles, wedges, polygons" },
+    Word { words: "`SC`, `IP`, `IR`, `PS`, `RO`", about: "obeyed; without `IP`, or with numbers missing, the size depends on the plotter, and is doubted" },
+    Word { words: "`LB`, `DT`, `CO`, `DI`, `DR`", about: "labels with any terminator, comments, directions; what is drawn from the end of a text gives a warning" },
+    Word { words: "`IN`, `BP`, `ESC E`", about: "as switched on: pen 1, up, at the origin; scale, corners and turn end; ETX ends labels" },
+    Word { words: "`DF`", about: "the same of modes, scale and terminator; pen, place, corners and turn stay" },
+    Word { words: "other escape sequences, lines of `@PJL`", about: "passed over" },
+    Word { words: "`PG`, `AF`, `AH`", about: "reported when more is drawn behind it" },
+    Word { words: "`FP`, `RA`, `RR`, `WG`, `FT`, `UC`, `CP`, `CS`, `SS`, `SM`, `IW`", about: "reported" },
+    Word { words: "`LT`, `VS`, `PW` and other settings", about: "no effect on the cut" },
+    Word { words: "any other", about: "reported as unknown" },
+];

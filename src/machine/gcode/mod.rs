@@ -1,0 +1,129 @@
+//! The controller that reads the programs of the target `gcode`: the keys `gcode.*`.
+//!
+//! What it does with knife, drills, operator and cloth are lists of [`Step`]s; only the head and the end of a program are
+//! free text, which may choose and switch but not move ([`text`]). [`rules`] holds them against each other.
+
+mod rules;
+mod step;
+mod text;
+mod words;
+
+use serde::{Deserialize, Serialize};
+
+pub(super) use self::rules::faults;
+pub use self::step::{Number, Parameter, Step};
+pub(super) use self::words::Flaw;
+use super::word::{Off, OrWord};
+
+/// A controller that reads G-code, for the target `gcode`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Gcode {
+    /// Letter of the axis that turns the blade.
+    pub letter: Letter,
+    /// Whether the axis counts from 0 to 360 degrees only.
+    pub wrapped: bool,
+    /// Whether the controller knows arcs with a rotary axis.
+    pub arcs: bool,
+    /// What F says.
+    pub feed_mode: FeedMode,
+    /// How far the controller may leave the path to round it, mm.
+    #[serde(with = "OrWord::<Off>")]
+    pub blend_mm: Option<f64>,
+    /// Decimals of positions.
+    pub decimals: u32,
+    /// Whether lines are numbered.
+    pub line_numbers: bool,
+    /// Greatest angle of the blade from its law that straight pieces of C may leave, degrees.
+    pub heading_tolerance_deg: f64,
+    /// Without arcs: how far a chord may leave its arc, mm.
+    pub chord_mm: f64,
+    /// Lines behind the units at the start; they move nothing.
+    pub header: String,
+    /// Lines at the end, likewise.
+    pub footer: String,
+    /// What puts the knife down.
+    pub knife_down: Vec<Step>,
+    /// What lifts it.
+    pub knife_up: Vec<Step>,
+    /// What puts a drill down; `#` is its number.
+    pub drill_down: Vec<Step>,
+    /// What lifts it.
+    pub drill_up: Vec<Step>,
+    /// What waits for the operator.
+    pub stop: Vec<Step>,
+    /// What advances the cloth.
+    pub advance: Vec<Step>,
+}
+
+impl Gcode {
+    /// The step of the last decimal, mm and degrees.
+    pub fn step(&self) -> f64 {
+        10_f64.powi(-self.decimals.cast_signed())
+    }
+}
+
+/// Letter of a rotary axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Letter {
+    /// A.
+    A,
+    /// B.
+    B,
+    /// C.
+    C,
+}
+
+impl Letter {
+    /// As it stands in words.
+    pub fn byte(self) -> u8 {
+        match self {
+            Self::A => b'A',
+            Self::B => b'B',
+            Self::C => b'C',
+        }
+    }
+}
+
+/// What F says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum FeedMode {
+    /// Inverse time: one over the minutes that a move takes.
+    G93,
+    /// Speed, mm a minute.
+    G94,
+}
+
+impl FeedMode {
+    /// The code that chooses it.
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::G93 => "G93",
+            Self::G94 => "G94",
+        }
+    }
+}
+
+impl Default for Gcode {
+    fn default() -> Self {
+        Self {
+            letter: Letter::C,
+            wrapped: false,
+            arcs: true,
+            feed_mode: FeedMode::G94,
+            blend_mm: Some(0.05),
+            decimals: 4,
+            line_numbers: false,
+            heading_tolerance_deg: 0.1,
+            chord_mm: 0.002,
+            header: String::new(),
+            footer: "M2".to_owned(),
+            knife_down: vec![Step::Output { pin: Number::Plain(0.0), on: true }],
+            knife_up: vec![Step::Output { pin: Number::Plain(0.0), on: false }],
+            drill_down: vec![Step::Output { pin: Number::Drill, on: true }],
+            drill_up: vec![Step::Output { pin: Number::Drill, on: false }],
+            stop: vec![Step::Code { m: 0, parameters: Vec::new() }],
+            advance: vec![Step::Code { m: 1, parameters: Vec::new() }],
+        }
+    }
+}

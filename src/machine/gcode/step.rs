@@ -1,0 +1,317 @@
+//! What a controller is told to do with one of its outputs: a step, written as the line of G-code that asks for it.
+//!
+//! A profile has steps as texts, since those are what the manual of a controller shows and what stands in the program:
+//! `knife_down = ["M64 P0"]`. Each is one code that every interpreter of RS274/NGC takes and that acts at once, with the
+//! words that it needs: nothing in a step changes what the lines around it mean.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
+
+pub use super::words::Number;
+use super::words::{Flaw, Word, words};
+
+/// One thing that a controller does where it stands in a program.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Step {
+    /// A digital output is switched: `M64 P0` on, `M65 P0` off.
+    Output {
+        /// Its number, from 0 on.
+        pin: Number,
+        /// What it is switched to.
+        on: bool,
+    },
+    /// Z moves: `G0 Z-2` as fast as it can, `G1 Z-2 F600` at a speed.
+    Z {
+        /// Where it goes, mm.
+        to_mm: f64,
+        /// Its speed, mm/min; `None` = the greatest.
+        feed_mm_min: Option<f64>,
+    },
+    /// The axes rest: `G4 P0.5`.
+    Dwell {
+        /// How long, s.
+        time: f64,
+    },
+    /// An M code that switches or waits: `M3 S1000`.
+    Code {
+        /// Its number.
+        m: u8,
+        /// The words behind it.
+        parameters: Vec<Parameter>,
+    },
+}
+
+/// A word behind a code.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Parameter {
+    /// Its letter, none of an axis.
+    pub letter: char,
+    /// Its number.
+    pub number: Number,
+}
+
+/// A code that steps may have, and the letters of its words.
+struct Form {
+    code: &'static str,
+    /// Those that it must have, and those that it may have.
+    needs: &'static str,
+    takes: &'static str,
+    /// A complete step.
+    example: &'static str,
+}
+
+const fn form(code: &'static str, needs: &'static str, example: &'static str) -> Form {
+    Form { code, needs, takes: "", example }
+}
+
+/// Every code that steps may have. Modes, outputs that wait for the next move and codes of one controller are not among
+/// them.
+const FORMS: &[Form] = &[
+    form("G0", "Z", "G0 Z-2"),
+    form("G1", "ZF", "G1 Z-2 F600"),
+    form("G4", "P", "G4 P0.5"),
+    form("M0", "", "M0"),
+    form("M1", "", "M1"),
+    Form { takes: "S", ..form("M3", "", "M3 S1000") },
+    Form { takes: "S", ..form("M4", "", "M4 S1000") },
+    form("M5", "", "M5"),
+    form("M7", "", "M7"),
+    form("M8", "", "M8"),
+    form("M9", "", "M9"),
+    form("M60", "", "M60"),
+    form("M64", "P", "M64 P0"),
+    form("M65", "P", "M65 P0"),
+    form("M66", "PLQ", "M66 P0 L3 Q10"),
+    form("M68", "EQ", "M68 E0 Q5"),
+];
+
+/// What to write where a code is none of them.
+const WHAT_TO_WRITE: &str =
+    "what acts is M64 P, M65 P, M68 E Q, M3 to M5 with S, M7 to M9, G0 Z and G1 Z F; what rests is G4 P, M66 P L Q";
+/// Codes that switch outputs, but only where the next move begins: the knife would come down as it is led on.
+const LATE: &[&str] = &["M62", "M63", "M67"];
+/// The first and last code that run programs of the controller's own.
+const OWN: std::ops::RangeInclusive<f64> = 100.0..=199.0;
+/// Greatest number of an output or input: controllers have 64 at the most (`LinuxCNC`, motion module, `num_dio`).
+const PIN_MAX: f64 = 63.0;
+/// Greatest mode of waiting for an input.
+const WAIT_MAX: f64 = 4.0;
+/// Greatest number of other words; no axis, speed or time of a machine is beyond it.
+const NUMBER_MAX: f64 = 1e6;
+
+impl Step {
+    /// The same with the number of a drill in place of `#`.
+    #[must_use]
+    pub fn with_drill(&self, drill: u8) -> Self {
+        let number = |number: Number| Number::Plain(number.of(drill));
+        match self {
+            Self::Output { pin, on } => Self::Output { pin: number(*pin), on: *on },
+            Self::Z { .. } | Self::Dwell { .. } => self.clone(),
+            Self::Code { m, parameters } => {
+                let parameters = parameters.iter().map(|word| Parameter { number: number(word.number), ..*word });
+                Self::Code { m: *m, parameters: parameters.collect() }
+            }
+        }
+    }
+
+    /// Whether the number of the drill stands in it.
+    pub fn names_drill(&self) -> bool {
+        self.with_drill(1) != self.with_drill(2)
+    }
+
+    /// Reads a line that is one step.
+    pub(in crate::machine) fn read(line: &str) -> Result<Self, Flaw> {
+        let words = words(line)?;
+        let Some((code, others)) = words.split_first().filter(|(code, _)| code.is_code()) else {
+            let has = words
+                .first()
+                .map_or_else(|| "a step that is blank".to_owned(), |word| format!("{word} without its code"));
+            return Err(Flaw::new(has, "each step begins with its code, as in M64 P0, G0 Z-2 or G4 P0.5"));
+        };
+        let form = FORMS.iter().find(|form| code.is(form.code)).ok_or_else(|| unknown(*code))?;
+        for word in others {
+            checked(*word, form)?;
+        }
+        if let Some(letter) = form.needs.chars().find(|letter| others.iter().all(|word| word.letter != *letter)) {
+            return Err(Flaw::new(
+                format!("{} without {letter}", form.code),
+                format!("complete it, as in {}", form.example),
+            ));
+        }
+        Ok(Self::of(*code, others))
+    }
+
+    /// The step of a code with words that were checked.
+    fn of(code: Word, others: &[Word]) -> Self {
+        let find = |letter: char| others.iter().find(|word| word.letter == letter).map(|word| word.number);
+        // Only P, S, E, L and Q may stand for the drill, and those of G codes may not.
+        let plain = |letter: char| find(letter).map(|number| number.of(0));
+        let needed = "a form says what a code needs";
+        match (code.letter, code.number.of(0) as u8) {
+            ('G', 4) => Self::Dwell { time: plain('P').expect(needed) },
+            ('G', _) => Self::Z { to_mm: plain('Z').expect(needed), feed_mm_min: plain('F') },
+            (_, m @ (64 | 65)) => Self::Output { pin: find('P').expect(needed), on: m == 64 },
+            (_, m) => {
+                let parameters = others.iter().map(|word| Parameter { letter: word.letter, number: word.number });
+                Self::Code { m, parameters: parameters.collect() }
+            }
+        }
+    }
+}
+
+/// Whether a word may stand behind a code, with that number.
+fn checked(word: Word, form: &Form) -> Result<(), Flaw> {
+    let flaw = |why: &str, hint: &str| Err(Flaw::new(format!("{word}{why}"), hint));
+    let is = |code: &str| form.code == code;
+    if word.is_code() {
+        return Err(Flaw::new(format!("{} and {word} in a step", form.code), "write two steps"));
+    }
+    if !form.needs.contains(word.letter) && !form.takes.contains(word.letter) {
+        let why = format!(", which {} does not take", form.code);
+        return match word.letter {
+            'F' if is("G0") => flaw(" beside G0", "G0 goes as fast as it can; G1 Z-2 F600 has a speed"),
+            'A'..='C' | 'U'..='Z' => flaw(&why, "steps move Z only, as in G0 Z-2"),
+            _ => flaw(&why, &format!("a step is complete as in {}", form.example)),
+        };
+    }
+    let Number::Plain(number) = word.number else {
+        let is_moving = form.code.starts_with('G');
+        return if is_moving {
+            flaw(", which is no place or time", "# numbers outputs and speeds of drills")
+        } else {
+            Ok(())
+        };
+    };
+    match word.letter {
+        'F' if number <= 0.0 => flaw(", which is no speed", "F is above 0, in mm/min"),
+        'S' if number < 0.0 => flaw(", which is no speed", "S is from 0 on"),
+        'P' if is("G4") && number < 0.0 => flaw(", which is no time", "P of G4 is from 0 on, in seconds"),
+        'P' | 'E' if !is("G4") && !is_whole(number, PIN_MAX) => {
+            flaw(", which is no output", "outputs and inputs are counted from 0 to 63")
+        }
+        'L' if number < 1.0 || !is_whole(number, WAIT_MAX) => {
+            flaw(", which is no way to wait", "L of M66 is 1 to 4: for an edge up or down, a level high or low")
+        }
+        'Q' if is("M66") && number <= 0.0 => flaw(", which is no time", "Q of M66 is above 0, in seconds"),
+        _ if number.abs() > NUMBER_MAX => flaw(", which is beyond every machine", "is it mistyped?"),
+        _ => Ok(()),
+    }
+}
+
+fn is_whole(number: f64, most: f64) -> bool {
+    (0.0..=most).contains(&number) && number.fract() == 0.0
+}
+
+/// What to say of a code that no step has.
+fn unknown(code: Word) -> Flaw {
+    if LATE.iter().any(|late| code.is(late)) {
+        let hint = "M64, M65 and M68 act at once, before the rest that the knife is given";
+        return Flaw::new(format!("{code}, which acts only where the next move begins"), hint);
+    }
+    if code.letter == 'M' && OWN.contains(&code.number.of(0)) {
+        let hint =
+            "the interpreter knows none of those by itself, nor what they do: M64 P0 and M65 P0 switch an output";
+        return Flaw::new(format!("{code}, which runs a program of the controller's own"), hint);
+    }
+    Flaw::new(format!("{code}, which is no code of a step"), WHAT_TO_WRITE)
+}
+
+/// As it stands in a profile; in a program without `#`.
+impl fmt::Display for Step {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Output { pin, on: true } => write!(out, "M64 P{pin}"),
+            Self::Output { pin, on: false } => write!(out, "M65 P{pin}"),
+            Self::Z { to_mm, feed_mm_min: None } => write!(out, "G0 Z{}", Number::Plain(*to_mm)),
+            Self::Z { to_mm, feed_mm_min: Some(feed) } => {
+                write!(out, "G1 Z{} F{}", Number::Plain(*to_mm), Number::Plain(*feed))
+            }
+            Self::Dwell { time } => write!(out, "G4 P{}", Number::Plain(*time)),
+            Self::Code { m, parameters } => {
+                write!(out, "M{m}")?;
+                parameters.iter().try_for_each(|word| write!(out, " {}{}", word.letter, word.number))
+            }
+        }
+    }
+}
+
+impl FromStr for Step {
+    type Err = String;
+
+    /// Reads a step; otherwise says what the text has that no step has.
+    fn from_str(text: &str) -> Result<Self, String> {
+        Self::read(text).map_err(|flaw| flaw.has)
+    }
+}
+
+impl<'de> Deserialize<'de> for Step {
+    fn deserialize<D: Deserializer<'de>>(input: D) -> Result<Self, D::Error> {
+        String::deserialize(input)?.parse().map_err(de::Error::custom)
+    }
+}
+
+impl Serialize for Step {
+    fn serialize<S: Serializer>(&self, output: S) -> Result<S::Ok, S::Error> {
+        output.collect_str(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_is_printed_as_it_is_read() {
+        for (text, printed) in [
+            ("M64 P0", "M64 P0"),
+            ("m65p#", "M65 P#"),
+            ("G00 Z-02.50", "G0 Z-2.5"),
+            ("G1 F300 Z5", "G1 Z5 F300"),
+            ("G4 P0.5", "G4 P0.5"),
+            ("M3 S#", "M3 S#"),
+            ("M68 E0 Q-5", "M68 E0 Q-5"),
+            ("M66 P1 L3 Q2", "M66 P1 L3 Q2"),
+            ("M0", "M0"),
+        ] {
+            assert_eq!(text.parse::<Step>().expect("a step").to_string(), printed, "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_step_is_named() {
+        for (text, expected) in [
+            ("", "a step that is blank"),
+            ("Z-2", "Z-2 without its code"),
+            ("P0 M64", "P0 without its code"),
+            ("G1 Z-2", "G1 without F"),
+            ("G1 Z-2 F0", "F0, which is no speed"),
+            ("G0 Z-2 F300", "F300 beside G0"),
+            ("G0", "G0 without Z"),
+            ("G0 C5", "C5, which G0 does not take"),
+            ("G0 Z#", "Z#, which is no place"),
+            ("G33", "G33, which is no code of a step"),
+            ("G55", "G55, which is no code of a step"),
+            ("M2", "M2, which is no code of a step"),
+            ("M71", "M71, which is no code of a step"),
+            ("M101", "M101, which runs a program of the controller's own"),
+            ("m62 p0", "M62, which acts only where the next move begins"),
+            ("M64", "M64 without P"),
+            ("M64 P64", "P64, which is no output"),
+            ("M64 P0.5", "P0.5, which is no output"),
+            ("M64 P0 P1", "two words P on a line"),
+            ("M64 P0 M65", "M64 and M65 in a step"),
+            ("M3 X5", "X5, which M3 does not take"),
+            ("M3 S-1", "S-1, which is no speed"),
+            ("M66 P0 L3", "M66 without Q"),
+            ("M66 P0 L3 Q0", "Q0, which is no time"),
+            ("G4 P-1", "P-1, which is no time"),
+            ("M3 (on)", "`(`, which is of a comment"),
+            ("M3\u{7}", "the character U+0007, which is no word of G-code"),
+        ] {
+            let found = text.parse::<Step>().expect_err(text);
+            assert!(found.starts_with(expected), "{text}: {found}");
+        }
+    }
+}

@@ -1,0 +1,256 @@
+//! The free text of a profile: the lines behind the head of a program and at its end, which move nothing.
+//!
+//! A line is a step that moves no axis, codes that choose a coordinate system or state a mode that holds anyway, a tool,
+//! the end of the program, or a comment. An interpreter then refuses no line of a program, and nothing in them changes
+//! what the lines around them mean. One thing a profile cannot know: the tool that T chooses must stand in the
+//! controller's own tool table.
+
+use super::step::Step;
+use super::words::{Flaw, Number, Word, words};
+
+/// Where a text stands in a program.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Place {
+    Start,
+    End,
+}
+
+/// A line of a text.
+#[derive(Debug, PartialEq)]
+pub(super) enum Line {
+    Step(Step),
+    /// Codes that choose, or a tool.
+    Choice,
+    Comment,
+    EndOfProgram,
+}
+
+/// Longest line, characters: `LinuxCNC` reads 252, and the number of the line comes before it.
+const LINE_MAX: usize = 200;
+/// Codes that choose, each with its modal group: of each a line has one at the most (`LinuxCNC` manual, G-code overview,
+/// "Modal groups").
+#[rustfmt::skip] // a table: one row a group
+const CHOICES: &[(&str, &[&str])] = &[
+    ("plane", &["G17"]),
+    ("unit", &["G21"]),
+    ("radius of the tool", &["G40"]),
+    ("length of the tool", &["G49"]),
+    ("coordinate system", &["G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"]),
+    ("cycle", &["G80"]),
+    ("distances", &["G90"]),
+    ("distances of arcs", &["G91.1"]),
+    ("offset", &["G92.1"]),
+    ("overrides", &["M48", "M49"]),
+];
+/// Codes that end a program.
+const ENDS: [&str; 2] = ["M2", "M30"];
+/// Codes that move axes.
+const MOVES: &[&str] = &["G0", "G1", "G2", "G3", "G28", "G30", "G53"];
+/// Greatest number of a tool.
+const TOOL_MAX: f64 = 1e6;
+/// What comments begin with that controllers obey.
+const ACTIVE: &[&str] =
+    &["ABORT", "DEBUG", "LOG", "LOGAPPEND", "LOGCLOSE", "LOGOPEN", "PRINT", "PROBECLOSE", "PROBEOPEN", "PY"];
+
+/// The lines of a text that say something, as they stand in a program.
+pub(super) fn lines(text: &str) -> impl Iterator<Item = &str> {
+    text.lines().map(str::trim).filter(|line| !line.is_empty())
+}
+
+/// What the lines of a text do; otherwise what is wrong with them first.
+pub(super) fn read(text: &str, place: Place) -> Result<Vec<Line>, Flaw> {
+    let lines: Vec<Line> = lines(text).map(|text| line(text, place)).collect::<Result<_, _>>()?;
+    let end = lines.iter().position(|line| *line == Line::EndOfProgram);
+    match (place, end) {
+        (Place::End, None) => Err(Flaw::new("no end of the program", "its last line is M2 or M30")),
+        (Place::End, Some(end)) if lines[end + 1..].iter().any(|line| *line != Line::Comment) => {
+            Err(Flaw::new("lines behind its end", "M2 or M30 stands in the last one: nothing is read behind it"))
+        }
+        (Place::Start | Place::End, _) => Ok(lines),
+    }
+}
+
+fn line(text: &str, place: Place) -> Result<Line, Flaw> {
+    if let Some(c) = text.chars().find(|c| !matches!(c, ' '..='~' | '\t')) {
+        let hint = "lines of G-code are plain ASCII, comments too";
+        return Err(Flaw::new(format!("`{}`, which no controller reads", c.escape_default()), hint));
+    }
+    if text.len() > LINE_MAX {
+        let hint = format!("controllers stop there: lines have {LINE_MAX} characters at the most");
+        return Err(Flaw::new(format!("a line of {} characters", text.len()), hint));
+    }
+    let bare = uncommented(text)?;
+    let words = words(&bare)?;
+    match words.as_slice() {
+        [] => Ok(Line::Comment),
+        [code] if ENDS.iter().any(|end| code.is(end)) => match place {
+            Place::End => Ok(Line::EndOfProgram),
+            Place::Start => Err(Flaw::new(
+                format!("{code}, which ends the program"),
+                "only the last line of `gcode.footer` does that",
+            )),
+        },
+        [tool, change @ ..] if tool.letter == 'T' && change.iter().all(|word| word.is("M6")) => chosen(*tool, place),
+        words if words.iter().all(|word| group(*word).is_some()) => told_apart(words),
+        words => switched(words, &bare),
+    }
+}
+
+/// A line that chooses a tool.
+fn chosen(tool: Word, place: Place) -> Result<Line, Flaw> {
+    let is_tool = |number: f64| (0.0..=TOOL_MAX).contains(&number) && number.fract() == 0.0;
+    match tool.number {
+        _ if place == Place::End => {
+            Err(Flaw::new(format!("{tool}, which chooses a tool"), "only `gcode.header` may choose one"))
+        }
+        Number::Plain(number) if is_tool(number) => Ok(Line::Choice),
+        Number::Plain(_) | Number::Drill => {
+            Err(Flaw::new(format!("{tool}, which is no tool"), "T is a whole number from 0 on"))
+        }
+    }
+}
+
+/// The group of a code that chooses.
+fn group(word: Word) -> Option<&'static str> {
+    CHOICES.iter().find(|(_, codes)| codes.iter().any(|code| word.is(code))).map(|&(group, _)| group)
+}
+
+/// A line of codes that choose, each something else.
+fn told_apart(words: &[Word]) -> Result<Line, Flaw> {
+    for (i, word) in words.iter().enumerate() {
+        if let Some(other) = words[..i].iter().find(|other| group(**other) == group(*word)) {
+            let both = format!("{other} and {word} on a line");
+            return Err(Flaw::new(both, "no interpreter takes two codes of a kind on one: write two lines"));
+        }
+    }
+    Ok(Line::Choice)
+}
+
+/// A line that is none but a step, which moves no axis.
+fn switched(words: &[Word], bare: &str) -> Result<Line, Flaw> {
+    let is_move = |word: &&Word| matches!(word.letter, 'A'..='C' | 'U'..='Z') || MOVES.iter().any(|code| word.is(code));
+    if let Some(word) = words.iter().find(is_move) {
+        let hint = "only the program moves axes: `park` says where they go at the end, steps may move Z";
+        return Err(Flaw::new(format!("{word}, which moves an axis"), hint));
+    }
+    match Step::read(bare) {
+        Ok(step) if step.names_drill() => Err(Flaw::new(
+            format!("{step}, in which no drill is meant"),
+            "# stands in `gcode.drill_down` and `gcode.drill_up`",
+        )),
+        Ok(step) => Ok(Line::Step(step)),
+        Err(flaw) => Err(words.iter().find_map(|word| foreign(*word)).unwrap_or(flaw)),
+    }
+}
+
+/// What to say of a word that the program says itself, or that no text has.
+fn foreign(word: Word) -> Option<Flaw> {
+    let hint = match (word.letter, word.to_string().as_str()) {
+        ('N', _) => "the program numbers its lines where `gcode.line_numbers` says so",
+        ('O', _) => "write what it does, line by line",
+        ('F', _) => "every move of the program has its own",
+        (_, "G61" | "G61.1" | "G64") => "`gcode.blend_mm` says how the program rounds its way",
+        (_, "G93" | "G94" | "G95") => "`gcode.feed_mode` says what F means",
+        ('G', _) if !word.is("G4") => {
+            "modes are the program's own: mm, absolute places, no offset of a tool; G54 to G59.3 choose where"
+        }
+        ('M', "M70" | "M71" | "M72" | "M73") => "modes are the program's own",
+        ('M', "M2" | "M30") => "it stands on a line of its own, the last one of `gcode.footer`",
+        _ => return None,
+    };
+    Some(Flaw::new(format!("{word}, which has no business there"), hint))
+}
+
+/// A line without its comments; otherwise what is wrong with one of them.
+fn uncommented(line: &str) -> Result<String, Flaw> {
+    let mut bare = String::new();
+    let mut left = line;
+    while let Some(at) = left.find(['(', ';']) {
+        bare.push_str(&left[..at]);
+        // What stands on both sides of a comment are two words.
+        bare.push(' ');
+        let behind = &left[at + 1..];
+        let (text, rest) = match &left[at..=at] {
+            ";" => (behind, ""),
+            _ => behind.split_once(')').ok_or_else(|| {
+                Flaw::new("a comment without its other bracket", "controllers stop there: a comment is (...)")
+            })?,
+        };
+        check_comment(text)?;
+        left = rest;
+    }
+    Ok(bare + left)
+}
+
+/// Whether the text of a comment says nothing that an interpreter would stop at, or obey.
+fn check_comment(text: &str) -> Result<(), Flaw> {
+    if text.contains('(') {
+        return Err(Flaw::new("a comment in a comment", "controllers stop there: brackets do not nest"));
+    }
+    let first = text.trim_start();
+    let first = &first[..first.bytes().take_while(u8::is_ascii_alphabetic).count()];
+    if ACTIVE.contains(&first.to_ascii_uppercase().as_str()) {
+        let hint = "a comment that begins otherwise is none of the controller's business; (MSG, text) shows a text";
+        return Err(Flaw::new(format!("a comment that begins with {first}, which is obeyed"), hint));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_that_every_interpreter_takes_are_taken() {
+        for (place, text) in [
+            (Place::Start, ""),
+            (Place::Start, "G54\n(G20 X5) T1 M6\nM49"),
+            (Place::Start, "G21 G90 G40 G49 G80\nm03 s90"),
+            (Place::Start, "(a) (b) ; c\n\nM0 (wait)"),
+            (Place::End, "M2"),
+            (Place::End, "M9\nG4 P0.5\nM65 P0 (up)\nG80\nM30 (so)\n; it ends"),
+        ] {
+            let taken = read(text, place);
+            assert!(taken.is_ok(), "{text}: {taken:?}");
+        }
+        assert_eq!(line("(up) m65p0", Place::End), Ok(Line::Step("M65 P0".parse().expect("a step"))));
+    }
+
+    #[test]
+    fn what_an_interpreter_refuses_or_what_undoes_the_program_is_named() {
+        for (place, text, expected) in [
+            (Place::Start, "g20", "G20, which has no business there"),
+            (Place::Start, "G54\nG92 X10", "X10, which moves"),
+            (Place::Start, "G91", "G91, which has no business there"),
+            (Place::Start, "G64 P1", "G64, which has no business there"),
+            (Place::Start, "M30", "M30, which ends"),
+            (Place::Start, "G0X5", "G0, which moves"),
+            (Place::Start, "N5 G54", "N5, which has no business there"),
+            (Place::Start, "%", "`%`, which frames"),
+            (Place::Start, "#5221=1", "`#`, which computes"),
+            (Place::Start, "G54 G55", "G54 and G55 on a line"),
+            (Place::Start, "F100", "F100, which has no business there"),
+            (Place::Start, "U1", "U1, which moves"),
+            (Place::Start, "M72", "M72, which has no business there"),
+            (Place::Start, "M100", "M100, which runs a program"),
+            (Place::Start, "M64 P#", "M64 P#, in which no drill"),
+            (Place::Start, "T1.5", "T1.5, which is no tool"),
+            (Place::Start, "M(a)3", "M without a number"),
+            (Place::Start, "M0 (a", "a comment without its other bracket"),
+            (Place::Start, "M0 (a (b)", "a comment in a comment"),
+            (Place::Start, "(debug, x)", "a comment that begins with debug"),
+            (Place::Start, "(\u{e9})", "`\\u{e9}`, which no controller reads"),
+            (Place::End, "G0 X0 Y0\nM2", "G0, which moves"),
+            (Place::End, "G28\nM2", "G28, which moves"),
+            (Place::End, "T1\nM2", "T1, which chooses a tool"),
+            (Place::End, "M5 M2", "M2, which has no business there"),
+            (Place::End, "M2\nM5", "lines behind its end"),
+            (Place::End, "M5", "no end of the program"),
+        ] {
+            let found = read(text, place).expect_err(text).has;
+            assert!(found.starts_with(expected), "{text}: {found}");
+        }
+        let long = format!("M3 ({})", "x".repeat(LINE_MAX));
+        assert!(read(&long, Place::Start).expect_err("too long").has.starts_with("a line of 205 characters"));
+    }
+}

@@ -1,0 +1,97 @@
+//! Notches in the style of the profile: which slits are cut, and what of the outline they replace.
+//!
+//! A notch of an outline that is cut as a slit, or not at all, leaves the outline: that runs straight over its mouth. The
+//! marker keeps it as it is drawn.
+
+use std::collections::BTreeMap;
+
+use crate::analysis::cloth::Cloth;
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::bits;
+use crate::ir::Marker;
+use crate::ir::list::Segment;
+use crate::ir::marker::{Notch, NotchKind, OutlineNotch, Stroke};
+use crate::machine::{NotchStyle, Notches};
+use crate::units::number::fixed;
+
+/// Places along a slit are looked at this far from each other, mm, the first so far behind its tip.
+const STEP: f64 = 0.25;
+const INSIDE: f64 = 0.05;
+
+/// The cuts of a notch that is drawn as a slit.
+pub(super) fn strokes(notch: &Notch, notches: Notches) -> impl Iterator<Item = Stroke> + use<> {
+    let notch = deepened(notch, notches.depth_mm);
+    let count = match notches.style {
+        NotchStyle::AsDrawn => usize::MAX,
+        NotchStyle::Slit => 1, // the stem
+        NotchStyle::Skip => 0,
+    };
+    notch.strokes().take(count)
+}
+
+/// Finds slits that the profile makes so deep that they lead out of their part.
+pub(super) fn check_depths(marker: &Marker, cloth: &Cloth, notches: Notches, diagnostics: &mut Diagnostics) {
+    let Some(depth) = notches.depth_mm else { return };
+    for (index, piece) in marker.pieces.iter().enumerate() {
+        let slits = piece.notches.iter().map(|notch| Stroke { from: notch.root, to: notch.tip, span: notch.span });
+        let drawn = piece.outline_notches.iter().filter(|_| notches.style == NotchStyle::Slit);
+        let drawn = drawn.map(|notch| slit(notch, Notches { depth_mm: None, ..notches }));
+        for drawn in slits.chain(drawn).filter(|drawn| drawn.length() < depth) {
+            let along = (drawn.to - drawn.from) / drawn.length();
+            let deeper = depth - drawn.length();
+            let steps = (deeper / STEP).ceil();
+            let is_in = |i: usize| cloth.is_in_part(index, drawn.to + along * (deeper * i as f64 / steps).max(INSIDE));
+            // A slit that is drawn outside of all parts is nobody's.
+            if is_in(0) && !(1..=steps as usize).all(is_in) {
+                let depth = fixed(depth, 2);
+                let message = format!("a slit of {depth} mm leads out of its part, which is narrower here");
+                let hint = "take a smaller notch.depth_mm, or give the piece a profile of its own";
+                diagnostics.push(Diagnostic::new(&code::PATH_NOTCH_THROUGH, message).at(drawn.span).hint(hint));
+            }
+        }
+    }
+}
+
+/// A notch of another depth; its crossbar stays at its tip.
+fn deepened(notch: &Notch, depth: Option<f64>) -> Notch {
+    let (Some(depth), along) = (depth, notch.tip - notch.root) else { return *notch };
+    let tip = notch.root + along * (depth / notch.depth());
+    let shift = tip - notch.tip;
+    let kind = match notch.kind {
+        NotchKind::Slit => NotchKind::Slit,
+        NotchKind::T(bar) => NotchKind::T(Stroke { from: bar.from + shift, to: bar.to + shift, ..bar }),
+    };
+    Notch { kind, tip, ..*notch }
+}
+
+/// The slit that a notch of an outline becomes: from the middle of its mouth into the part, also where the notch stands out.
+pub(super) fn slit(notch: &OutlineNotch, notches: Notches) -> Stroke {
+    let depth = notches.depth_mm.unwrap_or(notch.depth());
+    Stroke { from: notch.root(), to: notch.root() + notch.inwards() * depth, span: notch.span }
+}
+
+/// Leads an outline straight over the mouths of its notches: these, in the order of the outline, each with the least speed
+/// of what it replaces in percent.
+pub(super) fn bridge(outline: &mut Vec<Segment>, notches: &[OutlineNotch]) -> Vec<(OutlineNotch, u8)> {
+    let mut at: BTreeMap<[u64; 2], Vec<&OutlineNotch>> = BTreeMap::new();
+    for notch in notches {
+        at.entry(bits(notch.mouth[0])).or_default().push(notch);
+    }
+    let (drawn, count) = (outline.clone(), outline.len());
+    let mut bridged = Vec::new();
+    let mut is_gone = vec![false; count];
+    for (i, first) in drawn.iter().enumerate() {
+        let opens = at.get(&bits(first.from)).map_or(&[][..], Vec::as_slice);
+        let last = |notch: &OutlineNotch| drawn[(i + notch.segments as usize - 1) % count];
+        let fits = |notch: &&&OutlineNotch| (notch.segments as usize) < count && last(notch).to == notch.mouth[1];
+        let Some(&&notch) = opens.iter().find(fits).filter(|_| !is_gone[i]) else { continue };
+        let replaced = (0..notch.segments as usize).map(|k| (i + k) % count);
+        let percent = replaced.clone().map(|k| drawn[k].percent).min().unwrap_or(first.percent);
+        replaced.skip(1).for_each(|k| is_gone[k] = true);
+        outline[i] = Segment { to: notch.mouth[1], span: last(&notch).span, percent, ..*first };
+        bridged.push((notch, percent));
+    }
+    let mut is_gone = is_gone.into_iter();
+    outline.retain(|_| !is_gone.next().unwrap_or_default());
+    bridged
+}

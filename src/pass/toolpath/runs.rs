@@ -1,0 +1,25 @@
+//! The runs of a toolpath, which most passes edit alone.
+
+use crate::ir::toolpath::{Run, Step, Toolpath};
+
+/// Every run, in order.
+pub(super) fn each(toolpath: &mut Toolpath) -> impl Iterator<Item = &mut Run> {
+    toolpath.steps.iter_mut().filter_map(|step| match step {
+        Step::Run(run) => Some(run),
+        Step::Stab(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => None,
+    })
+}
+
+/// Puts what `parts` makes of each run in its place.
+pub(super) fn replace(toolpath: &mut Toolpath, mut parts: impl FnMut(Run) -> Vec<Run>) {
+    let steps = std::mem::take(&mut toolpath.steps);
+    toolpath.steps.reserve(steps.len());
+    for step in steps {
+        match step {
+            Step::Run(run) => toolpath.steps.extend(parts(run).into_iter().map(Step::Run)),
+            Step::Stab(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {
+                toolpath.steps.push(step);
+            }
+        }
+    }
+}

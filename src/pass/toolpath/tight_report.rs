@@ -1,0 +1,147 @@
+//! What pass `tight` says: the tightest curve of a toolpath, the worst of its starts on a curve, and what is done about them.
+
+use super::start::CurvedStart;
+use super::worst::Worst;
+use crate::analysis::tight::TightCurve;
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
+use crate::ir::toolpath::{Law, Run};
+use crate::machine::{Knife, TightCurves};
+use crate::source::Span;
+use crate::units::number::{fixed, up};
+
+/// What is done about a curve that is tighter than the blade, or about a start beside which the plunged blade lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Treatment {
+    /// It is cut without a lift; its run was to have this law.
+    Followed(Law),
+    /// It is cut by several plunges.
+    Nibbled,
+    /// One plunge cuts all of its run.
+    Covered,
+    /// It is an error.
+    Refused,
+}
+
+/// What there is to say about a toolpath.
+pub(super) struct Report<'a> {
+    knife: &'a Knife,
+    /// By their radius, mm.
+    curves: Worst<Seen>,
+    /// By how far the curve lies beside the blade, mm.
+    starts: Worst<Seen>,
+    /// With how many plunges curves are nibbled.
+    pub(super) plunges: usize,
+}
+
+/// A curve, and what is done about it.
+#[derive(Debug, Clone, Copy)]
+struct Seen {
+    size: f64,
+    span: Span,
+    treatment: Treatment,
+}
+
+/// What is said about a treatment.
+struct Words {
+    code: &'static Code,
+    done: String,
+    hint: &'static str,
+}
+
+impl<'a> Report<'a> {
+    pub(super) fn new(knife: &'a Knife) -> Self {
+        Self { knife, curves: Worst::default(), starts: Worst::default(), plunges: 0 }
+    }
+
+    /// Sees a tight curve of a run.
+    pub(super) fn see_curve(&mut self, curve: &TightCurve, run: &Run, treatment: Treatment) {
+        let span = run.spans[curve.at % run.spans.len()];
+        self.curves.see(Seen { size: curve.radius, span, treatment }, |seen| -seen.size);
+    }
+
+    /// Sees a run that begins on a curve.
+    pub(super) fn see_start(&mut self, start: &CurvedStart, run: &Run, treatment: Treatment) {
+        self.starts.see(Seen { size: start.deviation.distance, span: run.spans[0], treatment }, |seen| seen.size);
+    }
+
+    /// Says the worst of both.
+    pub(super) fn say(&self, diagnostics: &mut Diagnostics) {
+        let width = fixed(self.knife.width_mm, 2);
+        if let Some(&Seen { size, span, treatment }) = self.curves.place() {
+            let Words { code, done, hint } = self.about_curve(size, treatment);
+            let (radius, more) = (fixed(size, 2), self.curves.and_more());
+            let message =
+                format!("a curve of radius {radius} mm is tighter than the blade of {width} mm: {done}{more}");
+            diagnostics.push(Diagnostic::new(code, message).at(span).hint(hint));
+        }
+        if let Some(&Seen { size, span, treatment }) = self.starts.place() {
+            let Words { code, done, hint } = self.about_start(treatment);
+            let (away, more) = (up(size, 2), self.starts.and_more());
+            let message = format!(
+                "a cut begins on a curve, which bows {away} mm away from the plunged blade of {width} mm: {done}{more}"
+            );
+            diagnostics.push(
+                Diagnostic::new(code, message)
+                    .at(span)
+                    .by(size)
+                    .hint("a narrower blade bows less; so does a corner that is drawn where the outline is straighter")
+                    .hint(hint),
+            );
+        }
+    }
+
+    fn about_curve(&self, radius: f64, treatment: Treatment) -> Words {
+        let swing = fixed(radius.hypot(self.knife.width_mm) - radius, 2);
+        let followed = |done: String| Words {
+            code: &code::PATH_TIGHT_CURVE,
+            done,
+            hint: "a narrower blade leaves it less; `knife.tight_curves` is \"nibble\" for cuts by plunges, \"refuse\" for an error",
+        };
+        match treatment {
+            Treatment::Followed(Law::Chord) => {
+                followed(format!("it cannot be its chord and follows the tangent, its heel off by up to {swing} mm"))
+            }
+            Treatment::Followed(Law::Tangent) => followed(format!("its heel leaves the line by up to {swing} mm")),
+            Treatment::Nibbled | Treatment::Covered => Words {
+                code: &code::PATH_TIGHT_CURVE,
+                done: self.nibbled(),
+                hint: match self.knife.tight_curves {
+                    TightCurves::Nibble => {
+                        "a narrower blade can follow it; `knife.tight_curves` is \"follow\" for cuts without a lift, \"refuse\" for an error"
+                    }
+                    TightCurves::Follow | TightCurves::Refuse => "a narrower blade has a way to go on it",
+                },
+            },
+            Treatment::Refused => refused(),
+        }
+    }
+
+    fn about_start(&self, treatment: Treatment) -> Words {
+        let (done, hint) = match treatment {
+            Treatment::Followed(_) => (
+                "it cuts that far beside the line".to_owned(),
+                "`knife.tight_curves = \"nibble\"` cuts such starts by steps, from `knife.max_bow_mm` on",
+            ),
+            Treatment::Nibbled => (self.nibbled(), "a start that bows less is cut without a lift"),
+            Treatment::Covered => (
+                "one plunge cuts all of it, because several would reach farther into the part".to_owned(),
+                "what lies between the blade and the line stays on the part, or is cut off it",
+            ),
+            Treatment::Refused => return refused(),
+        };
+        Words { code: &code::PATH_BOWED_PLUNGE, done, hint }
+    }
+
+    fn nibbled(&self) -> String {
+        format!("nibbled with {} plunge{}", self.plunges, if self.plunges == 1 { "" } else { "s" })
+    }
+}
+
+/// What is said of what `knife.tight_curves` refuses.
+fn refused() -> Words {
+    Words {
+        code: &code::PATH_TIGHT_CURVE_REFUSED,
+        done: "refused by `knife.tight_curves`".to_owned(),
+        hint: "a narrower blade follows it; `knife.tight_curves` is \"follow\" or \"nibble\" for what is to be cut all the same",
+    }
+}
