@@ -147,14 +147,13 @@ mod tests {
     use crate::geom::Heading;
     use crate::ir::list::Joint;
     use crate::ir::toolpath::{Edge, End, Law, Pose};
-    use crate::source::Span;
 
     const WIDTH: f64 = 6.6;
 
     fn run(points: Vec<Point>, shape: Shape) -> Run {
         let chords = points.len() - 1;
         Run {
-            spans: vec![Span::default(); chords],
+            spans: vec![Default::default(); chords],
             joints: vec![Joint::default(); points.len()],
             points,
             shape,

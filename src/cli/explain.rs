@@ -115,8 +115,12 @@ fn word_of_dialect(asked: &str) -> Option<String> {
             Some((letter, Some(number))) => format!("{letter}{number:02}"),
             Some(_) | None => asked.to_ascii_uppercase(),
         };
-        let head = format!("{code}\nword of {}\n\n{}\n", dialect.about, told.join("\n"));
-        let can_be_off = keys::find(&format!("{}.{code}", keys::CODES)).is_some() && dialect.name == "iso";
+        let about = wrapped(&format!("word of {}", dialect.about), COLUMNS);
+        let head = format!("{code}\n{about}\n\n{}\n", told.join("\n"));
+        let spelled = letter_and_number(asked).map_or_else(String::new, |(letter, number)| {
+            format!("{letter}{}", number.map_or_else(String::new, |number| number.to_string()))
+        });
+        let can_be_off = dialect.name == "iso" && keys::find(&format!("{}.{spelled}", keys::CODES)).is_some();
         let off = format!("\nThe profile can switch a code off:\n  {}.{code} = \"ignore\"\n", keys::CODES);
         return Some(if can_be_off { head + &off } else { head });
     }

@@ -86,13 +86,15 @@ const NO_GRAMMAR: &[(&str, &str)] = &[];
 /// Source files in the folder of a table that are no entry of it, and why.
 const BESIDE_A_TABLE: &[(&str, &str)] = &[
     ("depth", "measures how far two parts overlap, for the pass that warns of it"),
+    ("dialect", "says what a dialect is"),
     ("foreign", "names the formats that are no dialect of ours"),
     ("frame", "makes the one toolpath that no pass edits"),
     ("lap", "says how far C turns along a run, for the passes that keep it in its range"),
     ("nibble", "parts runs into plunges for the pass that nibbles"),
-    ("pass", "says what a pass over a toolpath is"),
+    ("pass", "says what a pass is"),
     ("runs", "finds the runs of a toolpath, which most passes edit alone"),
     ("scene", "holds what passes look at beside a toolpath"),
+    ("search", "shares out searches over all pieces, for several passes"),
     ("start", "finds where a run begins on a curve beside which the plunged blade would lie"),
     ("stretch", "parts runs for the passes that lift the knife amid one"),
     ("tight_report", "says what the pass `tight` does"),

@@ -125,6 +125,12 @@ fn marker(random: &mut Random) -> Marker {
         marker.pieces.push(piece);
     }
     marker.closing = random.some(2, Random::event);
+    add_cuts(&mut marker, random);
+    marker
+}
+
+/// Cuts of contours, and of segments of their own.
+fn add_cuts(marker: &mut Marker, random: &mut Random) {
     for (place, piece) in (0..).zip(&marker.pieces) {
         let sides = [random.flag().then_some(place), random.flag().then_some(0)];
         for contour in &piece.contours {
@@ -139,7 +145,6 @@ fn marker(random: &mut Random) -> Marker {
             marker.cuts.push(Cut { kind: KINDS[random.below(4) as usize].1, piece: place, sides, range });
         }
     }
-    marker
 }
 
 fn chords(random: &mut Random) -> (Vec<Point>, Vec<Span>) {

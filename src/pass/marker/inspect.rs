@@ -8,7 +8,7 @@
 
 use rayon::prelude::*;
 
-use super::MarkerPass;
+use super::pass::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Extent, bits};
 use crate::ir::list::{Range, Segment, SegmentList};

@@ -9,7 +9,8 @@ use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::{MarkerPass, too_many_outlines};
+use super::pass::MarkerPass;
+use super::search::too_many_outlines;
 use crate::analysis::nesting::Nesting;
 use crate::diagnostic::Diagnostics;
 use crate::ir::marker::{Event, Marker, Piece};

@@ -16,7 +16,8 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::depth::depth;
-use super::{MarkerPass, in_parts, search_ended};
+use super::pass::MarkerPass;
+use super::search::{in_parts, search_ended};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;

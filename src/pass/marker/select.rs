@@ -3,7 +3,7 @@
 //! Needs: numbered pieces. Leaves true: something is left to cut. A number that the operator wrote and the file does
 //! not have is an error, not an empty choice: it is a slip of the hand or the wrong file, and a machine would start.
 
-use super::MarkerPass;
+use super::pass::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::ir::marker::{Marker, Piece};
 use crate::machine::{Job, Numbers};

@@ -13,7 +13,8 @@
 
 use std::collections::BTreeSet;
 
-use super::{MarkerPass, search_ended};
+use super::pass::MarkerPass;
+use super::search::search_ended;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::near::{Near, sorted};
 use crate::geom::{Point, bits, cross, polyline};

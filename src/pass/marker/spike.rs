@@ -12,7 +12,7 @@
 
 use rayon::prelude::*;
 
-use super::MarkerPass;
+use super::pass::MarkerPass;
 use crate::diagnostic::Diagnostics;
 use crate::geom::{Point, Vector, bits, polyline};
 use crate::ir::list::{Joint, Range, Segment, SegmentList};

@@ -3,7 +3,7 @@
 //! Needs: the pieces of this run. Here only the lines are looked at, which the tip follows to their ends: what is off the table
 //! now stays so. Overlaps and the swing of the blade are judged in the program.
 
-use super::MarkerPass;
+use super::pass::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
 use crate::ir::marker::{Marker, Notch};

@@ -6,7 +6,7 @@
 
 use std::collections::BTreeSet;
 
-use super::MarkerPass;
+use super::pass::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Point, Vector, bits};
 use crate::ir::list::{Joint, Range, SegmentList};

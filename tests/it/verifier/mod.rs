@@ -194,7 +194,11 @@ fn a_damage_of_a_third_of_its_limit_is_accepted() {
     let outcomes: Vec<Option<String>> = outcomes(&cases, outcome);
     let refused: Vec<&String> = outcomes.iter().flatten().collect();
     assert!(refused.is_empty(), "{} of {} are refused:\n{refused:#?}", refused.len(), outcomes.len());
-    assert!(crate::ONE_IN > 1 || outcomes.len() >= HARMLESS_AT_LEAST, "{} programs with a little damage", outcomes.len());
+    assert!(
+        crate::ONE_IN > 1 || outcomes.len() >= HARMLESS_AT_LEAST,
+        "{} programs with a little damage",
+        outcomes.len()
+    );
 }
 
 #[test]

@@ -7,7 +7,7 @@
 
 mod style;
 
-use super::MarkerPass;
+use super::pass::MarkerPass;
 use crate::analysis::cloth::Cloth;
 use crate::analysis::nesting::Nesting;
 use crate::diagnostic::Diagnostics;

@@ -20,7 +20,8 @@ use std::cell::OnceCell;
 use rayon::prelude::*;
 
 use self::mouth::Mouth;
-use super::{MarkerPass, in_parts, search_ended};
+use super::pass::MarkerPass;
+use super::search::{in_parts, search_ended};
 use crate::analysis::nesting::Nesting;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::budget::Budget;

@@ -1,0 +1,16 @@
+//! What a pass over the marker is.
+
+use crate::diagnostic::Diagnostics;
+use crate::ir::Marker;
+use crate::machine::Job;
+
+/// A pass over the marker: a row of [`MARKER_PASSES`](super::MARKER_PASSES).
+#[derive(Debug)]
+pub struct MarkerPass {
+    /// Name, as `--dump-after` takes it.
+    pub name: &'static str,
+    /// What it does, in a line.
+    pub about: &'static str,
+    /// Does it.
+    pub run: fn(&mut Marker, &Job, &mut Diagnostics),
+}
