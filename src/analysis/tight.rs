@@ -153,7 +153,7 @@ mod tests {
     fn run(points: Vec<Point>, shape: Shape) -> Run {
         let chords = points.len() - 1;
         Run {
-            spans: vec![Default::default(); chords],
+            spans: std::iter::repeat_with(Default::default).take(chords).collect(),
             joints: vec![Joint::default(); points.len()],
             points,
             shape,

@@ -1,7 +1,7 @@
 //! The controller that reads the programs of the target `gcode`: the keys `gcode.*`.
 //!
 //! What it does with knife, drills, operator and cloth are lists of [`Step`]s; only the head and the end of a program are
-//! free text, which may choose and switch but not move ([`text`]). [`rules`] holds them against each other.
+//! free text, which may choose and switch but not move (`text`). `rules` holds them against each other.
 
 mod rules;
 mod step;
