@@ -1,7 +1,7 @@
 //! How long planning takes: `cargo run --release --example motion`; with numbers behind `--`, runs of that many vertices
 //! alone, so that `/usr/bin/time -v` says what memory one takes.
 //!
-//! Medians over rounds in one process; README holds the figures.
+//! Medians over rounds in one process; the page `figures` of the manual holds them.
 
 #![expect(clippy::print_stdout, reason = "a measurement prints what it finds")]
 
