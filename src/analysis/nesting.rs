@@ -174,10 +174,11 @@ impl Nesting {
         widest.or_else(|| self.of_group(group).next())
     }
 
-    /// The part to which a group belongs, by the group of its outline; `None` of open lines that lie in no part.
+    /// The part to which a group belongs, by the group of its outline: another where its widest closed line bounds a cut-out
+    /// of that; `None` where none of its lines is closed.
     pub fn part_of(&self, group: usize) -> Option<usize> {
-        let outline = self.widest(group).and_then(|line| self.outline(line));
-        outline.map(|outline| self.lines[outline].group as usize)
+        let widest = self.widest(group).filter(|&line| self.lines[line].is_closed)?;
+        self.outline(widest).map(|outline| self.lines[outline].group as usize)
     }
 }
 
