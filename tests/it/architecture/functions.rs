@@ -14,12 +14,6 @@ const KNOWN_LONG: &[&str] = &[
     "front/iso/lower.rs obey",
     "pass/toolpath/wind.rs parts",
     "plan/mod.rs join",
-    "verify/cutter_file.rs cut",
-    "verify/cutter_file.rs read",
-    "verify/gcode.rs go",
-    "verify/overcut.rs see",
-    "verify/source_hpgl/mod.rs figure",
-    "verify/trial.rs follow",
 ];
 
 /// The name and the lines of each function of formatted code: it ends with the first brace as far left as it begins.

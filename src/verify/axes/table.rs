@@ -1,0 +1,58 @@
+//! Whether the machine stays over its table.
+
+use crate::ir::Finding;
+use crate::machine::{self, MachineProfile};
+use crate::verify::program::row::{Rounding, Row};
+use crate::verify::worst::Worst;
+
+/// Watches the rows.
+pub(in crate::verify) struct Table {
+    /// Reach of X and Y while the knife is down.
+    down: [Option<[f64; 2]>; 2],
+    /// The same while it is up: home and park may lie outside.
+    up: [Option<[f64; 2]>; 2],
+    /// Distances of tip and tail from the C axis, along the blade.
+    blade: [f64; 2],
+    off: Worst,
+}
+
+impl Table {
+    pub(in crate::verify) fn new(profile: &MachineProfile, rounding: Rounding) -> Self {
+        let down = [profile.table.x_mm, profile.table.y_mm];
+        let poses = [Some(profile.home), profile.park];
+        let up = std::array::from_fn(|axis| {
+            let wider = |[least, most]: [f64; 2], pose: &[f64; 3]| [least.min(pose[axis]), most.max(pose[axis])];
+            down[axis].map(|range| poses.iter().flatten().fold(range, wider))
+        });
+        let blade = [profile.knife.radius(), -profile.knife.back()];
+        let limit = machine::Table::EDGE_MM + rounding.place();
+        Self { down, up, blade, off: Worst::new("verify/table", "mm", Some(limit)) }
+    }
+
+    pub(in crate::verify) fn see(&mut self, row: &Row) {
+        if self.down == [None, None] {
+            return;
+        }
+        if !row.knife {
+            self.check(row, [row.centre.x, row.centre.y], self.up);
+            return;
+        }
+        let along = row.along();
+        for reach in self.blade {
+            let place = row.centre + along * reach;
+            self.check(row, [place.x, place.y], self.down);
+        }
+    }
+
+    fn check(&mut self, row: &Row, place: [f64; 2], reach: [Option<[f64; 2]>; 2]) {
+        for (value, range) in place.into_iter().zip(reach) {
+            if let Some([least, most]) = range {
+                self.off.see((least - value).max(value - most), || row.sighting());
+            }
+        }
+    }
+
+    pub(in crate::verify) fn finding(self) -> Finding {
+        self.off.finding()
+    }
+}

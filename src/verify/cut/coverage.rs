@@ -1,0 +1,178 @@
+//! What has been cut of each line, and how often.
+
+use arrayvec::ArrayVec;
+use rayon::prelude::*;
+
+use crate::ir::Finding;
+use crate::ir::finding::Sighting;
+use crate::machine::MachineProfile;
+use crate::verify::program::row::PLACE_ROUNDING;
+use crate::verify::reference::line::Line;
+use crate::verify::reference::lines::Reference;
+use crate::verify::worst::Worst;
+
+/// Lines that are looked at in one go.
+const LINES_AT_A_TIME: usize = 8192;
+
+/// The stretches of each line that were cut.
+#[derive(Debug)]
+pub(in crate::verify) struct Coverage<'a> {
+    reference: &'a Reference<'a>,
+    cut: Vec<Stretches>,
+}
+
+/// Disjoint stretches of the stations of a line, in order.
+#[derive(Debug, Clone)]
+enum Stretches {
+    /// As nearly all lines are cut: by one stroke.
+    One([f64; 2]),
+    Many(Vec<[f64; 2]>),
+}
+
+impl Stretches {
+    const NONE: Self = Self::Many(Vec::new());
+
+    fn all(&self) -> &[[f64; 2]] {
+        match self {
+            Self::One(stretch) => std::slice::from_ref(stretch),
+            Self::Many(stretches) => stretches,
+        }
+    }
+
+    /// Adds a stretch, joined with those that it meets.
+    fn merge(&mut self, [a, b]: [f64; 2]) {
+        if b < a {
+            return;
+        }
+        let cut = self.all();
+        let first = cut.partition_point(|s| s[1] < a);
+        let last = first + cut[first..].partition_point(|s| s[0] <= b);
+        let joined = cut[first..last].iter().fold([a, b], |[a, b], s| [a.min(s[0]), b.max(s[1])]);
+        match self {
+            Self::Many(cut) if !cut.is_empty() => drop(cut.splice(first..last, [joined])),
+            Self::One(cut) if first == last => {
+                *self = Self::Many(if first == 0 { vec![joined, *cut] } else { vec![*cut, joined] });
+            }
+            Self::One(_) | Self::Many(_) => *self = Self::One(joined),
+        }
+    }
+}
+
+impl<'a> Coverage<'a> {
+    /// Nothing is cut yet.
+    pub(in crate::verify) fn new(reference: &'a Reference) -> Self {
+        Self { reference, cut: vec![Stretches::NONE; reference.lines.len()] }
+    }
+
+    /// How much of the stretches was not cut before, mm.
+    pub(in crate::verify) fn fresh(&self, line: usize, stretches: &[[f64; 2]]) -> f64 {
+        let parts = stretches.iter().flat_map(|s| self.on_line(line, *s));
+        parts.map(|[a, b]| (b - a) - covered(self.cut[line].all(), a, b)).sum()
+    }
+
+    /// From where to where the stretches reach that were not cut before; `None` when all of them were.
+    pub(in crate::verify) fn uncut(&self, line: usize, stretches: &[[f64; 2]]) -> Option<[f64; 2]> {
+        let mut hull: Option<[f64; 2]> = None;
+        for [from, to] in stretches.iter().flat_map(|s| self.on_line(line, *s)) {
+            // From the front, then from the back, past what was cut.
+            let cut = self.cut[line].all();
+            let a = cut.iter().fold(from, |a, s| if s[0] <= a { a.max(s[1]) } else { a });
+            let b = cut.iter().rev().fold(to, |b, s| if s[1] >= b { b.min(s[0]) } else { b });
+            if a < b {
+                hull = Some(hull.map_or([a, b], |[low, high]| [low.min(a), high.max(b)]));
+            }
+        }
+        hull
+    }
+
+    /// How much of a line was cut, mm.
+    pub(in crate::verify) fn length(&self, line: usize) -> f64 {
+        self.cut[line].all().iter().map(|[a, b]| b - a).sum()
+    }
+
+    /// Marks stretches as cut.
+    pub(in crate::verify) fn add(&mut self, line: usize, stretches: &[[f64; 2]]) {
+        for stretch in stretches {
+            for part in self.on_line(line, *stretch) {
+                self.cut[line].merge(part);
+            }
+        }
+    }
+
+    /// A stretch inside the line; on a ring, brought back to its first lap.
+    fn on_line(&self, line: usize, [a, b]: [f64; 2]) -> ArrayVec<[f64; 2], 2> {
+        let line = &self.reference.lines[line];
+        let length = line.length();
+        if !line.ring {
+            return ArrayVec::from_iter([[a.max(0.0), b.min(length)]]);
+        }
+        if b - a >= length {
+            return ArrayVec::from_iter([[0.0, length]]);
+        }
+        let lap = (a / length).floor() * length;
+        let (a, b) = (a - lap, b - lap);
+        let over = (b > length).then_some([0.0, b - length]);
+        std::iter::once([a, b.min(length)]).chain(over).collect()
+    }
+
+    /// The longest stretch that was left uncut.
+    pub(in crate::verify) fn findings(self, profile: &MachineProfile) -> Vec<Finding> {
+        // Rounding may part the two ends that meet.
+        let limit = profile.verify.max_uncut_mm + 2.0 * PLACE_ROUNDING;
+        let nothing = Worst::new("verify/complete", "mm", Some(limit));
+        let of_lines = |(lines, cuts): (&[Line], &[Stretches])| {
+            let mut worst = nothing.clone();
+            for (line, cut) in lines.iter().zip(cuts) {
+                see_uncut(line, cut.all(), &mut worst);
+            }
+            worst
+        };
+        let lines = self.reference.lines.par_chunks(LINES_AT_A_TIME).zip(self.cut.par_chunks(LINES_AT_A_TIME));
+        let mut worst = nothing.clone();
+        for of_some in lines.map(of_lines).collect::<Vec<Worst>>() {
+            worst.add(&of_some);
+        }
+        vec![worst.finding()]
+    }
+}
+
+/// Sees how long the stretches of a line are that were left uncut.
+fn see_uncut(line: &Line, cut: &[[f64; 2]], worst: &mut Worst) {
+    let mut from = 0.0;
+    for &[a, b] in cut.iter().chain(std::iter::once(&[line.length(), line.length()])) {
+        worst.see(a - from, || {
+            let middle = f64::midpoint(a, from);
+            Sighting { time: None, point: line.place(middle), block: line.block(line.chord_at(middle)) }
+        });
+        from = from.max(b);
+    }
+}
+
+/// Length of `[a, b]` that the stretches cover.
+fn covered(cut: &[[f64; 2]], a: f64, b: f64) -> f64 {
+    let first = cut.partition_point(|s| s[1] < a);
+    cut[first..].iter().take_while(|s| s[0] < b).map(|s| (s[1].min(b) - s[0].max(a)).max(0.0)).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stretches_are_joined_and_measured() {
+        let mut cut = Stretches::NONE;
+        for (stretch, so_far) in [
+            ([5.0, 6.0], &[[5.0, 6.0]][..]),
+            ([6.0, 6.5], &[[5.0, 6.5]]),
+            ([0.0, 1.0], &[[0.0, 1.0], [5.0, 6.5]]),
+            ([8.0, 9.0], &[[0.0, 1.0], [5.0, 6.5], [8.0, 9.0]]),
+            ([5.5, 7.0], &[[0.0, 1.0], [5.0, 7.0], [8.0, 9.0]]),
+            ([7.0, 8.0], &[[0.0, 1.0], [5.0, 9.0]]),
+        ] {
+            cut.merge(stretch);
+            assert_eq!(cut.all(), so_far);
+        }
+        assert_eq!(covered(cut.all(), 0.5, 6.0), 1.5);
+        assert_eq!(covered(cut.all(), 2.0, 4.0), 0.0);
+    }
+}

@@ -1,0 +1,18 @@
+//! What the blade cuts: strokes, followed along the lines of the reference and judged by them.
+
+pub(super) mod body;
+pub(super) mod chord;
+pub(super) mod coverage;
+pub(super) mod covered;
+pub(super) mod done;
+pub(super) mod follow;
+pub(super) mod heading;
+pub(super) mod heel;
+pub(super) mod joints;
+pub(super) mod naming;
+pub(super) mod overcut;
+pub(super) mod passing;
+pub(super) mod stroke;
+pub(super) mod strokes;
+pub(super) mod trial;
+pub(super) mod worsts;

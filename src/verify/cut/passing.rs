@@ -1,0 +1,60 @@
+//! What a cut passes between two of its places, and the longest stretch of places that hold.
+
+use std::ops::RangeInclusive;
+
+use super::body::{Bow, Cut};
+use super::follow::Foot;
+use crate::geom::{Point, polyline};
+use crate::verify::reference::line::Line;
+
+/// How far the tip's way from place `i - 1` to place `i` passes by the vertices between their stations, mm.
+pub(in crate::verify) fn skipped(line: &Line, cut: &Cut, feet: &[Foot], i: usize) -> f64 {
+    let (a, b) = (feet[i - 1].station, feet[i].station);
+    let chord = feet[i].chord;
+    if feet[i - 1].chord == chord && (a - b).abs() <= line.station(chord + 1) - line.station(chord) {
+        // Between two places on one chord, on the same lap, there is no vertex.
+        return 0.0;
+    }
+    let points = &cut.points;
+    let (low, high) = (a.min(b), a.max(b));
+    let bow = |k: usize| match cut.bow {
+        Bow::Within(bow) => bow,
+        // The blade's own places are no part of the way.
+        Bow::Timed if k <= cut.body || k + 1 >= points.len() => 0.0,
+        Bow::Timed => ((points[k + 1] - points[k]) - (points[k] - points[k - 1])).norm() / 8.0,
+    };
+    let away = |vertex: usize| polyline::distance_to_segment(line.point(vertex), points[i - 1], points[i]);
+    line.vertices(low.next_up(), high.next_down()).map(away).fold(0.0, f64::max) - bow(i).max(bow(i - 1))
+}
+
+/// The stations of the first and the last vertex between two places of a straight blade that it cuts; `None` when there are
+/// none.
+pub(in crate::verify) fn passed(line: &Line, places: &[Point], feet: &[Foot], allowed: f64) -> Option<[f64; 2]> {
+    let (a, b) = (feet[0].station, feet[1].station);
+    let (low, high) = (a.min(b), a.max(b));
+    let chord = feet[0].chord;
+    if feet[1].chord == chord && low > line.station(chord) && high < line.station(chord + 1) {
+        // Between two places amid one chord there is no vertex.
+        return None;
+    }
+    let is_cut = |vertex: &usize| polyline::distance_to_segment(line.point(*vertex), places[0], places[1]) <= allowed;
+    let lap = if line.ring { (low / line.length()).floor() * line.length() } else { 0.0 };
+    let cut = line.vertices(low, high).filter(is_cut).map(|vertex| line.station(vertex) + lap);
+    cut.filter(|station| (low..=high).contains(station)).fold(None, |found, station| {
+        Some(found.map_or([station; 2], |[first, last]: [f64; 2]| [first.min(station), last.max(station)]))
+    })
+}
+
+/// The longest stretch of places that hold; the first of two alike.
+pub(in crate::verify) fn longest(on: &[bool]) -> Option<RangeInclusive<usize>> {
+    let mut best: Option<RangeInclusive<usize>> = None;
+    let mut from = 0;
+    for (i, &holds) in on.iter().enumerate() {
+        if !holds {
+            from = i + 1;
+        } else if best.as_ref().is_none_or(|b| i - from > b.end() - b.start()) {
+            best = Some(from..=i);
+        }
+    }
+    best
+}

@@ -1,0 +1,533 @@
+//! One stroke of the knife, from its plunge to its lift: what it cut, and how the blade lay.
+//!
+//! What a stroke cuts is the blade's body where it plunges, then the track of the tip. Both are followed along the line
+//! of the reference that they belong to.
+
+use std::ops::RangeToInclusive;
+
+use super::body::{BODY_STEP, Bow, Cut};
+use super::chord::{self, BODY_SHARES, Blade, Trailing};
+use super::covered::Covered;
+use super::done::Done;
+use super::follow::Foot;
+use super::heading::{self, Moving, Plunge};
+use super::heel;
+use super::joints::{Around, Joints};
+use super::naming::Naming;
+use super::overcut::{self, Harm, Lines, Overcut};
+use super::strokes::Stroke;
+use super::trial::{REACH, Trace, Tracer, Trial};
+use super::worsts::Worsts;
+use crate::geom::{Point, Vector, angle, left};
+use crate::ir::finding::Sighting;
+use crate::machine::{Fit, Follow, Knife, MachineProfile};
+use crate::verify::program::row::{Going, Rounding, Row, SAGITTA};
+use crate::verify::reference::ground::Ground;
+use crate::verify::reference::line::Line;
+use crate::verify::reference::lines::Reference;
+use crate::verify::worst::{Worst, at};
+
+/// How far from its chord, along the line, a cap may be obeyed, mm, beside the tolerance: a tip that takes a bend inside
+/// its tube passes the vertex early or late by less.
+const CAP_ASIDE: f64 = 0.5;
+
+/// Parts in which a step is held against caps, at the most: no step of a sound program has more.
+const PARTS_MAX: f64 = 32.0;
+/// Part of a feed that F may ask for too much: rounding, and where a line stands for an arc its ends are a little faster
+/// than its middle.
+const FEED_EPSILON: f64 = 1e-3;
+
+impl Stroke {
+    /// Place `i` of what it cut.
+    fn sighting(&self, cut: &Cut, i: usize) -> Sighting {
+        let row = &self.rows()[cut.rows[i.saturating_sub(cut.body)]];
+        at(row.t, cut.points[i], row.block)
+    }
+}
+
+/// What a stroke cut, and the line that it was meant for once that is known.
+pub(in crate::verify) struct Traced {
+    stroke: Stroke,
+    /// The end of the blade that goes first, at each row, and the direction to it from the other end.
+    tips: Vec<Point>,
+    blades: Vec<Vector>,
+    /// From the centre to the one end and to the other, mm.
+    ends: [f64; 2],
+    /// The way of the tip a second at each row, mm, when the rows have no time but tell that.
+    ways: Vec<Vector>,
+    cut: Cut,
+    trace: Trace,
+    best: Option<Trial>,
+}
+
+impl Traced {
+    /// Number of rows of its stroke.
+    pub(in crate::verify) fn rows(&self) -> usize {
+        self.stroke.rows().len()
+    }
+}
+
+/// Judges strokes.
+pub(in crate::verify) struct Judge<'a> {
+    pub(in crate::verify) reference: &'a Reference<'a>,
+    /// Rounding of the rows.
+    pub(in crate::verify) rows_rounding: Rounding,
+    knife: &'a Knife,
+    period: f64,
+    /// Rounding of a tip's place, mm.
+    rounding: f64,
+    /// Least way of the tip that shows a direction, mm, and by how much rounding may turn a shorter one, degrees.
+    way_min: f64,
+    noise_deg: f64,
+    tracer: Tracer<'a>,
+    /// Greatest overlap at one end, and of both ends together.
+    overlap: f64,
+    overlaps: f64,
+    /// Greatest bulge of a tube beside its tolerance, mm.
+    bulge: f64,
+    overcut: Overcut<'a>,
+    naming: Naming,
+    worsts: Worsts,
+}
+
+impl<'a> Judge<'a> {
+    /// Judges by what must be cut and what lies where a program whose rows are rounded.
+    pub(in crate::verify) fn new(
+        Ground { reference, grid, inside }: &'a Ground<'a>,
+        profile: &'a MachineProfile,
+        rounding: Rounding,
+    ) -> Self {
+        let place = rounding.place();
+        let knife = &profile.knife;
+        let front = knife.front_overlap_mm.max(knife.corner_front_overlap_mm);
+        let heel = knife.heel_overlap_mm.max(knife.corner_heel_overlap_mm);
+        let overlaps = front + heel;
+        let tolerance = reference.tolerance;
+        let tracer = Tracer {
+            reference,
+            grid,
+            joints: Joints::new(knife),
+            width: knife.width_mm,
+            allowed: tolerance + place,
+            max_uncut: profile.verify.max_uncut_mm,
+            slack: overlaps + knife.width_mm + 2.0 * tolerance,
+        };
+        Self {
+            reference,
+            rows_rounding: rounding,
+            knife,
+            period: profile.time.period(),
+            rounding: place,
+            way_min: heading::way_min(rounding),
+            noise_deg: heading::noise_deg(rounding),
+            tracer,
+            overlap: front.max(heel),
+            overlaps,
+            bulge: if profile.path.fit == Fit::Curve { profile.path.chord_sag_max_mm } else { 0.0 },
+            overcut: Overcut::new(reference.tolerance, inside, profile, place),
+            naming: Naming::new(tolerance),
+            worsts: Worsts::new(profile, tolerance, rounding),
+        }
+    }
+
+    /// The same for programs that tell the way of the tip at each place: rounding then turns no direction.
+    pub(in crate::verify) fn with_exact_directions(mut self, profile: &MachineProfile) -> Self {
+        self.worsts.heading = Worst::new("verify/heading", "deg", Some(profile.verify.max_heading_deg));
+        self
+    }
+
+    /// The worst of nothing.
+    pub(in crate::verify) fn worsts(&self) -> Worsts {
+        self.worsts.clone()
+    }
+
+    /// What a stroke cut, of the lines near it.
+    pub(in crate::verify) fn trace(&self, stroke: Stroke) -> Traced {
+        let rows = stroke.rows();
+        let mut blades: Vec<Vector> = Vec::with_capacity(rows.len());
+        for (i, row) in rows.iter().enumerate() {
+            // Where C rests the blade lies as before.
+            let rests = i > 0 && rows[i - 1].c_deg == row.c_deg;
+            blades.push(if rests { blades[i - 1] } else { row.along() });
+        }
+        let mut ends = self.knife.ends();
+        if self.goes_backwards(rows, &blades) {
+            for blade in &mut blades {
+                *blade = -*blade;
+            }
+            ends.reverse();
+        }
+        let [lead, heel] = ends;
+        // The tip swings about the centre as the blade turns.
+        let way = |(going, &blade): (&Going, &Vector)| going.way + left(blade) * (lead * going.turn);
+        let ways = stroke.goings().iter().zip(&blades).map(way).collect();
+        let tips: Vec<Point> = rows.iter().zip(&blades).map(|(row, &along)| row.centre + along * lead).collect();
+        let tail = rows[0].centre - blades[0] * heel;
+        let bow = if stroke.goings().is_empty() { Bow::Timed } else { Bow::Within(SAGITTA) };
+        let cut = Cut { bow, ..Cut::new(&tips, tail, self.knife) };
+        let trace = self.tracer.trace(&cut, rows[0].block);
+        Traced { stroke, tips, blades, ends, ways, cut, trace, best: None }
+    }
+
+    /// Whether the back edge of a blade with two goes first: the centre goes towards its heel.
+    fn goes_backwards(&self, rows: &[Row], blades: &[Vector]) -> bool {
+        let along = rows.windows(2).zip(blades).map(|(w, blade)| (w[1].centre - w[0].centre).dot(blade));
+        self.knife.edges == 2 && along.sum::<f64>() < 0.0
+    }
+
+    /// Finds the line that a stroke was meant for, which depends on what was cut before, and marks what it cut.
+    pub(in crate::verify) fn settle(&self, traced: &mut Traced, done: &mut Done) {
+        let Traced { stroke, cut, trace, .. } = traced;
+        let first = &stroke.rows()[0];
+        let Some(mut best) = self.tracer.choose(trace, cut, &done.coverage) else { return };
+        let line = &self.reference.lines[best.line];
+        let uncut = |stretches: &[[f64; 2]]| done.coverage.uncut(best.line, stretches);
+        if let (true, Some(hull)) = (cut.is_stab(), uncut(&best.held_stretches()).or_else(|| uncut(&best.stretches))) {
+            (best.hull, best.fits) = (hull, self.fits(line, hull));
+        }
+        done.order.cut(first.tick, best.line, stroke.sighting(cut, cut.body));
+        done.coverage.add(best.line, &best.stretches);
+        traced.best = Some(best);
+    }
+
+    /// Judges a stroke whose line is known.
+    pub(in crate::verify) fn check(&self, traced: &Traced, worsts: &mut Worsts) {
+        let Traced { stroke, cut, best, .. } = traced;
+        let rows = stroke.rows();
+        let seen = |i: usize| stroke.sighting(cut, i);
+        worsts.down.see(cut.way(), || rows[rows.len() - 1].sighting());
+        self.check_feed(traced, &mut worsts.feed);
+        self.check_crawl(traced, &mut worsts.crawl);
+        self.check_heading(traced, &mut worsts.heading);
+        let Some(best) = best else {
+            worsts.stray.see(cut.length().max(self.knife.width_mm).max(REACH), || seen(cut.body));
+            return;
+        };
+        if cut.is_stab() {
+            self.check_stab(cut, best, &seen, worsts);
+            worsts.on_path.see(self.left_beside(best), || seen(cut.body));
+        }
+        worsts.on_path.see(best.worst.0, || seen(best.worst.1));
+        self.check_ends(best, &seen, &mut worsts.stray);
+        worsts.once.see(self.twice(best), || seen(cut.body));
+        self.check_overcut(cut, best, &seen, &mut worsts.harm);
+        self.check_body(traced, best, &mut worsts.body);
+        if stroke.goings().is_empty() {
+            // Only rows with a time name their blocks one by one.
+            self.check_names(rows, cut, best, &mut worsts.block);
+        }
+    }
+
+    /// The joints of its line from one of which to another that reaches which a stab cuts anew, the first and the last at
+    /// either end; `None` when there are none: only between joints its blade may be longer than what it cuts.
+    fn fits(&self, line: &Line, [from, to]: [f64; 2]) -> Option<[[f64; 2]; 2]> {
+        let joints = |station: f64| {
+            let tube = 2.0 * (self.reference.tolerance + self.rounding);
+            self.tracer.joints.near(line, Around { station, slack: BODY_STEP + tube, tube })
+        };
+        let ends = [joints(from)?, joints(to)?];
+        (ends[0][0] < ends[1][1]).then_some(ends)
+    }
+
+    /// A stab that is longer than what it cuts leaves the line straight on; any other must lie on it with all of its blade.
+    fn check_stab(&self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting, worsts: &mut Worsts) {
+        let line = &self.reference.lines[trial.line];
+        let width = self.knife.width_mm;
+        let Some([from, to]) = trial.fits else {
+            for (i, foot) in trial.feet.iter().enumerate().filter(|(i, _)| !trial.held.contains(i)) {
+                worsts.on_path.see(foot.deviation, || seen(i));
+            }
+            let askew = angle::turn(self.plunge(cut, trial).chord(), cut.points[cut.body] - cut.points[0]);
+            if width > 0.0 {
+                worsts.heading.see(askew.abs().to_degrees(), || seen(cut.body));
+            }
+            return;
+        };
+        if width == 0.0 {
+            return;
+        }
+        if from.into_iter().chain(to).all(f64::is_finite) {
+            let blade = cut.points[cut.body] - cut.points[0];
+            let with = trial.feet[cut.body].station >= trial.feet[0].station;
+            let blade = if with { blade } else { -blade };
+            // There may be more joints between the first and the last one: it begins at the one up to which all is cut.
+            let [first, last] = trial.hull;
+            let (from, to) = ([from[0], from[1], first], [to[0], to[1], last]);
+            let ends = heading::distinct(&from).flat_map(|from| heading::distinct(&to).map(move |to| [from, to]));
+            let ends = ends.filter(|[from, to]| from < to);
+            let directions = ends.flat_map(|ends| heading::of_stab(line, ends, &self.tracer.joints));
+            let askew = directions.map(|direction| angle::turn(direction, blade));
+            let [least, greatest] =
+                askew.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], turn| [a.min(turn), b.max(turn)]);
+            // Overlaps that are shortened lie between none and whole ones, and so does the blade.
+            worsts.heading.see(least.max(-greatest).max(0.0).to_degrees(), || seen(cut.body));
+            return;
+        }
+        // Where the knife may have been lifted anywhere the blade lies between the directions of the chords that it cuts; the
+        // tube turns a blade by a little.
+        let (first, last) = (trial.feet[*trial.held.start()].station, trial.feet[*trial.held.end()].station);
+        let blade = (cut.points[cut.body] - cut.points[0]) * if last < first { -1.0 } else { 1.0 };
+        let chords = line.chords_between([first.min(last), first.max(last)]);
+        let (mut turned, mut cone) = (0.0, [0.0_f64; 2]);
+        for chord in chords.clone().skip(1) {
+            turned += line.turn(chord % line.chords());
+            cone = [cone[0].min(turned), cone[1].max(turned)];
+        }
+        let askew = angle::turn(line.direction(*chords.start() % line.chords()), blade);
+        let slack = (2.0 * (self.reference.tolerance + self.rounding) / width).atan();
+        let beyond = (cone[0] - askew).max(askew - cone[1]) - slack;
+        worsts.heading.see(beyond.to_degrees(), || seen(cut.body));
+    }
+
+    /// How far a curve lies beside the blade that covers it, mm, where cutting it by several plunges would reach less far into
+    /// the part; else none.
+    fn left_beside(&self, trial: &Trial) -> f64 {
+        let allowed = self.tracer.allowed;
+        let Some(Covered { sag }) = trial.covered.filter(|covered| covered.sag > allowed) else { return 0.0 };
+        let line = &self.reference.lines[trial.line];
+        let lines = Lines { reference: self.reference, grid: self.tracer.grid };
+        if sag > self.overcut.of_nibbles(line, lines) + allowed { sag } else { 0.0 }
+    }
+
+    /// How much of a line a stroke cuts twice, mm, but for what the blade of a stab is longer by than what was left.
+    fn twice(&self, trial: &Trial) -> f64 {
+        let mut twice = trial.stretches.iter().map(|[a, b]| b - a).sum::<f64>() - trial.fresh;
+        if trial.fresh < self.reference.tolerance {
+            // A stroke that cuts nothing new counts with its overlaps.
+            twice += self.overlaps + self.knife.width_mm.max(REACH);
+        } else if trial.fits.is_some() {
+            twice -= self.knife.width_mm - trial.fresh;
+        } else if self.meets_amid(trial) {
+            // What the blade of a stab beside it was longer by.
+            twice -= self.knife.width_mm;
+        }
+        twice
+    }
+
+    /// Whether a stroke begins or ends amid its line, where another meets it.
+    fn meets_amid(&self, trial: &Trial) -> bool {
+        let line = &self.reference.lines[trial.line];
+        let tube = 2.0 * (self.reference.tolerance + self.rounding);
+        let slack = BODY_STEP + tube;
+        let is_amid = |foot: &Foot| {
+            let station = foot.station;
+            let is_inner = station > slack && station < line.length() - slack;
+            is_inner && self.tracer.joints.near(line, Around { station, slack, tube }).is_some()
+        };
+        self.tracer.joints.is_lifted(line)
+            || trial.feet.first().is_some_and(is_amid)
+            || trial.feet.last().is_some_and(is_amid)
+    }
+
+    /// The blade against its law. What only plunges has no way that a law could bear on.
+    fn check_heading(&self, traced: &Traced, heading: &mut Worst) {
+        let Traced { stroke, tips, blades, cut, best, .. } = traced;
+        let is_chord = self.knife.follow == Follow::Chord && self.knife.width_mm > 0.0 && !cut.is_stab();
+        let (true, Some(trial)) = (is_chord, best) else { return self.check_tangent(traced, heading) };
+        let mut chord = self.worsts.heading.clone();
+        let rows = stroke.rows();
+        if !trial.laps {
+            // At the plunge the laws are one: how far the way of the tip then leads the blade is known of its line.
+            let first = tips.iter().position(|tip| (tip - tips[0]).norm() >= self.way_min).unwrap_or(0);
+            let (lead, fade) = (self.plunge(cut, trial).lead(), self.knife.width_mm);
+            Moving { lead, fade, ..self.moving(traced, ..=first) }.check(&mut chord);
+        }
+        let tails = chord::along(rows, self.blade(traced, trial), 0.0);
+        let allowed = self.reference.tolerance + self.rounding;
+        Trailing { rows, tips, blades, tails: &tails, allowed }.check(self.knife, &mut chord);
+        let ends = [trial.feet[0].station, trial.feet[cut.points.len() - 1].station];
+        if self.reference.lines[trial.line].is_tight([ends[0].min(ends[1]), ends[0].max(ends[1])]) {
+            // Where it is too tight for the one law, the other is in force.
+            let mut tangent = self.worsts.heading.clone();
+            self.check_tangent(traced, &mut tangent);
+            if tangent.value() < chord.value() {
+                chord = tangent;
+            }
+        }
+        heading.add(&chord);
+    }
+
+    /// The blade against the way of its tip.
+    fn check_tangent(&self, traced: &Traced, heading: &mut Worst) {
+        let Traced { stroke, cut, best, .. } = traced;
+        let lead = match best {
+            None => heading::ANY,
+            Some(trial) if trial.laps => heading::NONE,
+            Some(trial) => self.plunge(cut, trial).lead(),
+        };
+        let fade = self.knife.width_mm.min(cut.way());
+        Moving { lead, fade, ..self.moving(traced, ..=stroke.rows().len() - 1) }.check(heading);
+    }
+
+    /// The first rows of a stroke, to be compared with the way of their tip.
+    fn moving<'t>(&self, traced: &'t Traced, rows: RangeToInclusive<usize>) -> Moving<'t> {
+        let Traced { stroke, tips, blades, ways, .. } = traced;
+        Moving {
+            rows: &stroke.rows()[rows],
+            ways: ways.get(rows).unwrap_or_default(),
+            tips: &tips[rows],
+            blades: &blades[rows],
+            lead: heading::NONE,
+            fade: 0.0,
+            way_min: self.way_min,
+            noise_deg: self.noise_deg,
+        }
+    }
+
+    fn blade<'t>(&'t self, traced: &'t Traced, trial: &'t Trial) -> Blade<'t> {
+        let line = &self.reference.lines[trial.line];
+        Blade { line, ends: traced.ends, cut: &traced.cut, directions: &traced.blades, feet: &trial.feet }
+    }
+
+    fn plunge(&self, cut: &Cut, trial: &Trial) -> Plunge<'_> {
+        let (tail, tip) = (trial.feet[0], trial.feet[cut.body]);
+        let last = trial.feet[cut.points.len() - 1];
+        let line = &self.reference.lines[trial.line];
+        let sign = if last.station < tail.station { -1.0 } else { 1.0 };
+        Plunge { line, tail, tip, sign, tube: self.reference.tolerance + self.rounding + self.bulge }
+    }
+
+    /// Beyond the ends of its line a stroke cuts overlaps and what the blade is longer than a short line, or than what was
+    /// left of it when it plunges only once, and no more.
+    fn check_ends(&self, trial: &Trial, seen: &impl Fn(usize) -> Sighting, stray: &mut Worst) {
+        let line = &self.reference.lines[trial.line];
+        if line.ring {
+            return;
+        }
+        let (start, end) = (line.point(0), line.point(line.chords()));
+        let width = self.knife.width_mm;
+        let is_short = || line.points().all(|point| (point - start).norm() < width);
+        let surplus = if trial.fits.is_some() && trial.covered.is_some() {
+            // A chord is shorter than its curve.
+            width - (line.place(trial.hull[1]) - line.place(trial.hull[0])).norm()
+        } else if trial.fits.is_some() {
+            width - trial.fresh
+        } else if is_short() {
+            width - (end - start).norm()
+        } else {
+            0.0
+        };
+        let allowed = self.overlap.max(surplus) + self.reference.tolerance;
+        for (i, foot) in trial.feet.iter().enumerate() {
+            stray.see(foot.beyond - allowed, || seen(i));
+        }
+    }
+
+    /// The way of the tip from row to row, or what F asks for there, against the greatest cap that holds anywhere on it.
+    fn check_feed(&self, traced: &Traced, feed: &mut Worst) {
+        let Traced { stroke, ways, cut, best, .. } = traced;
+        let rows = stroke.rows();
+        let slack = self.reference.tolerance + CAP_ASIDE;
+        let cap = |i: usize| {
+            best.as_ref().map_or(self.knife.feed_mm_s.unwrap_or(f64::INFINITY), |trial| {
+                let line = &self.reference.lines[trial.line];
+                if let Some(cap) = line.only_cap(trial.sign(cut)) {
+                    return cap;
+                }
+                let [a, b] = [0, 1].map(|k| trial.feet[cut.body + i + k].station);
+                let (low, high) = (a.min(b), a.max(b));
+                // What F asks for holds all along a step, which may be long: each part of it has its own cap.
+                let parts = if ways.is_empty() { 1.0 } else { ((high - low) / CAP_ASIDE).ceil().clamp(1.0, PARTS_MAX) };
+                let part = |k: usize| low + (high - low) * (k as f64 / parts);
+                let caps = (0..parts as usize).map(|k| [part(k) - slack, part(k + 1) + slack]);
+                caps.map(|ends| line.cap(ends, trial.sign(cut), f64::max)).fold(f64::INFINITY, f64::min)
+            })
+        };
+        let rounding = 4.0 * self.rounding / self.period;
+        for (i, ends) in cut.points[cut.body..].windows(2).enumerate() {
+            let last = cut.rows[i + 1];
+            if ways.is_empty() {
+                let speed = (ends[1] - ends[0]).norm() / self.period;
+                feed.see_under(speed, cap(i) + rounding, || rows[last - 1].sighting());
+            } else {
+                let speed = ways[last].norm() * (1.0 - FEED_EPSILON);
+                feed.see_under(speed, cap(i), || rows[last].sighting());
+            }
+        }
+    }
+
+    /// What F asks for at the least, against the least cap that holds anywhere on a step and the limits of the axes.
+    fn check_crawl(&self, traced: &Traced, crawl: &mut Worst) {
+        let Traced { stroke, ways, cut, best: Some(trial), .. } = traced else { return };
+        let (rows, goings) = (stroke.rows(), stroke.goings());
+        let (line, sign) = (&self.reference.lines[trial.line], trial.sign(cut));
+        let (only, slack) = (line.only_cap(sign), self.reference.tolerance + CAP_ASIDE);
+        // A tip that turns on the spot stands at one place of its cut all along.
+        let (mut place, mut least) = (0, (f64::INFINITY, 0));
+        for (i, (going, way)) in goings.iter().zip(ways).enumerate() {
+            let before = place;
+            place += usize::from(cut.rows.get(place + 1) == Some(&i));
+            // Nothing moves there, or an axis has more to do than at the slowest place so far.
+            if going.used == 0.0 || going.used >= least.0 {
+                continue;
+            }
+            let cap = only.unwrap_or_else(|| {
+                let [a, b] = [before, place].map(|place| trial.feet[cut.body + place].station);
+                line.cap([a.min(b) - slack, a.max(b) + slack], sign, f64::min)
+            });
+            let used = going.used.max(way.norm() / cap);
+            if used < least.0 {
+                least = (used, i);
+            }
+        }
+        crawl.see(least.0.recip(), || rows[least.1].sighting());
+    }
+
+    /// How far the blade goes beyond the ends of its line, and into what.
+    fn check_overcut(&self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting, harm: &mut Harm) {
+        if trial.laps {
+            return;
+        }
+        let Trial { feet, held, fits, hull, .. } = trial;
+        let is_known = |ends: &[[f64; 2]; 2]| ends.iter().flatten().all(|station| station.is_finite());
+        let fits = fits.map(|ends| if is_known(&ends) { ends } else { hull.map(|station| [station; 2]) });
+        let stroke = overcut::Stroke { cut, feet, held, line: &self.reference.lines[trial.line], fits };
+        self.overcut.see(&stroke, Lines { reference: self.reference, grid: self.tracer.grid }, seen, harm);
+    }
+
+    /// How far the path bows away from the plunged blade, and the tail leaves it while the blade moves.
+    fn check_body(&self, traced: &Traced, trial: &Trial, body: &mut Worst) {
+        if self.knife.width_mm == 0.0 {
+            return;
+        }
+        let Traced { stroke, cut, .. } = traced;
+        for (i, foot) in trial.feet[..cut.body].iter().enumerate() {
+            if foot.beyond == 0.0 && trial.held.contains(&i) {
+                body.see(foot.deviation, || stroke.sighting(cut, i));
+            }
+        }
+        // Under the chord law it is the middle of the blade that leaves an arc the farthest.
+        let shares: &[f64] = match self.knife.follow {
+            Follow::Tangent => &[0.0],
+            Follow::Chord => &BODY_SHARES,
+        };
+        for &share in shares {
+            let tails =
+                || stroke.rows().iter().zip(&traced.blades).map(|(row, blade)| row.centre - blade * traced.ends[1]);
+            if share == 0.0 && heel::trails(cut, tails(), trial, body.value()) {
+                continue;
+            }
+            for (foot, row) in chord::along(stroke.rows(), self.blade(traced, trial), share).iter().zip(stroke.rows()) {
+                if foot.beyond == 0.0 {
+                    body.see(foot.deviation, || row.sighting());
+                }
+            }
+        }
+    }
+
+    /// The blocks that rows name against those of the chords that they cut.
+    fn check_names(&self, rows: &[Row], cut: &Cut, trial: &Trial, block: &mut Worst) {
+        let line = &self.reference.lines[trial.line];
+        for (i, ends) in (cut.body..).zip(cut.rows.iter().zip(cut.rows[1..].iter().chain([&rows.len()]))) {
+            // What a stab is longer by than its cut is named like that.
+            let station = trial.feet[i.clamp(*trial.held.start(), *trial.held.end())].station;
+            let station = trial.fits.map(overcut::innermost).map_or(station, |[from, to]| station.clamp(from, to));
+            for row in rows[*ends.0..*ends.1].iter().filter(|row| row.knife) {
+                // Lifted anywhere, a stab may cut several chords, and its tip stand on none of them.
+                let is_of_stab = trial.fits.is_some() && line.names(row.block, trial.hull);
+                let away = if is_of_stab { 0.0 } else { self.naming.away(row.block, line, station) };
+                block.see(away, || row.sighting());
+            }
+        }
+    }
+}

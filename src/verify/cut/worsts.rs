@@ -1,0 +1,73 @@
+//! The worst values that strokes show, rule by rule.
+
+use super::heading;
+use super::naming::Naming;
+use super::overcut::Harm;
+use crate::ir::Finding;
+use crate::machine::MachineProfile;
+use crate::verify::axes::crawl;
+use crate::verify::program::row::Rounding;
+use crate::verify::worst::Worst;
+
+/// The worst value of each rule on strokes.
+#[derive(Debug, Clone)]
+pub(in crate::verify) struct Worsts {
+    pub(in crate::verify) on_path: Worst,
+    pub(in crate::verify) stray: Worst,
+    pub(in crate::verify) once: Worst,
+    pub(in crate::verify) heading: Worst,
+    pub(in crate::verify) down: Worst,
+    pub(in crate::verify) body: Worst,
+    pub(in crate::verify) feed: Worst,
+    pub(in crate::verify) crawl: Worst,
+    pub(in crate::verify) block: Worst,
+    pub(in crate::verify) harm: Harm,
+}
+
+impl Worsts {
+    /// Nothing seen yet; the tip may leave its line by `tolerance` mm, and rows are rounded.
+    pub(in crate::verify) fn new(profile: &MachineProfile, tolerance: f64, rounding: Rounding) -> Self {
+        let (knife, verify, place) = (&profile.knife, &profile.verify, rounding.place());
+        let front = knife.front_overlap_mm.max(knife.corner_front_overlap_mm);
+        let heel = knife.heel_overlap_mm.max(knife.corner_heel_overlap_mm);
+        // A part of a long or winding run overlaps with the one before and, on a closed contour, with the one behind.
+        let joints = if knife.max_down_mm.is_some() || profile.c.range_deg.is_some() { 2.0 } else { 1.0 };
+        let feed = knife.feed_mm_s.map(|feed| feed + 4.0 * place / profile.time.period());
+        Self {
+            on_path: Worst::new("verify/on-path", "mm", Some(tolerance + place)),
+            stray: Worst::new("verify/stray", "mm", Some(0.0)),
+            once: Worst::new("verify/once", "mm", Some(joints * (front + heel) + 2.0 * tolerance)),
+            heading: Worst::new("verify/heading", "deg", Some(verify.max_heading_deg + heading::noise_deg(rounding))),
+            down: Worst::new("verify/down", "mm", knife.max_down_mm.map(|longest| longest + tolerance)),
+            body: Worst::new("verify/body", "mm", verify.max_body_mm),
+            feed: Worst::new("verify/feed", "mm/s", feed),
+            crawl: crawl::worst(),
+            block: Naming::new(tolerance).worst(),
+            harm: Harm::new(profile, tolerance),
+        }
+    }
+
+    /// Takes what later strokes showed.
+    pub(in crate::verify) fn add(&mut self, later: Self) {
+        for (worst, later) in self.all_mut().into_iter().zip(later.all()) {
+            worst.add(&later);
+        }
+    }
+
+    /// What was seen.
+    pub(in crate::verify) fn findings(self) -> impl Iterator<Item = Finding> {
+        self.all().into_iter().map(Worst::finding)
+    }
+
+    fn all(self) -> [Worst; 12] {
+        let Self { on_path, stray, once, heading, down, body, feed, crawl, block, harm } = self;
+        let Harm { part, neighbour, waste } = harm;
+        [on_path, stray, once, heading, down, body, feed, crawl, block, part, neighbour, waste]
+    }
+
+    fn all_mut(&mut self) -> [&mut Worst; 12] {
+        let Self { on_path, stray, once, heading, down, body, feed, crawl, block, harm } = self;
+        let Harm { part, neighbour, waste } = harm;
+        [on_path, stray, once, heading, down, body, feed, crawl, block, part, neighbour, waste]
+    }
+}

@@ -1,0 +1,60 @@
+//! Judges a cut file that was written from a marker: read again, it must say what the marker says.
+//!
+//! Both become a list of statements in the order of the file, which are compared one by one. The reader knows the one
+//! spelling that is written and nothing else: what it does not know is a bad block.
+
+mod reader;
+mod said;
+
+use self::reader::Reader;
+use self::said::expected;
+use crate::geom::Point;
+use crate::ir::Marker;
+use crate::ir::finding::Sighting;
+use crate::machine::Job;
+use crate::source::Source;
+use crate::verify::verdict::{Verdict, sort};
+use crate::verify::worst::{Worst, at};
+
+/// How every such file begins.
+const HEAD: &[u8] = b"H1*\n";
+/// Half of the last decimal that counts, units of the file.
+const ROUNDING: f64 = 0.5e-6;
+/// Rounding of the computation, mm.
+const PLACE_EPSILON: f64 = 1e-9;
+
+/// Whether bytes are meant as a cut file that was written here.
+pub(in crate::verify) fn begins(bytes: &[u8]) -> bool {
+    bytes.starts_with(HEAD)
+}
+
+/// Judges the bytes of a cut file against the marker that it was written from.
+pub fn cutter_file(bytes: &[u8], marker: &Marker, source: &Source, job: &Job) -> Verdict {
+    let mut format = Worst::new("verify/format", "bad blocks", Some(0.0));
+    let mut same = Worst::new("verify/same", "statements", Some(0.0));
+    let mut reader = Reader::new(bytes, job);
+    let found = reader.read();
+    let unit = reader.unit;
+    let mut place = Worst::new("verify/same-place", "mm", Some(ROUNDING * unit * 2.0_f64.sqrt() + PLACE_EPSILON));
+    let nowhere = Sighting { time: None, point: Point::origin(), block: 0 };
+    if found.is_none() {
+        format.see(1.0, || at(0.0, reader.at, 0));
+    }
+    let found = found.unwrap_or_default();
+    let expected = expected(marker, source);
+    let differing = expected.len().abs_diff(found.len());
+    let mut wrong = differing as f64;
+    same.see(wrong, || nowhere);
+    for (told, meant) in found.iter().zip(&expected) {
+        let sighting = meant.sighting().unwrap_or(nowhere);
+        if let Some(away) = told.away(meant) {
+            place.see(away, || sighting);
+        } else {
+            wrong += 1.0;
+            same.see(wrong, || sighting);
+        }
+    }
+    let mut findings = vec![format.finding(), same.finding(), place.finding()];
+    sort(&mut findings);
+    Verdict { findings, unread: None, untimed: Vec::new() }
+}

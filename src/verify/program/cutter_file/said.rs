@@ -1,0 +1,143 @@
+//! What a cut file says, statement by statement, and what it should say of a marker.
+
+use std::f64::consts::PI;
+
+use crate::geom::{Heading, Point, angle};
+use crate::ir::Marker;
+use crate::ir::finding::Sighting;
+use crate::ir::list::Joint;
+use crate::ir::marker::{NotchKind, Piece};
+use crate::ir::toolpath::Event;
+use crate::source::Source;
+
+/// Greatest difference of two directions that six decimals of a far second point leave, rad.
+const DIRECTION_EPSILON: f64 = 1e-8;
+/// Greatest difference of two feeds, as a part of them.
+const FEED_EPSILON: f64 = 1e-6;
+
+/// Something that a cut file says.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Said {
+    Piece(u32),
+    Event(Event),
+    Hole(Point, u8),
+    Label { text: Vec<u8>, mirrored: Option<Vec<u8>>, at: Option<Point>, direction: Option<f64> },
+    Slit(Cut),
+    Bar(Cut),
+    Contour(Cut),
+    Field(u8, Vec<u8>),
+}
+
+/// A line that is cut.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Cut {
+    pub(super) points: Vec<Point>,
+    /// Of each chord: its speed in percent, and what is asked for where it starts.
+    pub(super) chords: Vec<(u8, Joint)>,
+    /// The feed of its piece, mm/s.
+    pub(super) feed: Option<f64>,
+    /// The block of its first chord, where it is known.
+    pub(super) block: u32,
+}
+
+impl Said {
+    /// How far the places of two statements are apart, mm; `None` when they say different things.
+    pub(super) fn away(&self, other: &Self) -> Option<f64> {
+        let apart = |a: Point, b: Point| (a - b).norm();
+        match (self, other) {
+            (Self::Hole(a, tool), Self::Hole(b, other)) if tool == other => Some(apart(*a, *b)),
+            (
+                Self::Label { text, mirrored, at, direction },
+                Self::Label { text: t, mirrored: m, at: a, direction: d },
+            ) => {
+                let turned = match (direction, d) {
+                    (Some(one), Some(other)) => angle::wrap(one - other).abs(),
+                    (None, None) => 0.0,
+                    _ => PI,
+                };
+                let same = text == t && mirrored == m && turned <= DIRECTION_EPSILON && at.is_some() == a.is_some();
+                same.then(|| at.zip(*a).map_or(0.0, |(one, other)| apart(one, other)))
+            }
+            (Self::Slit(a), Self::Slit(b)) | (Self::Bar(a), Self::Bar(b)) | (Self::Contour(a), Self::Contour(b)) => {
+                let feed = match (a.feed, b.feed) {
+                    (Some(one), Some(other)) => (one - other).abs() <= FEED_EPSILON * other,
+                    (None, None) => true,
+                    _ => false,
+                };
+                let same = a.points.len() == b.points.len() && a.chords == b.chords && feed;
+                same.then(|| a.points.iter().zip(&b.points).map(|(one, other)| apart(*one, *other)).fold(0.0, f64::max))
+            }
+            _ => (self == other).then_some(0.0),
+        }
+    }
+
+    /// Where it is said, as far as that is known.
+    pub(super) fn sighting(&self) -> Option<Sighting> {
+        let (point, block) = match self {
+            Self::Hole(at, _) => (*at, 0),
+            Self::Slit(cut) | Self::Bar(cut) | Self::Contour(cut) => (*cut.points.first()?, cut.block),
+            Self::Label { at, .. } => ((*at)?, 0),
+            Self::Piece(_) | Self::Event(_) | Self::Field(..) => return None,
+        };
+        Some(Sighting { time: None, point, block })
+    }
+}
+
+/// What a marker says, in the order in which it is written.
+pub(super) fn expected(marker: &Marker, source: &Source) -> Vec<Said> {
+    let is_cut = |piece: &Piece| !(piece.contours.is_empty() && piece.notches.is_empty() && piece.drills.is_empty());
+    let text = |span| source.slice(span).trim_ascii().to_vec();
+    let (mut said, mut waiting, mut fields) = (Vec::new(), (Vec::new(), Vec::new()), Vec::new());
+    let last = marker.pieces.iter().rposition(is_cut);
+    for (index, piece) in marker.pieces.iter().enumerate() {
+        // What a piece without a cut has is the next one's; behind the last, texts are the last one's.
+        waiting.0.extend(piece.events.iter().map(|event| Said::Event(event.kind)));
+        let labels = piece
+            .labels
+            .iter()
+            .chain(marker.pieces[index + 1..].iter().flat_map(|piece| &piece.labels).filter(|_| last == Some(index)));
+        waiting.1.extend(labels.map(|label| Said::Label {
+            text: text(label.span),
+            mirrored: label.mirrored.map(text),
+            at: label.at,
+            direction: label.heading.map(Heading::radians),
+        }));
+        if !is_cut(piece) {
+            continue;
+        }
+        said.push(Said::Piece(piece.number));
+        said.append(&mut waiting.0);
+        said.extend(piece.drills.iter().map(|drill| Said::Hole(drill.at, drill.tool)));
+        said.append(&mut waiting.1);
+        for notch in &piece.notches {
+            let cut = |from, to, block| Cut {
+                points: vec![from, to],
+                chords: vec![(notch.percent, Joint::default())],
+                feed: piece.feed,
+                block,
+            };
+            said.push(Said::Slit(cut(notch.root, notch.tip, notch.span.block)));
+            if let NotchKind::T(bar) = notch.kind {
+                said.push(Said::Bar(cut(bar.from, bar.to, bar.span.block)));
+            }
+        }
+        for contour in &piece.contours {
+            let mut cut = Cut { points: marker.points(contour), feed: piece.feed, ..Cut::default() };
+            for (_, segment) in marker.list.walk(contour.range) {
+                cut.block = if cut.chords.is_empty() { segment.span.block } else { cut.block };
+                cut.chords.push((segment.percent, segment.joint));
+            }
+            said.push(Said::Contour(cut));
+        }
+        if !piece.fields.is_empty() {
+            let named = matches!(piece.fields[0].letter, b'L' | b'N');
+            fields.push((named, piece));
+        }
+    }
+    said.extend(waiting.0);
+    said.extend(marker.closing.iter().map(|event| Said::Event(event.kind)));
+    fields.sort_by_key(|(named, _)| *named); // stable: those without a name first
+    let values = fields.iter().flat_map(|(_, piece)| &piece.fields);
+    said.extend(values.map(|field| Said::Field(field.letter, source.slice(field.span).to_vec())));
+    said
+}

@@ -1,0 +1,56 @@
+//! Arcs of a program: the way around a centre.
+
+use std::f64::consts::TAU;
+
+use crate::geom::{Point, Vector};
+use crate::machine::gcode::Gcode;
+use crate::units::number::fixed;
+
+/// Radii of both ends of an arc may differ by this many steps of the last decimal.
+const RADIUS_STEPS: f64 = 8.0;
+/// Arcs that turn by less, or lack less of a whole turn, are read as both by controllers, rad.
+const SWEEP_MIN: f64 = 1e-5;
+
+/// A way around a centre.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Arc {
+    pub(super) centre: Point,
+    /// Its start as seen from the centre.
+    pub(super) start: Vector,
+    /// Radius at the end, in radii at the start.
+    pub(super) grown: f64,
+    pub(super) sweep: f64,
+}
+
+impl Arc {
+    /// The arc from one place to another about a centre, `[i, j]` mm from the first; `way` is 1 for one that turns left, -1 for
+    /// one that turns right. Or why there is none.
+    pub(super) fn new([from, to]: [Point; 2], [i, j]: [f64; 2], way: f64, keys: &Gcode) -> Result<Self, String> {
+        let start = Vector::new(-i, -j);
+        let centre = from - start;
+        let end = to - centre;
+        let radii = [start.norm(), end.norm()];
+        if radii[0] == 0.0 || (radii[0] - radii[1]).abs() > RADIUS_STEPS * keys.step() {
+            return Err(format!(
+                "is an arc whose ends lie {} and {} mm from its centre",
+                fixed(radii[0], keys.decimals + 1),
+                fixed(radii[1], keys.decimals + 1)
+            ));
+        }
+        let angle = |v: Vector| v.y.atan2(v.x);
+        let turned = (way * (angle(end) - angle(start))).rem_euclid(TAU);
+        if turned != 0.0 && turned.min(TAU - turned) < SWEEP_MIN {
+            return Err("is an arc that may be none or a whole turn".to_owned());
+        }
+        let sweep = way * if turned == 0.0 { TAU } else { turned };
+        Ok(Self { centre, start, grown: radii[1] / radii[0], sweep })
+    }
+
+    /// The place at a share of the angle, and the way there as the share grows.
+    pub(super) fn at(&self, share: f64) -> (Point, Vector) {
+        let (sin, cos) = (self.sweep * share).sin_cos();
+        let arm = Vector::new(self.start.x * cos - self.start.y * sin, self.start.x * sin + self.start.y * cos)
+            * (1.0 + (self.grown - 1.0) * share);
+        (self.centre + arm, Vector::new(-arm.y, arm.x) * self.sweep)
+    }
+}

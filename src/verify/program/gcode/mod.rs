@@ -1,0 +1,522 @@
+//! Reads G-code as places along the way of the axes: no time, but at each place how the axes go there, as F asks for.
+//!
+//! Knows the words of the target alone: G0 to G4 with full coordinates, the lines of the profile for head, knife, drill,
+//! operator and end, comments, however people spell them. Arcs are followed as a controller does: around the centre that I
+//! and J give, with C linear in their angle. Where a line cannot be read nothing is said about the rest: all that follows
+//! from it would be wrong.
+
+mod arc;
+mod texts;
+
+use std::collections::VecDeque;
+use std::io::{BufRead, Read as _};
+use std::rc::Rc;
+
+use self::arc::Arc;
+use self::texts::{HEAD, Meaning, Text, texts};
+use crate::geom::Point;
+use crate::ir::Finding;
+use crate::ir::finding::Sighting;
+use crate::machine::MachineProfile;
+use crate::machine::gcode::FeedMode;
+use crate::units::S_PER_MIN;
+use crate::units::number::exact;
+use crate::verify::axes::crawl::{Asked, Axes};
+use crate::verify::program::number::{quoted, whole};
+use crate::verify::program::row::{Going, Rounding, Row, SAGITTA};
+use crate::verify::program::spelling::{Expected, Words, is_active, plain, unnumbered};
+use crate::verify::worst::{Worst, at};
+
+/// Most characters of a first line that a message shows.
+const FIRST_CHARS: usize = 60;
+/// The longest line that is read, bytes.
+const LINE_MAX: u64 = 1024;
+/// Longest step, mm, and greatest turn of C on one, degrees.
+const STEP_MM: f64 = 8.0;
+const STEP_DEG: f64 = 5.0;
+/// Most steps of a line of a program: more are no way of a machine.
+const STEPS_MAX: f64 = 1e5;
+/// Most steps with the knife down: a stroke of ten kilometres.
+const STEPS_A_STROKE: f64 = 4e6;
+/// What rounding may take of a way that F is held against, at the most: the target writes none that are shorter.
+const SURE_MIN: f64 = 0.95;
+/// A whole turn, degrees, and what is none.
+const TURN_DEG: f64 = 360.0;
+const TURN_EPSILON: f64 = 1e-6;
+/// By how much a rest may be shorter or longer than it should be, s: rounding of the text.
+const REST_EPSILON: f64 = 1e-3;
+/// G codes of moves.
+const MOVES: [f64; 4] = [0.0, 1.0, 2.0, 3.0];
+/// What is wrong with a line that does something when all is over.
+const BEHIND_END: &str = "comes behind the end of the program";
+
+/// Whether bytes are meant as such a program.
+pub(in crate::verify) fn begins(bytes: &[u8]) -> bool {
+    let lines = bytes.split(|&byte| byte == b'\n').map(|line| plain(line.strip_suffix(b"\r").unwrap_or(line)));
+    // Blank lines and comments may come before it.
+    let mut asking = lines.skip_while(|line| matches!(line.as_deref(), Some([])));
+    asking.next().flatten().is_some_and(|line| line == HEAD)
+}
+
+/// Why G-code is none that can be judged, and what to do about it; `None` when bytes do not look like G-code.
+pub(in crate::verify) fn foreign(bytes: &[u8]) -> Option<[String; 2]> {
+    let line = bytes.split(|&byte| byte == b'\n').next().unwrap_or_default();
+    // Cut files end blocks by an asterisk.
+    let is_code =
+        matches!(line, [b'G' | b'g' | b'N' | b'n', b'0'..=b'9', ..] | [b'%' | b'(', ..]) && !line.contains(&b'*');
+    is_code.then(|| {
+        let head = String::from_utf8_lossy(HEAD);
+        let text = String::from_utf8_lossy(line);
+        let first: String = text.trim_end().escape_debug().take(FIRST_CHARS).collect();
+        let hint = if first == "%" {
+            "leave the lines of % out: the program ends by M2 or M30"
+        } else {
+            "G-code of the target gcode alone is judged, its first line with the words in that order"
+        };
+        [format!("its first line is `{first}`, not `{head}`"), hint.to_owned()]
+    })
+}
+
+/// The places of a program.
+pub(in crate::verify) struct Places<'a> {
+    input: &'a mut dyn BufRead,
+    profile: &'a MachineProfile,
+    texts: Vec<Text>,
+    /// Lines that must come next: the rest of a text.
+    due: VecDeque<Rc<Expected>>,
+    /// The rest that must come behind them, s.
+    rest_due: Option<f64>,
+    /// How long it rests since the last order, beyond what the profile asks for, s: between moves it never rests.
+    too_long: f64,
+    dwell: Worst,
+    axes: Axes,
+    /// How many lines were read, and the room for the next.
+    lines: u64,
+    room: Vec<u8>,
+    now: Row,
+    queue: VecDeque<(Row, Going)>,
+    last: Going,
+    /// Steps since the knife is down.
+    in_stroke: f64,
+    /// Whether the lines at the end were read.
+    over: bool,
+    /// Why a line cannot be read, and where the axes stood.
+    bad: Option<(Sighting, String)>,
+    ended: bool,
+}
+
+impl<'a> Places<'a> {
+    pub(in crate::verify) fn new(input: &'a mut dyn BufRead, profile: &'a MachineProfile) -> Self {
+        let [x, y, c_deg] = profile.home;
+        let now = Row { tick: 0, t: 0.0, centre: Point::new(x, y), c_deg, knife: false, drill: 0, event: 0, block: 0 };
+        let texts = texts(profile);
+        Self {
+            input,
+            profile,
+            over: texts.iter().all(|text| text.meaning != Meaning::End),
+            due: texts[0].lines.iter().cloned().collect(),
+            texts,
+            rest_due: None,
+            too_long: 0.0,
+            dwell: Worst::new("verify/dwell", "s too long", Some(REST_EPSILON)),
+            axes: Axes::new(profile),
+            lines: 0,
+            room: Vec::new(),
+            now,
+            queue: VecDeque::from([(now, Going::default())]),
+            last: Going::default(),
+            in_stroke: 0.0,
+            bad: None,
+            ended: false,
+        }
+    }
+
+    /// By how much its numbers may differ from what was meant.
+    pub(in crate::verify) fn rounding(profile: &MachineProfile) -> Rounding {
+        Rounding { axes: [0.5 * profile.gcode.step(); 3] }
+    }
+
+    /// The next place, and how the axes go there.
+    pub(in crate::verify) fn next(&mut self) -> Option<(Row, Going)> {
+        while self.queue.is_empty() && !self.ended {
+            if let Err(why) = self.read() {
+                self.ended = true;
+                let line = self.lines;
+                self.bad = Some((self.now.sighting(), format!("line {line} {why}")));
+            }
+        }
+        self.queue.pop_front()
+    }
+
+    /// Whether a line could not be read, so that nothing can be said about what the program does.
+    pub(in crate::verify) fn is_broken(&self) -> bool {
+        self.bad.is_some()
+    }
+
+    /// What was found about the format and about rests, and what to say where a line cannot be read.
+    pub(in crate::verify) fn findings(self) -> ([Finding; 2], Option<String>) {
+        let mut worst = Worst::new("verify/format", "bad lines", Some(0.0));
+        let (place, why) = self.bad.unzip();
+        if let Some(place) = place {
+            worst.see(1.0, || place);
+        }
+        ([worst.finding(), self.dwell.finding()], why)
+    }
+
+    /// Reads a line and obeys it; otherwise says what is wrong with it.
+    fn read(&mut self) -> Result<(), String> {
+        let mut line = std::mem::take(&mut self.room);
+        line.clear();
+        let read = (&mut *self.input).take(LINE_MAX).read_until(b'\n', &mut line).map_err(|_| "cannot be read")?;
+        self.lines += 1;
+        if read == 0 {
+            self.ended = true;
+            return match self.due.front() {
+                Some(due) => Err(format!("is missing: `{}` belongs there", due.text)),
+                None if !self.over => Err("is missing: the program has no end".to_owned()),
+                None => Ok(()),
+            };
+        }
+        if line.pop() != Some(b'\n') {
+            let is_long = read as u64 == LINE_MAX;
+            return Err(if is_long { "is too long" } else { "has no end: the file is cut short" }.to_owned());
+        }
+        if line.last() == Some(&b'\r') {
+            line.pop();
+        }
+        let read = self.line(&line);
+        self.room = line;
+        read
+    }
+
+    /// Obeys a line, however it is spelled.
+    fn line(&mut self, line: &[u8]) -> Result<(), String> {
+        let usual = unnumbered(line);
+        let Err(why) = self.spelled(usual, usual) else { return Ok(()) };
+        match plain(line) {
+            Some(plain) if plain.is_empty() => {
+                self.name(usual);
+                Ok(())
+            }
+            Some(plain) if plain != usual => self.spelled(&plain, usual),
+            Some(_) | None => Err(why),
+        }
+    }
+
+    /// Obeys a line that is spelled as the target does; any other changes nothing. Messages show it as it is `written`.
+    fn spelled(&mut self, line: &[u8], written: &[u8]) -> Result<(), String> {
+        if let Some(due) = self.due.front() {
+            let is_due = due.is(line);
+            let why = || format!("is {} where `{}` belongs", quoted(written), due.text);
+            is_due.then_some(()).ok_or_else(why)?;
+            self.due.pop_front();
+            return Ok(());
+        }
+        if let Some(rest) = self.rest_due {
+            let words = Words::of(line, self.profile).unwrap_or_default();
+            let time = words.rest().filter(|time| *time >= rest - REST_EPSILON);
+            let why = || format!("is {} where a rest of {} s belongs", quoted(written), exact(rest));
+            let time = time.ok_or_else(why)?;
+            self.rest_due = None;
+            self.linger(time - rest);
+            return Ok(());
+        }
+        if matches!(line, [b'G', b'0'..=b'3', b' ', b'X', ..]) {
+            return self.go(&Words::of(line, self.profile)?);
+        }
+        if let Some(text) = self.text(line) {
+            let (meaning, rest) = (text.meaning, text.lines[1..].to_vec());
+            self.obey(meaning)?;
+            self.due.extend(rest);
+            return Ok(());
+        }
+        // A comment ends at its first bracket: what stands behind that is obeyed.
+        let comment = line.strip_prefix(b"(").and_then(|rest| rest.strip_suffix(b")"));
+        if let Some(comment) = comment.filter(|text| !text.iter().any(|byte| matches!(byte, b'(' | b')'))) {
+            if is_active(comment) {
+                return Err(format!("is {}, which is obeyed though it looks like a comment", quoted(line)));
+            }
+            self.name(comment);
+            return Ok(());
+        }
+        let words = Words::of(line, self.profile)?;
+        if words.g.is_some_and(|code| MOVES.contains(&code)) {
+            // Words may come in any order.
+            return self.go(&words);
+        }
+        let rest = words.rest().filter(|&time| time >= 0.0);
+        let why = || format!("is {}, which is no line of the target gcode with this profile", quoted(written));
+        let rest = rest.ok_or_else(why)?;
+        if self.over {
+            return Err(BEHIND_END.to_owned());
+        }
+        self.linger(rest);
+        Ok(())
+    }
+
+    /// The text that begins with a line: what lifts several tools alike lifts the one that is down.
+    fn text(&self, line: &[u8]) -> Option<&Text> {
+        let fits = |text: &&Text| match text.meaning {
+            Meaning::Up => self.now.drill == 0,
+            Meaning::Raise(tool) => self.now.drill == tool,
+            Meaning::Head | Meaning::Down | Meaning::Drill(_) | Meaning::Event(_) | Meaning::End => true,
+        };
+        let mut found = self.texts.iter().filter(|text| text.lines[0].is(line));
+        found.clone().find(fits).or_else(|| found.next())
+    }
+
+    /// The axes rest longer than the profile asks for, s.
+    fn linger(&mut self, time: f64) {
+        self.too_long += time;
+        self.dwell.see(self.too_long, || self.now.sighting());
+    }
+
+    /// Takes the block that a comment names, if it does.
+    fn name(&mut self, comment: &[u8]) {
+        let words = comment.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        let number = words.skip_while(|word| *word != b"block").nth(1);
+        self.now.block = number.and_then(whole).unwrap_or(self.now.block);
+    }
+
+    fn obey(&mut self, meaning: Meaning) -> Result<(), String> {
+        if self.over && meaning != Meaning::End {
+            return Err(BEHIND_END.to_owned());
+        }
+        let was_down = self.now.knife;
+        let is_change = match meaning {
+            Meaning::Down => !was_down,
+            Meaning::Up => was_down,
+            Meaning::Drill(tool) => self.now.drill != tool,
+            Meaning::Raise(_) => self.now.drill != 0,
+            Meaning::Head | Meaning::Event(_) | Meaning::End => false,
+        };
+        match meaning {
+            Meaning::Head => return Err("is the head of a program again".to_owned()),
+            Meaning::End => {
+                self.over = true;
+                return Ok(());
+            }
+            Meaning::Event(event) => {
+                self.too_long = 0.0;
+                self.push(Row { event, ..self.now }, Going::default());
+                return Ok(());
+            }
+            Meaning::Down if self.now.drill != 0 => return Err("puts the knife down beside a drill".to_owned()),
+            // Or it could rest in the cloth for as many plunges as one likes.
+            Meaning::Down if was_down => return Err("puts the knife down that is down".to_owned()),
+            Meaning::Down => self.now.knife = true,
+            Meaning::Up => self.now.knife = false,
+            Meaning::Drill(tool) => self.now.drill = tool,
+            Meaning::Raise(tool) if ![0, tool].contains(&self.now.drill) => {
+                return Err(format!("lifts drill {tool} while drill {} is down", self.now.drill));
+            }
+            Meaning::Raise(_) => self.now.drill = 0,
+        }
+        if is_change {
+            self.too_long = 0.0;
+        }
+        let knife = &self.profile.knife;
+        let rest = match meaning {
+            Meaning::Down => knife.plunge(),
+            Meaning::Up => knife.lift(),
+            Meaning::Drill(_) => self.profile.drill.dwell(),
+            Meaning::Raise(_) | Meaning::Head | Meaning::Event(_) | Meaning::End => 0.0,
+        };
+        self.rest_due = Some(rest).filter(|&rest| rest > 0.0);
+        let going = if was_down { self.last } else { Going::default() };
+        self.last = Going::default();
+        self.push(self.now, going);
+        if meaning == Meaning::Up {
+            // What is cut next names its own.
+            self.now.block = 0;
+        }
+        Ok(())
+    }
+
+    fn push(&mut self, row: Row, going: Going) {
+        self.now.tick += 1;
+        self.now.t = self.now.tick as f64;
+        self.queue.push_back((Row { tick: self.now.tick, t: self.now.t, ..row }, going));
+    }
+
+    /// A move: all of its places.
+    fn go(&mut self, words: &Words) -> Result<(), String> {
+        if self.over {
+            return Err(BEHIND_END.to_owned());
+        }
+        let from = self.now;
+        if from.drill != 0 {
+            return Err("is a move while a drill is down".to_owned());
+        }
+        let code = needed(words.g, 'G')?;
+        let to = Point::new(needed(words.x, 'X')?, needed(words.y, 'Y')?);
+        let c_to = self.asked_turn(words.c)?;
+        if code == 0.0 && from.knife {
+            return Err("is a rapid move while the knife is down".to_owned());
+        }
+        if let Some(letter) = words.foreign_to(code) {
+            return Err(format!("has {letter}, which such a move has not"));
+        }
+        let feed = if code == 0.0 { f64::INFINITY } else { needed(words.f, 'F')? };
+        if feed <= 0.0 {
+            return Err("has an F that is no speed".to_owned());
+        }
+        let turned = c_to - from.c_deg;
+        let arc = if code > 1.0 {
+            let [i, j] = [needed(words.i, 'I')?, needed(words.j, 'J')?];
+            let way = if code == 3.0 { 1.0 } else { -1.0 };
+            Some(Arc::new([from.centre, to], [i, j], way, &self.profile.gcode)?)
+        } else {
+            None
+        };
+        let length = arc.map_or((to - from.centre).norm(), |arc| arc.sweep.abs() * arc.start.norm());
+        let by_bow = arc.map_or(0.0, |arc| arc.sweep.abs() * (arc.start.norm() / (8.0 * SAGITTA)).sqrt());
+        let steps = by_bow.max(length / STEP_MM).max(turned.abs() / STEP_DEG).ceil().max(1.0);
+        let in_stroke = if from.knife { self.in_stroke + steps } else { 0.0 };
+        if steps > STEPS_MAX || in_stroke > STEPS_A_STROKE {
+            return Err("is a way that no machine goes".to_owned());
+        }
+        self.in_stroke = in_stroke;
+        let pace = self.pace(feed, length, turned);
+        let asked = Asked {
+            speed: length * pace,
+            turn: turned.to_radians().abs() * pace,
+            length,
+            curvature: arc.map_or(0.0, |arc| arc.sweep.abs() / length),
+        };
+        // A move to where the axes stand takes no time.
+        let used = if length > 0.0 || turned != 0.0 { self.axes.used(&asked) } else { 0.0 };
+        self.walk(&Walk { to, turned, arc, steps, pace, used });
+        (self.now.centre, self.now.c_deg) = (to, c_to);
+        Ok(())
+    }
+
+    /// Where a move leads C, degrees, or why it must not.
+    fn asked_turn(&self, told: Option<f64>) -> Result<f64, String> {
+        let from = self.now;
+        let letter = char::from(self.profile.gcode.letter.byte());
+        if !self.profile.gcode.wrapped {
+            return Ok(self.turned_to(needed(told, letter)?));
+        }
+        let c_to = told.map_or(from.c_deg, |told| self.turned_to(told));
+        if told.is_some() && from.knife && (c_to - from.c_deg).abs() < TURN_EPSILON {
+            // It unwraps what it is told by its own sums, which may lie a hair's breadth beyond.
+            return Err(format!("has {letter} where that axis stands, which a controller may turn all round for"));
+        }
+        // Of an axis that goes round the whole turns are not told: in the air it is where it would be without any.
+        Ok(if from.knife { c_to } else { self.near_rest(c_to) })
+    }
+
+    /// Gives the rows along a move.
+    fn walk(&mut self, walk: &Walk) {
+        let Walk { to, turned, arc, steps, pace, used } = *walk;
+        let from = self.now;
+        // In the air only the ends of a straight way matter.
+        let first = if from.knife || arc.is_some() { 0 } else { steps as usize };
+        for i in first..=steps as usize {
+            let share = i as f64 / steps;
+            let (centre, ahead) = match arc {
+                Some(arc) => arc.at(share),
+                None => (from.centre + (to - from.centre) * share, to - from.centre),
+            };
+            let c_deg = from.c_deg + turned * share;
+            let going = Going { way: ahead * pace, turn: turned.to_radians() * pace, used };
+            let centre = if i as f64 == steps { to } else { centre };
+            self.last = going;
+            self.push(Row { centre, c_deg, ..from }, going);
+        }
+    }
+
+    /// Moves a second of which F asks, of this length (mm) and turn of C (degrees); as few as the rounding of their ends
+    /// lets it mean. A rapid one counts as one a second.
+    fn pace(&self, feed: f64, length: f64, turned: f64) -> f64 {
+        if feed.is_infinite() {
+            return 1.0;
+        }
+        let rounding = 2.0 * Self::rounding(self.profile).axis();
+        let size = if length > 0.0 { length } else { turned.abs() };
+        let sure = ((size - rounding) / size.max(f64::MIN_POSITIVE)).max(SURE_MIN);
+        let pace = match self.profile.gcode.feed_mode {
+            FeedMode::G93 => feed / S_PER_MIN,
+            FeedMode::G94 => feed / S_PER_MIN / size.max(f64::MIN_POSITIVE),
+        };
+        pace * sure
+    }
+
+    /// The unwrapped geometric position that a word of the axis means.
+    fn turned_to(&self, told: f64) -> f64 {
+        let c = &self.profile.c;
+        let sign = if c.reverse { -1.0 } else { 1.0 };
+        if !self.profile.gcode.wrapped {
+            return c.offset_deg + sign * told;
+        }
+        let shown = sign * (self.now.c_deg - c.offset_deg);
+        let back = told.is_sign_negative();
+        let way = if back { shown - told.abs() } else { told - shown }.rem_euclid(TURN_DEG);
+        let way = if TURN_DEG - way < TURN_EPSILON { way - TURN_DEG } else { way };
+        let to = shown + if back { -way } else { way };
+        // It is told in steps of the last decimal.
+        let step = self.profile.gcode.step();
+        c.offset_deg + sign * (to / step).round() * step
+    }
+
+    /// The position of C that differs by whole turns and is nearest to where it rests at the end.
+    fn near_rest(&self, c_deg: f64) -> f64 {
+        let [.., rest] = self.profile.park.unwrap_or(self.profile.home);
+        c_deg - ((c_deg - rest) / TURN_DEG).round() * TURN_DEG
+    }
+}
+
+/// Why a word that a move needs is not there.
+fn needed(word: Option<f64>, letter: char) -> Result<f64, String> {
+    word.ok_or_else(|| format!("has no {letter}"))
+}
+
+/// A move as it is walked in steps.
+#[derive(Debug, Clone, Copy)]
+struct Walk {
+    to: Point,
+    /// By how much C turns, degrees.
+    turned: f64,
+    arc: Option<Arc>,
+    /// A whole number.
+    steps: f64,
+    /// Moves a second of which F asks.
+    pace: f64,
+    /// The greatest share of a limit of the axes that it uses.
+    used: f64,
+}
+
+/// Rules on what F asks for at the least: setpoints have none.
+pub(in crate::verify) const OF_FEED: &[&str] = &["verify/crawl"];
+
+/// Rules that need no time; of the others a program without any says nothing.
+pub(in crate::verify) const RULES: &[&str] = &[
+    "verify/format",
+    "verify/end",
+    "verify/c-range",
+    "verify/table",
+    "verify/feed",
+    "verify/crawl",
+    "verify/dwell",
+    "verify/on-path",
+    "verify/stray",
+    "verify/order",
+    "verify/once",
+    "verify/complete",
+    "verify/heading",
+    "verify/down",
+    "verify/body",
+    "verify/overcut-part",
+    "verify/overcut-neighbour",
+    "verify/overcut-waste",
+    "verify/drills",
+    "verify/drill-place",
+    "verify/events",
+];
+
+/// A finding as a program without time has it.
+pub(in crate::verify) fn timeless(finding: &Finding) -> Finding {
+    let timeless = |place: Sighting| Sighting { time: None, ..at(0.0, place.point, place.block) };
+    Finding { place: finding.place.map(timeless), ..*finding }
+}

@@ -1,0 +1,60 @@
+//! The lines of a profile, and what they do: outputs, stops, beginning and end.
+
+use std::rc::Rc;
+
+use crate::machine::MachineProfile;
+use crate::machine::gcode::Step;
+use crate::units::number::exact;
+use crate::verify::program::spelling::Expected;
+
+/// How every such program begins, behind the number of its line.
+pub(super) const HEAD: &[u8] = b"G17 G21 G40 G80 G90 G91.1";
+/// Drills of a machine.
+const DRILLS: std::ops::RangeInclusive<u8> = 1..=4;
+
+/// What lines do that stand in the program as they are: those of the target itself, and those of the profile.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Meaning {
+    Head,
+    Down,
+    Up,
+    Drill(u8),
+    /// A drill is lifted.
+    Raise(u8),
+    Event(u8),
+    End,
+}
+
+/// Lines of the profile that belong together.
+pub(super) struct Text {
+    pub(super) lines: Vec<Rc<Expected>>,
+    pub(super) meaning: Meaning,
+}
+
+/// The lines of a profile and what they do; the head first.
+pub(super) fn texts(profile: &MachineProfile) -> Vec<Text> {
+    let keys = &profile.gcode;
+    let blend = keys.blend_mm.map_or(String::new(), |blend| format!("G64 P{} Q0", exact(blend)));
+    let head = format!("{}\n{blend}\n{}\n{}", String::from_utf8_lossy(HEAD), keys.header, keys.feed_mode.code());
+    let text = |lines: &str, meaning| Text { lines: lines_of(lines), meaning };
+    let steps = |steps: &[Step], drill: u8, meaning| {
+        let lines = steps.iter().map(|step| Rc::new(Expected::of_step(step, drill))).collect();
+        Text { lines, meaning }
+    };
+    let drills = DRILLS.flat_map(|tool| {
+        [steps(&keys.drill_down, tool, Meaning::Drill(tool)), steps(&keys.drill_up, tool, Meaning::Raise(tool))]
+    });
+    let mut texts = vec![text(&head, Meaning::Head)];
+    texts.extend([steps(&keys.knife_down, 0, Meaning::Down), steps(&keys.knife_up, 0, Meaning::Up)]);
+    texts.extend(drills);
+    texts.extend([steps(&keys.stop, 0, Meaning::Event(1)), steps(&keys.advance, 0, Meaning::Event(2))]);
+    texts.push(text(&keys.footer, Meaning::End));
+    texts.retain(|text| !text.lines.is_empty());
+    texts
+}
+
+/// The lines of a text that say something.
+pub(super) fn lines_of(text: &str) -> Vec<Rc<Expected>> {
+    let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+    lines.map(|line| Rc::new(Expected::new(line))).collect()
+}

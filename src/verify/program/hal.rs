@@ -1,0 +1,36 @@
+//! Reads timed setpoints from the rows of `LinuxCNC`'s halstreamer: `x_mm y_mm c_deg knife drill event block`.
+
+use std::io::BufRead;
+
+use super::number::{decimal, whole};
+use super::row::Row;
+use crate::geom::Point;
+use crate::machine::MachineProfile;
+
+/// The first line of such a program.
+pub(in crate::verify) const HEADER: &[u8] = b"# cutc hal: x_mm y_mm c_deg knife drill event block";
+
+/// Whether a program is one of these.
+pub(in crate::verify) fn begins(input: &mut dyn BufRead) -> bool {
+    input.fill_buf().is_ok_and(|bytes| bytes.starts_with(b"# cutc hal"))
+}
+
+/// The row on a line; halstreamer has no time, a row is a period.
+pub(in crate::verify) fn row(line: &[u8], tick: u64, profile: &MachineProfile) -> Option<Row> {
+    let mut fields = line.split(|&byte| byte == b' ');
+    let mut field = || fields.next();
+    let (x, y, shown) = (decimal(field()?)?, decimal(field()?)?, decimal(field()?)?);
+    let (knife, drill, event, block) = (whole(field()?)?, whole(field()?)?, whole(field()?)?, whole(field()?)?);
+    let legal = knife <= 1 && drill <= 4 && event <= 2 && field().is_none();
+    let c = &profile.c;
+    legal.then(|| Row {
+        tick,
+        t: tick as f64 * profile.time.period(),
+        centre: Point::new(x, y),
+        c_deg: c.offset_deg + if c.reverse { -shown } else { shown },
+        knife: knife == 1,
+        drill: drill as u8,
+        event: event as u8,
+        block,
+    })
+}

@@ -1,0 +1,12 @@
+//! Readers of emitted bytes, one a format: rows, which the rest judges, or the cutter file as it is.
+
+pub(super) mod counts;
+pub(super) mod cutter_file;
+pub(super) mod gcode;
+pub(super) mod hal;
+pub(super) mod npy;
+pub(super) mod number;
+pub(super) mod row;
+pub(super) mod rows;
+pub(super) mod spelling;
+pub(super) mod words;

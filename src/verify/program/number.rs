@@ -1,0 +1,73 @@
+//! Numbers of programs, as bytes tell them.
+
+/// The most characters of a field that a message quotes.
+pub(in crate::verify) const QUOTED_CHARS: usize = 24;
+/// Largest number of digits that a whole number may have to be exact in `f64`.
+const EXACT_DIGITS: usize = 15;
+const POWERS: [f64; 16] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
+
+/// A field as a message shows it.
+pub(in crate::verify) fn quoted(field: &[u8]) -> String {
+    let text: String = String::from_utf8_lossy(field).escape_debug().take(QUOTED_CHARS).collect();
+    if text.is_empty() { "nothing".to_owned() } else { format!("`{text}`") }
+}
+
+/// A whole number below 2^32.
+pub(in crate::verify) fn whole(field: &[u8]) -> Option<u32> {
+    if field.is_empty() || field.len() > 10 {
+        return None;
+    }
+    let value = field.iter().try_fold(0_u64, |sum, b| b.is_ascii_digit().then(|| sum * 10 + u64::from(b - b'0')))?;
+    u32::try_from(value).ok()
+}
+
+/// A decimal number, correctly rounded: digits and a power of ten that are both exact give one rounding.
+pub(in crate::verify) fn decimal(field: &[u8]) -> Option<f64> {
+    short(field).or_else(|| {
+        // Exponents and long numbers: the standard library; it also knows words, which are no numbers here.
+        let is_number = field.iter().all(|byte| matches!(byte, b'0'..=b'9' | b'.' | b'e' | b'E' | b'+' | b'-'));
+        let number: f64 = std::str::from_utf8(field).ok().filter(|_| is_number)?.parse().ok()?;
+        number.is_finite().then_some(number)
+    })
+}
+
+/// The same of a number without exponent that has few digits, as nearly all have; `None` of any other.
+pub(in crate::verify) fn short(field: &[u8]) -> Option<f64> {
+    leading(field).filter(|(_, length)| *length == field.len()).map(|(number, _)| number)
+}
+
+/// Such a number at the beginning of a text, and how many bytes it takes.
+pub(in crate::verify) fn leading(text: &[u8]) -> Option<(f64, usize)> {
+    let start = usize::from(text.first() == Some(&b'-'));
+    let (mut at, mut value, mut point) = (start, 0_u64, None);
+    while let Some(&byte) = text.get(at) {
+        let digit = byte.wrapping_sub(b'0');
+        if digit < 10 {
+            value = value.wrapping_mul(10).wrapping_add(u64::from(digit));
+        } else if byte == b'.' && point.is_none() {
+            point = Some(at);
+        } else {
+            break;
+        }
+        at += 1;
+    }
+    let count = at - start - usize::from(point.is_some());
+    let decimals = point.map_or(0, |point| at - point - 1);
+    let magnitude = || value as f64 / POWERS[decimals];
+    (1..=EXACT_DIGITS).contains(&count).then(|| (if start == 0 { magnitude() } else { -magnitude() }, at))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decimals_are_read_as_the_standard_library_reads_them() {
+        for text in ["0", "-0.000001", "12.345678", "-98765.432100", "1e-3", "123456789012345678.5"] {
+            assert_eq!(decimal(text.as_bytes()), text.parse().ok(), "{text}");
+        }
+        for text in ["", "-", ".", "nan", "inf", "1,5", "0x10", "1.2.3", " 1"] {
+            assert_eq!(decimal(text.as_bytes()), None, "{text}");
+        }
+    }
+}

@@ -1,0 +1,362 @@
+//! Reads the rows of timed setpoints: `t_s,x_mm,y_mm,c_deg,knife,drill,event,block`, as text or as records.
+
+use std::io::{BufRead, Read as _};
+
+use super::counts::{self, Counts};
+use super::number::{decimal, quoted, whole};
+use super::row::{ROUNDING, Rounding, Row};
+use super::{hal, npy};
+use crate::geom::Point;
+use crate::ir::Finding;
+use crate::ir::finding::Sighting;
+use crate::machine::MachineProfile;
+
+/// The longest line that is read, bytes: what is longer is no row, and must not fill the memory.
+const LINE_MAX: u64 = 1024;
+/// The first line of a text: the names of its fields.
+pub(in crate::verify) const HEADER: &str = "t_s,x_mm,y_mm,c_deg,knife,drill,event,block";
+/// The same, one by one.
+const FIELDS: [&str; 8] = ["t_s", "x_mm", "y_mm", "c_deg", "knife", "drill", "event", "block"];
+/// The greatest values of knife, drill, event and block.
+const GREATEST: [u32; 4] = [1, 4, 2, u32::MAX];
+
+/// How rows are written.
+#[derive(Debug)]
+enum Form<'a> {
+    /// Lines of fields between commas.
+    Table,
+    /// Records, so many of which are still to come.
+    Array(u64),
+    /// Records of encoder counts, likewise.
+    Counts(Counts, u64),
+    /// Lines of fields between blanks, for this machine.
+    Stream(&'a MachineProfile),
+}
+
+/// The rows of a program. What cannot be read is left out and counted.
+pub(in crate::verify) struct Rows<'a> {
+    input: &'a mut dyn BufRead,
+    form: Form<'a>,
+    /// The line or record that was read last.
+    line: Vec<u8>,
+    tick: u64,
+    last: Option<Row>,
+    bad: Bad,
+    ended: bool,
+}
+
+/// What cannot be read.
+#[derive(Debug, Default)]
+struct Bad {
+    count: u64,
+    /// Where the first of it is, and why.
+    first: Option<(Sighting, String)>,
+}
+
+/// A line or record that was fetched, or why there is none.
+enum Fetched {
+    Row,
+    End,
+    Bad(&'static str),
+}
+
+impl<'a> Rows<'a> {
+    pub(in crate::verify) fn new(input: &'a mut dyn BufRead, profile: &'a MachineProfile) -> Self {
+        let (form, bad) = (Form::Table, Bad::default());
+        let mut rows = Self { input, form, line: Vec::new(), tick: 0, last: None, bad, ended: false };
+        if npy::begins(rows.input) {
+            let told = npy::header(rows.input);
+            rows.form = Form::Array(told.unwrap_or(0));
+            if told.is_none() {
+                rows.end("the header is none of setpoints");
+            }
+        } else if counts::begins(rows.input) {
+            match Counts::read(rows.input, profile) {
+                Some((counts, left)) => rows.form = Form::Counts(counts, left),
+                None => rows.end("the header is none of encoder counts of this machine"),
+            }
+        } else {
+            let is_stream = hal::begins(rows.input);
+            if is_stream {
+                rows.form = Form::Stream(profile);
+            }
+            let header = if is_stream { hal::HEADER } else { HEADER.as_bytes() };
+            if !matches!(rows.fetch(), Fetched::Row) || rows.line != header {
+                rows.end(&format!("line 1 is not the header `{}`", String::from_utf8_lossy(header)));
+            }
+        }
+        rows
+    }
+
+    /// By how much its numbers may differ from what was meant.
+    pub(in crate::verify) fn rounding(&self) -> Rounding {
+        let axes = match &self.form {
+            Form::Counts(counts, _) => counts.rounding(),
+            Form::Table | Form::Array(_) | Form::Stream(_) => [ROUNDING; 3],
+        };
+        Rounding { axes }
+    }
+
+    /// The next row that can be read.
+    pub(in crate::verify) fn next(&mut self) -> Option<Row> {
+        while !self.ended {
+            match self.fetch() {
+                Fetched::Row => {}
+                Fetched::End if self.tick == 0 => self.end("there are no rows"),
+                Fetched::End => self.ended = true,
+                Fetched::Bad(why) => self.end(&format!("{} {why}", self.place())),
+            }
+            if self.ended {
+                break;
+            }
+            let row = self.parsed();
+            if let Err(why) = &row {
+                self.fail(&format!("{} {why}", self.place()));
+            }
+            self.tick += 1;
+            if let Ok(row) = row {
+                self.last = Some(row);
+                return Some(row);
+            }
+        }
+        None
+    }
+
+    /// The row of the line or record that was read last, or why there is none.
+    fn parsed(&mut self) -> Result<Row, String> {
+        let row = match &mut self.form {
+            Form::Table => return parse(&self.line, self.tick),
+            Form::Array(_) => npy::row(&self.line, self.tick),
+            Form::Counts(counts, _) => counts.row(&self.line, self.tick),
+            Form::Stream(profile) => hal::row(&self.line, self.tick, profile),
+        };
+        row.ok_or_else(|| "holds no finite numbers and legal outputs".to_owned())
+    }
+
+    /// Whether something could not be read so far, so that nothing can be said about what the program does.
+    pub(in crate::verify) fn is_broken(&self) -> bool {
+        self.bad.count > 0
+    }
+
+    /// What was found about the format, and what to say of it where it is broken.
+    pub(in crate::verify) fn findings(self) -> (Finding, Option<String>) {
+        let Bad { count, first } = self.bad;
+        let (place, why) = first.unzip();
+        let rule = "verify/format";
+        let finding = Finding { rule, worst: count as f64, limit: Some(0.0), unit: "bad rows", place };
+        let why = why.map(|why| if count > 1 { format!("{count} rows cannot be read, the first: {why}") } else { why });
+        (finding, why)
+    }
+
+    /// The line or record that was read last, as people find it: lines count from 1, the first is the header.
+    fn place(&self) -> String {
+        match self.form {
+            Form::Array(_) | Form::Counts(..) => format!("record {}", self.tick),
+            Form::Table | Form::Stream(_) => format!("line {}", self.tick + 2),
+        }
+    }
+
+    /// Reads a record, or a line without its end. A last line that has none is how a program cut short looks.
+    fn fetch(&mut self) -> Fetched {
+        self.line.clear();
+        let record = match &mut self.form {
+            Form::Array(left) => Some(npy::record(self.input, left, &mut self.line)),
+            Form::Counts(_, left) => Some(Counts::record(self.input, left, &mut self.line)),
+            Form::Table | Form::Stream(_) => None,
+        };
+        if let Some(record) = record {
+            return match record {
+                Some(true) => Fetched::Row,
+                Some(false) => Fetched::End,
+                None => Fetched::Bad("is not what the header counts: bytes are missing or left over"),
+            };
+        }
+        let Ok(read) = self.input.take(LINE_MAX).read_until(b'\n', &mut self.line) else {
+            return Fetched::Bad("cannot be read");
+        };
+        if read == 0 {
+            return Fetched::End;
+        }
+        if self.line.pop() != Some(b'\n') {
+            return Fetched::Bad(if read as u64 == LINE_MAX {
+                "is too long for a row"
+            } else {
+                "has no end: the file is cut short"
+            });
+        }
+        if self.line.last() == Some(&b'\r') {
+            self.line.pop();
+        }
+        Fetched::Row
+    }
+
+    fn fail(&mut self, why: &str) {
+        self.bad.count += 1;
+        if self.bad.first.is_none() {
+            let nowhere = Sighting { time: Some(0.0), point: Point::origin(), block: 0 };
+            self.bad.first = Some((self.last.map_or(nowhere, |row| row.sighting()), why.to_owned()));
+        }
+    }
+
+    fn end(&mut self, why: &str) {
+        self.fail(why);
+        self.ended = true;
+    }
+}
+
+/// Whether a text is meant as rows: it begins with their header.
+pub(in crate::verify) fn begins(input: &mut dyn BufRead) -> bool {
+    input.fill_buf().is_ok_and(|bytes| bytes.starts_with(HEADER.as_bytes()))
+}
+
+/// Why bytes do not begin as the text of a program does, and what to do about it; `None` when they do.
+pub(in crate::verify) fn foreign(bytes: &[u8]) -> Option<[String; 2]> {
+    let first = bytes.split(|&b| b == b'\n').next().unwrap_or_default();
+    let first = first.strip_suffix(b"\r").unwrap_or(first);
+    if first == HEADER.as_bytes() {
+        return None;
+    }
+    let says = |what: &str, hint: &str| Some([what.to_owned(), hint.to_owned()]);
+    let as_compiled = format!("the first line of a program is `{HEADER}`");
+    if bytes.is_empty() {
+        return says("it is empty", "compile it anew");
+    }
+    if first.starts_with(b"\xef\xbb\xbf") {
+        return says("it begins with a byte order mark (BOM)", "save it as UTF-8 without BOM");
+    }
+    if bytes.contains(&0) {
+        return says("it is not plain text", "save it as UTF-8 or ASCII text, or name another file");
+    }
+    let text = String::from_utf8_lossy(first);
+    for separator in [';', '\t', ' '] {
+        if text.replace(separator, ",") == HEADER {
+            let message = format!("its fields are separated by `{}`, not by commas", separator.escape_default());
+            return says(&message, "save it with commas between the fields and points in the numbers");
+        }
+    }
+    if parse(first, 0).is_ok() {
+        return says("its header is missing: it begins with a row", &as_compiled);
+    }
+    let names: Vec<&str> = text.split(',').collect();
+    let known = names.iter().filter(|name| FIELDS.contains(name)).count();
+    if 2 * known < FIELDS.len() {
+        return says("it does not begin as timed setpoints do", &as_compiled);
+    }
+    let wrong = names.iter().zip(&FIELDS).find(|(name, expected)| name != expected);
+    let message = match wrong {
+        Some((name, expected)) => format!("its header says {} where `{expected}` belongs", quoted(name.as_bytes())),
+        None => format!("its header has {} fields, not {}", names.len(), FIELDS.len()),
+    };
+    says(&message, &as_compiled)
+}
+
+/// Reads a line; why it is no row is said as it goes on behind its number.
+fn parse(line: &[u8], tick: u64) -> Result<Row, String> {
+    let count = || line.split(|&b| b == b',').count();
+    row(line, tick).map_err(|why| match count() {
+        _ if line.is_empty() => "is blank".to_owned(),
+        8 => why,
+        1 => "has 1 field, not 8".to_owned(),
+        count => format!("has {count} fields, not 8"),
+    })
+}
+
+fn row(line: &[u8], tick: u64) -> Result<Row, String> {
+    let mut fields = line.split(|&b| b == b',');
+    let mut field = || fields.next().unwrap_or_default();
+    let mut numbers = [0.0; 4];
+    for (number, name) in numbers.iter_mut().zip(&FIELDS[..4]) {
+        let field = field();
+        *number = decimal(field).ok_or_else(|| format!("has {} as {name}, which is no number", quoted(field)))?;
+    }
+    let mut outputs = [0; 4];
+    for (i, output) in outputs.iter_mut().enumerate() {
+        let (field, most) = (field(), GREATEST[i]);
+        let value = whole(field).filter(|value| *value <= most);
+        let name = FIELDS[4 + i];
+        *output = value.ok_or_else(|| format!("has {} as {name}, which must be 0 to {most}", quoted(field)))?;
+    }
+    if fields.next().is_some() {
+        return Err(String::new());
+    }
+    let ([t, x, y, c_deg], [knife, drill, event, block]) = (numbers, outputs);
+    Ok(Row {
+        tick,
+        t,
+        centre: Point::new(x, y),
+        c_deg,
+        knife: knife == 1,
+        drill: drill as u8,
+        event: event as u8,
+        block,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_header_names_the_fields() {
+        assert_eq!(FIELDS.join(","), HEADER);
+    }
+
+    #[test]
+    fn a_last_line_without_its_end_is_a_fault() {
+        let text =
+            "t_s,x_mm,y_mm,c_deg,knife,drill,event,block\n0.000000,0.0,0.0,0.0,0,0,0,0\n0.001000,0.0,0.0,0.0,0,0,0,0";
+        let (mut bytes, profile) = (text.as_bytes(), MachineProfile::default());
+        let mut rows = Rows::new(&mut bytes, &profile);
+        assert!(rows.next().is_some());
+        assert!(rows.next().is_none());
+        let (finding, why) = rows.findings();
+        assert!(!finding.holds());
+        assert_eq!(why.as_deref(), Some("line 3 has no end: the file is cut short"));
+    }
+
+    #[test]
+    fn the_first_line_that_is_no_row_is_named_with_the_reason_and_all_are_counted() {
+        let check = |line: &str, expected: &str| {
+            let text = format!("{HEADER}\n0.000,0,0,0,0,0,0,0\n{line}\n0.002,0,0,0,0,0,0,0\n");
+            let mut bytes = text.as_bytes();
+            let profile = MachineProfile::default();
+            let mut rows = Rows::new(&mut bytes, &profile);
+            assert_eq!([rows.next(), rows.next()].map(|row| row.map(|row| row.tick)), [Some(0), Some(2)], "{line}");
+            assert!(rows.next().is_none() && rows.is_broken());
+            let (finding, why) = rows.findings();
+            assert_eq!((finding.worst, why.as_deref()), (1.0, Some(expected)));
+        };
+        check("0.001,abc,0,0,0,0,0,0", "line 3 has `abc` as x_mm, which is no number");
+        check("0.001,0,,0,0,0,0,0", "line 3 has nothing as y_mm, which is no number");
+        check("0.001,0,0,0,2,0,0,0", "line 3 has `2` as knife, which must be 0 to 1");
+        check("0.001,0,0,0,0,5,0,0", "line 3 has `5` as drill, which must be 0 to 4");
+        check("0.001,0,0,0,0,0,0,-1", "line 3 has `-1` as block, which must be 0 to 4294967295");
+        check("0.001,0,0,0,0,0,0", "line 3 has 7 fields, not 8");
+        check("", "line 3 is blank");
+        let text = format!("{HEADER}\nx\ny\n");
+        let mut bytes = text.as_bytes();
+        let profile = MachineProfile::default();
+        let mut rows = Rows::new(&mut bytes, &profile);
+        assert!(rows.next().is_none());
+        assert_eq!(rows.findings().1.as_deref(), Some("2 rows cannot be read, the first: line 2 has 1 field, not 8"));
+    }
+
+    #[test]
+    fn what_is_no_program_is_told_apart() {
+        let check = |text: &str, expected: Option<&str>| {
+            let found = foreign(text.as_bytes()).map(|[what, _]| what);
+            assert!(found.is_some() == expected.is_some(), "{text}: {found:?}");
+            assert!(found.unwrap_or_default().contains(expected.unwrap_or_default()), "{text}");
+        };
+        check(&format!("{HEADER}\r\n"), None);
+        check("", Some("empty"));
+        check(&format!("\u{feff}{HEADER}\n"), Some("byte order mark"));
+        check(&HEADER.replace(',', ";"), Some("separated by `;`"));
+        check(&HEADER.replace(',', "\t"), Some("separated by `\\t`"));
+        check("0.000,0,0,0,0,0,0,0\n", Some("header is missing"));
+        check(&HEADER.replace("c_deg", "c_rad"), Some("says `c_rad` where `c_deg` belongs"));
+        check(&format!("{HEADER},more"), Some("has 9 fields"));
+        check("M14*X0Y0*", Some("does not begin"));
+        check("t\0_\0s\0", Some("not plain text"));
+    }
+}

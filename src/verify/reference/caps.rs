@@ -1,0 +1,216 @@
+//! How fast the tip may be along a line: the feed of the profile and of the piece, slowed cuts, and the way before a
+//! corner.
+
+use super::vertex::Vertex;
+use crate::ir::list::FULL_SPEED;
+use crate::ir::marker::Piece;
+use crate::machine::MachineProfile;
+
+/// The caps of a line.
+#[derive(Debug)]
+pub(in crate::verify) enum BothWays {
+    /// One all along, mm/s: nearly always.
+    One(f64),
+    /// By station for a tip that goes with the line, and by the way from its end for one that goes against it.
+    Each(Box<[Caps; 2]>),
+}
+
+/// The caps of a line by station.
+#[derive(Debug)]
+pub(in crate::verify) struct Caps {
+    /// The cap where the line begins, mm/s; infinite where nothing caps the tip.
+    first: f64,
+    /// The later ones, each with the station from which it holds, mm. No two in a row are equal.
+    later: Box<[[f64; 2]]>,
+}
+
+/// How a line ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::verify) enum End {
+    /// The knife is lifted at a corner, before which the cut may have to be slower.
+    AtCorner,
+    /// It ends where the contour does, or goes round.
+    Plain,
+}
+
+/// What the tip may do in a piece, from which caps are made.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::verify) struct Feeds<'a> {
+    profile: &'a MachineProfile,
+    /// The feed of the profile and of the piece, mm/s.
+    feed: f64,
+}
+
+impl<'a> Feeds<'a> {
+    pub(in crate::verify) fn new(profile: &'a MachineProfile, piece: &Piece) -> Self {
+        let feeds = [profile.knife.feed_mm_s, piece.feed];
+        Self { profile, feed: feeds.into_iter().flatten().fold(f64::INFINITY, f64::min) }
+    }
+
+    /// What a share is of where there is no feed: the speed that the tip can reach in every direction.
+    fn fastest(&self) -> f64 {
+        let [x, y, _] = self.profile.axes.limits();
+        self.feed.min(x.speed).min(y.speed)
+    }
+
+    /// The cap of a cut at a percentage of its speed.
+    pub(in crate::verify) fn at(&self, percent: u8) -> f64 {
+        if percent < FULL_SPEED { self.fastest() * f64::from(percent) / 100.0 } else { self.feed }
+    }
+
+    /// The caps of a line whose chords have these speeds in percent; `ends` are how it starts and how it ends.
+    pub(in crate::verify) fn both_ways(
+        &self,
+        path: &[Vertex],
+        mut percents: impl DoubleEndedIterator<Item = u8> + Clone,
+        ends: [End; 2],
+    ) -> BothWays {
+        let chords = percents.clone().map(|percent| self.at(percent));
+        let first = percents.next().unwrap_or(FULL_SPEED);
+        if self.profile.slow.before_corner_mm.is_none() && percents.all(|percent| percent == first) {
+            return BothWays::One(self.at(first));
+        }
+        let stations: Vec<f64> = path.iter().map(|vertex| vertex.station).collect();
+        let length = stations[stations.len() - 1];
+        let back: Vec<f64> = stations.iter().rev().map(|station| length - station).collect();
+        let against = self.caps(&back, chords.clone().rev().collect(), ends[0]);
+        BothWays::Each(Box::new([self.caps(&stations, chords.collect(), ends[1]), against]))
+    }
+
+    /// The caps of chords between stations, up to the end of the line.
+    fn caps(&self, stations: &[f64], chords: Vec<f64>, end: End) -> Caps {
+        let (mut starts, mut caps) = (stations[..chords.len()].to_vec(), chords);
+        if let (Some(reach), End::AtCorner) = (self.profile.slow.before_corner_mm, end) {
+            let from = (stations[stations.len() - 1] - reach).max(0.0);
+            let first = starts.partition_point(|&start| start < from);
+            if starts.get(first) != Some(&from) {
+                starts.insert(first, from);
+                caps.insert(first, caps[first - 1]);
+            }
+            let [x, y, _] = self.profile.axes.limits();
+            let share = self.profile.slow.before_corner_percent / 100.0;
+            caps[first..].iter_mut().for_each(|cap| *cap = cap.min(x.speed).min(y.speed) * share);
+        }
+        let first = caps[0];
+        let (mut last, mut later) = (first, Vec::new());
+        for (start, cap) in starts.into_iter().zip(caps) {
+            if cap != last {
+                later.push([start, cap]);
+                last = cap;
+            }
+        }
+        Caps { first, later: later.into() }
+    }
+}
+
+/// Which of two caps is asked for: the greater one or the lesser one.
+pub(in crate::verify) type Pick = fn(f64, f64) -> f64;
+
+/// How a line is gone along.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::verify) struct Way {
+    /// 1 with the line, -1 against it.
+    pub(in crate::verify) sign: f64,
+    /// The length of a line that goes round and round, mm.
+    pub(in crate::verify) round: Option<f64>,
+}
+
+impl BothWays {
+    /// The cap that holds all along; `None` when there are several. `sign` is +1 with the line, -1 against it.
+    pub(in crate::verify) fn only(&self, sign: f64) -> Option<f64> {
+        match self {
+            Self::One(cap) => Some(*cap),
+            Self::Each(ways) => way(ways, sign).only(),
+        }
+    }
+
+    /// One of the caps between two stations, of which those against the line count from its end; `round` is the length of a
+    /// line that goes round and round.
+    pub(in crate::verify) fn over(&self, ends: [f64; 2], Way { sign, round }: Way, pick: Pick) -> f64 {
+        match (self, round) {
+            (Self::One(cap), _) => *cap,
+            (Self::Each(ways), Some(length)) => way(ways, sign).over_round(ends, length, pick),
+            (Self::Each(ways), None) => way(ways, sign).over(ends, pick),
+        }
+    }
+}
+
+fn way([with, against]: &[Caps; 2], sign: f64) -> &Caps {
+    if sign > 0.0 { with } else { against }
+}
+
+impl Caps {
+    /// The cap that holds all along; `None` when there are several.
+    fn only(&self) -> Option<f64> {
+        self.later.is_empty().then_some(self.first)
+    }
+
+    /// One of the caps between two stations; beyond the ends hold those of the ends.
+    fn over(&self, [low, high]: [f64; 2], pick: Pick) -> f64 {
+        let before = |station: f64| self.later.partition_point(|&[start, _]| start <= station);
+        let (from, to) = (before(low), before(high));
+        let at_low = if from == 0 { self.first } else { self.later[from - 1][1] };
+        self.later[from..to.max(from)].iter().map(|&[_, cap]| cap).fold(at_low, pick)
+    }
+
+    /// The same on a line of that length that goes round and round.
+    fn over_round(&self, [low, high]: [f64; 2], length: f64, pick: Pick) -> f64 {
+        let from = low.rem_euclid(length);
+        let to = from + (high - low).min(length);
+        if to <= length {
+            self.over([from, to], pick)
+        } else {
+            pick(self.over([from, length], pick), self.over([0.0, to - length], pick))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn caps(profile: &MachineProfile, feed: Option<f64>, percents: [u8; 3]) -> Caps {
+        let piece = Piece { feed, ..Piece::default() };
+        let feeds = Feeds::new(profile, &piece);
+        feeds.caps(&[0.0, 10.0, 20.0, 30.0], percents.map(|percent| feeds.at(percent)).to_vec(), End::AtCorner)
+    }
+
+    #[test]
+    fn the_least_of_all_that_asks_for_slowness_caps_the_tip() {
+        let mut profile = MachineProfile::default();
+        profile.knife.feed_mm_s = Some(400.0);
+        profile.slow.before_corner_mm = Some(5.0);
+        let caps = caps(&profile, Some(300.0), [100, 50, 100]);
+        let at = |station: f64| caps.over([station; 2], f64::max);
+        assert_eq!(
+            [-1.0, 9.0, 11.0, 21.0, 24.0, 26.0, 99.0].map(at),
+            [300.0, 300.0, 150.0, 300.0, 300.0, 150.0, 150.0]
+        );
+        let least = |ends| caps.over(ends, f64::min);
+        assert_eq!([caps.over([9.0, 29.0], f64::max), least([9.0, 29.0]), least([21.0, 24.0])], [300.0, 150.0, 300.0]);
+    }
+
+    #[test]
+    fn without_any_feed_a_share_is_one_of_the_slower_axis() {
+        let mut profile = MachineProfile::default();
+        profile.knife.feed_mm_s = None;
+        profile.axes.y.speed_mm_s = 500.0;
+        let plain = caps(&profile, None, [100, 50, 100]);
+        assert_eq!([5.0, 15.0].map(|at| plain.over([at; 2], f64::max)), [f64::INFINITY, 250.0]);
+        profile.slow.before_corner_mm = Some(99.0);
+        assert_eq!([5.0, 15.0].map(|at| caps(&profile, None, [100, 50, 100]).over([at; 2], f64::max)), [250.0, 125.0]);
+    }
+
+    #[test]
+    fn a_line_that_goes_round_has_the_caps_of_its_start_behind_its_end() {
+        let profile = MachineProfile::default();
+        let piece = Piece { feed: Some(100.0), ..Piece::default() };
+        let feeds = Feeds::new(&profile, &piece);
+        let caps = feeds.caps(&[0.0, 10.0, 20.0], vec![100.0, 50.0], End::Plain);
+        assert_eq!(
+            [[12.0, 18.0], [18.0, 21.0], [32.0, 38.0], [-1.0, 0.5]].map(|ends| caps.over_round(ends, 20.0, f64::max)),
+            [50.0, 100.0, 50.0, 100.0]
+        );
+        assert_eq!([[21.0, 29.0], [18.0, 21.0]].map(|ends| caps.over_round(ends, 20.0, f64::min)), [100.0, 50.0]);
+    }
+}

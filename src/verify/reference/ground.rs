@@ -1,0 +1,26 @@
+//! What programs are judged by: the lines of a marker, and what lies where on the cloth.
+
+use super::grid::Grid;
+use super::inside::Inside;
+use super::lines::Reference;
+use crate::ir::Marker;
+use crate::machine::MachineProfile;
+
+/// What must be cut of a marker, and what lies where on the cloth: what programs are judged by.
+#[derive(Debug)]
+pub struct Ground<'a> {
+    pub(in crate::verify) reference: Reference<'a>,
+    /// The chords of all lines.
+    pub(in crate::verify) grid: Grid,
+    /// The parts.
+    pub(in crate::verify) inside: Inside<'a>,
+}
+
+impl<'a> Ground<'a> {
+    /// The ground of a marker.
+    pub fn new(marker: &'a Marker, profile: &MachineProfile) -> Self {
+        let reference = Reference::new(marker, profile);
+        let (grid, inside) = rayon::join(|| Grid::new(&reference), || Inside::new(marker));
+        Self { reference, grid, inside }
+    }
+}

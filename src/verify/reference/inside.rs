@@ -1,0 +1,142 @@
+//! Which parts a point lies in: even-odd containment in the closed contours of each piece.
+
+use std::borrow::Cow;
+
+use rayon::prelude::*;
+
+use super::parts;
+use crate::geom::boxes::Boxes;
+use crate::geom::shape::Shape;
+use crate::geom::slots::Slots;
+use crate::geom::{Extent, Point};
+use crate::ir::Marker;
+use crate::ir::marker::Piece;
+
+/// Edges that a band of a part holds on average, at the least.
+const EDGES_A_BAND: usize = 8;
+/// Bands that an edge reaches into on average, at the most.
+const BANDS_AN_EDGE: f64 = 4.0;
+
+/// The parts, each by its box.
+#[derive(Debug)]
+pub(in crate::verify) struct Inside<'a> {
+    boxes: Boxes,
+    parts: Vec<Part<'a>>,
+    /// The part to which each piece belongs.
+    part_of: Vec<usize>,
+}
+
+/// The edges of a piece's closed contours, in bands along Y.
+#[derive(Debug)]
+struct Part<'a> {
+    piece: usize,
+    /// Its contours, each of which ends with its first point.
+    rings: Box<[Cow<'a, [Point]>]>,
+    /// How many points stand before those of each ring.
+    firsts: Box<[u32]>,
+    extent: Extent,
+    /// Height of a band, mm, and how many there are.
+    height: f64,
+    bands: usize,
+    /// The edges of each band: the places where they start in all rings, one behind the other.
+    edges: Slots,
+}
+
+impl<'a> Inside<'a> {
+    /// The index of a marker.
+    pub(in crate::verify) fn new(marker: &'a Marker) -> Self {
+        let parts: Vec<Part> = (0..marker.pieces.len()).into_par_iter().filter_map(|i| Part::new(i, marker)).collect();
+        let boxes = Boxes::new(parts.iter().map(|part| part.extent).collect());
+        let mut inside = Self { boxes, parts, part_of: Vec::new() };
+        // What lies in a piece is a cut-out of it, whoever it belongs to.
+        let holders = |point| inside.rings_at(point).map(|piece| piece as u32).collect();
+        let shape = |piece: &Piece| {
+            let closed = piece.contours.iter().filter(|contour| contour.closed);
+            Shape::new(&closed.map(|contour| marker.list.points(contour.range)).collect::<Vec<_>>())
+        };
+        let shapes: Vec<Shape> = marker.pieces.par_iter().map(shape).collect();
+        inside.part_of = parts::regions(&shapes, holders).into_iter().map(|part| part as usize).collect();
+        inside
+    }
+
+    /// The part to which a piece belongs: itself, or the one of which it is a cut-out.
+    pub(in crate::verify) fn part_of(&self, piece: usize) -> usize {
+        self.part_of[piece]
+    }
+
+    /// The parts whose cloth lies at a point: inside their outline, not inside a cut-out.
+    pub(in crate::verify) fn pieces_at(&self, point: Point) -> Vec<usize> {
+        let mut odd: Vec<usize> = Vec::new();
+        for part in self.rings_at(point).map(|piece| self.part_of[piece]) {
+            match odd.iter().position(|&other| other == part) {
+                Some(place) => drop(odd.swap_remove(place)),
+                None => odd.push(part),
+            }
+        }
+        odd.sort_unstable();
+        odd
+    }
+
+    /// The pieces in whose own rings a point lies.
+    fn rings_at(&self, point: Point) -> impl Iterator<Item = usize> + '_ {
+        let near = self.boxes.at(point).map(|part| &self.parts[part]);
+        near.filter(move |part| part.holds(point)).map(|part| part.piece)
+    }
+}
+
+impl<'a> Part<'a> {
+    /// The part that a piece is; `None` when it bounds nothing.
+    fn new(index: usize, marker: &'a Marker) -> Option<Self> {
+        let closed = marker.pieces[index].contours.iter().filter(|contour| contour.closed);
+        let rings: Box<[Cow<[Point]>]> = closed.map(|contour| marker.list.points(contour.range)).collect();
+        let mut extent = Extent::EMPTY;
+        rings.iter().flat_map(|ring| ring.iter()).for_each(|&point| extent.add(point));
+        let count: usize = rings.iter().map(|ring| ring.len() - 1).sum();
+        if count == 0 {
+            return None;
+        }
+        let bands = (count / EDGES_A_BAND).max(1);
+        let rise = |ring: &Cow<[Point]>| ring.windows(2).map(|ends| (ends[1].y - ends[0].y).abs()).sum::<f64>();
+        let least = rings.iter().map(rise).sum::<f64>() / (BANDS_AN_EDGE * count as f64);
+        let height = (extent.size().1 / bands as f64).max(least).max(f64::MIN_POSITIVE);
+        let before = |sum: &mut u32, ring: &Cow<[Point]>| Some(std::mem::replace(sum, *sum + ring.len() as u32));
+        let firsts = rings.iter().scan(0, before).collect();
+        let mut part = Self { piece: index, rings, firsts, extent, height, bands, edges: Slots::default() };
+        part.edges = Slots::new(bands, |see| part.each(see));
+        Some(part)
+    }
+
+    /// Calls out each edge with each band that it reaches into.
+    fn each(&self, see: &mut dyn FnMut(usize, u32)) {
+        for (ring, &first) in self.rings.iter().zip(&self.firsts) {
+            let mut before = self.band(ring[0].y);
+            for (edge, end) in (first..).zip(&ring[1..]) {
+                let band = self.band(end.y);
+                (before.min(band)..=before.max(band)).for_each(|band| see(band, edge));
+                before = band;
+            }
+        }
+    }
+
+    fn band(&self, y: f64) -> usize {
+        (((y - self.extent.min.y) / self.height).max(0.0) as usize).min(self.bands - 1)
+    }
+
+    /// The ends of an edge.
+    fn ends(&self, edge: u32) -> [Point; 2] {
+        let ring = self.firsts.partition_point(|&first| first <= edge) - 1;
+        let place = (edge - self.firsts[ring]) as usize;
+        let [from, to] = self.rings[ring][place..place + 2] else { unreachable!("an edge has two ends") };
+        [from, to]
+    }
+
+    /// Whether a ray to the right of a point crosses the edges an odd number of times.
+    fn holds(&self, point: Point) -> bool {
+        let is_crossed = |&&edge: &&u32| {
+            let [from, to] = self.ends(edge);
+            (from.y > point.y) != (to.y > point.y)
+                && from.x + (to.x - from.x) * (point.y - from.y) / (to.y - from.y) > point.x
+        };
+        self.edges.of(self.band(point.y)).iter().filter(is_crossed).count() % 2 == 1
+    }
+}

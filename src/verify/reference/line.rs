@@ -1,0 +1,294 @@
+//! A stretch that is cut from one end to the other, and what can be asked of it: places, stations, chords, caps.
+
+use std::borrow::Cow;
+use std::ops::RangeInclusive;
+
+use super::caps::{BothWays, Pick, Way};
+use super::vertex::Vertex;
+use crate::geom::{Point, Vector, angle, left, polyline};
+
+/// Such a stretch, mm.
+#[derive(Debug)]
+pub(in crate::verify) struct Line<'a> {
+    /// Index of its piece.
+    pub(in crate::verify) piece: u32,
+    /// Rank of its contour or slit among events, holes, slits and contours, in cut order.
+    pub(in crate::verify) rank: u32,
+    /// Its points; a ring ends with its first one. Those of the marker, wherever they stand there side by side.
+    points: Cow<'a, [Point]>,
+    /// What is known of each of them.
+    path: Box<[Vertex]>,
+    /// How fast the tip may be: before a corner it may have to be slower.
+    caps: BothWays,
+    /// Whether it is a closed contour without a corner.
+    pub(in crate::verify) ring: bool,
+    /// Whether C cannot follow it in one: then the knife is lifted amid it.
+    pub(in crate::verify) winds: bool,
+    /// Where it is cut otherwise; few lines are.
+    exceptions: Option<Box<Exceptions>>,
+}
+
+/// Where the blade is not led along a line as the law has it.
+#[derive(Debug, Default)]
+pub(in crate::verify) struct Exceptions {
+    /// By the stations of tail and tip: where it is too tight for the blade to be its chord.
+    pub(in crate::verify) tight: Vec<[f64; 2]>,
+    /// By stations: where it may be nibbled, which is cut by plunges without motion.
+    pub(in crate::verify) nibbled: Vec<[f64; 2]>,
+}
+
+/// A chord of a line.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::verify) struct Chord {
+    pub(in crate::verify) index: usize,
+    /// Where it starts, and the station of that, mm.
+    from: Point,
+    start: f64,
+    /// mm.
+    length: f64,
+    /// Unit vector along it.
+    pub(in crate::verify) along: Vector,
+    /// From its middle to where the core of the tube reaches there.
+    bulge: Vector,
+}
+
+impl Chord {
+    /// Distance of a point from the tube's core beside it, mm, and the station of the foot. The core at a place of the
+    /// chord is the segment from the chord to its bulge there.
+    pub(in crate::verify) fn deviation(&self, point: Point) -> (f64, f64) {
+        let from = point - self.from;
+        if self.length == 0.0 {
+            return (from.norm(), self.start);
+        }
+        let way = from.dot(&self.along).clamp(0.0, self.length);
+        let away = from - self.along * way;
+        if self.bulge == Vector::zeros() {
+            return (away.norm(), self.start + way);
+        }
+        let share = way / self.length;
+        let reach = self.bulge * (4.0 * share * (1.0 - share));
+        let height = reach.norm();
+        if height == 0.0 {
+            return (away.norm(), self.start + way);
+        }
+        let outward = reach / height;
+        let used = away.dot(&outward).clamp(0.0, height);
+        ((away - outward * used).norm(), self.start + way)
+    }
+}
+
+impl<'a> Line<'a> {
+    /// A line of a piece, at a rank, along which the blade goes as the law has it; `path` is what is known of its points.
+    pub(in crate::verify) fn new(
+        [piece, rank]: [u32; 2],
+        points: Cow<'a, [Point]>,
+        path: Box<[Vertex]>,
+        caps: BothWays,
+        ring: bool,
+    ) -> Self {
+        debug_assert_eq!(points.len(), path.len(), "all is known of every point");
+        Self { piece, rank, points, path, caps, ring, winds: false, exceptions: None }
+    }
+
+    /// The same line, but for these stretches.
+    pub(in crate::verify) fn except(&mut self, exceptions: Exceptions) {
+        let is_plain = exceptions.tight.is_empty() && exceptions.nibbled.is_empty();
+        self.exceptions = (!is_plain).then(|| Box::new(exceptions));
+    }
+
+    /// One of its points.
+    pub(in crate::verify) fn point(&self, vertex: usize) -> Point {
+        self.points[vertex]
+    }
+
+    /// All of them.
+    pub(in crate::verify) fn points(&self) -> impl DoubleEndedIterator<Item = Point> + ExactSizeIterator + '_ {
+        self.points.iter().copied()
+    }
+
+    /// Length from its first point to another, mm.
+    pub(in crate::verify) fn station(&self, vertex: usize) -> f64 {
+        self.path[vertex].station
+    }
+
+    /// Source block of a chord.
+    pub(in crate::verify) fn block(&self, chord: usize) -> u32 {
+        self.path[chord].block
+    }
+
+    /// Whether one of its chords is of that block.
+    pub(in crate::verify) fn has(&self, block: u32) -> bool {
+        self.path[..self.chords()].iter().any(|vertex| vertex.block == block)
+    }
+
+    /// Its length, mm.
+    pub(in crate::verify) fn length(&self) -> f64 {
+        self.path[self.path.len() - 1].station
+    }
+
+    /// Number of chords.
+    pub(in crate::verify) fn chords(&self) -> usize {
+        self.path.len() - 1
+    }
+
+    /// How many of its vertices lie before a station.
+    pub(in crate::verify) fn before(&self, station: f64) -> usize {
+        self.path.partition_point(|vertex| vertex.station < station)
+    }
+
+    /// How many of them lie before it or at it.
+    pub(in crate::verify) fn up_to(&self, station: f64) -> usize {
+        self.path.partition_point(|vertex| vertex.station <= station)
+    }
+
+    /// Unit vector along a chord.
+    pub(in crate::verify) fn direction(&self, chord: usize) -> Vector {
+        let [from, to] = self.ends(chord);
+        (to - from) / self.length_of(chord)
+    }
+
+    /// One of its chords.
+    pub(in crate::verify) fn chord(&self, index: usize) -> Chord {
+        let [from, to] = self.ends(index);
+        let Vertex { station: start, bulge, .. } = self.path[index];
+        let (way, length) = (to - from, self.length_of(index));
+        Chord { index, from, start, length, along: way / length, bulge: left(way) * f64::from(bulge) }
+    }
+
+    /// The two ends of a chord.
+    fn ends(&self, chord: usize) -> [Point; 2] {
+        let [from, to] = self.points[chord..chord + 2] else { unreachable!("a chord has two ends") };
+        [from, to]
+    }
+
+    /// Length of a chord, mm.
+    fn length_of(&self, chord: usize) -> f64 {
+        let [from, to] = &self.path[chord..chord + 2] else { unreachable!("a chord has two ends") };
+        to.station - from.station
+    }
+
+    /// Distance of a point from a chord, mm.
+    pub(in crate::verify) fn distance_to_chord(&self, chord: usize, point: Point) -> f64 {
+        let [from, to] = self.ends(chord);
+        polyline::distance_to_segment(point, from, to)
+    }
+
+    /// Whether a point may be nearer than `reach` mm to the tube's core beside a chord, as far as its box tells.
+    pub(in crate::verify) fn may_reach(&self, chord: usize, point: Point, reach: f64) -> bool {
+        let [from, to] = self.ends(chord);
+        let reach = reach + f64::from(self.path[chord].bulge).abs() * self.length_of(chord);
+        let (from, to) = (from - point, to - point);
+        let is_between = |a: f64, b: f64| a.min(b) <= reach && a.max(b) >= -reach;
+        is_between(from.x, to.x) && is_between(from.y, to.y)
+    }
+
+    /// Whether a point stands beyond an end of the line, where the chord that ends there is led on straight.
+    pub(in crate::verify) fn is_led_on(&self, chord: usize, point: Point) -> bool {
+        let [from, to] = self.ends(chord);
+        let is_before = chord == 0 && (point - from).dot(&(to - from)) < 0.0;
+        let is_behind = || chord + 1 == self.chords() && (point - to).dot(&(to - from)) > 0.0;
+        !self.ring && (is_before || is_behind())
+    }
+
+    /// The vertices between two stations; on a ring these may lie on any lap, and its last point is left to its first.
+    pub(in crate::verify) fn vertices(&self, low: f64, high: f64) -> impl Iterator<Item = usize> + '_ {
+        let length = self.length();
+        let count = if self.ring { self.chords() } else { self.path.len() };
+        let lap = if self.ring { (low / length).floor() } else { 0.0 };
+        let first = self.path[..count].partition_point(|vertex| vertex.station + lap * length < low);
+        let laps = if self.ring { usize::MAX } else { count };
+        let station = move |i: usize| self.station(i % count) + (lap + (i / count) as f64) * length;
+        (first..laps).take_while(move |&i| station(i) <= high).map(move |i| i % count)
+    }
+
+    /// Whether it is too tight for the blade somewhere between two stations.
+    pub(in crate::verify) fn is_tight(&self, [low, high]: [f64; 2]) -> bool {
+        let Some(Exceptions { tight, .. }) = self.exceptions.as_deref() else { return false };
+        let lap = if self.ring { (low / self.length()).floor() * self.length() } else { 0.0 };
+        // On a ring the stretches may lie on the next lap.
+        let laps = if self.ring { 2 } else { 1 };
+        (0..laps).any(|i| {
+            let by = lap + f64::from(i) * self.length();
+            tight.iter().any(|[a, b]| a + by <= high && b + by >= low)
+        })
+    }
+
+    /// Its points; of a ring those of two laps.
+    pub(in crate::verify) fn twice_round(&self) -> Vec<Point> {
+        let more = if self.ring { &self.points[1..] } else { &[] };
+        [&self.points, more].concat()
+    }
+
+    /// Whether it may be nibbled at a station, which on a ring may lie on any lap.
+    pub(in crate::verify) fn is_nibbled(&self, station: f64) -> bool {
+        let Some(Exceptions { nibbled, .. }) = self.exceptions.as_deref() else { return false };
+        let laps = if self.ring { &[0.0, 1.0, -1.0][..] } else { &[0.0] };
+        let station = if self.ring { station.rem_euclid(self.length()) } else { station };
+        let is_in = |[low, high]: &[f64; 2], lap: f64| (*low..=*high).contains(&(station + lap * self.length()));
+        nibbled.iter().any(|stretch| laps.iter().any(|&lap| is_in(stretch, lap)))
+    }
+
+    /// Turn of the line at a vertex, rad; none at the ends of an open line.
+    pub(in crate::verify) fn turn(&self, vertex: usize) -> f64 {
+        let count = self.chords();
+        if !self.ring && (vertex == 0 || vertex == count) {
+            return 0.0;
+        }
+        angle::turn(self.direction((vertex + count - 1) % count), self.direction(vertex % count))
+    }
+
+    /// The greatest speed of the tip, mm/s, where that is one all along; `sign` is +1 with the line, -1 against it.
+    pub(in crate::verify) fn only_cap(&self, sign: f64) -> Option<f64> {
+        self.caps.only(sign)
+    }
+
+    /// One of the speeds that the tip may have between two stations, mm/s; `sign` is +1 with the line, -1 against it.
+    pub(in crate::verify) fn cap(&self, [low, high]: [f64; 2], sign: f64, pick: Pick) -> f64 {
+        let length = self.length();
+        let ends = if sign > 0.0 { [low, high] } else { [length - high, length - low] };
+        self.caps.over(ends, Way { sign, round: self.ring.then_some(length) }, pick)
+    }
+
+    /// The point at a station.
+    pub(in crate::verify) fn place(&self, station: f64) -> Point {
+        let chord = self.chord_at(station);
+        self.point(chord) + self.direction(chord) * (station - self.station(chord))
+    }
+
+    /// The chords between two stations; on a ring they are counted on past its end.
+    pub(in crate::verify) fn chords_between(&self, [low, high]: [f64; 2]) -> RangeInclusive<usize> {
+        let lap = if self.ring { (low / self.length()).floor() * self.length() } else { 0.0 };
+        let (low, high) = (low - lap, high - lap);
+        let over = if self.ring && high >= self.length() { self.length() } else { 0.0 };
+        let laps = if over > 0.0 { self.chords() } else { 0 };
+        self.chord_at(low)..=self.chord_at(high - over) + laps
+    }
+
+    /// Whether a block is that of a chord between two stations.
+    pub(in crate::verify) fn names(&self, block: u32, ends: [f64; 2]) -> bool {
+        self.chords_between(ends).any(|chord| self.block(chord % self.chords()) == block)
+    }
+
+    /// The last vertex before a station, which on a ring may lie on any lap; `None` where an open line starts.
+    pub(in crate::verify) fn vertex_before(&self, station: f64) -> Option<usize> {
+        let lap = if self.ring { station.rem_euclid(self.length()) } else { station };
+        self.before(lap).checked_sub(1).or_else(|| self.ring.then(|| self.chords() - 1))
+    }
+
+    /// The chord of a station.
+    pub(in crate::verify) fn chord_at(&self, station: f64) -> usize {
+        self.up_to(station).clamp(1, self.chords()) - 1
+    }
+
+    /// The same, looked for from a chord on that is near.
+    pub(in crate::verify) fn chord_near(&self, chord: usize, station: f64) -> usize {
+        let mut chord = chord;
+        while chord > 0 && self.station(chord) > station {
+            chord -= 1;
+        }
+        while chord + 1 < self.chords() && self.station(chord + 1) <= station {
+            chord += 1;
+        }
+        chord
+    }
+}

@@ -1,0 +1,125 @@
+//! What must be cut, as lines: the stretches of contours between corners, as `outline` finds them, and the slits.
+
+use std::borrow::Cow;
+
+use rayon::prelude::*;
+
+use super::caps::{BothWays, Feeds};
+use super::line::{Exceptions, Line};
+use super::nibbled::{self, Blade};
+use super::outline::{Outline, Place};
+use super::vertex::Vertex;
+use super::{notches, tight};
+use crate::ir::Marker;
+use crate::ir::marker::Stroke;
+use crate::machine::{Follow, MachineProfile, TightCurves};
+
+/// All lines of a marker.
+#[derive(Debug)]
+pub(in crate::verify) struct Reference<'a> {
+    /// The marker that they come from.
+    pub(in crate::verify) marker: &'a Marker,
+    /// The lines, in cut order.
+    pub(in crate::verify) lines: Vec<Line<'a>>,
+    /// Ranks of the holes, in the order of the marker.
+    pub(in crate::verify) holes: Vec<usize>,
+    /// Ranks of the events, in the order of the marker.
+    pub(in crate::verify) events: Vec<usize>,
+    /// Permitted deviation of the tip, mm.
+    pub(in crate::verify) tolerance: f64,
+}
+
+impl<'a> Reference<'a> {
+    /// The lines of `marker`.
+    pub(in crate::verify) fn new(marker: &'a Marker, profile: &MachineProfile) -> Self {
+        let of_piece = |index| OfPiece::new(index, marker, profile);
+        let of_pieces: Vec<OfPiece<'a>> = (0..marker.pieces.len()).into_par_iter().map(of_piece).collect();
+        let count = of_pieces.iter().map(|piece| piece.lines.len()).sum();
+        let (mut lines, mut holes, mut events) = (Vec::with_capacity(count), Vec::new(), Vec::new());
+        let mut first = 0;
+        for (piece, OfPiece { ranks, lines: mut of_piece }) in marker.pieces.iter().zip(of_pieces) {
+            events.extend((first..).take(piece.events.len()));
+            holes.extend((first + piece.events.len()..).take(piece.drills.len()));
+            for line in &mut of_piece {
+                line.rank += small(first);
+            }
+            lines.append(&mut of_piece);
+            first += ranks;
+        }
+        events.extend((first..).take(marker.closing.len()));
+        Self { marker, lines, holes, events, tolerance: profile.tolerance(marker.unit) }
+    }
+}
+
+/// What is cut of a piece.
+struct OfPiece<'a> {
+    /// Its lines, their ranks counted from those of the piece.
+    lines: Vec<Line<'a>>,
+    /// How many ranks the piece has.
+    ranks: usize,
+}
+
+impl<'a> OfPiece<'a> {
+    fn new(index: usize, marker: &'a Marker, profile: &MachineProfile) -> Self {
+        let piece = &marker.pieces[index];
+        // Events come first, then holes, then slits, then contours.
+        let mut ranks = piece.events.len() + piece.drills.len()..;
+        let mut rank = || ranks.next().expect("a marker has fewer lines than numbers");
+        let feeds = Feeds::new(profile, piece);
+        let mut replaced = Vec::new();
+        let outlines: Vec<Outline> = piece
+            .contours
+            .iter()
+            .map(|contour| {
+                let (outline, bridged) = Outline::new(contour, piece, marker, profile.notch);
+                replaced.extend(bridged);
+                outline
+            })
+            .collect();
+        let slits = notches::slits(piece, profile.notch, &replaced);
+        let slits = slits.iter().map(|(stroke, percent)| slit(stroke, [index, rank()].map(small), feeds.at(*percent)));
+        let mut lines: Vec<Line> = slits.collect();
+        for outline in outlines {
+            let place = Place { owner: [index, rank()].map(small), feeds, profile };
+            lines.extend(outline.lines(place));
+        }
+        let blade = Blade { knife: &profile.knife, tolerance: profile.tolerance(marker.unit) };
+        for line in &mut lines {
+            find_exceptions(line, blade);
+        }
+        Self { lines, ranks: rank() }
+    }
+}
+
+/// Finds where a line is too tight for the blade, and where it may be nibbled.
+fn find_exceptions(line: &mut Line, blade: Blade) {
+    let knife = blade.knife;
+    // What begins on a curve that the blade has no way to enter may be nibbled, whatever is done about others.
+    let is_lifted = line.winds || knife.longest_cut().is_some_and(|longest| line.length() > longest);
+    let ends = if is_lifted || line.ring { [0.0; 2] } else { nibbled::bowed_ends(line, blade) };
+    let is_bowed = ends != [0.0; 2] || is_lifted && nibbled::bows_anywhere(line, blade);
+    let is_nibbling = knife.tight_curves == TightCurves::Nibble;
+    let tight = if is_nibbling || knife.follow == Follow::Chord { tight::stretches(line, knife) } else { Vec::new() };
+    let may_nibble = is_bowed || is_nibbling && !tight.is_empty();
+    let nibbled = if !may_nibble {
+        Vec::new()
+    } else if is_lifted {
+        vec![[f64::NEG_INFINITY, f64::INFINITY]]
+    } else {
+        nibbled::stretches(line, &tight, ends, blade)
+    };
+    line.except(Exceptions { tight, nibbled });
+}
+
+/// The line of a slit, `cap` mm/s being the greatest speed of the tip.
+fn slit<'a>(stroke: &Stroke, owner: [u32; 2], cap: f64) -> Line<'a> {
+    let from = Vertex { station: 0.0, bulge: 0.0, block: stroke.span.block };
+    let to = Vertex { station: stroke.length(), ..from };
+    let points = Cow::Owned(vec![stroke.from, stroke.to]);
+    Line::new(owner, points, Box::new([from, to]), BothWays::One(cap), false)
+}
+
+/// An index or a rank, kept small: a large marker has a hundred thousand lines.
+fn small(count: usize) -> u32 {
+    u32::try_from(count).expect("a source below 4 GiB has fewer than 2^32 lines")
+}

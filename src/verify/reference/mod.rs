@@ -1,0 +1,16 @@
+//! What must be cut: the lines of the marker, the parts that they go around, and what lies where on the cloth.
+
+pub(super) mod caps;
+pub(super) mod grid;
+pub(super) mod ground;
+pub(super) mod inside;
+pub(super) mod line;
+pub(super) mod lines;
+pub(super) mod nibbled;
+pub(super) mod notches;
+pub(super) mod order;
+pub(super) mod outline;
+pub(super) mod parts;
+pub(super) mod tight;
+pub(super) mod vertex;
+pub(super) mod winding;

@@ -1,0 +1,77 @@
+//! Notches as the profile wants them cut: found anew from the marker, which keeps them as they are drawn.
+
+use std::collections::BTreeMap;
+
+use crate::geom::bits;
+use crate::ir::list::Segment;
+use crate::ir::marker::{NotchKind, OutlineNotch, Piece, Stroke};
+use crate::machine::{NotchStyle, Notches};
+
+/// The slits of a piece, each with its speed in percent: those that are drawn, with their crossbars, and those that
+/// outlines no longer have.
+pub(in crate::verify) fn slits(piece: &Piece, notches: Notches, replaced: &[(OutlineNotch, u8)]) -> Vec<(Stroke, u8)> {
+    let mut slits = Vec::new();
+    if notches.style == NotchStyle::Skip {
+        return slits;
+    }
+    for notch in &piece.notches {
+        let deeper = notches.depth_mm.map_or(0.0, |depth| depth - notch.depth());
+        let deeper = (notch.tip - notch.root).normalize() * deeper;
+        slits.push((Stroke { from: notch.root, to: notch.tip + deeper, span: notch.span }, notch.percent));
+        if let (NotchKind::T(bar), NotchStyle::AsDrawn) = (notch.kind, notches.style) {
+            slits.push((Stroke { from: bar.from + deeper, to: bar.to + deeper, span: bar.span }, notch.percent));
+        }
+    }
+    for (notch, percent) in replaced {
+        let [one, other] = notch.mouth;
+        let root = one + (other - one) / 2.0;
+        let drawn = notch.tip - root;
+        let depth = notches.depth_mm.unwrap_or_else(|| drawn.norm());
+        let inward = drawn.normalize() * if notch.outwards { -depth } else { depth };
+        slits.push((Stroke { from: root, to: root + inward, span: notch.span }, *percent));
+    }
+    slits
+}
+
+/// Takes the notches that are not cut as they are drawn out of an outline; gives them with the least speed of what they were.
+pub(in crate::verify) fn straighten(
+    segments: &mut Vec<Segment>,
+    piece: &Piece,
+    notches: Notches,
+) -> Vec<(OutlineNotch, u8)> {
+    if notches.style == NotchStyle::AsDrawn {
+        return Vec::new();
+    }
+    let count = segments.len();
+    // By the two ends of the way that is no longer cut.
+    let by_mouth: BTreeMap<[[u64; 2]; 2], &OutlineNotch> =
+        piece.outline_notches.iter().map(|notch| (notch.mouth.map(bits), notch)).collect();
+    let mut by_length: Vec<usize> = piece.outline_notches.iter().map(|notch| notch.segments as usize).collect();
+    by_length.sort_unstable();
+    by_length.dedup();
+    by_length.retain(|&length| length < count);
+    let (mut kept, mut taken) = (Vec::with_capacity(count), Vec::new());
+    // What is left of a way that goes over the end of the list stands at its beginning.
+    let (mut k, mut carried_over) = (0, 0);
+    while k < count {
+        let segment = segments[k];
+        let ways = by_length.iter().map(|&length| (length, segments[(k + length - 1) % count]));
+        let opened = ways.clone().find_map(|(length, last)| {
+            let notch = by_mouth.get(&[bits(segment.from), bits(last.to)])?;
+            (notch.segments as usize == length).then_some((**notch, length, last))
+        });
+        let Some((notch, length, last)) = opened else {
+            kept.push(segment);
+            k += 1;
+            continue;
+        };
+        let percent = (k..k + length).map(|i| segments[i % count].percent).min().unwrap_or(segment.percent);
+        kept.push(Segment { to: last.to, span: last.span, percent, ..segment });
+        taken.push((notch, percent));
+        k += length;
+        carried_over = k.saturating_sub(count);
+    }
+    kept.drain(..carried_over);
+    *segments = kept;
+    taken
+}

@@ -1,0 +1,88 @@
+//! Whether events, holes, slits and contours come in the order of the marker.
+
+use super::line::Line;
+use crate::ir::Finding;
+use crate::ir::finding::Sighting;
+use crate::verify::worst::{Worst, at};
+
+/// What was told, drilled and cut, each with its time and its rank in the marker.
+#[derive(Debug)]
+pub(in crate::verify) struct Order<'a> {
+    lines: &'a [Line<'a>],
+    /// The strokes, in time: a large marker has a hundred thousand of them.
+    strokes: Vec<Begun>,
+    /// Where those began that come behind a later one, each with its place among them.
+    late: Vec<(usize, Sighting)>,
+    /// The greatest rank of them so far.
+    greatest: u32,
+    /// Events and holes.
+    told: Vec<Seen>,
+}
+
+/// When a line begins to be cut.
+#[derive(Debug, Clone, Copy)]
+struct Begun {
+    tick: u64,
+    line: u32,
+}
+
+/// Something else of the marker that is told or drilled.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::verify) struct Seen {
+    pub(in crate::verify) tick: u64,
+    /// Its rank in the marker.
+    pub(in crate::verify) rank: usize,
+    pub(in crate::verify) place: Sighting,
+}
+
+impl<'a> Order<'a> {
+    /// Nothing yet, of these lines.
+    pub(in crate::verify) fn new(lines: &'a [Line<'a>]) -> Self {
+        // A line is one stroke, as a rule.
+        let strokes = Vec::with_capacity(lines.len());
+        Self { lines, strokes, late: Vec::new(), greatest: 0, told: Vec::new() }
+    }
+
+    /// A line begins to be cut somewhere at a tick, no earlier than the one before.
+    pub(in crate::verify) fn cut(&mut self, tick: u64, line: usize, place: Sighting) {
+        let rank = self.lines[line].rank;
+        if rank < self.greatest {
+            self.late.push((self.strokes.len(), place));
+        }
+        self.greatest = self.greatest.max(rank);
+        self.strokes.push(Begun { tick, line: line as u32 });
+    }
+
+    /// Takes what was told and drilled.
+    pub(in crate::verify) fn add(&mut self, told: Vec<Seen>) {
+        self.told.extend(told);
+    }
+
+    /// How many come behind a later one, a tick being that long, s. Holes are known only when the program is over, so all are
+    /// brought into time first.
+    pub(in crate::verify) fn finding(mut self, period: f64) -> Finding {
+        let mut worst = Worst::new("verify/order", "operations", Some(0.0));
+        let (mut greatest, mut late) = (0, 0.0);
+        let mut see = |Seen { tick, rank, place }: Seen| {
+            if rank < greatest {
+                late += 1.0;
+                worst.see(late, || at(tick as f64 * period, place.point, place.block));
+            }
+            greatest = greatest.max(rank);
+        };
+        self.told.sort_by_key(|seen| seen.tick);
+        let (mut told, mut places) = (self.told.into_iter().peekable(), self.late.into_iter().peekable());
+        for (i, Begun { tick, line }) in self.strokes.into_iter().enumerate() {
+            while let Some(before) = told.next_if(|told| told.tick < tick) {
+                see(before);
+            }
+            let line = &self.lines[line as usize];
+            // What is late against holes and events alone is shown where its line begins.
+            let place = places.next_if(|late| late.0 == i).map(|late| late.1);
+            let place = place.unwrap_or_else(|| at(0.0, line.point(0), line.block(0)));
+            see(Seen { tick, rank: line.rank as usize, place });
+        }
+        told.for_each(see);
+        worst.finding()
+    }
+}

@@ -1,0 +1,73 @@
+//! What lies in what: whose cut-out a piece is.
+
+use rayon::prelude::*;
+
+use crate::geom::Point;
+use crate::geom::shape::Shape;
+
+/// For each shape the one to whose region it belongs: itself, or, when it lies in one other or in three, the smallest of
+/// these, of which it is a cut-out. A shape in a cut-out is a region of its own. `holders` names the shapes in whose rings a
+/// point lies.
+pub(in crate::verify) fn regions(shapes: &[Shape], holders: impl Fn(Point) -> Vec<u32> + Sync) -> Vec<u32> {
+    let area = |shape: u32| {
+        let (width, height) = shapes[shape as usize].extent().size();
+        width * height
+    };
+    let holder = |own: u32| {
+        let shape = &shapes[own as usize];
+        let mut holders = holders(shape.inner()?);
+        holders.retain(|&other| other != own && shapes[other as usize].extent().covers(&shape.extent()));
+        let smallest = holders.iter().copied().min_by(|&a, &b| area(a).total_cmp(&area(b)).then(a.cmp(&b)));
+        smallest.filter(|_| holders.len() % 2 == 1)
+    };
+    let count = shapes.len() as u32;
+    let mut regions: Vec<u32> = (0..count).collect();
+    // The largest first: what holds a shape is larger than it, and settled before.
+    let mut by_size: Vec<u32> = (0..count).collect();
+    by_size.sort_by(|&a, &b| area(b).total_cmp(&area(a)).then(a.cmp(&b)));
+    let held: Vec<Option<u32>> = by_size.par_iter().map(|&own| holder(own)).collect();
+    for (own, holder) in by_size.into_iter().zip(held) {
+        if let Some(holder) = holder {
+            regions[own as usize] = regions[holder as usize];
+        }
+    }
+    regions
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::region::Regions;
+
+    fn square(low: f64, high: f64) -> Vec<Point> {
+        [(low, low), (high, low), (high, high), (low, high)].map(|(x, y)| Point::new(x, y)).to_vec()
+    }
+
+    fn nested(rings: &[Vec<Point>]) -> Vec<u32> {
+        let index = Regions::new(0..rings.len() as u32, |owner| vec![rings[owner as usize][..].into()]);
+        let shapes: Vec<Shape> = rings.iter().map(|ring| Shape::new(std::slice::from_ref(ring))).collect();
+        regions(&shapes, |point| index.owners_at(point))
+    }
+
+    #[test]
+    fn what_lies_in_a_part_is_its_cut_out_and_what_lies_in_that_a_part_again() {
+        let shapes = [square(40.0, 60.0), square(0.0, 100.0), square(20.0, 80.0), square(45.0, 50.0)];
+        assert_eq!(nested(&shapes), [0, 1, 1, 0]);
+    }
+
+    #[test]
+    fn neighbours_are_regions_of_their_own_even_in_a_bay_or_edge_to_edge() {
+        let bay = [
+            (0.0, 0.0),
+            (90.0, 0.0),
+            (90.0, 90.0),
+            (60.0, 90.0),
+            (60.0, 30.0),
+            (30.0, 30.0),
+            (30.0, 90.0),
+            (0.0, 90.0),
+        ];
+        let bay = bay.map(|(x, y)| Point::new(x, y)).to_vec();
+        assert_eq!(nested(&[bay, square(30.0, 60.0), square(90.0, 120.0)]), [0, 1, 2]);
+    }
+}

@@ -1,0 +1,160 @@
+//! A program followed from its first row to its last: the axes are watched, strokes are followed and judged.
+
+use rayon::prelude::*;
+
+use super::axes::events::Events;
+use super::axes::limits::Limits;
+use super::axes::rest::Rest;
+use super::axes::table::Table;
+use super::cut::coverage::Coverage;
+use super::cut::done::Done;
+use super::cut::naming::Naming;
+use super::cut::stroke::{Judge, Traced};
+use super::cut::strokes::Strokes;
+use super::cut::worsts::Worsts;
+use super::program::row::{Going, Row};
+use super::reference::order::{Order, Seen};
+use super::worst::Worst;
+use crate::ir::Finding;
+use crate::machine::Job;
+
+/// Rows of strokes that are judged at a time: enough to keep all cores busy, few enough to keep memory small.
+const ROWS_AT_A_TIME: usize = 4096;
+/// Room for them: the last stroke is taken whole.
+const ROOM: usize = ROWS_AT_A_TIME + ROWS_AT_A_TIME / 8;
+/// Rows of strokes that are judged one after the other: what was worst in one stroke spares work on the next ones.
+const ROWS_IN_A_ROW: usize = 512;
+
+/// What watches rows as they come, whatever is cut.
+struct Watch<'a> {
+    limits: Limits,
+    rest: Rest<'a>,
+    table: Table,
+    events: Events,
+    /// Events and holes, as they are told.
+    told: Vec<Seen>,
+    block: Worst,
+    yaw_deg: f64,
+    last: Option<Row>,
+}
+
+impl Watch<'_> {
+    /// Sees rows until enough of them belong to strokes, or none comes any more, and gathers these. Each row may come with
+    /// how the axes go there.
+    fn gather(&mut self, next: &mut impl FnMut() -> Option<(Row, Option<Going>)>) -> Strokes {
+        let mut strokes = Strokes::with_room(ROOM);
+        while strokes.rows() < ROWS_AT_A_TIME || strokes.are_open() {
+            let Some((row, going)) = next() else { break };
+            self.limits.see(&row);
+            if going.is_none() {
+                self.limits.see_timed(&row);
+            }
+            self.rest.see(&row);
+            // The axis stands askew to the blade by the yaw: what is cut is judged by the blade.
+            let blade = Row { c_deg: row.c_deg - self.yaw_deg, ..row };
+            self.table.see(&blade);
+            self.block.see(Naming::in_air(&row), || row.sighting());
+            self.events.see(&row, &mut self.told);
+            if row.knife || strokes.are_open() {
+                // The row of the lift command still holds the pose at the end of the cut.
+                strokes.push(&blade, going);
+            }
+            if !row.knife && strokes.are_open() {
+                strokes.end();
+            }
+            self.last = Some(row);
+        }
+        if strokes.are_open() {
+            strokes.end();
+        }
+        strokes
+    }
+
+    fn findings(mut self, done: &mut Done) -> Vec<Finding> {
+        done.worsts.block.add(&self.block);
+        let mut findings = self.limits.findings(self.last.as_ref());
+        findings.extend(self.rest.findings(self.last.as_ref(), &mut self.told));
+        findings.extend([self.table.finding(), self.events.finding()]);
+        done.order.add(self.told);
+        findings
+    }
+}
+
+impl Done<'_> {
+    /// Judges strokes, in their order: on all cores, but for what depends on the strokes before.
+    fn see(&mut self, mut traced: Vec<Traced>, judge: &Judge) {
+        for stroke in &mut traced {
+            judge.settle(stroke, self);
+        }
+        let known = &self.worsts;
+        let check = |strokes: &[Traced]| {
+            // What is no worse than anything so far need not be known.
+            let mut worsts = known.clone();
+            for stroke in strokes {
+                judge.check(stroke, &mut worsts);
+            }
+            worsts
+        };
+        let worsts: Vec<Worsts> = in_a_row(&traced).into_par_iter().map(check).collect();
+        for later in worsts {
+            self.worsts.add(later);
+        }
+    }
+}
+
+/// Parts strokes, in their order, into those that are judged one after the other, whatever the number of cores.
+fn in_a_row(mut traced: &[Traced]) -> Vec<&[Traced]> {
+    let mut parts = Vec::new();
+    while !traced.is_empty() {
+        let mut rows = 0;
+        let is_full = |stroke: &Traced| {
+            rows += stroke.rows();
+            rows >= ROWS_IN_A_ROW
+        };
+        let end = traced.iter().position(is_full).map_or(traced.len(), |last| last + 1);
+        let part;
+        (part, traced) = traced.split_at(end);
+        parts.push(part);
+    }
+    parts
+}
+
+/// Follows the rows of a program, each with how the axes go there where that is told.
+pub(super) fn simulate(
+    mut next: impl FnMut() -> Option<(Row, Option<Going>)>,
+    judge: &Judge,
+    job: &Job,
+) -> Vec<Finding> {
+    let (profile, reference, rounding) = (&job.profile, judge.reference, judge.rows_rounding);
+    let mut watch = Watch {
+        limits: Limits::new(profile, rounding),
+        rest: Rest::new(reference, profile, rounding),
+        table: Table::new(profile, rounding),
+        events: Events::new(reference),
+        told: Vec::new(),
+        block: judge.worsts().block,
+        yaw_deg: profile.knife.yaw_deg,
+        last: None,
+    };
+    let order = Order::new(&reference.lines);
+    let mut done = Done { coverage: Coverage::new(reference), order, worsts: judge.worsts() };
+    // What is read, what is followed and what is judged are at work beside each other, each on strokes of its own.
+    let (mut read, mut traced) = (watch.gather(&mut next), Vec::new());
+    // Who makes room for rows gives it back: only then it is at hand for the next ones.
+    let mut given_back = Strokes::default();
+    while read.rows() > 0 || !traced.is_empty() {
+        let (strokes, followed) = (std::mem::take(&mut read), std::mem::take(&mut traced));
+        rayon::in_place_scope(|scope| {
+            scope.spawn(|_| done.see(followed, judge));
+            scope.spawn(|_| traced = strokes.all().into_par_iter().map(|stroke| judge.trace(stroke)).collect());
+            read = watch.gather(&mut next);
+        });
+        given_back = strokes;
+    }
+    drop(given_back);
+    let mut findings = watch.findings(&mut done);
+    findings.extend(done.worsts.findings());
+    findings.extend(done.coverage.findings(profile));
+    findings.push(done.order.finding(profile.time.period()));
+    findings
+}

@@ -1,0 +1,55 @@
+//! A small scan of the source bytes by other means than the reader's: what it counts must be what the marker holds, so
+//! that a fault of the reader is seen, too.
+
+use super::census::Census;
+use super::hpgl;
+use super::scan::scan_iso;
+use crate::geom::Point;
+use crate::geom::moments::{Allowance, Difference};
+use crate::ir::Finding;
+use crate::machine::MachineProfile;
+use crate::verify::worst::Worst;
+
+/// Rounding of sums of lengths, as a part of them.
+const LENGTH_EPSILON: f64 = 1e-9;
+/// Rounding of sums of moments, as a part of them: sums of a million lines agree to a thousandth of that.
+const MOMENT_EPSILON: f64 = 1e-10;
+/// Compares a marker as it was read with a scan of the bytes; `None` when there is no scan for the dialect.
+pub fn source_audit(dialect: &str, bytes: &[u8], read: &Census, profile: &MachineProfile) -> Option<Vec<Finding>> {
+    let (scanned, slack) = match dialect {
+        "iso" => scan_iso(bytes, read.unit, profile),
+        "hpgl" => hpgl::scan(bytes, profile),
+        _ => return None,
+    };
+    let corner = |a: Point, b: Point| (a - b).amax();
+    let bounds = match (read.bounds.is_empty(), scanned.bounds.is_empty()) {
+        (true, true) => 0.0,
+        (false, false) => corner(read.bounds.min, scanned.bounds.min).max(corner(read.bounds.max, scanned.bounds.max)),
+        _ => f64::INFINITY,
+    };
+    let nowhere = || crate::verify::worst::at(0.0, Point::origin(), 0);
+    let finding = |rule, unit, value: f64, limit| {
+        let mut worst = Worst::new(rule, unit, Some(limit));
+        worst.see(value, nowhere);
+        Finding { place: None, ..worst.finding() }
+    };
+    // A length in another unit is another length.
+    let is_same_unit = read.unit.to_bits() == scanned.unit.to_bits();
+    let length = if is_same_unit { (read.length - scanned.length).abs() } else { f64::INFINITY };
+    let mut findings = vec![
+        finding("source/points", "points", read.points.abs_diff(scanned.points) as f64, 0.0),
+        finding("source/length", "mm", length, LENGTH_EPSILON * (1.0 + read.length) + slack.length),
+        finding("source/bounds", "mm", bounds, LENGTH_EPSILON + slack.bounds),
+    ];
+    if dialect == "iso" {
+        // What is a hole in a plot is deduced from its shapes: the bytes do not say it.
+        findings.insert(1, finding("source/drills", "holes", read.drills.abs_diff(scanned.drills) as f64, 0.0));
+    } else {
+        let corners = [read.bounds.min, read.bounds.max, scanned.bounds.min, scanned.bounds.max];
+        let reach = corners.iter().map(|corner| corner.coords.amax()).fold(0.0, f64::max);
+        let allowance = Allowance { reach, epsilon: MOMENT_EPSILON, slack: &slack.moments };
+        let Difference { distance, limit } = read.moments.compare(&scanned.moments, allowance);
+        findings.push(finding("source/moments", "mm", distance, limit));
+    }
+    Some(findings)
+}

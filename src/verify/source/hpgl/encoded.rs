@@ -1,0 +1,57 @@
+//! Polylines in the compact encoding of PE.
+
+use super::scan::Scan;
+
+/// Fraction bits, of either sign.
+const MOST_BITS: f64 = 26.0;
+
+impl Scan<'_> {
+    /// PE: digits of base 64 or 32, least first.
+    pub(super) fn encoded(&mut self) {
+        let (mut base, mut last_from) = (64.0, 191);
+        let (mut bits, mut is_up, mut is_absolute, mut flag) = (0, false, false, b' ');
+        let (mut value, mut weight) = (0.0, 1.0);
+        let mut first: Option<(f64, usize)> = None;
+        while let Some(&raw) = self.bytes.get(self.at) {
+            self.at += 1;
+            let mut byte = raw;
+            if self.is_text && matches!(raw, 0xc2 | 0xc3) {
+                let low = self.bytes.get(self.at).copied().unwrap_or(0);
+                byte = (raw << 6) | (low & 0x3f);
+                self.at += 1;
+            }
+            match byte {
+                b';' => return,
+                b'7' => (base, last_from) = (32.0, 95),
+                b'<' => is_up = true,
+                b'=' => is_absolute = true,
+                b':' | b'>' => flag = byte,
+                63..=126 | 191..=254 => {
+                    let is_last = byte >= last_from;
+                    value += f64::from(byte - if is_last { last_from } else { 63 }) * weight;
+                    weight *= base;
+                    if !is_last {
+                        continue;
+                    }
+                    let half = (value / 2.0).floor();
+                    let number = if value % 2.0 == 0.0 { half } else { -half };
+                    (value, weight) = (0.0, 1.0);
+                    match (std::mem::replace(&mut flag, b' '), first.take()) {
+                        (b':', kept) => (first, self.pen.cause) = (kept, None),
+                        (b'>', kept) if number.abs() <= MOST_BITS => (first, bits) = (kept, number as i32),
+                        // The reader takes no more of it, either.
+                        (b'>', _) => return,
+                        (_, None) => first = Some((number * 2.0_f64.powi(-bits), self.at)),
+                        (_, Some((x, cause))) => {
+                            let to = self.target([x, number * 2.0_f64.powi(-bits)], !is_absolute);
+                            self.pen.is_down = !is_up;
+                            self.lead(to, cause);
+                            (is_absolute, is_up) = (false, false);
+                        }
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! Instructions, escapes and labels: what stands between two numbers that lead the pen.
+
+use super::scan::{Pen, Place, Scan};
+
+/// The terminator of labels unless DT gives another: ETX.
+pub(super) const ETX: u8 = 3;
+/// Longest label, bytes, before its terminator counts as lost.
+const LABEL_BYTES: usize = 1024;
+
+impl Scan<'_> {
+    pub(super) fn run(&mut self) {
+        while let Some(&byte) = self.bytes.get(self.at) {
+            let next = self.bytes.get(self.at + 1).copied().unwrap_or(0);
+            if byte == 0x1b {
+                self.escape();
+            } else if self.bytes[self.at..].starts_with(b"@PJL") {
+                self.at += self.until(b"\n", usize::MAX);
+            } else if byte.is_ascii_alphabetic() && next.is_ascii_alphabetic() {
+                self.at += 2;
+                self.instruction([byte.to_ascii_uppercase(), next.to_ascii_uppercase()]);
+            } else {
+                self.at += 1;
+            }
+        }
+    }
+
+    /// Bytes up to one of `ends`, or up to the end of the file or of `most`.
+    pub(super) fn until(&self, ends: &[u8], most: usize) -> usize {
+        let rest = &self.bytes[self.at..];
+        rest.iter().take(most).position(|byte| ends.contains(byte)).unwrap_or(rest.len().min(most))
+    }
+
+    pub(super) fn escape(&mut self) {
+        let rest = &self.bytes[self.at + 1..];
+        let after = |skip: usize, is: &dyn Fn(u8) -> bool| {
+            skip + rest[skip..].iter().position(|&byte| !is(byte)).unwrap_or(rest.len() - skip)
+        };
+        let length = match rest {
+            [b'E', ..] => {
+                self.reset();
+                1
+            }
+            [b'.', letter, ..] if letter.is_ascii_graphic() => {
+                let end = after(2, &|byte| byte.is_ascii_digit() || byte == b';' || byte == b',');
+                if rest.get(end) == Some(&b':') { end + 1 } else { 2 }
+            }
+            [b'%', first, ..] => {
+                let digits = 1 + usize::from(matches!(first, b'+' | b'-'));
+                let end = after(digits, &|byte| byte.is_ascii_digit());
+                let ends_well = end > digits && rest.get(end).is_some_and(u8::is_ascii_alphabetic);
+                if ends_well { end + 1 } else { 0 }
+            }
+            [mark, ..] if b"!\"#$&'()*+,/".contains(mark) => {
+                let end = after(1, &|b| b.is_ascii_digit() || b.is_ascii_lowercase() || b"+-.".contains(&b));
+                if rest.get(end).is_some_and(|b| b.is_ascii_uppercase() || *b == b'@') { end + 1 } else { 0 }
+            }
+            [other, ..] if other.is_ascii_alphanumeric() || *other == b'=' => 1,
+            _ => 0,
+        };
+        self.at += 1 + length;
+    }
+
+    /// IN; DF leaves the pen, the corners and the turn alone.
+    pub(super) fn reset(&mut self) {
+        self.pen = Pen::default();
+        (self.corners, self.scale, self.quarters, self.part) = (None, None, 0, None);
+        (self.terminator, self.is_fresh) = (ETX, false);
+        (self.polygon, self.curves) = (Vec::new(), Vec::new());
+    }
+
+    pub(super) fn instruction(&mut self, mnemonic: [u8; 2]) {
+        let cause = self.at;
+        match &mnemonic {
+            b"IN" | b"BP" => self.reset(),
+            b"DF" => (self.pen.is_relative, self.scale, self.terminator) = (false, None, ETX),
+            b"PU" | b"PD" | b"PA" | b"PR" => {
+                match &mnemonic {
+                    b"PU" => self.lift(),
+                    b"PD" => self.pen.is_down = true,
+                    other => self.pen.is_relative = other[1] == b'R',
+                }
+                self.places();
+            }
+            b"PE" => self.encoded(),
+            b"SP" => self.pen.cause = None,
+            b"LB" => {
+                let window = &self.bytes[self.at..self.bytes.len().min(self.at + LABEL_BYTES)];
+                match memchr::memchr(self.terminator, window) {
+                    Some(length) => self.at += length + 1,
+                    None => self.at += self.until(b";\r\n", LABEL_BYTES),
+                }
+            }
+            b"DT" => {
+                let given = self.bytes.get(self.at).copied().filter(|&byte| byte != b';');
+                self.terminator = given.unwrap_or(ETX);
+                self.at += usize::from(given.is_some());
+            }
+            b"CO" => {
+                let quoted = self.bytes.get(self.at) == Some(&b'"');
+                let window = self.bytes[self.at..].iter().skip(1).take(LABEL_BYTES);
+                let end = window.clone().position(|&byte| byte == b'"').filter(|_| quoted);
+                self.at += end.map_or_else(|| self.until(b";\r\n", usize::MAX), |length| length + 2);
+            }
+            _ => {
+                let numbers = match &mnemonic {
+                    b"BZ" | b"BR" => return self.beziers(mnemonic == *b"BR"),
+                    _ => self.numbers(),
+                };
+                self.figure(mnemonic, &numbers, cause);
+                self.frame(mnemonic, &numbers);
+            }
+        }
+    }
+
+    /// Places behind PU, PD, PA and PR.
+    pub(super) fn places(&mut self) {
+        loop {
+            let cause = self.at;
+            let (Some(x), Some(y)) = (self.number(), self.number()) else { return };
+            let to = self.target([x, y], self.pen.is_relative);
+            self.lead(to, cause);
+        }
+    }
+
+    /// A place of the file: the first one behind PM 1 starts a part, whatever leads there.
+    pub(super) fn lead(&mut self, to: Place, cause: usize) {
+        let starts = self.part.is_some() && std::mem::take(&mut self.is_fresh);
+        if starts {
+            self.part = Some(self.polygon.len());
+        }
+        self.go(to, cause, self.pen.is_down && !starts);
+    }
+}
