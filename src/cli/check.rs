@@ -7,9 +7,10 @@ use serde::Serialize;
 
 use super::batch::{self, Batch, Columns, Input, Inputs, Outcome, Row, State, Telling, Threads};
 use super::choices::Format;
+use super::files;
+use super::finished::{Console, DONE, FAULTY, Finished, USAGE, say};
 use super::options::{Messages, Reading, counted};
 use super::report::{Findings, pretty};
-use super::{Console, DONE, FAULTY, Finished, USAGE, files, say};
 use crate::diagnostic::{Diagnostics, Severity, render_with};
 use crate::machine::Job;
 use crate::pipeline;

@@ -5,7 +5,8 @@ use std::io::{self, Write as _};
 use clap::{Args, CommandFactory as _};
 use clap_complete::Shell;
 
-use super::{DONE, Finished, failure, help};
+use super::finished::{DONE, Finished, failure};
+use super::help;
 
 /// Arguments of `cutc completions`.
 #[derive(Debug, Args)]

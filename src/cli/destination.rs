@@ -5,7 +5,8 @@ use std::fs;
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 
 use super::files::{STDIN, directory, is_dash, meta, stale};
-use super::{failure, provenance};
+use super::finished::failure;
+use super::provenance;
 use crate::back::{TARGETS, Target};
 
 /// What is a directory everywhere.

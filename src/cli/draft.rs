@@ -11,8 +11,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::NamedTempFile;
 
-use super::failure;
 use super::files::{cannot_write, directory};
+use super::finished::failure;
 
 /// How the name of a draft begins and ends: between stand machine, process and some letters of chance.
 const PREFIX: &str = ".cutc-";

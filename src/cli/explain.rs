@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use clap::Args;
 
-use super::{DONE, Finished, failure};
+use super::finished::{DONE, Finished, failure};
 use crate::diagnostic::{Severity, code};
 use crate::front::DIALECTS;
 use crate::machine::MachineProfile;

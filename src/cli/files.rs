@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{self, Read as _};
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 
-use super::{failure, say};
+use super::finished::{failure, say};
 use crate::source::Source;
 
 /// What stands for standard input and output.

@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 
 use clap::Args;
 
-use super::{DONE, Finished, choices};
+use super::choices;
+use super::finished::{DONE, Finished};
 use crate::manual::{PAGES, Page};
 
 /// Arguments of `cutc manual`.

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::choices::Format;
-use super::{FAULTY, Finished, USAGE, choices, failure, files, say};
+use super::finished::{FAULTY, Finished, USAGE, failure, say};
+use super::{choices, files};
 use crate::diagnostic::{Detail, Severity, render_with};
 use crate::front::Dialect;
 use crate::machine::plot::{Inner, Lines};

@@ -7,8 +7,8 @@ use clap::{Args, Subcommand};
 
 use super::draft::Draft;
 use super::files;
+use super::finished::{DONE, Finished};
 use super::options::{Machine, refuse};
-use super::{DONE, Finished};
 use crate::machine::{Comments, MachineProfile, load};
 
 /// What stands above the keys of a new profile.

@@ -6,9 +6,9 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::files;
+use super::finished::say;
 use super::options::typed;
 use super::report::pretty;
-use super::say;
 use crate::back::{Proof, TARGETS, Target};
 use crate::machine::{Job, sha256_hex};
 use crate::source::Source;

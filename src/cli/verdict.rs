@@ -4,9 +4,9 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use super::finished::say;
 use super::options::counted;
 use super::report::pretty;
-use super::say;
 use crate::ir::Finding;
 use crate::machine::Mode;
 use crate::pipeline::{self, Verdict};

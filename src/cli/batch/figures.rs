@@ -1,10 +1,7 @@
 //! What is known of a file beyond its row in every table: notches, the area of its parts, the cloth that they lie on, and
 //! what cutting them costs.
 
-use crate::cli::price::{Costs, Price};
 use crate::units::{MM_PER_M, MM2_PER_M2};
-
-use super::table::Row;
 
 /// Hundredths in a whole.
 const PERCENT: f64 = 100.0;
@@ -60,13 +57,6 @@ impl Figures {
             });
         }
         sum
-    }
-}
-
-impl Row {
-    /// What the file costs, as far as its time is known.
-    pub(in crate::cli) fn costs(&self, price: Price) -> Option<Costs> {
-        Some(price.costs(self.time_s?, self.pieces?))
     }
 }
 

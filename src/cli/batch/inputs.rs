@@ -7,7 +7,8 @@ use globset::{GlobBuilder, GlobMatcher};
 use walkdir::{DirEntry, WalkDir};
 
 use crate::cli::files::{STDIN, is_dash, is_meta, meta};
-use crate::cli::{failure, provenance};
+use crate::cli::finished::failure;
+use crate::cli::provenance;
 use crate::front::DIALECTS;
 
 /// What makes a name a pattern.

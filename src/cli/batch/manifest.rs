@@ -11,9 +11,9 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use serde::{Deserialize, Serialize};
 
 use super::shard::Shard;
-use crate::cli::Console;
 use crate::cli::draft::{self, Draft};
 use crate::cli::files::{cannot_write, directory, meta};
+use crate::cli::finished::Console;
 use crate::machine::sha256_of;
 
 /// The name of a manifest, and how those of parts begin and end.

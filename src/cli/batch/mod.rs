@@ -19,10 +19,10 @@ pub(super) use inputs::{Input, Inputs, extensions, files_in, find, find_programs
 pub(super) use manifest::{Line, Made, Manifest, Output, Verdict};
 pub(super) use shard::Shard;
 pub(super) use side_by_side::{Stages, run as side_by_side};
-pub(super) use table::{Columns, Row, State, counts, failed_last, sum, text};
+pub(super) use table::{Columns, Row, State, Telling, counts, failed_last, sum, text};
 
 use self::progress::Progress;
-use super::{Console, DONE, FAULTY, Finished};
+use super::finished::{Console, DONE, FAULTY, Finished};
 use crate::diagnostic::Diagnostics;
 
 /// What is said of a file that no file should do.
@@ -81,17 +81,6 @@ impl Outcome {
     pub(super) fn elsewhere() -> Self {
         Self { row: None, said: String::new(), json: None }
     }
-}
-
-/// How a batch is told.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Telling {
-    /// What its table has.
-    pub(super) columns: Columns,
-    /// Whether only what failed is told.
-    pub(super) quiet: bool,
-    /// Whether there is a list of JSON objects on standard output.
-    pub(super) json: bool,
 }
 
 /// The code of the worst finding, for a row.

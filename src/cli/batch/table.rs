@@ -3,7 +3,6 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use super::Telling;
 use super::figures::Figures;
 use crate::cli::options::counted;
 use crate::cli::price::{Costs, Price};
@@ -41,6 +40,11 @@ pub(in crate::cli) struct Row {
 }
 
 impl Row {
+    /// What the file costs, as far as its time is known.
+    pub(in crate::cli) fn costs(&self, price: Price) -> Option<Costs> {
+        Some(price.costs(self.time_s?, self.pieces?))
+    }
+
     /// A row of which no more is known.
     pub(in crate::cli) fn new(file: &Path, state: State) -> Self {
         let file = file.display().to_string();
@@ -59,6 +63,17 @@ pub(in crate::cli) enum Columns {
     Counted(Option<Price>),
     /// None but the verdict.
     Judged,
+}
+
+/// How a batch is told.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::cli) struct Telling {
+    /// What its table has.
+    pub(in crate::cli) columns: Columns,
+    /// Whether only what failed is told.
+    pub(in crate::cli) quiet: bool,
+    /// Whether there is a list of JSON objects on standard output.
+    pub(in crate::cli) json: bool,
 }
 
 /// The table of some rows; with `quiet` only of those that failed.

@@ -3,11 +3,12 @@
 use std::io::{self, Seek as _, Write as _};
 use std::path::PathBuf;
 
-use super::Making;
+use super::arguments::Making;
 use crate::back::Target;
 use crate::cli::draft::{self, Draft};
+use crate::cli::files;
+use crate::cli::finished::say;
 use crate::cli::provenance::{self, Made, Verified};
-use crate::cli::{files, say};
 use crate::diagnostic::Diagnostics;
 use crate::machine::{Job, sha256_of};
 use crate::pipeline::{self, Choices, Compiled, Medium, Product};

@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use super::arguments::{Arguments, Making};
 use super::made::{Compile, Drafted, Ended, Whole};
-use super::{Arguments, Making, one};
+use super::one;
 use crate::back::Target;
 use crate::cli::batch::{
     self, Batch, Columns, Input, Line, Made, Manifest, Outcome, Output, Row, Stages, State, Telling, Verdict,
@@ -12,8 +13,9 @@ use crate::cli::batch::{
 use crate::cli::choices::Format;
 use crate::cli::destination::{below, not_of_another, targets_of_many};
 use crate::cli::draft::{self, MadeFolders};
+use crate::cli::finished::{Console, Finished, USAGE, failure, say};
 use crate::cli::options::{Messages, typed};
-use crate::cli::{Console, Finished, USAGE, failure, files, report, say};
+use crate::cli::{files, report};
 use crate::diagnostic::{Diagnostics, render_with};
 use crate::machine::{Job, sha256_hex};
 use crate::pipeline::{Compiled, Report};

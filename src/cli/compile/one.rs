@@ -4,13 +4,14 @@ use std::path::{Path, PathBuf};
 
 use tempfile::SpooledTempFile;
 
+use super::arguments::{Arguments, Making};
 use super::made::{Compile, Emitted, Ended, move_aside};
-use super::{Arguments, Making};
 use crate::cli::choices::Format;
 use crate::cli::destination::{Asked, Destination, Place};
 use crate::cli::draft::MadeFolders;
+use crate::cli::finished::{DONE, FAULTY, Finished, Stdout, USAGE, failure, say};
 use crate::cli::options::counted;
-use crate::cli::{DONE, FAULTY, Finished, Stdout, USAGE, failure, files, report, say, setup, summary};
+use crate::cli::{files, report, setup, summary};
 use crate::diagnostic::{Diagnostics, Severity, code, render_with};
 use crate::pipeline::Compiled;
 use crate::source::Source;

@@ -1,9 +1,11 @@
 //! Many files: a row each, and their sum.
 
-use super::{Arguments, sheet};
+use super::arguments::Arguments;
+use super::sheet;
 use crate::cli::batch::{self, Batch, Columns, Input, Outcome, Row, State, Telling};
 use crate::cli::choices::{Format, Sheet};
-use crate::cli::{Console, Finished, files};
+use crate::cli::files;
+use crate::cli::finished::{Console, Finished};
 use crate::diagnostic::{Diagnostics, render_with};
 use crate::machine::Job;
 use crate::pipeline::{self, Report};

@@ -1,76 +1,15 @@
 //! `cutc info`: what is in cutter files.
 
+mod arguments;
 mod many;
 mod one;
 mod sheet;
 
-use std::path::PathBuf;
+pub(super) use arguments::Arguments;
 
-use clap::Args;
-
-use super::batch::{self, Cloth, Figures, Input, Inputs, Threads};
+use super::batch::{self, Input, Inputs};
 use super::choices::Sheet;
-use super::options::{Messages, Reading};
-use super::price::Pricing;
-use super::{Console, Finished, failure};
-use crate::ir::Marker;
-use crate::pipeline::{self, Report, significant};
-use crate::units::MM2_PER_M2;
-use crate::units::quantity::value_in;
-
-/// Digits that are kept of areas and costs: far below what anybody measures or pays.
-const DIGITS: i32 = 9;
-
-/// Arguments of `cutc info`.
-///
-/// Of one file it says all. Of several it gives a row a file and their sum, with the time of the program that each would
-/// become; the files that failed come last.
-#[derive(Debug, Args)]
-pub(super) struct Arguments {
-    /// Cutter files to look into, folders of such, or patterns as 'in/**/*.cut'; `-` for standard input
-    #[arg(required = true, value_name = "FILE")]
-    files: Vec<PathBuf>,
-
-    #[command(flatten)]
-    reading: Reading,
-
-    #[command(flatten)]
-    messages: Messages,
-
-    #[command(flatten)]
-    threads: Threads,
-
-    /// Also list the labels of each piece: place, angle, text, and the fields of the list behind M0
-    ///
-    /// Of one file only. Texts that are no UTF-8 are read in the encoding `labels.encoding` of the profile, as in `--set
-    /// labels.encoding=windows-1251`.
-    #[arg(long)]
-    labels: bool,
-
-    /// Also plan the program: what it takes, piece by piece, and what keeps it from being faster
-    ///
-    /// Nothing is written and nothing is verified. Of several files the time is always given, as one number.
-    #[arg(long)]
-    time: bool,
-
-    /// Width of the cloth, as in `--cloth-width 1500` (mm) or `--cloth-width 1.5m`: how much of it is used follows from it
-    ///
-    /// Without it the cloth is as wide as what is cut; it is always as long as that.
-    #[arg(long, value_name = "MM", value_parser = width, help_heading = "Costs")]
-    cloth_width: Option<f64>,
-
-    #[command(flatten)]
-    pricing: Pricing,
-
-    /// How to give the figures
-    ///
-    /// JSON of one file has the keys of `cutc compile`, `profile` and `knife` among them, with null for what only planning
-    /// knows, and `notch_depths`, `speeds`, `events` and the area of the parts; with --labels also `labels_by_piece`, with
-    /// --time what planning knows, and `time_by_piece`. JSON of several is `files`, a list, and their `sum`. CSV is a header
-    /// and a row a file.
-    #[arg(long, value_enum, default_value = "text")]
-    format: Sheet,
-}
+use super::finished::{Console, Finished, failure};
 
 pub(super) fn run(arguments: &Arguments, console: &mut Console) -> anyhow::Result<Finished> {
     let threads = arguments.threads.set();
@@ -83,50 +22,4 @@ pub(super) fn run(arguments: &Arguments, console: &mut Console) -> anyhow::Resul
         return Err(failure("`--labels` looks into one file", "name one file, without `--format csv`"));
     }
     many::run(arguments, &inputs, threads, console)
-}
-
-/// Reads a width: a number is mm, else it has a unit.
-fn width(text: &str) -> Result<f64, String> {
-    let mm = text.parse().ok().or_else(|| value_in(text, "mm").ok());
-    mm.filter(|mm: &f64| mm.is_finite() && *mm > 0.0)
-        .ok_or_else(|| "a width is a length above 0, as in 1500 (mm), 150cm or 60in".to_owned())
-}
-
-impl Arguments {
-    /// What is known of a marker beyond its report; of one with errors no area.
-    fn figures(&self, marker: Option<&Marker>, report: &Report) -> Figures {
-        let [length_mm, height_mm] = report.extent_mm;
-        Figures {
-            notches: report.notches.by_kind().iter().map(|(_, count)| count).sum(),
-            area_m2: marker.and_then(pipeline::area).map(|area| area / MM2_PER_M2),
-            cloth: Cloth { length_mm, width_mm: self.cloth_width.unwrap_or(height_mm) },
-        }
-    }
-
-    /// A warning when a file needs more cloth than there is.
-    fn doubts(&self, name: &str, report: &Report) -> String {
-        let [_, height] = report.extent_mm;
-        let Some(width) = self.cloth_width.filter(|width| height > *width) else { return String::new() };
-        format!(
-            "warning: `{name}` is {} mm wide, more than the {} mm of the cloth\n  = hint: name the width of the cloth \
-             that it is made for with --cloth-width\n",
-            significant(height, DIGITS),
-            significant(width, DIGITS)
-        )
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_width_is_millimetres_or_has_a_unit() {
-        for text in ["1500", "150cm", "1.5 m", "1500.0"] {
-            assert_eq!(width(text), Ok(1500.0), "{text}");
-        }
-        for text in ["0", "-3", "inf", "NaN", "wide", "3kg", ""] {
-            assert!(width(text).expect_err("refused").contains("1500"), "{text}");
-        }
-    }
 }

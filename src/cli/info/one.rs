@@ -5,14 +5,15 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use super::arguments::{Arguments, DIGITS};
 use super::sheet::Costs;
-use super::{Arguments, DIGITS};
 use crate::cli::batch::{Figures, Row, State};
 use crate::cli::choices::{Format, Sheet};
 use crate::cli::facts::Facts;
+use crate::cli::finished::{DONE, FAULTY, Finished};
 use crate::cli::labels::{self, Labelled};
 use crate::cli::times::{self, Timed};
-use crate::cli::{DONE, FAULTY, Finished, drawn, files, report, setup, summary};
+use crate::cli::{drawn, files, report, setup, summary};
 use crate::diagnostic::{Diagnostics, render_with};
 use crate::ir::Marker;
 use crate::machine::Job;

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use serde_json::Value;
 
-use super::DIGITS;
+use super::arguments::DIGITS;
 use crate::cli::batch::{self, Row, State};
 use crate::cli::price::Price;
 use crate::cli::report::pretty;

@@ -2,12 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use super::Arguments;
+use super::arguments::Arguments;
 use super::one::{Judged, Program};
 use crate::cli::batch::{Batch, Columns, Input, Outcome, Row, State, Telling};
 use crate::cli::choices::Format;
+use crate::cli::finished::{Console, Finished, Stdout, failure, say};
 use crate::cli::options::counted;
-use crate::cli::{Console, Finished, Stdout, failure, files, provenance, say, verdict};
+use crate::cli::{files, provenance, verdict};
 use crate::machine::Job;
 use crate::pipeline::Verdict;
 use crate::source::Source;

@@ -4,11 +4,12 @@ use std::fs::File;
 use std::io;
 use std::path::Path;
 
-use super::Arguments;
+use super::arguments::Arguments;
 use crate::cli::choices::Format;
+use crate::cli::finished::{DONE, FAULTY, Finished, failure, say};
 use crate::cli::options::counted;
 use crate::cli::verdict::{self, Judgement};
-use crate::cli::{DONE, FAULTY, Finished, failure, files, provenance, say};
+use crate::cli::{files, provenance};
 use crate::diagnostic::{Diagnostics, Severity, render_with};
 use crate::machine::Job;
 use crate::pipeline::{self, Verdict};

@@ -3,30 +3,31 @@
 //! What was done stands in the manifest beside the programs, as that of a batch with `--changed`: a run that was killed
 //! is taken up where it ended. A file without a program has a report.
 
+mod arguments;
 mod events;
 mod report;
 mod settings;
 mod settling;
+
+pub(super) use arguments::Arguments;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use clap::Args;
-
 use self::events::{Events, Told};
 use self::settings::{Settings, Stamps};
 use self::settling::{STEADY, Settling, Stamp};
-use super::batch::{self, Input, Manifest, Outcome, Row, Stages, Threads};
+use super::batch::{self, Input, Manifest, Outcome, Row, Stages};
 use super::choices::Format;
-use super::compile::Making;
 use super::compile::many::{Became, Many};
 use super::destination::below;
 use super::draft::{self, MadeFolders};
-use super::options::{Messages, counted};
+use super::finished::{Console, Finished, failure};
+use super::options::counted;
 use super::times::clock;
-use super::{Console, Finished, failure, files, stop};
+use super::{files, stop};
 use crate::units::number::fixed;
 
 /// How long the folder is listened to before the clock and signals are looked at.
@@ -35,27 +36,6 @@ const TICK: Duration = Duration::from_millis(200);
 const LOOK: Duration = Duration::from_secs(2);
 /// A folder in which looking takes longer is looked through less often: so many times as long as it takes.
 const LOOK_SHARE: u32 = 50;
-
-/// Arguments of `cutc watch`.
-///
-/// A file is finished when it was renamed into the folder, when its writer closed it, or when it stayed the same for a
-/// second. Of a file that is refused `NAME.report.txt` stands where its program would. `cutc.toml` in the folder may
-/// hold options of `cutc compile` by their long names, as in `target = ["gcode", "svg"]` or `profile = "machine.toml"`.
-#[derive(Debug, Args)]
-pub(super) struct Arguments {
-    /// Folder that cutter files come into, by themselves or in folders
-    #[arg(value_name = "FOLDER")]
-    folder: PathBuf,
-
-    #[command(flatten)]
-    making: Making,
-
-    #[command(flatten)]
-    messages: Messages,
-
-    #[command(flatten)]
-    threads: Threads,
-}
 
 pub(super) fn run(arguments: &Arguments, typed: &[OsString], console: &mut Console) -> anyhow::Result<Finished> {
     let Arguments { folder, making, threads, .. } = arguments;

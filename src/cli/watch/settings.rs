@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Parser;
 
-use super::Arguments;
+use super::arguments::Arguments;
 use super::settling::Stamp;
 use crate::back::Target;
 use crate::cli::destination::targets_of_many;
-use crate::cli::{Finished, failure, files};
+use crate::cli::files;
+use crate::cli::finished::{Finished, failure};
 use crate::machine::Job;
 
 /// The file with the options of a folder.

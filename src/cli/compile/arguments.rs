@@ -1,0 +1,113 @@
+//! The arguments of `cutc compile`.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::back::Target;
+use crate::cli::batch::{Shard, Threads};
+use crate::cli::choices::{self, Format};
+use crate::cli::finished::Finished;
+use crate::cli::options::{Choice, Messages, Reading};
+use crate::machine::Job;
+
+/// Arguments of `cutc compile`.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct Arguments {
+    /// Cutter files to compile, folders of such, or patterns as 'in/**/*.cut'; `-` for standard input, then with -o
+    #[arg(required = true, value_name = "FILE")]
+    pub(super) files: Vec<PathBuf>,
+
+    #[command(flatten)]
+    pub(super) making: Making,
+
+    #[command(flatten)]
+    pub(super) messages: Messages,
+
+    #[command(flatten)]
+    pub(super) threads: Threads,
+
+    /// Compile only what was changed: what `cutc.jsonl` beside the programs does not have, or not of these bytes, options
+    /// and version, or what no longer stands there as it was written
+    #[arg(long, help_heading = "Many files")]
+    pub(super) changed: bool,
+
+    /// Compile one part of the files, as in `--shard 3/16`, on one of several machines
+    ///
+    /// Which part a file belongs to is told by its content. Its manifest is `cutc.3-of-16.jsonl`; the next run with
+    /// --changed and without --shard joins those of all parts.
+    #[arg(long, value_name = "PART/PARTS", value_parser = Shard::parse, help_heading = "Many files")]
+    pub(super) shard: Option<Shard>,
+
+    /// How to give the figures; of many files JSON is a list, each with its `file`
+    #[arg(long, value_enum, default_value = "text")]
+    pub(super) format: Format,
+
+    /// Print what a pass leaves, as text, and write no program
+    #[arg(long, value_name = "PASS", value_parser = choices::passes(), conflicts_with_all = ["out", "format", "frame"])]
+    pub(super) dump_after: Option<String>,
+}
+
+/// What is made of a file, and where it goes.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct Making {
+    /// Where the program goes: a file, a directory (made when it ends in `/`), or `-` for standard output
+    ///
+    /// By default `<stem of FILE>.<extension of the target>` in the current directory. The input is never overwritten, nor
+    /// is a program of another input without --force. A name without extension is taken for a directory that is there, else
+    /// refused. Of many files it is a directory, made when it is not there, in which folders keep their structure.
+    /// Beside the program stands its `.meta.json`: what it was made from. A program is read back and judged before it
+    /// is written (see `cutc verify`); when it fails, or the compile does, no program is written and an older one of
+    /// the same name is moved to `<name>.stale`. A picture is written all the same when the file can be read, with
+    /// `refused` across it and the places marked.
+    #[arg(short, long)]
+    pub(super) out: Option<PathBuf>,
+
+    /// What to write; several programs are written together or not at all, as in `-t csv,svg`
+    ///
+    /// Without it the extension of -o chooses, as in `-o marker.svg`; else csv.
+    #[arg(
+        short,
+        long = "target",
+        value_name = "TARGET",
+        value_parser = choices::targets(),
+        value_delimiter = ','
+    )]
+    pub(super) targets: Vec<&'static Target>,
+
+    /// Overwrite a program even if it was made from another input
+    #[arg(long)]
+    pub(super) force: bool,
+
+    #[command(flatten)]
+    pub(super) reading: Reading,
+
+    #[command(flatten)]
+    pub(super) choice: Choice,
+
+    /// Do not read the program back and judge it; summary and provenance say so
+    #[arg(long)]
+    pub(super) no_verify: bool,
+}
+
+impl Making {
+    /// The directory that `-o` names; the current one without it.
+    pub(in crate::cli) fn place(&self) -> &Path {
+        self.out.as_deref().unwrap_or(Path::new(""))
+    }
+
+    /// The targets as typed.
+    pub(in crate::cli) fn targets(&self) -> &[&'static Target] {
+        &self.targets
+    }
+
+    /// The machine profile as typed.
+    pub(in crate::cli) fn profile(&self) -> Option<&Path> {
+        self.reading.machine.profile.as_deref()
+    }
+
+    /// The job, or what is wrong with its profile.
+    pub(in crate::cli) fn job(&self) -> anyhow::Result<Result<Job, Finished>> {
+        Ok(self.reading.job()?.map(|job| self.choice.of(job)))
+    }
+}

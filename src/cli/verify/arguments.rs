@@ -1,0 +1,54 @@
+//! The arguments of `cutc verify`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::cli::batch::Threads;
+use crate::cli::choices::Format;
+use crate::cli::options::{Choice, Messages, Reading};
+
+/// Arguments of `cutc verify`.
+///
+/// Each program is simulated row by row and judged under every rule: whether all is cut, once and nothing else, how far
+/// the tip leaves the path, and whether the axes keep their limits. The exit code is 0 when every rule holds, 1 when one
+/// is broken, a file is no program, or the cutter file has errors.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct Arguments {
+    /// Programs to judge, folders of such, or patterns as 'out/**/*.csv': what `cutc compile` writes with a target of timed
+    /// setpoints, with gcode or with iso
+    ///
+    /// In folders programs are told by the `.meta.json` beside them; pictures and summaries are left out.
+    #[arg(required = true, value_name = "PROGRAM")]
+    pub(super) programs: Vec<PathBuf>,
+
+    /// Cutter file that the program must cut, `-` for standard input; or the folder that programs were compiled from
+    ///
+    /// In a folder the source of each program is found by its `.meta.json`, in the same place below this folder as the
+    /// program below its own.
+    #[arg(long, value_name = "FILE|FOLDER")]
+    pub(super) source: PathBuf,
+
+    #[command(flatten)]
+    pub(super) reading: Reading,
+
+    #[command(flatten)]
+    pub(super) messages: Messages,
+
+    #[command(flatten)]
+    pub(super) threads: Threads,
+
+    /// What the program was compiled with
+    #[command(flatten)]
+    pub(super) choice: Choice,
+
+    /// How to give the verdict; of many programs JSON is a list, each with its `program`
+    ///
+    /// JSON has `verdict` ("pass" or "fail") and `rules`, each with `code`, `worst`, `limit`, `unit`, `where` and
+    /// `holds`. A `worst` of null is beyond measure, a `limit` of null is only reported, a `block` of 0 is none. When
+    /// the cutter file has errors, or the program is none, the verdict is "fail" without rules. When rows cannot be read,
+    /// `unread` says which, and no rule is there that needs them. G-code tells no times: `untimed` then lists the
+    /// rules on these.
+    #[arg(long, value_enum, default_value = "text")]
+    pub(super) format: Format,
+}
