@@ -2,7 +2,7 @@
 
 use std::io::{self, Write as _};
 
-use clap::{Args, CommandFactory as _};
+use clap::{Args, Command};
 use clap_complete::Shell;
 
 use super::finished::{DONE, Finished, failure};
@@ -16,8 +16,7 @@ pub(super) struct Arguments {
     shell: Shell,
 }
 
-pub(super) fn run(arguments: &Arguments) -> Finished {
-    let mut command = super::Arguments::command();
+pub(super) fn run(arguments: &Arguments, mut command: Command) -> Finished {
     let mut out = Vec::new();
     clap_complete::generate(arguments.shell, &mut command, "cutc", &mut out);
     printed(&out)
@@ -31,13 +30,13 @@ pub(super) struct Page {
 }
 
 /// The page of the program or of one command; each names those below it as `cutc-compile(1)`.
-pub(super) fn man(page: &Page) -> anyhow::Result<Finished> {
-    let mut root = super::Arguments::command().disable_help_subcommand(true);
+pub(super) fn man(page: &Page, root: Command) -> anyhow::Result<Finished> {
+    let mut root = root.disable_help_subcommand(true);
     root.build();
     let mut command = &root;
     for word in &page.command {
         command = command.find_subcommand(word).ok_or_else(|| {
-            let below: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
+            let below: Vec<&str> = command.get_subcommands().map(Command::get_name).collect();
             failure(
                 format!("there is no command `{}` with a page", page.command.join(" ")),
                 if below.is_empty() { "leave the last word out".to_owned() } else { below.join(", ") + " have one" },

@@ -37,7 +37,7 @@ pub use stop::{STOPPED, stop};
 
 use std::ffi::OsString;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory as _, Parser, Subcommand};
 
 /// The command line as typed.
 #[derive(Debug, Parser)]
@@ -97,16 +97,14 @@ pub fn run(words: impl IntoIterator<Item = OsString>, console: &mut Console) -> 
         Command::Profile(arguments) => profile::run(arguments),
         Command::Explain(arguments) => explain::run(arguments),
         Command::Manual(arguments) => Ok(manual::run(arguments)),
-        Command::Completions(arguments) => Ok(completions::run(arguments)),
-        Command::Man(page) => completions::man(page),
+        Command::Completions(arguments) => Ok(completions::run(arguments, Arguments::command())),
+        Command::Man(page) => completions::man(page, Arguments::command()),
     };
     finished.unwrap_or_else(|error| Finished::text(String::new(), format!("error: {error:#}\n"), USAGE))
 }
 
 #[cfg(test)]
 mod tests {
-    use clap::CommandFactory as _;
-
     use super::*;
 
     #[test]

@@ -49,6 +49,16 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
     line("drills", report.drills.to_string());
     line("labels", report.labels.to_string());
     line("cut", format!("{} m", fixed(report.cut_m, 3)));
+    of_program(report, &mut line);
+    line("warnings", diagnostics.count(Severity::Warning).to_string());
+    if let Some(axes) = &report.program.axes {
+        peaks(&mut out, axes);
+    }
+    out
+}
+
+/// The lines on what planning knows.
+fn of_program(report: &Report, line: &mut impl FnMut(&str, String)) {
     let program = &report.program;
     if let Some(travel) = program.travel_m {
         line("travel", format!("{} m", fixed(travel, 3)));
@@ -88,11 +98,6 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
     if let Some(bulge) = program.bulge_mm.filter(|&bulge| fixed(bulge, 3) != "0.000") {
         line("bulge", format!("{} mm beyond the chords of flattened curves", fixed(bulge, 3)));
     }
-    line("warnings", diagnostics.count(Severity::Warning).to_string());
-    if let Some(axes) = &program.axes {
-        peaks(&mut out, axes);
-    }
-    out
 }
 
 /// What was done so that no overlap harms a part.

@@ -1,6 +1,6 @@
 //! What a plot or a drawing draws, in mm: strokes of named pens or layers, and texts. It does not say what is cut.
 
-use super::marker::Label;
+use super::label::Label;
 use crate::geom::{Extent, Point};
 use crate::source::Span;
 

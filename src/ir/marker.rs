@@ -1,9 +1,11 @@
 //! What the file says, in mm: the pieces, which lie on the cloth as they are drawn, and the cuts, which the knife makes.
 
+pub use super::label::Label;
+
 use super::drawing::Account;
 use super::list::{Range, SegmentList};
 use super::toolpath;
-use crate::geom::{Extent, Heading, Point, Vector};
+use crate::geom::{Extent, Point, Vector};
 use crate::source::Span;
 
 /// The whole of a cutter file.
@@ -248,19 +250,6 @@ pub struct Drill {
     pub tool: u8,
     /// Where it stands in the source.
     pub span: Span,
-}
-
-/// A text that belongs to a piece; never cut.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Label {
-    /// Where it stands; `None` when the file gives no place.
-    pub at: Option<Point>,
-    /// Its direction, when the file gives a second point.
-    pub heading: Option<Heading>,
-    /// The bytes of the text in the source.
-    pub span: Span,
-    /// The bytes of the form that it takes on mirrored pieces, when the file gives one.
-    pub mirrored: Option<Span>,
 }
 
 impl Marker {

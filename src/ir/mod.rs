@@ -14,6 +14,7 @@
 pub mod check;
 pub mod drawing;
 pub mod finding;
+pub mod label;
 mod links;
 pub mod list;
 pub mod marker;

@@ -1,7 +1,8 @@
 //! The marker of a drawing whose lines are sorted out, and the account of what it does not cut.
 
 use super::line::{Class, Line, RULES, Rule};
-use super::{Mark, Sheet};
+use super::marks::Mark;
+use super::sheet::Sheet;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;

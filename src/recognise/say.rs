@@ -3,9 +3,9 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-use super::Sheet;
 use super::line::{Class, Line};
 use super::pens::Use;
+use super::sheet::Sheet;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;

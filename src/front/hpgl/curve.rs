@@ -5,7 +5,7 @@
 
 use std::f64::consts::TAU;
 
-use super::scale::Pair;
+use super::scale::{Pair, Stretch};
 
 /// The most chords of one curve: a damaged number must not fill the memory.
 const MOST_CHORDS: f64 = 100_000.0;
@@ -21,26 +21,6 @@ pub(super) struct Arc {
     /// rad, counter-clockwise positive before it is stretched; more than a full turn is a full turn.
     pub(super) sweep: f64,
     pub(super) stretch: Stretch,
-}
-
-/// How far a unit of a circle goes along each axis of the plotter; no more than 1 along either, negative where the axis is
-/// mirrored. So what lies off the circle by some units lies off the ellipse by no more.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Stretch(pub(super) Pair);
-
-impl Stretch {
-    /// A circle stays one.
-    pub(super) const NONE: Self = Self([1.0, 1.0]);
-
-    /// The way between two places of the plotter as it was before.
-    fn undone(self, from: Pair, to: Pair) -> Pair {
-        [(to[0] - from[0]) / self.0[0], (to[1] - from[1]) / self.0[1]]
-    }
-
-    /// How much more than others the ways along one axis were stretched, so that their rounding is, too.
-    fn unevenness(self) -> f64 {
-        1.0 / self.0[0].abs().min(self.0[1].abs())
-    }
 }
 
 impl Arc {

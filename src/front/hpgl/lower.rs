@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::curve::{Arc, Bezier, Through};
-use super::encoded::{Ending, Item};
+use super::encoded::{Body, Ending, Item};
 use super::instruction::Instruction;
 use super::plotter::{NO_PEN, Plotter, Refusal, Sheet};
 use super::reader::{Next, Reader, Statement};
@@ -158,10 +158,7 @@ impl Lowering<'_> {
                 self.plotter.set_relative(instruction == Instruction::Relative);
                 self.moves();
             }
-            Instruction::Pen => {
-                let pen = self.values::<1>().first().copied().unwrap_or(0.0);
-                self.take_pen(pen);
-            }
+            Instruction::Pen => self.pen(),
             Instruction::Encoded => self.encoded(),
             Instruction::ArcAbsolute | Instruction::ArcRelative => {
                 self.arc(instruction == Instruction::ArcRelative, span);
@@ -177,31 +174,16 @@ impl Lowering<'_> {
                 self.rectangle(instruction == Instruction::RectangleRelative, span);
             }
             Instruction::Wedge => self.wedge(span),
-            Instruction::Polygon => match self.values::<1>().first() {
-                None | Some(0.0) => self.plotter.begin_polygon(span),
-                Some(1.0) => self.plotter.close_part(span),
-                Some(_) => self.plotter.end_polygon(span),
-            },
+            Instruction::Polygon => self.polygon(span),
             Instruction::EdgePolygon => {
                 let drawn = self.plotter.edge_polygon();
                 self.check(drawn, span);
             }
-            Instruction::Page => {
-                // Whatever is drawn next, what was drawn is whole.
-                self.plotter.drawing.lift();
-                let drawn = self.plotter.drawing.strokes.len();
-                if drawn > 0 {
-                    self.page_out.get_or_insert((drawn, span));
-                }
-            }
+            Instruction::Page => self.page(span),
             Instruction::Label => self.label(span),
             Instruction::Terminator => self.reader.define_terminator(),
             Instruction::Comment => self.reader.comment(),
-            Instruction::Direction => {
-                let values = self.values::<2>();
-                let way = values.get(1).map(|&rise| Vector::new(values[0], rise));
-                self.heading = way.filter(|way| way.norm() > 0.0).map(Heading::of).filter(|h| h.radians() != 0.0);
-            }
+            Instruction::Direction => self.direction(),
             Instruction::Initialize => self.reset(),
             Instruction::Default => {
                 self.plotter.set_default();
@@ -217,6 +199,37 @@ impl Lowering<'_> {
             }
             Instruction::Housekeeping | Instruction::LeftOut(_) | Instruction::Letters(_) | Instruction::Unknown => {}
         }
+    }
+
+    /// SP; without a number it puts the pen away.
+    fn pen(&mut self) {
+        let pen = self.values::<1>().first().copied().unwrap_or(0.0);
+        self.take_pen(pen);
+    }
+
+    /// PM: a polygon begins, goes on with another part, or ends.
+    fn polygon(&mut self, span: Span) {
+        match self.values::<1>().first() {
+            None | Some(0.0) => self.plotter.begin_polygon(span),
+            Some(1.0) => self.plotter.close_part(span),
+            Some(_) => self.plotter.end_polygon(span),
+        }
+    }
+
+    /// PG: whatever is drawn next, what was drawn is whole.
+    fn page(&mut self, span: Span) {
+        self.plotter.drawing.lift();
+        let drawn = self.plotter.drawing.strokes.len();
+        if drawn > 0 {
+            self.page_out.get_or_insert((drawn, span));
+        }
+    }
+
+    /// DI: the direction of texts.
+    fn direction(&mut self) {
+        let values = self.values::<2>();
+        let way = values.get(1).map(|&rise| Vector::new(values[0], rise));
+        self.heading = way.filter(|way| way.norm() > 0.0).map(Heading::of).filter(|h| h.radians() != 0.0);
     }
 
     /// Some numbers of the instruction; one beyond any table ends them.
@@ -354,6 +367,14 @@ impl Lowering<'_> {
             }
         }
         self.reader.behind(&body);
+        if let Some((_, start)) = first {
+            self.tally.odd(self.reader.within(start, body.at));
+        }
+        self.end_encoded(&body);
+    }
+
+    /// What is said of the end of an encoded polyline.
+    fn end_encoded(&mut self, body: &Body) {
         let span = self.reader.within(body.at.saturating_sub(1), body.at);
         match body.ending {
             Ending::Damaged => {
@@ -367,9 +388,6 @@ impl Lowering<'_> {
                 self.out.push(finding.at(span).hint("the file may be cut short; compare its size with the original"));
             }
             Ending::Done | Ending::More => {}
-        }
-        if let Some((_, start)) = first {
-            self.tally.odd(self.reader.within(start, body.at));
         }
         if body.repaired {
             self.tally.repaired(span);

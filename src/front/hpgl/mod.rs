@@ -8,6 +8,7 @@
 //! of what they mean; [`mod@lower`] follows them with the [`plotter`], its [`scale`] and [`curve`]. [`mod@unit`] doubts the
 //! size; [`tally`] counts what was not obeyed.
 
+mod count;
 mod curve;
 mod encoded;
 mod escape;

@@ -1,8 +1,8 @@
 //! The state of the plotter: pen, mode, place, scale, polygon buffer. Makes strokes of moves.
 
+use super::count::Count;
 use super::scale::{Frame, Pair};
 use super::syntax::VALUE_MAX;
-use super::tally::Count;
 use crate::geom::Point;
 use crate::ir::Drawing;
 use crate::source::Span;

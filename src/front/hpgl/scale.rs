@@ -1,7 +1,5 @@
 //! From the numbers of the file to units of the plotter: SC between the corners P1 and P2 of IP or IR, and RO.
 
-use super::curve::Stretch;
-
 /// A place or a way, in units of the file or of the plotter.
 pub(super) type Pair = [f64; 2];
 
@@ -227,6 +225,26 @@ impl Frame {
     /// Whether RO turns places.
     pub(super) fn is_turned(&self) -> bool {
         self.quarters != 0
+    }
+}
+
+/// How far a unit of a circle goes along each axis of the plotter; no more than 1 along either, negative where the axis is
+/// mirrored. So what lies off the circle by some units lies off the ellipse by no more.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Stretch(pub(super) Pair);
+
+impl Stretch {
+    /// A circle stays one.
+    pub(super) const NONE: Self = Self([1.0, 1.0]);
+
+    /// The way between two places of the plotter as it was before.
+    pub(super) fn undone(self, from: Pair, to: Pair) -> Pair {
+        [(to[0] - from[0]) / self.0[0], (to[1] - from[1]) / self.0[1]]
+    }
+
+    /// How much more than others the ways along one axis were stretched, so that their rounding is, too.
+    pub(super) fn unevenness(self) -> f64 {
+        1.0 / self.0[0].abs().min(self.0[1].abs())
     }
 }
 

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use super::count::Count;
 use super::plotter::Refusal;
-use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::source::Span;
 
 /// Statements of junk that end the reading when there are more of them than of sound ones: the file is no plot.
@@ -33,29 +34,6 @@ pub(super) struct Tally {
     /// Encoded polylines that an editor made UTF-8 of.
     repaired: Count,
     open_labels: Count,
-}
-
-/// How often something happens, and where first.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Count {
-    count: usize,
-    first: Option<Span>,
-}
-
-impl Count {
-    /// Once more.
-    pub(super) fn add(&mut self, span: Span) {
-        self.count += 1;
-        self.first.get_or_insert(span);
-    }
-
-    fn times(&self) -> String {
-        if self.count == 1 { "once".to_owned() } else { format!("{} times", self.count) }
-    }
-
-    fn diagnostic(&self, code: &'static Code, message: String) -> Diagnostic {
-        Diagnostic { span: self.first, ..Diagnostic::new(code, message) }
-    }
 }
 
 impl Tally {
@@ -137,7 +115,17 @@ impl Tally {
             out.push(finding.hint("it is of another kind, or damaged: look at its first bytes"));
             return;
         }
-        let mut found: Vec<Diagnostic> = Vec::new();
+        let mut found = Vec::new();
+        self.say_of_places(&mut found);
+        self.say_of_statements(&mut found);
+        found.sort_by_key(|finding| finding.span);
+        for finding in found {
+            out.push(finding);
+        }
+    }
+
+    /// What is said of places and moves.
+    fn say_of_places(&self, found: &mut Vec<Diagnostic>) {
         if self.overflow.count > 0 {
             let message = format!("a number is beyond any table; this happens {}", self.overflow.times());
             let finding = self.overflow.diagnostic(&code::HPGL_OVERFLOW, message);
@@ -162,6 +150,10 @@ impl Tally {
             let finding = self.adrift.diagnostic(&code::HPGL_PLACE_UNKNOWN, message);
             found.push(finding.hint("look at the picture (-t svg): it may lie beside its place"));
         }
+    }
+
+    /// What is said of statements: what is none, what is damaged, what is not known, what is not obeyed.
+    fn say_of_statements(&self, found: &mut Vec<Diagnostic>) {
         if self.junk.count > 0 {
             let message = format!("what stands here is no instruction; this happens {}", self.junk.times());
             found.push(self.junk.diagnostic(&code::HPGL_JUNK, message));
@@ -193,10 +185,6 @@ impl Tally {
         for (mnemonic, (what, count)) in &self.left_out {
             let message = format!("{} ({what}) is not obeyed: it stands {}", name(*mnemonic), count.times());
             found.push(count.diagnostic(&code::HPGL_LEFT_OUT, message));
-        }
-        found.sort_by_key(|finding| finding.span);
-        for finding in found {
-            out.push(finding);
         }
     }
 }

@@ -66,6 +66,23 @@ pub(super) fn lower(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker
     lowering.finish(last)
 }
 
+/// What a block asks for at the place where it ends.
+#[derive(Debug, Clone, Copy, Default)]
+struct AtPlace {
+    /// Whether the knife stays where it is: the point is none to go to.
+    rests: bool,
+    /// A hole, by its tool.
+    drill: Option<u8>,
+    label: Option<Texts>,
+    /// An arc leads there.
+    turn: Option<Turn>,
+    /// The radius of the arc.
+    radius: Option<Code>,
+    /// Whether a code of the end stands there, obeyed or not, and whether it is the end.
+    names_end: bool,
+    ends: bool,
+}
+
 /// A drill code: which drill, and its block.
 #[derive(Debug, Clone, Copy)]
 struct Hole {
@@ -118,12 +135,12 @@ impl Lowering<'_> {
             }
             let flow = if let Some((code, span)) = self.blocks.next_code() {
                 last = span;
-                self.obey((&[code], None), span)
+                self.obey(&[code], None, span)
             } else {
                 let Some(block) = self.blocks.next() else { break };
                 last = block.span;
                 match block.words {
-                    Ok(words) => self.obey((&words.codes, words.point), block.span),
+                    Ok(words) => self.obey(&words.codes, words.point, block.span),
                     Err(fault) => {
                         self.damaged = true;
                         self.out.push(fault);
@@ -244,25 +261,28 @@ impl Lowering<'_> {
 
     /// Obeys the codes of a block, then its move; labels and drills belong to the place where the block ends. (A knife
     /// code that shares a block with a move acts before it, says the vendor; no file seen has one.)
-    fn obey(&mut self, (codes, point): (&[Code], Option<Point>), span: Span) -> ControlFlow<()> {
-        let mut at_place = None;
-        let mut label = None;
-        let mut moves = true;
-        let mut turn = None;
-        let mut radius = None;
+    fn obey(&mut self, codes: &[Code], point: Option<Point>, span: Span) -> ControlFlow<()> {
+        let asked = self.obey_codes(codes, point, span);
+        self.obey_place(&asked, point, span);
         // What shares the block of the end is obeyed, too.
-        let mut flow = ControlFlow::Continue(());
+        if asked.ends { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    /// Obeys the codes of a block, but for what they ask for at its place.
+    fn obey_codes(&mut self, codes: &[Code], point: Option<Point>, span: Span) -> AtPlace {
+        let names_end = codes.iter().any(|&code| meaning(code) == Meaning::End);
+        let mut asked = AtPlace { names_end, ..AtPlace::default() };
         for &code in codes {
             let obeyed = self.obeys(code);
             match meaning(code) {
-                Meaning::Park => moves = false,
+                Meaning::Park => asked.rests = true,
                 Meaning::BiteSize => {
-                    moves = false;
+                    asked.rests = true;
                     let size = code.number.or(point.and_then(|point| point.x));
                     self.bite = size.filter(|_| obeyed).map(|size| (code, size, span)).or(self.bite);
                 }
                 Meaning::Message => self.message(),
-                Meaning::Label => label = Some(if obeyed { Texts::Kept } else { Texts::Ignored }),
+                Meaning::Label => asked.label = Some(if obeyed { Texts::Kept } else { Texts::Ignored }),
                 _ if !obeyed => {}
                 Meaning::Down => self.down(span),
                 Meaning::Up => {
@@ -279,8 +299,8 @@ impl Lowering<'_> {
                     self.knife.begin_piece(number, span, self.out);
                 }
                 Meaning::Unit(unit) => self.unit.set(unit, span, self.out),
-                Meaning::Drill(tool) => at_place = Some(tool),
-                Meaning::Arc(way) => (turn, self.turn) = (Some(way), Some(way)),
+                Meaning::Drill(tool) => asked.drill = Some(tool),
+                Meaning::Arc(way) => (asked.turn, self.turn) = (Some(way), Some(way)),
                 Meaning::Line => self.turn = None,
                 Meaning::Rapid => {
                     self.turn = None;
@@ -297,23 +317,29 @@ impl Lowering<'_> {
                 Meaning::NoOvercut => self.knife.no_overcut(),
                 Meaning::CornerLift => self.knife.corner_lift(),
                 Meaning::End if self.more_to_cut() => self.tally.ignore(code, "stop before the end", span),
-                Meaning::End => flow = ControlFlow::Break(()),
+                Meaning::End => asked.ends = true,
                 Meaning::NotObeyed(what) => self.tally.ignore(code, what, span),
                 Meaning::Housekeeping => {}
-                Meaning::Unknown if code.letter == b'R' && point.is_some() => radius = Some(code),
+                Meaning::Unknown if code.letter == b'R' && point.is_some() => asked.radius = Some(code),
                 Meaning::Unknown => self.tally.unknown(code, span),
             }
         }
-        let point = point.filter(|_| moves);
+        asked
+    }
+
+    /// Does what a block asks for at its place, and goes there.
+    fn obey_place(&mut self, asked: &AtPlace, point: Option<Point>, span: Span) {
+        let AtPlace { rests, drill, label, radius, names_end, .. } = *asked;
+        let point = point.filter(|_| !rests);
         // G02 and G03 last, so a radius alone makes an arc as well as a centre does.
-        turn = turn.or(radius.and(self.turn));
-        if let Some(code) = radius.filter(|_| turn.is_none() || at_place.is_some() || label.is_some()) {
+        let turn = asked.turn.or(radius.and(self.turn));
+        if let Some(code) = radius.filter(|_| turn.is_none() || drill.is_some() || label.is_some()) {
             self.tally.unknown(code, span);
         }
-        if let Some(tool) = at_place {
+        if let Some(tool) = drill {
             let hole = Hole { tool, span };
             // Behind the end no place follows, and the one behind M31 is the label's.
-            let may_wait = label.is_none() && codes.iter().all(|&code| meaning(code) != Meaning::End);
+            let may_wait = label.is_none() && !names_end;
             match point {
                 _ if self.knife.is_down() => self.refuse_hole(hole),
                 Some(point) => {
@@ -327,13 +353,12 @@ impl Lowering<'_> {
         }
         if let Some(texts) = label {
             self.label(point, texts);
-        } else if let Some(point) = point.filter(|_| at_place.is_none()) {
+        } else if let Some(point) = point.filter(|_| drill.is_none()) {
             match turn {
                 Some(_) => self.arc(point, radius.and_then(|code| code.number), span),
                 None => self.go(point, span),
             }
         }
-        flow
     }
 
     fn obeys(&self, code: Code) -> bool {

@@ -3,7 +3,7 @@
 //! An estimate: the vertices are tried, and some places of each segment within the box that the two share. The depth of an
 //! overlap by edges that lie along each other, as in a nest, is exact.
 
-use super::sanity::Part;
+use super::part::Part;
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point};
 

@@ -5,6 +5,7 @@ mod depth;
 mod inspect;
 mod notch;
 mod order;
+mod part;
 mod pass;
 mod sanity;
 mod search;

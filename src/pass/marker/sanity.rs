@@ -8,7 +8,6 @@
 //! - A hole lies in no part. Where nothing is closed there are no parts to tell.
 //! - The number of a piece comes again.
 
-use std::borrow::Cow;
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -16,13 +15,14 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::depth::depth;
+use super::part::{Part, slack};
 use super::pass::MarkerPass;
 use super::search::{in_parts, search_ended};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::geom::monotone::{Chain, Crossing, come_near, crossing};
-use crate::geom::{Extent, Point, cross, monotone, polyline, ring};
+use crate::geom::{Extent, Point};
 use crate::ir::marker::{Drill, Marker};
 use crate::machine::Job;
 use crate::source::Span;
@@ -31,8 +31,6 @@ use crate::units::number::fixed;
 pub(super) const PASS: MarkerPass =
     MarkerPass { name: "sanity", about: "warns of outlines that cross and of holes outside every part", run };
 
-/// How far a line is followed from a crossing to see whether it really leads to the other side, vertices.
-const MOST_STEPS: usize = 64;
 /// Places of an outline that are tried for lying in another.
 const PROBES: usize = 16;
 /// What it takes to say that two pieces overlap, beside the comparison of two boxes.
@@ -146,142 +144,9 @@ fn numbers(marker: &Marker, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// The outlines of a piece.
-#[derive(Debug)]
-pub(super) struct Part<'a> {
-    /// Its points, one contour behind the other; a closed one ends with its first point.
-    pub(super) points: Cow<'a, [Point]>,
-    /// Where each contour starts among the points, and whether it is closed.
-    pub(super) contours: Vec<(usize, bool)>,
-    /// Monotone chains, and their boxes.
-    chains: Vec<Chain>,
-    boxes: Vec<Extent>,
-    pub(super) extent: Extent,
-}
-
-impl Default for Part<'_> {
-    fn default() -> Self {
-        let points = Cow::default();
-        Self { points, contours: Vec::new(), chains: Vec::new(), boxes: Vec::new(), extent: Extent::EMPTY }
-    }
-}
-
-impl<'a> Part<'a> {
-    fn of(marker: &'a Marker, piece: usize) -> Self {
-        let mut part = Self::default();
-        part.gather(marker, piece);
-        part
-    }
-
-    /// Takes the outlines of a piece in place of those that are here: one part serves all pieces of a marker in turn.
-    fn gather(&mut self, marker: &'a Marker, piece: usize) {
-        let Self { points, contours, chains, boxes, extent } = self;
-        *points = Cow::default();
-        contours.clear();
-        chains.clear();
-        boxes.clear();
-        *extent = Extent::EMPTY;
-        for contour in &marker.pieces[piece].contours {
-            let start = points.len();
-            contours.push((start, contour.closed));
-            let of_contour = marker.list.points(contour.range);
-            // A piece of one contour, as most are, is looked at where it stands.
-            if start == 0 {
-                *points = of_contour;
-            } else {
-                points.to_mut().extend_from_slice(&of_contour);
-            }
-            for chain in monotone::chains(&points[start..]) {
-                let chain = Chain { first: chain.first + start as u32, last: chain.last + start as u32 };
-                let of_chain = chain.extent(points);
-                extent.join(&of_chain);
-                chains.push(chain);
-                boxes.push(of_chain);
-            }
-        }
-    }
-
-    /// The points of a contour.
-    pub(super) fn contour(&self, k: usize) -> &[Point] {
-        let end = self.contours.get(k + 1).map_or(self.points.len(), |next| next.0);
-        &self.points[self.contours[k].0..end]
-    }
-
-    fn closed(&self) -> impl Iterator<Item = &[Point]> {
-        (0..self.contours.len()).filter(|&k| self.contours[k].1).map(|k| self.contour(k))
-    }
-
-    /// Whether a point lies in the part: within its outline and in no cut-out.
-    pub(super) fn holds(&self, point: Point) -> bool {
-        self.extent.holds(point) && self.closed().filter(|points| ring::contains(points, point)).count() % 2 == 1
-    }
-
-    /// Whether a hole is in the part, or could not be looked for.
-    fn may_hold(&self, drill: &Drill, work: &mut Budget) -> bool {
-        let near = self.extent.holds(drill.at);
-        !work.spend(if near { self.points.len() } else { 1 }) || (near && self.holds(drill.at))
-    }
-
-    /// Distance of a point from the outlines, mm.
-    pub(super) fn distance(&self, point: Point) -> f64 {
-        let contours = (0..self.contours.len()).map(|k| self.contour(k));
-        let ends = contours.flat_map(|points| points.windows(2));
-        ends.map(|w| polyline::distance_to_segment(point, w[0], w[1])).fold(f64::INFINITY, f64::min)
-    }
-
-    /// The contour of a point.
-    fn contour_of(&self, point: usize) -> usize {
-        self.contours.partition_point(|&(start, _)| start <= point) - 1
-    }
-
-    /// Whether the line, followed from its segment `segment` both ways, comes farther than `slack` from the line through
-    /// `ends` on either side before it comes back.
-    fn leads_across(&self, segment: usize, ends: [Point; 2], slack: f64) -> bool {
-        let points = self.contour(self.contour_of(segment));
-        let start = segment - self.contours[self.contour_of(segment)].0;
-        let Some(along) = polyline::direction(ends[0], ends[1]) else { return false };
-        let side = |point: Point| cross(along, point - ends[0]);
-        // A closed contour repeats its first point.
-        let count = points.len() - usize::from(points.first() == points.last());
-        let (_, is_closed) = self.contours[self.contour_of(segment)];
-        let departs = |step: &dyn Fn(usize) -> Option<usize>| {
-            // An open line ends where it ends.
-            let place =
-                |k: usize| step(k).filter(|&place| is_closed || place < count).map(|place| points[place % count]);
-            let Some(first) = place(0) else { return false };
-            let sign = side(first).signum();
-            let way = (0..count.min(MOST_STEPS)).map_while(place).map(|point| side(point) * sign);
-            way.take_while(|&far| far > 0.0).any(|far| far > slack)
-        };
-        let back = |k: usize| if is_closed { Some(start + count - k) } else { start.checked_sub(k) };
-        departs(&|k| Some(start + 1 + k)) && departs(&back)
-    }
-
-    /// Where its outlines cross themselves or each other.
-    fn self_crossing(&self, marker: &Marker, work: &mut Budget) -> Option<Crossing> {
-        let ends = |segment: usize| [self.points[segment], self.points[segment + 1]];
-        let mut wanted = |crossing: &Crossing| {
-            let [a, b] = crossing.segments;
-            self.leads_across(a, ends(b), slack(marker)) && self.leads_across(b, ends(a), slack(marker))
-        };
-        let mut found: Option<Crossing> = None;
-        pairs(&self.boxes, work, |i, k, work| {
-            let both = [i.min(k), i.max(k)].map(|chain| self.chains[chain]);
-            found = crossing([&self.points, &self.points], both, work, &mut wanted);
-            found.is_none() && !work.is_spent()
-        });
-        found
-    }
-}
-
 /// A piece as messages name it.
 fn name(marker: &Marker, piece: usize) -> String {
     format!("piece {}", marker.pieces[piece].number)
-}
-
-/// What rounding to the grid of the file may have done to two points, mm: its diagonal.
-fn slack(marker: &Marker) -> f64 {
-    marker.unit * std::f64::consts::SQRT_2
 }
 
 /// The span of the segment of a piece that starts at one of its points.
@@ -452,37 +317,5 @@ impl<'a> Search<'a> {
             let finding = Diagnostic::new(&code::MARKER_DRILL_OUTSIDE, message).at(first.span).on_cloth(first.at);
             diagnostics.push(finding.hint("look where it is in the picture (`-t svg`); its part may be missing"));
         }
-    }
-}
-
-/// Calls `met` for each pair of boxes that overlap, until it says no: a sweep along the longer side of what they cover.
-/// Empty boxes overlap none.
-fn pairs(boxes: &[Extent], work: &mut Budget, mut met: impl FnMut(usize, usize, &mut Budget) -> bool) {
-    let mut all = Extent::EMPTY;
-    for extent in boxes.iter().filter(|extent| !extent.is_empty()) {
-        all.add(extent.min);
-        all.add(extent.max);
-    }
-    let (width, height) = all.size();
-    let side = |&Extent { min, max }: &Extent| if width >= height { [min.x, max.x] } else { [min.y, max.y] };
-    // Room for all: a vector that grows takes new memory each time, and that is slow.
-    let mut order: Vec<(f64, u32)> = Vec::with_capacity(boxes.len());
-    order
-        .extend(boxes.iter().zip(0..).filter(|(extent, _)| !extent.is_empty()).map(|(extent, i)| (side(extent)[0], i)));
-    order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    // Boxes that are not left behind yet: where they end, and which they are.
-    let mut active: Vec<(f64, usize)> = Vec::new();
-    for (start, i) in order.into_iter().map(|(start, i)| (start, i as usize)) {
-        let [_, end] = side(&boxes[i]);
-        if !work.spend(active.len()) {
-            return;
-        }
-        active.retain(|&(end, _)| end >= start);
-        for &(_, k) in &active {
-            if boxes[i].overlaps(&boxes[k]) && !met(k, i, work) {
-                return;
-            }
-        }
-        active.push((end, i));
     }
 }

@@ -97,9 +97,9 @@ impl Module {
 
     fn defines(&self, name: &str) -> bool {
         let kinds = ["fn", "struct", "enum", "trait", "type", "const", "static", "union", "macro_rules!"];
-        kinds
-            .iter()
-            .any(|kind| super::after(&self.code, &format!("{kind} {name}")).any(|rest| !rest.starts_with(is_name)))
+        // In `&'static A` nothing is defined.
+        let code = self.code.replace("'static ", "'_ ");
+        kinds.iter().any(|kind| super::after(&code, &format!("{kind} {name}")).any(|rest| !rest.starts_with(is_name)))
     }
 
     /// The paths of two names or more in the code.
@@ -226,6 +226,8 @@ fn imports_lead_to_where_an_item_is_defined() {
     assert_eq!(found(&named, "a::b"), ["a"], "nothing of `c` is named");
     let other = [("a", "use std::fmt;\nuse crate::z::Z;\nfn f() { fmt::Z }"), ("z", "pub struct Z;")];
     assert!(found(&other, "a").is_empty(), "it is another stage");
+    let lifetime = [("a", "pub use b::B;\nfn f() -> &'static B {}"), ("a::b", "struct B;"), ("a::c", "use super::B;")];
+    assert_eq!(found(&lifetime, "a::c"), ["a::b"]);
     let all = [("a", "pub use table::*;"), ("a::table", "pub const T: u8 = 0;"), ("a::b", "fn f() { super::T }")];
     assert_eq!(found(&all, "a::b"), ["a::table"]);
 }

@@ -7,11 +7,6 @@ const MOST_LINES: usize = 60;
 
 /// Functions that are known to be longer: file below `src` and name. To be emptied.
 const KNOWN_LONG: &[&str] = &[
-    "cli/summary.rs text",
-    "front/hpgl/lower.rs encoded",
-    "front/hpgl/lower.rs obey",
-    "front/hpgl/tally.rs report",
-    "front/iso/lower.rs obey",
     "pass/toolpath/wind.rs parts",
     "plan/mod.rs join",
 ];

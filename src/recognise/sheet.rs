@@ -1,0 +1,199 @@
+//! A drawing whose lines are sorted out: what each is, then whether it is cut.
+
+use super::line::{Class, Cut, Line, ROUNDING, SIGN, SMALL_OUTLINE};
+use super::marks::{Mark, Search};
+use super::pens::Use;
+use super::{frame, letters, marks, nest, seam};
+use crate::analysis::nesting::Nesting;
+use crate::geom::budget::Budget;
+use crate::ir::drawing::{Ending, Moved, Pen, Vertex};
+use crate::ir::marker::Label;
+use crate::machine::Job;
+use crate::machine::plot::{Frame, Inner};
+
+/// Lines that touch may lie so far in one another, mm, or a diagonal of the unit: each was rounded by itself.
+const BAND: f64 = 0.2;
+/// How much longer one side of a hole's box may be than the other.
+const HOLE_RATIO: f64 = 1.1;
+/// Share of its box that a circle of eight chords fills; a square fills all of it.
+const HOLE_FILL: f64 = 0.7;
+/// Share of its part that an inner line takes at most to be cut: more is the part itself, drawn once more.
+const LARGEST_INNER: f64 = 0.5;
+/// Closed lines of a part that are tried for its seam line, the largest first.
+const SEAM_CANDIDATES: usize = 3;
+
+/// A drawing whose lines are sorted out.
+#[derive(Debug)]
+pub(super) struct Sheet {
+    pub(super) vertices: Vec<Vertex>,
+    pub(super) lines: Vec<Line>,
+    pub(super) nest: Nesting,
+    pub(super) marks: Vec<Mark>,
+    /// The pens that draw them.
+    pub(super) pens: Vec<Pen>,
+    pub(super) texts: Vec<Label>,
+    pub(super) unit: f64,
+    pub(super) ending: Ending,
+    pub(super) moved: Moved,
+    /// Whether a search ended before its time.
+    pub(super) is_cut_short: bool,
+}
+
+impl Sheet {
+    /// Finds what every line is.
+    pub(super) fn sort_out(&mut self, job: &Job) {
+        let band = BAND.max(ROUNDING * self.unit);
+        let frame = if job.lines.all { Frame::None } else { job.profile.hpgl.frame };
+        frame::mark(&mut self.lines, frame, band);
+        let mut work = Budget::of_a_marker();
+        self.nest = nest::nesting(&self.lines, &self.vertices, &mut work);
+        for i in 0..self.lines.len() {
+            let line = &mut self.lines[i];
+            if line.is_outline() && self.nest.parent(i).is_none() && line.size() > SMALL_OUTLINE {
+                line.class = Class::Part;
+            }
+        }
+        let mut work = Budget::of_a_marker();
+        self.find_marks(&mut work);
+        letters::mark(&mut self.lines, &self.vertices, &mut work);
+        self.find_holes(job);
+        self.find_seams(&mut work);
+        for i in 0..self.lines.len() {
+            let line = &mut self.lines[i];
+            if line.is_outline() && line.is_open_question() {
+                line.class = match self.nest.parent(i) {
+                    _ if line.size() < SIGN => Class::Sign,
+                    None => Class::SmallOutline,
+                    Some(_) => Class::Inner,
+                };
+            }
+        }
+        self.find_parts_of_knives(&mut work);
+        let parts = self.indices(|line| line.class == Class::Part);
+        for line in marks::from_edges(self.search(&parts), &mut work) {
+            self.lines[line].class = Class::FromEdge;
+        }
+        self.is_cut_short = work.is_spent();
+    }
+
+    /// The lines of some kind.
+    pub(super) fn indices(&self, is: impl Fn(&Line) -> bool) -> Vec<usize> {
+        (0..self.lines.len()).filter(|&i| is(&self.lines[i])).collect()
+    }
+
+    fn search<'a>(&'a self, outlines: &'a [usize]) -> Search<'a> {
+        Search { lines: &self.lines, vertices: &self.vertices, unit: self.unit, outlines }
+    }
+
+    /// Finds the notches that are strokes, on the edges of parts.
+    fn find_marks(&mut self, work: &mut Budget) {
+        let parts = self.indices(|line| line.class == Class::Part);
+        self.find_marks_on(&parts, work);
+    }
+
+    fn find_marks_on(&mut self, parts: &[usize], work: &mut Budget) {
+        let mut marks = marks::on_outlines(self.search(parts), work);
+        for mark in &marks {
+            self.lines[mark.line].class = Class::Notch;
+        }
+        for bar in marks::take_crossbars(&mut marks, self.search(parts)) {
+            self.lines[bar].class = Class::Notch;
+        }
+        self.marks.extend(marks);
+    }
+
+    /// Takes the outermost lines of a pen that is a knife for parts, whatever others draw around them: the edge of a table.
+    fn find_parts_of_knives(&mut self, work: &mut Budget) {
+        let is_drawn = |i: usize| self.nest.parent(i).is_some_and(|parent| self.lines[parent].usage == Use::Drawn);
+        let is_knife =
+            |line: &Line| line.class == Class::Inner && line.usage == Use::Knife && line.size() > SMALL_OUTLINE;
+        let mut parts = self.indices(is_knife);
+        parts.retain(|&i| is_drawn(i));
+        for &part in &parts {
+            self.lines[part].class = Class::Part;
+        }
+        self.find_marks_on(&parts, work);
+    }
+
+    /// The part that is cut around a line.
+    pub(super) fn part_around(&self, line: usize) -> Option<usize> {
+        let around = std::iter::successors(self.nest.parent(line), |&outer| self.nest.parent(outer));
+        around.filter(|&outer| self.lines[outer].class == Class::Part && self.lines[outer].is_cut).last()
+    }
+
+    /// Finds the closed squares and circles of the size of a hole.
+    fn find_holes(&mut self, job: &Job) {
+        let Some(most) = job.profile.hpgl.drill_max_mm else { return };
+        for line in self.lines.iter_mut().filter(|line| line.is_outline() && line.is_open_question()) {
+            let (width, height) = line.extent.size();
+            let (greater, less) = (width.max(height), width.min(height));
+            if greater <= most && greater <= HOLE_RATIO * less && line.area >= HOLE_FILL * width * height {
+                line.class = Class::Hole;
+            }
+        }
+    }
+
+    /// Finds the seam line of each closed line that has one: inside a part, or inside one that a frame was taken for.
+    fn find_seams(&mut self, work: &mut Budget) {
+        let may_be = |line: &Line| line.is_outline() && line.is_open_question() && line.size() >= SIGN;
+        let mut inner = self.indices(may_be);
+        inner.retain(|&i| self.nest.parent(i).is_some());
+        inner.sort_by(|&a, &b| {
+            let key = |i: usize| (self.nest.parent(i), self.lines[i].area);
+            key(a).0.cmp(&key(b).0).then(key(b).1.total_cmp(&key(a).1)).then(a.cmp(&b))
+        });
+        let mut seams = Vec::new();
+        for children in inner.chunk_by(|&a, &b| self.nest.parent(a) == self.nest.parent(b)) {
+            let Some(parent) = self.nest.parent(children[0]) else { continue };
+            let outline = self.lines[parent].points(&self.vertices);
+            let tried = children.iter().take(SEAM_CANDIDATES);
+            // What nobody has looked at is not cut for a cut-out.
+            let mut is_seam = |&&i: &&usize| {
+                !work.spend(seam::COST * outline.len())
+                    || seam::follows(&self.lines[i].points(&self.vertices), &outline)
+            };
+            seams.extend(tried.filter(|i| is_seam(i)).copied().next());
+        }
+        // What follows a seam line is a cut-out in it: a part has one seam line.
+        seams.sort_unstable();
+        let is_seam = |i: Option<usize>| i.is_some_and(|i| seams.binary_search(&i).is_ok());
+        for &i in seams.iter().filter(|&&i| !is_seam(self.nest.parent(i))) {
+            self.lines[i].class = Class::Seam;
+        }
+    }
+
+    /// Whether each line is cut, after the table.
+    pub(super) fn decide(&mut self, job: &Job) {
+        let inner = job.lines.inner.unwrap_or(job.profile.hpgl.inner);
+        for i in 0..self.lines.len() {
+            let line = &self.lines[i];
+            let is_knife = line.usage == Use::Knife;
+            let by_rule = match line.class.rule().cut {
+                Cut::Always => true,
+                Cut::Knife => is_knife,
+                Cut::Inner => inner == Inner::All || (is_knife || inner == Inner::Cut) && !self.is_too_large(i),
+                Cut::All => inner == Inner::All,
+                Cut::Never => false,
+            };
+            let may_be = match line.usage {
+                Use::Unsaid | Use::Knife => true,
+                Use::Drawn => line.class == Class::Notch,
+                Use::Ignore => false,
+            };
+            self.lines[i].is_cut = may_be && (by_rule || job.lines.all);
+        }
+        // A notch is cut with its outline.
+        for marks in self.marks.chunk_by(|a, b| a.line == b.line) {
+            let is_cut = job.lines.all || marks.iter().any(|mark| self.lines[mark.outline].is_cut);
+            for line in marks.iter().filter_map(|mark| mark.bar).chain([marks[0].line]) {
+                self.lines[line].is_cut &= is_cut;
+            }
+        }
+    }
+
+    /// Whether an inner line takes most of its part.
+    fn is_too_large(&self, line: usize) -> bool {
+        let part = self.nest.parent(line).map_or(f64::INFINITY, |part| self.lines[part].area);
+        self.lines[line].area > LARGEST_INNER * part
+    }
+}
