@@ -1,21 +1,21 @@
 //! One run, from the plunge to the lift: overlaps join the polyline, the polyline becomes a curve, the curve a motion,
 //! the motion samples, and the samples are certified.
 
-use super::bound::Cutting;
 use super::certify::{EXCESS_EPSILON, excess_of, excess_of_derivatives};
-use super::chord::TooTight;
-use super::extended::{Blocks, Extended};
-use super::feed::Feed;
-use super::law::{Blade, Course, Entry, WAY_EPSILON, Way};
-use super::profile::{Bounds, profile};
-use super::smooth::{Curve, Smooth, smooth};
-use super::tube::Tube;
 use crate::diagnostic::{Diagnostic, code};
 use crate::geom::{Heading, Point, Rotation, Vector, polyline};
 use crate::ir::motion::{Kind, Phase, Poses, Shares, Spell, Stroke};
 use crate::ir::toolpath::{Pose, Run, Shape};
 use crate::machine::Job;
 use crate::machine::kinematics::Move;
+use crate::plan::orientation::TooTight;
+use crate::plan::orientation::{Blade, Course, Entry, WAY_EPSILON, Way};
+use crate::plan::spline::ToleranceBand;
+use crate::plan::spline::{Blocks, Extended};
+use crate::plan::spline::{Curve, Smooth, smooth};
+use crate::plan::timing::Cutting;
+use crate::plan::timing::Feed;
+use crate::plan::timing::{Bounds, profile};
 use crate::source::Span;
 use crate::units::number::fixed;
 
@@ -109,7 +109,7 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
     let smooth = if is_straight {
         Smooth { curve: Curve::line([0.0, end], ends.map(|point| [point.x, point.y])), bulge: 0.0 }
     } else {
-        smooth(&Tube::new(points, tolerance, &job.profile)).map_err(|e| {
+        smooth(&ToleranceBand::new(points, tolerance, &job.profile)).map_err(|e| {
             let least = fixed(e.deviation, 4);
             order.refuse(
                 &code::PLAN_SMOOTH,
@@ -215,9 +215,9 @@ impl Order<'_> {
         if way.to - way.from < WAY_EPSILON {
             return Ok(Cut::plunge_only(turned(way.pose(way.to)), blocks.at(way.to)));
         }
-        let timing = profile(way, bounds)
+        let clock = profile(way, bounds)
             .map_err(|_| self.refuse(&code::PLAN_PROFILE, "no motion within the limits was found"))?;
-        let (duration, period) = (timing.duration(), job.profile.time.period());
+        let (duration, period) = (clock.duration(), job.profile.time.period());
         let [x, y, _] = bounds.axes;
         let longest = PATIENCE + (way.to - way.from) / (CRAWL * x.speed.min(y.speed));
         if duration.is_nan() || duration > longest {
@@ -229,7 +229,7 @@ impl Order<'_> {
         let mut rho = 1.0;
         for _ in 0..ROUNDS {
             let ticks = whole_periods(duration * stretch, period);
-            let places = timing.sample(ticks as usize + 1);
+            let places = clock.sample(ticks as usize + 1);
             let mut walk = way.walk(way.from);
             let tips: Vec<Point> = places.iter().map(|&u| walk.point(u)).collect();
             let ways: Vec<f64> = tips.windows(2).map(|tips| (tips[1] - tips[0]).norm()).collect();

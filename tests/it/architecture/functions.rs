@@ -13,7 +13,6 @@ const KNOWN_LONG: &[&str] = &[
     "front/hpgl/tally.rs report",
     "front/iso/lower.rs obey",
     "pass/toolpath/wind.rs parts",
-    "plan/mod.rs join",
     "verify/cutter_file.rs cut",
     "verify/cutter_file.rs read",
     "verify/gcode.rs go",

@@ -8,13 +8,13 @@
 
 use std::ops::Range;
 
-use super::banded::Band;
-use super::barrier::{self, Forces, Outside, Schedule, Wall};
+use super::band::{Slot, ToleranceBand};
 use super::knots;
-use super::tube::{Slot, Tube};
-use super::windows::{self, Chain, LENGTH_FELT, Windows};
 use crate::geom::spline::{self, Piecewise};
 use crate::geom::{Point, Vector};
+use crate::plan::solver::banded::BandMatrix;
+use crate::plan::solver::barrier::{self, Forces, Outside, Schedule, Wall};
+use crate::plan::solver::windows::{self, Chain, LENGTH_FELT, Windows};
 
 /// Order of the spline: degree 5, so that curvature has two continuous derivatives and a third one almost everywhere.
 const ORDER: usize = 6;
@@ -44,26 +44,26 @@ const WINDOWS: Windows = Windows { schedule: SCHEDULE, size: 3000, overlap: 60 }
 const SAMPLE_EPSILON: f64 = 1e-7;
 
 /// A smooth path: position over chord length, mm.
-pub(super) type Curve = Piecewise<ORDER, 2>;
+pub(in crate::plan) type Curve = Piecewise<ORDER, 2>;
 
 /// No curve was found inside the tube.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct TooTight {
+pub(in crate::plan) struct TooTight {
     /// The least deviation that was reached, mm.
-    pub(super) deviation: f64,
+    pub(in crate::plan) deviation: f64,
 }
 
 /// What was found.
 #[derive(Debug)]
-pub(super) struct Smooth {
+pub(in crate::plan) struct Smooth {
     /// The curve; its parameter runs from 0 to the tube's length.
-    pub(super) curve: Curve,
+    pub(in crate::plan) curve: Curve,
     /// Greatest part of a bulge that the curve uses, mm.
-    pub(super) bulge: f64,
+    pub(in crate::plan) bulge: f64,
 }
 
 /// The smoothest curve inside the tube.
-pub(super) fn smooth(tube: &Tube) -> Result<Smooth, TooTight> {
+pub(in crate::plan) fn smooth(tube: &ToleranceBand) -> Result<Smooth, TooTight> {
     let mut finer = vec![1.0; tube.points.len()];
     let mut worst = f64::INFINITY;
     let mut share = SHARE;
@@ -94,7 +94,7 @@ pub(super) fn smooth(tube: &Tube) -> Result<Smooth, TooTight> {
 }
 
 /// Makes the spacing finer at the vertices near trouble.
-fn refine(tube: &Tube, finer: &mut [f64], trouble: &[f64], median_span: f64) {
+fn refine(tube: &ToleranceBand, finer: &mut [f64], trouble: &[f64], median_span: f64) {
     let reach = (2.0 * median_span).max(1.0);
     for (factor, &station) in finer.iter_mut().zip(&tube.stations) {
         let next = trouble.partition_point(|&u| u < station);
@@ -137,7 +137,7 @@ impl Sample {
 
 /// One attempt: a choice of knots with everything that does not change over the iterations.
 struct Problem<'a> {
-    tube: &'a Tube,
+    tube: &'a ToleranceBand,
     breaks: Vec<f64>,
     /// The breaks, those at the ends as often as the spline's order.
     knots: Vec<f64>,
@@ -145,8 +145,8 @@ struct Problem<'a> {
     /// Length that each sample stands for in least squares.
     shares: Vec<f64>,
     /// Sum of squares of the samples, and the penalty, as matrices in one coordinate.
-    squares: Band<BAND>,
-    penalty: Band<BAND>,
+    squares: BandMatrix<BAND>,
+    penalty: BandMatrix<BAND>,
     /// Bound on the deviation of the samples, mm.
     bound: f64,
     /// The penalty of a curve that counts as smooth: 36 t^2 / L^5, that of r = t (u/L)^3 with the tolerance t and the
@@ -155,7 +155,7 @@ struct Problem<'a> {
 }
 
 impl<'a> Problem<'a> {
-    fn new(tube: &'a Tube, breaks: Vec<f64>, bound: f64) -> Self {
+    fn new(tube: &'a ToleranceBand, breaks: Vec<f64>, bound: f64) -> Self {
         let knots = spline::clamped_knots::<ORDER>(&breaks);
         let count = spline::control_count::<ORDER>(&breaks);
         let stations = sample_stations(tube, &breaks);
@@ -178,7 +178,7 @@ impl<'a> Problem<'a> {
                 share.max(SHARE_MIN * tube.length().min(LENGTH_FELT))
             })
             .collect();
-        let mut squares = Band::zero(count);
+        let mut squares = BandMatrix::zero(count);
         for (sample, &share) in samples.iter().zip(&shares) {
             squares.add_square(sample.first, &sample.weights, share);
         }
@@ -292,8 +292,8 @@ impl<'a> Problem<'a> {
 }
 
 /// The integral of |r'''|^2 over some spans, as a matrix of the control points that have a say there.
-fn penalty(knots: &[f64], spans: Range<usize>) -> Band<BAND> {
-    let mut penalty = Band::zero(spans.len() + ORDER - 1);
+fn penalty(knots: &[f64], spans: Range<usize>) -> BandMatrix<BAND> {
+    let mut penalty = BandMatrix::zero(spans.len() + ORDER - 1);
     for span in spans.clone() {
         let ends = [knots[span + ORDER - 1], knots[span + ORDER]];
         let half = (ends[1] - ends[0]) / 2.0;
@@ -333,7 +333,7 @@ impl Chain<2> for Problem<'_> {
 struct Part<'a> {
     /// The samples that they move, and the penalty of the spans that they shape.
     samples: &'a [Sample],
-    penalty: Band<BAND>,
+    penalty: BandMatrix<BAND>,
     /// What the penalty counts places from: in a run of kilometres the square of a place leaves no digits for its bends.
     origin: Point,
     bound: f64,
@@ -375,7 +375,7 @@ impl barrier::Problem<2> for Part<'_> {
 
     fn newton(&self, control: &[[f64; 2]], forces: &Forces) -> Option<(Vec<[f64; 2]>, f64)> {
         let n = self.penalty.len();
-        let mut hessian = Band::<BAND_XY>::zero(2 * n);
+        let mut hessian = BandMatrix::<BAND_XY>::zero(2 * n);
         for i in 0..n {
             for k in 0..BAND.min(i + 1) {
                 let entry = forces.weight * self.penalty.entry(i, i - k);
@@ -482,7 +482,7 @@ const RELAX_SHARE: f64 = 0.8;
 const CHECK_SHARE: f64 = 0.995;
 
 /// The vertices and [`SAMPLES_A_SPAN`] places a span, in order, none nearer than [`SAMPLE_EPSILON`] to another.
-fn sample_stations(tube: &Tube, breaks: &[f64]) -> Vec<f64> {
+fn sample_stations(tube: &ToleranceBand, breaks: &[f64]) -> Vec<f64> {
     let inner = breaks
         .windows(2)
         .flat_map(|ends| (0..SAMPLES_A_SPAN).map(|i| ends[0] + (ends[1] - ends[0]) * i as f64 / SAMPLES_A_SPAN as f64));
@@ -501,7 +501,7 @@ mod tests {
     use crate::machine::MachineProfile;
 
     fn check(points: Vec<Point>, tolerance: f64) -> Smooth {
-        let tube = Tube::new(points, tolerance, &MachineProfile::default());
+        let tube = ToleranceBand::new(points, tolerance, &MachineProfile::default());
         let smooth = smooth(&tube).expect("a curve inside the tube");
         let n = 5000;
         for i in 0..=n {
@@ -554,7 +554,8 @@ mod tests {
         // Then far from where the file counts from, as the end of a run of kilometres is.
         for away in [0.0, 1e6] {
             let wave = |i: i32| (away + 2.0 * f64::from(i), 5.0 * (0.2 * f64::from(i)).sin());
-            let tube = Tube::new(points(&(0..400).map(wave).collect::<Vec<_>>()), 0.05, &MachineProfile::default());
+            let tube =
+                ToleranceBand::new(points(&(0..400).map(wave).collect::<Vec<_>>()), 0.05, &MachineProfile::default());
             let problem = Problem::new(&tube, knots::breaks(&tube, &[1.0; 400]), SHARE * tube.tolerance);
             let (control, weight) = problem.feasible_start().expect("a start");
             let start = problem.relax(control, weight);

@@ -13,31 +13,31 @@ const TURN_EPSILON: f64 = 1e-6;
 
 /// The neighbourhood of a polyline in which the tip must stay.
 #[derive(Debug, Clone)]
-pub(super) struct Tube {
+pub(in crate::plan) struct ToleranceBand {
     /// The polyline, no two points in a row equal.
-    pub(super) points: Vec<Point>,
+    pub(in crate::plan) points: Vec<Point>,
     /// Chord length from the first point to each point, mm.
-    pub(super) stations: Vec<f64>,
+    pub(in crate::plan) stations: Vec<f64>,
     /// Turn at each point, rad; 0 at the ends.
-    pub(super) turns: Vec<f64>,
+    pub(in crate::plan) turns: Vec<f64>,
     /// Bulge of each chord: the outward normal times the height in its middle, mm.
     bulges: Vec<Vector>,
     /// Permitted deviation, mm.
-    pub(super) tolerance: f64,
+    pub(in crate::plan) tolerance: f64,
 }
 
 /// A place in the tube: the segment of points that count as on the path there.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Slot {
+pub(in crate::plan) struct Slot {
     /// The point on the chord.
-    pub(super) base: Point,
+    pub(in crate::plan) base: Point,
     /// From there to the far end of the bulge, mm.
-    pub(super) bulge: Vector,
+    pub(in crate::plan) bulge: Vector,
 }
 
-impl Tube {
+impl ToleranceBand {
     /// The tube of a polyline.
-    pub(super) fn new(points: Vec<Point>, tolerance: f64, profile: &MachineProfile) -> Self {
+    pub(in crate::plan) fn new(points: Vec<Point>, tolerance: f64, profile: &MachineProfile) -> Self {
         let stations = polyline::stations(&points);
         let mut turns = vec![0.0; points.len()];
         for i in 1..points.len().saturating_sub(1) {
@@ -53,18 +53,18 @@ impl Tube {
     }
 
     /// Length of the polyline, mm.
-    pub(super) fn length(&self) -> f64 {
+    pub(in crate::plan) fn length(&self) -> f64 {
         self.stations[self.stations.len() - 1]
     }
 
     /// The chord on which station `u` lies.
     #[cfg(test)]
-    pub(super) fn chord(&self, u: f64) -> usize {
+    pub(in crate::plan) fn chord(&self, u: f64) -> usize {
         crate::geom::spline::span(&self.stations, u)
     }
 
     /// What counts as on the path at station `u`: with x the fraction of the chord, the bulge is 4 x (1 - x) of its height.
-    pub(super) fn slot(&self, chord: usize, u: f64) -> Slot {
+    pub(in crate::plan) fn slot(&self, chord: usize, u: f64) -> Slot {
         let (start, end) = (self.stations[chord], self.stations[chord + 1]);
         let x = ((u - start) / (end - start)).clamp(0.0, 1.0);
         let base = self.points[chord] + (self.points[chord + 1] - self.points[chord]) * x;
@@ -74,12 +74,12 @@ impl Tube {
 
 impl Slot {
     /// The middle of what counts as on the path.
-    pub(super) fn middle(&self) -> Point {
+    pub(in crate::plan) fn middle(&self) -> Point {
         self.base + self.bulge * 0.5
     }
 
     /// The deviation of a point as a vector, mm; and how much of the bulge it uses, mm.
-    pub(super) fn deviation(&self, point: Point) -> (Vector, f64) {
+    pub(in crate::plan) fn deviation(&self, point: Point) -> (Vector, f64) {
         let away = point - self.base;
         let height = self.bulge.norm();
         if height == 0.0 {
@@ -91,7 +91,7 @@ impl Slot {
     }
 
     /// The outward unit normal when a point lies beside the bulge, so that moving along it changes nothing.
-    pub(super) fn free_direction(&self, point: Point) -> Option<Vector> {
+    pub(in crate::plan) fn free_direction(&self, point: Point) -> Option<Vector> {
         let height = self.bulge.norm();
         let outward = self.bulge.try_normalize(0.0)?;
         let used = (point - self.base).dot(&outward);
@@ -128,7 +128,7 @@ mod tests {
     #[test]
     fn the_circle_that_was_flattened_lies_inside_the_tube() {
         let profile = MachineProfile::default();
-        let tube = Tube::new(circle(6.4, 15), 0.05, &profile);
+        let tube = ToleranceBand::new(circle(6.4, 15), 0.05, &profile);
         for i in 1..14 {
             let u = f64::midpoint(tube.stations[i], tube.stations[i + 1]);
             let slot = tube.slot(i, u);
@@ -143,11 +143,11 @@ mod tests {
     #[test]
     fn end_chords_and_polygons_are_plain() {
         let mut profile = MachineProfile::default();
-        let tube = Tube::new(circle(6.4, 15), 0.05, &profile);
+        let tube = ToleranceBand::new(circle(6.4, 15), 0.05, &profile);
         assert_eq!(tube.bulges[0], Vector::zeros());
         assert_eq!(tube.bulges[14], Vector::zeros());
         profile.path.fit = Fit::Polygon;
-        let tube = Tube::new(circle(6.4, 15), 0.05, &profile);
+        let tube = ToleranceBand::new(circle(6.4, 15), 0.05, &profile);
         assert!(tube.bulges.iter().all(|b| *b == Vector::zeros()));
     }
 }

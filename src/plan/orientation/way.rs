@@ -5,33 +5,25 @@
 //! the next blade width. Derivatives to third order are closed forms: with X = x' y'' - y' x'' and n = x'^2 + y'^2,
 //! c' = X / n, c'' = X' / n - X n' / n^2, c''' = X'' / n - 2 X' n' / n^2 - X n'' / n^2 + 2 X n'^2 / n^3.
 
+use super::axes::{Axes, Blade};
 use super::chord::{self, Chord, TooTight};
 use super::fade::Fade;
-use super::smooth::Curve;
 use crate::geom::{Point, Rotation, Vector, angle, cross, left, spline};
 use crate::ir::toolpath::{Law, Pose};
+use crate::plan::spline::Curve;
 
 /// Samples a span when a place or an angle is searched along the curve.
 const SEARCH_A_SPAN: usize = 8;
 /// Halvings that place the plunge: down to rounding from any span.
 const BISECTIONS: usize = 60;
 
-/// The axes x, y (mm) and c (rad) and their derivatives by the path parameter, up to the third.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Axes {
-    /// Row k holds the k-th derivatives of x, y, c.
-    pub(super) q: [[f64; 3]; 4],
-    /// |p'|, the tip's way a unit of the parameter.
-    pub(super) pace: f64,
-}
-
 /// The way of the axes along a curve, from the plunge to the lift.
 #[derive(Debug)]
-pub(super) struct Way<'a> {
+pub(in crate::plan) struct Way<'a> {
     curve: &'a Curve,
     /// Parameter at the plunge and at the lift.
-    pub(super) from: f64,
-    pub(super) to: f64,
+    pub(in crate::plan) from: f64,
+    pub(in crate::plan) to: f64,
     blade: Blade,
     /// Unwrapped tangent angle where each span starts, rad.
     tangents: Vec<f64>,
@@ -41,30 +33,23 @@ pub(super) struct Way<'a> {
     chord: Option<Chord>,
 }
 
-/// The blade, mm: from tail to tip, and from its centre to the tip.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Blade {
-    pub(super) width: f64,
-    pub(super) radius: f64,
-}
-
 /// What is asked of a way along a curve.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Course {
+pub(in crate::plan) struct Course {
     /// How the blade lies.
-    pub(super) law: Law,
+    pub(in crate::plan) law: Law,
     /// How it enters the path.
-    pub(super) entry: Entry,
+    pub(in crate::plan) entry: Entry,
     /// Parameter at the lift.
-    pub(super) to: f64,
-    pub(super) blade: Blade,
+    pub(in crate::plan) to: f64,
+    pub(in crate::plan) blade: Blade,
     /// C starts at the equivalent of its heading nearest to this.
-    pub(super) near: Rotation,
+    pub(in crate::plan) near: Rotation,
 }
 
 /// How the blade enters the path.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Entry {
+pub(in crate::plan) enum Entry {
     /// As a chord whose tail stands at the start of the curve.
     Plunge,
     /// As its law has it, with the tip at this parameter.
@@ -73,11 +58,11 @@ pub(super) enum Entry {
 
 /// Shorter ways are none, mm: below what a machine resolves and a tolerance notices. The blade only plunges then, and no law
 /// bears on that.
-pub(super) const WAY_EPSILON: f64 = 1e-3;
+pub(in crate::plan) const WAY_EPSILON: f64 = 1e-3;
 
 impl<'a> Way<'a> {
     /// The way along a curve as it is asked for.
-    pub(super) fn new(curve: &'a Curve, course: &Course) -> Result<Self, TooTight> {
+    pub(in crate::plan) fn new(curve: &'a Curve, course: &Course) -> Result<Self, TooTight> {
         let Course { law, entry, to, blade, near } = *course;
         let tangents = tangents(curve);
         let mut way = Self { curve, from: 0.0, to, blade, tangents, fade: None, chord: None };
@@ -147,12 +132,12 @@ impl<'a> Way<'a> {
     }
 
     /// A walk along the way that begins at a parameter.
-    pub(super) fn walk(&self, from: f64) -> Walk<'_> {
+    pub(in crate::plan) fn walk(&self, from: f64) -> Walk<'_> {
         Walk { way: self, span: spline::span(self.curve.breaks(), from) }
     }
 
     /// The tip at a parameter.
-    pub(super) fn point(&self, u: f64) -> Point {
+    pub(in crate::plan) fn point(&self, u: f64) -> Point {
         let [[x, y]] = self.curve.derivatives::<1>(u);
         Point::new(x, y)
     }
@@ -165,7 +150,7 @@ impl<'a> Way<'a> {
     }
 
     /// The axes at a parameter.
-    pub(super) fn at(&self, u: f64) -> Axes {
+    pub(in crate::plan) fn at(&self, u: f64) -> Axes {
         self.at_on(spline::span(self.curve.breaks(), u), u)
     }
 
@@ -206,28 +191,20 @@ impl<'a> Way<'a> {
     }
 
     /// The pose at a parameter.
-    pub(super) fn pose(&self, u: f64) -> Pose {
+    pub(in crate::plan) fn pose(&self, u: f64) -> Pose {
         self.at(u).pose()
     }
 
     /// Where the path's own polynomials meet, between the plunge and the lift, those two included.
-    pub(super) fn breaks(&self) -> Vec<f64> {
+    pub(in crate::plan) fn breaks(&self) -> Vec<f64> {
         let inner = self.curve.breaks().iter().copied().filter(|&b| b > self.from && b < self.to);
         std::iter::once(self.from).chain(inner).chain(std::iter::once(self.to)).collect()
     }
 }
 
-impl Axes {
-    /// Where they stand.
-    pub(super) fn pose(&self) -> Pose {
-        let [x, y, c] = self.q[0];
-        Pose::new(x, y, c)
-    }
-}
-
 /// Places along a way, none before the last one: under the tangent law each is found without a search, however long the way.
 #[derive(Debug)]
-pub(super) struct Walk<'a> {
+pub(in crate::plan) struct Walk<'a> {
     way: &'a Way<'a>,
     span: usize,
 }
@@ -243,13 +220,13 @@ impl Walk<'_> {
     }
 
     /// The axes at a parameter.
-    pub(super) fn at(&mut self, u: f64) -> Axes {
+    pub(in crate::plan) fn at(&mut self, u: f64) -> Axes {
         let span = self.reach(u);
         self.way.at_on(span, u)
     }
 
     /// The tip at a parameter.
-    pub(super) fn point(&mut self, u: f64) -> Point {
+    pub(in crate::plan) fn point(&mut self, u: f64) -> Point {
         let span = self.reach(u);
         let [[x, y]] = self.way.curve.derivatives_on::<1>(span, u);
         Point::new(x, y)
@@ -275,16 +252,16 @@ fn tangents(curve: &Curve) -> Vec<f64> {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+pub(in crate::plan) mod tests {
     use super::*;
     use crate::machine::MachineProfile;
-    use crate::plan::smooth::smooth;
-    use crate::plan::tube::Tube;
+    use crate::plan::spline::ToleranceBand;
+    use crate::plan::spline::smooth;
 
     fn arc() -> Curve {
         let points =
             (0..=60).map(|i| f64::from(i) / 20.0).map(|a| Point::new(20.0 * a.cos(), 20.0 * a.sin())).collect();
-        smooth(&Tube::new(points, 0.05, &MachineProfile::default())).expect("an arc").curve
+        smooth(&ToleranceBand::new(points, 0.05, &MachineProfile::default())).expect("an arc").curve
     }
 
     fn way(curve: &Curve, entry: Entry, near: Rotation) -> Way<'_> {

@@ -5,9 +5,9 @@
 //! [`Chord::at`]). The blade's angle then has c' = n.D'/w, c'' = n.D''/w, c''' = n.D'''/w + c'^3, n the normal to the left
 //! of D, and the centre is p - (r/w) D in every order. It needs only p''', and is smoother than the tangent law.
 
-use super::law::{Axes, Blade};
-use super::smooth::Curve;
+use super::axes::{Axes, Blade};
 use crate::geom::{Point, Rotation, Vector, angle, left, spline};
+use crate::plan::spline::Curve;
 
 /// Nodes a span between which the tail is found by Newton's method.
 const NODES_A_SPAN: usize = 8;
@@ -29,14 +29,14 @@ const LOOK_SHARE: f64 = 1.0 / 64.0;
 
 /// The blade cannot be a chord of the path all along: it is too tight for that.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct TooTight {
+pub(in crate::plan) struct TooTight {
     /// The tip where that is found.
-    pub(super) at: Point,
+    pub(in crate::plan) at: Point,
 }
 
 /// The way of a blade that is a chord of its path.
 #[derive(Debug)]
-pub(super) struct Chord {
+pub(in crate::plan) struct Chord {
     blade: Blade,
     nodes: Vec<Node>,
 }
@@ -57,7 +57,7 @@ fn path<const N: usize>(curve: &Curve, u: f64) -> [Vector; N] {
 }
 
 /// The tail at the distance `width` behind the tip at parameter `tip`; `None` when the path has none before.
-pub(super) fn tail_behind(curve: &Curve, tip: f64, width: f64) -> Option<f64> {
+pub(in crate::plan) fn tail_behind(curve: &Curve, tip: f64, width: f64) -> Option<f64> {
     let [p] = path::<1>(curve, tip);
     let away = |t: f64| (p - path::<1>(curve, t)[0]).norm() - width;
     let step = LOOK_SHARE * width;
@@ -87,7 +87,7 @@ fn root(f: &dyn Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
 
 impl Chord {
     /// The way from parameter `from` of the tip, where the tail is at `tail`, to `to`.
-    pub(super) fn new(curve: &Curve, [tail, from, to]: [f64; 3], blade: Blade) -> Result<Self, TooTight> {
+    pub(in crate::plan) fn new(curve: &Curve, [tail, from, to]: [f64; 3], blade: Blade) -> Result<Self, TooTight> {
         let inner = curve.breaks().windows(2).flat_map(|ends| {
             let step = (ends[1] - ends[0]) / NODES_A_SPAN as f64;
             (0..NODES_A_SPAN).map(move |i| ends[0] + step * i as f64)
@@ -138,7 +138,7 @@ impl Chord {
     }
 
     /// Turns the way by an angle, rad: whole turns.
-    pub(super) fn turn(&mut self, by: f64) {
+    pub(in crate::plan) fn turn(&mut self, by: f64) {
         self.nodes.iter_mut().for_each(|node| node.c += by);
     }
 
@@ -165,7 +165,7 @@ impl Chord {
     }
 
     /// The axes at a parameter.
-    pub(super) fn at(&self, curve: &Curve, u: f64) -> Axes {
+    pub(in crate::plan) fn at(&self, curve: &Curve, u: f64) -> Axes {
         let Blade { width, radius } = self.blade;
         let span = spline::span(curve.breaks(), u);
         let [p, p1, p2, p3] = curve.derivatives_on::<4>(span, u).map(|d| Vector::new(d[0], d[1]));
@@ -197,17 +197,17 @@ mod tests {
     use super::*;
     use crate::ir::toolpath::Law;
     use crate::machine::MachineProfile;
-    use crate::plan::law::tests::differences_agree;
-    use crate::plan::law::{Course, Entry, Way};
-    use crate::plan::smooth::smooth;
-    use crate::plan::tube::Tube;
+    use crate::plan::orientation::way::tests::differences_agree;
+    use crate::plan::orientation::{Course, Entry, Way};
+    use crate::plan::spline::ToleranceBand;
+    use crate::plan::spline::smooth;
 
     const BLADE: Blade = Blade { width: 6.6, radius: 4.4 };
 
     /// A smooth curve through places of a parameter from 0 to 1.
     fn curve(place: impl Fn(f64) -> (f64, f64)) -> Curve {
         let points = (0..=120).map(|i| place(f64::from(i) / 120.0)).map(|(x, y)| Point::new(x, y)).collect();
-        smooth(&Tube::new(points, 0.02, &MachineProfile::default())).expect("a curve").curve
+        smooth(&ToleranceBand::new(points, 0.02, &MachineProfile::default())).expect("a curve").curve
     }
 
     fn arc(radius: f64) -> Curve {

@@ -3,7 +3,7 @@
 //! At a vertex with turn `th` the rounding inside a tube of `tol` is about `4 tol / th` long, so the spacing there is a
 //! part of that; away from vertices it grows in proportion to the distance. Long straight chords cost next to nothing.
 
-use super::tube::Tube;
+use super::band::ToleranceBand;
 
 /// Knot spacing at a vertex, as a part of the length of its rounding.
 const SHARE_OF_ROUNDING: f64 = 0.5;
@@ -20,7 +20,7 @@ const END_SHARE: f64 = 1.0 / 6.0;
 const SPANS_MIN: usize = 5;
 
 /// The breaks of a spline over the tube's stations; `finer` multiplies the spacing at each vertex.
-pub(super) fn breaks(tube: &Tube, finer: &[f64]) -> Vec<f64> {
+pub(super) fn breaks(tube: &ToleranceBand, finer: &[f64]) -> Vec<f64> {
     let length = tube.length();
     let spacing = spacing_at_vertices(tube, finer);
     let steps: Vec<Step> = spacing.windows(2).zip(tube.stations.windows(2)).map(|(f, s)| Step::new(f, s)).collect();
@@ -42,7 +42,7 @@ pub(super) fn breaks(tube: &Tube, finer: &[f64]) -> Vec<f64> {
 }
 
 /// Spacing at each vertex, mm, such that it nowhere grows faster than [`GROWTH`].
-fn spacing_at_vertices(tube: &Tube, finer: &[f64]) -> Vec<f64> {
+fn spacing_at_vertices(tube: &ToleranceBand, finer: &[f64]) -> Vec<f64> {
     let last = tube.points.len() - 1;
     let end = END_SPACING.min(tube.length() * END_SHARE);
     let mut spacing: Vec<f64> = tube
@@ -109,8 +109,8 @@ mod tests {
     use crate::geom::Point;
     use crate::machine::MachineProfile;
 
-    fn tube(points: &[(f64, f64)]) -> Tube {
-        Tube::new(points.iter().map(|&(x, y)| Point::new(x, y)).collect(), 0.05, &MachineProfile::default())
+    fn tube(points: &[(f64, f64)]) -> ToleranceBand {
+        ToleranceBand::new(points.iter().map(|&(x, y)| Point::new(x, y)).collect(), 0.05, &MachineProfile::default())
     }
 
     #[test]
