@@ -3,8 +3,9 @@
 //! Receives the toolpath of one contour, promises a motion whose every setpoint keeps the limits of the axes, with the
 //! tip inside the tolerance band of the path. Runs are solved first, each alone and in any order ([`solve`]); then a
 //! [`Planner`] joins them in order by turns and rapids between the states that they really have. For controllers that plan
-//! for themselves `arcs` makes arcs and lines of the same toolpath, untimed. Never changes what is cut.
+//! for themselves [`arcs`] makes arcs and lines of the same toolpath, untimed. Never changes what is cut.
 
+pub mod arcs;
 mod certify;
 mod orientation;
 mod planner;

@@ -20,7 +20,7 @@ mod spot;
 
 use std::io::{self, SeekFrom};
 
-use super::{Context, Emit, Output, Parts, Proof, Target};
+use super::target::{Context, Emit, Output, Parts, Proof, Target};
 use crate::ir::{Finding, Toolpath, finding};
 use sheet::Sheet;
 

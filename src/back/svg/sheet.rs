@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::markup::{PathData, escape, mm};
 use super::piece::PALETTE;
 use super::{aside, findings};
-use crate::back::Context;
+use crate::back::target::Context;
 use crate::geom::{Extent, Point, Vector};
 use crate::ir::Finding;
 use crate::units::number::fixed;

@@ -13,7 +13,7 @@ const TURN_EPSILON: f64 = 1e-6;
 
 /// A polyline and what counts as on it.
 #[derive(Debug)]
-pub(super) struct Tube {
+pub(super) struct ToleranceBand {
     /// Its points, no two in a row equal.
     pub(super) points: Vec<Point>,
     /// Chord length from the first point to each point, mm.
@@ -30,8 +30,8 @@ pub(super) struct Tube {
     bulge_max: f64,
 }
 
-impl Tube {
-    /// The tube of a polyline that turns by `seam` (rad) before its first and behind its last chord: at the seam of a
+impl ToleranceBand {
+    /// The band of a polyline that turns by `seam` (rad) before its first and behind its last chord: at the seam of a
     /// smooth closed contour; else 0.
     pub(super) fn new(points: Vec<Point>, tolerance: f64, (seam, profile): ([f64; 2], &MachineProfile)) -> Self {
         let stations = polyline::stations(&points);
