@@ -5,9 +5,10 @@ use std::io::{self, BufWriter, Write};
 
 use rayon::prelude::*;
 
+use super::product::Medium;
+use super::report::{Axes, Program, Sides};
 use super::spent::Clock;
 use super::toolpaths::{Toolpaths, Window};
-use super::{Axes, Medium, Program, Sides};
 use crate::back::{ArcTarget, ArcWriter, Context, Emit, Estimate, Parts};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::ir::arcs::{Interpolation, Unfit};

@@ -12,7 +12,6 @@ const KNOWN_LONG: &[&str] = &[
     "front/hpgl/lower.rs obey",
     "front/hpgl/tally.rs report",
     "front/iso/lower.rs obey",
-    "pass/toolpath/wind.rs parts",
     "verify/cutter_file.rs cut",
     "verify/cutter_file.rs read",
     "verify/gcode.rs go",
