@@ -295,7 +295,7 @@ impl Tally {
     /// Takes what is known of cuts before they are joined to a motion.
     fn take(&mut self, piece: u32, cuts: &[Cut]) {
         for cut in cuts {
-            self.bulge = self.bulge.max(cut.bulge);
+            self.bulge = self.bulge.max(cut.sagitta);
             self.clock.bind(&cut.shares);
             self.clock_of(piece).bind(&cut.shares);
         }

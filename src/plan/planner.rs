@@ -30,9 +30,9 @@ impl<'a> Planner<'a> {
     /// A program that starts at rest at home.
     pub fn new(job: &'a Job) -> Self {
         let pose = home(job);
-        let allowed = Allowed { cut: job.profile.axes.limits(), air: job.profile.axes.travel_limits() };
+        let allowed = Allowed { cut: job.profile.axes.limits(), rapid: job.profile.axes.travel_limits() };
         let mut differences = Differences::new(job.profile.time.period(), &allowed);
-        differences.push(pose, Regime::Air);
+        differences.push(pose, Regime::Rapid);
         Self { job, allowed, pose, tick: 0, steps: 0, time: 0.0, rising: 0.0, differences }
     }
 
@@ -79,7 +79,7 @@ impl<'a> Planner<'a> {
         }
         self.rise(&mut motion);
         self.hold(Kind::Rest, 0.0, 0, &mut motion);
-        self.differences.rest(self.pose, Regime::Air);
+        self.differences.rest(self.pose, Regime::Rapid);
         motion
     }
 
@@ -143,7 +143,7 @@ impl<'a> Planner<'a> {
         if to == self.pose {
             return;
         }
-        let glide = rapid::glide(self.pose, to, &self.allowed.air);
+        let glide = rapid::glide(self.pose, to, &self.allowed.rapid);
         let (duration, length) = (glide.duration(), glide.length());
         let ticks = whole_periods(duration, self.job.profile.time.period());
         self.emit(Phase { kind, ticks, poses: Poses::Glide(glide), spells: Vec::new(), duration, length }, to, motion);
@@ -188,7 +188,7 @@ impl<'a> Planner<'a> {
         if !self.job.mode.cuts() {
             phase = Phase { kind: phase.kind.raised(), spells: Vec::new(), ..phase };
         }
-        let regime = if phase.kind.knife_down() { Regime::Cut } else { Regime::Air };
+        let regime = if phase.kind.knife_down() { Regime::Cut } else { Regime::Rapid };
         self.differences.pass(&phase, regime);
         // What lasts longer than its due in whole periods lets the blade rise farther.
         self.rising = (self.rising - f64::from(phase.ticks) * self.job.profile.time.period()).max(0.0);

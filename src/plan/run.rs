@@ -39,8 +39,8 @@ pub struct Cut {
     pub duration: f64,
     /// Way of the tip, mm.
     pub length: f64,
-    /// Greatest bulge of the tube that the curve uses, mm.
-    pub bulge: f64,
+    /// Greatest chord sagitta that the curve uses, mm.
+    pub sagitta: f64,
     /// What keeps it from being faster, in ticks.
     pub shares: Shares,
 }
@@ -71,7 +71,7 @@ impl Cut {
     fn plunge_only(pose: Pose, block: u32) -> Self {
         let (poses, spells) = (Poses::Still(pose), vec![Spell { first: 0, block }]);
         let shares = Shares::default();
-        Self { poses, ticks: 0, end: pose, spells, duration: 0.0, length: 0.0, bulge: 0.0, shares }
+        Self { poses, ticks: 0, end: pose, spells, duration: 0.0, length: 0.0, sagitta: 0.0, shares }
     }
 }
 
@@ -107,7 +107,7 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
         return order.straight(ends);
     }
     let smooth = if is_straight {
-        Smooth { curve: Curve::line([0.0, end], ends.map(|point| [point.x, point.y])), bulge: 0.0 }
+        Smooth { curve: Curve::line([0.0, end], ends.map(|point| [point.x, point.y])), sagitta: 0.0 }
     } else {
         smooth(&ToleranceBand::new(points, tolerance, &job.profile)).map_err(|e| {
             let least = fixed(e.deviation, 4);
@@ -135,7 +135,7 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
         let reason = format!("the blade cannot be a chord of its curve at X {x} Y {y} mm");
         order.refuse(&code::PLAN_CHORD, &reason).hint("set `knife.follow = \"tangent\"` for this file")
     })?;
-    Ok(Cut { bulge: smooth.bulge, ..order.along(&way)? })
+    Ok(Cut { sagitta: smooth.sagitta, ..order.along(&way)? })
 }
 
 /// The curve of a ring ends before it comes back to its start.
@@ -146,7 +146,7 @@ struct OpenSeam {
 }
 
 /// Where a ring that should end at parameter `end` really closes: smoothing may have drawn its end back from its start, and
-/// the tip must come as far as that. Beside its way, the tube holds both to one place.
+/// the tip must come as far as that. Beside its way, the band holds both to one place.
 fn closed(curve: &Curve, start: f64, end: f64) -> Result<f64, OpenSeam> {
     reaching(curve, curve.derivatives::<2>(start), end)
 }
@@ -204,7 +204,7 @@ impl Order<'_> {
         };
         let shares = cutting.shares_of_cruise((stroke.way.rise() * count) as usize);
         let spells = blocks.spells(ticks, |i| reach(i as usize));
-        Ok(Cut { end: stroke.at(count, count), poses, ticks, spells, duration, length: way, bulge: 0.0, shares })
+        Ok(Cut { end: stroke.at(count, count), poses, ticks, spells, duration, length: way, sagitta: 0.0, shares })
     }
 
     /// Samples the fastest motion along a way over a whole number of periods, stretched until every difference keeps its
@@ -248,7 +248,7 @@ impl Order<'_> {
                 let length = ways.iter().sum();
                 let end = poses.pop().expect("a tick has two ends");
                 let poses = Poses::Samples(poses);
-                return Ok(Cut { poses, ticks, end, spells, duration, length, bulge: 0.0, shares });
+                return Ok(Cut { poses, ticks, end, spells, duration, length, sagitta: 0.0, shares });
             }
             stretch = f64::from(ticks) * period / duration * rho;
         }

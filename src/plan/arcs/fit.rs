@@ -364,7 +364,7 @@ mod tests {
         arcs
     }
 
-    /// By a measure that is not the fit's own: every place against the nearest chord and the height of its bulge.
+    /// By a measure that is not the fit's own: every place against the nearest chord and the height of its sagitta.
     fn check(band: &ToleranceBand, arcs: &[Arc]) {
         for pair in arcs.windows(2) {
             assert!((pair[0].at(pair[0].length) - pair[1].from).norm() < 1e-9, "no gap");
@@ -375,7 +375,7 @@ mod tests {
             for place in (0..=20).map(|i| arc.at(arc.length * f64::from(i) / 20.0)) {
                 let away = |chord: usize| {
                     let ends = [band.points[chord], band.points[chord + 1]];
-                    polyline::distance_to_segment(place, ends[0], ends[1]) - band.bulges[chord].norm()
+                    polyline::distance_to_segment(place, ends[0], ends[1]) - band.sagittas[chord].norm()
                 };
                 let away = (0..band.chords()).map(away).fold(f64::INFINITY, f64::min);
                 assert!(away <= 0.05, "{away} mm off at {place}");
@@ -384,7 +384,7 @@ mod tests {
     }
 
     #[test]
-    fn ways_of_short_chords_and_sharp_turns_stay_in_their_tube() {
+    fn ways_of_short_chords_and_sharp_turns_stay_in_their_band() {
         let mut random = fastrand::Rng::with_seed(3);
         let mut fits = 0;
         for _ in 0..400 {

@@ -90,7 +90,8 @@ struct TipArcs {
     from: Point,
 }
 
-/// Arcs inside the tolerance band of the line of the tip, given with the chord of the run that each of its chords lies on; otherwise the point from which none stays inside.
+/// Arcs inside the tolerance band of the line of the tip, given with the chord of the run that each of its chords lies on;
+/// otherwise the point from which none stays inside.
 fn tip_arcs(
     run: &Run,
     (points, chords): (Vec<Point>, &[usize]),

@@ -19,7 +19,7 @@ impl Axes {
     }
 }
 
-/// The blade, mm: from tail to tip, and from its centre to the tip.
+/// The blade, mm: from heel to tip, and from its centre to the tip.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::plan) struct Blade {
     pub(in crate::plan) width: f64,

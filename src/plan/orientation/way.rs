@@ -1,7 +1,7 @@
 //! The machine's own coordinates along a path: with an eccentric knife the axes do not follow the tip.
 //!
-//! Centre q(u) = p(u) - r (cos c, sin c), c the blade's angle. Under the chord law ([`Chord`]) the tail is on the path, too.
-//! Under the tangent law c is the path's tangent; after a plunge as a chord it blends from the chord to the tangent over
+//! Centre q(u) = p(u) - r (cos c, sin c), c the blade's angle. Under the chord mode ([`Chord`]) the heel is on the path, too.
+//! Under the tangent mode c is the path's tangent; after a plunge as a chord it blends from the chord to the tangent over
 //! the next blade width. Derivatives to third order are closed forms: with X = x' y'' - y' x'' and n = x'^2 + y'^2,
 //! c' = X / n, c'' = X' / n - X n' / n^2, c''' = X'' / n - 2 X' n' / n^2 - X n'' / n^2 + 2 X n'^2 / n^3.
 
@@ -29,7 +29,7 @@ pub(in crate::plan) struct Way<'a> {
     tangents: Vec<f64>,
     /// How far the tangent is ahead of a blade that plunged as a chord.
     fade: Option<Fade>,
-    /// The blade as a chord of the path, when that is its law.
+    /// The blade as a chord of the path, when that is its orientation mode.
     chord: Option<Chord>,
 }
 
@@ -50,13 +50,13 @@ pub(in crate::plan) struct Course {
 /// How the blade enters the path.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::plan) enum Entry {
-    /// As a chord whose tail stands at the start of the curve.
+    /// As a chord whose heel stands at the start of the curve.
     Plunge,
-    /// As its law has it, with the tip at this parameter.
+    /// As its orientation mode has it, with the tip at this parameter.
     Steady(f64),
 }
 
-/// Shorter ways are none, mm: below what a machine resolves and a tolerance notices. The blade only plunges then, and no law
+/// Shorter ways are none, mm: below what a machine resolves and a tolerance notices. The blade only plunges then, and no mode
 /// bears on that.
 pub(in crate::plan) const WAY_EPSILON: f64 = 1e-3;
 
@@ -72,12 +72,12 @@ impl<'a> Way<'a> {
         }
         match law {
             Law::Chord if blade.width > 0.0 && to - way.from >= WAY_EPSILON => {
-                let tail = match entry {
+                let heel = match entry {
                     Entry::Plunge => Some(0.0),
-                    Entry::Steady(from) => chord::tail_behind(curve, from, blade.width),
+                    Entry::Steady(from) => chord::heel_behind(curve, from, blade.width),
                 };
-                let tail = tail.ok_or(TooTight { at: way.point(way.from) })?;
-                way.chord = Some(Chord::new(curve, [tail, way.from, to], blade)?);
+                let heel = heel.ok_or(TooTight { at: way.point(way.from) })?;
+                way.chord = Some(Chord::new(curve, [heel, way.from, to], blade)?);
             }
             Law::Chord | Law::Tangent => {}
         }
@@ -202,7 +202,7 @@ impl<'a> Way<'a> {
     }
 }
 
-/// Places along a way, none before the last one: under the tangent law each is found without a search, however long the way.
+/// Places along a way, none before the last one: under the tangent mode each is found without a search, however long the way.
 #[derive(Debug)]
 pub(in crate::plan) struct Walk<'a> {
     way: &'a Way<'a>,
@@ -291,7 +291,7 @@ pub(in crate::plan) mod tests {
         for entry in [Entry::Plunge, Entry::Steady(3.0)] {
             let way = way(&curve, entry, Rotation(9.0));
             assert!((way.at(way.from).q[0][2] - 9.0).abs() <= std::f64::consts::PI);
-            differences_agree(&way, "the tangent law");
+            differences_agree(&way, "the tangent mode");
         }
     }
 
@@ -308,7 +308,7 @@ pub(in crate::plan) mod tests {
     }
 
     #[test]
-    fn a_chord_plunge_has_its_tail_at_the_start_and_ends_tangent() {
+    fn a_chord_plunge_has_its_heel_at_the_start_and_ends_tangent() {
         let curve = arc();
         let way = way(&curve, Entry::Plunge, Rotation(0.0));
         let pose = way.pose(way.from);

@@ -1,4 +1,4 @@
-//! The polyline that the tip and, in the plunge, the tail follow: a run with its overlaps.
+//! The polyline that the tip and, in the plunge, the heel follow: a run with its overlaps.
 
 use crate::geom::{Point, polyline};
 use crate::ir::motion::Spell;
@@ -24,7 +24,7 @@ impl Extended {
         match (run.shape, run.law) {
             (Shape::Open, _) => open(run),
             (Shape::Ring, Law::Tangent) => ring(run, 0.0),
-            (Shape::Ring, Law::Chord) => ring(run, TAIL_REACH * width),
+            (Shape::Ring, Law::Chord) => ring(run, HEEL_REACH * width),
         }
     }
 }
@@ -49,13 +49,13 @@ fn open(run: &Run) -> Extended {
 const LEAD: f64 = 8.0;
 const LEAD_CHORDS: usize = 3;
 
-/// How far behind its tip along a curve the tail of a blade may lie, in widths of the blade: on the tightest curve whose
+/// How far behind its tip along a curve the heel of a blade may lie, in widths of the blade: on the tightest curve whose
 /// chord it can be, with the radius of 0.55 widths, it is 1.26.
-const TAIL_REACH: f64 = 1.3;
+const HEEL_REACH: f64 = 1.3;
 
-/// A ring overlaps along itself: it starts in full motion law, its tail on the path by at most `tail` mm behind, and goes
-/// past its start by the front overlap.
-fn ring(run: &Run, tail: f64) -> Extended {
+/// A ring overlaps along itself: it starts as its orientation mode has it, its heel on the path by at most `heel` mm behind,
+/// and goes past its start by the front overlap.
+fn ring(run: &Run, heel: f64) -> Extended {
     let n = run.points.len() - 1;
     let chord = |i: usize| (run.points[i % n + 1] - run.points[i % n]).norm();
     // Chords of the contour, walked on and on until they are as long as asked, or twice round: enough for any overlap.
@@ -67,7 +67,7 @@ fn ring(run: &Run, tail: f64) -> Extended {
         }
         (chords, sum)
     };
-    let (before, start) = lead(LEAD + tail, &|i| n - 1 - i % n);
+    let (before, start) = lead(LEAD + heel, &|i| n - 1 - i % n);
     let (after, _) = lead(run.front + LEAD, &|i| i);
     let first = n - before % n;
     let chords = before + n + after;
