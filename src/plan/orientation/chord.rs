@@ -36,7 +36,7 @@ pub(in crate::plan) struct TooTight {
 
 /// The way of a blade that is a chord of its path.
 #[derive(Debug)]
-pub(in crate::plan) struct Chord {
+pub(super) struct Chord {
     blade: Blade,
     nodes: Vec<Node>,
 }
@@ -57,7 +57,7 @@ fn path<const N: usize>(curve: &Curve, u: f64) -> [Vector; N] {
 }
 
 /// The heel at the distance `width` behind the tip at parameter `tip`; `None` when the path has none before.
-pub(in crate::plan) fn heel_behind(curve: &Curve, tip: f64, width: f64) -> Option<f64> {
+pub(super) fn heel_behind(curve: &Curve, tip: f64, width: f64) -> Option<f64> {
     let [p] = path::<1>(curve, tip);
     let away = |t: f64| (p - path::<1>(curve, t)[0]).norm() - width;
     let step = LOOK_SHARE * width;
@@ -87,7 +87,7 @@ fn root(f: &dyn Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
 
 impl Chord {
     /// The way from parameter `from` of the tip, where the heel is at `heel`, to `to`.
-    pub(in crate::plan) fn new(curve: &Curve, [heel, from, to]: [f64; 3], blade: Blade) -> Result<Self, TooTight> {
+    pub(super) fn new(curve: &Curve, [heel, from, to]: [f64; 3], blade: Blade) -> Result<Self, TooTight> {
         let inner = curve.breaks().windows(2).flat_map(|ends| {
             let step = (ends[1] - ends[0]) / NODES_A_SPAN as f64;
             (0..NODES_A_SPAN).map(move |i| ends[0] + step * i as f64)
@@ -138,7 +138,7 @@ impl Chord {
     }
 
     /// Turns the way by an angle, rad: whole turns.
-    pub(in crate::plan) fn turn(&mut self, by: f64) {
+    pub(super) fn turn(&mut self, by: f64) {
         self.nodes.iter_mut().for_each(|node| node.c += by);
     }
 
@@ -165,7 +165,7 @@ impl Chord {
     }
 
     /// The axes at a parameter.
-    pub(in crate::plan) fn at(&self, curve: &Curve, u: f64) -> Axes {
+    pub(super) fn at(&self, curve: &Curve, u: f64) -> Axes {
         let Blade { width, radius } = self.blade;
         let span = spline::span(curve.breaks(), u);
         let [p, p1, p2, p3] = curve.derivatives_on::<4>(span, u).map(|d| Vector::new(d[0], d[1]));

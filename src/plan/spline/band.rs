@@ -15,24 +15,24 @@ const TURN_EPSILON: f64 = 1e-6;
 #[derive(Debug, Clone)]
 pub(in crate::plan) struct ToleranceBand {
     /// The polyline, no two points in a row equal.
-    pub(in crate::plan) points: Vec<Point>,
+    pub(super) points: Vec<Point>,
     /// Chord length from the first point to each point, mm.
-    pub(in crate::plan) stations: Vec<f64>,
+    pub(super) stations: Vec<f64>,
     /// Turn at each point, rad; 0 at the ends.
-    pub(in crate::plan) turns: Vec<f64>,
+    pub(super) turns: Vec<f64>,
     /// Chord sagitta of each chord: the outward normal times the height in its middle, mm.
     sagittas: Vec<Vector>,
     /// Permitted deviation, mm.
-    pub(in crate::plan) tolerance: f64,
+    pub(super) tolerance: f64,
 }
 
 /// A cross-section of the band: the segment of points that count as on the path there.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::plan) struct Section {
+pub(super) struct Section {
     /// The point on the chord.
-    pub(in crate::plan) base: Point,
+    pub(super) base: Point,
     /// From there to the far end of the sagitta, mm.
-    pub(in crate::plan) sagitta: Vector,
+    pub(super) sagitta: Vector,
 }
 
 impl ToleranceBand {
@@ -53,19 +53,19 @@ impl ToleranceBand {
     }
 
     /// Length of the polyline, mm.
-    pub(in crate::plan) fn length(&self) -> f64 {
+    pub(super) fn length(&self) -> f64 {
         self.stations[self.stations.len() - 1]
     }
 
     /// The chord on which station `u` lies.
     #[cfg(test)]
-    pub(in crate::plan) fn chord(&self, u: f64) -> usize {
+    pub(super) fn chord(&self, u: f64) -> usize {
         crate::geom::spline::span(&self.stations, u)
     }
 
     /// What counts as on the path at station `u`: with x the fraction of the chord, the arc stands 4 x (1 - x) of the sagitta
     /// above it.
-    pub(in crate::plan) fn section(&self, chord: usize, u: f64) -> Section {
+    pub(super) fn section(&self, chord: usize, u: f64) -> Section {
         let (start, end) = (self.stations[chord], self.stations[chord + 1]);
         let x = ((u - start) / (end - start)).clamp(0.0, 1.0);
         let base = self.points[chord] + (self.points[chord + 1] - self.points[chord]) * x;
@@ -75,12 +75,12 @@ impl ToleranceBand {
 
 impl Section {
     /// The middle of what counts as on the path.
-    pub(in crate::plan) fn middle(&self) -> Point {
+    pub(super) fn middle(&self) -> Point {
         self.base + self.sagitta * 0.5
     }
 
     /// The deviation of a point as a vector, mm; and how much of the sagitta it uses, mm.
-    pub(in crate::plan) fn deviation(&self, point: Point) -> (Vector, f64) {
+    pub(super) fn deviation(&self, point: Point) -> (Vector, f64) {
         let away = point - self.base;
         let height = self.sagitta.norm();
         if height == 0.0 {
@@ -92,7 +92,7 @@ impl Section {
     }
 
     /// The outward unit normal when a point lies beside the sagitta, so that moving along it changes nothing.
-    pub(in crate::plan) fn free_direction(&self, point: Point) -> Option<Vector> {
+    pub(super) fn free_direction(&self, point: Point) -> Option<Vector> {
         let height = self.sagitta.norm();
         let outward = self.sagitta.try_normalize(0.0)?;
         let used = (point - self.base).dot(&outward);

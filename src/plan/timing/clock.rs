@@ -22,7 +22,7 @@ struct Node {
 impl Clock {
     /// The motion of which `pace(span, s)` gives b = (du/dt)^2 and db/du on each span of `breaks`, s counted from
     /// parameter `start`.
-    pub(in crate::plan) fn new(start: f64, breaks: &[f64], pace: impl Fn(usize, f64) -> (f64, f64)) -> Self {
+    pub(super) fn new(start: f64, breaks: &[f64], pace: impl Fn(usize, f64) -> (f64, f64)) -> Self {
         let length = breaks[breaks.len() - 1];
         let mut nodes = vec![Node { t: 0.0, u: [start, 0.0, 0.0] }];
         let mut t = 0.0;
