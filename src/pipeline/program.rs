@@ -112,7 +112,9 @@ pub(super) fn write(
     let job = context.job;
     let mut refused = Vec::new();
     for target in sinks.iter().filter_map(Sink::arc_target) {
-        (target.refusals)(context).into_iter().for_each(|refusal| count(&mut refused, refusal));
+        for refusal in (target.refusals)(context) {
+            count(&mut refused, refusal);
+        }
     }
     let interpolations = sinks.iter().filter_map(Sink::arc_target).map(|target| (target.interpolation)(job)).collect();
     let wanted = Wanted { job, motion: motion || sinks.iter().any(Sink::needs_motion), interpolations };
@@ -179,7 +181,9 @@ impl Writer<'_, '_, '_> {
                     for (toolpath, arcs) in toolpaths.iter().zip(arcs.next().expect("every target has its arcs")) {
                         match arcs {
                             Err(unfit) => {
-                                unfit.iter().for_each(|run| count(&mut self.refused, (target.unfit)(run)));
+                                for run in &unfit {
+                                    count(&mut self.refused, (target.unfit)(run));
+                                }
                             }
                             Ok(arcs) => writer.body(toolpath, &arcs, out)?,
                         }
