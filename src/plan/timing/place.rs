@@ -1,5 +1,5 @@
 //! What the limits say at one place of a run. The unknown b and its first two derivatives b' and b'' are three numbers from
-//! which all limits of the place follow (see [`super::profile`]), and the slopes of the barrier with them.
+//! which all limits of the place follow (see [`super::profile()`]), and the slopes of the barrier with them.
 
 use crate::machine::Limits;
 use crate::plan::orientation::Axes;
