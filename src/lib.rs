@@ -9,12 +9,13 @@
 //!
 //! ```text
 //! bytes -> front (-> Drawing -> recognise) -> Marker -> pass -> Toolpath -> plan -> Motion -> back -> bytes -> verify
+//!                                                                              -> Arcs   ->
 //! ```
 //!
-//! Three forms carry everything, each in [`ir`]: the *Marker* is what the file says, in mm; the *Toolpath* is what the
-//! knife does, in order but without time; the *Motion* is where the axes are at every tick of the controller's clock.
-//! The Marker is whole in memory. Toolpaths and motions come and go, a contour at a time, so that the length of a
-//! program does not matter.
+//! Four forms carry everything, each in [`ir`]: the *Marker* is what the file says, in mm; the *Toolpath* is what the
+//! knife does, in order but without time; the *Motion* is where the axes are at every tick of the controller's clock; and
+//! for a controller that plans for itself the *Arcs* are few arcs and lines of the axes instead. The Marker is whole in
+//! memory. The others come and go, a contour at a time, so that the length of a program does not matter.
 //!
 //! # Code map, in the order of the pipeline
 //!
@@ -25,13 +26,14 @@
 //! | [`diagnostic`] | everything that is said about the user's data: codes, text, JSON |
 //! | [`geom`] | points, headings and rotations, polylines, curves |
 //! | [`machine`] | the profile of a machine, the job, closed-form moves of one axis |
-//! | [`ir`] | the three forms, the segment list, the checker, the text form |
+//! | [`ir`] | the four forms, the segment list, the checker, the text form |
 //! | [`front`] | dialects: bytes to Marker or Drawing, a file or folder each, rows of [`front::DIALECTS`] |
 //! | [`recognise`] | what of a drawing is cut: Drawing to Marker, whatever the dialect |
 //! | [`analysis`] | what lies in what: asked by `recognise`, `pass`, `plan`, `back`, never by `verify` |
 //! | [`pass`] | edits of Marker and Toolpath, a file each, rows of two tables in order |
-//! | `plan` | smooth curves, speed along them, moves in the air, samples that keep the limits |
-//! | [`back`] | targets: a form to bytes, a file each, rows of [`back::TARGETS`] |
+//! | [`plan`] | `spline`: smooth curves inside the tolerance band; `orientation`: the blade along them; `timing`: jerk-limited speed; `solver`: their kernels; then rapids, and samples that keep the limits |
+//! | [`plan::arcs`] | few arcs and lines inside the band, for controllers that plan for themselves |
+//! | [`back`] | targets: a form to bytes, a file each, rows of [`back::TARGETS`]; printing only |
 //! | `verify` | reads what was written with readers of its own and judges it against the Marker |
 //! | [`pipeline`] | names every stage once, in order |
 //! | [`manual`] | the manual, a page a topic, rows of [`manual::PAGES`] |

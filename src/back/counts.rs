@@ -9,7 +9,7 @@
 
 use std::io::{self, SeekFrom};
 
-use super::{Context, Emit, Output, Parts, Proof, Target};
+use super::target::{Context, Emit, Output, Parts, Proof, Target};
 use crate::ir::{Finding, Motion};
 use crate::units::number::exact;
 

@@ -8,7 +8,7 @@
 
 use std::io;
 
-use super::{Context, Emit, Output, Parts, Proof, Target};
+use super::target::{Context, Emit, Output, Parts, Proof, Target};
 use crate::ir::{Finding, Motion};
 use crate::units::number;
 

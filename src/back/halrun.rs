@@ -6,7 +6,7 @@
 use std::io;
 use std::path::Path;
 
-use super::{Context, Emit, Output, Parts, Proof, Target};
+use super::target::{Context, Emit, Output, Parts, Proof, Target};
 use crate::ir::motion::Kind;
 use crate::ir::{Finding, Motion};
 use crate::units::NS_PER_S;

@@ -16,7 +16,7 @@
 
 use std::io;
 
-use super::{Context, Emit, Output, Proof, Target};
+use super::target::{Context, Emit, Output, Proof, Target};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Heading, Point};
 use crate::ir::list::{FULL_SPEED, Joint, Segment};

@@ -20,7 +20,7 @@
 
 use std::io;
 
-use super::{Context, Emit, Output, Parts, Proof, Target};
+use super::target::{Context, Emit, Output, Parts, Proof, Target};
 use crate::ir::motion::{Kind, Phase, Task};
 use crate::ir::toolpath::{Edge, Law, Pose, Side};
 use crate::ir::{Finding, Motion};

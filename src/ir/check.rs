@@ -1,4 +1,4 @@
-//! Every invariant of the three forms; collects all that is broken, never stops at the first.
+//! Every invariant of marker, toolpath and motion; collects all that is broken, never stops at the first.
 
 use super::marker::{Marker, Notch};
 use super::motion::{Motion, Poses};

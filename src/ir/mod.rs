@@ -1,6 +1,6 @@
-//! The three forms in which stages meet: [`marker`] (what the file says), [`toolpath`] (what the knife does, untimed)
-//! and [`motion`] (when the axes are where). Before a marker can be made of a plot there is a [`drawing`]: what its pens
-//! draw.
+//! The forms in which stages meet: [`marker`] (what the file says), [`toolpath`] (what the knife does, untimed), and of
+//! that either [`motion`] (when the axes are where) or [`arcs`] (a path of arcs and lines, for controllers that plan for
+//! themselves). Before a marker can be made of a plot there is a [`drawing`]: what its pens draw.
 //!
 //! Invariants, checked by [`check`] after every pass in tests and debug builds:
 //!
@@ -11,6 +11,7 @@
 //! - steps of a toolpath come in an order that a machine can run: the knife is down in runs and stabs alone
 //! - every run has one span a chord, overlaps that are not negative and a positive speed cap
 
+pub mod arcs;
 pub mod check;
 pub mod drawing;
 pub mod finding;
@@ -23,6 +24,7 @@ mod scattered;
 pub mod text;
 pub mod toolpath;
 
+pub use arcs::Arcs;
 pub use drawing::Drawing;
 pub use finding::Finding;
 pub use list::{Range, Segment, SegmentId, SegmentList};

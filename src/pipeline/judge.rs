@@ -3,8 +3,9 @@
 use std::fmt::Write as _;
 use std::io::{self, BufReader, Read as _};
 
-use super::report::significant;
-use super::{Judged, Medium, Reading, read_to_judge};
+use super::input::{Judged, Reading, read_to_judge};
+use super::product::Medium;
+use super::rounded::significant;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::Dialect;
 use crate::ir::marker::{Notch, Piece};

@@ -1,75 +1,47 @@
 //! The compiler, each stage named once, in order.
 
+mod input;
 mod judge;
 mod place;
+mod product;
 mod program;
 mod refused;
 mod report;
+mod rounded;
+mod sound;
 mod spent;
 mod toolpaths;
 
 pub use crate::analysis::area;
+pub use input::{Input, Judged, Reading, marker_of, read, read_to_judge};
 pub use judge::{about, figures, foreign, judge_program};
-pub use report::{Axes, Controller, Drawn, Lines, Notches, Peak, Peaks, Program, Report, Sides, significant};
+pub use product::{Medium, Product};
+pub use report::{Axes, Controller, Drawn, Lines, Notches, Peak, Peaks, Program, Report, Sides};
+pub use rounded::significant;
 pub use spent::{Spent, word};
 
 pub use crate::verify::{RULES, Rule, Verdict};
 
-use std::io::{self, BufWriter, Read, Seek, Write};
-use std::path::Path;
+use std::io::{self, BufWriter, Write};
 
 use tempfile::SpooledTempFile;
 
+use self::input::{make_cuts, read_alone, run_passes};
 use self::program::{Sink, Written};
 use self::toolpaths::Toolpaths;
 use crate::back::{Context, Emit, Proof, SETPOINTS, Target};
-use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::front::{self, Dialect, Read as Reader};
-use crate::ir::{Finding, Marker, check, text};
-use crate::machine::{Job, plot};
-use crate::pass::marker::{MARKER_PASSES, MarkerPass};
+use crate::diagnostic::Diagnostics;
+use crate::front::Dialect;
+use crate::ir::{Finding, text};
+use crate::machine::Job;
+use crate::pass::marker::MARKER_PASSES;
 use crate::pass::toolpath::{Scene, TOOLPATH_PASSES, trace};
 use crate::plan;
-use crate::recognise;
 use crate::source::Source;
-use crate::verify::{Census, Ground, Works};
+use crate::verify::Ground;
 
 /// Bytes of setpoints that are kept in memory when they are made only to be judged; more go to a temporary file.
 const SCRATCH_BYTES: usize = 64 << 20;
-
-/// Where a program is written, and read back from.
-pub trait Medium: Read + Write + Seek {}
-
-impl<T: Read + Write + Seek> Medium for T {}
-
-/// A file as read and passed: what is cut, in which order.
-#[derive(Debug)]
-pub struct Input {
-    /// What it was read as.
-    pub dialect: &'static Dialect,
-    /// What it says, as far as the job wants it cut.
-    pub marker: Marker,
-    /// Whether the source was read without errors: then there is something to show, whatever passes say of it.
-    pub is_whole: bool,
-}
-
-/// An input that programs are judged against.
-#[derive(Debug)]
-pub struct Judged {
-    /// What is cut.
-    pub input: Input,
-    /// What is known of how it was read.
-    pub reading: Reading,
-}
-
-/// What a file says in all, as it was read, and what passes kept of that.
-#[derive(Debug)]
-pub struct Reading {
-    /// Before any pass.
-    pub census: Census,
-    /// Whether all of it is still cut behind them.
-    pub kept: Finding,
-}
 
 /// What is asked of a compile beside the job.
 #[derive(Debug, Clone, Copy)]
@@ -91,23 +63,6 @@ pub struct Choices {
     pub verify: bool,
 }
 
-/// One of the programs that a compile writes.
-pub struct Product<'a> {
-    /// What is written.
-    pub target: &'static Target,
-    /// Where it goes.
-    pub out: &'a mut dyn Medium,
-    /// Set where the compile fails and this is a picture of what was refused: it is worth keeping, a program is not.
-    pub shows_refusal: bool,
-}
-
-impl<'a> Product<'a> {
-    /// A program that is not written yet.
-    pub fn new(target: &'static Target, out: &'a mut dyn Medium) -> Self {
-        Self { target, out, shows_refusal: false }
-    }
-}
-
 /// What a compile gives.
 #[derive(Debug)]
 pub struct Compiled {
@@ -115,94 +70,6 @@ pub struct Compiled {
     pub report: Report,
     /// What it is worth; `None` when nobody asked.
     pub verdict: Option<Verdict>,
-}
-
-/// Reads a source as `from`, or as what its content looks like, and runs the marker passes. `None` when nothing can be
-/// read; faults of the data are diagnostics.
-pub fn read(
-    source: &Source,
-    from: Option<&'static Dialect>,
-    job: &Job,
-    diagnostics: &mut Diagnostics,
-) -> Option<Input> {
-    let mut input = read_alone(source, from, job, diagnostics)?;
-    run_passes(marker_passes()[0], &mut input.marker, (source, job), diagnostics);
-    Some(input)
-}
-
-/// The same, with what it takes to judge a program.
-pub fn read_to_judge(
-    source: &Source,
-    from: Option<&'static Dialect>,
-    job: &Job,
-    diagnostics: &mut Diagnostics,
-) -> Option<Judged> {
-    let mut input = read_alone(source, from, job, diagnostics)?;
-    let (census, works) = rayon::join(|| Census::of(&input.marker), || Works::of(&input.marker));
-    run_passes(marker_passes()[0], &mut input.marker, (source, job), diagnostics);
-    let kept = works.kept(&input.marker, &job.profile);
-    Some(Judged { input, reading: Reading { census, kept } })
-}
-
-/// The marker as the source says it, before any pass.
-fn read_alone(
-    source: &Source,
-    from: Option<&'static Dialect>,
-    job: &Job,
-    diagnostics: &mut Diagnostics,
-) -> Option<Input> {
-    let extension = Path::new(source.name()).extension().and_then(|e| e.to_str());
-    let dialect = from.or_else(|| front::detect(source, extension, diagnostics))?;
-    let marker = marker_of(dialect, source, job, diagnostics);
-    // Only a drawing leaves it to others which of its lines are cut.
-    if marker.drawing.is_none() && job.lines != plot::Lines::default() && !diagnostics.has_errors() {
-        let message = "`--cut-pens`, `--inner` and `--cut-all` choose among the lines of a plot, and this is none: all of it is cut";
-        let finding = Diagnostic::new(&code::SOURCE_NO_PLOT, message);
-        diagnostics.push(finding.hint("leave them out; `--pieces` and `--skip` choose pieces of any file"));
-    }
-    place::place(diagnostics, 0, (&marker, source, job));
-    Some(Input { dialect, marker, is_whole: !diagnostics.has_errors() })
-}
-
-/// What a source says is cut, as a dialect reads it, or as it is recognised in what the dialect says is drawn.
-pub fn marker_of(dialect: &Dialect, source: &Source, job: &Job, diagnostics: &mut Diagnostics) -> Marker {
-    match dialect.read {
-        Reader::Marker(read) => read(source, job, diagnostics),
-        Reader::Drawing(read) => {
-            let drawing = read(source, job, diagnostics);
-            // What is not read to its end would only be recognised wrongly.
-            if diagnostics.has_errors() { Marker::default() } else { recognise::marker(drawing, job, diagnostics) }
-        }
-    }
-}
-
-/// The passes that say what is drawn, and the one that makes cuts of it: only programs need these.
-fn marker_passes() -> [&'static [MarkerPass]; 2] {
-    let (last, first) = MARKER_PASSES.split_last().expect("there are passes");
-    [first, std::slice::from_ref(last)]
-}
-
-/// Makes the cuts of what was read.
-fn make_cuts(input: &mut Input, source: &Source, job: &Job, diagnostics: &mut Diagnostics) {
-    run_passes(marker_passes()[1], &mut input.marker, (source, job), diagnostics);
-}
-
-/// Runs marker passes. What they find is placed before a pass can take it away.
-fn run_passes(
-    passes: &[MarkerPass],
-    marker: &mut Marker,
-    (source, job): (&Source, &Job),
-    diagnostics: &mut Diagnostics,
-) {
-    for pass in passes {
-        if diagnostics.has_errors() {
-            break;
-        }
-        let known = diagnostics.iter().len();
-        (pass.run)(marker, job, diagnostics);
-        place::place(diagnostics, known, (marker, source, job));
-        assert_sound(pass.name, || check::marker(marker));
-    }
 }
 
 /// Compiles a source to a program in `out`, reads that back and judges it. `None` when the diagnostics hold errors: what
@@ -410,12 +277,4 @@ pub fn dump(
         text.push_str(&text::print_toolpath(&toolpath));
     }
     Some(text)
-}
-
-/// In tests and debug builds a pass that breaks an invariant is found at once.
-fn assert_sound(pass: &str, faults: impl FnOnce() -> check::Faults) {
-    if cfg!(debug_assertions) {
-        let faults = faults();
-        assert!(faults.is_empty(), "after pass {pass}: {faults:?}");
-    }
 }

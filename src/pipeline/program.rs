@@ -5,16 +5,18 @@ use std::io::{self, BufWriter, Write};
 
 use rayon::prelude::*;
 
+use super::product::Medium;
+use super::report::{Axes, Program, Sides};
 use super::spent::Clock;
 use super::toolpaths::{Toolpaths, Window};
-use super::{Axes, Medium, Program, Sides};
-use crate::back::{Context, Emit, Estimate, Fit, Fitting, Parts, Ways};
+use crate::back::{ArcTarget, ArcWriter, Context, Emit, Estimate, Parts};
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::ir::arcs::{Interpolation, Unfit};
 use crate::ir::motion::{Kind, Task};
 use crate::ir::toolpath::{Edge, Harm, Law, Side};
-use crate::ir::{Motion, Toolpath};
+use crate::ir::{Arcs, Motion, Toolpath};
 use crate::machine::{Follow, Job};
-use crate::plan::{self, Cut, Planner};
+use crate::plan::{self, Cut, Planner, arcs};
 use crate::units::MM_PER_M;
 
 /// A program that is written as toolpaths come.
@@ -27,7 +29,7 @@ pub(super) struct Sink<'a> {
 enum Form<'a> {
     Toolpath(&'static Parts<Toolpath>),
     Motion(&'static Parts<Motion>),
-    Fit(&'static Fit, Box<dyn Fitting + 'a>),
+    Arcs(&'static ArcTarget, Box<dyn ArcWriter + 'a>),
 }
 
 impl<'a> Sink<'a> {
@@ -37,7 +39,7 @@ impl<'a> Sink<'a> {
             Emit::Marker(_) => return None,
             Emit::Toolpath(parts) => Form::Toolpath(parts),
             Emit::Motion(parts) => Form::Motion(parts),
-            Emit::Fit(fit) => Form::Fit(fit, (fit.begin)(context)),
+            Emit::Arcs(target) => Form::Arcs(target, (target.begin)(context)),
         };
         Some(Self { form, out: BufWriter::new(out) })
     }
@@ -52,9 +54,9 @@ impl<'a> Sink<'a> {
         matches!(self.form, Form::Motion(_))
     }
 
-    fn fit(&self) -> Option<&'static Fit> {
+    fn arc_target(&self) -> Option<&'static ArcTarget> {
         match self.form {
-            Form::Fit(fit, _) => Some(fit),
+            Form::Arcs(target, _) => Some(target),
             Form::Toolpath(_) | Form::Motion(_) => None,
         }
     }
@@ -74,8 +76,8 @@ struct Made {
     toolpaths: Vec<Toolpath>,
     /// The planned cuts of each; none where no motion is wanted.
     cuts: Vec<Result<Vec<Cut>, Vec<Diagnostic>>>,
-    /// For each target that fits: the ways of each.
-    ways: Vec<Vec<Result<Ways, Vec<Diagnostic>>>>,
+    /// For each target of arcs: those of each.
+    arcs: Vec<Vec<Result<Arcs, Vec<Unfit>>>>,
     findings: Vec<Diagnostics>,
 }
 
@@ -83,16 +85,19 @@ struct Made {
 struct Wanted<'a> {
     job: &'a Job,
     motion: bool,
-    fits: Vec<&'static Fit>,
+    /// How each target of arcs can be told a path.
+    interpolations: Vec<Interpolation>,
 }
 
 impl Wanted<'_> {
     fn of(&self, Window { toolpaths, findings }: Window) -> Made {
         let planned = if self.motion { &toolpaths[..] } else { &[] };
         let cuts = planned.par_iter().map(|toolpath| plan::solve(toolpath, self.job)).collect();
-        let ways = |fit: &&'static Fit| toolpaths.par_iter().map(|toolpath| (fit.ways)(toolpath, self.job)).collect();
-        let ways = self.fits.iter().map(ways).collect();
-        Made { toolpaths, cuts, ways, findings }
+        let arcs = |interpolation: &Interpolation| {
+            toolpaths.par_iter().map(|toolpath| arcs::solve(toolpath, interpolation, self.job)).collect()
+        };
+        let arcs = self.interpolations.iter().map(arcs).collect();
+        Made { toolpaths, cuts, arcs, findings }
     }
 }
 
@@ -104,17 +109,24 @@ pub(super) fn write(
     (context, motion): (&Context, bool),
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Written> {
-    let fits = sinks.iter().filter_map(Sink::fit).collect();
-    let wanted = Wanted { job: context.job, motion: motion || sinks.iter().any(Sink::needs_motion), fits };
+    let job = context.job;
+    let mut refused = Vec::new();
+    for target in sinks.iter().filter_map(Sink::arc_target) {
+        for refusal in (target.refusals)(context) {
+            count(&mut refused, refusal);
+        }
+    }
+    let interpolations = sinks.iter().filter_map(Sink::arc_target).map(|target| (target.interpolation)(job)).collect();
+    let wanted = Wanted { job, motion: motion || sinks.iter().any(Sink::needs_motion), interpolations };
     for Sink { form, out } in &mut *sinks {
         match form {
             Form::Toolpath(parts) => (parts.head)(context, out)?,
             Form::Motion(parts) => (parts.head)(context, out)?,
-            Form::Fit(_, fitting) => fitting.head(out)?,
+            Form::Arcs(_, writer) => writer.head(out)?,
         }
     }
-    let (planner, tally) = (Planner::new(context.job), Tally::default());
-    let mut writer = Writer { sinks, context, planner, tally, refused: Vec::new() };
+    let (planner, tally) = (Planner::new(job), Tally::default());
+    let mut writer = Writer { sinks, context, planner, tally, refused };
     let (mut drawing, mut linking) = toolpaths.stages();
     // Each stage has a window of its own: no core waits for the slowest.
     let (mut drawn, mut linked, mut made) = (drawing.next(), None, None);
@@ -136,13 +148,13 @@ struct Writer<'w, 's, 'c> {
     context: &'w Context<'c>,
     planner: Planner<'c>,
     tally: Tally,
-    /// What a target cannot express, of each kind the first in the file, and how many cuts it is.
+    /// What a target cannot express, of each kind the first in the file, and how many cuts or holes it is.
     refused: Vec<(Diagnostic, usize)>,
 }
 
 impl Writer<'_, '_, '_> {
     fn take(&mut self, made: Made, diagnostics: &mut Diagnostics) -> io::Result<()> {
-        let Made { toolpaths, cuts, ways, findings } = made;
+        let Made { toolpaths, cuts, arcs, findings } = made;
         for found in findings {
             diagnostics.extend(found);
         }
@@ -156,7 +168,7 @@ impl Writer<'_, '_, '_> {
                 }
             }
         }
-        let mut ways = ways.into_iter();
+        let mut arcs = arcs.into_iter();
         for Sink { form, out } in &mut *self.sinks {
             match form {
                 Form::Motion(_) => {}
@@ -165,11 +177,15 @@ impl Writer<'_, '_, '_> {
                         (parts.body)(toolpath, self.context, out)?;
                     }
                 }
-                Form::Fit(_, fitting) => {
-                    for (toolpath, ways) in toolpaths.iter().zip(ways.next().expect("every fit has its ways")) {
-                        match ways {
-                            Err(refused) => refused.into_iter().for_each(|cut| count(&mut self.refused, cut)),
-                            Ok(ways) => fitting.body(toolpath, &ways, out)?,
+                Form::Arcs(target, writer) => {
+                    for (toolpath, arcs) in toolpaths.iter().zip(arcs.next().expect("every target has its arcs")) {
+                        match arcs {
+                            Err(unfit) => {
+                                for run in &unfit {
+                                    count(&mut self.refused, (target.unfit)(run));
+                                }
+                            }
+                            Ok(arcs) => writer.body(toolpath, &arcs, out)?,
                         }
                     }
                 }
@@ -212,7 +228,7 @@ impl Writer<'_, '_, '_> {
             match form {
                 Form::Toolpath(_) => {}
                 Form::Motion(parts) => (parts.tail)(self.context, &[], out)?,
-                Form::Fit(_, fitting) => written.estimate = Some(fitting.tail(out)?),
+                Form::Arcs(_, writer) => written.estimate = Some(writer.tail(out)?),
             }
             out.flush()?;
         }
@@ -283,7 +299,7 @@ impl Tally {
     /// Takes what is known of cuts before they are joined to a motion.
     fn take(&mut self, piece: u32, cuts: &[Cut]) {
         for cut in cuts {
-            self.bulge = self.bulge.max(cut.bulge);
+            self.bulge = self.bulge.max(cut.sagitta);
             self.clock.bind(&cut.shares);
             self.clock_of(piece).bind(&cut.shares);
         }

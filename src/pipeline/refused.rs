@@ -2,7 +2,7 @@
 
 use std::io::{self, BufWriter, Write};
 
-use super::Product;
+use super::product::Product;
 use crate::back::{Context, Emit, Proof, Target};
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, code};
 use crate::ir::Finding;

@@ -5,6 +5,7 @@
 
 use serde::{Serialize, Serializer};
 
+use super::rounded::{significant, to_millionths};
 use super::spent::Spent;
 use crate::back::Estimate;
 use crate::ir::Marker;
@@ -13,12 +14,8 @@ use crate::ir::marker::{NotchForm, NotchKind};
 use crate::machine::{Follow, NotchStyle};
 use crate::units::{MM_PER_M, deg};
 
-/// Millionths that lengths and times are rounded to: micrometres of a metre, microseconds of a second.
-const MILLIONTHS: f64 = 1e6;
 /// Significant digits of a peak.
 const PEAK_DIGITS: i32 = 6;
-/// The most decimals that [`significant`] keeps: what is smaller is noise of the computation.
-const MOST_DECIMALS: i32 = 12;
 
 /// The figures of one file; `None` is what only planning knows.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -309,22 +306,6 @@ impl Report {
     }
 }
 
-/// `value` to some significant digits, for output: the nearest number that prints as short as that.
-pub fn significant(value: f64, digits: i32) -> f64 {
-    if value == 0.0 || !value.is_finite() {
-        return value;
-    }
-    let decimals = (digits - 1 - value.abs().log10().floor() as i32).min(MOST_DECIMALS);
-    let scale = 10_f64.powi(decimals.abs());
-    // A quotient or product with an exact power of ten is rounded once, so that no stray decimals follow.
-    if decimals < 0 { (value / scale).round() * scale } else { (value * scale).round() / scale }
-}
-
-/// Zero has no sign here: the sum of no lengths would have one.
-pub(super) fn to_millionths(value: f64) -> f64 {
-    (value * MILLIONTHS).round() / MILLIONTHS + 0.0
-}
-
 // The signatures are those that serde calls.
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde hands fields over by reference")]
 fn micro<S: Serializer>(value: &f64, out: S) -> Result<S::Ok, S::Error> {
@@ -351,15 +332,6 @@ mod tests {
 
     #[test]
     fn figures_are_printed_without_stray_decimals() {
-        let check = |value, digits, expected| assert_eq!(significant(value, digits), expected);
-        check(1_199.954_212_454_599_7, 6, 1199.95);
-        check(1_200.000_000_000_045_5, 6, 1200.0);
-        check(1_004_000.9, 6, 1_004_000.0);
-        check(-0.061_234_567, 3, -0.0612);
-        check(0.0, 6, 0.0);
-        check(1e-300, 6, 0.0);
-        check(f64::INFINITY, 6, f64::INFINITY);
-
         let peak = Peak { worst: 199_977.108_195_525_94, limit: 2e5 };
         let text = serde_json::to_string(&peak).expect("plain data");
         assert_eq!(text, r#"{"worst":199977.0,"limit":200000.0}"#);
@@ -372,7 +344,6 @@ mod tests {
         let json = serde_json::to_value(&report).expect("plain data");
         assert_eq!(json["extent_mm"].to_string(), "[12.8,4.0]");
         assert_eq!((json["cut_m"].to_string().as_str(), json["time_s"].to_string().as_str()), ("19.059211", "80.642"));
-        assert_eq!(to_millionths(-0.0).to_string(), "0");
         assert!(json["travel_m"].is_null() && json.get("bulge_mm").is_none());
     }
 }

@@ -3,7 +3,7 @@
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
-use super::report::to_millionths;
+use super::rounded::to_millionths;
 use crate::ir::motion::{BOUNDS, Bound, Kind, Motion, Shares};
 
 /// Time by what the machine does, s.

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::assert_sound;
+use super::sound::assert_sound;
 use crate::diagnostic::Diagnostics;
 use crate::ir::toolpath::Pose;
 use crate::ir::{Marker, Toolpath, check};

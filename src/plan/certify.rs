@@ -31,14 +31,14 @@ pub(super) enum Regime {
     /// Those of cutting: the knife is commanded down.
     Cut,
     /// Those of travel.
-    Air,
+    Rapid,
 }
 
 /// Limits of x, y and c in both regimes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Allowed {
     pub(super) cut: [Limits; 3],
-    pub(super) air: [Limits; 3],
+    pub(super) rapid: [Limits; 3],
 }
 
 /// Setpoints that a difference of order 3 joins.
@@ -51,7 +51,7 @@ type Rows = [[f64; 3]; 3];
 #[derive(Debug, Clone)]
 pub(super) struct Differences {
     period: f64,
-    /// The greatest differences that are allowed in a cut, in the air, and where the one passes into the other at rest:
+    /// The greatest differences that are allowed in a cut, in a rapid, and where the one passes into the other at rest:
     /// there the wider of both hold.
     allowed: [Rows; 3],
     /// The last setpoint and its differences of order 1 and 2, axis by axis.
@@ -67,9 +67,15 @@ impl Differences {
         let rows = |limits: &[Limits; 3]| {
             limits.map(|l| [l.speed * period, l.acceleration * period.powi(2), l.jerk * period.powi(3)])
         };
-        let (cut, air) = (rows(&allowed.cut), rows(&allowed.air));
-        let wider = std::array::from_fn(|axis| std::array::from_fn(|k: usize| f64::max(cut[axis][k], air[axis][k])));
-        Self { period, allowed: [cut, air, wider], last: None, regimes: [Regime::Air; 3], greatest: [[(0.0, 0); 3]; 3] }
+        let (cut, rapid) = (rows(&allowed.cut), rows(&allowed.rapid));
+        let wider = std::array::from_fn(|axis| std::array::from_fn(|k: usize| f64::max(cut[axis][k], rapid[axis][k])));
+        Self {
+            period,
+            allowed: [cut, rapid, wider],
+            last: None,
+            regimes: [Regime::Rapid; 3],
+            greatest: [[(0.0, 0); 3]; 3],
+        }
     }
 
     /// Takes the next setpoint.
@@ -82,7 +88,7 @@ impl Differences {
         };
         let which = match (self.regimes == [regime; 3], regime) {
             (true, Regime::Cut) => 0,
-            (true, Regime::Air) => 1,
+            (true, Regime::Rapid) => 1,
             (false, _) => 2,
         };
         self.regimes = [self.regimes[1], self.regimes[2], regime];
@@ -124,7 +130,7 @@ impl Differences {
     fn cover(&mut self, bounds: &Derivatives, regime: Regime) {
         let which = match regime {
             Regime::Cut => 0,
-            Regime::Air => 1,
+            Regime::Rapid => 1,
         };
         let powers = [self.period, self.period.powi(2), self.period.powi(3)];
         for (axis, bounds) in bounds.iter().enumerate() {
@@ -180,7 +186,7 @@ pub(super) fn excess_of_derivatives(bounds: &Derivatives, limits: &[Limits; 3]) 
 
 /// By how much time must be stretched for a cut from rest to rest to keep its limits: 1 or less when it does.
 pub(super) fn excess_of(poses: &[Pose], period: f64, limits: &[Limits; 3]) -> f64 {
-    let mut differences = Differences::new(period, &Allowed { cut: *limits, air: *limits });
+    let mut differences = Differences::new(period, &Allowed { cut: *limits, rapid: *limits });
     for &pose in poses {
         differences.push(pose, Regime::Cut);
     }
@@ -199,7 +205,7 @@ mod tests {
         let mut profile = MachineProfile::default();
         profile.axes.x.travel.speed_mm_s = Some(3000.0);
         let axes = &profile.axes;
-        let mut differences = Differences::new(1e-3, &Allowed { cut: axes.limits(), air: axes.travel_limits() });
+        let mut differences = Differences::new(1e-3, &Allowed { cut: axes.limits(), rapid: axes.travel_limits() });
         differences.push(Pose::new(0.0, 0.0, 0.0), regimes[0]);
         differences.rest(Pose::new(1.3, 0.0, 0.0), regimes[1]);
         differences
@@ -218,7 +224,7 @@ mod tests {
     #[test]
     fn the_limits_are_those_of_what_is_done_and_at_the_passage_the_wider_ones() {
         let speed = |regimes| jump(regimes).peaks()[0][0];
-        assert!((speed([Regime::Air; 2]).limit - 3000.0).abs() < 1e-9);
-        assert!((speed([Regime::Air, Regime::Cut]).limit - 3000.0).abs() < 1e-9);
+        assert!((speed([Regime::Rapid; 2]).limit - 3000.0).abs() < 1e-9);
+        assert!((speed([Regime::Rapid, Regime::Cut]).limit - 3000.0).abs() < 1e-9);
     }
 }

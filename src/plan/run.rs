@@ -1,21 +1,21 @@
 //! One run, from the plunge to the lift: overlaps join the polyline, the polyline becomes a curve, the curve a motion,
 //! the motion samples, and the samples are certified.
 
-use super::bound::Cutting;
 use super::certify::{EXCESS_EPSILON, excess_of, excess_of_derivatives};
-use super::chord::TooTight;
-use super::extended::{Blocks, Extended};
-use super::feed::Feed;
-use super::law::{Blade, Course, Entry, WAY_EPSILON, Way};
-use super::profile::{Bounds, profile};
-use super::smooth::{Curve, Smooth, smooth};
-use super::tube::Tube;
 use crate::diagnostic::{Diagnostic, code};
 use crate::geom::{Heading, Point, Rotation, Vector, polyline};
 use crate::ir::motion::{Kind, Phase, Poses, Shares, Spell, Stroke};
 use crate::ir::toolpath::{Pose, Run, Shape};
 use crate::machine::Job;
 use crate::machine::kinematics::Move;
+use crate::plan::orientation::TooTight;
+use crate::plan::orientation::{Blade, Course, Entry, WAY_EPSILON, Way};
+use crate::plan::spline::ToleranceBand;
+use crate::plan::spline::{Blocks, Extended};
+use crate::plan::spline::{Curve, Smooth, smooth};
+use crate::plan::timing::Cutting;
+use crate::plan::timing::Feed;
+use crate::plan::timing::{Bounds, profile};
 use crate::source::Span;
 use crate::units::number::fixed;
 
@@ -39,8 +39,8 @@ pub struct Cut {
     pub duration: f64,
     /// Way of the tip, mm.
     pub length: f64,
-    /// Greatest bulge of the tube that the curve uses, mm.
-    pub bulge: f64,
+    /// Greatest chord sagitta that the curve uses, mm.
+    pub sagitta: f64,
     /// What keeps it from being faster, in ticks.
     pub shares: Shares,
 }
@@ -71,7 +71,7 @@ impl Cut {
     fn plunge_only(pose: Pose, block: u32) -> Self {
         let (poses, spells) = (Poses::Still(pose), vec![Spell { first: 0, block }]);
         let shares = Shares::default();
-        Self { poses, ticks: 0, end: pose, spells, duration: 0.0, length: 0.0, bulge: 0.0, shares }
+        Self { poses, ticks: 0, end: pose, spells, duration: 0.0, length: 0.0, sagitta: 0.0, shares }
     }
 }
 
@@ -107,9 +107,9 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
         return order.straight(ends);
     }
     let smooth = if is_straight {
-        Smooth { curve: Curve::line([0.0, end], ends.map(|point| [point.x, point.y])), bulge: 0.0 }
+        Smooth { curve: Curve::line([0.0, end], ends.map(|point| [point.x, point.y])), sagitta: 0.0 }
     } else {
-        smooth(&Tube::new(points, tolerance, &job.profile)).map_err(|e| {
+        smooth(&ToleranceBand::new(points, tolerance, &job.profile)).map_err(|e| {
             let least = fixed(e.deviation, 4);
             order.refuse(
                 &code::PLAN_SMOOTH,
@@ -135,7 +135,7 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
         let reason = format!("the blade cannot be a chord of its curve at X {x} Y {y} mm");
         order.refuse(&code::PLAN_CHORD, &reason).hint("set `knife.follow = \"tangent\"` for this file")
     })?;
-    Ok(Cut { bulge: smooth.bulge, ..order.along(&way)? })
+    Ok(Cut { sagitta: smooth.sagitta, ..order.along(&way)? })
 }
 
 /// The curve of a ring ends before it comes back to its start.
@@ -146,7 +146,7 @@ struct OpenSeam {
 }
 
 /// Where a ring that should end at parameter `end` really closes: smoothing may have drawn its end back from its start, and
-/// the tip must come as far as that. Beside its way, the tube holds both to one place.
+/// the tip must come as far as that. Beside its way, the band holds both to one place.
 fn closed(curve: &Curve, start: f64, end: f64) -> Result<f64, OpenSeam> {
     reaching(curve, curve.derivatives::<2>(start), end)
 }
@@ -204,7 +204,7 @@ impl Order<'_> {
         };
         let shares = cutting.shares_of_cruise((stroke.way.rise() * count) as usize);
         let spells = blocks.spells(ticks, |i| reach(i as usize));
-        Ok(Cut { end: stroke.at(count, count), poses, ticks, spells, duration, length: way, bulge: 0.0, shares })
+        Ok(Cut { end: stroke.at(count, count), poses, ticks, spells, duration, length: way, sagitta: 0.0, shares })
     }
 
     /// Samples the fastest motion along a way over a whole number of periods, stretched until every difference keeps its
@@ -215,9 +215,9 @@ impl Order<'_> {
         if way.to - way.from < WAY_EPSILON {
             return Ok(Cut::plunge_only(turned(way.pose(way.to)), blocks.at(way.to)));
         }
-        let timing = profile(way, bounds)
+        let clock = profile(way, bounds)
             .map_err(|_| self.refuse(&code::PLAN_PROFILE, "no motion within the limits was found"))?;
-        let (duration, period) = (timing.duration(), job.profile.time.period());
+        let (duration, period) = (clock.duration(), job.profile.time.period());
         let [x, y, _] = bounds.axes;
         let longest = PATIENCE + (way.to - way.from) / (CRAWL * x.speed.min(y.speed));
         if duration.is_nan() || duration > longest {
@@ -229,7 +229,7 @@ impl Order<'_> {
         let mut rho = 1.0;
         for _ in 0..ROUNDS {
             let ticks = whole_periods(duration * stretch, period);
-            let places = timing.sample(ticks as usize + 1);
+            let places = clock.sample(ticks as usize + 1);
             let mut walk = way.walk(way.from);
             let tips: Vec<Point> = places.iter().map(|&u| walk.point(u)).collect();
             let ways: Vec<f64> = tips.windows(2).map(|tips| (tips[1] - tips[0]).norm()).collect();
@@ -248,7 +248,7 @@ impl Order<'_> {
                 let length = ways.iter().sum();
                 let end = poses.pop().expect("a tick has two ends");
                 let poses = Poses::Samples(poses);
-                return Ok(Cut { poses, ticks, end, spells, duration, length, bulge: 0.0, shares });
+                return Ok(Cut { poses, ticks, end, spells, duration, length, sagitta: 0.0, shares });
             }
             stretch = f64::from(ticks) * period / duration * rho;
         }

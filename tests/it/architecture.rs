@@ -97,6 +97,7 @@ const BESIDE_A_TABLE: &[(&str, &str)] = &[
     ("search", "shares out searches over all pieces, for several passes"),
     ("start", "finds where a run begins on a curve beside which the plunged blade would lie"),
     ("stretch", "parts runs for the passes that lift the knife amid one"),
+    ("target", "says what a target is"),
     ("tight_report", "says what the pass `tight` does"),
     ("trace", "makes the toolpaths that the passes edit"),
     ("worst", "keeps the worst of what a pass says of many places alike"),

@@ -215,7 +215,7 @@ fn every_random_run_is_certified_tangent_and_inside_its_tube() {
         let poses = poses(&cut);
         assert!(excess(&poses, &job) <= 1.0 + 1e-6, "case {case}: {}", excess(&poses, &job));
         let tips: Vec<Point> = cut.poses().map(|pose| pose.ahead(radius)).collect();
-        let reach = tolerance + cut.bulge + 1e-9;
+        let reach = tolerance + cut.sagitta + 1e-9;
         for tip in &tips {
             let away = extended.windows(2).map(|w| polyline::distance_to_segment(*tip, w[0], w[1]));
             assert!(away.fold(f64::INFINITY, f64::min) <= reach, "case {case}: off the path at {tip}");
@@ -286,7 +286,7 @@ fn no_stretch_of_the_contours_is_left_uncut() {
                         bow = bow.max(width * turned_within(&run.points, width) / 8.0);
                     }
                     swept.extend(tips.windows(2).map(|w| [w[0], w[1]]));
-                    bulge = bulge.max(cut.bulge);
+                    bulge = bulge.max(cut.sagitta);
                 }
                 for step in &toolpath.steps {
                     if let Step::Stab(stab) = step {

@@ -43,7 +43,7 @@ fn parts() -> &'static Parts<Toolpath> {
     let target = TARGETS.iter().find(|target| target.name == "svg").expect("a target named svg");
     match &target.emit {
         Emit::Toolpath(parts) => parts,
-        Emit::Marker(_) | Emit::Fit(_) | Emit::Motion(_) => panic!("a picture is made from toolpaths"),
+        Emit::Marker(_) | Emit::Arcs(_) | Emit::Motion(_) => panic!("a picture is made from toolpaths"),
     }
 }
 

@@ -3,9 +3,9 @@
 use std::io;
 
 use super::pace::{Move, Pace};
-use super::way::{LINE_SHARE, Piece, Way};
-use super::{Context, Output};
+use crate::back::target::{Context, Output};
 use crate::geom::{Rotation, Vector, left};
+use crate::ir::arcs::{Arc, Deviation, Path, Piece};
 use crate::ir::toolpath::{Drill, Event, Pose};
 use crate::machine::Job;
 use crate::machine::gcode::{FeedMode, Step};
@@ -115,16 +115,16 @@ impl<'a> Program<'a> {
         text.extend_from_slice(b")\n");
     }
 
-    /// A cut: plunge, the pieces of a way, lift.
-    pub(super) fn cut(&mut self, way: &Way) {
+    /// A cut: plunge, the pieces of a path, lift.
+    pub(super) fn cut(&mut self, path: &Path) {
         let job = self.job;
         let (keys, knife) = (&job.profile.gcode, &job.profile.knife);
-        self.rapid(way.start);
+        self.rapid(path.start);
         if job.mode.cuts() {
             self.order(&keys.knife_down, knife.plunge());
         }
-        for piece in &way.pieces {
-            self.feed(piece, way);
+        for piece in &path.pieces {
+            self.feed(piece, path);
         }
         if job.mode.cuts() {
             self.order(&keys.knife_up, knife.lift());
@@ -159,7 +159,7 @@ impl<'a> Program<'a> {
         }
     }
 
-    /// A move in the air.
+    /// A rapid.
     pub(super) fn rapid(&mut self, to: Pose) {
         let way = to.centre - self.pose.centre;
         self.pace.go(&Move {
@@ -175,13 +175,13 @@ impl<'a> Program<'a> {
         self.text.push(b'\n');
     }
 
-    fn feed(&mut self, piece: &Piece, way: &Way) {
+    fn feed(&mut self, piece: &Piece, path: &Path) {
         let [x, y, _] = self.job.profile.axes.limits();
         let fastest = x.speed.min(y.speed);
         let speed = piece.speed.min(fastest);
         let from = self.pose;
         match piece.arc {
-            Some((centre, turn)) if self.job.profile.gcode.arcs => {
+            Some(Arc { centre, turn }) if self.job.profile.gcode.arcs => {
                 self.number();
                 self.text.extend_from_slice(if turn > 0.0 { b"G3" } else { b"G2" });
                 let away = centre - from.centre;
@@ -193,12 +193,12 @@ impl<'a> Program<'a> {
                 self.push_feed(speed, piece.length);
             }
             _ => {
-                let parts = self.chords(piece, way.bow);
+                let parts = self.chords(piece, path.chord);
                 for i in 1..=parts {
                     let share = i as f64 / parts as f64;
                     let c = Rotation(from.c.0 + (piece.to.c.0 - from.c.0) * share);
                     let centre = match piece.arc {
-                        Some((around, turn)) if i < parts => {
+                        Some(Arc { centre: around, turn }) if i < parts => {
                             let (sin, cos) = (turn * share).sin_cos();
                             let arm = from.centre - around;
                             around + Vector::new(arm.x * cos - arm.y * sin, arm.x * sin + arm.y * cos)
@@ -206,7 +206,7 @@ impl<'a> Program<'a> {
                         Some(_) | None => piece.to.centre,
                     };
                     let to = Pose { centre, c };
-                    let (length, ratio) = self.told([self.pose, to], way);
+                    let (length, ratio) = self.told([self.pose, to], path);
                     let speed = fastest.min(piece.feed * ratio);
                     self.number();
                     self.text.extend_from_slice(b"G1");
@@ -236,7 +236,7 @@ impl<'a> Program<'a> {
 
     /// The length of a straight move between two poses as they are told, mm, and how much faster the axis is than the tip
     /// where that is fastest: rounding lengthens short ones, of which F of inverse time knows nothing.
-    fn told(&self, ends: [Pose; 2], beside: &Way) -> (f64, f64) {
+    fn told(&self, ends: [Pose; 2], beside: &Path) -> (f64, f64) {
         let step = self.job.profile.gcode.step();
         let [from, to] = ends.map(|pose| pose.centre.map(|value| (value / step).round() * step));
         let (way, turned) = (to - from, ends[1].c.0 - ends[0].c.0);
@@ -249,16 +249,16 @@ impl<'a> Program<'a> {
         (length, if fastest > 0.0 { length / fastest } else { 1.0 })
     }
 
-    /// How many straight lines stand for a piece that they may leave by `bow` mm.
-    fn chords(&self, piece: &Piece, bow: f64) -> usize {
+    /// How many chords stand for a piece that they may leave by so much.
+    fn chords(&self, piece: &Piece, permitted: Deviation) -> usize {
         let keys = &self.job.profile.gcode;
-        piece.arc.map_or(1, |(_, turn)| {
+        piece.arc.map_or(1, |Arc { turn, .. }| {
             // A chord of turn t is off its arc by t / 2 in direction at its ends, and by l t / 8 in the middle.
-            let by_heading = turn.abs() / (2.0 * LINE_SHARE * self.job.profile.blade_tolerance());
-            let by_bow = (piece.length * turn.abs() / (8.0 * bow)).sqrt();
+            let by_heading = turn.abs() / (2.0 * permitted.angle);
+            let by_distance = (piece.length * turn.abs() / (8.0 * permitted.distance)).sqrt();
             // Rounding by d turns a chord of length l by d / l: shorter than sqrt(2 d l / t) it turns more than the arc.
             let by_decimals = (piece.length * turn.abs() / (2.0 * keys.step())).sqrt();
-            by_heading.max(by_bow).min(by_decimals).ceil().max(1.0) as usize
+            by_heading.max(by_distance).min(by_decimals).ceil().max(1.0) as usize
         })
     }
 
@@ -293,7 +293,7 @@ impl<'a> Program<'a> {
         self.text.push(b'\n');
     }
 
-    /// The words of the axes of a move in the air.
+    /// The words of the axes of a rapid.
     fn axes(&mut self, to: Pose) {
         self.place(to);
         self.turn(to);

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::markup::PathData;
-use crate::back::Context;
+use crate::back::target::Context;
 use crate::ir::drawing::{Account, LineClass};
 
 /// The style of such lines.

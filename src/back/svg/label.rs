@@ -9,7 +9,7 @@ use std::fmt::Write;
 use super::markup::{blocks, escape, mm};
 use super::piece::Shape;
 use super::sheet::Sheet;
-use crate::back::Context;
+use crate::back::target::Context;
 use crate::geom::{Heading, Point, Vector, left, ring};
 use crate::ir::marker::{Label, Piece};
 use crate::source::Span;

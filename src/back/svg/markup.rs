@@ -14,6 +14,12 @@ pub(super) fn mm(value: f64) -> String {
     number::fixed(value, DECIMALS)
 }
 
+/// A number without the zeros that say nothing.
+pub(super) fn short(value: f64) -> String {
+    let text = number::fixed(value, 3);
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
 /// Text as it may stand in an element or in an attribute.
 pub(super) fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());

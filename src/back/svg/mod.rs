@@ -11,8 +11,10 @@
 
 mod aside;
 mod findings;
+mod items;
 mod knife;
 mod label;
+mod legend;
 mod markup;
 mod piece;
 mod sheet;
@@ -20,7 +22,7 @@ mod spot;
 
 use std::io::{self, SeekFrom};
 
-use super::{Context, Emit, Output, Parts, Proof, Target};
+use super::target::{Context, Emit, Output, Parts, Proof, Target};
 use crate::ir::{Finding, Toolpath, finding};
 use sheet::Sheet;
 
@@ -58,7 +60,7 @@ fn tail(context: &Context, found: &[Finding], out: &mut dyn Output) -> io::Resul
         text.push_str(&sheet.refused());
     }
     text.push_str(&findings::layer(&shown, &sheet, &context.job.profile.knife));
-    text.push_str(&sheet.legend(context, &shown, finding::counts(found)));
+    text.push_str(&legend::layer(&sheet, context, &shown, finding::counts(found)));
     text.push_str("</svg>\n");
     out.write_all(text.as_bytes())?;
     // The table of findings makes the sheet taller than the head could know.

@@ -11,7 +11,7 @@ use super::scene::Scene;
 use super::stretch::{REJOINED, Way};
 use crate::diagnostic::Diagnostics;
 use crate::geom::Extent;
-use crate::ir::toolpath::{Run, Shape, Step, Toolpath};
+use crate::ir::toolpath::{End, Run, Shape, Step, Toolpath};
 use crate::machine::Knife;
 
 pub(super) const PASS: ToolpathPass = ToolpathPass {
@@ -50,7 +50,7 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
 fn parts(run: &Run, range: [f64; 2], knife: &Knife) -> Option<Vec<Run>> {
     let way = Way::new(run);
     let winding = Winding::new(run, &way, knife);
-    let (chords, length) = (way.chords().cast_signed(), way.length());
+    let chords = way.chords().cast_signed();
     let [least, greatest] = range;
     let inner = [least + MARGIN, greatest - MARGIN];
     let lap = Lap { way: &way, winding: &winding, knife, law: run.law };
@@ -59,11 +59,7 @@ fn parts(run: &Run, range: [f64; 2], knife: &Knife) -> Option<Vec<Run>> {
         return None;
     }
     if way.is_ring() {
-        let start = |margin: f64| lap.start([least + margin, greatest - margin]);
-        if let Some(from) = start(MARGIN).or_else(|| start(SLIM_MARGIN)) {
-            let mut ring = Run { shape: Shape::Ring, ..way.part(from, from + way.length(), run.ends) };
-            let last = ring.points.len() - 1;
-            ring.points[last] = ring.points[0];
+        if let Some(ring) = in_one(&lap, run, range) {
             return Some(vec![ring]);
         }
         // Parts of what is hardly wider than the blade could only be plunges, across the part around it.
@@ -72,46 +68,95 @@ fn parts(run: &Run, range: [f64; 2], knife: &Knife) -> Option<Vec<Run>> {
             return None;
         }
     }
-    let (heel, front) = (knife.corner_heel_overlap_mm, knife.corner_front_overlap_mm);
     // A ring begins where C is amid its range, so that no part of it is short.
-    let (mut from, last, ends) = if way.is_ring() {
+    let (from, last, ends) = if way.is_ring() {
         let from = way.station(winding.amid(range));
-        (from, from + heel + length + front, [REJOINED; 2])
+        let last = from + knife.corner_heel_overlap_mm + way.length() + knife.corner_front_overlap_mm;
+        (from, last, [REJOINED; 2])
     } else {
-        (0.0, length, run.ends)
+        (0.0, way.length(), run.ends)
     };
-    let mut parts = Vec::new();
     let end = way.chord_at(last - STATION_EPSILON) + 1;
-    let reach = |from: f64| {
-        let first = way.chord_at(from);
-        winding.reach(first, end, inner).or_else(|| winding.reach(first, end, range))
-    };
-    loop {
-        let reached = reach(from)?;
-        let start = if parts.is_empty() { ends[0] } else { REJOINED };
-        if reached >= end {
-            parts.push(way.part(from, last, [start, ends[1]]));
-            return Some(parts);
+    Parting { way: &way, winding: &winding, knife, ranges: [inner, range], last, end }.parts(from, ends)
+}
+
+/// A ring that begins where it can be cut in one; `None` when there is no such place.
+fn in_one(lap: &Lap, run: &Run, [least, greatest]: [f64; 2]) -> Option<Run> {
+    let start = |margin: f64| lap.start([least + margin, greatest - margin]);
+    let from = start(MARGIN).or_else(|| start(SLIM_MARGIN))?;
+    let mut ring = Run { shape: Shape::Ring, ..lap.way.part(from, from + lap.way.length(), run.ends) };
+    let last = ring.points.len() - 1;
+    ring.points[last] = ring.points[0];
+    Some(ring)
+}
+
+/// A run that is being parted.
+struct Parting<'a> {
+    way: &'a Way<'a>,
+    winding: &'a Winding,
+    knife: &'a Knife,
+    /// The range of C less its margins, and all of it.
+    ranges: [[f64; 2]; 2],
+    /// Station at which the run is lifted for good, mm, and the chord behind the one that this lies on.
+    last: f64,
+    end: isize,
+}
+
+impl Parting<'_> {
+    /// The parts from a station on; `None` when there is a place from which C cannot go on.
+    fn parts(&self, from: f64, ends: [End; 2]) -> Option<Vec<Run>> {
+        let (mut parts, mut from, mut start) = (Vec::new(), from, ends[0]);
+        loop {
+            let reached = self.reach(from)?;
+            if reached >= self.end {
+                parts.push(self.way.part(from, self.last, [start, ends[1]]));
+                return Some(parts);
+            }
+            let [to, next] = self.lift(from, self.stop(from, reached));
+            if to <= from + STATION_EPSILON {
+                return None;
+            }
+            parts.push(self.way.part(from, to, [start, REJOINED]));
+            (from, start) = (next, REJOINED);
         }
-        // A rest that the blade hardly fits on is cut better with half of what is before it.
-        let half = way.station(way.chord_at(f64::midpoint(from, last)));
-        let is_short = last - way.station(reached) < SHORT * knife.width_mm;
-        let rest = |to: f64| reach(to - front - heel);
-        let halves = is_short && half > from + front + heel && rest(half) == Some(end);
-        let stop = if halves { half } else { way.station(reached) };
+    }
+
+    /// The chord before which C leaves its range, from a station on.
+    fn reach(&self, from: f64) -> Option<isize> {
+        let first = self.way.chord_at(from);
+        self.ranges.into_iter().find_map(|range| self.winding.reach(first, self.end, range))
+    }
+
+    /// The station up to which a part from another one goes when C reaches a chord: there, or at half of what is left when
+    /// the blade would hardly fit on the rest behind it.
+    fn stop(&self, from: f64, reached: isize) -> f64 {
+        let way = self.way;
+        let half = way.station(way.chord_at(f64::midpoint(from, self.last)));
+        let is_short = self.last - way.station(reached) < SHORT * self.knife.width_mm;
+        let [front, heel] = self.overlaps();
+        let rest = |to: f64| self.reach(to - front - heel);
+        let halves = is_short && half > from + front + heel && rest(half) == Some(self.end);
+        if halves { half } else { way.station(reached) }
+    }
+
+    /// By how much a part leads on with its tip and begins before its start with its heel, mm.
+    fn overlaps(&self) -> [f64; 2] {
+        [self.knife.corner_front_overlap_mm, self.knife.corner_heel_overlap_mm]
+    }
+
+    /// Where the knife is lifted on a part that goes on to a stop at the farthest, and from where on the next one goes.
+    fn lift(&self, from: f64, stop: f64) -> [f64; 2] {
+        let Self { way, knife, .. } = *self;
+        let [front, heel] = self.overlaps();
         // Amid a curve the blade would plunge beside it: better somewhere on the second half of the part that is straight.
         let gentle = way.gentlest([f64::midpoint(from, stop), stop], [heel + front, knife.width_mm]);
         // Over a bend no overlap can lead on along the contour.
         let is_gentle = way.leads_on(gentle, [heel + front, knife.width_mm]);
         let overlapped = if is_gentle { (gentle - front - heel).max(from) } else { gentle };
         // From where C must unwind on it goes farther, with another equivalent; from before that it may be no farther than here.
-        let goes_on = |next: f64| reach(next).is_some_and(|to| to >= end || way.station(to) > stop + knife.width_mm);
+        let goes_on =
+            |next: f64| self.reach(next).is_some_and(|to| to >= self.end || way.station(to) > stop + knife.width_mm);
         let lifts = [[gentle, overlapped], [gentle; 2]];
-        let [to, next] = lifts.into_iter().find(|&[_, next]| next > from && goes_on(next)).unwrap_or([stop; 2]);
-        if to <= from + STATION_EPSILON {
-            return None;
-        }
-        parts.push(way.part(from, to, [start, REJOINED]));
-        from = next;
+        lifts.into_iter().find(|&[_, next]| next > from && goes_on(next)).unwrap_or([stop; 2])
     }
 }

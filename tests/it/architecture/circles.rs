@@ -7,9 +7,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::{report, sources, without_tests};
 
-/// Circles that are known, a line each with the modules of it, sorted. To be emptied.
-const KNOWN_CIRCLES: &str = include_str!("known_circles.txt");
-
 /// One name that a `use` brings into a module; `*` for all.
 #[derive(Debug, PartialEq)]
 struct Import {
@@ -251,18 +248,14 @@ fn no_files_of_a_stage_import_each_other() {
     let files = sources("src").into_iter().filter(|file| !["lib", "main"].contains(&file.module.as_str()));
     let modules = Modules(files.map(|f| (name(&f.path), Module::new(&without_tests(&f.code)))).collect());
     let circles: BTreeSet<String> = modules.circles().into_iter().map(|circle| circle.join(" ")).collect();
-    let known: BTreeSet<&str> = KNOWN_CIRCLES.lines().collect();
     let mut faults = Vec::new();
-    for circle in circles.iter().filter(|circle| !known.contains(&circle.as_str())) {
+    for circle in &circles {
         faults.push(format!("a circle of imports: {circle}"));
         for file in circle.split(' ') {
             let next =
                 modules.imported_by(file).into_iter().filter(|other| circle.split(' ').any(|in_it| in_it == other));
             faults.push(format!("    {file} imports {}", next.collect::<Vec<_>>().join(", ")));
         }
-    }
-    for gone in known.into_iter().filter(|known| !circles.contains(*known)) {
-        faults.push(format!("known_circles.txt lists what is no circle: {gone}"));
     }
     report(&faults);
 }

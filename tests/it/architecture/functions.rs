@@ -5,12 +5,6 @@ use super::{report, sources, without_tests};
 /// The most lines of code in a function, its signature included.
 const MOST_LINES: usize = 60;
 
-/// Functions that are known to be longer: file below `src` and name. To be emptied.
-const KNOWN_LONG: &[&str] = &[
-    "pass/toolpath/wind.rs parts",
-    "plan/mod.rs join",
-];
-
 /// The name and the lines of each function of formatted code: it ends with the first brace as far left as it begins.
 fn functions(code: &str) -> Vec<(String, usize)> {
     let lines: Vec<&str> = code.lines().filter(|line| !line.trim().is_empty()).collect();
@@ -39,17 +33,13 @@ fn lines_of_functions_are_counted_without_blanks_and_comments() {
 
 #[test]
 fn no_function_is_too_long_to_be_understood_as_one() {
-    let mut long = Vec::new();
+    let mut faults = Vec::new();
     for file in sources("src") {
-        let path = file.path.strip_prefix("src").expect("below the folder").display().to_string();
+        let path = file.path.display();
         let functions = functions(&without_tests(&file.code)).into_iter().filter(|(_, lines)| *lines > MOST_LINES);
-        long.extend(functions.map(|(name, lines)| (format!("{path} {name}"), lines)));
+        faults.extend(
+            functions.map(|(name, lines)| format!("{path} {name}: {lines} lines of code, more than {MOST_LINES}")),
+        );
     }
-    let is_long = |known: &str| long.iter().any(|(name, _)| name == known);
-    let unknown = long.iter().filter(|(name, _)| !KNOWN_LONG.contains(&name.as_str()));
-    let mut faults: Vec<String> =
-        unknown.map(|(name, lines)| format!("{name}: {lines} lines of code, more than {MOST_LINES}")).collect();
-    let gone = KNOWN_LONG.iter().filter(|known| !is_long(known));
-    faults.extend(gone.map(|known| format!("KNOWN_LONG lists what is not long: {known}")));
     report(&faults);
 }

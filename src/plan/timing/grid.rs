@@ -1,8 +1,8 @@
 //! Where the motion along a way is resolved: knots, collocation places and quadrature cells in the path parameter,
 //! counted from the start of the run.
 
-use super::law::Way;
-use super::windows::LENGTH_FELT;
+use crate::plan::orientation::Way;
+use crate::plan::solver::windows::LENGTH_FELT;
 
 /// Turn of C between two knots, rad (4 degrees).
 const TURN_A_KNOT: f64 = 0.069_813_170_079_773_18;

@@ -2,7 +2,7 @@
 
 /// The caps of a run by station.
 #[derive(Debug, Clone)]
-pub(super) struct Feed {
+pub(in crate::plan) struct Feed {
     /// Station from which each cap holds, mm; the first is 0.
     starts: Vec<f64>,
     /// The caps, mm/s; infinite where nothing caps the tip. No two in a row are equal.
@@ -11,7 +11,7 @@ pub(super) struct Feed {
 
 impl Feed {
     /// The caps of chords between `stations`, one more than `caps`.
-    pub(super) fn new(stations: &[f64], caps: &[f64]) -> Self {
+    pub(in crate::plan) fn new(stations: &[f64], caps: &[f64]) -> Self {
         let mut feed = Self { starts: Vec::new(), caps: Vec::new() };
         for (&start, &cap) in stations.iter().zip(caps) {
             if feed.caps.last() != Some(&cap) {
@@ -23,26 +23,26 @@ impl Feed {
     }
 
     /// The cap, when it is one and the same everywhere.
-    pub(super) fn constant(&self) -> Option<f64> {
+    pub(in crate::plan) fn constant(&self) -> Option<f64> {
         if let [cap] = self.caps[..] { Some(cap) } else { None }
     }
 
     /// The cap at a station; where two meet, the lower one.
-    pub(super) fn at(&self, u: f64) -> f64 {
+    pub(in crate::plan) fn at(&self, u: f64) -> f64 {
         let next = self.starts.partition_point(|&start| start <= u).max(1);
         let here = self.caps[next - 1];
         if next > 1 && self.starts[next - 1] == u { here.min(self.caps[next - 2]) } else { here }
     }
 
     /// The greatest cap from station `a` to station `b`.
-    pub(super) fn greatest(&self, a: f64, b: f64) -> f64 {
+    pub(in crate::plan) fn greatest(&self, a: f64, b: f64) -> f64 {
         let first = self.starts.partition_point(|&start| start <= a).max(1) - 1;
         let last = self.starts.partition_point(|&start| start < b).max(first + 1);
         self.caps[first..last].iter().copied().fold(0.0, f64::max)
     }
 
     /// The stations at which the cap changes.
-    pub(super) fn changes(&self) -> &[f64] {
+    pub(in crate::plan) fn changes(&self) -> &[f64] {
         &self.starts[1..]
     }
 }

@@ -1,37 +1,37 @@
-//! The chord law: tip and tail both on the path, the blade a chord of it.
+//! The chord mode: tip and heel both on the path, the blade a chord of it.
 //!
-//! The tip is at p(u), the tail at p(t) with D = p(u) - p(t), |D| = w; t follows u by Newton's method. With ' = d/du and p'
+//! The tip is at p(u), the heel at p(t) with D = p(u) - p(t), |D| = w; t follows u by Newton's method. With ' = d/du and p'
 //! of t meaning dp/dt at t, differentiating D . D = w^2 gives t' = D.p'(u) / D.p'(t), and so on for D', D'', D''' (see
 //! [`Chord::at`]). The blade's angle then has c' = n.D'/w, c'' = n.D''/w, c''' = n.D'''/w + c'^3, n the normal to the left
-//! of D, and the centre is p - (r/w) D in every order. It needs only p''', and is smoother than the tangent law.
+//! of D, and the centre is p - (r/w) D in every order. It needs only p''', and is smoother than the tangent mode.
 
-use super::law::{Axes, Blade};
-use super::smooth::Curve;
+use super::axes::{Axes, Blade};
 use crate::geom::{Point, Rotation, Vector, angle, left, spline};
+use crate::plan::spline::Curve;
 
-/// Nodes a span between which the tail is found by Newton's method.
+/// Nodes a span between which the heel is found by Newton's method.
 const NODES_A_SPAN: usize = 8;
 /// Steps of Newton's method: it converges quadratically from a place between two nodes.
 const NEWTON_STEPS: usize = 12;
-/// A shorter step of the tail is none, mm: rounding of places on a table of metres.
-const TAIL_EPSILON: f64 = 1e-12;
+/// A shorter step of the heel is none, mm: rounding of places on a table of metres.
+const HEEL_EPSILON: f64 = 1e-12;
 /// Halvings that find a place between two others, at most a few mm apart: to a billionth of that. Newton's method does the
 /// rest.
 const BISECTIONS: usize = 32;
-/// Least cosine between the blade and the path at its tail: below it the tail darts along the path as the tip moves, and
-/// derivatives grow without bound. Runs that come under 0.4 on their polyline are not given this law; smoothing takes a
+/// Least cosine between the blade and the path at its heel: below it the heel darts along the path as the tip moves, and
+/// derivatives grow without bound. Runs that come under 0.4 on their polyline are not given this mode; smoothing takes a
 /// little of that.
 const COSINE_MIN: f64 = 0.2;
-/// Least cosine between the blade and the path at its tip: the tail never comes to rest, or goes back.
+/// Least cosine between the blade and the path at its tip: the heel never comes to rest, or goes back.
 const FORWARD_MIN: f64 = 0.01;
-/// The longest step by which a tail is looked for, in widths of the blade.
+/// The longest step by which a heel is looked for, in widths of the blade.
 const LOOK_SHARE: f64 = 1.0 / 64.0;
 
 /// The blade cannot be a chord of the path all along: it is too tight for that.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct TooTight {
+pub(in crate::plan) struct TooTight {
     /// The tip where that is found.
-    pub(super) at: Point,
+    pub(in crate::plan) at: Point,
 }
 
 /// The way of a blade that is a chord of its path.
@@ -44,7 +44,7 @@ pub(super) struct Chord {
 /// A place of the way that is known.
 #[derive(Debug, Clone, Copy)]
 struct Node {
-    /// Parameter of the tip, and of the tail.
+    /// Parameter of the tip, and of the heel.
     u: f64,
     t: f64,
     /// Unwrapped angle of the blade, rad.
@@ -56,8 +56,8 @@ fn path<const N: usize>(curve: &Curve, u: f64) -> [Vector; N] {
     curve.derivatives::<N>(u).map(|d| Vector::new(d[0], d[1]))
 }
 
-/// The tail at the distance `width` behind the tip at parameter `tip`; `None` when the path has none before.
-pub(super) fn tail_behind(curve: &Curve, tip: f64, width: f64) -> Option<f64> {
+/// The heel at the distance `width` behind the tip at parameter `tip`; `None` when the path has none before.
+pub(super) fn heel_behind(curve: &Curve, tip: f64, width: f64) -> Option<f64> {
     let [p] = path::<1>(curve, tip);
     let away = |t: f64| (p - path::<1>(curve, t)[0]).norm() - width;
     let step = LOOK_SHARE * width;
@@ -86,27 +86,27 @@ fn root(f: &dyn Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
 }
 
 impl Chord {
-    /// The way from parameter `from` of the tip, where the tail is at `tail`, to `to`.
-    pub(super) fn new(curve: &Curve, [tail, from, to]: [f64; 3], blade: Blade) -> Result<Self, TooTight> {
+    /// The way from parameter `from` of the tip, where the heel is at `heel`, to `to`.
+    pub(super) fn new(curve: &Curve, [heel, from, to]: [f64; 3], blade: Blade) -> Result<Self, TooTight> {
         let inner = curve.breaks().windows(2).flat_map(|ends| {
             let step = (ends[1] - ends[0]) / NODES_A_SPAN as f64;
             (0..NODES_A_SPAN).map(move |i| ends[0] + step * i as f64)
         });
         let places: Vec<f64> = inner.filter(|&u| u > from && u < to).chain([to]).collect();
         let mut chord = Self { blade, nodes: Vec::with_capacity(places.len() + 1) };
-        let first = Self::node(curve, [from, tail], None)?;
+        let first = Self::node(curve, [from, heel], None)?;
         chord.nodes.push(first);
         for u in places {
             let before = chord.nodes[chord.nodes.len() - 1];
-            let t = chord.next_tail(curve, u, before.t)?;
+            let t = chord.next_heel(curve, u, before.t)?;
             let node = Self::node(curve, [u, t], Some(before))?;
             chord.nodes.push(node);
         }
         Ok(chord)
     }
 
-    /// The first place behind `before` at which the tail can be when the tip is at `u`.
-    fn next_tail(&self, curve: &Curve, u: f64, before: f64) -> Result<f64, TooTight> {
+    /// The first place behind `before` at which the heel can be when the tip is at `u`.
+    fn next_heel(&self, curve: &Curve, u: f64, before: f64) -> Result<f64, TooTight> {
         let width = self.blade.width;
         let [p] = path::<1>(curve, u);
         let near = |t: f64| width - (p - path::<1>(curve, t)[0]).norm();
@@ -122,14 +122,14 @@ impl Chord {
         Err(TooTight { at: Point::from(p) })
     }
 
-    /// The node of a tip and a tail, when the blade can be a chord there.
+    /// The node of a tip and a heel, when the blade can be a chord there.
     fn node(curve: &Curve, [u, t]: [f64; 2], before: Option<Node>) -> Result<Node, TooTight> {
         let [p, p1] = path::<2>(curve, u);
-        let [tail, tail1] = path::<2>(curve, t);
-        let d = p - tail;
+        let [heel, heel1] = path::<2>(curve, t);
+        let d = p - heel;
         let length = d.norm();
         let is_chord =
-            d.dot(&tail1) >= COSINE_MIN * length * tail1.norm() && d.dot(&p1) >= FORWARD_MIN * length * p1.norm();
+            d.dot(&heel1) >= COSINE_MIN * length * heel1.norm() && d.dot(&p1) >= FORWARD_MIN * length * p1.norm();
         if !is_chord {
             return Err(TooTight { at: Point::from(p) });
         }
@@ -142,8 +142,8 @@ impl Chord {
         self.nodes.iter_mut().for_each(|node| node.c += by);
     }
 
-    /// The parameter of the tail, and the angle of a blade near to the one there, rad.
-    fn tail(&self, curve: &Curve, (u, p): (f64, Vector)) -> (f64, f64) {
+    /// The parameter of the heel, and the angle of a blade near to the one there, rad.
+    fn heel(&self, curve: &Curve, (u, p): (f64, Vector)) -> (f64, f64) {
         let i = self.nodes.partition_point(|node| node.u <= u).clamp(1, self.nodes.len() - 1);
         let (a, b) = (self.nodes[i - 1], self.nodes[i]);
         let share = if b.u > a.u { ((u - a.u) / (b.u - a.u)).clamp(0.0, 1.0) } else { 0.0 };
@@ -155,7 +155,7 @@ impl Chord {
             let next = (t + step).clamp(a.t, b.t);
             let moved = (next - t).abs();
             t = next;
-            if moved <= TAIL_EPSILON {
+            if moved <= HEEL_EPSILON {
                 return (t, a.c);
             }
         }
@@ -169,7 +169,7 @@ impl Chord {
         let Blade { width, radius } = self.blade;
         let span = spline::span(curve.breaks(), u);
         let [p, p1, p2, p3] = curve.derivatives_on::<4>(span, u).map(|d| Vector::new(d[0], d[1]));
-        let (t, near) = self.tail(curve, (u, p));
+        let (t, near) = self.heel(curve, (u, p));
         let [q, q1, q2, q3] = path::<4>(curve, t);
         let d = p - q;
         let slope = d.dot(&q1);
@@ -197,17 +197,17 @@ mod tests {
     use super::*;
     use crate::ir::toolpath::Law;
     use crate::machine::MachineProfile;
-    use crate::plan::law::tests::differences_agree;
-    use crate::plan::law::{Course, Entry, Way};
-    use crate::plan::smooth::smooth;
-    use crate::plan::tube::Tube;
+    use crate::plan::orientation::way::tests::differences_agree;
+    use crate::plan::orientation::{Course, Entry, Way};
+    use crate::plan::spline::ToleranceBand;
+    use crate::plan::spline::smooth;
 
     const BLADE: Blade = Blade { width: 6.6, radius: 4.4 };
 
     /// A smooth curve through places of a parameter from 0 to 1.
     fn curve(place: impl Fn(f64) -> (f64, f64)) -> Curve {
         let points = (0..=120).map(|i| place(f64::from(i) / 120.0)).map(|(x, y)| Point::new(x, y)).collect();
-        smooth(&Tube::new(points, 0.02, &MachineProfile::default())).expect("a curve").curve
+        smooth(&ToleranceBand::new(points, 0.02, &MachineProfile::default())).expect("a curve").curve
     }
 
     fn arc(radius: f64) -> Curve {
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn tip_and_tail_are_on_the_path_and_the_tail_only_goes_forward() {
+    fn tip_and_heel_are_on_the_path_and_the_heel_only_goes_forward() {
         let curve = curve(|s| (60.0 * s, 8.0 * (9.0 * s).sin()));
         let way = way(&curve, Entry::Plunge).expect("no tighter than the blade");
         assert!((way.pose(way.from).ahead(BLADE.radius - BLADE.width) - way.point(0.0)).norm() < 1e-9);
@@ -240,22 +240,22 @@ mod tests {
             let u = way.from + (way.to - way.from) * f64::from(i) / 200.0;
             let pose = way.pose(u);
             assert!((pose.ahead(BLADE.radius) - way.point(u)).norm() < 1e-9);
-            let tail = pose.ahead(BLADE.radius - BLADE.width);
+            let heel = pose.ahead(BLADE.radius - BLADE.width);
             // The nearest place of the path, from the last one on.
             let places = (0..=4000).map(|k| from + 1.0 * f64::from(k) / 4000.0);
-            let best = places.min_by(|&a, &b| (way.point(a) - tail).norm().total_cmp(&(way.point(b) - tail).norm()));
+            let best = places.min_by(|&a, &b| (way.point(a) - heel).norm().total_cmp(&(way.point(b) - heel).norm()));
             from = best.expect("there are places");
-            assert!((way.point(from) - tail).norm() < 5e-4, "{i}");
+            assert!((way.point(from) - heel).norm() < 5e-4, "{i}");
         }
     }
 
     #[test]
-    fn a_ring_starts_with_its_tail_on_the_contour_behind() {
+    fn a_ring_starts_with_its_heel_on_the_contour_behind() {
         let curve = arc(20.0);
         let way = way(&curve, Entry::Steady(9.0)).expect("no tighter than the blade");
-        let tail = tail_behind(&curve, 9.0, BLADE.width).expect("there is path behind");
-        assert!(way.from == 9.0 && tail < 9.0 - BLADE.width);
-        assert!((way.pose(9.0).ahead(BLADE.radius - BLADE.width) - way.point(tail)).norm() < 1e-9);
+        let heel = heel_behind(&curve, 9.0, BLADE.width).expect("there is path behind");
+        assert!(way.from == 9.0 && heel < 9.0 - BLADE.width);
+        assert!((way.pose(9.0).ahead(BLADE.radius - BLADE.width) - way.point(heel)).norm() < 1e-9);
     }
 
     #[test]

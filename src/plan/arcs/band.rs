@@ -13,25 +13,25 @@ const TURN_EPSILON: f64 = 1e-6;
 
 /// A polyline and what counts as on it.
 #[derive(Debug)]
-pub(super) struct Tube {
+pub(super) struct ToleranceBand {
     /// Its points, no two in a row equal.
     pub(super) points: Vec<Point>,
     /// Chord length from the first point to each point, mm.
     pub(super) stations: Vec<f64>,
     /// Turn at each point, rad; 0 at the ends.
     pub(super) turns: Vec<f64>,
-    /// Outward bulge in the middle of each chord.
-    pub(super) bulges: Vec<Vector>,
+    /// Outward chord sagitta in the middle of each chord.
+    pub(super) sagittas: Vec<Vector>,
     /// The same as heights, to the left of the chord, mm.
     heights: Vec<f64>,
     /// Permitted deviation, mm.
     pub(super) tolerance: f64,
-    /// Greatest bulge, mm.
-    bulge_max: f64,
+    /// Greatest chord sagitta, mm.
+    sagitta_max: f64,
 }
 
-impl Tube {
-    /// The tube of a polyline that turns by `seam` (rad) before its first and behind its last chord: at the seam of a
+impl ToleranceBand {
+    /// The band of a polyline that turns by `seam` (rad) before its first and behind its last chord: at the seam of a
     /// smooth closed contour; else 0.
     pub(super) fn new(points: Vec<Point>, tolerance: f64, (seam, profile): ([f64; 2], &MachineProfile)) -> Self {
         let stations = polyline::stations(&points);
@@ -53,18 +53,18 @@ impl Tube {
                 return 0.0;
             }
             let mean = f64::midpoint(before, after);
-            // A path that turns left bulges to the right of its chords.
+            // A path that turns left lies to the right of its chords.
             -mean.signum() * (length * mean.abs() / 8.0).min(profile.path.chord_sag_max_mm)
         };
         let heights: Vec<f64> = (0..end).map(height).collect();
-        let bulge = |i: usize| left(points[i + 1] - points[i]) * (heights[i] / (stations[i + 1] - stations[i]));
-        let bulges = (0..end).map(bulge).collect();
-        Self { points, stations, turns, bulges, heights, tolerance, bulge_max: profile.path.chord_sag_max_mm }
+        let sagitta = |i: usize| left(points[i + 1] - points[i]) * (heights[i] / (stations[i + 1] - stations[i]));
+        let sagittas = (0..end).map(sagitta).collect();
+        Self { points, stations, turns, sagittas, heights, tolerance, sagitta_max: profile.path.chord_sag_max_mm }
     }
 
     /// Number of chords.
     pub(super) fn chords(&self) -> usize {
-        self.bulges.len()
+        self.sagittas.len()
     }
 
     /// Unit vector along a chord.
@@ -88,7 +88,7 @@ impl Tube {
     pub(super) fn middle(&self, chord: usize) -> Vector {
         let [before, after] = [self.turns[chord].abs(), self.turns[chord + 1].abs()];
         let mean = f64::midpoint(before, after);
-        if self.heights[chord] == 0.0 { Vector::zeros() } else { self.bulges[chord] * (before.min(after) / mean) }
+        if self.heights[chord] == 0.0 { Vector::zeros() } else { self.sagittas[chord] * (before.min(after) / mean) }
     }
 
     /// The chord at a station.
@@ -97,11 +97,11 @@ impl Tube {
     }
 
     /// Whether a vertex at an end of a chord is a bend of its own: on a curve neighbouring turns are alike, and no chord is
-    /// so long that it would bulge more than it may.
+    /// so long that its sagitta would be more than it may.
     pub(super) fn is_bend(&self, chord: usize, vertex: usize) -> bool {
         let [before, after] = [self.turns[chord].abs(), self.turns[chord + 1].abs()];
-        let bulge = (self.stations[chord + 1] - self.stations[chord]) * f64::midpoint(before, after) / 8.0;
-        self.is_plain(chord) || bulge > self.bulge_max || self.turns[vertex].abs() > ALIKE * before.min(after)
+        let sagitta = (self.stations[chord + 1] - self.stations[chord]) * f64::midpoint(before, after) / 8.0;
+        self.is_plain(chord) || sagitta > self.sagitta_max || self.turns[vertex].abs() > ALIKE * before.min(after)
     }
 
     /// Whether only the chord itself counts as on the path.
@@ -110,7 +110,7 @@ impl Tube {
     }
 
     /// Whether an arc of that curvature (left positive, per mm) stays beside a chord within an allowed distance of what counts
-    /// as on the path, mm. Between its ends and its middle it is taken for a parabola, as the bulge is.
+    /// as on the path, mm. Between its ends and its middle it is taken for a parabola, as the arc over the chord is.
     pub(super) fn holds(&self, stretch: &Stretch, curvature: f64, allowed: f64) -> bool {
         let Stretch { chord, stations: [from, to], ends } = *stretch;
         let (start, length) = (self.stations[chord], self.stations[chord + 1] - self.stations[chord]);
@@ -121,21 +121,21 @@ impl Tube {
         if sine.abs() >= 1.0 {
             return false;
         }
-        // An arc bows by R (1 - cos) from the line between its ends, which lies askew to the chord.
-        let bow = -curvature * square / (4.0 * (1.0 + (1.0 - sine * sine).sqrt()));
-        let bow = if way > LENGTH_EPSILON { bow * (square.sqrt() / way) } else { 0.0 };
+        // An arc rises by R (1 - cos) from the line between its ends, which lies askew to the chord.
+        let rise = -curvature * square / (4.0 * (1.0 + (1.0 - sine * sine).sqrt()));
+        let rise = if way > LENGTH_EPSILON { rise * (square.sqrt() / way) } else { 0.0 };
         let height = self.heights[chord];
-        let bulge = |station: f64| {
+        let sagitta = |station: f64| {
             let x = (station - start) / length;
             4.0 * height * x * (1.0 - x)
         };
-        // Only on the side to which it bulges it counts: the other one is measured from the chord.
-        let bulges = [bulge(from), bulge(to)];
+        // The sagitta counts on its own side only: the other one is measured from the chord.
+        let sagittas = [sagitta(from), sagitta(to)];
         let share = way / length;
         let beside = |side: f64| {
             let counts = if side * height > 0.0 { 1.0 } else { 0.0 };
-            let end = |i: usize| side * (ends[i] - counts * bulges[i]);
-            highest([end(0), end(1)], side * (bow - counts * height * share * share))
+            let end = |i: usize| side * (ends[i] - counts * sagittas[i]);
+            highest([end(0), end(1)], side * (rise - counts * height * share * share))
         };
         beside(1.0) <= allowed && beside(-1.0) <= allowed
     }
@@ -152,12 +152,12 @@ pub(super) struct Stretch {
     pub(super) ends: [f64; 2],
 }
 
-/// The greatest value on [0, 1] of the parabola with these ends that is `bow` above the straight line in the middle.
-fn highest([a, b]: [f64; 2], bow: f64) -> f64 {
-    // Its top lies at 1/2 + (b - a) / (8 bow).
-    if bow > 0.0 && (b - a).abs() < 4.0 * bow {
-        let x = 0.5 + (b - a) / (8.0 * bow);
-        a + (b - a) * x + 4.0 * bow * x * (1.0 - x)
+/// The greatest value on [0, 1] of the parabola with these ends that is `rise` above the straight line in the middle.
+fn highest([a, b]: [f64; 2], rise: f64) -> f64 {
+    // Its top lies at 1/2 + (b - a) / (8 rise).
+    if rise > 0.0 && (b - a).abs() < 4.0 * rise {
+        let x = 0.5 + (b - a) / (8.0 * rise);
+        a + (b - a) * x + 4.0 * rise * x * (1.0 - x)
     } else {
         a.max(b)
     }

@@ -1,7 +1,7 @@
-//! The tube: where the tip may run while it follows a polyline.
+//! The tolerance band: where the tip may run while it follows a polyline.
 //!
 //! A cutter file is a curve that CAD flattened, so its chords cut the curve's corners. On a chord that lies on a curve
-//! the tube is therefore wider towards the outside, by the sagitta of the arc that the turns at its ends suggest;
+//! the band is therefore wider towards the outside, by the sagitta of the arc that the turns at its ends suggest;
 //! everywhere else it is the plain neighbourhood of the chord.
 
 use crate::geom::{Point, Vector, left, polyline};
@@ -13,43 +13,43 @@ const TURN_EPSILON: f64 = 1e-6;
 
 /// The neighbourhood of a polyline in which the tip must stay.
 #[derive(Debug, Clone)]
-pub(super) struct Tube {
+pub(in crate::plan) struct ToleranceBand {
     /// The polyline, no two points in a row equal.
     pub(super) points: Vec<Point>,
     /// Chord length from the first point to each point, mm.
     pub(super) stations: Vec<f64>,
     /// Turn at each point, rad; 0 at the ends.
     pub(super) turns: Vec<f64>,
-    /// Bulge of each chord: the outward normal times the height in its middle, mm.
-    bulges: Vec<Vector>,
+    /// Chord sagitta of each chord: the outward normal times the height in its middle, mm.
+    sagittas: Vec<Vector>,
     /// Permitted deviation, mm.
     pub(super) tolerance: f64,
 }
 
-/// A place in the tube: the segment of points that count as on the path there.
+/// A cross-section of the band: the segment of points that count as on the path there.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Slot {
+pub(super) struct Section {
     /// The point on the chord.
     pub(super) base: Point,
-    /// From there to the far end of the bulge, mm.
-    pub(super) bulge: Vector,
+    /// From there to the far end of the sagitta, mm.
+    pub(super) sagitta: Vector,
 }
 
-impl Tube {
-    /// The tube of a polyline.
-    pub(super) fn new(points: Vec<Point>, tolerance: f64, profile: &MachineProfile) -> Self {
+impl ToleranceBand {
+    /// The band of a polyline.
+    pub(in crate::plan) fn new(points: Vec<Point>, tolerance: f64, profile: &MachineProfile) -> Self {
         let stations = polyline::stations(&points);
         let mut turns = vec![0.0; points.len()];
         for i in 1..points.len().saturating_sub(1) {
             turns[i] = polyline::turn_at(points[i - 1], points[i], points[i + 1]);
         }
-        let bulges = (0..points.len() - 1)
+        let sagittas = (0..points.len() - 1)
             .map(|i| match profile.path.fit {
                 Fit::Polygon => Vector::zeros(),
-                Fit::Curve => bulge(points[i], points[i + 1], [turns[i], turns[i + 1]], profile),
+                Fit::Curve => sagitta(points[i], points[i + 1], [turns[i], turns[i + 1]], profile),
             })
             .collect();
-        Self { points, stations, turns, bulges, tolerance }
+        Self { points, stations, turns, sagittas, tolerance }
     }
 
     /// Length of the polyline, mm.
@@ -63,44 +63,45 @@ impl Tube {
         crate::geom::spline::span(&self.stations, u)
     }
 
-    /// What counts as on the path at station `u`: with x the fraction of the chord, the bulge is 4 x (1 - x) of its height.
-    pub(super) fn slot(&self, chord: usize, u: f64) -> Slot {
+    /// What counts as on the path at station `u`: with x the fraction of the chord, the arc stands 4 x (1 - x) of the sagitta
+    /// above it.
+    pub(super) fn section(&self, chord: usize, u: f64) -> Section {
         let (start, end) = (self.stations[chord], self.stations[chord + 1]);
         let x = ((u - start) / (end - start)).clamp(0.0, 1.0);
         let base = self.points[chord] + (self.points[chord + 1] - self.points[chord]) * x;
-        Slot { base, bulge: self.bulges[chord] * (4.0 * x * (1.0 - x)) }
+        Section { base, sagitta: self.sagittas[chord] * (4.0 * x * (1.0 - x)) }
     }
 }
 
-impl Slot {
+impl Section {
     /// The middle of what counts as on the path.
     pub(super) fn middle(&self) -> Point {
-        self.base + self.bulge * 0.5
+        self.base + self.sagitta * 0.5
     }
 
-    /// The deviation of a point as a vector, mm; and how much of the bulge it uses, mm.
+    /// The deviation of a point as a vector, mm; and how much of the sagitta it uses, mm.
     pub(super) fn deviation(&self, point: Point) -> (Vector, f64) {
         let away = point - self.base;
-        let height = self.bulge.norm();
+        let height = self.sagitta.norm();
         if height == 0.0 {
             return (away, 0.0);
         }
-        let outward = self.bulge / height;
+        let outward = self.sagitta / height;
         let used = away.dot(&outward).clamp(0.0, height);
         (away - outward * used, used)
     }
 
-    /// The outward unit normal when a point lies beside the bulge, so that moving along it changes nothing.
+    /// The outward unit normal when a point lies beside the sagitta, so that moving along it changes nothing.
     pub(super) fn free_direction(&self, point: Point) -> Option<Vector> {
-        let height = self.bulge.norm();
-        let outward = self.bulge.try_normalize(0.0)?;
+        let height = self.sagitta.norm();
+        let outward = self.sagitta.try_normalize(0.0)?;
         let used = (point - self.base).dot(&outward);
         (used > 0.0 && used < height).then_some(outward)
     }
 }
 
-/// The bulge of one chord: the sagitta L * turn / 8 of an arc of that chord, at most `path.chord_sag_max_mm`.
-fn bulge(a: Point, b: Point, turns: [f64; 2], profile: &MachineProfile) -> Vector {
+/// The chord sagitta of one chord: L * turn / 8, that of an arc of that chord, at most `path.chord_sag_max_mm`.
+fn sagitta(a: Point, b: Point, turns: [f64; 2], profile: &MachineProfile) -> Vector {
     let [before, after] = turns;
     let length = (b - a).norm();
     let corner = profile.corner.angle();
@@ -110,7 +111,7 @@ fn bulge(a: Point, b: Point, turns: [f64; 2], profile: &MachineProfile) -> Vecto
     }
     let mean = f64::midpoint(before, after);
     let height = (length * mean.abs() / 8.0).min(profile.path.chord_sag_max_mm);
-    // A path that turns left bulges to the right of its chords.
+    // A path that turns left lies to the right of its chords.
     left((b - a) / length) * (-mean.signum() * height)
 }
 
@@ -128,26 +129,26 @@ mod tests {
     #[test]
     fn the_circle_that_was_flattened_lies_inside_the_tube() {
         let profile = MachineProfile::default();
-        let tube = Tube::new(circle(6.4, 15), 0.05, &profile);
+        let band = ToleranceBand::new(circle(6.4, 15), 0.05, &profile);
         for i in 1..14 {
-            let u = f64::midpoint(tube.stations[i], tube.stations[i + 1]);
-            let slot = tube.slot(i, u);
-            let on_circle = Point::from(slot.base.coords.normalize() * 6.4);
-            let (away, used) = slot.deviation(on_circle);
+            let u = f64::midpoint(band.stations[i], band.stations[i + 1]);
+            let section = band.section(i, u);
+            let on_circle = Point::from(section.base.coords.normalize() * 6.4);
+            let (away, used) = section.deviation(on_circle);
             assert!(away.norm() < 0.01 && used > 0.12, "{} {used}", away.norm());
-            let inward = Point::from(slot.base.coords.normalize() * 6.0);
-            assert!(slot.deviation(inward).0.norm() > 0.2);
+            let inward = Point::from(section.base.coords.normalize() * 6.0);
+            assert!(section.deviation(inward).0.norm() > 0.2);
         }
     }
 
     #[test]
     fn end_chords_and_polygons_are_plain() {
         let mut profile = MachineProfile::default();
-        let tube = Tube::new(circle(6.4, 15), 0.05, &profile);
-        assert_eq!(tube.bulges[0], Vector::zeros());
-        assert_eq!(tube.bulges[14], Vector::zeros());
+        let band = ToleranceBand::new(circle(6.4, 15), 0.05, &profile);
+        assert_eq!(band.sagittas[0], Vector::zeros());
+        assert_eq!(band.sagittas[14], Vector::zeros());
         profile.path.fit = Fit::Polygon;
-        let tube = Tube::new(circle(6.4, 15), 0.05, &profile);
-        assert!(tube.bulges.iter().all(|b| *b == Vector::zeros()));
+        let band = ToleranceBand::new(circle(6.4, 15), 0.05, &profile);
+        assert!(band.sagittas.iter().all(|b| *b == Vector::zeros()));
     }
 }

@@ -1,9 +1,9 @@
 //! Where the knots of the path spline stand: they follow the shape, not the length.
 //!
-//! At a vertex with turn `th` the rounding inside a tube of `tol` is about `4 tol / th` long, so the spacing there is a
+//! At a vertex with turn `th` the rounding inside a band of `tol` is about `4 tol / th` long, so the spacing there is a
 //! part of that; away from vertices it grows in proportion to the distance. Long straight chords cost next to nothing.
 
-use super::tube::Tube;
+use super::band::ToleranceBand;
 
 /// Knot spacing at a vertex, as a part of the length of its rounding.
 const SHARE_OF_ROUNDING: f64 = 0.5;
@@ -19,11 +19,11 @@ const END_SHARE: f64 = 1.0 / 6.0;
 /// Fewest spans of a spline.
 const SPANS_MIN: usize = 5;
 
-/// The breaks of a spline over the tube's stations; `finer` multiplies the spacing at each vertex.
-pub(super) fn breaks(tube: &Tube, finer: &[f64]) -> Vec<f64> {
-    let length = tube.length();
-    let spacing = spacing_at_vertices(tube, finer);
-    let steps: Vec<Step> = spacing.windows(2).zip(tube.stations.windows(2)).map(|(f, s)| Step::new(f, s)).collect();
+/// The breaks of a spline over the band's stations; `finer` multiplies the spacing at each vertex.
+pub(super) fn breaks(band: &ToleranceBand, finer: &[f64]) -> Vec<f64> {
+    let length = band.length();
+    let spacing = spacing_at_vertices(band, finer);
+    let steps: Vec<Step> = spacing.windows(2).zip(band.stations.windows(2)).map(|(f, s)| Step::new(f, s)).collect();
     let total: f64 = steps.iter().map(Step::count).sum();
     let spans = (total.ceil() as usize).max(SPANS_MIN);
     let mut breaks = Vec::with_capacity(spans + 1);
@@ -42,25 +42,25 @@ pub(super) fn breaks(tube: &Tube, finer: &[f64]) -> Vec<f64> {
 }
 
 /// Spacing at each vertex, mm, such that it nowhere grows faster than [`GROWTH`].
-fn spacing_at_vertices(tube: &Tube, finer: &[f64]) -> Vec<f64> {
-    let last = tube.points.len() - 1;
-    let end = END_SPACING.min(tube.length() * END_SHARE);
-    let mut spacing: Vec<f64> = tube
+fn spacing_at_vertices(band: &ToleranceBand, finer: &[f64]) -> Vec<f64> {
+    let last = band.points.len() - 1;
+    let end = END_SPACING.min(band.length() * END_SHARE);
+    let mut spacing: Vec<f64> = band
         .turns
         .iter()
         .zip(finer)
         .map(|(turn, factor)| {
-            let rounding = 4.0 * tube.tolerance / turn.abs().max(TURN_EPSILON);
+            let rounding = 4.0 * band.tolerance / turn.abs().max(TURN_EPSILON);
             (SHARE_OF_ROUNDING * rounding).max(SPACING_MIN) * factor
         })
         .collect();
     spacing[0] = end * finer[0];
     spacing[last] = end * finer[last];
     for i in 1..=last {
-        spacing[i] = spacing[i].min(spacing[i - 1] + GROWTH * (tube.stations[i] - tube.stations[i - 1]));
+        spacing[i] = spacing[i].min(spacing[i - 1] + GROWTH * (band.stations[i] - band.stations[i - 1]));
     }
     for i in (0..last).rev() {
-        spacing[i] = spacing[i].min(spacing[i + 1] + GROWTH * (tube.stations[i + 1] - tube.stations[i]));
+        spacing[i] = spacing[i].min(spacing[i + 1] + GROWTH * (band.stations[i + 1] - band.stations[i]));
     }
     spacing
 }
@@ -109,14 +109,14 @@ mod tests {
     use crate::geom::Point;
     use crate::machine::MachineProfile;
 
-    fn tube(points: &[(f64, f64)]) -> Tube {
-        Tube::new(points.iter().map(|&(x, y)| Point::new(x, y)).collect(), 0.05, &MachineProfile::default())
+    fn band(points: &[(f64, f64)]) -> ToleranceBand {
+        ToleranceBand::new(points.iter().map(|&(x, y)| Point::new(x, y)).collect(), 0.05, &MachineProfile::default())
     }
 
     #[test]
     fn breaks_rise_and_stand_close_at_a_kink() {
-        let tube = tube(&[(0.0, 0.0), (500.0, 0.0), (1000.0, 300.0)]);
-        let breaks = breaks(&tube, &[1.0; 3]);
+        let band = band(&[(0.0, 0.0), (500.0, 0.0), (1000.0, 300.0)]);
+        let breaks = breaks(&band, &[1.0; 3]);
         assert!(breaks.windows(2).all(|w| w[1] > w[0]));
         let nearest = breaks.iter().map(|b| (b - 500.0).abs()).fold(f64::INFINITY, f64::min);
         assert!(nearest < 0.2, "{nearest}");
@@ -125,8 +125,8 @@ mod tests {
 
     #[test]
     fn the_number_of_breaks_does_not_depend_on_how_a_straight_is_divided() {
-        let whole = tube(&[(0.0, 0.0), (100.0, 0.0), (200.0, 10.0)]);
-        let divided = tube(&[(0.0, 0.0), (30.0, 0.0), (60.0, 0.0), (100.0, 0.0), (200.0, 10.0)]);
+        let whole = band(&[(0.0, 0.0), (100.0, 0.0), (200.0, 10.0)]);
+        let divided = band(&[(0.0, 0.0), (30.0, 0.0), (60.0, 0.0), (100.0, 0.0), (200.0, 10.0)]);
         let (a, b) = (breaks(&whole, &[1.0; 3]).len(), breaks(&divided, &[1.0; 5]).len());
         assert!(a.abs_diff(b) <= 1, "{a} {b}");
     }

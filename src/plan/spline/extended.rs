@@ -1,4 +1,4 @@
-//! The polyline that the tip and, in the plunge, the tail follow: a run with its overlaps.
+//! The polyline that the tip and, in the plunge, the heel follow: a run with its overlaps.
 
 use crate::geom::{Point, polyline};
 use crate::ir::motion::Spell;
@@ -6,25 +6,25 @@ use crate::ir::toolpath::{Law, Run, Shape};
 
 /// A run with its overlaps.
 #[derive(Debug)]
-pub(super) struct Extended {
-    pub(super) points: Vec<Point>,
+pub(in crate::plan) struct Extended {
+    pub(in crate::plan) points: Vec<Point>,
     /// The block of each chord.
-    pub(super) blocks: Vec<u32>,
+    pub(in crate::plan) blocks: Vec<u32>,
     /// Greatest speed of the tip on each chord, mm/s.
-    pub(super) feeds: Vec<f64>,
+    pub(in crate::plan) feeds: Vec<f64>,
     /// Station at which the run proper starts, mm.
-    pub(super) start: f64,
+    pub(in crate::plan) start: f64,
     /// Station at which the tip is lifted, mm.
-    pub(super) end: f64,
+    pub(in crate::plan) end: f64,
 }
 
 impl Extended {
     /// The run with its overlaps, as one polyline; `width` is that of the blade, mm.
-    pub(super) fn new(run: &Run, width: f64) -> Self {
+    pub(in crate::plan) fn new(run: &Run, width: f64) -> Self {
         match (run.shape, run.law) {
             (Shape::Open, _) => open(run),
             (Shape::Ring, Law::Tangent) => ring(run, 0.0),
-            (Shape::Ring, Law::Chord) => ring(run, TAIL_REACH * width),
+            (Shape::Ring, Law::Chord) => ring(run, HEEL_REACH * width),
         }
     }
 }
@@ -49,13 +49,13 @@ fn open(run: &Run) -> Extended {
 const LEAD: f64 = 8.0;
 const LEAD_CHORDS: usize = 3;
 
-/// How far behind its tip along a curve the tail of a blade may lie, in widths of the blade: on the tightest curve whose
+/// How far behind its tip along a curve the heel of a blade may lie, in widths of the blade: on the tightest curve whose
 /// chord it can be, with the radius of 0.55 widths, it is 1.26.
-const TAIL_REACH: f64 = 1.3;
+const HEEL_REACH: f64 = 1.3;
 
-/// A ring overlaps along itself: it starts in full motion law, its tail on the path by at most `tail` mm behind, and goes
-/// past its start by the front overlap.
-fn ring(run: &Run, tail: f64) -> Extended {
+/// A ring overlaps along itself: it starts as its orientation mode has it, its heel on the path by at most `heel` mm behind,
+/// and goes past its start by the front overlap.
+fn ring(run: &Run, heel: f64) -> Extended {
     let n = run.points.len() - 1;
     let chord = |i: usize| (run.points[i % n + 1] - run.points[i % n]).norm();
     // Chords of the contour, walked on and on until they are as long as asked, or twice round: enough for any overlap.
@@ -67,7 +67,7 @@ fn ring(run: &Run, tail: f64) -> Extended {
         }
         (chords, sum)
     };
-    let (before, start) = lead(LEAD + tail, &|i| n - 1 - i % n);
+    let (before, start) = lead(LEAD + heel, &|i| n - 1 - i % n);
     let (after, _) = lead(run.front + LEAD, &|i| i);
     let first = n - before % n;
     let chords = before + n + after;
@@ -80,7 +80,7 @@ fn ring(run: &Run, tail: f64) -> Extended {
 
 /// The source blocks of a run by station.
 #[derive(Debug)]
-pub(super) struct Blocks {
+pub(in crate::plan) struct Blocks {
     /// Station from which each block holds, mm; the first is 0.
     starts: Vec<f64>,
     /// The blocks. No two in a row are equal.
@@ -89,7 +89,7 @@ pub(super) struct Blocks {
 
 impl Blocks {
     /// The blocks of chords between `stations`, one more than `blocks`.
-    pub(super) fn new(stations: &[f64], blocks: &[u32]) -> Self {
+    pub(in crate::plan) fn new(stations: &[f64], blocks: &[u32]) -> Self {
         let mut of_run = Self { starts: Vec::new(), blocks: Vec::new() };
         for (&start, &block) in stations.iter().zip(blocks) {
             if of_run.blocks.last() != Some(&block) {
@@ -101,12 +101,12 @@ impl Blocks {
     }
 
     /// The block at a station.
-    pub(super) fn at(&self, u: f64) -> u32 {
+    pub(in crate::plan) fn at(&self, u: f64) -> u32 {
         self.blocks[self.starts.partition_point(|&start| start <= u).max(1) - 1]
     }
 
     /// The blocks of a motion of `ticks` periods of which `at` says the station at each tick, never falling.
-    pub(super) fn spells(&self, ticks: u32, at: impl Fn(u32) -> f64) -> Vec<Spell> {
+    pub(in crate::plan) fn spells(&self, ticks: u32, at: impl Fn(u32) -> f64) -> Vec<Spell> {
         let mut spells = vec![Spell { first: 0, block: self.blocks[0] }];
         for (&start, &block) in self.starts.iter().zip(&self.blocks).skip(1) {
             let last = spells[spells.len() - 1];

@@ -1,9 +1,9 @@
 //! What the limits say at one place of a run. The unknown b and its first two derivatives b' and b'' are three numbers from
-//! which all limits of the place follow (see [`super::profile`]), and the slopes of the barrier with them.
+//! which all limits of the place follow (see [`super::profile()`]), and the slopes of the barrier with them.
 
-use super::barrier::Wall;
-use super::law::Axes;
 use crate::machine::Limits;
+use crate::plan::orientation::Axes;
+use crate::plan::solver::barrier::Wall;
 
 /// Constraints at a place: the speed, and both signs of acceleration and jerk of three axes.
 pub(super) const BOUNDS: usize = 13;

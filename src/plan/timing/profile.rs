@@ -14,16 +14,16 @@
 
 use std::ops::Range;
 
-use super::banded::Band;
-use super::barrier::{self, Forces, Outside, Schedule, Wall};
+use super::clock::Clock;
 use super::feed::Feed;
-use super::law::{Walk, Way};
-use super::pace::{self, Grid};
+use super::grid::{self, Grid};
 use super::place::{BOUNDS, Load, Pace};
-use super::timing::Timing;
-use super::windows::{self, Chain, Windows};
 use crate::geom::spline::{self, Piecewise};
 use crate::machine::Limits;
+use crate::plan::orientation::{Walk, Way};
+use crate::plan::solver::banded::BandMatrix;
+use crate::plan::solver::barrier::{self, Forces, Outside, Schedule, Wall};
+use crate::plan::solver::windows::{self, Chain, Windows};
 
 /// Order of beta: cubic.
 const ORDER: usize = 4;
@@ -42,34 +42,34 @@ const PLACE_EPSILON: f64 = 1e-7;
 
 /// No motion was found: a fault of the numbers, since a slow enough motion always exists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct NoMotion;
+pub(in crate::plan) struct NoMotion;
 
 /// What bounds a motion: the axes' limits (x, y, c) and the greatest speed of the tip.
 #[derive(Debug, Clone)]
-pub(super) struct Bounds {
+pub(in crate::plan) struct Bounds {
     /// Limits of x, y, c in mm, rad, s.
-    pub(super) axes: [Limits; 3],
+    pub(in crate::plan) axes: [Limits; 3],
     /// Greatest speed of the tip, by the parameter of the way.
-    pub(super) feed: Feed,
+    pub(in crate::plan) feed: Feed,
 }
 
 /// The motion along `way` within `bounds`, from rest to rest.
-pub(super) fn profile(way: &Way, bounds: &Bounds) -> Result<Timing, NoMotion> {
+pub(in crate::plan) fn profile(way: &Way, bounds: &Bounds) -> Result<Clock, NoMotion> {
     profile_on(way, bounds, 1.0)
 }
 
 /// The same with `density` times as many knots.
-fn profile_on(way: &Way, bounds: &Bounds, density: f64) -> Result<Timing, NoMotion> {
+fn profile_on(way: &Way, bounds: &Bounds, density: f64) -> Result<Clock, NoMotion> {
     Problem::new(way, bounds, density).fastest(WINDOWS)
 }
 
 /// The weight w(u) = (g(u) g(L - u))^(4/3), g = u / (u + u0): the behaviour of b near both ends.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Ends {
+pub(in crate::plan) struct Ends {
     /// Length of the way in the parameter, mm.
-    pub(super) length: f64,
+    pub(in crate::plan) length: f64,
     /// Length over which an end is felt, mm.
-    pub(super) reach: f64,
+    pub(in crate::plan) reach: f64,
 }
 
 impl Ends {
@@ -130,9 +130,9 @@ impl<'a> Problem<'a> {
         let mut path_breaks: Vec<f64> =
             way.breaks().iter().map(|b| b - way.from).chain(changes.iter().copied()).collect();
         path_breaks.sort_by(f64::total_cmp);
-        let breaks = pace::breaks(way, &path_breaks, &changes, &Grid { reach: ends.reach, density });
+        let breaks = grid::breaks(way, &path_breaks, &changes, &Grid { reach: ends.reach, density });
         let knots = spline::clamped_knots::<ORDER>(&breaks);
-        let stations = pace::places(&breaks, &path_breaks, PLACE_EPSILON);
+        let stations = grid::places(&breaks, &path_breaks, PLACE_EPSILON);
         Self { way, bounds, breaks, knots, stations, ends }
     }
 
@@ -176,9 +176,9 @@ impl<'a> Problem<'a> {
 
     /// The nodes of some spans.
     fn nodes(&self, spans: Range<usize>) -> Vec<Node> {
-        let mut nodes = Vec::with_capacity(pace::GAUSS * spans.len());
+        let mut nodes = Vec::with_capacity(grid::GAUSS * spans.len());
         for span in spans {
-            for (s, weight) in pace::cell(&self.breaks, span).gauss() {
+            for (s, weight) in grid::cell(&self.breaks, span).gauss() {
                 let [beta] = spline::basis::<ORDER, 1>(&self.knots, span, s);
                 let [w, ..] = self.ends.weight(s);
                 nodes.push(Node { first: span, row: beta.map(|v| w * v), weight });
@@ -200,20 +200,20 @@ impl<'a> Problem<'a> {
         vec![[START_SHARE * room]; spline::control_count::<ORDER>(&self.breaks)]
     }
 
-    fn fastest(&self, windows: Windows) -> Result<Timing, NoMotion> {
+    fn fastest(&self, windows: Windows) -> Result<Clock, NoMotion> {
         let control = windows::minimise(self, self.feasible_start(), windows).ok_or(NoMotion)?;
-        Ok(self.timing(&control))
+        Ok(self.clock(&control))
     }
 
     /// The motion as time over the parameter.
-    fn timing(&self, control: &[[f64; 1]]) -> Timing {
+    fn clock(&self, control: &[[f64; 1]]) -> Clock {
         let beta = Piecewise::<ORDER, 1>::from_control(self.breaks.clone(), control);
         let pace = |span: usize, s: f64| {
             let [w, w1, _] = self.ends.weight(s);
             let [[v], [v1]] = beta.derivatives_on::<2>(span, s);
             (w * v, w1 * v + w * v1)
         };
-        Timing::new(self.way.from, &self.breaks, pace)
+        Clock::new(self.way.from, &self.breaks, pace)
     }
 }
 
@@ -304,7 +304,7 @@ impl barrier::Problem<1> for Part {
     }
 
     fn newton(&self, control: &[[f64; 1]], forces: &Forces) -> Option<(Vec<[f64; 1]>, f64)> {
-        let mut hessian = Band::<ORDER>::zero(control.len());
+        let mut hessian = BandMatrix::<ORDER>::zero(control.len());
         let mut gradient = vec![0.0; control.len()];
         let (walls, positive) = forces.walls.split_at(BOUNDS * self.places.len());
         for (i, wall) in positive.iter().enumerate() {
@@ -359,9 +359,9 @@ mod tests {
     use crate::geom::{Heading, Point, Rotation};
     use crate::ir::toolpath::Law;
     use crate::machine::MachineProfile;
-    use crate::plan::law::{Blade, Course, Entry};
-    use crate::plan::smooth::{Curve, smooth};
-    use crate::plan::tube::Tube;
+    use crate::plan::orientation::{Blade, Course, Entry};
+    use crate::plan::spline::ToleranceBand;
+    use crate::plan::spline::{Curve, smooth};
 
     /// A path of straights and bends from 0.3 mm to 3 m.
     fn path(random: &mut ChaCha8Rng) -> Vec<Point> {
@@ -400,7 +400,7 @@ mod tests {
                 let (more, from) = (path(&mut random), points[points.len() - 1]);
                 points.extend(more[1..].iter().map(|point| from + point.coords));
             }
-            let curve = smooth(&Tube::new(points, 0.05, &MachineProfile::default())).expect("a curve").curve;
+            let curve = smooth(&ToleranceBand::new(points, 0.05, &MachineProfile::default())).expect("a curve").curve;
             let (way, bounds) = task(&curve, seed);
             let problem = Problem::new(&way, &bounds, 1.0);
             divided += u32::from(problem.free().len() > small.size);
@@ -415,7 +415,7 @@ mod tests {
         let profile = MachineProfile::default();
         let slower = |seed: u64| {
             let points = path(&mut ChaCha8Rng::seed_from_u64(seed));
-            let curve = smooth(&Tube::new(points, 0.05, &profile)).expect("a curve").curve;
+            let curve = smooth(&ToleranceBand::new(points, 0.05, &profile)).expect("a curve").curve;
             let (way, bounds) = task(&curve, seed);
             let duration = |density| profile_on(&way, &bounds, density).expect("a motion").duration();
             (duration(1.0) / duration(2.0), seed)

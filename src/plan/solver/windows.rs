@@ -13,10 +13,10 @@ use std::ops::Range;
 use super::barrier::{self, Schedule};
 
 /// A longer run is as one of this length, mm: what is a part of the length stays as fine as there.
-pub(super) const LENGTH_FELT: f64 = 10_000.0;
+pub(in crate::plan) const LENGTH_FELT: f64 = 10_000.0;
 
 /// A problem in which each constraint and each term of the objective joins but a few unknowns in a row.
-pub(super) trait Chain<const N: usize> {
+pub(in crate::plan) trait Chain<const N: usize> {
     /// The problem of some unknowns, the others standing still.
     type Part<'a>: barrier::Problem<N>
     where
@@ -31,17 +31,17 @@ pub(super) trait Chain<const N: usize> {
 
 /// How a chain is divided.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Windows {
+pub(in crate::plan) struct Windows {
     /// How each window is brought to its optimum.
-    pub(super) schedule: Schedule,
+    pub(in crate::plan) schedule: Schedule,
     /// Most unknowns of a window.
-    pub(super) size: usize,
+    pub(in crate::plan) size: usize,
     /// Unknowns at its end that are solved again in the next one: an end is not felt farther.
-    pub(super) overlap: usize,
+    pub(in crate::plan) overlap: usize,
 }
 
 /// From a strictly feasible `x` to the optimum, as near as the schedule says; `None` when `x` is not feasible.
-pub(super) fn minimise<const N: usize>(
+pub(in crate::plan) fn minimise<const N: usize>(
     chain: &impl Chain<N>,
     mut x: Vec<[f64; N]>,
     windows: Windows,

@@ -1,13 +1,13 @@
 //! The parameter as a function of time: quintic pieces that match place, speed and acceleration at dense nodes.
 
-use super::pace;
+use super::grid;
 
 /// Nodes a knot span: the pieces then reproduce the motion to far below any rounding of the emitted numbers.
 const NODES_A_SPAN: usize = 3;
 
 /// A motion along a way, u(t), from rest to rest.
 #[derive(Debug, Clone)]
-pub(super) struct Timing {
+pub(in crate::plan) struct Clock {
     nodes: Vec<Node>,
 }
 
@@ -19,14 +19,14 @@ struct Node {
     u: [f64; 3],
 }
 
-impl Timing {
+impl Clock {
     /// The motion of which `pace(span, s)` gives b = (du/dt)^2 and db/du on each span of `breaks`, s counted from
     /// parameter `start`.
     pub(super) fn new(start: f64, breaks: &[f64], pace: impl Fn(usize, f64) -> (f64, f64)) -> Self {
         let length = breaks[breaks.len() - 1];
         let mut nodes = vec![Node { t: 0.0, u: [start, 0.0, 0.0] }];
         let mut t = 0.0;
-        for (span, cell) in pace::cells(breaks).enumerate() {
+        for (span, cell) in grid::cells(breaks).enumerate() {
             for i in 0..NODES_A_SPAN {
                 let share = |i: usize| i as f64 / NODES_A_SPAN as f64;
                 let part = cell.part(share(i), share(i + 1));
@@ -43,12 +43,12 @@ impl Timing {
     }
 
     /// Time from rest to rest, s.
-    pub(super) fn duration(&self) -> f64 {
+    pub(in crate::plan) fn duration(&self) -> f64 {
         self.nodes[self.nodes.len() - 1].t
     }
 
     /// The parameter at each of `count` times, evenly from the start to the end, both included.
-    pub(super) fn sample(&self, count: usize) -> Vec<f64> {
+    pub(in crate::plan) fn sample(&self, count: usize) -> Vec<f64> {
         let mut piece = 0;
         let mut samples = Vec::with_capacity(count);
         for i in 0..count {

@@ -7,7 +7,7 @@
 //! starts strictly inside the constraints and every iterate stays there, so it may be stopped at any time.
 
 /// A smooth objective under inequality constraints, over control values of `N` coordinates.
-pub(super) trait Problem<const N: usize> {
+pub(in crate::plan) trait Problem<const N: usize> {
     /// What is to be minimised; positive, and no number where it has no meaning.
     fn objective(&self, x: &[[f64; N]]) -> f64;
 
@@ -20,49 +20,49 @@ pub(super) trait Problem<const N: usize> {
 
 /// A place breaks a constraint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Outside;
+pub(in crate::plan) struct Outside;
 
 /// What bears on an iterate.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Forces<'a> {
+pub(in crate::plan) struct Forces<'a> {
     /// Weight of the objective.
-    pub(super) weight: f64,
+    pub(in crate::plan) weight: f64,
     /// The constraints, in order.
-    pub(super) walls: &'a [Wall],
+    pub(in crate::plan) walls: &'a [Wall],
 }
 
 /// A constraint, seen from an iterate.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Wall {
+pub(in crate::plan) struct Wall {
     /// 1 / s: the slope of -log s by s, with the other sign.
-    pub(super) slope: f64,
+    pub(in crate::plan) slope: f64,
     /// z s: 1 where the multiplier is that of the barrier, greater where the next steps are held back.
-    pub(super) share: f64,
+    pub(in crate::plan) share: f64,
 }
 
 impl Wall {
     /// What stands for the second derivative of -log s by s: z / s.
-    pub(super) fn bend(&self) -> f64 {
+    pub(in crate::plan) fn bend(&self) -> f64 {
         self.share * self.slope * self.slope
     }
 }
 
 /// How the weight of the objective is raised, and when it is enough.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Schedule {
+pub(in crate::plan) struct Schedule {
     /// First weight, in parts of constraints over objective.
-    pub(super) start: f64,
+    pub(in crate::plan) start: f64,
     /// Growth of the weight from round to round.
-    pub(super) growth: f64,
+    pub(in crate::plan) growth: f64,
     /// The end: the duality gap in parts of the objective.
-    pub(super) gap: f64,
+    pub(in crate::plan) gap: f64,
     /// A round ends with the step before which the square of the Newton decrement is below this, in parts of the number of
     /// constraints: about so much of the gap is then left to be won, however many there are.
-    pub(super) decrement: f64,
+    pub(in crate::plan) decrement: f64,
     /// Bound on the Newton steps of a round: a guard, above what is needed.
-    pub(super) steps_a_round: usize,
+    pub(in crate::plan) steps_a_round: usize,
     /// Bound on all Newton steps: a guard, far above what is seen.
-    pub(super) steps: usize,
+    pub(in crate::plan) steps: usize,
 }
 
 /// Sufficient decrease of a line search, as a part of what the slope promises.
@@ -77,7 +77,7 @@ const SHARE_MAX: f64 = 100.0;
 const WEIGHT_SHARE: f64 = 0.95;
 
 /// From a strictly feasible `x` to the optimum, as near as the schedule says; `None` when `x` is not feasible.
-pub(super) fn minimise<const N: usize>(
+pub(in crate::plan) fn minimise<const N: usize>(
     problem: &impl Problem<N>,
     x: Vec<[f64; N]>,
     schedule: Schedule,
@@ -95,7 +95,7 @@ pub(super) fn minimise<const N: usize>(
 
 /// From a strictly feasible `x` towards the middle of the constraints: one round with the first weight of the schedule;
 /// `None` when `x` is not feasible.
-pub(super) fn centre<const N: usize>(
+pub(in crate::plan) fn centre<const N: usize>(
     problem: &impl Problem<N>,
     x: Vec<[f64; N]>,
     schedule: Schedule,

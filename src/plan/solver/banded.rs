@@ -7,25 +7,25 @@
 ///
 /// `rows[i][W - 1 - k]` is the entry in row `i`, column `i - k`.
 #[derive(Debug, Clone)]
-pub(super) struct Band<const W: usize> {
+pub(in crate::plan) struct BandMatrix<const W: usize> {
     rows: Vec<[f64; W]>,
 }
 
 /// The matrix is not positive definite, in floating point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Indefinite;
+pub(in crate::plan) struct Indefinite;
 
 /// Added to the unit diagonal: far above the rounding of a factorisation, far below what moves a Newton step.
 const DIAGONAL_EPSILON: f64 = 1e-13;
 
-impl<const W: usize> Band<W> {
+impl<const W: usize> BandMatrix<W> {
     /// The zero matrix of `n` rows.
-    pub(super) fn zero(n: usize) -> Self {
+    pub(in crate::plan) fn zero(n: usize) -> Self {
         Self { rows: vec![[0.0; W]; n] }
     }
 
     /// Adds `weight * v v^T` at the rows `first ..`.
-    pub(super) fn add_square<const K: usize>(&mut self, first: usize, v: &[f64; K], weight: f64) {
+    pub(in crate::plan) fn add_square<const K: usize>(&mut self, first: usize, v: &[f64; K], weight: f64) {
         for (i, &vi) in v.iter().enumerate() {
             let scaled = weight * vi;
             let row = &mut self.rows[first + i];
@@ -36,7 +36,7 @@ impl<const W: usize> Band<W> {
     }
 
     /// Adds the lower half of a symmetric block at the rows `first ..`.
-    pub(super) fn add_block<const K: usize>(&mut self, first: usize, block: &[[f64; K]; K]) {
+    pub(in crate::plan) fn add_block<const K: usize>(&mut self, first: usize, block: &[[f64; K]; K]) {
         let rows = self.rows[first..].first_chunk_mut::<K>().expect("the block lies inside the matrix");
         for (i, (row, add)) in rows.iter_mut().zip(block).enumerate() {
             for (entry, value) in row[W - 1 - i..].iter_mut().zip(add) {
@@ -46,7 +46,7 @@ impl<const W: usize> Band<W> {
     }
 
     /// Adds `weight` times the entries of `other`.
-    pub(super) fn add(&mut self, other: &Self, weight: f64) {
+    pub(in crate::plan) fn add(&mut self, other: &Self, weight: f64) {
         for (row, add) in self.rows.iter_mut().zip(&other.rows) {
             for (entry, value) in row.iter_mut().zip(add) {
                 *entry += weight * value;
@@ -55,23 +55,23 @@ impl<const W: usize> Band<W> {
     }
 
     /// Adds to one entry at `row`, `column <= row`.
-    pub(super) fn add_entry(&mut self, row: usize, column: usize, value: f64) {
+    pub(in crate::plan) fn add_entry(&mut self, row: usize, column: usize, value: f64) {
         self.rows[row][W - 1 - (row - column)] += value;
     }
 
     /// The entry at `row`, `column <= row`, inside the band.
-    pub(super) fn entry(&self, row: usize, column: usize) -> f64 {
+    pub(in crate::plan) fn entry(&self, row: usize, column: usize) -> f64 {
         self.rows[row][W - 1 - (row - column)]
     }
 
     /// Number of rows.
-    pub(super) fn len(&self) -> usize {
+    pub(in crate::plan) fn len(&self) -> usize {
         self.rows.len()
     }
 
     /// Makes row and column `i` those of the unit matrix, so that unknown `i` keeps its value; its couplings are handed
     /// to `dropped(row, entry)` first.
-    pub(super) fn fix(&mut self, i: usize, mut dropped: impl FnMut(usize, f64)) {
+    pub(in crate::plan) fn fix(&mut self, i: usize, mut dropped: impl FnMut(usize, f64)) {
         for k in 1..W.min(i + 1) {
             dropped(i - k, self.rows[i][W - 1 - k]);
         }
@@ -84,7 +84,7 @@ impl<const W: usize> Band<W> {
     }
 
     /// The product with a vector of points.
-    pub(super) fn times<const N: usize>(&self, x: &[[f64; N]]) -> Vec<[f64; N]> {
+    pub(in crate::plan) fn times<const N: usize>(&self, x: &[[f64; N]]) -> Vec<[f64; N]> {
         let mut out = vec![[0.0; N]; x.len()];
         for (i, row) in self.rows.iter().enumerate() {
             for k in 0..W.min(i + 1) {
@@ -104,7 +104,7 @@ impl<const W: usize> Band<W> {
     }
 
     /// Scales to a unit diagonal and factors; the matrix is used up.
-    pub(super) fn factor(mut self) -> Result<Factor<W>, Indefinite> {
+    pub(in crate::plan) fn factor(mut self) -> Result<Factor<W>, Indefinite> {
         let scale: Vec<f64> = self.rows.iter().map(|row| 1.0 / row[W - 1].sqrt()).collect();
         if scale.iter().any(|s| !s.is_finite()) {
             return Err(Indefinite);
@@ -154,14 +154,14 @@ fn eliminate<const W: usize>(row: &[f64; W], before: &[[f64; W]; W]) -> Result<[
 
 /// The Cholesky factor of a scaled band matrix.
 #[derive(Debug)]
-pub(super) struct Factor<const W: usize> {
+pub(in crate::plan) struct Factor<const W: usize> {
     rows: Vec<[f64; W]>,
     scale: Vec<f64>,
 }
 
 impl<const W: usize> Factor<W> {
     /// Solves for the right-hand side in place, column by column of the points.
-    pub(super) fn solve<const N: usize>(&self, x: &mut [[f64; N]]) {
+    pub(in crate::plan) fn solve<const N: usize>(&self, x: &mut [[f64; N]]) {
         for i in 0..x.len() {
             let mut value = x[i].map(|v| v * self.scale[i]);
             let row = &self.rows[i];
@@ -192,7 +192,7 @@ mod tests {
     #[test]
     fn a_factor_solves_what_the_matrix_multiplies() {
         let n = 20;
-        let mut matrix = Band::<4>::zero(n);
+        let mut matrix = BandMatrix::<4>::zero(n);
         for first in 0..n - 3 {
             let v: [f64; 4] = std::array::from_fn(|j| ((first * 7 + j * j * 3) as f64).sin());
             matrix.add_square(first, &v, 1.0 + first as f64 * 1e3);
@@ -210,7 +210,7 @@ mod tests {
 
     #[test]
     fn an_indefinite_matrix_is_refused() {
-        let mut matrix = Band::<4>::zero(2);
+        let mut matrix = BandMatrix::<4>::zero(2);
         matrix.add_entry(0, 0, 1.0);
         matrix.add_entry(1, 1, 1.0);
         matrix.add_entry(1, 0, 2.0);

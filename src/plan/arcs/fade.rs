@@ -13,7 +13,7 @@ use crate::ir::toolpath::Pose;
 const FADE_BEND: f64 = 7.6;
 /// Smaller leads are none, rad.
 const LEAD_EPSILON: f64 = 1e-6;
-/// Part of the permitted angle by which C may be off its law on a part; the way of the tip may be off by as much.
+/// Part of the permitted angle by which C may be off its orientation on a part; the way of the tip may be off by as much.
 const BEND_SHARE: f64 = 0.5;
 /// Shorter ways are none, mm.
 const LENGTH_EPSILON: f64 = 1e-3;

@@ -1,4 +1,4 @@
-//! The smoothest curve inside a tube: a degree-5 B-spline r(u) over the chord length that minimises the integral of
+//! The smoothest curve inside a tolerance band: a degree-5 B-spline r(u) over the chord length that minimises the integral of
 //! |r'''|^2 with its deviation below the tolerance at dense samples, end points fixed.
 //!
 //! Jerk along a path contains k'' v^3 (k = curvature), so the path must be smooth to the third derivative of its
@@ -8,13 +8,13 @@
 
 use std::ops::Range;
 
-use super::banded::Band;
-use super::barrier::{self, Forces, Outside, Schedule, Wall};
+use super::band::{Section, ToleranceBand};
 use super::knots;
-use super::tube::{Slot, Tube};
-use super::windows::{self, Chain, LENGTH_FELT, Windows};
 use crate::geom::spline::{self, Piecewise};
 use crate::geom::{Point, Vector};
+use crate::plan::solver::banded::BandMatrix;
+use crate::plan::solver::barrier::{self, Forces, Outside, Schedule, Wall};
+use crate::plan::solver::windows::{self, Chain, LENGTH_FELT, Windows};
 
 /// Order of the spline: degree 5, so that curvature has two continuous derivatives and a third one almost everywhere.
 const ORDER: usize = 6;
@@ -44,40 +44,40 @@ const WINDOWS: Windows = Windows { schedule: SCHEDULE, size: 3000, overlap: 60 }
 const SAMPLE_EPSILON: f64 = 1e-7;
 
 /// A smooth path: position over chord length, mm.
-pub(super) type Curve = Piecewise<ORDER, 2>;
+pub(in crate::plan) type Curve = Piecewise<ORDER, 2>;
 
-/// No curve was found inside the tube.
+/// No curve was found inside the band.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct TooTight {
+pub(in crate::plan) struct TooTight {
     /// The least deviation that was reached, mm.
-    pub(super) deviation: f64,
+    pub(in crate::plan) deviation: f64,
 }
 
 /// What was found.
 #[derive(Debug)]
-pub(super) struct Smooth {
-    /// The curve; its parameter runs from 0 to the tube's length.
-    pub(super) curve: Curve,
-    /// Greatest part of a bulge that the curve uses, mm.
-    pub(super) bulge: f64,
+pub(in crate::plan) struct Smooth {
+    /// The curve; its parameter runs from 0 to the band's length.
+    pub(in crate::plan) curve: Curve,
+    /// Greatest part of a chord sagitta that the curve uses, mm.
+    pub(in crate::plan) sagitta: f64,
 }
 
-/// The smoothest curve inside the tube.
-pub(super) fn smooth(tube: &Tube) -> Result<Smooth, TooTight> {
-    let mut finer = vec![1.0; tube.points.len()];
+/// The smoothest curve inside the band.
+pub(in crate::plan) fn smooth(band: &ToleranceBand) -> Result<Smooth, TooTight> {
+    let mut finer = vec![1.0; band.points.len()];
     let mut worst = f64::INFINITY;
     let mut share = SHARE;
     for _ in 0..ATTEMPTS {
-        let problem = Problem::new(tube, knots::breaks(tube, &finer), share * tube.tolerance);
+        let problem = Problem::new(band, knots::breaks(band, &finer), share * band.tolerance);
         let start = problem.feasible_start();
         let trouble = match start {
             Ok((control, weight)) => {
                 let start = problem.relax(control, weight);
                 let control = windows::minimise(&problem, start.clone(), WINDOWS).unwrap_or(start);
                 let curve = problem.curve(&control);
-                let (violations, deviation, bulge) = problem.check(&curve);
+                let (violations, deviation, sagitta) = problem.check(&curve);
                 if violations.is_empty() {
-                    return Ok(Smooth { curve, bulge });
+                    return Ok(Smooth { curve, sagitta });
                 }
                 worst = worst.min(deviation);
                 share -= SHARE_STEP;
@@ -88,15 +88,15 @@ pub(super) fn smooth(tube: &Tube) -> Result<Smooth, TooTight> {
                 violations
             }
         };
-        refine(tube, &mut finer, &trouble, problem.median_span());
+        refine(band, &mut finer, &trouble, problem.median_span());
     }
     Err(TooTight { deviation: worst })
 }
 
 /// Makes the spacing finer at the vertices near trouble.
-fn refine(tube: &Tube, finer: &mut [f64], trouble: &[f64], median_span: f64) {
+fn refine(band: &ToleranceBand, finer: &mut [f64], trouble: &[f64], median_span: f64) {
     let reach = (2.0 * median_span).max(1.0);
-    for (factor, &station) in finer.iter_mut().zip(&tube.stations) {
+    for (factor, &station) in finer.iter_mut().zip(&band.stations) {
         let next = trouble.partition_point(|&u| u < station);
         let near = |u: Option<&f64>| u.is_some_and(|u| (u - station).abs() < reach);
         if near(trouble.get(next)) || next > 0 && near(trouble.get(next - 1)) {
@@ -116,7 +116,7 @@ struct Sample {
     /// Their weights.
     weights: [f64; ORDER],
     /// What counts as on the path.
-    slot: Slot,
+    section: Section,
 }
 
 impl Sample {
@@ -131,13 +131,13 @@ impl Sample {
     }
 
     fn deviation(&self, control: &[[f64; 2]]) -> Vector {
-        self.slot.deviation(self.point(control)).0
+        self.section.deviation(self.point(control)).0
     }
 }
 
 /// One attempt: a choice of knots with everything that does not change over the iterations.
 struct Problem<'a> {
-    tube: &'a Tube,
+    band: &'a ToleranceBand,
     breaks: Vec<f64>,
     /// The breaks, those at the ends as often as the spline's order.
     knots: Vec<f64>,
@@ -145,46 +145,46 @@ struct Problem<'a> {
     /// Length that each sample stands for in least squares.
     shares: Vec<f64>,
     /// Sum of squares of the samples, and the penalty, as matrices in one coordinate.
-    squares: Band<BAND>,
-    penalty: Band<BAND>,
+    squares: BandMatrix<BAND>,
+    penalty: BandMatrix<BAND>,
     /// Bound on the deviation of the samples, mm.
     bound: f64,
     /// The penalty of a curve that counts as smooth: 36 t^2 / L^5, that of r = t (u/L)^3 with the tolerance t and the
-    /// length L. A short run lies in its tube as a parabola, whose penalty is none: what is left is then the barrier's choice.
+    /// length L. A short run lies in its band as a parabola, whose penalty is none: what is left is then the barrier's choice.
     least: f64,
 }
 
 impl<'a> Problem<'a> {
-    fn new(tube: &'a Tube, breaks: Vec<f64>, bound: f64) -> Self {
+    fn new(band: &'a ToleranceBand, breaks: Vec<f64>, bound: f64) -> Self {
         let knots = spline::clamped_knots::<ORDER>(&breaks);
         let count = spline::control_count::<ORDER>(&breaks);
-        let stations = sample_stations(tube, &breaks);
+        let stations = sample_stations(band, &breaks);
         let mut samples = Vec::with_capacity(stations.len());
         let (mut span, mut chord) = (0, 0);
         for &u in &stations {
             while span + 2 < breaks.len() && breaks[span + 1] <= u {
                 span += 1;
             }
-            while chord + 2 < tube.stations.len() && tube.stations[chord + 1] <= u {
+            while chord + 2 < band.stations.len() && band.stations[chord + 1] <= u {
                 chord += 1;
             }
             let [weights] = spline::basis::<ORDER, 1>(&knots, span, u);
-            samples.push(Sample { u, first: span, weights, slot: tube.slot(chord, u) });
+            samples.push(Sample { u, first: span, weights, section: band.section(chord, u) });
         }
         let last = samples.len() - 1;
         let shares: Vec<f64> = (0..=last)
             .map(|i| {
                 let share = (stations[(i + 1).min(last)] - stations[i.saturating_sub(1)]) / 2.0;
-                share.max(SHARE_MIN * tube.length().min(LENGTH_FELT))
+                share.max(SHARE_MIN * band.length().min(LENGTH_FELT))
             })
             .collect();
-        let mut squares = Band::zero(count);
+        let mut squares = BandMatrix::zero(count);
         for (sample, &share) in samples.iter().zip(&shares) {
             squares.add_square(sample.first, &sample.weights, share);
         }
         let penalty = penalty(&knots, 0..breaks.len() - 1);
-        let least = 36.0 * tube.tolerance.powi(2) / tube.length().powi(5);
-        Self { tube, breaks, knots, samples, shares, squares, penalty, bound, least }
+        let least = 36.0 * band.tolerance.powi(2) / band.length().powi(5);
+        Self { band, breaks, knots, samples, shares, squares, penalty, bound, least }
     }
 
     fn median_span(&self) -> f64 {
@@ -197,14 +197,14 @@ impl<'a> Problem<'a> {
         Piecewise::from_control(self.breaks.clone(), control)
     }
 
-    /// Penalised least squares through the middle of the tube, ends fixed; `None` when the system is singular.
+    /// Penalised least squares through the middle of the band, ends fixed; `None` when the system is singular.
     fn least_squares(&self, weight: f64) -> Option<Control> {
         let n = self.squares.len();
         let mut matrix = self.squares.clone();
         matrix.add(&self.penalty, weight);
         let mut x: Control = vec![[0.0; 2]; n];
         for (sample, &share) in self.samples.iter().zip(&self.shares) {
-            let middle = sample.slot.middle();
+            let middle = sample.section.middle();
             for (w, value) in sample.weights.iter().zip(&mut x[sample.first..]) {
                 value[0] += w * share * middle.x;
                 value[1] += w * share * middle.y;
@@ -225,7 +225,7 @@ impl<'a> Problem<'a> {
 
     /// The fixed control points.
     fn ends(&self) -> [(usize, [f64; 2]); 2] {
-        let points = &self.tube.points;
+        let points = &self.band.points;
         let end = |p: Point| [p.x, p.y];
         [(0, end(points[0])), (self.squares.len() - 1, end(points[points.len() - 1]))]
     }
@@ -234,9 +234,9 @@ impl<'a> Problem<'a> {
         self.samples.iter().map(|s| s.deviation(&control[s.first..]).norm()).fold(0.0, f64::max)
     }
 
-    /// A curve strictly inside the tube, with the weight of the penalty that gave it; otherwise where it leaves the tube.
+    /// A curve strictly inside the band, with the weight of the penalty that gave it; otherwise where it leaves the band.
     fn feasible_start(&self) -> Result<(Control, f64), (Vec<f64>, f64)> {
-        let mut weight = START_WEIGHT * self.tube.tolerance;
+        let mut weight = START_WEIGHT * self.band.tolerance;
         let mut best: Option<(Control, f64)> = None;
         for _ in 0..START_ROUNDS {
             let Some(control) = self.least_squares(weight) else { break };
@@ -249,12 +249,12 @@ impl<'a> Problem<'a> {
             }
             weight *= 0.1;
         }
-        let Some((control, deviation)) = best else { return Err((self.tube.stations.clone(), f64::INFINITY)) };
+        let Some((control, deviation)) = best else { return Err((self.band.stations.clone(), f64::INFINITY)) };
         let out = |s: &&Sample| s.deviation(&control[s.first..]).norm() > TROUBLE_SHARE * self.bound;
         Err((self.samples.iter().filter(out).map(|s| s.u).collect(), deviation))
     }
 
-    /// Raises the weight of the penalty while the curve stays well inside the tube: a start near the optimum.
+    /// Raises the weight of the penalty while the curve stays well inside the band: a start near the optimum.
     fn relax(&self, mut control: Control, mut weight: f64) -> Control {
         for _ in 0..RELAX_ROUNDS {
             weight *= 3.0;
@@ -267,33 +267,34 @@ impl<'a> Problem<'a> {
         control
     }
 
-    /// Where the curve leaves the whole tolerance between the samples, its greatest deviation and greatest bulge, mm.
+    /// Where the curve leaves the whole tolerance between the samples, its greatest deviation and the greatest sagitta that it
+    /// uses, mm.
     fn check(&self, curve: &Curve) -> (Vec<f64>, f64, f64) {
         let mut violations = Vec::new();
-        let (mut deviation, mut bulge) = (0.0_f64, 0.0_f64);
+        let (mut deviation, mut sagitta) = (0.0_f64, 0.0_f64);
         let mut chord = 0;
         for (span, ends) in self.breaks.windows(2).enumerate() {
             for i in 0..CHECKS_A_SPAN {
                 let u = ends[0] + (ends[1] - ends[0]) * i as f64 / CHECKS_A_SPAN as f64;
-                while chord + 2 < self.tube.stations.len() && self.tube.stations[chord + 1] <= u {
+                while chord + 2 < self.band.stations.len() && self.band.stations[chord + 1] <= u {
                     chord += 1;
                 }
                 let [[x, y]] = curve.derivatives_on::<1>(span, u);
-                let (away, used) = self.tube.slot(chord, u).deviation(Point::new(x, y));
+                let (away, used) = self.band.section(chord, u).deviation(Point::new(x, y));
                 deviation = deviation.max(away.norm());
-                bulge = bulge.max(used);
-                if away.norm() > CHECK_SHARE * self.tube.tolerance {
+                sagitta = sagitta.max(used);
+                if away.norm() > CHECK_SHARE * self.band.tolerance {
                     violations.push(u);
                 }
             }
         }
-        (violations, deviation, bulge)
+        (violations, deviation, sagitta)
     }
 }
 
 /// The integral of |r'''|^2 over some spans, as a matrix of the control points that have a say there.
-fn penalty(knots: &[f64], spans: Range<usize>) -> Band<BAND> {
-    let mut penalty = Band::zero(spans.len() + ORDER - 1);
+fn penalty(knots: &[f64], spans: Range<usize>) -> BandMatrix<BAND> {
+    let mut penalty = BandMatrix::zero(spans.len() + ORDER - 1);
     for span in spans.clone() {
         let ends = [knots[span + ORDER - 1], knots[span + ORDER]];
         let half = (ends[1] - ends[0]) / 2.0;
@@ -323,7 +324,7 @@ impl Chain<2> for Problem<'_> {
         let near = spans.start..spans.end + ORDER - 1;
         let penalty = penalty(&self.knots, spans);
         // A run in one window counts from where the file counts.
-        let origin = if free == self.free() { Point::origin() } else { samples[0].slot.base };
+        let origin = if free == self.free() { Point::origin() } else { samples[0].section.base };
         let (bound, least) = (self.bound, self.least);
         (Part { samples, penalty, origin, bound, least, near: near.clone(), free }, near)
     }
@@ -333,7 +334,7 @@ impl Chain<2> for Problem<'_> {
 struct Part<'a> {
     /// The samples that they move, and the penalty of the spans that they shape.
     samples: &'a [Sample],
-    penalty: Band<BAND>,
+    penalty: BandMatrix<BAND>,
     /// What the penalty counts places from: in a run of kilometres the square of a place leaves no digits for its bends.
     origin: Point,
     bound: f64,
@@ -375,7 +376,7 @@ impl barrier::Problem<2> for Part<'_> {
 
     fn newton(&self, control: &[[f64; 2]], forces: &Forces) -> Option<(Vec<[f64; 2]>, f64)> {
         let n = self.penalty.len();
-        let mut hessian = Band::<BAND_XY>::zero(2 * n);
+        let mut hessian = BandMatrix::<BAND_XY>::zero(2 * n);
         for i in 0..n {
             for k in 0..BAND.min(i + 1) {
                 let entry = forces.weight * self.penalty.entry(i, i - k);
@@ -424,11 +425,11 @@ impl Block {
     /// z (2 P + 4 e e^T / s), P the projection off the direction that changes nothing.
     fn add(&mut self, sample: &Sample, near: &[[f64; 2]], wall: &Wall) {
         let point = sample.point(near);
-        let e = sample.slot.deviation(point).0;
+        let e = sample.section.deviation(point).0;
         let force = 2.0 * wall.slope;
         let (plain, steep) = (force * wall.share, 4.0 * wall.bend());
         let mut bend = [plain + steep * e.x * e.x, steep * e.x * e.y, plain + steep * e.y * e.y];
-        if let Some(free) = sample.slot.free_direction(point) {
+        if let Some(free) = sample.section.free_direction(point) {
             bend[0] -= plain * free.x * free.x;
             bend[1] -= plain * free.x * free.y;
             bend[2] -= plain * free.y * free.y;
@@ -482,16 +483,16 @@ const RELAX_SHARE: f64 = 0.8;
 const CHECK_SHARE: f64 = 0.995;
 
 /// The vertices and [`SAMPLES_A_SPAN`] places a span, in order, none nearer than [`SAMPLE_EPSILON`] to another.
-fn sample_stations(tube: &Tube, breaks: &[f64]) -> Vec<f64> {
+fn sample_stations(band: &ToleranceBand, breaks: &[f64]) -> Vec<f64> {
     let inner = breaks
         .windows(2)
         .flat_map(|ends| (0..SAMPLES_A_SPAN).map(|i| ends[0] + (ends[1] - ends[0]) * i as f64 / SAMPLES_A_SPAN as f64));
-    let mut stations: Vec<f64> = inner.chain(tube.stations.iter().copied()).collect();
+    let mut stations: Vec<f64> = inner.chain(band.stations.iter().copied()).collect();
     stations.sort_by(f64::total_cmp);
-    let least = SAMPLE_EPSILON * tube.length().min(LENGTH_FELT);
+    let least = SAMPLE_EPSILON * band.length().min(LENGTH_FELT);
     stations.dedup_by(|next, kept| *next - *kept <= least);
     let last = stations.len() - 1;
-    stations[last] = tube.length();
+    stations[last] = band.length();
     stations
 }
 
@@ -501,13 +502,13 @@ mod tests {
     use crate::machine::MachineProfile;
 
     fn check(points: Vec<Point>, tolerance: f64) -> Smooth {
-        let tube = Tube::new(points, tolerance, &MachineProfile::default());
-        let smooth = smooth(&tube).expect("a curve inside the tube");
+        let band = ToleranceBand::new(points, tolerance, &MachineProfile::default());
+        let smooth = smooth(&band).expect("a curve inside the band");
         let n = 5000;
         for i in 0..=n {
-            let u = tube.length() * f64::from(i) / f64::from(n);
+            let u = band.length() * f64::from(i) / f64::from(n);
             let [[x, y]] = smooth.curve.derivatives::<1>(u);
-            let away = tube.slot(tube.chord(u), u).deviation(Point::new(x, y)).0.norm();
+            let away = band.section(band.chord(u), u).deviation(Point::new(x, y)).0.norm();
             assert!(away <= tolerance, "{away} at {u}");
         }
         smooth
@@ -542,7 +543,7 @@ mod tests {
             .map(|a| Point::new(6.4 * a.cos(), 6.4 * a.sin()))
             .collect();
         let smooth = check(ring, 0.071);
-        assert!(smooth.bulge > 0.1);
+        assert!(smooth.sagitta > 0.1);
         let [p, d1, d2] = smooth.curve.derivatives::<3>(50.0);
         let curvature = (d1[0] * d2[1] - d1[1] * d2[0]) / d1[0].hypot(d1[1]).powi(3);
         assert!((p[0].hypot(p[1]) - 6.4).abs() < 0.15 && (curvature - 1.0 / 6.4).abs() < 0.01, "{curvature}");
@@ -554,13 +555,14 @@ mod tests {
         // Then far from where the file counts from, as the end of a run of kilometres is.
         for away in [0.0, 1e6] {
             let wave = |i: i32| (away + 2.0 * f64::from(i), 5.0 * (0.2 * f64::from(i)).sin());
-            let tube = Tube::new(points(&(0..400).map(wave).collect::<Vec<_>>()), 0.05, &MachineProfile::default());
-            let problem = Problem::new(&tube, knots::breaks(&tube, &[1.0; 400]), SHARE * tube.tolerance);
+            let band =
+                ToleranceBand::new(points(&(0..400).map(wave).collect::<Vec<_>>()), 0.05, &MachineProfile::default());
+            let problem = Problem::new(&band, knots::breaks(&band, &[1.0; 400]), SHARE * band.tolerance);
             let (control, weight) = problem.feasible_start().expect("a start");
             let start = problem.relax(control, weight);
             let bend = |windows| {
                 let control = windows::minimise(&problem, start.clone(), windows).expect("a curve");
-                assert!(problem.check(&problem.curve(&control)).0.is_empty(), "it leaves its tube");
+                assert!(problem.check(&problem.curve(&control)).0.is_empty(), "it leaves its band");
                 let from: Control = control.iter().map(|c| [c[0] - away, c[1]]).collect();
                 barrier::Problem::objective(&problem.part(problem.free()).0, &from)
             };

@@ -1,11 +1,11 @@
-//! A polyline as few arcs and lines that meet without a kink, inside its tube.
+//! A polyline as few arcs and lines that meet without a kink, inside its band.
 //!
 //! Between two places with known directions lies a biarc: two arcs of one tangent where they meet (K. M. Bolton,
 //! *Biarc curves*, Computer-Aided Design 7, 1975; here with tangents of equal length at both ends). The places are
 //! the middles of chords, where the direction of the curve is that of the chord, and the shoulders of bends that a
-//! rounding takes inside the tube. From each place the farthest one is taken whose biarc stays in the tube.
+//! rounding takes inside the band. From each place the farthest one is taken whose biarc stays in the band.
 
-use super::tube::{Stretch, Tube};
+use super::band::{Stretch, ToleranceBand};
 use crate::geom::{Point, Vector, angle, cross};
 
 /// Part of the tolerance that the fit may use: the rest is for decimals, and for arcs that are no parabolas.
@@ -133,7 +133,7 @@ enum Kind {
     Spare,
 }
 
-/// What is asked of a way beside its tube.
+/// What is asked of a way beside its band.
 #[derive(Debug, Clone)]
 pub(super) struct Ends {
     /// Unit vectors along it where it starts and where it ends.
@@ -141,7 +141,7 @@ pub(super) struct Ends {
     pub(super) end: Vector,
     /// Vertices at which an arc must end, in order.
     pub(super) stops: Vec<usize>,
-    /// Greatest curvature where a gentler way stays in the tube, per mm: infinite where arcs are told as they are.
+    /// Greatest curvature where a gentler way stays in the band, per mm: infinite where arcs are told as they are.
     pub(super) curvature: f64,
     /// Whether every vertex has shoulders, for where no other place can be reached.
     pub(super) spares: bool,
@@ -149,9 +149,9 @@ pub(super) struct Ends {
     pub(super) reach: f64,
 }
 
-/// The arcs along a tube; otherwise the point at which none stays inside.
-pub(super) fn fit(tube: &Tube, ends: &Ends) -> Result<Vec<Arc>, Point> {
-    let nodes = nodes(tube, ends);
+/// The arcs along a band; otherwise the point at which none stays inside.
+pub(super) fn fit(band: &ToleranceBand, ends: &Ends) -> Result<Vec<Arc>, Point> {
+    let nodes = nodes(band, ends);
     let aims: Vec<usize> = (1..nodes.len()).filter(|&i| nodes[i].kind == Kind::Aim).collect();
     let mut arcs = Vec::new();
     let (mut i, mut ahead) = (0, 0);
@@ -161,7 +161,7 @@ pub(super) fn fit(tube: &Tube, ends: &Ends) -> Result<Vec<Arc>, Point> {
         }
         let stop = (i + 1..nodes.len()).find(|&k| nodes[k].stops).unwrap_or(nodes.len() - 1);
         let end = aims.partition_point(|&aim| aim <= stop);
-        let reach = |curvature: f64| farthest(tube, &nodes[..=stop], (i, &aims[ahead..end]), curvature);
+        let reach = |curvature: f64| farthest(band, &nodes[..=stop], (i, &aims[ahead..end]), curvature);
         let gentle = Some(ends.curvature).filter(|curvature| curvature.is_finite()).and_then(reach);
         let (to, found) = gentle.or_else(|| reach(f64::INFINITY)).ok_or(nodes[i].at)?;
         arcs.extend(found.into_iter().flatten());
@@ -172,9 +172,14 @@ pub(super) fn fit(tube: &Tube, ends: &Ends) -> Result<Vec<Arc>, Point> {
 
 /// The farthest place that a biarc from place `i` reaches, none of its arcs of more than a curvature, and that biarc; `aims`
 /// are those behind it that lie on the curve.
-fn farthest(tube: &Tube, nodes: &[Node], (i, aims): (usize, &[usize]), curvature: f64) -> Option<(usize, Found)> {
+fn farthest(
+    band: &ToleranceBand,
+    nodes: &[Node],
+    (i, aims): (usize, &[usize]),
+    curvature: f64,
+) -> Option<(usize, Found)> {
     let is_gentle = |found: &Found| found.iter().flatten().all(|arc| arc.curvature.abs() <= curvature);
-    let try_to = |j: usize| biarc(tube, &nodes[i], &nodes[j]).filter(is_gentle);
+    let try_to = |j: usize| biarc(band, &nodes[i], &nodes[j]).filter(is_gentle);
     let mut best: Option<(usize, Found)> = None;
     // Twice as far each time, then halving between what fits and what does not.
     let (mut reached, mut bad) = (0, aims.len() + 1);
@@ -204,9 +209,9 @@ fn farthest(tube: &Tube, nodes: &[Node], (i, aims): (usize, &[usize]), curvature
     })
 }
 
-/// The places along a tube.
-fn nodes(tube: &Tube, ends: &Ends) -> Vec<Node> {
-    let last = tube.chords();
+/// The places along a band.
+fn nodes(band: &ToleranceBand, ends: &Ends) -> Vec<Node> {
+    let last = band.chords();
     let node = |chord: usize, (at, along): (Point, Vector), station: f64| Node {
         at,
         along,
@@ -217,44 +222,44 @@ fn nodes(tube: &Tube, ends: &Ends) -> Vec<Node> {
     };
     // Two shoulders and a middle a chord at the most, but for where the feed changes.
     let mut nodes = Vec::with_capacity(3 * last + 2);
-    nodes.push(node(0, (tube.points[0], ends.start), 0.0));
+    nodes.push(node(0, (band.points[0], ends.start), 0.0));
     // A bend of turn t whose rounding touches both chords a way w off its vertex leaves the vertex by w tan(t / 4). On a
     // curve it is none.
     let shoulder = |chord: usize, vertex: usize| {
-        let turn = tube.turns[vertex].abs();
-        let way = ROUNDING_SHARE * tube.tolerance / (turn / 4.0).tan();
-        let longest = SHOULDER_SHARE * (tube.stations[chord + 1] - tube.stations[chord]);
+        let turn = band.turns[vertex].abs();
+        let way = ROUNDING_SHARE * band.tolerance / (turn / 4.0).tan();
+        let longest = SHOULDER_SHARE * (band.stations[chord + 1] - band.stations[chord]);
         if turn <= TURN_EPSILON {
             None
-        } else if way < longest && tube.is_bend(chord, vertex) {
+        } else if way < longest && band.is_bend(chord, vertex) {
             Some((way, Kind::Shoulder))
         } else {
             ends.spares.then_some((way.min(longest), Kind::Spare))
         }
     };
     for chord in 0..last {
-        let (a, length) = (tube.points[chord], tube.stations[chord + 1] - tube.stations[chord]);
-        let along = tube.direction(chord);
-        let place = |way: f64| node(chord, (a + along * way, along), tube.stations[chord] + way);
+        let (a, length) = (band.points[chord], band.stations[chord + 1] - band.stations[chord]);
+        let along = band.direction(chord);
+        let place = |way: f64| node(chord, (a + along * way, along), band.stations[chord] + way);
         nodes.extend(shoulder(chord, chord).map(|(way, kind)| Node { kind, ..place(way) }));
         let middle = place(0.5 * length);
         // Of chords as short as numbers of a file are coarse only several together show where the curve goes.
-        let reach = ends.reach * tube.tolerance;
-        let along = if length < reach { tube.around(middle.station, reach) } else { along };
-        nodes.push(Node { at: middle.at + tube.middle(chord), along, ..middle });
+        let reach = ends.reach * band.tolerance;
+        let along = if length < reach { band.around(middle.station, reach) } else { along };
+        nodes.push(Node { at: middle.at + band.middle(chord), along, ..middle });
         nodes.extend(shoulder(chord, chord + 1).map(|(way, kind)| Node { kind, ..place(length - way) }));
         if ends.stops.binary_search(&(chord + 1)).is_ok() {
-            let along = (along + tube.direction(chord + 1)).normalize();
-            let end = (tube.points[chord + 1], along);
-            nodes.push(Node { stops: true, ..node(chord, end, tube.stations[chord + 1]) });
+            let along = (along + band.direction(chord + 1)).normalize();
+            let end = (band.points[chord + 1], along);
+            nodes.push(Node { stops: true, ..node(chord, end, band.stations[chord + 1]) });
         }
     }
-    nodes.push(node(last - 1, (tube.points[last], ends.end), tube.stations[last]));
+    nodes.push(node(last - 1, (band.points[last], ends.end), band.stations[last]));
     nodes
 }
 
-/// The arcs between two places, when they stay in the tube.
-fn biarc(tube: &Tube, from: &Node, to: &Node) -> Option<Found> {
+/// The arcs between two places, when they stay in the band.
+fn biarc(band: &ToleranceBand, from: &Node, to: &Node) -> Option<Found> {
     let way = to.at - from.at;
     let (t0, t1) = (from.along, to.along);
     let dot = t0.dot(&t1);
@@ -268,7 +273,7 @@ fn biarc(tube: &Tube, from: &Node, to: &Node) -> Option<Found> {
         && cross(end, t1).abs() + cross(t0, one.along).abs() < SAME_EPSILON
     {
         let arcs = [Some(Arc { chord: to.chord, stops: to.stops, ..one }), None];
-        return stays(tube, &arcs, (to.at, end), [from, to]).then_some(arcs);
+        return stays(band, &arcs, (to.at, end), [from, to]).then_some(arcs);
     }
     let ahead = way.dot(&(t0 + t1));
     let open = 2.0 * (1.0 - dot);
@@ -282,9 +287,9 @@ fn biarc(tube: &Tube, from: &Node, to: &Node) -> Option<Found> {
     let meet = first.along_at_end(middle);
     let second = Arc::through(middle, meet, to.at)?;
     let station = f64::midpoint(from.station, to.station);
-    let chord = tube.chord_at(station);
+    let chord = band.chord_at(station);
     let arcs = [Some(Arc { chord, ..first }), Some(Arc { chord: to.chord, stops: to.stops, ..second })];
-    stays(tube, &arcs, (middle, meet), [from, to]).then_some(arcs)
+    stays(band, &arcs, (middle, meet), [from, to]).then_some(arcs)
 }
 
 /// The unit vector along an arc where it ends, `way` from where it has another: that, mirrored at the chord.
@@ -292,36 +297,36 @@ fn mirrored(along: Vector, way: Vector) -> Vector {
     way * (2.0 * along.dot(&way) / way.norm_squared()) - along
 }
 
-/// Whether arcs that meet at a place stay in the tube: beside every chord, and the parts of chords that they start and end
+/// Whether arcs that meet at a place stay in the band: beside every chord, and the parts of chords that they start and end
 /// on.
-fn stays(tube: &Tube, arcs: &Found, meet: (Point, Vector), [from, to]: [&Node; 2]) -> bool {
-    let allowed = SHARE * tube.tolerance;
+fn stays(band: &ToleranceBand, arcs: &Found, meet: (Point, Vector), [from, to]: [&Node; 2]) -> bool {
+    let allowed = SHARE * band.tolerance;
     let [Some(first), second] = arcs else { return false };
     let second = second.as_ref().unwrap_or(first);
     // Where the arcs run beside a vertex, left of it, and how the one that does bends.
     let beside = |vertex: usize| {
-        let point = tube.points[vertex];
+        let point = band.points[vertex];
         let arc = if (point - meet.0).dot(&meet.1) < 0.0 { first } else { second };
         (-arc.left_of(point), arc.curvature)
     };
-    let left_of_chord = |chord: usize, place: Point| cross(tube.direction(chord), place - tube.points[chord]);
+    let left_of_chord = |chord: usize, place: Point| cross(band.direction(chord), place - band.points[chord]);
     let mut before = (from.station, left_of_chord(from.chord, from.at), first.curvature);
     for chord in from.chord..=to.chord {
         let (station, (offset, curvature)) = if chord == to.chord {
             (to.station, (left_of_chord(chord, to.at), second.curvature))
         } else {
-            (tube.stations[chord + 1], beside(chord + 1))
+            (band.stations[chord + 1], beside(chord + 1))
         };
         let (start, left, bent) = before;
         let stretch = |stations, ends| Stretch { chord, stations, ends };
         let holds = if curvature == bent {
-            tube.holds(&stretch([start, station], [left, offset]), bent, allowed)
+            band.holds(&stretch([start, station], [left, offset]), bent, allowed)
         } else {
             // They meet beside this chord.
-            let at = tube.stations[chord] + (meet.0 - tube.points[chord]).dot(&tube.direction(chord));
+            let at = band.stations[chord] + (meet.0 - band.points[chord]).dot(&band.direction(chord));
             let (at, between) = (at.max(start).min(station), left_of_chord(chord, meet.0));
-            tube.holds(&stretch([start, at], [left, between]), bent, allowed)
-                && tube.holds(&stretch([at, station], [between, offset]), curvature, allowed)
+            band.holds(&stretch([start, at], [left, between]), bent, allowed)
+                && band.holds(&stretch([at, station], [between, offset]), curvature, allowed)
         };
         if !holds {
             return false;
@@ -337,14 +342,14 @@ mod tests {
     use crate::geom::polyline;
     use crate::machine::MachineProfile;
 
-    fn tube(points: Vec<Point>) -> Tube {
-        Tube::new(points, 0.05, ([0.0; 2], &MachineProfile::default()))
+    fn band(points: Vec<Point>) -> ToleranceBand {
+        ToleranceBand::new(points, 0.05, ([0.0; 2], &MachineProfile::default()))
     }
 
-    fn ends(tube: &Tube) -> Ends {
+    fn ends(band: &ToleranceBand) -> Ends {
         Ends {
-            start: tube.direction(0),
-            end: tube.direction(tube.chords() - 1),
+            start: band.direction(0),
+            end: band.direction(band.chords() - 1),
             stops: Vec::new(),
             curvature: f64::INFINITY,
             spares: false,
@@ -353,14 +358,14 @@ mod tests {
     }
 
     fn fitted(points: Vec<Point>) -> Vec<Arc> {
-        let tube = tube(points);
-        let arcs = fit(&tube, &ends(&tube)).expect("it fits");
-        check(&tube, &arcs);
+        let band = band(points);
+        let arcs = fit(&band, &ends(&band)).expect("it fits");
+        check(&band, &arcs);
         arcs
     }
 
-    /// By a measure that is not the fit's own: every place against the nearest chord and the height of its bulge.
-    fn check(tube: &Tube, arcs: &[Arc]) {
+    /// By a measure that is not the fit's own: every place against the nearest chord and the height of its sagitta.
+    fn check(band: &ToleranceBand, arcs: &[Arc]) {
         for pair in arcs.windows(2) {
             assert!((pair[0].at(pair[0].length) - pair[1].from).norm() < 1e-9, "no gap");
             let kink = angle::turn(pair[0].along_at(pair[0].length), pair[1].along).abs();
@@ -369,17 +374,17 @@ mod tests {
         for arc in arcs {
             for place in (0..=20).map(|i| arc.at(arc.length * f64::from(i) / 20.0)) {
                 let away = |chord: usize| {
-                    let ends = [tube.points[chord], tube.points[chord + 1]];
-                    polyline::distance_to_segment(place, ends[0], ends[1]) - tube.bulges[chord].norm()
+                    let ends = [band.points[chord], band.points[chord + 1]];
+                    polyline::distance_to_segment(place, ends[0], ends[1]) - band.sagittas[chord].norm()
                 };
-                let away = (0..tube.chords()).map(away).fold(f64::INFINITY, f64::min);
+                let away = (0..band.chords()).map(away).fold(f64::INFINITY, f64::min);
                 assert!(away <= 0.05, "{away} mm off at {place}");
             }
         }
     }
 
     #[test]
-    fn ways_of_short_chords_and_sharp_turns_stay_in_their_tube() {
+    fn ways_of_short_chords_and_sharp_turns_stay_in_their_band() {
         let mut random = fastrand::Rng::with_seed(3);
         let mut fits = 0;
         for _ in 0..400 {
@@ -391,9 +396,9 @@ mod tests {
                 heading += side * random.f64();
                 points.push(at);
             }
-            let tube = tube(points);
-            if let Ok(arcs) = fit(&tube, &ends(&tube)) {
-                check(&tube, &arcs);
+            let band = band(points);
+            if let Ok(arcs) = fit(&band, &ends(&band)) {
+                check(&band, &arcs);
                 fits += 1;
             }
         }
@@ -422,14 +427,14 @@ mod tests {
 
     #[test]
     fn an_arc_ends_where_the_feed_changes() {
-        let tube = Tube::new(
+        let band = ToleranceBand::new(
             (0..5).map(|i| Point::new(f64::from(i) * 10.0, 0.0)).collect(),
             0.05,
             ([0.0; 2], &MachineProfile::default()),
         );
-        let along = tube.direction(0);
+        let along = band.direction(0);
         let arcs = fit(
-            &tube,
+            &band,
             &Ends { start: along, end: along, stops: vec![1, 3], curvature: f64::INFINITY, spares: false, reach: 0.0 },
         )
         .expect("it fits");

@@ -1,83 +1,68 @@
 //! The machine's own coordinates along a path: with an eccentric knife the axes do not follow the tip.
 //!
-//! Centre q(u) = p(u) - r (cos c, sin c), c the blade's angle. Under the chord law ([`Chord`]) the tail is on the path, too.
-//! Under the tangent law c is the path's tangent; after a plunge as a chord it blends from the chord to the tangent over
+//! Centre q(u) = p(u) - r (cos c, sin c), c the blade's angle. Under the chord mode ([`Chord`]) the heel is on the path, too.
+//! Under the tangent mode c is the path's tangent; after a plunge as a chord it blends from the chord to the tangent over
 //! the next blade width. Derivatives to third order are closed forms: with X = x' y'' - y' x'' and n = x'^2 + y'^2,
 //! c' = X / n, c'' = X' / n - X n' / n^2, c''' = X'' / n - 2 X' n' / n^2 - X n'' / n^2 + 2 X n'^2 / n^3.
 
+use super::axes::{Axes, Blade};
 use super::chord::{self, Chord, TooTight};
 use super::fade::Fade;
-use super::smooth::Curve;
 use crate::geom::{Point, Rotation, Vector, angle, cross, left, spline};
 use crate::ir::toolpath::{Law, Pose};
+use crate::plan::spline::Curve;
 
 /// Samples a span when a place or an angle is searched along the curve.
 const SEARCH_A_SPAN: usize = 8;
 /// Halvings that place the plunge: down to rounding from any span.
 const BISECTIONS: usize = 60;
 
-/// The axes x, y (mm) and c (rad) and their derivatives by the path parameter, up to the third.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Axes {
-    /// Row k holds the k-th derivatives of x, y, c.
-    pub(super) q: [[f64; 3]; 4],
-    /// |p'|, the tip's way a unit of the parameter.
-    pub(super) pace: f64,
-}
-
 /// The way of the axes along a curve, from the plunge to the lift.
 #[derive(Debug)]
-pub(super) struct Way<'a> {
+pub(in crate::plan) struct Way<'a> {
     curve: &'a Curve,
     /// Parameter at the plunge and at the lift.
-    pub(super) from: f64,
-    pub(super) to: f64,
+    pub(in crate::plan) from: f64,
+    pub(in crate::plan) to: f64,
     blade: Blade,
     /// Unwrapped tangent angle where each span starts, rad.
     tangents: Vec<f64>,
     /// How far the tangent is ahead of a blade that plunged as a chord.
     fade: Option<Fade>,
-    /// The blade as a chord of the path, when that is its law.
+    /// The blade as a chord of the path, when that is its orientation mode.
     chord: Option<Chord>,
-}
-
-/// The blade, mm: from tail to tip, and from its centre to the tip.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Blade {
-    pub(super) width: f64,
-    pub(super) radius: f64,
 }
 
 /// What is asked of a way along a curve.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Course {
+pub(in crate::plan) struct Course {
     /// How the blade lies.
-    pub(super) law: Law,
+    pub(in crate::plan) law: Law,
     /// How it enters the path.
-    pub(super) entry: Entry,
+    pub(in crate::plan) entry: Entry,
     /// Parameter at the lift.
-    pub(super) to: f64,
-    pub(super) blade: Blade,
+    pub(in crate::plan) to: f64,
+    pub(in crate::plan) blade: Blade,
     /// C starts at the equivalent of its heading nearest to this.
-    pub(super) near: Rotation,
+    pub(in crate::plan) near: Rotation,
 }
 
 /// How the blade enters the path.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Entry {
-    /// As a chord whose tail stands at the start of the curve.
+pub(in crate::plan) enum Entry {
+    /// As a chord whose heel stands at the start of the curve.
     Plunge,
-    /// As its law has it, with the tip at this parameter.
+    /// As its orientation mode has it, with the tip at this parameter.
     Steady(f64),
 }
 
-/// Shorter ways are none, mm: below what a machine resolves and a tolerance notices. The blade only plunges then, and no law
+/// Shorter ways are none, mm: below what a machine resolves and a tolerance notices. The blade only plunges then, and no mode
 /// bears on that.
-pub(super) const WAY_EPSILON: f64 = 1e-3;
+pub(in crate::plan) const WAY_EPSILON: f64 = 1e-3;
 
 impl<'a> Way<'a> {
     /// The way along a curve as it is asked for.
-    pub(super) fn new(curve: &'a Curve, course: &Course) -> Result<Self, TooTight> {
+    pub(in crate::plan) fn new(curve: &'a Curve, course: &Course) -> Result<Self, TooTight> {
         let Course { law, entry, to, blade, near } = *course;
         let tangents = tangents(curve);
         let mut way = Self { curve, from: 0.0, to, blade, tangents, fade: None, chord: None };
@@ -87,12 +72,12 @@ impl<'a> Way<'a> {
         }
         match law {
             Law::Chord if blade.width > 0.0 && to - way.from >= WAY_EPSILON => {
-                let tail = match entry {
+                let heel = match entry {
                     Entry::Plunge => Some(0.0),
-                    Entry::Steady(from) => chord::tail_behind(curve, from, blade.width),
+                    Entry::Steady(from) => chord::heel_behind(curve, from, blade.width),
                 };
-                let tail = tail.ok_or(TooTight { at: way.point(way.from) })?;
-                way.chord = Some(Chord::new(curve, [tail, way.from, to], blade)?);
+                let heel = heel.ok_or(TooTight { at: way.point(way.from) })?;
+                way.chord = Some(Chord::new(curve, [heel, way.from, to], blade)?);
             }
             Law::Chord | Law::Tangent => {}
         }
@@ -147,12 +132,12 @@ impl<'a> Way<'a> {
     }
 
     /// A walk along the way that begins at a parameter.
-    pub(super) fn walk(&self, from: f64) -> Walk<'_> {
+    pub(in crate::plan) fn walk(&self, from: f64) -> Walk<'_> {
         Walk { way: self, span: spline::span(self.curve.breaks(), from) }
     }
 
     /// The tip at a parameter.
-    pub(super) fn point(&self, u: f64) -> Point {
+    pub(in crate::plan) fn point(&self, u: f64) -> Point {
         let [[x, y]] = self.curve.derivatives::<1>(u);
         Point::new(x, y)
     }
@@ -165,7 +150,7 @@ impl<'a> Way<'a> {
     }
 
     /// The axes at a parameter.
-    pub(super) fn at(&self, u: f64) -> Axes {
+    pub(in crate::plan) fn at(&self, u: f64) -> Axes {
         self.at_on(spline::span(self.curve.breaks(), u), u)
     }
 
@@ -206,28 +191,20 @@ impl<'a> Way<'a> {
     }
 
     /// The pose at a parameter.
-    pub(super) fn pose(&self, u: f64) -> Pose {
+    pub(in crate::plan) fn pose(&self, u: f64) -> Pose {
         self.at(u).pose()
     }
 
     /// Where the path's own polynomials meet, between the plunge and the lift, those two included.
-    pub(super) fn breaks(&self) -> Vec<f64> {
+    pub(in crate::plan) fn breaks(&self) -> Vec<f64> {
         let inner = self.curve.breaks().iter().copied().filter(|&b| b > self.from && b < self.to);
         std::iter::once(self.from).chain(inner).chain(std::iter::once(self.to)).collect()
     }
 }
 
-impl Axes {
-    /// Where they stand.
-    pub(super) fn pose(&self) -> Pose {
-        let [x, y, c] = self.q[0];
-        Pose::new(x, y, c)
-    }
-}
-
-/// Places along a way, none before the last one: under the tangent law each is found without a search, however long the way.
+/// Places along a way, none before the last one: under the tangent mode each is found without a search, however long the way.
 #[derive(Debug)]
-pub(super) struct Walk<'a> {
+pub(in crate::plan) struct Walk<'a> {
     way: &'a Way<'a>,
     span: usize,
 }
@@ -243,13 +220,13 @@ impl Walk<'_> {
     }
 
     /// The axes at a parameter.
-    pub(super) fn at(&mut self, u: f64) -> Axes {
+    pub(in crate::plan) fn at(&mut self, u: f64) -> Axes {
         let span = self.reach(u);
         self.way.at_on(span, u)
     }
 
     /// The tip at a parameter.
-    pub(super) fn point(&mut self, u: f64) -> Point {
+    pub(in crate::plan) fn point(&mut self, u: f64) -> Point {
         let span = self.reach(u);
         let [[x, y]] = self.way.curve.derivatives_on::<1>(span, u);
         Point::new(x, y)
@@ -275,16 +252,16 @@ fn tangents(curve: &Curve) -> Vec<f64> {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+pub(in crate::plan) mod tests {
     use super::*;
     use crate::machine::MachineProfile;
-    use crate::plan::smooth::smooth;
-    use crate::plan::tube::Tube;
+    use crate::plan::spline::ToleranceBand;
+    use crate::plan::spline::smooth;
 
     fn arc() -> Curve {
         let points =
             (0..=60).map(|i| f64::from(i) / 20.0).map(|a| Point::new(20.0 * a.cos(), 20.0 * a.sin())).collect();
-        smooth(&Tube::new(points, 0.05, &MachineProfile::default())).expect("an arc").curve
+        smooth(&ToleranceBand::new(points, 0.05, &MachineProfile::default())).expect("an arc").curve
     }
 
     fn way(curve: &Curve, entry: Entry, near: Rotation) -> Way<'_> {
@@ -314,7 +291,7 @@ pub(super) mod tests {
         for entry in [Entry::Plunge, Entry::Steady(3.0)] {
             let way = way(&curve, entry, Rotation(9.0));
             assert!((way.at(way.from).q[0][2] - 9.0).abs() <= std::f64::consts::PI);
-            differences_agree(&way, "the tangent law");
+            differences_agree(&way, "the tangent mode");
         }
     }
 
@@ -331,7 +308,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn a_chord_plunge_has_its_tail_at_the_start_and_ends_tangent() {
+    fn a_chord_plunge_has_its_heel_at_the_start_and_ends_tangent() {
         let curve = arc();
         let way = way(&curve, Entry::Plunge, Rotation(0.0));
         let pose = way.pose(way.from);

@@ -5,9 +5,9 @@
 //! tip and l the length of the fade. s is measured along the curve and not by its parameter: on a tight curve the two
 //! differ by more than a heading may be off.
 
-use super::smooth::Curve;
 use crate::geom::fade::left_of;
 use crate::geom::{Vector, spline};
+use crate::plan::spline::Curve;
 
 /// Positive nodes and weights of Gauss-Legendre quadrature with five points, and those of the middle: a span of a smooth
 /// curve is measured to rounding.

@@ -13,26 +13,26 @@ const SPEED_EPSILON: f64 = 1e-6;
 const SEAM: usize = 4;
 
 /// A cut, tick by tick.
-pub(super) struct Cutting<'a> {
+pub(in crate::plan) struct Cutting<'a> {
     /// Number of periods.
-    pub(super) ticks: usize,
+    pub(in crate::plan) ticks: usize,
     /// Their length, s.
-    pub(super) period: f64,
+    pub(in crate::plan) period: f64,
     /// Limits of x, y, c.
-    pub(super) limits: &'a [Limits; 3],
+    pub(in crate::plan) limits: &'a [Limits; 3],
     /// The pose at a tick, up to the one at the end.
-    pub(super) pose: &'a dyn Fn(usize) -> Pose,
+    pub(in crate::plan) pose: &'a dyn Fn(usize) -> Pose,
     /// Way of the tip from a tick to the next, mm.
-    pub(super) way: &'a dyn Fn(usize) -> f64,
+    pub(in crate::plan) way: &'a dyn Fn(usize) -> f64,
     /// Greatest speed of the tip from a tick to the next, mm/s.
-    pub(super) feed: &'a dyn Fn(usize) -> f64,
+    pub(in crate::plan) feed: &'a dyn Fn(usize) -> f64,
 }
 
 impl Cutting<'_> {
     /// How many ticks each limit decides. From rest up to where the tip is first as fast as it gets there, and from its
     /// last such place down to rest, the cut is bound by its start and its stop; in between by the limit that is used up
     /// most.
-    pub(super) fn shares(&self) -> Shares {
+    pub(in crate::plan) fn shares(&self) -> Shares {
         let pairs = self.ticks.saturating_sub(1);
         let start = (0..pairs).take_while(|&i| self.rises(i)).count();
         let stop = (0..pairs).take_while(|&i| self.falls(i)).count();
@@ -44,7 +44,7 @@ impl Cutting<'_> {
 
     /// The same of a cut that speeds up, cruises and slows down, without a look at each tick: it speeds up for about
     /// `rise` ticks, and slows down for as many.
-    pub(super) fn shares_of_cruise(&self, rise: usize) -> Shares {
+    pub(in crate::plan) fn shares_of_cruise(&self, rise: usize) -> Shares {
         let pairs = self.ticks.saturating_sub(1);
         let start = last_near(rise, pairs, |i| self.rises(i));
         let stop = last_near(rise, pairs, |i| self.falls(i));

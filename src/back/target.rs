@@ -1,0 +1,121 @@
+//! What a target is: the form that it needs, how it writes it, and how its bytes are judged.
+
+use std::io::{self, Seek, Write};
+
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::ir::arcs::{Interpolation, Unfit};
+use crate::ir::{Arcs, Finding, Marker, Motion, Toolpath};
+use crate::machine::Job;
+use crate::source::Source;
+
+/// Where a target writes: a file or a buffer; it may go back to fill in a header.
+pub trait Output: Write + Seek {}
+
+impl<T: Write + Seek> Output for T {}
+
+/// What a program is made from.
+#[derive(Debug, Clone, Copy)]
+pub struct Context<'a> {
+    /// What it was read from: the texts of labels stand there.
+    pub source: &'a Source,
+    /// The machine and the options of this compile.
+    pub job: &'a Job,
+    /// What is cut, after all passes.
+    pub marker: &'a Marker,
+}
+
+/// An output format: a row of [`TARGETS`](crate::back::TARGETS).
+#[derive(Debug)]
+pub struct Target {
+    /// Name, as `-t` takes it.
+    pub name: &'static str,
+    /// What it is, in a line.
+    pub about: &'static str,
+    /// Extension of its files, without the dot.
+    pub extension: &'static str,
+    /// The form that it needs, and how it writes it.
+    pub emit: Emit,
+    /// How its bytes are judged.
+    pub proof: Proof,
+}
+
+/// The form that a target needs; the pipeline goes no further.
+#[derive(Debug)]
+pub enum Emit {
+    /// From what the file says. What the target cannot express is a diagnostic, and then nothing is written.
+    Marker(fn(&Context, &mut dyn Output, &mut Diagnostics) -> io::Result<()>),
+    /// From what the knife does, one toolpath at a time.
+    Toolpath(Parts<Toolpath>),
+    /// From what the knife does as arcs and lines, one toolpath at a time.
+    Arcs(ArcTarget),
+    /// From the timed motion, one at a time.
+    Motion(Parts<Motion>),
+}
+
+impl Emit {
+    /// Whether it is made from what the knife does.
+    pub fn needs_toolpaths(&self) -> bool {
+        match self {
+            Self::Marker(_) => false,
+            Self::Toolpath(_) | Self::Arcs(_) | Self::Motion(_) => true,
+        }
+    }
+}
+
+/// A target that is written in parts: a head, a body for each form that comes, a tail.
+#[derive(Debug)]
+pub struct Parts<T> {
+    /// Written first.
+    pub head: fn(&Context, &mut dyn Output) -> io::Result<()>,
+    /// Written for each form, in order.
+    pub body: fn(&T, &Context, &mut dyn Output) -> io::Result<()>,
+    /// Written last, with what the verifier found in the setpoints of the same compile, or why there is no program; may
+    /// go back to the head.
+    pub tail: fn(&Context, &[Finding], &mut dyn Output) -> io::Result<()>,
+}
+
+/// A target whose controller plans for itself.
+#[derive(Debug)]
+pub struct ArcTarget {
+    /// How its controller can be told a path.
+    pub interpolation: fn(&Job) -> Interpolation,
+    /// What of the marker it cannot express: asked before the first byte. Refusals with the same message are of a kind, and
+    /// told as one.
+    pub refusals: fn(&Context) -> Vec<Diagnostic>,
+    /// Says of a run that it cannot be told as arcs and lines; likewise of a kind with others of that message.
+    pub unfit: fn(&Unfit) -> Diagnostic,
+    /// Begins a program.
+    pub begin: for<'a> fn(&Context<'a>) -> Box<dyn ArcWriter + 'a>,
+}
+
+/// A program that takes toolpaths, each with its arcs, in order.
+pub trait ArcWriter {
+    /// Writes what comes first.
+    fn head(&mut self, out: &mut dyn Output) -> io::Result<()>;
+    /// Writes a toolpath.
+    fn body(&mut self, toolpath: &Toolpath, arcs: &Arcs, out: &mut dyn Output) -> io::Result<()>;
+    /// Writes what comes last, and says what the controller makes of all.
+    fn tail(&mut self, out: &mut dyn Output) -> io::Result<Estimate>;
+}
+
+/// What a controller that plans for itself makes of a program.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// Its duration, s.
+    pub time: f64,
+    /// Arcs and lines with the knife down.
+    pub moves: usize,
+}
+
+/// How the verifier judges a target's bytes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Proof {
+    /// As timed setpoints.
+    Setpoints,
+    /// As positions without time.
+    Positions,
+    /// As a cutter file that must say the same.
+    Marker,
+    /// Not at all: a picture or a summary; the verdict is that on the setpoints.
+    None,
+}

@@ -1,0 +1,131 @@
+//! Reading: a source becomes a marker, and passes edit that.
+
+use std::path::Path;
+
+use super::place;
+use super::sound::assert_sound;
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::front::{self, Dialect, Read as Reader};
+use crate::ir::{Finding, Marker, check};
+use crate::machine::{Job, plot};
+use crate::pass::marker::{MARKER_PASSES, MarkerPass};
+use crate::recognise;
+use crate::source::Source;
+use crate::verify::{Census, Works};
+
+/// A file as read and passed: what is cut, in which order.
+#[derive(Debug)]
+pub struct Input {
+    /// What it was read as.
+    pub dialect: &'static Dialect,
+    /// What it says, as far as the job wants it cut.
+    pub marker: Marker,
+    /// Whether the source was read without errors: then there is something to show, whatever passes say of it.
+    pub is_whole: bool,
+}
+
+/// An input that programs are judged against.
+#[derive(Debug)]
+pub struct Judged {
+    /// What is cut.
+    pub input: Input,
+    /// What is known of how it was read.
+    pub reading: Reading,
+}
+
+/// What a file says in all, as it was read, and what passes kept of that.
+#[derive(Debug)]
+pub struct Reading {
+    /// Before any pass.
+    pub census: Census,
+    /// Whether all of it is still cut behind them.
+    pub kept: Finding,
+}
+
+/// Reads a source as `from`, or as what its content looks like, and runs the marker passes. `None` when nothing can be
+/// read; faults of the data are diagnostics.
+pub fn read(
+    source: &Source,
+    from: Option<&'static Dialect>,
+    job: &Job,
+    diagnostics: &mut Diagnostics,
+) -> Option<Input> {
+    let mut input = read_alone(source, from, job, diagnostics)?;
+    run_passes(marker_passes()[0], &mut input.marker, (source, job), diagnostics);
+    Some(input)
+}
+
+/// The same, with what it takes to judge a program.
+pub fn read_to_judge(
+    source: &Source,
+    from: Option<&'static Dialect>,
+    job: &Job,
+    diagnostics: &mut Diagnostics,
+) -> Option<Judged> {
+    let mut input = read_alone(source, from, job, diagnostics)?;
+    let (census, works) = rayon::join(|| Census::of(&input.marker), || Works::of(&input.marker));
+    run_passes(marker_passes()[0], &mut input.marker, (source, job), diagnostics);
+    let kept = works.kept(&input.marker, &job.profile);
+    Some(Judged { input, reading: Reading { census, kept } })
+}
+
+/// The marker as the source says it, before any pass.
+pub(super) fn read_alone(
+    source: &Source,
+    from: Option<&'static Dialect>,
+    job: &Job,
+    diagnostics: &mut Diagnostics,
+) -> Option<Input> {
+    let extension = Path::new(source.name()).extension().and_then(|e| e.to_str());
+    let dialect = from.or_else(|| front::detect(source, extension, diagnostics))?;
+    let marker = marker_of(dialect, source, job, diagnostics);
+    // Only a drawing leaves it to others which of its lines are cut.
+    if marker.drawing.is_none() && job.lines != plot::Lines::default() && !diagnostics.has_errors() {
+        let message = "`--cut-pens`, `--inner` and `--cut-all` choose among the lines of a plot, and this is none: all of it is cut";
+        let finding = Diagnostic::new(&code::SOURCE_NO_PLOT, message);
+        diagnostics.push(finding.hint("leave them out; `--pieces` and `--skip` choose pieces of any file"));
+    }
+    place::place(diagnostics, 0, (&marker, source, job));
+    Some(Input { dialect, marker, is_whole: !diagnostics.has_errors() })
+}
+
+/// What a source says is cut, as a dialect reads it, or as it is recognised in what the dialect says is drawn.
+pub fn marker_of(dialect: &Dialect, source: &Source, job: &Job, diagnostics: &mut Diagnostics) -> Marker {
+    match dialect.read {
+        Reader::Marker(read) => read(source, job, diagnostics),
+        Reader::Drawing(read) => {
+            let drawing = read(source, job, diagnostics);
+            // What is not read to its end would only be recognised wrongly.
+            if diagnostics.has_errors() { Marker::default() } else { recognise::marker(drawing, job, diagnostics) }
+        }
+    }
+}
+
+/// The passes that say what is drawn, and the one that makes cuts of it: only programs need these.
+fn marker_passes() -> [&'static [MarkerPass]; 2] {
+    let (last, first) = MARKER_PASSES.split_last().expect("there are passes");
+    [first, std::slice::from_ref(last)]
+}
+
+/// Makes the cuts of what was read.
+pub(super) fn make_cuts(input: &mut Input, source: &Source, job: &Job, diagnostics: &mut Diagnostics) {
+    run_passes(marker_passes()[1], &mut input.marker, (source, job), diagnostics);
+}
+
+/// Runs marker passes. What they find is placed before a pass can take it away.
+pub(super) fn run_passes(
+    passes: &[MarkerPass],
+    marker: &mut Marker,
+    (source, job): (&Source, &Job),
+    diagnostics: &mut Diagnostics,
+) {
+    for pass in passes {
+        if diagnostics.has_errors() {
+            break;
+        }
+        let known = diagnostics.iter().len();
+        (pass.run)(marker, job, diagnostics);
+        place::place(diagnostics, known, (marker, source, job));
+        assert_sound(pass.name, || check::marker(marker));
+    }
+}

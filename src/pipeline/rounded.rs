@@ -1,0 +1,44 @@
+//! Figures as they are told: rounded far below what a machine resolves, without stray decimals.
+
+/// Millionths that lengths and times are rounded to: micrometres of a metre, microseconds of a second.
+const MILLIONTHS: f64 = 1e6;
+/// The most decimals that [`significant`] keeps: what is smaller is noise of the computation.
+const MOST_DECIMALS: i32 = 12;
+
+/// `value` to some significant digits, for output: the nearest number that prints as short as that.
+pub fn significant(value: f64, digits: i32) -> f64 {
+    if value == 0.0 || !value.is_finite() {
+        return value;
+    }
+    let decimals = (digits - 1 - value.abs().log10().floor() as i32).min(MOST_DECIMALS);
+    let scale = 10_f64.powi(decimals.abs());
+    // A quotient or product with an exact power of ten is rounded once, so that no stray decimals follow.
+    if decimals < 0 { (value / scale).round() * scale } else { (value * scale).round() / scale }
+}
+
+/// Zero has no sign here: the sum of no lengths would have one.
+pub(super) fn to_millionths(value: f64) -> f64 {
+    (value * MILLIONTHS).round() / MILLIONTHS + 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_that_mean_nothing_are_cut_off() {
+        let check = |value, digits, expected| assert_eq!(significant(value, digits), expected);
+        check(1_199.954_212_454_599_7, 6, 1199.95);
+        check(1_200.000_000_000_045_5, 6, 1200.0);
+        check(1_004_000.9, 6, 1_004_000.0);
+        check(-0.061_234_567, 3, -0.0612);
+        check(0.0, 6, 0.0);
+        check(1e-300, 6, 0.0);
+        check(f64::INFINITY, 6, f64::INFINITY);
+    }
+
+    #[test]
+    fn a_sum_of_no_lengths_has_no_sign() {
+        assert_eq!(to_millionths(-0.0).to_string(), "0");
+    }
+}

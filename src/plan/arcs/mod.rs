@@ -1,0 +1,45 @@
+//! Few arcs and lines for controllers that plan for themselves: a polyline becomes biarcs inside its tolerance band.
+//!
+//! Receives the toolpath of one contour and how the controller can be told a path, promises pieces along which C turns
+//! evenly and the blade keeps its orientation, few because planners crawl over many short ones where a rotary axis moves.
+//! With the C axis behind the tip by r its way along an arc of radius R is an arc of radius sqrt(R^2 + r^2) around the same
+//! centre. Never plans speeds: what it says of them are caps.
+
+mod band;
+mod fade;
+mod fit;
+mod path;
+mod pieces;
+mod tip;
+
+use crate::geom::polyline;
+use crate::ir::arcs::{Arcs, Interpolation, Path, Reason, Unfit};
+use crate::ir::toolpath::{Law, Run, Step, Toolpath};
+use crate::machine::Job;
+
+/// The path of each run and stab of a toolpath, in order; otherwise the runs that have none.
+pub fn solve(toolpath: &Toolpath, interpolation: &Interpolation, job: &Job) -> Result<Arcs, Vec<Unfit>> {
+    let (mut paths, mut unfit) = (Vec::new(), Vec::new());
+    // The axis stands askew to the blade by that.
+    let yaw = job.profile.knife.yaw();
+    for step in &toolpath.steps {
+        match step {
+            Step::Run(run) => match path_of(run, toolpath.tolerance, (interpolation, job)) {
+                Ok(path) => paths.push(path.turned(run.edge.turn() + yaw)),
+                Err(reason) => unfit.push(Unfit { span: run.spans[0], reason }),
+            },
+            Step::Stab(stab) => paths.push(Path::plunge(stab.pose).turned(yaw)),
+            Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {}
+        }
+    }
+    if unfit.is_empty() { Ok(Arcs { paths }) } else { Err(unfit) }
+}
+
+fn path_of(run: &Run, tolerance: f64, (interpolation, job): (&Interpolation, &Job)) -> Result<Path, Reason> {
+    // On a straight run the orientation modes are one.
+    let law = if polyline::is_straight(&run.extended(), tolerance) { Law::Tangent } else { run.law };
+    match law {
+        Law::Tangent => path::path(run, tolerance, (interpolation, job)).map_err(Reason::Band),
+        Law::Chord => Err(Reason::Chord),
+    }
+}

@@ -1,0 +1,231 @@
+//! Solved runs are joined to a motion by turns and rapids, by plunges and lifts at rest.
+
+use super::certify::{Allowed, Differences, EXCESS_EPSILON, Peaks, Regime};
+use super::rapid;
+use super::run::{Cut, whole_periods};
+use crate::diagnostic::{Diagnostic, code};
+use crate::geom::Rotation;
+use crate::ir::motion::{Kind, Motion, Phase, Poses, Spell, Task};
+use crate::ir::toolpath::{Drill, Harm, Pose, Run, Stab, Step, Toolpath};
+use crate::machine::Job;
+use crate::source::Span;
+use crate::units::number::fixed;
+use crate::units::rad;
+
+/// Joins solved runs to a program: knows where the axes stand and what time it is.
+#[derive(Debug)]
+pub struct Planner<'a> {
+    job: &'a Job,
+    allowed: Allowed,
+    pose: Pose,
+    tick: u64,
+    steps: u64,
+    time: f64,
+    /// Time that the blade still needs until it is all the way up, s: it may be clear of the cloth before.
+    rising: f64,
+    differences: Differences,
+}
+
+impl<'a> Planner<'a> {
+    /// A program that starts at rest at home.
+    pub fn new(job: &'a Job) -> Self {
+        let pose = home(job);
+        let allowed = Allowed { cut: job.profile.axes.limits(), rapid: job.profile.axes.travel_limits() };
+        let mut differences = Differences::new(job.profile.time.period(), &allowed);
+        differences.push(pose, Regime::Rapid);
+        Self { job, allowed, pose, tick: 0, steps: 0, time: 0.0, rising: 0.0, differences }
+    }
+
+    /// The timed motion of a toolpath whose runs were solved.
+    pub fn join(&mut self, toolpath: &Toolpath, cuts: Vec<Cut>) -> Motion {
+        let mut motion = self.begin(toolpath.piece);
+        let mut cuts = cuts.into_iter();
+        let mut kind = Kind::Travel;
+        for (step, next) in toolpath.steps.iter().zip(toolpath.steps.iter().skip(1).map(Some).chain([None])) {
+            match step {
+                Step::Turn(rapid) | Step::Travel(rapid) => {
+                    kind = if matches!(step, Step::Turn(_)) { Kind::Turn } else { Kind::Travel };
+                    // What follows a move decides where it ends; one that nothing follows ends where it says.
+                    if next.is_none_or(|next| matches!(next, Step::Turn(_) | Step::Travel(_))) {
+                        self.go(kind, rapid.to, &mut motion);
+                    }
+                }
+                Step::Run(run) => {
+                    motion.tasks.push(task_of_run(run));
+                    self.run(kind, cuts.next().expect("solve gives a cut for each run"), &mut motion);
+                }
+                Step::Stab(stab) => {
+                    motion.tasks.push(task_of_stab(stab));
+                    self.stab(kind, stab, &mut motion);
+                }
+                Step::Drill(drill) => {
+                    motion.tasks.push(Task { blocks: [drill.span.block; 2], ..Task::default() });
+                    self.drill(kind, drill, &mut motion);
+                }
+                Step::Event(event) => {
+                    self.rise(&mut motion);
+                    self.hold(Kind::Event(*event), 0.0, 0, &mut motion);
+                }
+            }
+        }
+        motion
+    }
+
+    /// The end of the program: to the park pose if there is one, and a last setpoint at rest.
+    pub fn finish(&mut self) -> Motion {
+        let mut motion = self.begin(0);
+        if let Some([x, y, c]) = self.job.profile.park {
+            self.go(Kind::Travel, Pose::new(x, y, rad(c)), &mut motion);
+        }
+        self.rise(&mut motion);
+        self.hold(Kind::Rest, 0.0, 0, &mut motion);
+        self.differences.rest(self.pose, Regime::Rapid);
+        motion
+    }
+
+    /// The greatest speed, acceleration and jerk of the program so far.
+    pub fn peaks(&self) -> Peaks {
+        self.differences.peaks()
+    }
+
+    /// Whether the whole program keeps the limits: the last word, over every setpoint in order.
+    pub fn certify(&self) -> Result<(), Diagnostic> {
+        let rho = self.differences.excess();
+        if rho <= 1.0 + EXCESS_EPSILON {
+            return Ok(());
+        }
+        let percent = fixed((rho - 1.0) * 100.0, 3);
+        Err(Diagnostic::new(
+            &code::PLAN_CERTIFY,
+            format!("the program as a whole exceeds a limit by {percent} % of time"),
+        ))
+    }
+
+    /// A motion that begins now.
+    fn begin(&self, piece: u32) -> Motion {
+        let (first_tick, first_step, first_time) = (self.tick, self.steps, self.time);
+        Motion { piece, first_tick, first_step, first_time, phases: Vec::new(), tasks: Vec::new() }
+    }
+
+    /// To the start of a run, down, along it and up; `kind` is that of the rapid before it.
+    fn run(&mut self, kind: Kind, mut cut: Cut, motion: &mut Motion) {
+        cut.turn(self.job.profile.knife.yaw());
+        self.go(kind, cut.start(), motion);
+        self.plunge(cut.spells[0].block, motion);
+        self.cut(cut, motion);
+        self.lift(motion);
+    }
+
+    /// To a stab, down and up.
+    fn stab(&mut self, kind: Kind, stab: &Stab, motion: &mut Motion) {
+        self.go(kind, yawed(stab.pose, self.job), motion);
+        let block = stab.spans.last().map_or(0, |span| span.block);
+        self.plunge(block, motion);
+        self.lift(motion);
+    }
+
+    /// With the drill over a hole, and drill.
+    fn drill(&mut self, kind: Kind, drill: &Drill, motion: &mut Motion) {
+        let keys = &self.job.profile.drill;
+        let [x, y] = keys.offset_mm;
+        let there = Pose::new(drill.at.x - x, drill.at.y - y, self.pose.c.0);
+        if there == self.pose {
+            // The drill goes up for a period at least, so that two holes at one place are two.
+            self.hold(Kind::Travel, 0.0, 0, motion);
+        }
+        self.go(kind, there, motion);
+        self.rise(motion);
+        self.hold(Kind::Drill(drill.tool), keys.dwell(), 0, motion);
+    }
+
+    /// A rapid to a pose, when it is another one.
+    fn go(&mut self, kind: Kind, to: Pose, motion: &mut Motion) {
+        if to == self.pose {
+            return;
+        }
+        let glide = rapid::glide(self.pose, to, &self.allowed.rapid);
+        let (duration, length) = (glide.duration(), glide.length());
+        let ticks = whole_periods(duration, self.job.profile.time.period());
+        self.emit(Phase { kind, ticks, poses: Poses::Glide(glide), spells: Vec::new(), duration, length }, to, motion);
+    }
+
+    /// Down, once the blade is all the way up.
+    fn plunge(&mut self, block: u32, motion: &mut Motion) {
+        self.rise(motion);
+        self.hold(Kind::Plunge, self.job.profile.knife.plunge(), block, motion);
+    }
+
+    /// Up: the axes rest until the blade is clear of the cloth.
+    fn lift(&mut self, motion: &mut Motion) {
+        let knife = &self.job.profile.knife;
+        self.hold(Kind::Lift, knife.clear(), 0, motion);
+        self.rising = knife.lift() - knife.clear();
+    }
+
+    /// At rest until the blade is all the way up.
+    fn rise(&mut self, motion: &mut Motion) {
+        if self.rising > 0.0 {
+            self.hold(Kind::Wait, self.rising, 0, motion);
+        }
+    }
+
+    /// At rest for a time, at least one period.
+    fn hold(&mut self, kind: Kind, duration: f64, block: u32, motion: &mut Motion) {
+        let ticks = whole_periods(duration, self.job.profile.time.period());
+        let spells = vec![Spell { first: 0, block }];
+        let phase = Phase { kind, ticks, poses: Poses::Still(self.pose), spells, duration, length: 0.0 };
+        self.emit(phase, self.pose, motion);
+    }
+
+    /// Along a run, when it has a way.
+    fn cut(&mut self, cut: Cut, motion: &mut Motion) {
+        if let Some((phase, end)) = cut.phase() {
+            self.emit(phase, end, motion);
+        }
+    }
+
+    fn emit(&mut self, mut phase: Phase, end: Pose, motion: &mut Motion) {
+        if !self.job.mode.cuts() {
+            phase = Phase { kind: phase.kind.raised(), spells: Vec::new(), ..phase };
+        }
+        let regime = if phase.kind.knife_down() { Regime::Cut } else { Regime::Rapid };
+        self.differences.pass(&phase, regime);
+        // What lasts longer than its due in whole periods lets the blade rise farther.
+        self.rising = (self.rising - f64::from(phase.ticks) * self.job.profile.time.period()).max(0.0);
+        self.tick += u64::from(phase.ticks);
+        self.steps += u64::from(phase.kind.begins_step());
+        self.time += phase.duration;
+        self.pose = end;
+        motion.phases.push(phase);
+    }
+}
+
+/// What a run is for.
+fn task_of_run(run: &Run) -> Task {
+    let Run { front, heel, turned, edge, law, .. } = *run;
+    let sides = run.ends.map(|end| end.side);
+    Task { blocks: ends(&run.spans), front, heel, sides, turned, edge, harm: [Harm::default(); 2], law: Some(law) }
+}
+
+/// What a stab is for.
+fn task_of_stab(stab: &Stab) -> Task {
+    let Stab { front, heel, turned, edge, harm, .. } = *stab;
+    let sides = stab.ends.map(|end| end.side);
+    Task { blocks: ends(&stab.spans), front, heel, sides, turned, edge, harm, law: None }
+}
+
+/// The first and the last block of a chain.
+fn ends(spans: &[Span]) -> [u32; 2] {
+    [spans.first(), spans.last()].map(|span| span.map_or(0, |span| span.block))
+}
+
+/// The pose of the axes that puts the blade into a pose: C is corrected by the yaw.
+fn yawed(pose: Pose, job: &Job) -> Pose {
+    Pose { c: Rotation(pose.c.0 + job.profile.knife.yaw()), ..pose }
+}
+
+/// The pose at which programs start.
+pub fn home(job: &Job) -> Pose {
+    let [x, y, c] = job.profile.home;
+    Pose::new(x, y, rad(c))
+}

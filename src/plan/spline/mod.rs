@@ -1,0 +1,13 @@
+//! The path of the tip: the polyline of a run, with its overlaps, becomes a smooth curve inside the tolerance band.
+//!
+//! Receives a run, promises a spline of degree 5 that stays in its [`ToleranceBand`] everywhere, or the least deviation
+//! that it found. Never asks how fast anything moves, or how the blade lies.
+
+mod band;
+mod extended;
+mod knots;
+mod smooth;
+
+pub(super) use band::ToleranceBand;
+pub(super) use extended::{Blocks, Extended};
+pub(super) use smooth::{Curve, Smooth, smooth};
