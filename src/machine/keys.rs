@@ -6,7 +6,7 @@
 use super::codes;
 pub use super::codes::{CODE_NAMES, CODES, near_codes};
 use super::key::Family;
-pub use super::key::{Key, Takes, shown_value};
+pub use super::key::{Key, Takes, Within, shown_value};
 use super::plot;
 use super::profile::{self, MachineProfile};
 use super::{axes, counts, drill, gcode, knife, labels, notches, path, table, time, verify};

@@ -5,6 +5,7 @@
 
 mod keys;
 mod rules;
+mod spelling;
 mod step;
 mod text;
 mod words;
@@ -13,6 +14,7 @@ use serde::{Deserialize, Serialize};
 
 pub(super) use self::keys::KEYS;
 pub(super) use self::rules::faults;
+pub(super) use self::spelling::spellings;
 pub use self::step::{Number, Parameter, Step};
 pub(super) use self::words::Flaw;
 use super::word::{Off, OrWord};

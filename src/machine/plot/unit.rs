@@ -27,6 +27,12 @@ impl PlotUnit {
         self.mm
     }
 
+    /// What [`parse`](Self::parse) reads, as a regular expression for the whole of it.
+    pub(in crate::machine) fn pattern() -> String {
+        const NUMBER: &str = r"\+?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?";
+        format!(r"^\s*{NUMBER}(?:\s*/\s*{NUMBER})?\s*(?:mm|in|dpi)?\s*$")
+    }
+
     /// Reads `1/40 mm`, `1/1000 in`, `1/40` (mm) or `600 dpi`; `None` for anything else.
     pub fn parse(text: &str) -> Option<Self> {
         let (value, factor) = if let Some(dots) = text.trim().strip_suffix("dpi") {
