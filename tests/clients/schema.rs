@@ -124,8 +124,7 @@ fn a_validator_of_json_schemas_judges_profiles_as_loading_does() {
     let ran = python(SCRIPT, folder.path());
     let said = String::from_utf8_lossy(&ran.stdout);
     assert!(ran.status.success(), "{}", String::from_utf8_lossy(&ran.stderr));
-    let expected: String = LEFT_TO_LOADING.iter().map(|name| format!("left to loading: {name}\n")).collect();
-    assert_eq!(said, expected);
+    assert_eq!(said.lines().collect::<Vec<_>>(), LEFT_TO_LOADING.map(|name| format!("left to loading: {name}")));
 }
 
 #[test]

@@ -29,11 +29,11 @@ fn pattern(form: &Form) -> String {
     let letters = either_case(&format!("{}{}", form.needs, form.takes));
     let word = format!(r"\s*{letters}{number_of_word}");
     // As many words as letters, and each letter somewhere among them: each has one word, in any order.
-    let each: String = form.needs.chars().map(|c| format!("(?=.*{})", either_case(&c.to_string()))).collect();
+    let each: Vec<String> = form.needs.chars().map(|c| format!("(?=.*{})", either_case(&c.to_string()))).collect();
     let words = match (form.needs.len(), form.takes.len()) {
         (0, 0) => String::new(),
         (1, 0) => word,
-        (needs, takes) => format!("{each}(?:{word}){{{needs},{}}}", needs + takes),
+        (needs, takes) => format!("{}(?:{word}){{{needs},{}}}", each.concat(), needs + takes),
     };
     format!(r"^\s*{code}{words}\s*$")
 }

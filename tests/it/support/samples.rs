@@ -40,7 +40,7 @@ fn around(within: Within) -> Vec<Value> {
     };
     let (least, greatest) = (end(within.least), end(within.greatest));
     let beside = 1e-3 * (greatest - least);
-    let numbers = [least - beside, least, least + beside, (least + greatest) / 2.0, greatest - beside, greatest];
+    let numbers = [least - beside, least, least + beside, f64::midpoint(least, greatest), greatest - beside, greatest];
     numbers.into_iter().chain([greatest + beside, greatest * 1e3]).map(Value::from).collect()
 }
 
