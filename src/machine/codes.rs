@@ -15,8 +15,7 @@ pub(super) const KEYS: &[Key] = &[
 ];
 
 /// A key a code.
-pub(super) const FAMILY: Family =
-    Family { start: CODES, key: "codes.<code>", has: is_code, pattern, example: "M19 = \"ignore\"" };
+pub(super) const FAMILY: Family = Family { start: CODES, has: is_code, pattern, example: "M19 = \"ignore\"" };
 
 /// Whether a code of the cutter file is obeyed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

@@ -36,9 +36,9 @@ pub struct Counts {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct LinearCounts {
-    /// Of a mm.
+    /// Counts of a mm.
     pub per_mm: f64,
-    /// At 0.
+    /// Counts at 0.
     pub offset: f64,
 }
 
@@ -46,9 +46,9 @@ pub struct LinearCounts {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct RotaryCounts {
-    /// Of a degree.
+    /// Counts of a degree.
     pub per_deg: f64,
-    /// At 0 of the controller.
+    /// Counts at 0 of the controller.
     pub offset: f64,
 }
 

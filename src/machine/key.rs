@@ -260,10 +260,8 @@ impl Key {
 /// Keys that a profile has as many of as it likes: a key a code, a key a pen.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Family {
-    /// What the names of them all begin with, without the dot.
+    /// What the names of them all begin with, without the dot; so does that of the one row that describes them.
     pub(super) start: &'static str,
-    /// The name of the one row that describes them.
-    pub(super) key: &'static str,
     /// Whether a word may stand behind the dot.
     pub(super) has: fn(&str) -> bool,
     /// The same as a regular expression for the whole of the word; it also takes what is spelled otherwise.

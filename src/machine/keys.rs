@@ -69,8 +69,9 @@ pub fn find(name: &str) -> Option<&'static Key> {
         let word = name.strip_prefix(family.start).and_then(|rest| rest.strip_prefix('.'));
         word.is_some_and(family.has)
     };
-    let name = FAMILIES.iter().find(is_of).map_or(name, |family| family.key);
-    KEYS.iter().find(|key| key.name == name)
+    let family = FAMILIES.iter().find(is_of);
+    let is_meant = |key: &Key| family.map_or(key.name == name, |family| key.section() == family.start);
+    KEYS.iter().find(|key| is_meant(key))
 }
 
 /// Whether the name is that of a table of keys, such as `axes.x`.

@@ -174,3 +174,16 @@ impl MachineProfile {
         self.codes.get(code) != Some(&CodeUse::Ignore)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::keys;
+
+    #[test]
+    fn what_is_said_of_the_automatic_tolerance_is_true() {
+        let about = keys::find("path.tolerance_mm").expect("a key").about;
+        assert!(about.contains(&format!("\"auto\" = {AUTO_TOLERANCE} mm,")), "{about}");
+        assert_eq!(MachineProfile::default().tolerance(0.0), AUTO_TOLERANCE);
+    }
+}

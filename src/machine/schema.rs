@@ -2,7 +2,8 @@
 //! while it is written.
 //!
 //! Nothing that loads breaks it. What it cannot say is left to loading: rules between keys, the order of two numbers, ranges
-//! of values that are texts with a unit, which names of encodings there are, and what lines of text do.
+//! of values that are texts with a unit or words of a step, which names of encodings there are, what lines of text do. To
+//! JSON 1.0 is a whole number, to TOML none.
 
 use std::ops::Bound;
 
@@ -156,7 +157,8 @@ fn step() -> Value {
     let kinds = spellings().map(|kind| {
         json!({ "description": kind.about, "examples": [kind.example], "type": "string", "pattern": kind.pattern })
     });
-    json!({ "description": "A step of the controller: what stands in a line of its program.", "anyOf": kinds.collect::<Vec<_>>() })
+    let kinds: Vec<Value> = kinds.collect();
+    json!({ "description": "A step of the controller: a line of its program.", "anyOf": kinds })
 }
 
 /// A value of a profile in JSON.

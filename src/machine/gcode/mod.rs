@@ -23,24 +23,24 @@ use super::word::{Off, OrWord};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Gcode {
-    /// Of the axis that turns the blade.
+    /// The axis that turns the blade.
     pub letter: Letter,
-    /// It counts within a turn.
+    /// That axis counts within a turn.
     pub wrapped: bool,
-    /// It turns on arcs.
+    /// It turns on arcs, too.
     pub arcs: bool,
     /// What F says.
     pub feed_mode: FeedMode,
-    /// For G64 P.
+    /// P of G64.
     #[serde(with = "OrWord::<Off>")]
     pub blend_mm: Option<f64>,
     /// Of positions.
     pub decimals: u32,
-    /// With N.
+    /// Lines have N.
     pub line_numbers: bool,
-    /// Of the blade on straight pieces of C.
+    /// The blade from its law.
     pub heading_tolerance_deg: f64,
-    /// Of a straight piece for an arc.
+    /// A straight piece from its arc.
     pub chord_mm: f64,
     /// Lines at the start.
     pub header: String,

@@ -312,6 +312,13 @@ mod tests {
     }
 
     #[test]
+    fn what_is_said_of_drills_and_waits_is_true() {
+        let about = |name: &str| crate::machine::keys::find(name).expect("a key").about;
+        assert!(about("gcode.drill_down").contains(&format!("{} to {}", DRILLS.start(), DRILLS.end())));
+        assert!(WAITS.iter().all(|m| about("gcode.stop").contains(&format!("M{m}"))));
+    }
+
+    #[test]
     fn a_list_does_what_it_is_for() {
         check(&[("knife_up", "")], &["`gcode.knife_up` has no step"]);
         check(&[("knife_down", "G4 P0.05")], &["`gcode.knife_down` has no step that moves or switches something"]);

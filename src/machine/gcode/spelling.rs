@@ -25,7 +25,8 @@ fn pattern(form: &Form) -> String {
     let (letter, number) = form.code.split_at(1);
     // What acts on drills may name theirs.
     let number_of_word = if letter == "M" { format!("(?:#|{NUMBER})") } else { NUMBER.to_owned() };
-    let code = format!(r"{}\+?0*{number}(?:\.0*)?", either_case(letter));
+    let number = if number == "0" { r"[+-]?(?:0+\.?0*|\.0+)" } else { &format!(r"\+?0*{number}(?:\.0*)?") };
+    let code = format!("{}{number}", either_case(letter));
     let letters = either_case(&format!("{}{}", form.needs, form.takes));
     let word = format!(r"\s*{letters}{number_of_word}");
     // As many words as letters, and each letter somewhere among them: each has one word, in any order.
@@ -51,7 +52,7 @@ mod tests {
     fn a_pattern_has_the_words_of_its_form() {
         let of = |start: &str| spellings().find(|kind| kind.example.starts_with(start)).expect("a form").pattern;
         assert_eq!(of("M5"), r"^\s*[Mm]\+?0*5(?:\.0*)?\s*$");
-        assert_eq!(of("G0"), format!(r"^\s*[Gg]\+?0*0(?:\.0*)?\s*[Zz]{NUMBER}\s*$"));
+        assert_eq!(of("G0"), format!(r"^\s*[Gg][+-]?(?:0+\.?0*|\.0+)\s*[Zz]{NUMBER}\s*$"));
         assert_eq!(of("M3"), format!(r"^\s*[Mm]\+?0*3(?:\.0*)?(?:\s*[Ss](?:#|{NUMBER})){{0,1}}\s*$"));
         let both = format!(r"(?=.*[Zz])(?=.*[Ff])(?:\s*[ZFzf]{NUMBER}){{2,2}}");
         assert_eq!(of("G1"), format!(r"^\s*[Gg]\+?0*1(?:\.0*)?{both}\s*$"));

@@ -26,13 +26,8 @@ pub(super) const KEYS: &[Key] = &[
 pub(super) const NO_PEN: &str = "hpgl.pens.0";
 
 /// A key a pen.
-pub(super) const PENS: Family = Family {
-    start: "hpgl.pens",
-    key: "hpgl.pens.<pen>",
-    has: is_pen,
-    pattern: || "[1-9][0-9]{0,2}".to_owned(),
-    example: "1 = \"knife\"",
-};
+pub(super) const PENS: Family =
+    Family { start: "hpgl.pens", has: is_pen, pattern: || "[1-9][0-9]{0,2}".to_owned(), example: "1 = \"knife\"" };
 
 /// Whether a word is the number of a pen: up to three digits, written in one way only. Pen 0 is none.
 fn is_pen(word: &str) -> bool {

@@ -26,7 +26,7 @@ fn of_all_types() -> Vec<Value> {
 /// Steps of controllers, and texts that are none.
 #[rustfmt::skip] // short texts, many to a line
 const STEPS: &[&str] = &[
-    "M0", "m65p#", "M64 P0", "M64P0.0", "M3", "M3 S#", "M03 s1000.", "M66 P1 L3 Q2", "m66q2l3p#", "M68 E0 Q-5", "G4 P.5",
+    "M0", "M-0", "m.0", "M00.", "m65p#", "M64 P0", "M64P0.0", "M3", "M3 S#", "M03 s1000.", "M66 P1 L3 Q2", "m66q2l3p#", "M68 E0 Q-5", "G4 P.5",
     "G00 Z-02.50", "g00Z+05", "G1 F300 Z5", "G01z-2.0f300.", " G0 Z1 ", "", "Z-2", "P0 M64", "G1 Z-2", "G1 Z-2 Z5",
     "G0 Z-2 F300", "G0", "G0 C5", "G0 Z#", "G10 Z1", "G33", "G55", "M2", "M71", "M101", "M62 P0", "M64", "M64 P",
     "M64 P0 P1", "M64 P0 M65", "M3 X5", "M3 S1 S2", "M3 S1e3", "M66 P0 L3", "M66 P0 P1 Q2", "M3 (on)", "M 3", "M3.5",
