@@ -1,4 +1,4 @@
-//! `cutc profile`: show, begin or check a machine profile.
+//! `cutc profile`: show, begin, describe or check a machine profile.
 
 use std::io::Write as _;
 use std::path::PathBuf;
@@ -9,7 +9,8 @@ use super::draft::Draft;
 use super::files;
 use super::finished::{DONE, Finished};
 use super::options::{Machine, refuse};
-use crate::machine::{Comments, MachineProfile, load};
+use super::report::pretty;
+use crate::machine::{Comments, MachineProfile, load, schema};
 
 /// What stands above the keys of a new profile.
 const HEAD: &str = "\
@@ -39,6 +40,9 @@ enum Command {
         #[arg(short, long, value_name = "PROFILE.toml")]
         out: Option<PathBuf>,
     },
+    /// Print a JSON Schema, by which editors complete and check a profile that begins with the line
+    /// `#:schema ./cutc.schema.json`
+    Schema,
     /// Say everything that is wrong with profiles
     Check {
         /// Profiles to check
@@ -53,6 +57,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
             Ok(job) => Finished::text(job.profile.effective().to_toml(Comments::Plain), String::new(), DONE),
             Err(refused) => refused,
         }),
+        Command::Schema => Ok(Finished::text(pretty(&schema()), String::new(), DONE)),
         Command::Init { out } => init(out.as_ref()),
         Command::Check { files } => Ok(check(files)),
     }

@@ -2,6 +2,24 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::key::{Key, Takes, Within, from};
+
+/// Encoder counts of a mm or a degree.
+const COUNTS: Within = from(1.0, 1.0e7);
+/// What a register of 32 bits holds, counts.
+const REGISTER: Within = from(i32::MIN as f64, i32::MAX as f64);
+
+/// The keys `counts.*`.
+#[rustfmt::skip] // a table: one row a key
+pub(super) const KEYS: &[Key] = &[
+    Key { name: "counts.x.per_mm", takes: Takes::Number(COUNTS), about: "Target counts: encoder counts of a millimetre along the table." },
+    Key { name: "counts.x.offset", takes: Takes::Number(REGISTER), about: "Target counts: what the encoder shows at X 0." },
+    Key { name: "counts.y.per_mm", takes: Takes::Number(COUNTS), about: "Target counts: encoder counts of a millimetre across the table." },
+    Key { name: "counts.y.offset", takes: Takes::Number(REGISTER), about: "Target counts: what the encoder shows at Y 0." },
+    Key { name: "counts.c.per_deg", takes: Takes::Number(COUNTS), about: "Target counts: encoder counts of a degree of the blade's turn." },
+    Key { name: "counts.c.offset", takes: Takes::Number(REGISTER), about: "Target counts: what the encoder shows at C 0 of the controller." },
+];
+
 /// The encoders of the drives, for the target `counts`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -18,9 +36,9 @@ pub struct Counts {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct LinearCounts {
-    /// Counts per mm.
+    /// Counts of a mm.
     pub per_mm: f64,
-    /// Counts at 0 mm.
+    /// Counts at 0.
     pub offset: f64,
 }
 
@@ -28,9 +46,9 @@ pub struct LinearCounts {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct RotaryCounts {
-    /// Counts per degree.
+    /// Counts of a degree.
     pub per_deg: f64,
-    /// Counts at 0 degrees of the controller.
+    /// Counts at 0 of the controller.
     pub offset: f64,
 }
 

@@ -1,60 +1,90 @@
-//! The blade and what it does at the ends of a cut.
+//! The blade and what it does at the ends of a cut: the keys `knife.*`.
 
 use serde::{Deserialize, Serialize};
 
-use super::word::{Auto, Off, OrWord};
+use super::key::{Key, REST, SPEED, Takes, Within, from};
+use super::word::{Auto, Off, OrWord, Word as _, words};
 use crate::units::{MS_PER_S, rad};
+
+/// Blades and what belongs to them, mm: longer ones are a slip of the unit.
+const BLADE: Within = from(0.0, 1000.0);
+
+/// The keys `knife.*`.
+#[rustfmt::skip] // a table: one row a key
+pub(super) const KEYS: &[Key] = &[
+    Key { name: "knife.width_mm", takes: Takes::Number(BLADE), about: "Knife width: the blade from heel to tip as it is today, worn by sharpening. 0 = a point." },
+    Key { name: "knife.back_mm", takes: Takes::NumberOr(BLADE, Auto::WORD), about: "From the C axis back to the heel (the advance of M17). Sharpening takes the front, so it stays\nwhile the width shrinks. \"auto\" = what radius_mm leaves." },
+    Key { name: "knife.radius_mm", takes: Takes::NumberOr(BLADE, Auto::WORD), about: "From the C axis forward to the tip. Give this or back_mm; \"auto\" = what back_mm leaves." },
+    Key { name: "knife.front_overlap_mm", takes: Takes::Number(BLADE), about: "Overcut: how far the tip cuts past the end of a line." },
+    Key { name: "knife.corner_front_overlap_mm", takes: Takes::Number(BLADE), about: "Corner overcut: the same before the knife is lifted at a corner." },
+    Key { name: "knife.heel_overlap_mm", takes: Takes::Number(BLADE), about: "How far the heel plunges before the start of a line (back_mm less the advance before plunge)." },
+    Key { name: "knife.corner_heel_overlap_mm", takes: Takes::Number(BLADE), about: "The same where the knife plunges again at a corner (back_mm less the corner advance)." },
+    Key { name: "knife.reflex_front_overlap_mm", takes: Takes::Number(BLADE), about: "Overcut at the ends of lines and at corners where it would run into the part." },
+    Key { name: "knife.reflex_heel_overlap_mm", takes: Takes::Number(BLADE), about: "Heel overlap at the ends of lines and at corners where it would run into the part." },
+    Key { name: "knife.clearance_mm", takes: Takes::Number(BLADE), about: "How far overlaps stay away from the next part; in a narrower gap they are shortened." },
+    Key { name: "knife.feed_mm_s", takes: Takes::NumberOr(SPEED, Off::WORD), about: "Maximum cutting velocity of the tip; \"off\" = whatever the axes can do." },
+    Key { name: "knife.slow_percent", takes: Takes::Percent, about: "Speed of slowed cuts (M25), a part of the cutting velocity." },
+    Key { name: "knife.plunge_ms", takes: Takes::Number(REST), about: "How long the axes rest while the knife goes down." },
+    Key { name: "knife.lift_ms", takes: Takes::Number(REST), about: "How long the axes rest while the knife comes up." },
+    Key { name: "knife.clear_ms", takes: Takes::NumberOr(REST, Off::WORD), about: "How long after the lift command the blade is clear of the cloth, so that the axes may move\nbefore it is all the way up; \"off\" = they wait for lift_ms." },
+    Key { name: "knife.max_down_mm", takes: Takes::NumberOr(from(1.0, 1.0e6), Off::WORD), about: "Maximum distance with the knife down: a longer cut is lifted there and rejoined with overlap." },
+    Key { name: "knife.follow", takes: Takes::Word(words::<Follow>), about: "How the blade lies on curves: \"tangent\" = the tip on the line, the blade along it; \"chord\" =\ntip and heel both on the line." },
+    Key { name: "knife.tight_curves", takes: Takes::Word(words::<TightCurves>), about: "Curves tighter than the blade, on which it would stand across as a chord (an arc of less than 0.55\nblade widths, a right angle rounded with less than 0.4): \"follow\" = cut along the tangent,\n\"nibble\" = by overlapping plunges within the tolerance, \"refuse\" = an error." },
+    Key { name: "knife.max_bow_mm", takes: Takes::Number(BLADE), about: "How far a blade that plunges on a curve may lie beside it: it is straight. Beyond that it is as\n`knife.tight_curves` says: a warning, nibbled, or an error." },
+    Key { name: "knife.edges", takes: Takes::Whole(&[1, 2]), about: "Cutting edges: a blade with 2 may run either way round, heel first where C then turns less." },
+    Key { name: "knife.yaw_deg", takes: Takes::Number(from(-45.0, 45.0)), about: "C yaw: a constant correction of the blade's angle, which is added to C in every cut." },
+];
 
 /// The blade: a segment from tail to tip in the plane; the C axis passes through its centre, `radius` behind the tip.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Knife {
-    /// Tail to tip, mm; 0 = a point.
+    /// Tail to tip.
     pub width_mm: f64,
-    /// Tail to centre, mm; what is left of the width is the radius. [`Knife::back`] is what the blade really has.
+    /// Tail to centre; [`Knife::back`] is what the blade really has.
     #[serde(with = "OrWord::<Auto>")]
     pub back_mm: Option<f64>,
-    /// Centre to tip, mm; may be given instead of `back_mm`, and then decides.
+    /// Centre to tip, likewise; where both are given it decides.
     #[serde(with = "OrWord::<Auto>")]
     pub radius_mm: Option<f64>,
-    /// How far the tip goes past the end of a path, mm.
+    /// Of the tip, past the end of a run.
     pub front_overlap_mm: f64,
-    /// The same at a corner inside a path, mm.
+    /// The same at a corner.
     pub corner_front_overlap_mm: f64,
-    /// How far the tail starts before the start of a path, mm.
+    /// Of the tail, before the start of a run.
     pub heel_overlap_mm: f64,
-    /// The same at a corner inside a path, mm.
+    /// The same at a corner.
     pub corner_heel_overlap_mm: f64,
-    /// Front overlap at corners whose extension lies inside the part, mm.
+    /// Of the tip, where the part lies ahead.
     pub reflex_front_overlap_mm: f64,
-    /// Heel overlap at corners whose extension lies inside the part, mm.
+    /// Of the tail, likewise.
     pub reflex_heel_overlap_mm: f64,
-    /// How far overlaps stay away from the next part, mm.
+    /// Overlaps to the next part.
     pub clearance_mm: f64,
-    /// Greatest speed of the tip while cutting, mm/s.
+    /// Greatest speed of the tip.
     #[serde(with = "OrWord::<Off>")]
     pub feed_mm_s: Option<f64>,
-    /// Speed after L or M25, percent of the feed, a whole number.
+    /// Of slowed cuts, whole.
     pub slow_percent: f64,
-    /// From the plunge command until the blade is through, ms; the axes rest.
+    /// From the command until the blade is through.
     pub plunge_ms: f64,
-    /// From the lift command until the blade is up, ms; the axes rest.
+    /// From the command until it is up.
     pub lift_ms: f64,
-    /// From the lift command until the blade is clear of the cloth and C may turn, ms.
+    /// From that command until C may turn.
     #[serde(with = "OrWord::<Off>")]
     pub clear_ms: Option<f64>,
-    /// Longest run with the knife down, mm; a longer one is lifted there and rejoined with overlap.
+    /// Longest run.
     #[serde(with = "OrWord::<Off>")]
     pub max_down_mm: Option<f64>,
-    /// How the blade lies on curves.
+    /// On curves.
     pub follow: Follow,
-    /// What is done about curves that are tighter than the blade.
+    /// On curves tighter than the blade.
     pub tight_curves: TightCurves,
-    /// How far the body of a plunged blade may cut beside a curve that begins there, mm, before it is worth a word.
+    /// Of the body beside a curve that begins there.
     pub max_bow_mm: f64,
-    /// Number of cutting edges: a blade with two may run either way round.
+    /// Cutting edges.
     pub edges: u32,
-    /// Constant correction added to the blade's angle, degrees: how far the axis stands ahead of the blade.
+    /// How far the axis stands ahead of the blade.
     pub yaw_deg: f64,
 }
 
@@ -68,8 +98,7 @@ pub enum Follow {
     Chord,
 }
 
-/// What is done about a curve on which the blade, as a chord of it, would stand across: an arc of less than 0.55 blade
-/// widths, a right angle that is rounded with less than 0.4.
+/// What is done about a curve on which the blade, as a chord of it, would stand across.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum TightCurves {
@@ -98,7 +127,7 @@ impl Knife {
         self.max_down_mm.map(|longest| longest - self.overlaps())
     }
 
-    /// Speed of slowed cuts, percent: whole, and from 1 to 100 by its key.
+    /// Speed of slowed cuts, percent.
     pub fn slow(&self) -> u8 {
         self.slow_percent.clamp(1.0, 100.0) as u8
     }
@@ -169,6 +198,29 @@ impl Default for Knife {
             max_bow_mm: 0.5,
             edges: 1,
             yaw_deg: 0.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_radius_is_what_the_back_leaves_of_the_width() {
+        let default = Knife::default();
+        assert!((default.radius() - 0.25).abs() < 1e-12 && (default.back() - 6.35).abs() < 1e-12);
+        let new = Knife { width_mm: 8.89, ..Knife::default() };
+        assert!((new.radius() - 2.54).abs() < 1e-12);
+        let eccentric = Knife { back_mm: None, radius_mm: Some(4.4), ..Knife::default() };
+        assert!((eccentric.back() - 2.2).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_narrow_blade_and_a_point_turn_about_their_tip() {
+        for width_mm in [0.0, 3.0] {
+            let knife = Knife { width_mm, ..Knife::default() };
+            assert_eq!((knife.radius(), knife.back()), (0.0, width_mm));
         }
     }
 }

@@ -5,11 +5,14 @@ use std::ops::Range;
 use serde::Deserialize as _;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
 
+use super::codes::{self, CODES};
 use super::gcode::{Flaw, Step};
-use super::keys::{self, CODES, Key, Takes};
+use super::key::{Key, Takes};
+use super::keys;
 use super::measured::{self, Mismeasured};
 use super::near;
 use super::origin;
+use super::plot;
 use super::profile::MachineProfile;
 use super::validate::validate;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -141,7 +144,7 @@ impl Draft {
     /// Takes one value in, if its key exists and wants such a value.
     fn take(&mut self, entry: Entry<'_>) {
         let Entry { name, origin, text } = entry;
-        let name = keys::canonical(&name);
+        let name = codes::canonical(&name);
         let Some(key) = keys::find(&name) else {
             if keys::is_section(&name) {
                 let fault = Diagnostic::new(&code::PROFILE_TYPE, format!("`{name}` is a table of keys, not a key"));
@@ -172,7 +175,7 @@ impl Draft {
 
     /// What stands there is of another type.
     fn mistyped(&mut self, name: &str, origin: Origin, found: &str) {
-        let expected = keys::find(name).map(keys::Key::expects).unwrap_or_default();
+        let expected = keys::find(name).map(Key::expects).unwrap_or_default();
         let message = format!("`{name}` must be {expected}, but is {found}");
         self.broken.push(name.to_owned());
         self.fault(origin, Diagnostic::new(&code::PROFILE_TYPE, message));
@@ -188,13 +191,13 @@ impl Draft {
     }
 
     fn unknown(&mut self, name: &str, origin: Origin) {
-        let hint = match keys::near_codes(name).as_deref() {
+        let hint = match codes::near_codes(name).as_deref() {
             Some([code]) => format!("it is spelled `{code}`"),
             Some(codes) => format!("near ones are `{}`; `cutc manual inputs` lists all codes", codes.join("`, `")),
             None if name == "table.strict" => {
                 "leave it out: what leaves the table by more than a millimetre is an error now, anyway".to_owned()
             }
-            None if name == keys::NO_PEN => "pen 0 is none: plotters draw nothing with it, nor is it cut".to_owned(),
+            None if name == plot::NO_PEN => "pen 0 is none: plotters draw nothing with it, nor is it cut".to_owned(),
             None => {
                 let near = near::nearest(name);
                 let takes = keys::find(&near).map_or_else(String::new, |key| format!(" ({})", key.expects()));

@@ -1,6 +1,6 @@
 //! Values with units, as in `feed_mm_s = "45 m/min"`: they become plain numbers in the unit of their key.
 
-use super::keys::Key;
+use super::key::Key;
 use crate::units::quantity::{self, NotQuantity};
 
 /// Why a text cannot be a number of a key: the text, and what it measures if it is a quantity of another kind.

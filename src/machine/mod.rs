@@ -4,24 +4,34 @@
 //! reports every fault in it; [`keys::KEYS`] says what each key means, once, for the commented profile, the messages
 //! and the manual.
 
+pub mod axes;
+mod codes;
 pub mod counts;
 mod digest;
+pub mod drill;
 mod encoding;
 mod fault;
 pub mod gcode;
+mod key;
 pub mod keys;
 pub mod kinematics;
 pub mod knife;
+pub mod labels;
 mod load;
 mod measured;
 mod near;
 pub mod notches;
 mod origin;
+pub mod path;
 pub mod plot;
 pub mod profile;
+mod schema;
 mod selection;
 mod show;
+pub mod table;
+pub mod time;
 mod validate;
+pub mod verify;
 mod word;
 
 pub use digest::{sha256_hex, sha256_of};
@@ -30,9 +40,12 @@ pub use knife::{Follow, Knife, TightCurves};
 pub use load::{Faults, load, load_given};
 pub use notches::{NotchStyle, Notches};
 pub use origin::{Axis, Origin};
-pub use profile::{FileUnit, Fit, MachineProfile, Table};
+pub use path::Fit;
+pub use profile::{FileUnit, MachineProfile};
+pub use schema::schema;
 pub use selection::{Mode, NotNumbers, Numbers, Selection};
 pub use show::Comments;
+pub use table::Table;
 
 /// What one compile is asked to do: the profile and the options of this run.
 #[derive(Debug, Clone, Default)]

@@ -1,19 +1,31 @@
-//! How notches are cut.
+//! How notches are cut: the keys `notch.*`.
 
 use serde::{Deserialize, Serialize};
 
-use super::word::{AsDrawn, OrWord};
+use super::key::{Key, Takes, Within, from};
+use super::word::{AsDrawn, OrWord, Word as _, words};
+
+/// Depths of notches, mm: deeper ones would cut into the part.
+const DEPTH: Within = from(0.5, 15.0);
+
+/// The keys `notch.*`.
+#[rustfmt::skip] // a table: one row a key
+pub(super) const KEYS: &[Key] = &[
+    Key { name: "notch.style", takes: Takes::Word(words::<NotchStyle>), about: "How notches of all kinds, inwards and outwards, are cut: \"as-drawn\"; \"slit\" = each by one\nstraight cut into the part, as deep as the notch is high; \"skip\" = none. The outline then runs\nstraight over their mouths." },
+    Key { name: "notch.depth_mm", takes: Takes::NumberOr(DEPTH, AsDrawn::WORD), about: "How deep slits go into the part, also those that notches of another kind become; V, castle and U\nnotches that are cut as drawn keep their depth." },
+    Key { name: "notch.box_max_mm", takes: Takes::Number(from(0.0, 2.0)), about: "A notch that the outline draws as a box or needle up to so wide is a slit along its middle." },
+];
 
 /// How notches are cut, whatever the file draws.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Notches {
-    /// Which shape they get.
+    /// Their shape.
     pub style: NotchStyle,
-    /// How deep slits go into the part, mm.
+    /// Depth of slits.
     #[serde(with = "OrWord::<AsDrawn>")]
     pub depth_mm: Option<f64>,
-    /// Boxes up to so wide are slits, mm.
+    /// Widest box that is a slit.
     pub box_max_mm: f64,
 }
 
@@ -30,8 +42,8 @@ pub enum NotchStyle {
     /// As the file draws them.
     #[default]
     AsDrawn,
-    /// Notches of all kinds as slits: one straight cut from the edge into the part.
+    /// As slits.
     Slit,
-    /// None is cut: the outline runs straight over their mouths.
+    /// None is cut.
     Skip,
 }

@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
-use super::keys::{CODES, KEYS};
-use super::profile::{CodeUse, MachineProfile};
+use super::codes::CodeUse;
+use super::keys::{self, KEYS};
+use super::profile::MachineProfile;
 
 /// Whether the keys are explained.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,7 +31,7 @@ impl MachineProfile {
 
     /// The profile as TOML, every key in the order of [`KEYS`]; it loads back as the same profile.
     pub fn to_toml(&self, comments: Comments) -> String {
-        let table = toml::Value::try_from(self).expect("a profile holds numbers, words and named tables");
+        let table = self.to_table();
         let mut out = String::new();
         let mut section = "";
         // Writing into a `String` cannot fail, so the results of `writeln!` are dropped throughout.
@@ -49,21 +50,19 @@ impl MachineProfile {
                 }
                 let _ = writeln!(out, "# {}", key.expects());
             }
-            let of = |name: &str| name.split('.').try_fold(&table, |inner, part| inner.get(part));
-            if key.is_family() {
-                let family = of(section).and_then(toml::Value::as_table).expect("a family of keys is a table");
-                for (name, value) in family {
+            if let Some(family) = keys::family(section) {
+                let values = key.values_in(&table).expect("a family of keys is a table");
+                for (name, value) in values {
                     let _ = writeln!(out, "{name} = {value}");
                 }
-                if family.is_empty() && comments == Comments::Explained {
-                    let example = if section == CODES { "M19 = \"ignore\"" } else { "1 = \"knife\"" };
-                    let _ = writeln!(out, "# {example}");
+                if values.is_empty() && comments == Comments::Explained {
+                    let _ = writeln!(out, "# {}", family.example);
                 }
                 continue;
             }
-            let value = of(key.name);
+            let value = key.value_in(&table).expect("a test compares the table with the profile");
             let name = key.name.rsplit('.').next().unwrap_or(key.name);
-            let _ = writeln!(out, "{name} = {}", value.expect("a test compares the table with the profile"));
+            let _ = writeln!(out, "{name} = {value}");
         }
         out
     }

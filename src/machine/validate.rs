@@ -3,7 +3,8 @@
 use super::encoding;
 use super::fault::Fault;
 use super::gcode;
-use super::keys::{KEYS, Key, Takes, shown_value};
+use super::key::{Key, Takes, shown_value};
+use super::keys::KEYS;
 use super::knife::Knife;
 use super::profile::MachineProfile;
 use crate::diagnostic::code;
@@ -27,9 +28,9 @@ pub(super) fn validate(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool
 
 /// Each value by itself.
 fn ranges(profile: &MachineProfile) -> Vec<Fault> {
-    let table = toml::Value::try_from(profile).expect("a profile holds numbers, words and named tables");
+    let table = profile.to_table();
     let fault = |key: &Key| {
-        let value = key.name.split('.').try_fold(&table, |inner, part| inner.get(part))?;
+        let value = key.value_in(&table)?;
         (!key.takes.allows(value)).then(|| Fault {
             code: &code::PROFILE_RANGE,
             keys: vec![key.name.to_owned()],
@@ -38,7 +39,7 @@ fn ranges(profile: &MachineProfile) -> Vec<Fault> {
         })
     };
     // A family of keys holds words, which reading has checked.
-    KEYS.iter().filter(|key| !key.is_family()).filter_map(fault).collect()
+    KEYS.iter().filter_map(fault).collect()
 }
 
 /// What to do about a value that is out of its range, where more can be said than what the key takes.

@@ -1,8 +1,9 @@
-//! Values that are something or a word: `"off"`, `"auto"`, `"unlimited"` stand for "no value" in the profile.
+//! Words of the profile: those that stand for "no value", `"off"`, `"auto"`, `"unlimited"`, and those of a type.
 
+use std::fmt;
 use std::marker::PhantomData;
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer, forward_to_deserialize_any};
 
 /// A word that stands for "no value".
 pub(super) trait Word {
@@ -83,4 +84,70 @@ impl Word for Same {
 
 impl Word for Unlimited {
     const WORD: &'static str = "unlimited";
+}
+
+/// The words of a type that is one of several, as they are typed.
+pub(super) fn words<T: Deserialize<'static>>() -> &'static [&'static str] {
+    T::deserialize(Probe).err().map_or(&[], |Told(words)| words)
+}
+
+/// Holds nothing: it is told which words a type knows, and says that as its error.
+struct Probe;
+
+/// The words that a type knows; none when it is asked for anything else.
+#[derive(Debug)]
+struct Told(&'static [&'static str]);
+
+impl fmt::Display for Told {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "expected one of {:?}", self.0)
+    }
+}
+
+impl std::error::Error for Told {}
+
+impl serde::de::Error for Told {
+    fn custom<M: fmt::Display>(_: M) -> Self {
+        Self(&[])
+    }
+}
+
+impl<'de> Deserializer<'de> for Probe {
+    type Error = Told;
+
+    fn deserialize_any<V: serde::de::Visitor<'de>>(self, _: V) -> Result<V::Value, Told> {
+        Err(Told(&[]))
+    }
+
+    fn deserialize_enum<V: serde::de::Visitor<'de>>(
+        self,
+        _: &'static str,
+        words: &'static [&'static str],
+        _: V,
+    ) -> Result<V::Value, Told> {
+        Err(Told(words))
+    }
+
+    forward_to_deserialize_any! {
+        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf option unit unit_struct
+        newtype_struct seq tuple tuple_struct map struct identifier ignored_any
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_type_tells_its_words_as_serde_has_them() {
+        #[derive(Deserialize)]
+        #[serde(rename_all = "kebab-case")]
+        enum Style {
+            AsDrawn,
+            #[serde(rename = "in/10")]
+            Tenth,
+        }
+        assert_eq!(words::<Style>(), ["as-drawn", "in/10"]);
+        assert!(words::<String>().is_empty() && words::<Option<bool>>().is_empty());
+    }
 }

@@ -11,6 +11,11 @@ mod linuxcnc;
 #[expect(dead_code, reason = "commands are read off a page where all of them are run")]
 mod page;
 
+#[path = "../it/support/samples.rs"]
+mod samples;
+
+mod schema;
+
 mod tables;
 
 use std::path::Path;

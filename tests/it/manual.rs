@@ -8,7 +8,6 @@ use std::process::{Command, Output};
 use cutc::back::TARGETS;
 use cutc::diagnostic::code;
 use cutc::front::DIALECTS;
-use cutc::machine::MachineProfile;
 use cutc::machine::keys::{self, KEYS};
 use cutc::manual::{PAGES, Page, glossary};
 use cutc::verify::RULES;
@@ -130,13 +129,6 @@ fn item(text: &str) -> String {
     lines.join("\n")
 }
 
-/// What a key is when nothing is said.
-fn default_of(name: &str) -> Option<String> {
-    let profile = toml::Value::try_from(MachineProfile::default()).expect("a profile is a table");
-    let value = name.split('.').try_fold(&profile, |inner, part| inner.get(part))?;
-    Some(keys::shown_value(value))
-}
-
 /// A list that the program's own tables give, by its name in the pages.
 fn list(name: &str) -> String {
     let rows: Vec<String> = match name {
@@ -148,10 +140,9 @@ fn list(name: &str) -> String {
             code::ALL.iter().map(|code| format!("`{}` ({}): {}", code.name, severity(code), code.about)).collect()
         }
         "keys" => {
-            let default = |name: &str| default_of(name).map_or_else(String::new, |value| format!(" = `{value}`"));
-            KEYS.iter()
-                .map(|key| format!("`{}`{}: {}. {}", key.name, default(key.name), key.expects(), key.about))
-                .collect()
+            let shown = |value: toml::Value| format!(" = `{}`", keys::shown_value(&value));
+            let default = |key| keys::default_of(key).map_or_else(String::new, shown);
+            KEYS.iter().map(|key| format!("`{}`{}: {}. {}", key.name, default(key), key.expects(), key.about)).collect()
         }
         words => {
             let dialect = words.strip_prefix("words ").and_then(|name| DIALECTS.iter().find(|row| row.name == name));

@@ -6,6 +6,9 @@ use cutc::diagnostic::{Detail, render, render_with};
 use cutc::machine::{Fit, MachineProfile, load};
 use cutc::source::Source;
 
+use crate::support::room::{DONE, Room};
+use crate::support::samples::samples;
+
 fn source(path: &Path) -> Source {
     let name = path.file_name().expect("a file").to_string_lossy().into_owned();
     Source::new(name, std::fs::read(path).expect("readable")).expect("small")
@@ -46,4 +49,27 @@ fn the_score_profile_is_a_point_on_the_drawn_line() {
 fn the_eccentric_profile_has_its_axis_near_the_heel() {
     let knife = machine("eccentric.toml").knife;
     assert!((knife.back() - 2.2).abs() < 1e-12 && (knife.radius() - 4.4).abs() < 1e-12);
+}
+
+#[test]
+fn a_value_loads_as_the_table_of_keys_says() {
+    let mut counts = [0, 0];
+    for sample in samples() {
+        let (name, is_legal) = (&sample.name, sample.key.takes.allows(&sample.value));
+        let said: Vec<String> = match load(None, &[format!("{name}={}", sample.value)]) {
+            Ok(_) => Vec::new(),
+            Err(faults) => faults.arguments.iter().map(|fault| fault.message.clone()).collect(),
+        };
+        // A value that is legal by itself may break a rule with others, which says otherwise.
+        let start = if is_legal { format!("`{name}` must be ") } else { format!("`{name}` ") };
+        let is_refused = said.iter().any(|message| message.contains(&format!(": {start}")));
+        assert_eq!(is_refused, !is_legal, "{name} = {}: {said:?}", sample.value);
+        counts[usize::from(is_legal)] += 1;
+    }
+    assert!(counts.iter().all(|&count| count > 300), "{counts:?}");
+}
+
+#[test]
+fn the_schema_of_profiles_reads_well() {
+    insta::assert_snapshot!(Room::new().expect("profile schema", DONE).0);
 }

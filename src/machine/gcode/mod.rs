@@ -3,14 +3,18 @@
 //! What it does with knife, drills, operator and cloth are lists of [`Step`]s; only the head and the end of a program are
 //! free text, which may choose and switch but not move (`text`). `rules` holds them against each other.
 
+mod keys;
 mod rules;
+mod spelling;
 mod step;
 mod text;
 mod words;
 
 use serde::{Deserialize, Serialize};
 
+pub(super) use self::keys::KEYS;
 pub(super) use self::rules::faults;
+pub(super) use self::spelling::spellings;
 pub use self::step::{Number, Parameter, Step};
 pub(super) use self::words::Flaw;
 use super::word::{Off, OrWord};
@@ -19,40 +23,40 @@ use super::word::{Off, OrWord};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Gcode {
-    /// Letter of the axis that turns the blade.
+    /// The axis that turns the blade.
     pub letter: Letter,
-    /// Whether the axis counts from 0 to 360 degrees only.
+    /// That axis counts within a turn.
     pub wrapped: bool,
-    /// Whether the controller knows arcs with a rotary axis.
+    /// It turns on arcs, too.
     pub arcs: bool,
     /// What F says.
     pub feed_mode: FeedMode,
-    /// How far the controller may leave the path to round it, mm.
+    /// P of G64.
     #[serde(with = "OrWord::<Off>")]
     pub blend_mm: Option<f64>,
-    /// Decimals of positions.
+    /// Of positions.
     pub decimals: u32,
-    /// Whether lines are numbered.
+    /// Lines have N.
     pub line_numbers: bool,
-    /// Greatest angle of the blade from its law that straight pieces of C may leave, degrees.
+    /// The blade from its law.
     pub heading_tolerance_deg: f64,
-    /// Without arcs: how far a chord may leave its arc, mm.
+    /// A straight piece from its arc.
     pub chord_mm: f64,
-    /// Lines behind the units at the start; they move nothing.
+    /// Lines at the start.
     pub header: String,
-    /// Lines at the end, likewise.
+    /// Lines at the end.
     pub footer: String,
-    /// What puts the knife down.
+    /// The knife goes down.
     pub knife_down: Vec<Step>,
-    /// What lifts it.
+    /// It is lifted.
     pub knife_up: Vec<Step>,
-    /// What puts a drill down; `#` is its number.
+    /// A drill goes down.
     pub drill_down: Vec<Step>,
-    /// What lifts it.
+    /// It is lifted.
     pub drill_up: Vec<Step>,
-    /// What waits for the operator.
+    /// The operator is waited for.
     pub stop: Vec<Step>,
-    /// What advances the cloth.
+    /// The cloth advances.
     pub advance: Vec<Step>,
 }
 

@@ -1,7 +1,7 @@
 //! What the steps of a profile may be, list by list and against each other: whoever reads a program must know what is
 //! down by the first step of each list, and what is put down must be lifted again.
 
-use super::step::Step;
+use super::step::{Step, WHAT_ACTS};
 use super::text::{self, Line, Place};
 use super::words::Flaw;
 use crate::machine::MachineProfile;
@@ -95,8 +95,7 @@ fn flaw_of(list: &List) -> Option<Flaw> {
                 return Some(Flaw::new(has, "`gcode.stop` is what the file stops for"));
             }
             if list.steps.iter().all(|step| what(step).is_none()) {
-                let hint = "what acts is M64 P, M65 P, M68 E Q, M3 to M5 with S, M7 to M9, G0 Z and G1 Z F";
-                return Some(Flaw::new("no step that moves or switches something", hint));
+                return Some(Flaw::new("no step that moves or switches something", WHAT_ACTS));
             }
             let rest: f64 =
                 list.steps.iter().map(|step| if let Step::Dwell { time } = step { *time } else { 0.0 }).sum();
@@ -310,6 +309,13 @@ mod tests {
         ] {
             check(changes, &[]);
         }
+    }
+
+    #[test]
+    fn what_is_said_of_drills_and_waits_is_true() {
+        let about = |name: &str| crate::machine::keys::find(name).expect("a key").about;
+        assert!(about("gcode.drill_down").contains(&format!("{} to {}", DRILLS.start(), DRILLS.end())));
+        assert!(WAITS.iter().all(|m| about("gcode.stop").contains(&format!("M{m}"))));
     }
 
     #[test]

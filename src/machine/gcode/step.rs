@@ -53,43 +53,44 @@ pub struct Parameter {
 }
 
 /// A code that steps may have, and the letters of its words.
-struct Form {
-    code: &'static str,
+pub(super) struct Form {
+    pub(super) code: &'static str,
     /// Those that it must have, and those that it may have.
-    needs: &'static str,
-    takes: &'static str,
+    pub(super) needs: &'static str,
+    pub(super) takes: &'static str,
     /// A complete step.
-    example: &'static str,
+    pub(super) example: &'static str,
+    /// What it does.
+    pub(super) about: &'static str,
 }
 
-const fn form(code: &'static str, needs: &'static str, example: &'static str) -> Form {
-    Form { code, needs, takes: "", example }
+const fn form(code: &'static str, needs: &'static str, example: &'static str, about: &'static str) -> Form {
+    Form { code, needs, takes: "", example, about }
 }
 
 /// Every code that steps may have. Modes, outputs that wait for the next move and codes of one controller are not among
 /// them.
-const FORMS: &[Form] = &[
-    form("G0", "Z", "G0 Z-2"),
-    form("G1", "ZF", "G1 Z-2 F600"),
-    form("G4", "P", "G4 P0.5"),
-    form("M0", "", "M0"),
-    form("M1", "", "M1"),
-    Form { takes: "S", ..form("M3", "", "M3 S1000") },
-    Form { takes: "S", ..form("M4", "", "M4 S1000") },
-    form("M5", "", "M5"),
-    form("M7", "", "M7"),
-    form("M8", "", "M8"),
-    form("M9", "", "M9"),
-    form("M60", "", "M60"),
-    form("M64", "P", "M64 P0"),
-    form("M65", "P", "M65 P0"),
-    form("M66", "PLQ", "M66 P0 L3 Q10"),
-    form("M68", "EQ", "M68 E0 Q5"),
+pub(super) const FORMS: &[Form] = &[
+    form("G0", "Z", "G0 Z-2", "Z moves as fast as it can, mm"),
+    form("G1", "ZF", "G1 Z-2 F600", "Z moves at a speed, mm and mm/min"),
+    form("G4", "P", "G4 P0.5", "the axes rest, s"),
+    form("M0", "", "M0", "the operator is waited for"),
+    form("M1", "", "M1", "the operator is waited for where optional stops are on"),
+    Form { takes: "S", ..form("M3", "", "M3 S1000", "the spindle turns clockwise, S = its speed") },
+    Form { takes: "S", ..form("M4", "", "M4 S1000", "the spindle turns counter-clockwise, S = its speed") },
+    form("M5", "", "M5", "the spindle stops"),
+    form("M7", "", "M7", "mist coolant goes on"),
+    form("M8", "", "M8", "flood coolant goes on"),
+    form("M9", "", "M9", "all coolant goes off"),
+    form("M60", "", "M60", "pallets are changed, and the operator is waited for"),
+    form("M64", "P", "M64 P0", "a digital output goes on, P = its number"),
+    form("M65", "P", "M65 P0", "a digital output goes off, P = its number"),
+    form("M66", "PLQ", "M66 P0 L3 Q10", "an input is waited for, P = its number, L = how, Q = s at the most"),
+    form("M68", "EQ", "M68 E0 Q5", "an analog output is set, E = its number, Q = its value"),
 ];
 
-/// What to write where a code is none of them.
-const WHAT_TO_WRITE: &str =
-    "what acts is M64 P, M65 P, M68 E Q, M3 to M5 with S, M7 to M9, G0 Z and G1 Z F; what rests is G4 P, M66 P L Q";
+/// What a list of steps for a tool must have one of.
+pub(super) const WHAT_ACTS: &str = "what acts is M64 P, M65 P, M68 E Q, M3 to M5 with S, M7 to M9, G0 Z and G1 Z F";
 /// Codes that switch outputs, but only where the next move begins: the knife would come down as it is led on.
 const LATE: &[&str] = &["M62", "M63", "M67"];
 /// The first and last code that run programs of the controller's own.
@@ -189,7 +190,7 @@ fn checked(word: Word, form: &Form) -> Result<(), Flaw> {
         'S' if number < 0.0 => flaw(", which is no speed", "S is from 0 on"),
         'P' if is("G4") && number < 0.0 => flaw(", which is no time", "P of G4 is from 0 on, in seconds"),
         'P' | 'E' if !is("G4") && !is_whole(number, PIN_MAX) => {
-            flaw(", which is no output", "outputs and inputs are counted from 0 to 63")
+            flaw(", which is no output", &format!("outputs and inputs are counted from 0 to {PIN_MAX}"))
         }
         'L' if number < 1.0 || !is_whole(number, WAIT_MAX) => {
             flaw(", which is no way to wait", "L of M66 is 1 to 4: for an edge up or down, a level high or low")
@@ -215,7 +216,7 @@ fn unknown(code: Word) -> Flaw {
             "the interpreter knows none of those by itself, nor what they do: M64 P0 and M65 P0 switch an output";
         return Flaw::new(format!("{code}, which runs a program of the controller's own"), hint);
     }
-    Flaw::new(format!("{code}, which is no code of a step"), WHAT_TO_WRITE)
+    Flaw::new(format!("{code}, which is no code of a step"), format!("{WHAT_ACTS}; what rests is G4 P, M66 P L Q"))
 }
 
 /// As it stands in a profile; in a program without `#`.

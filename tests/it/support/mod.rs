@@ -14,6 +14,7 @@ use cutc::source::Span;
 pub(crate) mod page;
 pub(crate) mod program;
 pub(crate) mod room;
+pub(crate) mod samples;
 
 /// A marker of one piece with one contour through the points; block k + 1 holds the k-th chord.
 pub(crate) fn marker(points: &[Point]) -> Marker {

@@ -1,74 +1,8 @@
-//! Plots (HPGL): the unit of their numbers, and which of their lines are cut.
-
-use std::collections::BTreeMap;
+//! The unit of a plot's numbers, as people write it.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::selection::Numbers;
-use super::word::{Off, OrWord};
 use crate::units::MM_PER_INCH;
-
-/// How plots are read.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Hpgl {
-    /// Unit of the numbers.
-    pub unit: PlotUnit,
-    /// Largest closed square or circle that is a hole to drill, mm; `None` = none is.
-    #[serde(with = "OrWord::<Off>")]
-    pub drill_max_mm: Option<f64>,
-    /// Which closed lines inside parts are cut.
-    pub inner: Inner,
-    /// Whether a frame is drawn around the parts.
-    pub frame: Frame,
-    /// What a pen stands for, by its number.
-    pub pens: BTreeMap<String, PenUse>,
-}
-
-impl Hpgl {
-    /// What the pen of that name stands for; `None` when the profile does not say.
-    pub fn pen(&self, name: &str) -> Option<PenUse> {
-        self.pens.get(name).copied()
-    }
-}
-
-/// What a pen stands for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum PenUse {
-    /// The knife: its lines are cut.
-    Knife,
-    /// A pen: its lines are drawn, not cut.
-    Pen,
-    /// Its lines do not matter.
-    Ignore,
-}
-
-/// Which closed lines inside the parts of a plot are cut.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Inner {
-    /// None, but those of a pen that is a knife.
-    #[default]
-    Ignore,
-    /// Those that are no seam lines, and take no more than half of their part.
-    Cut,
-    /// All of them, seam lines too.
-    All,
-}
-
-/// Whether a plot draws a frame around its parts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Frame {
-    /// A rectangle around several parts is one.
-    #[default]
-    Auto,
-    /// There is none.
-    None,
-    /// The largest closed line is one, whatever its shape.
-    Outermost,
-}
 
 /// The length of one unit of a plot: a number of mm, or a text such as `1/40 mm`, `1/1000 in`, `600 dpi`.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,8 +13,8 @@ pub struct PlotUnit {
 }
 
 /// Least and greatest unit, mm: from the finest printers to a slip of the comma.
-pub(super) const LEAST_UNIT_MM: f64 = 0.001;
-pub(super) const GREATEST_UNIT_MM: f64 = 10.0;
+pub(in crate::machine) const LEAST_UNIT_MM: f64 = 0.001;
+pub(in crate::machine) const GREATEST_UNIT_MM: f64 = 10.0;
 
 impl PlotUnit {
     /// A unit of so many mm.
@@ -91,6 +25,12 @@ impl PlotUnit {
     /// Its length, mm.
     pub fn mm(&self) -> f64 {
         self.mm
+    }
+
+    /// What [`parse`](Self::parse) reads, as a regular expression for the whole of it.
+    pub(in crate::machine) fn pattern() -> String {
+        const NUMBER: &str = r"\+?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?";
+        format!(r"^\s*{NUMBER}(?:\s*/\s*{NUMBER})?\s*(?:mm|in|dpi)?\s*$")
     }
 
     /// Reads `1/40 mm`, `1/1000 in`, `1/40` (mm) or `600 dpi`; `None` for anything else.
@@ -146,17 +86,6 @@ impl Serialize for PlotUnit {
             None => output.serialize_f64(self.mm),
         }
     }
-}
-
-/// Which lines of a plot one compile cuts, where its user says something of them.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Lines {
-    /// Only those of these pens; `None` = as the profile and the shapes say.
-    pub pens: Option<Numbers>,
-    /// Which closed lines inside parts; `None` = as the profile says.
-    pub inner: Option<Inner>,
-    /// Every line, whatever it is taken for.
-    pub all: bool,
 }
 
 #[cfg(test)]

@@ -1,0 +1,27 @@
+//! What the keys `gcode.*` take and mean.
+
+use super::{FeedMode, Letter};
+use crate::machine::key::{Key, Takes, from};
+use crate::machine::word::{Off, Word as _, words};
+
+/// The keys `gcode.*`.
+#[rustfmt::skip] // a table: one row a key
+pub(in crate::machine) const KEYS: &[Key] = &[
+    Key { name: "gcode.letter", takes: Takes::Word(words::<Letter>), about: "Target gcode: letter of the axis that turns the blade." },
+    Key { name: "gcode.wrapped", takes: Takes::Flag, about: "Whether that axis counts from 0 to 360 degrees only; a negative number then means to turn back." },
+    Key { name: "gcode.arcs", takes: Takes::Flag, about: "Whether the controller knows arcs (G2, G3) on which that axis turns, too." },
+    Key { name: "gcode.feed_mode", takes: Takes::Word(words::<FeedMode>), about: "What F says: the speed of X and Y (G94), or one over the time of each move (G93), for controllers\nthat would count degrees as mm." },
+    Key { name: "gcode.blend_mm", takes: Takes::NumberOr(from(0.001, 10.0), Off::WORD), about: "How far the controller may leave the path to keep its speed (G64 P), beside path.tolerance_mm;\n\"off\" = no G64 is written: the controller does as it was set." },
+    Key { name: "gcode.decimals", takes: Takes::Whole(&[3, 4, 5, 6]), about: "Decimals of positions." },
+    Key { name: "gcode.line_numbers", takes: Takes::Flag, about: "Whether lines are numbered (N)." },
+    Key { name: "gcode.heading_tolerance_deg", takes: Takes::Number(from(0.001, 10.0)), about: "How far the blade may be turned from its law where the axis turns evenly along a piece." },
+    Key { name: "gcode.chord_mm", takes: Takes::Number(from(0.0001, 1.0)), about: "Without arcs: how far a straight piece may leave its arc." },
+    Key { name: "gcode.header", takes: Takes::Text, about: "Lines behind the first one, which chooses mm and absolute positions: a coordinate system (G54), a\ntool (T1 M6), what is switched. They move nothing." },
+    Key { name: "gcode.footer", takes: Takes::Text, about: "Lines at the end, the last one M2 or M30. They move nothing: park says where the axes end." },
+    Key { name: "gcode.knife_down", takes: Takes::Steps, about: "Steps that put the knife down: a digital output (M64 P0 on, M65 P0 off), a move of Z (G0 Z-2,\nG1 Z-2 F600), a rest (G4 P0.05, in s), or M3 to M5 with S, M7 to M9, M68 E Q, M66 P L Q." },
+    Key { name: "gcode.knife_up", takes: Takes::Steps, about: "Steps that lift it: they undo those of knife_down." },
+    Key { name: "gcode.drill_down", takes: Takes::Steps, about: "Steps that put a drill down; # stands for its number, 1 to 4." },
+    Key { name: "gcode.drill_up", takes: Takes::Steps, about: "Steps that lift it." },
+    Key { name: "gcode.stop", takes: Takes::Steps, about: "Steps that wait for the operator (event 1): M0, M1 or M60." },
+    Key { name: "gcode.advance", takes: Takes::Steps, about: "Steps that advance the cloth (event 2)." },
+];

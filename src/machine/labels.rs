@@ -1,0 +1,123 @@
+//! The texts of labels: bytes in the encoding of some CAD system, shown to people. The keys `labels.*`.
+//!
+//! The one place that decodes them, so that reports and pictures show the same text.
+
+use std::fmt::Write as _;
+
+use encoding_rs::UTF_8;
+use serde::{Deserialize, Serialize};
+
+use super::encoding;
+use super::key::{Key, Takes};
+
+/// The keys `labels.*`.
+#[rustfmt::skip] // a table: one row a key
+pub(super) const KEYS: &[Key] = &[
+    Key { name: "labels.encoding", takes: Takes::Encoding, about: "Encoding of label texts that are no UTF-8: \"windows-1251\" (Cyrillic), \"latin1\", \"gbk\" (Chinese),\n\"big5\", \"shift_jis\", \"euc-kr\" and more. What is no text in it is shown as \u{fffd}." },
+];
+
+/// The texts of labels.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Labels {
+    /// Name of an encoding; [`Labels::text`] decodes what is in it.
+    pub encoding: String,
+}
+
+impl Default for Labels {
+    fn default() -> Self {
+        Self { encoding: "utf-8".to_owned() }
+    }
+}
+
+/// From here on UTF-8 has three bytes a character.
+const THREE_BYTES_FROM: char = '\u{800}';
+
+impl Labels {
+    /// The text that some bytes of a label stand for: UTF-8 when they are that, else what the profile's encoding makes of
+    /// them, with U+FFFD for what is no text in it. One line, in which everything can be seen.
+    pub fn text(&self, bytes: &[u8]) -> String {
+        let encoding = encoding::find(&self.encoding).unwrap_or(UTF_8);
+        // Two bytes of GBK and its like are often two bytes of UTF-8 as well: 前片, the most common label of all, would be
+        // shown as ǰƬ. What is UTF-8 where such an encoding is in use has ideographs, of three bytes.
+        let is_utf_8 =
+            |text: &&str| encoding.is_single_byte() || text.is_ascii() || text.chars().any(|c| c >= THREE_BYTES_FROM);
+        match std::str::from_utf8(bytes).ok().filter(is_utf_8) {
+            Some(text) => visible(text),
+            None => visible(&encoding.decode_without_bom_handling(bytes).0),
+        }
+    }
+}
+
+/// Where Unicode has its pictures of the control characters from 0 on, and that of the last one, 127.
+const CONTROL_PICTURES: u32 = 0x2400;
+const DELETE_PICTURE: char = '\u{2421}';
+
+/// The text with pictures for control characters; others that would break the line, or turn the order of what is shown
+/// around them, by their number.
+fn visible(text: &str) -> String {
+    let mut shown = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '\0'..='\u{1f}' => shown.extend(char::from_u32(CONTROL_PICTURES + c as u32)),
+            '\u{7f}' => shown.push(DELETE_PICTURE),
+            // Line and paragraph separators, marks of direction, byte-order marks, and what XML does not take at all.
+            '\u{80}'..='\u{9f}'
+            | '\u{61c}'
+            | '\u{200b}'..='\u{200f}'
+            | '\u{2028}'..='\u{202e}'
+            | '\u{2060}'..='\u{206f}'
+            | '\u{feff}'
+            | '\u{fffe}'
+            | '\u{ffff}' => {
+                // Writing into a `String` cannot fail.
+                let _ = write!(shown, "{}", c.escape_unicode());
+            }
+            c => shown.push(c),
+        }
+    }
+    shown
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(encoding: &str, bytes: &[u8], expected: &str) {
+        let labels = Labels { encoding: encoding.to_owned() };
+        assert_eq!(labels.text(bytes), expected, "{encoding} {}", bytes.escape_ascii());
+    }
+
+    #[test]
+    fn utf_8_wins_then_the_encoding_of_the_profile_then_what_is_left() {
+        check("utf-8", "ПЕРЕД".as_bytes(), "ПЕРЕД");
+        check("windows-1251", "ПЕРЕД".as_bytes(), "ПЕРЕД");
+        check("windows-1251", b"\xcf\xc5\xd0\xc5\xc4", "ПЕРЕД");
+        check("latin1", b"R\xfccken", "Rücken");
+        check("utf-8", b"R\xfccken", "R\u{fffd}cken");
+        check("gbk", b"A\xff", "A\u{fffd}");
+    }
+
+    #[test]
+    fn two_bytes_of_gbk_are_not_taken_for_utf_8() {
+        check("gbk", b"\xc7\xb0\xc6\xac A", "前片 A");
+        check("gbk", "前片 A".as_bytes(), "前片 A");
+        check("gbk", b"BK R X1", "BK R X1");
+    }
+
+    #[test]
+    fn nothing_in_a_text_is_unseen_or_breaks_its_line() {
+        check("utf-8", b"A\r\nB\tC\0\x1b[31m\x7f", "A␍␊B␉C␀␛[31m␡");
+        check("utf-8", "A\u{202e}B\u{2028}C\u{85}\u{feff}".as_bytes(), r"A\u{202e}B\u{2028}C\u{85}\u{feff}");
+        check("utf-8", b"", "");
+    }
+
+    #[test]
+    fn any_bytes_have_a_text_in_every_encoding() {
+        let bytes: Vec<u8> = (0..=255).chain((0..=255).rev()).collect();
+        for name in encoding::NAMES {
+            let labels = Labels { encoding: name.to_owned() };
+            assert!(!labels.text(&bytes).chars().any(char::is_control), "{name}");
+        }
+    }
+}

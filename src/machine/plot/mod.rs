@@ -1,0 +1,109 @@
+//! Plots (HPGL): the unit of their numbers, and which of their lines are cut. The keys `hpgl.*`.
+
+mod unit;
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+pub use self::unit::PlotUnit;
+use self::unit::{GREATEST_UNIT_MM, LEAST_UNIT_MM};
+use super::key::{Family, Key, Takes, from};
+use super::selection::Numbers;
+use super::word::{Off, OrWord, Word as _, words};
+
+/// The keys `hpgl.*`.
+#[rustfmt::skip] // a table: one row a key
+pub(super) const KEYS: &[Key] = &[
+    Key { name: "hpgl.unit", takes: Takes::Length(from(LEAST_UNIT_MM, GREATEST_UNIT_MM)), about: "Unit of the numbers in plots, mm. Plotters count 1/40 mm; other programs write 0.0254, 0.1, 0.01\nor the dots of a printer. The extent is always printed: compare it with the cloth." },
+    Key { name: "hpgl.drill_max_mm", takes: Takes::NumberOr(from(0.0, 1000.0), Off::WORD), about: "Closed squares and circles of a plot up to this size are holes to drill; \"off\" = none is." },
+    Key { name: "hpgl.inner", takes: Takes::Word(words::<Inner>), about: "Which closed lines inside parts are cut: \"ignore\" = none, but those of a pen that is a knife;\n\"cut\" = all that are no seam lines and take no more than half of their part;\n\"all\" = seam lines, too." },
+    Key { name: "hpgl.frame", takes: Takes::Word(words::<Frame>), about: "Whether a frame is drawn around the parts: \"auto\" = a rectangle around two parts or more is one;\n\"none\" = there is none; \"outermost\" = the largest closed line is one." },
+    Key { name: "hpgl.pens.<pen>", takes: Takes::Word(words::<PenUse>), about: "What a pen of a plot stands for: its outermost and inner lines are cut (\"knife\"), its lines are\ndrawn only, but for notches on cut edges (\"pen\"), or do not matter (\"ignore\"). Of pens without a\nkey shapes decide." },
+];
+
+/// What some take for the key of a pen: with pen 0 plotters draw nothing.
+pub(super) const NO_PEN: &str = "hpgl.pens.0";
+
+/// A key a pen.
+pub(super) const PENS: Family =
+    Family { start: "hpgl.pens", has: is_pen, pattern: || "[1-9][0-9]{0,2}".to_owned(), example: "1 = \"knife\"" };
+
+/// Whether a word is the number of a pen: up to three digits, written in one way only. Pen 0 is none.
+fn is_pen(word: &str) -> bool {
+    let is_number = !word.is_empty() && word.len() <= 3 && word.bytes().all(|byte| byte.is_ascii_digit());
+    is_number && !word.starts_with('0')
+}
+
+/// How plots are read.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Hpgl {
+    /// Length of a unit.
+    pub unit: PlotUnit,
+    /// Largest hole to drill.
+    #[serde(with = "OrWord::<Off>")]
+    pub drill_max_mm: Option<f64>,
+    /// Closed lines inside parts.
+    pub inner: Inner,
+    /// The frame around the parts.
+    pub frame: Frame,
+    /// Pens by their numbers.
+    pub pens: BTreeMap<String, PenUse>,
+}
+
+impl Hpgl {
+    /// What the pen of that name stands for; `None` when the profile does not say.
+    pub fn pen(&self, name: &str) -> Option<PenUse> {
+        self.pens.get(name).copied()
+    }
+}
+
+/// What a pen stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum PenUse {
+    /// The knife: its lines are cut.
+    Knife,
+    /// A pen: its lines are drawn, not cut.
+    Pen,
+    /// Its lines do not matter.
+    Ignore,
+}
+
+/// Which closed lines inside the parts of a plot are cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Inner {
+    /// None, but those of a pen that is a knife.
+    #[default]
+    Ignore,
+    /// Those that are no seam lines, and take no more than half of their part.
+    Cut,
+    /// All of them, seam lines too.
+    All,
+}
+
+/// Whether a plot draws a frame around its parts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Frame {
+    /// A rectangle around several parts is one.
+    #[default]
+    Auto,
+    /// There is none.
+    None,
+    /// The largest closed line is one, whatever its shape.
+    Outermost,
+}
+
+/// Which lines of a plot one compile cuts, where its user says something of them.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Lines {
+    /// Only those of these pens; `None` = as the profile and the shapes say.
+    pub pens: Option<Numbers>,
+    /// Which closed lines inside parts; `None` = as the profile says.
+    pub inner: Option<Inner>,
+    /// Every line, whatever it is taken for.
+    pub all: bool,
+}
