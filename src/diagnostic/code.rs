@@ -68,9 +68,9 @@ const fn warning(harm: Harm, fault: Fault, name: &'static str, about: &'static s
 // The source as a whole.
 #[rustfmt::skip] // a table: one row a code
 mod table {
-    use super::Fault::{Shape, Text};
-    use super::Harm::{Spares, Spoils};
-    use super::{Code, error, warning};
+    use crate::diagnostic::code::Fault::{Shape, Text};
+    use crate::diagnostic::code::Harm::{Spares, Spoils};
+    use crate::diagnostic::code::{Code, error, warning};
 
     /// Nothing in the file.
     pub static SOURCE_EMPTY: Code = error(Text, "source/empty", "The file holds no bytes, or only blanks.", "Nothing arrived: an export was cancelled, or the copy to the cutter failed. Export the marker again and compare the sizes of the files.");

@@ -91,6 +91,7 @@ const BESIDE_A_TABLE: &[(&str, &str)] = &[
     ("frame", "makes the one toolpath that no pass edits"),
     ("lap", "says how far C turns along a run, for the passes that keep it in its range"),
     ("nibble", "parts runs into plunges for the pass that nibbles"),
+    ("part", "holds the outlines of a piece for the pass that warns of crossings"),
     ("pass", "says what a pass is"),
     ("runs", "finds the runs of a toolpath, which most passes edit alone"),
     ("scene", "holds what passes look at beside a toolpath"),

@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::arc::{Arc, Centre, Turn};
+use super::at_place::{AtPlace, Hole, Texts};
 use super::block::Blocks;
 use super::draft::{Draft, LabelId};
 use super::label;
@@ -32,13 +33,6 @@ const BYTES_A_SEGMENT: usize = 12;
 /// Bytes that a piece takes at the least, as a rule: room is made for so many pieces, and grows where they are shorter.
 const BYTES_A_PIECE: usize = 512;
 
-/// Whether a label is obeyed, or only passed over because the profile ignores M31.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Texts {
-    Kept,
-    Ignored,
-}
-
 /// Reads a file as the job's profile asks.
 pub(super) fn lower(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker {
     let mut lowering = Lowering {
@@ -64,30 +58,6 @@ pub(super) fn lower(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker
     };
     let last = lowering.run();
     lowering.finish(last)
-}
-
-/// What a block asks for at the place where it ends.
-#[derive(Debug, Clone, Copy, Default)]
-struct AtPlace {
-    /// Whether the knife stays where it is: the point is none to go to.
-    rests: bool,
-    /// A hole, by its tool.
-    drill: Option<u8>,
-    label: Option<Texts>,
-    /// An arc leads there.
-    turn: Option<Turn>,
-    /// The radius of the arc.
-    radius: Option<Code>,
-    /// Whether a code of the end stands there, obeyed or not, and whether it is the end.
-    names_end: bool,
-    ends: bool,
-}
-
-/// A drill code: which drill, and its block.
-#[derive(Debug, Clone, Copy)]
-struct Hole {
-    tool: u8,
-    span: Span,
 }
 
 struct Lowering<'a> {

@@ -12,6 +12,7 @@
 //! whose slits are whose where pieces have no numbers.
 
 mod arc;
+mod at_place;
 mod block;
 mod chain;
 mod draft;
