@@ -93,8 +93,8 @@ impl Nesting {
         Self { lines: search.lines, around, ended }
     }
 
-    /// What holds each contour of a marker: its lines are those of [`Marker::contours`], in that order, the groups the places
-    /// of its pieces.
+    /// What holds each contour of a marker: its lines are those of [`Marker::contours`], in that order, the groups the
+    /// places of its pieces.
     pub fn of(marker: &Marker) -> Self {
         Self::of_contours(&marker.list, &marker.contours().collect::<Vec<_>>())
     }
@@ -174,8 +174,8 @@ impl Nesting {
         widest.or_else(|| self.of_group(group).next())
     }
 
-    /// The part to which a group belongs, by the group of its outline: another where its widest closed line bounds a cut-out
-    /// of that; `None` where none of its lines is closed.
+    /// The part to which a group belongs, by the group of its outline: another where its widest closed line bounds a
+    /// cut-out of that; `None` where none of its lines is closed.
     pub fn part_of(&self, group: usize) -> Option<usize> {
         let widest = self.widest(group).filter(|&line| self.lines[line].is_closed)?;
         self.outline(widest).map(|outline| self.lines[outline].group as usize)

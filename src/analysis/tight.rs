@@ -51,8 +51,8 @@ pub fn joined(curves: Vec<TightCurve>) -> Vec<TightCurve> {
     joined
 }
 
-/// The stretches of a run with overlaps of these lengths at its start and its end, mm, of which a blade of `width` mm cannot
-/// be a chord; some may meet.
+/// The stretches of a run with overlaps of these lengths at its start and its end, mm, of which a blade of `width` mm
+/// cannot be a chord; some may meet.
 fn found(run: &Run, overlaps: [f64; 2], width: f64) -> Vec<TightCurve> {
     let chords = run.points.len() - 1;
     let is_ring = run.shape == Shape::Ring;
@@ -94,8 +94,8 @@ const RADIUS_SHARE: f64 = 0.3;
 /// The same in lengths of the curve, which is gentler at its ends.
 const LENGTH_SHARE: f64 = 0.33;
 
-/// Least radius of a curve from one inner vertex of a path to another, for a blade of `width`, mm: that of the arc whose chords
-/// are as long and turn as much, c = 2 R sin(a/2), at either end by one half.
+/// Least radius of a curve from one inner vertex of a path to another, for a blade of `width`, mm: that of the arc
+/// whose chords are as long and turn as much, c = 2 R sin(a/2), at either end by one half.
 pub fn least_radius(path: &[Point], vertices: RangeInclusive<usize>, width: f64) -> f64 {
     let (first, last) = vertices.into_inner();
     if first == last {
@@ -125,8 +125,8 @@ fn curve_at(path: &[Point], vertices: RangeInclusive<usize>, width: f64) -> Opti
     let radius = |vertex: usize| radius(path, vertex);
     let at = vertices.clone().min_by(|&a, &b| radius(a).total_cmp(&radius(b)))?;
     let (first, last) = (*vertices.start(), *vertices.end());
-    // What goes on as tight as that belongs to the same curve, whether or not the blade could be a chord of its end. A chord
-    // on which the blade has a way to go parts two curves.
+    // What goes on as tight as that belongs to the same curve, whether or not the blade could be a chord of its end. A
+    // chord on which the blade has a way to go parts two curves.
     let is_tight = |vertex: usize, chord: usize| {
         radius(vertex) < ARC_SHARE * width && (path[chord + 1] - path[chord]).norm() < width
     };
@@ -146,7 +146,7 @@ mod tests {
     use super::*;
     use crate::geom::Heading;
     use crate::ir::list::Joint;
-    use crate::ir::toolpath::{Edge, End, Law, Pose};
+    use crate::ir::toolpath::{Edge, End, OrientationMode, Pose};
 
     const WIDTH: f64 = 6.6;
 
@@ -157,7 +157,7 @@ mod tests {
             joints: vec![Joint::default(); points.len()],
             points,
             shape,
-            law: Law::Chord,
+            orientation: OrientationMode::Chord,
             front: 0.0,
             heel: 0.0,
             feeds: vec![1.0; chords],
@@ -187,7 +187,7 @@ mod tests {
     #[test]
     fn a_bend_is_tight_when_the_blade_would_stand_across_it() {
         let right = std::f64::consts::FRAC_PI_2;
-        // The tail enters the arc of a right angle with the cosine R / w.
+        // The heel enters the arc of a right angle with the cosine R / w.
         assert!(found_on(&run(bend(0.43 * WIDTH, right), Shape::Open), WIDTH).is_empty());
         let found = found_on(&run(bend(0.37 * WIDTH, right), Shape::Open), WIDTH);
         assert_eq!(found.len(), 1);

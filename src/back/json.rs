@@ -5,11 +5,11 @@
 //! very end. Every run has every key; what a kind does not have is 0, as block 0 is none. Lengths and poses have the
 //! decimals of `csv`.
 //!
-//! `front_side` and `heel_side` say where the overlaps go: into the "waste", into the "part" itself, or into a "gap" that is
-//! narrower than they should be long, or along the "contour" where the knife is lifted amid it; `turned` whether a cut goes
-//! the other way round than the file has it. `front_overcut_mm` and `heel_overcut_mm` say how far the blade of a stab cuts
-//! into parts because nothing else holds what it is longer by, `neighbour_overcut_mm` how much of either lies in another
-//! part than its own, at the most.
+//! `front_side` and `heel_side` say where the overlaps go: into the "waste", into the "part" itself, or into a "gap"
+//! that is narrower than they should be long, or along the "contour" where the knife is lifted amid it; `turned`
+//! whether a cut goes the other way round than the file has it. `front_overcut_mm` and `heel_overcut_mm` say how far
+//! the blade of a plunge cut cuts into parts because nothing else holds what it is longer by, `neighbour_overcut_mm`
+//! how much of either lies in another part than its own, at the most.
 //!
 //! Two clocks are given. `duration_s` is what the axes need from rest to rest, not rounded; `dwell_s` how long they rest
 //! for plunge and lift, or a drill; all of both add up to the program's `time_s`. A controller has whole periods only, so
@@ -22,7 +22,7 @@ use std::io;
 
 use super::target::{Context, Emit, Output, Parts, Proof, Target};
 use crate::ir::motion::{Kind, Phase, Task};
-use crate::ir::toolpath::{Edge, Law, Pose, Side};
+use crate::ir::toolpath::{Edge, OrientationMode, Pose, Side};
 use crate::ir::{Finding, Motion};
 use crate::units::deg;
 use crate::units::number::{exact, fixed};
@@ -126,7 +126,7 @@ fn object(run: &Run, index: u64, piece: u32) -> String {
         let [x, y, c] = [pose.centre.x, pose.centre.y, deg(pose.c.0)].map(mm);
         format!("{{\"x_mm\": {x}, \"y_mm\": {y}, \"c_deg\": {c}}}")
     };
-    let Task { blocks: [first, last], front, heel, sides: [start, end], turned, edge, harm, law } = run.task;
+    let Task { blocks: [first, last], front, heel, sides: [start, end], turned, edge, overcut, orientation } = run.task;
     format!(
         "{{\"index\": {index}, \"kind\": \"{}\", \"piece\": {piece}, \"block_first\": {first}, \"block_last\": {last}, \
          \"length_mm\": {}, \"duration_s\": {}, \"dwell_s\": {}, \"ticks\": {}, \"start\": {}, \"end\": {}, \
@@ -145,10 +145,10 @@ fn object(run: &Run, index: u64, piece: u32) -> String {
         side(end),
         side(start),
         edge_name(edge),
-        mm(harm[1].total()),
-        mm(harm[0].total()),
-        mm(harm[0].other.max(harm[1].other)),
-        follow(law),
+        mm(overcut[1].total()),
+        mm(overcut[0].total()),
+        mm(overcut[0].other.max(overcut[1].other)),
+        follow(orientation),
     )
 }
 
@@ -160,11 +160,11 @@ fn edge_name(edge: Edge) -> &'static str {
     }
 }
 
-fn follow(law: Option<Law>) -> &'static str {
-    match law {
+fn follow(orientation: Option<OrientationMode>) -> &'static str {
+    match orientation {
         None => "null",
-        Some(Law::Tangent) => "\"tangent\"",
-        Some(Law::Chord) => "\"chord\"",
+        Some(OrientationMode::Tangent) => "\"tangent\"",
+        Some(OrientationMode::Chord) => "\"chord\"",
     }
 }
 

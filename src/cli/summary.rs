@@ -63,8 +63,8 @@ fn of_program(report: &Report, line: &mut impl FnMut(&str, String)) {
     if let Some(travel) = program.travel_m {
         line("travel", format!("{} m", fixed(travel, 3)));
     }
-    if let (Some(runs), Some(stabs)) = (program.runs, program.stabs) {
-        line("runs", format!("{runs}, of which {}", counted(stabs, "stab")));
+    if let (Some(runs), Some(plunge_cuts)) = (program.runs, program.plunge_cuts) {
+        line("runs", format!("{runs}, of which {}", counted(plunge_cuts, "plunge cut")));
     }
     if let (Some(Follow::Chord), Some(tangents)) = (program.follow, program.tangent_runs) {
         let but = if tangents > 0 {
@@ -117,8 +117,8 @@ fn overlaps(sides: &Sides) -> String {
         (sides.trespassing, sides.neighbour_overcut_mm, "another part than its own"),
     ] {
         if count > 0 {
-            let (stabs, at_most) = (counted(count, "stab"), fixed(farthest, 2));
-            let _ = write!(out, "\n             {stabs} cut into {into}, at most {at_most} mm past an end");
+            let (plunge_cuts, at_most) = (counted(count, "plunge cut"), fixed(farthest, 2));
+            let _ = write!(out, "\n             {plunge_cuts} into {into}, at most {at_most} mm past an end");
         }
     }
     out
@@ -262,7 +262,7 @@ mod tests {
                 notch_style: Some(NotchStyle::Slit),
                 follow: Some(Follow::Chord),
                 tangent_runs: Some(2),
-                stabs: Some(1),
+                plunge_cuts: Some(1),
                 sides: Some(Sides {
                     inside: 8,
                     shortened: 3,
@@ -312,11 +312,11 @@ mod tests {
           labels     12
           cut        20.123 m
           travel     8.200 m
-          runs       101, of which 1 stab
+          runs       101, of which 1 plunge cut
           blade      a chord of curves, heel and tip on the line
                      2 runs along the tangent, tighter than the blade
           overlaps   8 ends inside parts, 3 shortened; 1 cut turned round
-                     1 stab cut into a part, at most 1.55 mm past an end
+                     1 plunge cut into a part, at most 1.55 mm past an end
           lifts      101
           time       2 min 0.0 s
           spent      cut 50 %, travel 17 %, turn 13 %, plunge 12 %, lift 9 %

@@ -233,7 +233,7 @@ mod table {
     /// A cut that begins on a curve from which the blade's body lies away.
     pub static PATH_BOWED_PLUNGE: Code = warning(Spoils, Shape, "path/bowed-plunge", "A cut begins on a curve, and the body of the plunged blade cuts beside it by more than `knife.max_bow_mm`.", "The blade plunges straight, and the curve bows away from it: on a radius R by about w^2/8R. A narrower knife helps; knife.tight_curves = \"nibble\" cuts the start of the curve by short steps. Best is to let the outline begin, or turn its corner, on a straighter stretch.");
     /// A curve too tight for the blade.
-    pub static PATH_TIGHT_CURVE: Code = warning(Spoils, Shape, "path/tight-curve", "A curve is tighter than the blade, which would stand across it: it is cut along the tangent, or nibbled, as `knife.tight_curves` says.", "On such a curve the blade is longer than the curve is wide: whatever its law, its heel swings out of the line and tears the cloth. A narrower knife helps; knife.tight_curves = \"nibble\" cuts the curve by plunges, which is slower and cuts past it along its tangents.");
+    pub static PATH_TIGHT_CURVE: Code = warning(Spoils, Shape, "path/tight-curve", "A curve is tighter than the blade, which would stand across it: it is cut along the tangent, or nibbled, as `knife.tight_curves` says.", "On such a curve the blade is longer than the curve is wide: whatever `knife.follow` says, its heel swings out of the line and tears the cloth. A narrower knife helps; knife.tight_curves = \"nibble\" cuts the curve by plunges, which is slower and cuts past it along its tangents.");
     /// The same, refused.
     pub static PATH_TIGHT_CURVE_REFUSED: Code = error(Shape, "path/tight-curve-refused", "A curve is tighter than the blade, and `knife.tight_curves` is \"refuse\".", "The profile wants no curve cut that the blade cannot follow. Use a narrower knife, draw the curve wider, or set knife.tight_curves to \"follow\" or \"nibble\".");
     /// Overlaps that the gap between parts does not hold.
@@ -250,12 +250,12 @@ mod table {
     pub static MARKER_OFF_TABLE: Code = error(Shape, "marker/off-table", "The marker leaves the table of the profile by more than a millimetre; the hint says how to move it.", "The head would hit its end stop, and the cut stop in the middle of a part. Move the marker as the hint says, choose other pieces with --skip, or correct `table` in the profile.");
 
     // Motion.
-    /// No curve inside the tube.
+    /// No curve inside the tolerance band.
     pub static PLAN_SMOOTH: Code = error(Shape, "plan/smooth", "No smooth curve was found inside the tolerance of a run; a larger `path.tolerance_mm` or a smaller `corner.angle_deg` helps.", "The points turn too sharply for a blade in the cloth and too gently to count as a corner. With a smaller corner.angle_deg the knife lifts there; with a larger path.tolerance_mm it may round it.");
     /// No motion within the limits.
     pub static PLAN_PROFILE: Code = error(Shape, "plan/profile", "No motion within the limits was found for a run.", "No pace keeps speed, acceleration and jerk of all axes on this run. Limits that are far apart, such as a tiny jerk, cause it: check `axes` in the profile.");
     /// The samples break a limit.
-    pub static PLAN_CHORD: Code = error(Shape, "plan/chord", "The blade cannot be a chord of the smooth curve of a run, although it can be one of its points; the tangent law cuts it.", "With its tip on the smooth curve the blade finds no place for its heel there. It is a matter of a little: a smaller path.tolerance_mm, or knife.follow = \"tangent\", cuts the file.");
+    pub static PLAN_CHORD: Code = error(Shape, "plan/chord", "The blade cannot be a chord of the smooth curve of a run, although it can be one of its points; `knife.follow = \"tangent\"` cuts it.", "With its tip on the smooth curve the blade finds no place for its heel there. It is a matter of a little: a smaller path.tolerance_mm, or knife.follow = \"tangent\", cuts the file.");
     /// The samples break a limit.
     pub static PLAN_CERTIFY: Code = error(Shape, "plan/certify", "The samples of a run break a limit of the profile however far it is slowed down.", "Every sample is checked before it leaves, and these could not be made to pass. Check time.period_ms and `axes` in the profile; if they are right, please report the file.");
 

@@ -5,8 +5,8 @@ use serde::Serialize;
 use super::{Diagnostic, Severity};
 use crate::source::Lines;
 
-/// A diagnostic as JSON. Where it lies on the cloth is null when that is not known; block, line and bytes are not there when
-/// it concerns the file as a whole.
+/// A diagnostic as JSON. Where it lies on the cloth is null when that is not known; block, line and bytes are not there
+/// when it concerns the file as a whole.
 #[derive(Debug, Serialize)]
 pub struct Json {
     code: &'static str,

@@ -84,7 +84,8 @@ pub struct Diagnostics {
 }
 
 impl Diagnostics {
-    /// How many findings of one code are kept: a megabyte of junk has a fault a byte. No marker has so many of another kind.
+    /// How many findings of one code are kept: a megabyte of junk has a fault a byte. No marker has so many of another
+    /// kind.
     pub const MOST_OF_A_CODE: usize = 10_000;
 
     /// Adds a finding.

@@ -1,7 +1,7 @@
 //! The text rendering: message, place, a window of the source where the text is at fault, hints.
 //!
-//! A marker of hundreds of pieces has hundreds of findings of one kind. So findings stand by their code, the worst code first;
-//! of each a few are told, what all of them say is said once, and a tally stands at the end.
+//! A marker of hundreds of pieces has hundreds of findings of one kind. So findings stand by their code, the worst code
+//! first; of each a few are told, what all of them say is said once, and a tally stands at the end.
 //!
 //! A cut file is often one line of 59 kB, so never a whole line is shown, only a window around the place.
 

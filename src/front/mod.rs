@@ -1,5 +1,5 @@
-//! Reading: bytes of a dialect to a [`Marker`](crate::ir::Marker), or to a [`Drawing`](crate::ir::Drawing) where the dialect
-//! does not say what is cut.
+//! Reading: bytes of a dialect to a [`Marker`](crate::ir::Marker), or to a [`Drawing`](crate::ir::Drawing) where the
+//! dialect does not say what is cut.
 //!
 //! Receives a [`Source`] and promises a form in mm in which nobody need think any more about the dialect: its units,
 //! line breaks, codes and layouts. Everything keeps the span that it came from. Faults are reported all in one run;

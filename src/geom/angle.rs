@@ -75,8 +75,8 @@ pub fn turn(a: Vector, b: Vector) -> f64 {
     super::cross(a, b).atan2(a.dot(&b))
 }
 
-/// Whether the direction of `b` is turned from that of `a` by more than `limit` rad, either way. Most are far from any limit,
-/// so that the angle itself need not be known.
+/// Whether the direction of `b` is turned from that of `a` by more than `limit` rad, either way. Most are far from any
+/// limit, so that the angle itself need not be known.
 pub fn is_turned(a: Vector, b: Vector, limit: f64) -> bool {
     let (sine, cosine) = (super::cross(a, b).abs(), a.dot(&b));
     // An angle is less than its tangent, and more than its sine.

@@ -14,8 +14,8 @@ impl Budget {
         Self(MOST_WORK)
     }
 
-    /// The share of one of `parts` parts of a marker that are searched side by side: whichever is done first, each finds the
-    /// same.
+    /// The share of one of `parts` parts of a marker that are searched side by side: whichever is done first, each
+    /// finds the same.
     pub fn of_a_part(parts: usize) -> Self {
         Self(MOST_WORK / parts.max(1))
     }

@@ -117,8 +117,9 @@ impl Bands {
 }
 
 impl<'a> Regions<'a> {
-    /// The regions of owners, in this order, each bounded by the rings that `rings` gives for it; whether a ring repeats its
-    /// first point does not matter. They are asked for one owner at a time, so that not all are there at once.
+    /// The regions of owners, in this order, each bounded by the rings that `rings` gives for it; whether a ring
+    /// repeats its first point does not matter. They are asked for one owner at a time, so that not all are there at
+    /// once.
     pub fn new(owners: impl IntoIterator<Item = u32>, rings: impl Fn(u32) -> Vec<Cow<'a, [Point]>> + Sync) -> Self {
         let owners: Vec<u32> = owners.into_iter().collect();
         let owners: Vec<Region<'a>> =

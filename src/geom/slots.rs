@@ -11,10 +11,11 @@ pub struct Slots {
 }
 
 impl Slots {
-    /// Sorts items, fewer than 2^32, into `count` slots by counting, first how many, then where. `each` calls out the slot and
-    /// the item of all, each time the same; in a slot they stay in this order.
+    /// Sorts items, fewer than 2^32, into `count` slots by counting, first how many, then where. `each` calls out the
+    /// slot and the item of all, each time the same; in a slot they stay in this order.
     pub fn new(count: usize, each: impl Fn(&mut dyn FnMut(usize, u32))) -> Self {
-        // A slot's count stands two places on, so that what is counted up one place on is where it begins, then where it ends.
+        // A slot's count stands two places on, so that what is counted up one place on is where it begins, then where
+        // it ends.
         let mut starts = vec![0_u32; count + 2];
         each(&mut |slot, _| starts[slot + 2] += 1);
         for i in 2..starts.len() {

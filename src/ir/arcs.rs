@@ -7,7 +7,7 @@ use super::toolpath::Pose;
 use crate::geom::Point;
 use crate::source::Span;
 
-/// What the axes do along a toolpath with the knife down: a path for each run and each stab, in order.
+/// What the axes do along a toolpath with the knife down: a path for each run and each plunge cut, in order.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Arcs {
     /// One for each.
@@ -19,7 +19,7 @@ pub struct Arcs {
 pub struct Path {
     /// Where the axes plunge.
     pub start: Pose,
-    /// From there on, each from where the one before it ends; none for a stab.
+    /// From there on, each from where the one before it ends; none for a plunge cut.
     pub pieces: Vec<Piece>,
     /// From the C axis to the tip of the blade, mm.
     pub radius: f64,

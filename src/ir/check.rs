@@ -87,16 +87,16 @@ pub fn toolpath(toolpath: &Toolpath) -> Faults {
         let wrong = |what: &str| format!("step {}: {what}", i + 1);
         match step {
             Step::Run(run) => faults.extend(run_faults(run).into_iter().map(wrong)),
-            Step::Stab(stab) => {
-                if stab.points.len() < 2 || stab.spans.len() + 1 != stab.points.len() {
-                    faults.push(wrong("a stab needs a span a chord"));
+            Step::PlungeCut(plunge_cut) => {
+                if plunge_cut.points.len() < 2 || plunge_cut.spans.len() + 1 != plunge_cut.points.len() {
+                    faults.push(wrong("a plunge cut needs a span a chord"));
                 }
-                let harms = stab.harm.iter().flat_map(|harm| [harm.own, harm.other]);
-                if !harms.chain([stab.front, stab.heel]).all(|length| length >= 0.0) {
+                let overcuts = plunge_cut.overcut.iter().flat_map(|overcut| [overcut.own, overcut.other]);
+                if !overcuts.chain([plunge_cut.front, plunge_cut.heel]).all(|length| length >= 0.0) {
                     faults.push(wrong("an overlap is negative"));
                 }
-                if (stab.along.norm() - 1.0).abs() > UNIT_EPSILON || !pose_finite(stab.pose) {
-                    faults.push(wrong("a stab needs a unit direction and a finite pose"));
+                if (plunge_cut.along.norm() - 1.0).abs() > UNIT_EPSILON || !pose_finite(plunge_cut.pose) {
+                    faults.push(wrong("a plunge cut needs a unit direction and a finite pose"));
                 }
             }
             Step::Turn(air) | Step::Travel(air) => {

@@ -1,9 +1,9 @@
 //! The doubly linked segment list: data in vectors, order as ids of neighbours beside them.
 //!
-//! The segments of a range join, since each is kept as its end alone; links are kept only where something was moved, and what
-//! the file asks for only where it asks for something: twenty-eight bytes, for large markers are as slow to read as they are
-//! large in memory. Ids are never reused. Nobody outside this file sees a link; others walk a [`Range`] or edit through a
-//! [`Cursor`], whose every operation takes constant time.
+//! The segments of a range join, since each is kept as its end alone; links are kept only where something was moved,
+//! and what the file asks for only where it asks for something: twenty-eight bytes, for large markers are as slow to
+//! read as they are large in memory. Ids are never reused. Nobody outside this file sees a link; others walk a
+//! [`Range`] or edit through a [`Cursor`], whose every operation takes constant time.
 
 use std::borrow::Cow;
 
@@ -105,8 +105,8 @@ impl Range {
 /// All segments of a marker.
 #[derive(Debug, Clone, Default)]
 pub struct SegmentList {
-    /// Where each ends; where it starts, the one before it ends. In front of the first segment of a range stands a node that
-    /// is none: its end is where the range starts.
+    /// Where each ends; where it starts, the one before it ends. In front of the first segment of a range stands a node
+    /// that is none: its end is where the range starts.
     ends: Vec<Point>,
     /// The block that each end came from.
     spans: Vec<Span>,
@@ -145,8 +145,8 @@ impl SegmentList {
         Some(Range { first, last, backward: false, in_order: true })
     }
 
-    /// Appends the segments between points as a range of their own; `None` when there are none. Beside each point stands the
-    /// block that it came from; the file asks for nothing on them.
+    /// Appends the segments between points as a range of their own; `None` when there are none. Beside each point
+    /// stands the block that it came from; the file asks for nothing on them.
     pub fn append_line(&mut self, points: &[Point], spans: &[Span]) -> Option<Range> {
         let (_, [_, ..]) = points.split_first()? else { return None };
         debug_assert_eq!(points.len(), spans.len(), "a block stands beside each point");

@@ -8,7 +8,7 @@
 //! - the segments of a contour join: each starts where the one before it ends, to the bit (the list keeps no starts)
 //! - a closed contour ends where it starts, to the bit; an open one does not
 //! - links of the list agree in both directions; no segment belongs to two contours
-//! - steps of a toolpath come in an order that a machine can run: the knife is down in runs and stabs alone
+//! - steps of a toolpath come in an order that a machine can run: the knife is down in runs and plunge cuts alone
 //! - every run has one span a chord, overlaps that are not negative and a positive speed cap
 
 pub mod arcs;

@@ -7,7 +7,7 @@ mod poses;
 
 pub use poses::{Derivatives, Glide, Poses, Stroke};
 
-use super::toolpath::{Edge, Event, Harm, Law, Pose, Side};
+use super::toolpath::{Edge, Event, OrientationMode, Overcut, Pose, Side};
 
 /// The phases of one toolpath, in order.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -41,10 +41,10 @@ pub struct Task {
     pub turned: bool,
     /// The edge of the blade that goes first.
     pub edge: Edge,
-    /// How far the blade of a stab cuts into parts before the start and past the end.
-    pub harm: [Harm; 2],
+    /// How far the blade of a plunge cut cuts into parts before the start and past the end.
+    pub overcut: [Overcut; 2],
     /// How the blade lies on the way of a cut; `None` when it only plunges, and for a drill.
-    pub law: Option<Law>,
+    pub orientation: Option<OrientationMode>,
 }
 
 /// A stretch of time in which the outputs do not change.

@@ -22,7 +22,7 @@ impl Pose {
         Self { centre: Point::new(x, y), c: Rotation(c) }
     }
 
-    /// The point `reach` mm in front of the C axis along the blade: the tip at `radius`, the tail at `-back`.
+    /// The point `reach` mm in front of the C axis along the blade: the tip at `radius`, the heel at `-back`.
     pub fn ahead(&self, reach: f64) -> Point {
         self.centre + self.c.unit() * reach
     }
@@ -54,7 +54,7 @@ impl Toolpath {
     pub fn exit(&self) -> Pose {
         let end = |step: &Step| match step {
             Step::Run(run) => Some(run.end),
-            Step::Stab(stab) => Some(stab.pose),
+            Step::PlungeCut(plunge_cut) => Some(plunge_cut.pose),
             Step::Turn(air) | Step::Travel(air) => Some(air.to),
             Step::Drill(_) | Step::Event(_) => None,
         };
@@ -68,7 +68,7 @@ pub enum Step {
     /// Plunge, follow a path with the knife down, lift.
     Run(Run),
     /// One plunge without motion.
-    Stab(Stab),
+    PlungeCut(PlungeCut),
     /// Knife up, C to the next heading and the centre to the next start, at a corner inside a contour.
     Turn(Air),
     /// Knife up, from anywhere to anywhere.
@@ -100,10 +100,10 @@ pub struct Run {
     /// How it begins and ends.
     pub shape: Shape,
     /// How the blade lies on curves.
-    pub law: Law,
+    pub orientation: OrientationMode,
     /// How far the tip goes past the end, mm.
     pub front: f64,
-    /// How far the tail starts before the start, mm; without meaning on a closed run.
+    /// How far the heel starts before the start, mm; without meaning on a closed run.
     pub heel: f64,
     /// Greatest speed of the tip on each chord, mm/s; infinite when nothing caps it.
     pub feeds: Vec<f64>,
@@ -121,7 +121,7 @@ pub struct Run {
 
 impl Run {
     /// The polyline of an open run with its overlaps: the heel straight back along the first chord, the front straight on
-    /// along the last. The tail plunges at its first point, the tip is lifted at its last.
+    /// along the last. The heel plunges at its first point, the tip is lifted at its last.
     pub fn extended(&self) -> Vec<Point> {
         self.extended_by([self.heel, self.front])
     }
@@ -144,15 +144,15 @@ impl Run {
 
 /// How the blade lies on a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Law {
+pub enum OrientationMode {
     /// Tip on the path, blade along the tangent.
     Tangent,
-    /// Tip and tail on the path: the blade is a chord of it.
+    /// Tip and heel on the path: the blade is a chord of it.
     Chord,
 }
 
 /// An edge of the blade. One that is sharp at its back may be turned by half a turn: then its heel goes first, and what is
-/// said of tip and tail holds the other way round.
+/// said of tip and heel holds the other way round.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Edge {
     /// The one at the tip.
@@ -214,16 +214,17 @@ pub enum Side {
     Contour,
 }
 
-/// How far a blade that never moves cuts into parts beyond one of its ends, mm: it is longer than its cut, and there is no room.
+/// How far a blade that never moves cuts into parts beyond one of its ends, mm: it is longer than its cut, and there is
+/// no room.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Harm {
+pub struct Overcut {
     /// Into the part to which the cut belongs.
     pub own: f64,
     /// Into another one.
     pub other: f64,
 }
 
-impl Harm {
+impl Overcut {
     /// Into either, mm.
     pub fn total(self) -> f64 {
         self.own + self.other
@@ -232,16 +233,16 @@ impl Harm {
 
 /// One plunge without motion: the blade is as long as what it has to cut, or longer.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Stab {
+pub struct PlungeCut {
     /// What it cuts, as the file has it, mm.
     pub points: Vec<Point>,
     /// The block of each chord.
     pub spans: Vec<Span>,
-    /// Direction of the blade, unit vector from tail to tip.
+    /// Direction of the blade, unit vector from heel to tip.
     pub along: Vector,
     /// How far the tip stands past the end, mm.
     pub front: f64,
-    /// How far the tail stands before the start, mm.
+    /// How far the heel stands before the start, mm.
     pub heel: f64,
     /// What the two ends of the cut are.
     pub ends: [End; 2],
@@ -250,7 +251,7 @@ pub struct Stab {
     /// The edge that stands at the end of the cut; `place` chooses.
     pub edge: Edge,
     /// How far the blade cuts into parts before the start and past the end.
-    pub harm: [Harm; 2],
+    pub overcut: [Overcut; 2],
     /// Where the axes stand at the plunge; `place` turns C.
     pub pose: Pose,
 }

@@ -1,7 +1,7 @@
 //! Every key of the profile: what it takes and what it means in a cutting room.
 //!
-//! The commented profile, the messages about wrong values, the schema, the help and the manual come from this one table. Its
-//! rows stand with the options that they describe.
+//! The commented profile, the messages about wrong values, the schema, the help and the manual come from this one
+//! table. Its rows stand with the options that they describe.
 
 use super::codes;
 pub use super::codes::{CODE_NAMES, CODES, near_codes};

@@ -94,7 +94,8 @@ impl Move {
         (2.0 * self.ramp + self.hold) / self.duration()
     }
 
-    /// The distance covered at `time` after the start, of this move stretched to last `duration` (not shorter than its own).
+    /// The distance covered at `time` after the start, of this move stretched to last `duration` (not shorter than its
+    /// own).
     pub fn at(&self, time: f64, duration: f64) -> f64 {
         let own = self.duration();
         if own == 0.0 || time >= duration {

@@ -35,7 +35,7 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "knife.yaw_deg", takes: Takes::Number(from(-45.0, 45.0)), about: "C yaw: a constant correction of the blade's angle, which is added to C in every cut." },
 ];
 
-/// The blade: a segment from tail to tip in the plane; the C axis passes through its centre, `radius` behind the tip.
+/// The blade: a segment from heel to tip in the plane; the C axis passes through its centre, `radius` behind the tip.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Knife {
@@ -51,13 +51,13 @@ pub struct Knife {
     pub front_overlap_mm: f64,
     /// The same at a corner.
     pub corner_front_overlap_mm: f64,
-    /// Of the tail, before the start of a run.
+    /// Of the heel, before the start of a run.
     pub heel_overlap_mm: f64,
     /// The same at a corner.
     pub corner_heel_overlap_mm: f64,
     /// Of the tip, where the part lies ahead.
     pub reflex_front_overlap_mm: f64,
-    /// Of the tail, likewise.
+    /// Of the heel, likewise.
     pub reflex_heel_overlap_mm: f64,
     /// Overlaps to the next part.
     pub clearance_mm: f64,
@@ -94,7 +94,7 @@ pub struct Knife {
 pub enum Follow {
     /// Tip on the path, blade along the tangent.
     Tangent,
-    /// Tip and tail on the path: the blade is a chord of it.
+    /// Tip and heel on the path: the blade is a chord of it.
     Chord,
 }
 
@@ -143,7 +143,7 @@ impl Knife {
         self.width_mm - self.radius()
     }
 
-    /// Centre to tip and tail to centre, mm.
+    /// Centre to tip and heel to centre, mm.
     pub fn ends(&self) -> [f64; 2] {
         [self.radius(), self.back()]
     }

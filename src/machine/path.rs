@@ -72,7 +72,7 @@ pub struct Path {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Fit {
-    /// A curve that was flattened: chords cut its corners, so the tube is wider on the outside.
+    /// A curve that was flattened: chords cut its corners, so the tolerance band is wider on the outside.
     Curve,
     /// Exactly the polygon.
     Polygon,

@@ -1,9 +1,9 @@
 //! The profile as a JSON Schema (draft 2020-12), from the table of keys alone: by it editors complete and check a profile
 //! while it is written.
 //!
-//! Nothing that loads breaks it. What it cannot say is left to loading: rules between keys, the order of two numbers, ranges
-//! of values that are texts with a unit or words of a step, which names of encodings there are, what lines of text do. To
-//! JSON 1.0 is a whole number, to TOML none.
+//! Nothing that loads breaks it. What it cannot say is left to loading: rules between keys, the order of two numbers,
+//! ranges of values that are texts with a unit or words of a step, which names of encodings there are, what lines of
+//! text do. To JSON 1.0 is a whole number, to TOML none.
 
 use std::ops::Bound;
 

@@ -191,9 +191,9 @@ fn finish(
 /// How the programs of a compile are judged.
 #[derive(Debug, Clone, Copy)]
 struct Proofs {
-    /// Whether setpoints are made only to be judged. A target that cannot be judged by its own bytes shows the verdict on
-    /// setpoints; when no target's own bytes are those, they are made beside the others, so that a picture can show the worst
-    /// places.
+    /// Whether setpoints are made only to be judged. A target that cannot be judged by its own bytes shows the verdict
+    /// on setpoints; when no target's own bytes are those, they are made beside the others, so that a picture can show
+    /// the worst places.
     beside: bool,
     /// Whether any program is judged by how it moves.
     by_motion: bool,

@@ -1,5 +1,5 @@
-//! Planning and writing: toolpaths come a window at a time and go through stages, each at work on a window of its own on all
-//! cores: made one by one, linked to each other, planned, and written in order.
+//! Planning and writing: toolpaths come a window at a time and go through stages, each at work on a window of its own
+//! on all cores: made one by one, linked to each other, planned, and written in order.
 
 use std::io::{self, BufWriter, Write};
 
@@ -13,7 +13,7 @@ use crate::back::{ArcTarget, ArcWriter, Context, Emit, Estimate, Parts};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::ir::arcs::{Interpolation, Unfit};
 use crate::ir::motion::{Kind, Task};
-use crate::ir::toolpath::{Edge, Harm, Law, Side};
+use crate::ir::toolpath::{Edge, OrientationMode, Overcut, Side};
 use crate::ir::{Arcs, Motion, Toolpath};
 use crate::machine::{Follow, Job};
 use crate::plan::{self, Cut, Planner, arcs};
@@ -255,12 +255,12 @@ fn count(refused: &mut Vec<(Diagnostic, usize)>, cut: Diagnostic) {
 struct Tally {
     travel: f64,
     plunges: usize,
-    stabs: usize,
+    plunge_cuts: usize,
     /// Cuts along the tangent.
     tangents: usize,
     lifts: usize,
     ticks: u64,
-    bulge: f64,
+    sagitta: f64,
     sides: Sides,
     /// Where the time goes, in all and piece by piece.
     clock: Clock,
@@ -276,10 +276,10 @@ impl Sides {
         self.backwards += usize::from(task.edge == Edge::Back);
         self.rejoined += usize::from(task.sides[0] == Side::Contour);
         for (count, farthest, of) in [
-            (&mut self.harmful, &mut self.overcut_mm, Harm::total as fn(Harm) -> f64),
-            (&mut self.trespassing, &mut self.neighbour_overcut_mm, |harm: Harm| harm.other),
+            (&mut self.harmful, &mut self.overcut_mm, Overcut::total as fn(Overcut) -> f64),
+            (&mut self.trespassing, &mut self.neighbour_overcut_mm, |overcut: Overcut| overcut.other),
         ] {
-            let worst = task.harm.into_iter().map(of).fold(0.0, f64::max);
+            let worst = task.overcut.into_iter().map(of).fold(0.0, f64::max);
             *count += usize::from(worst > 0.0);
             *farthest = farthest.max(worst);
         }
@@ -299,7 +299,7 @@ impl Tally {
     /// Takes what is known of cuts before they are joined to a motion.
     fn take(&mut self, piece: u32, cuts: &[Cut]) {
         for cut in cuts {
-            self.bulge = self.bulge.max(cut.sagitta);
+            self.sagitta = self.sagitta.max(cut.sagitta);
             self.clock.bind(&cut.shares);
             self.clock_of(piece).bind(&cut.shares);
         }
@@ -310,7 +310,7 @@ impl Tally {
         self.clock.add(motion);
         self.clock_of(motion.piece).add(motion);
         motion.tasks.iter().for_each(|task| self.sides.add(task));
-        self.tangents += motion.tasks.iter().filter(|task| task.law == Some(Law::Tangent)).count();
+        self.tangents += motion.tasks.iter().filter(|task| task.orientation == Some(OrientationMode::Tangent)).count();
         let mut before = None;
         for phase in &motion.phases {
             match phase.kind {
@@ -318,7 +318,7 @@ impl Tally {
                 Kind::Plunge => self.plunges += 1,
                 Kind::Lift => {
                     self.lifts += 1;
-                    self.stabs += usize::from(before == Some(Kind::Plunge));
+                    self.plunge_cuts += usize::from(before == Some(Kind::Plunge));
                 }
                 Kind::Cut | Kind::Rest | Kind::Wait | Kind::Drill(_) | Kind::Event(_) => {}
             }
@@ -339,14 +339,14 @@ impl Tally {
                 Follow::Chord if job.profile.knife.width_mm == 0.0 => 0,
                 Follow::Chord => self.tangents,
             }),
-            stabs: Some(self.stabs),
+            plunge_cuts: Some(self.plunge_cuts),
             lifts: Some(self.lifts),
             // The last setpoint stands at the last tick, and rows count from tick 0.
             time_s: Some((self.ticks - 1) as f64 * period),
             sides: Some(self.sides),
             spent: Some(self.clock.spent(period)),
             by_piece: self.by_piece.iter().map(|(piece, clock)| (*piece, clock.spent(period))).collect(),
-            bulge_mm: Some(self.bulge),
+            bulge_mm: Some(self.sagitta),
             axes: Some(Axes::new(&planner.peaks())),
         }
     }

@@ -180,7 +180,7 @@ pub struct Program {
     /// Way of the C axis with the knife up, m.
     #[serde(serialize_with = "micro_known")]
     pub travel_m: Option<f64>,
-    /// Times that the knife goes down: runs and stabs.
+    /// Times that the knife goes down: runs and plunge cuts.
     pub runs: Option<usize>,
     /// How notches are cut.
     pub notch_style: Option<NotchStyle>,
@@ -189,7 +189,8 @@ pub struct Program {
     /// Cuts whose blade lies along the tangent, because it cannot be a chord of a curve on them, although it should.
     pub tangent_runs: Option<usize>,
     /// Plunges without motion.
-    pub stabs: Option<usize>,
+    #[serde(rename = "stabs")]
+    pub plunge_cuts: Option<usize>,
     /// Times that the knife goes up.
     pub lifts: Option<usize>,
     /// Duration of the program, s.
@@ -220,12 +221,12 @@ pub struct Sides {
     pub turned: usize,
     /// Cuts that the back edge of the blade makes.
     pub backwards: usize,
-    /// Stabs that cut into a part.
+    /// Plunge cuts that cut into a part.
     pub harmful: usize,
     /// The farthest that one of them does beyond one of its ends, mm.
     #[serde(serialize_with = "micro")]
     pub overcut_mm: f64,
-    /// Stabs that cut into another part than their own.
+    /// Plunge cuts that cut into another part than their own.
     pub trespassing: usize,
     /// The farthest that one of them does beyond one of its ends, mm.
     #[serde(serialize_with = "micro")]

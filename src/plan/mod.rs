@@ -32,7 +32,7 @@ pub fn solve(toolpath: &Toolpath, job: &Job) -> Result<Vec<Cut>, Vec<Diagnostic>
                 Ok(cut) => cuts.push(cut),
                 Err(diagnostic) => refused.push(diagnostic),
             },
-            Step::Stab(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {}
+            Step::PlungeCut(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {}
         }
     }
     if refused.is_empty() { Ok(cuts) } else { Err(refused) }

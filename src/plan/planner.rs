@@ -6,7 +6,7 @@ use super::run::{Cut, whole_periods};
 use crate::diagnostic::{Diagnostic, code};
 use crate::geom::Rotation;
 use crate::ir::motion::{Kind, Motion, Phase, Poses, Spell, Task};
-use crate::ir::toolpath::{Drill, Harm, Pose, Run, Stab, Step, Toolpath};
+use crate::ir::toolpath::{Drill, Overcut, PlungeCut, Pose, Run, Step, Toolpath};
 use crate::machine::Job;
 use crate::source::Span;
 use crate::units::number::fixed;
@@ -54,9 +54,9 @@ impl<'a> Planner<'a> {
                     motion.tasks.push(task_of_run(run));
                     self.run(kind, cuts.next().expect("solve gives a cut for each run"), &mut motion);
                 }
-                Step::Stab(stab) => {
-                    motion.tasks.push(task_of_stab(stab));
-                    self.stab(kind, stab, &mut motion);
+                Step::PlungeCut(plunge_cut) => {
+                    motion.tasks.push(task_of_plunge_cut(plunge_cut));
+                    self.plunge_cut(kind, plunge_cut, &mut motion);
                 }
                 Step::Drill(drill) => {
                     motion.tasks.push(Task { blocks: [drill.span.block; 2], ..Task::default() });
@@ -116,10 +116,10 @@ impl<'a> Planner<'a> {
         self.lift(motion);
     }
 
-    /// To a stab, down and up.
-    fn stab(&mut self, kind: Kind, stab: &Stab, motion: &mut Motion) {
-        self.go(kind, yawed(stab.pose, self.job), motion);
-        let block = stab.spans.last().map_or(0, |span| span.block);
+    /// To a plunge cut, down and up.
+    fn plunge_cut(&mut self, kind: Kind, plunge_cut: &PlungeCut, motion: &mut Motion) {
+        self.go(kind, yawed(plunge_cut.pose, self.job), motion);
+        let block = plunge_cut.spans.last().map_or(0, |span| span.block);
         self.plunge(block, motion);
         self.lift(motion);
     }
@@ -202,16 +202,25 @@ impl<'a> Planner<'a> {
 
 /// What a run is for.
 fn task_of_run(run: &Run) -> Task {
-    let Run { front, heel, turned, edge, law, .. } = *run;
+    let Run { front, heel, turned, edge, orientation, .. } = *run;
     let sides = run.ends.map(|end| end.side);
-    Task { blocks: ends(&run.spans), front, heel, sides, turned, edge, harm: [Harm::default(); 2], law: Some(law) }
+    Task {
+        blocks: ends(&run.spans),
+        front,
+        heel,
+        sides,
+        turned,
+        edge,
+        overcut: [Overcut::default(); 2],
+        orientation: Some(orientation),
+    }
 }
 
-/// What a stab is for.
-fn task_of_stab(stab: &Stab) -> Task {
-    let Stab { front, heel, turned, edge, harm, .. } = *stab;
-    let sides = stab.ends.map(|end| end.side);
-    Task { blocks: ends(&stab.spans), front, heel, sides, turned, edge, harm, law: None }
+/// What a plunge cut is for.
+fn task_of_plunge_cut(plunge_cut: &PlungeCut) -> Task {
+    let PlungeCut { front, heel, turned, edge, overcut, .. } = *plunge_cut;
+    let sides = plunge_cut.ends.map(|end| end.side);
+    Task { blocks: ends(&plunge_cut.spans), front, heel, sides, turned, edge, overcut, orientation: None }
 }
 
 /// The first and the last block of a chain.

@@ -129,7 +129,7 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
     };
     let blade = Blade { width: knife.width_mm, radius: run.edge.lead(knife.ends()) };
     let near = Rotation(run.start.c.0 - run.edge.turn());
-    let course = Course { law: run.law, entry, to: end, blade, near };
+    let course = Course { orientation: run.orientation, entry, to: end, blade, near };
     let way = Way::new(&smooth.curve, &course).map_err(|TooTight { at }| {
         let (x, y) = (fixed(at.x, 2), fixed(at.y, 2));
         let reason = format!("the blade cannot be a chord of its curve at X {x} Y {y} mm");

@@ -11,8 +11,8 @@ use crate::ir::drawing::Vertex;
 
 /// How far from the edge a stroke may start and still be a notch, mm: CAD systems leave it by some units.
 const MOUTH: f64 = 0.5;
-/// How far beside its edge the other end of a mark is on the edge, too, mm: such a line lies along it, or leads from edge to
-/// edge.
+/// How far beside its edge the other end of a mark is on the edge, too, mm: such a line lies along it, or leads from
+/// edge to edge.
 const TOUCH: f64 = 0.1;
 /// Outlines that meet at one place, at the most.
 const MEETING: usize = 4;

@@ -8,8 +8,8 @@ use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point};
 use crate::ir::drawing::Vertex;
 
-/// Hems are drawn past the corners of their parts, and parts that touch overlap by rounding. A line that is drawn twice holds
-/// itself.
+/// Hems are drawn past the corners of their parts, and parts that touch overlap by rounding. A line that is drawn twice
+/// holds itself.
 const MOSTLY: Hold = Hold { box_share: 0.8, share: 0.75, twins: true };
 
 /// What holds each line that may be an outline; only large ones hold others.

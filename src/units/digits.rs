@@ -24,8 +24,9 @@ pub fn leading(bytes: &[u8]) -> Option<(u32, usize)> {
 /// Bytes that [`pair`] looks at.
 pub const PAIR: usize = 3 * WORD;
 
-/// Two numbers with a byte between them that is no digit, as in `105Y2326*`: the numbers, and the places of that byte and of
-/// the one behind, which is no digit if the first is below 0x80. `None` when one has no digits, or too many to be looked at.
+/// Two numbers with a byte between them that is no digit, as in `105Y2326*`: the numbers, and the places of that byte
+/// and of the one behind, which is no digit if the first is below 0x80. `None` when one has no digits, or too many to
+/// be looked at.
 #[inline] // most of a file is read here
 pub fn pair(bytes: &[u8; PAIR]) -> Option<([u32; 2], [usize; 2])> {
     let [first, second, _] = [0, 1, 2].map(|word| bytes.as_chunks().0[word]);
@@ -44,8 +45,8 @@ pub fn pair(bytes: &[u8; PAIR]) -> Option<([u32; 2], [usize; 2])> {
     Some(([value(first, middle), value(*bytes[middle + 1..].first_chunk()?, count)], [middle, end]))
 }
 
-/// The highest bit of each byte that is no digit. A carry reaches later bytes only, from bytes above 0x7f: the first that is
-/// no digit counts.
+/// The highest bit of each byte that is no digit. A carry reaches later bytes only, from bytes above 0x7f: the first
+/// that is no digit counts.
 fn others(word: [u8; WORD]) -> u64 {
     let word = u64::from_le_bytes(word) ^ ZEROS; // digits become 0 to 9
     (word | word.wrapping_add(ABOVE_NINE)) & HIGHEST

@@ -51,8 +51,8 @@ pub fn push_fixed(out: &mut Vec<u8>, value: f64, decimals: u32) {
     out.extend_from_slice(&digits[at..]);
 }
 
-/// Writes a number of at least so many digits before a place; where it then begins. From behind and two by two, so that there
-/// are few divisions, each by a hundred, for which a multiplication stands.
+/// Writes a number of at least so many digits before a place; where it then begins. From behind and two by two, so that
+/// there are few divisions, each by a hundred, for which a multiplication stands.
 fn put(digits: &mut [u8; DIGITS], end: usize, (mut value, least): (u64, usize)) -> usize {
     let mut at = end;
     while value >= 10 || end - at + 1 < least {

@@ -2,10 +2,11 @@
 //!
 //! Receives bytes, the final marker and the profile; promises a verdict with the worst value of every rule, whether it
 //! holds or not. A checker must not share the fault that it looks for, so nothing here comes from the reader, the passes,
-//! the planner or the emitters: the rows are read, the corners found, the tube laid and the blade simulated anew.
+//! the planner or the emitters: the rows are read, the corners found, the tolerance band laid and the blade simulated anew.
 //!
-//! The way: `program` reads rows; `axes` watches them as they come; the rows between a plunge and a lift are a stroke, which
-//! `cut` follows along the lines of the `reference` and judges; `source` holds the marker against the bytes it came from.
+//! The way: `program` reads rows; `axes` watches them as they come; the rows between a plunge and a lift are a stroke,
+//! which `cut` follows along the lines of the `reference` and judges; `source` holds the marker against the bytes it
+//! came from.
 
 mod axes;
 mod cut;

@@ -4,8 +4,8 @@ use crate::geom::Point;
 use crate::ir::Finding;
 use crate::ir::finding::Sighting;
 
-/// Part of a value by which a later one must exceed it to be told in its place: of values that only rounding tells apart the
-/// first is the one to look at.
+/// Part of a value by which a later one must exceed it to be told in its place: of values that only rounding tells
+/// apart the first is the one to look at.
 const TIE_EPSILON: f64 = 1e-6;
 
 /// Collects values and keeps the worst.

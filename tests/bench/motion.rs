@@ -17,7 +17,7 @@ use std::time::Instant;
 use cutc::diagnostic::Diagnostics;
 use cutc::geom::Point;
 use cutc::ir::list::Joint;
-use cutc::ir::toolpath::{Edge, End, Law, Pose, Run, Shape, Step, Toolpath};
+use cutc::ir::toolpath::{Edge, End, OrientationMode, Pose, Run, Shape, Step, Toolpath};
 use cutc::machine::{self, Job};
 use cutc::source::{Source, Span};
 use cutc::{pipeline, plan};
@@ -108,7 +108,7 @@ fn plan_run(points: &[Point], job: &Job) {
         joints: vec![Joint::default(); points.len()],
         feeds: vec![f64::INFINITY; chords],
         shape: Shape::Open,
-        law: Law::Tangent,
+        orientation: OrientationMode::Tangent,
         front: 0.0,
         heel: 0.0,
         ends: [End::default(); 2],

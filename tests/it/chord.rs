@@ -8,7 +8,7 @@ use std::io::Cursor;
 use cutc::back::TARGETS;
 use cutc::diagnostic::{Diagnostics, Severity, render};
 use cutc::geom::{Heading, Point, Vector};
-use cutc::ir::toolpath::{Law, Shape, Step};
+use cutc::ir::toolpath::{OrientationMode, Shape, Step};
 use cutc::machine::{Follow, Job, TightCurves};
 use cutc::pipeline::{self, Compiled, Order};
 use cutc::source::Source;
@@ -157,7 +157,7 @@ fn the_blade_is_a_chord_from_its_plunge_to_its_lift() {
         for (points, shape) in [(circle(20.0), Shape::Ring), (arc(Point::origin(), 20.0, [0.0, 2.0]), Shape::Open)] {
             let toolpath = &support::toolpaths(&support::marker(&points), &job)[0];
             let runs = support::runs(toolpath);
-            assert_eq!((runs.len(), runs[0].shape, runs[0].law), (1, shape, Law::Chord));
+            assert_eq!((runs.len(), runs[0].shape, runs[0].orientation), (1, shape, OrientationMode::Chord));
             // The places that passes tell are those of the polyline, with the overlaps straight on.
             let away =
                 |place: Point| (place - Point::new(50.0, 50.0)).norm().min((place - Point::origin()).norm()) - 20.0;
@@ -258,7 +258,7 @@ fn tight_curves_are_nibbled_by_plunges_that_leave_nothing_uncut() {
                 let what = format!("{name}, {blade:?}, {follow:?}");
                 let compiled = compiled.unwrap_or_else(|| panic!("{what}: {}", render(&found, &source(&points))));
                 assert!(worst(&compiled, "verify/complete") <= 0.01, "{what}");
-                assert!(compiled.report.program.stabs.is_some_and(|stabs| stabs >= 4), "{what}");
+                assert!(compiled.report.program.plunge_cuts.is_some_and(|plunge_cuts| plunge_cuts >= 4), "{what}");
                 assert_eq!(compiled.report.program.tangent_runs, Some(0), "{what}");
                 let said: Vec<_> = found.iter().filter(|said| said.code.name == "path/tight-curve").collect();
                 assert!(said.len() == 1 && said[0].message.contains("nibbled with "), "{what}: {said:?}");
@@ -283,9 +283,9 @@ fn nibbles_are_as_long_as_the_tolerance_lets_them_be() {
         );
         points.push(Point::new(radius, radius + 30.0));
         let toolpath = &support::toolpaths(&support::marker(&points), &job)[0];
-        let stabs = toolpath.steps.iter().filter(|step| matches!(step, Step::Stab(_))).count();
+        let plunge_cuts = toolpath.steps.iter().filter(|step| matches!(step, Step::PlungeCut(_))).count();
         let expected = (FRAC_PI_2 * radius / (8.0 * radius * 0.9 * tolerance).sqrt()).ceil() as usize;
-        assert!(stabs.abs_diff(expected) <= 1, "{stabs} instead of {expected}");
+        assert!(plunge_cuts.abs_diff(expected) <= 1, "{plunge_cuts} instead of {expected}");
     }
 }
 

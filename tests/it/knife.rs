@@ -68,9 +68,9 @@ fn a_straight_run_starts_with_its_tail_and_ends_with_its_tip_at_the_overlaps() {
                 assert!(near(run.start.ahead(-back), from - along * heel, 1e-9));
                 assert!(near(run.end.ahead(width - back), to + along * front, 1e-9));
             }
-            Step::Stab(stab) => {
+            Step::PlungeCut(plunge_cut) => {
                 assert!(length + front + heel <= width + 1e-9);
-                assert!(near(stab.pose.ahead(width - back), to + along * front, 1e-9));
+                assert!(near(plunge_cut.pose.ahead(width - back), to + along * front, 1e-9));
             }
             other => panic!("neither a run nor a stab: {other:?}"),
         }
@@ -82,10 +82,10 @@ fn a_slit_shorter_than_the_blade_is_a_stab_with_its_surplus_outside() {
     let job = knife(6.6, 2.2, 0.0, 0.0);
     let (edge, inside) = (Point::new(10.0, 0.0), Point::new(10.0, 5.0));
     let toolpath = &support::toolpaths(&support::marker(&[edge, inside]), &job)[0];
-    let Some(Step::Stab(stab)) = toolpath.steps.last() else { panic!("not a stab: {toolpath:?}") };
-    assert!(near(stab.pose.ahead(4.4), inside, 1e-12));
-    assert!(near(stab.pose.ahead(-2.2), Point::new(10.0, -1.6), 1e-12));
-    assert!((stab.heel - 1.6).abs() < 1e-12 && stab.front == 0.0);
+    let Some(Step::PlungeCut(plunge_cut)) = toolpath.steps.last() else { panic!("not a stab: {toolpath:?}") };
+    assert!(near(plunge_cut.pose.ahead(4.4), inside, 1e-12));
+    assert!(near(plunge_cut.pose.ahead(-2.2), Point::new(10.0, -1.6), 1e-12));
+    assert!((plunge_cut.heel - 1.6).abs() < 1e-12 && plunge_cut.front == 0.0);
 }
 
 #[test]
@@ -151,7 +151,7 @@ fn notches_are_cut_in_the_style_of_the_profile() {
         assert_eq!(compile("markers/metric-four-pieces.cut", &job), [""; 0], "{style:?} {depth:?}");
         let marker = read("markers/metric-four-pieces.cut");
         let steps = support::toolpaths(&marker, &job).into_iter().flat_map(|toolpath| toolpath.steps);
-        steps.filter(|step| matches!(step, Step::Run(_) | Step::Stab(_))).count()
+        steps.filter(|step| matches!(step, Step::Run(_) | Step::PlungeCut(_))).count()
     };
     let marker = read("markers/metric-four-pieces.cut");
     let vees = marker.pieces.iter().map(|piece| piece.outline_notches.len()).sum::<usize>();

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_4, PI};
 use cutc::diagnostic::Diagnostics;
 use cutc::geom::{Point, angle, polyline};
 use cutc::ir::list::Joint;
-use cutc::ir::toolpath::{Edge, End, Law, Pose, Run, Shape, Step, Toolpath};
+use cutc::ir::toolpath::{Edge, End, OrientationMode, Pose, Run, Shape, Step, Toolpath};
 use cutc::machine::{self, Job};
 use cutc::pipeline;
 use cutc::plan::{self, Cut};
@@ -36,7 +36,7 @@ fn run(points: Vec<Point>, job: &Job) -> Run {
         feeds: vec![knife.feed_mm_s.unwrap_or(f64::INFINITY); points.len() - 1],
         points,
         shape: Shape::Open,
-        law: Law::Tangent,
+        orientation: OrientationMode::Tangent,
         front: 0.0,
         heel: 0.0,
         ends: [End::default(); 2],
@@ -289,8 +289,8 @@ fn no_stretch_of_the_contours_is_left_uncut() {
                     bulge = bulge.max(cut.sagitta);
                 }
                 for step in &toolpath.steps {
-                    if let Step::Stab(stab) = step {
-                        swept.push([stab.pose.ahead(radius - width), stab.pose.ahead(radius)]);
+                    if let Step::PlungeCut(plunge_cut) = step {
+                        swept.push([plunge_cut.pose.ahead(radius - width), plunge_cut.pose.ahead(radius)]);
                     }
                 }
             }

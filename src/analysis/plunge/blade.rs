@@ -5,8 +5,8 @@ use crate::geom::{Point, Vector, angle, polyline};
 /// Part of the tolerance by which a plunged blade may pass a point of what it cuts; rounding takes a little of the rest.
 pub const PASSING_SHARE: f64 = 0.9;
 
-/// Least cosine of the blade with the path at its heel: below it the heel darts along the path, and the blade swings. An arc
-/// of 0.55 blade widths has this.
+/// Least cosine of the blade with the path at its heel: below it the heel darts along the path, and the blade swings.
+/// An arc of 0.55 blade widths has this.
 const HEEL_COSINE_MIN: f64 = 0.4;
 
 /// Whether a blade, from its heel to its tip, stands across a path that has a direction at its heel.
@@ -23,7 +23,8 @@ pub struct Plunge {
     pub tip: Point,
     /// The chord of the path on which the tip stands.
     pub chord: usize,
-    /// Whether all of the path is nearer to its start than the blade is long: its tip stands at the end, or would beyond it.
+    /// Whether all of the path is nearer to its start than the blade is long: its tip stands at the end, or would
+    /// beyond it.
     pub covers_all: bool,
 }
 
@@ -57,8 +58,8 @@ impl Plunge {
         polyline::distance_to_segment(point, self.heel, self.tip)
     }
 
-    /// How far the blade is turned from the first chord of the path, rad, counted on along the path without jumps; zero when
-    /// it covers all of it.
+    /// How far the blade is turned from the first chord of the path, rad, counted on along the path without jumps; zero
+    /// when it covers all of it.
     pub fn lag(&self, path: &[Point]) -> f64 {
         let Some(first) = polyline::direction(path[0], path[1]).filter(|_| !self.covers_all) else { return 0.0 };
         let under = path[1..=self.chord].iter().chain([&self.tip]);

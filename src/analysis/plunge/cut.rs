@@ -4,14 +4,14 @@ use super::blade::Plunge;
 use crate::analysis::cloth::Surroundings;
 use crate::geom::region::{Ray, Room};
 use crate::geom::{Point, Vector, polyline};
-use crate::ir::toolpath::{Harm, Run};
+use crate::ir::toolpath::{Overcut, Run};
 
 /// A shorter overcut is none, mm: rounding.
 const OVERCUT_EPSILON: f64 = 1e-6;
 
 /// Where the blade stands when one plunge without motion cuts all of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PlungeCut {
+pub struct BladePlacement {
     /// Direction of the blade, unit vector from heel to tip: a chord of the run, which its overlaps lead on.
     pub along: Vector,
     /// Where the tip stands.
@@ -19,16 +19,16 @@ pub struct PlungeCut {
     /// How far the blade goes beyond the start and the end of the run, mm: the overlaps, and what it is longer by.
     pub beyond: [f64; 2],
     /// How much of what it is longer by lies in parts, before the start and past the end.
-    pub overcut: [Harm; 2],
+    pub overcut: [Overcut; 2],
 }
 
-impl PlungeCut {
-    /// That of an open run with overlaps of these lengths at its start and its end, mm; `None` when the blade has a way to go
-    /// between plunge and lift.
+impl BladePlacement {
+    /// That of an open run with overlaps of these lengths at its start and its end, mm; `None` when the blade has a way
+    /// to go between plunge and lift.
     ///
-    /// What the blade is longer by, the surplus, goes into the waste: behind the start as far as there is room, then past the
-    /// end, and first past the end where the start alone may have no overlap. What finds no room cuts into the part itself,
-    /// never into another one that can be spared.
+    /// What the blade is longer by, the surplus, goes into the waste: behind the start as far as there is room, then
+    /// past the end, and first past the end where the start alone may have no overlap. What finds no room cuts into the
+    /// part itself, never into another one that can be spared.
     pub fn of(run: &Run, overlaps: [f64; 2], around: &Surroundings) -> Option<Self> {
         let width = around.knife.width_mm;
         let path = run.extended_by(overlaps);
@@ -55,7 +55,7 @@ impl PlungeCut {
 
     /// How far it cuts into parts beyond both ends together, mm.
     pub fn overcut(&self) -> f64 {
-        self.overcut.into_iter().map(Harm::total).sum()
+        self.overcut.into_iter().map(Overcut::total).sum()
     }
 }
 
@@ -82,9 +82,9 @@ fn shared(surplus: f64, rooms: [Room; 2], clearance: f64) -> [f64; 2] {
 }
 
 /// How much of a way of a length beyond an end lies in parts, mm, by how much room there is.
-fn overcut(length: f64, room: Room) -> Harm {
+fn overcut(length: f64, room: Room) -> Overcut {
     let into = |from: f64, to: f64| if to - from > OVERCUT_EPSILON { to - from } else { 0.0 };
-    Harm { own: into(room.own, length.min(room.other)), other: into(room.other, length) }
+    Overcut { own: into(room.own, length.min(room.other)), other: into(room.other, length) }
 }
 
 #[cfg(test)]
@@ -108,6 +108,6 @@ mod tests {
         assert_eq!(shared(2.0, [room(0.0, FREE); 2], 0.1), [1.0, 1.0]);
         assert_eq!(shared(2.0, [room(FREE, 0.0), room(0.0, FREE)], 0.1), [0.0, 2.0]);
         assert_eq!(shared(2.0, [room(FREE, 0.0); 2], 0.1), [1.0, 1.0]);
-        assert_eq!(overcut(2.0, room(0.5, 1.5)), Harm { own: 1.0, other: 0.5 });
+        assert_eq!(overcut(2.0, room(0.5, 1.5)), Overcut { own: 1.0, other: 0.5 });
     }
 }

@@ -28,7 +28,8 @@ pub struct Deviation {
     pub covers_all: bool,
     /// Whether what lies under it turns little by little, and not at one bend.
     pub is_curve: bool,
-    /// How much that turns in all, rad: what it turns to the one side less what it turns to the other, which may be rounding.
+    /// How much that turns in all, rad: what it turns to the one side less what it turns to the other, which may be
+    /// rounding.
     pub turned: f64,
 }
 
@@ -63,15 +64,16 @@ impl Deviation {
         self.distance <= around.knife.max_bow_mm
     }
 
-    /// Whether the blade may plunge like that: it enters its path and lies slightly beside it, or cuts all of it as it should.
+    /// Whether the blade may plunge like that: it enters its path and lies slightly beside it, or cuts all of it as it
+    /// should.
     pub fn is_good(&self, around: &Surroundings) -> bool {
         self.fits && self.is_slight(around) && (!self.covers_all || self.distance <= PASSING_SHARE * around.tolerance)
     }
 }
 
-/// Whether a run turns enough near its start to lie anything but well beside the blade: a path that turns by a under a blade
-/// of the width w lies beside it by at most w/2 tan(a/2), an arc that turns as much by about half of that, and the
-/// difference may be a part of the tolerance.
+/// Whether a run turns enough near its start to lie anything but well beside the blade: a path that turns by a under a
+/// blade of the width w lies beside it by at most w/2 tan(a/2), an arc that turns as much by about half of that, and
+/// the difference may be a part of the tolerance.
 fn may_deviate(run: &Run, around: &Surroundings) -> bool {
     let knife = around.knife;
     let turned = polyline::turn_within(&run.points, knife.width_mm).min(std::f64::consts::PI);
@@ -91,7 +93,8 @@ struct Under {
 
 /// How much the path under a blade turns, rad.
 struct Turns {
-    /// To either side, up to and at the vertex that the tip goes to next: a curve turns along its chords, not at its vertices.
+    /// To either side, up to and at the vertex that the tip goes to next: a curve turns along its chords, not at its
+    /// vertices.
     total: f64,
     /// The same, what it turns to the one side less what it turns to the other.
     signed: f64,

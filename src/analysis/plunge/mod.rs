@@ -12,6 +12,6 @@ mod deviation;
 mod overlaps;
 
 pub use blade::{PASSING_SHARE, Plunge, stands_across};
-pub use cut::PlungeCut;
+pub use cut::BladePlacement;
 pub use deviation::Deviation;
 pub use overlaps::{Overlap, overlaps};

@@ -23,9 +23,9 @@ pub struct Overlap {
 
 /// The overlaps of a run: how far the heel stands before its start, and how far the tip goes past its end.
 ///
-/// Each goes straight on: as far as the profile wants where that is waste, as far as it wants inside the part where it is the
-/// part itself, and shortened to the gap less `knife.clearance_mm` where a part lies ahead. On a curve the heel overlap is
-/// only as long as keeps the plunged blade near the start. A ring has a front overlap along itself.
+/// Each goes straight on: as far as the profile wants where that is waste, as far as it wants inside the part where it
+/// is the part itself, and shortened to the gap less `knife.clearance_mm` where a part lies ahead. On a curve the heel
+/// overlap is only as long as keeps the plunged blade near the start. A ring has a front overlap along itself.
 pub fn overlaps(run: &Run, around: &Surroundings) -> [Overlap; 2] {
     let knife = around.knife;
     let [start, end] = run.ends;
@@ -93,8 +93,9 @@ impl Overlap {
     }
 }
 
-/// The part of a heel overlap with which the plunged blade passes the start of its run within the tolerance. A curve turns the
-/// blade away from its first chord, along which the overlap lies: with all of it the blade would cut into the corner.
+/// The part of a heel overlap with which the plunged blade passes the start of its run within the tolerance. A curve
+/// turns the blade away from its first chord, along which the overlap lies: with all of it the blade would cut into the
+/// corner.
 fn heel_share(run: &Run, heel: f64, around: &Surroundings) -> f64 {
     let (width, allowed) = (around.knife.width_mm, PASSING_SHARE * around.tolerance);
     // It turns the blade by no more than the run turns under it.

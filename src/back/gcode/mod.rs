@@ -60,7 +60,7 @@ impl ArcWriter for Program<'_> {
 
 fn write_toolpath(program: &mut Program, toolpath: &Toolpath, paths: &[Path]) {
     let mut paths = paths.iter();
-    let mut next_path = || paths.next().expect("every run and stab has its path");
+    let mut next_path = || paths.next().expect("every run and plunge cut has its path");
     for (i, step) in toolpath.steps.iter().enumerate() {
         match step {
             // What follows decides where a rapid ends.
@@ -73,8 +73,8 @@ fn write_toolpath(program: &mut Program, toolpath: &Toolpath, paths: &[Path]) {
                 program.name(toolpath.piece, &run.spans);
                 program.cut(next_path());
             }
-            Step::Stab(stab) => {
-                program.name(toolpath.piece, &stab.spans);
+            Step::PlungeCut(plunge_cut) => {
+                program.name(toolpath.piece, &plunge_cut.spans);
                 program.cut(next_path());
             }
             Step::Drill(drill) => {

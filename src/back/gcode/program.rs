@@ -300,8 +300,8 @@ impl<'a> Program<'a> {
         self.pose = to;
     }
 
-    /// The same with the knife down. Where an axis that goes round rests it has no word: a controller that finds it a hair's
-    /// breadth before its place would turn it all round.
+    /// The same with the knife down. Where an axis that goes round rests it has no word: a controller that finds it a
+    /// hair's breadth before its place would turn it all round.
     fn axes_of_cut(&mut self, to: Pose) {
         self.place(to);
         let gcode = &self.job.profile.gcode;
@@ -337,8 +337,8 @@ impl<'a> Program<'a> {
         if is_back { -within } else { within }
     }
 
-    /// A position of an axis that goes round as it is printed, but for its sign. There is no negative zero, so there is none at
-    /// all: the nearest place that has a sign stands for it.
+    /// A position of an axis that goes round as it is printed, but for its sign. There is no negative zero, so there is
+    /// none at all: the nearest place that has a sign stands for it.
     fn within(&self, shown: f64) -> f64 {
         let step = self.job.profile.gcode.step();
         let within = ((shown / step).round() * step).rem_euclid(TURN_DEG);

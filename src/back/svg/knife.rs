@@ -2,7 +2,7 @@
 
 use super::markup::{PathData, blocks, escape};
 use crate::geom::{Point, Vector, left, polyline};
-use crate::ir::toolpath::{Edge, Event, Harm, Law, Pose, Run, Shape, Step, Toolpath};
+use crate::ir::toolpath::{Edge, Event, OrientationMode, Overcut, Pose, Run, Shape, Step, Toolpath};
 use crate::machine::Knife;
 use crate::source::Span;
 use crate::units::number::fixed;
@@ -32,7 +32,7 @@ struct Group<'a> {
     cuts: String,
     air: PathData,
     over: PathData,
-    harm: PathData,
+    overcut: PathData,
     blade: PathData,
     plunge: PathData,
     lift: PathData,
@@ -46,7 +46,7 @@ pub(super) fn group(toolpath: &Toolpath, knife: &Knife) -> String {
         cuts: String::new(),
         air: PathData::default(),
         over: PathData::default(),
-        harm: PathData::default(),
+        overcut: PathData::default(),
         blade: PathData::default(),
         plunge: PathData::default(),
         lift: PathData::default(),
@@ -56,7 +56,7 @@ pub(super) fn group(toolpath: &Toolpath, knife: &Knife) -> String {
         group.step(step, pose);
         pose = match step {
             Step::Run(run) => run.end,
-            Step::Stab(stab) => stab.pose,
+            Step::PlungeCut(plunge_cut) => plunge_cut.pose,
             Step::Turn(air) | Step::Travel(air) => air.to,
             Step::Drill(_) | Step::Event(_) => pose,
         };
@@ -73,7 +73,7 @@ pub(super) fn group(toolpath: &Toolpath, knife: &Knife) -> String {
     text.push_str(&group.cuts);
     for (data, class) in [
         (&group.over, "over"),
-        (&group.harm, "harm"),
+        (&group.overcut, "harm"),
         (&group.blade, "blade"),
         (&group.plunge, "plunge"),
         (&group.lift, "lift"),
@@ -88,21 +88,21 @@ impl Group<'_> {
     fn step(&mut self, step: &Step, pose: Pose) {
         match step {
             Step::Run(run) => self.run(run),
-            Step::Stab(stab) => {
-                let (tail, tip) = self.ends(&stab.pose, stab.edge);
+            Step::PlungeCut(plunge_cut) => {
+                let (tail, tip) = self.ends(&plunge_cut.pose, plunge_cut.edge);
                 let mut data = PathData::default();
-                data.polygon(self.blade_outline(&stab.pose));
-                let length = polyline::length(&stab.points);
-                let title = cut_title("stab", length, &stab.spans)
-                    + &way_round(stab.turned)
-                    + by_edge(stab.edge)
-                    + &harm(stab.harm);
+                data.polygon(self.blade_outline(&plunge_cut.pose));
+                let length = polyline::length(&plunge_cut.points);
+                let title = cut_title("stab", length, &plunge_cut.spans)
+                    + &way_round(plunge_cut.turned)
+                    + by_edge(plunge_cut.edge)
+                    + &overcut(plunge_cut.overcut);
                 self.cuts.push_str(&data.titled("stab", &title));
                 let half = OVERLAP_HALF_THICKNESS * self.unit;
-                let last = stab.points[stab.points.len() - 1];
-                let ends = [([tail, stab.points[0]], stab.heel), ([last, tip], stab.front)];
-                for ((way, length), harm) in ends.into_iter().zip(stab.harm) {
-                    let class = if harm.total() > 0.0 { &mut self.harm } else { &mut self.over };
+                let last = plunge_cut.points[plunge_cut.points.len() - 1];
+                let ends = [([tail, plunge_cut.points[0]], plunge_cut.heel), ([last, tip], plunge_cut.front)];
+                for ((way, length), overcut) in ends.into_iter().zip(plunge_cut.overcut) {
+                    let class = if overcut.total() > 0.0 { &mut self.overcut } else { &mut self.over };
                     overlap(class, &way, [length, half]);
                 }
                 self.plunge.circle(tip, PLUNGE_RADIUS * self.unit);
@@ -139,7 +139,8 @@ impl Group<'_> {
             Shape::Ring => data.polygon(run.points[..run.points.len() - 1].iter().copied()),
         }
         let length = polyline::length(&run.points);
-        let title = cut_title("cut", length, &run.spans) + &way_round(run.turned) + by_edge(run.edge) + chord(run.law);
+        let title =
+            cut_title("cut", length, &run.spans) + &way_round(run.turned) + by_edge(run.edge) + chord(run.orientation);
         self.cuts.push_str(&data.titled("run", &title));
         let (start, end) = (self.ends(&run.start, run.edge), self.ends(&run.end, run.edge));
         if self.knife.width_mm > 0.0 {
@@ -203,21 +204,23 @@ fn by_edge(edge: Edge) -> &'static str {
 }
 
 /// Said of a cut on whose curves the blade is a chord.
-fn chord(law: Law) -> &'static str {
-    match law {
-        Law::Tangent => "",
-        Law::Chord => ", the blade as a chord",
+fn chord(orientation: OrientationMode) -> &'static str {
+    match orientation {
+        OrientationMode::Tangent => "",
+        OrientationMode::Chord => ", the blade as a chord",
     }
 }
 
-/// Said of a stab that cuts into a part.
-fn harm(harm: [Harm; 2]) -> String {
-    let beyond = |harm: Harm, end: &str| match [harm.own, harm.other].map(|length| length > 0.0) {
+/// Said of a plunge cut that cuts into a part.
+fn overcut(overcut: [Overcut; 2]) -> String {
+    let beyond = |overcut: Overcut, end: &str| match [overcut.own, overcut.other].map(|length| length > 0.0) {
         [false, false] => String::new(),
-        [_, false] => format!(", {} mm {end} into its part", fixed(harm.own, 2)),
-        [_, true] => format!(", {} mm {end}, {} of it into another part", fixed(harm.total(), 2), fixed(harm.other, 2)),
+        [_, false] => format!(", {} mm {end} into its part", fixed(overcut.own, 2)),
+        [_, true] => {
+            format!(", {} mm {end}, {} of it into another part", fixed(overcut.total(), 2), fixed(overcut.other, 2))
+        }
     };
-    beyond(harm[0], "before its start") + &beyond(harm[1], "past its end")
+    beyond(overcut[0], "before its start") + &beyond(overcut[1], "past its end")
 }
 
 /// The outline of a band along a polyline: its left side forth, its right side back.
@@ -255,7 +258,7 @@ fn along(points: &[Point], length: f64) -> Vec<Point> {
 fn kind(toolpath: &Toolpath) -> &'static str {
     let cuts = toolpath.steps.iter().filter_map(|step| match step {
         Step::Run(run) => Some((run.points.len(), run.ends)),
-        Step::Stab(stab) => Some((stab.points.len(), stab.ends)),
+        Step::PlungeCut(plunge_cut) => Some((plunge_cut.points.len(), plunge_cut.ends)),
         Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => None,
     });
     let cuts: Vec<_> = cuts.collect();
@@ -270,7 +273,7 @@ fn kind(toolpath: &Toolpath) -> &'static str {
 fn spans(step: &Step) -> &[Span] {
     match step {
         Step::Run(run) => &run.spans,
-        Step::Stab(stab) => &stab.spans,
+        Step::PlungeCut(plunge_cut) => &plunge_cut.spans,
         Step::Drill(drill) => std::slice::from_ref(&drill.span),
         Step::Turn(_) | Step::Travel(_) | Step::Event(_) => &[],
     }
@@ -278,13 +281,13 @@ fn spans(step: &Step) -> &[Span] {
 
 fn count(toolpath: &Toolpath) -> String {
     let runs = toolpath.steps.iter().filter(|step| matches!(step, Step::Run(_))).count();
-    let stabs = toolpath.steps.iter().filter(|step| matches!(step, Step::Stab(_))).count();
+    let plunge_cuts = toolpath.steps.iter().filter(|step| matches!(step, Step::PlungeCut(_))).count();
     let some = |n: usize, what: &str| match n {
         0 => String::new(),
         1 => format!(", 1 {what}"),
         n => format!(", {n} {what}s"),
     };
-    some(runs, "run") + &some(stabs, "stab")
+    some(runs, "run") + &some(plunge_cuts, "stab")
 }
 
 fn cut_title(what: &str, length: f64, of: &[Span]) -> String {

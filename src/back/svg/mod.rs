@@ -4,10 +4,10 @@
 //! in it is one of the program; text and legend stand outside that transform. Strokes keep their width on the screen at
 //! any zoom, symbols are as large as the blade suggests: the whole shows pieces, a corner shows its overlaps.
 //!
-//! Layers from the bottom: what a plot draws and nobody cuts, pieces with their notches and numbers, labels, the knife's way
-//! (a group for each contour, notch and drill), the word `refused` where no program is written, the worst places that the
-//! verifier saw, the legend. In a browser the picture fills the window; a piece's number is a link
-//! to a view of that piece, and the legend links to the whole and to the actual size.
+//! Layers from the bottom: what a plot draws and nobody cuts, pieces with their notches and numbers, labels, the
+//! knife's way (a group for each contour, notch and drill), the word `refused` where no program is written, the worst
+//! places that the verifier saw, the legend. In a browser the picture fills the window; a piece's number is a link to a
+//! view of that piece, and the legend links to the whole and to the actual size.
 
 mod aside;
 mod findings;

@@ -59,10 +59,10 @@ pub(in crate::cli) struct Arguments {
 
     /// How to give the figures
     ///
-    /// JSON of one file has the keys of `cutc compile`, `profile` and `knife` among them, with null for what only planning
-    /// knows, and `notch_depths`, `speeds`, `events` and the area of the parts; with --labels also `labels_by_piece`, with
-    /// --time what planning knows, and `time_by_piece`. JSON of several is `files`, a list, and their `sum`. CSV is a header
-    /// and a row a file.
+    /// JSON of one file has the keys of `cutc compile`, `profile` and `knife` among them, with null for what only
+    /// planning knows, and `notch_depths`, `speeds`, `events` and the area of the parts; with --labels also
+    /// `labels_by_piece`, with --time what planning knows, and `time_by_piece`. JSON of several is `files`, a list, and
+    /// their `sum`. CSV is a header and a row a file.
     #[arg(long, value_enum, default_value = "text")]
     pub(super) format: Sheet,
 }

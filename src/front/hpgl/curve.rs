@@ -62,10 +62,10 @@ impl Arc {
         // Twice the area of the triangle is its longest side by its height on it.
         let height = doubled.abs() / 2.0 / square_a.max(square_b).max(square_c).sqrt();
         // The product of the sides is four times the area by the radius; an arc bows out of its chord b by b2 / (8 r).
-        let bow = square_b * doubled.abs() / (8.0 * (square_a * square_b * square_c).sqrt());
+        let deviation = square_b * doubled.abs() / (8.0 * (square_a * square_b * square_c).sqrt());
         let is_between = (0.0..=square_b).contains(&along);
         // Three equal places have no height at all.
-        if height.is_nan() || height <= epsilon || is_between && bow <= sagitta {
+        if height.is_nan() || height <= epsilon || is_between && deviation <= sagitta {
             return None;
         }
         let seen = [(b[1] * square_a - a[1] * square_b) / doubled, (a[0] * square_b - b[0] * square_a) / doubled];
@@ -162,9 +162,9 @@ mod tests {
                 // The farthest place of an ellipse from its chord is where the angles of its ends are halved.
                 let (sin, cos) = (before[1] / 250.0 + to[1] / 250.0, before[0] / 1000.0 + to[0] / 1000.0);
                 let (sin, cos) = (sin / sin.hypot(cos), cos / sin.hypot(cos));
-                let (way, bow) =
+                let (way, deviation) =
                     ([to[0] - before[0], to[1] - before[1]], [1000.0 * cos - before[0], 250.0 * sin - before[1]]);
-                let off = (way[0] * bow[1] - way[1] * bow[0]).abs() / way[0].hypot(way[1]);
+                let off = (way[0] * deviation[1] - way[1] * deviation[0]).abs() / way[0].hypot(way[1]);
                 assert!(off <= SAGITTA + 1e-9, "{off}");
                 before = to;
             }

@@ -1,12 +1,13 @@
 //! HPGL plots: HP-GL and HP-GL/2 as garment CAD writes them (a subset is ASTM D6959).
 //!
-//! Receives bytes: instructions of two letters with numbers, in all the spellings that plotters tolerate, compact encodings,
-//! curves, scales. Promises a drawing in mm: strokes with the numbers of their pens, texts, and how the file ends. Equal
-//! places are equal to the bit; curves are chords within a quarter of the tolerance. Never decides what is cut.
+//! Receives bytes: instructions of two letters with numbers, in all the spellings that plotters tolerate, compact
+//! encodings, curves, scales. Promises a drawing in mm: strokes with the numbers of their pens, texts, and how the file
+//! ends. Equal places are equal to the bit; curves are chords within a quarter of the tolerance. Never decides what is
+//! cut.
 //!
-//! [`reader`] makes statements of bytes with [`syntax`], [`escape`], [`label`] and [`encoded`]; [`instruction`] is the table
-//! of what they mean; [`mod@lower`] follows them with the [`plotter`], its [`scale`] and [`curve`]. [`mod@unit`] doubts the
-//! size; [`tally`] counts what was not obeyed.
+//! [`reader`] makes statements of bytes with [`syntax`], [`escape`], [`label`] and [`encoded`]; [`instruction`] is the
+//! table of what they mean; [`mod@lower`] follows them with the [`plotter`], its [`scale`] and [`curve`]. [`mod@unit`]
+//! doubts the size; [`tally`] counts what was not obeyed.
 
 mod count;
 mod curve;

@@ -104,8 +104,8 @@ impl<'a> Blocks<'a> {
         Some((code, self.step_to(after)))
     }
 
-    /// Calls `each` with the place and the span of the next blocks, as long as they are X and Y alone, as most of a file is:
-    /// with far fewer steps than [`Self::next_point`] takes, which reads the very last ones.
+    /// Calls `each` with the place and the span of the next blocks, as long as they are X and Y alone, as most of a
+    /// file is: with far fewer steps than [`Self::next_point`] takes, which reads the very last ones.
     #[inline]
     pub(super) fn each_plain(&mut self, mut each: impl FnMut([f64; 2], Span)) {
         let Self { bytes, mut at, mut number, .. } = *self;

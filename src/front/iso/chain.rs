@@ -61,7 +61,8 @@ impl Chain {
         (second - first).norm() <= Notch::LONGEST && self.points().iter().all(|&at| at == first || at == second)
     }
 
-    /// Writes it into a list. The joint of its first segment speaks for the plunge at the start and for the lift at the end.
+    /// Writes it into a list. The joint of its first segment speaks for the plunge at the start and for the lift at the
+    /// end.
     pub(super) fn write(&mut self, list: &mut SegmentList) -> Option<Range> {
         if self.lift == Some(Overcut::Forbidden) {
             self.vertices.joint_mut(0).no_overcut = true;

@@ -139,8 +139,8 @@ impl Draft {
         self.at = to;
     }
 
-    /// Lets `add` add what is cut next: where no code stands between moves, the cut that is being made goes on through them.
-    /// Gives the block of its last place; `None` when nothing is cut.
+    /// Lets `add` add what is cut next: where no code stands between moves, the cut that is being made goes on through
+    /// them. Gives the block of its last place; `None` when nothing is cut.
     pub(super) fn cut_on(&mut self, add: impl FnOnce(&mut Vertices)) -> Option<Span> {
         let State::Cutting(chain) = self.state else { return None };
         let vertices = &mut self.chains[chain].vertices;

@@ -150,11 +150,12 @@ pub(super) fn point(mut i: &[u8]) -> Out<'_, Point> {
     if i.len() < start { Ok((i, point)) } else { expected(i, "a point") }
 }
 
-/// Bytes that a plain block is looked for in: more than it can have, so that none of its places need be looked at with care.
+/// Bytes that a plain block is looked for in: more than it can have, so that none of its places need be looked at with
+/// care.
 pub(super) const PLAIN_BYTES: usize = 40;
 
-/// `<block>`, when it is X and Y alone, both whole numbers, as nearly all blocks are: its length, and what [`block`] says of
-/// it, found with fewer steps. `None` = any other; then [`block`] and [`point`] decide.
+/// `<block>`, when it is X and Y alone, both whole numbers, as nearly all blocks are: its length, and what [`block`]
+/// says of it, found with fewer steps. `None` = any other; then [`block`] and [`point`] decide.
 #[inline] // most of a file is read here
 pub(super) fn plain_block(i: &[u8; PLAIN_BYTES]) -> Option<(usize, [f64; 2])> {
     // First as if there were no signs, as there mostly are none.

@@ -94,8 +94,8 @@ fn places(marker: &Marker) -> impl Iterator<Item = Place> + '_ {
     cut.chain(of_piece)
 }
 
-/// The places that have a half of a box to themselves: left, right, lower or upper. `None` when each half has two, which may
-/// be known long before the last place.
+/// The places that have a half of a box to themselves: left, right, lower or upper. `None` when each half has two,
+/// which may be known long before the last place.
 fn alone(extent: &Extent, places: impl Iterator<Item = Place>) -> Option<Vec<Place>> {
     let middle = extent.min + (extent.max - extent.min) / 2.0;
     let mut first: [Option<Place>; 4] = [None; 4];

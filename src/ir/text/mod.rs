@@ -47,14 +47,14 @@
 //! ```
 //!
 //! `@start..end#block` is a span; one that is left out is that of no block. A segment line `to` starts where the line
-//! before it ends, so `from` stands where a contour starts. The words behind a segment are what the file asks for where it
-//! starts, those behind a point what it asks for there. A contour is printed in the direction that it is walked in and
-//! read as one that is walked in list order: the same segments, the same joints.
-//! A `cut` is of the contour of its piece that it names, or of segments of its own. Its sides are the parts on its left and
-//! right, by the places of their pieces from 1, as its piece is, or `-` for waste.
-//! A `notch` is one that the contours make: the ends of its mouth with its tip between them, and how many segments lie there.
-//! `harm` has what is cut too far of the part itself and of others before the start, and the same past the end.
-//! `sides` stands where an end has another than `waste`, `part` behind the number of a piece that is not the first.
+//! before it ends, so `from` stands where a contour starts. The words behind a segment are what the file asks for where
+//! it starts, those behind a point what it asks for there. A contour is printed in the direction that it is walked in
+//! and read as one that is walked in list order: the same segments, the same joints. A `cut` is of the contour of its
+//! piece that it names, or of segments of its own. Its sides are the parts on its left and right, by the places of
+//! their pieces from 1, as its piece is, or `-` for waste. A `notch` is one that the contours make: the ends of its
+//! mouth with its tip between them, and how many segments lie there. `harm` has what is cut too far of the part itself
+//! and of others before the start, and the same past the end. `sides` stands where an end has another than `waste`,
+//! `part` behind the number of a piece that is not the first.
 
 mod print;
 mod read;
@@ -64,7 +64,7 @@ pub use read::{ReadError, read_marker, read_toolpath};
 
 use super::list::Joint;
 use super::marker::{CutKind, NotchForm};
-use super::toolpath::{End, Event, Law, Shape, Side};
+use super::toolpath::{End, Event, OrientationMode, Shape, Side};
 
 /// Picks one flag of a joint.
 type Flag = fn(&mut Joint) -> &mut bool;
@@ -83,7 +83,8 @@ const KINDS: [(&str, CutKind); 4] =
 
 const SHAPES: [(&str, Shape); 2] = [("open", Shape::Open), ("ring", Shape::Ring)];
 
-const LAWS: [(&str, Law); 2] = [("tangent", Law::Tangent), ("chord", Law::Chord)];
+const ORIENTATION_MODES: [(&str, OrientationMode); 2] =
+    [("tangent", OrientationMode::Tangent), ("chord", OrientationMode::Chord)];
 
 const ENDS: [(&str, End); 4] = [
     ("path", End { corner: false, bare: false, side: Side::Waste }),

@@ -2,11 +2,11 @@
 
 use std::fmt::{self, Display, Formatter, Write as _};
 
-use super::{ENDS, EVENTS, FORMS, JOINTS, KINDS, LAWS, SHAPES, SIDES};
+use super::{ENDS, EVENTS, FORMS, JOINTS, KINDS, ORIENTATION_MODES, SHAPES, SIDES};
 use crate::geom::Point;
 use crate::ir::list::{FULL_SPEED, Joint, Range, Segment};
 use crate::ir::marker::{Cut, Label, Marker, NotchKind, OutlineNotch, Piece};
-use crate::ir::toolpath::{Edge, End, Harm, Pose, Run, Side, Stab, Step, Toolpath};
+use crate::ir::toolpath::{Edge, End, Overcut, PlungeCut, Pose, Run, Side, Step, Toolpath};
 use crate::source::Span;
 use crate::units::number::exact;
 
@@ -126,7 +126,7 @@ pub fn print_toolpath(toolpath: &Toolpath) -> String {
     for step in steps {
         match step {
             Step::Run(run) => print_run(&mut out, run),
-            Step::Stab(stab) => print_stab(&mut out, stab),
+            Step::PlungeCut(plunge_cut) => print_plunge_cut(&mut out, plunge_cut),
             Step::Turn(air) => line(&mut out, format_args!("turn {} to {}", Placed(air.from), Placed(air.to))),
             Step::Travel(air) => line(&mut out, format_args!("travel {} to {}", Placed(air.from), Placed(air.to))),
             Step::Drill(drill) => {
@@ -141,8 +141,11 @@ pub fn print_toolpath(toolpath: &Toolpath) -> String {
 fn print_run(out: &mut String, run: &Run) {
     let greatest = run.feeds.iter().copied().fold(0.0, f64::max);
     let feed = if greatest == f64::INFINITY { "off".to_owned() } else { exact(greatest) };
-    let (shape, law) = (word(&SHAPES, run.shape), word(&LAWS, run.law));
-    push(out, format_args!("run {shape} {law} front {} heel {} feed {feed}", exact(run.front), exact(run.heel)));
+    let (shape, orientation) = (word(&SHAPES, run.shape), word(&ORIENTATION_MODES, run.orientation));
+    push(
+        out,
+        format_args!("run {shape} {orientation} front {} heel {} feed {feed}", exact(run.front), exact(run.heel)),
+    );
     line(out, format_args!("{}{}", turned(run.turned), backwards(run.edge)));
     print_ends(out, run.ends);
     line(out, format_args!("  start {}", Placed(run.start)));
@@ -167,21 +170,21 @@ fn backwards(edge: Edge) -> &'static str {
     if edge == Edge::Back { " backwards" } else { "" }
 }
 
-fn print_stab(out: &mut String, stab: &Stab) {
-    let along = Xy(Point::from(stab.along));
-    push(out, format_args!("stab along {along} front {} heel {}", exact(stab.front), exact(stab.heel)));
-    push(out, format_args!("{}{}", turned(stab.turned), backwards(stab.edge)));
-    if stab.harm != [Harm::default(); 2] {
+fn print_plunge_cut(out: &mut String, plunge_cut: &PlungeCut) {
+    let along = Xy(Point::from(plunge_cut.along));
+    push(out, format_args!("stab along {along} front {} heel {}", exact(plunge_cut.front), exact(plunge_cut.heel)));
+    push(out, format_args!("{}{}", turned(plunge_cut.turned), backwards(plunge_cut.edge)));
+    if plunge_cut.overcut != [Overcut::default(); 2] {
         out.push_str(" harm");
-        for length in stab.harm.iter().flat_map(|harm| [harm.own, harm.other]) {
+        for length in plunge_cut.overcut.iter().flat_map(|overcut| [overcut.own, overcut.other]) {
             push(out, format_args!(" {}", exact(length)));
         }
     }
     out.push('\n');
-    print_ends(out, stab.ends);
-    line(out, format_args!("  pose {}", Placed(stab.pose)));
-    let spans = std::iter::once(Span::default()).chain(stab.spans.iter().copied());
-    for (&point, span) in stab.points.iter().zip(spans) {
+    print_ends(out, plunge_cut.ends);
+    line(out, format_args!("  pose {}", Placed(plunge_cut.pose)));
+    let spans = std::iter::once(Span::default()).chain(plunge_cut.spans.iter().copied());
+    for (&point, span) in plunge_cut.points.iter().zip(spans) {
         line(out, format_args!("  point {}{}", Xy(point), At(span)));
     }
 }

@@ -4,13 +4,13 @@ use std::str::{FromStr, SplitWhitespace};
 
 use thiserror::Error;
 
-use super::{ENDS, EVENTS, FORMS, JOINTS, KINDS, LAWS, SHAPES, SIDES};
+use super::{ENDS, EVENTS, FORMS, JOINTS, KINDS, ORIENTATION_MODES, SHAPES, SIDES};
 use crate::geom::{Heading, Point, Vector};
 use crate::ir::list::{FULL_SPEED, Joint, Range, Segment};
 use crate::ir::marker::{
     Contour, Cut, Drill, Event, Field, Label, Marker, Notch, NotchKind, OutlineNotch, Piece, Stroke,
 };
-use crate::ir::toolpath::{self, Air, Edge, End, Harm, Pose, Run, Stab, Step, Toolpath};
+use crate::ir::toolpath::{self, Air, Edge, End, Overcut, PlungeCut, Pose, Run, Step, Toolpath};
 use crate::source::Span;
 
 /// A text that is not what [`print_marker`](super::print_marker) or [`print_toolpath`](super::print_toolpath) writes.
@@ -186,7 +186,7 @@ pub fn read_toolpath(text: &str) -> Read<Toolpath> {
     while let Some(mut line) = lines.take() {
         let step = match line.word("run, stab, turn, travel, drill or event")? {
             "run" => Step::Run(run(&mut line, &mut lines)?),
-            "stab" => Step::Stab(stab(&mut line, &mut lines)?),
+            "stab" => Step::PlungeCut(plunge_cut(&mut line, &mut lines)?),
             "turn" => Step::Turn(air(&mut line)?),
             "travel" => Step::Travel(air(&mut line)?),
             "drill" => {
@@ -210,7 +210,7 @@ fn air(line: &mut Line<'_>) -> Read<Air> {
 
 fn run(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Run> {
     let shape = line.choice(&SHAPES)?;
-    let law = line.choice(&LAWS)?;
+    let orientation = line.choice(&ORIENTATION_MODES)?;
     let (front, heel) = overlaps(line)?;
     line.expect("feed")?;
     let feed = if line.has("off") { f64::INFINITY } else { line.number()? };
@@ -225,7 +225,7 @@ fn run(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Run> {
         joints: Vec::new(),
         feeds: Vec::new(),
         shape,
-        law,
+        orientation,
         front,
         heel,
         ends,
@@ -248,16 +248,16 @@ fn run(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Run> {
     Ok(run)
 }
 
-fn stab(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Stab> {
+fn plunge_cut(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<PlungeCut> {
     line.expect("along")?;
     let along = Vector::new(line.number()?, line.number()?);
     let (front, heel) = overlaps(line)?;
     let turned = line.has("turned");
     let edge = edge(line);
-    let mut harm = [Harm::default(); 2];
+    let mut overcut = [Overcut::default(); 2];
     if line.has("harm") {
-        for end in &mut harm {
-            *end = Harm { own: line.number()?, other: line.number()? };
+        for end in &mut overcut {
+            *end = Overcut { own: line.number()?, other: line.number()? };
         }
     }
     let ends = ends(lines)?;
@@ -272,7 +272,7 @@ fn stab(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Stab> {
         }
         line.end()?;
     }
-    Ok(Stab { points, spans, along, front, heel, ends, turned, edge, harm, pose })
+    Ok(PlungeCut { points, spans, along, front, heel, ends, turned, edge, overcut, pose })
 }
 
 fn edge(line: &mut Line<'_>) -> Edge {

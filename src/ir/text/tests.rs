@@ -4,7 +4,7 @@ use crate::ir::list::Segment;
 use crate::ir::marker::{
     self, Contour, Cut, Drill, Field, Label, Marker, Notch, NotchForm, NotchKind, OutlineNotch, Piece,
 };
-use crate::ir::toolpath::{self, Air, Edge, Harm, Pose, Run, Stab, Step, Toolpath};
+use crate::ir::toolpath::{self, Air, Edge, Overcut, PlungeCut, Pose, Run, Step, Toolpath};
 use crate::source::Span;
 
 /// Seeded numbers (`splitmix64`, Steele, Lea & Flood 2014).
@@ -27,9 +27,9 @@ impl Random {
         self.below(2) == 0
     }
 
-    fn harm(&mut self) -> Harm {
+    fn overcut(&mut self) -> Overcut {
         let mut length = || if self.flag() { self.number().abs() } else { 0.0 };
-        Harm { own: length(), other: length() }
+        Overcut { own: length(), other: length() }
     }
 
     /// Numbers on a grid, full mantissas, and magnitudes far from 1.
@@ -160,7 +160,7 @@ fn step(random: &mut Random) -> Step {
                 joints: points.iter().map(|_| random.joint()).collect(),
                 points,
                 shape: SHAPES[random.below(2) as usize].1,
-                law: LAWS[random.below(2) as usize].1,
+                orientation: ORIENTATION_MODES[random.below(2) as usize].1,
                 front: random.number(),
                 heel: random.number(),
                 feeds: spans
@@ -177,7 +177,7 @@ fn step(random: &mut Random) -> Step {
         }
         1 => {
             let (points, spans) = chords(random);
-            Step::Stab(Stab {
+            Step::PlungeCut(PlungeCut {
                 points,
                 spans,
                 along: Vector::new(random.number(), random.number()),
@@ -186,7 +186,7 @@ fn step(random: &mut Random) -> Step {
                 ends: [random.end(), random.end()],
                 turned: random.flag(),
                 edge: if random.flag() { Edge::Back } else { Edge::Front },
-                harm: [random.harm(), random.harm()],
+                overcut: [random.overcut(), random.overcut()],
                 pose: random.pose(),
             })
         }

@@ -14,7 +14,7 @@ pub(in crate::machine) const KEYS: &[Key] = &[
     Key { name: "gcode.blend_mm", takes: Takes::NumberOr(from(0.001, 10.0), Off::WORD), about: "How far the controller may leave the path to keep its speed (G64 P), beside path.tolerance_mm;\n\"off\" = no G64 is written: the controller does as it was set." },
     Key { name: "gcode.decimals", takes: Takes::Whole(&[3, 4, 5, 6]), about: "Decimals of positions." },
     Key { name: "gcode.line_numbers", takes: Takes::Flag, about: "Whether lines are numbered (N)." },
-    Key { name: "gcode.heading_tolerance_deg", takes: Takes::Number(from(0.001, 10.0)), about: "How far the blade may be turned from its law where the axis turns evenly along a piece." },
+    Key { name: "gcode.heading_tolerance_deg", takes: Takes::Number(from(0.001, 10.0)), about: "How far the blade may be turned from the tangent where the axis turns evenly along a piece." },
     Key { name: "gcode.chord_mm", takes: Takes::Number(from(0.0001, 1.0)), about: "Without arcs: how far a straight piece may leave its arc." },
     Key { name: "gcode.header", takes: Takes::Text, about: "Lines behind the first one, which chooses mm and absolute positions: a coordinate system (G54), a\ntool (T1 M6), what is switched. They move nothing." },
     Key { name: "gcode.footer", takes: Takes::Text, about: "Lines at the end, the last one M2 or M30. They move nothing: park says where the axes end." },

@@ -1,9 +1,11 @@
-//! Order: what lies within a contour is cut before it, the outline last: a part that is free shifts, with all that lies in it.
+//! Order: what lies within a contour is cut before it, the outline last: a part that is free shifts, with all that lies
+//! in it.
 //!
-//! Needs: welded contours. In a file without numbers of pieces every contour is a piece. Leaves true: no contour comes behind
-//! a closed one of its piece that holds it, and no piece behind one within whose outline it lies, unless something is asked of
-//! the operator between them; otherwise contours and pieces keep the order of the file. What is asked stays where it is:
-//! before the pieces that are brought before the one behind it. Holes and slits come before all contours anyway.
+//! Needs: welded contours. In a file without numbers of pieces every contour is a piece. Leaves true: no contour comes
+//! behind a closed one of its piece that holds it, and no piece behind one within whose outline it lies, unless
+//! something is asked of the operator between them; otherwise contours and pieces keep the order of the file. What is
+//! asked stays where it is: before the pieces that are brought before the one behind it. Holes and slits come before
+//! all contours anyway.
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;

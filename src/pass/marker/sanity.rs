@@ -161,8 +161,8 @@ struct Search<'a> {
     marker: &'a Marker,
     /// The boxes of the pieces.
     boxes: Boxes,
-    /// The outlines of pieces, as far as they are looked at beside others: most pieces of a marker lie apart. Empty as long as
-    /// none is.
+    /// The outlines of pieces, as far as they are looked at beside others: most pieces of a marker lie apart. Empty as
+    /// long as none is.
     parts: Vec<OnceCell<Box<Part<'a>>>>,
 }
 

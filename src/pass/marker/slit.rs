@@ -8,8 +8,8 @@
 //!   outline.
 //! - Any other stays an open contour, as do all longer ones: internal lines, darts, outlines with a gap.
 //!
-//! A slit that starts up to [`MISS`] inside its edge reaches it: where its own line leads back there. Leaves true: notches in
-//! the order of the file; none without length, and no slit twice, whichever way round.
+//! A slit that starts up to [`MISS`] inside its edge reaches it: where its own line leads back there. Leaves true:
+//! notches in the order of the file; none without length, and no slit twice, whichever way round.
 
 use std::collections::BTreeSet;
 
@@ -240,8 +240,8 @@ impl Search<'_> {
     }
 }
 
-/// How far behind its start the line of a stroke meets a segment, mm; negative when it does so behind that, no farther on than
-/// the stroke is long.
+/// How far behind its start the line of a stroke meets a segment, mm; negative when it does so behind that, no farther
+/// on than the stroke is long.
 fn back_to(stroke: &Stroke, [a, b]: [Point; 2]) -> Option<f64> {
     let (way, edge) = (stroke.to - stroke.from, b - a);
     let length = way.norm();

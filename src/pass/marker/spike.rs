@@ -1,14 +1,16 @@
-//! Spike: ways of an outline that go out and straight back, and boxes that are too narrow to be anything else, become slits.
+//! Spike: ways of an outline that go out and straight back, and boxes that are too narrow to be anything else, become
+//! slits.
 //!
 //! Needs: welded contours. From the tip of such a way, or its narrow bottom, both sides lead back to the mouth:
 //!
-//! - sides within rounding of each other are one line that is drawn twice. 1 to 25 mm of it is a slit; less that comes back to
-//!   its root to the bit is the jitter of a digitiser and is dropped; all else stays as it is drawn;
+//! - sides within rounding of each other are one line that is drawn twice. 1 to 25 mm of it is a slit; less that comes
+//!   back to its root to the bit is the jitter of a digitiser and is dropped; all else stays as it is drawn;
 //! - sides up to `notch.box_max_mm` apart and 1.5 to 15 mm long are a box or a needle, and that is a slit along its middle.
 //!
-//! Where the way does not come back to its root to the bit, the outline must leave the mouth to both sides: sides that go on
-//! are those of a strap, or of a corner. A way that bends is cut by its straight stretches. Leaves true: three segments at
-//! least in each outline; these run straight over the mouths, and each slit starts on the edge at the middle of its mouth.
+//! Where the way does not come back to its root to the bit, the outline must leave the mouth to both sides: sides that
+//! go on are those of a strap, or of a corner. A way that bends is cut by its straight stretches. Leaves true: three
+//! segments at least in each outline; these run straight over the mouths, and each slit starts on the edge at the
+//! middle of its mouth.
 
 use rayon::prelude::*;
 

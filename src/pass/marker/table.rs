@@ -1,7 +1,7 @@
 //! Table: whether what is cut lies on the table of the profile. Changes nothing.
 //!
-//! Needs: the pieces of this run. Here only the lines are looked at, which the tip follows to their ends: what is off the table
-//! now stays so. Overlaps and the swing of the blade are judged in the program.
+//! Needs: the pieces of this run. Here only the lines are looked at, which the tip follows to their ends: what is off
+//! the table now stays so. Overlaps and the swing of the blade are judged in the program.
 
 use super::pass::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};

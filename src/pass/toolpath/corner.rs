@@ -79,8 +79,9 @@ fn rotate(run: &mut Run, first: usize) {
     run.joints.push(run.joints[0]);
 }
 
-/// The ends of a run: `corner` says which of them lie inside a contour. A code acts at the next plunge or lift: `before` are
-/// the joints from the plunge of the run before up to the plunge of this one, `along` those from there up to its lift.
+/// The ends of a run: `corner` says which of them lie inside a contour. A code acts at the next plunge or lift:
+/// `before` are the joints from the plunge of the run before up to the plunge of this one, `along` those from there up
+/// to its lift.
 fn ends(corner: [bool; 2], before: &[Joint], along: &[Joint]) -> [End; 2] {
     let bare = [before.iter().any(|joint| joint.full_advance), along.iter().any(|joint| joint.no_overcut)];
     [0, 1].map(|i| End { corner: corner[i], bare: bare[i], ..End::default() })
@@ -90,7 +91,7 @@ fn ends(corner: [bool; 2], before: &[Joint], along: &[Joint]) -> [End; 2] {
 mod tests {
     use super::*;
     use crate::geom::Point;
-    use crate::ir::toolpath::{Edge, Law, Pose};
+    use crate::ir::toolpath::{Edge, OrientationMode, Pose};
     use crate::source::Span;
 
     fn ring(coordinates: &[(f64, f64)]) -> Run {
@@ -101,7 +102,7 @@ mod tests {
             joints: vec![Joint::default(); points.len()],
             points,
             shape: Shape::Ring,
-            law: Law::Tangent,
+            orientation: OrientationMode::Tangent,
             front: 0.0,
             heel: 0.0,
             feeds: vec![1.0; coordinates.len()],

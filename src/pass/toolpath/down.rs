@@ -23,8 +23,8 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
     runs::replace(toolpath, |run| split(run, longest, knife));
 }
 
-/// Parts of a run, as few as keep below `longest`, each led on along the contour by the overlaps of a corner. They are as long
-/// as each other but for what lets the next one begin where the run is straight.
+/// Parts of a run, as few as keep below `longest`, each led on along the contour by the overlaps of a corner. They are
+/// as long as each other but for what lets the next one begin where the run is straight.
 fn split(run: Run, longest: f64, knife: &Knife) -> Vec<Run> {
     let way = Way::new(&run);
     let length = way.length();

@@ -1,9 +1,9 @@
 //! Pass `entry`: splits where a plunged blade would leave the path.
 //!
-//! Needs runs split at corners. Leaves runs on which the blade, plunged as a chord at the start, lies as near to the path as
-//! to an arc that turns as much under it (w^2 k / 8 when it turns little, k its curvature), and not across it. A sharper bend
-//! that near to a start, though no corner, is cut as one: up to it, and on from it, without overlaps, because they would
-//! leave the path.
+//! Needs runs split at corners. Leaves runs on which the blade, plunged as a chord at the start, lies as near to the
+//! path as to an arc that turns as much under it (w^2 k / 8 when it turns little, k its curvature), and not across it.
+//! A sharper bend that near to a start, though no corner, is cut as one: up to it, and on from it, without overlaps,
+//! because they would leave the path.
 
 use super::pass::ToolpathPass;
 use super::runs;

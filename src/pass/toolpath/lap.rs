@@ -2,7 +2,7 @@
 
 use super::stretch::Way;
 use crate::geom::{Heading, polyline};
-use crate::ir::toolpath::{Law, Run};
+use crate::ir::toolpath::{OrientationMode, Run};
 use crate::machine::Knife;
 
 /// How far C stays away from the ends of its range on a ring that is cut in one, at the least, rad (4 degrees).
@@ -19,7 +19,7 @@ pub(super) struct Lap<'a> {
     pub(super) way: &'a Way<'a>,
     pub(super) winding: &'a Winding,
     pub(super) knife: &'a Knife,
-    pub(super) law: Law,
+    pub(super) orientation: OrientationMode,
 }
 
 impl Lap<'_> {
@@ -32,11 +32,11 @@ impl Lap<'_> {
 
     /// The least and the greatest direction of the blade from a station on all round and over the overlap, unwrapped, rad.
     pub(super) fn reach(&self, at: f64) -> [f64; 2] {
-        let Self { way, winding, knife, law } = self;
+        let Self { way, winding, knife, orientation } = self;
         // The blade plunges along the ring, or as a chord of what lies behind its tip.
-        let from = match law {
-            Law::Tangent => at,
-            Law::Chord => at - knife.width_mm,
+        let from = match orientation {
+            OrientationMode::Tangent => at,
+            OrientationMode::Chord => at - knife.width_mm,
         };
         let to = at + way.length() + knife.front_overlap_mm;
         let inner = (way.chord_at(from) + 1..way.chord_at(to)).map(|chord| winding.at(chord));
@@ -60,8 +60,8 @@ impl Lap<'_> {
         f64::midpoint(self.way.station(chord), self.way.station(chord + 1))
     }
 
-    /// The station, amid a chord, from which on the ring can be cut in one, its overlap included, with C inside a range: where it
-    /// turns least, and of such places the nearest to where it starts.
+    /// The station, amid a chord, from which on the ring can be cut in one, its overlap included, with C inside a
+    /// range: where it turns least, and of such places the nearest to where it starts.
     pub(super) fn start(&self, range: [f64; 2]) -> Option<f64> {
         let Self { way, knife, .. } = self;
         let chords = way.chords();

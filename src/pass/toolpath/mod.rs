@@ -12,10 +12,10 @@ mod nibble;
 mod overlap;
 mod pass;
 mod place;
+mod plunge;
 mod runs;
 mod scene;
 mod slow;
-mod stab;
 mod start;
 mod stretch;
 mod tight;
@@ -40,6 +40,6 @@ pub const TOOLPATH_PASSES: &[ToolpathPass] = &[
     turn::PASS,
     slow::PASS,
     overlap::PASS,
-    stab::PASS,
+    plunge::PASS,
     place::PASS,
 ];

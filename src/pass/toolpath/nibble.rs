@@ -2,7 +2,7 @@
 
 use super::stretch::{REJOINED, Way};
 use crate::analysis::cloth::Surroundings;
-use crate::analysis::plunge::{PASSING_SHARE, PlungeCut, overlaps};
+use crate::analysis::plunge::{BladePlacement, PASSING_SHARE, overlaps};
 use crate::analysis::tight::TightCurve;
 use crate::geom::polyline;
 use crate::ir::toolpath::Run;
@@ -71,13 +71,13 @@ fn lengthened(way: &Way, [start, end]: [usize; 2], curves: &[TightCurve], width:
 pub(super) fn worst_overcut(run: &Run, curve: &TightCurve, around: &Surroundings) -> f64 {
     let plunges = nibbled(run, std::slice::from_ref(curve), around).into_iter().map(|Stretch { run, .. }| {
         let lengths = overlaps(&run, around).map(|overlap| overlap.length);
-        PlungeCut::of(&run, lengths, around).map_or(0.0, |cut| cut.overcut() / 2.0)
+        BladePlacement::of(&run, lengths, around).map_or(0.0, |cut| cut.overcut() / 2.0)
     });
     plunges.fold(0.0, f64::max)
 }
 
-/// The plunges that cut a stretch between two vertices, each within `allowed` mm of its chord: as few as there can be, and of
-/// these the ones whose longest is shortest, so that none is a rest that the one before has cut already.
+/// The plunges that cut a stretch between two vertices, each within `allowed` mm of its chord: as few as there can be,
+/// and of these the ones whose longest is shortest, so that none is a rest that the one before has cut already.
 fn plunges(way: &Way, [first, last]: [usize; 2], allowed: f64) -> Vec<[usize; 2]> {
     let length = way.station(last.cast_signed()) - way.station(first.cast_signed());
     let no_longer_than = |longest: f64| {

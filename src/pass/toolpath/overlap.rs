@@ -1,10 +1,10 @@
 //! Pass `overlap`: how far the blade goes past the ends of each run.
 //!
-//! Needs runs split at corners. Leaves every run with its overlaps, each straight on beyond its end: as far as the profile
-//! wants where that is waste, by `knife.reflex_front_overlap_mm` and `knife.reflex_heel_overlap_mm` where it is the part
-//! itself (a reflex corner, the inner end of a slit), and shortened to the gap less `knife.clearance_mm` where a part lies
-//! ahead. A run that begins on a curve has only as much of its heel overlap as keeps the plunged blade near its start. After
-//! Wang, Zhang & Zhao, *Research on Cutter Knife Tangent Following and Compensating Algorithm*, 2013,
+//! Needs runs split at corners. Leaves every run with its overlaps, each straight on beyond its end: as far as the
+//! profile wants where that is waste, by `knife.reflex_front_overlap_mm` and `knife.reflex_heel_overlap_mm` where it is
+//! the part itself (a reflex corner, the inner end of a slit), and shortened to the gap less `knife.clearance_mm` where
+//! a part lies ahead. A run that begins on a curve has only as much of its heel overlap as keeps the plunged blade near
+//! its start. After Wang, Zhang & Zhao, *Research on Cutter Knife Tangent Following and Compensating Algorithm*, 2013,
 //! doi 10.7690/bgzdh.2013.02.026.
 
 use super::pass::ToolpathPass;

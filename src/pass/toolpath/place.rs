@@ -1,8 +1,9 @@
 //! Pass `place`: where the axes stand at the ends of each step, and the moves through the air between them.
 //!
-//! Needs runs with overlaps, and stabs over their place. Leaves every step with its nominal poses: C unwrapped, each plunge at the
-//! equivalent of its heading that is nearest to where C stands, inside `c.range_deg`; a turn or a travel before each step
-//! that starts elsewhere. Smoothing moves the headings of runs a little; `plan` goes by what the runs really have.
+//! Needs runs with overlaps, and plunge cuts over their place. Leaves every step with its nominal poses: C unwrapped,
+//! each plunge at the equivalent of its heading that is nearest to where C stands, inside `c.range_deg`; a turn or a
+//! travel before each step that starts elsewhere. Smoothing moves the headings of runs a little; `plan` goes by what
+//! the runs really have.
 
 use super::lap::{Lap, SLIM_MARGIN, Winding};
 use super::pass::ToolpathPass;
@@ -11,7 +12,7 @@ use super::stretch::Way;
 use super::wind;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Heading, Point, Rotation, Vector, angle, polyline};
-use crate::ir::toolpath::{Air, Edge, Law, Pose, Run, Shape, Stab, Step, Toolpath};
+use crate::ir::toolpath::{Air, Edge, OrientationMode, PlungeCut, Pose, Run, Shape, Step, Toolpath};
 use crate::machine::{Job, Knife};
 use crate::units::{deg, number::fixed};
 
@@ -29,9 +30,9 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
                 place_run(run, pose.c, job, diagnostics);
                 (run.start, run.end, run.ends[1].corner)
             }
-            Step::Stab(stab) => {
-                place_stab(stab, pose.c, job, diagnostics);
-                (stab.pose, stab.pose, stab.ends[1].corner)
+            Step::PlungeCut(plunge_cut) => {
+                place_plunge_cut(plunge_cut, pose.c, job, diagnostics);
+                (plunge_cut.pose, plunge_cut.pose, plunge_cut.ends[1].corner)
             }
             Step::Drill(drill) => {
                 let [x, y] = job.profile.drill.offset_mm;
@@ -56,15 +57,15 @@ fn pose_at(tip: Point, along: Vector, (c, edge): (Rotation, Edge), knife: &Knife
     Pose { centre: tip - along * edge.lead(knife.ends()), c }
 }
 
-fn place_stab(stab: &mut Stab, before: Rotation, job: &Job, diagnostics: &mut Diagnostics) {
-    let heading = Heading::of(stab.along);
+fn place_plunge_cut(plunge_cut: &mut PlungeCut, before: Rotation, job: &Job, diagnostics: &mut Diagnostics) {
+    let heading = Heading::of(plunge_cut.along);
     let knife = &job.profile.knife;
-    let tip = stab.pose.centre + stab.along * knife.radius();
+    let tip = plunge_cut.pose.centre + plunge_cut.along * knife.radius();
     let (c, edge) = equivalent(before, heading, [0.0, 0.0], job).unwrap_or_else(|| {
-        diagnostics.push(out_of_range(stab.spans[0]));
+        diagnostics.push(out_of_range(plunge_cut.spans[0]));
         (before.nearest(heading), Edge::Front)
     });
-    (stab.pose, stab.edge) = (pose_at(tip, stab.along, (c, edge), knife), edge);
+    (plunge_cut.pose, plunge_cut.edge) = (pose_at(tip, plunge_cut.along, (c, edge), knife), edge);
 }
 
 fn place_run(run: &mut Run, before: Rotation, job: &Job, diagnostics: &mut Diagnostics) {
@@ -73,9 +74,9 @@ fn place_run(run: &mut Run, before: Rotation, job: &Job, diagnostics: &mut Diagn
     let first = direction(run.points[0], run.points[1]);
     let last = direction(run.points[n - 2], run.points[n - 1]);
     // How far C is from the first chord's direction: at the plunge, least, greatest and at the lift.
-    let (plunge, mut turned) = match (run.shape, run.law) {
-        (Shape::Ring, Law::Tangent) => (-angle::turn(last, first) / 2.0, 0.0),
-        (Shape::Ring, Law::Chord) => (chord_lag_back(&run.points, knife) - angle::turn(last, first), 0.0),
+    let (plunge, mut turned) = match (run.shape, run.orientation) {
+        (Shape::Ring, OrientationMode::Tangent) => (-angle::turn(last, first) / 2.0, 0.0),
+        (Shape::Ring, OrientationMode::Chord) => (chord_lag_back(&run.points, knife) - angle::turn(last, first), 0.0),
         (Shape::Open, _) => (chord_lag(&run.extended(), knife), 0.0),
     };
     let mut range = [plunge.min(0.0), plunge.max(0.0)];
@@ -87,7 +88,7 @@ fn place_run(run: &mut Run, before: Rotation, job: &Job, diagnostics: &mut Diagn
         turned += angle::turn(last, first);
         let way = Way::new(run);
         let winding = Winding::new(run, &way, knife);
-        let [low, high] = Lap { way: &way, winding: &winding, knife, law: run.law }.reach(0.0);
+        let [low, high] = Lap { way: &way, winding: &winding, knife, orientation: run.orientation }.reach(0.0);
         range = [low - winding.at(0) - SLIM_MARGIN, high - winding.at(0) + SLIM_MARGIN];
     }
     let heading = Heading::new(Heading::of(first).radians() + plunge);
@@ -101,18 +102,20 @@ fn place_run(run: &mut Run, before: Rotation, job: &Job, diagnostics: &mut Diagn
         (before.nearest(heading), Edge::Front)
     });
     run.edge = edge;
-    let end_c = match (run.shape, run.law) {
-        (_, Law::Tangent) => Rotation(c.0 - plunge + turned),
-        (Shape::Ring, Law::Chord) => {
+    let end_c = match (run.shape, run.orientation) {
+        (_, OrientationMode::Tangent) => Rotation(c.0 - plunge + turned),
+        (Shape::Ring, OrientationMode::Chord) => {
             let path = once_round(run);
             let turned: f64 = path.windows(3).map(|w| polyline::turn_at(w[0], w[1], w[2])).sum();
             Rotation(c.0 - plunge + turned + chord_lag_back(&path, knife))
         }
-        (Shape::Open, Law::Chord) => Rotation(c.0 - plunge + turned + chord_lag_back(&run.extended(), knife)),
+        (Shape::Open, OrientationMode::Chord) => {
+            Rotation(c.0 - plunge + turned + chord_lag_back(&run.extended(), knife))
+        }
     };
-    let (tip, end) = match (run.shape, run.law) {
-        (Shape::Ring, Law::Tangent) => (run.points[0], run.points[0] + first * run.front),
-        (Shape::Ring, Law::Chord) => {
+    let (tip, end) = match (run.shape, run.orientation) {
+        (Shape::Ring, OrientationMode::Tangent) => (run.points[0], run.points[0] + first * run.front),
+        (Shape::Ring, OrientationMode::Chord) => {
             let path = once_round(run);
             (run.points[0], path[path.len() - 1])
         }
@@ -143,7 +146,7 @@ fn chord_lag_back(path: &[Point], knife: &Knife) -> f64 {
     chord_lag(&back, knife)
 }
 
-/// How far the chord of a blade whose tail is at the start of a path is turned from its first chord, rad, without jumps.
+/// How far the chord of a blade whose heel is at the start of a path is turned from its first chord, rad, without jumps.
 fn chord_lag(path: &[Point], knife: &Knife) -> f64 {
     let Some((tip, chord)) = polyline::first_at_distance(path, knife.width_mm) else { return 0.0 };
     let first = direction(path[0], path[1]);

@@ -6,7 +6,7 @@ use crate::ir::toolpath::{Run, Step, Toolpath};
 pub(super) fn each(toolpath: &mut Toolpath) -> impl Iterator<Item = &mut Run> {
     toolpath.steps.iter_mut().filter_map(|step| match step {
         Step::Run(run) => Some(run),
-        Step::Stab(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => None,
+        Step::PlungeCut(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => None,
     })
 }
 
@@ -17,7 +17,7 @@ pub(super) fn replace(toolpath: &mut Toolpath, mut parts: impl FnMut(Run) -> Vec
     for step in steps {
         match step {
             Step::Run(run) => toolpath.steps.extend(parts(run).into_iter().map(Step::Run)),
-            Step::Stab(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {
+            Step::PlungeCut(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {
                 toolpath.steps.push(step);
             }
         }

@@ -89,8 +89,8 @@ impl<'a> Way<'a> {
             .map_or(high, |best| best.0)
     }
 
-    /// Whether a run that is lifted at a station can go on with overlaps, from `before` mm before it to `behind` mm behind it: on
-    /// a bend the blade would plunge over what is cut already, and leave it.
+    /// Whether a run that is lifted at a station can go on with overlaps, from `before` mm before it to `behind` mm
+    /// behind it: on a bend the blade would plunge over what is cut already, and leave it.
     pub(super) fn leads_on(&self, station: f64, [before, behind]: [f64; 2]) -> bool {
         self.turned([station - before, station + behind]) <= GENTLE_TURN
     }

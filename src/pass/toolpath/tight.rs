@@ -3,18 +3,20 @@
 //! Needs runs split at corners. A curve is too tight where the blade, tip and heel on it, would stand across it: on an arc
 //! of less than 0.55 blade widths, in a right angle that is rounded with less than 0.4. By `knife.tight_curves` it is
 //!
-//! - `follow`: cut without a lift. A run with such a curve has the tangent law: the blade cannot be its chord. One on which
-//!   the blade has no way to go, a rounded notch, is nibbled: a single plunge would cut straight over it.
+//! - `follow`: cut without a lift. A run with such a curve has the tangent orientation mode: the blade cannot be its
+//!   chord. One on which the blade has no way to go, a rounded notch, is nibbled: a single plunge would cut straight
+//!   over it.
 //! - `nibble`: cut by plunges without motion, each along as many chords as stay within the tolerance of it; on an arc of
 //!   radius R that is a step of sqrt(8 R e), e being 0.9 of the tolerance. The blade is longer than that, so that they
 //!   overlap, and beyond the step lies outside the curve, along its tangent.
 //! - `refuse`: an error.
 //!
 //! A cut that begins on a curve is too tight there, too, when the blade that plunges as a chord of it would lie farther
-//! beside it than `knife.max_bow_mm`: `follow` says so, and nibbles only what that blade cannot enter at all. Of a short curve
-//! that it covers one plunge is made where nibbling would cut farther into the part than that leaves beside the line.
+//! beside it than `knife.max_bow_mm`: `follow` says so, and nibbles only what that blade cannot enter at all. Of a
+//! short curve that it covers one plunge is made where nibbling would cut farther into the part than that leaves beside
+//! the line.
 //!
-//! Leaves no run with the chord law that the blade cannot be a chord of.
+//! Leaves no run with the chord mode that the blade cannot be a chord of.
 
 use super::nibble::{nibbled, worst_overcut};
 use super::pass::ToolpathPass;
@@ -28,7 +30,7 @@ use crate::analysis::tight::{TightCurve, joined, tight_curves};
 use crate::diagnostic::Diagnostics;
 use crate::geom::region::Ray;
 use crate::geom::{left, ring};
-use crate::ir::toolpath::{Law, Run, Shape, Side, Toolpath};
+use crate::ir::toolpath::{OrientationMode, Run, Shape, Side, Toolpath};
 use crate::machine::TightCurves;
 
 pub(super) const PASS: ToolpathPass = ToolpathPass {
@@ -80,7 +82,7 @@ fn treated(run: Run, around: &Surroundings, report: &mut Report) -> Vec<Run> {
     let (run, curves) = match treatment {
         Treatment::Nibbled => (run, curves),
         // The blade cannot be a chord of a run with tight curves.
-        _ if !curves.is_empty() => (Run { law: Law::Tangent, ..run }, Vec::new()),
+        _ if !curves.is_empty() => (Run { orientation: OrientationMode::Tangent, ..run }, Vec::new()),
         _ => (run, curves),
     };
     let curves = joined(nibbled_start.map(|start| start.curve.clone()).into_iter().chain(curves).collect());
@@ -106,12 +108,12 @@ fn treatment(run: &Run, curves: &[TightCurve], around: &Surroundings) -> Treatme
         // Plunges around a hole that is narrower than the blade would all lead far into the part.
         TightCurves::Nibble if !is_narrow_hole(run, curves, around) => Treatment::Nibbled,
         TightCurves::Nibble | TightCurves::Follow if is_one_plunge(run, around) => Treatment::Nibbled,
-        TightCurves::Nibble | TightCurves::Follow => Treatment::Followed(run.law),
+        TightCurves::Nibble | TightCurves::Follow => Treatment::Followed(run.orientation),
     }
 }
 
-/// Whether the curve on which a run begins is nibbled: what the blade cannot enter even where curves are followed, and where
-/// they are refused what it lies slightly beside.
+/// Whether the curve on which a run begins is nibbled: what the blade cannot enter even where curves are followed, and
+/// where they are refused what it lies slightly beside.
 fn is_start_nibbled(start: &CurvedStart, treatment: Treatment, around: &Surroundings) -> bool {
     match treatment {
         Treatment::Nibbled => true,

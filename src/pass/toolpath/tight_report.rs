@@ -1,10 +1,11 @@
-//! What pass `tight` says: the tightest curve of a toolpath, the worst of its starts on a curve, and what is done about them.
+//! What pass `tight` says: the tightest curve of a toolpath, the worst of its starts on a curve, and what is done about
+//! them.
 
 use super::start::CurvedStart;
 use super::worst::Worst;
 use crate::analysis::tight::TightCurve;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
-use crate::ir::toolpath::{Law, Run};
+use crate::ir::toolpath::{OrientationMode, Run};
 use crate::machine::{Knife, TightCurves};
 use crate::source::Span;
 use crate::units::number::{fixed, up};
@@ -12,8 +13,8 @@ use crate::units::number::{fixed, up};
 /// What is done about a curve that is tighter than the blade, or about a start beside which the plunged blade lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Treatment {
-    /// It is cut without a lift; its run was to have this law.
-    Followed(Law),
+    /// It is cut without a lift; its run was to have this orientation mode.
+    Followed(OrientationMode),
     /// It is cut by several plunges.
     Nibbled,
     /// One plunge cuts all of its run.
@@ -98,10 +99,12 @@ impl<'a> Report<'a> {
             hint: "a narrower blade leaves it less; `knife.tight_curves` is \"nibble\" for cuts by plunges, \"refuse\" for an error",
         };
         match treatment {
-            Treatment::Followed(Law::Chord) => {
+            Treatment::Followed(OrientationMode::Chord) => {
                 followed(format!("it cannot be its chord and follows the tangent, its heel off by up to {swing} mm"))
             }
-            Treatment::Followed(Law::Tangent) => followed(format!("its heel leaves the line by up to {swing} mm")),
+            Treatment::Followed(OrientationMode::Tangent) => {
+                followed(format!("its heel leaves the line by up to {swing} mm"))
+            }
             Treatment::Nibbled | Treatment::Covered => Words {
                 code: &code::PATH_TIGHT_CURVE,
                 done: self.nibbled(),

@@ -5,11 +5,11 @@
 use crate::ir::Marker;
 use crate::ir::list::{FULL_SPEED, Joint, Segment};
 use crate::ir::marker::{Cut, Event, Piece};
-use crate::ir::toolpath::{Drill, Edge, End, Law, Pose, Run, Shape, Step, Toolpath};
+use crate::ir::toolpath::{Drill, Edge, End, OrientationMode, Pose, Run, Shape, Step, Toolpath};
 use crate::machine::{Follow, Job};
 
-/// The raw toolpath of each drill and cut, in cut order: a cut is one run, not yet split, without overlaps and without poses.
-/// An event stands alone, between the pieces or behind the last.
+/// The raw toolpath of each drill and cut, in cut order: a cut is one run, not yet split, without overlaps and without
+/// poses. An event stands alone, between the pieces or behind the last.
 pub fn trace<'a>(marker: &'a Marker, job: &'a Job) -> impl Iterator<Item = Toolpath> + 'a {
     let tolerance = job.profile.tolerance(marker.unit);
     let last = marker.pieces.last().map_or(0, |piece| piece.number);
@@ -67,10 +67,10 @@ fn raw(shape: Shape, job: &Job) -> Run {
         spans: Vec::new(),
         joints: Vec::new(),
         shape,
-        law: match job.profile.knife.follow {
+        orientation: match job.profile.knife.follow {
             // A point is no chord of anything.
-            Follow::Chord if job.profile.knife.width_mm > 0.0 => Law::Chord,
-            Follow::Chord | Follow::Tangent => Law::Tangent,
+            Follow::Chord if job.profile.knife.width_mm > 0.0 => OrientationMode::Chord,
+            Follow::Chord | Follow::Tangent => OrientationMode::Tangent,
         },
         front: 0.0,
         heel: 0.0,

@@ -1,9 +1,9 @@
 //! Pass `turn`: short cuts that lead out of the part are cut the other way round, from the edge inwards.
 //!
-//! Needs runs split at corners. Leaves every straight run that is no longer than a notch is deep, begins inside the part and
-//! ends at its edge turned round: the legs of V notches, of castles and of darts in a seam are cut from the edge to the
-//! innermost point, where the tip stands exactly, and what the blade is longer by lies in the waste. Both legs of a V then
-//! point nearly the same way, so that the blade turns less between them.
+//! Needs runs split at corners. Leaves every straight run that is no longer than a notch is deep, begins inside the
+//! part and ends at its edge turned round: the legs of V notches, of castles and of darts in a seam are cut from the
+//! edge to the innermost point, where the tip stands exactly, and what the blade is longer by lies in the waste. Both
+//! legs of a V then point nearly the same way, so that the blade turns less between them.
 
 use super::pass::ToolpathPass;
 use super::runs;

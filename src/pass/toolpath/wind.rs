@@ -39,7 +39,7 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
                 Some(parts) => toolpath.steps.extend(parts.into_iter().map(Step::Run)),
                 None => toolpath.steps.push(Step::Run(run)),
             },
-            Step::Stab(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {
+            Step::PlungeCut(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {
                 toolpath.steps.push(step);
             }
         }
@@ -53,7 +53,7 @@ fn parts(run: &Run, range: [f64; 2], knife: &Knife) -> Option<Vec<Run>> {
     let chords = way.chords().cast_signed();
     let [least, greatest] = range;
     let inner = [least + MARGIN, greatest - MARGIN];
-    let lap = Lap { way: &way, winding: &winding, knife, law: run.law };
+    let lap = Lap { way: &way, winding: &winding, knife, orientation: run.orientation };
     let is_in_one = if way.is_ring() { lap.fits(0.0, inner) } else { winding.reach(0, chords, inner) == Some(chords) };
     if chords == 1 || is_in_one {
         return None;
@@ -153,7 +153,8 @@ impl Parting<'_> {
         // Over a bend no overlap can lead on along the contour.
         let is_gentle = way.leads_on(gentle, [heel + front, knife.width_mm]);
         let overlapped = if is_gentle { (gentle - front - heel).max(from) } else { gentle };
-        // From where C must unwind on it goes farther, with another equivalent; from before that it may be no farther than here.
+        // From where C must unwind on it goes farther, with another equivalent; from before that it may be no farther
+        // than here.
         let goes_on =
             |next: f64| self.reach(next).is_some_and(|to| to >= self.end || way.station(to) > stop + knife.width_mm);
         let lifts = [[gentle, overlapped], [gentle; 2]];

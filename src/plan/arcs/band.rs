@@ -109,8 +109,9 @@ impl ToleranceBand {
         self.heights[chord] == 0.0
     }
 
-    /// Whether an arc of that curvature (left positive, per mm) stays beside a chord within an allowed distance of what counts
-    /// as on the path, mm. Between its ends and its middle it is taken for a parabola, as the arc over the chord is.
+    /// Whether an arc of that curvature (left positive, per mm) stays beside a chord within an allowed distance of what
+    /// counts as on the path, mm. Between its ends and its middle it is taken for a parabola, as the arc over the chord
+    /// is.
     pub(super) fn holds(&self, stretch: &Stretch, curvature: f64, allowed: f64) -> bool {
         let Stretch { chord, stations: [from, to], ends } = *stretch;
         let (start, length) = (self.stations[chord], self.stations[chord + 1] - self.stations[chord]);

@@ -1,8 +1,8 @@
 //! A blade that plunged as a chord comes to the tangent of its way: C and the way of its axis, part by part.
 //!
-//! What is left of the lead is [`left_of`] the fade. On each part C turns evenly. The axis goes beside the tip by the radius
-//! of the blade, and while that swings, its way does not turn as the tip's does: each part has the arc on which the tip is
-//! as little askew at its start as at its end, and parts are halved until that is little enough.
+//! What is left of the lead is [`left_of`] the fade. On each part C turns evenly. The axis goes beside the tip by the
+//! radius of the blade, and while that swings, its way does not turn as the tip's does: each part has the arc on which
+//! the tip is as little askew at its start as at its end, and parts are halved until that is little enough.
 
 use super::fit::Arc;
 use crate::geom::fade::left_of;

@@ -145,7 +145,8 @@ pub(super) struct Ends {
     pub(super) curvature: f64,
     /// Whether every vertex has shoulders, for where no other place can be reached.
     pub(super) spares: bool,
-    /// How far about a place on a shorter chord the way is looked at for its direction, in tolerances; 0 = on the chord alone.
+    /// How far about a place on a shorter chord the way is looked at for its direction, in tolerances; 0 = on the chord
+    /// alone.
     pub(super) reach: f64,
 }
 
@@ -170,8 +171,8 @@ pub(super) fn fit(band: &ToleranceBand, ends: &Ends) -> Result<Vec<Arc>, Point> 
     Ok(arcs)
 }
 
-/// The farthest place that a biarc from place `i` reaches, none of its arcs of more than a curvature, and that biarc; `aims`
-/// are those behind it that lie on the curve.
+/// The farthest place that a biarc from place `i` reaches, none of its arcs of more than a curvature, and that biarc;
+/// `aims` are those behind it that lie on the curve.
 fn farthest(
     band: &ToleranceBand,
     nodes: &[Node],

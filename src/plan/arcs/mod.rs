@@ -14,10 +14,10 @@ mod tip;
 
 use crate::geom::polyline;
 use crate::ir::arcs::{Arcs, Interpolation, Path, Reason, Unfit};
-use crate::ir::toolpath::{Law, Run, Step, Toolpath};
+use crate::ir::toolpath::{OrientationMode, Run, Step, Toolpath};
 use crate::machine::Job;
 
-/// The path of each run and stab of a toolpath, in order; otherwise the runs that have none.
+/// The path of each run and plunge cut of a toolpath, in order; otherwise the runs that have none.
 pub fn solve(toolpath: &Toolpath, interpolation: &Interpolation, job: &Job) -> Result<Arcs, Vec<Unfit>> {
     let (mut paths, mut unfit) = (Vec::new(), Vec::new());
     // The axis stands askew to the blade by that.
@@ -28,7 +28,7 @@ pub fn solve(toolpath: &Toolpath, interpolation: &Interpolation, job: &Job) -> R
                 Ok(path) => paths.push(path.turned(run.edge.turn() + yaw)),
                 Err(reason) => unfit.push(Unfit { span: run.spans[0], reason }),
             },
-            Step::Stab(stab) => paths.push(Path::plunge(stab.pose).turned(yaw)),
+            Step::PlungeCut(plunge_cut) => paths.push(Path::plunge(plunge_cut.pose).turned(yaw)),
             Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {}
         }
     }
@@ -37,9 +37,10 @@ pub fn solve(toolpath: &Toolpath, interpolation: &Interpolation, job: &Job) -> R
 
 fn path_of(run: &Run, tolerance: f64, (interpolation, job): (&Interpolation, &Job)) -> Result<Path, Reason> {
     // On a straight run the orientation modes are one.
-    let law = if polyline::is_straight(&run.extended(), tolerance) { Law::Tangent } else { run.law };
-    match law {
-        Law::Tangent => path::path(run, tolerance, (interpolation, job)).map_err(Reason::Band),
-        Law::Chord => Err(Reason::Chord),
+    let orientation =
+        if polyline::is_straight(&run.extended(), tolerance) { OrientationMode::Tangent } else { run.orientation };
+    match orientation {
+        OrientationMode::Tangent => path::path(run, tolerance, (interpolation, job)).map_err(Reason::Band),
+        OrientationMode::Chord => Err(Reason::Chord),
     }
 }

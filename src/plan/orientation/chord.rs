@@ -195,7 +195,7 @@ impl Chord {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ir::toolpath::Law;
+    use crate::ir::toolpath::OrientationMode;
     use crate::machine::MachineProfile;
     use crate::plan::orientation::way::tests::differences_agree;
     use crate::plan::orientation::{Course, Entry, Way};
@@ -216,7 +216,7 @@ mod tests {
 
     fn way(curve: &Curve, entry: Entry) -> Result<Way<'_>, TooTight> {
         let to = curve.breaks()[curve.breaks().len() - 1] - 0.5;
-        Way::new(curve, &Course { law: Law::Chord, entry, to, blade: BLADE, near: Rotation(9.0) })
+        Way::new(curve, &Course { orientation: OrientationMode::Chord, entry, to, blade: BLADE, near: Rotation(9.0) })
     }
 
     #[test]

@@ -1,9 +1,9 @@
 //! How the blade comes from the chord that it plunged as to the tangent of its path: over a way of its tip, as smoothly as
 //! the path itself.
 //!
-//! The lead of the tangent over the blade is what it was at the plunge times what is [`left_of`] it at s / l, s the way of the
-//! tip and l the length of the fade. s is measured along the curve and not by its parameter: on a tight curve the two
-//! differ by more than a heading may be off.
+//! The lead of the tangent over the blade is what it was at the plunge times what is [`left_of`] it at s / l, s the way
+//! of the tip and l the length of the fade. s is measured along the curve and not by its parameter: on a tight curve
+//! the two differ by more than a heading may be off.
 
 use crate::geom::fade::left_of;
 use crate::geom::{Vector, spline};

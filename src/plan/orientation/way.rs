@@ -1,15 +1,15 @@
 //! The machine's own coordinates along a path: with an eccentric knife the axes do not follow the tip.
 //!
-//! Centre q(u) = p(u) - r (cos c, sin c), c the blade's angle. Under the chord mode ([`Chord`]) the heel is on the path, too.
-//! Under the tangent mode c is the path's tangent; after a plunge as a chord it blends from the chord to the tangent over
-//! the next blade width. Derivatives to third order are closed forms: with X = x' y'' - y' x'' and n = x'^2 + y'^2,
-//! c' = X / n, c'' = X' / n - X n' / n^2, c''' = X'' / n - 2 X' n' / n^2 - X n'' / n^2 + 2 X n'^2 / n^3.
+//! Centre q(u) = p(u) - r (cos c, sin c), c the blade's angle. Under the chord mode ([`Chord`]) the heel is on the
+//! path, too. Under the tangent mode c is the path's tangent; after a plunge as a chord it blends from the chord to the
+//! tangent over the next blade width. Derivatives to third order are closed forms: with X = x' y'' - y' x'' and n =
+//! x'^2 + y'^2, c' = X / n, c'' = X' / n - X n' / n^2, c''' = X'' / n - 2 X' n' / n^2 - X n'' / n^2 + 2 X n'^2 / n^3.
 
 use super::axes::{Axes, Blade};
 use super::chord::{self, Chord, TooTight};
 use super::fade::Fade;
 use crate::geom::{Point, Rotation, Vector, angle, cross, left, spline};
-use crate::ir::toolpath::{Law, Pose};
+use crate::ir::toolpath::{OrientationMode, Pose};
 use crate::plan::spline::Curve;
 
 /// Samples a span when a place or an angle is searched along the curve.
@@ -37,7 +37,7 @@ pub(in crate::plan) struct Way<'a> {
 #[derive(Debug, Clone, Copy)]
 pub(in crate::plan) struct Course {
     /// How the blade lies.
-    pub(in crate::plan) law: Law,
+    pub(in crate::plan) orientation: OrientationMode,
     /// How it enters the path.
     pub(in crate::plan) entry: Entry,
     /// Parameter at the lift.
@@ -56,22 +56,22 @@ pub(in crate::plan) enum Entry {
     Steady(f64),
 }
 
-/// Shorter ways are none, mm: below what a machine resolves and a tolerance notices. The blade only plunges then, and no mode
-/// bears on that.
+/// Shorter ways are none, mm: below what a machine resolves and a tolerance notices. The blade only plunges then, and
+/// no mode bears on that.
 pub(in crate::plan) const WAY_EPSILON: f64 = 1e-3;
 
 impl<'a> Way<'a> {
     /// The way along a curve as it is asked for.
     pub(in crate::plan) fn new(curve: &'a Curve, course: &Course) -> Result<Self, TooTight> {
-        let Course { law, entry, to, blade, near } = *course;
+        let Course { orientation, entry, to, blade, near } = *course;
         let tangents = tangents(curve);
         let mut way = Self { curve, from: 0.0, to, blade, tangents, fade: None, chord: None };
         match entry {
             Entry::Steady(from) => way.from = from,
             Entry::Plunge => way.enter_as_chord(blade.width),
         }
-        match law {
-            Law::Chord if blade.width > 0.0 && to - way.from >= WAY_EPSILON => {
+        match orientation {
+            OrientationMode::Chord if blade.width > 0.0 && to - way.from >= WAY_EPSILON => {
                 let heel = match entry {
                     Entry::Plunge => Some(0.0),
                     Entry::Steady(from) => chord::heel_behind(curve, from, blade.width),
@@ -79,7 +79,7 @@ impl<'a> Way<'a> {
                 let heel = heel.ok_or(TooTight { at: way.point(way.from) })?;
                 way.chord = Some(Chord::new(curve, [heel, way.from, to], blade)?);
             }
-            Law::Chord | Law::Tangent => {}
+            OrientationMode::Chord | OrientationMode::Tangent => {}
         }
         let start = way.at(way.from).q[0][2];
         let turns = near.nearest(Rotation(start).heading()).0 - start;
@@ -202,7 +202,8 @@ impl<'a> Way<'a> {
     }
 }
 
-/// Places along a way, none before the last one: under the tangent mode each is found without a search, however long the way.
+/// Places along a way, none before the last one: under the tangent mode each is found without a search, however long
+/// the way.
 #[derive(Debug)]
 pub(in crate::plan) struct Walk<'a> {
     way: &'a Way<'a>,
@@ -266,7 +267,8 @@ pub(in crate::plan) mod tests {
 
     fn way(curve: &Curve, entry: Entry, near: Rotation) -> Way<'_> {
         let blade = Blade { width: 6.6, radius: 4.4 };
-        Way::new(curve, &Course { law: Law::Tangent, entry, to: 59.0, blade, near }).expect("a tangent is everywhere")
+        Way::new(curve, &Course { orientation: OrientationMode::Tangent, entry, to: 59.0, blade, near })
+            .expect("a tangent is everywhere")
     }
 
     /// The derivatives of a way are the differences of what they are derivatives of.

@@ -63,8 +63,8 @@ impl ToleranceBand {
         crate::geom::spline::span(&self.stations, u)
     }
 
-    /// What counts as on the path at station `u`: with x the fraction of the chord, the arc stands 4 x (1 - x) of the sagitta
-    /// above it.
+    /// What counts as on the path at station `u`: with x the fraction of the chord, the arc stands 4 x (1 - x) of the
+    /// sagitta above it.
     pub(super) fn section(&self, chord: usize, u: f64) -> Section {
         let (start, end) = (self.stations[chord], self.stations[chord + 1]);
         let x = ((u - start) / (end - start)).clamp(0.0, 1.0);

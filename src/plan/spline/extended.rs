@@ -2,7 +2,7 @@
 
 use crate::geom::{Point, polyline};
 use crate::ir::motion::Spell;
-use crate::ir::toolpath::{Law, Run, Shape};
+use crate::ir::toolpath::{OrientationMode, Run, Shape};
 
 /// A run with its overlaps.
 #[derive(Debug)]
@@ -21,10 +21,10 @@ pub(in crate::plan) struct Extended {
 impl Extended {
     /// The run with its overlaps, as one polyline; `width` is that of the blade, mm.
     pub(in crate::plan) fn new(run: &Run, width: f64) -> Self {
-        match (run.shape, run.law) {
+        match (run.shape, run.orientation) {
             (Shape::Open, _) => open(run),
-            (Shape::Ring, Law::Tangent) => ring(run, 0.0),
-            (Shape::Ring, Law::Chord) => ring(run, HEEL_REACH * width),
+            (Shape::Ring, OrientationMode::Tangent) => ring(run, 0.0),
+            (Shape::Ring, OrientationMode::Chord) => ring(run, HEEL_REACH * width),
         }
     }
 }
@@ -53,8 +53,8 @@ const LEAD_CHORDS: usize = 3;
 /// chord it can be, with the radius of 0.55 widths, it is 1.26.
 const HEEL_REACH: f64 = 1.3;
 
-/// A ring overlaps along itself: it starts as its orientation mode has it, its heel on the path by at most `heel` mm behind,
-/// and goes past its start by the front overlap.
+/// A ring overlaps along itself: it starts as its orientation mode has it, its heel on the path by at most `heel` mm
+/// behind, and goes past its start by the front overlap.
 fn ring(run: &Run, heel: f64) -> Extended {
     let n = run.points.len() - 1;
     let chord = |i: usize| (run.points[i % n + 1] - run.points[i % n]).norm();

@@ -1,4 +1,5 @@
-//! The smoothest curve inside a tolerance band: a degree-5 B-spline r(u) over the chord length that minimises the integral of
+//! The smoothest curve inside a tolerance band: a degree-5 B-spline r(u) over the chord length that minimises the
+//! integral of
 //! |r'''|^2 with its deviation below the tolerance at dense samples, end points fixed.
 //!
 //! Jerk along a path contains k'' v^3 (k = curvature), so the path must be smooth to the third derivative of its
@@ -34,8 +35,8 @@ const CHECKS_A_SPAN: usize = 9;
 /// Attempts with finer and finer knots, and the factor on the spacing near what was not reached.
 const ATTEMPTS: usize = 8;
 const FINER: f64 = 0.6;
-/// To a five-hundredth of the penalty: twice that makes random runs slower by 0.2 % in the mean, half of it makes the scores'
-/// contours slower again.
+/// To a five-hundredth of the penalty: twice that makes random runs slower by 0.2 % in the mean, half of it makes the
+/// scores' contours slower again.
 const SCHEDULE: Schedule =
     Schedule { start: 0.05, growth: 15.0, gap: 2e-3, decrement: 0.03, steps_a_round: 12, steps: 90 };
 /// An end is felt over some ten control points.
@@ -150,7 +151,8 @@ struct Problem<'a> {
     /// Bound on the deviation of the samples, mm.
     bound: f64,
     /// The penalty of a curve that counts as smooth: 36 t^2 / L^5, that of r = t (u/L)^3 with the tolerance t and the
-    /// length L. A short run lies in its band as a parabola, whose penalty is none: what is left is then the barrier's choice.
+    /// length L. A short run lies in its band as a parabola, whose penalty is none: what is left is then the barrier's
+    /// choice.
     least: f64,
 }
 
@@ -267,8 +269,8 @@ impl<'a> Problem<'a> {
         control
     }
 
-    /// Where the curve leaves the whole tolerance between the samples, its greatest deviation and the greatest sagitta that it
-    /// uses, mm.
+    /// Where the curve leaves the whole tolerance between the samples, its greatest deviation and the greatest sagitta
+    /// that it uses, mm.
     fn check(&self, curve: &Curve) -> (Vec<f64>, f64, f64) {
         let mut violations = Vec::new();
         let (mut deviation, mut sagitta) = (0.0_f64, 0.0_f64);

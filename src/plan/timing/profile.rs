@@ -357,7 +357,7 @@ mod tests {
 
     use super::*;
     use crate::geom::{Heading, Point, Rotation};
-    use crate::ir::toolpath::Law;
+    use crate::ir::toolpath::OrientationMode;
     use crate::machine::MachineProfile;
     use crate::plan::orientation::{Blade, Course, Entry};
     use crate::plan::spline::ToleranceBand;
@@ -382,7 +382,7 @@ mod tests {
         let end = curve.breaks()[curve.breaks().len() - 1];
         let blade = Blade { width: 6.6, radius: [0.0, 4.4][(seed % 2) as usize] };
         let (entry, near) = (Entry::Steady(0.0), Rotation(0.0));
-        let course = Course { law: Law::Tangent, entry, to: end, blade, near };
+        let course = Course { orientation: OrientationMode::Tangent, entry, to: end, blade, near };
         let way = Way::new(curve, &course).expect("a tangent is everywhere");
         let axes = MachineProfile::default().axes.limits();
         (way, Bounds { axes, feed: Feed::new(&[0.0, end], &[760.0]) })

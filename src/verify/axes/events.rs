@@ -37,8 +37,8 @@ impl Events {
         Self { asked, told: 0, wrong: 0.0, worst: Worst::new("verify/events", "events", Some(0.0)) }
     }
 
-    /// Sees a row; each that tells an event tells one, which joins what was `told`. What is told and not asked for is one too
-    /// many.
+    /// Sees a row; each that tells an event tells one, which joins what was `told`. What is told and not asked for is
+    /// one too many.
     pub(in crate::verify) fn see(&mut self, row: &Row, told: &mut Vec<Seen>) {
         if row.event == 0 {
             return;

@@ -19,12 +19,12 @@ pub(in crate::verify) struct Cut {
     /// The row of each place of the tip.
     pub(in crate::verify) rows: Vec<usize>,
     /// How the tip goes from place to place.
-    pub(in crate::verify) bow: Bow,
+    pub(in crate::verify) deviation: Deviation,
 }
 
 /// How far the way of a tip bows away from the straight line between two of its places.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::verify) enum Bow {
+pub(in crate::verify) enum Deviation {
     /// As places at equal times show: by an eighth of their second difference, as a parabola does.
     Timed,
     /// By no more than this, mm: they were laid so along a way that is known.
@@ -32,10 +32,10 @@ pub(in crate::verify) enum Bow {
 }
 
 impl Cut {
-    /// What a stroke cuts whose tip comes by `tips` and whose tail plunges at `tail`.
-    pub(in crate::verify) fn new(tips: &[Point], tail: Point, knife: &Knife) -> Self {
+    /// What a stroke cuts whose tip comes by `tips` and whose heel plunges at `tail`.
+    pub(in crate::verify) fn new(tips: &[Point], heel: Point, knife: &Knife) -> Self {
         let steps = (knife.width_mm / BODY_STEP).ceil() as usize;
-        let body = (0..steps).map(|i| tail + (tips[0] - tail) * (i as f64 / steps as f64));
+        let body = (0..steps).map(|i| heel + (tips[0] - heel) * (i as f64 / steps as f64));
         let mut points: Vec<Point> = Vec::with_capacity(steps + tips.len());
         points.extend(body);
         let mut rows = Vec::with_capacity(tips.len());
@@ -46,7 +46,7 @@ impl Cut {
                 rows.push(i);
             }
         }
-        Self { stations: polyline::stations(&points), points, body: steps, rows, bow: Bow::Timed }
+        Self { stations: polyline::stations(&points), points, body: steps, rows, deviation: Deviation::Timed }
     }
 
     /// Length of all that it cuts, mm: of the body, and of the tip's way.
@@ -60,7 +60,7 @@ impl Cut {
     }
 
     /// Whether the blade plunges and lifts without a way.
-    pub(in crate::verify) fn is_stab(&self) -> bool {
+    pub(in crate::verify) fn is_plunge_cut(&self) -> bool {
         self.points.len() == self.body + 1
     }
 }
@@ -70,7 +70,7 @@ impl Cut {
 pub(in crate::verify) struct Body {
     /// How far the path bows away from the blade, mm: what it does, and at the most what an arc of the same turn does.
     pub(in crate::verify) sag: f64,
-    /// The places between which it does: tail and tip, or what of a blade that never moves is not its surplus.
+    /// The places between which it does: heel and tip, or what of a blade that never moves is not its surplus.
     pub(in crate::verify) ends: [usize; 2],
     /// Turn of the path under the blade, rad, when the blade never moves: its surplus then goes off the line straight on.
     turned: f64,
@@ -80,25 +80,25 @@ impl Body {
     /// The body of a cut whose places stand at `feet` of a line; `allowed` is how far its ends may be off, mm.
     pub(in crate::verify) fn new(line: &Line, cut: &Cut, feet: &[Foot], allowed: f64) -> Self {
         let is_on = |&i: &usize| feet[i].deviation <= allowed;
-        let ends = if cut.is_stab() {
+        let ends = if cut.is_plunge_cut() {
             // The surplus of a blade that never moves may leave the line at either end.
             (0..=cut.body).find(is_on).zip((0..=cut.body).rev().find(is_on))
         } else {
-            Some((0, cut.body)).filter(|(tail, tip)| is_on(tail) && is_on(tip))
+            Some((0, cut.body)).filter(|(heel, tip)| is_on(heel) && is_on(tip))
         };
         // A blade that does not lie along the line is no chord of it.
         let Some((first, last)) = ends else { return Self::default() };
-        let (tail, tip) = (cut.points[first], cut.points[last]);
+        let (heel, tip) = (cut.points[first], cut.points[last]);
         let (a, b) = (feet[first].station, feet[last].station);
         let (low, high) = (a.min(b), a.max(b));
         let mut body = Self { ends: [first, last], ..Self::default() };
         let mut turns: Vec<f64> = Vec::new();
         for vertex in line.vertices(low, high) {
-            body.sag = body.sag.max(polyline::distance_to_segment(line.point(vertex), tail, tip));
+            body.sag = body.sag.max(polyline::distance_to_segment(line.point(vertex), heel, tip));
             turns.extend(Some(line.turn(vertex).abs()).filter(|&turn| turn > 0.0));
         }
         let turned: f64 = turns.iter().sum();
-        body.turned = if cut.is_stab() { turned } else { 0.0 };
+        body.turned = if cut.is_plunge_cut() { turned } else { 0.0 };
         // The chord that is being left counts, too: a curve turns along its chords, not at its vertices.
         let length = line.length();
         let next = if b >= a { line.vertices(high.next_up(), high + length).next() } else { line.vertex_before(low) };
@@ -113,7 +113,7 @@ impl Body {
             }
             _ => next.unwrap_or(0.0),
         };
-        body.sag = body.sag.min(polyline::sagitta((tip - tail).norm(), turned + beside));
+        body.sag = body.sag.min(polyline::sagitta((tip - heel).norm(), turned + beside));
         body
     }
 

@@ -18,15 +18,15 @@ pub(in crate::verify) struct Covered {
 }
 
 impl Covered {
-    /// `None` unless the blade passes both ends of the line by at most `allowed` mm, the line turns as a curve by no more than
-    /// [`TURN`] between them and not across the blade, and it bows no farther than an arc of the same turn.
+    /// `None` unless the blade passes both ends of the line by at most `allowed` mm, the line turns as a curve by no
+    /// more than [`TURN`] between them and not across the blade, and it bows no farther than an arc of the same turn.
     pub(in crate::verify) fn new(line: &Line, cut: &Cut, allowed: f64) -> Option<Self> {
-        if line.ring || !cut.is_stab() || line.chords() < 2 {
+        if line.ring || !cut.is_plunge_cut() || line.chords() < 2 {
             return None;
         }
-        let (tail, tip) = (cut.points[0], cut.points[cut.body]);
+        let (heel, tip) = (cut.points[0], cut.points[cut.body]);
         let [start, end] = [line.point(0), line.point(line.chords())];
-        let is_near = |place| polyline::distance_to_segment(place, tail, tip) <= allowed;
+        let is_near = |place| polyline::distance_to_segment(place, heel, tip) <= allowed;
         let turns: Vec<f64> = (1..line.chords()).map(|vertex| line.turn(vertex)).collect();
         // What it turns to either side and back may be rounding.
         let turned = turns.iter().sum::<f64>().abs();

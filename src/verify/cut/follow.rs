@@ -3,7 +3,7 @@
 use crate::geom::{Point, cross};
 use crate::verify::reference::line::{Chord, Line};
 
-/// How far behind its last station a point may be found, mm: it wavers by less than the tube is wide.
+/// How far behind its last station a point may be found, mm: it wavers by less than the tolerance band is wide.
 const BACK: f64 = 0.5;
 /// How far ahead, mm, beside twice its way.
 const AHEAD: f64 = 1.0;
@@ -16,7 +16,7 @@ const LEAP: f64 = 25.0;
 pub(in crate::verify) struct Foot {
     /// Station of the nearest place; on a ring it goes on counting past a whole turn. Beyond an end it is that of the end.
     pub(in crate::verify) station: f64,
-    /// Distance from the tube's core, mm; beyond an end, from the straight extension of the line.
+    /// Distance from the tolerance band's core, mm; beyond an end, from the straight extension of the line.
     pub(in crate::verify) deviation: f64,
     /// How far beyond the end it stands, mm; 0 between the ends.
     pub(in crate::verify) beyond: f64,

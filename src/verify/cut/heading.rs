@@ -1,8 +1,8 @@
 //! Which way the blade must point: along the way of its tip; at the plunge, and as long as it does not move, as a chord of
 //! its line.
 //!
-//! Under the tangent law the blade lies along the tip's way; after a plunge as a chord it fades from the chord to the
-//! tangent over the next blade width, by the step of degree 7.
+//! Under the tangent orientation mode the blade lies along the tip's way; after a plunge as a chord it fades from the
+//! chord to the tangent over the next blade width, by the step of degree 7.
 
 use std::f64::consts::PI;
 
@@ -55,7 +55,7 @@ pub(in crate::verify) struct Moving<'a> {
     pub(in crate::verify) ways: &'a [Vector],
     /// The tip at each row.
     pub(in crate::verify) tips: &'a [Point],
-    /// Unit vector from the tail to the tip at each row.
+    /// Unit vector from the heel to the tip at each row.
     pub(in crate::verify) blades: &'a [Vector],
     /// Least and greatest turn from the blade to the tip's way at the plunge, rad.
     pub(in crate::verify) lead: [f64; 2],
@@ -68,7 +68,7 @@ pub(in crate::verify) struct Moving<'a> {
 }
 
 impl Moving<'_> {
-    /// The blade against its law: along the way of the tip; before the tip has moved, along the way to come.
+    /// The blade against its orientation mode: along the way of the tip; before the tip has moved, along the way to come.
     pub(in crate::verify) fn check(&self, heading: &mut Worst) {
         let Self { rows, tips, .. } = *self;
         let last = rows.len() - 1;
@@ -82,8 +82,8 @@ impl Moving<'_> {
                 // Of any length: what matters is where it points.
                 way.try_normalize(0.0).unwrap_or_default()
             } else {
-                // The nearest rows on either side at which the tip is clearly elsewhere: where it rests its place is only noise.
-                // Neither ever goes back, so that a long rest costs no more than a way.
+                // The nearest rows on either side at which the tip is clearly elsewhere: where it rests its place is
+                // only noise. Neither ever goes back, so that a long rest costs no more than a way.
                 while before + 1 < i && is_clear(i, before + 1) {
                     before += 1;
                 }
@@ -148,31 +148,31 @@ fn fading(x: f64) -> f64 {
     1.0 - x4 * (35.0 - x * (84.0 - x * (70.0 - x * 20.0)))
 }
 
-/// A blade that plunges on a line: where its tail and its tip stand, and which way it goes from there.
+/// A blade that plunges on a line: where its heel and its tip stand, and which way it goes from there.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::verify) struct Plunge<'a> {
     pub(in crate::verify) line: &'a Line<'a>,
-    pub(in crate::verify) tail: Foot,
+    pub(in crate::verify) heel: Foot,
     pub(in crate::verify) tip: Foot,
     /// +1 with the line, -1 against it.
     pub(in crate::verify) sign: f64,
     /// Farthest that a way may lie off the line, mm: its tolerance and the bulge of a curve.
-    pub(in crate::verify) tube: f64,
+    pub(in crate::verify) band: f64,
 }
 
 impl Plunge<'_> {
     /// The blade as a chord of the line itself.
     pub(in crate::verify) fn chord(&self) -> Vector {
-        point_at(self.line, &self.tip) - point_at(self.line, &self.tail)
+        point_at(self.line, &self.tip) - point_at(self.line, &self.heel)
     }
 
-    /// Least and greatest turn from the blade to the way of its tip, rad: by the chords of the line about the tip, and by as
-    /// much as a way may bow inside its tube. On a line without a bend the way is straight.
+    /// Least and greatest turn from the blade to the way of its tip, rad: by the chords of the line about the tip, and
+    /// by as much as a way may bow inside its tolerance band. On a line without a bend the way is straight.
     pub(in crate::verify) fn lead(&self) -> [f64; 2] {
         let line = self.line;
         let chord = self.chord() * self.sign;
         let width = chord.norm();
-        if width <= self.tube {
+        if width <= self.band {
             return ANY;
         }
         let at = on_lap(line, self.tip.station);
@@ -190,24 +190,24 @@ impl Plunge<'_> {
         if line.station(here + 1) - at <= CURVE_CHORD && (here + 1 < count || line.ring) {
             add((here + 1) % count);
         }
-        // A way that is straight for a length l may bow by twice its tube on it: its curvature is then 16 tube / l^2, and it
-        // leads the blade by half of that times the width.
-        let slack = self.straight().map_or(0.0, |length| 8.0 * self.tube * width / length.max(width).powi(2));
+        // A way that is straight for a length l may bow by twice its tolerance band on it: its curvature is then 16
+        // tolerance band / l^2, and it leads the blade by half of that times the width.
+        let slack = self.straight().map_or(0.0, |length| 8.0 * self.band * width / length.max(width).powi(2));
         [lead[0] - slack, lead[1] + slack]
     }
 
-    /// How far it is from the tail to the first bend; `None` when there is none within reach.
+    /// How far it is from the heel to the first bend; `None` when there is none within reach.
     fn straight(&self) -> Option<f64> {
-        let Self { line, tail, sign, .. } = *self;
-        let from = tail.station;
+        let Self { line, heel, sign, .. } = *self;
+        let from = heel.station;
         let [low, high] = if sign > 0.0 { [from, from + BEND_REACH] } else { [from - BEND_REACH, from] };
         let bends = line.vertices(low, high).filter(|&vertex| line.turn(vertex).abs() > TURN_EPSILON);
         let length = line.length();
         let away = |vertex: usize| {
             let way = sign * (line.station(vertex) - from);
-            tail.beyond + if line.ring { way.rem_euclid(length) } else { way }
+            heel.beyond + if line.ring { way.rem_euclid(length) } else { way }
         };
-        bends.map(away).filter(|&way| way > self.tube).reduce(f64::min)
+        bends.map(away).filter(|&way| way > self.band).reduce(f64::min)
     }
 }
 
@@ -226,7 +226,7 @@ fn point_at(line: &Line, foot: &Foot) -> Point {
 
 /// The directions that a blade may have which cuts a line from a joint to another without moving: as a chord from the one
 /// overlap to the other.
-pub(in crate::verify) fn of_stab(line: &Line, [from, to]: [f64; 2], joints: &Joints) -> Vec<Vector> {
+pub(in crate::verify) fn of_plunge_cut(line: &Line, [from, to]: [f64; 2], joints: &Joints) -> Vec<Vector> {
     let (start, end) = (line.chord_at(from), line.chord_at(to.next_down()));
     let at = |chord: usize, station: f64| line.point(chord) + line.direction(chord) * (station - line.station(chord));
     let (first, last) = (at(start, from), at(end, to));

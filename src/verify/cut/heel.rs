@@ -1,27 +1,27 @@
 //! Whether the heel of the blade goes where the tip went before it.
 
-use super::body::{Bow, Cut};
+use super::body::{Cut, Deviation};
 use super::trial::Trial;
 use crate::geom::{Point, polyline};
 
-/// Whether a tail, row by row, surely stays nearer to its line than `known` mm: it comes by where the tip was one width of
+/// Whether a heel, row by row, surely stays nearer to its line than `known` mm: it comes by where the tip was one width of
 /// the blade before, or where the blade plunged. How far that is off the line is known at places; what lies between two of
 /// them is within half of their distance of one. Where the way between is known to bow by so much, no vertex of the line
 /// lies farther beside it than was seen, and so nothing does, but for as much again at its ends.
-pub(in crate::verify) fn trails(cut: &Cut, tails: impl Iterator<Item = Point>, trial: &Trial, known: f64) -> bool {
+pub(in crate::verify) fn trails(cut: &Cut, heels: impl Iterator<Item = Point>, trial: &Trial, known: f64) -> bool {
     let width = cut.stations[cut.body];
     let (mut place, mut behind) = (cut.body, 0);
-    tails.enumerate().all(|(row, tail)| {
+    heels.enumerate().all(|(row, heel)| {
         place += usize::from(cut.rows.get(place - cut.body + 1) == Some(&row));
         while cut.stations[behind + 1] < cut.stations[place] - width {
             behind += 1;
         }
         let [from, to] = [behind, behind + 1];
-        let aside = polyline::distance_to_segment(tail, cut.points[from], cut.points[to]);
+        let aside = polyline::distance_to_segment(heel, cut.points[from], cut.points[to]);
         let off = trial.feet[from].deviation.max(trial.feet[to].deviation);
-        let between = match cut.bow {
-            Bow::Within(bow) if from >= cut.body => off.max(trial.worst.0) + bow,
-            Bow::Within(_) | Bow::Timed => (cut.points[to] - cut.points[from]).norm() / 2.0,
+        let between = match cut.deviation {
+            Deviation::Within(deviation) if from >= cut.body => off.max(trial.worst.0) + deviation,
+            Deviation::Within(_) | Deviation::Timed => (cut.points[to] - cut.points[from]).norm() / 2.0,
         };
         aside + off + between < known
     })

@@ -1,6 +1,7 @@
-//! Where the strokes of a line may meet: at its ends, at bends that a plunged blade cannot follow, where the knife is lifted
-//! because it was down for too long, and all along the stretches that are nibbled. Only there a blade may stand as a chord of
-//! a curve or be longer than what it cuts: elsewhere a curve could be cut as a polygon, and a part stabbed.
+//! Where the strokes of a line may meet: at its ends, at bends that a plunged blade cannot follow, where the knife is
+//! lifted because it was down for too long, and all along the stretches that are nibbled. Only there a blade may stand
+//! as a chord of a curve or be longer than what it cuts: elsewhere a curve could be cut as a polygon, and a part
+//! stabbed.
 
 use super::body::Cut;
 use crate::geom::{Point, polyline};
@@ -19,13 +20,13 @@ const CURVE_SHARE: f64 = 0.65;
 #[derive(Debug)]
 pub(in crate::verify) struct Joints {
     width: f64,
-    /// How far a tail may stand before an end of a line, mm.
+    /// How far a heel may stand before an end of a line, mm.
     pub(in crate::verify) heels: [f64; 3],
     /// How far a tip may stand past one, mm.
     pub(in crate::verify) fronts: [f64; 3],
     longest: Option<f64>,
     /// How far the body of a plunged blade may lie beside a curve before that is worth a word, mm.
-    max_bow: f64,
+    max_deviation: f64,
 }
 
 /// A stretch of a line on which a joint is looked for.
@@ -35,8 +36,8 @@ pub(in crate::verify) struct Around {
     pub(in crate::verify) station: f64,
     /// Half of its length, mm.
     pub(in crate::verify) slack: f64,
-    /// Width of the tube, mm: behind a slight bend a straight blade stays in it for a while.
-    pub(in crate::verify) tube: f64,
+    /// Width of the tolerance band, mm: behind a slight bend a straight blade stays in it for a while.
+    pub(in crate::verify) band: f64,
 }
 
 impl Joints {
@@ -46,7 +47,7 @@ impl Joints {
             heels: [0.0, knife.heel_overlap_mm, knife.corner_heel_overlap_mm],
             fronts: [0.0, knife.front_overlap_mm, knife.corner_front_overlap_mm],
             longest: knife.longest_cut(),
-            max_bow: knife.max_bow_mm,
+            max_deviation: knife.max_bow_mm,
         }
     }
 
@@ -55,22 +56,22 @@ impl Joints {
         line.winds || self.longest.is_some_and(|longest| line.length() > longest)
     }
 
-    /// How far a line may bow away from the body of a blade that plunges with its tail and its tip at two stations, mm: at
+    /// How far a line may bow away from the body of a blade that plunges with its heel and its tip at two stations, mm: at
     /// ends and bends, and where the knife was down for too long, as far as it does. Where the line is nibbled a blade that
     /// never moves lies near to what it cuts, unless that is all there is between two of them and bent, and any other bows
     /// by no more than is worth no word.
-    pub(in crate::verify) fn bow(&self, line: &Line, [tail, tip]: [Around; 2], cut: &Cut) -> f64 {
+    pub(in crate::verify) fn deviation(&self, line: &Line, [heel, tip]: [Around; 2], cut: &Cut) -> f64 {
         let is_at = |around: Around| self.at_end_or_bend(line, around).is_some();
-        let is_nibbled = [tail, tip].iter().any(|around| line.is_nibbled(around.station));
-        let is_open = match (is_nibbled, cut.is_stab()) {
-            (true, true) => is_at(tail) && is_at(tip) && is_bent(line, [tail.station, tip.station]),
-            (false, true) => self.is_lifted(line) || is_at(tail) || is_at(tip),
-            (_, false) => self.is_lifted(line) || is_at(tail),
+        let is_nibbled = [heel, tip].iter().any(|around| line.is_nibbled(around.station));
+        let is_open = match (is_nibbled, cut.is_plunge_cut()) {
+            (true, true) => is_at(heel) && is_at(tip) && is_bent(line, [heel.station, tip.station]),
+            (false, true) => self.is_lifted(line) || is_at(heel) || is_at(tip),
+            (_, false) => self.is_lifted(line) || is_at(heel),
         };
         if is_open {
             f64::INFINITY
-        } else if is_nibbled && !cut.is_stab() {
-            self.max_bow
+        } else if is_nibbled && !cut.is_plunge_cut() {
+            self.max_deviation
         } else {
             0.0
         }
@@ -86,12 +87,12 @@ impl Joints {
 
     /// The same for ends and bends alone.
     fn at_end_or_bend(&self, line: &Line, around: Around) -> Option<[f64; 2]> {
-        let Around { station, slack, tube } = around;
+        let Around { station, slack, band } = around;
         let length = line.length();
         if line.ring {
             return None;
         }
-        let reach = |vertex: usize| slack + tube / line.turn(vertex).abs().sin();
+        let reach = |vertex: usize| slack + band / line.turn(vertex).abs().sin();
         let is_near = |vertex: usize| (line.station(vertex) - station).abs() <= reach(vertex);
         let bends = line.vertices(station - self.width, station + self.width);
         let bends = bends.filter(|&v| is_near(v) && self.is_bend(line, v)).map(|v| line.station(v));
@@ -108,18 +109,19 @@ impl Joints {
             return false;
         }
         let at = line.station(vertex);
-        let behind = |tail: usize| at - line.station(tail) <= WIDTHS * self.width;
+        let behind = |heel: usize| at - line.station(heel) <= WIDTHS * self.width;
         // What is near, counted from its first point.
         let first = if behind(0) { 0 } else { line.before(at - WIDTHS * self.width) };
         let end = line.up_to(at + WIDTHS * self.width);
         let points: Vec<Point> = line.points().take(end + 1).skip(first).collect();
         let whole = end >= line.chords();
         let vertex = vertex - first;
-        let within = |tail: usize| (points[vertex] - points[tail]).norm() < self.width;
-        let tails = (0..vertex).rev().take_while(|&tail| behind(first + tail)).filter(|&tail| within(tail));
+        let within = |heel: usize| (points[vertex] - points[heel]).norm() < self.width;
+        let before = (0..vertex).rev().take_while(|&heel| behind(first + heel)).filter(|&heel| within(heel));
         let ends: &[f64] = if whole { &self.fronts } else { &[0.0] };
         let heels = if behind(0) { &self.heels[..] } else { &[] };
-        let mut starts: Vec<(Vec<Point>, usize)> = tails.map(|tail| (points[tail..].to_vec(), vertex - tail)).collect();
+        let mut starts: Vec<(Vec<Point>, usize)> =
+            before.map(|heel| (points[heel..].to_vec(), vertex - heel)).collect();
         starts.extend(heels.iter().filter(|&&heel| heel > 0.0).map(|&heel| {
             let back = points[0] - line.direction(0) * heel;
             (std::iter::once(back).chain(points.iter().copied()).collect(), vertex + 1)
@@ -127,7 +129,7 @@ impl Joints {
         starts.into_iter().any(|(path, vertex)| ends.iter().any(|&front| self.misses(&led_on(&path, front), vertex)))
     }
 
-    /// Whether the blade, its tail on the first point of a path, passes a vertex too far away.
+    /// Whether the blade, its heel on the first point of a path, passes a vertex too far away.
     fn misses(&self, path: &[Point], vertex: usize) -> bool {
         let (tip, chord) =
             polyline::first_at_distance(path, self.width).unwrap_or((path[path.len() - 1], path.len() - 2));

@@ -5,7 +5,7 @@ use crate::verify::reference::line::Line;
 use crate::verify::worst::Worst;
 
 /// How far from its chord, along the line, a block may be named, mm, beside the tolerance: a tip that takes a bend inside
-/// its tube passes the vertex early or late by less.
+/// its tolerance band passes the vertex early or late by less.
 const ASIDE: f64 = 0.5;
 
 /// Judges the column `block`.
@@ -15,7 +15,7 @@ pub(in crate::verify) struct Naming {
 }
 
 impl Naming {
-    /// For a tube of this tolerance, mm.
+    /// For a tolerance band of this tolerance, mm.
     pub(in crate::verify) fn new(tolerance: f64) -> Self {
         Self { reach: tolerance + ASIDE }
     }

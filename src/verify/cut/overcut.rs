@@ -20,8 +20,8 @@ use crate::verify::worst::Worst;
 
 /// Distance of two places at which a way is looked at, mm.
 const STEP: f64 = 0.05;
-/// Part of the tolerance by which a way that is thought to be free may lie in a part: less than by which any cut may, so that
-/// what a blade was placed by is never taken for more room than it was.
+/// Part of the tolerance by which a way that is thought to be free may lie in a part: less than by which any cut may,
+/// so that what a blade was placed by is never taken for more room than it was.
 const ROOM_SHARE: f64 = 0.5;
 /// Length, in how near it is, from which on a way is along an edge: one that crosses it at 30 degrees or more is not.
 const ALONG: f64 = 2.0;
@@ -46,13 +46,13 @@ pub(in crate::verify) struct Overcut<'a> {
 
 /// The worst overcuts, by what they go into.
 #[derive(Debug, Clone)]
-pub(in crate::verify) struct Harm {
+pub(in crate::verify) struct Overcuts {
     pub(in crate::verify) part: Worst,
     pub(in crate::verify) neighbour: Worst,
     pub(in crate::verify) waste: Worst,
 }
 
-impl Harm {
+impl Overcuts {
     /// None yet; the tip may leave its line by `tolerance` mm.
     pub(in crate::verify) fn new(profile: &MachineProfile, tolerance: f64) -> Self {
         let verify = &profile.verify;
@@ -72,8 +72,8 @@ pub(in crate::verify) struct Stroke<'a> {
     /// The places that are held to the line.
     pub(in crate::verify) held: &'a RangeInclusive<usize>,
     pub(in crate::verify) line: &'a Line<'a>,
-    /// The joints between which it is a stab that fits what was left of its line; where the knife may have been lifted
-    /// anywhere, the ends of what it cuts anew.
+    /// The joints between which it is a plunge cut that fits what was left of its line; where the knife may have been
+    /// lifted anywhere, the ends of what it cuts anew.
     pub(in crate::verify) fits: Option<[[f64; 2]; 2]>,
 }
 
@@ -119,7 +119,7 @@ impl<'a> Overcut<'a> {
         stroke: &Stroke,
         lines: Lines,
         seen: &impl Fn(usize) -> Sighting,
-        harm: &mut Harm,
+        overcuts: &mut Overcuts,
     ) {
         let joints = stroke.joints();
         let beyond: Vec<f64> = (0..stroke.feet.len()).map(|i| stroke.beyond(i, joints)).collect();
@@ -139,7 +139,7 @@ impl<'a> Overcut<'a> {
             let kind = match group[0] {
                 None => continue,
                 Some(Cloth::Waste) => {
-                    harm.waste.see(beyond[far], || seen(far));
+                    overcuts.waste.see(beyond[far], || seen(far));
                     continue;
                 }
                 Some(Cloth::Part) => 0,
@@ -158,19 +158,22 @@ impl<'a> Overcut<'a> {
                 groups[kind] = (length, far);
             }
         }
-        let stab = stroke.cut.is_stab();
-        let spared =
-            if stab && groups.iter().any(|group| group.0 > 0.0) { self.unavoidable(stroke, lines) } else { [0.0; 2] };
+        let plunge_cut = stroke.cut.is_plunge_cut();
+        let spared = if plunge_cut && groups.iter().any(|group| group.0 > 0.0) {
+            self.unavoidable(stroke, lines)
+        } else {
+            [0.0; 2]
+        };
         let [(part, at_part), (neighbour, at_neighbour)] = groups;
-        let [part, neighbour] = if stab { sums } else { [part, neighbour] };
+        let [part, neighbour] = if plunge_cut { sums } else { [part, neighbour] };
         let [of_part, of_neighbour] = self.allowed.map(|allowed| allowed.unwrap_or(f64::INFINITY));
-        let reflex = if stab { 2.0 * self.reflex } else { self.reflex };
+        let reflex = if plunge_cut { 2.0 * self.reflex } else { self.reflex };
         if part > 0.0 {
-            harm.part.see_under(part, of_part + self.tolerance + reflex.max(spared[0]), || seen(at_part));
+            overcuts.part.see_under(part, of_part + self.tolerance + reflex.max(spared[0]), || seen(at_part));
         }
         if neighbour > 0.0 {
             let unspared = if spared[1] > 0.0 { spared[1] + self.tolerance } else { 0.0 };
-            harm.neighbour.see_under(neighbour, of_neighbour + unspared, || seen(at_neighbour));
+            overcuts.neighbour.see_under(neighbour, of_neighbour + unspared, || seen(at_neighbour));
         }
     }
 
@@ -203,7 +206,8 @@ impl<'a> Overcut<'a> {
     /// longer by than its cut and the room at both ends.
     fn unavoidable(&self, stroke: &Stroke, lines: Lines) -> [f64; 2] {
         let Some([from, to]) = stroke.fits else { return [0.0; 2] };
-        // Behind a slight bend a blade stays in the tube for a while, so that it may have been meant to end at either.
+        // Behind a slight bend a blade stays in the tolerance band for a while, so that it may have been meant to end
+        // at either.
         let [inner, outer] =
             [innermost([from, to]), [from[0], to[1]]].map(|ends| self.spared(ends, stroke.line, lines));
         [0, 1].map(|i| inner[i].max(outer[i]))
@@ -222,8 +226,8 @@ impl<'a> Overcut<'a> {
         spared.map(|spared| spared.max(0.0))
     }
 
-    /// How far a blade reaches into the part, alike at both ends, where it cuts a line by as many plunges of one length as keep
-    /// it within the tolerance, mm: chords of an arc of its length and its turn.
+    /// How far a blade reaches into the part, alike at both ends, where it cuts a line by as many plunges of one length
+    /// as keep it within the tolerance, mm: chords of an arc of its length and its turn.
     pub(in crate::verify) fn of_nibbles(&self, line: &Line, lines: Lines) -> f64 {
         let turned: f64 = (1..line.chords()).map(|vertex| line.turn(vertex).abs()).sum();
         let count = (line.length() * turned / (8.0 * self.tolerance)).sqrt().ceil().max(1.0);
@@ -272,22 +276,22 @@ impl<'a> Overcut<'a> {
     }
 }
 
-/// Of the joints at which a stab may begin and those at which it may end, the two nearest to each other; the outermost
-/// when these are not in order.
+/// Of the joints at which a plunge cut may begin and those at which it may end, the two nearest to each other; the
+/// outermost when these are not in order.
 pub(in crate::verify) fn innermost([from, to]: [[f64; 2]; 2]) -> [f64; 2] {
     if from[1] < to[0] { [from[1], to[0]] } else { [from[0], to[1]] }
 }
 
 impl Stroke<'_> {
-    /// The outermost joints between which it is a stab that fits what was left of its line, and the direction from the one
-    /// to the other.
+    /// The outermost joints between which it is a plunge cut that fits what was left of its line, and the direction
+    /// from the one to the other.
     fn joints(&self) -> Option<([Point; 2], Vector)> {
         let [from, to] = self.fits?;
         let ends = [from[0], to[1]].map(|station| self.line.place(station));
         Some((ends, polyline::direction(ends[0], ends[1])?))
     }
 
-    /// How far place `i` stands beyond the joints of a stab, an end of the line, or what is held to that, mm.
+    /// How far place `i` stands beyond the joints of a plunge cut, an end of the line, or what is held to that, mm.
     fn beyond(&self, i: usize, joints: Option<([Point; 2], Vector)>) -> f64 {
         if let Some(([start, end], along)) = joints {
             let point = self.cut.points[i];

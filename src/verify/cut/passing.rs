@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use super::body::{Bow, Cut};
+use super::body::{Cut, Deviation};
 use super::follow::Foot;
 use crate::geom::{Point, polyline};
 use crate::verify::reference::line::Line;
@@ -17,14 +17,14 @@ pub(in crate::verify) fn skipped(line: &Line, cut: &Cut, feet: &[Foot], i: usize
     }
     let points = &cut.points;
     let (low, high) = (a.min(b), a.max(b));
-    let bow = |k: usize| match cut.bow {
-        Bow::Within(bow) => bow,
+    let deviation = |k: usize| match cut.deviation {
+        Deviation::Within(deviation) => deviation,
         // The blade's own places are no part of the way.
-        Bow::Timed if k <= cut.body || k + 1 >= points.len() => 0.0,
-        Bow::Timed => ((points[k + 1] - points[k]) - (points[k] - points[k - 1])).norm() / 8.0,
+        Deviation::Timed if k <= cut.body || k + 1 >= points.len() => 0.0,
+        Deviation::Timed => ((points[k + 1] - points[k]) - (points[k] - points[k - 1])).norm() / 8.0,
     };
     let away = |vertex: usize| polyline::distance_to_segment(line.point(vertex), points[i - 1], points[i]);
-    line.vertices(low.next_up(), high.next_down()).map(away).fold(0.0, f64::max) - bow(i).max(bow(i - 1))
+    line.vertices(low.next_up(), high.next_down()).map(away).fold(0.0, f64::max) - deviation(i).max(deviation(i - 1))
 }
 
 /// The stations of the first and the last vertex between two places of a straight blade that it cuts; `None` when there are

@@ -5,7 +5,7 @@
 
 use std::ops::RangeToInclusive;
 
-use super::body::{BODY_STEP, Bow, Cut};
+use super::body::{BODY_STEP, Cut, Deviation};
 use super::chord::{self, BODY_SHARES, Blade, Trailing};
 use super::covered::Covered;
 use super::done::Done;
@@ -14,7 +14,7 @@ use super::heading::{self, Moving, Plunge};
 use super::heel;
 use super::joints::{Around, Joints};
 use super::naming::Naming;
-use super::overcut::{self, Harm, Lines, Overcut};
+use super::overcut::{self, Lines, Overcut, Overcuts};
 use super::strokes::Stroke;
 use super::trial::{REACH, Trace, Tracer, Trial};
 use super::worsts::Worsts;
@@ -28,7 +28,7 @@ use crate::verify::reference::lines::Reference;
 use crate::verify::worst::{Worst, at};
 
 /// How far from its chord, along the line, a cap may be obeyed, mm, beside the tolerance: a tip that takes a bend inside
-/// its tube passes the vertex early or late by less.
+/// its tolerance band passes the vertex early or late by less.
 const CAP_ASIDE: f64 = 0.5;
 
 /// Parts in which a step is held against caps, at the most: no step of a sound program has more.
@@ -83,8 +83,8 @@ pub(in crate::verify) struct Judge<'a> {
     /// Greatest overlap at one end, and of both ends together.
     overlap: f64,
     overlaps: f64,
-    /// Greatest bulge of a tube beside its tolerance, mm.
-    bulge: f64,
+    /// Greatest bulge of a tolerance band beside its tolerance, mm.
+    sagitta: f64,
     overcut: Overcut<'a>,
     naming: Naming,
     worsts: Worsts,
@@ -123,7 +123,7 @@ impl<'a> Judge<'a> {
             tracer,
             overlap: front.max(heel),
             overlaps,
-            bulge: if profile.path.fit == Fit::Curve { profile.path.chord_sag_max_mm } else { 0.0 },
+            sagitta: if profile.path.fit == Fit::Curve { profile.path.chord_sag_max_mm } else { 0.0 },
             overcut: Overcut::new(reference.tolerance, inside, profile, place),
             naming: Naming::new(tolerance),
             worsts: Worsts::new(profile, tolerance, rounding),
@@ -162,9 +162,9 @@ impl<'a> Judge<'a> {
         let way = |(going, &blade): (&Going, &Vector)| going.way + left(blade) * (lead * going.turn);
         let ways = stroke.goings().iter().zip(&blades).map(way).collect();
         let tips: Vec<Point> = rows.iter().zip(&blades).map(|(row, &along)| row.centre + along * lead).collect();
-        let tail = rows[0].centre - blades[0] * heel;
-        let bow = if stroke.goings().is_empty() { Bow::Timed } else { Bow::Within(SAGITTA) };
-        let cut = Cut { bow, ..Cut::new(&tips, tail, self.knife) };
+        let heel = rows[0].centre - blades[0] * heel;
+        let deviation = if stroke.goings().is_empty() { Deviation::Timed } else { Deviation::Within(SAGITTA) };
+        let cut = Cut { deviation, ..Cut::new(&tips, heel, self.knife) };
         let trace = self.tracer.trace(&cut, rows[0].block);
         Traced { stroke, tips, blades, ends, ways, cut, trace, best: None }
     }
@@ -182,7 +182,9 @@ impl<'a> Judge<'a> {
         let Some(mut best) = self.tracer.choose(trace, cut, &done.coverage) else { return };
         let line = &self.reference.lines[best.line];
         let uncut = |stretches: &[[f64; 2]]| done.coverage.uncut(best.line, stretches);
-        if let (true, Some(hull)) = (cut.is_stab(), uncut(&best.held_stretches()).or_else(|| uncut(&best.stretches))) {
+        if let (true, Some(hull)) =
+            (cut.is_plunge_cut(), uncut(&best.held_stretches()).or_else(|| uncut(&best.stretches)))
+        {
             (best.hull, best.fits) = (hull, self.fits(line, hull));
         }
         done.order.cut(first.tick, best.line, stroke.sighting(cut, cut.body));
@@ -203,14 +205,14 @@ impl<'a> Judge<'a> {
             worsts.stray.see(cut.length().max(self.knife.width_mm).max(REACH), || seen(cut.body));
             return;
         };
-        if cut.is_stab() {
-            self.check_stab(cut, best, &seen, worsts);
+        if cut.is_plunge_cut() {
+            self.check_plunge_cut(cut, best, &seen, worsts);
             worsts.on_path.see(self.left_beside(best), || seen(cut.body));
         }
         worsts.on_path.see(best.worst.0, || seen(best.worst.1));
         self.check_ends(best, &seen, &mut worsts.stray);
         worsts.once.see(self.twice(best), || seen(cut.body));
-        self.check_overcut(cut, best, &seen, &mut worsts.harm);
+        self.check_overcut(cut, best, &seen, &mut worsts.overcuts);
         self.check_body(traced, best, &mut worsts.body);
         if stroke.goings().is_empty() {
             // Only rows with a time name their blocks one by one.
@@ -218,19 +220,20 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// The joints of its line from one of which to another that reaches which a stab cuts anew, the first and the last at
-    /// either end; `None` when there are none: only between joints its blade may be longer than what it cuts.
+    /// The joints of its line from one of which to another that reaches which a plunge cut cuts anew, the first and the
+    /// last at either end; `None` when there are none: only between joints its blade may be longer than what it cuts.
     fn fits(&self, line: &Line, [from, to]: [f64; 2]) -> Option<[[f64; 2]; 2]> {
         let joints = |station: f64| {
-            let tube = 2.0 * (self.reference.tolerance + self.rounding);
-            self.tracer.joints.near(line, Around { station, slack: BODY_STEP + tube, tube })
+            let band = 2.0 * (self.reference.tolerance + self.rounding);
+            self.tracer.joints.near(line, Around { station, slack: BODY_STEP + band, band })
         };
         let ends = [joints(from)?, joints(to)?];
         (ends[0][0] < ends[1][1]).then_some(ends)
     }
 
-    /// A stab that is longer than what it cuts leaves the line straight on; any other must lie on it with all of its blade.
-    fn check_stab(&self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting, worsts: &mut Worsts) {
+    /// A plunge cut that is longer than what it cuts leaves the line straight on; any other must lie on it with all of
+    /// its blade.
+    fn check_plunge_cut(&self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting, worsts: &mut Worsts) {
         let line = &self.reference.lines[trial.line];
         let width = self.knife.width_mm;
         let Some([from, to]) = trial.fits else {
@@ -255,7 +258,7 @@ impl<'a> Judge<'a> {
             let (from, to) = ([from[0], from[1], first], [to[0], to[1], last]);
             let ends = heading::distinct(&from).flat_map(|from| heading::distinct(&to).map(move |to| [from, to]));
             let ends = ends.filter(|[from, to]| from < to);
-            let directions = ends.flat_map(|ends| heading::of_stab(line, ends, &self.tracer.joints));
+            let directions = ends.flat_map(|ends| heading::of_plunge_cut(line, ends, &self.tracer.joints));
             let askew = directions.map(|direction| angle::turn(direction, blade));
             let [least, greatest] =
                 askew.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], turn| [a.min(turn), b.max(turn)]);
@@ -263,8 +266,8 @@ impl<'a> Judge<'a> {
             worsts.heading.see(least.max(-greatest).max(0.0).to_degrees(), || seen(cut.body));
             return;
         }
-        // Where the knife may have been lifted anywhere the blade lies between the directions of the chords that it cuts; the
-        // tube turns a blade by a little.
+        // Where the knife may have been lifted anywhere the blade lies between the directions of the chords that it
+        // cuts; the tolerance band turns a blade by a little.
         let (first, last) = (trial.feet[*trial.held.start()].station, trial.feet[*trial.held.end()].station);
         let blade = (cut.points[cut.body] - cut.points[0]) * if last < first { -1.0 } else { 1.0 };
         let chords = line.chords_between([first.min(last), first.max(last)]);
@@ -279,8 +282,8 @@ impl<'a> Judge<'a> {
         worsts.heading.see(beyond.to_degrees(), || seen(cut.body));
     }
 
-    /// How far a curve lies beside the blade that covers it, mm, where cutting it by several plunges would reach less far into
-    /// the part; else none.
+    /// How far a curve lies beside the blade that covers it, mm, where cutting it by several plunges would reach less
+    /// far into the part; else none.
     fn left_beside(&self, trial: &Trial) -> f64 {
         let allowed = self.tracer.allowed;
         let Some(Covered { sag }) = trial.covered.filter(|covered| covered.sag > allowed) else { return 0.0 };
@@ -289,7 +292,7 @@ impl<'a> Judge<'a> {
         if sag > self.overcut.of_nibbles(line, lines) + allowed { sag } else { 0.0 }
     }
 
-    /// How much of a line a stroke cuts twice, mm, but for what the blade of a stab is longer by than what was left.
+    /// How much of a line a stroke cuts twice, mm, but for what the blade of a plunge cut is longer by than what was left.
     fn twice(&self, trial: &Trial) -> f64 {
         let mut twice = trial.stretches.iter().map(|[a, b]| b - a).sum::<f64>() - trial.fresh;
         if trial.fresh < self.reference.tolerance {
@@ -298,7 +301,7 @@ impl<'a> Judge<'a> {
         } else if trial.fits.is_some() {
             twice -= self.knife.width_mm - trial.fresh;
         } else if self.meets_amid(trial) {
-            // What the blade of a stab beside it was longer by.
+            // What the blade of a plunge cut beside it was longer by.
             twice -= self.knife.width_mm;
         }
         twice
@@ -307,37 +310,38 @@ impl<'a> Judge<'a> {
     /// Whether a stroke begins or ends amid its line, where another meets it.
     fn meets_amid(&self, trial: &Trial) -> bool {
         let line = &self.reference.lines[trial.line];
-        let tube = 2.0 * (self.reference.tolerance + self.rounding);
-        let slack = BODY_STEP + tube;
+        let band = 2.0 * (self.reference.tolerance + self.rounding);
+        let slack = BODY_STEP + band;
         let is_amid = |foot: &Foot| {
             let station = foot.station;
             let is_inner = station > slack && station < line.length() - slack;
-            is_inner && self.tracer.joints.near(line, Around { station, slack, tube }).is_some()
+            is_inner && self.tracer.joints.near(line, Around { station, slack, band }).is_some()
         };
         self.tracer.joints.is_lifted(line)
             || trial.feet.first().is_some_and(is_amid)
             || trial.feet.last().is_some_and(is_amid)
     }
 
-    /// The blade against its law. What only plunges has no way that a law could bear on.
+    /// The blade against its orientation mode. What only plunges has no way that a orientation mode could bear on.
     fn check_heading(&self, traced: &Traced, heading: &mut Worst) {
         let Traced { stroke, tips, blades, cut, best, .. } = traced;
-        let is_chord = self.knife.follow == Follow::Chord && self.knife.width_mm > 0.0 && !cut.is_stab();
+        let is_chord = self.knife.follow == Follow::Chord && self.knife.width_mm > 0.0 && !cut.is_plunge_cut();
         let (true, Some(trial)) = (is_chord, best) else { return self.check_tangent(traced, heading) };
         let mut chord = self.worsts.heading.clone();
         let rows = stroke.rows();
         if !trial.laps {
-            // At the plunge the laws are one: how far the way of the tip then leads the blade is known of its line.
+            // At the plunge the orientation modes are one: how far the way of the tip then leads the blade is known of
+            // its line.
             let first = tips.iter().position(|tip| (tip - tips[0]).norm() >= self.way_min).unwrap_or(0);
             let (lead, fade) = (self.plunge(cut, trial).lead(), self.knife.width_mm);
             Moving { lead, fade, ..self.moving(traced, ..=first) }.check(&mut chord);
         }
-        let tails = chord::along(rows, self.blade(traced, trial), 0.0);
+        let heels = chord::along(rows, self.blade(traced, trial), 0.0);
         let allowed = self.reference.tolerance + self.rounding;
-        Trailing { rows, tips, blades, tails: &tails, allowed }.check(self.knife, &mut chord);
+        Trailing { rows, tips, blades, heels: &heels, allowed }.check(self.knife, &mut chord);
         let ends = [trial.feet[0].station, trial.feet[cut.points.len() - 1].station];
         if self.reference.lines[trial.line].is_tight([ends[0].min(ends[1]), ends[0].max(ends[1])]) {
-            // Where it is too tight for the one law, the other is in force.
+            // Where it is too tight for the one orientation mode, the other is in force.
             let mut tangent = self.worsts.heading.clone();
             self.check_tangent(traced, &mut tangent);
             if tangent.value() < chord.value() {
@@ -380,11 +384,11 @@ impl<'a> Judge<'a> {
     }
 
     fn plunge(&self, cut: &Cut, trial: &Trial) -> Plunge<'_> {
-        let (tail, tip) = (trial.feet[0], trial.feet[cut.body]);
+        let (heel, tip) = (trial.feet[0], trial.feet[cut.body]);
         let last = trial.feet[cut.points.len() - 1];
         let line = &self.reference.lines[trial.line];
-        let sign = if last.station < tail.station { -1.0 } else { 1.0 };
-        Plunge { line, tail, tip, sign, tube: self.reference.tolerance + self.rounding + self.bulge }
+        let sign = if last.station < heel.station { -1.0 } else { 1.0 };
+        Plunge { line, heel, tip, sign, band: self.reference.tolerance + self.rounding + self.sagitta }
     }
 
     /// Beyond the ends of its line a stroke cuts overlaps and what the blade is longer than a short line, or than what was
@@ -474,7 +478,7 @@ impl<'a> Judge<'a> {
     }
 
     /// How far the blade goes beyond the ends of its line, and into what.
-    fn check_overcut(&self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting, harm: &mut Harm) {
+    fn check_overcut(&self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting, overcuts: &mut Overcuts) {
         if trial.laps {
             return;
         }
@@ -482,10 +486,10 @@ impl<'a> Judge<'a> {
         let is_known = |ends: &[[f64; 2]; 2]| ends.iter().flatten().all(|station| station.is_finite());
         let fits = fits.map(|ends| if is_known(&ends) { ends } else { hull.map(|station| [station; 2]) });
         let stroke = overcut::Stroke { cut, feet, held, line: &self.reference.lines[trial.line], fits };
-        self.overcut.see(&stroke, Lines { reference: self.reference, grid: self.tracer.grid }, seen, harm);
+        self.overcut.see(&stroke, Lines { reference: self.reference, grid: self.tracer.grid }, seen, overcuts);
     }
 
-    /// How far the path bows away from the plunged blade, and the tail leaves it while the blade moves.
+    /// How far the path bows away from the plunged blade, and the heel leaves it while the blade moves.
     fn check_body(&self, traced: &Traced, trial: &Trial, body: &mut Worst) {
         if self.knife.width_mm == 0.0 {
             return;
@@ -496,15 +500,15 @@ impl<'a> Judge<'a> {
                 body.see(foot.deviation, || stroke.sighting(cut, i));
             }
         }
-        // Under the chord law it is the middle of the blade that leaves an arc the farthest.
+        // Under the chord mode it is the middle of the blade that leaves an arc the farthest.
         let shares: &[f64] = match self.knife.follow {
             Follow::Tangent => &[0.0],
             Follow::Chord => &BODY_SHARES,
         };
         for &share in shares {
-            let tails =
+            let heels =
                 || stroke.rows().iter().zip(&traced.blades).map(|(row, blade)| row.centre - blade * traced.ends[1]);
-            if share == 0.0 && heel::trails(cut, tails(), trial, body.value()) {
+            if share == 0.0 && heel::trails(cut, heels(), trial, body.value()) {
                 continue;
             }
             for (foot, row) in chord::along(stroke.rows(), self.blade(traced, trial), share).iter().zip(stroke.rows()) {
@@ -519,13 +523,13 @@ impl<'a> Judge<'a> {
     fn check_names(&self, rows: &[Row], cut: &Cut, trial: &Trial, block: &mut Worst) {
         let line = &self.reference.lines[trial.line];
         for (i, ends) in (cut.body..).zip(cut.rows.iter().zip(cut.rows[1..].iter().chain([&rows.len()]))) {
-            // What a stab is longer by than its cut is named like that.
+            // What a plunge cut is longer by than its cut is named like that.
             let station = trial.feet[i.clamp(*trial.held.start(), *trial.held.end())].station;
             let station = trial.fits.map(overcut::innermost).map_or(station, |[from, to]| station.clamp(from, to));
             for row in rows[*ends.0..*ends.1].iter().filter(|row| row.knife) {
-                // Lifted anywhere, a stab may cut several chords, and its tip stand on none of them.
-                let is_of_stab = trial.fits.is_some() && line.names(row.block, trial.hull);
-                let away = if is_of_stab { 0.0 } else { self.naming.away(row.block, line, station) };
+                // Lifted anywhere, a plunge cut may cut several chords, and its tip stand on none of them.
+                let is_of_plunge_cut = trial.fits.is_some() && line.names(row.block, trial.hull);
+                let away = if is_of_plunge_cut { 0.0 } else { self.naming.away(row.block, line, station) };
                 block.see(away, || row.sighting());
             }
         }

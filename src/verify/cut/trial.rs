@@ -72,9 +72,9 @@ pub(in crate::verify) struct Trial {
     pub(in crate::verify) worst: (f64, usize),
     /// Whether it goes all the way round a closed line.
     pub(in crate::verify) laps: bool,
-    /// The places that are held to the line: of a stab its longest stretch on it; its surplus lies before and behind.
+    /// The places that are held to the line: of a plunge cut its longest stretch on it; its surplus lies before and behind.
     pub(in crate::verify) held: RangeInclusive<usize>,
-    /// The joints between which it is a stab that fits what was left of its line: its blade may then be longer.
+    /// The joints between which it is a plunge cut that fits what was left of its line: its blade may then be longer.
     pub(in crate::verify) fits: Option<[[f64; 2]; 2]>,
     /// Its line, when that is a curve which could be nibbled and this one plunge covers.
     pub(in crate::verify) covered: Option<Covered>,
@@ -217,7 +217,7 @@ impl Tracer<'_> {
             hull: [0.0; 2],
         };
         let ends = [0, cut.body].map(|end| trial.feet[end].station);
-        let is_nibble = cut.is_stab() && !laps && ends.iter().any(|&station| line.is_nibbled(station));
+        let is_nibble = cut.is_plunge_cut() && !laps && ends.iter().any(|&station| line.is_nibbled(station));
         if let Some(covered) = Covered::new(line, cut, allowed).filter(|_| is_nibble) {
             let is_on = |&i: &usize| trial.feet[i].beyond == 0.0;
             if let (Some(first), Some(last)) = ((0..points.len()).find(is_on), (0..points.len()).rev().find(is_on)) {
@@ -227,7 +227,7 @@ impl Tracer<'_> {
         }
         let body = if laps { Body::default() } else { self.body(line, cut, &trial.feet, is_nibble) };
         let off = |i: usize, foot: &Foot| if i < cut.body { body.off(i, foot) } else { foot.deviation };
-        if cut.is_stab() {
+        if cut.is_plunge_cut() {
             // A blade that never moves is often longer than what it cuts: what it is longer by leaves the line straight on,
             // at corners as at bends. That is overcut, not a bad way.
             let on: Vec<bool> = (0..points.len()).map(|i| i >= first && off(i, &trial.feet[i]) <= allowed).collect();
@@ -252,13 +252,13 @@ impl Tracer<'_> {
         if !is_nibble && body.sag <= allowed {
             return body;
         }
-        let around = |end: usize| Around { station: feet[end].station, slack: 2.0 * allowed, tube: 0.0 };
-        let bow = self.joints.bow(line, body.ends.map(around), cut);
-        if is_nibble && bow == 0.0 {
+        let around = |end: usize| Around { station: feet[end].station, slack: 2.0 * allowed, band: 0.0 };
+        let deviation = self.joints.deviation(line, body.ends.map(around), cut);
+        if is_nibble && deviation == 0.0 {
             // What nibbles is within the tolerance of what it cuts.
             Body::default()
         } else {
-            if body.sag > bow + allowed {
+            if body.sag > deviation + allowed {
                 body.sag = 0.0;
             }
             body

@@ -2,7 +2,7 @@
 
 use super::heading;
 use super::naming::Naming;
-use super::overcut::Harm;
+use super::overcut::Overcuts;
 use crate::ir::Finding;
 use crate::machine::MachineProfile;
 use crate::verify::axes::crawl;
@@ -21,7 +21,7 @@ pub(in crate::verify) struct Worsts {
     pub(in crate::verify) feed: Worst,
     pub(in crate::verify) crawl: Worst,
     pub(in crate::verify) block: Worst,
-    pub(in crate::verify) harm: Harm,
+    pub(in crate::verify) overcuts: Overcuts,
 }
 
 impl Worsts {
@@ -43,7 +43,7 @@ impl Worsts {
             feed: Worst::new("verify/feed", "mm/s", feed),
             crawl: crawl::worst(),
             block: Naming::new(tolerance).worst(),
-            harm: Harm::new(profile, tolerance),
+            overcuts: Overcuts::new(profile, tolerance),
         }
     }
 
@@ -60,14 +60,14 @@ impl Worsts {
     }
 
     fn all(self) -> [Worst; 12] {
-        let Self { on_path, stray, once, heading, down, body, feed, crawl, block, harm } = self;
-        let Harm { part, neighbour, waste } = harm;
+        let Self { on_path, stray, once, heading, down, body, feed, crawl, block, overcuts } = self;
+        let Overcuts { part, neighbour, waste } = overcuts;
         [on_path, stray, once, heading, down, body, feed, crawl, block, part, neighbour, waste]
     }
 
     fn all_mut(&mut self) -> [&mut Worst; 12] {
-        let Self { on_path, stray, once, heading, down, body, feed, crawl, block, harm } = self;
-        let Harm { part, neighbour, waste } = harm;
+        let Self { on_path, stray, once, heading, down, body, feed, crawl, block, overcuts } = self;
+        let Overcuts { part, neighbour, waste } = overcuts;
         [on_path, stray, once, heading, down, body, feed, crawl, block, part, neighbour, waste]
     }
 }

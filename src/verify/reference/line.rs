@@ -28,7 +28,7 @@ pub(in crate::verify) struct Line<'a> {
     exceptions: Option<Box<Exceptions>>,
 }
 
-/// Where the blade is not led along a line as the law has it.
+/// Where the blade is not led along a line as the orientation mode has it.
 #[derive(Debug, Default)]
 pub(in crate::verify) struct Exceptions {
     /// By the stations of tail and tip: where it is too tight for the blade to be its chord.
@@ -48,13 +48,13 @@ pub(in crate::verify) struct Chord {
     length: f64,
     /// Unit vector along it.
     pub(in crate::verify) along: Vector,
-    /// From its middle to where the core of the tube reaches there.
-    bulge: Vector,
+    /// From its middle to where the core of the tolerance band reaches there.
+    sagitta: Vector,
 }
 
 impl Chord {
-    /// Distance of a point from the tube's core beside it, mm, and the station of the foot. The core at a place of the
-    /// chord is the segment from the chord to its bulge there.
+    /// Distance of a point from the tolerance band's core beside it, mm, and the station of the foot. The core at a
+    /// place of the chord is the segment from the chord to its bulge there.
     pub(in crate::verify) fn deviation(&self, point: Point) -> (f64, f64) {
         let from = point - self.from;
         if self.length == 0.0 {
@@ -62,11 +62,11 @@ impl Chord {
         }
         let way = from.dot(&self.along).clamp(0.0, self.length);
         let away = from - self.along * way;
-        if self.bulge == Vector::zeros() {
+        if self.sagitta == Vector::zeros() {
             return (away.norm(), self.start + way);
         }
         let share = way / self.length;
-        let reach = self.bulge * (4.0 * share * (1.0 - share));
+        let reach = self.sagitta * (4.0 * share * (1.0 - share));
         let height = reach.norm();
         if height == 0.0 {
             return (away.norm(), self.start + way);
@@ -78,7 +78,8 @@ impl Chord {
 }
 
 impl<'a> Line<'a> {
-    /// A line of a piece, at a rank, along which the blade goes as the law has it; `path` is what is known of its points.
+    /// A line of a piece, at a rank, along which the blade goes as the orientation mode has it; `path` is what is known
+    /// of its points.
     pub(in crate::verify) fn new(
         [piece, rank]: [u32; 2],
         points: Cow<'a, [Point]>,
@@ -150,9 +151,9 @@ impl<'a> Line<'a> {
     /// One of its chords.
     pub(in crate::verify) fn chord(&self, index: usize) -> Chord {
         let [from, to] = self.ends(index);
-        let Vertex { station: start, bulge, .. } = self.path[index];
+        let Vertex { station: start, sagitta, .. } = self.path[index];
         let (way, length) = (to - from, self.length_of(index));
-        Chord { index, from, start, length, along: way / length, bulge: left(way) * f64::from(bulge) }
+        Chord { index, from, start, length, along: way / length, sagitta: left(way) * f64::from(sagitta) }
     }
 
     /// The two ends of a chord.
@@ -173,10 +174,10 @@ impl<'a> Line<'a> {
         polyline::distance_to_segment(point, from, to)
     }
 
-    /// Whether a point may be nearer than `reach` mm to the tube's core beside a chord, as far as its box tells.
+    /// Whether a point may be nearer than `reach` mm to the tolerance band's core beside a chord, as far as its box tells.
     pub(in crate::verify) fn may_reach(&self, chord: usize, point: Point, reach: f64) -> bool {
         let [from, to] = self.ends(chord);
-        let reach = reach + f64::from(self.path[chord].bulge).abs() * self.length_of(chord);
+        let reach = reach + f64::from(self.path[chord].sagitta).abs() * self.length_of(chord);
         let (from, to) = (from - point, to - point);
         let is_between = |a: f64, b: f64| a.min(b) <= reach && a.max(b) >= -reach;
         is_between(from.x, to.x) && is_between(from.y, to.y)

@@ -96,11 +96,11 @@ fn find_exceptions(line: &mut Line, blade: Blade) {
     let knife = blade.knife;
     // What begins on a curve that the blade has no way to enter may be nibbled, whatever is done about others.
     let is_lifted = line.winds || knife.longest_cut().is_some_and(|longest| line.length() > longest);
-    let ends = if is_lifted || line.ring { [0.0; 2] } else { nibbled::bowed_ends(line, blade) };
-    let is_bowed = ends != [0.0; 2] || is_lifted && nibbled::bows_anywhere(line, blade);
+    let ends = if is_lifted || line.ring { [0.0; 2] } else { nibbled::curved_ends(line, blade) };
+    let is_curved = ends != [0.0; 2] || is_lifted && nibbled::deviates_anywhere(line, blade);
     let is_nibbling = knife.tight_curves == TightCurves::Nibble;
     let tight = if is_nibbling || knife.follow == Follow::Chord { tight::stretches(line, knife) } else { Vec::new() };
-    let may_nibble = is_bowed || is_nibbling && !tight.is_empty();
+    let may_nibble = is_curved || is_nibbling && !tight.is_empty();
     let nibbled = if !may_nibble {
         Vec::new()
     } else if is_lifted {
@@ -113,7 +113,7 @@ fn find_exceptions(line: &mut Line, blade: Blade) {
 
 /// The line of a slit, `cap` mm/s being the greatest speed of the tip.
 fn slit<'a>(stroke: &Stroke, owner: [u32; 2], cap: f64) -> Line<'a> {
-    let from = Vertex { station: 0.0, bulge: 0.0, block: stroke.span.block };
+    let from = Vertex { station: 0.0, sagitta: 0.0, block: stroke.span.block };
     let to = Vertex { station: stroke.length(), ..from };
     let points = Cow::Owned(vec![stroke.from, stroke.to]);
     Line::new(owner, points, Box::new([from, to]), BothWays::One(cap), false)

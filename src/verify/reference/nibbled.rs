@@ -1,7 +1,8 @@
 //! Where a line may be nibbled: cut by plunges without motion, each near to what it cuts.
 //!
-//! That is where the line is too tight for the blade and the profile says so, and where a cut begins on a curve that a plunged
-//! blade lies too far beside. Found here anew, and a little more of it than a compile would nibble: rounding matters.
+//! That is where the line is too tight for the blade and the profile says so, and where a cut begins on a curve that a
+//! plunged blade lies too far beside. Found here anew, and a little more of it than a compile would nibble: rounding
+//! matters.
 
 use super::line::Line;
 use super::tight::stands_across;
@@ -9,7 +10,7 @@ use crate::geom::{Point, polyline};
 use crate::machine::{Knife, TightCurves};
 
 /// Part of the bow from which on a line is nibbled at which it may be, because rounding and overlaps matter.
-const BOW_SHARE: f64 = 0.9;
+const DEVIATION_SHARE: f64 = 0.9;
 /// Part of the tolerance beyond an arc of the same turn from which on a curve may be one that the blade cannot enter.
 const ENTRY_SHARE: f64 = 0.4;
 /// The same of the tolerance of a cut that the blade covers.
@@ -27,26 +28,29 @@ pub(in crate::verify) struct Blade<'a> {
 
 /// Whether a blade that plunges anywhere on a line, round a ring, may lie beside it: the knife is lifted somewhere amid it,
 /// and what then remains may be short.
-pub(in crate::verify) fn bows_anywhere(line: &Line, Blade { knife, tolerance }: Blade) -> bool {
+pub(in crate::verify) fn deviates_anywhere(line: &Line, Blade { knife, tolerance }: Blade) -> bool {
     let path = line.twice_round();
-    let bow = |start: usize| Bow::new(&path[start..], 0.0, knife);
-    (0..line.chords()).filter_map(bow).any(|bow| bow.is_curve && bow.away > TOLERANCE_SHARE * tolerance)
+    let deviation = |start: usize| Deviation::new(&path[start..], 0.0, knife);
+    (0..line.chords())
+        .filter_map(deviation)
+        .any(|deviation| deviation.is_curve && deviation.away > TOLERANCE_SHARE * tolerance)
 }
 
-/// How far a line, from its start and from its end, goes on as a curve that a blade plunged there as a chord of it may not enter,
-/// or may lie farther beside than `knife.max_bow_mm`, mm; 0 where it does not begin as one.
-pub(in crate::verify) fn bowed_ends(line: &Line, blade: Blade) -> [f64; 2] {
+/// How far a line, from its start and from its end, goes on as a curve that a blade plunged there as a chord of it may
+/// not enter, or may lie farther beside than `knife.max_bow_mm`, mm; 0 where it does not begin as one.
+pub(in crate::verify) fn curved_ends(line: &Line, blade: Blade) -> [f64; 2] {
     if blade.knife.width_mm == 0.0 || line.chords() < 2 {
         return [0.0; 2];
     }
     // Nearly always a look at what lies under the blade is all that it takes.
     let heel = blade.heels().into_iter().fold(0.0, f64::max);
     let reach = blade.knife.width_mm + heel;
-    [blade.bowed_way(|| line.points(), reach), blade.bowed_way(|| line.points().rev(), reach)]
+    [blade.curved_way(|| line.points(), reach), blade.curved_way(|| line.points().rev(), reach)]
 }
 
-/// The stretches of a line that may be nibbled where it is too tight or begins or ends bowed, by stations, in order, with as
-/// much before and behind as the blade is wide: what nibbles may reach as far. On a ring they may go on past its end.
+/// The stretches of a line that may be nibbled where it is too tight or begins or ends bowed, by stations, in order,
+/// with as much before and behind as the blade is wide: what nibbles may reach as far. On a ring they may go on past
+/// its end.
 pub(in crate::verify) fn stretches(line: &Line, tight: &[[f64; 2]], ends: [f64; 2], blade: Blade) -> Vec<[f64; 2]> {
     let (length, width) = (line.length(), blade.knife.width_mm);
     let mut found: Vec<[f64; 2]> = Vec::new();
@@ -76,9 +80,9 @@ impl Blade<'_> {
         [0.0, self.knife.heel_overlap_mm, self.knife.corner_heel_overlap_mm]
     }
 
-    /// How far a path, given by its points, goes on as a curve that it begins as and that the blade, with its overlaps as long
-    /// as `reach`, may not enter, mm; 0 where it begins as none.
-    fn bowed_way<I: Iterator<Item = Point>>(self, points: impl Fn() -> I, reach: f64) -> f64 {
+    /// How far a path, given by its points, goes on as a curve that it begins as and that the blade, with its overlaps
+    /// as long as `reach`, may not enter, mm; 0 where it begins as none.
+    fn curved_way<I: Iterator<Item = Point>>(self, points: impl Fn() -> I, reach: f64) -> f64 {
         let start = points().next().unwrap_or_default();
         let past = points().position(|point| (point - start).norm() > reach);
         // With the vertex behind, because a curve turns along its chords.
@@ -96,19 +100,26 @@ impl Blade<'_> {
         let turned = polyline::turn_within(path, width).min(std::f64::consts::PI);
         // A path that turns by a under a blade of the width w lies beside it by at most w/2 tan(a/2).
         width / 2.0 * (turned / 2.0).tan() > TOLERANCE_SHARE * self.tolerance
-            && self.heels().into_iter().filter_map(|heel| Bow::new(path, heel, self.knife)).any(|bow| bow.is_bad(self))
+            && self
+                .heels()
+                .into_iter()
+                .filter_map(|heel| Deviation::new(path, heel, self.knife))
+                .any(|deviation| deviation.is_bad(self))
     }
 
-    /// The first vertex of a path, from one of its inner ones on, at which the blade may plunge; its last when there is none.
+    /// The first vertex of a path, from one of its inner ones on, at which the blade may plunge; its last when there is
+    /// none.
     fn first_clear(self, path: &[Point], from: usize) -> usize {
         let last = path.len() - 1;
-        let is_clear = |vertex: &usize| Bow::new(&path[*vertex..], 0.0, self.knife).is_none_or(|bow| !bow.is_bad(self));
+        let is_clear = |vertex: &usize| {
+            Deviation::new(&path[*vertex..], 0.0, self.knife).is_none_or(|deviation| !deviation.is_bad(self))
+        };
         (from..last).find(is_clear).unwrap_or(last)
     }
 }
 
 /// How a line bows away from a blade that plunges as a chord of it.
-struct Bow {
+struct Deviation {
     /// How far, mm.
     away: f64,
     /// How far an arc would that turns as much under it, mm; none when the blade stands across.
@@ -130,26 +141,26 @@ pub(in crate::verify) fn sharpest_share(turns: &[f64]) -> f64 {
     if all > 0.0 { turns.iter().copied().fold(0.0, f64::max) / all } else { 0.0 }
 }
 
-impl Bow {
+impl Deviation {
     /// The bow at the start of a path, by a heel overlap; `None` where there is none.
-    fn new(path: &[Point], heel: f64, knife: &Knife) -> Option<Self> {
+    fn new(path: &[Point], overlap: f64, knife: &Knife) -> Option<Self> {
         // What is straight does not bow.
         path.get(2)?;
         let along = polyline::direction(path[0], path[1])?;
-        let tail = path[0] - along * heel;
-        let reached = path.iter().position(|point| (point - tail).norm() >= knife.width_mm);
+        let heel = path[0] - along * overlap;
+        let reached = path.iter().position(|point| (point - heel).norm() >= knife.width_mm);
         let near = reached.unwrap_or(path.len() - 1);
-        let mut under = vec![tail];
-        under.extend(path[usize::from(heel == 0.0)..=near].iter());
+        let mut under = vec![heel];
+        under.extend(path[usize::from(overlap == 0.0)..=near].iter());
         let tip = polyline::first_at_distance(&under, knife.width_mm).map_or(path[near], |(tip, _)| tip);
-        let away = under.iter().map(|&point| polyline::distance_to_segment(point, tail, tip)).fold(0.0, f64::max);
+        let away = under.iter().map(|&point| polyline::distance_to_segment(point, heel, tip)).fold(0.0, f64::max);
         under.extend(path.get(near + 1));
         let turns: Vec<f64> = under.windows(3).map(|w| polyline::turn_at(w[0], w[1], w[2]).abs()).collect();
         let turned: f64 = turns.iter().sum();
-        let is_across = stands_across(tip - tail, along);
+        let is_across = stands_across(tip - heel, along);
         Some(Self {
             away,
-            arc: if is_across { 0.0 } else { polyline::sagitta((tip - tail).norm(), turned) },
+            arc: if is_across { 0.0 } else { polyline::sagitta((tip - heel).norm(), turned) },
             is_whole: reached.is_none(),
             is_curve: is_curve(&turns),
         })
@@ -157,7 +168,7 @@ impl Bow {
 
     /// Whether that may be too far.
     fn is_bad(&self, Blade { knife, tolerance }: Blade) -> bool {
-        let limit = (self.arc + ENTRY_SHARE * tolerance).min(BOW_SHARE * knife.max_bow_mm);
+        let limit = (self.arc + ENTRY_SHARE * tolerance).min(DEVIATION_SHARE * knife.max_bow_mm);
         let limit = if self.is_whole { limit.min(TOLERANCE_SHARE * tolerance) } else { limit };
         self.is_curve && self.away > limit
     }

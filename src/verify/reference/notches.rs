@@ -33,7 +33,8 @@ pub(in crate::verify) fn slits(piece: &Piece, notches: Notches, replaced: &[(Out
     slits
 }
 
-/// Takes the notches that are not cut as they are drawn out of an outline; gives them with the least speed of what they were.
+/// Takes the notches that are not cut as they are drawn out of an outline; gives them with the least speed of what they
+/// were.
 pub(in crate::verify) fn straighten(
     segments: &mut Vec<Segment>,
     piece: &Piece,

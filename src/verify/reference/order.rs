@@ -58,8 +58,8 @@ impl<'a> Order<'a> {
         self.told.extend(told);
     }
 
-    /// How many come behind a later one, a tick being that long, s. Holes are known only when the program is over, so all are
-    /// brought into time first.
+    /// How many come behind a later one, a tick being that long, s. Holes are known only when the program is over, so
+    /// all are brought into time first.
     pub(in crate::verify) fn finding(mut self, period: f64) -> Finding {
         let mut worst = Worst::new("verify/order", "operations", Some(0.0));
         let (mut greatest, mut late) = (0, 0.0);

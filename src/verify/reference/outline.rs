@@ -1,6 +1,6 @@
-//! A contour as lines: parted at its corners, each line with its tube and with how fast the tip may be on it.
+//! A contour as lines: parted at its corners, each line with its tolerance band and with how fast the tip may be on it.
 //!
-//! Corners and the tube are found anew from the marker and the profile; see the module doc of the stage.
+//! Corners and the tolerance band are found anew from the marker and the profile; see the module doc of the stage.
 
 use std::borrow::Cow;
 
@@ -48,7 +48,8 @@ pub(in crate::verify) struct Outline<'a> {
 }
 
 impl<'a> Outline<'a> {
-    /// A contour of a piece, and the notches that it makes and that are cut otherwise than they are drawn, with their speeds.
+    /// A contour of a piece, and the notches that it makes and that are cut otherwise than they are drawn, with their
+    /// speeds.
     pub(in crate::verify) fn new(
         contour: &Contour,
         piece: &Piece,
@@ -110,8 +111,8 @@ impl<'a> Outline<'a> {
             (true, true) => self.turns[0],
             (false, _) => self.turns[from + k],
         };
-        let bulge = |k: usize| bulge(&chords[k], [turn_at(k), turn_at(k + 1)], profile);
-        let path = path(chords, bulge);
+        let sagitta = |k: usize| sagitta(&chords[k], [turn_at(k), turn_at(k + 1)], profile);
+        let path = path(chords, sagitta);
         let percents = chords.iter().map(|chord| chord.percent);
         let caps = feeds.both_ways(&path, percents, ends);
         let mut line = Line::new(owner, self.points([from, to]), path, caps, ring);
@@ -131,14 +132,14 @@ impl<'a> Outline<'a> {
 }
 
 /// What is known of the points of a line of these chords; `bulge` gives the bulge of each.
-fn path(chords: &[Segment], bulge: impl Fn(usize) -> f32) -> Box<[Vertex]> {
+fn path(chords: &[Segment], sagitta: impl Fn(usize) -> f32) -> Box<[Vertex]> {
     let mut path = Vec::with_capacity(chords.len() + 1);
     let mut station = 0.0;
     for (k, chord) in chords.iter().enumerate() {
-        path.push(Vertex { station, bulge: bulge(k), block: chord.span.block });
+        path.push(Vertex { station, sagitta: sagitta(k), block: chord.span.block });
         station += chord.length();
     }
-    path.push(Vertex { station, bulge: 0.0, block: chords[chords.len() - 1].span.block });
+    path.push(Vertex { station, sagitta: 0.0, block: chords[chords.len() - 1].span.block });
     path.into()
 }
 
@@ -155,7 +156,7 @@ fn nearest_to_start<'a>(segments: &[Segment], corners: &'a [usize]) -> impl Iter
 }
 
 /// On a chord between two turns to the same side the curve that was flattened lies outside, by about length * turn / 8.
-fn bulge(segment: &Segment, turns: [f64; 2], profile: &MachineProfile) -> f32 {
+fn sagitta(segment: &Segment, turns: [f64; 2], profile: &MachineProfile) -> f32 {
     let length = segment.length();
     let is_turn = |turn: &f64| turn.abs() > TURN_EPSILON && turn.abs() < profile.corner.angle();
     let curved = turns[0] * turns[1] > 0.0 && turns.iter().all(is_turn);

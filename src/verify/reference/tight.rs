@@ -4,9 +4,9 @@ use super::line::Line;
 use crate::geom::{Point, Vector, polyline};
 use crate::machine::Knife;
 
-/// Cosines of the blade with a line at its tail and at its tip below which it may be that it could not follow: a little
+/// Cosines of the blade with a line at its heel and at its tip below which it may be that it could not follow: a little
 /// more than what is needed, because overlaps and what lies between two places matter.
-const TAIL_COSINE: f64 = 0.47;
+const HEEL_COSINE: f64 = 0.47;
 const TIP_COSINE: f64 = 0.1;
 /// Distance of the places at which a blade is laid on a line, mm.
 const STEP: f64 = 0.1;
@@ -15,12 +15,12 @@ const TURN_MIN: f64 = 0.8;
 /// Length of a line on which it turns that much where it is tight, in widths of the blade: twice what a blade may span.
 const WIDTHS: f64 = 3.0;
 
-/// Whether a blade, from its tail to its tip, may stand across a line that has a direction at its tail.
+/// Whether a blade, from its heel to its tip, may stand across a line that has a direction at its heel.
 pub(in crate::verify) fn stands_across(blade: Vector, direction: Vector) -> bool {
-    blade.dot(&direction) < TAIL_COSINE * blade.norm()
+    blade.dot(&direction) < HEEL_COSINE * blade.norm()
 }
 
-/// The stretches of a line, by the stations of tail and tip, on which a blade as its chord would stand across it.
+/// The stretches of a line, by the stations of heel and tip, on which a blade as its chord would stand across it.
 pub(in crate::verify) fn stretches(line: &Line, knife: &Knife) -> Vec<[f64; 2]> {
     let width = knife.width_mm;
     if width == 0.0 || line.chords() < 2 {
@@ -33,11 +33,11 @@ pub(in crate::verify) fn stretches(line: &Line, knife: &Knife) -> Vec<[f64; 2]> 
     for [low, high] in sharp(&path, &stations, WIDTHS * width) {
         let (low, high) = ((low - WIDTHS * width).max(0.0), high.min(last));
         let steps = ((high - low) / STEP).ceil().max(0.0) as usize;
-        for tail in (0..=steps).map(|i| (low + STEP * i as f64).min(high)) {
-            let Some(tip) = across_at(&path, &stations, tail, width) else { continue };
+        for heel in (0..=steps).map(|i| (low + STEP * i as f64).min(high)) {
+            let Some(tip) = across_at(&path, &stations, heel, width) else { continue };
             match found.last_mut() {
-                Some(stretch) if tail - start <= stretch[1] => stretch[1] = stretch[1].max(tip - start),
-                _ => found.push([tail - start, tip - start]),
+                Some(stretch) if heel - start <= stretch[1] => stretch[1] = stretch[1].max(tip - start),
+                _ => found.push([heel - start, tip - start]),
             }
         }
     }
@@ -88,12 +88,12 @@ fn sharp(path: &[Point], stations: &[f64], reach: f64) -> Vec<[f64; 2]> {
     found
 }
 
-/// The station of the tip when the blade, its tail at a station, stands across the path or finds no place on it; `None` when
-/// it is a chord like any other.
-fn across_at(path: &[Point], stations: &[f64], tail: f64, width: f64) -> Option<f64> {
-    let chord = stations.partition_point(|&s| s <= tail).clamp(1, path.len() - 1) - 1;
+/// The station of the tip when the blade, its heel at a station, stands across the path or finds no place on it; `None`
+/// when it is a chord like any other.
+fn across_at(path: &[Point], stations: &[f64], heel: f64, width: f64) -> Option<f64> {
+    let chord = stations.partition_point(|&s| s <= heel).clamp(1, path.len() - 1) - 1;
     let along = |chord: usize| -> Vector { (path[chord + 1] - path[chord]) / (stations[chord + 1] - stations[chord]) };
-    let from = path[chord] + along(chord) * (tail - stations[chord]);
+    let from = path[chord] + along(chord) * (heel - stations[chord]);
     let rest: Vec<Point> = std::iter::once(from)
         .chain(path[chord + 1..].iter().copied().take_while({
             let mut is_left = false;

@@ -3,8 +3,8 @@
 use super::line::Line;
 use crate::machine::{Follow, Knife, MachineProfile};
 
-/// How far from the ends of its range C is kept on a line that turns it, rad (5 degrees): by what smoothing and a plunge as a
-/// chord may turn it more.
+/// How far from the ends of its range C is kept on a line that turns it, rad (5 degrees): by what smoothing and a
+/// plunge as a chord may turn it more.
 const CLEAR_OF_ENDS: f64 = 0.087_266_462_599_716_47;
 /// The same on a ring where there is less room, rad: half a degree more than what a compile needs (4 degrees), so that what
 /// that parts is never taken for one that is to be cut in one.

@@ -40,7 +40,7 @@ fn what_is_done_by_hand_and_well_is_accepted() {
     check(program, &long_line(), &[]);
     // A line shorter than the blade in one plunge, its surplus behind the start.
     let mut program = Program::new(&Job::default());
-    program.stab(p(106.3, 50.0), 0.0, 1);
+    program.plunge_cut(p(106.3, 50.0), 0.0, 1);
     check(program, &support::marker(&[p(100.0, 50.0), p(106.0, 50.0)]), &[]);
 }
 
@@ -49,7 +49,7 @@ fn a_stab_across_a_line_is_no_cut_of_it() {
     for heading in [5.0, 10.0, 20.0, 45.0, 90.0] {
         let mut program = Program::new(&Job::default());
         let along = Heading::new(f64::to_radians(heading)).unit();
-        program.stab(p(150.0, 50.0) + along * 6.0, heading, 1);
+        program.plunge_cut(p(150.0, 50.0) + along * 6.0, heading, 1);
         cut_long_line(&mut program);
         assert!(!program.judge(&long_line()).passes(), "{heading}");
     }
@@ -61,7 +61,7 @@ fn a_stab_across_a_line_that_is_cut_but_for_a_little_is_no_cut_of_it() {
         let mut program = Program::new(&Job::default());
         program.run(p(99.5, 50.0), p(150.0, 50.0), 1);
         let along = Heading::new(f64::to_radians(heading)).unit();
-        program.stab(p(150.1, 50.0) + along * 3.0, heading, 1);
+        program.plunge_cut(p(150.1, 50.0) + along * 3.0, heading, 1);
         program.run(p(150.05, 50.0), p(200.8, 50.0), 1);
         assert!(!program.judge(&long_line()).passes(), "{heading}");
     }
@@ -71,7 +71,7 @@ fn a_stab_across_a_line_that_is_cut_but_for_a_little_is_no_cut_of_it() {
 fn a_blade_that_cuts_the_last_bit_of_a_line_and_much_beyond_it_is_astray() {
     let mut program = Program::new(&Job::default());
     program.run(p(99.5, 50.0), p(199.7, 50.0), 1);
-    program.stab(p(199.65 + 6.6, 50.0), 0.0, 1);
+    program.plunge_cut(p(199.65 + 6.6, 50.0), 0.0, 1);
     check(program, &long_line(), &["verify/stray"]);
 }
 
@@ -80,7 +80,7 @@ fn a_short_line_is_not_cut_by_many_stabs() {
     let marker = support::marker(&[p(100.0, 50.0), p(106.0, 50.0)]);
     let mut program = Program::new(&Job::default());
     for i in 0..60 {
-        program.stab(p(101.0 + 0.1 * f64::from(i), 50.0), 0.0, 1);
+        program.plunge_cut(p(101.0 + 0.1 * f64::from(i), 50.0), 0.0, 1);
     }
     assert!(!program.judge(&marker).passes());
 }
@@ -119,7 +119,7 @@ fn a_circle_is_not_cut_as_a_polygon() {
             let (a, b) = (Heading::new(from).unit() * 8.0, Heading::new(from + reach).unit() * 8.0);
             let along: Vector = (b - a).normalize();
             let tail = p(100.0, 50.0) + a;
-            program.stab(tail + along * 6.6, along.y.atan2(along.x).to_degrees(), (6 * i + 6) as u32);
+            program.plunge_cut(tail + along * 6.6, along.y.atan2(along.x).to_degrees(), (6 * i + 6) as u32);
         }
         let found = broken(&program.judge(&marker));
         assert!(found.contains(&"verify/on-path"), "{range_deg:?}: {found:?}");
@@ -321,7 +321,7 @@ fn a_stab_askew_is_seen_though_it_stays_in_the_tube() {
     for heading in [0.0, 0.4, 0.6, 0.8] {
         let mut program = Program::new(&Job::default());
         // Turned about its middle, so that neither end leaves the tube.
-        program.stab(p(103.0, 50.0) + Heading::new(f64::to_radians(heading)).unit() * 3.3, heading, 1);
+        program.plunge_cut(p(103.0, 50.0) + Heading::new(f64::to_radians(heading)).unit() * 3.3, heading, 1);
         let expected: &[&str] = if heading > 0.5 { &["verify/heading"] } else { &[] };
         let found = broken(&program.judge(&support::marker(&[p(100.0, 50.0), p(106.0, 50.0)])));
         assert_eq!(found, expected, "{heading}");

@@ -20,7 +20,7 @@ fn check_badly_cut(points: &[Point], plunges: impl Iterator<Item = [usize; 2]>, 
     for [from, to] in plunges {
         let along = (points[to] - points[from]).normalize();
         let tip = points[from] + along * program.job.profile.knife.width_mm;
-        program.stab(tip, along.y.atan2(along.x).to_degrees(), to as u32);
+        program.plunge_cut(tip, along.y.atan2(along.x).to_degrees(), to as u32);
     }
     let found = broken(&program.judge(&support::marker(points)));
     assert!(found.contains(&rule), "{points:?}: {found:?}");
@@ -54,7 +54,7 @@ fn two_bends_alike_under_the_blade_are_not_cut_straight() {
 fn a_stab_on_a_curve_does_not_leave_it_along_the_tangent() {
     let marker = circle(20.0);
     let mut program = Program::new(&Job::default());
-    program.stab(p(120.0, 53.3), 90.0, 2);
+    program.plunge_cut(p(120.0, 53.3), 90.0, 2);
     let start = p(120.0, 50.0);
     program.plunge(start, 90.0, 1);
     program.along(600.0, Program::down(1), |x| {
@@ -82,7 +82,7 @@ fn covered(corner: &[Point], rest: &[Point]) -> Vec<&'static str> {
     let mut program = Program::new(&job);
     let way = corner[8] - corner[0];
     let tip = corner[8] + way.normalize() * ((8.89 - way.norm()) / 2.0);
-    program.stab(tip, way.y.atan2(way.x).to_degrees(), 4);
+    program.plunge_cut(tip, way.y.atan2(way.x).to_degrees(), 4);
     broken(&program.judge(&support::marker(&points)))
 }
 
@@ -111,13 +111,13 @@ fn a_line_may_be_nibbled_only_where_it_must_be() {
         heading = Heading::new(heading.y.atan2(heading.x) + 1.5 / 20.0).unit();
     }
     points.push(points[points.len() - 1] + heading * 40.0);
-    let stab = |from: usize| {
+    let plunge_cut = |from: usize| {
         let mut program = Program::new(&Job::default());
         let way = (points[from + 1] - points[from]).normalize();
-        program.stab(points[from] + way * 6.6, way.y.atan2(way.x).to_degrees(), from as u32 + 1);
+        program.plunge_cut(points[from] + way * 6.6, way.y.atan2(way.x).to_degrees(), from as u32 + 1);
         broken(&program.judge(&support::marker(&points)))
     };
-    assert_eq!(stab(8), ["verify/complete"]);
-    let found = stab(start + 4);
+    assert_eq!(plunge_cut(8), ["verify/complete"]);
+    let found = plunge_cut(start + 4);
     assert!(found.contains(&"verify/on-path"), "{found:?}");
 }

@@ -87,7 +87,7 @@ impl Program {
         self.rest(self.ticks(self.job.profile.knife.lift_ms), Outputs::default());
     }
 
-    pub(crate) fn stab(&mut self, tip: Point, heading_deg: f64, block: u32) {
+    pub(crate) fn plunge_cut(&mut self, tip: Point, heading_deg: f64, block: u32) {
         self.plunge(tip, heading_deg, block);
         self.lift();
     }

@@ -74,16 +74,16 @@ pub(crate) const DAMAGES: &[Damage] = &[
         Some(Harm { program, amount, place: Place::During([rows[to.end].t, rows[from.start].t]) })
     }),
     damage("a stab askew", HEADING, |case, rng| {
-        let is_stab = |stroke: &Range<usize>| case.rows[stroke.start].away(&case.rows[stroke.end]) < WAY_OF_STAB;
-        let stabs: Vec<_> = strokes(&case.rows).into_iter().filter(is_stab).collect();
-        let stab = pick(rng, &stabs)?;
+        let is_plunge_cut = |stroke: &Range<usize>| case.rows[stroke.start].away(&case.rows[stroke.end]) < WAY_OF_STAB;
+        let plunge_cuts: Vec<_> = strokes(&case.rows).into_iter().filter(is_plunge_cut).collect();
+        let plunge_cut = pick(rng, &plunge_cuts)?;
         let twist = twist(case, DAMAGING);
         let turned = |(i, row): (usize, &Row)| {
-            let by = if (stab.start..=stab.end).contains(&i) { twist } else { 0.0 };
+            let by = if (plunge_cut.start..=plunge_cut.end).contains(&i) { twist } else { 0.0 };
             row.turned_to(row.pose[2] + by, &case.job.profile.knife)
         };
         let rows: Vec<Row> = case.rows.iter().enumerate().map(turned).collect();
-        let place = Place::During([rows[stab.start].t, rows[stab.end].t]);
+        let place = Place::During([rows[plunge_cut.start].t, rows[plunge_cut.end].t]);
         Some(Harm { program: print(&rows), amount: DAMAGING * case.job.profile.verify.max_heading_deg, place })
     }),
     damage("a plunge askew on a straight line", HEADING, |case, rng| {

@@ -46,7 +46,7 @@ pub(crate) const DAMAGES: &[Damage] = &[
 ];
 
 /// The program of a machine that should follow one law and follows another.
-fn following(case: &Case, [law, other]: [Follow; 2]) -> Option<Harm> {
-    (case.job.profile.knife.follow == law)
+fn following(case: &Case, [orientation, other]: [Follow; 2]) -> Option<Harm> {
+    (case.job.profile.knife.follow == orientation)
         .then(|| erring(case, &parse(&case.on(|job| job.profile.knife.follow = other))))?
 }

@@ -1,9 +1,9 @@
 //! Cut: what the knife does, made from the pieces as they are drawn: slits first, then contours, piece by piece.
 //!
-//! Needs: pieces in cut order, with the notches that their outlines make, and only those that this run cuts. Leaves true: a cut
-//! for each contour and each stroke of a notch, in the style of the profile. A contour that is cut as it is drawn is the same
-//! range of the list; one that runs straight over the mouths of its notches has a range of its own. Says where a slit that the
-//! profile makes deeper leads out of its part.
+//! Needs: pieces in cut order, with the notches that their outlines make, and only those that this run cuts. Leaves
+//! true: a cut for each contour and each stroke of a notch, in the style of the profile. A contour that is cut as it is
+//! drawn is the same range of the list; one that runs straight over the mouths of its notches has a range of its own.
+//! Says where a slit that the profile makes deeper leads out of its part.
 
 mod style;
 

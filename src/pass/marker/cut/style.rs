@@ -64,7 +64,8 @@ fn deepened(notch: &Notch, depth: Option<f64>) -> Notch {
     Notch { kind, tip, ..*notch }
 }
 
-/// The slit that a notch of an outline becomes: from the middle of its mouth into the part, also where the notch stands out.
+/// The slit that a notch of an outline becomes: from the middle of its mouth into the part, also where the notch stands
+/// out.
 pub(super) fn slit(notch: &OutlineNotch, notches: Notches) -> Stroke {
     let depth = notches.depth_mm.unwrap_or(notch.depth());
     Stroke { from: notch.root(), to: notch.root() + notch.inwards() * depth, span: notch.span }

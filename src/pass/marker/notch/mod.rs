@@ -8,9 +8,9 @@
 //! - on either side the next notch is farther than the mouth is wide: closer ones are the teeth of a pinked hem;
 //! - three vertices at least belong to none of the contour's notches.
 //!
-//! So the point of a dart (too deep, or too wide), a corner, a row of teeth, a strap and a triangular cut-out are none. What
-//! lies in the part goes inwards: on the inner side of a contour that lies within none or two others of its piece, on the
-//! outer side of a cut-out. Any other stands out; where that is over another piece there is a warning.
+//! So the point of a dart (too deep, or too wide), a corner, a row of teeth, a strap and a triangular cut-out are none.
+//! What lies in the part goes inwards: on the inner side of a contour that lies within none or two others of its piece,
+//! on the outer side of a cut-out. Any other stands out; where that is over another piece there is a warning.
 
 mod mouth;
 
@@ -38,8 +38,8 @@ pub(super) const PASS: MarkerPass =
 
 /// Vertices that must belong to no notch.
 const LEAST_OTHERS: usize = 3;
-/// What a vertex that is looked at to tell cut-outs from parts costs beside the comparison of two boxes. In a drawing made to
-/// be slow, what is left counts as a part.
+/// What a vertex that is looked at to tell cut-outs from parts costs beside the comparison of two boxes. In a drawing
+/// made to be slow, what is left counts as a part.
 const VERTEX: usize = 4;
 /// How deep a notch may lie in another piece without a word, mm, beside the diagonal of the file's unit: pieces that touch.
 const TOUCH: f64 = 0.2;
@@ -206,8 +206,8 @@ impl<'a> Outline<'a> {
     }
 }
 
-/// Of each of some notches, whether it is one beside others that go the other way: between two of those, and beside one with
-/// which it shares a segment and whose edge is straighter, stands none.
+/// Of each of some notches, whether it is one beside others that go the other way: between two of those, and beside one
+/// with which it shares a segment and whose edge is straighter, stands none.
 fn straighter(mouths: &[Mouth], others: &[Mouth], count: usize) -> Vec<bool> {
     if mouths.is_empty() || others.is_empty() {
         return vec![true; mouths.len()];

@@ -23,8 +23,8 @@ pub(super) struct Arc {
 }
 
 impl Arc {
-    /// The arc from one place to another about a centre, `[i, j]` mm from the first; `way` is 1 for one that turns left, -1 for
-    /// one that turns right. Or why there is none.
+    /// The arc from one place to another about a centre, `[i, j]` mm from the first; `way` is 1 for one that turns
+    /// left, -1 for one that turns right. Or why there is none.
     pub(super) fn new([from, to]: [Point; 2], [i, j]: [f64; 2], way: f64, keys: &Gcode) -> Result<Self, String> {
         let start = Vector::new(-i, -j);
         let centre = from - start;

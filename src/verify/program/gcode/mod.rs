@@ -370,8 +370,8 @@ impl<'a> Places<'a> {
             None
         };
         let length = arc.map_or((to - from.centre).norm(), |arc| arc.sweep.abs() * arc.start.norm());
-        let by_bow = arc.map_or(0.0, |arc| arc.sweep.abs() * (arc.start.norm() / (8.0 * SAGITTA)).sqrt());
-        let steps = by_bow.max(length / STEP_MM).max(turned.abs() / STEP_DEG).ceil().max(1.0);
+        let by_deviation = arc.map_or(0.0, |arc| arc.sweep.abs() * (arc.start.norm() / (8.0 * SAGITTA)).sqrt());
+        let steps = by_deviation.max(length / STEP_MM).max(turned.abs() / STEP_DEG).ceil().max(1.0);
         let in_stroke = if from.knife { self.in_stroke + steps } else { 0.0 };
         if steps > STEPS_MAX || in_stroke > STEPS_A_STROKE {
             return Err("is a way that no machine goes".to_owned());

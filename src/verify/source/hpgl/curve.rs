@@ -66,8 +66,8 @@ impl Scan<'_> {
         [centre[0] + factor[0] * (x * cos - y * sin), centre[1] + factor[1] * (x * sin + y * cos)]
     }
 
-    /// Lets the reader's chords of a curve lack what every fourth of its places here lacks; those of a polygon do when it is
-    /// drawn. Its places go on from here.
+    /// Lets the reader's chords of a curve lack what every fourth of its places here lacks; those of a polygon do when
+    /// it is drawn. Its places go on from here.
     pub(super) fn allow(&mut self, Chords { points, share }: &Chords) {
         let from = self.pen.at;
         if self.part.is_some() {
