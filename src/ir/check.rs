@@ -148,7 +148,7 @@ pub fn motion(motion: &Motion) -> Faults {
         }
         let is_whole = match &phase.poses {
             Poses::Samples(poses) => poses.len() == phase.ticks as usize,
-            Poses::Still(_) | Poses::Stroke(_) | Poses::Glide(_) => true,
+            Poses::Still(_) | Poses::StraightCut(_) | Poses::Glide(_) => true,
         };
         if !is_whole {
             faults.push(format!("phase {}: it has not a pose for each of its {} ticks", i + 1, phase.ticks));

@@ -10,7 +10,7 @@ pub struct Drawing {
     /// Places of all strokes, those of one behind the other.
     pub vertices: Vec<Vertex>,
     /// Strokes in the order in which they are drawn.
-    pub strokes: Vec<Stroke>,
+    pub strokes: Vec<PenStroke>,
     /// The pens or layers that draw, in the order in which they first do.
     pub pens: Vec<Pen>,
     /// Texts; they are never cut.
@@ -34,7 +34,7 @@ pub struct Vertex {
 
 /// A line between two lifts: places of [`Drawing::vertices`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Stroke {
+pub struct PenStroke {
     /// Its first place.
     pub first: u32,
     /// One past its last.
@@ -64,7 +64,7 @@ pub enum Ending {
     AmidNumber(Span),
 }
 
-impl Stroke {
+impl PenStroke {
     /// Its places among the vertices.
     pub fn range(&self) -> std::ops::Range<usize> {
         self.first as usize..self.end as usize
@@ -96,7 +96,7 @@ impl Drawing {
     pub fn begin(&mut self, at: Point, span: Span, pen: u16) {
         let first = self.vertices.len() as u32;
         self.vertices.push(Vertex { at, span });
-        self.strokes.push(Stroke { first, end: first + 1, pen });
+        self.strokes.push(PenStroke { first, end: first + 1, pen });
         self.goes_on = true;
     }
 

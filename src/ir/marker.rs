@@ -136,12 +136,12 @@ pub enum NotchKind {
     /// One straight cut from the edge into the part.
     Slit,
     /// A slit, and a crossbar over its tip.
-    T(Stroke),
+    T(NotchStroke),
 }
 
 /// A straight cut.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stroke {
+pub struct NotchStroke {
     /// Where it starts.
     pub from: Point,
     /// Where it ends.
@@ -150,7 +150,7 @@ pub struct Stroke {
     pub span: Span,
 }
 
-impl Stroke {
+impl NotchStroke {
     /// Length, mm.
     pub fn length(&self) -> f64 {
         (self.to - self.from).norm()
@@ -168,8 +168,8 @@ impl Notch {
     }
 
     /// Its cuts in their order: from the edge inwards, then the crossbar if it has one.
-    pub fn strokes(&self) -> impl Iterator<Item = Stroke> + use<> {
-        let stem = Stroke { from: self.root, to: self.tip, span: self.span };
+    pub fn strokes(&self) -> impl Iterator<Item = NotchStroke> + use<> {
+        let stem = NotchStroke { from: self.root, to: self.tip, span: self.span };
         let bar = match self.kind {
             NotchKind::Slit => None,
             NotchKind::T(bar) => Some(bar),

@@ -5,7 +5,7 @@
 
 mod poses;
 
-pub use poses::{Derivatives, Glide, Poses, Stroke};
+pub use poses::{Derivatives, Glide, Poses, StraightCut};
 
 use super::toolpath::{Edge, Event, OrientationMode, Overcut, Pose, Side};
 

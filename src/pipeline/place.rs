@@ -15,7 +15,7 @@ const LETTERS: usize = 24;
 /// Tells findings that have a span in which piece they are and where, as far as the marker knows; what is known stays,
 /// and so do the first `known` ones. One walk over the marker, and none when there is nothing to tell.
 pub(super) fn place(diagnostics: &mut Diagnostics, known: usize, (marker, source, job): (&Marker, &Source, &Job)) {
-    let mut wanted: BTreeMap<u32, Option<Place>> = BTreeMap::new();
+    let mut wanted: BTreeMap<u32, Option<OnCloth>> = BTreeMap::new();
     for finding in diagnostics.iter().skip(known).filter(|finding| finding.piece.is_none()) {
         wanted.extend(finding.span.map(|span| (span.start, None)));
     }
@@ -28,7 +28,7 @@ pub(super) fn place(diagnostics: &mut Diagnostics, known: usize, (marker, source
             if span.block > 0
                 && let Some(place) = wanted.get_mut(&span.start)
             {
-                place.get_or_insert(Place { piece: Some(i), point });
+                place.get_or_insert(OnCloth { piece: Some(i), point });
             }
         };
         for contour in &piece.contours {
@@ -44,7 +44,7 @@ pub(super) fn place(diagnostics: &mut Diagnostics, known: usize, (marker, source
     // What a drawing has beside that is of no piece.
     for vertex in marker.drawing.iter().flat_map(|account| &account.aside.vertices) {
         if let Some(place) = wanted.get_mut(&vertex.span.start) {
-            place.get_or_insert(Place { piece: None, point: Some(vertex.at) });
+            place.get_or_insert(OnCloth { piece: None, point: Some(vertex.at) });
         }
     }
     diagnostics.revise(known, |finding| {
@@ -56,7 +56,7 @@ pub(super) fn place(diagnostics: &mut Diagnostics, known: usize, (marker, source
 }
 
 /// A piece, by its index, and a point of it or of what is not cut.
-struct Place {
+struct OnCloth {
     piece: Option<usize>,
     point: Option<Point>,
 }

@@ -117,7 +117,7 @@ impl Differences {
         };
         (0..SUPPORT).for_each(|i| self.push(phase.pose(i), regime));
         let behind = phase.ticks - SUPPORT;
-        if let Poses::Stroke(_) | Poses::Glide(_) = phase.poses {
+        if let Poses::StraightCut(_) | Poses::Glide(_) = phase.poses {
             self.cover(&bounds, regime);
             let [a, b, c] = [3, 2, 1].map(|back| row(phase.pose(behind - back)));
             self.last = Some(std::array::from_fn(|k| [c[k], c[k] - b[k], c[k] - 2.0 * b[k] + a[k]]));

@@ -4,7 +4,7 @@
 use super::certify::{EXCESS_EPSILON, excess_of, excess_of_derivatives};
 use crate::diagnostic::{Diagnostic, code};
 use crate::geom::{Heading, Point, Rotation, Vector, polyline};
-use crate::ir::motion::{Kind, Phase, Poses, Shares, Spell, Stroke};
+use crate::ir::motion::{Kind, Phase, Poses, Shares, Spell, StraightCut};
 use crate::ir::toolpath::{Pose, Run, Shape};
 use crate::machine::Job;
 use crate::machine::kinematics::Move;
@@ -184,10 +184,10 @@ impl Order<'_> {
         let feed = bounds.feed.at(0.0);
         let mut limits = bounds.axes[0].along(u.x).min(bounds.axes[1].along(u.y));
         limits.speed = limits.speed.min(feed);
-        let stroke = Stroke { from: first, along: u, start: knife.width_mm, lead, c, way: Move::new(way, limits) };
+        let stroke = StraightCut { from: first, along: u, start: knife.width_mm, lead, c, way: Move::new(way, limits) };
         let (duration, period) = (stroke.way.duration(), job.profile.time.period());
         let ticks = whole_periods(duration, period);
-        let (poses, count) = (Poses::Stroke(stroke), f64::from(ticks));
+        let (poses, count) = (Poses::StraightCut(stroke), f64::from(ticks));
         let bounded = poses.derivatives(count * period).map(|bounds| excess_of_derivatives(&bounds, &self.bounds.axes));
         let rho = bounded.unwrap_or(f64::INFINITY).max(stroke.way.derivatives(count * period)[0] / feed);
         if rho > 1.0 + EXCESS_EPSILON {

@@ -10,7 +10,7 @@ use std::f64::consts::FRAC_PI_2;
 use super::line::Line;
 use super::pens::{self, Use};
 use crate::geom::{Vector, angle, bits};
-use crate::ir::drawing::{Drawing, Moved, Redrawn, Stroke, Vertex};
+use crate::ir::drawing::{Drawing, Moved, PenStroke, Redrawn, Vertex};
 use crate::machine::Job;
 
 /// Farthest that two ends may miss each other along an axis, in units of the file and in mm: plots of several CAD systems
@@ -181,7 +181,7 @@ impl Joining<'_> {
     }
 
     /// Puts the strokes of a chain together in one, from an end on.
-    fn chain(&mut self, strokes: &[Stroke], (links, start): (&[Option<End>], End), taken: &mut [bool]) -> Stroke {
+    fn chain(&mut self, strokes: &[PenStroke], (links, start): (&[Option<End>], End), taken: &mut [bool]) -> PenStroke {
         let first = self.drawing.vertices.len();
         let mut at = start;
         loop {
@@ -195,11 +195,11 @@ impl Joining<'_> {
             at = next;
         }
         let end = self.drawing.vertices.len() as u32;
-        Stroke { first: first as u32, end, pen: strokes[start / 2].pen }
+        PenStroke { first: first as u32, end, pen: strokes[start / 2].pen }
     }
 
     /// Adds the places of a stroke, in its own direction or the other; each line keeps what drew it.
-    fn append(&mut self, stroke: &Stroke, is_forward: bool, first: usize) {
+    fn append(&mut self, stroke: &PenStroke, is_forward: bool, first: usize) {
         let range = stroke.range();
         let last = range.end - 1;
         let mut before = self.drawing.vertices.last().copied().filter(|_| self.drawing.vertices.len() > first);

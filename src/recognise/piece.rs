@@ -10,7 +10,7 @@ use crate::geom::{Point, Vector, cross, polyline, ring};
 use crate::ir::Marker;
 use crate::ir::drawing::{Account, Aside, LineClass, Redrawn, Vertex};
 use crate::ir::list::{FULL_SPEED, SegmentList};
-use crate::ir::marker::{Contour, Drill, Label, Notch, NotchKind, Piece, Stroke};
+use crate::ir::marker::{Contour, Drill, Label, Notch, NotchKind, NotchStroke, Piece};
 
 /// The drill that makes the holes.
 const DRILL: u8 = 1;
@@ -167,7 +167,7 @@ fn notch(mark: &Mark, sheet: &Sheet) -> Notch {
     let [root, tip] = mark.cut;
     let kind = mark.bar.map_or(NotchKind::Slit, |bar| {
         let vertices = sheet.lines[bar].vertices(&sheet.vertices);
-        NotchKind::T(Stroke { from: vertices[0].at, to: vertices[1].at, span: vertices[1].span })
+        NotchKind::T(NotchStroke { from: vertices[0].at, to: vertices[1].at, span: vertices[1].span })
     });
     let span = sheet.lines[mark.line].vertices(&sheet.vertices)[mark.leg].span;
     Notch { kind, root, tip, percent: FULL_SPEED, span }

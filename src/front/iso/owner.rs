@@ -7,7 +7,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
 use crate::geom::near::{Near, sorted};
 use crate::ir::list::SegmentList;
-use crate::ir::marker::{Contour, Notch, Piece, Stroke};
+use crate::ir::marker::{Contour, Notch, NotchStroke, Piece};
 
 /// What may have come to the wrong piece.
 #[derive(Debug, Clone, Copy)]
@@ -15,7 +15,7 @@ struct Loose {
     /// The piece that it came to.
     piece: usize,
     /// From its root to its tip.
-    stroke: Stroke,
+    stroke: NotchStroke,
     /// Its piece, once it is known.
     owner: Option<usize>,
     /// A contour, if it is no notch.
@@ -75,7 +75,7 @@ pub(super) fn settle(list: &SegmentList, pieces: &mut [Piece], unit: f64, out: &
 fn gather(list: &SegmentList, pieces: &[Piece]) -> Vec<Loose> {
     let mut loose = Vec::new();
     for (piece, Piece { notches, contours, .. }) in pieces.iter().enumerate() {
-        let slit = |notch: &Notch| Stroke { from: notch.root, to: notch.tip, span: notch.span };
+        let slit = |notch: &Notch| NotchStroke { from: notch.root, to: notch.tip, span: notch.span };
         loose.extend(notches.iter().map(|notch| Loose { piece, stroke: slit(notch), owner: None, contour: None }));
         let strokes = contours.iter().filter_map(|contour| Some((stroke(list, contour)?, *contour)));
         loose.extend(strokes.map(|(stroke, contour)| Loose { piece, stroke, owner: None, contour: Some(contour) }));
@@ -84,15 +84,15 @@ fn gather(list: &SegmentList, pieces: &[Piece]) -> Vec<Loose> {
 }
 
 /// A contour as a stroke, if it goes between two near places only.
-fn stroke(list: &SegmentList, contour: &Contour) -> Option<Stroke> {
+fn stroke(list: &SegmentList, contour: &Contour) -> Option<NotchStroke> {
     let mut segments = list.walk(contour.range).map(|(_, segment)| segment);
     let first = segments.find(|segment| segment.from != segment.to)?;
     let ends: [Point; 2] = [first.from, first.to];
-    let stroke = Stroke { from: first.from, to: first.to, span: first.span };
+    let stroke = NotchStroke { from: first.from, to: first.to, span: first.span };
     (stroke.length() <= Notch::LONGEST && segments.all(|segment| ends.contains(&segment.to))).then_some(stroke)
 }
 
-fn is_same(notch: &Notch, stroke: &Stroke) -> bool {
+fn is_same(notch: &Notch, stroke: &NotchStroke) -> bool {
     (notch.root, notch.tip, notch.span) == (stroke.from, stroke.to, stroke.span)
 }
 

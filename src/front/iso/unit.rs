@@ -82,10 +82,10 @@ impl Unit {
 }
 
 /// A place of the drawing, and its block.
-type Place = (Point, Span);
+type DrawnPlace = (Point, Span);
 
 /// All that the box around a marker holds, with the blocks.
-fn places(marker: &Marker) -> impl Iterator<Item = Place> + '_ {
+fn places(marker: &Marker) -> impl Iterator<Item = DrawnPlace> + '_ {
     let cut = marker.contours().flat_map(|(_, contour)| marker.list.vertices(contour.range));
     let of_piece = marker.pieces.iter().flat_map(|piece| {
         let slits = piece.notches.iter().flat_map(|notch| [(notch.root, notch.span), (notch.tip, notch.span)]);
@@ -96,9 +96,9 @@ fn places(marker: &Marker) -> impl Iterator<Item = Place> + '_ {
 
 /// The places that have a half of a box to themselves: left, right, lower or upper. `None` when each half has two,
 /// which may be known long before the last place.
-fn alone(extent: &Extent, places: impl Iterator<Item = Place>) -> Option<Vec<Place>> {
+fn alone(extent: &Extent, places: impl Iterator<Item = DrawnPlace>) -> Option<Vec<DrawnPlace>> {
     let middle = extent.min + (extent.max - extent.min) / 2.0;
-    let mut first: [Option<Place>; 4] = [None; 4];
+    let mut first: [Option<DrawnPlace>; 4] = [None; 4];
     let mut is_crowded = [false; 4];
     for place in places {
         let (x, y) = (place.0.x - middle.x, place.0.y - middle.y);
@@ -118,7 +118,7 @@ fn alone(extent: &Extent, places: impl Iterator<Item = Place>) -> Option<Vec<Pla
 }
 
 /// The only place that makes a drawing too large: without it the rest `fits`. It has a half of the box to itself.
-fn far_from_others(extent: &Extent, marker: &Marker, fits: impl Fn(&Extent) -> bool) -> Option<Place> {
+fn far_from_others(extent: &Extent, marker: &Marker, fits: impl Fn(&Extent) -> bool) -> Option<DrawnPlace> {
     // That there is none the first places of the contours tell nearly always, and soon from both ends of the marker.
     let both = marker.pieces.iter().zip(marker.pieces.iter().rev()).flat_map(|(one, other)| [one, other]);
     let contours = both.flat_map(|piece| &piece.contours);

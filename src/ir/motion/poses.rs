@@ -14,7 +14,7 @@ pub enum Poses {
     /// One pose a tick.
     Samples(Vec<Pose>),
     /// A straight cut.
-    Stroke(Stroke),
+    StraightCut(StraightCut),
     /// A move with the knife up.
     Glide(Glide),
 }
@@ -29,7 +29,7 @@ impl Poses {
         match self {
             Self::Still(pose) => *pose,
             Self::Samples(poses) => poses[i as usize],
-            Self::Stroke(stroke) => stroke.at(time, duration),
+            Self::StraightCut(stroke) => stroke.at(time, duration),
             Self::Glide(glide) => glide.at(time, duration),
         }
     }
@@ -39,7 +39,7 @@ impl Poses {
         match self {
             Self::Still(_) => Some(Derivatives::default()),
             Self::Samples(_) => None,
-            Self::Stroke(stroke) => Some(stroke.derivatives(duration)),
+            Self::StraightCut(stroke) => Some(stroke.derivatives(duration)),
             Self::Glide(glide) => Some(glide.derivatives(duration)),
         }
     }
@@ -50,7 +50,7 @@ impl Poses {
         match self {
             Self::Still(pose) => turned(pose),
             Self::Samples(poses) => poses.iter_mut().for_each(turned),
-            Self::Stroke(stroke) => stroke.c = Rotation(stroke.c.0 + by),
+            Self::StraightCut(stroke) => stroke.c = Rotation(stroke.c.0 + by),
             Self::Glide(glide) => [&mut glide.from, &mut glide.to].into_iter().for_each(turned),
         }
     }
@@ -58,7 +58,7 @@ impl Poses {
 
 /// A straight cut from rest to rest: the blade keeps its heading.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stroke {
+pub struct StraightCut {
     /// Where the line begins.
     pub from: Point,
     /// Its direction, of length 1.
@@ -73,7 +73,7 @@ pub struct Stroke {
     pub way: Move,
 }
 
-impl Stroke {
+impl StraightCut {
     /// How far the tip is on the line at `time` of the stroke stretched to `duration`, in one unit, mm.
     pub fn reach(&self, time: f64, duration: f64) -> f64 {
         self.start + self.way.at(time, duration)
@@ -149,8 +149,8 @@ mod tests {
         let turn = Limits { speed: 2.0, acceleration: 40.0, jerk: 2.0e3 };
         let glide = Glide { from, to, line: Move::new(100.0, limits), turn: Move::new(1.3, turn) };
         let (along, start, c) = (Vector::new(0.6, -0.8), 6.6, Rotation(0.4));
-        let stroke = Stroke { from: from.centre, along, start, lead: 4.4, c, way: Move::new(40.0, limits) };
-        for (poses, duration) in [(Poses::Glide(glide), 1.0), (Poses::Stroke(stroke), 0.75)] {
+        let stroke = StraightCut { from: from.centre, along, start, lead: 4.4, c, way: Move::new(40.0, limits) };
+        for (poses, duration) in [(Poses::Glide(glide), 1.0), (Poses::StraightCut(stroke), 0.75)] {
             let ticks = 4000;
             let h = duration / f64::from(ticks);
             let row = |i: u32| {

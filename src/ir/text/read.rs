@@ -8,7 +8,7 @@ use super::{ENDS, EVENTS, FORMS, JOINTS, KINDS, ORIENTATION_MODES, SHAPES, SIDES
 use crate::geom::{Heading, Point, Vector};
 use crate::ir::list::{FULL_SPEED, Joint, Range, Segment};
 use crate::ir::marker::{
-    Contour, Cut, Drill, Event, Field, Label, Marker, Notch, NotchKind, OutlineNotch, Piece, Stroke,
+    Contour, Cut, Drill, Event, Field, Label, Marker, Notch, NotchKind, NotchStroke, OutlineNotch, Piece,
 };
 use crate::ir::toolpath::{self, Air, Edge, End, Overcut, PlungeCut, Pose, Run, Step, Toolpath};
 use crate::source::Span;
@@ -70,7 +70,7 @@ fn of_piece(word: &str, line: &mut Line<'_>, marker: &mut Marker) -> Read<()> {
             piece.drills.push(Drill { at, tool, span });
         }
         "slit" => {
-            let Stroke { from: root, to: tip, span } = stroke(line)?;
+            let NotchStroke { from: root, to: tip, span } = stroke(line)?;
             let percent = line.percent()?;
             let kind = if line.has("bar") { NotchKind::T(stroke(line)?) } else { NotchKind::Slit };
             piece.notches.push(Notch { kind, root, tip, percent, span });
@@ -144,10 +144,10 @@ fn drill(line: &mut Line<'_>) -> Read<(Point, u8, Span)> {
     Ok((at, line.whole("the number of a drill")?, line.span()?))
 }
 
-fn stroke(line: &mut Line<'_>) -> Read<Stroke> {
+fn stroke(line: &mut Line<'_>) -> Read<NotchStroke> {
     let from = line.point()?;
     line.expect("to")?;
-    Ok(Stroke { from, to: line.point()?, span: line.span()? })
+    Ok(NotchStroke { from, to: line.point()?, span: line.span()? })
 }
 
 /// The segment lines that follow.

@@ -2,7 +2,7 @@
 //! down by the first step of each list, and what is put down must be lifted again.
 
 use super::step::{Step, WHAT_ACTS};
-use super::text::{self, Line, Place};
+use super::text::{self, Line, ProgramEnd};
 use super::words::Flaw;
 use crate::machine::MachineProfile;
 use crate::machine::fault::Fault;
@@ -50,15 +50,15 @@ pub(in crate::machine) fn faults(profile: &MachineProfile) -> Vec<Fault> {
     let lists = lists(profile);
     let fault = |key: &str, flaw: Flaw| Fault::of_range(&[key], format!("`{key}` has {}", flaw.has), &flaw.hint);
     let mut faults: Vec<Fault> = lists.iter().filter_map(|list| Some(fault(list.key, flaw_of(list)?))).collect();
-    let mut read = |key: &str, text: &str, place: Place| {
+    let mut read = |key: &str, text: &str, place: ProgramEnd| {
         let lines = text::read(text, place);
         lines.unwrap_or_else(|flaw| {
             faults.push(fault(key, flaw));
             Vec::new()
         })
     };
-    let header = read("gcode.header", &keys.header, Place::Start);
-    let footer = read("gcode.footer", &keys.footer, Place::End);
+    let header = read("gcode.header", &keys.header, ProgramEnd::Start);
+    let footer = read("gcode.footer", &keys.footer, ProgramEnd::End);
     if faults.is_empty() {
         faults = mixed_up(&lists, &footer);
         faults.extend(lasting(&lists));

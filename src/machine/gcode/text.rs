@@ -10,7 +10,7 @@ use super::words::{Flaw, Number, Word, words};
 
 /// Where a text stands in a program.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Place {
+pub(super) enum ProgramEnd {
     Start,
     End,
 }
@@ -58,19 +58,19 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = &str> {
 }
 
 /// What the lines of a text do; otherwise what is wrong with them first.
-pub(super) fn read(text: &str, place: Place) -> Result<Vec<Line>, Flaw> {
+pub(super) fn read(text: &str, place: ProgramEnd) -> Result<Vec<Line>, Flaw> {
     let lines: Vec<Line> = lines(text).map(|text| line(text, place)).collect::<Result<_, _>>()?;
     let end = lines.iter().position(|line| *line == Line::EndOfProgram);
     match (place, end) {
-        (Place::End, None) => Err(Flaw::new("no end of the program", "its last line is M2 or M30")),
-        (Place::End, Some(end)) if lines[end + 1..].iter().any(|line| *line != Line::Comment) => {
+        (ProgramEnd::End, None) => Err(Flaw::new("no end of the program", "its last line is M2 or M30")),
+        (ProgramEnd::End, Some(end)) if lines[end + 1..].iter().any(|line| *line != Line::Comment) => {
             Err(Flaw::new("lines behind its end", "M2 or M30 stands in the last one: nothing is read behind it"))
         }
-        (Place::Start | Place::End, _) => Ok(lines),
+        (ProgramEnd::Start | ProgramEnd::End, _) => Ok(lines),
     }
 }
 
-fn line(text: &str, place: Place) -> Result<Line, Flaw> {
+fn line(text: &str, place: ProgramEnd) -> Result<Line, Flaw> {
     if let Some(c) = text.chars().find(|c| !matches!(c, ' '..='~' | '\t')) {
         let hint = "lines of G-code are plain ASCII, comments too";
         return Err(Flaw::new(format!("`{}`, which no controller reads", c.escape_default()), hint));
@@ -84,8 +84,8 @@ fn line(text: &str, place: Place) -> Result<Line, Flaw> {
     match words.as_slice() {
         [] => Ok(Line::Comment),
         [code] if ENDS.iter().any(|end| code.is(end)) => match place {
-            Place::End => Ok(Line::EndOfProgram),
-            Place::Start => Err(Flaw::new(
+            ProgramEnd::End => Ok(Line::EndOfProgram),
+            ProgramEnd::Start => Err(Flaw::new(
                 format!("{code}, which ends the program"),
                 "only the last line of `gcode.footer` does that",
             )),
@@ -97,10 +97,10 @@ fn line(text: &str, place: Place) -> Result<Line, Flaw> {
 }
 
 /// A line that chooses a tool.
-fn chosen(tool: Word, place: Place) -> Result<Line, Flaw> {
+fn chosen(tool: Word, place: ProgramEnd) -> Result<Line, Flaw> {
     let is_tool = |number: f64| (0.0..=TOOL_MAX).contains(&number) && number.fract() == 0.0;
     match tool.number {
-        _ if place == Place::End => {
+        _ if place == ProgramEnd::End => {
             Err(Flaw::new(format!("{tool}, which chooses a tool"), "only `gcode.header` may choose one"))
         }
         Number::Plain(number) if is_tool(number) => Ok(Line::Choice),
@@ -203,54 +203,54 @@ mod tests {
     #[test]
     fn lines_that_every_interpreter_takes_are_taken() {
         for (place, text) in [
-            (Place::Start, ""),
-            (Place::Start, "G54\n(G20 X5) T1 M6\nM49"),
-            (Place::Start, "G21 G90 G40 G49 G80\nm03 s90"),
-            (Place::Start, "(a) (b) ; c\n\nM0 (wait)"),
-            (Place::End, "M2"),
-            (Place::End, "M9\nG4 P0.5\nM65 P0 (up)\nG80\nM30 (so)\n; it ends"),
+            (ProgramEnd::Start, ""),
+            (ProgramEnd::Start, "G54\n(G20 X5) T1 M6\nM49"),
+            (ProgramEnd::Start, "G21 G90 G40 G49 G80\nm03 s90"),
+            (ProgramEnd::Start, "(a) (b) ; c\n\nM0 (wait)"),
+            (ProgramEnd::End, "M2"),
+            (ProgramEnd::End, "M9\nG4 P0.5\nM65 P0 (up)\nG80\nM30 (so)\n; it ends"),
         ] {
             let taken = read(text, place);
             assert!(taken.is_ok(), "{text}: {taken:?}");
         }
-        assert_eq!(line("(up) m65p0", Place::End), Ok(Line::Step("M65 P0".parse().expect("a step"))));
+        assert_eq!(line("(up) m65p0", ProgramEnd::End), Ok(Line::Step("M65 P0".parse().expect("a step"))));
     }
 
     #[test]
     fn what_an_interpreter_refuses_or_what_undoes_the_program_is_named() {
         for (place, text, expected) in [
-            (Place::Start, "g20", "G20, which has no business there"),
-            (Place::Start, "G54\nG92 X10", "X10, which moves"),
-            (Place::Start, "G91", "G91, which has no business there"),
-            (Place::Start, "G64 P1", "G64, which has no business there"),
-            (Place::Start, "M30", "M30, which ends"),
-            (Place::Start, "G0X5", "G0, which moves"),
-            (Place::Start, "N5 G54", "N5, which has no business there"),
-            (Place::Start, "%", "`%`, which frames"),
-            (Place::Start, "#5221=1", "`#`, which computes"),
-            (Place::Start, "G54 G55", "G54 and G55 on a line"),
-            (Place::Start, "F100", "F100, which has no business there"),
-            (Place::Start, "U1", "U1, which moves"),
-            (Place::Start, "M72", "M72, which has no business there"),
-            (Place::Start, "M100", "M100, which runs a program"),
-            (Place::Start, "M64 P#", "M64 P#, in which no drill"),
-            (Place::Start, "T1.5", "T1.5, which is no tool"),
-            (Place::Start, "M(a)3", "M without a number"),
-            (Place::Start, "M0 (a", "a comment without its other bracket"),
-            (Place::Start, "M0 (a (b)", "a comment in a comment"),
-            (Place::Start, "(debug, x)", "a comment that begins with debug"),
-            (Place::Start, "(\u{e9})", "`\\u{e9}`, which no controller reads"),
-            (Place::End, "G0 X0 Y0\nM2", "G0, which moves"),
-            (Place::End, "G28\nM2", "G28, which moves"),
-            (Place::End, "T1\nM2", "T1, which chooses a tool"),
-            (Place::End, "M5 M2", "M2, which has no business there"),
-            (Place::End, "M2\nM5", "lines behind its end"),
-            (Place::End, "M5", "no end of the program"),
+            (ProgramEnd::Start, "g20", "G20, which has no business there"),
+            (ProgramEnd::Start, "G54\nG92 X10", "X10, which moves"),
+            (ProgramEnd::Start, "G91", "G91, which has no business there"),
+            (ProgramEnd::Start, "G64 P1", "G64, which has no business there"),
+            (ProgramEnd::Start, "M30", "M30, which ends"),
+            (ProgramEnd::Start, "G0X5", "G0, which moves"),
+            (ProgramEnd::Start, "N5 G54", "N5, which has no business there"),
+            (ProgramEnd::Start, "%", "`%`, which frames"),
+            (ProgramEnd::Start, "#5221=1", "`#`, which computes"),
+            (ProgramEnd::Start, "G54 G55", "G54 and G55 on a line"),
+            (ProgramEnd::Start, "F100", "F100, which has no business there"),
+            (ProgramEnd::Start, "U1", "U1, which moves"),
+            (ProgramEnd::Start, "M72", "M72, which has no business there"),
+            (ProgramEnd::Start, "M100", "M100, which runs a program"),
+            (ProgramEnd::Start, "M64 P#", "M64 P#, in which no drill"),
+            (ProgramEnd::Start, "T1.5", "T1.5, which is no tool"),
+            (ProgramEnd::Start, "M(a)3", "M without a number"),
+            (ProgramEnd::Start, "M0 (a", "a comment without its other bracket"),
+            (ProgramEnd::Start, "M0 (a (b)", "a comment in a comment"),
+            (ProgramEnd::Start, "(debug, x)", "a comment that begins with debug"),
+            (ProgramEnd::Start, "(\u{e9})", "`\\u{e9}`, which no controller reads"),
+            (ProgramEnd::End, "G0 X0 Y0\nM2", "G0, which moves"),
+            (ProgramEnd::End, "G28\nM2", "G28, which moves"),
+            (ProgramEnd::End, "T1\nM2", "T1, which chooses a tool"),
+            (ProgramEnd::End, "M5 M2", "M2, which has no business there"),
+            (ProgramEnd::End, "M2\nM5", "lines behind its end"),
+            (ProgramEnd::End, "M5", "no end of the program"),
         ] {
             let found = read(text, place).expect_err(text).has;
             assert!(found.starts_with(expected), "{text}: {found}");
         }
         let long = format!("M3 ({})", "x".repeat(LINE_MAX));
-        assert!(read(&long, Place::Start).expect_err("too long").has.starts_with("a line of 205 characters"));
+        assert!(read(&long, ProgramEnd::Start).expect_err("too long").has.starts_with("a line of 205 characters"));
     }
 }

@@ -51,16 +51,16 @@ fn open_contour(marker: &Marker, piece: usize, contour: &Contour, diagnostics: &
 }
 
 /// A contour: the place of its piece among all, and its own in that.
-type Place = [u32; 2];
+type ContourPlace = [u32; 2];
 
 /// A number made of the lower left corner of a contour's box, the same for all that cut the same segments, wherever they
 /// start and whichever way they go; and the contour.
-type Print = (u64, Place);
+type Print = (u64, ContourPlace);
 
 fn twice(marker: &Marker, diagnostics: &mut Diagnostics) {
-    let piece = |[piece, _]: Place| &marker.pieces[piece as usize];
-    let range = |contour: Place| piece(contour).contours[contour[1] as usize].range;
-    let print = |contour: Place| {
+    let piece = |[piece, _]: ContourPlace| &marker.pieces[piece as usize];
+    let range = |contour: ContourPlace| piece(contour).contours[contour[1] as usize].range;
+    let print = |contour: ContourPlace| {
         let [x, y] = bits(Extent::of(&marker.list.points(range(contour))).min);
         x ^ y.rotate_left(u64::BITS / 2)
     };
@@ -71,10 +71,10 @@ fn twice(marker: &Marker, diagnostics: &mut Diagnostics) {
     }
     prints.par_iter_mut().for_each(|(number, contour)| *number = print(*contour));
     prints.sort_unstable();
-    let mut repeats: Vec<(Place, Place)> = Vec::new();
+    let mut repeats: Vec<(ContourPlace, ContourPlace)> = Vec::new();
     for alike in prints.chunk_by(|a, b| a.0 == b.0).filter(|alike| alike.len() > 1) {
         // Equal numbers are a hint only; the segments themselves decide.
-        let mut exact: Vec<(Vec<Edge>, Place)> =
+        let mut exact: Vec<(Vec<Edge>, ContourPlace)> =
             alike.iter().map(|&(_, i)| (edges(&marker.list, range(i)), i)).collect();
         exact.sort();
         for same in exact.chunk_by(|a, b| a.0 == b.0) {
@@ -83,7 +83,7 @@ fn twice(marker: &Marker, diagnostics: &mut Diagnostics) {
     }
     repeats.sort_unstable();
     for (later, earlier) in repeats {
-        let number = |contour: Place| piece(contour).number;
+        let number = |contour: ContourPlace| piece(contour).number;
         let before = first(&marker.list, range(earlier)).span;
         let message = format!(
             "a contour of piece {} is the same as the one of piece {} in block {}",

@@ -19,7 +19,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::near::{Near, sorted};
 use crate::geom::{Point, bits, cross, polyline};
 use crate::ir::list::SegmentList;
-use crate::ir::marker::{Contour, Marker, Notch, NotchKind, Piece, Stroke};
+use crate::ir::marker::{Contour, Marker, Notch, NotchKind, NotchStroke, Piece};
 use crate::machine::Job;
 
 pub(super) const PASS: MarkerPass =
@@ -63,7 +63,7 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
 /// A contour that is a stroke.
 #[derive(Debug, Clone, Copy)]
 struct Short {
-    stroke: Stroke,
+    stroke: NotchStroke,
     percent: u8,
     /// Its place among the contours of the piece.
     contour: usize,
@@ -78,7 +78,7 @@ fn short(list: &SegmentList, contour: &Contour, place: usize) -> Option<Short> {
         return None; // as nearly all, at their third point
     }
     let (_, first) = list.walk(contour.range).next()?;
-    let stroke = Stroke { from: first.from, to: first.to, span: first.span };
+    let stroke = NotchStroke { from: first.from, to: first.to, span: first.span };
     let percent = list.walk(contour.range).map(|(_, segment)| segment.percent).min()?;
     (stroke.length() <= Notch::LONGEST).then_some(Short { stroke, percent, contour: place, taken: false })
 }
@@ -91,7 +91,7 @@ fn outlines<'a>(list: &'a SegmentList, piece: &'a Piece) -> impl Iterator<Item =
 
 /// What may be a crossbar.
 struct Bar {
-    stroke: Stroke,
+    stroke: NotchStroke,
     percent: u8,
     origin: Origin,
 }
@@ -130,7 +130,7 @@ impl Search<'_> {
         let slack = self.near.slack();
         let mut is_divided = vec![false; shorts.len()];
         for (short, is_divided) in shorts.iter().zip(&mut is_divided) {
-            let Stroke { from, to, .. } = short.stroke;
+            let NotchStroke { from, to, .. } = short.stroke;
             let tip_of = |k: usize| piece.notches.get(k).map(|notch| notch.tip);
             let tip = |k: usize| tip_of(k).unwrap_or_else(|| shorts[k - piece.notches.len()].stroke.to);
             self.near.each(&tips, [from, to], |k| {
@@ -144,7 +144,7 @@ impl Search<'_> {
             });
         }
         for Short { stroke, percent, .. } in shorts.iter().filter(|short| short.taken) {
-            let Stroke { from: root, to: tip, span } = *stroke;
+            let NotchStroke { from: root, to: tip, span } = *stroke;
             piece.notches.push(Notch { kind: NotchKind::Slit, root, tip, percent: *percent, span });
         }
         piece.notches.sort_by_key(|notch| notch.span); // stable: what comes from no block keeps its order
@@ -152,7 +152,7 @@ impl Search<'_> {
 
     /// Leads slits that start inside their edge back to it, along their own lines.
     fn reach_edges(&mut self, piece: &mut Piece) {
-        let slit = |notch: &Notch| Stroke { from: notch.root, to: notch.tip, span: notch.span };
+        let slit = |notch: &Notch| NotchStroke { from: notch.root, to: notch.tip, span: notch.span };
         let starts = sorted(piece.notches.iter().map(|notch| notch.root));
         let mut missed: Vec<Option<f64>> = vec![Some(f64::INFINITY); piece.notches.len()];
         for ends in outlines(self.list, piece) {
@@ -189,7 +189,7 @@ impl Search<'_> {
         }
         let free = slits.iter().zip(touches).filter(|(_, touches)| slits.len() > 1 && !touches);
         let notches = free.map(|((i, notch), _)| {
-            let stroke = Stroke { from: notch.root, to: notch.tip, span: notch.span };
+            let stroke = NotchStroke { from: notch.root, to: notch.tip, span: notch.span };
             Bar { stroke, percent: notch.percent, origin: Origin::Notches(*i) }
         });
         let shorts = shorts.iter().enumerate().filter(|(_, short)| !short.taken);
@@ -242,7 +242,7 @@ impl Search<'_> {
 
 /// How far behind its start the line of a stroke meets a segment, mm; negative when it does so behind that, no farther
 /// on than the stroke is long.
-fn back_to(stroke: &Stroke, [a, b]: [Point; 2]) -> Option<f64> {
+fn back_to(stroke: &NotchStroke, [a, b]: [Point; 2]) -> Option<f64> {
     let (way, edge) = (stroke.to - stroke.from, b - a);
     let length = way.norm();
     let across = cross(edge, way / length);

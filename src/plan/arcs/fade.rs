@@ -39,7 +39,7 @@ pub(super) struct Fade {
 
 /// A part of an arc of the tip on which C turns evenly.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Part {
+pub(super) struct FadeStep {
     /// Where it ends on the arc, mm.
     pub(super) to: f64,
     /// C there, rad.
@@ -71,9 +71,9 @@ impl Fade {
     }
 
     /// The parts of an arc: those that the blade fades on, and the rest, none shorter than `least` but the last.
-    pub(super) fn parts(&self, beside: Beside, least: f64) -> Vec<Part> {
+    pub(super) fn parts(&self, beside: Beside, least: f64) -> Vec<FadeStep> {
         let Beside { arc, done, .. } = beside;
-        let rest = Part { to: arc.length, c: self.c(beside, arc.length), turn: arc.turn() };
+        let rest = FadeStep { to: arc.length, c: self.c(beside, arc.length), turn: arc.turn() };
         let fading = (self.length - done).clamp(0.0, arc.length);
         if fading < LENGTH_EPSILON {
             return vec![rest];
@@ -89,13 +89,13 @@ impl Fade {
             count *= 2;
         };
         if fading < arc.length {
-            parts.push(Part { turn: arc.curvature * (arc.length - fading), ..rest });
+            parts.push(FadeStep { turn: arc.curvature * (arc.length - fading), ..rest });
         }
         parts
     }
 
     /// The first `fading` mm of an arc in equal parts, and how far the tip is askew on them at the most, rad.
-    fn divided(&self, beside: Beside, fading: f64, count: usize) -> (Vec<Part>, f64) {
+    fn divided(&self, beside: Beside, fading: f64, count: usize) -> (Vec<FadeStep>, f64) {
         let arc = beside.arc;
         let mut worst = 0.0_f64;
         let mut before = self.end(beside, 0.0);
@@ -105,7 +105,7 @@ impl Fade {
             let (turn, askew) = self.arc([before, end], arc.curvature * fading / count as f64);
             worst = worst.max(askew);
             before = end;
-            Part { to, c: end.pose.c.0, turn }
+            FadeStep { to, c: end.pose.c.0, turn }
         };
         let parts = (1..=count).map(part).collect();
         (parts, worst)

@@ -311,7 +311,7 @@ fn penalty(knots: &[f64], spans: Range<usize>) -> BandMatrix<BAND> {
 
 impl Chain<2> for Problem<'_> {
     type Part<'a>
-        = Part<'a>
+        = Window<'a>
     where
         Self: 'a;
 
@@ -319,7 +319,7 @@ impl Chain<2> for Problem<'_> {
         1..self.squares.len() - 1
     }
 
-    fn part(&self, free: Range<usize>) -> (Part<'_>, Range<usize>) {
+    fn part(&self, free: Range<usize>) -> (Window<'_>, Range<usize>) {
         let spans = free.start.saturating_sub(ORDER - 1)..free.end.min(self.breaks.len() - 1);
         let first = |span: usize| self.samples.partition_point(|sample| sample.first < span);
         let samples = &self.samples[first(spans.start)..first(spans.end)];
@@ -328,12 +328,12 @@ impl Chain<2> for Problem<'_> {
         // A run in one window counts from where the file counts.
         let origin = if free == self.free() { Point::origin() } else { samples[0].section.base };
         let (bound, least) = (self.bound, self.least);
-        (Part { samples, penalty, origin, bound, least, near: near.clone(), free }, near)
+        (Window { samples, penalty, origin, bound, least, near: near.clone(), free }, near)
     }
 }
 
 /// Some control points of a problem, the others standing still.
-struct Part<'a> {
+struct Window<'a> {
     /// The samples that they move, and the penalty of the spans that they shape.
     samples: &'a [Sample],
     penalty: BandMatrix<BAND>,
@@ -346,7 +346,7 @@ struct Part<'a> {
     free: Range<usize>,
 }
 
-impl Part<'_> {
+impl Window<'_> {
     /// The control points as the penalty counts them, and its product with them.
     fn penalised(&self, control: &[[f64; 2]]) -> (Control, Control) {
         let control: Control = control.iter().map(|c| [c[0] - self.origin.x, c[1] - self.origin.y]).collect();
@@ -355,7 +355,7 @@ impl Part<'_> {
     }
 }
 
-impl barrier::Problem<2> for Part<'_> {
+impl barrier::Problem<2> for Window<'_> {
     /// Half of the integral of |r'''|^2, on top of what counts as none.
     fn objective(&self, control: &[[f64; 2]]) -> f64 {
         let (control, product) = self.penalised(control);

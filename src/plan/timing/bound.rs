@@ -123,7 +123,7 @@ fn last_near(guess: usize, end: usize, holds: impl Fn(usize) -> bool) -> usize {
 mod tests {
     use super::*;
     use crate::geom::{Point, Vector};
-    use crate::ir::motion::Stroke;
+    use crate::ir::motion::StraightCut;
     use crate::machine::MachineProfile;
     use crate::machine::kinematics::Move;
 
@@ -137,7 +137,7 @@ mod tests {
                 along.speed = along.speed.min(feed);
                 let way = Move::new(length, along);
                 let (from, direction) = (Point::new(40.0, -70.0), Vector::new(cos, sin));
-                let stroke = Stroke { from, along: direction, start: 6.6, lead: 4.4, c: Rotation(1.0), way };
+                let stroke = StraightCut { from, along: direction, start: 6.6, lead: 4.4, c: Rotation(1.0), way };
                 let ticks = (way.duration() / 1e-3).ceil() as usize;
                 let reach = |i: usize| stroke.reach(i as f64, ticks as f64);
                 let cutting = Cutting {

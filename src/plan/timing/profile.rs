@@ -100,7 +100,7 @@ struct Problem<'a> {
 }
 
 /// A place where the limits hold.
-struct Place {
+struct LimitPlace {
     /// First of the control values that matter there.
     first: usize,
     /// b, b' and b'', as rows over four control values.
@@ -154,7 +154,7 @@ impl<'a> Problem<'a> {
     }
 
     /// The places of some spans.
-    fn places(&self, spans: Range<usize>) -> Vec<Place> {
+    fn places(&self, spans: Range<usize>) -> Vec<LimitPlace> {
         let last = self.breaks.len() - 1;
         let first = |span: usize| match span {
             0 => 0,
@@ -169,7 +169,7 @@ impl<'a> Problem<'a> {
             while span + 1 < last && self.breaks[span + 1] <= s {
                 span += 1;
             }
-            places.push(Place { first: span, rows: self.rows(span, s), load: self.load(&mut walk, s) });
+            places.push(LimitPlace { first: span, rows: self.rows(span, s), load: self.load(&mut walk, s) });
         }
         places
     }
@@ -219,7 +219,7 @@ impl<'a> Problem<'a> {
 
 impl Chain<1> for Problem<'_> {
     type Part<'a>
-        = Part
+        = Window
     where
         Self: 'a;
 
@@ -227,18 +227,18 @@ impl Chain<1> for Problem<'_> {
         0..spline::control_count::<ORDER>(&self.breaks)
     }
 
-    fn part(&self, free: Range<usize>) -> (Part, Range<usize>) {
+    fn part(&self, free: Range<usize>) -> (Window, Range<usize>) {
         let spans = free.start.saturating_sub(ORDER - 1)..free.end.min(self.breaks.len() - 1);
         let near = spans.start..spans.end + ORDER - 1;
         let (places, nodes) = (self.places(spans.clone()), self.nodes(spans));
-        (Part { places, nodes, near: near.clone(), free }, near)
+        (Window { places, nodes, near: near.clone(), free }, near)
     }
 }
 
 /// Some control values of a problem, the others standing still.
-struct Part {
+struct Window {
     /// The places and the nodes on which they bear.
-    places: Vec<Place>,
+    places: Vec<LimitPlace>,
     nodes: Vec<Node>,
     /// The control values that are known, and those of them that are free.
     near: Range<usize>,
@@ -268,7 +268,7 @@ impl Block {
     }
 
     /// Adds what a place says about the limits.
-    fn add_place(&mut self, place: &Place, near: &[[f64; 1]], walls: &[Wall; BOUNDS]) {
+    fn add_place(&mut self, place: &LimitPlace, near: &[[f64; 1]], walls: &[Wall; BOUNDS]) {
         let [r0, r1, r2] = &place.rows;
         let model = place.load.model(&place.pace(near), walls);
         let [g0, g1, g2] = model.slope;
@@ -282,7 +282,7 @@ impl Block {
     }
 }
 
-impl barrier::Problem<1> for Part {
+impl barrier::Problem<1> for Window {
     /// The duration, s.
     fn objective(&self, control: &[[f64; 1]]) -> f64 {
         self.nodes.iter().map(|n| n.weight / dot(&n.row, &control[n.first - self.near.start..]).sqrt()).sum()
@@ -344,7 +344,7 @@ impl barrier::Problem<1> for Part {
     }
 }
 
-impl Place {
+impl LimitPlace {
     fn pace(&self, near: &[[f64; 1]]) -> Pace {
         [dot(&self.rows[0], near), dot(&self.rows[1], near), dot(&self.rows[2], near)]
     }

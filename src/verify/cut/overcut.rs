@@ -66,7 +66,7 @@ impl Overcuts {
 }
 
 /// A stroke on its line.
-pub(in crate::verify) struct Stroke<'a> {
+pub(in crate::verify) struct Ends<'a> {
     pub(in crate::verify) cut: &'a Cut,
     pub(in crate::verify) feet: &'a [Foot],
     /// The places that are held to the line.
@@ -116,7 +116,7 @@ impl<'a> Overcut<'a> {
     /// Judges what a stroke cuts beyond the ends of its line.
     pub(in crate::verify) fn see(
         &self,
-        stroke: &Stroke,
+        stroke: &Ends,
         lines: Lines,
         seen: &impl Fn(usize) -> Sighting,
         overcuts: &mut Overcuts,
@@ -204,7 +204,7 @@ impl<'a> Overcut<'a> {
 
     /// What a blade that does not move must cut of its own part and, even if it may cut that, of others, mm: what it is
     /// longer by than its cut and the room at both ends.
-    fn unavoidable(&self, stroke: &Stroke, lines: Lines) -> [f64; 2] {
+    fn unavoidable(&self, stroke: &Ends, lines: Lines) -> [f64; 2] {
         let Some([from, to]) = stroke.fits else { return [0.0; 2] };
         // Behind a slight bend a blade stays in the tolerance band for a while, so that it may have been meant to end
         // at either.
@@ -282,7 +282,7 @@ pub(in crate::verify) fn innermost([from, to]: [[f64; 2]; 2]) -> [f64; 2] {
     if from[1] < to[0] { [from[1], to[0]] } else { [from[0], to[1]] }
 }
 
-impl Stroke<'_> {
+impl Ends<'_> {
     /// The outermost joints between which it is a plunge cut that fits what was left of its line, and the direction
     /// from the one to the other.
     fn joints(&self) -> Option<([Point; 2], Vector)> {

@@ -485,7 +485,7 @@ impl<'a> Judge<'a> {
         let Trial { feet, held, fits, hull, .. } = trial;
         let is_known = |ends: &[[f64; 2]; 2]| ends.iter().flatten().all(|station| station.is_finite());
         let fits = fits.map(|ends| if is_known(&ends) { ends } else { hull.map(|station| [station; 2]) });
-        let stroke = overcut::Stroke { cut, feet, held, line: &self.reference.lines[trial.line], fits };
+        let stroke = overcut::Ends { cut, feet, held, line: &self.reference.lines[trial.line], fits };
         self.overcut.see(&stroke, Lines { reference: self.reference, grid: self.tracer.grid }, seen, overcuts);
     }
 

@@ -7,11 +7,11 @@ use rayon::prelude::*;
 use super::caps::{BothWays, Feeds};
 use super::line::{Exceptions, Line};
 use super::nibbled::{self, Blade};
-use super::outline::{Outline, Place};
+use super::outline::{OfContour, Outline};
 use super::vertex::Vertex;
 use super::{notches, tight};
 use crate::ir::Marker;
-use crate::ir::marker::Stroke;
+use crate::ir::marker::NotchStroke;
 use crate::machine::{Follow, MachineProfile, TightCurves};
 
 /// All lines of a marker.
@@ -80,7 +80,7 @@ impl<'a> OfPiece<'a> {
         let slits = slits.iter().map(|(stroke, percent)| slit(stroke, [index, rank()].map(small), feeds.at(*percent)));
         let mut lines: Vec<Line> = slits.collect();
         for outline in outlines {
-            let place = Place { owner: [index, rank()].map(small), feeds, profile };
+            let place = OfContour { owner: [index, rank()].map(small), feeds, profile };
             lines.extend(outline.lines(place));
         }
         let blade = Blade { knife: &profile.knife, tolerance: profile.tolerance(marker.unit) };
@@ -112,7 +112,7 @@ fn find_exceptions(line: &mut Line, blade: Blade) {
 }
 
 /// The line of a slit, `cap` mm/s being the greatest speed of the tip.
-fn slit<'a>(stroke: &Stroke, owner: [u32; 2], cap: f64) -> Line<'a> {
+fn slit<'a>(stroke: &NotchStroke, owner: [u32; 2], cap: f64) -> Line<'a> {
     let from = Vertex { station: 0.0, sagitta: 0.0, block: stroke.span.block };
     let to = Vertex { station: stroke.length(), ..from };
     let points = Cow::Owned(vec![stroke.from, stroke.to]);

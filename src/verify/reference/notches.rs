@@ -4,12 +4,16 @@ use std::collections::BTreeMap;
 
 use crate::geom::bits;
 use crate::ir::list::Segment;
-use crate::ir::marker::{NotchKind, OutlineNotch, Piece, Stroke};
+use crate::ir::marker::{NotchKind, NotchStroke, OutlineNotch, Piece};
 use crate::machine::{NotchStyle, Notches};
 
 /// The slits of a piece, each with its speed in percent: those that are drawn, with their crossbars, and those that
 /// outlines no longer have.
-pub(in crate::verify) fn slits(piece: &Piece, notches: Notches, replaced: &[(OutlineNotch, u8)]) -> Vec<(Stroke, u8)> {
+pub(in crate::verify) fn slits(
+    piece: &Piece,
+    notches: Notches,
+    replaced: &[(OutlineNotch, u8)],
+) -> Vec<(NotchStroke, u8)> {
     let mut slits = Vec::new();
     if notches.style == NotchStyle::Skip {
         return slits;
@@ -17,9 +21,9 @@ pub(in crate::verify) fn slits(piece: &Piece, notches: Notches, replaced: &[(Out
     for notch in &piece.notches {
         let deeper = notches.depth_mm.map_or(0.0, |depth| depth - notch.depth());
         let deeper = (notch.tip - notch.root).normalize() * deeper;
-        slits.push((Stroke { from: notch.root, to: notch.tip + deeper, span: notch.span }, notch.percent));
+        slits.push((NotchStroke { from: notch.root, to: notch.tip + deeper, span: notch.span }, notch.percent));
         if let (NotchKind::T(bar), NotchStyle::AsDrawn) = (notch.kind, notches.style) {
-            slits.push((Stroke { from: bar.from + deeper, to: bar.to + deeper, span: bar.span }, notch.percent));
+            slits.push((NotchStroke { from: bar.from + deeper, to: bar.to + deeper, span: bar.span }, notch.percent));
         }
     }
     for (notch, percent) in replaced {
@@ -28,7 +32,7 @@ pub(in crate::verify) fn slits(piece: &Piece, notches: Notches, replaced: &[(Out
         let drawn = notch.tip - root;
         let depth = notches.depth_mm.unwrap_or_else(|| drawn.norm());
         let inward = drawn.normalize() * if notch.outwards { -depth } else { depth };
-        slits.push((Stroke { from: root, to: root + inward, span: notch.span }, *percent));
+        slits.push((NotchStroke { from: root, to: root + inward, span: notch.span }, *percent));
     }
     slits
 }

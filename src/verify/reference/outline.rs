@@ -26,7 +26,7 @@ const TURN_EPSILON: f64 = 1e-6;
 
 /// What the lines of a contour have in common.
 #[derive(Clone, Copy)]
-pub(in crate::verify) struct Place<'a> {
+pub(in crate::verify) struct OfContour<'a> {
     /// Index of its piece, and its rank.
     pub(in crate::verify) owner: [u32; 2],
     /// How fast the tip may be in its piece.
@@ -70,7 +70,7 @@ impl<'a> Outline<'a> {
     }
 
     /// Its lines, which end at its corners.
-    pub(in crate::verify) fn lines(mut self, place: Place) -> Vec<Line<'a>> {
+    pub(in crate::verify) fn lines(mut self, place: OfContour) -> Vec<Line<'a>> {
         let limit = place.profile.corner.angle();
         let is_corner = |(segment, turn): (&Segment, &f64)| segment.joint.lift || turn.abs() > limit;
         let at = self.segments.iter().zip(&self.turns).map(is_corner);
@@ -103,8 +103,8 @@ impl<'a> Outline<'a> {
     }
 
     /// The line of the segments from one up to another; `ends` are how it starts and how it ends.
-    fn line(&self, [from, to]: [usize; 2], ring: bool, ends: [End; 2], place: Place) -> Line<'a> {
-        let Place { owner, feeds, profile } = place;
+    fn line(&self, [from, to]: [usize; 2], ring: bool, ends: [End; 2], place: OfContour) -> Line<'a> {
+        let OfContour { owner, feeds, profile } = place;
         let chords = &self.segments[from..to];
         let turn_at = |k: usize| match (k == 0 || k == chords.len(), ring) {
             (true, false) => 0.0,

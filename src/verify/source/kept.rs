@@ -33,7 +33,7 @@ pub struct Works {
     pieces: Vec<(Name, usize)>,
     /// Where the knife or a drill comes to, in cut order: one line behind the other. In one block of memory, which is given
     /// back as a whole.
-    places: Vec<Place>,
+    places: Vec<KeptPlace>,
 }
 
 /// A piece by its number and the byte at which it starts: numbers may come again.
@@ -42,7 +42,7 @@ type Name = (u32, u32);
 type Ends = [[u64; 2]; 2];
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Place {
+struct KeptPlace {
     at: Point,
     /// The block that cuts from the place before to this one, or that drills here when both are the same; [`NO_BLOCK`]
     /// where a line begins.
@@ -51,13 +51,13 @@ struct Place {
 
 /// A cut from one place to another; a hole goes from its place to the same.
 #[derive(Debug, Clone, Copy)]
-struct Stroke {
+struct KnifeStroke {
     from: Point,
     to: Point,
     block: u32,
 }
 
-impl Stroke {
+impl KnifeStroke {
     fn ends(&self) -> Ends {
         let mut ends = [bits(self.from), bits(self.to)];
         ends.sort_unstable();
@@ -87,59 +87,60 @@ impl Stroke {
 }
 
 /// Adds the places of a piece.
-fn add_places(piece: &Piece, marker: &Marker, places: &mut Vec<Place>) {
+fn add_places(piece: &Piece, marker: &Marker, places: &mut Vec<KeptPlace>) {
     let first = places.len();
-    let begin = |places: &mut Vec<Place>, at: Point| {
+    let begin = |places: &mut Vec<KeptPlace>, at: Point| {
         if places[first..].last().is_none_or(|last| last.at != at) {
-            places.push(Place { at, block: NO_BLOCK });
+            places.push(KeptPlace { at, block: NO_BLOCK });
         }
     };
-    let mut add = |Stroke { from, to, block }: Stroke| {
+    let mut add = |KnifeStroke { from, to, block }: KnifeStroke| {
         begin(places, from);
-        places.push(Place { at: to, block });
+        places.push(KeptPlace { at: to, block });
     };
     for drill in &piece.drills {
-        add(Stroke { from: drill.at, to: drill.at, block: drill.span.block });
+        add(KnifeStroke { from: drill.at, to: drill.at, block: drill.span.block });
     }
     // What has no length cuts nothing, here and below.
     for stroke in piece.notches.iter().flat_map(Notch::strokes).filter(|stroke| stroke.from != stroke.to) {
-        add(Stroke { from: stroke.from, to: stroke.to, block: stroke.span.block });
+        add(KnifeStroke { from: stroke.from, to: stroke.to, block: stroke.span.block });
     }
     for contour in &piece.contours {
         let (points, spans) = (marker.list.points(contour.range), marker.list.spans(contour.range));
         begin(places, points[0]);
         let ways = points.windows(2).zip(spans.iter()).filter(|(ends, _)| ends[0] != ends[1]);
-        places.extend(ways.map(|(ends, span)| Place { at: ends[1], block: span.block }));
+        places.extend(ways.map(|(ends, span)| KeptPlace { at: ends[1], block: span.block }));
     }
 }
 
 /// What a block of the file cuts or drills: what has none is from no file.
-fn strokes(places: &[Place]) -> impl Iterator<Item = Stroke> {
-    let all = places.windows(2).map(|w| Stroke { from: w[0].at, to: w[1].at, block: w[1].block });
+fn strokes(places: &[KeptPlace]) -> impl Iterator<Item = KnifeStroke> {
+    let all = places.windows(2).map(|w| KnifeStroke { from: w[0].at, to: w[1].at, block: w[1].block });
     all.filter(|stroke| stroke.block != NO_BLOCK)
 }
 
 /// What is done in the places of a piece and no more in those of the piece as it is cut.
-fn lost(read: &[Place], cut: &[Place], reach: f64) -> Vec<Stroke> {
+fn lost(read: &[KeptPlace], cut: &[KeptPlace], reach: f64) -> Vec<KnifeStroke> {
     if read == cut {
         return Vec::new(); // as of nearly all
     }
     let mut blocks: Vec<u32> = strokes(cut).map(|stroke| stroke.block).collect();
     blocks.sort_unstable();
-    let mut lost: Vec<Stroke> = strokes(read).filter(|stroke| blocks.binary_search(&stroke.block).is_err()).collect();
+    let mut lost: Vec<KnifeStroke> =
+        strokes(read).filter(|stroke| blocks.binary_search(&stroke.block).is_err()).collect();
     if lost.is_empty() {
         return lost;
     }
     let mut ends: Vec<Ends> = strokes(cut).map(|stroke| stroke.ends()).collect();
     ends.sort_unstable();
     lost.retain(|stroke| stroke.is_hole() || ends.binary_search(&stroke.ends()).is_err());
-    let still: Vec<Stroke> = if lost.is_empty() { Vec::new() } else { strokes(cut).collect() };
+    let still: Vec<KnifeStroke> = if lost.is_empty() { Vec::new() } else { strokes(cut).collect() };
     // Out and straight back in a row, to the bit.
     let mut back_and_forth: Vec<Ends> = Vec::new();
     let ways = read.windows(3).filter(|w| bits(w[0].at) == bits(w[2].at) && w[1].block != NO_BLOCK);
-    back_and_forth.extend(ways.map(|w| Stroke { from: w[0].at, to: w[1].at, block: w[1].block }.ends()));
+    back_and_forth.extend(ways.map(|w| KnifeStroke { from: w[0].at, to: w[1].at, block: w[1].block }.ends()));
     back_and_forth.sort_unstable();
-    let is_twice = |stroke: &Stroke| back_and_forth.binary_search(&stroke.ends()).is_ok();
+    let is_twice = |stroke: &KnifeStroke| back_and_forth.binary_search(&stroke.ends()).is_ok();
     lost.retain(|stroke| {
         let is_step = stroke.length() < SHORTEST_STEP && is_twice(stroke);
         stroke.is_hole() || !stroke.is_near(&still, if is_step { SHORTEST_STEP } else { reach })
@@ -165,7 +166,7 @@ impl Works {
     }
 
     /// Each piece with its places.
-    fn each(&self) -> impl Iterator<Item = (Name, &[Place])> {
+    fn each(&self) -> impl Iterator<Item = (Name, &[KeptPlace])> {
         let starts = std::iter::once(0).chain(self.pieces.iter().map(|(_, end)| *end));
         self.pieces.iter().zip(starts).map(|(&(name, end), start)| (name, &self.places[start..end]))
     }
@@ -177,14 +178,14 @@ impl Works {
         let reach = profile.notch.box_max_mm / 2.0 + rounding;
         let mut cut: Vec<&Piece> = marker.pieces.iter().collect();
         cut.sort_by_key(|piece| name(piece));
-        let lost_of = |(of, read): (Name, &[Place])| {
+        let lost_of = |(of, read): (Name, &[KeptPlace])| {
             let Ok(place) = cut.binary_search_by_key(&of, |piece| name(piece)) else { return Vec::new() };
             let mut places = Vec::with_capacity(read.len());
             add_places(cut[place], marker, &mut places);
             lost(read, &places, reach)
         };
-        let read: Vec<(Name, &[Place])> = self.each().collect();
-        let lost: Vec<Vec<Stroke>> = read.into_par_iter().map(lost_of).collect();
+        let read: Vec<(Name, &[KeptPlace])> = self.each().collect();
+        let lost: Vec<Vec<KnifeStroke>> = read.into_par_iter().map(lost_of).collect();
         let mut worst = Worst::new("source/kept", "blocks", Some(0.0));
         for (lost, count) in lost.into_iter().flatten().zip(1..) {
             worst.see(f64::from(count), || Sighting { time: None, point: lost.to, block: lost.block });

@@ -53,7 +53,7 @@ struct Scan<'a> {
     census: Census,
     slack: Slack,
     /// What is being cut, while the knife is down.
-    stroke: Option<Stroke>,
+    stroke: Option<Drawn>,
     at: Point,
     /// Whether the knife was led here in the air, and nothing was drilled here yet.
     fresh: bool,
@@ -74,7 +74,7 @@ impl Scan<'_> {
                 "M20" => self.blocks.skip_text(),
                 "M31" => is_label = true,
                 name if !self.profile.obeys(name) => {}
-                "M14" | "B" => self.stroke = self.stroke.take().or_else(|| Some(Stroke::new(self.at))),
+                "M14" | "B" => self.stroke = self.stroke.take().or_else(|| Some(Drawn::new(self.at))),
                 "M15" | "A" => self.up(),
                 "G0" | "G1" => self.way = STRAIGHT,
                 "G2" => (self.way, turns) = (CLOCKWISE, true),
@@ -208,14 +208,14 @@ fn is_known(block: Option<&Block>) -> bool {
 }
 
 /// What the knife does between going down and up.
-struct Stroke {
+struct Drawn {
     at: Point,
     points: usize,
     length: f64,
     bounds: Extent,
 }
 
-impl Stroke {
+impl Drawn {
     fn new(at: Point) -> Self {
         let mut bounds = Extent::EMPTY;
         bounds.add(at);

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use cutc::geom::{Heading, Point, Vector};
 use cutc::ir::list::{FULL_SPEED, Joint, Segment};
 use cutc::ir::marker::{
-    Contour, Drill, Event, Label, Marker, Notch, NotchForm, NotchKind, OutlineNotch, Piece, Stroke,
+    Contour, Drill, Event, Label, Marker, Notch, NotchForm, NotchKind, NotchStroke, OutlineNotch, Piece,
 };
 use cutc::ir::toolpath;
 use cutc::source::Span;
@@ -215,8 +215,9 @@ impl Part {
         contour(&self.outline.iter().map(|vertex| (vertex.at, vertex.lift)).collect::<Vec<_>>());
         for Vertex { at, slit, .. } in &self.outline {
             let Some(Slit { tip, bar, .. }) = *slit else { continue };
-            let kind = bar
-                .map_or(NotchKind::Slit, |[from, to]| NotchKind::T(Stroke { from: point(from), to: point(to), span }));
+            let kind = bar.map_or(NotchKind::Slit, |[from, to]| {
+                NotchKind::T(NotchStroke { from: point(from), to: point(to), span })
+            });
             piece.notches.push(Notch { kind, root: point(*at), tip: point(tip), percent, span });
         }
         piece.outline_notches = (self.vees.iter())

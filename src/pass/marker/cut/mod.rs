@@ -13,7 +13,7 @@ use crate::analysis::nesting::Nesting;
 use crate::diagnostic::Diagnostics;
 use crate::geom::ring;
 use crate::ir::list::{Joint, Range, Segment, SegmentList};
-use crate::ir::marker::{Cut, CutKind, Marker, Notch, OutlineNotch, Piece, Stroke};
+use crate::ir::marker::{Cut, CutKind, Marker, Notch, NotchStroke, OutlineNotch, Piece};
 use crate::machine::{Job, NotchStyle, Notches};
 
 pub(super) const PASS: MarkerPass =
@@ -38,7 +38,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
 
 /// A cut of a notch: a stroke, and its speed in percent of the speed of its piece.
 struct Slit {
-    stroke: Stroke,
+    stroke: NotchStroke,
     percent: u8,
 }
 
@@ -95,7 +95,7 @@ impl Cutting<'_> {
     }
 
     fn slit(&mut self, Slit { stroke, percent }: &Slit) {
-        let Stroke { from, to, span } = *stroke;
+        let NotchStroke { from, to, span } = *stroke;
         let range = self.list.append([Segment { from, to, span, joint: BARE, percent: *percent }]);
         let part = self.nesting.part_of(self.piece);
         self.push(CutKind::Slit, range.expect("it has a segment"), [part; 2]);

@@ -10,7 +10,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::bits;
 use crate::ir::Marker;
 use crate::ir::list::Segment;
-use crate::ir::marker::{Notch, NotchKind, OutlineNotch, Stroke};
+use crate::ir::marker::{Notch, NotchKind, NotchStroke, OutlineNotch};
 use crate::machine::{NotchStyle, Notches};
 use crate::units::number::fixed;
 
@@ -19,7 +19,7 @@ const STEP: f64 = 0.25;
 const INSIDE: f64 = 0.05;
 
 /// The cuts of a notch that is drawn as a slit.
-pub(super) fn strokes(notch: &Notch, notches: Notches) -> impl Iterator<Item = Stroke> + use<> {
+pub(super) fn strokes(notch: &Notch, notches: Notches) -> impl Iterator<Item = NotchStroke> + use<> {
     let notch = deepened(notch, notches.depth_mm);
     let count = match notches.style {
         NotchStyle::AsDrawn => usize::MAX,
@@ -33,7 +33,7 @@ pub(super) fn strokes(notch: &Notch, notches: Notches) -> impl Iterator<Item = S
 pub(super) fn check_depths(marker: &Marker, cloth: &Cloth, notches: Notches, diagnostics: &mut Diagnostics) {
     let Some(depth) = notches.depth_mm else { return };
     for (index, piece) in marker.pieces.iter().enumerate() {
-        let slits = piece.notches.iter().map(|notch| Stroke { from: notch.root, to: notch.tip, span: notch.span });
+        let slits = piece.notches.iter().map(|notch| NotchStroke { from: notch.root, to: notch.tip, span: notch.span });
         let drawn = piece.outline_notches.iter().filter(|_| notches.style == NotchStyle::Slit);
         let drawn = drawn.map(|notch| slit(notch, Notches { depth_mm: None, ..notches }));
         for drawn in slits.chain(drawn).filter(|drawn| drawn.length() < depth) {
@@ -59,16 +59,16 @@ fn deepened(notch: &Notch, depth: Option<f64>) -> Notch {
     let shift = tip - notch.tip;
     let kind = match notch.kind {
         NotchKind::Slit => NotchKind::Slit,
-        NotchKind::T(bar) => NotchKind::T(Stroke { from: bar.from + shift, to: bar.to + shift, ..bar }),
+        NotchKind::T(bar) => NotchKind::T(NotchStroke { from: bar.from + shift, to: bar.to + shift, ..bar }),
     };
     Notch { kind, tip, ..*notch }
 }
 
 /// The slit that a notch of an outline becomes: from the middle of its mouth into the part, also where the notch stands
 /// out.
-pub(super) fn slit(notch: &OutlineNotch, notches: Notches) -> Stroke {
+pub(super) fn slit(notch: &OutlineNotch, notches: Notches) -> NotchStroke {
     let depth = notches.depth_mm.unwrap_or(notch.depth());
-    Stroke { from: notch.root(), to: notch.root() + notch.inwards() * depth, span: notch.span }
+    NotchStroke { from: notch.root(), to: notch.root() + notch.inwards() * depth, span: notch.span }
 }
 
 /// Leads an outline straight over the mouths of its notches: these, in the order of the outline, each with the least speed
