@@ -53,10 +53,10 @@ impl Findings {
 }
 
 /// A report with its machine and the findings as one JSON object; without a report all its keys are null.
-pub(super) fn json(report: Option<&Report>, diagnostics: &Diagnostics, of: (&Source, &Job)) -> String {
+pub(super) fn json(report: Option<&Report>, diagnostics: &Diagnostics, source: &Source, job: &Job) -> String {
     match report {
-        Some(report) => json_of(report, diagnostics, of),
-        None => json_of(nothing(&Report::of(&Marker::default(), "")), diagnostics, of),
+        Some(report) => json_of(report, diagnostics, source, job),
+        None => json_of(nothing(&Report::of(&Marker::default(), "")), diagnostics, source, job),
     }
 }
 
@@ -65,7 +65,8 @@ pub(super) fn json_of_file(
     file: &Path,
     report: Option<&Report>,
     diagnostics: &Diagnostics,
-    (source, job): (&Source, &Job),
+    source: &Source,
+    job: &Job,
 ) -> String {
     #[derive(Serialize)]
     struct OfFile<T: Serialize> {
@@ -80,7 +81,7 @@ pub(super) fn json_of_file(
 }
 
 /// Any figures with the findings as one JSON object.
-pub(super) fn json_of(figures: impl Serialize, diagnostics: &Diagnostics, (source, job): (&Source, &Job)) -> String {
+pub(super) fn json_of(figures: impl Serialize, diagnostics: &Diagnostics, source: &Source, job: &Job) -> String {
     pretty(&Figures { setup: Setup::of(job), report: figures, findings: Findings::of(diagnostics, source) })
 }
 
@@ -139,7 +140,7 @@ mod tests {
         found.push(Diagnostic::new(&code::SOURCE_EMPTY, "the file holds nothing"));
         let report = Report::of(&Marker::default(), "iso");
         for report in [Some(&report), None] {
-            let text = json(report, &found, (&source, &Job::default()));
+            let text = json(report, &found, &source, &Job::default());
             let value: serde_json::Value = serde_json::from_str(&text).expect("JSON");
             let mut keys: Vec<_> = value.as_object().expect("an object").keys().map(String::as_str).collect();
             let mut expected = KEYS;

@@ -65,7 +65,7 @@ pub fn render_with(diagnostics: &Diagnostics, source: &Source, detail: Detail) -
     let mut lines = source.lines();
     for group in &mut groups {
         let told = if most > 0 && group.code.severity == Severity::Error { most.max(MOST_TOLD) } else { most };
-        group.render(&mut out, (source, &mut lines), told);
+        group.render(&mut out, source, &mut lines, told);
     }
     if groups.iter().any(|group| group.count > most) {
         tally(&mut out, &groups);
@@ -83,7 +83,7 @@ struct Group<'a> {
 
 // Writing into a `String` cannot fail, so the results of `writeln!` are dropped throughout.
 impl Group<'_> {
-    fn render(&mut self, out: &mut String, (source, lines): (&Source, &mut Lines), most: usize) {
+    fn render(&mut self, out: &mut String, source: &Source, lines: &mut Lines, most: usize) {
         // Those that can be measured by how bad they are, the others as they stand in the file.
         self.findings.sort_by(|a, b| {
             let bad = |finding: &Diagnostic| (finding.by.unwrap_or(0.0) / ALIKE).round();
@@ -91,7 +91,7 @@ impl Group<'_> {
         });
         let told = &self.findings[..self.findings.len().min(most)];
         for (i, finding) in told.iter().enumerate() {
-            render_one(out, finding, (source, &mut *lines));
+            render_one(out, finding, source, &mut *lines);
             // What the next one says as well is said behind that.
             if told.get(i + 1).is_none_or(|next| next.hints != finding.hints) {
                 for hint in &finding.hints {
@@ -143,7 +143,7 @@ fn word(severity: Severity) -> &'static str {
     }
 }
 
-fn render_one(out: &mut String, diagnostic: &Diagnostic, (source, lines): (&Source, &mut Lines)) {
+fn render_one(out: &mut String, diagnostic: &Diagnostic, source: &Source, lines: &mut Lines) {
     let _ = writeln!(out, "{}[{}]: {}", word(diagnostic.code.severity), diagnostic.code.name, diagnostic.message);
     let mut place = on_cloth(diagnostic);
     if let Some(span) = diagnostic.span {

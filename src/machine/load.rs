@@ -155,7 +155,7 @@ impl Draft {
         let value = ValueDeserializer::parse(text).and_then(toml::Value::deserialize).ok();
         let value = match value.map(|value| measured::plain(key, value)).transpose() {
             Ok(value) => value,
-            Err(wrong) => return self.mismeasured(&name, origin, (text, key, &wrong)),
+            Err(wrong) => return self.mismeasured(&name, origin, text, key, &wrong),
         };
         if let Some(flaw) = value.as_ref().and_then(|value| flaw_of_steps(key, value)) {
             let fault = Diagnostic::new(&code::PROFILE_RANGE, format!("`{name}` has {}", flaw.has));
@@ -182,7 +182,7 @@ impl Draft {
     }
 
     /// A number with a unit that is none of the key's.
-    fn mismeasured(&mut self, name: &str, origin: Origin, (text, key, wrong): (&str, &Key, &Mismeasured)) {
+    fn mismeasured(&mut self, name: &str, origin: Origin, text: &str, key: &Key, wrong: &Mismeasured) {
         let measures =
             wrong.measures.map_or_else(|| ", whose unit is not known".to_owned(), |what| format!(", {what}"));
         let message = format!("`{name}` must be {}, but is {}{measures}", key.expects(), shortened(text));

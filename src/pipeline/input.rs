@@ -51,7 +51,7 @@ pub fn read(
     diagnostics: &mut Diagnostics,
 ) -> Option<Input> {
     let mut input = read_alone(source, from, job, diagnostics)?;
-    run_passes(marker_passes()[0], &mut input.marker, (source, job), diagnostics);
+    run_passes(marker_passes()[0], &mut input.marker, source, job, diagnostics);
     Some(input)
 }
 
@@ -64,7 +64,7 @@ pub fn read_to_judge(
 ) -> Option<Judged> {
     let mut input = read_alone(source, from, job, diagnostics)?;
     let (census, works) = rayon::join(|| Census::of(&input.marker), || Works::of(&input.marker));
-    run_passes(marker_passes()[0], &mut input.marker, (source, job), diagnostics);
+    run_passes(marker_passes()[0], &mut input.marker, source, job, diagnostics);
     let kept = works.kept(&input.marker, &job.profile);
     Some(Judged { input, reading: Reading { census, kept } })
 }
@@ -85,7 +85,7 @@ pub(super) fn read_alone(
         let finding = Diagnostic::new(&code::SOURCE_NO_PLOT, message);
         diagnostics.push(finding.hint("leave them out; `--pieces` and `--skip` choose pieces of any file"));
     }
-    place::place(diagnostics, 0, (&marker, source, job));
+    place::place(diagnostics, 0, &marker, source, job);
     Some(Input { dialect, marker, is_whole: !diagnostics.has_errors() })
 }
 
@@ -109,14 +109,15 @@ fn marker_passes() -> [&'static [MarkerPass]; 2] {
 
 /// Makes the cuts of what was read.
 pub(super) fn make_cuts(input: &mut Input, source: &Source, job: &Job, diagnostics: &mut Diagnostics) {
-    run_passes(marker_passes()[1], &mut input.marker, (source, job), diagnostics);
+    run_passes(marker_passes()[1], &mut input.marker, source, job, diagnostics);
 }
 
 /// Runs marker passes. What they find is placed before a pass can take it away.
 pub(super) fn run_passes(
     passes: &[MarkerPass],
     marker: &mut Marker,
-    (source, job): (&Source, &Job),
+    source: &Source,
+    job: &Job,
     diagnostics: &mut Diagnostics,
 ) {
     for pass in passes {
@@ -125,7 +126,7 @@ pub(super) fn run_passes(
         }
         let known = diagnostics.iter().len();
         (pass.run)(marker, job, diagnostics);
-        place::place(diagnostics, known, (marker, source, job));
+        place::place(diagnostics, known, marker, source, job);
         assert_sound(pass.name, || check::marker(marker));
     }
 }

@@ -63,8 +63,8 @@ pub fn judge_program(
         return Ok(None);
     }
     let Judged { input, reading } = judged;
-    let audit = audited(source, (input.dialect, reading), job);
-    judge(source, (&input.marker, None, &audit), job, program).map(Some)
+    let audit = audited(source, input.dialect, reading, job);
+    judge(source, &input.marker, None, &audit, job, program).map(Some)
 }
 
 /// Why a file is no program that can be judged, by how it begins, and what to do about it; `None` when it is one.
@@ -80,7 +80,9 @@ pub fn foreign(file: &mut dyn Medium) -> io::Result<Option<[String; 2]>> {
 /// stroke is one too many, and the rules on how something is cut say nothing.
 pub(super) fn judge(
     source: &Source,
-    (marker, ground, audit): (&Marker, Option<&Ground>, &[Finding]),
+    marker: &Marker,
+    ground: Option<&Ground>,
+    audit: &[Finding],
     job: &Job,
     program: &mut dyn Medium,
 ) -> io::Result<Verdict> {
@@ -112,7 +114,7 @@ pub(super) fn judge(
 }
 
 /// What was read of the source against its bytes, and what the passes kept of that.
-pub(super) fn audited(source: &Source, (dialect, reading): (&Dialect, Reading), job: &Job) -> Vec<Finding> {
+pub(super) fn audited(source: &Source, dialect: &Dialect, reading: Reading, job: &Job) -> Vec<Finding> {
     let Reading { census, kept } = reading;
     let audit = verify::source_audit(dialect.name, source.bytes(), &census, &job.profile);
     audit.into_iter().flatten().chain([kept]).collect()
@@ -148,7 +150,7 @@ pub(super) fn both(first: Verdict, second: Verdict) -> Verdict {
 }
 
 /// A diagnostic for each rule that does not hold.
-pub(super) fn report(verdict: &Verdict, (marker, job): (&Marker, &Job), diagnostics: &mut Diagnostics) {
+pub(super) fn report(verdict: &Verdict, marker: &Marker, job: &Job, diagnostics: &mut Diagnostics) {
     for finding in verdict.broken() {
         let (worst, limit) = figures(finding);
         let unit = finding.unit;

@@ -118,7 +118,7 @@ pub fn compile_all(
     let written = rayon::in_place_scope(|scope| {
         // The source is looked at beside all that is done with what was read of it.
         scope.spawn(|_| {
-            let audited = |reading| judge::audited(source, (input.dialect, reading), job);
+            let audited = |reading| judge::audited(source, input.dialect, reading, job);
             audit.extend(reading.into_iter().flat_map(audited));
         });
         write(&context, products, proofs.beside.then_some(&mut scratch), diagnostics)
@@ -131,9 +131,9 @@ pub fn compile_all(
         verdict = proofs.judge(&context, &audit, products, &mut scratch)?;
     }
     if let Some(verdict) = &verdict {
-        judge::report(verdict, (&input.marker, job), diagnostics);
+        judge::report(verdict, &input.marker, job, diagnostics);
     }
-    place::place(diagnostics, known, (&input.marker, source, job));
+    place::place(diagnostics, known, &input.marker, source, job);
     finish(&context, products, verdict.as_ref(), diagnostics)?;
     Ok((!diagnostics.has_errors()).then_some(Compiled { report, verdict }))
 }
@@ -154,7 +154,7 @@ fn write(
         Written::default()
     } else {
         let toolpaths = Toolpaths::new(context.marker, context.job);
-        program::write(toolpaths, &mut sinks, (context, false), diagnostics)?
+        program::write(toolpaths, &mut sinks, context, false, diagnostics)?
     };
     drop(sinks);
     for Product { target, out, .. } in products {
@@ -221,7 +221,7 @@ impl Proofs {
         let scratch: Option<&mut dyn Medium> = if self.beside { Some(scratch) } else { None };
         let mut verdict: Option<Verdict> = None;
         for program in programs.chain(scratch) {
-            let next = judge::judge(source, (marker, ground.as_ref(), audit), job, program)?;
+            let next = judge::judge(source, marker, ground.as_ref(), audit, job, program)?;
             verdict = Some(match verdict {
                 Some(verdict) => judge::both(verdict, next),
                 None => next,
@@ -241,8 +241,8 @@ pub fn estimate(input: &mut Input, source: &Source, job: &Job, diagnostics: &mut
     let toolpaths = Toolpaths::new(&input.marker, job);
     let context = Context { job, marker: &input.marker, source };
     let known = diagnostics.iter().len();
-    let written = program::write(toolpaths, &mut [], (&context, true), diagnostics)?;
-    place::place(diagnostics, known, (&input.marker, source, job));
+    let written = program::write(toolpaths, &mut [], &context, true, diagnostics)?;
+    place::place(diagnostics, known, &input.marker, source, job);
     Ok(written.program)
 }
 
@@ -257,7 +257,7 @@ pub fn dump(
     let mut input = read_alone(source, from, job, diagnostics)?;
     let last = MARKER_PASSES.iter().position(|marker_pass| marker_pass.name == pass);
     let passes = &MARKER_PASSES[..last.map_or(MARKER_PASSES.len(), |last| last + 1)];
-    run_passes(passes, &mut input.marker, (source, job), diagnostics);
+    run_passes(passes, &mut input.marker, source, job, diagnostics);
     if diagnostics.has_errors() {
         return None;
     }

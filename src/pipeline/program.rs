@@ -106,7 +106,8 @@ impl Wanted<'_> {
 pub(super) fn write(
     mut toolpaths: Toolpaths,
     sinks: &mut [Sink],
-    (context, motion): (&Context, bool),
+    context: &Context,
+    motion: bool,
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Written> {
     let job = context.job;

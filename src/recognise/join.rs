@@ -57,10 +57,10 @@ pub(super) fn join(drawing: &mut Drawing, job: &Job) -> (Vec<Line>, Moved) {
         let stroke = if links[2 * i].is_none() && links[2 * i + 1].is_none() {
             strokes[i]
         } else {
-            joining.chain(&strokes, (&links, start(i, &links)), &mut taken)
+            joining.chain(&strokes, &links, start(i, &links), &mut taken)
         };
         let usage = uses.get(usize::from(stroke.pen)).copied().unwrap_or(Use::Ignore);
-        lines.push(Line::of(&joining.drawing.vertices[stroke.range()], (stroke.first, usage)));
+        lines.push(Line::of(&joining.drawing.vertices[stroke.range()], stroke.first, usage));
     }
     (lines, joining.moved)
 }
@@ -181,7 +181,7 @@ impl Joining<'_> {
     }
 
     /// Puts the strokes of a chain together in one, from an end on.
-    fn chain(&mut self, strokes: &[PenStroke], (links, start): (&[Option<End>], End), taken: &mut [bool]) -> PenStroke {
+    fn chain(&mut self, strokes: &[PenStroke], links: &[Option<End>], start: End, taken: &mut [bool]) -> PenStroke {
         let first = self.drawing.vertices.len();
         let mut at = start;
         loop {

@@ -31,7 +31,7 @@ pub(super) fn mark(lines: &mut [Line], vertices: &[Vertex], work: &mut Budget) {
         if work.is_spent() {
             return;
         }
-        let row = row(first, lines, (&mut cells, work));
+        let row = row(first, lines, &mut cells, work);
         let is_shaped = |&i: &usize| !is_straight(lines[i].vertices(vertices));
         let is_text = row.len() >= ROW && row.iter().any(|&i| !lines[i].is_closed) && row.iter().any(is_shaped);
         row.into_iter().filter(|_| is_text).for_each(|i| lines[i].class = Class::Letter);
@@ -39,7 +39,7 @@ pub(super) fn mark(lines: &mut [Line], vertices: &[Vertex], work: &mut Budget) {
 }
 
 /// The lines that stand in a row with one, itself included; they are taken out of the cells.
-fn row(first: usize, lines: &[Line], (cells, work): (&mut BTreeMap<[i64; 2], Vec<usize>>, &mut Budget)) -> Vec<usize> {
+fn row(first: usize, lines: &[Line], cells: &mut BTreeMap<[i64; 2], Vec<usize>>, work: &mut Budget) -> Vec<usize> {
     if !take(first, lines, cells) {
         return Vec::new();
     }

@@ -105,7 +105,7 @@ pub(super) struct Line {
 
 impl Line {
     /// Measures the line of some places.
-    pub(super) fn of(vertices: &[Vertex], (first, usage): (u32, Use)) -> Self {
+    pub(super) fn of(vertices: &[Vertex], first: u32, usage: Use) -> Self {
         let origin = vertices[0].at;
         let (mut length, mut doubled, mut extent) = (0.0, 0.0, Extent::EMPTY);
         extent.add(origin);

@@ -86,9 +86,9 @@ pub(super) fn on_outlines(search: Search, work: &mut Budget) -> Vec<Mark> {
         return Vec::new();
     }
     let slack = ROUNDING * unit;
-    meet(&mut candidates, search, (MOUTH + slack, work));
+    meet(&mut candidates, search, MOUTH + slack, work);
     let mut marks: Vec<Mark> =
-        candidates.iter().filter_map(|candidate| mark(candidate, search, (TOUCH + slack, work))).collect();
+        candidates.iter().filter_map(|candidate| mark(candidate, search, TOUCH + slack, work)).collect();
     // Of two legs both are cut or none is.
     let is_leg = |mark: &Mark| {
         lines[mark.line].end - lines[mark.line].first == 3 && !is_straight(lines[mark.line].vertices(vertices))
@@ -107,7 +107,7 @@ pub(super) fn on_outlines(search: Search, work: &mut Budget) -> Vec<Mark> {
 }
 
 /// Finds the outlines that the ends of candidates stand on.
-fn meet(candidates: &mut [Candidate], search: Search, (reach, work): (f64, &mut Budget)) {
+fn meet(candidates: &mut [Candidate], search: Search, reach: f64, work: &mut Budget) {
     let Search { lines, vertices, outlines, .. } = search;
     let ends: Vec<Extent> =
         candidates.iter().flat_map(|c| c.ends).map(|end| Extent::between(end, end).grown(reach)).collect();
@@ -154,7 +154,7 @@ fn note(on: &mut ArrayVec<(f64, usize), MEETING>, outline: usize, distance: f64)
 }
 
 /// The notch that a candidate is: of the outline that it starts on and leads into.
-fn mark(candidate: &Candidate, search: Search, (touch, work): (f64, &mut Budget)) -> Option<Mark> {
+fn mark(candidate: &Candidate, search: Search, touch: f64, work: &mut Budget) -> Option<Mark> {
     let Search { lines, vertices, .. } = search;
     let mut best: Option<(f64, Mark)> = None;
     for (from, to) in [(0, 1), (1, 0)] {
@@ -220,7 +220,7 @@ pub(super) fn from_edges(search: Search, work: &mut Budget) -> Vec<usize> {
     let mut candidates: Vec<Candidate> =
         long.map(|line| Candidate { line, leg: 0, ends: ends(line), on: [ArrayVec::new(), ArrayVec::new()] }).collect();
     if !candidates.is_empty() {
-        meet(&mut candidates, search, (TOUCH + ROUNDING * unit, work));
+        meet(&mut candidates, search, TOUCH + ROUNDING * unit, work);
     }
     let stands = |candidate: &&Candidate| candidate.on.iter().any(|on| !on.is_empty());
     candidates.iter().filter(stands).map(|candidate| candidate.line).collect()

@@ -186,7 +186,7 @@ impl<'a> Program<'a> {
                 self.text.extend_from_slice(if turn > 0.0 { b"G3" } else { b"G2" });
                 let away = centre - from.centre;
                 let speed = speed.min(self.pace.best_speed(piece.length, turn / piece.length));
-                self.plan(piece.to, (piece.length, turn, speed), Some(-away));
+                self.plan(piece.to, piece.length, turn, speed, Some(-away));
                 self.axes_of_cut(piece.to);
                 self.word(b'I', away.x);
                 self.word(b'J', away.y);
@@ -210,7 +210,7 @@ impl<'a> Program<'a> {
                     let speed = fastest.min(piece.feed * ratio);
                     self.number();
                     self.text.extend_from_slice(b"G1");
-                    self.plan(to, (length, 0.0, speed), None);
+                    self.plan(to, length, 0.0, speed, None);
                     self.axes_of_cut(to);
                     self.push_feed(speed, length);
                 }
@@ -219,7 +219,7 @@ impl<'a> Program<'a> {
     }
 
     /// Counts a move with the knife down: its length, turn and speed, and of an arc its start as seen from its centre.
-    fn plan(&mut self, to: Pose, (length, turn, speed): (f64, f64, f64), arm: Option<Vector>) {
+    fn plan(&mut self, to: Pose, length: f64, turn: f64, speed: f64, arm: Option<Vector>) {
         self.moves += 1;
         let way = to.centre - self.pose.centre;
         let along = arm.map_or(way, |arm| left(arm) * turn.signum()).try_normalize(0.0).unwrap_or_default();

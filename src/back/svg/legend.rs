@@ -19,12 +19,7 @@ const SCALE_PART: f64 = 0.2;
 
 /// Scale bar, caption, symbols and the table of findings, below the drawing; with the numbers of rules that have a limit
 /// and that only report.
-pub(super) fn layer(
-    sheet: &Sheet,
-    context: &Context,
-    found: &[Finding],
-    (limited, reported): (usize, usize),
-) -> String {
+pub(super) fn layer(sheet: &Sheet, context: &Context, found: &[Finding], limited: usize, reported: usize) -> String {
     let line = LINE_PX * sheet.px;
     let left = sheet.left + MARGIN_PX * sheet.px;
     let mut text = String::from("<g id=\"legend\" inkscape:groupmode=\"layer\" inkscape:label=\"legend\">\n");

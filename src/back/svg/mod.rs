@@ -60,7 +60,8 @@ fn tail(context: &Context, found: &[Finding], out: &mut dyn Output) -> io::Resul
         text.push_str(&sheet.refused());
     }
     text.push_str(&findings::layer(&shown, &sheet, &context.job.profile.knife));
-    text.push_str(&legend::layer(&sheet, context, &shown, finding::counts(found)));
+    let (limited, reported) = finding::counts(found);
+    text.push_str(&legend::layer(&sheet, context, &shown, limited, reported));
     text.push_str("</svg>\n");
     out.write_all(text.as_bytes())?;
     // The table of findings makes the sheet taller than the head could know.

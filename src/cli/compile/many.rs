@@ -262,7 +262,7 @@ impl Published {
             said.push_str(&one::refused(&source, &programs, &diagnostics));
         }
         let json =
-            (format == Format::Json).then(|| report::json_of_file(&input.path, report, &diagnostics, (&source, job)));
+            (format == Format::Json).then(|| report::json_of_file(&input.path, report, &diagnostics, &source, job));
         let row = Row {
             pieces: report.map(|report| report.pieces),
             cut_m: report.map(|report| report.cut_m),

@@ -79,7 +79,7 @@ fn told(compile: &Compile, arguments: &Arguments, ended: Ended) -> Finished {
         Err(error) => return Finished::text(String::new(), format!("{said}error: {error:#}\n{beside}"), USAGE),
     };
     let stdout = match arguments.format {
-        Format::Json => report::json(compiled.as_ref().map(|c| &c.report), &diagnostics, (compile.source, compile.job)),
+        Format::Json => report::json(compiled.as_ref().map(|c| &c.report), &diagnostics, compile.source, compile.job),
         Format::Text => String::new(),
     };
     match (&compiled, arguments.format) {

@@ -50,14 +50,14 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished
         Sheet::Text | Sheet::Csv => Format::Text,
     };
     let stdout = match (format, &known) {
-        (Format::Json, Some(known)) => report::json_of(known, &diagnostics, (&source, &job)),
+        (Format::Json, Some(known)) => report::json_of(known, &diagnostics, &source, &job),
         (Format::Json, None) => {
             let (nothing, report) = (Marker::default(), Report::of(&Marker::default(), ""));
             let mut blank = Known::of(report.clone(), Facts::of(&nothing), arguments.figures(None, &report));
             blank.price(arguments);
-            report::json_of(report::nothing(&blank), &diagnostics, (&source, &job))
+            report::json_of(report::nothing(&blank), &diagnostics, &source, &job)
         }
-        (Format::Text, Some(known)) => known.text((&source, &job), &diagnostics),
+        (Format::Text, Some(known)) => known.text(&source, &job, &diagnostics),
         (Format::Text, None) => String::new(),
     };
     let mut said = render_with(&diagnostics, &source, arguments.messages.detail(format));
@@ -129,7 +129,7 @@ impl Known {
         self.costs = arguments.pricing.price().map(|price| Costs::of(&row, price));
     }
 
-    fn text(&self, (source, job): (&Source, &Job), diagnostics: &Diagnostics) -> String {
+    fn text(&self, source: &Source, job: &Job, diagnostics: &Diagnostics) -> String {
         let text = summary::text(&self.report, source.name(), diagnostics);
         // The table of the axes stays last.
         let (head, axes) = text.split_at(text.find(summary::AXES).unwrap_or(text.len()));

@@ -104,7 +104,7 @@ impl Alone {
                 } else {
                     format!("two outlines or lines of {piece} cross")
                 };
-                let span = span(marker, (i, &part), crossing.segments[1]);
+                let span = span(marker, i, &part, crossing.segments[1]);
                 let finding = Diagnostic::new(&code::MARKER_SELF_CROSSING, message);
                 alone.findings.push(finding.at(span).on_cloth(crossing.at));
             }
@@ -150,7 +150,7 @@ fn name(marker: &Marker, piece: usize) -> String {
 }
 
 /// The span of the segment of a piece that starts at one of its points.
-fn span(marker: &Marker, (piece, part): (usize, &Part), point: usize) -> Span {
+fn span(marker: &Marker, piece: usize, part: &Part, point: usize) -> Span {
     let k = part.contour_of(point);
     let spans = marker.list.spans(marker.pieces[piece].contours[k].range);
     spans.get(point - part.contours[k].0).copied().unwrap_or_default()
@@ -249,7 +249,7 @@ impl<'a> Search<'a> {
                     return None;
                 }
                 if let Some(found) = crossing([&a.points, &b.points], [of_a, of_b], work, &mut wanted) {
-                    return Some((found.at, span(self.marker, (k, b), found.segments[1])));
+                    return Some((found.at, span(self.marker, k, b, found.segments[1])));
                 }
             }
         }
@@ -257,7 +257,7 @@ impl<'a> Search<'a> {
         // A line that comes nowhere near another is on one side of it.
         let may_straddle = |part: &Part| is_near || part.contours.len() > 1;
         let mut straddles = |part, other| if may_straddle(part) { self.straddles(part, other, work) } else { None };
-        let place = straddles(b, a).map(|(place, point)| (place, span(self.marker, (k, b), point)));
+        let place = straddles(b, a).map(|(place, point)| (place, span(self.marker, k, b, point)));
         place.or_else(|| straddles(a, b).map(|(place, _)| (place, self.marker.pieces[k].span)))
     }
 

@@ -53,7 +53,7 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
 }
 
 /// The pose in which an edge cuts along a unit vector as far as a point.
-fn pose_at(tip: Point, along: Vector, (c, edge): (Rotation, Edge), knife: &Knife) -> Pose {
+fn pose_at(tip: Point, along: Vector, c: Rotation, edge: Edge, knife: &Knife) -> Pose {
     Pose { centre: tip - along * edge.lead(knife.ends()), c }
 }
 
@@ -65,7 +65,7 @@ fn place_plunge_cut(plunge_cut: &mut PlungeCut, before: Rotation, job: &Job, dia
         diagnostics.push(out_of_range(plunge_cut.spans[0]));
         (before.nearest(heading), Edge::Front)
     });
-    (plunge_cut.pose, plunge_cut.edge) = (pose_at(tip, plunge_cut.along, (c, edge), knife), edge);
+    (plunge_cut.pose, plunge_cut.edge) = (pose_at(tip, plunge_cut.along, c, edge, knife), edge);
 }
 
 fn place_run(run: &mut Run, before: Rotation, job: &Job, diagnostics: &mut Diagnostics) {
@@ -126,8 +126,8 @@ fn place_run(run: &mut Run, before: Rotation, job: &Job, diagnostics: &mut Diagn
             (tip, run.points[n - 1] + last * run.front)
         }
     };
-    run.start = pose_at(tip, heading.unit(), (c, edge), knife);
-    run.end = pose_at(end, Rotation(end_c.0 - edge.turn()).unit(), (end_c, edge), knife);
+    run.start = pose_at(tip, heading.unit(), c, edge, knife);
+    run.end = pose_at(end, Rotation(end_c.0 - edge.turn()).unit(), end_c, edge, knife);
 }
 
 /// A ring from its start round to where its overlap along itself ends.

@@ -33,7 +33,7 @@ pub(super) struct ToleranceBand {
 impl ToleranceBand {
     /// The band of a polyline that turns by `seam` (rad) before its first and behind its last chord: at the seam of a
     /// smooth closed contour; else 0.
-    pub(super) fn new(points: Vec<Point>, tolerance: f64, (seam, profile): ([f64; 2], &MachineProfile)) -> Self {
+    pub(super) fn new(points: Vec<Point>, tolerance: f64, seam: [f64; 2], profile: &MachineProfile) -> Self {
         let stations = polyline::stations(&points);
         let mut turns = vec![0.0; points.len()];
         for i in 1..points.len().saturating_sub(1) {

@@ -162,7 +162,7 @@ pub(super) fn fit(band: &ToleranceBand, ends: &Ends) -> Result<Vec<Arc>, Point> 
         }
         let stop = (i + 1..nodes.len()).find(|&k| nodes[k].stops).unwrap_or(nodes.len() - 1);
         let end = aims.partition_point(|&aim| aim <= stop);
-        let reach = |curvature: f64| farthest(band, &nodes[..=stop], (i, &aims[ahead..end]), curvature);
+        let reach = |curvature: f64| farthest(band, &nodes[..=stop], i, &aims[ahead..end], curvature);
         let gentle = Some(ends.curvature).filter(|curvature| curvature.is_finite()).and_then(reach);
         let (to, found) = gentle.or_else(|| reach(f64::INFINITY)).ok_or(nodes[i].at)?;
         arcs.extend(found.into_iter().flatten());
@@ -173,12 +173,7 @@ pub(super) fn fit(band: &ToleranceBand, ends: &Ends) -> Result<Vec<Arc>, Point> 
 
 /// The farthest place that a biarc from place `i` reaches, none of its arcs of more than a curvature, and that biarc;
 /// `aims` are those behind it that lie on the curve.
-fn farthest(
-    band: &ToleranceBand,
-    nodes: &[Node],
-    (i, aims): (usize, &[usize]),
-    curvature: f64,
-) -> Option<(usize, Found)> {
+fn farthest(band: &ToleranceBand, nodes: &[Node], i: usize, aims: &[usize], curvature: f64) -> Option<(usize, Found)> {
     let is_gentle = |found: &Found| found.iter().flatten().all(|arc| arc.curvature.abs() <= curvature);
     let try_to = |j: usize| biarc(band, &nodes[i], &nodes[j]).filter(is_gentle);
     let mut best: Option<(usize, Found)> = None;
@@ -344,7 +339,7 @@ mod tests {
     use crate::machine::MachineProfile;
 
     fn band(points: Vec<Point>) -> ToleranceBand {
-        ToleranceBand::new(points, 0.05, ([0.0; 2], &MachineProfile::default()))
+        ToleranceBand::new(points, 0.05, [0.0; 2], &MachineProfile::default())
     }
 
     fn ends(band: &ToleranceBand) -> Ends {
@@ -431,7 +426,8 @@ mod tests {
         let band = ToleranceBand::new(
             (0..5).map(|i| Point::new(f64::from(i) * 10.0, 0.0)).collect(),
             0.05,
-            ([0.0; 2], &MachineProfile::default()),
+            [0.0; 2],
+            &MachineProfile::default(),
         );
         let along = band.direction(0);
         let arcs = fit(

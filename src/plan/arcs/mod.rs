@@ -24,7 +24,7 @@ pub fn solve(toolpath: &Toolpath, interpolation: &Interpolation, job: &Job) -> R
     let yaw = job.profile.knife.yaw();
     for step in &toolpath.steps {
         match step {
-            Step::Run(run) => match path_of(run, toolpath.tolerance, (interpolation, job)) {
+            Step::Run(run) => match path_of(run, toolpath.tolerance, interpolation, job) {
                 Ok(path) => paths.push(path.turned(run.edge.turn() + yaw)),
                 Err(reason) => unfit.push(Unfit { span: run.spans[0], reason }),
             },
@@ -35,12 +35,12 @@ pub fn solve(toolpath: &Toolpath, interpolation: &Interpolation, job: &Job) -> R
     if unfit.is_empty() { Ok(Arcs { paths }) } else { Err(unfit) }
 }
 
-fn path_of(run: &Run, tolerance: f64, (interpolation, job): (&Interpolation, &Job)) -> Result<Path, Reason> {
+fn path_of(run: &Run, tolerance: f64, interpolation: &Interpolation, job: &Job) -> Result<Path, Reason> {
     // On a straight run the orientation modes are one.
     let orientation =
         if polyline::is_straight(&run.extended(), tolerance) { OrientationMode::Tangent } else { run.orientation };
     match orientation {
-        OrientationMode::Tangent => path::path(run, tolerance, (interpolation, job)).map_err(Reason::Band),
+        OrientationMode::Tangent => path::path(run, tolerance, interpolation, job).map_err(Reason::Band),
         OrientationMode::Chord => Err(Reason::Chord),
     }
 }

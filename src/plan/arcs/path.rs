@@ -38,10 +38,10 @@ const STEPS_MIN: f64 = 400.0;
 const STEPS_LEAST: f64 = 50.0;
 
 /// The path of a run; otherwise the point from which no arc stays inside the tolerance band.
-pub(super) fn path(run: &Run, tolerance: f64, (interpolation, job): (&Interpolation, &Job)) -> Result<Path, Point> {
+pub(super) fn path(run: &Run, tolerance: f64, interpolation: &Interpolation, job: &Job) -> Result<Path, Point> {
     let knife = &job.profile.knife;
     let TipLine { points, chords, heel } = TipLine::new(run, knife.width_mm);
-    let TipArcs { arcs, start, from } = tip_arcs(run, (points, &chords), tolerance, (interpolation, job))?;
+    let TipArcs { arcs, start, from } = tip_arcs(run, points, &chords, tolerance, interpolation, job)?;
     // Plunged as a chord, the blade lags behind its way and fades into it over its width.
     let length: f64 = arcs.iter().map(|arc| arc.length).sum();
     let lead = heel.map_or(0.0, |heel| angle::turn(from - heel, start));
@@ -94,14 +94,16 @@ struct TipArcs {
 /// otherwise the point from which none stays inside.
 fn tip_arcs(
     run: &Run,
-    (points, chords): (Vec<Point>, &[usize]),
+    points: Vec<Point>,
+    chords: &[usize],
     tolerance: f64,
-    (interpolation, job): (&Interpolation, &Job),
+    interpolation: &Interpolation,
+    job: &Job,
 ) -> Result<TipArcs, Point> {
     let ring = run.shape == Shape::Ring;
     let turn = if ring { seam_turn(run) } else { 0.0 };
     let seam = [turn, if run.front == 0.0 { turn } else { 0.0 }];
-    let band = ToleranceBand::new(points, tolerance, (seam, &job.profile));
+    let band = ToleranceBand::new(points, tolerance, seam, &job.profile);
     let start = if ring { at_seam(run) } else { band.direction(0) };
     let end = if ring && run.front == 0.0 { start } else { band.direction(band.chords() - 1) };
     let stops = (1..chords.len()).filter(|&k| run.feeds[chords[k - 1]] != run.feeds[chords[k]]).collect();

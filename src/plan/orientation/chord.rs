@@ -143,7 +143,7 @@ impl Chord {
     }
 
     /// The parameter of the heel, and the angle of a blade near to the one there, rad.
-    fn heel(&self, curve: &Curve, (u, p): (f64, Vector)) -> (f64, f64) {
+    fn heel(&self, curve: &Curve, u: f64, p: Vector) -> (f64, f64) {
         let i = self.nodes.partition_point(|node| node.u <= u).clamp(1, self.nodes.len() - 1);
         let (a, b) = (self.nodes[i - 1], self.nodes[i]);
         let share = if b.u > a.u { ((u - a.u) / (b.u - a.u)).clamp(0.0, 1.0) } else { 0.0 };
@@ -169,7 +169,7 @@ impl Chord {
         let Blade { width, radius } = self.blade;
         let span = spline::span(curve.breaks(), u);
         let [p, p1, p2, p3] = curve.derivatives_on::<4>(span, u).map(|d| Vector::new(d[0], d[1]));
-        let (t, near) = self.heel(curve, (u, p));
+        let (t, near) = self.heel(curve, u, p);
         let [q, q1, q2, q3] = path::<4>(curve, t);
         let d = p - q;
         let slope = d.dot(&q1);

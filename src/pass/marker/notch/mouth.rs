@@ -154,7 +154,7 @@ impl Ring<'_> {
             return None;
         }
         let (form, tip) = way.form(self.slack)?;
-        let askew = self.askew(i, (false, steps), chord)?.max(self.askew(i, (true, steps), chord)?);
+        let askew = self.askew(i, false, steps, chord)?.max(self.askew(i, true, steps, chord)?);
         let deepest = (0..=steps).find(|&k| way.points[k][1] >= depth - self.slack)?;
         let across = Vector::new(-along.y, along.x) * side;
         Some(Mouth {
@@ -175,7 +175,7 @@ impl Ring<'_> {
     /// How far the outline that comes to a mouth, or leaves it, is turned from its direction, rad; `None` when that is too
     /// far. Near the mouth it may have very short segments, whose direction is that of the grid; a stretch as long as the
     /// mouth is wide has its own.
-    fn askew(&self, i: usize, (is_end, steps): (bool, usize), mouth: Vector) -> Option<f64> {
+    fn askew(&self, i: usize, is_end: bool, steps: usize, mouth: Vector) -> Option<f64> {
         let count = self.points.len();
         let beside = |k: usize| {
             if is_end { self.at(i + steps + k) - self.at(i + steps) } else { self.points[i] - self.at(i + count - k) }
