@@ -1,13 +1,15 @@
 //! Questions about the drawing and the blade, asked by several stages and answered once.
 //!
-//! Receives forms of [`ir`](crate::ir) and a machine, answers questions: which line lies in which, how far a blade may
-//! go before it enters a part, where it lies when it is plunged. Never edits, and is never asked by `verify`, which
+//! Receives forms of [`ir`](crate::ir) and a machine, answers questions: which line lies in which, how deep two parts
+//! overlap, how far a blade may go before it enters a part, where it lies when it is plunged. Never edits, and is never asked by `verify`, which
 //! measures for itself.
 
 mod area;
 mod chord;
 pub mod cloth;
+pub mod depth;
 pub mod nesting;
+pub mod outlines;
 pub mod plunge;
 pub mod tight;
 

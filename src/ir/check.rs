@@ -1,5 +1,6 @@
-//! Every invariant of marker, toolpath and motion; collects all that is broken, never stops at the first.
+//! Every invariant of marker, toolpath, arcs and motion; collects all that is broken, never stops at the first.
 
+use super::arcs::{Arc, Arcs, Piece};
 use super::marker::{Marker, Notch};
 use super::motion::{Motion, Poses};
 use super::toolpath::{Pose, Run, Step, Toolpath};
@@ -137,6 +138,54 @@ fn run_faults(run: &Run) -> Vec<&'static str> {
         faults.push("the speed cap is not positive");
     }
     faults
+}
+
+/// How far an arc may miss the places that it joins, and a length what it is of, as a part of it: a few roundings, of arcs
+/// that hardly bend.
+const ARC_EPSILON: f64 = 1e-6;
+
+/// Checks the arcs of a toolpath.
+pub fn arcs(arcs: &Arcs, toolpath: &Toolpath) -> Faults {
+    let mut faults = Faults::new();
+    let cuts = toolpath.steps.iter().filter(|step| matches!(step, Step::Run(_) | Step::PlungeCut(_))).count();
+    if arcs.paths.len() != cuts {
+        faults.push(format!("{} paths, but {cuts} runs and plunge cuts", arcs.paths.len()));
+    }
+    for (i, path) in arcs.paths.iter().enumerate() {
+        let mut from = path.start;
+        for (k, piece) in path.pieces.iter().enumerate() {
+            let wrong = piece_fault(from, piece);
+            faults.extend(wrong.map(|wrong| format!("path {} piece {}: {wrong}", i + 1, k + 1)));
+            from = piece.to;
+        }
+        if !pose_finite(path.start) {
+            faults.push(format!("path {}: a number is not finite", i + 1));
+        }
+    }
+    faults
+}
+
+fn piece_fault(from: Pose, piece: &Piece) -> Option<&'static str> {
+    let chord = (piece.to.centre - from.centre).norm();
+    let length = match piece.arc {
+        None => chord,
+        Some(Arc { centre, turn }) => {
+            let [start, end] = [from, piece.to].map(|pose| (pose.centre - centre).norm());
+            if (start - end).abs() > ARC_EPSILON * (1.0 + start) {
+                return Some("the ends of its arc lie at two distances from the centre");
+            }
+            start * turn.abs()
+        }
+    };
+    if !pose_finite(piece.to) || !piece.length.is_finite() {
+        Some("a number is not finite")
+    } else if (piece.length - length).abs() > ARC_EPSILON * (1.0 + length) {
+        Some("its length is not that of its way")
+    } else if piece.feed.is_nan() || piece.feed <= 0.0 || piece.speed.is_nan() || piece.speed < 0.0 {
+        Some("the speed cap is not positive")
+    } else {
+        None
+    }
 }
 
 /// Checks a motion.

@@ -7,11 +7,13 @@ use rayon::prelude::*;
 
 use super::product::Medium;
 use super::report::{Axes, Program, Sides};
+use super::sound::assert_sound;
 use super::spent::Clock;
 use super::toolpaths::{Toolpaths, Window};
 use crate::back::{ArcTarget, ArcWriter, Context, Emit, Estimate, Parts};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::ir::arcs::{Interpolation, Unfit};
+use crate::ir::check;
 use crate::ir::motion::{Kind, Task};
 use crate::ir::toolpath::{Edge, OrientationMode, Overcut, Side};
 use crate::ir::{Arcs, Motion, Toolpath};
@@ -94,7 +96,12 @@ impl Wanted<'_> {
         let planned = if self.motion { &toolpaths[..] } else { &[] };
         let cuts = planned.par_iter().map(|toolpath| plan::solve(toolpath, self.job)).collect();
         let arcs = |interpolation: &Interpolation| {
-            toolpaths.par_iter().map(|toolpath| arcs::solve(toolpath, interpolation, self.job)).collect()
+            let solve = |toolpath: &Toolpath| {
+                let arcs = arcs::solve(toolpath, interpolation, self.job)?;
+                assert_sound("arcs", || check::arcs(&arcs, toolpath));
+                Ok(arcs)
+            };
+            toolpaths.par_iter().map(solve).collect()
         };
         let arcs = self.interpolations.iter().map(arcs).collect();
         Made { toolpaths, cuts, arcs, findings }

@@ -85,13 +85,11 @@ const NO_GRAMMAR: &[(&str, &str)] = &[];
 
 /// Source files in the folder of a table that are no entry of it, and why.
 const BESIDE_A_TABLE: &[(&str, &str)] = &[
-    ("depth", "measures how far two parts overlap, for the pass that warns of it"),
     ("dialect", "says what a dialect is"),
     ("foreign", "names the formats that are no dialect of ours"),
     ("frame", "makes the one toolpath that no pass edits"),
     ("lap", "says how far C turns along a run, for the passes that keep it in its range"),
     ("nibble", "parts runs into plunges for the pass that nibbles"),
-    ("part", "holds the outlines of a piece for the pass that warns of crossings"),
     ("pass", "says what a pass is"),
     ("runs", "finds the runs of a toolpath, which most passes edit alone"),
     ("scene", "holds what passes look at beside a toolpath"),

@@ -1,11 +1,9 @@
 //! Passes over the marker.
 
 mod cut;
-mod depth;
 mod inspect;
 mod notch;
 mod order;
-mod part;
 mod pass;
 mod sanity;
 mod search;

@@ -14,10 +14,10 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::depth::depth;
-use super::part::{Part, slack};
 use super::pass::MarkerPass;
 use super::search::{in_parts, search_ended};
+use crate::analysis::depth::depth;
+use crate::analysis::outlines::{Outlines, slack};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
@@ -93,7 +93,7 @@ struct Alone {
 impl Alone {
     fn of(marker: &Marker, pieces: Range<usize>, mut work: Budget) -> Self {
         let mut alone = Self { boxes: Vec::with_capacity(pieces.len()), ..Self::default() };
-        let mut part = Part::default();
+        let mut part = Outlines::default();
         for i in pieces {
             part.gather(marker, i);
             if let Some(crossing) = part.self_crossing(marker, &mut work) {
@@ -150,10 +150,10 @@ fn name(marker: &Marker, piece: usize) -> String {
 }
 
 /// The span of the segment of a piece that starts at one of its points.
-fn span(marker: &Marker, piece: usize, part: &Part, point: usize) -> Span {
+fn span(marker: &Marker, piece: usize, part: &Outlines, point: usize) -> Span {
     let k = part.contour_of(point);
     let spans = marker.list.spans(marker.pieces[piece].contours[k].range);
-    spans.get(point - part.contours[k].0).copied().unwrap_or_default()
+    spans.get(point - part.contours[k].first).copied().unwrap_or_default()
 }
 
 /// What all searches look at.
@@ -163,7 +163,7 @@ struct Search<'a> {
     boxes: Boxes,
     /// The outlines of pieces, as far as they are looked at beside others: most pieces of a marker lie apart. Empty as
     /// long as none is.
-    parts: Vec<OnceCell<Box<Part<'a>>>>,
+    parts: Vec<OnceCell<Box<Outlines<'a>>>>,
 }
 
 impl<'a> Search<'a> {
@@ -176,8 +176,8 @@ impl<'a> Search<'a> {
         self.parts.resize_with(self.boxes.all().len(), OnceCell::new);
     }
 
-    fn part(&self, piece: usize) -> &Part<'a> {
-        self.parts[piece].get_or_init(|| Box::new(Part::of(self.marker, piece)))
+    fn part(&self, piece: usize) -> &Outlines<'a> {
+        self.parts[piece].get_or_init(|| Box::new(Outlines::of(self.marker, piece)))
     }
 
     /// Says which pieces overlap; the piece at which no work was left.
@@ -227,7 +227,7 @@ impl<'a> Search<'a> {
     /// A place where the outlines of two pieces overlap, and the span of the later one there.
     fn overlap(&self, i: usize, k: usize, work: &mut Budget) -> Option<(Point, Span)> {
         let (a, b) = (self.part(i), self.part(k));
-        let common = |part: &Part, other: &Part| -> Vec<Chain> {
+        let common = |part: &Outlines, other: &Outlines| -> Vec<Chain> {
             let near = part.chains.iter().zip(&part.boxes).filter(|(_, extent)| extent.overlaps(&other.extent));
             near.map(|(chain, _)| *chain).collect()
         };
@@ -255,16 +255,16 @@ impl<'a> Search<'a> {
         }
         let is_near = self.are_near(a, b, work);
         // A line that comes nowhere near another is on one side of it.
-        let may_straddle = |part: &Part| is_near || part.contours.len() > 1;
+        let may_straddle = |part: &Outlines| is_near || part.contours.len() > 1;
         let mut straddles = |part, other| if may_straddle(part) { self.straddles(part, other, work) } else { None };
         let place = straddles(b, a).map(|(place, point)| (place, span(self.marker, k, b, point)));
         place.or_else(|| straddles(a, b).map(|(place, _)| (place, self.marker.pieces[k].span)))
     }
 
     /// Whether lines of two parts come so near to each other that rounding may have put one on the other.
-    fn are_near(&self, a: &Part, b: &Part, work: &mut Budget) -> bool {
+    fn are_near(&self, a: &Outlines, b: &Outlines, work: &mut Budget) -> bool {
         let slack = slack(self.marker);
-        let beside = |part: &Part, other: &Part| -> Vec<Chain> {
+        let beside = |part: &Outlines, other: &Outlines| -> Vec<Chain> {
             let around = other.extent.grown(slack);
             let beside = part.chains.iter().zip(&part.boxes).filter(|(_, extent)| extent.meets(&around));
             beside.map(|(chain, _)| *chain).collect()
@@ -277,7 +277,7 @@ impl<'a> Search<'a> {
 
     /// A place of `part` that lies well inside `other`, while another place of it lies well outside: they overlap though
     /// no two segments cross, since lines of the one run along lines of the other. With the point that starts it.
-    fn straddles(&self, part: &Part, other: &Part, work: &mut Budget) -> Option<(Point, usize)> {
+    fn straddles(&self, part: &Outlines, other: &Outlines, work: &mut Budget) -> Option<(Point, usize)> {
         let ends: Vec<usize> = (0..part.points.len().saturating_sub(1)).collect();
         let stride = ends.len().div_ceil(PROBES).max(1);
         let (mut inside, mut outside) = (None, false);

@@ -1,4 +1,4 @@
-//! The outlines of a piece, as they are searched for crossings, overlaps and holes.
+//! The outlines of one piece, to be asked for crossings, for what they hold and how near they are.
 
 use std::borrow::Cow;
 
@@ -12,33 +12,45 @@ const MOST_STEPS: usize = 64;
 
 /// The outlines of a piece.
 #[derive(Debug)]
-pub(super) struct Part<'a> {
+pub struct Outlines<'a> {
     /// Its points, one contour behind the other; a closed one ends with its first point.
-    pub(super) points: Cow<'a, [Point]>,
-    /// Where each contour starts among the points, and whether it is closed.
-    pub(super) contours: Vec<(usize, bool)>,
-    /// Monotone chains, and their boxes.
-    pub(super) chains: Vec<Chain>,
-    pub(super) boxes: Vec<Extent>,
-    pub(super) extent: Extent,
+    pub points: Cow<'a, [Point]>,
+    /// Its contours, in order.
+    pub contours: Vec<Start>,
+    /// Monotone chains of the points.
+    pub chains: Vec<Chain>,
+    /// The box around each chain.
+    pub boxes: Vec<Extent>,
+    /// The box around all.
+    pub extent: Extent,
 }
 
-impl Default for Part<'_> {
+/// A contour among those of a piece.
+#[derive(Debug, Clone, Copy)]
+pub struct Start {
+    /// Its first point among those of all.
+    pub first: usize,
+    /// Whether it is closed.
+    pub is_closed: bool,
+}
+
+impl Default for Outlines<'_> {
     fn default() -> Self {
         let points = Cow::default();
         Self { points, contours: Vec::new(), chains: Vec::new(), boxes: Vec::new(), extent: Extent::EMPTY }
     }
 }
 
-impl<'a> Part<'a> {
-    pub(super) fn of(marker: &'a Marker, piece: usize) -> Self {
+impl<'a> Outlines<'a> {
+    /// Those of a piece, by its place in the marker.
+    pub fn of(marker: &'a Marker, piece: usize) -> Self {
         let mut part = Self::default();
         part.gather(marker, piece);
         part
     }
 
-    /// Takes the outlines of a piece in place of those that are here: one part serves all pieces of a marker in turn.
-    pub(super) fn gather(&mut self, marker: &'a Marker, piece: usize) {
+    /// Takes the outlines of a piece in place of those that are here: one of these serves all pieces of a marker in turn.
+    pub fn gather(&mut self, marker: &'a Marker, piece: usize) {
         let Self { points, contours, chains, boxes, extent } = self;
         *points = Cow::default();
         contours.clear();
@@ -47,7 +59,7 @@ impl<'a> Part<'a> {
         *extent = Extent::EMPTY;
         for contour in &marker.pieces[piece].contours {
             let start = points.len();
-            contours.push((start, contour.closed));
+            contours.push(Start { first: start, is_closed: contour.closed });
             let of_contour = marker.list.points(contour.range);
             // A piece of one contour, as most are, is looked at where it stands.
             if start == 0 {
@@ -66,48 +78,49 @@ impl<'a> Part<'a> {
     }
 
     /// The points of a contour.
-    pub(super) fn contour(&self, k: usize) -> &[Point] {
-        let end = self.contours.get(k + 1).map_or(self.points.len(), |next| next.0);
-        &self.points[self.contours[k].0..end]
+    pub fn contour(&self, k: usize) -> &[Point] {
+        let end = self.contours.get(k + 1).map_or(self.points.len(), |next| next.first);
+        &self.points[self.contours[k].first..end]
     }
 
-    pub(super) fn closed(&self) -> impl Iterator<Item = &[Point]> {
-        (0..self.contours.len()).filter(|&k| self.contours[k].1).map(|k| self.contour(k))
+    /// The points of each closed contour.
+    pub fn closed(&self) -> impl Iterator<Item = &[Point]> {
+        (0..self.contours.len()).filter(|&k| self.contours[k].is_closed).map(|k| self.contour(k))
     }
 
     /// Whether a point lies in the part: within its outline and in no cut-out.
-    pub(super) fn holds(&self, point: Point) -> bool {
+    pub fn holds(&self, point: Point) -> bool {
         self.extent.holds(point) && self.closed().filter(|points| ring::contains(points, point)).count() % 2 == 1
     }
 
     /// Whether a hole is in the part, or could not be looked for.
-    pub(super) fn may_hold(&self, drill: &Drill, work: &mut Budget) -> bool {
+    pub fn may_hold(&self, drill: &Drill, work: &mut Budget) -> bool {
         let near = self.extent.holds(drill.at);
         !work.spend(if near { self.points.len() } else { 1 }) || (near && self.holds(drill.at))
     }
 
     /// Distance of a point from the outlines, mm.
-    pub(super) fn distance(&self, point: Point) -> f64 {
+    pub fn distance(&self, point: Point) -> f64 {
         let contours = (0..self.contours.len()).map(|k| self.contour(k));
         let ends = contours.flat_map(|points| points.windows(2));
         ends.map(|w| polyline::distance_to_segment(point, w[0], w[1])).fold(f64::INFINITY, f64::min)
     }
 
     /// The contour of a point.
-    pub(super) fn contour_of(&self, point: usize) -> usize {
-        self.contours.partition_point(|&(start, _)| start <= point) - 1
+    pub fn contour_of(&self, point: usize) -> usize {
+        self.contours.partition_point(|contour| contour.first <= point) - 1
     }
 
     /// Whether the line, followed from its segment `segment` both ways, comes farther than `slack` from the line through
     /// `ends` on either side before it comes back.
-    pub(super) fn leads_across(&self, segment: usize, ends: [Point; 2], slack: f64) -> bool {
+    pub fn leads_across(&self, segment: usize, ends: [Point; 2], slack: f64) -> bool {
         let points = self.contour(self.contour_of(segment));
-        let start = segment - self.contours[self.contour_of(segment)].0;
+        let Start { first, is_closed } = self.contours[self.contour_of(segment)];
+        let start = segment - first;
         let Some(along) = polyline::direction(ends[0], ends[1]) else { return false };
         let side = |point: Point| cross(along, point - ends[0]);
         // A closed contour repeats its first point.
         let count = points.len() - usize::from(points.first() == points.last());
-        let (_, is_closed) = self.contours[self.contour_of(segment)];
         let departs = |step: &dyn Fn(usize) -> Option<usize>| {
             // An open line ends where it ends.
             let place =
@@ -122,7 +135,7 @@ impl<'a> Part<'a> {
     }
 
     /// Where its outlines cross themselves or each other.
-    pub(super) fn self_crossing(&self, marker: &Marker, work: &mut Budget) -> Option<Crossing> {
+    pub fn self_crossing(&self, marker: &Marker, work: &mut Budget) -> Option<Crossing> {
         let ends = |segment: usize| [self.points[segment], self.points[segment + 1]];
         let mut wanted = |crossing: &Crossing| {
             let [a, b] = crossing.segments;
@@ -139,7 +152,7 @@ impl<'a> Part<'a> {
 }
 
 /// What rounding to the grid of the file may have done to two points, mm: its diagonal.
-pub(super) fn slack(marker: &Marker) -> f64 {
+pub fn slack(marker: &Marker) -> f64 {
     marker.unit * std::f64::consts::SQRT_2
 }
 

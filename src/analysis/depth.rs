@@ -3,7 +3,7 @@
 //! An estimate: the vertices are tried, and some places of each segment within the box that the two share. The depth of an
 //! overlap by edges that lie along each other, as in a nest, is exact.
 
-use super::part::Part;
+use super::outlines::Outlines;
 use crate::geom::budget::Budget;
 use crate::geom::{Extent, Point};
 
@@ -13,14 +13,15 @@ const PLACES: std::ops::RangeInclusive<usize> = 5..=500;
 
 /// The deepest place.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Depth {
+pub struct Depth {
     /// How deep it is, mm.
-    pub(super) by: f64,
-    pub(super) at: Point,
+    pub by: f64,
+    /// Where it is.
+    pub at: Point,
 }
 
 /// How far two parts overlap; `None` when the work was spent before that was known.
-pub(super) fn depth([a, b]: [&Part; 2], work: &mut Budget) -> Option<Depth> {
+pub fn depth([a, b]: [&Outlines; 2], work: &mut Budget) -> Option<Depth> {
     let common = common(&a.extent, &b.extent);
     let mut deepest = Depth { by: 0.0, at: common.min };
     for (part, other) in [(a, b), (b, a)] {
