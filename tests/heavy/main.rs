@@ -1,7 +1,10 @@
-//! The topics of `tests/it` that have thousands of cases, with all of them: some minutes, for `.ci/run`. A feature asks for
+//! The topics of `tests/it` that have thousands of cases, with all of them, and drawings with thousands of lines over one
+//! another: some minutes, for `.ci/run`. A feature asks for
 //! them, `cargo test --features heavy`, and no variable of the environment: without it they are not even built, which would
 //! take as long as they do.
 
+#[cfg(feature = "heavy")]
+mod crowded;
 #[cfg(feature = "heavy")]
 #[path = "../it/motion.rs"]
 mod motion;

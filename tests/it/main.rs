@@ -13,7 +13,6 @@ mod chord;
 mod cli;
 mod coarse;
 mod codes;
-mod crowded;
 mod drives;
 mod edits;
 mod entries;
