@@ -65,6 +65,17 @@ impl Overcuts {
     }
 }
 
+/// How far a stroke goes in parts beyond the ends of its line: in its own, and in others.
+#[derive(Debug, Clone, Copy, Default)]
+struct Entered {
+    /// All stretches together, mm.
+    sums: [f64; 2],
+    /// The longest one, mm.
+    longest: [f64; 2],
+    /// Its place.
+    at: [usize; 2],
+}
+
 /// A stroke on its line.
 pub(in crate::verify) struct Ends<'a> {
     pub(in crate::verify) cut: &'a Cut,
@@ -130,7 +141,7 @@ impl<'a> Overcut<'a> {
         let cloth: Vec<Option<Cloth>> = (0..points.len())
             .map(|i| (beyond[i] > self.rounding).then(|| self.at(points[i], stroke.line, lines)))
             .collect();
-        let (mut sums, mut groups) = ([0.0; 2], [(0.0, 0); 2]);
+        let mut entered = Entered::default();
         let mut from = 0;
         for group in cloth.chunk_by(|a, b| a == b) {
             let range = from..from + group.len();
@@ -149,31 +160,40 @@ impl<'a> Overcut<'a> {
                 continue;
             }
             let entry = came_from(&beyond, range).map_or(0.0, |[before, near]| {
-                let entered = self.entered([points[before], points[near]], group[0], stroke.line, lines);
-                (beyond[near] - entered).max(0.0)
+                let way = self.entered([points[before], points[near]], group[0], stroke.line, lines);
+                (beyond[near] - way).max(0.0)
             });
             let length = beyond[far] - entry.clamp(0.0, beyond[far]);
-            sums[kind] += length;
-            if length > groups[kind].0 {
-                groups[kind] = (length, far);
+            entered.sums[kind] += length;
+            if length > entered.longest[kind] {
+                (entered.longest[kind], entered.at[kind]) = (length, far);
             }
         }
-        let plunge_cut = stroke.cut.is_plunge_cut();
-        let spared = if plunge_cut && groups.iter().any(|group| group.0 > 0.0) {
-            self.unavoidable(stroke, lines)
-        } else {
-            [0.0; 2]
-        };
-        let [(part, at_part), (neighbour, at_neighbour)] = groups;
-        let [part, neighbour] = if plunge_cut { sums } else { [part, neighbour] };
+        self.hold(&entered, stroke, lines, seen, overcuts);
+    }
+
+    /// Holds what a stroke cuts of parts against what may be: of a plunge cut all of it, of any other the longest stretch.
+    fn hold(
+        &self,
+        entered: &Entered,
+        stroke: &Ends,
+        lines: Lines,
+        seen: &impl Fn(usize) -> Sighting,
+        overcuts: &mut Overcuts,
+    ) {
+        let Entered { sums, longest, at } = *entered;
+        let is_plunge_cut = stroke.cut.is_plunge_cut();
+        let is_any = longest.iter().any(|&length| length > 0.0);
+        let spared = if is_plunge_cut && is_any { self.unavoidable(stroke, lines) } else { [0.0; 2] };
+        let [part, neighbour] = if is_plunge_cut { sums } else { longest };
         let [of_part, of_neighbour] = self.allowed.map(|allowed| allowed.unwrap_or(f64::INFINITY));
-        let reflex = if plunge_cut { 2.0 * self.reflex } else { self.reflex };
+        let reflex = if is_plunge_cut { 2.0 * self.reflex } else { self.reflex };
         if part > 0.0 {
-            overcuts.part.see_under(part, of_part + self.tolerance + reflex.max(spared[0]), || seen(at_part));
+            overcuts.part.see_under(part, of_part + self.tolerance + reflex.max(spared[0]), || seen(at[0]));
         }
         if neighbour > 0.0 {
             let unspared = if spared[1] > 0.0 { spared[1] + self.tolerance } else { 0.0 };
-            overcuts.neighbour.see_under(neighbour, of_neighbour + unspared, || seen(at_neighbour));
+            overcuts.neighbour.see_under(neighbour, of_neighbour + unspared, || seen(at[1]));
         }
     }
 
