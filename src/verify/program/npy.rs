@@ -1,5 +1,5 @@
 //! Reads timed setpoints from a `NumPy` file: a header in Python's words, then packed little-endian records with the fields
-//! of the rows that [`read`](super::read) knows.
+//! of the rows that [`rows`](super::rows) knows.
 
 use std::io::{self, BufRead};
 
