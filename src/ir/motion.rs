@@ -33,7 +33,7 @@ pub struct Task {
     pub blocks: [u32; 2],
     /// How far the tip goes past the end, mm; 0 for a drill.
     pub front: f64,
-    /// How far the tail starts before the start, mm; 0 for a drill.
+    /// How far the heel starts before the start, mm; 0 for a drill.
     pub heel: f64,
     /// Where the overlaps of start and end go.
     pub sides: [Side; 2],

@@ -63,7 +63,7 @@ pub struct StraightCut {
     pub from: Point,
     /// Its direction, of length 1.
     pub along: Vector,
-    /// Where on the line the tip starts: as far as the tail then reaches back, mm.
+    /// Where on the line the tip starts: as far as the heel then reaches back, mm.
     pub start: f64,
     /// How far the C axis is behind the tip, mm.
     pub lead: f64,

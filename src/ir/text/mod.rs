@@ -49,12 +49,15 @@
 //! `@start..end#block` is a span; one that is left out is that of no block. A segment line `to` starts where the line
 //! before it ends, so `from` stands where a contour starts. The words behind a segment are what the file asks for where
 //! it starts, those behind a point what it asks for there. A contour is printed in the direction that it is walked in
-//! and read as one that is walked in list order: the same segments, the same joints. A `cut` is of the contour of its
-//! piece that it names, or of segments of its own. Its sides are the parts on its left and right, by the places of
-//! their pieces from 1, as its piece is, or `-` for waste. A `notch` is one that the contours make: the ends of its
-//! mouth with its tip between them, and how many segments lie there. `harm` has what is cut too far of the part itself
-//! and of others before the start, and the same past the end. `sides` stands where an end has another than `waste`,
-//! `part` behind the number of a piece that is not the first.
+//! and read as one that is walked in list order: the same segments, the same joints.
+//!
+//! - A `cut` is of the contour of its piece that it names, or of segments of its own. Its sides are the parts on its left
+//!   and right, by the places of their pieces from 1, as its piece is, or `-` for waste.
+//! - A `notch` is one that the contours make: the ends of its mouth with its tip between them, and how many segments lie
+//!   there.
+//! - `stab` is a plunge cut; `harm` has what it cuts too far of the part itself and of others before the start, and the
+//!   same past the end.
+//! - `sides` stands where an end has another than `waste`, `part` behind the number of a piece that is not the first.
 
 mod print;
 mod read;

@@ -11,7 +11,7 @@ pub(in crate::verify) struct Table {
     down: [Option<[f64; 2]>; 2],
     /// The same while it is up: home and park may lie outside.
     up: [Option<[f64; 2]>; 2],
-    /// Distances of tip and tail from the C axis, along the blade.
+    /// Distances of tip and heel from the C axis, along the blade.
     blade: [f64; 2],
     off: Worst,
 }

@@ -32,7 +32,7 @@ pub(in crate::verify) enum Deviation {
 }
 
 impl Cut {
-    /// What a stroke cuts whose tip comes by `tips` and whose heel plunges at `tail`.
+    /// What a stroke cuts whose tip comes by `tips` and whose heel plunges at `heel`.
     pub(in crate::verify) fn new(tips: &[Point], heel: Point, knife: &Knife) -> Self {
         let steps = (knife.width_mm / BODY_STEP).ceil() as usize;
         let body = (0..steps).map(|i| heel + (tips[0] - heel) * (i as f64 / steps as f64));

@@ -322,7 +322,7 @@ impl<'a> Judge<'a> {
             || trial.feet.last().is_some_and(is_amid)
     }
 
-    /// The blade against its orientation mode. What only plunges has no way that a orientation mode could bear on.
+    /// The blade against its orientation mode. What only plunges has no way that an orientation mode could bear on.
     fn check_heading(&self, traced: &Traced, heading: &mut Worst) {
         let Traced { stroke, tips, blades, cut, best, .. } = traced;
         let is_chord = self.knife.follow == Follow::Chord && self.knife.width_mm > 0.0 && !cut.is_plunge_cut();

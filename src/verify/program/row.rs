@@ -35,7 +35,7 @@ pub(in crate::verify) struct Row {
 }
 
 impl Row {
-    /// Unit vector from tail to tip.
+    /// Unit vector from heel to tip.
     pub(in crate::verify) fn along(&self) -> Vector {
         let (sin, cos) = self.c_deg.to_radians().sin_cos();
         Vector::new(cos, sin)

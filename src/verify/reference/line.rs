@@ -31,7 +31,7 @@ pub(in crate::verify) struct Line<'a> {
 /// Where the blade is not led along a line as the orientation mode has it.
 #[derive(Debug, Default)]
 pub(in crate::verify) struct Exceptions {
-    /// By the stations of tail and tip: where it is too tight for the blade to be its chord.
+    /// By the stations of heel and tip: where it is too tight for the blade to be its chord.
     pub(in crate::verify) tight: Vec<[f64; 2]>,
     /// By stations: where it may be nibbled, which is cut by plunges without motion.
     pub(in crate::verify) nibbled: Vec<[f64; 2]>,
