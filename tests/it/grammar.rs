@@ -49,9 +49,15 @@ fn syntax(dialect: &Dialect, bytes: &[u8]) -> String {
     render(&found, &source)
 }
 
+/// The dialects that have a grammar: why one has none says the architecture test.
+fn with_grammars() -> impl Iterator<Item = &'static Dialect> {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("grammar");
+    DIALECTS.iter().filter(move |dialect| folder.join(format!("{}.bnf", dialect.name)).is_file())
+}
+
 #[test]
 fn a_sentence_of_the_grammar_is_accepted() {
-    for dialect in DIALECTS {
+    for dialect in with_grammars() {
         let grammar = grammar(dialect.name);
         for seed in 0..SENTENCES {
             let bytes = sentence(&grammar, seed);
@@ -106,7 +112,7 @@ fn a_plot_with_a_fault_of_grammar_is_refused_there() {
 
 #[test]
 fn a_sentence_with_a_damaged_byte_never_panics_and_is_blamed_within_its_bytes() {
-    for dialect in DIALECTS {
+    for dialect in with_grammars() {
         let grammar = grammar(dialect.name);
         for seed in 0..SENTENCES {
             let bytes = sentence(&grammar, seed);

@@ -194,7 +194,7 @@ fn every_word_of_the_glossary_is_in_order_and_explained() {
 fn the_page_on_many_files_names_every_ending_and_every_key_of_the_manifest() {
     let text = page("many-files");
     for extension in DIALECTS.iter().flat_map(|dialect| dialect.extensions) {
-        assert!(text.contains(&format!("`.{extension}`")), "{extension}");
+        assert!(text.contains(&format!("`.{extension}`")), "many-files.md does not name `.{extension}`");
     }
     let room = room_of_many(true);
     room.expect("compile in -o out/ -q", FAULTY);
