@@ -39,9 +39,9 @@ pub(super) const KEYS: &[Key] = &[
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Knife {
-    /// Tail to tip.
+    /// Heel to tip.
     pub width_mm: f64,
-    /// Tail to centre; [`Knife::back`] is what the blade really has.
+    /// Heel to centre; [`Knife::back`] is what the blade really has.
     #[serde(with = "OrWord::<Auto>")]
     pub back_mm: Option<f64>,
     /// Centre to tip, likewise; where both are given it decides.
@@ -138,7 +138,7 @@ impl Knife {
         self.radius_mm.unwrap_or_else(|| (self.width_mm - self.back_mm.unwrap_or(DEFAULT_BACK_MM)).max(0.0))
     }
 
-    /// Tail to centre, mm.
+    /// Heel to centre, mm.
     pub fn back(&self) -> f64 {
         self.width_mm - self.radius()
     }

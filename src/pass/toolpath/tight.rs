@@ -3,7 +3,7 @@
 //! Needs runs split at corners. A curve is too tight where the blade, tip and heel on it, would stand across it: on an arc
 //! of less than 0.55 blade widths, in a right angle that is rounded with less than 0.4. By `knife.tight_curves` it is
 //!
-//! - `follow`: cut without a lift. A run with such a curve has the tangent orientation mode: the blade cannot be its
+//! - `follow`: cut without a lift. A run with such a curve has the tangent mode: the blade cannot be its
 //!   chord. One on which the blade has no way to go, a rounded notch, is nibbled: a single plunge would cut straight
 //!   over it.
 //! - `nibble`: cut by plunges without motion, each along as many chords as stay within the tolerance of it; on an arc of

@@ -36,7 +36,7 @@ pub fn solve(toolpath: &Toolpath, interpolation: &Interpolation, job: &Job) -> R
 }
 
 fn path_of(run: &Run, tolerance: f64, interpolation: &Interpolation, job: &Job) -> Result<Path, Reason> {
-    // On a straight run the orientation modes are one.
+    // On a straight run both orientation modes are the same.
     let orientation =
         if polyline::is_straight(&run.extended(), tolerance) { OrientationMode::Tangent } else { run.orientation };
     match orientation {

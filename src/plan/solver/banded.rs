@@ -1,4 +1,4 @@
-//! Symmetric positive definite band matrices: what both solvers of this stage spend their time on.
+//! Symmetric positive definite band matrices: what the spline and the timing spend their time on.
 //!
 //! Cholesky, row by row (Golub & Van Loan, *Matrix Computations*, 4th ed., section 4.3.5), after scaling to a unit
 //! diagonal, because spline bases over graded knots differ by many orders of magnitude.

@@ -1,7 +1,7 @@
 //! Which way the blade must point: along the way of its tip; at the plunge, and as long as it does not move, as a chord of
 //! its line.
 //!
-//! Under the tangent orientation mode the blade lies along the tip's way; after a plunge as a chord it fades from the
+//! In the tangent mode the blade lies along the tip's way; after a plunge as a chord it fades from the
 //! chord to the tangent over the next blade width, by the step of degree 7.
 
 use std::f64::consts::PI;
@@ -190,8 +190,8 @@ impl Plunge<'_> {
         if line.station(here + 1) - at <= CURVE_CHORD && (here + 1 < count || line.ring) {
             add((here + 1) % count);
         }
-        // A way that is straight for a length l may bow by twice its tolerance band on it: its curvature is then 16
-        // tolerance band / l^2, and it leads the blade by half of that times the width.
+        // A way that is straight for a length l may bow by twice `band` on it: its curvature is then
+        // 16 band / l^2, and it leads the blade by half of that times the width.
         let slack = self.straight().map_or(0.0, |length| 8.0 * self.band * width / length.max(width).powi(2));
         [lead[0] - slack, lead[1] + slack]
     }

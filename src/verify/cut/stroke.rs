@@ -330,7 +330,7 @@ impl<'a> Judge<'a> {
         let mut chord = self.worsts.heading.clone();
         let rows = stroke.rows();
         if !trial.laps {
-            // At the plunge the orientation modes are one: how far the way of the tip then leads the blade is known of
+            // At the plunge both modes are the same: how far the way of the tip then leads the blade is known of
             // its line.
             let first = tips.iter().position(|tip| (tip - tips[0]).norm() >= self.way_min).unwrap_or(0);
             let (lead, fade) = (self.plunge(cut, trial).lead(), self.knife.width_mm);
@@ -341,7 +341,7 @@ impl<'a> Judge<'a> {
         Trailing { rows, tips, blades, heels: &heels, allowed }.check(self.knife, &mut chord);
         let ends = [trial.feet[0].station, trial.feet[cut.points.len() - 1].station];
         if self.reference.lines[trial.line].is_tight([ends[0].min(ends[1]), ends[0].max(ends[1])]) {
-            // Where it is too tight for the one orientation mode, the other is in force.
+            // Where the line is too tight for the chord mode, the tangent mode holds.
             let mut tangent = self.worsts.heading.clone();
             self.check_tangent(traced, &mut tangent);
             if tangent.value() < chord.value() {
