@@ -26,15 +26,15 @@
 //! | [`diagnostic`] | everything that is said about the user's data: codes, text, JSON |
 //! | [`geom`] | points, headings and rotations, polylines, curves |
 //! | [`machine`] | the profile of a machine, the job, closed-form moves of one axis |
-//! | [`ir`] | the four forms, the segment list, the checker, the text form |
+//! | [`ir`] | the four forms and the drawing, the segment list, the checker, the text form |
 //! | [`front`] | dialects: bytes to Marker or Drawing, a file or folder each, rows of [`front::DIALECTS`] |
 //! | [`recognise`] | what of a drawing is cut: Drawing to Marker, whatever the dialect |
-//! | [`analysis`] | what lies in what: asked by `recognise`, `pass`, `plan`, `back`, never by `verify` |
+//! | [`analysis`] | what lies in what, how deep, and where a plunged blade lies: asked by `recognise`, `pass`, `plan`, `back`, never by `verify` |
 //! | [`pass`] | edits of Marker and Toolpath, a file each, rows of two tables in order |
 //! | [`plan`] | `spline`: smooth curves inside the tolerance band; `orientation`: the blade along them; `timing`: jerk-limited speed; `solver`: their kernels; then rapids, and samples that keep the limits |
 //! | [`plan::arcs`] | few arcs and lines inside the band, for controllers that plan for themselves |
 //! | [`back`] | targets: a form to bytes, a file each, rows of [`back::TARGETS`]; printing only |
-//! | `verify` | reads what was written with readers of its own and judges it against the Marker |
+//! | `verify` | `program`: readers of its own; `reference`: what must be cut; `cut` and `axes`: what blade and axes do; `source`: the audit of the reader |
 //! | [`pipeline`] | names every stage once, in order |
 //! | [`manual`] | the manual, a page a topic, rows of [`manual::PAGES`] |
 //! | `cli` | arguments as typed to a job as meant; the binary adds printing and the exit code |
@@ -44,7 +44,7 @@
 //!
 //! # What always holds
 //!
-//! - **Stages do not know each other.** They meet in [`ir`]. `verify` shares no code with what it judges but the
+//! - **Stages do not know each other.** They meet in [`ir`], and may ask [`analysis`]. `verify` shares no code with what it judges but the
 //!   foundation, since a checker must not repeat the fault that it looks for. A test reads the imports.
 //! - **Behind `front` nothing knows the dialect, before `back` nothing knows the target.** Tables of plain functions are
 //!   the only place where either is listed; help, flags and tests are made from them.
@@ -62,7 +62,8 @@
 //! # What is absent, on purpose
 //!
 //! - **No trait for a stage and no plug-ins.** A dialect, pass or target is a row of data with functions in it.
-//! - **No shared toolbox module.** What two stages need is either geometry, a unit, or part of a form.
+//! - **No shared toolbox module.** What two stages need is geometry, a unit, part of a form, or a question to
+//!   [`analysis`].
 //! - **No curves in the Toolpath.** It is polylines, as files are; what is smooth about a motion is `plan`'s own.
 //! - **No second form for a dialect's peculiarities.** What the forms cannot say, a reader must resolve or report.
 //! - **No repair of the drawing.** A gap or a repeated contour is named and cut as it stands: closing it would be a guess.

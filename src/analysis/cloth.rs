@@ -13,7 +13,7 @@ use crate::machine::Knife;
 /// The rest is for how far the tip may leave its path.
 const SLACK_SHARE: f64 = 0.9;
 /// A way that enters the part within this length begins in it, mm: rounding.
-pub const INSIDE_EPSILON: f64 = 1e-6;
+const INSIDE_EPSILON: f64 = 1e-6;
 
 /// The parts that lie on the cloth.
 #[derive(Debug)]

@@ -145,7 +145,7 @@ impl Asked<'_> {
 }
 
 /// The name of the program that a target makes from an input.
-pub(super) fn program_name(input: &Path, target: &Target) -> OsString {
+fn program_name(input: &Path, target: &Target) -> OsString {
     let stem = if is_dash(input) { STDIN.as_ref() } else { input.file_stem().unwrap_or(input.as_os_str()) };
     let mut name = OsString::from(stem);
     name.push(format!(".{}", target.extension));

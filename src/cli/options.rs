@@ -13,6 +13,9 @@ use crate::machine::plot::{Inner, Lines};
 use crate::machine::{Faults, Job, Mode, NotNumbers, Numbers, Selection, load_given};
 use crate::source::Source;
 
+/// For an option behind those that stand under a heading of their own: it belongs to the command itself.
+pub(super) const NO_HEADING: Option<&str> = None;
+
 /// Which machine.
 #[derive(Debug, Args)]
 pub(super) struct Machine {
@@ -65,10 +68,10 @@ pub(super) struct Reading {
     pub(super) from: Option<&'static Dialect>,
 
     #[command(flatten)]
-    lines: Plotted,
+    pub(super) machine: Machine,
 
     #[command(flatten)]
-    pub(super) machine: Machine,
+    lines: Plotted,
 }
 
 /// Which lines of a plot are cut.

@@ -70,9 +70,9 @@ pub struct Interpolation {
     /// Step of the last decimal of X and Y, mm.
     pub step: f64,
     /// How far a chord may leave its arc, mm.
-    pub chordal_deviation: f64,
+    pub chord_tolerance: f64,
     /// How far the blade may be turned from its orientation because C turns evenly on a piece, rad.
-    pub blade_deviation: f64,
+    pub heading_tolerance: f64,
 }
 
 /// A run without a path of arcs and lines.

@@ -90,11 +90,6 @@ pub struct Range {
 }
 
 impl Range {
-    /// Whether it is walked against the order of the list.
-    pub fn is_backward(self) -> bool {
-        self.backward
-    }
-
     /// The same segments, walked the other way.
     #[must_use]
     pub fn reversed(self) -> Self {
@@ -416,22 +411,6 @@ impl Cursor<'_> {
         }
         true
     }
-
-    /// Makes the segment under the cursor the first of a closed range: the ones before it go behind the last.
-    pub fn make_first(&mut self) {
-        if self.at == self.range.first {
-            return;
-        }
-        let (first, last) = (self.range.first.0, self.range.last.0);
-        let prev = self.link().prev;
-        let front = self.list.links.of(first).prev;
-        self.list.ends[front as usize] = self.list.ends[prev as usize];
-        self.list.links.join(front, self.at.0);
-        self.list.links.join(last, first);
-        self.range.first = self.at;
-        self.range.last = SegmentId(prev);
-        self.range.in_order = false;
-    }
 }
 
 #[cfg(test)]
@@ -523,17 +502,6 @@ mod tests {
             let ends: Vec<_> = expected.windows(2).map(|pair| [pair[0].0, pair[1].0]).collect();
             assert_eq!(list.lines(range).collect::<Vec<_>>(), ends);
         }
-    }
-
-    #[test]
-    fn a_closed_range_starts_anywhere() {
-        let mut list = SegmentList::default();
-        let mut range = list.append(chain(&[0.0, 1.0, 2.0, 0.0])).expect("three segments");
-        let mut cursor = list.cursor(&mut range);
-        cursor.advance();
-        cursor.make_first();
-        assert_eq!(xs(&list, range), [1.0, 2.0, 0.0, 1.0]);
-        assert!(list.is_linked(range));
     }
 
     #[test]

@@ -10,6 +10,8 @@
 //! - links of the list agree in both directions; no segment belongs to two contours
 //! - steps of a toolpath come in an order that a machine can run: the knife is down in runs and plunge cuts alone
 //! - every run has one span a chord, overlaps that are not negative and a positive speed cap
+//! - every run and plunge cut has one path of arcs; a piece has the length of its way, and a positive speed cap
+//! - every phase of a motion has ticks, and a pose for each
 
 pub mod arcs;
 pub mod check;

@@ -7,7 +7,7 @@ use std::ops::{Bound, RangeBounds as _};
 
 use super::encoding;
 use super::gcode::Step;
-use super::plot::PlotUnit;
+use super::plot::unit::PlotUnit;
 use crate::units::number::exact;
 
 /// A key of the profile.
@@ -244,11 +244,6 @@ impl Key {
     /// What stands there in a profile for each key of a family.
     pub(super) fn values_in<'t>(&self, profile: &'t toml::Table) -> Option<&'t toml::Table> {
         table_of(self.section(), profile)
-    }
-
-    /// Whether it stands for a key a code or a pen.
-    pub fn is_family(&self) -> bool {
-        self.name.ends_with('>')
     }
 
     /// The part of its name before the last dot; empty for the keys at the top.

@@ -1,8 +1,8 @@
 //! The machine: its profile, what one compile is asked to do with it, and the closed forms of its axes.
 //!
 //! Receives TOML, promises validated numbers in mm, s and rad, never knows what is cut. [`load()`] reads a profile and
-//! reports every fault in it; [`keys::KEYS`] says what each key means, once, for the commented profile, the messages
-//! and the manual.
+//! reports every fault in it; [`keys::KEYS`] says what each key means, once, for the commented profile, the messages,
+//! the schema, the help and the manual.
 
 pub mod axes;
 mod codes;

@@ -159,8 +159,8 @@ impl MachineProfile {
         self.path.tolerance_mm.unwrap_or_else(|| AUTO_TOLERANCE.max(ROUNDING_REACH * unit))
     }
 
-    /// How far the blade may be turned from its orientation mode in a program of G-code, rad: no farther than it is
-    /// judged by.
+    /// How far the blade may be turned from where its orientation mode has it in a program of G-code, rad: no farther
+    /// than it is judged by.
     pub fn blade_tolerance(&self) -> f64 {
         rad(self.gcode.heading_tolerance_deg.min(self.verify.max_heading_deg))
     }

@@ -12,7 +12,7 @@ const ASTRAY: Within = from(0.0, 1000.0);
 #[rustfmt::skip] // a table: one row a key
 pub(super) const KEYS: &[Key] = &[
     Key { name: "verify.max_uncut_mm", takes: Takes::Number(from(0.0, 10.0)), about: "Longest stretch that may be left uncut: what the rounding of setpoints can leave." },
-    Key { name: "verify.max_heading_deg", takes: Takes::Number(from(0.01, 45.0)), about: "Greatest angle between the blade and the direction of its orientation mode while it cuts." },
+    Key { name: "verify.max_heading_deg", takes: Takes::Number(from(0.01, 45.0)), about: "Greatest angle between the blade and the direction that knife.follow asks for while it cuts." },
     Key { name: "verify.max_body_mm", takes: Takes::NumberOr(ASTRAY, Off::WORD), about: "Farthest that the blade's body may leave the path on curves." },
     Key { name: "verify.max_overcut_part_mm", takes: Takes::NumberOr(ASTRAY, Off::WORD), about: "Farthest overcut into the part itself, beside the tolerance and what the compile warned of." },
     Key { name: "verify.max_overcut_neighbour_mm", takes: Takes::NumberOr(ASTRAY, Off::WORD), about: "Farthest overcut into another part, beside what the compile warned of." },
@@ -25,7 +25,7 @@ pub(super) const KEYS: &[Key] = &[
 pub struct Verify {
     /// Left uncut.
     pub max_uncut_mm: f64,
-    /// Blade against its orientation mode.
+    /// Blade against where its orientation mode has it.
     pub max_heading_deg: f64,
     /// Body beside a curve.
     #[serde(with = "OrWord::<Off>")]

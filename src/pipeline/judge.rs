@@ -13,7 +13,7 @@ use crate::ir::{Finding, Marker};
 use crate::machine::{Job, Mode};
 use crate::source::{Source, Span};
 use crate::units::number::{exact, fixed, up};
-use crate::verify::{self, Ground, Kind, RULES, Verdict};
+use crate::verify::{self, Ground, Kind, Verdict};
 
 /// The rule on what can be read.
 const FORMAT: &str = "verify/format";
@@ -31,24 +31,6 @@ const DIGITS: i32 = 4;
 const NOISE_EPSILON: f64 = 0.99e-9;
 /// The most that are needed to tell a worst value from its limit; beyond, they differ by rounding alone.
 const MOST_DIGITS: i32 = 15;
-/// Rules on how something is cut or drilled: they say nothing about a program that does neither.
-const OF_CUTS: &[&str] = &[
-    "verify/feed",
-    "verify/crawl",
-    "verify/dwell",
-    "verify/on-path",
-    "verify/order",
-    "verify/once",
-    "verify/complete",
-    "verify/heading",
-    "verify/down",
-    "verify/body",
-    "verify/overcut-part",
-    "verify/overcut-neighbour",
-    "verify/overcut-waste",
-    "verify/drill-place",
-];
-
 /// Judges a program, edited by hand or not, against a source. `None` when the source has errors: then
 /// the diagnostics say which. They are about the source alone; what the program breaks is in the verdict.
 pub fn judge_program(
@@ -103,7 +85,7 @@ pub(super) fn judge(
                 judge_by(&Ground::new(marker, &job.profile))
             } else {
                 let mut verdict = judge_by(&Ground::new(&uncut(marker, job.mode), &job.profile));
-                verdict.findings.retain(|finding| !OF_CUTS.contains(&finding.rule));
+                verdict.findings.retain(|finding| !verify::rule(finding.rule).needs_cut);
                 verdict
             }
         }
@@ -212,7 +194,7 @@ fn parting_keys(job: &Job) -> Option<&'static str> {
 
 /// What a rule says.
 pub fn about(rule: &str) -> &'static str {
-    RULES.iter().find(|row| row.name == rule).map_or("", |row| row.about)
+    verify::rule(rule).about
 }
 
 /// The key of the profile that is the limit of a rule and nothing else.
@@ -283,8 +265,8 @@ mod tests {
 
     #[test]
     fn every_rule_with_a_key_of_its_own_stands_in_the_table() {
-        let keyed = RULES.iter().filter(|rule| key(rule.name).is_some()).count();
+        let keyed = crate::verify::RULES.iter().filter(|rule| key(rule.name).is_some()).count();
         assert_eq!(keyed, 7);
-        assert!(RULES.iter().all(|rule| !about(rule.name).is_empty()));
+        assert!(crate::verify::RULES.iter().all(|rule| !about(rule.name).is_empty()));
     }
 }

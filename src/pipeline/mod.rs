@@ -1,4 +1,7 @@
 //! The compiler, each stage named once, in order.
+//!
+//! Receives a source and a job, promises programs that are written whole and judged, or diagnostics. Never prints, and decides
+//! nothing about the cut.
 
 mod input;
 mod judge;

@@ -52,7 +52,7 @@ impl<'a> Sink<'a> {
     }
 
     /// Whether it needs timed motion.
-    pub(super) fn needs_motion(&self) -> bool {
+    fn needs_motion(&self) -> bool {
         matches!(self.form, Form::Motion(_))
     }
 
@@ -172,6 +172,7 @@ impl Writer<'_, '_, '_> {
                 Ok(cuts) => {
                     self.tally.take(toolpath.piece, &cuts);
                     let motion = self.planner.join(toolpath, cuts);
+                    assert_sound("plan", || check::motion(&motion));
                     self.motion(&motion)?;
                 }
             }

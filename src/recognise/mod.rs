@@ -3,11 +3,12 @@
 //! Receives strokes and texts with the names of their pens, whatever dialect they came from. Promises a marker like
 //! that of a cut file - parts with their notches, equal places equal to the bit, texts never cut - and an account of
 //! every line: what it was taken for, and whether it is cut. Wrong cuts inside a part cannot be mended and a cut that
-//! is missing can, so nothing inside a part is cut but notches on its edge, unless a pen or an option asks for it.
+//! is missing can, so nothing inside a part is cut but notches on its edge, unless a pen or an option asks for it. Never
+//! knows the dialect.
 //!
-//! `join` makes lines of strokes. `frame` finds the frames, `nest` what lies in what, `marks` the notches,
-//! `letters` and `seam` what their names say; `line` has the table of classes, and of when each is cut, `pens` what
-//! pens stand for. `piece` makes the marker, `say` names what is doubtful.
+//! `join` makes lines of strokes; `sheet` sorts them out, and asks the others: `frame` finds the frames, `nest` what lies
+//! in what, `marks` the notches, `letters` and `seam` what their names say; `line` has the table of classes, and of when
+//! each is cut, `pens` what pens stand for. `piece` makes the marker, `say` names what is doubtful.
 
 mod frame;
 mod join;

@@ -20,7 +20,7 @@ mod worst;
 
 pub use program::cutter_file::cutter_file;
 pub use reference::ground::Ground;
-pub use rules::{RULES, Rule};
+pub use rules::{RULES, Rule, rule};
 pub use source::audit::source_audit;
 pub use source::census::Census;
 pub use source::kept::Works;
@@ -100,7 +100,7 @@ pub fn positions(program: &mut dyn BufRead, ground: &Ground, job: &Job) -> Verdi
     // Of rests the program tells how long they are.
     findings.retain(|finding| finding.rule != dwell.rule);
     findings.extend([format, dwell]);
-    let untimed = |finding: &Finding| !gcode::RULES.contains(&finding.rule);
+    let untimed = |finding: &Finding| rule(finding.rule).needs_time;
     let (left, judged): (Vec<Finding>, Vec<Finding>) = findings.into_iter().partition(untimed);
     let mut findings: Vec<Finding> = judged.iter().map(gcode::timeless).collect();
     sort(&mut findings);

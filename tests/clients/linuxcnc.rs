@@ -277,7 +277,7 @@ fn farthest(points: &[Point], way: &[Point]) -> f64 {
 }
 
 #[test]
-fn the_whole_controller_of_linuxcnc_runs_a_program_in_its_tube_and_in_the_time_that_was_estimated() {
+fn the_whole_controller_of_linuxcnc_runs_a_program_in_its_band_and_in_the_time_that_was_estimated() {
     if !is_there("linuxcnc", Command::new("sh").args(["-c", "command -v linuxcnc"])) {
         return;
     }

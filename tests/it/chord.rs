@@ -1,4 +1,4 @@
-//! The chord law, from the file to the program: heel and tip of the blade are both on the line; and what is done about
+//! The chord mode, from the file to the program: heel and tip of the blade are both on the line; and what is done about
 //! curves that are tighter than the blade.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -171,7 +171,7 @@ fn the_blade_is_a_chord_from_its_plunge_to_its_lift() {
 }
 
 #[test]
-fn a_program_says_which_law_its_blade_follows() {
+fn a_program_says_which_mode_its_blade_follows() {
     let job = job(Follow::Chord, BLADES[0]);
     let points = circle(20.0);
     let report = |points: &[Point]| compile(points, &job, "csv").compiled.expect("a program").report.program;
@@ -183,7 +183,7 @@ fn a_program_says_which_law_its_blade_follows() {
 }
 
 #[test]
-fn g_code_has_straight_cuts_under_either_law_and_refuses_curves_as_chords() {
+fn g_code_has_straight_cuts_under_either_mode_and_refuses_curves_as_chords() {
     let job = job(Follow::Chord, BLADES[0]);
     let square = [(0.0, 0.0), (80.0, 0.0), (80.0, 60.0), (0.0, 60.0), (0.0, 0.0)].map(|(x, y)| Point::new(x, y));
     assert!(compile(&square, &job, "gcode").compiled.is_some());

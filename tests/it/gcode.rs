@@ -1,4 +1,4 @@
-//! What the target `gcode` promises: few arcs and lines in the tube, every controller table obeyed, and a verifier that
+//! What the target `gcode` promises: few arcs and lines in the tolerance band, every controller table obeyed, and a verifier that
 //! refuses damaged programs under the right rule.
 
 use std::collections::BTreeMap;

@@ -1,4 +1,4 @@
-//! Where the blade stands at the ends of runs: the paper's states, stabs, rings.
+//! Where the blade stands at the ends of runs: the paper's states, plunge cuts, rings.
 
 use std::f64::consts::{PI, TAU};
 use std::io::Cursor;
@@ -78,7 +78,7 @@ fn a_straight_run_starts_with_its_tail_and_ends_with_its_tip_at_the_overlaps() {
 }
 
 #[test]
-fn a_slit_shorter_than_the_blade_is_a_stab_with_its_surplus_outside() {
+fn a_slit_shorter_than_the_blade_is_a_plunge_cut_with_its_surplus_outside() {
     let job = knife(6.6, 2.2, 0.0, 0.0);
     let (edge, inside) = (Point::new(10.0, 0.0), Point::new(10.0, 5.0));
     let toolpath = &support::toolpaths(&support::marker(&[edge, inside]), &job)[0];

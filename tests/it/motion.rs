@@ -1,4 +1,4 @@
-//! What planning promises: certified samples, near time-optimal, the tip inside the tube, nothing left uncut.
+//! What planning promises: certified samples, near time-optimal, the tip inside the tolerance band, nothing left uncut.
 
 use std::f64::consts::{FRAC_PI_4, PI};
 
@@ -179,7 +179,7 @@ fn runs_of_any_length_keep_the_limits_and_take_as_long_backward_and_turned() {
         let job = if seed % 2 == 0 { &point } else { &eccentric };
         let width = job.profile.knife.width_mm;
         if width > 0.0 && polyline::first_at_distance(&points, width + 1.0).is_none() {
-            return; // shorter than the blade: a stab, which is no run
+            return; // shorter than the blade: a plunge cut, which is no run
         }
         let cut = solve(run(points.clone(), job), TOLERANCE, job);
         let excess = excess(&poses(&cut), job);
@@ -196,7 +196,7 @@ fn runs_of_any_length_keep_the_limits_and_take_as_long_backward_and_turned() {
 }
 
 #[test]
-fn every_random_run_is_certified_tangent_and_inside_its_tube() {
+fn every_random_run_is_certified_tangent_and_inside_its_band() {
     let mut random = ChaCha8Rng::seed_from_u64(7);
     for case in 0..150 {
         let grid = [0.001, 0.1, 0.254][case % 3];

@@ -163,7 +163,7 @@ fn a_picture_is_to_scale_and_holds_the_whole_marker() {
 }
 
 #[test]
-fn every_run_stab_and_drill_is_drawn_where_it_is_cut() {
+fn every_run_plunge_cut_and_drill_is_drawn_where_it_is_cut() {
     let text = picture(&demo(), &square_knife(), &[]);
     let drawing = drawing(&text);
     assert_eq!((count(drawing, "run"), count(drawing, "stab"), count(drawing, "drill")), (5, 1, 1));

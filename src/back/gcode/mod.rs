@@ -31,8 +31,8 @@ fn interpolation(job: &Job) -> Interpolation {
     Interpolation {
         circular: keys.arcs,
         step: keys.step(),
-        chordal_deviation: keys.chord_mm,
-        blade_deviation: job.profile.blade_tolerance(),
+        chord_tolerance: keys.chord_mm,
+        heading_tolerance: job.profile.blade_tolerance(),
     }
 }
 

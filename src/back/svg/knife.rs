@@ -89,7 +89,7 @@ impl Group<'_> {
         match step {
             Step::Run(run) => self.run(run),
             Step::PlungeCut(plunge_cut) => {
-                let (tail, tip) = self.ends(&plunge_cut.pose, plunge_cut.edge);
+                let (heel, tip) = self.ends(&plunge_cut.pose, plunge_cut.edge);
                 let mut data = PathData::default();
                 data.polygon(self.blade_outline(&plunge_cut.pose));
                 let length = polyline::length(&plunge_cut.points);
@@ -100,7 +100,7 @@ impl Group<'_> {
                 self.cuts.push_str(&data.titled("stab", &title));
                 let half = OVERLAP_HALF_THICKNESS * self.unit;
                 let last = plunge_cut.points[plunge_cut.points.len() - 1];
-                let ends = [([tail, plunge_cut.points[0]], plunge_cut.heel), ([last, tip], plunge_cut.front)];
+                let ends = [([heel, plunge_cut.points[0]], plunge_cut.heel), ([last, tip], plunge_cut.front)];
                 for ((way, length), overcut) in ends.into_iter().zip(plunge_cut.overcut) {
                     let class = if overcut.total() > 0.0 { &mut self.overcut } else { &mut self.over };
                     overlap(class, &way, [length, half]);
@@ -161,20 +161,20 @@ impl Group<'_> {
         self.lift.circle(end.1, LIFT_RADIUS * self.unit);
     }
 
-    /// Where the blade begins and where it ends that cuts with an edge: tail and tip, or tip and tail.
+    /// Where the blade begins and where it ends that cuts with an edge: heel and tip, or tip and heel.
     fn ends(&self, pose: &Pose, edge: Edge) -> (Point, Point) {
-        let (tail, tip) = (pose.ahead(-self.knife.back()), pose.ahead(self.knife.radius()));
+        let (heel, tip) = (pose.ahead(-self.knife.back()), pose.ahead(self.knife.radius()));
         match edge {
-            Edge::Front => (tail, tip),
-            Edge::Back => (tip, tail),
+            Edge::Front => (heel, tip),
+            Edge::Back => (tip, heel),
         }
     }
 
-    /// The blade seen from above: a slender kite, widest at the C axis, pointed at tail and tip.
+    /// The blade seen from above: a slender kite, widest at the C axis, pointed at heel and tip.
     fn blade_outline(&self, pose: &Pose) -> [Point; 4] {
-        let (tail, tip) = self.ends(pose, Edge::Front);
+        let (heel, tip) = self.ends(pose, Edge::Front);
         let side = left(pose.c.unit()) * (BLADE_HALF_THICKNESS * self.unit);
-        [tail, pose.centre + side, tip, pose.centre - side]
+        [heel, pose.centre + side, tip, pose.centre - side]
     }
 
     /// The band along an overlap that is `length` mm long.

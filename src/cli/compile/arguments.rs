@@ -8,7 +8,7 @@ use crate::back::Target;
 use crate::cli::batch::{Shard, Threads};
 use crate::cli::choices::{self, Format};
 use crate::cli::finished::Finished;
-use crate::cli::options::{Choice, Messages, Reading};
+use crate::cli::options::{Choice, Messages, NO_HEADING, Reading};
 use crate::machine::Job;
 
 /// Arguments of `cutc compile`.
@@ -40,11 +40,11 @@ pub(in crate::cli) struct Arguments {
     pub(super) shard: Option<Shard>,
 
     /// How to give the figures; of many files JSON is a list, each with its `file`
-    #[arg(long, value_enum, default_value = "text")]
+    #[arg(long, value_enum, default_value = "text", help_heading = NO_HEADING)]
     pub(super) format: Format,
 
     /// Print what a pass leaves, as text, and write no program
-    #[arg(long, value_name = "PASS", value_parser = choices::passes(), conflicts_with_all = ["out", "format", "frame"])]
+    #[arg(long, value_name = "PASS", value_parser = choices::passes(), conflicts_with_all = ["out", "format", "frame"], help_heading = NO_HEADING)]
     pub(super) dump_after: Option<String>,
 }
 
@@ -86,7 +86,7 @@ pub(in crate::cli) struct Making {
     pub(super) choice: Choice,
 
     /// Do not read the program back and judge it; summary and provenance say so
-    #[arg(long)]
+    #[arg(long, help_heading = NO_HEADING)]
     pub(super) no_verify: bool,
 }
 

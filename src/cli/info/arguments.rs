@@ -6,7 +6,7 @@ use clap::Args;
 
 use crate::cli::batch::{Cloth, Figures, Threads};
 use crate::cli::choices::Sheet;
-use crate::cli::options::{Messages, Reading};
+use crate::cli::options::{Messages, NO_HEADING, Reading};
 use crate::cli::price::Pricing;
 use crate::ir::Marker;
 use crate::pipeline::{self, Report, significant};
@@ -39,13 +39,13 @@ pub(in crate::cli) struct Arguments {
     ///
     /// Of one file only. Texts that are no UTF-8 are read in the encoding `labels.encoding` of the profile, as in `--set
     /// labels.encoding=windows-1251`.
-    #[arg(long)]
+    #[arg(long, help_heading = NO_HEADING)]
     pub(super) labels: bool,
 
     /// Also plan the program: what it takes, piece by piece, and what keeps it from being faster
     ///
     /// Nothing is written and nothing is verified. Of several files the time is always given, as one number.
-    #[arg(long)]
+    #[arg(long, help_heading = NO_HEADING)]
     pub(super) time: bool,
 
     /// Width of the cloth, as in `--cloth-width 1500` (mm) or `--cloth-width 1.5m`: how much of it is used follows from it
@@ -63,7 +63,7 @@ pub(in crate::cli) struct Arguments {
     /// planning knows, and `notch_depths`, `speeds`, `events` and the area of the parts; with --labels also
     /// `labels_by_piece`, with --time what planning knows, and `time_by_piece`. JSON of several is `files`, a list, and
     /// their `sum`. CSV is a header and a row a file.
-    #[arg(long, value_enum, default_value = "text")]
+    #[arg(long, value_enum, default_value = "text", help_heading = NO_HEADING)]
     pub(super) format: Sheet,
 }
 

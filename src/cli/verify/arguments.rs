@@ -6,7 +6,7 @@ use clap::Args;
 
 use crate::cli::batch::Threads;
 use crate::cli::choices::Format;
-use crate::cli::options::{Choice, Messages, Reading};
+use crate::cli::options::{Choice, Messages, NO_HEADING, Reading};
 
 /// Arguments of `cutc verify`.
 ///
@@ -38,10 +38,6 @@ pub(in crate::cli) struct Arguments {
     #[command(flatten)]
     pub(super) threads: Threads,
 
-    /// What the program was compiled with
-    #[command(flatten)]
-    pub(super) choice: Choice,
-
     /// How to give the verdict; of many programs JSON is a list, each with its `program`
     ///
     /// JSON has `verdict` ("pass" or "fail") and `rules`, each with `code`, `worst`, `limit`, `unit`, `where` and
@@ -49,6 +45,10 @@ pub(in crate::cli) struct Arguments {
     /// the cutter file has errors, or the program is none, the verdict is "fail" without rules. When rows cannot be read,
     /// `unread` says which, and no rule is there that needs them. G-code tells no times: `untimed` then lists the
     /// rules on these.
-    #[arg(long, value_enum, default_value = "text")]
+    #[arg(long, value_enum, default_value = "text", help_heading = NO_HEADING)]
     pub(super) format: Format,
+
+    /// What the program was compiled with
+    #[command(flatten)]
+    pub(super) choice: Choice,
 }

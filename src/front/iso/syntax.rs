@@ -152,7 +152,7 @@ pub(super) fn point(mut i: &[u8]) -> Out<'_, Point> {
 
 /// Bytes that a plain block is looked for in: more than it can have, so that none of its places need be looked at with
 /// care.
-pub(super) const PLAIN_BYTES: usize = 40;
+const PLAIN_BYTES: usize = 40;
 
 /// `<block>`, when it is X and Y alone, both whole numbers, as nearly all blocks are: its length, and what [`block`]
 /// says of it, found with fewer steps. `None` = any other; then [`block`] and [`point`] decide.

@@ -38,7 +38,7 @@ pub struct Gcode {
     pub decimals: u32,
     /// Lines have N.
     pub line_numbers: bool,
-    /// The blade from its orientation mode.
+    /// The blade from where its orientation mode has it.
     pub heading_tolerance_deg: f64,
     /// A straight piece from its arc.
     pub chord_mm: f64,

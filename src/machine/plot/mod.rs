@@ -1,6 +1,6 @@
 //! Plots (HPGL): the unit of their numbers, and which of their lines are cut. The keys `hpgl.*`.
 
-mod unit;
+pub(super) mod unit;
 
 use std::collections::BTreeMap;
 

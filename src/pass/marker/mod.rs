@@ -1,4 +1,7 @@
-//! Passes over the marker.
+//! Passes over the marker: what is cut, and in which order.
+//!
+//! Receives a marker as it was read, promises one whose cuts are made, in cut order; what is doubtful is reported. Never knows
+//! how the blade moves.
 
 mod cut;
 mod inspect;

@@ -49,8 +49,8 @@ pub(super) fn path(run: &Run, tolerance: f64, interpolation: &Interpolation, job
     let radius = run.edge.lead(knife.ends());
     let pose = |tip: Point, c: f64| Pose { centre: tip - Rotation(c).unit() * radius, c: Rotation(c) };
     let c = Rotation(run.start.c.0 - run.edge.turn()).nearest(first).0;
-    let Interpolation { circular, step, chordal_deviation, blade_deviation } = *interpolation;
-    let permitted = if circular { TURN_SHARE } else { LINE_SHARE } * blade_deviation;
+    let Interpolation { circular, step, chord_tolerance, heading_tolerance } = *interpolation;
+    let permitted = if circular { TURN_SHARE } else { LINE_SHARE } * heading_tolerance;
     let joining = Joining {
         length_min: STEPS_MIN * step,
         length_least: STEPS_LEAST * step,
@@ -78,7 +78,7 @@ pub(super) fn path(run: &Run, tolerance: f64, interpolation: &Interpolation, job
         done += arc.length;
     }
     let chord =
-        Deviation { distance: chordal_deviation.min(CHORD_SHARE * tolerance), angle: LINE_SHARE * blade_deviation };
+        Deviation { distance: chord_tolerance.min(CHORD_SHARE * tolerance), angle: LINE_SHARE * heading_tolerance };
     Ok(Path { radius, chord, ..pieces.finish() })
 }
 

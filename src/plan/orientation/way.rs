@@ -1,7 +1,7 @@
 //! The machine's own coordinates along a path: with an eccentric knife the axes do not follow the tip.
 //!
-//! Centre q(u) = p(u) - r (cos c, sin c), c the blade's angle. Under the chord mode ([`Chord`]) the heel is on the
-//! path, too. Under the tangent mode c is the path's tangent; after a plunge as a chord it blends from the chord to the
+//! Centre q(u) = p(u) - r (cos c, sin c), c the blade's angle. In the chord mode ([`Chord`]) the heel is on the
+//! path, too. In the tangent mode c is the path's tangent; after a plunge as a chord it blends from the chord to the
 //! tangent over the next blade width. Derivatives to third order are closed forms: with X = x' y'' - y' x'' and n =
 //! x'^2 + y'^2, c' = X / n, c'' = X' / n - X n' / n^2, c''' = X'' / n - 2 X' n' / n^2 - X n'' / n^2 + 2 X n'^2 / n^3.
 
@@ -202,7 +202,7 @@ impl<'a> Way<'a> {
     }
 }
 
-/// Places along a way, none before the last one: under the tangent mode each is found without a search, however long
+/// Places along a way, none before the last one: in the tangent mode each is found without a search, however long
 /// the way.
 #[derive(Debug)]
 pub(in crate::plan) struct Walk<'a> {

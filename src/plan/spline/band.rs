@@ -127,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn the_circle_that_was_flattened_lies_inside_the_tube() {
+    fn the_circle_that_was_flattened_lies_inside_the_band() {
         let profile = MachineProfile::default();
         let band = ToleranceBand::new(circle(6.4, 15), 0.05, &profile);
         for i in 1..14 {

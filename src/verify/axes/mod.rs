@@ -1,4 +1,7 @@
 //! What the axes and outputs do, whatever is cut: limits, rests, the table, crawling, events.
+//!
+//! Receives rows as they come and the profile, promises the worst value of each rule on axes and outputs. Never judges what
+//! is cut.
 
 pub(super) mod crawl;
 pub(super) mod events;

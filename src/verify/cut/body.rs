@@ -7,7 +7,7 @@ use crate::verify::reference::line::Line;
 use crate::verify::reference::nibbled::is_curve;
 
 /// Distance of two places at which the body of a plunged blade is looked at, mm.
-pub(in crate::verify) const BODY_STEP: f64 = 0.25;
+pub(super) const BODY_STEP: f64 = 0.25;
 
 /// What a stroke cuts: the body's places, then the tip's.
 pub(in crate::verify) struct Cut {
@@ -19,12 +19,12 @@ pub(in crate::verify) struct Cut {
     /// The row of each place of the tip.
     pub(in crate::verify) rows: Vec<usize>,
     /// How the tip goes from place to place.
-    pub(in crate::verify) deviation: Deviation,
+    pub(in crate::verify) sagitta: Sagitta,
 }
 
 /// How far the way of a tip bows away from the straight line between two of its places.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::verify) enum Deviation {
+pub(in crate::verify) enum Sagitta {
     /// As places at equal times show: by an eighth of their second difference, as a parabola does.
     Timed,
     /// By no more than this, mm: they were laid so along a way that is known.
@@ -46,7 +46,7 @@ impl Cut {
                 rows.push(i);
             }
         }
-        Self { stations: polyline::stations(&points), points, body: steps, rows, deviation: Deviation::Timed }
+        Self { stations: polyline::stations(&points), points, body: steps, rows, sagitta: Sagitta::Timed }
     }
 
     /// Length of all that it cuts, mm: of the body, and of the tip's way.

@@ -18,7 +18,7 @@ const HALVINGS: usize = 20;
 
 /// Where the body of a blade is looked at, in parts of its width from the heel: on an arc it is off the most in its middle,
 /// where a curve turns to the other side, in its quarters.
-pub(in crate::verify) const BODY_SHARES: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
+pub(super) const BODY_SHARES: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
 /// A blade that goes along a line.
 #[derive(Clone, Copy)]

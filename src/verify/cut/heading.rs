@@ -32,17 +32,17 @@ const SURE_EPSILON: f64 = 1e-9;
 const TIGHT: f64 = 5.0;
 
 /// Any lead is right: for a stroke that belongs to no line.
-pub(in crate::verify) const ANY: [f64; 2] = [-PI, PI];
+pub(super) const ANY: [f64; 2] = [-PI, PI];
 /// None is: the blade plunges along its way.
-pub(in crate::verify) const NONE: [f64; 2] = [0.0; 2];
+pub(super) const NONE: [f64; 2] = [0.0; 2];
 
 /// Least way of the tip that shows a direction, mm.
-pub(in crate::verify) fn way_min(rounding: Rounding) -> f64 {
+pub(super) fn way_min(rounding: Rounding) -> f64 {
     (COARSE_WAY * rounding.axis()).max(WAY_MIN)
 }
 
 /// By how much coarse numbers may turn a direction, degrees; none for those that leave it below what is judged.
-pub(in crate::verify) fn noise_deg(rounding: Rounding) -> f64 {
+pub(super) fn noise_deg(rounding: Rounding) -> f64 {
     let way = way_min(rounding);
     // At the ends of a stroke the direction is that of a chord ahead or behind, which a curve bows away from.
     if way > WAY_MIN { (rounding.place() / way + way / (2.0 * TIGHT)).to_degrees() } else { 0.0 }
@@ -68,7 +68,8 @@ pub(in crate::verify) struct Moving<'a> {
 }
 
 impl Moving<'_> {
-    /// The blade against its orientation mode: along the way of the tip; before the tip has moved, along the way to come.
+    /// The blade against where its orientation mode has it: along the way of the tip; before the tip has moved, along the
+    /// way to come.
     pub(in crate::verify) fn check(&self, heading: &mut Worst) {
         let Self { rows, tips, .. } = *self;
         let last = rows.len() - 1;
@@ -226,7 +227,7 @@ fn point_at(line: &Line, foot: &Foot) -> Point {
 
 /// The directions that a blade may have which cuts a line from a joint to another without moving: as a chord from the one
 /// overlap to the other.
-pub(in crate::verify) fn of_plunge_cut(line: &Line, [from, to]: [f64; 2], joints: &Joints) -> Vec<Vector> {
+pub(super) fn of_plunge_cut(line: &Line, [from, to]: [f64; 2], joints: &Joints) -> Vec<Vector> {
     let (start, end) = (line.chord_at(from), line.chord_at(to.next_down()));
     let at = |chord: usize, station: f64| line.point(chord) + line.direction(chord) * (station - line.station(chord));
     let (first, last) = (at(start, from), at(end, to));
@@ -237,6 +238,6 @@ pub(in crate::verify) fn of_plunge_cut(line: &Line, [from, to]: [f64; 2], joints
 }
 
 /// Numbers, each once.
-pub(in crate::verify) fn distinct(numbers: &[f64; 3]) -> impl Iterator<Item = f64> + '_ {
+pub(super) fn distinct(numbers: &[f64; 3]) -> impl Iterator<Item = f64> + '_ {
     (0..numbers.len()).filter(|&i| !numbers[..i].contains(&numbers[i])).map(|i| numbers[i])
 }

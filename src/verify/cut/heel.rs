@@ -1,6 +1,6 @@
 //! Whether the heel of the blade goes where the tip went before it.
 
-use super::body::{Cut, Deviation};
+use super::body::{Cut, Sagitta};
 use super::trial::Trial;
 use crate::geom::{Point, polyline};
 
@@ -8,7 +8,7 @@ use crate::geom::{Point, polyline};
 /// the blade before, or where the blade plunged. How far that is off the line is known at places; what lies between two of
 /// them is within half of their distance of one. Where the way between is known to bow by so much, no vertex of the line
 /// lies farther beside it than was seen, and so nothing does, but for as much again at its ends.
-pub(in crate::verify) fn trails(cut: &Cut, heels: impl Iterator<Item = Point>, trial: &Trial, known: f64) -> bool {
+pub(super) fn trails(cut: &Cut, heels: impl Iterator<Item = Point>, trial: &Trial, known: f64) -> bool {
     let width = cut.stations[cut.body];
     let (mut place, mut behind) = (cut.body, 0);
     heels.enumerate().all(|(row, heel)| {
@@ -19,9 +19,9 @@ pub(in crate::verify) fn trails(cut: &Cut, heels: impl Iterator<Item = Point>, t
         let [from, to] = [behind, behind + 1];
         let aside = polyline::distance_to_segment(heel, cut.points[from], cut.points[to]);
         let off = trial.feet[from].deviation.max(trial.feet[to].deviation);
-        let between = match cut.deviation {
-            Deviation::Within(deviation) if from >= cut.body => off.max(trial.worst.0) + deviation,
-            Deviation::Within(_) | Deviation::Timed => (cut.points[to] - cut.points[from]).norm() / 2.0,
+        let between = match cut.sagitta {
+            Sagitta::Within(sagitta) if from >= cut.body => off.max(trial.worst.0) + sagitta,
+            Sagitta::Within(_) | Sagitta::Timed => (cut.points[to] - cut.points[from]).norm() / 2.0,
         };
         aside + off + between < known
     })

@@ -26,7 +26,7 @@ pub(in crate::verify) struct Joints {
     pub(in crate::verify) fronts: [f64; 3],
     longest: Option<f64>,
     /// How far the body of a plunged blade may lie beside a curve before that is worth a word, mm.
-    max_deviation: f64,
+    permitted: f64,
 }
 
 /// A stretch of a line on which a joint is looked for.
@@ -47,7 +47,7 @@ impl Joints {
             heels: [0.0, knife.heel_overlap_mm, knife.corner_heel_overlap_mm],
             fronts: [0.0, knife.front_overlap_mm, knife.corner_front_overlap_mm],
             longest: knife.longest_cut(),
-            max_deviation: knife.max_bow_mm,
+            permitted: knife.max_bow_mm,
         }
     }
 
@@ -60,7 +60,7 @@ impl Joints {
     /// ends and bends, and where the knife was down for too long, as far as it does. Where the line is nibbled a blade that
     /// never moves lies near to what it cuts, unless that is all there is between two of them and bent, and any other bows
     /// by no more than is worth no word.
-    pub(in crate::verify) fn deviation(&self, line: &Line, [heel, tip]: [Around; 2], cut: &Cut) -> f64 {
+    pub(in crate::verify) fn permitted_deviation(&self, line: &Line, [heel, tip]: [Around; 2], cut: &Cut) -> f64 {
         let is_at = |around: Around| self.at_end_or_bend(line, around).is_some();
         let is_nibbled = [heel, tip].iter().any(|around| line.is_nibbled(around.station));
         let is_open = match (is_nibbled, cut.is_plunge_cut()) {
@@ -71,7 +71,7 @@ impl Joints {
         if is_open {
             f64::INFINITY
         } else if is_nibbled && !cut.is_plunge_cut() {
-            self.max_deviation
+            self.permitted
         } else {
             0.0
         }

@@ -1,4 +1,7 @@
 //! What the blade cuts: strokes, followed along the lines of the reference and judged by them.
+//!
+//! Receives strokes and the reference, promises what each stroke cut, how the blade lay and how fast its tip went, and what
+//! it cut too far. Never judges the limits of the axes.
 
 pub(super) mod body;
 pub(super) mod chord;

@@ -298,7 +298,7 @@ impl<'a> Overcut<'a> {
 
 /// Of the joints at which a plunge cut may begin and those at which it may end, the two nearest to each other; the
 /// outermost when these are not in order.
-pub(in crate::verify) fn innermost([from, to]: [[f64; 2]; 2]) -> [f64; 2] {
+pub(super) fn innermost([from, to]: [[f64; 2]; 2]) -> [f64; 2] {
     if from[1] < to[0] { [from[1], to[0]] } else { [from[0], to[1]] }
 }
 

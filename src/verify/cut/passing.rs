@@ -2,13 +2,13 @@
 
 use std::ops::RangeInclusive;
 
-use super::body::{Cut, Deviation};
+use super::body::{Cut, Sagitta};
 use super::follow::Foot;
 use crate::geom::{Point, polyline};
 use crate::verify::reference::line::Line;
 
 /// How far the tip's way from place `i - 1` to place `i` passes by the vertices between their stations, mm.
-pub(in crate::verify) fn skipped(line: &Line, cut: &Cut, feet: &[Foot], i: usize) -> f64 {
+pub(super) fn skipped(line: &Line, cut: &Cut, feet: &[Foot], i: usize) -> f64 {
     let (a, b) = (feet[i - 1].station, feet[i].station);
     let chord = feet[i].chord;
     if feet[i - 1].chord == chord && (a - b).abs() <= line.station(chord + 1) - line.station(chord) {
@@ -17,14 +17,14 @@ pub(in crate::verify) fn skipped(line: &Line, cut: &Cut, feet: &[Foot], i: usize
     }
     let points = &cut.points;
     let (low, high) = (a.min(b), a.max(b));
-    let deviation = |k: usize| match cut.deviation {
-        Deviation::Within(deviation) => deviation,
+    let sagitta = |k: usize| match cut.sagitta {
+        Sagitta::Within(sagitta) => sagitta,
         // The blade's own places are no part of the way.
-        Deviation::Timed if k <= cut.body || k + 1 >= points.len() => 0.0,
-        Deviation::Timed => ((points[k + 1] - points[k]) - (points[k] - points[k - 1])).norm() / 8.0,
+        Sagitta::Timed if k <= cut.body || k + 1 >= points.len() => 0.0,
+        Sagitta::Timed => ((points[k + 1] - points[k]) - (points[k] - points[k - 1])).norm() / 8.0,
     };
     let away = |vertex: usize| polyline::distance_to_segment(line.point(vertex), points[i - 1], points[i]);
-    line.vertices(low.next_up(), high.next_down()).map(away).fold(0.0, f64::max) - deviation(i).max(deviation(i - 1))
+    line.vertices(low.next_up(), high.next_down()).map(away).fold(0.0, f64::max) - sagitta(i).max(sagitta(i - 1))
 }
 
 /// The stations of the first and the last vertex between two places of a straight blade that it cuts; `None` when there are

@@ -5,7 +5,7 @@
 
 use std::ops::RangeToInclusive;
 
-use super::body::{BODY_STEP, Cut, Deviation};
+use super::body::{BODY_STEP, Cut, Sagitta};
 use super::chord::{self, BODY_SHARES, Blade, Trailing};
 use super::covered::Covered;
 use super::done::Done;
@@ -163,8 +163,8 @@ impl<'a> Judge<'a> {
         let ways = stroke.goings().iter().zip(&blades).map(way).collect();
         let tips: Vec<Point> = rows.iter().zip(&blades).map(|(row, &along)| row.centre + along * lead).collect();
         let heel = rows[0].centre - blades[0] * heel;
-        let deviation = if stroke.goings().is_empty() { Deviation::Timed } else { Deviation::Within(SAGITTA) };
-        let cut = Cut { deviation, ..Cut::new(&tips, heel, self.knife) };
+        let sagitta = if stroke.goings().is_empty() { Sagitta::Timed } else { Sagitta::Within(SAGITTA) };
+        let cut = Cut { sagitta, ..Cut::new(&tips, heel, self.knife) };
         let trace = self.tracer.trace(&cut, rows[0].block);
         Traced { stroke, tips, blades, ends, ways, cut, trace, best: None }
     }
@@ -322,7 +322,7 @@ impl<'a> Judge<'a> {
             || trial.feet.last().is_some_and(is_amid)
     }
 
-    /// The blade against its orientation mode. What only plunges has no way that an orientation mode could bear on.
+    /// The blade against where its orientation mode has it. What only plunges has no way, so both modes are the same to it.
     fn check_heading(&self, traced: &Traced, heading: &mut Worst) {
         let Traced { stroke, tips, blades, cut, best, .. } = traced;
         let is_chord = self.knife.follow == Follow::Chord && self.knife.width_mm > 0.0 && !cut.is_plunge_cut();
@@ -500,7 +500,7 @@ impl<'a> Judge<'a> {
                 body.see(foot.deviation, || stroke.sighting(cut, i));
             }
         }
-        // Under the chord mode it is the middle of the blade that leaves an arc the farthest.
+        // In the chord mode it is the middle of the blade that leaves an arc the farthest.
         let shares: &[f64] = match self.knife.follow {
             Follow::Tangent => &[0.0],
             Follow::Chord => &BODY_SHARES,

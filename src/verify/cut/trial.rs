@@ -14,7 +14,7 @@ use crate::verify::reference::line::Line;
 use crate::verify::reference::lines::Reference;
 
 /// How far from a line a stroke may lie and still be taken for a bad cut of it, mm.
-pub(in crate::verify) const REACH: f64 = 2.0;
+pub(super) const REACH: f64 = 2.0;
 /// Lines that a stroke is tried on, at the most.
 const TRIALS: usize = 8;
 
@@ -253,12 +253,12 @@ impl Tracer<'_> {
             return body;
         }
         let around = |end: usize| Around { station: feet[end].station, slack: 2.0 * allowed, band: 0.0 };
-        let deviation = self.joints.deviation(line, body.ends.map(around), cut);
-        if is_nibble && deviation == 0.0 {
+        let permitted = self.joints.permitted_deviation(line, body.ends.map(around), cut);
+        if is_nibble && permitted == 0.0 {
             // What nibbles is within the tolerance of what it cuts.
             Body::default()
         } else {
-            if body.sag > deviation + allowed {
+            if body.sag > permitted + allowed {
                 body.sag = 0.0;
             }
             body

@@ -8,7 +8,7 @@ use crate::geom::Point;
 use crate::machine::MachineProfile;
 
 /// The first line of such a program.
-pub(in crate::verify) const HEADER: &[u8] = b"# cutc hal: x_mm y_mm c_deg knife drill event block";
+pub(super) const HEADER: &[u8] = b"# cutc hal: x_mm y_mm c_deg knife drill event block";
 
 /// Whether a program is one of these.
 pub(in crate::verify) fn begins(input: &mut dyn BufRead) -> bool {

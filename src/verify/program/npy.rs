@@ -43,7 +43,7 @@ pub(in crate::verify) fn header(input: &mut dyn BufRead) -> Option<u64> {
 
 /// Reads the next record, of which `left` are to come; `Some(false)` at the end of the program, `None` when it ends too
 /// early, cannot be read, or has bytes left over.
-pub(in crate::verify) fn record(input: &mut dyn BufRead, left: &mut u64, bytes: &mut Vec<u8>) -> Option<bool> {
+pub(super) fn record(input: &mut dyn BufRead, left: &mut u64, bytes: &mut Vec<u8>) -> Option<bool> {
     if *left == 0 {
         return retried(input)?.is_empty().then_some(false);
     }

@@ -1,7 +1,7 @@
 //! Numbers of programs, as bytes tell them.
 
 /// The most characters of a field that a message quotes.
-pub(in crate::verify) const QUOTED_CHARS: usize = 24;
+const QUOTED_CHARS: usize = 24;
 /// Largest number of digits that a whole number may have to be exact in `f64`.
 const EXACT_DIGITS: usize = 15;
 const POWERS: [f64; 16] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
@@ -37,7 +37,7 @@ pub(in crate::verify) fn short(field: &[u8]) -> Option<f64> {
 }
 
 /// Such a number at the beginning of a text, and how many bytes it takes.
-pub(in crate::verify) fn leading(text: &[u8]) -> Option<(f64, usize)> {
+pub(super) fn leading(text: &[u8]) -> Option<(f64, usize)> {
     let start = usize::from(text.first() == Some(&b'-'));
     let (mut at, mut value, mut point) = (start, 0_u64, None);
     while let Some(&byte) = text.get(at) {

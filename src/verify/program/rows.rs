@@ -14,7 +14,7 @@ use crate::machine::MachineProfile;
 /// The longest line that is read, bytes: what is longer is no row, and must not fill the memory.
 const LINE_MAX: u64 = 1024;
 /// The first line of a text: the names of its fields.
-pub(in crate::verify) const HEADER: &str = "t_s,x_mm,y_mm,c_deg,knife,drill,event,block";
+pub(super) const HEADER: &str = "t_s,x_mm,y_mm,c_deg,knife,drill,event,block";
 /// The same, one by one.
 const FIELDS: [&str; 8] = ["t_s", "x_mm", "y_mm", "c_deg", "knife", "drill", "event", "block"];
 /// The greatest values of knife, drill, event and block.

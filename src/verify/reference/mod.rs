@@ -1,4 +1,7 @@
 //! What must be cut: the lines of the marker, the parts that they go around, and what lies where on the cloth.
+//!
+//! Receives the final marker and the profile, promises lines with their corners, caps and exceptions, found anew. Never sees
+//! the program.
 
 pub(super) mod caps;
 pub(super) mod grid;

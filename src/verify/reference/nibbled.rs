@@ -9,7 +9,7 @@ use super::tight::stands_across;
 use crate::geom::{Point, polyline};
 use crate::machine::{Knife, TightCurves};
 
-/// Part of the bow from which on a line is nibbled at which it may be, because rounding and overlaps matter.
+/// Part of `knife.max_bow_mm` from which on a line may be nibbled: rounding and overlaps matter.
 const DEVIATION_SHARE: f64 = 0.9;
 /// Part of the tolerance beyond an arc of the same turn from which on a curve may be one that the blade cannot enter.
 const ENTRY_SHARE: f64 = 0.4;
@@ -28,7 +28,7 @@ pub(in crate::verify) struct Blade<'a> {
 
 /// Whether a blade that plunges anywhere on a line, round a ring, may lie beside it: the knife is lifted somewhere amid it,
 /// and what then remains may be short.
-pub(in crate::verify) fn deviates_anywhere(line: &Line, Blade { knife, tolerance }: Blade) -> bool {
+pub(super) fn deviates_anywhere(line: &Line, Blade { knife, tolerance }: Blade) -> bool {
     let path = line.twice_round();
     let deviation = |start: usize| Deviation::new(&path[start..], 0.0, knife);
     (0..line.chords())
@@ -38,7 +38,7 @@ pub(in crate::verify) fn deviates_anywhere(line: &Line, Blade { knife, tolerance
 
 /// How far a line, from its start and from its end, goes on as a curve that a blade plunged there as a chord of it may
 /// not enter, or may lie farther beside than `knife.max_bow_mm`, mm; 0 where it does not begin as one.
-pub(in crate::verify) fn curved_ends(line: &Line, blade: Blade) -> [f64; 2] {
+pub(super) fn curved_ends(line: &Line, blade: Blade) -> [f64; 2] {
     if blade.knife.width_mm == 0.0 || line.chords() < 2 {
         return [0.0; 2];
     }
@@ -142,7 +142,7 @@ pub(in crate::verify) fn sharpest_share(turns: &[f64]) -> f64 {
 }
 
 impl Deviation {
-    /// The bow at the start of a path, by a heel overlap; `None` where there is none.
+    /// The deviation at the start of a path, by a heel overlap; `None` where there is none.
     fn new(path: &[Point], overlap: f64, knife: &Knife) -> Option<Self> {
         // What is straight does not bow.
         path.get(2)?;

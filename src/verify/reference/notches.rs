@@ -39,11 +39,7 @@ pub(in crate::verify) fn slits(
 
 /// Takes the notches that are not cut as they are drawn out of an outline; gives them with the least speed of what they
 /// were.
-pub(in crate::verify) fn straighten(
-    segments: &mut Vec<Segment>,
-    piece: &Piece,
-    notches: Notches,
-) -> Vec<(OutlineNotch, u8)> {
+pub(super) fn straighten(segments: &mut Vec<Segment>, piece: &Piece, notches: Notches) -> Vec<(OutlineNotch, u8)> {
     if notches.style == NotchStyle::AsDrawn {
         return Vec::new();
     }

@@ -8,7 +8,7 @@ use crate::geom::shape::Shape;
 /// For each shape the one to whose region it belongs: itself, or, when it lies in one other or in three, the smallest
 /// of these, of which it is a cut-out. A shape in a cut-out is a region of its own. `holders` names the shapes in whose
 /// rings a point lies.
-pub(in crate::verify) fn regions(shapes: &[Shape], holders: impl Fn(Point) -> Vec<u32> + Sync) -> Vec<u32> {
+pub(super) fn regions(shapes: &[Shape], holders: impl Fn(Point) -> Vec<u32> + Sync) -> Vec<u32> {
     let area = |shape: u32| {
         let (width, height) = shapes[shape as usize].extent().size();
         width * height

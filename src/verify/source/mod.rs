@@ -1,8 +1,12 @@
 //! The audit of the source: its bytes, read by other means than the reader's, hold what the marker holds, and no pass
 //! loses any of it.
+//!
+//! Receives the bytes, and the marker as it was read and as it is cut; promises a finding under each rule `source/`. Never
+//! uses a reader of `front`.
 
 pub(super) mod audit;
 pub(super) mod census;
 pub(super) mod hpgl;
 pub(super) mod kept;
 pub(super) mod scan;
+pub(super) mod words;

@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 
 use super::census::{ARC_SAGITTA, Census, Slack};
+use super::words::{Block, Blocks};
 use crate::geom::moments::Moments;
 use crate::geom::{Extent, Point, Vector};
 use crate::machine::MachineProfile;
 use crate::machine::keys::CODE_NAMES;
-use crate::verify::program::words::{Block, Blocks};
 
 /// Codes that drill.
 const DRILLS: [&str; 6] = ["R", "M43", "M44", "M45", "M72", "M73"];
@@ -19,7 +19,7 @@ const CLOCKWISE: f64 = -1.0;
 const COUNTERCLOCKWISE: f64 = 1.0;
 
 /// Scans a cut file whose unit is that many mm. Only what moves the knife matters; everything else is passed over.
-pub(in crate::verify) fn scan_iso(bytes: &[u8], unit: f64, profile: &MachineProfile) -> (Census, Slack) {
+pub(super) fn scan_iso(bytes: &[u8], unit: f64, profile: &MachineProfile) -> (Census, Slack) {
     let mut scan = Scan {
         blocks: Blocks::new(bytes),
         unit,

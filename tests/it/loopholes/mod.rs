@@ -45,7 +45,7 @@ fn what_is_done_by_hand_and_well_is_accepted() {
 }
 
 #[test]
-fn a_stab_across_a_line_is_no_cut_of_it() {
+fn a_plunge_cut_across_a_line_is_no_cut_of_it() {
     for heading in [5.0, 10.0, 20.0, 45.0, 90.0] {
         let mut program = Program::new(&Job::default());
         let along = Heading::new(f64::to_radians(heading)).unit();
@@ -56,7 +56,7 @@ fn a_stab_across_a_line_is_no_cut_of_it() {
 }
 
 #[test]
-fn a_stab_across_a_line_that_is_cut_but_for_a_little_is_no_cut_of_it() {
+fn a_plunge_cut_across_a_line_that_is_cut_but_for_a_little_is_no_cut_of_it() {
     for heading in [5.0, 10.0, 20.0] {
         let mut program = Program::new(&Job::default());
         program.run(p(99.5, 50.0), p(150.0, 50.0), 1);
@@ -76,7 +76,7 @@ fn a_blade_that_cuts_the_last_bit_of_a_line_and_much_beyond_it_is_astray() {
 }
 
 #[test]
-fn a_short_line_is_not_cut_by_many_stabs() {
+fn a_short_line_is_not_cut_by_many_plunge_cuts() {
     let marker = support::marker(&[p(100.0, 50.0), p(106.0, 50.0)]);
     let mut program = Program::new(&Job::default());
     for i in 0..60 {
@@ -317,10 +317,10 @@ fn every_part_of_a_line_has_its_own_greatest_speed() {
 }
 
 #[test]
-fn a_stab_askew_is_seen_though_it_stays_in_the_tube() {
+fn a_plunge_cut_askew_is_seen_though_it_stays_in_the_band() {
     for heading in [0.0, 0.4, 0.6, 0.8] {
         let mut program = Program::new(&Job::default());
-        // Turned about its middle, so that neither end leaves the tube.
+        // Turned about its middle, so that neither end leaves the tolerance band.
         program.plunge_cut(p(103.0, 50.0) + Heading::new(f64::to_radians(heading)).unit() * 3.3, heading, 1);
         let expected: &[&str] = if heading > 0.5 { &["verify/heading"] } else { &[] };
         let found = broken(&program.judge(&support::marker(&[p(100.0, 50.0), p(106.0, 50.0)])));

@@ -51,7 +51,7 @@ fn two_bends_alike_under_the_blade_are_not_cut_straight() {
 }
 
 #[test]
-fn a_stab_on_a_curve_does_not_leave_it_along_the_tangent() {
+fn a_plunge_cut_on_a_curve_does_not_leave_it_along_the_tangent() {
     let marker = circle(20.0);
     let mut program = Program::new(&Job::default());
     program.plunge_cut(p(120.0, 53.3), 90.0, 2);

@@ -16,8 +16,8 @@ const READING: f64 = 0.05;
 const SWING: usize = 200;
 /// Share of the limits of its axes that a program uses whose blade can then be turned a little and still keeps them.
 const EASY: f64 = 0.5;
-/// The axes of a stab move less, mm and degrees.
-const WAY_OF_STAB: f64 = 1e-5;
+/// The axes of a plunge cut move less, mm and degrees.
+const WAY_OF_PLUNGE_CUT: f64 = 1e-5;
 /// Rows by which C may be late.
 const LATE: usize = 100;
 
@@ -74,7 +74,8 @@ pub(crate) const DAMAGES: &[Damage] = &[
         Some(Harm { program, amount, place: Place::During([rows[to.end].t, rows[from.start].t]) })
     }),
     damage("a stab askew", HEADING, |case, rng| {
-        let is_plunge_cut = |stroke: &Range<usize>| case.rows[stroke.start].away(&case.rows[stroke.end]) < WAY_OF_STAB;
+        let is_plunge_cut =
+            |stroke: &Range<usize>| case.rows[stroke.start].away(&case.rows[stroke.end]) < WAY_OF_PLUNGE_CUT;
         let plunge_cuts: Vec<_> = strokes(&case.rows).into_iter().filter(is_plunge_cut).collect();
         let plunge_cut = pick(rng, &plunge_cuts)?;
         let twist = twist(case, DAMAGING);

@@ -1,4 +1,4 @@
-//! Damage to the rows of a program: a blade that follows another law than the profile says.
+//! Damage to the rows of a program: a blade that follows another mode than the profile says.
 
 use cutc::machine::Follow;
 
@@ -30,9 +30,9 @@ pub(crate) const DAMAGES: &[Damage] = &[
             (rows[rows.len() - 1].tip(knife) - rows[0].tip(knife)).norm() > LONG * knife.width_mm
         })?;
         let from = case.rows[stroke.start].tip(knife);
-        // The tube lets the heel be off on one side of the path and on the other.
-        let tube = (2.0 * case.tolerance() / knife.width_mm).atan().to_degrees();
-        let twist = twist(case, DAMAGING) + tube;
+        // The tolerance band lets the heel be off on one side of the path and on the other.
+        let band = (2.0 * case.tolerance() / knife.width_mm).atan().to_degrees();
+        let twist = twist(case, DAMAGING) + band;
         let turned = |(i, row): (usize, &Row)| {
             let way = (row.tip(knife) - from).norm() / knife.width_mm;
             // Neither at the plunge nor behind the first width.
@@ -45,7 +45,7 @@ pub(crate) const DAMAGES: &[Damage] = &[
     }),
 ];
 
-/// The program of a machine that should follow one law and follows another.
+/// The program of a machine that should follow one mode and follows another.
 fn following(case: &Case, [orientation, other]: [Follow; 2]) -> Option<Harm> {
     (case.job.profile.knife.follow == orientation)
         .then(|| erring(case, &parse(&case.on(|job| job.profile.knife.follow = other))))?

@@ -119,8 +119,8 @@ pub(crate) const DAMAGES: &[Damage] = &[
     damage("plunges of stabs too short", "verify/dwell", |case, _| {
         let dwell = ticks(case, case.job.profile.knife.plunge());
         let program = case.on(|job| job.profile.knife.plunge_ms -= job.profile.time.period_ms);
-        let has_stabs = strokes(&parse(&program)).iter().any(|stroke| stroke.len() < dwell);
-        has_stabs.then(|| Harm::anywhere(program, (1.0 - SAME) * case.job.profile.time.period()))
+        let has_plunge_cuts = strokes(&parse(&program)).iter().any(|stroke| stroke.len() < dwell);
+        has_plunge_cuts.then(|| Harm::anywhere(program, (1.0 - SAME) * case.job.profile.time.period()))
     }),
     damage("lifts too short", "verify/rest", |case, _| {
         let dwell = ticks(case, case.job.profile.knife.lift());

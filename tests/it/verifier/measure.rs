@@ -118,7 +118,7 @@ pub(crate) fn distance(marker: &Marker, point: Point) -> f64 {
     chords.chain(slits).map(|(a, b)| polyline::distance_to_segment(point, a, b)).fold(f64::INFINITY, f64::min)
 }
 
-/// Farthest that the blade passes by a bend of a contour, mm: at a vertex the tube is as wide as the tolerance.
+/// Farthest that the blade passes by a bend of a contour, mm: at a vertex the tolerance band is as wide as the tolerance.
 pub(crate) fn passed_by(case: &Case, rows: &[Row]) -> f64 {
     let knife = &case.job.profile.knife;
     // The blade's body cuts where it plunges, then its tip.

@@ -151,7 +151,7 @@ pub(crate) const DAMAGES: &[Damage] = &[
 ];
 
 /// How far a line must be drawn beside its place to be some times the tolerance off, mm: its program may lie a third of
-/// the tolerance nearer, and the tube of a curve may bulge after it.
+/// the tolerance nearer, and the tolerance band of a curve may bulge after it.
 fn aside(case: &Case, times: f64) -> f64 {
     let more = if times < 1.0 { 0.0 } else { case.tolerance() + case.job.profile.path.chord_sag_max_mm };
     times * case.tolerance() + more + PLACE_ROUNDING

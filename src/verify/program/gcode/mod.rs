@@ -490,31 +490,6 @@ struct Walk {
 /// Rules on what F asks for at the least: setpoints have none.
 pub(in crate::verify) const OF_FEED: &[&str] = &["verify/crawl"];
 
-/// Rules that need no time; of the others a program without any says nothing.
-pub(in crate::verify) const RULES: &[&str] = &[
-    "verify/format",
-    "verify/end",
-    "verify/c-range",
-    "verify/table",
-    "verify/feed",
-    "verify/crawl",
-    "verify/dwell",
-    "verify/on-path",
-    "verify/stray",
-    "verify/order",
-    "verify/once",
-    "verify/complete",
-    "verify/heading",
-    "verify/down",
-    "verify/body",
-    "verify/overcut-part",
-    "verify/overcut-neighbour",
-    "verify/overcut-waste",
-    "verify/drills",
-    "verify/drill-place",
-    "verify/events",
-];
-
 /// A finding as a program without time has it.
 pub(in crate::verify) fn timeless(finding: &Finding) -> Finding {
     let timeless = |place: Sighting| Sighting { time: None, ..at(0.0, place.point, place.block) };
