@@ -223,7 +223,10 @@ const DAMAGES: &[Damage] = &[
         let part = parts(lines).into_iter().max_by_key(std::ops::Range::len)?;
         let mut turned = lines.0.clone();
         for line in &mut turned[part] {
-            *line = Lines(vec![line.clone()]).by("C", "C", 180.0).map_or(line.clone(), |mut lines| lines.remove(0));
+            // An axis that goes round knows no more than a whole turn.
+            let stands = line.split(" C").nth(1).and_then(|rest| rest.split(' ').next()?.parse::<f64>().ok());
+            let by = if stands.is_some_and(|c| c >= 180.0) { -180.0 } else { 180.0 };
+            *line = Lines(vec![line.clone()]).by("C", "C", by).map_or(line.clone(), |mut lines| lines.remove(0));
         }
         Some(turned).filter(|turned| *turned != lines.0)
     }),
@@ -414,6 +417,26 @@ fn a_move_between_comments_is_judged_as_the_controller_goes_it() {
     let stray = format!("{}\n(x) G1 X500 Y500 C0 F60 (y){}", &program[..last], &program[last..]);
     let verdict = judge(&stray, &source, &job);
     assert!(verdict.unread.is_none() && !verdict.passes(), "{verdict:?}");
+}
+
+#[test]
+fn what_stops_a_controller_is_refused() {
+    let (source, job) = (fixture("iso/seed-circle.cut"), Job::default());
+    let (program, _) = compile(&source, &job);
+    let verdict = |line: &str, job: &Job, program: &str| {
+        judge(&program.replacen("\nG0 ", &format!("\n{line}\nG0 "), 1), &source, job).unread
+    };
+    assert_eq!(verdict(&format!("({})", "a".repeat(253)), &job, &program), None);
+    let unread = |line: &str| verdict(line, &job, &program).unwrap_or_default();
+    assert!(unread(&format!("({})", "a".repeat(254))).contains("is too long"));
+    assert!(unread("(a\0b)").contains("holds a NUL"));
+    assert!(unread("(a)N1").contains("is no word of the target"));
+    let mut wrapped = job.clone();
+    wrapped.profile.gcode.wrapped = true;
+    let (round, _) = compile(&source, &wrapped);
+    assert_eq!(verdict("(a)", &wrapped, &round), None);
+    let beyond = verdict("G0 X1 Y1 C450", &wrapped, &round).unwrap_or_default();
+    assert!(beyond.contains("C450, which an axis that goes round does not know"), "{beyond}");
 }
 
 #[test]

@@ -9,7 +9,7 @@ use cutc::geom::{Heading, Point};
 use cutc::ir::Marker;
 use cutc::ir::toolpath::{Pose, Shape, Step};
 use cutc::machine::{Job, NotchStyle};
-use cutc::pipeline;
+use cutc::pipeline::{self, Compiled};
 use cutc::source::Source;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -114,14 +114,39 @@ fn read(name: &str) -> Marker {
 
 /// Compiles a fixture to setpoints; gives what was said about it, by code.
 fn compile(name: &str, job: &Job) -> Vec<&'static str> {
-    let source = source(name);
+    let (_, diagnostics) = compiled(&source(name), job);
+    diagnostics.iter().map(|diagnostic| diagnostic.code.name).collect()
+}
+
+/// Compiles a source to setpoints, which are judged.
+fn compiled(source: &Source, job: &Job) -> (Compiled, Diagnostics) {
     let target = TARGETS.iter().find(|target| target.name == "csv").expect("setpoints are a target");
     let mut diagnostics = Diagnostics::default();
     let order = pipeline::Order { from: None, target, verify: true };
     let mut out = Cursor::new(Vec::new());
-    let compiled = pipeline::compile(&source, job, order, &mut out, &mut diagnostics).expect("memory takes everything");
-    assert!(compiled.is_some(), "{}", render(&diagnostics, &source));
-    diagnostics.iter().map(|diagnostic| diagnostic.code.name).collect()
+    let compiled = pipeline::compile(source, job, order, &mut out, &mut diagnostics).expect("memory takes everything");
+    (compiled.unwrap_or_else(|| panic!("{}", render(&diagnostics, source))), diagnostics)
+}
+
+#[test]
+fn a_curve_with_points_as_near_as_their_rounding_is_cut_without_a_lift() {
+    // Three units from each other in a file of 0.1 mm: rounding makes a step of 45 degrees of every other one.
+    for radius in [8.0_f64, 13.0, 25.0, 60.0] {
+        for waves in [0.0, 2.0, 3.0] {
+            let count = (TAU * radius / 0.3) as u32;
+            let point = |i: u32| {
+                let turn = TAU * f64::from(i % count) / f64::from(count);
+                let place = Heading::new(turn).unit() * (radius * (1.0 + 0.04 * (waves * turn + 0.4).cos()));
+                format!("X{:.0}Y{:.0}*", 1000.0 + 10.0 * place.x, 1000.0 + 10.0 * place.y)
+            };
+            let mut points: Vec<String> = (0..=count).map(point).collect();
+            points.dedup();
+            let text = format!("H1*G71*N1*{}M14*{}M15*M0*", points[0], points[1..].concat());
+            let source = Source::new("dense.cut", text.into_bytes()).expect("small");
+            let (Compiled { report, .. }, _) = compiled(&source, &Job::default());
+            assert_eq!(report.program.lifts, Some(1), "radius {radius}, {waves} waves");
+        }
+    }
 }
 
 #[test]

@@ -8,7 +8,7 @@ use super::runs;
 use super::scene::Scene;
 use super::stretch::between;
 use crate::diagnostic::Diagnostics;
-use crate::geom::{angle, polyline};
+use crate::geom::{corner, polyline};
 use crate::ir::list::Joint;
 use crate::ir::toolpath::{End, Run, Shape, Toolpath};
 
@@ -20,16 +20,25 @@ pub(super) const PASS: ToolpathPass = ToolpathPass {
 };
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
-    let angle = scene.job.profile.corner.angle();
-    runs::replace(toolpath, |run| split(run, angle));
+    let limit = Limit { angle: scene.job.profile.corner.angle(), unit: scene.unit };
+    runs::replace(toolpath, |run| split(run, limit));
+}
+
+/// What is a corner.
+#[derive(Clone, Copy)]
+struct Limit {
+    /// The least turn that is one, rad.
+    angle: f64,
+    /// What the points are rounded to, mm; 0 = nothing.
+    unit: f64,
 }
 
 /// The runs between the corners of a run.
-fn split(mut run: Run, angle: f64) -> Vec<Run> {
+fn split(mut run: Run, limit: Limit) -> Vec<Run> {
     let last = run.points.len() - 1;
-    let mut corners: Vec<usize> = (1..last).filter(|&i| is_corner(&run, i, angle)).collect();
+    let mut corners: Vec<usize> = (1..last).filter(|&i| is_corner(&run, i, limit)).collect();
     if run.shape == Shape::Ring {
-        let at_start = is_corner(&run, 0, angle);
+        let at_start = is_corner(&run, 0, limit);
         if corners.is_empty() && !at_start {
             run.ends = ends([false; 2], &run.joints[..1], &run.joints[1..]);
             return vec![run];
@@ -53,10 +62,14 @@ fn split(mut run: Run, angle: f64) -> Vec<Run> {
     runs
 }
 
-/// Whether the knife is lifted at a point; point 0 of a ring lies between its last and its first chord.
-fn is_corner(run: &Run, i: usize, angle: f64) -> bool {
-    let before = if i == 0 { run.points[run.points.len() - 2] } else { run.points[i - 1] };
-    run.joints[i].lift || angle::is_turned(run.points[i] - before, run.points[i + 1] - run.points[i], angle)
+/// Whether the knife is lifted at a point; those of a ring are looked at round and round.
+fn is_corner(run: &Run, i: usize, Limit { angle, unit }: Limit) -> bool {
+    // A ring ends with its first point.
+    let round = if run.shape == Shape::Ring { run.points.len() - 1 } else { 0 };
+    let (before, behind) = (run.points[..i].iter().rev(), run.points[i + 1..].iter());
+    let before = before.chain(run.points[(i + 1).min(round)..round].iter().rev());
+    let behind = behind.chain(run.points[..i.min(round)].iter().skip(1));
+    run.joints[i].lift || corner::is_corner(run.points[i], &before.copied(), &behind.copied(), angle, unit)
 }
 
 /// The corner that is least far along the contour from its start, the later one of two alike.
@@ -94,6 +107,8 @@ mod tests {
     use crate::ir::toolpath::{Edge, OrientationMode, Pose};
     use crate::source::Span;
 
+    const LIMIT: Limit = Limit { angle: 0.8, unit: 0.0 };
+
     fn ring(coordinates: &[(f64, f64)]) -> Run {
         let mut points: Vec<Point> = coordinates.iter().map(|&(x, y)| Point::new(x, y)).collect();
         points.push(points[0]);
@@ -117,7 +132,7 @@ mod tests {
     #[test]
     fn a_closed_contour_starts_at_the_corner_nearest_to_its_start() {
         let square = ring(&[(2.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0), (0.0, 0.0)]);
-        let runs = split(square, 0.8);
+        let runs = split(square, LIMIT);
         assert_eq!(runs.len(), 4);
         assert_eq!(runs[0].points, [Point::new(0.0, 0.0), Point::new(2.0, 0.0), Point::new(10.0, 0.0)]);
         assert_eq!(runs[0].spans.iter().map(|s| s.block).collect::<Vec<_>>(), [4, 0]);
@@ -131,7 +146,7 @@ mod tests {
     #[test]
     fn a_smooth_closed_contour_stays_whole() {
         let circle: Vec<(f64, f64)> = (0..20).map(|i| f64::from(i) * 0.314_159).map(|a| (a.cos(), a.sin())).collect();
-        let runs = split(ring(&circle), 0.8);
+        let runs = split(ring(&circle), LIMIT);
         assert_eq!((runs.len(), runs[0].shape), (1, Shape::Ring));
     }
 
@@ -139,7 +154,7 @@ mod tests {
     fn a_code_acts_at_the_next_plunge_or_lift() {
         let mut square = ring(&[(0.0, 0.0), (5.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)]);
         square.joints[1] = Joint { lift: false, full_advance: true, no_overcut: true };
-        let bare: Vec<[bool; 2]> = split(square, 0.8).iter().map(|r| r.ends.map(|e| e.bare)).collect();
+        let bare: Vec<[bool; 2]> = split(square, LIMIT).iter().map(|r| r.ends.map(|e| e.bare)).collect();
         assert_eq!(bare, [[false, true], [true, false], [false, false], [false, false]]);
     }
 }

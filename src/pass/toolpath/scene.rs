@@ -11,12 +11,14 @@ pub struct Scene<'a> {
     pub job: &'a Job,
     /// The parts.
     pub cloth: Cloth<'a>,
+    /// What the numbers of the file are multiples of, mm; 0 when they are not rounded to a grid.
+    pub unit: f64,
 }
 
 impl<'a> Scene<'a> {
     /// The scene of a marker.
     pub fn new(marker: &'a Marker, job: &'a Job) -> Self {
-        Self { job, cloth: Cloth::new(marker) }
+        Self { job, cloth: Cloth::new(marker), unit: marker.unit }
     }
 
     /// The cloth and the blade as the cuts of a toolpath see them.

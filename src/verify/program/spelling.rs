@@ -51,9 +51,7 @@ pub(in crate::verify) fn unnumbered(line: &[u8]) -> &[u8] {
 pub(in crate::verify) fn plain(line: &[u8]) -> Option<Vec<u8>> {
     let line = uncommented(line)?;
     let mut left = line.as_slice();
-    while let Some(rest) = left.strip_prefix(&[BETWEEN_WORDS]) {
-        left = rest;
-    }
+    // The number of a line stands before all else: behind a comment it is none.
     if let Some(rest) = left.strip_prefix(b"N") {
         let digits = rest.iter().take_while(|byte| byte.is_ascii_digit()).count();
         left = &rest[digits..];
@@ -269,7 +267,7 @@ mod tests {
         check("n10g01x+01.50y-2.0\tc.0f 6 0 0. (slower) ; here", Some("G1 X1.5 Y-2 C0 F600"));
         check("G91.10 M064 P-0 X-.50", Some("G91.1 M64 P-0 X-0.5"));
         check("X1e3", Some("X1 E3"));
-        check("(a) n5 (b) g1 (c)X1(d)Y2(e)", Some("G1 X1 Y2"));
+        check("n5 (b) g1 (c)X1(d)Y2(e)", Some("G1 X1 Y2"));
         for nothing in ["", " \t", "N7", "(a)(b)", "; (MSG, no comment)", "n1 (a ; b)"] {
             check(nothing, Some(""));
         }
@@ -287,7 +285,7 @@ mod tests {
             "N1 N2",
             "G1 N2",
         ];
-        let amid = ["M(a)65 P0", "X16(;)9.2812", "G4 P0.0(a)60", "X (c) 367", "N(a)5 G1"];
+        let amid = ["M(a)65 P0", "X16(;)9.2812", "G4 P0.0(a)60", "X (c) 367", "N(a)5 G1", "(a)N5 G1"];
         let comments = [
             "G1 (a",
             "G1 (a (b)",

@@ -80,7 +80,7 @@ impl<'a> OfPiece<'a> {
         let slits = slits.iter().map(|(stroke, percent)| slit(stroke, [index, rank()].map(small), feeds.at(*percent)));
         let mut lines: Vec<Line> = slits.collect();
         for outline in outlines {
-            let place = OfContour { owner: [index, rank()].map(small), feeds, profile };
+            let place = OfContour { owner: [index, rank()].map(small), feeds, profile, unit: marker.unit };
             lines.extend(outline.lines(place));
         }
         let blade = Blade { knife: &profile.knife, tolerance: profile.tolerance(marker.unit) };

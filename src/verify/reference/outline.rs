@@ -9,7 +9,7 @@ use super::line::Line;
 use super::notches;
 use super::vertex::Vertex;
 use super::winding::Winding;
-use crate::geom::{Point, angle};
+use crate::geom::{Point, angle, corner};
 use crate::ir::Marker;
 use crate::ir::list::Segment;
 use crate::ir::marker::{Contour, OutlineNotch, Piece};
@@ -32,6 +32,8 @@ pub(in crate::verify) struct OfContour<'a> {
     /// How fast the tip may be in its piece.
     pub(in crate::verify) feeds: Feeds<'a>,
     pub(in crate::verify) profile: &'a MachineProfile,
+    /// What the points of the marker are rounded to, mm; 0 = nothing.
+    pub(in crate::verify) unit: f64,
 }
 
 /// What is cut of a contour.
@@ -72,9 +74,8 @@ impl<'a> Outline<'a> {
     /// Its lines, which end at its corners.
     pub(in crate::verify) fn lines(mut self, place: OfContour) -> Vec<Line<'a>> {
         let limit = place.profile.corner.angle();
-        let is_corner = |(segment, turn): (&Segment, &f64)| segment.joint.lift || turn.abs() > limit;
-        let at = self.segments.iter().zip(&self.turns).map(is_corner);
-        let mut corners: Vec<usize> = at.enumerate().filter_map(|(i, is_corner)| is_corner.then_some(i)).collect();
+        let is_corner = |i: &usize| self.segments[*i].joint.lift || self.is_corner(*i, limit, place.unit);
+        let mut corners: Vec<usize> = (0..self.segments.len()).filter(is_corner).collect();
         let count = self.segments.len();
         // Where a contour ends no corner lies before the tip.
         let mut ends = vec![0];
@@ -102,9 +103,19 @@ impl<'a> Outline<'a> {
         stops.map(line).collect()
     }
 
+    /// Whether the contour turns by more than `limit` rad where a segment starts, and not by the rounding of its points to
+    /// `unit` mm alone.
+    fn is_corner(&self, i: usize, limit: f64, unit: f64) -> bool {
+        let (before, behind) = self.segments.split_at(i);
+        let round: &[Segment] = if self.closed { &self.segments } else { &[] };
+        let from = before.iter().rev().chain(round[i.min(round.len())..].iter().rev()).map(|segment| segment.from);
+        let to = behind.iter().chain(&round[..i.min(round.len())]).map(|segment| segment.to);
+        corner::is_corner(self.segments[i].from, &from, &to, limit, unit)
+    }
+
     /// The line of the segments from one up to another; `ends` are how it starts and how it ends.
     fn line(&self, [from, to]: [usize; 2], ring: bool, ends: [End; 2], place: OfContour) -> Line<'a> {
-        let OfContour { owner, feeds, profile } = place;
+        let OfContour { owner, feeds, profile, .. } = place;
         let chords = &self.segments[from..to];
         let turn_at = |k: usize| match (k == 0 || k == chords.len(), ring) {
             (true, false) => 0.0,

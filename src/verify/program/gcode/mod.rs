@@ -29,8 +29,8 @@ use crate::verify::worst::{Worst, at};
 
 /// Most characters of a first line that a message shows.
 const FIRST_CHARS: usize = 60;
-/// The longest line that is read, bytes.
-const LINE_MAX: u64 = 1024;
+/// The longest line that a controller reads, bytes with its end: RS274/NGC, section 3.3.
+const LINE_MAX: u64 = 256;
 /// Longest step, mm, and greatest turn of C on one, degrees.
 const STEP_MM: f64 = 8.0;
 const STEP_DEG: f64 = 5.0;
@@ -184,7 +184,11 @@ impl<'a> Places<'a> {
         if line.last() == Some(&b'\r') {
             line.pop();
         }
-        let read = self.line(&line);
+        let read = if line.contains(&0) {
+            Err("holds a NUL, behind which no controller reads on".to_owned())
+        } else {
+            self.line(&line)
+        };
         self.room = line;
         read
     }
@@ -397,6 +401,9 @@ impl<'a> Places<'a> {
         let letter = char::from(self.profile.gcode.letter.byte());
         if !self.profile.gcode.wrapped {
             return Ok(self.turned_to(needed(told, letter)?));
+        }
+        if let Some(told) = told.filter(|told| told.abs() >= TURN_DEG) {
+            return Err(format!("has {letter}{}, which an axis that goes round does not know", exact(told)));
         }
         let c_to = told.map_or(from.c_deg, |told| self.turned_to(told));
         if told.is_some() && from.knife && (c_to - from.c_deg).abs() < TURN_EPSILON {

@@ -1,0 +1,73 @@
+//! Corners of a polyline whose points are rounded: a turn is one only where rounding cannot feign it.
+
+use super::{Point, angle, polyline};
+
+/// How far from a vertex its neighbours are looked for, in units of the rounding: points that lie nearer to each other
+/// turn by rounding alone.
+const WINDOWS: [f64; 3] = [3.0, 6.0, 12.0];
+/// How far a vertex stands beside the line from its one neighbour to its other where it is a corner, in units: three points
+/// of a straight line, each off by half a diagonal of the unit, feign sqrt(2).
+const HEIGHT: f64 = 1.5;
+
+/// Whether a polyline turns at a point by more than `limit` rad; `before` and `behind` are its points from there back
+/// and on, and all of them are rounded to multiples of `unit` mm (0 = not at all).
+///
+/// A curve that was drawn with points as near as its unit goes up and down in steps, each of which turns by 45 degrees or
+/// more. There a corner must be one as seen from neighbours farther away, too, and stand out farther than rounding.
+pub fn is_corner(
+    at: Point,
+    before: &(impl Iterator<Item = Point> + Clone),
+    behind: &(impl Iterator<Item = Point> + Clone),
+    limit: f64,
+    unit: f64,
+) -> bool {
+    let turns = |from: Point, to: Point| angle::is_turned(at - from, to - at, limit);
+    let (Some(from), Some(to)) = (before.clone().next(), behind.clone().next()) else { return false };
+    if !turns(from, to) {
+        return false;
+    }
+    let far = WINDOWS[WINDOWS.len() - 1] * unit;
+    let is_far = |point: Point, reach: f64| (point - at).norm() >= reach;
+    if is_far(from, far) && is_far(to, far) {
+        return true;
+    }
+    WINDOWS.iter().map(|window| window * unit).any(|reach| {
+        let from = before.clone().find(|&point| is_far(point, reach)).or(before.clone().last());
+        let to = behind.clone().find(|&point| is_far(point, reach)).or(behind.clone().last());
+        from.zip(to)
+            .is_some_and(|(from, to)| turns(from, to) && polyline::distance_to_segment(at, from, to) > HEIGHT * unit)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The vertices of a polyline that are corners of more than 45 degrees.
+    fn corners(points: &[(f64, f64)], unit: f64) -> Vec<usize> {
+        let points: Vec<Point> = points.iter().map(|&(x, y)| Point::new(x, y)).collect();
+        let is_corner = |&i: &usize| {
+            let (before, behind) = (points[..i].iter().rev().copied(), points[i + 1..].iter().copied());
+            is_corner(points[i], &before, &behind, std::f64::consts::FRAC_PI_4, unit)
+        };
+        (1..points.len() - 1).filter(is_corner).collect()
+    }
+
+    #[test]
+    fn steps_of_rounding_are_no_corners_and_small_notches_are() {
+        // A slanting line in steps of a unit.
+        let steps: Vec<(f64, f64)> =
+            (0..40).map(|i| (f64::from(i / 2 + i % 2) * 0.1, f64::from(i / 2) * 0.1)).collect();
+        assert!(corners(&steps, 0.1).is_empty());
+        assert_eq!(corners(&steps, 0.0).len(), 38);
+        // A V three units high, and a right angle between points as near as three units.
+        assert_eq!(corners(&[(0.0, 0.0), (6.0, 0.0), (6.4, 0.3), (6.8, 0.0), (9.0, 0.0)], 0.1), [2]);
+        let dense: Vec<(f64, f64)> = (0..20)
+            .map(|i| 0.3 * f64::from(i))
+            .map(|way| if way < 3.0 { (way, 0.0) } else { (3.0, way - 3.0) })
+            .collect();
+        assert_eq!(corners(&dense, 0.1), [10]);
+        // Two points of a corner that are one unit apart.
+        assert_eq!(corners(&[(0.0, 0.0), (5.0, 0.0), (5.1, 0.0), (5.1, 9.0)], 0.1), [2]);
+    }
+}
