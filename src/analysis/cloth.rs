@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::nesting::Nesting;
 use crate::geom::Point;
-use crate::geom::region::{Ray, Regions, Room};
+use crate::geom::region::{Deep, Ray, Regions, Room};
 use crate::ir::marker::Contour;
 use crate::ir::{Marker, Toolpath};
 use crate::machine::Knife;
@@ -15,6 +15,10 @@ const SLACK_SHARE: f64 = 0.9;
 /// A way that enters the part within this length begins in it, mm: rounding.
 const INSIDE_EPSILON: f64 = 1e-6;
 
+/// Parts that overlap by less touch, mm, or by a diagonal of the unit of the file, if that is more: each outline was
+/// rounded by itself.
+const BAND: f64 = 0.2;
+
 /// The parts that lie on the cloth.
 #[derive(Debug)]
 pub struct Cloth<'a> {
@@ -22,6 +26,8 @@ pub struct Cloth<'a> {
     parts: Regions<'a>,
     /// The part to which each piece belongs: one that lies in another is a cut-out of that.
     part_of: Vec<u32>,
+    /// By how much parts may overlap that only touch, mm.
+    band: f64,
 }
 
 impl<'a> Cloth<'a> {
@@ -38,7 +44,7 @@ impl<'a> Cloth<'a> {
         let points = |&line: &usize| marker.list.points(contours[line].range);
         let parts = Regions::new(lines.keys().copied(), |part| lines[&part].iter().map(points).collect());
         let part_of = (0..marker.pieces.len()).map(|piece| nesting.part_of(piece).unwrap_or(piece) as u32).collect();
-        Self { parts, part_of }
+        Self { parts, part_of, band: (marker.unit * std::f64::consts::SQRT_2).max(BAND) }
     }
 
     /// Whether a place lies in the part to which a piece belongs, by the piece's place in the marker.
@@ -67,7 +73,8 @@ pub struct Surroundings<'a> {
 impl Surroundings<'_> {
     /// How far a straight way goes before it enters a part.
     pub fn room(&self, ray: &Ray) -> Room {
-        self.cloth.parts.room(ray, self.part, SLACK_SHARE * self.tolerance)
+        let way = SLACK_SHARE * self.tolerance;
+        self.cloth.parts.room(ray, self.part, Deep { way, start: way.max(self.cloth.band) })
     }
 
     /// Whether a straight way leads into the part to which the piece belongs from its very start.

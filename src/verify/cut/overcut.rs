@@ -25,6 +25,8 @@ const STEP: f64 = 0.05;
 const ROOM_SHARE: f64 = 0.5;
 /// Length, in how near it is, from which on a way is along an edge: one that crosses it at 30 degrees or more is not.
 const ALONG: f64 = 2.0;
+/// Parts that overlap by less touch, mm: their outlines were rounded each by itself.
+const OVERLAP_MIN: f64 = 0.2;
 /// Halvings that find where a way enters a part: from a quarter of a millimetre to rounding.
 const HALVINGS: usize = 20;
 
@@ -35,6 +37,8 @@ pub(in crate::verify) struct Overcut<'a> {
     /// Rounding of a tip's place, mm.
     rounding: f64,
     tolerance: f64,
+    /// How deep an end of a line lies in another part that is drawn there, mm; less is rounding of one of both.
+    drawn: f64,
     width: f64,
     /// How far a blade that has the choice stays away from parts, mm.
     clearance: f64,
@@ -107,16 +111,18 @@ impl<'a> Overcut<'a> {
     /// For parts in which places lie, a tip that may leave its line by `tolerance` mm, and places that are rounded to
     /// `rounding` mm.
     pub(in crate::verify) fn new(
-        tolerance: f64,
+        Reference { tolerance, marker, .. }: &Reference,
         inside: &'a Inside<'a>,
         profile: &MachineProfile,
         rounding: f64,
     ) -> Self {
         let (knife, verify) = (&profile.knife, &profile.verify);
+        let unit = marker.unit;
         Self {
             inside,
             rounding,
             tolerance: tolerance + rounding,
+            drawn: OVERLAP_MIN.max(unit * std::f64::consts::SQRT_2),
             width: knife.width_mm,
             clearance: knife.clearance_mm,
             reflex: knife.reflex_front_overlap_mm.max(knife.reflex_heel_overlap_mm),
@@ -205,9 +211,8 @@ impl<'a> Overcut<'a> {
         }
         let is_drawn_in = |piece: &usize| {
             let ends = [line.point(0), line.point(line.chords())];
-            ends.into_iter().any(|end| {
-                self.inside.pieces_at(end).contains(piece) && lines.is_away_from(end, *piece, self.tolerance)
-            })
+            ends.into_iter()
+                .any(|end| self.inside.pieces_at(end).contains(piece) && lines.is_away_from(end, *piece, self.drawn))
         };
         if pieces.iter().all(is_drawn_in) { Cloth::Waste } else { Cloth::Neighbour }
     }

@@ -124,7 +124,7 @@ impl<'a> Judge<'a> {
             overlap: front.max(heel),
             overlaps,
             sagitta: if profile.path.fit == Fit::Curve { profile.path.chord_sag_max_mm } else { 0.0 },
-            overcut: Overcut::new(reference.tolerance, inside, profile, place),
+            overcut: Overcut::new(reference, inside, profile, place),
             naming: Naming::new(tolerance),
             worsts: Worsts::new(profile, tolerance, rounding),
         }
