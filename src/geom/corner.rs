@@ -8,6 +8,9 @@ const WINDOWS: [f64; 3] = [3.0, 6.0, 12.0];
 /// How far a vertex stands beside the line from its one neighbour to its other where it is a corner, in units: three points
 /// of a straight line, each off by half a diagonal of the unit, feign sqrt(2).
 const HEIGHT: f64 = 1.5;
+/// Points on either side that are looked at, at the most: a line that goes to and fro on the spot must not be walked along
+/// from each of its points.
+const LOOK: usize = 64;
 
 /// Whether a polyline turns at a point by more than `limit` rad; `before` and `behind` are its points from there back
 /// and on, and all of them are rounded to multiples of `unit` mm (0 = not at all).
@@ -32,11 +35,19 @@ pub fn is_corner(
         return true;
     }
     WINDOWS.iter().map(|window| window * unit).any(|reach| {
-        let from = before.clone().find(|&point| is_far(point, reach)).or(before.clone().last());
-        let to = behind.clone().find(|&point| is_far(point, reach)).or(behind.clone().last());
+        let [from, to] = [
+            neighbour(before.clone(), |point| is_far(point, reach)),
+            neighbour(behind.clone(), |point| is_far(point, reach)),
+        ];
         from.zip(to)
             .is_some_and(|(from, to)| turns(from, to) && polyline::distance_to_segment(at, from, to) > HEIGHT * unit)
     })
+}
+
+/// The first of some points that is far enough, or the last that is looked at.
+fn neighbour(points: impl Iterator<Item = Point> + Clone, is_far: impl Fn(Point) -> bool) -> Option<Point> {
+    let near = points.take(LOOK);
+    near.clone().find(|&point| is_far(point)).or_else(|| near.last())
 }
 
 #[cfg(test)]
