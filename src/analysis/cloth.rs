@@ -6,6 +6,7 @@ use super::nesting::Nesting;
 use crate::geom::Point;
 use crate::geom::region::{Deep, Ray, Regions, Room};
 use crate::ir::marker::Contour;
+use crate::ir::toolpath::Overcut;
 use crate::ir::{Marker, Toolpath};
 use crate::machine::Knife;
 
@@ -75,6 +76,20 @@ impl Surroundings<'_> {
     pub fn room(&self, ray: &Ray) -> Room {
         let way = SLACK_SHARE * self.tolerance;
         self.cloth.parts.room(ray, self.part, Deep { way, start: way.max(self.cloth.band) })
+    }
+
+    /// How deep a place lies in parts, mm, `reach` at the most: how far from their edges. What is in the band at an edge is
+    /// not in the part.
+    pub fn depths(&self, place: Point, reach: f64) -> Overcut {
+        let mut depths = Overcut::default();
+        if reach <= self.cloth.band {
+            return depths;
+        }
+        for (part, depth) in self.cloth.parts.depths_at(place, reach).filter(|(_, depth)| *depth > self.cloth.band) {
+            let deepest = if part == self.part { &mut depths.own } else { &mut depths.other };
+            *deepest = deepest.max(depth);
+        }
+        depths
     }
 
     /// Whether a straight way leads into the part to which the piece belongs from its very start.

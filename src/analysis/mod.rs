@@ -7,6 +7,7 @@
 mod area;
 mod chord;
 pub mod cloth;
+pub mod declare;
 pub mod depth;
 pub mod nesting;
 pub mod outlines;

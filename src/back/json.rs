@@ -145,8 +145,8 @@ fn object(run: &Run, index: u64, piece: u32) -> String {
         side(end),
         side(start),
         edge_name(edge),
-        mm(overcut[1].total()),
-        mm(overcut[0].total()),
+        mm(overcut[1].deepest()),
+        mm(overcut[0].deepest()),
         mm(overcut[0].other.max(overcut[1].other)),
         follow(orientation),
     )

@@ -10,7 +10,8 @@ use super::finished::say;
 use super::options::typed;
 use super::report::pretty;
 use crate::back::{Proof, TARGETS, Target};
-use crate::machine::{Job, sha256_hex};
+use crate::ir::declaration::Declaration;
+use crate::machine::{Job, sha256_hex, sha256_of};
 use crate::source::Source;
 
 /// Everything that made a program, for whoever finds it later. No date and no path: the same input gives the same bytes.
@@ -29,6 +30,12 @@ struct Provenance<'a> {
     period_ms: f64,
     units: Units,
     verified: Verified,
+    /// Digest of the program.
+    program_sha256: &'a str,
+    /// What the program does beside the drawing because it cannot do otherwise; not there when the target is not judged by
+    /// how it moves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    declared: Option<&'a [Declaration]>,
     /// What was chosen beside the whole marker and the knife, as it is typed; not there when nothing was.
     #[serde(skip_serializing_if = "String::is_empty")]
     options: String,
@@ -62,10 +69,15 @@ pub(super) struct Made<'a> {
     pub(super) target: &'a Target,
     /// What it is worth.
     pub(super) verified: Verified,
+    /// Digest of its bytes.
+    pub(super) sha256: &'a str,
+    /// What it does beside the drawing.
+    pub(super) declared: &'a [Declaration],
 }
 
 /// The provenance of a program as JSON.
-pub(super) fn json(Made { source, job, target, verified }: &Made) -> String {
+pub(super) fn json(Made { source, job, target, verified, sha256, declared }: &Made) -> String {
+    let is_moved = matches!(target.proof, Proof::Setpoints | Proof::Positions);
     let name = Path::new(source.name()).file_name().map(|name| name.to_string_lossy().into_owned());
     pretty(&Provenance {
         version: env!("CARGO_PKG_VERSION"),
@@ -77,6 +89,8 @@ pub(super) fn json(Made { source, job, target, verified }: &Made) -> String {
         period_ms: job.profile.time.period_ms,
         units: Units { time: "s", length: "mm", angle: "deg" },
         verified: *verified,
+        program_sha256: sha256,
+        declared: is_moved.then_some(*declared),
         options: typed(job),
     })
 }
@@ -99,6 +113,12 @@ fn told(program: &Path, key: &str) -> Option<String> {
     meta[key].as_str().map(str::to_owned)
 }
 
+/// What a program says that it does beside the drawing; `None` when nothing beside it says that.
+pub(super) fn declared(program: &Path) -> Option<Vec<Declaration>> {
+    let meta: serde_json::Value = serde_json::from_slice(&fs::read(files::meta(program)).ok()?).ok()?;
+    serde_json::from_value(meta.get("declared")?.clone()).ok()
+}
+
 /// What the provenance beside a program, if there is one, says against judging it by this source and profile: warnings.
 pub(super) fn doubts(program: &Path, source: &Source, job: &Job) -> String {
     let path = files::meta(program);
@@ -110,6 +130,24 @@ pub(super) fn doubts(program: &Path, source: &Source, job: &Job) -> String {
         return said;
     };
     let differs = |key: &str, digest: &str| meta[key].as_str().is_some_and(|told| told != digest);
+    if fs::File::open(program).and_then(sha256_of).is_ok_and(|digest| differs("program_sha256", &digest)) {
+        say(
+            &mut said,
+            format_args!(
+                "warning: the program is not the one that was compiled: its bytes are others\n  --> {path}\n  \
+                 = hint: it was edited by hand or sent on changed; what the file beside it declares is applied all the same"
+            ),
+        );
+    }
+    if meta.get("declared").is_some_and(|told| serde_json::from_value::<Vec<Declaration>>(told.clone()).is_err()) {
+        say(
+            &mut said,
+            format_args!(
+                "warning: what the program declares cannot be read\n  --> {path}\n  \
+                 = hint: it is held to the bounds that hold for every program (`cutc manual verification`)"
+            ),
+        );
+    }
     if differs("source_sha256", &sha256_hex(source.bytes())) {
         let made_from = meta["source"].as_str().unwrap_or("another file");
         say(
@@ -130,17 +168,22 @@ pub(super) fn doubts(program: &Path, source: &Source, job: &Job) -> String {
             ),
         );
     }
+    doubt_options(&mut said, &meta, &path, job);
+    said
+}
+
+/// Says that a program was made with other options than it is judged with, if it was.
+fn doubt_options(said: &mut String, meta: &serde_json::Value, path: &impl std::fmt::Display, job: &Job) {
     let (made, asked) = (meta["options"].as_str().unwrap_or_default(), typed(job));
     if made != asked {
         let made =
             if made.is_empty() { "none of --pieces, --skip, --resume-from, --dry-run and --frame" } else { made };
         say(
-            &mut said,
+            said,
             format_args!(
                 "warning: the program was made with other options\n  --> {path}: with {made}\n  \
                  = hint: give the same to `cutc verify`"
             ),
         );
     }
-    said
 }

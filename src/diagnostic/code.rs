@@ -239,7 +239,9 @@ mod table {
     /// Overlaps that the gap between parts does not hold.
     pub static PATH_SHORTENED: Code = warning(Spares, Shape, "path/overlap-shortened", "The gap beside a part is narrower than the overlaps; they are shortened so that they stay out of the next part.", "At a corner the blade cuts a little past the end, so that the threads there are cut for sure. Where the next part is nearer than that, the overlap ends before it: some threads may hold. Leave more room in the marker, or make the overlaps smaller.\n  knife.corner_front_overlap_mm = 0.4");
     /// A blade longer than its cut, with nowhere to go.
-    pub static PATH_OVERCUT: Code = warning(Spoils, Shape, "path/overcut", "The blade is longer than a short cut and there is no waste at its ends: it cuts past them, where that harms least.", "A cut shorter than the blade is one plunge, and what the blade is longer by lies beyond its ends: in the waste if there is any, otherwise in the part. A narrower knife cuts less far; a notch of another shape may need no such cut.");
+    pub static PATH_OVERCUT: Code = warning(Spoils, Shape, "path/overcut", "The blade is longer than a short cut and there is no waste at its ends: it cuts past them, where that lies least deep in any part.", "A cut shorter than the blade is one plunge, and what the blade is longer by lies beyond its ends: in the waste if there is any, otherwise in the part. A narrower knife cuts less far; a notch of another shape may need no such cut.");
+    /// The same, deeper than the profile allows.
+    pub static PATH_OVERCUT_REFUSED: Code = error(Shape, "path/overcut-refused", "A short cut cannot be made without cutting deeper into a part than `verify.max_overcut_part_mm` or `verify.max_overcut_neighbour_mm` allows.", "The blade is longer than the cut, there is no waste at its ends, and wherever it is put it lies deeper in the cloth than the profile allows. Take a narrower knife, draw the notch longer or of another shape, or allow more if the seam hides it.\n  verify.max_overcut_part_mm = 6");
     /// A slit that the profile makes deeper than its part is wide.
     pub static PATH_NOTCH_THROUGH: Code = error(Shape, "path/notch-through", "A slit that `notch.depth_mm` makes deeper than it is drawn would cut through its part.", "The profile asks for slits of one depth, and this part is too narrow for it: the slit would come out on the other side, or reach the next part. Take a smaller notch.depth_mm, or cut such pieces with a profile of their own.");
     /// A run that winds C past its range.
@@ -357,6 +359,7 @@ pub static ALL: &[&Code] = &[
     &PATH_TIGHT_CURVE_REFUSED,
     &PATH_SHORTENED,
     &PATH_OVERCUT,
+    &PATH_OVERCUT_REFUSED,
     &PATH_NOTCH_THROUGH,
     &PATH_C_RANGE,
     &MARKER_OVER_EDGE,

@@ -144,6 +144,12 @@ impl<'a> Regions<'a> {
         owners
     }
 
+    /// The owners in whose region a point lies, each with how far the point is from the edges of that, mm, `reach` at the most.
+    pub fn depths_at(&self, point: Point, reach: f64) -> impl Iterator<Item = (u32, f64)> + '_ {
+        let near = self.boxes.at(point).map(|i| &self.owners[i]);
+        near.filter(move |region| region.holds(point)).map(move |region| (region.owner, region.depth(point, reach)))
+    }
+
     /// What [`Regions::owners_at`] costs, in comparisons of boxes and of edges.
     pub fn cost_at(&self, point: Point) -> usize {
         let near = self.boxes.at(point).map(|i| self.owners[i].bands.near(point.y, point.y).len());
@@ -247,6 +253,12 @@ impl<'a> Region<'a> {
     fn is_deep(&self, point: Point, slack: f64) -> bool {
         let mut near = self.near(around(point, slack));
         !near.any(|edge| polyline::distance_to_segment(point, edge.from, edge.to) <= slack)
+    }
+
+    /// How far a point that lies in it is from its edges, mm, `reach` at the most.
+    fn depth(&self, point: Point, reach: f64) -> f64 {
+        let near = self.near(around(point, reach));
+        near.map(|edge| polyline::distance_to_segment(point, edge.from, edge.to)).fold(reach, f64::min)
     }
 
     /// Whether a ray to the right of a point crosses its edges an odd number of times.

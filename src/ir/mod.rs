@@ -15,6 +15,7 @@
 
 pub mod arcs;
 pub mod check;
+pub mod declaration;
 pub mod drawing;
 pub mod finding;
 pub mod label;

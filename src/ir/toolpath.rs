@@ -214,8 +214,8 @@ pub enum Side {
     Contour,
 }
 
-/// How far a blade that never moves cuts into parts beyond one of its ends, mm: it is longer than its cut, and there is
-/// no room.
+/// How deep a blade that never moves cuts into parts beyond one of its ends, mm: it is longer than its cut, and there is
+/// no room. A place is as deep in a part as it is far from its edges, and no deeper than it is far from the cut.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Overcut {
     /// Into the part to which the cut belongs.
@@ -226,8 +226,14 @@ pub struct Overcut {
 
 impl Overcut {
     /// Into either, mm.
-    pub fn total(self) -> f64 {
-        self.own + self.other
+    pub fn deepest(self) -> f64 {
+        self.own.max(self.other)
+    }
+
+    /// The deeper of two, part by part.
+    #[must_use]
+    pub fn max(self, other: Self) -> Self {
+        Self { own: self.own.max(other.own), other: self.other.max(other.other) }
     }
 }
 
@@ -250,7 +256,7 @@ pub struct PlungeCut {
     pub turned: bool,
     /// The edge that stands at the end of the cut; `place` chooses.
     pub edge: Edge,
-    /// How far the blade cuts into parts before the start and past the end.
+    /// How deep the blade cuts into parts before the start and past the end.
     pub overcut: [Overcut; 2],
     /// Where the axes stand at the plunge; `place` turns C.
     pub pose: Pose,

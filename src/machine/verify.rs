@@ -14,8 +14,8 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "verify.max_uncut_mm", takes: Takes::Number(from(0.0, 10.0)), about: "Longest stretch that may be left uncut: what the rounding of setpoints can leave." },
     Key { name: "verify.max_heading_deg", takes: Takes::Number(from(0.01, 45.0)), about: "Greatest angle between the blade and the direction that knife.follow asks for while it cuts." },
     Key { name: "verify.max_body_mm", takes: Takes::NumberOr(ASTRAY, Off::WORD), about: "Farthest that the blade's body may leave the path on curves." },
-    Key { name: "verify.max_overcut_part_mm", takes: Takes::NumberOr(ASTRAY, Off::WORD), about: "Farthest overcut into the part itself, beside the tolerance and what the compile warned of." },
-    Key { name: "verify.max_overcut_neighbour_mm", takes: Takes::NumberOr(ASTRAY, Off::WORD), about: "Farthest overcut into another part, beside what the compile warned of." },
+    Key { name: "verify.max_overcut_part_mm", takes: Takes::NumberOr(ASTRAY, Off::WORD), about: "Deepest overcut into the part itself, beside the tolerance: half a seam allowance." },
+    Key { name: "verify.max_overcut_neighbour_mm", takes: Takes::NumberOr(ASTRAY, Off::WORD), about: "Deepest overcut into another part, beside the tolerance." },
     Key { name: "verify.max_overcut_waste_mm", takes: Takes::NumberOr(ASTRAY, Off::WORD), about: "Farthest overcut into waste." },
 ];
 
@@ -47,8 +47,8 @@ impl Default for Verify {
             max_uncut_mm: 0.01,
             max_heading_deg: 0.5,
             max_body_mm: None,
-            max_overcut_part_mm: Some(0.0),
-            max_overcut_neighbour_mm: Some(0.0),
+            max_overcut_part_mm: Some(5.0),
+            max_overcut_neighbour_mm: Some(5.0),
             max_overcut_waste_mm: None,
         }
     }

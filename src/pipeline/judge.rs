@@ -13,7 +13,7 @@ use crate::ir::{Finding, Marker};
 use crate::machine::{Job, Mode};
 use crate::source::{Source, Span};
 use crate::units::number::{exact, fixed, up};
-use crate::verify::{self, Ground, Kind, Verdict};
+use crate::verify::{self, Declared, Ground, Kind, Verdict};
 
 /// The rule on what can be read.
 const FORMAT: &str = "verify/format";
@@ -38,6 +38,7 @@ pub fn judge_program(
     source: &Source,
     from: Option<&'static Dialect>,
     job: &Job,
+    declared: Option<&Declared>,
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Option<Verdict>> {
     let Some(judged) = read_to_judge(source, from, job, diagnostics) else { return Ok(None) };
@@ -46,7 +47,7 @@ pub fn judge_program(
     }
     let Judged { input, reading } = judged;
     let audit = audited(source, input.dialect, reading, job);
-    judge(source, &input.marker, None, &audit, job, program).map(Some)
+    judge(Asked { source, marker: &input.marker, ground: None, declared, job }, &audit, program).map(Some)
 }
 
 /// Why a file is no program that can be judged, by how it begins, and what to do about it; `None` when it is one.
@@ -55,17 +56,25 @@ pub fn foreign(file: &mut dyn Medium) -> io::Result<Option<[String; 2]>> {
     verify::foreign(&mut BufReader::with_capacity(BLOCK, file))
 }
 
-/// Reads a program back from its start and judges it; `audit` is what is known of its source, `ground` that of the marker
-/// where it was made before.
+/// What a program is judged by.
+#[derive(Clone, Copy)]
+pub(super) struct Asked<'a> {
+    pub(super) source: &'a Source,
+    pub(super) marker: &'a Marker,
+    /// What is known of the marker, where that was made before.
+    pub(super) ground: Option<&'a Ground<'a>>,
+    /// What the program says that it does beside the drawing; `None` when it says nothing at all.
+    pub(super) declared: Option<&'a Declared>,
+    pub(super) job: &'a Job,
+}
+
+/// Reads a program back from its start and judges it; `audit` is what is known of its source.
 ///
 /// Where the knife stays up nothing may be cut: the program is judged against a marker without lines, so that every
 /// stroke is one too many, and the rules on how something is cut say nothing.
 pub(super) fn judge(
-    source: &Source,
-    marker: &Marker,
-    ground: Option<&Ground>,
+    Asked { source, marker, ground, declared, job }: Asked,
     audit: &[Finding],
-    job: &Job,
     program: &mut dyn Medium,
 ) -> io::Result<Verdict> {
     program.rewind()?;
@@ -78,7 +87,7 @@ pub(super) fn judge(
         }
         kind => {
             let judge_motion = if kind == Some(Kind::Positions) { verify::positions } else { verify::setpoints };
-            let mut judge_by = |ground: &Ground| judge_motion(&mut input, ground, job);
+            let mut judge_by = |ground: &Ground| judge_motion(&mut input, declared, ground, job);
             if let Some(ground) = ground {
                 judge_by(ground)
             } else if job.mode.cuts() {

@@ -23,18 +23,20 @@ pub use report::{Axes, Controller, Drawn, Lines, Notches, Peak, Peaks, Program, 
 pub use rounded::significant;
 pub use spent::{Spent, word};
 
-pub use crate::verify::{RULES, Rule, Verdict};
+pub use crate::verify::{Declared, RULES, Rule, Verdict};
 
 use std::io::{self, BufWriter, Write};
 
 use tempfile::SpooledTempFile;
 
 use self::input::{make_cuts, read_alone, run_passes};
+use self::judge::Asked;
 use self::program::{Sink, Written};
 use self::toolpaths::Toolpaths;
 use crate::back::{Context, Emit, Proof, SETPOINTS, Target};
 use crate::diagnostic::Diagnostics;
 use crate::front::Dialect;
+use crate::ir::declaration::Declaration;
 use crate::ir::{Finding, text};
 use crate::machine::Job;
 use crate::pass::marker::MARKER_PASSES;
@@ -73,6 +75,8 @@ pub struct Compiled {
     pub report: Report,
     /// What it is worth; `None` when nobody asked.
     pub verdict: Option<Verdict>,
+    /// What it does beside the drawing, as it says itself.
+    pub declared: Vec<Declaration>,
 }
 
 /// Compiles a source to a program in `out`, reads that back and judges it. `None` when the diagnostics hold errors: what
@@ -131,14 +135,15 @@ pub fn compile_all(
     report.controller = written.estimate.map(Controller::from);
     let mut verdict: Option<Verdict> = None;
     if verify && !diagnostics.has_errors() {
-        verdict = proofs.judge(&context, &audit, products, &mut scratch)?;
+        let declared = Declared::new(written.declared.clone());
+        verdict = proofs.judge(&context, &audit, &declared, products, &mut scratch)?;
     }
     if let Some(verdict) = &verdict {
         judge::report(verdict, &input.marker, job, diagnostics);
     }
     place::place(diagnostics, known, &input.marker, source, job);
     finish(&context, products, verdict.as_ref(), diagnostics)?;
-    Ok((!diagnostics.has_errors()).then_some(Compiled { report, verdict }))
+    Ok((!diagnostics.has_errors()).then_some(Compiled { report, verdict, declared: written.declared }))
 }
 
 /// Writes all programs but the tails of those that show a verdict; `beside` takes the setpoints that are only judged.
@@ -214,6 +219,7 @@ impl Proofs {
         self,
         context: &Context,
         audit: &[Finding],
+        declared: &Declared,
         products: &mut [Product],
         scratch: &mut SpooledTempFile,
     ) -> io::Result<Option<Verdict>> {
@@ -224,7 +230,11 @@ impl Proofs {
         let scratch: Option<&mut dyn Medium> = if self.beside { Some(scratch) } else { None };
         let mut verdict: Option<Verdict> = None;
         for program in programs.chain(scratch) {
-            let next = judge::judge(source, marker, ground.as_ref(), audit, job, program)?;
+            let next = judge::judge(
+                Asked { source, marker, ground: ground.as_ref(), declared: Some(declared), job },
+                audit,
+                program,
+            )?;
             verdict = Some(match verdict {
                 Some(verdict) => judge::both(verdict, next),
                 None => next,

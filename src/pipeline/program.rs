@@ -10,13 +10,15 @@ use super::report::{Axes, Program, Sides};
 use super::sound::assert_sound;
 use super::spent::Clock;
 use super::toolpaths::{Toolpaths, Window};
+use crate::analysis::declare;
 use crate::back::{ArcTarget, ArcWriter, Context, Emit, Estimate, Parts};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::ir::arcs::{Interpolation, Unfit};
 use crate::ir::check;
+use crate::ir::declaration::Declaration;
 use crate::ir::motion::{Kind, Task};
 use crate::ir::toolpath::{Edge, OrientationMode, Overcut, Side};
-use crate::ir::{Arcs, Motion, Toolpath};
+use crate::ir::{Arcs, Marker, Motion, Toolpath};
 use crate::machine::{Follow, Job};
 use crate::plan::{self, Cut, Planner, arcs};
 use crate::units::MM_PER_M;
@@ -71,6 +73,8 @@ pub(super) struct Written {
     pub(super) program: Program,
     /// What a controller that plans for itself makes of its program.
     pub(super) estimate: Option<Estimate>,
+    /// What the program does beside the drawing.
+    pub(super) declared: Vec<Declaration>,
 }
 
 /// Toolpaths, and what was made of them side by side.
@@ -80,19 +84,22 @@ struct Made {
     cuts: Vec<Result<Vec<Cut>, Vec<Diagnostic>>>,
     /// For each target of arcs: those of each.
     arcs: Vec<Vec<Result<Arcs, Vec<Unfit>>>>,
+    /// What they do beside the drawing.
+    declared: Vec<Declaration>,
     findings: Vec<Diagnostics>,
 }
 
 /// What is made of toolpaths beside each other.
 struct Wanted<'a> {
     job: &'a Job,
+    marker: &'a Marker,
     motion: bool,
     /// How each target of arcs can be told a path.
     interpolations: Vec<Interpolation>,
 }
 
 impl Wanted<'_> {
-    fn of(&self, Window { toolpaths, findings }: Window) -> Made {
+    fn of(&self, Window { toolpaths, cuts: cuts_of, findings }: Window) -> Made {
         let planned = if self.motion { &toolpaths[..] } else { &[] };
         let cuts = planned.par_iter().map(|toolpath| plan::solve(toolpath, self.job)).collect();
         let arcs = |interpolation: &Interpolation| {
@@ -104,7 +111,14 @@ impl Wanted<'_> {
             toolpaths.par_iter().map(solve).collect()
         };
         let arcs = self.interpolations.iter().map(arcs).collect();
-        Made { toolpaths, cuts, arcs, findings }
+        let declared = toolpaths.par_iter().zip(cuts_of).filter_map(|(toolpath, cut)| Some((toolpath, cut?)));
+        let declared = declared.flat_map_iter(|(toolpath, cut)| self.declarations(toolpath, cut)).collect();
+        Made { toolpaths, cuts, arcs, declared, findings }
+    }
+
+    fn declarations(&self, toolpath: &Toolpath, cut: u32) -> Vec<Declaration> {
+        let drawn = self.marker.list.points(self.marker.cuts[cut as usize].range);
+        declare::declarations(toolpath, cut, &drawn, &self.job.profile.knife)
     }
 }
 
@@ -125,7 +139,8 @@ pub(super) fn write(
         }
     }
     let interpolations = sinks.iter().filter_map(Sink::arc_target).map(|target| (target.interpolation)(job)).collect();
-    let wanted = Wanted { job, motion: motion || sinks.iter().any(Sink::needs_motion), interpolations };
+    let wanted =
+        Wanted { job, marker: context.marker, motion: motion || sinks.iter().any(Sink::needs_motion), interpolations };
     for Sink { form, out } in &mut *sinks {
         match form {
             Form::Toolpath(parts) => (parts.head)(context, out)?,
@@ -134,7 +149,7 @@ pub(super) fn write(
         }
     }
     let (planner, tally) = (Planner::new(job), Tally::default());
-    let mut writer = Writer { sinks, context, planner, tally, refused };
+    let mut writer = Writer { sinks, context, planner, tally, declared: Vec::new(), refused };
     let (mut drawing, mut linking) = toolpaths.stages();
     // Each stage has a window of its own: no core waits for the slowest.
     let (mut drawn, mut linked, mut made) = (drawing.next(), None, None);
@@ -156,13 +171,16 @@ struct Writer<'w, 's, 'c> {
     context: &'w Context<'c>,
     planner: Planner<'c>,
     tally: Tally,
+    /// What the program does beside the drawing.
+    declared: Vec<Declaration>,
     /// What a target cannot express, of each kind the first in the file, and how many cuts or holes it is.
     refused: Vec<(Diagnostic, usize)>,
 }
 
 impl Writer<'_, '_, '_> {
     fn take(&mut self, made: Made, diagnostics: &mut Diagnostics) -> io::Result<()> {
-        let Made { toolpaths, cuts, arcs, findings } = made;
+        let Made { toolpaths, cuts, arcs, declared, findings } = made;
+        self.declared.extend(declared);
         for found in findings {
             diagnostics.extend(found);
         }
@@ -224,7 +242,7 @@ impl Writer<'_, '_, '_> {
             };
             diagnostics.push(Diagnostic { message, ..first });
         }
-        let mut written = Written::default();
+        let mut written = Written { declared: std::mem::take(&mut self.declared), ..Written::default() };
         if is_planned {
             let end = self.planner.finish();
             self.motion(&end)?;
@@ -285,7 +303,7 @@ impl Sides {
         self.backwards += usize::from(task.edge == Edge::Back);
         self.rejoined += usize::from(task.sides[0] == Side::Contour);
         for (count, farthest, of) in [
-            (&mut self.harmful, &mut self.overcut_mm, Overcut::total as fn(Overcut) -> f64),
+            (&mut self.harmful, &mut self.overcut_mm, Overcut::deepest as fn(Overcut) -> f64),
             (&mut self.trespassing, &mut self.neighbour_overcut_mm, |overcut: Overcut| overcut.other),
         ] {
             let worst = task.overcut.into_iter().map(of).fold(0.0, f64::max);

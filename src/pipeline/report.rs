@@ -223,12 +223,12 @@ pub struct Sides {
     pub backwards: usize,
     /// Plunge cuts that cut into a part.
     pub harmful: usize,
-    /// The farthest that one of them does beyond one of its ends, mm.
+    /// How deep the worst of them lies in one, mm.
     #[serde(serialize_with = "micro")]
     pub overcut_mm: f64,
     /// Plunge cuts that cut into another part than their own.
     pub trespassing: usize,
-    /// The farthest that one of them does beyond one of its ends, mm.
+    /// How deep the worst of them lies in one, mm.
     #[serde(serialize_with = "micro")]
     pub neighbour_overcut_mm: f64,
     /// Cuts that go on where the knife is lifted amid a contour.

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::sound::assert_sound;
 use crate::diagnostic::Diagnostics;
-use crate::ir::toolpath::Pose;
+use crate::ir::toolpath::{Pose, Step};
 use crate::ir::{Marker, Toolpath, check};
 use crate::machine::{Job, Mode};
 use crate::pass::toolpath::{Scene, TOOLPATH_PASSES, ToolpathPass, frame, trace};
@@ -25,6 +25,8 @@ pub(super) struct Toolpaths<'a> {
 /// Some toolpaths that follow each other, and what their passes found.
 pub(super) struct Window {
     pub(super) toolpaths: Vec<Toolpath>,
+    /// The cut of the marker that each is of, if it is of one.
+    pub(super) cuts: Vec<Option<u32>>,
     /// Those of each.
     pub(super) findings: Vec<Diagnostics>,
 }
@@ -33,6 +35,8 @@ pub(super) struct Window {
 pub(super) struct Drawing<'t, 'a> {
     raw: &'t mut Box<dyn Iterator<Item = Toolpath> + Send + 'a>,
     scene: Option<&'t Scene<'a>>,
+    /// Cuts that were made so far.
+    cuts: u32,
 }
 
 /// The second stage: what is made of one toolpath after the other.
@@ -58,7 +62,7 @@ impl<'a> Toolpaths<'a> {
     /// The two stages that make them, which work on different ones at the same time.
     pub(super) fn stages(&mut self) -> (Drawing<'_, 'a>, Linking<'_, 'a>) {
         let scene = self.scene.as_ref();
-        (Drawing { raw: &mut self.raw, scene }, Linking { scene, pose: self.home })
+        (Drawing { raw: &mut self.raw, scene, cuts: 0 }, Linking { scene, pose: self.home })
     }
 }
 
@@ -69,14 +73,25 @@ impl Drawing<'_, '_> {
         if toolpaths.is_empty() {
             return None;
         }
-        let Some(scene) = self.scene else { return Some(Window { toolpaths, findings: Vec::new() }) };
+        let Some(scene) = self.scene else {
+            return Some(Window { cuts: vec![None; toolpaths.len()], toolpaths, findings: Vec::new() });
+        };
+        let cuts = toolpaths.iter().map(|toolpath| self.next_cut(toolpath)).collect();
         let by_itself = |toolpath: &mut Toolpath| {
             let mut found = Diagnostics::default();
             run(passes()[0], toolpath, scene, &mut found);
             found
         };
         let findings = toolpaths.par_iter_mut().map(by_itself).collect();
-        Some(Window { toolpaths, findings })
+        Some(Window { toolpaths, cuts, findings })
+    }
+
+    /// The cut that a raw toolpath, which comes next, is of.
+    fn next_cut(&mut self, toolpath: &Toolpath) -> Option<u32> {
+        let is_cut = matches!(toolpath.steps[..], [Step::Run(_)]);
+        let cut = self.cuts;
+        self.cuts += u32::from(is_cut);
+        is_cut.then_some(cut)
     }
 }
 

@@ -10,6 +10,7 @@
 
 mod axes;
 mod cut;
+mod declared;
 mod program;
 mod reference;
 mod rules;
@@ -18,6 +19,7 @@ mod source;
 mod verdict;
 mod worst;
 
+pub use declared::Declared;
 pub use program::cutter_file::cutter_file;
 pub use reference::ground::Ground;
 pub use rules::{RULES, Rule, rule};
@@ -69,10 +71,10 @@ pub fn foreign(bytes: &mut dyn BufRead) -> std::io::Result<Option<[String; 2]>> 
 }
 
 /// Judges timed setpoints, as the targets `csv`, `npy`, `counts` and `hal` write them, against what must be cut.
-pub fn setpoints(program: &mut dyn BufRead, ground: &Ground, job: &Job) -> Verdict {
+pub fn setpoints(program: &mut dyn BufRead, declared: Option<&Declared>, ground: &Ground, job: &Job) -> Verdict {
     let mut rows = Rows::new(program, &job.profile);
     let rounding = rows.rounding();
-    let judge = Judge::new(ground, &job.profile, rounding);
+    let judge = Judge::new(ground, declared, &job.profile, rounding);
     let mut findings = simulate(|| Some((rows.next()?, None)), &judge, job);
     let is_broken = rows.is_broken();
     let (format, unread) = rows.findings();
@@ -86,10 +88,10 @@ pub fn setpoints(program: &mut dyn BufRead, ground: &Ground, job: &Job) -> Verdi
 }
 
 /// Judges positions without time, as the target `gcode` writes them, against what must be cut.
-pub fn positions(program: &mut dyn BufRead, ground: &Ground, job: &Job) -> Verdict {
+pub fn positions(program: &mut dyn BufRead, declared: Option<&Declared>, ground: &Ground, job: &Job) -> Verdict {
     let mut places = Places::new(program, &job.profile);
     let rounding = Places::rounding(&job.profile);
-    let judge = Judge::new(ground, &job.profile, rounding).with_exact_directions(&job.profile);
+    let judge = Judge::new(ground, declared, &job.profile, rounding).with_exact_directions(&job.profile);
     let next = || places.next().map(|(row, going)| (row, Some(going)));
     let mut findings = simulate(next, &judge, job);
     let is_broken = places.is_broken();

@@ -65,9 +65,11 @@ fn a_compile_writes_the_program_with_its_provenance_and_a_summary() {
     assert_eq!(meta["profile_sha256"], MachineProfile::default().digest());
     assert_eq!((&meta["target"], &meta["verified"]), (&Value::from("csv"), &Value::from("yes")));
     assert_eq!(meta["period_ms"], 1.0);
+    assert_eq!(meta["program_sha256"], sha256_hex(&room.read("circle.csv")));
+    assert_eq!(meta["declared"][0]["kind"], "plunge", "the blade is straight and the circle is not: {meta}");
     let expected =
-        ["period_ms", "profile", "profile_sha256", "source", "source_sha256", "target", "units", "verified", "version"];
-    assert_eq!(keys(&meta), expected);
+        "declared period_ms profile profile_sha256 program_sha256 source source_sha256 target units verified version";
+    assert_eq!(keys(&meta).join(" "), expected);
 }
 
 #[test]

@@ -42,7 +42,7 @@ fn compile(source: &Source, job: &Job) -> (String, Compiled) {
 fn judge(program: &str, source: &Source, job: &Job) -> Verdict {
     let mut diagnostics = Diagnostics::default();
     let input = pipeline::read(source, None, job, &mut diagnostics).expect("it is read");
-    verify::positions(&mut BufReader::new(program.as_bytes()), &Ground::new(&input.marker, &job.profile), job)
+    verify::positions(&mut BufReader::new(program.as_bytes()), None, &Ground::new(&input.marker, &job.profile), job)
 }
 
 /// The markers that are damaged, each with a machine of its own.

@@ -90,7 +90,7 @@ fn check(dialect: Dialect) {
         let order = Order { dialect, pieces: PIECES, cutouts, seed, ..Order::default() };
         let source = make(&order);
         for job in [Job::default(), eccentric()] {
-            let (Compiled { report, verdict }, program) = compile(&source, &job);
+            let (Compiled { report, verdict, .. }, program) = compile(&source, &job);
             let contours = PIECES + if cutouts { CUTOUTS } else { 0 };
             assert_eq!((report.contours, report.closed_contours), (contours, contours), "{order:?}");
             let broken: Vec<Finding> = verdict.expect("it was asked for").broken().cloned().collect();
@@ -122,7 +122,7 @@ fn plots_with_spikes_compile_and_keep_the_limits() {
         let mut job = eccentric();
         job.profile.hpgl.drill_max_mm = Some(4.0);
         job.profile.hpgl.inner = Inner::Cut;
-        let (Compiled { report, verdict }, program) = compile(&make_plot(&order), &job);
+        let (Compiled { report, verdict, .. }, program) = compile(&make_plot(&order), &job);
         let contours = PIECES + if cutouts { CUTOUTS } else { 0 };
         assert_eq!((report.contours, report.closed_contours, report.drills), (contours, contours, 2), "{order:?}");
         assert_eq!(report.labels, PIECES);

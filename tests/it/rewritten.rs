@@ -117,7 +117,7 @@ fn a_line_that_is_lost_or_changed_is_seen() {
     let sound = written(&source, &job);
     let judge = |bytes: Vec<u8>| {
         let mut found = Diagnostics::default();
-        let judged = pipeline::judge_program(&mut Cursor::new(bytes), &source, None, &job, &mut found);
+        let judged = pipeline::judge_program(&mut Cursor::new(bytes), &source, None, &job, None, &mut found);
         judged.expect("memory is read").expect("the source is sound")
     };
     assert!(judge(sound.clone()).passes());

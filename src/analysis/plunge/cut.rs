@@ -8,6 +8,8 @@ use crate::ir::toolpath::{Overcut, Run};
 
 /// A shorter overcut is none, mm: rounding.
 const OVERCUT_EPSILON: f64 = 1e-6;
+/// Distance of two places for the blade that are weighed, mm.
+const STEP: f64 = 0.1;
 
 /// Where the blade stands when one plunge without motion cuts all of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,7 +20,7 @@ pub struct BladePlacement {
     pub tip: Point,
     /// How far the blade goes beyond the start and the end of the run, mm: the overlaps, and what it is longer by.
     pub beyond: [f64; 2],
-    /// How much of what it is longer by lies in parts, before the start and past the end.
+    /// How deep what it is longer by lies in parts, before the start and past the end.
     pub overcut: [Overcut; 2],
 }
 
@@ -27,8 +29,8 @@ impl BladePlacement {
     /// to go between plunge and lift.
     ///
     /// What the blade is longer by, the surplus, goes into the waste: behind the start as far as there is room, then
-    /// past the end, and first past the end where the start alone may have no overlap. What finds no room cuts into the
-    /// part itself, never into another one that can be spared.
+    /// past the end, and first past the end where the start alone may have no overlap. What finds no room there lies
+    /// where the deepest of its places is least deep in any part.
     pub fn of(run: &Run, overlaps: [f64; 2], around: &Surroundings) -> Option<Self> {
         let width = around.knife.width_mm;
         let path = run.extended_by(overlaps);
@@ -40,51 +42,75 @@ impl BladePlacement {
         let line = [start - along * overlaps[0], end + along * overlaps[1]];
         let surplus = (width - (line[1] - line[0]).norm()).max(0.0);
         let reach = surplus + around.knife.clearance_mm;
-        let rooms = [Ray { from: line[0], along: -along, reach }, Ray { from: line[1], along, reach }];
-        let rooms = rooms.map(|ray| around.room(&ray));
+        let rays = [Ray { from: line[0], along: -along, reach }, Ray { from: line[1], along, reach }];
+        let rooms = rays.each_ref().map(|ray| around.room(ray));
         let order = if run.ends[0].bare && !run.ends[1].bare { [1, 0] } else { [0, 1] };
-        let shared = shared(surplus, order.map(|end| rooms[end]), around.knife.clearance_mm);
-        let shares = order.map(|end| shared[end]);
-        Some(Self {
-            along,
-            tip: line[1] + along * shares[1],
-            beyond: [overlaps[0] + shares[0], overlaps[1] + shares[1]],
-            overcut: [overcut(shares[0], rooms[0]), overcut(shares[1], rooms[1])],
-        })
+        let (shared, left) = shared(surplus, order.map(|end| rooms[end]), around.knife.clearance_mm);
+        let (mut shares, mut overcut) = (order.map(|end| shared[end]), [Overcut::default(); 2]);
+        if left > 0.0 {
+            (shares, overcut) = Surplus { length: surplus, rays, around }.placed(shares);
+        }
+        let beyond = [overlaps[0] + shares[0], overlaps[1] + shares[1]];
+        Some(Self { along, tip: line[1] + along * shares[1], beyond, overcut })
     }
 
-    /// How far it cuts into parts beyond both ends together, mm.
-    pub fn overcut(&self) -> f64 {
-        self.overcut.into_iter().map(Overcut::total).sum()
+    /// How deep it cuts into parts, mm.
+    pub fn deepest(&self) -> f64 {
+        self.overcut[0].max(self.overcut[1]).deepest()
     }
 }
 
-/// Shares a surplus out to the two ends of a line, of which the first is preferred, by how much room there is beyond each:
-/// to the waste; then into the part itself, alike at both ends so that the greater is least; and only what is left into
-/// another part. All in mm.
-fn shared(surplus: f64, rooms: [Room; 2], clearance: f64) -> [f64; 2] {
+/// Shares a surplus out to the waste beyond the two ends of a line, of which the first is preferred, by how much room there
+/// is; what finds none goes beyond both alike. Says how much that is, too. All in mm.
+fn shared(surplus: f64, rooms: [Room; 2], clearance: f64) -> ([f64; 2], f64) {
     let clear = |gap: f64| (gap - clearance).max(0.0);
     let first = surplus.min(clear(rooms[0].least()));
     let second = (surplus - first).min(clear(rooms[1].least()));
     let left = surplus - first - second;
     if left <= OVERCUT_EPSILON {
-        return [first + left, second];
+        ([first + left, second], 0.0)
+    } else {
+        ([first + left / 2.0, second + left / 2.0], left)
     }
-    // Where nothing but the part itself lies ahead it may be cut, up to the next part.
-    let spare =
-        |room: Room, length: f64| if room.own < room.other { (clear(room.other) - length).max(0.0) } else { 0.0 };
-    let spare = [spare(rooms[0], first), spare(rooms[1], second)];
-    let own = (left / 2.0).min(spare[0]).max(left - spare[1]).min(spare[0]);
-    let own = [own, (left - own).min(spare[1])];
-    // The rest enters another part whichever end it leaves by.
-    let rest = left - own[0] - own[1];
-    [first + own[0] + rest / 2.0, second + own[1] + rest / 2.0]
 }
 
-/// How much of a way of a length beyond an end lies in parts, mm, by how much room there is.
-fn overcut(length: f64, room: Room) -> Overcut {
-    let into = |from: f64, to: f64| if to - from > OVERCUT_EPSILON { to - from } else { 0.0 };
-    Overcut { own: into(room.own, length.min(room.other)), other: into(room.other, length) }
+/// A surplus that finds no room in the waste.
+struct Surplus<'a> {
+    /// How long it is, mm.
+    length: f64,
+    /// The two ways that lead on beyond the line.
+    rays: [Ray; 2],
+    around: &'a Surroundings<'a>,
+}
+
+impl Surplus<'_> {
+    /// How it is shared out to the two ends so that the deepest of its places lies least deep in any part, and how deep
+    /// that is beyond either end; of shares that are alike in this the one that goes least deep into other parts, then the
+    /// one that is nearest to `preferred`.
+    fn placed(&self, preferred: [f64; 2]) -> ([f64; 2], [Overcut; 2]) {
+        let count = (self.length / STEP).ceil().max(1.0) as usize;
+        let way = |i: usize| self.length * i as f64 / count as f64;
+        let deepest = self.rays.map(|ray| {
+            let mut deepest = vec![Overcut::default()];
+            for i in 1..=count {
+                let depths = self.around.depths(ray.from + ray.along * way(i), way(i));
+                deepest.push(deepest[i - 1].max(depths));
+            }
+            deepest
+        });
+        let at = |i: usize| [deepest[0][i], deepest[1][count - i]];
+        let harm = |i: usize| {
+            let [before, behind] = at(i);
+            let both = before.max(behind);
+            [both.deepest(), both.other, (way(i) - preferred[0]).abs()]
+        };
+        let least = (0..=count).map(|i| (harm(i), i)).min_by(|(a, i), (b, j)| {
+            let by_harm = a.iter().zip(b).map(|(a, b)| a.total_cmp(b)).find(|order| order.is_ne());
+            by_harm.unwrap_or_else(|| i.cmp(j))
+        });
+        let i = least.map_or(0, |(_, i)| i);
+        ([way(i), self.length - way(i)], at(i))
+    }
 }
 
 #[cfg(test)]
@@ -99,15 +125,8 @@ mod tests {
 
     #[test]
     fn a_surplus_goes_behind_the_start_then_past_the_end() {
-        assert_eq!(shared(2.0, [room(FREE, FREE); 2], 0.1), [2.0, 0.0]);
-        assert_eq!(shared(2.0, [room(FREE, 1.6), room(FREE, FREE)], 0.1), [1.5, 0.5]);
-    }
-
-    #[test]
-    fn what_finds_no_room_goes_into_the_own_part_alike_and_spares_others() {
-        assert_eq!(shared(2.0, [room(0.0, FREE); 2], 0.1), [1.0, 1.0]);
-        assert_eq!(shared(2.0, [room(FREE, 0.0), room(0.0, FREE)], 0.1), [0.0, 2.0]);
-        assert_eq!(shared(2.0, [room(FREE, 0.0); 2], 0.1), [1.0, 1.0]);
-        assert_eq!(overcut(2.0, room(0.5, 1.5)), Overcut { own: 1.0, other: 0.5 });
+        assert_eq!(shared(2.0, [room(FREE, FREE); 2], 0.1), ([2.0, 0.0], 0.0));
+        assert_eq!(shared(2.0, [room(FREE, 1.6), room(FREE, FREE)], 0.1), ([1.5, 0.5], 0.0));
+        assert_eq!(shared(2.0, [room(0.0, FREE); 2], 0.1), ([1.0, 1.0], 2.0));
     }
 }

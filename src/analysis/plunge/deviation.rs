@@ -12,6 +12,10 @@ use crate::ir::toolpath::Run;
 const SHARE: f64 = 0.45;
 /// The same of the polyline as it is seen without what came before it, which no more may add to.
 const SEEN_SHARE: f64 = 0.95;
+/// The same at a bend, which smoothing takes on the side of the blade: more would be a lift for the rounding of the file.
+const BEND_TOLERANCE_SHARE: f64 = 0.8;
+/// Longest way, in tolerances, on which a tip stands where it is: smoothing moves it as far.
+const STILL: f64 = 2.0;
 /// Greatest part of all the turn under a blade that one vertex of a curve makes; one that makes more is a bend.
 const BEND_SHARE: f64 = 0.7;
 
@@ -22,9 +26,10 @@ pub struct Deviation {
     pub vertex: usize,
     /// How far that is, mm.
     pub distance: f64,
-    /// Whether that is no more than on an arc that turns as much, and the blade does not stand across it.
+    /// Whether that is no more than on an arc that turns as much, and the blade does not stand across it; at a bend no more
+    /// than the tolerance.
     pub fits: bool,
-    /// Whether the blade covers all of the run.
+    /// Whether the blade covers all of the run, but for as little as it may be off anyway.
     pub covers_all: bool,
     /// Whether what lies under it turns little by little, and not at one bend.
     pub is_curve: bool,
@@ -47,13 +52,20 @@ impl Deviation {
         let blade = under.plunge.blade();
         let first = polyline::direction(under.path[0], under.path[1]);
         let is_across = first.is_some_and(|first| stands_across(blade, first));
-        let arc = |turn: f64| if is_across { 0.0 } else { polyline::sagitta(blade.norm(), turn) };
+        let is_arc = turns.is_curve && !is_across;
+        let arc = |turn: f64| if is_arc { polyline::sagitta(blade.norm(), turn) } else { 0.0 };
+        let share = match (under.plunge.covers_all, turns.is_curve) {
+            (true, _) => PASSING_SHARE,
+            (false, true) => SHARE,
+            (false, false) => BEND_TOLERANCE_SHARE,
+        };
         Some(Self {
             vertex: vertex - under.skipped,
             distance,
-            fits: distance <= arc(turns.total + turns.outer) + SHARE * around.tolerance
+            fits: under.is_sure(around.tolerance)
+                && distance <= arc(turns.all) + share * around.tolerance
                 && distance <= arc(turns.seen) + SEEN_SHARE * around.tolerance,
-            covers_all: under.plunge.covers_all,
+            covers_all: under.plunge.covers_all || under.way() <= STILL * around.tolerance,
             is_curve: turns.is_curve,
             turned: turns.signed,
         })
@@ -93,15 +105,13 @@ struct Under {
 
 /// How much the path under a blade turns, rad.
 struct Turns {
-    /// To either side, up to and at the vertex that the tip goes to next: a curve turns along its chords, not at its
-    /// vertices.
-    total: f64,
-    /// The same, what it turns to the one side less what it turns to the other.
-    signed: f64,
-    /// What a curve turns along the halves of the chords at the ends of the run, beside that.
-    outer: f64,
+    /// Between its headings that are farthest apart, up to and at the vertex that the tip goes to next, and with what a curve
+    /// turns along the halves of the chords at the ends of the run: it turns along its chords, not at its vertices.
+    all: f64,
     /// As much of all that as can be told from what lies under the blade alone.
     seen: f64,
+    /// What it turns to the one side less what it turns to the other.
+    signed: f64,
     /// Whether no vertex makes most of it.
     is_curve: bool,
 }
@@ -125,6 +135,32 @@ impl Under {
         self.skipped + 1..=self.plunge.chord.min(self.last - 1)
     }
 
+    /// Whether the tip would stand on the same part of the path were that moved by `tolerance` mm: no bend of it comes as near
+    /// to the distance at which the tip stands and turns back.
+    fn is_sure(&self, tolerance: f64) -> bool {
+        let width = self.plunge.blade().norm();
+        let away = |point: Point| (point - self.path[0]).norm();
+        let mut far = self.path.windows(3).enumerate().filter_map(|(before, points)| {
+            let [a, b, c] = [points[0], points[1], points[2]].map(away);
+            (b >= a && b > c).then_some((before + 1, b))
+        });
+        let is_near = |(_, farthest): &(usize, f64)| (farthest - width).abs() <= tolerance;
+        // Of the bends behind the tip the first one alone matters.
+        let behind = far.clone().find(|(vertex, _)| *vertex > self.plunge.chord);
+        self.plunge.covers_all
+            || !far
+                .by_ref()
+                .take_while(|(vertex, _)| *vertex <= self.plunge.chord)
+                .chain(behind)
+                .any(|far| is_near(&far))
+    }
+
+    /// How far the tip goes behind the plunge, mm.
+    fn way(&self) -> f64 {
+        let next = self.plunge.chord + 1;
+        (self.path[next] - self.plunge.tip).norm() + polyline::length(&self.path[next..])
+    }
+
     fn distance(&self, vertex: usize) -> f64 {
         self.plunge.distance(self.path[vertex])
     }
@@ -132,21 +168,30 @@ impl Under {
     fn turns(&self) -> Turns {
         let chord = self.plunge.chord;
         let corners = self.path.windows(3).take(chord + 1);
-        let signed: Vec<f64> = corners.map(|w| polyline::turn_at(w[0], w[1], w[2])).collect();
-        let turns: Vec<f64> = signed.iter().map(|turn| turn.abs()).collect();
-        let total: f64 = turns.iter().sum();
-        let is_curve = turns.iter().all(|&turn| turn <= BEND_SHARE * total);
+        let turns: Vec<f64> = corners.map(|w| polyline::turn_at(w[0], w[1], w[2])).collect();
+        let total: f64 = turns.iter().map(|turn| turn.abs()).sum();
+        let is_curve = turns.iter().all(|turn| turn.abs() <= BEND_SHARE * total);
         let end = (self.last - 1).min(turns.len());
         let outer = match &turns[self.skipped.min(end)..end] {
-            [first, .., last] if is_curve && chord + 1 >= self.last => f64::midpoint(*first, *last),
-            [first, ..] if is_curve => first / 2.0,
-            _ => 0.0,
+            [first, .., last] if is_curve && chord + 1 >= self.last => [first / 2.0, last / 2.0],
+            [first, ..] if is_curve => [first / 2.0, 0.0],
+            _ => [0.0; 2],
         };
+        let all = range(&turns, outer);
         // A single vertex under the blade tells nobody that the curve begins before it.
-        let under = &turns[..chord.min(turns.len())];
-        let sharpest = under.iter().copied().fold(0.0, f64::max);
-        let is_told = sharpest <= BEND_SHARE * under.iter().sum::<f64>();
-        let seen = if is_told { total + outer } else { total };
-        Turns { total, signed: signed.iter().sum::<f64>().abs(), outer, seen, is_curve }
+        let under = turns[..chord.min(turns.len())].iter().map(|turn| turn.abs());
+        let is_told = under.clone().fold(0.0, f64::max) <= BEND_SHARE * under.sum::<f64>();
+        let seen = if is_told { all } else { range(&turns, [0.0; 2]) };
+        Turns { all, seen, signed: turns.iter().sum::<f64>().abs(), is_curve }
     }
+}
+
+/// Between the headings that are farthest apart on a way that turns so and, before and behind that, by so much more, rad.
+fn range(turns: &[f64], [before, behind]: [f64; 2]) -> f64 {
+    let (mut heading, mut reach) = (0.0_f64, [0.0_f64; 2]);
+    for turn in std::iter::once(&before).chain(turns).chain([&behind]) {
+        heading += turn;
+        reach = [reach[0].min(heading), reach[1].max(heading)];
+    }
+    reach[1] - reach[0]
 }

@@ -102,7 +102,7 @@ impl Group<'_> {
                 let last = plunge_cut.points[plunge_cut.points.len() - 1];
                 let ends = [([heel, plunge_cut.points[0]], plunge_cut.heel), ([last, tip], plunge_cut.front)];
                 for ((way, length), overcut) in ends.into_iter().zip(plunge_cut.overcut) {
-                    let class = if overcut.total() > 0.0 { &mut self.overcut } else { &mut self.over };
+                    let class = if overcut.deepest() > 0.0 { &mut self.overcut } else { &mut self.over };
                     overlap(class, &way, [length, half]);
                 }
                 self.plunge.circle(tip, PLUNGE_RADIUS * self.unit);
@@ -213,14 +213,11 @@ fn chord(orientation: OrientationMode) -> &'static str {
 
 /// Said of a plunge cut that cuts into a part.
 fn overcut(overcut: [Overcut; 2]) -> String {
-    let beyond = |overcut: Overcut, end: &str| match [overcut.own, overcut.other].map(|length| length > 0.0) {
-        [false, false] => String::new(),
-        [_, false] => format!(", {} mm {end} into its part", fixed(overcut.own, 2)),
-        [_, true] => {
-            format!(", {} mm {end}, {} of it into another part", fixed(overcut.total(), 2), fixed(overcut.other, 2))
-        }
+    let into = |depth: f64, part: &str, end: &str| {
+        if depth > 0.0 { format!(", {} mm into {part} {end}", fixed(depth, 2)) } else { String::new() }
     };
-    beyond(overcut[0], "before its start") + &beyond(overcut[1], "past its end")
+    let ends = overcut.into_iter().zip(["before its start", "past its end"]);
+    ends.map(|(Overcut { own, other }, end)| into(own, "its part", end) + &into(other, "another part", end)).collect()
 }
 
 /// The outline of a band along a polyline: its left side forth, its right side back.

@@ -106,11 +106,14 @@ impl Compile<'_> {
         };
         let is_kept = |shows_refusal: bool| shows_refusal || emitted.compiled.is_some();
         let (mut kept, mut metas) = (Vec::new(), Vec::new());
-        for ((program, target), &shows_refusal) in programs.into_iter().zip(self.targets).zip(&emitted.pictures) {
+        let declared = emitted.compiled.as_ref().map_or(&[][..], |compiled| &compiled.declared);
+        for ((mut program, target), &shows_refusal) in programs.into_iter().zip(self.targets).zip(&emitted.pictures) {
             if is_kept(shows_refusal) {
                 let path = files::meta(program.path());
                 let mut meta = Draft::new(&path)?;
-                let text = provenance::json(&Made { source: self.source, job: self.job, target, verified });
+                let sha256 = &Whole::of(&mut program)?.sha256;
+                let Self { source, job, .. } = *self;
+                let text = provenance::json(&Made { source, job, target, verified, sha256, declared });
                 meta.file().write_all(text.as_bytes()).map_err(|error| files::cannot_write(&path, &error))?;
                 metas.push(meta);
                 kept.push(program);

@@ -83,7 +83,7 @@ fn told(compile: &Compile, arguments: &Arguments, ended: Ended) -> Finished {
         Format::Text => String::new(),
     };
     match (&compiled, arguments.format) {
-        (Some(Compiled { report, verdict }), Format::Text) if !arguments.messages.quiet => {
+        (Some(Compiled { report, verdict, .. }), Format::Text) if !arguments.messages.quiet => {
             let text = summary::text(report, compile.source.name(), &diagnostics);
             // Where there is much to read about the data, the table of the axes waits to be asked for.
             let is_long = said.lines().count() > MOST_LINES && !arguments.messages.all;

@@ -12,7 +12,7 @@ use crate::cli::verdict::{self, Judgement};
 use crate::cli::{files, provenance};
 use crate::diagnostic::{Diagnostics, Severity, render_with};
 use crate::machine::Job;
-use crate::pipeline::{self, Verdict};
+use crate::pipeline::{self, Declared, Verdict};
 use crate::source::Source;
 
 /// A program that can be judged.
@@ -76,8 +76,10 @@ impl Arguments {
     pub(super) fn judge(&self, program: &mut Program, source: &Source, job: &Job) -> anyhow::Result<Judged> {
         let Program { path, file } = program;
         let mut diagnostics = Diagnostics::default();
-        let verdict = pipeline::judge_program(file, source, self.reading.from, job, &mut diagnostics)
-            .map_err(|error| cannot_read(path, &error))?;
+        let declared = provenance::declared(path).map(Declared::new);
+        let verdict =
+            pipeline::judge_program(file, source, self.reading.from, job, declared.as_ref(), &mut diagnostics)
+                .map_err(|error| cannot_read(path, &error))?;
         let mut said = render_with(&diagnostics, source, self.messages.detail(self.format));
         if !self.messages.quiet {
             said.push_str(&provenance::doubts(path, source, job));

@@ -29,16 +29,14 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
     runs::replace(toolpath, |run| split(run, &around));
 }
 
-/// The parts of a run that the blade can enter.
-fn split(mut run: Run, around: &Surroundings) -> Vec<Run> {
-    let mut parts = Vec::new();
-    while let Some(bend) = bend(&run, around) {
-        let ([start, end], last) = (run.ends, run.points.len() - 1);
-        parts.push(between(&run, [0, bend], [start, REJOINED]));
-        run = between(&run, [bend, last], [REJOINED, end]);
-    }
-    parts.push(run);
-    parts
+/// The parts of a run that the blade can enter. What lies before a bend is looked at anew: the blade that went over the bend
+/// lies otherwise over that alone.
+pub(super) fn split(run: Run, around: &Surroundings) -> Vec<Run> {
+    let Some(bend) = bend(&run, around) else { return vec![run] };
+    let ([start, end], last) = (run.ends, run.points.len() - 1);
+    let before = between(&run, [0, bend], [start, REJOINED]);
+    let behind = between(&run, [bend, last], [REJOINED, end]);
+    [before, behind].into_iter().flat_map(|part| split(part, around)).collect()
 }
 
 /// The first point at which an open run must be split so that the blade can enter it; `None` when it can.

@@ -66,12 +66,11 @@ fn lengthened(way: &Way, [start, end]: [usize; 2], curves: &[TightCurve], width:
     lengthened
 }
 
-/// How far the worst of the plunges that a whole run is nibbled with would cut into parts beyond one of its ends, mm, when
-/// it does so alike at both.
+/// How deep the worst of the plunges that a whole run is nibbled with would cut into parts, mm.
 pub(super) fn worst_overcut(run: &Run, curve: &TightCurve, around: &Surroundings) -> f64 {
     let plunges = nibbled(run, std::slice::from_ref(curve), around).into_iter().map(|Stretch { run, .. }| {
         let lengths = overlaps(&run, around).map(|overlap| overlap.length);
-        BladePlacement::of(&run, lengths, around).map_or(0.0, |cut| cut.overcut() / 2.0)
+        BladePlacement::of(&run, lengths, around).map_or(0.0, |cut| cut.deepest())
     });
     plunges.fold(0.0, f64::max)
 }

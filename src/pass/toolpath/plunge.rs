@@ -2,15 +2,15 @@
 //!
 //! Needs runs with their overlaps. Leaves no run that the blade covers where it plunges: L + F + H <= w on a straight
 //! one, no point of the path at the distance w from its start on a curved one. What the blade is longer by goes into
-//! the waste as far as there is room, and never into another part that can be spared. What cuts into a part by more
-//! than the tolerance is warned of.
+//! the waste as far as there is room, and else where it lies least deep in any part. What cuts into a part is warned of,
+//! and refused where the profile does not allow it.
 
 use super::pass::ToolpathPass;
 use super::scene::Scene;
 use super::worst::Worst;
 use crate::analysis::cloth::Surroundings;
 use crate::analysis::plunge::BladePlacement;
-use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
 use crate::geom::polyline;
 use crate::ir::toolpath::{End, Overcut, PlungeCut, Pose, Run, Shape, Side, Step, Toolpath};
 use crate::units::number::fixed;
@@ -38,20 +38,25 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
         Step::PlungeCut(plunge_cut) => Some(plunge_cut),
         Step::Run(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => None,
     });
-    let mut overcuts = Worst::default();
-    for plunge_cut in plunge_cuts.filter(|plunge_cut| total(plunge_cut) > around.tolerance) {
-        // What cuts into another part is worse than any cut into its own.
-        overcuts.see(plunge_cut, |plunge_cut| [other(plunge_cut), total(plunge_cut)]);
+    let verify = &scene.job.profile.verify;
+    let exceeds = |depth: f64, cap: Option<f64>| cap.is_some_and(|cap| depth > cap);
+    let (mut overcuts, mut refused) = (Worst::default(), Worst::default());
+    for plunge_cut in plunge_cuts.filter(|plunge_cut| depth(plunge_cut).deepest() > 0.0) {
+        let Overcut { own, other } = depth(plunge_cut);
+        let is_refused = exceeds(own, verify.max_overcut_part_mm) || exceeds(other, verify.max_overcut_neighbour_mm);
+        let seen = if is_refused { &mut refused } else { &mut overcuts };
+        // Of two as deep the one that lies in another part is worse.
+        seen.see(plunge_cut, |plunge_cut| [depth(plunge_cut).deepest(), depth(plunge_cut).other]);
     }
-    if let Some(warning) = overcut_warning(&overcuts, &around) {
-        diagnostics.push(warning);
+    for said in [warning(&overcuts, &around), refusal(&refused, &around)].into_iter().flatten() {
+        diagnostics.push(said);
     }
 }
 
 /// The step of a run that is cut by one plunge.
 fn plunge_cut(run: &Run, cut: &BladePlacement, around: &Surroundings) -> PlungeCut {
     let end = |i: usize| {
-        let is_in_part = cut.overcut[i].total() > 0.0;
+        let is_in_part = cut.overcut[i].deepest() > 0.0 && run.ends[i].side != Side::Contour;
         End { side: if is_in_part { Side::Part } else { run.ends[i].side }, ..run.ends[i] }
     };
     PlungeCut {
@@ -68,14 +73,9 @@ fn plunge_cut(run: &Run, cut: &BladePlacement, around: &Surroundings) -> PlungeC
     }
 }
 
-/// How far a plunge cut goes into parts beyond its ends, both together, mm.
-fn total(plunge_cut: &PlungeCut) -> f64 {
-    plunge_cut.overcut.into_iter().map(Overcut::total).sum()
-}
-
-/// How far into others than its own, mm.
-fn other(plunge_cut: &PlungeCut) -> f64 {
-    plunge_cut.overcut.into_iter().map(|overcut| overcut.other).sum()
+/// How deep a plunge cut lies in parts, beyond either end, mm.
+fn depth(plunge_cut: &PlungeCut) -> Overcut {
+    plunge_cut.overcut[0].max(plunge_cut.overcut[1])
 }
 
 /// Where it does, in words.
@@ -83,28 +83,34 @@ fn beyond(plunge_cut: &PlungeCut) -> String {
     // As it is drawn.
     let ends =
         if plunge_cut.turned { ["past its end", "before its start"] } else { ["before its start", "past its end"] };
-    let overcuts = plunge_cut.overcut.into_iter().zip(ends);
-    let overcuts = overcuts.filter(|(overcut, _)| overcut.total() > 0.0);
-    let overcuts: Vec<String> =
-        overcuts.map(|(overcut, end)| format!("{} mm {end}", fixed(overcut.total(), 2))).collect();
-    let overcuts = overcuts.join(" and ");
-    if other(plunge_cut) > 0.0 {
-        format!("{overcuts}, {} mm of that into another part", fixed(other(plunge_cut), 2))
-    } else {
-        format!("{overcuts}, into its own part")
-    }
+    let overcuts = plunge_cut.overcut.into_iter().zip(ends).filter(|(overcut, _)| overcut.deepest() > 0.0);
+    let said = |(Overcut { own, other }, end): (Overcut, &str)| {
+        let said = [(own, "its own part"), (other, "another part")].into_iter().filter(|(depth, _)| *depth > 0.0);
+        let said: Vec<String> = said.map(|(depth, part)| format!("{} mm into {part}", fixed(depth, 2))).collect();
+        format!("{} {end}", said.join(" and "))
+    };
+    overcuts.map(said).collect::<Vec<String>>().join(", ")
 }
 
 /// Warns of the worst overcut of a toolpath; `None` when there is none.
-fn overcut_warning(overcuts: &Worst<&PlungeCut>, around: &Surroundings) -> Option<Diagnostic> {
+fn warning(overcuts: &Worst<&PlungeCut>, around: &Surroundings) -> Option<Diagnostic> {
+    let said = said(&code::PATH_OVERCUT, overcuts, around)?;
+    Some(said.hint("a narrower blade cuts less deep"))
+}
+
+/// Refuses the worst of those that the profile does not allow; `None` when there is none.
+fn refusal(refused: &Worst<&PlungeCut>, around: &Surroundings) -> Option<Diagnostic> {
+    let said = said(&code::PATH_OVERCUT_REFUSED, refused, around)?;
+    Some(said.hint(
+        "a narrower blade cuts less deep; `verify.max_overcut_part_mm` and `verify.max_overcut_neighbour_mm` allow more",
+    ))
+}
+
+fn said(code: &'static Code, overcuts: &Worst<&PlungeCut>, around: &Surroundings) -> Option<Diagnostic> {
     let plunge_cut = overcuts.place()?;
     let (length, width) = (fixed(polyline::length(&plunge_cut.points), 2), fixed(around.knife.width_mm, 2));
     let (beyond, more) = (beyond(plunge_cut), overcuts.and_more());
     let message = format!("the blade of {width} mm is longer than this cut of {length} mm: it cuts {beyond}{more}");
-    Some(
-        Diagnostic::new(&code::PATH_OVERCUT, message)
-            .at(plunge_cut.spans[plunge_cut.spans.len() - 1])
-            .by(plunge_cut.overcut.into_iter().map(Overcut::total).fold(0.0, f64::max))
-            .hint("a narrower blade cuts less far"),
-    )
+    let span = plunge_cut.spans[plunge_cut.spans.len() - 1];
+    Some(Diagnostic::new(code, message).at(span).by(depth(plunge_cut).deepest()))
 }

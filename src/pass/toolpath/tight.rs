@@ -18,6 +18,7 @@
 //!
 //! Leaves no run with the chord mode that the blade cannot be a chord of.
 
+use super::entry::split;
 use super::nibble::{nibbled, worst_overcut};
 use super::pass::ToolpathPass;
 use super::runs;
@@ -95,7 +96,8 @@ fn treated(run: Run, around: &Surroundings, report: &mut Report) -> Vec<Run> {
             report.plunges += 1;
             runs.push(stretch.run);
         } else {
-            runs.extend(treated(stretch.run, around, report));
+            let parts = split(stretch.run, around);
+            runs.extend(parts.into_iter().flat_map(|part| treated(part, around, report)));
         }
     }
     runs
@@ -112,12 +114,12 @@ fn treatment(run: &Run, curves: &[TightCurve], around: &Surroundings) -> Treatme
     }
 }
 
-/// Whether the curve on which a run begins is nibbled: what the blade cannot enter even where curves are followed, and
+/// Whether the curve on which a run begins is nibbled: what the blade cannot enter, or covers, even where curves are followed, and
 /// where they are refused what it lies slightly beside.
 fn is_start_nibbled(start: &CurvedStart, treatment: Treatment, around: &Surroundings) -> bool {
     match treatment {
         Treatment::Nibbled => true,
-        Treatment::Followed(_) => !start.deviation.fits,
+        Treatment::Followed(_) => !start.deviation.fits || start.deviation.covers_all,
         Treatment::Refused => start.deviation.is_slight(around),
         Treatment::Covered => false,
     }

@@ -19,6 +19,8 @@ const LINES_AT_A_TIME: usize = 8192;
 pub(in crate::verify) struct Coverage<'a> {
     reference: &'a Reference<'a>,
     cut: Vec<Stretches>,
+    /// What of that was cut by a blade on its way, and not by one that only plunged.
+    ways: Vec<Stretches>,
 }
 
 /// Disjoint stretches of the stations of a line, in order.
@@ -61,7 +63,8 @@ impl Stretches {
 impl<'a> Coverage<'a> {
     /// Nothing is cut yet.
     pub(in crate::verify) fn new(reference: &'a Reference) -> Self {
-        Self { reference, cut: vec![Stretches::NONE; reference.lines.len()] }
+        let none = vec![Stretches::NONE; reference.lines.len()];
+        Self { reference, cut: none.clone(), ways: none }
     }
 
     /// How much of the stretches was not cut before, mm.
@@ -70,19 +73,10 @@ impl<'a> Coverage<'a> {
         parts.map(|[a, b]| (b - a) - covered(self.cut[line].all(), a, b)).sum()
     }
 
-    /// From where to where the stretches reach that were not cut before; `None` when all of them were.
-    pub(in crate::verify) fn uncut(&self, line: usize, stretches: &[[f64; 2]]) -> Option<[f64; 2]> {
-        let mut hull: Option<[f64; 2]> = None;
-        for [from, to] in stretches.iter().flat_map(|s| self.on_line(line, *s)) {
-            // From the front, then from the back, past what was cut.
-            let cut = self.cut[line].all();
-            let a = cut.iter().fold(from, |a, s| if s[0] <= a { a.max(s[1]) } else { a });
-            let b = cut.iter().rev().fold(to, |b, s| if s[1] >= b { b.min(s[0]) } else { b });
-            if a < b {
-                hull = Some(hull.map_or([a, b], |[low, high]| [low.min(a), high.max(b)]));
-            }
-        }
-        hull
+    /// How much of the stretches a blade on its way had cut before, mm.
+    pub(in crate::verify) fn passed(&self, line: usize, stretches: &[[f64; 2]]) -> f64 {
+        let parts = stretches.iter().flat_map(|s| self.on_line(line, *s));
+        parts.map(|[a, b]| covered(self.ways[line].all(), a, b)).sum()
     }
 
     /// How much of a line was cut, mm.
@@ -90,11 +84,12 @@ impl<'a> Coverage<'a> {
         self.cut[line].all().iter().map(|[a, b]| b - a).sum()
     }
 
-    /// Marks stretches as cut.
-    pub(in crate::verify) fn add(&mut self, line: usize, stretches: &[[f64; 2]]) {
-        for stretch in stretches {
-            for part in self.on_line(line, *stretch) {
-                self.cut[line].merge(part);
+    /// Marks stretches as cut, by a blade on its way or by one that only plunged.
+    pub(in crate::verify) fn add(&mut self, line: usize, stretches: &[[f64; 2]], is_plunge_cut: bool) {
+        for part in stretches.iter().flat_map(|stretch| self.on_line(line, *stretch)).collect::<Vec<_>>() {
+            self.cut[line].merge(part);
+            if !is_plunge_cut {
+                self.ways[line].merge(part);
             }
         }
     }

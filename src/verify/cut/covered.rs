@@ -1,46 +1,118 @@
-//! A short curve under a blade that never moves: one plunge stands for all of it.
+//! What a blade that only plunges cuts of a line: all that is as near to it as a cut may be off.
 
-use super::body::Cut;
-use crate::geom::polyline;
-use crate::verify::reference::line::Line;
-use crate::verify::reference::nibbled::is_curve;
+use super::heading::on_lap;
+use crate::geom::{Point, cross};
+use crate::verify::reference::line::{Chord, Line};
 
-/// Cosine of the blade with the line at its start below which it stands across it, by a little.
-const COSINE: f64 = 0.35;
-/// Greatest turn of a curve that one straight plunge may stand for, rad (110 degrees).
-const TURN: f64 = 1.92;
+/// Stretches that are nearer to each other are one, mm: rounding.
+const JOINED: f64 = 1e-9;
+/// Least part of a stretch that leads along the blade: of one that is cut along its line, however that winds.
+const ALONG: f64 = 0.5;
 
-/// A line from one end of which to the other a plunged blade lies, and between which it is a curve.
+/// How near a blade must be to what it cuts, mm.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::verify) struct Covered {
-    /// How far the line bows away from the blade, mm.
-    pub(in crate::verify) sag: f64,
+pub(super) struct Near {
+    /// How far along the line is looked.
+    pub(super) reach: f64,
+    /// How far beside the blade.
+    pub(super) beside: f64,
+    /// How far beyond its ends: rounding.
+    pub(super) beyond: f64,
 }
 
-impl Covered {
-    /// `None` unless the blade passes both ends of the line by at most `allowed` mm, the line turns as a curve by no
-    /// more than [`TURN`] between them and not across the blade, and it bows no farther than an arc of the same turn.
-    pub(in crate::verify) fn new(line: &Line, cut: &Cut, allowed: f64) -> Option<Self> {
-        if line.ring || !cut.is_plunge_cut() || line.chords() < 2 {
-            return None;
+/// The stretches of a line that a blade, given by its heel and its tip, lies over, in order; looked for from a station on
+/// both ways.
+pub(super) fn covered(line: &Line, blade: [Point; 2], station: f64, near: Near) -> Vec<[f64; 2]> {
+    let mut found: Vec<[f64; 2]> = Vec::new();
+    for (chord, lap) in chords(line, station, near.reach) {
+        let chord = line.chord(chord);
+        let Some([from, to]) = of_chord(&chord, blade, near) else { continue };
+        let (from, to) = (from + lap, to + lap);
+        match found.last_mut() {
+            Some(last) if from - last[1] <= JOINED => last[1] = to,
+            _ => found.push([from, to]),
         }
-        let (heel, tip) = (cut.points[0], cut.points[cut.body]);
-        let [start, end] = [line.point(0), line.point(line.chords())];
-        let is_near = |place| polyline::distance_to_segment(place, heel, tip) <= allowed;
-        let turns: Vec<f64> = (1..line.chords()).map(|vertex| line.turn(vertex)).collect();
-        // What it turns to either side and back may be rounding.
-        let turned = turns.iter().sum::<f64>().abs();
-        let along = end - start;
-        let is_across = along.dot(&line.direction(0)) < COSINE * along.norm();
-        if !is_near(start) || !is_near(end) || turned > TURN || is_across {
-            return None;
-        }
-        let turns: Vec<f64> = turns.iter().map(|turn| turn.abs()).collect();
-        let all = turns.iter().sum::<f64>();
-        // It turns along both halves of the chords at its ends, too.
-        let arc = all + f64::midpoint(turns[0], turns[turns.len() - 1]);
-        let away = line.points().map(|point| polyline::distance_to_segment(point, start, end));
-        let sag = away.fold(0.0, f64::max);
-        (is_curve(&turns) && sag <= polyline::sagitta(along.norm(), arc) + allowed).then_some(Self { sag })
+    }
+    // What only crosses the blade is cut through, not along.
+    let axis = (blade[1] - blade[0]).normalize();
+    let along = |[a, b]: [f64; 2]| (line.place(on_lap(line, b)) - line.place(on_lap(line, a))).dot(&axis).abs();
+    found.retain(|&[a, b]| along([a, b]) >= ALONG * (b - a));
+    found
+}
+
+/// The chords of a line from `reach` mm before a station to as far behind it, each with the length of the laps before it.
+fn chords<'a>(line: &'a Line, near: f64, reach: f64) -> impl Iterator<Item = (usize, f64)> + 'a {
+    let (length, count) = (line.length(), line.chords());
+    let (low, high) = if line.ring {
+        // Once round at the most.
+        let reach = reach.min(length / 2.0);
+        (near - reach, near + reach)
+    } else {
+        ((near - reach).max(0.0), (near + reach).min(length))
+    };
+    let lap = if line.ring { (low / length).floor() } else { 0.0 };
+    let first = line.chord_at(low - lap * length);
+    let place = move |i: usize| (i % count, (lap + (i / count) as f64) * length);
+    let laps = if line.ring { usize::MAX } else { count };
+    (first..laps).map(place).take_while(move |&(chord, lap)| line.station(chord) + lap < high)
+}
+
+/// The stations between which a blade lies over a chord, or over the bulge of the curve that it stands for.
+fn of_chord(chord: &Chord, blade: [Point; 2], near: Near) -> Option<[f64; 2]> {
+    let [from, crest, to] = chord.band();
+    let straight = within([from, to], blade, near);
+    let halves = if crest == Point::from((from.coords + to.coords) / 2.0) {
+        [None; 2]
+    } else {
+        let half = |ends, by: f64| within(ends, blade, near).map(|[a, b]| [by + a / 2.0, by + b / 2.0]);
+        [half([from, crest], 0.0), half([crest, to], 0.5)]
+    };
+    let [a, b] = hull([straight, halves[0], halves[1]])?;
+    let [start, length] = chord.stations();
+    Some([start + a * length, start + b * length])
+}
+
+/// The part of a segment, from 0 at its start to 1 at its end, that a blade lies over.
+fn within([from, to]: [Point; 2], [heel, tip]: [Point; 2], Near { beside, beyond, .. }: Near) -> Option<[f64; 2]> {
+    let (way, blade) = (to - from, tip - heel);
+    let width = blade.norm();
+    let axis = blade / width;
+    let [a, b] = clip(cross(axis, from - heel), cross(axis, way), [-beside, beside])?;
+    let [c, d] = clip(axis.dot(&(from - heel)), axis.dot(&way), [-beyond, width + beyond])?;
+    let (from, to) = (a.max(c).max(0.0), b.min(d).min(1.0));
+    (from <= to).then_some([from, to])
+}
+
+/// Where a value that is `start` at 0 and grows by `slope` up to 1 lies between two others.
+fn clip(start: f64, slope: f64, [low, high]: [f64; 2]) -> Option<[f64; 2]> {
+    if slope == 0.0 {
+        return (low..=high).contains(&start).then_some([f64::NEG_INFINITY, f64::INFINITY]);
+    }
+    let (a, b) = ((low - start) / slope, (high - start) / slope);
+    Some([a.min(b), a.max(b)])
+}
+
+/// From the least start to the greatest end of some stretches, which overlap.
+fn hull(stretches: [Option<[f64; 2]>; 3]) -> Option<[f64; 2]> {
+    stretches.into_iter().flatten().reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_segment_is_covered_beside_the_blade_and_not_beyond_its_ends() {
+        let blade = [Point::new(0.0, 0.0), Point::new(10.0, 0.0)];
+        let near = Near { reach: 20.0, beside: 1.0, beyond: 0.0 };
+        let of = |from: (f64, f64), to: (f64, f64)| {
+            let part = within([Point::new(from.0, from.1), Point::new(to.0, to.1)], blade, near);
+            part.map(|ends| ends.map(|share| (share * 1e4).round() / 1e4))
+        };
+        assert_eq!(of((0.0, 2.0), (10.0, 2.0)), None);
+        assert_eq!(of((5.0, -2.0), (5.0, 2.0)), Some([0.25, 0.75]));
+        assert_eq!(of((-4.0, 0.0), (4.0, 0.0)), Some([0.5, 1.0]));
+        assert_eq!(of((8.0, 0.5), (8.0, 0.25)), Some([0.0, 1.0]));
+        assert_eq!(of((11.0, 0.0), (12.0, 0.0)), None);
     }
 }

@@ -7,7 +7,6 @@
 use std::f64::consts::PI;
 
 use super::follow::Foot;
-use super::joints::Joints;
 use crate::geom::{Point, Vector, angle, cross, polyline};
 use crate::verify::program::row::{Rounding, Row};
 use crate::verify::reference::line::Line;
@@ -213,7 +212,7 @@ impl Plunge<'_> {
 }
 
 /// A station on the first lap.
-fn on_lap(line: &Line, station: f64) -> f64 {
+pub(super) fn on_lap(line: &Line, station: f64) -> f64 {
     if line.ring { station.rem_euclid(line.length()) } else { station }
 }
 
@@ -223,21 +222,4 @@ fn point_at(line: &Line, foot: &Foot) -> Point {
     let chord = line.chord_at(station);
     let way = if station <= 0.0 { -foot.beyond } else { foot.beyond };
     line.point(chord) + line.direction(chord) * (station - line.station(chord) + way)
-}
-
-/// The directions that a blade may have which cuts a line from a joint to another without moving: as a chord from the one
-/// overlap to the other.
-pub(super) fn of_plunge_cut(line: &Line, [from, to]: [f64; 2], joints: &Joints) -> Vec<Vector> {
-    let (start, end) = (line.chord_at(from), line.chord_at(to.next_down()));
-    let at = |chord: usize, station: f64| line.point(chord) + line.direction(chord) * (station - line.station(chord));
-    let (first, last) = (at(start, from), at(end, to));
-    let [ahead, behind] = [line.direction(end), line.direction(start)];
-    let led = |heel: f64, front: f64| last + ahead * front - (first - behind * heel);
-    let heels = distinct(&joints.heels);
-    heels.flat_map(|heel| distinct(&joints.fronts).map(move |front| led(heel, front))).collect()
-}
-
-/// Numbers, each once.
-pub(super) fn distinct(numbers: &[f64; 3]) -> impl Iterator<Item = f64> + '_ {
-    (0..numbers.len()).filter(|&i| !numbers[..i].contains(&numbers[i])).map(|i| numbers[i])
 }

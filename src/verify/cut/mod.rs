@@ -6,15 +6,16 @@
 pub(super) mod body;
 pub(super) mod chord;
 pub(super) mod coverage;
-pub(super) mod covered;
+mod covered;
 pub(super) mod done;
 pub(super) mod follow;
 pub(super) mod heading;
 pub(super) mod heel;
-pub(super) mod joints;
 pub(super) mod naming;
 pub(super) mod overcut;
 pub(super) mod passing;
+mod plunge_cut;
+pub(super) mod plunged;
 pub(super) mod stroke;
 pub(super) mod strokes;
 pub(super) mod trial;

@@ -5,25 +5,22 @@
 
 use std::ops::RangeToInclusive;
 
-use super::body::{BODY_STEP, Cut, Sagitta};
+use super::body::{Cut, Sagitta};
 use super::chord::{self, BODY_SHARES, Blade, Trailing};
-use super::covered::Covered;
 use super::done::Done;
-use super::follow::Foot;
 use super::heading::{self, Moving, Plunge};
 use super::heel;
-use super::joints::{Around, Joints};
 use super::naming::Naming;
-use super::overcut::{self, Lines, Overcut, Overcuts};
+use super::overcut::{self, Lines, Overcut};
 use super::strokes::Stroke;
 use super::trial::{REACH, Trace, Tracer, Trial};
 use super::worsts::Worsts;
-use crate::geom::{Point, Vector, angle, left};
+use crate::geom::{Point, Vector, cross, left};
 use crate::ir::finding::Sighting;
 use crate::machine::{Fit, Follow, Knife, MachineProfile};
+use crate::verify::declared::Declared;
 use crate::verify::program::row::{Going, Rounding, Row, SAGITTA};
 use crate::verify::reference::ground::Ground;
-use crate::verify::reference::line::Line;
 use crate::verify::reference::lines::Reference;
 use crate::verify::worst::{Worst, at};
 
@@ -72,20 +69,20 @@ pub(in crate::verify) struct Judge<'a> {
     pub(in crate::verify) reference: &'a Reference<'a>,
     /// Rounding of the rows.
     pub(in crate::verify) rows_rounding: Rounding,
-    knife: &'a Knife,
+    pub(super) knife: &'a Knife,
     period: f64,
     /// Rounding of a tip's place, mm.
     rounding: f64,
     /// Least way of the tip that shows a direction, mm, and by how much rounding may turn a shorter one, degrees.
     way_min: f64,
     noise_deg: f64,
-    tracer: Tracer<'a>,
+    pub(super) tracer: Tracer<'a>,
     /// Greatest overlap at one end, and of both ends together.
-    overlap: f64,
+    pub(super) overlap: f64,
     overlaps: f64,
     /// Greatest bulge of a tolerance band beside its tolerance, mm.
     sagitta: f64,
-    overcut: Overcut<'a>,
+    pub(super) overcut: Overcut<'a>,
     naming: Naming,
     worsts: Worsts,
 }
@@ -94,6 +91,7 @@ impl<'a> Judge<'a> {
     /// Judges by what must be cut and what lies where a program whose rows are rounded.
     pub(in crate::verify) fn new(
         Ground { reference, grid, inside }: &'a Ground<'a>,
+        declared: Option<&'a Declared>,
         profile: &'a MachineProfile,
         rounding: Rounding,
     ) -> Self {
@@ -106,7 +104,7 @@ impl<'a> Judge<'a> {
         let tracer = Tracer {
             reference,
             grid,
-            joints: Joints::new(knife),
+            declared,
             width: knife.width_mm,
             allowed: tolerance + place,
             max_uncut: profile.verify.max_uncut_mm,
@@ -124,7 +122,7 @@ impl<'a> Judge<'a> {
             overlap: front.max(heel),
             overlaps,
             sagitta: if profile.path.fit == Fit::Curve { profile.path.chord_sag_max_mm } else { 0.0 },
-            overcut: Overcut::new(reference, inside, profile, place),
+            overcut: Overcut::new(reference, inside, declared, profile, place),
             naming: Naming::new(tolerance),
             worsts: Worsts::new(profile, tolerance, rounding),
         }
@@ -164,7 +162,7 @@ impl<'a> Judge<'a> {
         let tips: Vec<Point> = rows.iter().zip(&blades).map(|(row, &along)| row.centre + along * lead).collect();
         let heel = rows[0].centre - blades[0] * heel;
         let sagitta = if stroke.goings().is_empty() { Sagitta::Timed } else { Sagitta::Within(SAGITTA) };
-        let cut = Cut { sagitta, ..Cut::new(&tips, heel, self.knife) };
+        let cut = Cut::new(&tips, heel, sagitta, self.reference.tolerance);
         let trace = self.tracer.trace(&cut, rows[0].block);
         Traced { stroke, tips, blades, ends, ways, cut, trace, best: None }
     }
@@ -180,15 +178,9 @@ impl<'a> Judge<'a> {
         let Traced { stroke, cut, trace, .. } = traced;
         let first = &stroke.rows()[0];
         let Some(mut best) = self.tracer.choose(trace, cut, &done.coverage) else { return };
-        let line = &self.reference.lines[best.line];
-        let uncut = |stretches: &[[f64; 2]]| done.coverage.uncut(best.line, stretches);
-        if let (true, Some(hull)) =
-            (cut.is_plunge_cut(), uncut(&best.held_stretches()).or_else(|| uncut(&best.stretches)))
-        {
-            (best.hull, best.fits) = (hull, self.fits(line, hull));
-        }
+        best.passed = done.coverage.passed(best.line, &best.stretches);
         done.order.cut(first.tick, best.line, stroke.sighting(cut, cut.body));
-        done.coverage.add(best.line, &best.stretches);
+        done.coverage.add(best.line, &best.stretches, cut.is_plunge_cut());
         traced.best = Some(best);
     }
 
@@ -205,14 +197,16 @@ impl<'a> Judge<'a> {
             worsts.stray.see(cut.length().max(self.knife.width_mm).max(REACH), || seen(cut.body));
             return;
         };
-        if cut.is_plunge_cut() {
+        if cut.is_plunge_cut() && self.knife.width_mm > 0.0 {
             self.check_plunge_cut(cut, best, &seen, worsts);
-            worsts.on_path.see(self.left_beside(best), || seen(cut.body));
+        } else {
+            self.check_way(cut, best, &seen, &mut worsts.on_path);
+            self.check_lifts(cut, best, &seen, &mut worsts.declared);
         }
         worsts.on_path.see(best.worst.0, || seen(best.worst.1));
-        self.check_ends(best, &seen, &mut worsts.stray);
-        worsts.once.see(self.twice(best), || seen(cut.body));
-        self.check_overcut(cut, best, &seen, &mut worsts.overcuts);
+        self.check_ends(cut, best, &seen, &mut worsts.stray);
+        worsts.once.see(self.twice(cut, best), || seen(cut.body));
+        self.check_overcut(cut, best, &seen, worsts);
         self.check_body(traced, best, &mut worsts.body);
         if stroke.goings().is_empty() {
             // Only rows with a time name their blocks one by one.
@@ -220,106 +214,29 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// The joints of its line from one of which to another that reaches which a plunge cut cuts anew, the first and the
-    /// last at either end; `None` when there are none: only between joints its blade may be longer than what it cuts.
-    fn fits(&self, line: &Line, [from, to]: [f64; 2]) -> Option<[[f64; 2]; 2]> {
-        let joints = |station: f64| {
-            let band = 2.0 * (self.reference.tolerance + self.rounding);
-            self.tracer.joints.near(line, Around { station, slack: BODY_STEP + band, band })
-        };
-        let ends = [joints(from)?, joints(to)?];
-        (ends[0][0] < ends[1][1]).then_some(ends)
-    }
-
-    /// A plunge cut that is longer than what it cuts leaves the line straight on; any other must lie on it with all of
-    /// its blade.
-    fn check_plunge_cut(&self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting, worsts: &mut Worsts) {
+    /// A blade that goes on leaves its line straight on: what lies before and behind what is held to it.
+    fn check_way(&self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting, on_path: &mut Worst) {
         let line = &self.reference.lines[trial.line];
-        let width = self.knife.width_mm;
-        let Some([from, to]) = trial.fits else {
-            for (i, foot) in trial.feet.iter().enumerate().filter(|(i, _)| !trial.held.contains(i)) {
-                worsts.on_path.see(foot.deviation, || seen(i));
-            }
-            let askew = angle::turn(self.plunge(cut, trial).chord(), cut.points[cut.body] - cut.points[0]);
-            if width > 0.0 {
-                worsts.heading.see(askew.abs().to_degrees(), || seen(cut.body));
-            }
-            return;
-        };
-        if width == 0.0 {
-            return;
+        let last = *trial.held.end();
+        let foot = trial.feet[last];
+        let along = line.direction(foot.chord);
+        for (i, &point) in cut.points.iter().enumerate().skip(last + 1) {
+            on_path.see(cross(along, point - cut.points[last]).abs(), || seen(i));
         }
-        if from.into_iter().chain(to).all(f64::is_finite) {
-            let blade = cut.points[cut.body] - cut.points[0];
-            let with = trial.feet[cut.body].station >= trial.feet[0].station;
-            let blade = if with { blade } else { -blade };
-            // There may be more joints between the first and the last one: it begins at the one up to which all is cut.
-            let [first, last] = trial.hull;
-            let (from, to) = ([from[0], from[1], first], [to[0], to[1], last]);
-            let ends = heading::distinct(&from).flat_map(|from| heading::distinct(&to).map(move |to| [from, to]));
-            let ends = ends.filter(|[from, to]| from < to);
-            let directions = ends.flat_map(|ends| heading::of_plunge_cut(line, ends, &self.tracer.joints));
-            let askew = directions.map(|direction| angle::turn(direction, blade));
-            let [least, greatest] =
-                askew.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], turn| [a.min(turn), b.max(turn)]);
-            // Overlaps that are shortened lie between none and whole ones, and so does the blade.
-            worsts.heading.see(least.max(-greatest).max(0.0).to_degrees(), || seen(cut.body));
-            return;
-        }
-        // Where the knife may have been lifted anywhere the blade lies between the directions of the chords that it
-        // cuts; the tolerance band turns a blade by a little.
-        let (first, last) = (trial.feet[*trial.held.start()].station, trial.feet[*trial.held.end()].station);
-        let blade = (cut.points[cut.body] - cut.points[0]) * if last < first { -1.0 } else { 1.0 };
-        let chords = line.chords_between([first.min(last), first.max(last)]);
-        let (mut turned, mut cone) = (0.0, [0.0_f64; 2]);
-        for chord in chords.clone().skip(1) {
-            turned += line.turn(chord % line.chords());
-            cone = [cone[0].min(turned), cone[1].max(turned)];
-        }
-        let askew = angle::turn(line.direction(*chords.start() % line.chords()), blade);
-        let slack = (2.0 * (self.reference.tolerance + self.rounding) / width).atan();
-        let beyond = (cone[0] - askew).max(askew - cone[1]) - slack;
-        worsts.heading.see(beyond.to_degrees(), || seen(cut.body));
     }
 
-    /// How far a curve lies beside the blade that covers it, mm, where cutting it by several plunges would reach less
-    /// far into the part; else none.
-    fn left_beside(&self, trial: &Trial) -> f64 {
-        let allowed = self.tracer.allowed;
-        let Some(Covered { sag }) = trial.covered.filter(|covered| covered.sag > allowed) else { return 0.0 };
-        let line = &self.reference.lines[trial.line];
-        let lines = Lines { reference: self.reference, grid: self.tracer.grid };
-        if sag > self.overcut.of_nibbles(line, lines) + allowed { sag } else { 0.0 }
-    }
-
-    /// How much of a line a stroke cuts twice, mm, but for what the blade of a plunge cut is longer by than what was left.
-    fn twice(&self, trial: &Trial) -> f64 {
-        let mut twice = trial.stretches.iter().map(|[a, b]| b - a).sum::<f64>() - trial.fresh;
-        if trial.fresh < self.reference.tolerance {
+    /// How much of a line a stroke cuts twice, mm. A plunge cut may be longer than what was left.
+    fn twice(&self, cut: &Cut, trial: &Trial) -> f64 {
+        let all = trial.stretches.iter().map(|[a, b]| b - a).sum::<f64>();
+        if trial.fresh < self.reference.tolerance && !trial.is_last {
             // A stroke that cuts nothing new counts with its overlaps.
-            twice += self.overlaps + self.knife.width_mm.max(REACH);
-        } else if trial.fits.is_some() {
-            twice -= self.knife.width_mm - trial.fresh;
-        } else if self.meets_amid(trial) {
-            // What the blade of a plunge cut beside it was longer by.
-            twice -= self.knife.width_mm;
+            all - trial.fresh + self.overlaps + self.knife.width_mm.max(REACH)
+        } else if cut.is_plunge_cut() {
+            0.0
+        } else {
+            // A ring that ends over its own start cuts that twice.
+            trial.passed + (all - self.reference.lines[trial.line].length()).max(0.0)
         }
-        twice
-    }
-
-    /// Whether a stroke begins or ends amid its line, where another meets it.
-    fn meets_amid(&self, trial: &Trial) -> bool {
-        let line = &self.reference.lines[trial.line];
-        let band = 2.0 * (self.reference.tolerance + self.rounding);
-        let slack = BODY_STEP + band;
-        let is_amid = |foot: &Foot| {
-            let station = foot.station;
-            let is_inner = station > slack && station < line.length() - slack;
-            is_inner && self.tracer.joints.near(line, Around { station, slack, band }).is_some()
-        };
-        self.tracer.joints.is_lifted(line)
-            || trial.feet.first().is_some_and(is_amid)
-            || trial.feet.last().is_some_and(is_amid)
     }
 
     /// The blade against where its orientation mode has it. What only plunges has no way, so both modes are the same to it.
@@ -391,29 +308,14 @@ impl<'a> Judge<'a> {
         Plunge { line, heel, tip, sign, band: self.reference.tolerance + self.rounding + self.sagitta }
     }
 
-    /// Beyond the ends of its line a stroke cuts overlaps and what the blade is longer than a short line, or than what was
-    /// left of it when it plunges only once, and no more.
-    fn check_ends(&self, trial: &Trial, seen: &impl Fn(usize) -> Sighting, stray: &mut Worst) {
-        let line = &self.reference.lines[trial.line];
-        if line.ring {
+    /// Beyond what it cuts of its line a stroke cuts overlaps, and no more.
+    fn check_ends(&self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting, stray: &mut Worst) {
+        if trial.laps || cut.is_plunge_cut() && self.knife.width_mm > 0.0 {
             return;
         }
-        let (start, end) = (line.point(0), line.point(line.chords()));
-        let width = self.knife.width_mm;
-        let is_short = || line.points().all(|point| (point - start).norm() < width);
-        let surplus = if trial.fits.is_some() && trial.covered.is_some() {
-            // A chord is shorter than its curve.
-            width - (line.place(trial.hull[1]) - line.place(trial.hull[0])).norm()
-        } else if trial.fits.is_some() {
-            width - trial.fresh
-        } else if is_short() {
-            width - (end - start).norm()
-        } else {
-            0.0
-        };
-        let allowed = self.overlap.max(surplus) + self.reference.tolerance;
-        for (i, foot) in trial.feet.iter().enumerate() {
-            stray.see(foot.beyond - allowed, || seen(i));
+        let allowed = self.overlap + self.reference.tolerance;
+        for i in 0..cut.points.len() {
+            stray.see(trial.beyond(cut, i) - allowed, || seen(i));
         }
     }
 
@@ -478,15 +380,17 @@ impl<'a> Judge<'a> {
     }
 
     /// How far the blade goes beyond the ends of its line, and into what.
-    fn check_overcut(&self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting, overcuts: &mut Overcuts) {
+    fn check_overcut(&self, cut: &Cut, trial: &Trial, seen: &impl Fn(usize) -> Sighting, worsts: &mut Worsts) {
         if trial.laps {
             return;
         }
-        let Trial { feet, held, fits, hull, .. } = trial;
-        let is_known = |ends: &[[f64; 2]; 2]| ends.iter().flatten().all(|station| station.is_finite());
-        let fits = fits.map(|ends| if is_known(&ends) { ends } else { hull.map(|station| [station; 2]) });
-        let stroke = overcut::Ends { cut, feet, held, line: &self.reference.lines[trial.line], fits };
-        self.overcut.see(&stroke, Lines { reference: self.reference, grid: self.tracer.grid }, seen, overcuts);
+        self.overcut.see(&self.ends(cut, trial), seen, worsts);
+    }
+
+    /// A stroke on its line.
+    pub(super) fn ends<'t>(&'t self, cut: &'t Cut, trial: &'t Trial) -> overcut::Ends<'t> {
+        let lines = Lines { reference: self.reference, grid: self.tracer.grid };
+        overcut::Ends { cut, trial, line: &self.reference.lines[trial.line], lines }
     }
 
     /// How far the path bows away from the plunged blade, and the heel leaves it while the blade moves.
@@ -522,13 +426,14 @@ impl<'a> Judge<'a> {
     /// The blocks that rows name against those of the chords that they cut.
     fn check_names(&self, rows: &[Row], cut: &Cut, trial: &Trial, block: &mut Worst) {
         let line = &self.reference.lines[trial.line];
+        let [from, to] = trial.reach;
+        let reach = [from.min(to), from.max(to)];
         for (i, ends) in (cut.body..).zip(cut.rows.iter().zip(cut.rows[1..].iter().chain([&rows.len()]))) {
             // What a plunge cut is longer by than its cut is named like that.
             let station = trial.feet[i.clamp(*trial.held.start(), *trial.held.end())].station;
-            let station = trial.fits.map(overcut::innermost).map_or(station, |[from, to]| station.clamp(from, to));
             for row in rows[*ends.0..*ends.1].iter().filter(|row| row.knife) {
-                // Lifted anywhere, a plunge cut may cut several chords, and its tip stand on none of them.
-                let is_of_plunge_cut = trial.fits.is_some() && line.names(row.block, trial.hull);
+                // A plunge cut may cut several chords, and its tip stand on none of them.
+                let is_of_plunge_cut = cut.is_plunge_cut() && line.names(row.block, reach);
                 let away = if is_of_plunge_cut { 0.0 } else { self.naming.away(row.block, line, station) };
                 block.see(away, || row.sighting());
             }

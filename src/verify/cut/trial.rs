@@ -2,13 +2,16 @@
 
 use std::ops::RangeInclusive;
 
-use super::body::{Body, Cut};
+use super::body::Cut;
 use super::coverage::Coverage;
-use super::covered::Covered;
+use super::covered::{Near, covered};
 use super::follow::{Follower, Foot};
-use super::joints::{Around, Joints};
+use super::heading::on_lap;
 use super::passing::{longest, passed, skipped};
+use super::plunged::Plunged;
 use crate::geom::Point;
+use crate::ir::declaration::Kind;
+use crate::verify::declared::Declared;
 use crate::verify::reference::grid::Grid;
 use crate::verify::reference::line::Line;
 use crate::verify::reference::lines::Reference;
@@ -66,27 +69,30 @@ pub(in crate::verify) struct Trial {
     pub(in crate::verify) stretches: Vec<[f64; 2]>,
     /// How much of them was not cut before, mm.
     pub(in crate::verify) fresh: f64,
+    /// How much of them a blade on its way had cut before, mm.
+    pub(in crate::verify) passed: f64,
     /// How much of the line is then still uncut, mm.
     left: f64,
+    /// Whether it cuts all that was left of the line.
+    pub(in crate::verify) is_last: bool,
     /// Greatest deviation, mm, and the index of its place.
     pub(in crate::verify) worst: (f64, usize),
     /// Whether it goes all the way round a closed line.
     pub(in crate::verify) laps: bool,
-    /// The places that are held to the line: of a plunge cut its longest stretch on it; its surplus lies before and behind.
+    /// The places that stand on the line or on its straight extension: what lies before and behind them goes beyond the cut.
     pub(in crate::verify) held: RangeInclusive<usize>,
-    /// The joints between which it is a plunge cut that fits what was left of its line: its blade may then be longer.
-    pub(in crate::verify) fits: Option<[[f64; 2]; 2]>,
-    /// Its line, when that is a curve which could be nibbled and this one plunge covers.
-    pub(in crate::verify) covered: Option<Covered>,
-    /// From where to where it cuts what was not cut before.
-    pub(in crate::verify) hull: [f64; 2],
+    /// The stations between which it cuts the line, from its heel on.
+    pub(in crate::verify) reach: [f64; 2],
+    /// How the blade lies over a curve where it plunges, when it does and may.
+    pub(in crate::verify) over: Option<Plunged>,
 }
 
 /// Finds the lines near strokes, and follows strokes along them.
 pub(in crate::verify) struct Tracer<'a> {
     pub(in crate::verify) reference: &'a Reference<'a>,
     pub(in crate::verify) grid: &'a Grid,
-    pub(in crate::verify) joints: Joints,
+    /// What the program says that it does beside its lines; `None` when it says nothing at all.
+    pub(in crate::verify) declared: Option<&'a Declared>,
     /// Width of the blade, mm.
     pub(in crate::verify) width: f64,
     /// How far a cut may be off its line, mm.
@@ -135,7 +141,7 @@ impl Tracer<'_> {
             self.weigh(&mut trials, coverage);
         }
         let most = trials.iter().map(|trial| trial.fresh).fold(0.0, f64::max);
-        trials.retain(|trial| trial.fresh >= tolerance.min(most));
+        trials.retain(|trial| trial.fresh >= tolerance.min(most) || trial.is_last);
         trials.retain(|trial| trial.fresh >= most - self.slack);
         trials.into_iter().min_by(|a, b| {
             let by_name = self.is_named(b.line, trace.block).cmp(&self.is_named(a.line, trace.block));
@@ -151,8 +157,9 @@ impl Tracer<'_> {
     fn weigh(&self, trials: &mut [Trial], coverage: &Coverage) {
         for trial in trials {
             trial.fresh = coverage.fresh(trial.line, &trial.stretches);
-            let left = self.reference.lines[trial.line].length() - coverage.length(trial.line) - trial.fresh;
-            trial.left = (left - 2.0 * self.reference.tolerance).max(0.0);
+            let uncut = self.reference.lines[trial.line].length() - coverage.length(trial.line);
+            trial.left = (uncut - trial.fresh - 2.0 * self.reference.tolerance).max(0.0);
+            trial.is_last = uncut > self.max_uncut && uncut - trial.fresh <= self.max_uncut;
         }
     }
 
@@ -192,8 +199,14 @@ impl Tracer<'_> {
         found
     }
 
+    /// What a cut cuts of a line that it was found near to.
+    fn follow(&self, cut: &Cut, candidate: &Candidate) -> Trial {
+        let lain = if cut.is_plunge_cut() && cut.body > 0 { self.lay(cut, candidate) } else { None };
+        lain.unwrap_or_else(|| self.go_along(cut, candidate))
+    }
+
     /// Follows a cut along a line, from where it was found both ways.
-    fn follow(&self, cut: &Cut, &Candidate { line: index, chord, probe: from, .. }: &Candidate) -> Trial {
+    fn go_along(&self, cut: &Cut, &Candidate { line: index, chord, probe: from, .. }: &Candidate) -> Trial {
         let line = &self.reference.lines[index];
         let points = &cut.points;
         let feet = feet(line, points, chord, from);
@@ -203,38 +216,24 @@ impl Tracer<'_> {
         let laps = line.ring && way > length - self.width.min(0.5 * length);
         let first = if laps { cut.body } else { 0 };
         let allowed = self.allowed;
+        let over = if laps { None } else { self.over(line, cut, &feet) };
+        let off = |i: usize, foot: &Foot| if over.is_some_and(|over| over.spans(i)) { 0.0 } else { foot.deviation };
+        let on: Vec<bool> = (0..points.len()).map(|i| i >= first && off(i, &feet[i]) <= allowed).collect();
+        let held = held(&on, cut);
         let mut trial = Trial {
             line: index,
+            reach: reach(&feet, &held),
             feet,
             stretches: Vec::new(),
             fresh: 0.0,
+            passed: 0.0,
             left: 0.0,
+            is_last: false,
             worst: (0.0, cut.body),
             laps,
-            held: first..=points.len() - 1,
-            fits: None,
-            covered: None,
-            hull: [0.0; 2],
+            held,
+            over,
         };
-        let ends = [0, cut.body].map(|end| trial.feet[end].station);
-        let is_nibble = cut.is_plunge_cut() && !laps && ends.iter().any(|&station| line.is_nibbled(station));
-        if let Some(covered) = Covered::new(line, cut, allowed).filter(|_| is_nibble) {
-            let is_on = |&i: &usize| trial.feet[i].beyond == 0.0;
-            if let (Some(first), Some(last)) = ((0..points.len()).find(is_on), (0..points.len()).rev().find(is_on)) {
-                (trial.held, trial.stretches, trial.covered) = (first..=last, vec![[0.0, length]], Some(covered));
-                return trial;
-            }
-        }
-        let body = if laps { Body::default() } else { self.body(line, cut, &trial.feet, is_nibble) };
-        let off = |i: usize, foot: &Foot| if i < cut.body { body.off(i, foot) } else { foot.deviation };
-        if cut.is_plunge_cut() {
-            // A blade that never moves is often longer than what it cuts: what it is longer by leaves the line straight on,
-            // at corners as at bends. That is overcut, not a bad way.
-            let on: Vec<bool> = (0..points.len()).map(|i| i >= first && off(i, &trial.feet[i]) <= allowed).collect();
-            if let Some(held) = longest(&on) {
-                trial.held = held;
-            }
-        }
         self.gather(&mut trial, cut, off);
         if let ([[a, b]], true) = (&mut trial.stretches[..], laps) {
             // The feet of one place may differ on both sides of a vertex.
@@ -245,24 +244,60 @@ impl Tracer<'_> {
         trial
     }
 
-    /// The plunged blade of a cut as a chord of its line, or as none where it could have been laid nearer.
-    fn body(&self, line: &Line, cut: &Cut, feet: &[Foot], is_nibble: bool) -> Body {
-        let allowed = self.allowed;
-        let mut body = Body::new(line, cut, feet, allowed);
-        if !is_nibble && body.sag <= allowed {
-            return body;
-        }
-        let around = |end: usize| Around { station: feet[end].station, slack: 2.0 * allowed, band: 0.0 };
-        let permitted = self.joints.permitted_deviation(line, body.ends.map(around), cut);
-        if is_nibble && permitted == 0.0 {
-            // What nibbles is within the tolerance of what it cuts.
-            Body::default()
-        } else {
-            if body.sag > permitted + allowed {
-                body.sag = 0.0;
+    /// How the plunged blade of a cut lies over a curve of its line; `None` where it lies on the line, or may not lie as it
+    /// does.
+    fn over(&self, line: &Line, cut: &Cut, feet: &[Foot]) -> Option<Plunged> {
+        let over = Plunged::new(line, cut, feet, self.allowed).filter(|over| over.sagitta > self.allowed)?;
+        self.permits(&over, line, over.ends.map(|end| feet[end].station)).then_some(over)
+    }
+
+    /// Whether a blade may lie over its line like that between two stations: no farther off than a curve that turns as much,
+    /// and than is declared.
+    fn permits(&self, over: &Plunged, line: &Line, stations: [f64; 2]) -> bool {
+        let told = |declared: &Declared| declared.most(Kind::Plunge, line, stations);
+        let permitted = over.bound.min(self.declared.map_or(f64::INFINITY, told));
+        over.sagitta <= permitted + self.allowed
+    }
+
+    /// How near a blade that only plunges must be to what it cuts.
+    pub(super) fn near(&self) -> Near {
+        let beyond = self.allowed - self.reference.tolerance;
+        Near { reach: 2.0 * self.width + REACH, beside: self.allowed, beyond }
+    }
+
+    /// Lays a blade that only plunges over a line near a place of it; `None` where it is nowhere near enough to cut it.
+    fn lay(&self, cut: &Cut, &Candidate { line: index, station, .. }: &Candidate) -> Option<Trial> {
+        let line = &self.reference.lines[index];
+        let blade = cut.blade();
+        let stretches = covered(line, blade, station, self.near());
+        let whole = [stretches.first()?[0], stretches.last()?[1]];
+        let longest = stretches.iter().copied().max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
+        let lain = Lain::new(line, cut, whole);
+        let over = Some(Plunged::over(line, cut, [*lain.held.start(), *lain.held.end()], whole, self.allowed));
+        // A blade covers a curve that is all of its line, or none.
+        let is_all = whole[1] - whole[0] >= line.length() - 2.0 * self.allowed;
+        let over = over.filter(|over| stretches.len() > 1 && is_all && self.permits(over, line, whole));
+        let Lain { feet, held, reach } = if over.is_some() { lain } else { Lain::new(line, cut, longest) };
+        let mut trial = Trial {
+            line: index,
+            feet,
+            stretches: if over.is_some() { vec![whole] } else { stretches },
+            fresh: 0.0,
+            passed: 0.0,
+            left: 0.0,
+            is_last: false,
+            worst: (0.0, cut.body),
+            laps: false,
+            held,
+            reach,
+            over,
+        };
+        if over.is_none() {
+            for i in trial.held.clone() {
+                trial.note(trial.feet[i].deviation, i);
             }
-            body
         }
+        Some(trial)
     }
 
     /// Gathers the stretches of its line that a cut cuts, and how far it is off it there; `off` tells how far a place is.
@@ -277,7 +312,8 @@ impl Tracer<'_> {
                 trial.note(off, i);
             }
             let mut joined = i > first && off <= allowed;
-            if joined && i > cut.body {
+            let is_over = trial.over.is_some_and(|over| over.ends[0] < i && i <= over.ends[1]);
+            if joined && !is_over {
                 let skipped = skipped(line, cut, &trial.feet, i);
                 trial.note(skipped, i);
                 joined = skipped <= allowed;
@@ -321,17 +357,88 @@ fn feet(line: &Line, points: &[Point], chord: usize, from: usize) -> Vec<Foot> {
     feet
 }
 
+/// The places of a cut that are held to its line, of those that are `on` it: of a plunge cut the longest stretch of them; of
+/// a blade that goes on all from the first to the last, so that what leaves the line between them is seen.
+fn held(on: &[bool], cut: &Cut) -> RangeInclusive<usize> {
+    let all = 0..=on.len() - 1;
+    if cut.is_plunge_cut() {
+        return longest(on).unwrap_or(all);
+    }
+    let first = on[..=cut.body].iter().position(|&on| on).unwrap_or(cut.body);
+    let last = on[cut.body..].iter().rposition(|&on| on).map_or(cut.body, |last| cut.body + last);
+    first..=last
+}
+
+/// The stations between which places that are held to a line cut it: those of the first and the last that stand beside it
+/// between its ends, or the ends before and behind them.
+fn reach(feet: &[Foot], held: &RangeInclusive<usize>) -> [f64; 2] {
+    let is_inner = |i: &usize| feet[*i].beyond == 0.0;
+    let first = held.clone().find(is_inner).unwrap_or(*held.start());
+    let last = held.clone().rev().find(is_inner).unwrap_or(*held.end());
+    let led = |edge: usize, next: Option<usize>| {
+        let next = next.and_then(|i| feet.get(i)).filter(|foot| foot.beyond > 0.0);
+        next.unwrap_or(&feet[edge]).station
+    };
+    [led(first, first.checked_sub(1)), led(last, Some(last + 1))]
+}
+
+/// A blade that only plunges, laid over a stretch of a line.
+struct Lain {
+    /// Where its places stand; those beyond the stretch stand at its end.
+    feet: Vec<Foot>,
+    /// Those that stand over the stretch.
+    held: RangeInclusive<usize>,
+    /// The stretch, from the heel on.
+    reach: [f64; 2],
+}
+
+impl Lain {
+    fn new(line: &Line, cut: &Cut, [low, high]: [f64; 2]) -> Self {
+        let heel = cut.points[0];
+        let axis = (cut.points[cut.body] - heel).normalize();
+        let way = |station: f64| (line.place(on_lap(line, station)) - heel).dot(&axis);
+        let is_turned = way(low) > way(high);
+        let [first, last] = if is_turned { [high, low] } else { [low, high] };
+        let (from, to) = (way(first), way(last));
+        let foot = |&point: &Point| {
+            let along = (point - heel).dot(&axis);
+            let beyond = (from - along).max(along - to).max(0.0);
+            let end = if along < from { first } else { last };
+            if beyond > 0.0 {
+                return Foot { station: end, deviation: 0.0, beyond, chord: line.chord_at(on_lap(line, end)) };
+            }
+            let under = line.chords_between([low, high]).map(|i| (i % line.chords(), i / line.chords()));
+            let feet = under.map(|(chord, lap)| {
+                let (deviation, station) = line.chord(chord).deviation(point);
+                let before = (low / line.length()).floor() + lap as f64;
+                let station = if line.ring { station + before * line.length() } else { station };
+                Foot { station: station.clamp(low, high), deviation, beyond: 0.0, chord }
+            });
+            let nearest = feet.min_by(|a, b| a.deviation.total_cmp(&b.deviation));
+            nearest.expect("a stretch has a chord")
+        };
+        let feet: Vec<Foot> = cut.points.iter().map(foot).collect();
+        let is_over = |i: &usize| feet[*i].beyond == 0.0;
+        let nearest = || (0..=cut.body).min_by(|&a, &b| feet[a].beyond.total_cmp(&feet[b].beyond)).unwrap_or(0);
+        let first_over = (0..=cut.body).find(is_over).unwrap_or_else(nearest);
+        let last_over = (first_over..=cut.body).rev().find(is_over).unwrap_or(first_over);
+        Self { feet, held: first_over..=last_over, reach: [first, last] }
+    }
+}
+
 impl Trial {
     /// +1 when the tip goes with the line, -1 when it goes against it.
     pub(in crate::verify) fn sign(&self, cut: &Cut) -> f64 {
         if self.feet[cut.points.len() - 1].station < self.feet[cut.body].station { -1.0 } else { 1.0 }
     }
 
-    /// Those of its stretches that are held to the line: a blade's surplus may cross it once more.
-    pub(in crate::verify) fn held_stretches(&self) -> Vec<[f64; 2]> {
-        let [a, b] = [*self.held.start(), *self.held.end()].map(|i| self.feet[i].station);
-        let is_held = |[low, high]: &[f64; 2]| *low <= a.max(b) && *high >= a.min(b);
-        self.stretches.iter().copied().filter(is_held).collect()
+    /// How far place `i` stands beyond an end of the line, or beyond what is held to it, mm.
+    pub(in crate::verify) fn beyond(&self, cut: &Cut, i: usize) -> f64 {
+        if self.held.contains(&i) || cut.is_plunge_cut() && cut.body > 0 {
+            return self.feet[i].beyond;
+        }
+        let edge = i.clamp(*self.held.start(), *self.held.end());
+        self.feet[i].beyond.max((cut.points[i] - cut.points[edge]).norm() + self.feet[edge].beyond)
     }
 
     fn note(&mut self, deviation: f64, place: usize) {

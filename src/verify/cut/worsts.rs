@@ -2,7 +2,6 @@
 
 use super::heading;
 use super::naming::Naming;
-use super::overcut::Overcuts;
 use crate::ir::Finding;
 use crate::machine::MachineProfile;
 use crate::verify::axes::crawl;
@@ -22,6 +21,7 @@ pub(in crate::verify) struct Worsts {
     pub(in crate::verify) crawl: Worst,
     pub(in crate::verify) block: Worst,
     pub(in crate::verify) overcuts: Overcuts,
+    pub(in crate::verify) declared: Worst,
 }
 
 impl Worsts {
@@ -44,6 +44,7 @@ impl Worsts {
             crawl: crawl::worst(),
             block: Naming::new(tolerance).worst(),
             overcuts: Overcuts::new(profile, tolerance),
+            declared: Worst::new("verify/declared", "mm", Some(0.0)),
         }
     }
 
@@ -59,15 +60,36 @@ impl Worsts {
         self.all().into_iter().map(Worst::finding)
     }
 
-    fn all(self) -> [Worst; 12] {
-        let Self { on_path, stray, once, heading, down, body, feed, crawl, block, overcuts } = self;
+    fn all(self) -> [Worst; 13] {
+        let Self { on_path, stray, once, heading, down, body, feed, crawl, block, overcuts, declared } = self;
         let Overcuts { part, neighbour, waste } = overcuts;
-        [on_path, stray, once, heading, down, body, feed, crawl, block, part, neighbour, waste]
+        [on_path, stray, once, heading, down, body, feed, crawl, block, part, neighbour, waste, declared]
     }
 
-    fn all_mut(&mut self) -> [&mut Worst; 12] {
-        let Self { on_path, stray, once, heading, down, body, feed, crawl, block, overcuts } = self;
+    fn all_mut(&mut self) -> [&mut Worst; 13] {
+        let Self { on_path, stray, once, heading, down, body, feed, crawl, block, overcuts, declared } = self;
         let Overcuts { part, neighbour, waste } = overcuts;
-        [on_path, stray, once, heading, down, body, feed, crawl, block, part, neighbour, waste]
+        [on_path, stray, once, heading, down, body, feed, crawl, block, part, neighbour, waste, declared]
+    }
+}
+
+/// The worst overcuts, by what they go into.
+#[derive(Debug, Clone)]
+pub(in crate::verify) struct Overcuts {
+    pub(in crate::verify) part: Worst,
+    pub(in crate::verify) neighbour: Worst,
+    pub(in crate::verify) waste: Worst,
+}
+
+impl Overcuts {
+    /// None yet; the tip may leave its line by `tolerance` mm.
+    pub(in crate::verify) fn new(profile: &MachineProfile, tolerance: f64) -> Self {
+        let verify = &profile.verify;
+        let cap = |most: Option<f64>| most.map(|most| most + tolerance);
+        Self {
+            part: Worst::new("verify/overcut-part", "mm", cap(verify.max_overcut_part_mm)),
+            neighbour: Worst::new("verify/overcut-neighbour", "mm", cap(verify.max_overcut_neighbour_mm)),
+            waste: Worst::new("verify/overcut-waste", "mm", verify.max_overcut_waste_mm),
+        }
     }
 }

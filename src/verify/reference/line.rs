@@ -7,9 +7,35 @@ use super::caps::{BothWays, Pick, Way};
 use super::vertex::Vertex;
 use crate::geom::{Point, Vector, angle, left, polyline};
 
+/// The cut that a line is a stretch of.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::verify) struct OfCut {
+    /// Its place among the cuts of the marker.
+    pub(in crate::verify) index: u32,
+    /// Where the line begins on it, mm from its start as it is drawn.
+    pub(in crate::verify) offset: f64,
+    /// Its length when it is closed, mm.
+    pub(in crate::verify) round: Option<f64>,
+    /// Whether it bounds a part.
+    pub(in crate::verify) bounds: bool,
+}
+
+impl OfCut {
+    /// Whether two stretches of the cut meet; on a closed one each may be counted on over its end.
+    pub(in crate::verify) fn meets(&self, [low, high]: [f64; 2], [from, to]: [f64; 2]) -> bool {
+        let Some(round) = self.round else { return from.min(to) <= high && from.max(to) >= low };
+        let length = if to >= from { to - from } else { to + round - from };
+        // From the start of the one to that of the other, once round at the most.
+        let ahead = (from - low).rem_euclid(round);
+        ahead <= high - low || round - ahead <= length
+    }
+}
+
 /// Such a stretch, mm.
 #[derive(Debug)]
 pub(in crate::verify) struct Line<'a> {
+    /// The cut that it is of.
+    pub(in crate::verify) cut: OfCut,
     /// Index of its piece.
     pub(in crate::verify) piece: u32,
     /// Rank of its contour or slit among events, holes, slits and contours, in cut order.
@@ -22,19 +48,8 @@ pub(in crate::verify) struct Line<'a> {
     caps: BothWays,
     /// Whether it is a closed contour without a corner.
     pub(in crate::verify) ring: bool,
-    /// Whether C cannot follow it in one: then the knife is lifted amid it.
-    pub(in crate::verify) winds: bool,
-    /// Where it is cut otherwise; few lines are.
-    exceptions: Option<Box<Exceptions>>,
-}
-
-/// Where the blade is not led along a line as the orientation mode has it.
-#[derive(Debug, Default)]
-pub(in crate::verify) struct Exceptions {
-    /// By the stations of heel and tip: where it is too tight for the blade to be its chord.
-    pub(in crate::verify) tight: Vec<[f64; 2]>,
-    /// By stations: where it may be nibbled, which is cut by plunges without motion.
-    pub(in crate::verify) nibbled: Vec<[f64; 2]>,
+    /// By the stations of heel and tip: where it is too tight for the blade to be its chord. Few lines are.
+    pub(in crate::verify) tight: Box<[[f64; 2]]>,
 }
 
 /// A chord of a line.
@@ -53,6 +68,17 @@ pub(in crate::verify) struct Chord {
 }
 
 impl Chord {
+    /// Where it starts, the crest of the curve that it stands for, and where it ends.
+    pub(in crate::verify) fn band(&self) -> [Point; 3] {
+        let way = self.along * self.length;
+        [self.from, self.from + way / 2.0 + self.sagitta, self.from + way]
+    }
+
+    /// Its station and its length, mm.
+    pub(in crate::verify) fn stations(&self) -> [f64; 2] {
+        [self.start, self.length]
+    }
+
     /// Distance of a point from the tolerance band's core beside it, mm, and the station of the foot. The core at a
     /// place of the chord is the segment from the chord to its bulge there.
     pub(in crate::verify) fn deviation(&self, point: Point) -> (f64, f64) {
@@ -82,19 +108,14 @@ impl<'a> Line<'a> {
     /// of its points.
     pub(in crate::verify) fn new(
         [piece, rank]: [u32; 2],
+        cut: OfCut,
         points: Cow<'a, [Point]>,
         path: Box<[Vertex]>,
         caps: BothWays,
         ring: bool,
     ) -> Self {
         debug_assert_eq!(points.len(), path.len(), "all is known of every point");
-        Self { piece, rank, points, path, caps, ring, winds: false, exceptions: None }
-    }
-
-    /// The same line, but for these stretches.
-    pub(in crate::verify) fn except(&mut self, exceptions: Exceptions) {
-        let is_plain = exceptions.tight.is_empty() && exceptions.nibbled.is_empty();
-        self.exceptions = (!is_plain).then(|| Box::new(exceptions));
+        Self { cut, piece, rank, points, path, caps, ring, tight: Box::default() }
     }
 
     /// One of its points.
@@ -204,13 +225,12 @@ impl<'a> Line<'a> {
 
     /// Whether it is too tight for the blade somewhere between two stations.
     pub(in crate::verify) fn is_tight(&self, [low, high]: [f64; 2]) -> bool {
-        let Some(Exceptions { tight, .. }) = self.exceptions.as_deref() else { return false };
         let lap = if self.ring { (low / self.length()).floor() * self.length() } else { 0.0 };
         // On a ring the stretches may lie on the next lap.
         let laps = if self.ring { 2 } else { 1 };
         (0..laps).any(|i| {
             let by = lap + f64::from(i) * self.length();
-            tight.iter().any(|[a, b]| a + by <= high && b + by >= low)
+            self.tight.iter().any(|[a, b]| a + by <= high && b + by >= low)
         })
     }
 
@@ -218,15 +238,6 @@ impl<'a> Line<'a> {
     pub(in crate::verify) fn twice_round(&self) -> Vec<Point> {
         let more = if self.ring { &self.points[1..] } else { &[] };
         [&self.points, more].concat()
-    }
-
-    /// Whether it may be nibbled at a station, which on a ring may lie on any lap.
-    pub(in crate::verify) fn is_nibbled(&self, station: f64) -> bool {
-        let Some(Exceptions { nibbled, .. }) = self.exceptions.as_deref() else { return false };
-        let laps = if self.ring { &[0.0, 1.0, -1.0][..] } else { &[0.0] };
-        let station = if self.ring { station.rem_euclid(self.length()) } else { station };
-        let is_in = |[low, high]: &[f64; 2], lap: f64| (*low..=*high).contains(&(station + lap * self.length()));
-        nibbled.iter().any(|stretch| laps.iter().any(|&lap| is_in(stretch, lap)))
     }
 
     /// Turn of the line at a vertex, rad; none at the ends of an open line.

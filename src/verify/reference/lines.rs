@@ -4,15 +4,15 @@ use std::borrow::Cow;
 
 use rayon::prelude::*;
 
+use super::band::band;
 use super::caps::{BothWays, Feeds};
-use super::line::{Exceptions, Line};
-use super::nibbled::{self, Blade};
+use super::line::{Line, OfCut};
 use super::outline::{OfContour, Outline};
 use super::vertex::Vertex;
 use super::{notches, tight};
 use crate::ir::Marker;
 use crate::ir::marker::NotchStroke;
-use crate::machine::{Follow, MachineProfile, TightCurves};
+use crate::machine::{Follow, MachineProfile};
 
 /// All lines of a marker.
 #[derive(Debug)]
@@ -27,6 +27,8 @@ pub(in crate::verify) struct Reference<'a> {
     pub(in crate::verify) events: Vec<usize>,
     /// Permitted deviation of the tip, mm.
     pub(in crate::verify) tolerance: f64,
+    /// How deep a place in a part may lie and still be at its edge, mm.
+    pub(in crate::verify) band: f64,
 }
 
 impl<'a> Reference<'a> {
@@ -37,17 +39,20 @@ impl<'a> Reference<'a> {
         let count = of_pieces.iter().map(|piece| piece.lines.len()).sum();
         let (mut lines, mut holes, mut events) = (Vec::with_capacity(count), Vec::new(), Vec::new());
         let mut first = 0;
-        for (piece, OfPiece { ranks, lines: mut of_piece }) in marker.pieces.iter().zip(of_pieces) {
+        let mut first_cut = 0;
+        for (piece, OfPiece { ranks, cuts, lines: mut of_piece }) in marker.pieces.iter().zip(of_pieces) {
             events.extend((first..).take(piece.events.len()));
             holes.extend((first + piece.events.len()..).take(piece.drills.len()));
             for line in &mut of_piece {
                 line.rank += small(first);
+                line.cut.index += first_cut;
             }
+            first_cut += cuts;
             lines.append(&mut of_piece);
             first += ranks;
         }
         events.extend((first..).take(marker.closing.len()));
-        Self { marker, lines, holes, events, tolerance: profile.tolerance(marker.unit) }
+        Self { marker, lines, holes, events, tolerance: profile.tolerance(marker.unit), band: band(marker.unit) }
     }
 }
 
@@ -57,6 +62,8 @@ struct OfPiece<'a> {
     lines: Vec<Line<'a>>,
     /// How many ranks the piece has.
     ranks: usize,
+    /// How many cuts it has.
+    cuts: u32,
 }
 
 impl<'a> OfPiece<'a> {
@@ -77,46 +84,32 @@ impl<'a> OfPiece<'a> {
             })
             .collect();
         let slits = notches::slits(piece, profile.notch, &replaced);
-        let slits = slits.iter().map(|(stroke, percent)| slit(stroke, [index, rank()].map(small), feeds.at(*percent)));
+        // Those of the cuts in the piece follow each other as their ranks do.
+        let mut cuts = 0..;
+        let mut cut = || cuts.next().expect("a piece has fewer cuts than numbers");
+        let slits =
+            slits.iter().map(|(stroke, percent)| slit(stroke, [index, rank()].map(small), cut(), feeds.at(*percent)));
         let mut lines: Vec<Line> = slits.collect();
         for outline in outlines {
-            let place = OfContour { owner: [index, rank()].map(small), feeds, profile, unit: marker.unit };
+            let place = OfContour { owner: [index, rank()].map(small), cut: cut(), feeds, profile, unit: marker.unit };
             lines.extend(outline.lines(place));
         }
-        let blade = Blade { knife: &profile.knife, tolerance: profile.tolerance(marker.unit) };
-        for line in &mut lines {
-            find_exceptions(line, blade);
+        if profile.knife.follow == Follow::Chord {
+            for line in &mut lines {
+                line.tight = tight::stretches(line, &profile.knife).into();
+            }
         }
-        Self { lines, ranks: rank() }
+        Self { lines, ranks: rank(), cuts: cut() }
     }
 }
 
-/// Finds where a line is too tight for the blade, and where it may be nibbled.
-fn find_exceptions(line: &mut Line, blade: Blade) {
-    let knife = blade.knife;
-    // What begins on a curve that the blade has no way to enter may be nibbled, whatever is done about others.
-    let is_lifted = line.winds || knife.longest_cut().is_some_and(|longest| line.length() > longest);
-    let ends = if is_lifted || line.ring { [0.0; 2] } else { nibbled::curved_ends(line, blade) };
-    let is_curved = ends != [0.0; 2] || is_lifted && nibbled::deviates_anywhere(line, blade);
-    let is_nibbling = knife.tight_curves == TightCurves::Nibble;
-    let tight = if is_nibbling || knife.follow == Follow::Chord { tight::stretches(line, knife) } else { Vec::new() };
-    let may_nibble = is_curved || is_nibbling && !tight.is_empty();
-    let nibbled = if !may_nibble {
-        Vec::new()
-    } else if is_lifted {
-        vec![[f64::NEG_INFINITY, f64::INFINITY]]
-    } else {
-        nibbled::stretches(line, &tight, ends, blade)
-    };
-    line.except(Exceptions { tight, nibbled });
-}
-
 /// The line of a slit, `cap` mm/s being the greatest speed of the tip.
-fn slit<'a>(stroke: &NotchStroke, owner: [u32; 2], cap: f64) -> Line<'a> {
+fn slit<'a>(stroke: &NotchStroke, owner: [u32; 2], index: u32, cap: f64) -> Line<'a> {
     let from = Vertex { station: 0.0, sagitta: 0.0, block: stroke.span.block };
     let to = Vertex { station: stroke.length(), ..from };
     let points = Cow::Owned(vec![stroke.from, stroke.to]);
-    Line::new(owner, points, Box::new([from, to]), BothWays::One(cap), false)
+    let cut = OfCut { index, offset: 0.0, round: None, bounds: false };
+    Line::new(owner, cut, points, Box::new([from, to]), BothWays::One(cap), false)
 }
 
 /// An index or a rank, kept small: a large marker has a hundred thousand lines.

@@ -3,17 +3,16 @@
 //! Receives the final marker and the profile, promises lines with their corners, caps and exceptions, found anew. Never sees
 //! the program.
 
+pub(super) mod band;
 pub(super) mod caps;
 pub(super) mod grid;
 pub(super) mod ground;
 pub(super) mod inside;
 pub(super) mod line;
 pub(super) mod lines;
-pub(super) mod nibbled;
 pub(super) mod notches;
 pub(super) mod order;
 pub(super) mod outline;
 pub(super) mod parts;
 pub(super) mod tight;
 pub(super) mod vertex;
-pub(super) mod winding;

@@ -5,10 +5,9 @@
 use std::borrow::Cow;
 
 use super::caps::{End, Feeds};
-use super::line::Line;
+use super::line::{Line, OfCut};
 use super::notches;
 use super::vertex::Vertex;
-use super::winding::Winding;
 use crate::geom::{Point, angle, corner};
 use crate::ir::Marker;
 use crate::ir::list::Segment;
@@ -29,6 +28,8 @@ const TURN_EPSILON: f64 = 1e-6;
 pub(in crate::verify) struct OfContour<'a> {
     /// Index of its piece, and its rank.
     pub(in crate::verify) owner: [u32; 2],
+    /// Its place among the cuts of its piece.
+    pub(in crate::verify) cut: u32,
     /// How fast the tip may be in its piece.
     pub(in crate::verify) feeds: Feeds<'a>,
     pub(in crate::verify) profile: &'a MachineProfile,
@@ -47,6 +48,10 @@ pub(in crate::verify) struct Outline<'a> {
     points: &'a [Point],
     /// The place of the first segment among those of the marker.
     first: usize,
+    /// Length of the contour from its start as it is drawn to that, mm.
+    before: f64,
+    /// Length from there to each segment, and of all, mm.
+    stations: Vec<f64>,
 }
 
 impl<'a> Outline<'a> {
@@ -68,7 +73,10 @@ impl<'a> Outline<'a> {
         let before = |i: usize| &segments[(i + count - 1) % count];
         let way = |segment: &Segment| segment.to - segment.from;
         let turns = (0..count).map(|i| angle::turn(way(before(i)), way(&segments[i]))).collect();
-        (Self { segments, turns, closed: contour.closed, points, first: 0 }, replaced)
+        (
+            Self { segments, turns, closed: contour.closed, points, first: 0, before: 0.0, stations: Vec::new() },
+            replaced,
+        )
     }
 
     /// Its lines, which end at its corners.
@@ -84,6 +92,7 @@ impl<'a> Outline<'a> {
             match corners.first() {
                 Some(&first) => {
                     ends = nearest_to_start(&self.segments, &corners).map(|i| i - first).collect();
+                    self.before = self.segments[..first].iter().map(Segment::length).sum();
                     self.segments.rotate_left(first);
                     self.turns.rotate_left(first);
                     self.first = first;
@@ -92,6 +101,7 @@ impl<'a> Outline<'a> {
                 None => ring = true,
             }
         }
+        self.stations = stations(&self.segments);
         let end = |vertex: usize| if ring || ends.contains(&(vertex % count)) { End::Plain } else { End::AtCorner };
         let mut from = 0;
         let stops = corners.into_iter().filter(|&corner| corner > 0).chain([count]);
@@ -115,7 +125,7 @@ impl<'a> Outline<'a> {
 
     /// The line of the segments from one up to another; `ends` are how it starts and how it ends.
     fn line(&self, [from, to]: [usize; 2], ring: bool, ends: [End; 2], place: OfContour) -> Line<'a> {
-        let OfContour { owner, feeds, profile, .. } = place;
+        let OfContour { owner, cut, feeds, profile, .. } = place;
         let chords = &self.segments[from..to];
         let turn_at = |k: usize| match (k == 0 || k == chords.len(), ring) {
             (true, false) => 0.0,
@@ -126,10 +136,13 @@ impl<'a> Outline<'a> {
         let path = path(chords, sagitta);
         let percents = chords.iter().map(|chord| chord.percent);
         let caps = feeds.both_ways(&path, percents, ends);
-        let mut line = Line::new(owner, self.points([from, to]), path, caps, ring);
-        let turned = (1..chords.len()).map(|k| turn_at(k).abs()).sum();
-        line.winds = profile.blade_range().is_some_and(|range| Winding::is_past(&line, turned, range, profile));
-        line
+        let cut = OfCut {
+            index: cut,
+            offset: self.before + self.stations[from],
+            round: self.closed.then(|| self.stations[self.segments.len()]),
+            bounds: self.closed,
+        };
+        Line::new(owner, cut, self.points([from, to]), path, caps, ring)
     }
 
     /// The points of the segments from one up to another: those of the marker, but for a line over its start.
@@ -154,12 +167,21 @@ fn path(chords: &[Segment], sagitta: impl Fn(usize) -> f32) -> Box<[Vertex]> {
     path.into()
 }
 
+/// Length of segments from the first to each, and of all, mm.
+fn stations(segments: &[Segment]) -> Vec<f64> {
+    let mut stations = Vec::with_capacity(segments.len() + 1);
+    let mut length = 0.0;
+    stations.push(length);
+    stations.extend(segments.iter().map(|segment| {
+        length += segment.length();
+        length
+    }));
+    stations
+}
+
 /// The corners of a closed contour at which it may begin, and end: those least far along it from its start in the file.
 fn nearest_to_start<'a>(segments: &[Segment], corners: &'a [usize]) -> impl Iterator<Item = usize> + 'a {
-    let mut stations = vec![0.0];
-    for segment in segments {
-        stations.push(stations[stations.len() - 1] + segment.length());
-    }
+    let stations = stations(segments);
     let length = stations[segments.len()];
     let away = move |i: &usize| stations[*i].min(length - stations[*i]);
     let least = corners.iter().map(&away).fold(f64::INFINITY, f64::min);

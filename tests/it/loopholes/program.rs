@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use cutc::geom::{Heading, Point};
 use cutc::ir::Marker;
 use cutc::machine::Job;
+use cutc::pipeline::Declared;
 use cutc::verify::{self, Ground, Verdict};
 
 use crate::support;
@@ -28,11 +29,13 @@ pub(crate) struct Program {
     pub(crate) job: Job,
     pub(crate) poses: Vec<[f64; 3]>,
     pub(crate) outputs: Vec<Outputs>,
+    /// What it says that it does beside the drawing; `None` when it says nothing at all.
+    pub(crate) declared: Option<Declared>,
 }
 
 impl Program {
     pub(crate) fn new(job: &Job) -> Self {
-        Self { job: job.clone(), poses: vec![job.profile.home], outputs: vec![Outputs::default()] }
+        Self { job: job.clone(), poses: vec![job.profile.home], outputs: vec![Outputs::default()], declared: None }
     }
 
     pub(crate) fn pose(&self) -> [f64; 3] {
@@ -115,7 +118,12 @@ impl Program {
             let t = i as f64 * self.job.profile.time.period();
             let _ = writeln!(text, "{t:.6},{x:.6},{y:.6},{c:.6},{knife},{drill},{event},{block}");
         }
-        verify::setpoints(&mut text.as_bytes(), &Ground::new(marker, &self.job.profile), &self.job)
+        verify::setpoints(
+            &mut text.as_bytes(),
+            self.declared.as_ref(),
+            &Ground::new(marker, &self.job.profile),
+            &self.job,
+        )
     }
 }
 

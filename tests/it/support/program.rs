@@ -2,9 +2,13 @@
 
 use std::io::Cursor;
 
+use cutc::analysis::declare;
 use cutc::back::{Context, SETPOINTS};
-use cutc::ir::Marker;
+use cutc::ir::marker::Cut;
+use cutc::ir::toolpath::Step;
+use cutc::ir::{Marker, Toolpath};
 use cutc::machine::Job;
+use cutc::pipeline::Declared;
 use cutc::plan::{self, Planner};
 use cutc::source::Source;
 
@@ -21,4 +25,17 @@ pub(crate) fn setpoints(marker: &Marker, job: &Job) -> Vec<u8> {
     }
     (SETPOINTS.body)(&planner.finish(), &context, &mut out).expect("memory takes it");
     out.into_inner()
+}
+
+/// What the program of a marker does beside the drawing.
+pub(crate) fn declared(marker: &Marker, job: &Job) -> Declared {
+    let marker = super::with_cuts(marker, job);
+    let is_cut =
+        |toolpath: &Toolpath| toolpath.steps.iter().any(|step| matches!(step, Step::Run(_) | Step::PlungeCut(_)));
+    let cuts = super::toolpaths(&marker, job).into_iter().filter(is_cut);
+    let of_cut = |(toolpath, (cut, index)): (Toolpath, (&Cut, u32))| {
+        let drawn = marker.list.points(cut.range);
+        declare::declarations(&toolpath, index, &drawn, &job.profile.knife)
+    };
+    Declared::new(cuts.zip(marker.cuts.iter().zip(0..)).flat_map(of_cut).collect())
 }

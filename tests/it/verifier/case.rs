@@ -6,10 +6,10 @@ use std::path::Path;
 use cutc::diagnostic::Diagnostics;
 use cutc::ir::Marker;
 use cutc::machine::{Follow, Job};
-use cutc::pipeline;
+use cutc::pipeline::{self, Declared};
 use cutc::source::Source;
 
-use crate::support::program::setpoints;
+use crate::support::program::{declared, setpoints};
 use crate::verifier::measure::HARMLESS;
 use crate::verifier::rows::{self, Row};
 
@@ -20,6 +20,8 @@ pub(crate) struct Case {
     pub(crate) job: Job,
     pub(crate) program: Vec<u8>,
     pub(crate) rows: Vec<Row>,
+    /// What the program says that it does beside the drawing.
+    pub(crate) declared: Declared,
 }
 
 impl Case {
@@ -54,6 +56,10 @@ impl Case {
 /// What the machine of a case has that others have not.
 type Change = fn(&mut Job);
 
+/// Overlaps that are longer than the gaps of the marker with narrow ones are wide, by more than what is still the edge of a
+/// part, mm.
+pub(crate) const WIDE: f64 = 1.5;
+
 /// Markers of `fixtures/markers` and of `fixtures/iso`, and what the machine of each has that others have not.
 const CASES: &[(&str, Change)] = &[
     ("circles", |_| {}),
@@ -67,7 +73,9 @@ const CASES: &[(&str, Change)] = &[
         job.profile.knife.max_down_mm = Some(300.0);
     }),
     ("speeds-and-events", |_| {}),
-    ("narrow-gaps", |_| {}),
+    ("narrow-gaps", |job| {
+        (job.profile.knife.front_overlap_mm, job.profile.knife.corner_front_overlap_mm) = (WIDE, WIDE);
+    }),
     ("chords", |job| job.profile.knife.follow = Follow::Chord),
 ];
 
@@ -86,7 +94,7 @@ fn case(name: &'static str, change: Change) -> Case {
     change(&mut job);
     let marker = marker(name, &job);
     let program = setpoints(&marker, &job);
-    Case { name, rows: rows::parse(&program), marker, job, program }
+    Case { name, rows: rows::parse(&program), declared: declared(&marker, &job), marker, job, program }
 }
 
 /// The names of all cases.

@@ -51,7 +51,7 @@ pub(crate) const DAMAGES: &[Damage] = &[
     }),
     scaled("a slit too short", COMPLETE, |case, rng, times| {
         let limit = case.job.profile.verify.max_uncut_mm;
-        let by = times * limit + SAME;
+        let by = times * limit + 3.0 * SAME;
         let (old, program) = slit(case, rng, |n| n.tip -= along(n) * by)?;
         Some(Harm { program, amount: DAMAGING * limit, place: Place::Along(vec![old.root, old.tip]) })
     }),

@@ -16,17 +16,19 @@ mod rows;
 mod sides;
 mod sketch;
 mod texts;
+mod undeclared;
 
 use std::collections::BTreeSet;
 use std::io::BufReader;
 
 use cutc::ir::Marker;
 use cutc::machine::{Fit, Follow, Job, MachineProfile, TightCurves};
+use cutc::pipeline::Declared;
 use cutc::verify::{self, Ground, RULES, Verdict};
 use fastrand::Rng;
 use rayon::prelude::*;
 
-use crate::support::program::setpoints;
+use crate::support::program::{declared, setpoints};
 use crate::verifier::case::Case;
 use crate::verifier::harm::Harm;
 
@@ -68,6 +70,7 @@ fn damages() -> Vec<&'static Damage> {
         names::DAMAGES,
         sides::DAMAGES,
         chords::DAMAGES,
+        undeclared::DAMAGES,
     ];
     tables.into_iter().flatten().collect()
 }
@@ -76,14 +79,14 @@ fn damages() -> Vec<&'static Damage> {
 const DAMAGED_AT_LEAST: usize = 1399;
 const HARMLESS_AT_LEAST: usize = 230;
 
-fn judge(program: &[u8], marker: &Marker, job: &Job) -> Verdict {
-    verify::setpoints(&mut BufReader::new(program), &Ground::new(marker, &job.profile), job)
+fn judge(program: &[u8], marker: &Marker, declared: &Declared, job: &Job) -> Verdict {
+    verify::setpoints(&mut BufReader::new(program), Some(declared), &Ground::new(marker, &job.profile), job)
 }
 
 #[test]
 fn an_undamaged_program_is_accepted_and_reading_it_loses_nothing() {
     for case in case::all() {
-        let verdict = judge(&case.program, &case.marker, &case.job);
+        let verdict = judge(&case.program, &case.marker, &case.declared, &case.job);
         assert!(verdict.passes(), "{}: {:#?}", case.name, verdict.broken().collect::<Vec<_>>());
         assert!(rows::print(&case.rows) == case.program, "{}", case.name);
     }
@@ -104,7 +107,10 @@ fn no_setting_of_the_machine_makes_a_sound_program_refused() {
         ("a point", |p| (p.knife.width_mm, p.knife.back_mm) = (0.0, Some(0.0))),
         ("a narrow blade", |p| (p.knife.width_mm, p.knife.back_mm) = (2.0, Some(1.5))),
         ("a new blade", |p| (p.knife.width_mm, p.knife.back_mm) = (8.89, Some(6.35))),
-        ("a wide blade", |p| (p.knife.width_mm, p.knife.back_mm) = (20.0, Some(12.0))),
+        ("a wide blade", |p| {
+            (p.knife.width_mm, p.knife.back_mm) = (20.0, Some(12.0));
+            p.verify.max_overcut_part_mm = None;
+        }),
         ("lifts amid long lines", |p| p.knife.max_down_mm = Some(300.0)),
         ("half a period", |p| p.time.period_ms = 0.5),
         ("four periods", |p| p.time.period_ms = 4.0),
@@ -122,7 +128,7 @@ fn no_setting_of_the_machine_makes_a_sound_program_refused() {
     let cases = case::all();
     let small = ["circles", "drills-and-slits", "tight-curves-and-short-runs", "chords"];
     let check = |marker: &Marker, job: &Job, name: &str| {
-        let verdict = judge(&setpoints(marker, job), marker, job);
+        let verdict = judge(&setpoints(marker, job), marker, &declared(marker, job), job);
         assert!(verdict.passes(), "{name}: {:#?}", verdict.broken().collect::<Vec<_>>());
     };
     cases.par_iter().filter(|case| small.contains(&case.name)).for_each(|case| {
@@ -157,7 +163,7 @@ fn every_damage_is_refused_under_its_rule() {
             Run::Whole(run) => run(case, &mut rng),
             Run::Scaled(run) => run(case, &mut rng, measure::DAMAGING),
         }?;
-        let unseen = harm.unseen(&judge(&harm.program, &case.marker, &case.job), damage.rule, case);
+        let unseen = harm.unseen(&judge(&harm.program, &case.marker, &case.declared, &case.job), damage.rule, case);
         Some((damage.name, unseen.map(|why| format!("{} of {}: {why}", damage.name, case.name))))
     };
     let outcomes: Vec<(&str, Option<String>)> = outcomes(&cases, outcome);
@@ -183,12 +189,11 @@ fn a_damage_of_a_third_of_its_limit_is_accepted() {
             // C may stand at an end of its range, from where any more is too much.
             job.profile.c.range_deg = None;
         }
-        if !sides::RULES.contains(&damage.rule) {
-            // A line that is drawn anew, or a little longer, may end inside a part: a harm that has rules of its own.
-            (job.profile.verify.max_overcut_part_mm, job.profile.verify.max_overcut_neighbour_mm) = (None, None);
-        }
-        let verdict = judge(&harm.program, &case.marker, &job);
-        let broken: Vec<_> = verdict.broken().map(|f| (f.rule, f.worst, f.limit, f.place)).collect();
+        let verdict = judge(&harm.program, &case.marker, &case.declared, &job);
+        // A line that is drawn anew, or a little longer, may end inside a part: a harm that has rules of its own.
+        let is_aside = |rule: &str| sides::RULES.contains(&rule) || rule == "verify/declared";
+        let broken = verdict.broken().filter(|finding| sides::RULES.contains(&damage.rule) || !is_aside(finding.rule));
+        let broken: Vec<_> = broken.map(|f| (f.rule, f.worst, f.limit, f.place)).collect();
         Some((!broken.is_empty()).then(|| format!("{} of {}: {broken:?}", damage.name, case.name)))
     };
     let outcomes: Vec<Option<String>> = outcomes(&cases, outcome);

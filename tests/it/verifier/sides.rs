@@ -2,7 +2,7 @@
 
 use cutc::geom::Vector;
 
-use crate::verifier::case::Case;
+use crate::verifier::case::{Case, WIDE};
 use crate::verifier::harm::{Harm, Place};
 use crate::verifier::measure::DAMAGING;
 use crate::verifier::sketch::{along, chain, contours, edited, redraw, slit};
@@ -13,6 +13,8 @@ const NEIGHBOUR: &str = "verify/overcut-neighbour";
 /// The rules that these damages aim at.
 pub(crate) const RULES: [&str; 2] = [PART, NEIGHBOUR];
 
+/// How deep in a part the edge of that still is, mm.
+const BAND: f64 = 0.2;
 /// An overlap that is harm enough, mm.
 const OVERLAP: f64 = 0.8;
 /// Part of an overlap by which it is seen to be in a part, at the least: it enters that at any angle.
@@ -30,7 +32,7 @@ pub(crate) const DAMAGES: &[Damage] = &[
         other(case, case.on(|job| job.profile.knife.reflex_heel_overlap_mm = OVERLAP))
     }),
     scaled("a slit that goes too far into the part", PART, |case, rng, times| {
-        let limit = case.tolerance();
+        let limit = case.tolerance() + BAND;
         let (old, program) = slit(case, rng, |notch| notch.tip += along(notch) * (times * limit))?;
         Some(Harm { program, amount: (DAMAGING - 1.0) * limit, place: Place::Along(vec![old.root, old.tip]) })
     }),
@@ -45,7 +47,7 @@ pub(crate) const DAMAGES: &[Damage] = &[
                     redraw(marker, [piece, contour], segments);
                 }
             });
-            Harm::anywhere(program, ENTERED * (OVERLAP - GAP))
+            Harm::anywhere(program, ENTERED * (WIDE - GAP))
         })
     }),
 ];
@@ -53,7 +55,7 @@ pub(crate) const DAMAGES: &[Damage] = &[
 /// Another program than that of the case; `None` when it is the same, or the case harms its parts as much, unavoidably.
 fn other(case: &Case, program: Vec<u8>) -> Option<Harm> {
     let amount = ENTERED * OVERLAP;
-    let sound = judge(&case.program, &case.marker, &case.job);
+    let sound = judge(&case.program, &case.marker, &case.declared, &case.job);
     let harmed = sound.findings.iter().any(|finding| finding.rule == PART && finding.worst >= amount);
     (program != case.program && !harmed).then(|| Harm::anywhere(program, amount))
 }

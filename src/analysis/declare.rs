@@ -1,0 +1,183 @@
+//! What a finished toolpath does beside the drawing because it cannot do otherwise: its declarations.
+
+use super::plunge::Plunge;
+use crate::geom::{Point, polyline};
+use crate::ir::Toolpath;
+use crate::ir::declaration::{Declaration, Kind, Which};
+use crate::ir::toolpath::{End, Overcut, PlungeCut, Run, Shape, Side, Step};
+use crate::machine::Knife;
+
+/// Lengths that differ by less are alike, mm: rounding.
+const SAME_EPSILON: f64 = 1e-6;
+/// What is declared is rounded to thousandths, how much it is upwards: people read it.
+const PER_MM: f64 = 1000.0;
+/// Part of the tolerance from which on a path that lies beside the plunged blade is declared: smoothing may add to it.
+const WORTH_SHARE: f64 = 0.25;
+
+/// What the toolpath of the cut with this place in the marker does beside the line that is `drawn`; a closed one ends with
+/// its first point.
+pub fn declarations(toolpath: &Toolpath, cut: u32, drawn: &[Point], knife: &Knife) -> Vec<Declaration> {
+    let drawn = Drawn { points: drawn, stations: polyline::stations(drawn) };
+    let mut of_cut = OfCut { toolpath, cut, drawn, knife, last: 0, found: Vec::new() };
+    for step in &toolpath.steps {
+        match step {
+            Step::Run(run) => of_cut.run(run),
+            Step::PlungeCut(plunge_cut) => of_cut.plunge_cut(plunge_cut),
+            Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {}
+        }
+    }
+    of_cut.found
+}
+
+/// A cut as it is drawn.
+struct Drawn<'a> {
+    points: &'a [Point],
+    /// Length from its start to each point, mm.
+    stations: Vec<f64>,
+}
+
+impl Drawn<'_> {
+    fn length(&self) -> f64 {
+        self.stations[self.stations.len() - 1]
+    }
+
+    /// The chord, looked for from one on, that two points lie on, one before the other, and the station of the first.
+    fn find(&self, [a, b]: [Point; 2], from: usize) -> Option<(usize, f64)> {
+        let chords = self.points.len() - 1;
+        (0..chords).map(|i| (from + i) % chords).find_map(|chord| {
+            let [start, end] = [self.points[chord], self.points[chord + 1]];
+            let is_on = |point| polyline::distance_to_segment(point, start, end) <= SAME_EPSILON;
+            let goes_along = (b - a).dot(&(end - start)) > 0.0;
+            (goes_along && is_on(a) && is_on(b)).then(|| (chord, self.stations[chord] + (a - start).norm()))
+        })
+    }
+}
+
+/// Gathers what is declared of one cut.
+struct OfCut<'a> {
+    toolpath: &'a Toolpath,
+    cut: u32,
+    drawn: Drawn<'a>,
+    knife: &'a Knife,
+    /// The chord of the cut that was found last: the next stretch is on it or behind it.
+    last: usize,
+    found: Vec<Declaration>,
+}
+
+impl OfCut<'_> {
+    fn run(&mut self, run: &Run) {
+        let Some(ends) = self.stations(&run.points, run.turned) else { return };
+        self.plunge(run, ends);
+        self.ends([run.heel, run.front], run.ends, run.turned, ends, run.shape);
+        for (which, (end, length)) in
+            [Which::Start, Which::End].into_iter().zip(run.ends.iter().zip([run.heel, run.front]))
+        {
+            let at = end_of(ends, which, run.turned);
+            match end.side {
+                Side::Contour => self.declare(Kind::Lift, [at; 2], Some(which), 0.0),
+                Side::Part if length > SAME_EPSILON => self.declare(Kind::Overcut, [at; 2], Some(which), length),
+                Side::Waste | Side::Part | Side::Gap => {}
+            }
+        }
+    }
+
+    fn plunge_cut(&mut self, cut: &PlungeCut) {
+        let Some(ends) = self.stations(&cut.points, cut.turned) else { return };
+        let [from, to] = [cut.points[0], cut.points[cut.points.len() - 1]];
+        let beside = cut.points.iter().map(|&point| polyline::distance_to_segment(point, from, to));
+        let farthest = beside.fold(0.0, f64::max);
+        if farthest > self.worth() {
+            self.declare(Kind::Plunge, ends, None, farthest);
+        }
+        if cut.ends.iter().any(|end| end.side == Side::Contour) {
+            self.declare(Kind::Nibbled, ends, None, polyline::length(&cut.points));
+        }
+        for (which, Overcut { own, other }) in [Which::Start, Which::End].into_iter().zip(cut.overcut) {
+            for (depth, part) in [(own, Some(self.toolpath.part)), (other, None)] {
+                if depth > 0.0 {
+                    self.declare(Kind::Surplus, ends, Some(which), depth);
+                    self.found.last_mut().expect("just declared").part = part;
+                }
+            }
+        }
+        self.ends([cut.heel, cut.front], cut.ends, cut.turned, ends, Shape::Open);
+    }
+
+    /// Declares how far the path lies beside the blade that is plunged at its start.
+    fn plunge(&mut self, run: &Run, [from, to]: [f64; 2]) {
+        if self.knife.width_mm == 0.0 {
+            return;
+        }
+        let path = if run.shape == Shape::Ring { run.points.clone() } else { run.extended() };
+        let plunge = Plunge::at_start(&path, self.knife.width_mm);
+        let under = path[1..=plunge.chord].iter().map(|&point| plunge.distance(point));
+        let farthest = under.fold(0.0, f64::max);
+        if farthest > self.worth() {
+            let way = polyline::length(&path[..=plunge.chord]) + (plunge.tip - path[plunge.chord]).norm();
+            let stretch = if run.turned { [to - way, to] } else { [from, from + way] };
+            // Smoothing moves both the path and where the tip stands on it.
+            let most = farthest + self.toolpath.tolerance;
+            self.declare(Kind::Plunge, stretch.map(|station| self.on_cut(station)), None, most);
+        }
+    }
+
+    /// Declares the overlaps that are shorter than the profile asks for.
+    fn ends(&mut self, given: [f64; 2], ends: [End; 2], turned: bool, stretch: [f64; 2], shape: Shape) {
+        let knife = self.knife;
+        let asked = [
+            (knife.heel_overlap_mm, knife.corner_heel_overlap_mm, knife.reflex_heel_overlap_mm),
+            (knife.front_overlap_mm, knife.corner_front_overlap_mm, knife.reflex_front_overlap_mm),
+        ];
+        for (i, which) in [Which::Start, Which::End].into_iter().enumerate() {
+            let (plain, at_corner, reflex) = asked[i];
+            let asked = match ends[i].side {
+                _ if ends[i].bare || shape == Shape::Ring && i == 0 => 0.0,
+                Side::Part => reflex,
+                Side::Contour => 0.0,
+                Side::Waste | Side::Gap if ends[i].corner => at_corner,
+                Side::Waste | Side::Gap => plain,
+            };
+            if asked - given[i] > SAME_EPSILON {
+                let at = end_of(stretch, which, turned);
+                self.declare(Kind::Shortened, [at; 2], Some(which), asked - given[i]);
+            }
+        }
+    }
+
+    fn worth(&self) -> f64 {
+        WORTH_SHARE * self.toolpath.tolerance
+    }
+
+    /// Between which stations a stretch of the cut lies, in the direction in which that is drawn.
+    fn stations(&mut self, points: &[Point], turned: bool) -> Option<[f64; 2]> {
+        let last = points.len() - 1;
+        let (first, end) = if turned { ([last, last - 1], [1, 0]) } else { ([0, 1], [last - 1, last]) };
+        let (chord, from) = self.drawn.find(first.map(|i| points[i]), self.last)?;
+        let (chord, before) = self.drawn.find(end.map(|i| points[i]), chord)?;
+        self.last = if turned { 0 } else { chord };
+        Some([from, before + (points[end[1]] - points[end[0]]).norm()])
+    }
+
+    /// A station brought back to the cut: on a closed one it may lie on another lap.
+    fn on_cut(&self, station: f64) -> f64 {
+        let length = self.drawn.length();
+        let is_closed = self.drawn.points.first() == self.drawn.points.last();
+        if is_closed && !(0.0..=length).contains(&station) {
+            station.rem_euclid(length)
+        } else {
+            station.clamp(0.0, length)
+        }
+    }
+
+    fn declare(&mut self, kind: Kind, [from_mm, to_mm]: [f64; 2], end: Option<Which>, magnitude_mm: f64) {
+        let [from_mm, to_mm] = [from_mm, to_mm].map(|station| (station * PER_MM).round() / PER_MM);
+        let magnitude_mm = (magnitude_mm * PER_MM).ceil() / PER_MM;
+        let declaration = Declaration { kind, cut: self.cut, from_mm, to_mm, end, part: None, magnitude_mm };
+        self.found.push(declaration);
+    }
+}
+
+/// The station of the end of a stretch at which it is plunged or lifted.
+fn end_of([from, to]: [f64; 2], which: Which, turned: bool) -> f64 {
+    if (which == Which::Start) == turned { to } else { from }
+}

@@ -1,0 +1,77 @@
+//! What a program does beside the drawing because it cannot do otherwise, as it says itself.
+//!
+//! A compile declares each deviation that it chose; the verifier measures the program and holds what it finds against
+//! these, and these against bounds of its own.
+
+use serde::{Deserialize, Serialize};
+
+/// A deviation from the drawing.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Declaration {
+    /// What it is.
+    pub kind: Kind,
+    /// The cut that it is of: its place among the cuts of the marker, from 0.
+    pub cut: u32,
+    /// From where to where along that cut, mm from its start as it is drawn.
+    pub from_mm: f64,
+    /// See `from_mm`; on a closed cut it may be the lesser of both.
+    pub to_mm: f64,
+    /// The end of the cut stretch that it is at.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub end: Option<Which>,
+    /// The part that it is in: the place of the piece in the marker, from 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub part: Option<u32>,
+    /// How much it is, mm; what that measures is said by the kind.
+    pub magnitude_mm: f64,
+}
+
+/// What a deviation is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kind {
+    /// An overlap that lies in a part: how deep.
+    Overcut,
+    /// An overlap that is shorter than the profile asks for: by how much.
+    Shortened,
+    /// A plunge on a curve: how far blade and line are apart.
+    Plunge,
+    /// A plunge cut that is longer than its line and has no room: how deep the rest lies in a part.
+    Surplus,
+    /// The body of the blade on a curve that is tighter than it: how far it leaves the line.
+    Swing,
+    /// A stretch that is cut by plunges without motion: the longest of them.
+    Nibbled,
+    /// A lift where the drawing has none: none.
+    Lift,
+}
+
+impl Kind {
+    /// Every kind.
+    pub const ALL: [Self; 7] =
+        [Self::Overcut, Self::Shortened, Self::Plunge, Self::Surplus, Self::Swing, Self::Nibbled, Self::Lift];
+
+    /// Its name, as it is declared.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Overcut => "overcut",
+            Self::Shortened => "shortened",
+            Self::Plunge => "plunge",
+            Self::Surplus => "surplus",
+            Self::Swing => "swing",
+            Self::Nibbled => "nibbled",
+            Self::Lift => "lift",
+        }
+    }
+}
+
+/// An end of a stretch that is cut in one go.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Which {
+    /// Where it is plunged.
+    Start,
+    /// Where it is lifted.
+    End,
+}

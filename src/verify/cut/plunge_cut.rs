@@ -1,0 +1,144 @@
+//! A blade that only plunges: how it points, how far it goes beyond its line, and whether it may stand there.
+
+use super::body::Cut;
+use super::covered::covered;
+use super::heading::on_lap;
+use super::stroke::Judge;
+use super::trial::{REACH, Trial};
+use super::worsts::Worsts;
+use crate::geom::{angle, polyline};
+use crate::ir::declaration::Kind;
+use crate::ir::finding::Sighting;
+use crate::verify::declared::Declared;
+use crate::verify::reference::line::Line;
+use crate::verify::worst::Worst;
+
+/// Rounding of a station, mm.
+const STATION_EPSILON: f64 = 1e-6;
+
+impl Judge<'_> {
+    /// Judges a stroke that goes no way.
+    pub(super) fn check_plunge_cut(
+        &self,
+        cut: &Cut,
+        trial: &Trial,
+        seen: &impl Fn(usize) -> Sighting,
+        worsts: &mut Worsts,
+    ) {
+        let line = &self.reference.lines[trial.line];
+        worsts.heading.see(askew(line, cut, trial).to_degrees(), || seen(cut.body));
+        if let Some(over) = trial.over {
+            // Where shorter cuts would do less harm a curve is not cut straight.
+            let excess = over.sagitta - self.overcut.of_chords(&self.ends(cut, trial));
+            worsts.on_path.see(excess, || seen(cut.body));
+        }
+        let is_straight = self.is_straight_about(line, trial.reach);
+        if is_straight {
+            self.check_surplus(line, cut, trial, seen, &mut worsts.stray);
+        }
+        self.check_nibble(line, trial, is_straight, || seen(cut.body), &mut worsts.declared);
+    }
+
+    /// Where there is a blade's width of straight line to lie on, the blade goes beyond that by its overlaps and no more.
+    fn check_surplus(
+        &self,
+        line: &Line,
+        cut: &Cut,
+        trial: &Trial,
+        seen: &impl Fn(usize) -> Sighting,
+        stray: &mut Worst,
+    ) {
+        let [heel, tip] = cut.blade();
+        let Some(along) = polyline::direction(heel, tip) else { return };
+        let ends = [0, cut.body].map(|place| trial.feet[place].beyond);
+        let at = f64::midpoint(trial.reach[0], trial.reach[1]);
+        let most = [ends[0], -ends[1]].map(|shift| {
+            let blade = [heel, tip].map(|end| end + along * shift);
+            let stretches = covered(line, blade, at, self.tracer.near());
+            stretches.iter().map(|[a, b]| b - a).fold(0.0, f64::max)
+        });
+        if most[0].max(most[1]) < self.knife.width_mm - 2.0 * self.tracer.allowed {
+            return;
+        }
+        let surplus = self.knife.width_mm - most[0].max(most[1]);
+        let allowed = self.overlap.max(surplus) + self.reference.tolerance;
+        for (place, beyond) in [0, cut.body].into_iter().zip(ends) {
+            stray.see(beyond - allowed, || seen(place));
+        }
+    }
+
+    /// A line is cut in one go; a part of it by a plunge where that is declared, and where nothing is where the line is no
+    /// straight.
+    fn check_nibble(
+        &self,
+        line: &Line,
+        trial: &Trial,
+        is_straight: bool,
+        seen: impl FnOnce() -> Sighting,
+        undeclared: &mut Worst,
+    ) {
+        let [from, to] = trial.reach;
+        let length = (to - from).abs();
+        let is_all = length >= line.length() - 2.0 * self.tracer.allowed;
+        let may = match self.tracer.declared {
+            Some(declared) => declared.has(Kind::Nibbled, line, trial.reach),
+            None => !is_straight,
+        };
+        if !is_all && !may {
+            undeclared.see(length, seen);
+        }
+    }
+
+    /// Whether a line is straight under a blade and for its width before and behind it.
+    fn is_straight_about(&self, line: &Line, [a, b]: [f64; 2]) -> bool {
+        let (width, length) = (self.knife.width_mm, line.length());
+        let (low, high) = (a.min(b) - width, a.max(b) + width);
+        let [low, high] = if line.ring { [low, high] } else { [low.max(0.0), high.min(length)] };
+        let [from, to] = [low, high].map(|station| line.place(on_lap(line, station)));
+        let mut between = line.vertices(low, high).map(|vertex| line.point(vertex));
+        between.all(|point| polyline::distance_to_segment(point, from, to) <= self.tracer.allowed)
+    }
+
+    /// The knife is lifted amid a line where that is declared; where nothing is, anywhere: the line is cut all the same.
+    pub(super) fn check_lifts(
+        &self,
+        cut: &Cut,
+        trial: &Trial,
+        seen: &impl Fn(usize) -> Sighting,
+        undeclared: &mut Worst,
+    ) {
+        let Some(declared) = self.tracer.declared else { return };
+        let line = &self.reference.lines[trial.line];
+        let [from, to] = trial.reach;
+        if trial.laps || line.ring && (to - from).abs() >= line.length() - 2.0 * self.tracer.allowed {
+            return;
+        }
+        for (station, place) in trial.reach.into_iter().zip([cut.body, cut.points.len() - 1]) {
+            let inside = if line.ring { f64::INFINITY } else { station.min(line.length() - station) };
+            if inside > 2.0 * self.tracer.allowed && !is_declared_lift(declared, line, station) {
+                undeclared.see(inside.min(self.knife.width_mm.max(REACH)), || seen(place));
+            }
+        }
+    }
+}
+
+fn is_declared_lift(declared: &Declared, line: &Line, station: f64) -> bool {
+    [Kind::Lift, Kind::Nibbled].into_iter().any(|kind| declared.has(kind, line, [station; 2]))
+}
+
+/// How far a blade points away from its line under it, rad: no farther to either side than one of its chords there.
+fn askew(line: &Line, cut: &Cut, trial: &Trial) -> f64 {
+    let [first, last] = trial.reach;
+    let blade = (cut.points[cut.body] - cut.points[0]) * if last < first { -1.0 } else { 1.0 };
+    // A chord that begins or ends where the cut does is none of its own.
+    let (low, high) = (first.min(last), first.max(last));
+    let aside = STATION_EPSILON.min(0.25 * (high - low));
+    let chords = line.chords_between([low + aside, high - aside]);
+    let (mut turned, mut cone) = (0.0, [0.0_f64; 2]);
+    for chord in chords.clone().skip(1) {
+        turned += line.turn(chord % line.chords());
+        cone = [cone[0].min(turned), cone[1].max(turned)];
+    }
+    let askew = angle::turn(line.direction(*chords.start() % line.chords()), blade);
+    (cone[0] - askew).max(askew - cone[1]).max(0.0)
+}
