@@ -58,13 +58,17 @@ pub(in crate::verify) struct Trailing<'a> {
     pub(in crate::verify) heels: &'a [Foot],
     /// How far a heel may stand off the line, mm.
     pub(in crate::verify) allowed: f64,
+    /// Rounding of a tip's place, mm.
+    pub(in crate::verify) rounding: f64,
 }
 
 impl Trailing<'_> {
     /// The blade against the chord of its way, and against the tolerance band where it has not yet come that far.
     pub(in crate::verify) fn check(&self, knife: &Knife, heading: &mut Worst) {
-        let Self { rows, tips, blades, heels, allowed } = *self;
+        let Self { rows, tips, blades, heels, allowed, rounding } = *self;
         let width = knife.width_mm;
+        // Both ends of a chord are rounded.
+        let noise = (2.0 * rounding / width).atan();
         let is_far = |k: usize, i: usize| (tips[k] - tips[i]).norm() >= width;
         // The last tip that the heel has passed.
         let mut passed: Option<usize> = None;
@@ -81,7 +85,8 @@ impl Trailing<'_> {
             }
             passed = Some(k);
             let chord = tips[i] - self.behind(k, tips[i], width);
-            heading.see(angle::turn(chord, blades[i]).abs().to_degrees(), || row.sighting());
+            let askew = (angle::turn(chord, blades[i]).abs() - noise).max(0.0);
+            heading.see(askew.to_degrees(), || row.sighting());
         }
     }
 

@@ -143,7 +143,7 @@ fn direction([before, here, behind]: [Point; 3], way_min: f64) -> Vector {
 }
 
 /// What is left of the lead at a fraction of the fade: 1 - (35 x^4 - 84 x^5 + 70 x^6 - 20 x^7).
-fn fading(x: f64) -> f64 {
+pub(super) fn fading(x: f64) -> f64 {
     let x4 = x * x * x * x;
     1.0 - x4 * (35.0 - x * (84.0 - x * (70.0 - x * 20.0)))
 }

@@ -8,6 +8,7 @@ pub(super) mod chord;
 pub(super) mod coverage;
 mod covered;
 pub(super) mod done;
+mod drift;
 pub(super) mod follow;
 pub(super) mod heading;
 pub(super) mod heel;

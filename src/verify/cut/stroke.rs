@@ -8,6 +8,7 @@ use std::ops::RangeToInclusive;
 use super::body::{Cut, Sagitta};
 use super::chord::{self, BODY_SHARES, Blade, Trailing};
 use super::done::Done;
+use super::drift;
 use super::heading::{self, Moving, Plunge};
 use super::heel;
 use super::naming::Naming;
@@ -76,6 +77,8 @@ pub(in crate::verify) struct Judge<'a> {
     /// Least way of the tip that shows a direction, mm, and by how much rounding may turn a shorter one, degrees.
     way_min: f64,
     noise_deg: f64,
+    /// Greatest angle between the blade and its way, rad.
+    max_heading: f64,
     pub(super) tracer: Tracer<'a>,
     /// Greatest overlap at one end, and of both ends together.
     pub(super) overlap: f64,
@@ -118,6 +121,7 @@ impl<'a> Judge<'a> {
             rounding: place,
             way_min: heading::way_min(rounding),
             noise_deg: heading::noise_deg(rounding),
+            max_heading: profile.verify.max_heading_deg.to_radians(),
             tracer,
             overlap: front.max(heel),
             overlaps,
@@ -251,11 +255,11 @@ impl<'a> Judge<'a> {
             // its line.
             let first = tips.iter().position(|tip| (tip - tips[0]).norm() >= self.way_min).unwrap_or(0);
             let (lead, fade) = (self.plunge(cut, trial).lead(), self.knife.width_mm);
-            Moving { lead, fade, ..self.moving(traced, ..=first) }.check(&mut chord);
+            self.compare(&Moving { lead, fade, ..self.moving(traced, ..=first) }, &mut chord);
         }
         let heels = chord::along(rows, self.blade(traced, trial), 0.0);
         let allowed = self.reference.tolerance + self.rounding;
-        Trailing { rows, tips, blades, heels: &heels, allowed }.check(self.knife, &mut chord);
+        Trailing { rows, tips, blades, heels: &heels, allowed, rounding: self.rounding }.check(self.knife, &mut chord);
         let ends = [trial.feet[0].station, trial.feet[cut.points.len() - 1].station];
         if self.reference.lines[trial.line].is_tight([ends[0].min(ends[1]), ends[0].max(ends[1])]) {
             // Where the line is too tight for the chord mode, the tangent mode holds.
@@ -277,7 +281,18 @@ impl<'a> Judge<'a> {
             Some(trial) => self.plunge(cut, trial).lead(),
         };
         let fade = self.knife.width_mm.min(cut.way());
-        Moving { lead, fade, ..self.moving(traced, ..=stroke.rows().len() - 1) }.check(heading);
+        self.compare(&Moving { lead, fade, ..self.moving(traced, ..=stroke.rows().len() - 1) }, heading);
+    }
+
+    /// Compares a blade with the way of its tip: row by row where that shows a direction, else by how far it drifts.
+    fn compare(&self, moving: &Moving, heading: &mut Worst) {
+        if moving.ways.is_empty() && self.noise_deg > 0.0 {
+            let [x, y, c] = self.rows_rounding.axes;
+            let rounding = x.hypot(y) + c.to_radians() * self.knife.width_mm;
+            drift::check(moving, [rounding, self.max_heading], heading);
+        } else {
+            moving.check(heading);
+        }
     }
 
     /// The first rows of a stroke, to be compared with the way of their tip.

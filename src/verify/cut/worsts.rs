@@ -1,6 +1,5 @@
 //! The worst values that strokes show, rule by rule.
 
-use super::heading;
 use super::naming::Naming;
 use crate::ir::Finding;
 use crate::machine::MachineProfile;
@@ -37,7 +36,7 @@ impl Worsts {
             on_path: Worst::new("verify/on-path", "mm", Some(tolerance + place)),
             stray: Worst::new("verify/stray", "mm", Some(0.0)),
             once: Worst::new("verify/once", "mm", Some(joints * (front + heel) + 2.0 * tolerance)),
-            heading: Worst::new("verify/heading", "deg", Some(verify.max_heading_deg + heading::noise_deg(rounding))),
+            heading: Worst::new("verify/heading", "deg", Some(verify.max_heading_deg)),
             down: Worst::new("verify/down", "mm", knife.max_down_mm.map(|longest| longest + tolerance)),
             body: Worst::new("verify/body", "mm", verify.max_body_mm),
             feed: Worst::new("verify/feed", "mm/s", feed),

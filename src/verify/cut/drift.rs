@@ -1,0 +1,146 @@
+//! The blade against the way of its tip where places are too coarse to show directions from row to row.
+//!
+//! A tip whose blade points the way that it goes comes where the blade has pointed: it has gone the sum of its steps, each
+//! along the blade. How far it has drifted off that, by the length of its way, is how far the blade points aside, whatever
+//! curve it follows; rounding moves both ends of a way and nothing between.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::heading::{Moving, fading};
+use crate::geom::{Vector, angle, cross};
+use crate::verify::worst::Worst;
+
+/// Length of a way beside the rounding of its ends over the angle that must be seen: then that is half of it.
+const LENGTH: f64 = 4.0;
+/// Rounds in which the lead at a plunge is found.
+const ROUNDS: usize = 8;
+
+/// Compares a blade with the way of its tip; places may be off by `rounding` mm, and an angle of `limit` rad must be seen.
+pub(super) fn check(moving: &Moving, [rounding, limit]: [f64; 2], heading: &mut Worst) {
+    let rows = moving.rows;
+    let Drift { stations, aside, turned, .. } = Drift::of(moving, lead(moving, rounding));
+    let length = stations[stations.len() - 1];
+    let window = LENGTH * rounding / limit;
+    let mut end = 0;
+    for start in 0..rows.len() {
+        end = end.max(start);
+        while end + 1 < rows.len() && stations[end] - stations[start] < window {
+            end += 1;
+        }
+        let way = stations[end] - stations[start];
+        if way < window.min(length) || way <= 0.0 {
+            break;
+        }
+        // As directions turn, the rounding of the places between counts a little, too.
+        let noise = rounding * (2.0 + turned[end] - turned[start]);
+        let drift = ((aside[end] - aside[start]).norm() - noise).max(0.0);
+        heading.see((drift / way).atan().to_degrees(), || rows[usize::midpoint(start, end)].sighting());
+    }
+}
+
+/// A way beside the one along the blade, row by row.
+struct Drift {
+    /// How far the tip has gone, mm: along the blade, so that rounding adds nothing.
+    stations: Vec<f64>,
+    /// How far it has come aside of the blade, mm.
+    aside: Vec<Vector>,
+    /// How far the blade has turned, rad.
+    turned: Vec<f64>,
+    /// By how much all of that would be less were the lead a little more, mm a rad.
+    faded: f64,
+    /// How far it has come aside before the lead has faded, to the left, mm.
+    left: f64,
+}
+
+impl Drift {
+    /// That of a way which turns from the blade by `lead` rad at the plunge.
+    fn of(moving: &Moving, lead: f64) -> Self {
+        let Moving { tips, blades, fade, .. } = *moving;
+        let share = |station: f64| if station < fade { fading(station.max(0.0) / fade) } else { 0.0 };
+        let count = tips.len();
+        let (stations, aside, turned) =
+            (Vec::with_capacity(count), Vec::with_capacity(count), Vec::with_capacity(count));
+        let mut drift = Self { stations, aside, turned, faded: 0.0, left: 0.0 };
+        let (mut station, mut aside, mut turned) = (0.0_f64, Vector::zeros(), 0.0);
+        for i in 0..tips.len() {
+            drift.stations.push(station);
+            drift.aside.push(aside);
+            drift.turned.push(turned);
+            let Some(&next) = tips.get(i + 1) else { break };
+            let shares = share(station);
+            let along = [0, 1].map(|k| rotated(blades[i + k], lead * shares));
+            let mean = (along[0] + along[1]).try_normalize(0.0).unwrap_or(along[0]);
+            let step = next - tips[i];
+            let way = mean.dot(&step);
+            station = (station + way).max(station);
+            aside += step - mean * way;
+            turned += angle::turn(along[0], along[1]).abs();
+            drift.left += if shares > 0.0 { shares * cross(mean, step) } else { 0.0 };
+            drift.faded += shares * shares * way;
+        }
+        drift
+    }
+}
+
+/// How far the way of the tip turns from the blade at the plunge, rad: of what may be, what fits the start of the way best.
+fn lead(moving: &Moving, rounding: f64) -> f64 {
+    let [least, greatest] = moving.lead;
+    if least >= greatest || moving.fade <= 0.0 {
+        return least;
+    }
+    let middle = f64::midpoint(least.max(-FRAC_PI_2), greatest.min(FRAC_PI_2));
+    // What is left aside of the way with a lead corrects it: great ones take a few rounds.
+    (0..ROUNDS).fold(middle, |lead, _| {
+        let Drift { faded, left, .. } = Drift::of(moving, lead);
+        if faded <= rounding { lead } else { (lead + left / faded).clamp(least, greatest) }
+    })
+}
+
+fn rotated(vector: Vector, by: f64) -> Vector {
+    let (sin, cos) = by.sin_cos();
+    Vector::new(vector.x * cos - vector.y * sin, vector.x * sin + vector.y * cos)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::{Heading, Point};
+    use crate::verify::program::row::Row;
+
+    /// What is seen of a blade that points `aside` rad off a way along a quarter circle, with places rounded to 0.01 mm.
+    fn seen(radius: f64, aside: f64) -> f64 {
+        let count = 400;
+        let (mut rows, mut tips, mut blades) = (Vec::new(), Vec::new(), Vec::new());
+        for i in 0..=count {
+            let turned = FRAC_PI_2 * i as f64 / count as f64;
+            let place = Heading::new(turned - FRAC_PI_2).unit() * radius;
+            let rounded = Point::new((place.x * 100.0).round() / 100.0, (place.y * 100.0).round() / 100.0);
+            let tick = i as u64;
+            rows.push(Row { tick, t: 0.0, centre: rounded, c_deg: 0.0, knife: true, drill: 0, event: 0, block: 0 });
+            tips.push(rounded);
+            blades.push(Heading::new(turned + aside).unit());
+        }
+        let moving = Moving {
+            rows: &rows,
+            ways: &[],
+            tips: &tips,
+            blades: &blades,
+            lead: [0.0; 2],
+            fade: 0.0,
+            way_min: 0.0,
+            noise_deg: 0.0,
+        };
+        let mut heading = Worst::new("verify/heading", "deg", None);
+        check(&moving, [0.0075, 0.5_f64.to_radians()], &mut heading);
+        heading.value()
+    }
+
+    #[test]
+    fn a_blade_askew_is_seen_on_any_curve_though_its_places_are_coarse() {
+        for radius in [3.0, 10.0, 100.0] {
+            assert!(seen(radius, 0.0) < 0.1, "{radius}: {}", seen(radius, 0.0));
+            let askew = seen(radius, 2_f64.to_radians());
+            assert!(askew > 1.0 && askew < 2.2, "{radius}: {askew}");
+        }
+    }
+}
