@@ -11,7 +11,7 @@ use super::options::typed;
 use super::report::pretty;
 use crate::back::{Proof, TARGETS, Target};
 use crate::ir::declaration::Declaration;
-use crate::machine::{Job, sha256_hex, sha256_of};
+use crate::machine::{Job, blake3_of, sha256_hex};
 use crate::source::Source;
 
 /// Everything that made a program, for whoever finds it later. No date and no path: the same input gives the same bytes.
@@ -31,7 +31,7 @@ struct Provenance<'a> {
     units: Units,
     verified: Verified,
     /// Digest of the program.
-    program_sha256: &'a str,
+    program_blake3: &'a str,
     /// What the program does beside the drawing because it cannot do otherwise; not there when the target is not judged by
     /// how it moves.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -70,13 +70,13 @@ pub(super) struct Made<'a> {
     /// What it is worth.
     pub(super) verified: Verified,
     /// Digest of its bytes.
-    pub(super) sha256: &'a str,
+    pub(super) blake3: &'a str,
     /// What it does beside the drawing.
     pub(super) declared: &'a [Declaration],
 }
 
 /// The provenance of a program as JSON.
-pub(super) fn json(Made { source, job, target, verified, sha256, declared }: &Made) -> String {
+pub(super) fn json(Made { source, job, target, verified, blake3, declared }: &Made) -> String {
     let is_moved = matches!(target.proof, Proof::Setpoints | Proof::Positions);
     let name = Path::new(source.name()).file_name().map(|name| name.to_string_lossy().into_owned());
     pretty(&Provenance {
@@ -89,7 +89,7 @@ pub(super) fn json(Made { source, job, target, verified, sha256, declared }: &Ma
         period_ms: job.profile.time.period_ms,
         units: Units { time: "s", length: "mm", angle: "deg" },
         verified: *verified,
-        program_sha256: sha256,
+        program_blake3: blake3,
         declared: is_moved.then_some(*declared),
         options: typed(job),
     })
@@ -113,24 +113,23 @@ fn told(program: &Path, key: &str) -> Option<String> {
     meta[key].as_str().map(str::to_owned)
 }
 
-/// What a program says that it does beside the drawing; `None` when nothing beside it says that.
-pub(super) fn declared(program: &Path) -> Option<Vec<Declaration>> {
-    let meta: serde_json::Value = serde_json::from_slice(&fs::read(files::meta(program)).ok()?).ok()?;
+/// What a program says in its provenance that it does beside the drawing; `None` when that says nothing of it.
+pub(super) fn declared(meta: &Path) -> Option<Vec<Declaration>> {
+    let meta: serde_json::Value = serde_json::from_slice(&fs::read(meta).ok()?).ok()?;
     serde_json::from_value(meta.get("declared")?.clone()).ok()
 }
 
-/// What the provenance beside a program, if there is one, says against judging it by this source and profile: warnings.
-pub(super) fn doubts(program: &Path, source: &Source, job: &Job) -> String {
-    let path = files::meta(program);
+/// What the provenance of a program, if there is one, says against judging it by this source and profile: warnings.
+pub(super) fn doubts(program: &Path, path: &Path, source: &Source, job: &Job) -> String {
     let mut said = String::new();
-    let Ok(bytes) = fs::read(&path) else { return said };
+    let Ok(bytes) = fs::read(path) else { return said };
     let path = path.display();
     let Ok(meta) = serde_json::from_slice::<serde_json::Value>(&bytes) else {
         say(&mut said, format_args!("warning: `{path}` is no JSON: nobody knows what the program was made from"));
         return said;
     };
     let differs = |key: &str, digest: &str| meta[key].as_str().is_some_and(|told| told != digest);
-    if fs::File::open(program).and_then(sha256_of).is_ok_and(|digest| differs("program_sha256", &digest)) {
+    if fs::File::open(program).and_then(blake3_of).is_ok_and(|digest| differs("program_blake3", &digest)) {
         say(
             &mut said,
             format_args!(

@@ -104,7 +104,7 @@ mod tests {
     use super::*;
     use crate::diagnostic::{Diagnostic, code};
 
-    const KEYS: [&str; 26] = [
+    const KEYS: [&str; 27] = [
         "dialect",
         "profile",
         "knife",
@@ -117,6 +117,7 @@ mod tests {
         "drills",
         "labels",
         "cut_m",
+        "declared",
         "travel_m",
         "runs",
         "stabs",

@@ -31,7 +31,7 @@ pub struct Declaration {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
-    /// An overlap that lies in a part: how deep.
+    /// An overlap that lies in a part, as the profile asks: how deep at the most.
     Overcut,
     /// An overlap that is shorter than the profile asks for: by how much.
     Shortened,
@@ -39,11 +39,11 @@ pub enum Kind {
     Plunge,
     /// A plunge cut that is longer than its line and has no room: how deep the rest lies in a part.
     Surplus,
-    /// The body of the blade on a curve that is tighter than it: how far it leaves the line.
+    /// The body of the blade on a curve that is tighter than it: how far its heel leaves the line.
     Swing,
     /// A stretch that is cut by plunges without motion: the longest of them.
     Nibbled,
-    /// A lift where the drawing has none: none.
+    /// A plunge or a lift where the drawing has no end: nothing.
     Lift,
 }
 
@@ -51,6 +51,19 @@ impl Kind {
     /// Every kind.
     pub const ALL: [Self; 7] =
         [Self::Overcut, Self::Shortened, Self::Plunge, Self::Surplus, Self::Swing, Self::Nibbled, Self::Lift];
+
+    /// What one is, and what many are, in words.
+    pub fn words(self) -> [&'static str; 2] {
+        match self {
+            Self::Overcut => ["overlap into a part", "overlaps into parts"],
+            Self::Shortened => ["shortened overlap", "shortened overlaps"],
+            Self::Plunge => ["plunge on a curve", "plunges on curves"],
+            Self::Surplus => ["end of a plunge cut in a part", "ends of plunge cuts in parts"],
+            Self::Swing => ["tight curve", "tight curves"],
+            Self::Nibbled => ["plunge amid a line", "plunges amid lines"],
+            Self::Lift => ["end amid a line", "ends amid lines"],
+        }
+    }
 
     /// Its name, as it is declared.
     pub fn name(self) -> &'static str {

@@ -27,6 +27,14 @@ pub fn sha256_of(mut bytes: impl Read) -> io::Result<String> {
     }
 }
 
+/// The BLAKE3 of all that a reader gives, as `b3sum` prints it: a program is as large as a thousand of its sources, and this
+/// is ten times as fast on processors without instructions for the other.
+pub fn blake3_of(bytes: impl Read) -> io::Result<String> {
+    let mut digest = blake3::Hasher::new();
+    digest.update_reader(bytes)?;
+    Ok(digest.finalize().to_string())
+}
+
 fn hex(digest: &[u8]) -> String {
     let mut hex = String::with_capacity(2 * digest.len());
     for byte in digest {

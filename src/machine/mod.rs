@@ -34,7 +34,7 @@ mod validate;
 pub mod verify;
 mod word;
 
-pub use digest::{sha256_hex, sha256_of};
+pub use digest::{blake3_of, sha256_hex, sha256_of};
 pub use kinematics::Limits;
 pub use knife::{Follow, Knife, TightCurves};
 pub use load::{Faults, load, load_given};

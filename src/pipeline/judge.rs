@@ -164,14 +164,19 @@ pub(super) fn report(verdict: &Verdict, marker: &Marker, job: &Job, diagnostics:
             (_, Some(keys)) if OF_PARTS.contains(&finding.rule) => {
                 format!("{keys} parts this cut into pieces that the blade is too wide for: give it more")
             }
-            (Some(key), _) => format!("the limit is the profile's `{key}`"),
+            (Some(key), _) => {
+                format!("the limit is the profile's `{key}`; where that is its default this is a fault of `cutc`")
+            }
             (None, _) if finding.rule == TABLE => {
                 format!(
                     "move the marker {} mm away from that edge: the blade reaches beyond its lines",
                     up(finding.worst, 1)
                 )
             }
-            (None, _) => "no cutter file should lead here: please report it, with the file and the profile".to_owned(),
+            (None, _) => {
+                "this is a fault of `cutc`, whatever the file: please report it, with the file and the profile"
+                    .to_owned()
+            }
         };
         let at = finding.place.map(|place| place.point.into());
         let diagnostic = Diagnostic { span, at, ..Diagnostic::new(&code::VERIFY_BROKEN, message) };

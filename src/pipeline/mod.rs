@@ -3,6 +3,7 @@
 //! Receives a source and a job, promises programs that are written whole and judged, or diagnostics. Never prints, and decides
 //! nothing about the cut.
 
+mod beside;
 mod input;
 mod judge;
 mod place;
@@ -16,6 +17,7 @@ mod spent;
 mod toolpaths;
 
 pub use crate::analysis::area;
+pub use beside::Beside;
 pub use input::{Input, Judged, Reading, marker_of, read, read_to_judge};
 pub use judge::{about, figures, foreign, judge_program};
 pub use product::{Medium, Product};
@@ -132,6 +134,7 @@ pub fn compile_all(
     })?;
     let mut report = Report::of(&input.marker, input.dialect.name);
     report.program = written.program;
+    report.declared = Beside::of(&written.declared, &input.marker);
     report.controller = written.estimate.map(Controller::from);
     let mut verdict: Option<Verdict> = None;
     if verify && !diagnostics.has_errors() {

@@ -5,6 +5,7 @@
 
 use serde::{Serialize, Serializer};
 
+use super::beside::Beside;
 use super::rounded::{significant, to_millionths};
 use super::spent::Spent;
 use crate::back::Estimate;
@@ -49,6 +50,8 @@ pub struct Report {
     /// What planning adds.
     #[serde(flatten)]
     pub program: Program,
+    /// What the program does beside the drawing because it cannot do otherwise, by kind.
+    pub declared: Vec<Beside>,
     /// What a controller that plans for itself makes of the program; not there without such a target.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub controller: Option<Controller>,
@@ -302,6 +305,7 @@ impl Report {
             cut_m: marker.cut_length() / MM_PER_M,
             drawn: marker.drawing.as_ref().map(Drawn::of),
             program: Program::default(),
+            declared: Vec::new(),
             controller: None,
         }
     }

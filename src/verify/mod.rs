@@ -82,7 +82,6 @@ pub fn setpoints(program: &mut dyn BufRead, declared: Option<&Declared>, ground:
         return Verdict { findings: vec![format], unread, untimed: Vec::new() };
     }
     findings.push(format);
-    findings.retain(|finding| !gcode::OF_FEED.contains(&finding.rule));
     sort(&mut findings);
     Verdict { findings, unread: None, untimed: Vec::new() }
 }

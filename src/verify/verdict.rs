@@ -26,6 +26,11 @@ impl Verdict {
         finding::counts(&self.findings)
     }
 
+    /// Whether the program was held against what it declares, and not as a cut file.
+    pub fn asks_declarations(&self) -> bool {
+        self.findings.iter().any(|finding| finding.rule == "verify/declared")
+    }
+
     /// The findings that do not hold.
     pub fn broken(&self) -> impl Iterator<Item = &Finding> {
         self.findings.iter().filter(|finding| !finding.holds())

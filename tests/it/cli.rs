@@ -4,7 +4,7 @@ use std::fs;
 use std::process::Stdio;
 
 use cutc::back::TARGETS;
-use cutc::machine::{MachineProfile, sha256_hex};
+use cutc::machine::{MachineProfile, blake3_of, sha256_hex};
 use cutc::pass::marker::MARKER_PASSES;
 use cutc::pass::toolpath::TOOLPATH_PASSES;
 use serde_json::Value;
@@ -18,11 +18,12 @@ fn keys(value: &Value) -> Vec<&str> {
 }
 
 /// The keys of the figures as JSON, sorted.
-const FIGURES: [&str; 26] = [
+const FIGURES: [&str; 27] = [
     "axes",
     "closed_contours",
     "contours",
     "cut_m",
+    "declared",
     "dialect",
     "drills",
     "errors",
@@ -65,10 +66,10 @@ fn a_compile_writes_the_program_with_its_provenance_and_a_summary() {
     assert_eq!(meta["profile_sha256"], MachineProfile::default().digest());
     assert_eq!((&meta["target"], &meta["verified"]), (&Value::from("csv"), &Value::from("yes")));
     assert_eq!(meta["period_ms"], 1.0);
-    assert_eq!(meta["program_sha256"], sha256_hex(&room.read("circle.csv")));
+    assert_eq!(meta["program_blake3"], blake3_of(&room.read("circle.csv")[..]).expect("memory is read"));
     assert_eq!(meta["declared"][0]["kind"], "plunge", "the blade is straight and the circle is not: {meta}");
     let expected =
-        "declared period_ms profile profile_sha256 program_sha256 source source_sha256 target units verified version";
+        "declared period_ms profile profile_sha256 program_blake3 source source_sha256 target units verified version";
     assert_eq!(keys(&meta).join(" "), expected);
 }
 

@@ -168,7 +168,14 @@ impl Under {
     fn turns(&self) -> Turns {
         let chord = self.plunge.chord;
         let corners = self.path.windows(3).take(chord + 1);
-        let turns: Vec<f64> = corners.map(|w| polyline::turn_at(w[0], w[1], w[2])).collect();
+        let mut turns: Vec<f64> = corners.map(|w| polyline::turn_at(w[0], w[1], w[2])).collect();
+        // A bend ahead of the tip says nothing of the curve under the blade.
+        if let [under @ .., next] = &mut turns[..]
+            && under.len() == chord
+        {
+            let sharpest = under.iter().map(|turn| turn.abs()).fold(0.0, f64::max);
+            *next = next.clamp(-sharpest, sharpest);
+        }
         let total: f64 = turns.iter().map(|turn| turn.abs()).sum();
         let is_curve = turns.iter().all(|turn| turn.abs() <= BEND_SHARE * total);
         let end = (self.last - 1).min(turns.len());

@@ -85,6 +85,10 @@ pub(in crate::cli) struct Making {
     #[command(flatten)]
     pub(super) choice: Choice,
 
+    /// Where the `.meta.json` goes of a program that goes to standard output
+    #[arg(long, value_name = "FILE", help_heading = NO_HEADING)]
+    pub(super) meta: Option<PathBuf>,
+
     /// Do not read the program back and judge it; summary and provenance say so
     #[arg(long, help_heading = NO_HEADING)]
     pub(super) no_verify: bool,

@@ -1,7 +1,7 @@
 //! Programs that are written: all of a file whole, with their provenance beside them, or none at all.
 
 use std::io::{self, Seek as _, Write as _};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::arguments::Making;
 use crate::back::Target;
@@ -10,7 +10,7 @@ use crate::cli::files;
 use crate::cli::finished::say;
 use crate::cli::provenance::{self, Made, Verified};
 use crate::diagnostic::Diagnostics;
-use crate::machine::{Job, sha256_of};
+use crate::machine::{Job, blake3_of, sha256_of};
 use crate::pipeline::{self, Choices, Compiled, Medium, Product};
 use crate::source::Source;
 
@@ -99,27 +99,40 @@ impl Compile<'_> {
         let mut programs = paths.iter().map(|path| Draft::new(path)).collect::<anyhow::Result<Vec<_>>>()?;
         let outs = programs.iter_mut().map(|program| program.file() as &mut dyn Medium).collect();
         let emitted = self.emit(outs, diagnostics).map_err(|error| files::cannot_write(&paths[0], &error))?;
-        let verified = match &emitted.compiled {
-            None => Verified::Refused,
-            Some(Compiled { verdict: None, .. }) => Verified::No,
-            Some(Compiled { verdict: Some(_), .. }) => Verified::Yes,
-        };
         let is_kept = |shows_refusal: bool| shows_refusal || emitted.compiled.is_some();
         let (mut kept, mut metas) = (Vec::new(), Vec::new());
-        let declared = emitted.compiled.as_ref().map_or(&[][..], |compiled| &compiled.declared);
         for ((mut program, target), &shows_refusal) in programs.into_iter().zip(self.targets).zip(&emitted.pictures) {
             if is_kept(shows_refusal) {
                 let path = files::meta(program.path());
-                let mut meta = Draft::new(&path)?;
-                let sha256 = &Whole::of(&mut program)?.sha256;
-                let Self { source, job, .. } = *self;
-                let text = provenance::json(&Made { source, job, target, verified, sha256, declared });
-                meta.file().write_all(text.as_bytes()).map_err(|error| files::cannot_write(&path, &error))?;
-                metas.push(meta);
+                metas.push(self.meta(&path, program.file(), (target, emitted.compiled.as_ref()))?);
                 kept.push(program);
             }
         }
         Ok(Written { emitted, programs: kept, metas })
+    }
+
+    /// The provenance of a program of a target, as a draft of a file; without what was compiled it is a picture of what was
+    /// refused.
+    pub(in crate::cli) fn meta(
+        &self,
+        path: &Path,
+        program: &mut dyn Medium,
+        (target, compiled): (&Target, Option<&Compiled>),
+    ) -> anyhow::Result<Draft> {
+        let verified = match compiled {
+            None => Verified::Refused,
+            Some(Compiled { verdict: None, .. }) => Verified::No,
+            Some(Compiled { verdict: Some(_), .. }) => Verified::Yes,
+        };
+        let declared = compiled.map_or(&[][..], |compiled| &compiled.declared);
+        let Self { source, job, .. } = *self;
+        let mut meta = Draft::new(path)?;
+        let written = program.rewind().and_then(|()| blake3_of(program)).and_then(|blake3| {
+            let text = provenance::json(&Made { source, job, target, verified, blake3: &blake3, declared });
+            meta.file().write_all(text.as_bytes())
+        });
+        written.map_err(|error| files::cannot_write(path, &error))?;
+        Ok(meta)
     }
 
     /// Compiles into `outs`, one for each target, which are worth nothing but as [`Emitted`] says.

@@ -8,6 +8,7 @@ use super::arguments::{Arguments, Making};
 use super::made::{Compile, Emitted, Ended, move_aside};
 use crate::cli::choices::Format;
 use crate::cli::destination::{Asked, Destination, Place};
+use crate::cli::draft;
 use crate::cli::draft::MadeFolders;
 use crate::cli::finished::{DONE, FAULTY, Finished, Stdout, USAGE, failure, say};
 use crate::cli::options::counted;
@@ -32,6 +33,9 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished
             "`-o -` and `--format json` both want standard output",
             "write the program to a file with -o FILE, or leave --format out",
         ));
+    }
+    if arguments.making.meta.is_some() && place != Place::Stdout {
+        return Err(failure("`--meta` goes with `-o -`", "beside a file the `.meta.json` is written by itself"));
     }
     let source = files::read(file)?;
     let job = match arguments.making.job()? {
@@ -61,6 +65,10 @@ fn to_stdout(compile: &Compile, arguments: &Arguments) -> anyhow::Result<Finishe
         failure(format!("cannot spool the program: {error}"), "make room for temporary files, or write to a file")
     })?;
     let shows_refusal = compiled.is_none() && pictures[0];
+    if let (Some(path), Some(compiled)) = (&arguments.making.meta, &compiled) {
+        let meta = compile.meta(path, &mut spool, (compile.targets[0], Some(compiled)))?;
+        draft::publish(vec![meta], || Ok(()))?;
+    }
     let ended = Ended { compiled: Ok(compiled), diagnostics, programs: Vec::new(), beside: String::new() };
     let is_program = matches!(ended.compiled, Ok(Some(_))) || shows_refusal;
     let mut finished = told(compile, arguments, ended);

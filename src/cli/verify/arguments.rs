@@ -29,6 +29,10 @@ pub(in crate::cli) struct Arguments {
     #[arg(long, value_name = "FILE|FOLDER")]
     pub(super) source: PathBuf,
 
+    /// The `.meta.json` of a single program, where that does not stand beside it
+    #[arg(long, value_name = "FILE", help_heading = NO_HEADING)]
+    pub(super) meta: Option<PathBuf>,
+
     #[command(flatten)]
     pub(super) reading: Reading,
 

@@ -76,13 +76,17 @@ impl Arguments {
     pub(super) fn judge(&self, program: &mut Program, source: &Source, job: &Job) -> anyhow::Result<Judged> {
         let Program { path, file } = program;
         let mut diagnostics = Diagnostics::default();
-        let declared = provenance::declared(path).map(Declared::new);
+        let meta = self.meta.clone().unwrap_or_else(|| files::meta(path));
+        let declared = provenance::declared(&meta).map(Declared::new);
         let verdict =
             pipeline::judge_program(file, source, self.reading.from, job, declared.as_ref(), &mut diagnostics)
                 .map_err(|error| cannot_read(path, &error))?;
         let mut said = render_with(&diagnostics, source, self.messages.detail(self.format));
         if !self.messages.quiet {
-            said.push_str(&provenance::doubts(path, source, job));
+            said.push_str(&provenance::doubts(path, &meta, source, job));
+            if declared.is_none() && verdict.as_ref().is_some_and(Verdict::asks_declarations) {
+                say(&mut said, format_args!("note: {}", undeclared(&meta)));
+            }
         }
         if verdict.is_none() {
             let errors = counted(diagnostics.count(Severity::Error), "error");
@@ -90,6 +94,15 @@ impl Arguments {
         }
         Ok(Judged { verdict, said })
     }
+}
+
+/// Said of a program that declares nothing.
+fn undeclared(meta: &Path) -> String {
+    format!(
+        "nothing says what the program does beside the drawing (no `{}`): it is held to the bounds for every program\n  \
+         = hint: `cutc manual verification` has them; --meta names what was written with the program",
+        meta.display()
+    )
 }
 
 fn cannot_read(path: &Path, error: &io::Error) -> anyhow::Error {

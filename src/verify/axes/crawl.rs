@@ -1,10 +1,14 @@
-//! How much of its limits a move uses by its F: a knife that crawls heats the cloth, and fuses its edges.
+//! How slowly the knife goes on while it is down: one that crawls, or stands, heats the cloth and fuses its edges.
 //!
+//! Rows with a time show it: how long a millimetre takes, beside what it may take from rest to rest. G-code asks by F.
 //! A move uses a limit by the speed that F asks for over the greatest that the limit allows. Of the limits that bear on it
 //! (the feed of what it cuts, the axes, and what a planner makes of an arc) one is enough: that one is why it is no faster.
 //! `gcode` asks for all of one of them.
 
-use crate::machine::MachineProfile;
+use std::f64::consts::PI;
+
+use crate::geom::Point;
+use crate::machine::{Limits, MachineProfile};
 use crate::verify::worst::Worst;
 
 /// How many times as long as its limits let it a move may take: half the speed that the profile asks for is somebody's
@@ -13,6 +17,39 @@ const SLOWNESS_MAX: f64 = 4.0;
 /// Part of its acceleration that a planner has left along an arc between two other moves: half of it is for the move
 /// that blends in, half of that leans towards the centre.
 const ARC_SHARE: f64 = 0.25;
+
+/// The way that is looked at, mm: shorter ones are the matter of starts and stops.
+const WAY: f64 = 1.0;
+
+/// The longest that a blade stays within a millimetre, in times of what it may take: `fair` s. Rows are given by their
+/// times, s, and the places of the tip.
+pub(in crate::verify) fn longest(times: &[f64], tips: &[Point], fair: f64) -> (f64, usize) {
+    let last = times.len() - 1;
+    let mut longest = (0.0, 0);
+    let mut end = 0;
+    for start in 0..=last {
+        while end < last && (tips[end] - tips[start]).norm() < WAY {
+            end += 1;
+        }
+        let time = (times[end] - times[start]) / fair;
+        if time > longest.0 {
+            longest = (time, start);
+        }
+    }
+    longest
+}
+
+/// How long a blade may take to plunge, to go a millimetre at `speed` mm/s and to turn round, from rest to rest, s. An axis
+/// that goes d from rest to rest takes no longer than d/v + 2 sqrt(d/a) + 2 a/j.
+pub(in crate::verify) fn fair_time(profile: &MachineProfile, speed: f64) -> f64 {
+    let [x, y, c] = profile.axes.limits();
+    let time = |way: f64, speed: f64, limits: &Limits| {
+        let Limits { acceleration, jerk, .. } = *limits;
+        way / speed.min(limits.speed) + 2.0 * (way / acceleration).sqrt() + 2.0 * acceleration / jerk
+    };
+    let straight = time(WAY, speed, &x).max(time(WAY, speed, &y));
+    profile.knife.plunge() + straight + time(PI, f64::INFINITY, &c)
+}
 
 /// The rule, nothing seen yet.
 pub(in crate::verify) fn worst() -> Worst {

@@ -109,13 +109,13 @@ mod tests {
 
     /// What is seen of a blade that points `aside` rad off a way along a quarter circle, with places rounded to 0.01 mm.
     fn seen(radius: f64, aside: f64) -> f64 {
-        let count = 400;
+        let count = 400_u32;
         let (mut rows, mut tips, mut blades) = (Vec::new(), Vec::new(), Vec::new());
         for i in 0..=count {
-            let turned = FRAC_PI_2 * i as f64 / count as f64;
+            let turned = FRAC_PI_2 * f64::from(i) / f64::from(count);
             let place = Heading::new(turned - FRAC_PI_2).unit() * radius;
             let rounded = Point::new((place.x * 100.0).round() / 100.0, (place.y * 100.0).round() / 100.0);
-            let tick = i as u64;
+            let tick = u64::from(i);
             rows.push(Row { tick, t: 0.0, centre: rounded, c_deg: 0.0, knife: true, drill: 0, event: 0, block: 0 });
             tips.push(rounded);
             blades.push(Heading::new(turned + aside).unit());

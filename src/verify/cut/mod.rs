@@ -14,6 +14,7 @@ pub(super) mod heading;
 pub(super) mod heel;
 pub(super) mod naming;
 pub(super) mod overcut;
+mod overlap;
 pub(super) mod passing;
 mod plunge_cut;
 pub(super) mod plunged;

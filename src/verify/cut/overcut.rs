@@ -138,6 +138,11 @@ impl<'a> Overcut<'a> {
         }
     }
 
+    /// Whether a place lies in a part.
+    pub(in crate::verify) fn is_in_part(&self, place: Point) -> bool {
+        !self.inside.pieces_at(place).is_empty()
+    }
+
     /// How deep a place `beyond` mm past an end of what a stroke cuts lies in parts.
     fn depths(&self, point: Point, beyond: f64, &Ends { line, lines, .. }: &Ends) -> Depths {
         let mut depths = [0.0; 2];
@@ -159,7 +164,7 @@ impl<'a> Overcut<'a> {
     /// How deep a plunge cut must lie in some part wherever it is laid along its line so that it covers what it does, mm.
     fn least(&self, stroke: &Ends) -> f64 {
         let Ends { trial, line, .. } = *stroke;
-        self.least_over(trial.reach.map(|station| line.place(on_lap(line, station))), stroke)
+        self.least_over(trial.core.map(|station| line.place(on_lap(line, station))), stroke)
     }
 
     /// How deep a plunge cut lies in some part at the least when it cuts a curve by the chords of that, mm: the worst of the

@@ -90,7 +90,7 @@ impl Judge<'_> {
     }
 
     /// Whether a line is straight under a blade and for its width before and behind it.
-    fn is_straight_about(&self, line: &Line, [a, b]: [f64; 2]) -> bool {
+    pub(super) fn is_straight_about(&self, line: &Line, [a, b]: [f64; 2]) -> bool {
         let (width, length) = (self.knife.width_mm, line.length());
         let (low, high) = (a.min(b) - width, a.max(b) + width);
         let [low, high] = if line.ring { [low, high] } else { [low.max(0.0), high.min(length)] };

@@ -19,6 +19,7 @@ use super::worsts::Worsts;
 use crate::geom::{Point, Vector, cross, left};
 use crate::ir::finding::Sighting;
 use crate::machine::{Fit, Follow, Knife, MachineProfile};
+use crate::verify::axes::crawl;
 use crate::verify::declared::Declared;
 use crate::verify::program::row::{Going, Rounding, Row, SAGITTA};
 use crate::verify::reference::ground::Ground;
@@ -70,6 +71,7 @@ pub(in crate::verify) struct Judge<'a> {
     pub(in crate::verify) reference: &'a Reference<'a>,
     /// Rounding of the rows.
     pub(in crate::verify) rows_rounding: Rounding,
+    profile: &'a MachineProfile,
     pub(super) knife: &'a Knife,
     period: f64,
     /// Rounding of a tip's place, mm.
@@ -116,6 +118,7 @@ impl<'a> Judge<'a> {
         Self {
             reference,
             rows_rounding: rounding,
+            profile,
             knife,
             period: profile.time.period(),
             rounding: place,
@@ -195,7 +198,11 @@ impl<'a> Judge<'a> {
         let seen = |i: usize| stroke.sighting(cut, i);
         worsts.down.see(cut.way(), || rows[rows.len() - 1].sighting());
         self.check_feed(traced, &mut worsts.feed);
-        self.check_crawl(traced, &mut worsts.crawl);
+        if stroke.goings().is_empty() {
+            self.check_standing(traced, &mut worsts.crawl);
+        } else {
+            self.check_crawl(traced, &mut worsts.crawl);
+        }
         self.check_heading(traced, &mut worsts.heading);
         let Some(best) = best else {
             worsts.stray.see(cut.length().max(self.knife.width_mm).max(REACH), || seen(cut.body));
@@ -209,6 +216,7 @@ impl<'a> Judge<'a> {
         }
         worsts.on_path.see(best.worst.0, || seen(best.worst.1));
         self.check_ends(cut, best, &seen, &mut worsts.stray);
+        self.check_overlaps(cut, best, &seen, &mut worsts.overlap);
         worsts.once.see(self.twice(cut, best), || seen(cut.body));
         self.check_overcut(cut, best, &seen, worsts);
         self.check_body(traced, best, &mut worsts.body);
@@ -365,6 +373,20 @@ impl<'a> Judge<'a> {
                 feed.see_under(speed, cap(i), || rows[last].sighting());
             }
         }
+    }
+
+    /// How long a stroke whose rows have times stays in one place.
+    fn check_standing(&self, traced: &Traced, crawl: &mut Worst) {
+        let Traced { stroke, tips, cut, best, .. } = traced;
+        let rows = stroke.rows();
+        let least = |trial: &Trial| {
+            let (line, sign) = (&self.reference.lines[trial.line], trial.sign(cut));
+            line.only_cap(sign).unwrap_or_else(|| line.cap([0.0, line.length()], sign, f64::min))
+        };
+        let feed = best.as_ref().map_or(self.knife.feed_mm_s.unwrap_or(f64::INFINITY), least);
+        let times: Vec<f64> = rows.iter().map(|row| row.t).collect();
+        let (longest, row) = crawl::longest(&times, tips, crawl::fair_time(self.profile, feed));
+        crawl.see(longest, || rows[row].sighting());
     }
 
     /// What F asks for at the least, against the least cap that holds anywhere on a step and the limits of the axes.

@@ -18,6 +18,8 @@ use crate::verify::reference::lines::Reference;
 
 /// How far from a line a stroke may lie and still be taken for a bad cut of it, mm.
 pub(super) const REACH: f64 = 2.0;
+/// Part of the tolerance by which a line that lies on a blade may be off it.
+const ON_SHARE: f64 = 0.1;
 /// Lines that a stroke is tried on, at the most.
 const TRIALS: usize = 8;
 
@@ -83,6 +85,8 @@ pub(in crate::verify) struct Trial {
     pub(in crate::verify) held: RangeInclusive<usize>,
     /// The stations between which it cuts the line, from its heel on.
     pub(in crate::verify) reach: [f64; 2],
+    /// The same without what only lies in the tolerance band beside a blade that does not move, in the order of the line.
+    pub(in crate::verify) core: [f64; 2],
     /// How the blade lies over a curve where it plunges, when it does and may.
     pub(in crate::verify) over: Option<Plunged>,
 }
@@ -223,6 +227,7 @@ impl Tracer<'_> {
         let mut trial = Trial {
             line: index,
             reach: reach(&feet, &held),
+            core: reach(&feet, &held),
             feet,
             stretches: Vec::new(),
             fresh: 0.0,
@@ -277,6 +282,11 @@ impl Tracer<'_> {
         // A blade covers a curve that is all of its line, or none.
         let is_all = whole[1] - whole[0] >= line.length() - 2.0 * self.allowed;
         let over = over.filter(|over| stretches.len() > 1 && is_all && self.permits(over, line, whole));
+        // Where the line lies on the blade itself, from the first place to the last.
+        let thin = Near { beside: self.near().beyond + ON_SHARE * self.reference.tolerance, ..self.near() };
+        let [low, high] = if over.is_some() { whole } else { longest };
+        let on = covered(line, blade, station, thin).into_iter().filter(|[a, b]| *a >= low && *b <= high);
+        let core = on.reduce(|[a, _], [_, b]| [a, b]);
         let Lain { feet, held, reach } = if over.is_some() { lain } else { Lain::new(line, cut, longest) };
         let mut trial = Trial {
             line: index,
@@ -290,6 +300,7 @@ impl Tracer<'_> {
             laps: false,
             held,
             reach,
+            core: core.unwrap_or(reach),
             over,
         };
         if over.is_none() {

@@ -20,6 +20,7 @@ pub(in crate::verify) struct Worsts {
     pub(in crate::verify) crawl: Worst,
     pub(in crate::verify) block: Worst,
     pub(in crate::verify) overcuts: Overcuts,
+    pub(in crate::verify) overlap: Worst,
     pub(in crate::verify) declared: Worst,
 }
 
@@ -43,6 +44,7 @@ impl Worsts {
             crawl: crawl::worst(),
             block: Naming::new(tolerance).worst(),
             overcuts: Overcuts::new(profile, tolerance),
+            overlap: Worst::new("verify/overlap", "mm missing", Some(tolerance + place)),
             declared: Worst::new("verify/declared", "mm", Some(0.0)),
         }
     }
@@ -59,16 +61,16 @@ impl Worsts {
         self.all().into_iter().map(Worst::finding)
     }
 
-    fn all(self) -> [Worst; 13] {
-        let Self { on_path, stray, once, heading, down, body, feed, crawl, block, overcuts, declared } = self;
+    fn all(self) -> [Worst; 14] {
+        let Self { on_path, stray, once, heading, down, body, feed, crawl, block, overcuts, overlap, declared } = self;
         let Overcuts { part, neighbour, waste } = overcuts;
-        [on_path, stray, once, heading, down, body, feed, crawl, block, part, neighbour, waste, declared]
+        [on_path, stray, once, heading, down, body, feed, crawl, block, part, neighbour, waste, overlap, declared]
     }
 
-    fn all_mut(&mut self) -> [&mut Worst; 13] {
-        let Self { on_path, stray, once, heading, down, body, feed, crawl, block, overcuts, declared } = self;
+    fn all_mut(&mut self) -> [&mut Worst; 14] {
+        let Self { on_path, stray, once, heading, down, body, feed, crawl, block, overcuts, overlap, declared } = self;
         let Overcuts { part, neighbour, waste } = overcuts;
-        [on_path, stray, once, heading, down, body, feed, crawl, block, part, neighbour, waste, declared]
+        [on_path, stray, once, heading, down, body, feed, crawl, block, part, neighbour, waste, overlap, declared]
     }
 }
 

@@ -18,6 +18,8 @@ pub(in crate::verify) struct OfCut {
     pub(in crate::verify) round: Option<f64>,
     /// Whether it bounds a part.
     pub(in crate::verify) bounds: bool,
+    /// Whether codes of the file, or that it is a slit, may forbid overlaps at its ends.
+    pub(in crate::verify) is_bare: bool,
 }
 
 impl OfCut {

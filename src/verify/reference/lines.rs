@@ -108,7 +108,7 @@ fn slit<'a>(stroke: &NotchStroke, owner: [u32; 2], index: u32, cap: f64) -> Line
     let from = Vertex { station: 0.0, sagitta: 0.0, block: stroke.span.block };
     let to = Vertex { station: stroke.length(), ..from };
     let points = Cow::Owned(vec![stroke.from, stroke.to]);
-    let cut = OfCut { index, offset: 0.0, round: None, bounds: false };
+    let cut = OfCut { index, offset: 0.0, round: None, bounds: false, is_bare: true };
     Line::new(owner, cut, points, Box::new([from, to]), BothWays::One(cap), false)
 }
 

@@ -141,6 +141,7 @@ impl<'a> Outline<'a> {
             offset: self.before + self.stations[from],
             round: self.closed.then(|| self.stations[self.segments.len()]),
             bounds: self.closed,
+            is_bare: self.segments.iter().any(|segment| segment.joint.full_advance || segment.joint.no_overcut),
         };
         Line::new(owner, cut, self.points([from, to]), path, caps, ring)
     }

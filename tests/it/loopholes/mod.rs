@@ -38,10 +38,10 @@ fn what_is_done_by_hand_and_well_is_accepted() {
     program.run(p(99.5, 50.0), p(150.0, 50.0), 1);
     program.run(p(149.0, 50.0), p(200.8, 50.0), 1);
     check(program, &long_line(), &[]);
-    // A line shorter than the blade in one plunge, its surplus behind the start.
+    // A line shorter than the blade in one plunge, with overlaps at both ends.
     let mut program = Program::new(&Job::default());
-    program.plunge_cut(p(106.3, 50.0), 0.0, 1);
-    check(program, &support::marker(&[p(100.0, 50.0), p(106.0, 50.0)]), &[]);
+    program.plunge_cut(p(105.8, 50.0), 0.0, 1);
+    check(program, &support::marker(&[p(100.0, 50.0), p(105.0, 50.0)]), &[]);
 }
 
 #[test]
@@ -321,9 +321,9 @@ fn a_plunge_cut_askew_is_seen_though_it_stays_in_the_band() {
     for heading in [0.0, 0.4, 0.6, 0.8] {
         let mut program = Program::new(&Job::default());
         // Turned about its middle, so that neither end leaves the tolerance band.
-        program.plunge_cut(p(103.0, 50.0) + Heading::new(f64::to_radians(heading)).unit() * 3.3, heading, 1);
+        program.plunge_cut(p(102.5, 50.0) + Heading::new(f64::to_radians(heading)).unit() * 3.3, heading, 1);
         let expected: &[&str] = if heading > 0.5 { &["verify/heading"] } else { &[] };
-        let found = broken(&program.judge(&support::marker(&[p(100.0, 50.0), p(106.0, 50.0)])));
+        let found = broken(&program.judge(&support::marker(&[p(100.0, 50.0), p(105.0, 50.0)])));
         assert_eq!(found, expected, "{heading}");
     }
 }

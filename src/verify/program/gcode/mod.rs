@@ -494,9 +494,6 @@ struct Walk {
     used: f64,
 }
 
-/// Rules on what F asks for at the least: setpoints have none.
-pub(in crate::verify) const OF_FEED: &[&str] = &["verify/crawl"];
-
 /// A finding as a program without time has it.
 pub(in crate::verify) fn timeless(finding: &Finding) -> Finding {
     let timeless = |place: Sighting| Sighting { time: None, ..at(0.0, place.point, place.block) };

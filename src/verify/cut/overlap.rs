@@ -1,0 +1,69 @@
+//! How far the blade goes past the ends of a line, against what the profile asks for.
+
+use super::body::Cut;
+use super::stroke::Judge;
+use super::trial::Trial;
+use crate::geom::{Point, Vector};
+use crate::ir::declaration::Kind;
+use crate::ir::finding::Sighting;
+use crate::verify::worst::Worst;
+
+/// Distance of two places at which it is seen whether a part lies ahead, mm.
+const STEP: f64 = 0.1;
+
+impl Judge<'_> {
+    /// How much an overlap is shorter than the profile asks for, where waste lies ahead and no code forbids it, and nothing
+    /// says so.
+    pub(super) fn check_overlaps(
+        &self,
+        cut: &Cut,
+        trial: &Trial,
+        seen: &impl Fn(usize) -> Sighting,
+        overlap: &mut Worst,
+    ) {
+        let line = &self.reference.lines[trial.line];
+        if trial.laps || line.ring || line.cut.is_bare {
+            return;
+        }
+        let knife = self.knife;
+        let asked = [
+            knife.heel_overlap_mm.min(knife.corner_heel_overlap_mm),
+            knife.front_overlap_mm.min(knife.corner_front_overlap_mm),
+        ];
+        // Nobody sees which end of a blade that does not move comes first.
+        let asked = if cut.is_plunge_cut() { [asked[0].min(asked[1]); 2] } else { asked };
+        let last = cut.points.len() - 1;
+        for (i, place) in [0, last].into_iter().enumerate() {
+            let station = trial.reach[i];
+            let at_start = station <= self.tracer.allowed;
+            if !at_start && line.length() - station > self.tracer.allowed {
+                continue;
+            }
+            let missing = asked[i] - trial.beyond(cut, place);
+            if missing <= self.tracer.allowed {
+                continue;
+            }
+            let (end, along) = if at_start {
+                (line.point(0), -line.direction(0))
+            } else {
+                (line.point(line.chords()), line.direction(line.chords() - 1))
+            };
+            let told = self.tracer.declared.map_or(0.0, |told| told.most(Kind::Shortened, line, [station; 2]));
+            let is_told = self.tracer.declared.is_some() && missing <= told + self.tracer.allowed;
+            // The heel of a blade that plunges on a curve would leave that.
+            let is_curved = i == 0 && !self.is_straight_about(line, [station; 2]);
+            let may = is_told
+                || is_curved && self.tracer.declared.is_none()
+                || self.leads_into_part(end, along, asked[i] + knife.clearance_mm);
+            if !may {
+                overlap.see(missing, || seen(place));
+            }
+        }
+    }
+
+    /// Whether a part lies on a straight way.
+    fn leads_into_part(&self, from: Point, along: Vector, reach: f64) -> bool {
+        let steps = (reach / STEP).ceil() as usize;
+        (1..=steps).any(|i| self.overcut.is_in_part(from + along * (reach * i as f64 / steps as f64)))
+    }
+}
