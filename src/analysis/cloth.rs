@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::nesting::Nesting;
 use crate::geom::Point;
-use crate::geom::region::{Deep, Ray, Regions, Room};
+use crate::geom::region::{Ray, Regions, Room};
 use crate::ir::marker::Contour;
 use crate::ir::toolpath::Overcut;
 use crate::ir::{Marker, Toolpath};
@@ -74,8 +74,7 @@ pub struct Surroundings<'a> {
 impl Surroundings<'_> {
     /// How far a straight way goes before it enters a part.
     pub fn room(&self, ray: &Ray) -> Room {
-        let way = SLACK_SHARE * self.tolerance;
-        self.cloth.parts.room(ray, self.part, Deep { way, start: way.max(self.cloth.band) })
+        self.cloth.parts.room(ray, self.part, SLACK_SHARE * self.tolerance)
     }
 
     /// How deep a place lies in parts, mm, `reach` at the most: how far from their edges. What is in the band at an edge is

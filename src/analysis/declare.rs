@@ -135,13 +135,13 @@ impl OfCut<'_> {
             // Points as near as their rounding show no direction.
             let at = |station: f64| stations.partition_point(|&s| s < station).min(run.points.len() - 1);
             let [before, behind] = [at(stations[tip] - LOOK), at(stations[tip] + LOOK)];
-            let along = polyline::direction(run.points[before.min(tip)], run.points[behind.max(tip)])?;
+            let along = polyline::direction(run.points[before.min(tip - 1)], run.points[behind.max(tip + 1)])?;
             let heel = run.points[tip] - along * width;
             let first = stations.partition_point(|&station| station < stations[tip] - 2.0 * width);
             let behind = run.points[first..=tip].windows(2);
             behind.map(|ends| polyline::distance_to_segment(heel, ends[0], ends[1])).reduce(f64::min)
         };
-        let first = stations.partition_point(|&station| station < width);
+        let first = stations.partition_point(|&station| station < width).max(1);
         let farthest = (first..run.points.len() - 1).filter_map(heel).fold(0.0, f64::max);
         if farthest > worth {
             self.declare(Kind::Swing, ends, None, farthest);

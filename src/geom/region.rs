@@ -55,15 +55,6 @@ impl Room {
     }
 }
 
-/// From which depth in a region on a place counts as inside, mm.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Deep {
-    /// One on the way.
-    pub way: f64,
-    /// The start of the way, which may be drawn inside the region of another.
-    pub start: f64,
-}
-
 /// A straight piece of a ring.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Edge {
@@ -156,10 +147,9 @@ impl<'a> Regions<'a> {
         self.boxes.cost_at(point) + near.sum::<usize>()
     }
 
-    /// How far a way of `owner` goes before it enters a region, its own or another's. What comes no deeper than `deep.way`
-    /// enters nothing: it lies along an edge. A region of another in which the way starts deeper than `deep.start` is no
-    /// obstacle.
-    pub fn room(&self, ray: &Ray, owner: u32, deep: Deep) -> Room {
+    /// How far a way of `owner` goes before it enters a region, its own or another's. What comes no deeper than `slack` mm
+    /// enters nothing: it lies along an edge.
+    pub fn room(&self, ray: &Ray, owner: u32, slack: f64) -> Room {
         let mut room = Room { own: f64::INFINITY, other: f64::INFINITY };
         let mut extent = around(ray.from, SAME_EPSILON);
         let to = around(ray.from + ray.along * ray.reach, SAME_EPSILON);
@@ -181,13 +171,12 @@ impl<'a> Regions<'a> {
             let middle = at(f64::midpoint(from, b));
             for region in near.iter().filter(|region| region.holds(middle)) {
                 let so_far = if region.owner == owner { room.own } else { room.other };
-                if from >= so_far || !PROBES.iter().any(|share| region.is_deep(at(from + (b - from) * share), deep.way))
-                {
+                if from >= so_far || !PROBES.iter().any(|share| region.is_deep(at(from + (b - from) * share), slack)) {
                     continue;
                 }
                 if region.owner == owner {
                     room.own = from;
-                } else if !(region.holds(ray.from) && region.is_deep(ray.from, deep.start)) {
+                } else {
                     room.other = from;
                 }
             }
@@ -325,21 +314,21 @@ mod tests {
     #[test]
     fn a_way_ends_where_it_enters_a_region() {
         let regions = Regions::new([1, 2], |owner| vec![square(if owner == 1 { 0.0 } else { 10.5 }, 0.0, 10.0)]);
-        let room = |ray: &Ray, owner| regions.room(ray, owner, Deep { way: 0.05, start: 0.05 });
+        let room = |ray: &Ray, owner| regions.room(ray, owner, 0.05);
         let from_corner = room(&east(10.0, 5.0), 1);
         assert!((from_corner.other - 0.5).abs() < 1e-9 && from_corner.own == f64::INFINITY);
         assert_eq!(room(&east(0.0, 5.0), 1).own, 0.0);
         // Along the edge, and nearer to it than the slack, it enters nothing.
         assert_eq!(room(&east(10.0, 0.0), 1).least(), f64::INFINITY);
         assert_eq!(room(&east(10.0, 0.04), 1).least(), f64::INFINITY);
-        // Drawings that overlap are no obstacle to each other.
-        assert_eq!(room(&east(12.0, 5.0), 1), Room { own: f64::INFINITY, other: f64::INFINITY });
+        // What begins in another region has no room there.
+        assert_eq!(room(&east(12.0, 5.0), 1), Room { own: f64::INFINITY, other: 0.0 });
     }
 
     #[test]
     fn no_regions_leave_room_everywhere() {
         let nothing = Regions::new([], |_| Vec::new());
-        assert_eq!(nothing.room(&east(0.0, 0.0), 0, Deep { way: 0.1, start: 0.1 }).least(), f64::INFINITY);
+        assert_eq!(nothing.room(&east(0.0, 0.0), 0, 0.1).least(), f64::INFINITY);
         assert!(nothing.owners_at(Point::origin()).is_empty());
     }
 }

@@ -12,6 +12,8 @@ mod motion;
 #[path = "../it/properties/mod.rs"]
 mod properties;
 #[cfg(feature = "heavy")]
+mod slow;
+#[cfg(feature = "heavy")]
 #[path = "../it/support/mod.rs"]
 #[expect(dead_code, reason = "no page is read here, and the program is not run")]
 mod support;

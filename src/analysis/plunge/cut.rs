@@ -47,8 +47,10 @@ impl BladePlacement {
         let order = if run.ends[0].bare && !run.ends[1].bare { [1, 0] } else { [0, 1] };
         let (shared, left) = shared(surplus, order.map(|end| rooms[end]), around.knife.clearance_mm);
         let (mut shares, mut overcut) = (order.map(|end| shared[end]), [Overcut::default(); 2]);
-        if left > 0.0 {
-            (shares, overcut) = Surplus { length: surplus, rays, around }.placed(shares);
+        let surplus = Surplus { length: surplus, overlaps, rays, around };
+        // A line that ends in another part is drawn there: nothing bars a way on into that, but deep it is.
+        if left > 0.0 || surplus.is_deep(shares) {
+            (shares, overcut) = surplus.placed(shares);
         }
         let beyond = [overlaps[0] + shares[0], overlaps[1] + shares[1]];
         Some(Self { along, tip: line[1] + along * shares[1], beyond, overcut })
@@ -78,23 +80,35 @@ fn shared(surplus: f64, rooms: [Room; 2], clearance: f64) -> ([f64; 2], f64) {
 struct Surplus<'a> {
     /// How long it is, mm.
     length: f64,
+    /// The overlaps before it, mm.
+    overlaps: [f64; 2],
     /// The two ways that lead on beyond the line.
     rays: [Ray; 2],
     around: &'a Surroundings<'a>,
 }
 
 impl Surplus<'_> {
+    /// Whether either end of the blade lies in a part when it goes so far beyond the line.
+    fn is_deep(&self, shares: [f64; 2]) -> bool {
+        (0..2).any(|end| self.depths(end, shares[end]).deepest() > 0.0)
+    }
+
+    /// How deep the blade lies so far beyond an overlap.
+    fn depths(&self, end: usize, way: f64) -> Overcut {
+        let Ray { from, along, .. } = self.rays[end];
+        self.around.depths(from + along * way, self.overlaps[end] + way)
+    }
+
     /// How it is shared out to the two ends so that the deepest of its places lies least deep in any part, and how deep
     /// that is beyond either end; of shares that are alike in this the one that goes least deep into other parts, then the
     /// one that is nearest to `preferred`.
     fn placed(&self, preferred: [f64; 2]) -> ([f64; 2], [Overcut; 2]) {
         let count = (self.length / STEP).ceil().max(1.0) as usize;
         let way = |i: usize| self.length * i as f64 / count as f64;
-        let deepest = self.rays.map(|ray| {
-            let mut deepest = vec![Overcut::default()];
+        let deepest = [0, 1].map(|end| {
+            let mut deepest = vec![self.depths(end, 0.0)];
             for i in 1..=count {
-                let depths = self.around.depths(ray.from + ray.along * way(i), way(i));
-                deepest.push(deepest[i - 1].max(depths));
+                deepest.push(deepest[i - 1].max(self.depths(end, way(i))));
             }
             deepest
         });
