@@ -62,12 +62,18 @@ impl Plunged {
     }
 }
 
+/// How far a curve lies beside a chord of a length, mm, that turns as far as a line does between two stations, wherever these
+/// are inside the tolerance.
+fn bound(line: &Line, ends: [f64; 2], [chord, allowed]: [f64; 2]) -> f64 {
+    [0.0, allowed].map(|inset| arc(line, ends, [chord, inset])).into_iter().fold(0.0, f64::max)
+}
+
 /// The sagitta of an arc under a chord of a length, mm, that turns as far as a line does between two stations, with the
 /// vertices before and behind them, since a curve turns along its chords: these as far as the sharpest between them at the
 /// most, and half as far as the next one where the line ends. None where one vertex makes most of the turn.
-fn bound(line: &Line, [low, high]: [f64; 2], [chord, allowed]: [f64; 2]) -> f64 {
+fn arc(line: &Line, [low, high]: [f64; 2], [chord, inset]: [f64; 2]) -> f64 {
     let is_inner = |vertex: &usize| line.ring || (1..line.chords()).contains(vertex);
-    let (from, to) = (low + allowed, high - allowed);
+    let (from, to) = (low + inset, high - inset);
     let under: Vec<f64> = line.vertices(from, to).filter(is_inner).map(|vertex| line.turn(vertex)).collect();
     let [Some(first), Some(last)] = [under.first(), under.last()] else { return 0.0 };
     let sharpest = under.iter().copied().map(f64::abs).fold(0.0, f64::max);

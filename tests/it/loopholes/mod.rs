@@ -8,9 +8,11 @@ use std::f64::consts::TAU;
 
 use cutc::geom::{Heading, Vector};
 use cutc::ir::Marker;
+use cutc::ir::declaration::{Declaration, Kind, Which};
 use cutc::ir::marker::{Drill, Event, Notch, NotchKind};
 use cutc::ir::toolpath;
 use cutc::machine::Job;
+use cutc::pipeline::Declared;
 use cutc::source::Span;
 use cutc::verify;
 
@@ -73,6 +75,36 @@ fn a_blade_that_cuts_the_last_bit_of_a_line_and_much_beyond_it_is_astray() {
     program.run(p(99.5, 50.0), p(199.7, 50.0), 1);
     program.plunge_cut(p(199.65 + 6.6, 50.0), 0.0, 1);
     check(program, &long_line(), &["verify/stray", "verify/declared"]);
+}
+
+#[test]
+fn an_overcut_at_the_wrong_end_is_refused_though_it_is_declared() {
+    let corners = [p(100.0, 0.0), p(200.0, 0.0), p(200.0, 100.0), p(100.0, 100.0), p(100.0, 0.0)];
+    for i in 0..30 {
+        // From the edge inwards; behind the mouth is waste, beyond the tip the part.
+        let (x, depth) = (120.0 + f64::from(i), 1.0 + 0.16 * f64::from(i));
+        let mut marker = support::marker(&corners);
+        let (root, tip) = (p(x, 100.0), p(x, 100.0 - depth));
+        let span = Span { block: 11, ..Span::default() };
+        marker.pieces[0].notches = vec![Notch { kind: NotchKind::Slit, root, tip, percent: 100, span }];
+        let cut = |beyond: f64| {
+            let mut program = Program::new(&Job::default());
+            program.plunge_cut(tip - Vector::new(0.0, beyond), -90.0, 11);
+            let surplus = 6.6 - depth;
+            program.declared = Some(Declared::new(vec![Declaration {
+                kind: Kind::Surplus,
+                cut: 0,
+                from_mm: 0.0,
+                to_mm: depth,
+                end: Some(Which::End),
+                part: Some(0),
+                magnitude_mm: surplus,
+            }]));
+            broken(&program.judge(&marker))
+        };
+        assert!(cut(6.6 - depth).contains(&"verify/overcut-part"), "{depth}: {:?}", cut(6.6 - depth));
+        assert!(!cut(0.0).contains(&"verify/overcut-part"), "{depth}: {:?}", cut(0.0));
+    }
 }
 
 #[test]
