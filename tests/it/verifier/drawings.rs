@@ -134,12 +134,14 @@ pub(crate) const DAMAGES: &[Damage] = &[
         let corners: Vec<usize> =
             (0..segments.len()).filter(|&i| turn(&segments, i + 1) > SHARP && segments[i].length() > least).collect();
         let i = pick(rng, &corners)?;
-        let on = times * overlap_limit(case) + SAME - case.job.profile.knife.front_overlap_mm;
+        // The overlap comes on top of that, but for an end that then lies in another part.
+        let front = case.job.profile.knife.front_overlap_mm;
+        let on = (times * overlap_limit(case) + SAME - front).max(SAME);
         let along = (segments[i].to - segments[i].from).normalize();
         let mut longer: Vec<Segment> = segments[i + 1..].iter().chain(&segments[..=i]).copied().collect();
         longer.last_mut().expect("a contour has segments").to += along * on;
         let program = edited(case, |marker| redraw(marker, [piece, contour], longer));
-        let amount = (DAMAGING - 1.0) * overlap_limit(case);
+        let amount = (DAMAGING - 1.0) * overlap_limit(case) - front;
         Some(Harm { program, amount, place: Place::Along(vec![segments[i].to]) })
     }),
     damage("pieces in another order", ORDER, |case, _| {
