@@ -41,7 +41,7 @@ pub enum Kind {
     Surplus,
     /// The body of the blade on a curve that is tighter than it: how far its heel leaves the line.
     Swing,
-    /// A stretch that is cut by plunges without motion: the longest of them.
+    /// A plunge without motion amid a line: how long the stretch is that it cuts.
     Nibbled,
     /// A plunge or a lift where the drawing has no end: nothing.
     Lift,
@@ -62,19 +62,6 @@ impl Kind {
             Self::Swing => ["tight curve", "tight curves"],
             Self::Nibbled => ["plunge amid a line", "plunges amid lines"],
             Self::Lift => ["end amid a line", "ends amid lines"],
-        }
-    }
-
-    /// Its name, as it is declared.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Overcut => "overcut",
-            Self::Shortened => "shortened",
-            Self::Plunge => "plunge",
-            Self::Surplus => "surplus",
-            Self::Swing => "swing",
-            Self::Nibbled => "nibbled",
-            Self::Lift => "lift",
         }
     }
 }

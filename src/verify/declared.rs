@@ -21,11 +21,6 @@ impl Declared {
         Self { entries }
     }
 
-    /// All of them.
-    pub fn entries(&self) -> &[Declaration] {
-        &self.entries
-    }
-
     /// The greatest magnitude that is declared of a kind about a stretch of a line, given by two stations of it, mm; none
     /// where nothing is.
     pub(super) fn most(&self, kind: Kind, line: &Line, stations: [f64; 2]) -> f64 {

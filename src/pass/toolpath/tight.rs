@@ -114,8 +114,8 @@ fn treatment(run: &Run, curves: &[TightCurve], around: &Surroundings) -> Treatme
     }
 }
 
-/// Whether the curve on which a run begins is nibbled: what the blade cannot enter, or covers, even where curves are followed, and
-/// where they are refused what it lies slightly beside.
+/// Whether the curve on which a run begins is nibbled: what the blade cannot enter, or covers, even where curves are
+/// followed, and where they are refused what it lies slightly beside.
 fn is_start_nibbled(start: &CurvedStart, treatment: Treatment, around: &Surroundings) -> bool {
     match treatment {
         Treatment::Nibbled => true,

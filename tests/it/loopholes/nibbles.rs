@@ -105,18 +105,30 @@ fn one_plunge_cuts_a_short_curve_only_where_several_would_reach_farther_into_the
 
 #[test]
 fn a_line_may_be_nibbled_only_where_it_must_be() {
-    // It begins on a curve that the blade lies far beside; behind it is straight.
+    // It begins on a curve that the blade lies far beside; behind a straight it bends again, so gently that the blade follows.
     let mut points = arc(6.0, 1.5);
     let along = |points: &[Point]| (points[points.len() - 1] - points[points.len() - 2]).normalize();
     points.push(points[points.len() - 1] + along(&points) * 40.0);
-    points.push(points[points.len() - 1] + along(&points) * 40.0);
-    let plunge_cut = |from: usize| {
+    let (start, mut heading) = (points.len() - 1, along(&points));
+    for _ in 0..12 {
+        points.push(points[points.len() - 1] + heading * 1.5);
+        heading = Heading::new(heading.y.atan2(heading.x) + 1.5 / 20.0).unit();
+    }
+    for _ in 0..2 {
+        points.push(points[points.len() - 1] + heading * 40.0);
+    }
+    let plunge_cut = |from: usize, declared: Option<Declared>| {
         let mut program = Program::new(&Job::default());
+        program.declared = declared;
         let way = (points[from + 1] - points[from]).normalize();
         program.plunge_cut(points[from] + way * 6.6, way.y.atan2(way.x).to_degrees(), from as u32 + 1);
         broken(&program.judge(&support::marker(&points)))
     };
-    assert_eq!(plunge_cut(8), ["verify/complete"]);
-    let found = plunge_cut(points.len() - 2);
-    assert!(found.contains(&"verify/declared"), "{found:?}");
+    assert_eq!(plunge_cut(8, None), ["verify/complete"]);
+    // On a straight never; on a curve, and on that at its start, too, only where the program says so.
+    let declares_nothing = || Some(Declared::default());
+    for (from, declared) in [(points.len() - 2, None), (start + 4, declares_nothing()), (8, declares_nothing())] {
+        let found = plunge_cut(from, declared);
+        assert!(found.contains(&"verify/declared"), "{from}: {found:?}");
+    }
 }
