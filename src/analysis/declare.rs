@@ -1,20 +1,17 @@
 //! What a finished toolpath does beside the drawing because it cannot do otherwise: its declarations.
 
-use super::plunge::Plunge;
+use super::plunge::{Plunge, WORTH_SHARE};
+use super::swing::swing;
 use crate::geom::{Point, polyline};
 use crate::ir::Toolpath;
 use crate::ir::declaration::{Declaration, Kind, Which};
-use crate::ir::toolpath::{End, OrientationMode, Overcut, PlungeCut, Run, Shape, Side, Step};
+use crate::ir::toolpath::{End, Overcut, PlungeCut, Run, Shape, Side, Step};
 use crate::machine::Knife;
 
 /// Lengths that differ by less are alike, mm: rounding.
 const SAME_EPSILON: f64 = 1e-6;
 /// What is declared is rounded to thousandths, how much it is upwards: people read it.
 const PER_MM: f64 = 1000.0;
-/// How far before and behind a place its direction is looked for, mm.
-const LOOK: f64 = 0.5;
-/// Part of the tolerance from which on a path that lies beside the plunged blade is declared: smoothing may add to it.
-const WORTH_SHARE: f64 = 0.25;
 
 /// What the toolpath of the cut with this place in the marker does beside the line that is `drawn`; a closed one ends with
 /// its first point.
@@ -70,7 +67,10 @@ impl OfCut<'_> {
     fn run(&mut self, run: &Run) {
         let Some(ends) = self.stations(&run.points, run.turned) else { return };
         self.plunge(run, ends);
-        self.swing(run, ends);
+        let swing = swing(run, self.knife.width_mm);
+        if swing > self.knife.max_bow_mm {
+            self.declare(Kind::Swing, ends, None, swing);
+        }
         self.ends([run.heel, run.front], run.ends, run.turned, ends, run.shape);
         for (which, (end, length)) in
             [Which::Start, Which::End].into_iter().zip(run.ends.iter().zip([run.heel, run.front]))
@@ -121,30 +121,6 @@ impl OfCut<'_> {
             // Smoothing moves both the path and where the tip stands on it.
             let most = farthest + self.toolpath.tolerance;
             self.declare(Kind::Plunge, stretch.map(|station| self.on_cut(station)), None, most);
-        }
-    }
-
-    /// Declares how far the heel of a blade that lies along the tangent leaves curves that are tighter than it.
-    fn swing(&mut self, run: &Run, ends: [f64; 2]) {
-        let (width, worth) = (self.knife.width_mm, self.knife.max_bow_mm);
-        if width == 0.0 || run.orientation == OrientationMode::Chord {
-            return;
-        }
-        let stations = polyline::stations(&run.points);
-        let heel = |tip: usize| {
-            // Points as near as their rounding show no direction.
-            let at = |station: f64| stations.partition_point(|&s| s < station).min(run.points.len() - 1);
-            let [before, behind] = [at(stations[tip] - LOOK), at(stations[tip] + LOOK)];
-            let along = polyline::direction(run.points[before.min(tip - 1)], run.points[behind.max(tip + 1)])?;
-            let heel = run.points[tip] - along * width;
-            let first = stations.partition_point(|&station| station < stations[tip] - 2.0 * width);
-            let behind = run.points[first..=tip].windows(2);
-            behind.map(|ends| polyline::distance_to_segment(heel, ends[0], ends[1])).reduce(f64::min)
-        };
-        let first = stations.partition_point(|&station| station < width).max(1);
-        let farthest = (first..run.points.len() - 1).filter_map(heel).fold(0.0, f64::max);
-        if farthest > worth {
-            self.declare(Kind::Swing, ends, None, farthest);
         }
     }
 

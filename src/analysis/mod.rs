@@ -12,6 +12,7 @@ pub mod depth;
 pub mod nesting;
 pub mod outlines;
 pub mod plunge;
+mod swing;
 pub mod tight;
 
 pub use area::area;

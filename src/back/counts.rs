@@ -10,14 +10,15 @@
 use std::io::{self, SeekFrom};
 
 use super::target::{Context, Emit, Output, Parts, Proof, Target};
+use crate::diagnostic::{Diagnostic, code};
 use crate::ir::{Finding, Motion};
-use crate::units::number::exact;
+use crate::units::number::{exact, fixed, up};
 
 pub(super) const TARGET: Target = Target {
     name: "counts",
     about: "encoder counts of X, Y and C as 32-bit integers, a record a cycle",
     extension: "counts",
-    emit: Emit::Motion(Parts { head, body, tail }),
+    emit: Emit::Motion(Parts { refusals, head, body, tail }),
     proof: Proof::Setpoints,
 };
 
@@ -28,6 +29,30 @@ const RECORD_BYTES: usize = 5 * 4;
 /// Where drill and event begin in the outputs.
 const DRILL_BIT: u32 = 4;
 const EVENT_BIT: u32 = 8;
+
+/// Most that half a count of each axis may move an end of the blade, as a part of the tolerance: what is left is for the path.
+const ROUNDING_SHARE: f64 = 0.25;
+
+/// Counts that are too coarse for the tolerance.
+fn refusals(context: &Context) -> Vec<Diagnostic> {
+    let Context { marker, job, .. } = *context;
+    let (counts, knife) = (&job.profile.counts, &job.profile.knife);
+    let reach = knife.ends().into_iter().fold(0.0, f64::max);
+    let turned = reach * (0.5 / counts.c.per_deg).to_radians();
+    let moved = (0.5 / counts.x.per_mm).hypot(0.5 / counts.y.per_mm) + turned;
+    let tolerance = job.profile.tolerance(marker.unit);
+    if moved <= ROUNDING_SHARE * tolerance {
+        return Vec::new();
+    }
+    let (moved, most) = (up(moved, 4), fixed(ROUNDING_SHARE * tolerance, 4));
+    let message = format!(
+        "counts are too coarse: rounding to them moves the blade by {moved} mm, a quarter of the tolerance, {most} mm, is the most"
+    );
+    let refused = Diagnostic::new(&code::TARGET_REFUSED, message);
+    vec![refused.hint(
+        "more counts (`counts.x.per_mm`, `counts.y.per_mm`, `counts.c.per_deg`), or a larger `path.tolerance_mm`",
+    )]
+}
 
 /// The header of a program of `count` records.
 fn header(context: &Context, count: u64) -> Vec<u8> {

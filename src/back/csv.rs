@@ -6,7 +6,7 @@
 
 use std::io;
 
-use super::target::{Context, Emit, Output, Parts, Proof, Target};
+use super::target::{Context, Emit, Output, Parts, Proof, Target, nothing};
 use crate::ir::{Finding, Motion};
 use crate::units::{deg, number};
 
@@ -18,7 +18,7 @@ pub(super) const TARGET: Target = Target {
     proof: Proof::Setpoints,
 };
 
-pub(super) const PARTS: Parts<Motion> = Parts { head, body, tail };
+pub(super) const PARTS: Parts<Motion> = Parts { refusals: nothing, head, body, tail };
 
 /// Decimals of positions, in mm and degrees.
 const POSITION_DECIMALS: u32 = 6;

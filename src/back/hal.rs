@@ -8,7 +8,7 @@
 
 use std::io;
 
-use super::target::{Context, Emit, Output, Parts, Proof, Target};
+use super::target::{Context, Emit, Output, Parts, Proof, Target, nothing};
 use crate::ir::{Finding, Motion};
 use crate::units::number;
 
@@ -16,7 +16,7 @@ pub(super) const TARGET: Target = Target {
     name: "hal",
     about: "timed setpoints for LinuxCNC's halstreamer, a row a servo period",
     extension: "hal.txt",
-    emit: Emit::Motion(Parts { head, body, tail }),
+    emit: Emit::Motion(Parts { refusals: nothing, head, body, tail }),
     proof: Proof::Setpoints,
 };
 

@@ -6,7 +6,7 @@
 use std::io;
 use std::path::Path;
 
-use super::target::{Context, Emit, Output, Parts, Proof, Target};
+use super::target::{Context, Emit, Output, Parts, Proof, Target, nothing};
 use crate::ir::motion::Kind;
 use crate::ir::{Finding, Motion};
 use crate::units::NS_PER_S;
@@ -15,7 +15,7 @@ pub(super) const TARGET: Target = Target {
     name: "halrun",
     about: "the .hal file that plays the rows of hal",
     extension: "hal",
-    emit: Emit::Motion(Parts { head, body, tail }),
+    emit: Emit::Motion(Parts { refusals: nothing, head, body, tail }),
     proof: Proof::None,
 };
 

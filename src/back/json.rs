@@ -20,7 +20,7 @@
 
 use std::io;
 
-use super::target::{Context, Emit, Output, Parts, Proof, Target};
+use super::target::{Context, Emit, Output, Parts, Proof, Target, nothing};
 use crate::ir::motion::{Kind, Phase, Task};
 use crate::ir::toolpath::{Edge, OrientationMode, Pose, Side};
 use crate::ir::{Finding, Motion};
@@ -31,7 +31,7 @@ pub(super) const TARGET: Target = Target {
     name: "json",
     about: "the program step by step: cuts, stabs, travels, turns with their times",
     extension: "json",
-    emit: Emit::Motion(Parts { head, body, tail }),
+    emit: Emit::Motion(Parts { refusals: nothing, head, body, tail }),
     proof: Proof::None,
 };
 

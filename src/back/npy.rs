@@ -7,7 +7,7 @@
 
 use std::io::{self, SeekFrom};
 
-use super::target::{Context, Emit, Output, Parts, Proof, Target};
+use super::target::{Context, Emit, Output, Parts, Proof, Target, nothing};
 use crate::ir::{Finding, Motion};
 use crate::units::deg;
 
@@ -15,7 +15,7 @@ pub(super) const TARGET: Target = Target {
     name: "npy",
     about: "the setpoints of csv as a NumPy array of records, unrounded",
     extension: "npy",
-    emit: Emit::Motion(Parts { head, body, tail }),
+    emit: Emit::Motion(Parts { refusals: nothing, head, body, tail }),
     proof: Proof::Setpoints,
 };
 

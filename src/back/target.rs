@@ -65,6 +65,9 @@ impl Emit {
 /// A target that is written in parts: a head, a body for each form that comes, a tail.
 #[derive(Debug)]
 pub struct Parts<T> {
+    /// What of the marker or the profile it cannot express: asked before the first byte. Refusals with the same message are of
+    /// a kind, and told as one.
+    pub refusals: fn(&Context) -> Vec<Diagnostic>,
     /// Written first.
     pub head: fn(&Context, &mut dyn Output) -> io::Result<()>,
     /// Written for each form, in order.
@@ -74,13 +77,17 @@ pub struct Parts<T> {
     pub tail: fn(&Context, &[Finding], &mut dyn Output) -> io::Result<()>,
 }
 
+/// The refusals of a target that expresses everything.
+pub(super) fn nothing(_: &Context) -> Vec<Diagnostic> {
+    Vec::new()
+}
+
 /// A target whose controller plans for itself.
 #[derive(Debug)]
 pub struct ArcTarget {
     /// How its controller can be told a path.
     pub interpolation: fn(&Job) -> Interpolation,
-    /// What of the marker it cannot express: asked before the first byte. Refusals with the same message are of a kind, and
-    /// told as one.
+    /// As those of [`Parts`].
     pub refusals: fn(&Context) -> Vec<Diagnostic>,
     /// Says of a run that it cannot be told as arcs and lines; likewise of a kind with others of that message.
     pub unfit: fn(&Unfit) -> Diagnostic,

@@ -40,6 +40,20 @@ pub fn distance_to_segment(point: Point, a: Point, b: Point) -> f64 {
     (point - (a + (b - a) * foot(point, a, b))).norm()
 }
 
+/// Distance from a point to a polyline of two points at least, mm.
+pub fn distance(point: Point, points: &[Point]) -> f64 {
+    points.windows(2).map(|ends| distance_to_segment(point, ends[0], ends[1])).fold(f64::INFINITY, f64::min)
+}
+
+/// The place at a station of a polyline of two points at least, given with their [`stations`], mm; beyond its ends the nearer
+/// of them.
+pub fn place(points: &[Point], stations: &[f64], station: f64) -> Point {
+    let next = stations.partition_point(|&passed| passed < station).clamp(1, points.len() - 1);
+    let (from, to) = (stations[next - 1], stations[next]);
+    let share = if to > from { ((station - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
+    points[next - 1] + (points[next] - points[next - 1]) * share
+}
+
 /// Unit vector along a segment; `None` when it has no length.
 pub fn direction(a: Point, b: Point) -> Option<Vector> {
     (b - a).try_normalize(0.0)

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::geom::{Point, polyline};
+use crate::geom::polyline;
 use crate::ir::Marker;
 use crate::ir::declaration::{Declaration, Kind};
 
@@ -31,20 +31,12 @@ impl Beside {
             let worst =
                 worst.reduce(|worst, next| if next.magnitude_mm > worst.magnitude_mm { next } else { worst })?;
             let cut = &marker.cuts[worst.cut as usize];
-            let at = at(&marker.list.points(cut.range), worst.from_mm);
+            let points = marker.list.points(cut.range);
+            let at = polyline::place(&points, &polyline::stations(&points), worst.from_mm);
             let at_mm = [at.x, at.y].map(|value| (value * 1e3).round() / 1e3);
             let piece = marker.pieces[cut.piece as usize].number;
             Some(Self { kind, count, worst_mm: worst.magnitude_mm, piece, at_mm })
         };
         Kind::ALL.into_iter().filter_map(of_kind).collect()
     }
-}
-
-/// The place at a station of a polyline, mm.
-fn at(points: &[Point], station: f64) -> Point {
-    let stations = polyline::stations(points);
-    let next = stations.partition_point(|&s| s < station).clamp(1, points.len() - 1);
-    let (from, to) = (stations[next - 1], stations[next]);
-    let share = if to > from { ((station - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
-    points[next - 1] + (points[next] - points[next - 1]) * share
 }

@@ -58,6 +58,15 @@ impl<'a> Sink<'a> {
         matches!(self.form, Form::Motion(_))
     }
 
+    /// What of a marker or a profile its target cannot express.
+    fn refusals(&self, context: &Context) -> Vec<Diagnostic> {
+        match self.form {
+            Form::Toolpath(parts) => (parts.refusals)(context),
+            Form::Motion(parts) => (parts.refusals)(context),
+            Form::Arcs(target, _) => (target.refusals)(context),
+        }
+    }
+
     fn arc_target(&self) -> Option<&'static ArcTarget> {
         match self.form {
             Form::Arcs(target, _) => Some(target),
@@ -133,10 +142,8 @@ pub(super) fn write(
 ) -> io::Result<Written> {
     let job = context.job;
     let mut refused = Vec::new();
-    for target in sinks.iter().filter_map(Sink::arc_target) {
-        for refusal in (target.refusals)(context) {
-            count(&mut refused, refusal);
-        }
+    for refusal in sinks.iter().flat_map(|sink| sink.refusals(context)) {
+        count(&mut refused, refusal);
     }
     let interpolations = sinks.iter().filter_map(Sink::arc_target).map(|target| (target.interpolation)(job)).collect();
     let wanted =

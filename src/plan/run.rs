@@ -2,6 +2,7 @@
 //! the motion samples, and the samples are certified.
 
 use super::certify::{EXCESS_EPSILON, excess_of, excess_of_derivatives};
+use crate::analysis::plunge::Deviation;
 use crate::diagnostic::{Diagnostic, code};
 use crate::geom::{Heading, Point, Rotation, Vector, polyline};
 use crate::ir::motion::{Kind, Phase, Poses, Shares, Spell, StraightCut};
@@ -77,6 +78,10 @@ impl Cut {
 
 /// Part of the tolerance within which a polyline counts as straight.
 const STRAIGHT_SHARE: f64 = 0.9;
+/// Part of the tolerance that is left where the path lies as far beside the plunged blade as it may: rows have decimals.
+const RESERVE_SHARE: f64 = 0.03;
+/// Parts of the tolerance within which a path is smoothed that else takes the plunged blade too far off its line.
+const NARROWER: [f64; 2] = [0.4, 0.15];
 /// Rounds of stretching before a run is refused; measured need is 1, by less than 1 %.
 const ROUNDS: usize = 12;
 /// Steps towards the seam of a ring, and the longest of them, mm: the gap is below two tolerances, and a step closes nearly
@@ -97,45 +102,34 @@ struct Order<'a> {
 /// Solves one run.
 pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnostic> {
     let knife = &job.profile.knife;
-    let Extended { points, blocks, feeds, start, end } = Extended::new(run, knife.width_mm);
-    let stations = polyline::stations(&points);
-    let bounds = Bounds { axes: job.profile.axes.limits(), feed: Feed::new(&stations, &feeds) };
-    let order = Order { run, job, blocks: Blocks::new(&stations, &blocks), bounds };
+    let extended = Extended::new(run, knife.width_mm);
+    let Extended { points, blocks, feeds, .. } = &extended;
+    let stations = polyline::stations(points);
+    let bounds = Bounds { axes: job.profile.axes.limits(), feed: Feed::new(&stations, feeds) };
+    let order = Order { run, job, blocks: Blocks::new(&stations, blocks), bounds };
     let ends = [points[0], points[points.len() - 1]];
-    let is_straight = run.shape == Shape::Open && polyline::is_straight(&points, STRAIGHT_SHARE * tolerance);
+    let is_straight = run.shape == Shape::Open && polyline::is_straight(points, STRAIGHT_SHARE * tolerance);
     if is_straight && order.bounds.feed.constant().is_some() {
         return order.straight(ends);
     }
     let smooth = if is_straight {
-        Smooth { curve: Curve::line([0.0, end], ends.map(|point| [point.x, point.y])), sagitta: 0.0 }
+        Smooth { curve: Curve::line([0.0, extended.end], ends.map(|point| [point.x, point.y])), sagitta: 0.0 }
     } else {
-        smooth(&ToleranceBand::new(points, tolerance, &job.profile)).map_err(|e| {
-            let least = fixed(e.deviation, 4);
-            order.refuse(
-                &code::PLAN_SMOOTH,
-                &format!("no smooth curve inside {} mm (least deviation {least} mm)", fixed(tolerance, 4)),
-            )
-        })?
+        order.smoothed(&ToleranceBand::new(points.clone(), tolerance, &job.profile))?
     };
-    let (entry, end) = match run.shape {
-        Shape::Open => (Entry::Plunge, end),
-        Shape::Ring => {
-            let end = closed(&smooth.curve, start, end).map_err(|OpenSeam { missing }| {
-                let missing = fixed(missing, 4);
-                order.refuse(&code::PLAN_SMOOTH, &format!("its smooth curve ends {missing} mm before it closes"))
-            })?;
-            (Entry::Steady(start), end)
+    let (mut cut, mut beside) = order.curved(&extended, &smooth)?;
+    let most = match run.shape {
+        Shape::Ring => f64::INFINITY,
+        Shape::Open => Deviation::placed(run, knife, tolerance).map_or(tolerance, |deviation| deviation.most),
+    };
+    let most = most - RESERVE_SHARE * tolerance;
+    for share in NARROWER {
+        if beside > most {
+            let smooth = order.smoothed(&ToleranceBand::plain(points.clone(), share * tolerance))?;
+            (cut, beside) = order.curved(&extended, &smooth)?;
         }
-    };
-    let blade = Blade { width: knife.width_mm, radius: run.edge.lead(knife.ends()) };
-    let near = Rotation(run.start.c.0 - run.edge.turn());
-    let course = Course { orientation: run.orientation, entry, to: end, blade, near };
-    let way = Way::new(&smooth.curve, &course).map_err(|TooTight { at }| {
-        let (x, y) = (fixed(at.x, 2), fixed(at.y, 2));
-        let reason = format!("the blade cannot be a chord of its curve at X {x} Y {y} mm");
-        order.refuse(&code::PLAN_CHORD, &reason).hint("set `knife.follow = \"tangent\"` for this file")
-    })?;
-    Ok(Cut { sagitta: smooth.sagitta, ..order.along(&way)? })
+    }
+    Ok(cut)
 }
 
 /// The curve of a ring ends before it comes back to its start.
@@ -205,6 +199,45 @@ impl Order<'_> {
         let shares = cutting.shares_of_cruise((stroke.way.rise() * count) as usize);
         let spells = blocks.spells(ticks, |i| reach(i as usize));
         Ok(Cut { end: stroke.at(count, count), poses, ticks, spells, duration, length: way, sagitta: 0.0, shares })
+    }
+
+    /// The smoothest curve in a band.
+    fn smoothed(&self, band: &ToleranceBand) -> Result<Smooth, Diagnostic> {
+        smooth(band).map_err(|e| {
+            let (within, least) = (fixed(band.tolerance(), 4), fixed(e.deviation, 4));
+            self.refuse(&code::PLAN_SMOOTH, &format!("no smooth curve inside {within} mm (least deviation {least} mm)"))
+        })
+    }
+
+    /// The run along a smooth curve; and how far its polyline then lies beside the plunged blade, mm.
+    fn curved(&self, extended: &Extended, smooth: &Smooth) -> Result<(Cut, f64), Diagnostic> {
+        let Self { run, job, .. } = self;
+        let Smooth { curve, sagitta } = smooth;
+        let (entry, end) = match run.shape {
+            Shape::Open => (Entry::Plunge, extended.end),
+            Shape::Ring => {
+                let end = closed(curve, extended.start, extended.end).map_err(|OpenSeam { missing }| {
+                    let missing = fixed(missing, 4);
+                    self.refuse(&code::PLAN_SMOOTH, &format!("its smooth curve ends {missing} mm before it closes"))
+                })?;
+                (Entry::Steady(extended.start), end)
+            }
+        };
+        let knife = &job.profile.knife;
+        let blade = Blade { width: knife.width_mm, radius: run.edge.lead(knife.ends()) };
+        let near = Rotation(run.start.c.0 - run.edge.turn());
+        let course = Course { orientation: run.orientation, entry, to: end, blade, near };
+        let way = Way::new(curve, &course).map_err(|TooTight { at }| {
+            let (x, y) = (fixed(at.x, 2), fixed(at.y, 2));
+            let reason = format!("the blade cannot be a chord of its curve at X {x} Y {y} mm");
+            self.refuse(&code::PLAN_CHORD, &reason).hint("set `knife.follow = \"tangent\"` for this file")
+        })?;
+        let [heel] = curve.derivatives::<1>(0.0);
+        let plunged = [Point::new(heel[0], heel[1]), way.point(way.from)];
+        let under = extended.stations().take_while(|(_, station)| *station < way.from);
+        let beside = under.map(|(point, _)| polyline::distance_to_segment(point, plunged[0], plunged[1]));
+        let beside = beside.fold(0.0, f64::max);
+        Ok((Cut { sagitta: *sagitta, ..self.along(&way)? }, beside))
     }
 
     /// Samples the fastest motion along a way over a whole number of periods, stretched until every difference keeps its

@@ -94,6 +94,7 @@ const BESIDE_A_TABLE: &[(&str, &str)] = &[
     ("runs", "finds the runs of a toolpath, which most passes edit alone"),
     ("scene", "holds what passes look at beside a toolpath"),
     ("search", "shares out searches over all pieces, for several passes"),
+    ("spare", "leaves out plunges of a nibbled curve that cut nothing new"),
     ("start", "finds where a run begins on a curve beside which the plunged blade would lie"),
     ("stretch", "parts runs for the passes that lift the knife amid one"),
     ("target", "says what a target is"),

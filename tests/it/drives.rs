@@ -47,6 +47,17 @@ fn counts_are_the_absolute_positions_and_never_drift() {
 }
 
 #[test]
+fn counts_too_coarse_for_the_tolerance_are_refused_before_anything_is_planned() {
+    let room = Room::with("small.cut", SMALL);
+    let coarse = "compile small.cut -t counts --set counts.x.per_mm=20 --set counts.y.per_mm=20";
+    let said = room.says(coarse, 1);
+    let refused = "error[target/refused]: counts are too coarse: rounding to them moves the blade by 0.0354 mm";
+    assert!(said.contains(refused), "{said}");
+    assert!(!room.at("small.counts").exists());
+    room.says(&format!("{coarse} --set path.tolerance_mm=0.2"), 0);
+}
+
+#[test]
 fn counts_are_judged_by_their_own_bytes() {
     let room = Room::with("small.cut", SMALL);
     room.says("compile circle.cut -t counts", 0);

@@ -6,12 +6,13 @@ use super::blade::{PASSING_SHARE, Plunge, stands_across};
 use super::overlaps::overlaps;
 use crate::analysis::cloth::Surroundings;
 use crate::geom::{Point, polyline};
-use crate::ir::toolpath::Run;
+use crate::ir::toolpath::{Run, Side};
+use crate::machine::Knife;
 
+/// Part of the tolerance from which on a path that lies beside the plunged blade is declared: smoothing may add to it.
+pub const WORTH_SHARE: f64 = 0.25;
 /// Part of the tolerance that the polyline may take here; smoothing moves the tip by up to the rest.
 const SHARE: f64 = 0.45;
-/// The same of the polyline as it is seen without what came before it, which no more may add to.
-const SEEN_SHARE: f64 = 0.95;
 /// The same at a bend, which smoothing takes on the side of the blade: more would be a lift for the rounding of the file.
 const BEND_TOLERANCE_SHARE: f64 = 0.8;
 /// Longest way, in tolerances, on which a tip stands where it is: smoothing moves it as far.
@@ -26,6 +27,9 @@ pub struct Deviation {
     pub vertex: usize,
     /// How far that is, mm.
     pub distance: f64,
+    /// How far it may be on the smoothed path, mm: as it is here, if that is declared, and as on an arc that turns as much,
+    /// and the tolerance.
+    pub most: f64,
     /// Whether that is no more than on an arc that turns as much, and the blade does not stand across it; at a bend no more
     /// than the tolerance.
     pub fits: bool,
@@ -42,18 +46,26 @@ impl Deviation {
     /// That of an open run with the overlaps that there is room for; `None` when there is no vertex under the blade, or the
     /// run hardly turns there.
     pub fn of(run: &Run, around: &Surroundings) -> Option<Self> {
-        if !may_deviate(run, around) {
-            return None;
-        }
-        let under = Under::new(run, around);
+        let (knife, tolerance) = (around.knife, around.tolerance);
+        let asked = || overlaps(run, around).map(|overlap| overlap.length);
+        may_deviate(run, knife, tolerance).then(|| Self::with(run, asked(), knife, tolerance))?
+    }
+
+    /// That of an open run with the overlaps that it has.
+    pub fn placed(run: &Run, knife: &Knife, tolerance: f64) -> Option<Self> {
+        may_deviate(run, knife, tolerance).then(|| Self::with(run, [run.heel, run.front], knife, tolerance))?
+    }
+
+    fn with(run: &Run, overlaps: [f64; 2], knife: &Knife, tolerance: f64) -> Option<Self> {
+        let under = Under::new(run, overlaps, knife.width_mm);
         let vertex = under.vertices().max_by(|&a, &b| under.distance(a).total_cmp(&under.distance(b)))?;
         let distance = under.distance(vertex);
-        let turns = under.turns();
+        let turns = under.turns(tolerance);
         let blade = under.plunge.blade();
         let first = polyline::direction(under.path[0], under.path[1]);
         let is_across = first.is_some_and(|first| stands_across(blade, first));
         let is_arc = turns.is_curve && !is_across;
-        let arc = |turn: f64| if is_arc { polyline::sagitta(blade.norm(), turn) } else { 0.0 };
+        let arc = if is_arc { polyline::sagitta(blade.norm(), turns.all) } else { 0.0 };
         let share = match (under.plunge.covers_all, turns.is_curve) {
             (true, _) => PASSING_SHARE,
             (false, true) => SHARE,
@@ -62,10 +74,9 @@ impl Deviation {
         Some(Self {
             vertex: vertex - under.skipped,
             distance,
-            fits: under.is_sure(around.tolerance)
-                && distance <= arc(turns.all) + share * around.tolerance
-                && distance <= arc(turns.seen) + SEEN_SHARE * around.tolerance,
-            covers_all: under.plunge.covers_all || under.way() <= STILL * around.tolerance,
+            most: arc.min(if distance > WORTH_SHARE * tolerance { distance } else { 0.0 }) + tolerance,
+            fits: under.is_sure(tolerance) && distance <= arc + share * tolerance,
+            covers_all: under.plunge.covers_all || under.way() <= STILL * tolerance,
             is_curve: turns.is_curve,
             turned: turns.signed,
         })
@@ -86,10 +97,9 @@ impl Deviation {
 /// Whether a run turns enough near its start to lie anything but well beside the blade: a path that turns by a under a
 /// blade of the width w lies beside it by at most w/2 tan(a/2), an arc that turns as much by about half of that, and
 /// the difference may be a part of the tolerance.
-fn may_deviate(run: &Run, around: &Surroundings) -> bool {
-    let knife = around.knife;
+fn may_deviate(run: &Run, knife: &Knife, tolerance: f64) -> bool {
     let turned = polyline::turn_within(&run.points, knife.width_mm).min(std::f64::consts::PI);
-    knife.width_mm / 2.0 * (turned / 2.0).tan() > knife.max_bow_mm.min(2.0 * SHARE * around.tolerance)
+    knife.width_mm / 2.0 * (turned / 2.0).tan() > knife.max_bow_mm.min(2.0 * SHARE * tolerance)
 }
 
 /// What lies under a blade plunged at the start of a run.
@@ -101,15 +111,14 @@ struct Under {
     skipped: usize,
     /// The vertex of the path at which the run ends.
     last: usize,
+    /// Whether the run begins and ends where its line does.
+    of_line: [bool; 2],
 }
 
 /// How much the path under a blade turns, rad.
 struct Turns {
-    /// Between its headings that are farthest apart, up to and at the vertex that the tip goes to next, and with what a curve
-    /// turns along the halves of the chords at the ends of the run: it turns along its chords, not at its vertices.
+    /// Between its headings that are farthest apart, up to and at the vertex that the tip goes to next.
     all: f64,
-    /// As much of all that as can be told from what lies under the blade alone.
-    seen: f64,
     /// What it turns to the one side less what it turns to the other.
     signed: f64,
     /// Whether no vertex makes most of it.
@@ -117,17 +126,17 @@ struct Turns {
 }
 
 impl Under {
-    fn new(run: &Run, around: &Surroundings) -> Self {
-        let [heel, front] = overlaps(run, around).map(|overlap| overlap.length);
-        let path = run.extended_by([heel, front]);
-        let plunge = Plunge::at_start(&path, around.knife.width_mm);
-        let skipped = usize::from(heel > 0.0);
+    fn new(run: &Run, overlaps: [f64; 2], width: f64) -> Self {
+        let path = run.extended_by(overlaps);
+        let plunge = Plunge::at_start(&path, width);
+        let skipped = usize::from(overlaps[0] > 0.0);
         let last = run.points.len() - 1;
+        let of_line = run.ends.map(|end| end.side != Side::Contour);
         if plunge.covers_all {
             // What covers all of a run is a chord of that alone.
-            return Self { plunge: Plunge::over(&run.points), path: run.points.clone(), skipped: 0, last };
+            return Self { plunge: Plunge::over(&run.points), path: run.points.clone(), skipped: 0, last, of_line };
         }
-        Self { plunge, path, skipped, last: last + skipped }
+        Self { plunge, path, skipped, last: last + skipped, of_line }
     }
 
     /// The inner vertices of the run under the blade.
@@ -165,7 +174,7 @@ impl Under {
         self.plunge.distance(self.path[vertex])
     }
 
-    fn turns(&self) -> Turns {
+    fn turns(&self, tolerance: f64) -> Turns {
         let chord = self.plunge.chord;
         let corners = self.path.windows(3).take(chord + 1);
         let mut turns: Vec<f64> = corners.map(|w| polyline::turn_at(w[0], w[1], w[2])).collect();
@@ -174,22 +183,19 @@ impl Under {
             && under.len() == chord
         {
             let sharpest = under.iter().map(|turn| turn.abs()).fold(0.0, f64::max);
-            *next = next.clamp(-sharpest, sharpest);
+            // Nor does that where the tip, moved a little by smoothing, may stand before the vertex behind it.
+            let is_told = (self.plunge.tip - self.path[chord]).norm() > STILL * tolerance;
+            *next = if is_told { next.clamp(-sharpest, sharpest) } else { 0.0 };
         }
         let total: f64 = turns.iter().map(|turn| turn.abs()).sum();
         let is_curve = turns.iter().all(|turn| turn.abs() <= BEND_SHARE * total);
-        let end = (self.last - 1).min(turns.len());
-        let outer = match &turns[self.skipped.min(end)..end] {
-            [first, .., last] if is_curve && chord + 1 >= self.last => [first / 2.0, last / 2.0],
-            [first, ..] if is_curve => [first / 2.0, 0.0],
-            _ => [0.0; 2],
+        // A curve turns along its chords, not at its vertices: to the ends of its line by half as much again.
+        let half = |end: usize, turn: Option<&f64>| {
+            turn.filter(|_| is_curve && self.plunge.covers_all && self.of_line[end]).map_or(0.0, |turn| turn / 2.0)
         };
-        let all = range(&turns, outer);
-        // A single vertex under the blade tells nobody that the curve begins before it.
-        let under = turns[..chord.min(turns.len())].iter().map(|turn| turn.abs());
-        let is_told = under.clone().fold(0.0, f64::max) <= BEND_SHARE * under.sum::<f64>();
-        let seen = if is_told { all } else { range(&turns, [0.0; 2]) };
-        Turns { all, seen, signed: turns.iter().sum::<f64>().abs(), is_curve }
+        let halves = [half(0, turns.first()), half(1, turns.last())];
+        let all = range(&turns, halves);
+        Turns { all, signed: turns.iter().sum::<f64>().abs(), is_curve }
     }
 }
 

@@ -22,7 +22,7 @@ mod spot;
 
 use std::io::{self, SeekFrom};
 
-use super::target::{Context, Emit, Output, Parts, Proof, Target};
+use super::target::{Context, Emit, Output, Parts, Proof, Target, nothing};
 use crate::ir::{Finding, Toolpath, finding};
 use sheet::Sheet;
 
@@ -30,7 +30,7 @@ pub(super) const TARGET: Target = Target {
     name: "svg",
     about: "a picture to scale: pieces, labels, runs, overlaps, plunges, travels, findings",
     extension: "svg",
-    emit: Emit::Toolpath(Parts { head, body, tail }),
+    emit: Emit::Toolpath(Parts { refusals: nothing, head, body, tail }),
     proof: Proof::None,
 };
 

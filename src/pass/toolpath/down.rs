@@ -7,25 +7,29 @@ use super::pass::ToolpathPass;
 use super::runs;
 use super::scene::Scene;
 use super::stretch::{REJOINED, Way};
+use crate::analysis::cloth::Surroundings;
+use crate::analysis::plunge::Deviation;
 use crate::diagnostic::Diagnostics;
 use crate::ir::toolpath::{Run, Toolpath};
-use crate::machine::Knife;
 
 pub(super) const PASS: ToolpathPass =
     ToolpathPass { name: "down", about: "lifts runs that are longer than knife.max_down_mm", run, chained: false };
 
 /// Least length of a part, in what it would be if all were alike.
 const SHARE_MIN: f64 = 0.5;
+/// How far behind a place it is looked whether the blade can plunge there, in widths of it.
+const LOOK: f64 = 3.0;
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
-    let knife = &scene.job.profile.knife;
-    let Some(longest) = knife.longest_cut() else { return };
-    runs::replace(toolpath, |run| split(run, longest, knife));
+    let Some(longest) = scene.job.profile.knife.longest_cut() else { return };
+    let around = scene.around(toolpath);
+    runs::replace(toolpath, |run| split(run, longest, &around));
 }
 
 /// Parts of a run, as few as keep below `longest`, each led on along the contour by the overlaps of a corner. They are
 /// as long as each other but for what lets the next one begin where the run is straight.
-fn split(run: Run, longest: f64, knife: &Knife) -> Vec<Run> {
+fn split(run: Run, longest: f64, around: &Surroundings) -> Vec<Run> {
+    let knife = around.knife;
     let way = Way::new(&run);
     let length = way.length();
     let (heel, front) = (knife.corner_heel_overlap_mm, knife.corner_front_overlap_mm);
@@ -34,9 +38,9 @@ fn split(run: Run, longest: f64, knife: &Knife) -> Vec<Run> {
         return vec![run];
     }
     let mut parts: Vec<Run> = Vec::new();
-    let mut at = 0.0;
     let lead =
         |station: f64| if way.leads_on(station, [heel + front, knife.width_mm]) { [heel, front] } else { [0.0; 2] };
+    let mut at = 0.0;
     loop {
         let is_start = parts.is_empty() && !way.is_ring();
         let (from, first) = if is_start { (0.0, run.ends[0]) } else { (at - lead(at)[0], REJOINED) };
@@ -49,7 +53,16 @@ fn split(run: Run, longest: f64, knife: &Knife) -> Vec<Run> {
         }
         // At the least as long as leaves the rest no part more, and half of what is alike; at the most what is alike.
         let least = (rest - (count - 1.0) * longest).max(SHARE_MIN * rest / count);
-        let to = way.gentlest([at + least.min(rest / count), at + rest / count], [heel + front, knife.width_mm]);
+        let (range, spans) = ([at + least.min(rest / count), at + rest / count], [heel + front, knife.width_mm]);
+        // Where the blade cannot enter, the first stretch would be a cut of its own over what is cut already.
+        let is_entered = |place: f64| {
+            let next = way.part(place - lead(place)[0], place + LOOK * knife.width_mm, [REJOINED; 2]);
+            Deviation::of(&next, around).is_none_or(|deviation| deviation.fits)
+        };
+        let entered = |range| way.gentlest(range, spans, is_entered);
+        // Rather a part more than one that the blade cannot enter.
+        let to = entered(range).or_else(|| entered([at + SHARE_MIN * rest / count, range[1]]));
+        let to = to.or_else(|| way.gentlest(range, spans, |_| true)).unwrap_or(range[1]);
         parts.push(way.part(from, to + lead(to)[1], [first, REJOINED]));
         at = to;
     }

@@ -77,6 +77,11 @@ impl Lap<'_> {
     }
 }
 
+/// How far a curve turns on from the direction of its last chord to its end, by its turn at the vertex before, rad.
+pub(super) fn half_turn(turn: f64) -> f64 {
+    turn / 2.0
+}
+
 /// The directions of the chords of a run, unwrapped.
 pub(super) struct Winding {
     /// Of one lap, rad.
@@ -124,6 +129,15 @@ impl Winding {
         let is_in = |c: f64| (least - ANGLE_EPSILON..=greatest + ANGLE_EPSILON).contains(&c);
         // Of all equivalents the first or the last goes on longest, unless the way swings both ways; few are legal at all.
         let turns = (0..=(high - low).max(-1.0) as isize).map(|k| (low + k as f64) * self.period);
-        turns.map(|turns| (first..end).find(|&chord| !is_in(self.at(chord) + turns)).unwrap_or(end)).max()
+        let reached = |turns: f64| {
+            let stop = (first..end).find(|&chord| !is_in(self.at(chord) + turns))?;
+            // Lifted amid a curve the blade has turned on by half as much as at the vertex before.
+            let is_left = |stop: isize| {
+                let [last, before] = [1, 2].map(|back| self.at(stop - back));
+                is_in(last + half_turn(last - before) + turns)
+            };
+            Some((first + 2..=stop).rev().find(|&stop| is_left(stop)).unwrap_or(stop.min(first + 1)))
+        };
+        turns.map(|turns| reached(turns).unwrap_or(end)).max()
     }
 }

@@ -13,9 +13,11 @@ mod overlap;
 mod pass;
 mod place;
 mod plunge;
+mod ring;
 mod runs;
 mod scene;
 mod slow;
+mod spare;
 mod start;
 mod stretch;
 mod tight;
@@ -33,6 +35,7 @@ pub use trace::trace;
 /// Every pass over a toolpath, in order.
 pub const TOOLPATH_PASSES: &[ToolpathPass] = &[
     corner::PASS,
+    ring::PASS,
     down::PASS,
     wind::PASS,
     entry::PASS,

@@ -5,10 +5,10 @@
 //! travel before each step that starts elsewhere. Smoothing moves the headings of runs a little; `plan` goes by what
 //! the runs really have.
 
-use super::lap::{Lap, SLIM_MARGIN, Winding};
+use super::lap::{Lap, SLIM_MARGIN, Winding, half_turn};
 use super::pass::ToolpathPass;
 use super::scene::Scene;
-use super::stretch::Way;
+use super::stretch::{REJOINED, Way};
 use super::wind;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Heading, Point, Rotation, Vector, angle, polyline};
@@ -73,24 +73,13 @@ fn place_run(run: &mut Run, before: Rotation, job: &Job, diagnostics: &mut Diagn
     let n = run.points.len();
     let first = direction(run.points[0], run.points[1]);
     let last = direction(run.points[n - 2], run.points[n - 1]);
-    // How far C is from the first chord's direction: at the plunge, least, greatest and at the lift.
-    let (plunge, mut turned) = match (run.shape, run.orientation) {
-        (Shape::Ring, OrientationMode::Tangent) => (-angle::turn(last, first) / 2.0, 0.0),
-        (Shape::Ring, OrientationMode::Chord) => (chord_lag_back(&run.points, knife) - angle::turn(last, first), 0.0),
-        (Shape::Open, _) => (chord_lag(&run.extended(), knife), 0.0),
+    // How far C is from the first chord's direction at the plunge.
+    let plunge = match (run.shape, run.orientation) {
+        (Shape::Ring, OrientationMode::Tangent) => -angle::turn(last, first) / 2.0,
+        (Shape::Ring, OrientationMode::Chord) => chord_lag_back(&run.points, knife) - angle::turn(last, first),
+        (Shape::Open, _) => chord_lag(&run.extended(), knife),
     };
-    let mut range = [plunge.min(0.0), plunge.max(0.0)];
-    for w in run.points.windows(3) {
-        turned += polyline::turn_at(w[0], w[1], w[2]);
-        range = [range[0].min(turned), range[1].max(turned)];
-    }
-    if run.shape == Shape::Ring {
-        turned += angle::turn(last, first);
-        let way = Way::new(run);
-        let winding = Winding::new(run, &way, knife);
-        let [low, high] = Lap { way: &way, winding: &winding, knife, orientation: run.orientation }.reach(0.0);
-        range = [low - winding.at(0) - SLIM_MARGIN, high - winding.at(0) + SLIM_MARGIN];
-    }
+    let Turned { all: turned, range } = Turned::along(run, plunge, knife);
     let heading = Heading::new(Heading::of(first).radians() + plunge);
     let (c, edge) = equivalent(before, heading, range.map(|r| r - plunge), job).unwrap_or_else(|| {
         let wound = fixed(deg(range[1] - range[0]), 1);
@@ -128,6 +117,42 @@ fn place_run(run: &mut Run, before: Rotation, job: &Job, diagnostics: &mut Diagn
     };
     run.start = pose_at(tip, heading.unit(), c, edge, knife);
     run.end = pose_at(end, Rotation(end_c.0 - edge.turn()).unit(), end_c, edge, knife);
+}
+
+/// How far C turns along a run from the direction of its first chord, rad.
+struct Turned {
+    /// To its lift.
+    all: f64,
+    /// The least and the greatest on the way.
+    range: [f64; 2],
+}
+
+impl Turned {
+    /// That along a run, at whose plunge C is turned by `plunge`.
+    fn along(run: &Run, plunge: f64, knife: &Knife) -> Self {
+        let (mut all, mut range) = (0.0, [plunge.min(0.0), plunge.max(0.0)]);
+        let mut last = 0.0;
+        for w in run.points.windows(3) {
+            last = polyline::turn_at(w[0], w[1], w[2]);
+            all += last;
+            range = [range[0].min(all), range[1].max(all)];
+        }
+        match run.shape {
+            Shape::Open if run.ends[1] == REJOINED => {
+                let beyond = all + half_turn(last);
+                Self { all, range: [range[0].min(beyond), range[1].max(beyond)] }
+            }
+            Shape::Open => Self { all, range },
+            Shape::Ring => {
+                let n = run.points.len();
+                let way = Way::new(run);
+                let winding = Winding::new(run, &way, knife);
+                let [low, high] = Lap { way: &way, winding: &winding, knife, orientation: run.orientation }.reach(0.0);
+                let range = [low - winding.at(0) - SLIM_MARGIN, high - winding.at(0) + SLIM_MARGIN];
+                Self { all: all + polyline::turn_at(run.points[n - 2], run.points[0], run.points[1]), range }
+            }
+        }
+    }
 }
 
 /// A ring from its start round to where its overlap along itself ends.

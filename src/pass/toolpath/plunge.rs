@@ -2,11 +2,12 @@
 //!
 //! Needs runs with their overlaps. Leaves no run that the blade covers where it plunges: L + F + H <= w on a straight
 //! one, no point of the path at the distance w from its start on a curved one. What the blade is longer by goes into
-//! the waste as far as there is room, and else where it lies least deep in any part. What cuts into a part is warned of,
-//! and refused where the profile does not allow it.
+//! the waste as far as there is room, and else where it lies least deep in any part. Plunges of a nibbled curve that cut
+//! nothing new are left out. What cuts into a part is warned of, and refused where the profile does not allow it.
 
 use super::pass::ToolpathPass;
 use super::scene::Scene;
+use super::spare;
 use super::worst::Worst;
 use crate::analysis::cloth::Surroundings;
 use crate::analysis::plunge::BladePlacement;
@@ -34,6 +35,7 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
             Step::Run(_) | Step::PlungeCut(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => {}
         }
     }
+    spare::leave_out(&mut toolpath.steps, &around);
     let plunge_cuts = toolpath.steps.iter().filter_map(|step| match step {
         Step::PlungeCut(plunge_cut) => Some(plunge_cut),
         Step::Run(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => None,

@@ -13,6 +13,9 @@ const TURN_EPSILON: f64 = 0.02;
 /// tolerance.
 const GENTLE_TURN: f64 = 0.2;
 
+/// Points that are nearer to each other are the same, mm: rounding.
+const SAME_EPSILON: f64 = 1e-9;
+
 /// Where a run is lifted on its way: its overlap already lies along the contour.
 pub(super) const REJOINED: End = End { corner: true, bare: true, side: Side::Contour };
 
@@ -72,10 +75,15 @@ impl<'a> Way<'a> {
             + lap as isize * self.chords().cast_signed()
     }
 
-    /// Where between two stations a run is best lifted to go on from there: where it turns least from `before` mm before
-    /// that place to `behind` mm behind it, at the last of such places. On a straight the blade plunges as it should, on a
-    /// curve beside it.
-    pub(super) fn gentlest(&self, [low, high]: [f64; 2], [before, behind]: [f64; 2]) -> f64 {
+    /// Where between two stations, of the places that are good, a run is best lifted to go on from there: where it turns least
+    /// from `before` mm before that place to `behind` mm behind it, at the last of such places. On a straight the blade plunges
+    /// as it should, on a curve beside it.
+    pub(super) fn gentlest(
+        &self,
+        [low, high]: [f64; 2],
+        [before, behind]: [f64; 2],
+        is_good: impl Fn(f64) -> bool,
+    ) -> Option<f64> {
         let turned = |station: f64| self.turned([station - before, station + behind]);
         let middles = (self.chord_at(low)..self.chord_at(high)).rev().map(|chord| {
             let [from, to] = [self.station(chord).max(low), self.station(chord + 1)];
@@ -83,10 +91,8 @@ impl<'a> Way<'a> {
             f64::midpoint(from, to).max(to - behind).min(to)
         });
         let places = std::iter::once(high).chain(middles.filter(|&place| place >= low));
-        places
-            .map(|place| (place, turned(place)))
-            .reduce(|a, b| if b.1 < a.1 - TURN_EPSILON { b } else { a })
-            .map_or(high, |best| best.0)
+        let places = places.filter(|&place| is_good(place)).map(|place| (place, turned(place)));
+        Some(places.reduce(|a, b| if b.1 < a.1 - TURN_EPSILON { b } else { a })?.0)
     }
 
     /// Whether a run that is lifted at a station can go on with overlaps, from `before` mm before it to `behind` mm
@@ -111,18 +117,34 @@ impl<'a> Way<'a> {
         polyline::turn_at(at(vertex - 1), at(vertex), at(vertex + 1))
     }
 
+    /// The place at a station.
+    pub(super) fn place(&self, station: f64) -> Point {
+        self.on_chord(self.chord_at(station), station)
+    }
+
+    /// The place at a station of a chord.
+    fn on_chord(&self, chord: isize, station: f64) -> Point {
+        let i = chord.rem_euclid(self.chords().cast_signed()) as usize;
+        let (a, b) = (self.run.points[i], self.run.points[i + 1]);
+        a + (b - a) * ((station - self.station(chord)) / (self.stations[i + 1] - self.stations[i]))
+    }
+
+    /// A ring as it begins at a station.
+    pub(super) fn ring_from(&self, station: f64) -> Run {
+        let open = self.part(station, station + self.length(), self.run.ends);
+        let mut ring = Run { shape: Shape::Ring, ..open };
+        let last = ring.points.len() - 1;
+        ring.points[last] = ring.points[0];
+        ring
+    }
+
     /// The stretch from one station to another; what an open run has not is not in it.
     pub(super) fn part(&self, from: f64, to: f64, ends: [End; 2]) -> Run {
         let (run, chords) = (self.run, self.chords());
         let from = if self.is_ring() { from } else { from.max(0.0) };
         let first = self.chord_at(from);
-        let at = |chord: isize, station: f64| {
-            let i = chord.rem_euclid(chords.cast_signed()) as usize;
-            let (a, b) = (run.points[i], run.points[i + 1]);
-            a + (b - a) * ((station - self.station(chord)) / (self.stations[i + 1] - self.stations[i]))
-        };
         let mut part = Run {
-            points: vec![at(first, from)],
+            points: vec![self.on_chord(first, from)],
             spans: Vec::new(),
             joints: vec![Joint::default()],
             feeds: Vec::new(),
@@ -133,9 +155,13 @@ impl<'a> Way<'a> {
         for chord in first.. {
             let i = chord.rem_euclid(chords.cast_signed()) as usize;
             let end = self.station(chord + 1);
-            let (point, joint) =
-                if to < end { (at(chord, to), Joint::default()) } else { (run.points[i + 1], run.joints[i + 1]) };
-            if part.points.last() != Some(&point) {
+            let (point, joint) = if to < end {
+                (self.on_chord(chord, to), Joint::default())
+            } else {
+                (run.points[i + 1], run.joints[i + 1])
+            };
+            // A station that was counted over laps may lie just before the vertex that it is at.
+            if part.points.last().is_none_or(|last| (point - last).norm() > SAME_EPSILON) {
                 part.points.push(point);
                 part.spans.push(run.spans[i]);
                 part.feeds.push(run.feeds[i]);

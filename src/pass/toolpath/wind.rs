@@ -11,7 +11,7 @@ use super::scene::Scene;
 use super::stretch::{REJOINED, Way};
 use crate::diagnostic::Diagnostics;
 use crate::geom::Extent;
-use crate::ir::toolpath::{End, Run, Shape, Step, Toolpath};
+use crate::ir::toolpath::{End, Run, Step, Toolpath};
 use crate::machine::Knife;
 
 pub(super) const PASS: ToolpathPass = ToolpathPass {
@@ -59,7 +59,7 @@ fn parts(run: &Run, range: [f64; 2], knife: &Knife) -> Option<Vec<Run>> {
         return None;
     }
     if way.is_ring() {
-        if let Some(ring) = in_one(&lap, run, range) {
+        if let Some(ring) = in_one(&lap, range) {
             return Some(vec![ring]);
         }
         // Parts of what is hardly wider than the blade could only be plunges, across the part around it.
@@ -81,13 +81,10 @@ fn parts(run: &Run, range: [f64; 2], knife: &Knife) -> Option<Vec<Run>> {
 }
 
 /// A ring that begins where it can be cut in one; `None` when there is no such place.
-fn in_one(lap: &Lap, run: &Run, [least, greatest]: [f64; 2]) -> Option<Run> {
+fn in_one(lap: &Lap, [least, greatest]: [f64; 2]) -> Option<Run> {
     let start = |margin: f64| lap.start([least + margin, greatest - margin]);
     let from = start(MARGIN).or_else(|| start(SLIM_MARGIN))?;
-    let mut ring = Run { shape: Shape::Ring, ..lap.way.part(from, from + lap.way.length(), run.ends) };
-    let last = ring.points.len() - 1;
-    ring.points[last] = ring.points[0];
-    Some(ring)
+    Some(lap.way.ring_from(from))
 }
 
 /// A run that is being parted.
@@ -149,7 +146,8 @@ impl Parting<'_> {
         let Self { way, knife, .. } = *self;
         let [front, heel] = self.overlaps();
         // Amid a curve the blade would plunge beside it: better somewhere on the second half of the part that is straight.
-        let gentle = way.gentlest([f64::midpoint(from, stop), stop], [heel + front, knife.width_mm]);
+        let places = [f64::midpoint(from, stop), stop];
+        let gentle = way.gentlest(places, [heel + front, knife.width_mm], |_| true).unwrap_or(stop);
         // Over a bend no overlap can lead on along the contour.
         let is_gentle = way.leads_on(gentle, [heel + front, knife.width_mm]);
         let overlapped = if is_gentle { (gentle - front - heel).max(from) } else { gentle };

@@ -36,20 +36,28 @@ pub(super) struct Section {
 }
 
 impl ToleranceBand {
+    /// The plain neighbourhood of a polyline.
+    pub(in crate::plan) fn plain(points: Vec<Point>, tolerance: f64) -> Self {
+        let stations = polyline::stations(&points);
+        let inner = points.windows(3).map(|w| polyline::turn_at(w[0], w[1], w[2]));
+        let turns = std::iter::once(0.0).chain(inner).chain([0.0]).collect();
+        let sagittas = vec![Vector::zeros(); points.len() - 1];
+        Self { points, stations, turns, sagittas, tolerance }
+    }
+
     /// The band of a polyline.
     pub(in crate::plan) fn new(points: Vec<Point>, tolerance: f64, profile: &MachineProfile) -> Self {
-        let stations = polyline::stations(&points);
-        let mut turns = vec![0.0; points.len()];
-        for i in 1..points.len().saturating_sub(1) {
-            turns[i] = polyline::turn_at(points[i - 1], points[i], points[i + 1]);
+        let mut band = Self::plain(points, tolerance);
+        if profile.path.fit == Fit::Curve {
+            let ends = band.points.windows(2).zip(band.turns.windows(2));
+            band.sagittas = ends.map(|(p, turns)| sagitta(p[0], p[1], [turns[0], turns[1]], profile)).collect();
         }
-        let sagittas = (0..points.len() - 1)
-            .map(|i| match profile.path.fit {
-                Fit::Polygon => Vector::zeros(),
-                Fit::Curve => sagitta(points[i], points[i + 1], [turns[i], turns[i + 1]], profile),
-            })
-            .collect();
-        Self { points, stations, turns, sagittas, tolerance }
+        band
+    }
+
+    /// Permitted deviation, mm.
+    pub(in crate::plan) fn tolerance(&self) -> f64 {
+        self.tolerance
     }
 
     /// Length of the polyline, mm.

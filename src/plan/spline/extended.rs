@@ -27,6 +27,15 @@ impl Extended {
             (Shape::Ring, OrientationMode::Chord) => ring(run, HEEL_REACH * width),
         }
     }
+
+    /// Its points, each with its station, mm.
+    pub(in crate::plan) fn stations(&self) -> impl Iterator<Item = (Point, f64)> + '_ {
+        let mut station = 0.0;
+        self.points.iter().enumerate().map(move |(i, &point)| {
+            station += if i > 0 { (point - self.points[i - 1]).norm() } else { 0.0 };
+            (point, station)
+        })
+    }
 }
 
 /// Overlaps run straight on along the end chords.

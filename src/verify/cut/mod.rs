@@ -20,5 +20,6 @@ mod plunge_cut;
 pub(super) mod plunged;
 pub(super) mod stroke;
 pub(super) mod strokes;
+mod swing;
 pub(super) mod trial;
 pub(super) mod worsts;

@@ -143,6 +143,11 @@ impl<'a> Overcut<'a> {
         !self.inside.pieces_at(place).is_empty()
     }
 
+    /// How deep a place lies in any part that is as far from its own cut, mm.
+    pub(in crate::verify) fn deepest(&self, point: Point, away: f64, stroke: &Ends) -> f64 {
+        self.depths(point, away, stroke).into_iter().fold(0.0, f64::max)
+    }
+
     /// How deep a place `beyond` mm past an end of what a stroke cuts lies in parts.
     fn depths(&self, point: Point, beyond: f64, &Ends { line, lines, .. }: &Ends) -> Depths {
         let mut depths = [0.0; 2];

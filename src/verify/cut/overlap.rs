@@ -22,7 +22,9 @@ impl Judge<'_> {
         overlap: &mut Worst,
     ) {
         let line = &self.reference.lines[trial.line];
-        if trial.laps || line.ring || line.cut.is_bare {
+        // Within the tolerance of both its ends a line shows neither.
+        let is_short = line.length() <= 2.0 * self.tracer.allowed;
+        if trial.laps || line.ring || line.cut.is_bare || is_short {
             return;
         }
         let knife = self.knife;
@@ -49,7 +51,9 @@ impl Judge<'_> {
                 (line.point(line.chords()), line.direction(line.chords() - 1))
             };
             let told = self.tracer.declared.map_or(0.0, |told| told.most(Kind::Shortened, line, [station; 2]));
-            let is_told = self.tracer.declared.is_some() && missing <= told + self.tracer.allowed;
+            // So near to an end of its line a cut may also be lifted, or begin, amid that.
+            let is_lift = self.tracer.declared.is_some_and(|told| told.has(Kind::Lift, line, [station; 2]));
+            let is_told = is_lift || self.tracer.declared.is_some() && missing <= told + self.tracer.allowed;
             // The heel of a blade that plunges on a curve would leave that.
             let is_curved = i == 0 && !self.is_straight_about(line, [station; 2]);
             let may = is_told

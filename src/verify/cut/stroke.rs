@@ -6,11 +6,10 @@
 use std::ops::RangeToInclusive;
 
 use super::body::{Cut, Sagitta};
-use super::chord::{self, BODY_SHARES, Blade, Trailing};
+use super::chord::{self, Blade, Trailing};
 use super::done::Done;
 use super::drift;
 use super::heading::{self, Moving, Plunge};
-use super::heel;
 use super::naming::Naming;
 use super::overcut::{self, Lines, Overcut};
 use super::strokes::Stroke;
@@ -38,7 +37,7 @@ const FEED_EPSILON: f64 = 1e-3;
 
 impl Stroke {
     /// Place `i` of what it cut.
-    fn sighting(&self, cut: &Cut, i: usize) -> Sighting {
+    pub(super) fn sighting(&self, cut: &Cut, i: usize) -> Sighting {
         let row = &self.rows()[cut.rows[i.saturating_sub(cut.body)]];
         at(row.t, cut.points[i], row.block)
     }
@@ -46,15 +45,15 @@ impl Stroke {
 
 /// What a stroke cut, and the line that it was meant for once that is known.
 pub(in crate::verify) struct Traced {
-    stroke: Stroke,
+    pub(super) stroke: Stroke,
     /// The end of the blade that goes first, at each row, and the direction to it from the other end.
     tips: Vec<Point>,
-    blades: Vec<Vector>,
+    pub(super) blades: Vec<Vector>,
     /// From the centre to the one end and to the other, mm.
-    ends: [f64; 2],
+    pub(super) ends: [f64; 2],
     /// The way of the tip a second at each row, mm, when the rows have no time but tell that.
     ways: Vec<Vector>,
-    cut: Cut,
+    pub(super) cut: Cut,
     trace: Trace,
     best: Option<Trial>,
 }
@@ -86,7 +85,7 @@ pub(in crate::verify) struct Judge<'a> {
     pub(super) overlap: f64,
     overlaps: f64,
     /// Greatest bulge of a tolerance band beside its tolerance, mm.
-    sagitta: f64,
+    pub(super) sagitta: f64,
     pub(super) overcut: Overcut<'a>,
     naming: Naming,
     worsts: Worsts,
@@ -219,7 +218,7 @@ impl<'a> Judge<'a> {
         self.check_overlaps(cut, best, &seen, &mut worsts.overlap);
         worsts.once.see(self.twice(cut, best), || seen(cut.body));
         self.check_overcut(cut, best, &seen, worsts);
-        self.check_body(traced, best, &mut worsts.body);
+        self.check_body(traced, best, worsts);
         if stroke.goings().is_empty() {
             // Only rows with a time name their blocks one by one.
             self.check_names(rows, cut, best, &mut worsts.block);
@@ -240,7 +239,7 @@ impl<'a> Judge<'a> {
     /// How much of a line a stroke cuts twice, mm. A plunge cut may be longer than what was left.
     fn twice(&self, cut: &Cut, trial: &Trial) -> f64 {
         let all = trial.stretches.iter().map(|[a, b]| b - a).sum::<f64>();
-        if trial.fresh < self.reference.tolerance && !trial.is_last {
+        if trial.fresh <= self.tracer.max_uncut && !trial.is_last {
             // A stroke that cuts nothing new counts with its overlaps.
             all - trial.fresh + self.overlaps + self.knife.width_mm.max(REACH)
         } else if cut.is_plunge_cut() {
@@ -318,7 +317,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    fn blade<'t>(&'t self, traced: &'t Traced, trial: &'t Trial) -> Blade<'t> {
+    pub(super) fn blade<'t>(&'t self, traced: &'t Traced, trial: &'t Trial) -> Blade<'t> {
         let line = &self.reference.lines[trial.line];
         Blade { line, ends: traced.ends, cut: &traced.cut, directions: &traced.blades, feet: &trial.feet }
     }
@@ -428,36 +427,6 @@ impl<'a> Judge<'a> {
     pub(super) fn ends<'t>(&'t self, cut: &'t Cut, trial: &'t Trial) -> overcut::Ends<'t> {
         let lines = Lines { reference: self.reference, grid: self.tracer.grid };
         overcut::Ends { cut, trial, line: &self.reference.lines[trial.line], lines }
-    }
-
-    /// How far the path bows away from the plunged blade, and the heel leaves it while the blade moves.
-    fn check_body(&self, traced: &Traced, trial: &Trial, body: &mut Worst) {
-        if self.knife.width_mm == 0.0 {
-            return;
-        }
-        let Traced { stroke, cut, .. } = traced;
-        for (i, foot) in trial.feet[..cut.body].iter().enumerate() {
-            if foot.beyond == 0.0 && trial.held.contains(&i) {
-                body.see(foot.deviation, || stroke.sighting(cut, i));
-            }
-        }
-        // In the chord mode it is the middle of the blade that leaves an arc the farthest.
-        let shares: &[f64] = match self.knife.follow {
-            Follow::Tangent => &[0.0],
-            Follow::Chord => &BODY_SHARES,
-        };
-        for &share in shares {
-            let heels =
-                || stroke.rows().iter().zip(&traced.blades).map(|(row, blade)| row.centre - blade * traced.ends[1]);
-            if share == 0.0 && heel::trails(cut, heels(), trial, body.value()) {
-                continue;
-            }
-            for (foot, row) in chord::along(stroke.rows(), self.blade(traced, trial), share).iter().zip(stroke.rows()) {
-                if foot.beyond == 0.0 {
-                    body.see(foot.deviation, || row.sighting());
-                }
-            }
-        }
     }
 
     /// The blocks that rows name against those of the chords that they cut.

@@ -16,6 +16,7 @@ pub(in crate::verify) struct Worsts {
     pub(in crate::verify) heading: Worst,
     pub(in crate::verify) down: Worst,
     pub(in crate::verify) body: Worst,
+    pub(in crate::verify) swing: Worst,
     pub(in crate::verify) feed: Worst,
     pub(in crate::verify) crawl: Worst,
     pub(in crate::verify) block: Worst,
@@ -40,6 +41,7 @@ impl Worsts {
             heading: Worst::new("verify/heading", "deg", Some(verify.max_heading_deg)),
             down: Worst::new("verify/down", "mm", knife.max_down_mm.map(|longest| longest + tolerance)),
             body: Worst::new("verify/body", "mm", verify.max_body_mm),
+            swing: Worst::new("verify/swing", "mm", None),
             feed: Worst::new("verify/feed", "mm/s", feed),
             crawl: crawl::worst(),
             block: Naming::new(tolerance).worst(),
@@ -61,16 +63,24 @@ impl Worsts {
         self.all().into_iter().map(Worst::finding)
     }
 
-    fn all(self) -> [Worst; 14] {
-        let Self { on_path, stray, once, heading, down, body, feed, crawl, block, overcuts, overlap, declared } = self;
+    fn all(self) -> [Worst; 15] {
+        let Self { on_path, stray, once, heading, down, body, swing, feed, crawl, block, overcuts, overlap, declared } =
+            self;
         let Overcuts { part, neighbour, waste } = overcuts;
-        [on_path, stray, once, heading, down, body, feed, crawl, block, part, neighbour, waste, overlap, declared]
+        [
+            on_path, stray, once, heading, down, body, swing, feed, crawl, block, part, neighbour, waste, overlap,
+            declared,
+        ]
     }
 
-    fn all_mut(&mut self) -> [&mut Worst; 14] {
-        let Self { on_path, stray, once, heading, down, body, feed, crawl, block, overcuts, overlap, declared } = self;
+    fn all_mut(&mut self) -> [&mut Worst; 15] {
+        let Self { on_path, stray, once, heading, down, body, swing, feed, crawl, block, overcuts, overlap, declared } =
+            self;
         let Overcuts { part, neighbour, waste } = overcuts;
-        [on_path, stray, once, heading, down, body, feed, crawl, block, part, neighbour, waste, overlap, declared]
+        [
+            on_path, stray, once, heading, down, body, swing, feed, crawl, block, part, neighbour, waste, overlap,
+            declared,
+        ]
     }
 }
 

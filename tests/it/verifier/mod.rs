@@ -209,7 +209,7 @@ fn a_damage_of_a_third_of_its_limit_is_accepted() {
 
 #[test]
 fn every_rule_with_a_limit_has_a_damage_that_aims_at_it() {
-    let reported_only = ["verify/body", "verify/overcut-waste"];
+    let reported_only = ["verify/body", "verify/swing", "verify/overcut-waste"];
     // Of cut files that a target writes; `tests/it/rewritten.rs` damages those.
     let of_cut_files = ["verify/same", "verify/same-place"];
     let aimed: BTreeSet<&str> = damages().iter().map(|damage| damage.rule).collect();

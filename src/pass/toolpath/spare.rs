@@ -1,0 +1,60 @@
+//! Plunge cuts of a nibbled curve that nobody needs: the blades before and behind cut all of their stretch, since the blade is
+//! longer than the step from one plunge to the next.
+
+use crate::analysis::cloth::Surroundings;
+use crate::analysis::plunge::PASSING_SHARE;
+use crate::geom::{Point, cross};
+use crate::ir::toolpath::{PlungeCut, Side, Step};
+
+/// Leaves those out of the steps of a toolpath, but never two in a row: the second may be what cuts the stretch of the first.
+pub(super) fn leave_out(steps: &mut Vec<Step>, around: &Surroundings) {
+    let is_spare = |steps: &[Step], i: usize| {
+        let [Step::PlungeCut(before), Step::PlungeCut(cut), Step::PlungeCut(behind)] = &steps[i - 1..=i + 1] else {
+            return false;
+        };
+        cut.ends.iter().all(|end| end.side == Side::Contour) && are_over([before, behind], cut, around)
+    };
+    let mut i = 1;
+    while i + 1 < steps.len() {
+        if is_spare(steps, i) {
+            steps.remove(i);
+        }
+        i += 1;
+    }
+}
+
+/// Whether two blades together lie over all of the stretch of another.
+fn are_over(blades: [&PlungeCut; 2], cut: &PlungeCut, around: &Surroundings) -> bool {
+    cut.points.windows(2).all(|ends| {
+        let [a, b] = blades.map(|blade| under(blade, [ends[0], ends[1]], around));
+        match (a, b) {
+            (Some([0.0, to]), Some([from, 1.0])) | (Some([from, 1.0]), Some([0.0, to])) => to >= from,
+            (Some(all), _) | (_, Some(all)) => all == [0.0, 1.0],
+            (None, None) => false,
+        }
+    })
+}
+
+/// The part of a segment, from 0 at its start to 1 at its end, that lies no farther beside a blade than that may pass it.
+fn under(blade: &PlungeCut, [from, to]: [Point; 2], around: &Surroundings) -> Option<[f64; 2]> {
+    let (knife, along) = (around.knife, blade.along);
+    let tip = blade.pose.centre + along * knife.radius();
+    let [a, b] = [from, to].map(|point| [cross(along, point - tip), along.dot(&(point - tip))]);
+    let beside = PASSING_SHARE * around.tolerance;
+    let ranges = [[-beside, beside], [-knife.width_mm, 0.0]];
+    (0..2).try_fold([0.0_f64, 1.0_f64], |[low, high], k| {
+        let [from, to] = between(a[k], b[k], ranges[k])?;
+        let (low, high) = (low.max(from), high.min(to));
+        (low <= high).then_some([low, high])
+    })
+}
+
+/// Where a value that goes evenly from one to another between 0 and 1 lies in a range.
+fn between(start: f64, end: f64, [low, high]: [f64; 2]) -> Option<[f64; 2]> {
+    let slope = end - start;
+    if slope == 0.0 {
+        return (low..=high).contains(&start).then_some([0.0, 1.0]);
+    }
+    let (a, b) = ((low - start) / slope, (high - start) / slope);
+    Some([a.min(b).max(0.0), a.max(b).min(1.0)])
+}
