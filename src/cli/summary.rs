@@ -375,7 +375,7 @@ mod tests {
             finding("verify/stray", 0.0, Some(0.0)),
             finding("verify/body", 0.3, None),
         ];
-        let line = verdict(Some(&Verdict { findings, unread: None, untimed: vec!["verify/feed"] }));
+        let line = verdict(Some(&Verdict { findings, unread: None, uncut: Vec::new(), untimed: vec!["verify/feed"] }));
         assert_eq!(
             line,
             "\n  verified   2 rules hold; tip at most 0.061 mm off the path (0.071 allowed)\n             body of the blade at most 0.300 mm beside it\n             1 rule without a limit only reported\n             1 rule on times not judged: the program tells none\n"

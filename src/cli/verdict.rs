@@ -4,12 +4,14 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use super::explain::wrapped;
 use super::finished::say;
 use super::options::counted;
 use super::report::pretty;
+use crate::diagnostic::PieceName;
 use crate::ir::Finding;
 use crate::machine::Mode;
-use crate::pipeline::{self, Verdict};
+use crate::pipeline::{self, Explained, Line, Told};
 use crate::units::number::fixed;
 
 /// Significant digits of worst values and limits in JSON.
@@ -17,6 +19,11 @@ const DIGITS: i32 = 9;
 /// The columns of numbers, which stand at the right.
 const RIGHT: [bool; 9] = [false, false, true, true, false, true, true, true, true];
 
+/// Pieces that are named; more are counted.
+const MOST_PIECES: usize = 5;
+/// Columns of what is told of a broken rule, and what they are indented by.
+const COLUMNS: usize = 94;
+const INDENT: &str = "      ";
 /// Rules that are not judged, so many a line.
 const RULES_A_LINE: usize = 4;
 
@@ -52,6 +59,29 @@ struct Rule {
     unit: &'static str,
     r#where: Option<Where>,
     holds: bool,
+    /// Of a broken rule: the piece that the worst value was seen at; not there when it was at none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    piece: Option<Named>,
+    /// Of a broken rule: the pieces of which nothing is cut; not there when there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    uncut: Vec<Named>,
+    /// Of a broken rule: what stands on the line of the program; not there when that has no lines.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    text: Option<String>,
+}
+
+/// A piece.
+#[derive(Serialize)]
+struct Named {
+    number: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    label: Option<String>,
+}
+
+impl Named {
+    fn of(name: &PieceName) -> Self {
+        Self { number: name.number, label: name.label.clone() }
+    }
 }
 
 /// Where the worst value was seen.
@@ -59,6 +89,8 @@ struct Rule {
 struct Where {
     /// Null for what is missing from the program.
     time_s: Option<f64>,
+    /// The line of the program, from 1, or the record, from 0, where it has no lines; null for what is on none.
+    line: Option<u64>,
     x_mm: f64,
     y_mm: f64,
     /// Number of the source block; 0 = none.
@@ -66,40 +98,45 @@ struct Where {
 }
 
 /// The verdict as JSON; a program whose source has errors is proven by nothing: it fails, without rules.
-pub(super) fn json(verdict: Option<&Verdict>) -> String {
-    pretty(&Judged::of(verdict))
+pub(super) fn json(explained: Option<&Explained>) -> String {
+    pretty(&Judged::of(explained))
 }
 
 /// The same as one of a list of JSON objects.
-pub(super) fn json_of(program: &Path, verdict: Option<&Verdict>) -> String {
+pub(super) fn json_of(program: &Path, explained: Option<&Explained>) -> String {
     #[derive(Serialize)]
     struct OfProgram {
         program: String,
         #[serde(flatten)]
         judged: Judged,
     }
-    pretty(&OfProgram { program: program.display().to_string(), judged: Judged::of(verdict) })
+    pretty(&OfProgram { program: program.display().to_string(), judged: Judged::of(explained) })
 }
 
 impl Judged {
-    fn of(verdict: Option<&Verdict>) -> Self {
-        let rule = |finding: &Finding| Rule {
+    fn of(explained: Option<&Explained>) -> Self {
+        let rule = |(finding, told): (&Finding, Option<&Told>)| Rule {
             code: finding.rule,
             worst: finding.worst.is_finite().then(|| pipeline::significant(finding.worst, DIGITS)),
             limit: finding.limit.map(|limit| pipeline::significant(limit, DIGITS)),
             unit: finding.unit,
             r#where: finding.place.map(|place| Where {
                 time_s: place.time.map(|time| pipeline::significant(time, DIGITS)),
+                line: place.line,
                 x_mm: pipeline::significant(place.point.x, DIGITS),
                 y_mm: pipeline::significant(place.point.y, DIGITS),
                 block: place.block,
             }),
             holds: finding.holds(),
+            piece: told.and_then(|told| told.piece.as_ref()).map(Named::of),
+            uncut: told.map_or_else(Vec::new, |told| told.uncut.iter().map(Named::of).collect()),
+            text: told.and_then(|told| told.line.as_ref()?.text.clone()),
         };
-        let passes = verdict.is_some_and(Verdict::passes);
+        let verdict = explained.map(|explained| &explained.verdict);
+        let passes = verdict.is_some_and(|verdict| verdict.passes());
         Self {
             verdict: if passes { Word::Pass } else { Word::Fail },
-            rules: verdict.map_or_else(Vec::new, |verdict| verdict.findings.iter().map(rule).collect()),
+            rules: explained.map_or_else(Vec::new, |explained| explained.findings().map(rule).collect()),
             unread: verdict.and_then(|verdict| verdict.unread.clone()),
             untimed: verdict.map_or_else(Vec::new, |verdict| verdict.untimed.clone()),
         }
@@ -112,7 +149,7 @@ type Cells = [String; 9];
 /// A verdict, and what it is about.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Judgement<'a> {
-    pub(super) verdict: &'a Verdict,
+    pub(super) explained: &'a Explained,
     pub(super) mode: Mode,
     /// Name of the program.
     pub(super) program: &'a str,
@@ -122,7 +159,7 @@ pub(super) struct Judgement<'a> {
 
 /// The verdict as a table: what holds, then what is broken, then one line that says it all.
 pub(super) fn text(judgement: &Judgement) -> String {
-    let Judgement { verdict, mode, program, source } = *judgement;
+    let Judgement { explained: Explained { verdict, told }, mode, program, source } = *judgement;
     let broken: Vec<_> = verdict.broken().collect();
     let holding = verdict.findings.iter().filter(|finding| finding.holds());
     let titles = ["", "rule", "worst", "limit", "unit", "at s", "X mm", "Y mm", "block"].map(str::to_owned);
@@ -136,8 +173,8 @@ pub(super) fn text(judgement: &Judgement) -> String {
             out.push('\n');
         }
         say(&mut out, format_args!("{}", aligned(row, &widths)));
-        if let Some(finding) = i.checked_sub(first_broken).map(|i| broken[i]) {
-            say(&mut out, format_args!("      the rule: {}", pipeline::about(finding.rule)));
+        if let Some((finding, told)) = i.checked_sub(first_broken).map(|i| (broken[i], &told[i])) {
+            explain(finding.rule, told, &mut out);
         }
     }
     if let Some(unread) = &verdict.unread {
@@ -163,6 +200,30 @@ pub(super) fn text(judgement: &Judgement) -> String {
         say(&mut out, format_args!("\nFAIL  `{program}` must not run: it breaks {count} of {total}"));
     }
     out
+}
+
+/// What is said of a broken rule below its row: what it is, where it is broken, and what to do.
+fn explain(rule: &str, told: &Told, out: &mut String) {
+    let mut lines = vec![format!("the rule: {}", pipeline::about(rule))];
+    if !told.uncut.is_empty() {
+        let names: Vec<String> = told.uncut.iter().take(MOST_PIECES).map(ToString::to_string).collect();
+        let more = told.uncut.len().saturating_sub(MOST_PIECES);
+        let more = if more == 0 { String::new() } else { format!(" and {more} more") };
+        lines.push(format!("not cut at all: {}{more}", names.join(", ")));
+    } else if let Some(piece) = &told.piece {
+        lines.push(format!("the place: {piece}"));
+    }
+    match &told.line {
+        Some(Line { number, text: Some(text) }) => lines.push(format!("line {number} of the program: {text}")),
+        Some(Line { number, text: None }) => lines.push(format!("record {number} of the program")),
+        None => {}
+    }
+    lines.push(format!("what to do: {}", pipeline::advice(rule)));
+    for line in lines {
+        for part in wrapped(&line, COLUMNS).lines() {
+            say(out, format_args!("{INDENT}{part}"));
+        }
+    }
 }
 
 fn cells(finding: &Finding) -> Cells {
@@ -200,53 +261,73 @@ fn aligned(row: &Cells, widths: &[usize; 9]) -> String {
 mod tests {
     use super::*;
     use crate::ir::finding::Sighting;
+    use crate::pipeline::Verdict;
 
-    fn verdict() -> Verdict {
-        let at = |time, x, block| Some(Sighting { time, point: [x, 20.0].into(), block });
+    fn explained() -> Explained {
+        let at = |time, x, block| Some(Sighting { time, line: None, point: [x, 20.0].into(), block });
         let finding = |rule, worst, limit, unit, place| Finding { rule, worst, limit, unit, place };
-        Verdict {
+        let verdict = Verdict {
             findings: vec![
                 finding("verify/format", 0.0, Some(0.0), "bad rows", None),
-                finding("verify/end", f64::INFINITY, Some(1e-6), "mm, deg", at(Some(1.5), 10.0, 0)),
+                finding("verify/end", 0.0, Some(1e-6), "mm, deg", at(Some(1.5), 10.0, 0)),
                 finding("verify/acceleration-x", 8123.456, Some(8012.0), "mm/s2", at(Some(12.345), 1695.377, 268)),
-                finding("verify/complete", 0.000_12, Some(0.01), "mm", at(None, 5.0, 7)),
+                finding("verify/complete", f64::INFINITY, Some(0.01), "mm", at(None, 5.0, 7)),
                 finding("verify/overcut-neighbour", 1.0 / 3.0, None, "mm", at(Some(80.0), 0.0, 9)),
             ],
             unread: None,
+            uncut: vec![2],
             untimed: Vec::new(),
-        }
+        };
+        let front = || PieceName { number: 4, label: Some("FRONT".to_owned()) };
+        let text = Some("12.345,1695.377,20.000,0.000,1,0,0,268".to_owned());
+        let told = vec![
+            Told { piece: Some(front()), uncut: Vec::new(), line: Some(Line { number: 12_347, text }) },
+            Told { piece: None, uncut: vec![front()], line: None },
+        ];
+        Explained { verdict, told }
     }
 
     #[test]
     fn what_is_broken_stands_last_and_marked() {
-        let verdict = verdict();
-        let text = text(&Judgement { verdict: &verdict, mode: Mode::Cut, program: "a.csv", source: "a.cut" });
+        let explained = explained();
+        let text = text(&Judgement { explained: &explained, mode: Mode::Cut, program: "a.csv", source: "a.cut" });
         assert!(text.lines().all(|line| line.len() <= 100), "{text}");
-        insta::assert_snapshot!(text, @r"
+        insta::assert_snapshot!(text, @r#"
               rule                         worst     limit  unit        at s    X mm  Y mm  block
         ok    verify/format                    0         0  bad rows
-        ok    verify/complete            0.00012      0.01  mm                   5.0  20.0      7
+        ok    verify/end                       0  0.000001  mm, deg
         info  verify/overcut-neighbour    0.3334      none  mm        80.000     0.0  20.0      9
 
-        FAIL  verify/end                infinite  0.000001  mm, deg    1.500    10.0  20.0
-              the rule: the program ends with knife and drill up, and parked if the profile says so
         FAIL  verify/acceleration-x         8124      8012  mm/s2     12.345  1695.4  20.0    268
               the rule: X never accelerates more than its limit
+              the place: piece 4 "FRONT"
+              line 12347 of the program: 12.345,1695.377,20.000,0.000,1,0,0,268
+              what to do: Too much force makes the drive slip or trip, and the rest of the lay is cut
+              displaced. Check axes.x.acceleration_mm_s2.
+        FAIL  verify/complete           infinite      0.01  mm                   5.0  20.0      7
+              the rule: no stretch of a contour or slit is left uncut
+              not cut at all: piece 4 "FRONT"
+              what to do: A stretch left uncut holds the part in the cloth, and it is torn when lifted off.
+              The allowance is verify.max_uncut_mm, what rounding can leave.
 
         FAIL  `a.csv` must not run: it breaks 2 of 4 rules
-        ");
+        "#);
     }
 
     #[test]
     fn a_verdict_is_valid_json_even_beyond_measure() {
-        let value: serde_json::Value = serde_json::from_str(&json(Some(&verdict()))).expect("JSON");
+        let value: serde_json::Value = serde_json::from_str(&json(Some(&explained()))).expect("JSON");
         assert_eq!(value["verdict"], "fail");
         let rules = value["rules"].as_array().expect("a list");
         assert_eq!(rules.len(), 5);
-        assert!(rules[0]["where"].is_null() && rules[1]["worst"].is_null() && rules[4]["limit"].is_null());
-        assert_eq!(rules[1]["holds"], false);
-        assert_eq!(rules[2]["where"].to_string(), r#"{"block":268,"time_s":12.345,"x_mm":1695.377,"y_mm":20.0}"#);
-        assert!(rules[3]["where"]["time_s"].is_null() && rules[3]["holds"] == true);
+        assert!(rules[0]["where"].is_null() && rules[3]["worst"].is_null() && rules[4]["limit"].is_null());
+        assert!(rules[2]["holds"] == false && rules[2]["piece"]["number"] == 4);
+        assert_eq!(rules[3]["uncut"][0]["label"], "FRONT");
+        assert_eq!(
+            rules[2]["where"].to_string(),
+            r#"{"block":268,"line":null,"time_s":12.345,"x_mm":1695.377,"y_mm":20.0}"#
+        );
+        assert!(rules[3]["where"]["time_s"].is_null() && rules[1]["holds"] == true);
         assert_eq!(rules[4]["worst"].to_string(), "0.333333333");
         let unread: serde_json::Value = serde_json::from_str(&json(None)).expect("JSON");
         assert_eq!(unread.to_string(), r#"{"rules":[],"verdict":"fail"}"#);

@@ -10,6 +10,8 @@ pub use code::{Code, Fault, Harm, Severity};
 pub use json::Json;
 pub use text::{Detail, render, render_with};
 
+use std::fmt;
+
 use crate::source::Span;
 
 /// One finding about the user's data.
@@ -38,6 +40,13 @@ pub struct PieceName {
     pub number: u32,
     /// Its first label, when it has one.
     pub label: Option<String>,
+}
+
+impl fmt::Display for PieceName {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "piece {}", self.number)?;
+        self.label.as_ref().map_or(Ok(()), |label| write!(f, " \"{label}\""))
+    }
 }
 
 impl Diagnostic {

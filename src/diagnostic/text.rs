@@ -161,10 +161,7 @@ fn render_one(out: &mut String, diagnostic: &Diagnostic, source: &Source, lines:
 fn on_cloth(diagnostic: &Diagnostic) -> String {
     let mut place = String::new();
     if let Some(piece) = &diagnostic.piece {
-        let _ = write!(place, "piece {}", piece.number);
-        if let Some(label) = &piece.label {
-            let _ = write!(place, " \"{label}\"");
-        }
+        let _ = write!(place, "{piece}");
     }
     if let Some([x, y]) = diagnostic.at.map(|at| at.map(|value| fixed(value, PLACE_DECIMALS))) {
         let space = if place.is_empty() { "" } else { " " };

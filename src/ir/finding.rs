@@ -20,8 +20,10 @@ pub struct Finding {
 /// Where and when something was seen in a program.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sighting {
-    /// Time in the program, s; `None` when the thing is missing from it.
+    /// Time in the program, s; `None` when the thing is missing from it, or it tells none.
     pub time: Option<f64>,
+    /// Its line, the first being 1, or its record, where it has no lines; `None` when the thing is on none.
+    pub line: Option<u64>,
     /// Place on the table, mm.
     pub point: Point,
     /// Number of the source block; 0 = none.

@@ -4,8 +4,9 @@ use std::fmt::Write as _;
 use std::io::{self, BufReader, Read as _};
 
 use super::input::{Judged, Reading, read_to_judge};
-use super::product::Medium;
+use super::product::{BLOCK, Medium};
 use super::rounded::significant;
+use super::told::{Explained, told};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::Dialect;
 use crate::ir::marker::{Notch, Piece};
@@ -23,8 +24,6 @@ const EDGE_SHOWN: f64 = 0.01;
 /// Rules that a run may break which is parted where the blade has no room for that.
 const OF_PARTS: &[&str] =
     &["verify/on-path", "verify/stray", "verify/once", "verify/complete", "verify/heading", "verify/body"];
-/// Bytes that are read back at a time.
-const BLOCK: usize = 1 << 16;
 /// Significant digits at which figures of findings are shown to people.
 const DIGITS: i32 = 4;
 /// Below this, in any unit, an allowed value is rounding of the computation.
@@ -40,14 +39,17 @@ pub fn judge_program(
     job: &Job,
     declared: Option<&Declared>,
     diagnostics: &mut Diagnostics,
-) -> io::Result<Option<Verdict>> {
+) -> io::Result<Option<Explained>> {
     let Some(judged) = read_to_judge(source, from, job, diagnostics) else { return Ok(None) };
     if diagnostics.has_errors() {
         return Ok(None);
     }
     let Judged { input, reading } = judged;
     let audit = audited(source, input.dialect, reading, job);
-    judge(Asked { source, marker: &input.marker, ground: None, declared, job }, &audit, program).map(Some)
+    let marker = &input.marker;
+    let verdict = judge(Asked { source, marker, ground: None, declared, job }, &audit, program)?;
+    let told = told(&verdict, marker, source, job, program)?;
+    Ok(Some(Explained { verdict, told }))
 }
 
 /// Why a file is no program that can be judged, by how it begins, and what to do about it; `None` when it is one.
@@ -134,10 +136,13 @@ pub(super) fn both(first: Verdict, second: Verdict) -> Verdict {
         }
     }
     verify::sort(&mut findings);
-    let mut untimed = first.untimed;
+    let (mut untimed, mut uncut) = (first.untimed, first.uncut);
+    uncut.extend(second.uncut);
+    uncut.sort_unstable();
+    uncut.dedup();
     untimed.extend(second.untimed);
     untimed.retain(|rule| findings.iter().all(|finding| finding.rule != *rule));
-    Verdict { findings, unread: first.unread.or(second.unread), untimed }
+    Verdict { findings, unread: first.unread.or(second.unread), untimed, uncut }
 }
 
 /// A diagnostic for each rule that does not hold.
@@ -209,6 +214,11 @@ fn parting_keys(job: &Job) -> Option<&'static str> {
 /// What a rule says.
 pub fn about(rule: &str) -> &'static str {
     verify::rule(rule).about
+}
+
+/// Why a rule matters, and what to do where it is broken.
+pub fn advice(rule: &str) -> &'static str {
+    verify::rule(rule).more
 }
 
 /// The key of the profile that is the limit of a rule and nothing else.

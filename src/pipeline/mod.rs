@@ -14,16 +14,18 @@ mod report;
 mod rounded;
 mod sound;
 mod spent;
+mod told;
 mod toolpaths;
 
 pub use crate::analysis::area;
 pub use beside::Beside;
 pub use input::{Input, Judged, Reading, marker_of, read, read_to_judge};
-pub use judge::{about, figures, foreign, judge_program};
+pub use judge::{about, advice, figures, foreign, judge_program};
 pub use product::{Medium, Product};
 pub use report::{Axes, Controller, Drawn, Lines, Notches, Peak, Peaks, Program, Report, Sides};
 pub use rounded::significant;
 pub use spent::{Spent, word};
+pub use told::{Explained, Line, Told};
 
 pub use crate::verify::{Declared, RULES, Rule, Verdict};
 

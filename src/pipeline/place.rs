@@ -62,7 +62,7 @@ struct OnCloth {
 }
 
 /// A piece by its number and the start of its first label.
-fn name(piece: &Piece, source: &Source, job: &Job) -> PieceName {
+pub(super) fn name(piece: &Piece, source: &Source, job: &Job) -> PieceName {
     let texts = piece.labels.iter().map(|label| job.profile.labels.text(source.slice(label.span)));
     let mut texts = texts.map(|text| text.trim().to_owned()).filter(|text| !text.is_empty());
     let label = texts.next().map(|text| match text.char_indices().nth(LETTERS) {

@@ -4,6 +4,9 @@ use std::io::{Read, Seek, Write};
 
 use crate::back::Target;
 
+/// Bytes of a program that are read back at a time.
+pub(super) const BLOCK: usize = 1 << 16;
+
 /// Where a program is written, and read back from.
 pub trait Medium: Read + Write + Seek {}
 

@@ -24,7 +24,12 @@ pub(super) fn findings(diagnostics: &Diagnostics) -> Vec<Finding> {
         worst: f64::INFINITY,
         limit: Some(0.0),
         unit: "",
-        place: d.at.map(|at| Sighting { time: None, point: at.into(), block: d.span.map_or(0, |span| span.block) }),
+        place: d.at.map(|at| Sighting {
+            time: None,
+            line: None,
+            point: at.into(),
+            block: d.span.map_or(0, |span| span.block),
+        }),
     };
     diagnostics.iter().filter(is_error).map(finding).take(MOST).collect()
 }

@@ -61,6 +61,11 @@ pub fn kind(bytes: &mut dyn BufRead) -> Option<Kind> {
     cutter_file::begins(bytes).then_some(Kind::CutterFile)
 }
 
+/// Whether what bytes begin as has lines, and not records.
+pub fn has_lines(bytes: &mut dyn BufRead) -> bool {
+    kind(bytes).is_some() && !npy::begins(bytes) && !counts::begins(bytes)
+}
+
 /// Why bytes do not begin as a program that can be judged does, and what to do about it; `None` when they do.
 pub fn foreign(bytes: &mut dyn BufRead) -> std::io::Result<Option<[String; 2]>> {
     if kind(bytes).is_some() {
@@ -75,15 +80,15 @@ pub fn setpoints(program: &mut dyn BufRead, declared: Option<&Declared>, ground:
     let mut rows = Rows::new(program, &job.profile);
     let rounding = rows.rounding();
     let judge = Judge::new(ground, declared, &job.profile, rounding);
-    let mut findings = simulate(|| Some((rows.next()?, None)), &judge, job);
+    let (mut findings, uncut) = simulate(|| Some((rows.next()?, None)), &judge, job);
     let is_broken = rows.is_broken();
     let (format, unread) = rows.findings();
     if is_broken {
-        return Verdict { findings: vec![format], unread, untimed: Vec::new() };
+        return Verdict { findings: vec![format], unread, uncut: Vec::new(), untimed: Vec::new() };
     }
     findings.push(format);
     sort(&mut findings);
-    Verdict { findings, unread: None, untimed: Vec::new() }
+    Verdict { findings, unread: None, uncut, untimed: Vec::new() }
 }
 
 /// Judges positions without time, as the target `gcode` writes them, against what must be cut.
@@ -92,11 +97,11 @@ pub fn positions(program: &mut dyn BufRead, declared: Option<&Declared>, ground:
     let rounding = Places::rounding(&job.profile);
     let judge = Judge::new(ground, declared, &job.profile, rounding).with_exact_directions(&job.profile);
     let next = || places.next().map(|(row, going)| (row, Some(going)));
-    let mut findings = simulate(next, &judge, job);
+    let (mut findings, uncut) = simulate(next, &judge, job);
     let is_broken = places.is_broken();
     let ([format, dwell], unread) = places.findings();
     if is_broken {
-        return Verdict { findings: vec![gcode::timeless(&format)], unread, untimed: Vec::new() };
+        return Verdict { findings: vec![gcode::timeless(&format)], unread, uncut: Vec::new(), untimed: Vec::new() };
     }
     // Of rests the program tells how long they are.
     findings.retain(|finding| finding.rule != dwell.rule);
@@ -105,5 +110,5 @@ pub fn positions(program: &mut dyn BufRead, declared: Option<&Declared>, ground:
     let (left, judged): (Vec<Finding>, Vec<Finding>) = findings.into_iter().partition(untimed);
     let mut findings: Vec<Finding> = judged.iter().map(gcode::timeless).collect();
     sort(&mut findings);
-    Verdict { findings, unread: None, untimed: left.iter().map(|finding| finding.rule).collect() }
+    Verdict { findings, unread: None, uncut, untimed: left.iter().map(|finding| finding.rule).collect() }
 }

@@ -119,12 +119,13 @@ fn in_a_row(mut traced: &[Traced]) -> Vec<&[Traced]> {
     parts
 }
 
-/// Follows the rows of a program, each with how the axes go there where that is told.
+/// Follows the rows of a program, each with how the axes go there where that is told: the findings, and the pieces of which it
+/// cuts nothing.
 pub(super) fn simulate(
     mut next: impl FnMut() -> Option<(Row, Option<Going>)>,
     judge: &Judge,
     job: &Job,
-) -> Vec<Finding> {
+) -> (Vec<Finding>, Vec<u32>) {
     let (profile, reference, rounding) = (&job.profile, judge.reference, judge.rows_rounding);
     let mut watch = Watch {
         limits: Limits::new(profile, rounding),
@@ -154,7 +155,8 @@ pub(super) fn simulate(
     drop(given_back);
     let mut findings = watch.findings(&mut done);
     findings.extend(done.worsts.findings());
+    let uncut = done.coverage.uncut();
     findings.extend(done.coverage.findings(profile));
     findings.push(done.order.finding(profile.time.period()));
-    findings
+    (findings, uncut)
 }

@@ -11,6 +11,8 @@ pub struct Verdict {
     /// What cannot be read, when something cannot: then nothing is said about what the program does, since all that
     /// follows from a row that is missing would be wrong.
     pub unread: Option<String>,
+    /// The pieces, by their place in the marker, of which the program cuts nothing although there is something to cut.
+    pub uncut: Vec<u32>,
     /// Rules that say nothing about this program, because it tells no times.
     pub untimed: Vec<&'static str>,
 }

@@ -105,7 +105,7 @@ fn weight(value: f64, limit: Option<f64>) -> f64 {
 
 /// A sighting in a program.
 pub(super) fn at(time: f64, point: Point, block: u32) -> Sighting {
-    Sighting { time: Some(time), point, block }
+    Sighting { time: Some(time), line: None, point, block }
 }
 
 #[cfg(test)]

@@ -451,7 +451,7 @@ fn a_program_is_verified_alone() {
         assert!(rule["code"].is_string() && rule["unit"].is_string() && rule["holds"] == true, "{rule}");
         assert!(rule["worst"].is_number() && (rule["limit"].is_number() || rule["limit"].is_null()), "{rule}");
         if !rule["where"].is_null() {
-            assert_eq!(keys(&rule["where"]), ["block", "time_s", "x_mm", "y_mm"]);
+            assert_eq!(keys(&rule["where"]), ["block", "line", "time_s", "x_mm", "y_mm"]);
         }
     }
     assert!(rules.iter().any(|rule| !rule["where"].is_null()));

@@ -39,6 +39,7 @@ mod properties;
 mod readme;
 mod rewritten;
 mod targets;
+mod told;
 mod verifier;
 #[cfg(unix)]
 mod watch;

@@ -128,7 +128,7 @@ fn drawing(text: &str) -> &str {
 }
 
 fn finding(rule: &'static str, worst: f64, x: f64, y: f64) -> Finding {
-    let place = Some(Sighting { time: Some(1.5), point: Point::new(x, y), block: 3 });
+    let place = Some(Sighting { time: Some(1.5), line: None, point: Point::new(x, y), block: 3 });
     Finding { rule, worst, limit: Some(1.0), unit: "mm", place }
 }
 

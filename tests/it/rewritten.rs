@@ -118,7 +118,7 @@ fn a_line_that_is_lost_or_changed_is_seen() {
     let judge = |bytes: Vec<u8>| {
         let mut found = Diagnostics::default();
         let judged = pipeline::judge_program(&mut Cursor::new(bytes), &source, None, &job, None, &mut found);
-        judged.expect("memory is read").expect("the source is sound")
+        judged.expect("memory is read").expect("the source is sound").verdict
     };
     assert!(judge(sound.clone()).passes());
     let lines: Vec<&[u8]> = sound.split_inclusive(|&byte| byte == b'\n').collect();

@@ -10,7 +10,7 @@ use crate::cli::finished::{Console, Finished, Stdout, failure, say};
 use crate::cli::options::counted;
 use crate::cli::{files, provenance, verdict};
 use crate::machine::Job;
-use crate::pipeline::Verdict;
+use crate::pipeline::{Explained, Verdict};
 use crate::source::Source;
 
 /// Broken rules that a row names; more are counted.
@@ -112,8 +112,8 @@ impl Arguments {
         let source = sources.of(input)?;
         let Judged { verdict, mut said } = self.judge(&mut program, source.get(), job)?;
         let (state, worst) = match &verdict {
-            Some(verdict) if verdict.passes() => (State::Done, "PASS".to_owned()),
-            Some(verdict) => {
+            Some(Explained { verdict, .. }) if verdict.passes() => (State::Done, "PASS".to_owned()),
+            Some(Explained { verdict, .. }) => {
                 let (name, source) = (input.path.display(), source.get().name());
                 let rules = counted(verdict.broken().count(), "rule");
                 say(

@@ -12,7 +12,7 @@ use crate::cli::verdict::{self, Judgement};
 use crate::cli::{files, provenance};
 use crate::diagnostic::{Diagnostics, Severity, render_with};
 use crate::machine::Job;
-use crate::pipeline::{self, Declared, Verdict};
+use crate::pipeline::{self, Declared, Explained};
 use crate::source::Source;
 
 /// A program that can be judged.
@@ -24,7 +24,7 @@ pub(super) struct Program<'a> {
 /// What was found of a program.
 pub(super) struct Judged {
     /// `None` when its source has errors.
-    pub(super) verdict: Option<Verdict>,
+    pub(super) verdict: Option<Explained>,
     /// What is said of the source, and of whether the program was made from it.
     pub(super) said: String,
 }
@@ -48,13 +48,13 @@ pub(super) fn run(arguments: &Arguments, program: &Path, source: &Path) -> anyho
     let Judged { verdict, said } = arguments.judge(&mut program, &source, &job)?;
     let stdout = match (arguments.format, &verdict) {
         (Format::Json, verdict) => verdict::json(verdict.as_ref()),
-        (Format::Text, Some(verdict)) => {
+        (Format::Text, Some(explained)) => {
             let program = program.path.display().to_string();
-            verdict::text(&Judgement { verdict, mode: job.mode, program: &program, source: source.name() })
+            verdict::text(&Judgement { explained, mode: job.mode, program: &program, source: source.name() })
         }
         (Format::Text, None) => String::new(),
     };
-    let code = if verdict.is_some_and(|verdict| Verdict::passes(&verdict)) { DONE } else { FAULTY };
+    let code = if verdict.is_some_and(|explained| explained.verdict.passes()) { DONE } else { FAULTY };
     Ok(Finished::text(stdout, said, code))
 }
 
@@ -84,7 +84,7 @@ impl Arguments {
         let mut said = render_with(&diagnostics, source, self.messages.detail(self.format));
         if !self.messages.quiet {
             said.push_str(&provenance::doubts(path, &meta, source, job));
-            if declared.is_none() && verdict.as_ref().is_some_and(Verdict::asks_declarations) {
+            if declared.is_none() && verdict.as_ref().is_some_and(|explained| explained.verdict.asks_declarations()) {
                 say(&mut said, format_args!("note: {}", undeclared(&meta)));
             }
         }

@@ -56,7 +56,12 @@ impl Events {
     pub(in crate::verify) fn finding(mut self) -> Finding {
         for asked in &self.asked[self.told..] {
             self.wrong += 1.0;
-            self.worst.see(self.wrong, || Sighting { time: None, point: Point::origin(), block: asked.block });
+            self.worst.see(self.wrong, || Sighting {
+                time: None,
+                line: None,
+                point: Point::origin(),
+                block: asked.block,
+            });
         }
         self.worst.finding()
     }

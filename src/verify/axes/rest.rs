@@ -176,7 +176,7 @@ impl<'a> Rest<'a> {
                 told.push(Seen { tick: row.tick, rank, place: row.sighting() });
             } else {
                 count += 1.0;
-                wrong.see(count, || Sighting { time: None, point: drill.at, block: drill.span.block });
+                wrong.see(count, || Sighting { time: None, line: None, point: drill.at, block: drill.span.block });
             }
         }
         for (_, (_, _, row)) in taken.iter().zip(&left).filter(|(taken, _)| !**taken) {

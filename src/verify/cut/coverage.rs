@@ -1,5 +1,7 @@
 //! What has been cut of each line, and how often.
 
+use std::collections::BTreeMap;
+
 use arrayvec::ArrayVec;
 use rayon::prelude::*;
 
@@ -110,6 +112,15 @@ impl<'a> Coverage<'a> {
         std::iter::once([a, b.min(length)]).chain(over).collect()
     }
 
+    /// The pieces of which nothing is cut.
+    pub(in crate::verify) fn uncut(&self) -> Vec<u32> {
+        let mut pieces: BTreeMap<u32, bool> = BTreeMap::new();
+        for (line, cut) in self.reference.lines.iter().zip(&self.cut) {
+            *pieces.entry(line.piece).or_default() |= !cut.all().is_empty();
+        }
+        pieces.into_iter().filter(|(_, is_cut)| !is_cut).map(|(piece, _)| piece).collect()
+    }
+
     /// The longest stretch that was left uncut.
     pub(in crate::verify) fn findings(self, profile: &MachineProfile) -> Vec<Finding> {
         // Rounding may part the two ends that meet.
@@ -137,7 +148,7 @@ fn see_uncut(line: &Line, cut: &[[f64; 2]], worst: &mut Worst) {
     for &[a, b] in cut.iter().chain(std::iter::once(&[line.length(), line.length()])) {
         worst.see(a - from, || {
             let middle = f64::midpoint(a, from);
-            Sighting { time: None, point: line.place(middle), block: line.block(line.chord_at(middle)) }
+            Sighting { time: None, line: None, point: line.place(middle), block: line.block(line.chord_at(middle)) }
         });
         from = from.max(b);
     }

@@ -116,7 +116,17 @@ mod tests {
             let place = Heading::new(turned - FRAC_PI_2).unit() * radius;
             let rounded = Point::new((place.x * 100.0).round() / 100.0, (place.y * 100.0).round() / 100.0);
             let tick = u64::from(i);
-            rows.push(Row { tick, t: 0.0, centre: rounded, c_deg: 0.0, knife: true, drill: 0, event: 0, block: 0 });
+            rows.push(Row {
+                tick,
+                t: 0.0,
+                centre: rounded,
+                c_deg: 0.0,
+                knife: true,
+                drill: 0,
+                event: 0,
+                block: 0,
+                line: 0,
+            });
             tips.push(rounded);
             blades.push(Heading::new(turned + aside).unit());
         }

@@ -23,7 +23,7 @@ use crate::verify::declared::Declared;
 use crate::verify::program::row::{Going, Rounding, Row, SAGITTA};
 use crate::verify::reference::ground::Ground;
 use crate::verify::reference::lines::Reference;
-use crate::verify::worst::{Worst, at};
+use crate::verify::worst::Worst;
 
 /// How far from its chord, along the line, a cap may be obeyed, mm, beside the tolerance: a tip that takes a bend inside
 /// its tolerance band passes the vertex early or late by less.
@@ -39,7 +39,7 @@ impl Stroke {
     /// Place `i` of what it cut.
     pub(super) fn sighting(&self, cut: &Cut, i: usize) -> Sighting {
         let row = &self.rows()[cut.rows[i.saturating_sub(cut.body)]];
-        at(row.t, cut.points[i], row.block)
+        row.seen_at(cut.points[i])
     }
 }
 
@@ -239,7 +239,7 @@ impl<'a> Judge<'a> {
     /// How much of a line a stroke cuts twice, mm. A plunge cut may be longer than what was left.
     fn twice(&self, cut: &Cut, trial: &Trial) -> f64 {
         let all = trial.stretches.iter().map(|[a, b]| b - a).sum::<f64>();
-        if trial.fresh <= self.tracer.max_uncut && !trial.is_last {
+        if trial.fresh < self.reference.tolerance && !trial.is_last {
             // A stroke that cuts nothing new counts with its overlaps.
             all - trial.fresh + self.overlaps + self.knife.width_mm.max(REACH)
         } else if cut.is_plunge_cut() {

@@ -111,6 +111,7 @@ impl Counts {
             drill: drill as u8,
             event: event as u8,
             block: word(4)? as u32,
+            line: tick,
         })
     }
 }

@@ -3,7 +3,7 @@
 use std::io::BufRead;
 
 use super::number::{decimal, whole};
-use super::row::Row;
+use super::row::{FIRST_LINE, Row};
 use crate::geom::Point;
 use crate::machine::MachineProfile;
 
@@ -32,5 +32,6 @@ pub(in crate::verify) fn row(line: &[u8], tick: u64, profile: &MachineProfile) -
         drill: drill as u8,
         event: event as u8,
         block,
+        line: tick + FIRST_LINE,
     })
 }

@@ -73,5 +73,5 @@ pub(in crate::verify) fn row(record: &[u8], tick: u64) -> Option<Row> {
     let &[knife, drill, event, b0, b1, b2, b3] = record.get(32..)? else { return None };
     let block = u32::from_le_bytes([b0, b1, b2, b3]);
     let legal = knife <= 1 && drill <= 4 && event <= 2;
-    legal.then(|| Row { tick, t, centre: Point::new(x, y), c_deg, knife: knife == 1, drill, event, block })
+    legal.then(|| Row { tick, t, centre: Point::new(x, y), c_deg, knife: knife == 1, drill, event, block, line: tick })
 }

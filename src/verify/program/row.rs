@@ -2,8 +2,9 @@
 
 use crate::geom::{Point, Vector};
 use crate::ir::finding::Sighting;
-use crate::verify::worst::at;
 
+/// The line of the first row of a text: lines count from 1, the first is the header.
+pub(in crate::verify) const FIRST_LINE: u64 = 2;
 /// Half of the last decimal of positions, mm and degrees: by so much a value may differ from what was meant.
 pub(in crate::verify) const ROUNDING: f64 = 0.5e-6;
 /// Rounding of a place that is computed from a row, mm.
@@ -32,6 +33,8 @@ pub(in crate::verify) struct Row {
     pub(in crate::verify) event: u8,
     /// The source block, 0 = none.
     pub(in crate::verify) block: u32,
+    /// Its line in the program, the first being 1, or its record, from 0, where there are no lines.
+    pub(in crate::verify) line: u64,
 }
 
 impl Row {
@@ -41,9 +44,14 @@ impl Row {
         Vector::new(cos, sin)
     }
 
+    /// A place that is seen at the row.
+    pub(in crate::verify) fn seen_at(&self, point: Point) -> Sighting {
+        Sighting { time: Some(self.t), line: Some(self.line), point, block: self.block }
+    }
+
     /// The row as a place.
     pub(in crate::verify) fn sighting(&self) -> Sighting {
-        at(self.t, self.centre, self.block)
+        self.seen_at(self.centre)
     }
 }
 

@@ -4,7 +4,7 @@ use std::io::{BufRead, Read as _};
 
 use super::counts::{self, Counts};
 use super::number::{decimal, quoted, whole};
-use super::row::{ROUNDING, Rounding, Row};
+use super::row::{FIRST_LINE, ROUNDING, Rounding, Row};
 use super::{hal, npy};
 use crate::geom::Point;
 use crate::ir::Finding;
@@ -152,7 +152,7 @@ impl<'a> Rows<'a> {
     fn place(&self) -> String {
         match self.form {
             Form::Array(_) | Form::Counts(..) => format!("record {}", self.tick),
-            Form::Table | Form::Stream(_) => format!("line {}", self.tick + 2),
+            Form::Table | Form::Stream(_) => format!("line {}", self.tick + FIRST_LINE),
         }
     }
 
@@ -193,7 +193,7 @@ impl<'a> Rows<'a> {
     fn fail(&mut self, why: &str) {
         self.bad.count += 1;
         if self.bad.first.is_none() {
-            let nowhere = Sighting { time: Some(0.0), point: Point::origin(), block: 0 };
+            let nowhere = Sighting { time: Some(0.0), line: None, point: Point::origin(), block: 0 };
             self.bad.first = Some((self.last.map_or(nowhere, |row| row.sighting()), why.to_owned()));
         }
     }
@@ -289,6 +289,7 @@ fn row(line: &[u8], tick: u64) -> Result<Row, String> {
         drill: drill as u8,
         event: event as u8,
         block,
+        line: tick + FIRST_LINE,
     })
 }
 

@@ -66,7 +66,7 @@ impl<'a> Order<'a> {
         let mut see = |Seen { tick, rank, place }: Seen| {
             if rank < greatest {
                 late += 1.0;
-                worst.see(late, || at(tick as f64 * period, place.point, place.block));
+                worst.see(late, || Sighting { time: Some(tick as f64 * period), ..place });
             }
             greatest = greatest.max(rank);
         };

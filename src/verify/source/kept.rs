@@ -188,7 +188,7 @@ impl Works {
         let lost: Vec<Vec<KnifeStroke>> = read.into_par_iter().map(lost_of).collect();
         let mut worst = Worst::new("source/kept", "blocks", Some(0.0));
         for (lost, count) in lost.into_iter().flatten().zip(1..) {
-            worst.see(f64::from(count), || Sighting { time: None, point: lost.to, block: lost.block });
+            worst.see(f64::from(count), || Sighting { time: None, line: None, point: lost.to, block: lost.block });
         }
         worst.finding()
     }

@@ -36,7 +36,7 @@ pub fn cutter_file(bytes: &[u8], marker: &Marker, source: &Source, job: &Job) ->
     let found = reader.read();
     let unit = reader.unit;
     let mut place = Worst::new("verify/same-place", "mm", Some(ROUNDING * unit * 2.0_f64.sqrt() + PLACE_EPSILON));
-    let nowhere = Sighting { time: None, point: Point::origin(), block: 0 };
+    let nowhere = Sighting { time: None, line: None, point: Point::origin(), block: 0 };
     if found.is_none() {
         format.see(1.0, || at(0.0, reader.at, 0));
     }
@@ -56,5 +56,5 @@ pub fn cutter_file(bytes: &[u8], marker: &Marker, source: &Source, job: &Job) ->
     }
     let mut findings = vec![format.finding(), same.finding(), place.finding()];
     sort(&mut findings);
-    Verdict { findings, unread: None, untimed: Vec::new() }
+    Verdict { findings, unread: None, uncut: Vec::new(), untimed: Vec::new() }
 }

@@ -79,7 +79,7 @@ impl Said {
             Self::Label { at, .. } => ((*at)?, 0),
             Self::Piece(_) | Self::Event(_) | Self::Field(..) => return None,
         };
-        Some(Sighting { time: None, point, block })
+        Some(Sighting { time: None, line: None, point, block })
     }
 }
 

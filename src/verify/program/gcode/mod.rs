@@ -25,7 +25,7 @@ use crate::verify::axes::crawl::{Asked, Axes};
 use crate::verify::program::number::{quoted, whole};
 use crate::verify::program::row::{Going, Rounding, Row, SAGITTA};
 use crate::verify::program::spelling::{Expected, Words, is_active, plain, unnumbered};
-use crate::verify::worst::{Worst, at};
+use crate::verify::worst::Worst;
 
 /// Most characters of a first line that a message shows.
 const FIRST_CHARS: usize = 60;
@@ -108,7 +108,17 @@ pub(in crate::verify) struct Places<'a> {
 impl<'a> Places<'a> {
     pub(in crate::verify) fn new(input: &'a mut dyn BufRead, profile: &'a MachineProfile) -> Self {
         let [x, y, c_deg] = profile.home;
-        let now = Row { tick: 0, t: 0.0, centre: Point::new(x, y), c_deg, knife: false, drill: 0, event: 0, block: 0 };
+        let now = Row {
+            tick: 0,
+            t: 0.0,
+            centre: Point::new(x, y),
+            c_deg,
+            knife: false,
+            drill: 0,
+            event: 0,
+            block: 0,
+            line: 0,
+        };
         let texts = texts(profile);
         Self {
             input,
@@ -142,7 +152,7 @@ impl<'a> Places<'a> {
             if let Err(why) = self.read() {
                 self.ended = true;
                 let line = self.lines;
-                self.bad = Some((self.now.sighting(), format!("line {line} {why}")));
+                self.bad = Some((Row { line, ..self.now }.sighting(), format!("line {line} {why}")));
             }
         }
         self.queue.pop_front()
@@ -340,7 +350,7 @@ impl<'a> Places<'a> {
     fn push(&mut self, row: Row, going: Going) {
         self.now.tick += 1;
         self.now.t = self.now.tick as f64;
-        self.queue.push_back((Row { tick: self.now.tick, t: self.now.t, ..row }, going));
+        self.queue.push_back((Row { tick: self.now.tick, t: self.now.t, line: self.lines, ..row }, going));
     }
 
     /// A move: all of its places.
@@ -496,6 +506,6 @@ struct Walk {
 
 /// A finding as a program without time has it.
 pub(in crate::verify) fn timeless(finding: &Finding) -> Finding {
-    let timeless = |place: Sighting| Sighting { time: None, ..at(0.0, place.point, place.block) };
+    let timeless = |place: Sighting| Sighting { time: None, ..place };
     Finding { place: finding.place.map(timeless), ..*finding }
 }

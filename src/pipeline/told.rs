@@ -1,0 +1,113 @@
+//! What is told of a broken rule beside its figures: the piece, the line of the program and what stands there, so that people
+//! find both.
+
+use std::io::{self, BufRead, BufReader};
+
+use super::place::name;
+use super::product::{BLOCK, Medium};
+use crate::diagnostic::PieceName;
+use crate::ir::marker::{Notch, Piece};
+use crate::ir::{Finding, Marker};
+use crate::machine::Job;
+use crate::source::Source;
+use crate::verify::{self, Verdict};
+
+/// The rule on lines that are left.
+const COMPLETE: &str = "verify/complete";
+/// The most letters of a line of a program that are shown.
+const LETTERS: usize = 100;
+
+/// A verdict, and what is told of each rule that is broken, in the order of [`Verdict::broken`].
+#[derive(Debug)]
+pub struct Explained {
+    /// The verdict.
+    pub verdict: Verdict,
+    /// What is told.
+    pub told: Vec<Told>,
+}
+
+impl Explained {
+    /// The findings, and what is told of those that do not hold.
+    pub fn findings(&self) -> impl Iterator<Item = (&Finding, Option<&Told>)> {
+        let mut told = self.told.iter();
+        self.verdict.findings.iter().map(move |finding| (finding, if finding.holds() { None } else { told.next() }))
+    }
+}
+
+/// What is told of a broken rule.
+#[derive(Debug, Default)]
+pub struct Told {
+    /// The piece that the worst value was seen at, if it was at one.
+    pub piece: Option<PieceName>,
+    /// The pieces of which nothing is cut, where the rule is on that.
+    pub uncut: Vec<PieceName>,
+    /// Where the program does it.
+    pub line: Option<Line>,
+}
+
+/// A line of a program.
+#[derive(Debug)]
+pub struct Line {
+    /// Its number, the first being 1; of a program without lines its record, the first being 0.
+    pub number: u64,
+    /// What stands there; `None` where the program has no lines.
+    pub text: Option<String>,
+}
+
+/// Tells of each rule that a program breaks.
+pub(super) fn told(
+    verdict: &Verdict,
+    marker: &Marker,
+    source: &Source,
+    job: &Job,
+    program: &mut dyn Medium,
+) -> io::Result<Vec<Told>> {
+    let named = |piece: &Piece| name(piece, source, job);
+    let tell = |finding: &Finding| {
+        let place = finding.place?;
+        let uncut = if finding.rule == COMPLETE { &verdict.uncut[..] } else { &[] };
+        let line = place.line.map(|number| Line { number, text: None });
+        let uncut = uncut.iter().map(|&piece| named(&marker.pieces[piece as usize])).collect();
+        Some(Told { piece: piece_of(marker, place.block).map(named), uncut, line })
+    };
+    let mut told: Vec<Told> = verdict.broken().map(|finding| tell(finding).unwrap_or_default()).collect();
+    let mut lines: Vec<&mut Line> = told.iter_mut().filter_map(|told| told.line.as_mut()).collect();
+    lines.sort_by_key(|line| line.number);
+    program.rewind()?;
+    let mut program = BufReader::with_capacity(BLOCK, program);
+    if verify::has_lines(&mut program) {
+        quote(&mut program, &mut lines)?;
+    }
+    Ok(told)
+}
+
+/// Reads what stands on some lines, in their order.
+fn quote(program: &mut dyn BufRead, lines: &mut [&mut Line]) -> io::Result<()> {
+    let (mut text, mut read) = (Vec::new(), 0);
+    for line in lines {
+        while read < line.number {
+            text.clear();
+            if program.read_until(b'\n', &mut text)? == 0 {
+                return Ok(());
+            }
+            read += 1;
+        }
+        let all = String::from_utf8_lossy(text.trim_ascii_end()).into_owned();
+        line.text = Some(match all.char_indices().nth(LETTERS) {
+            Some((end, _)) => format!("{}...", &all[..end]),
+            None => all,
+        });
+    }
+    Ok(())
+}
+
+/// The piece in which a block cuts.
+fn piece_of(marker: &Marker, block: u32) -> Option<&Piece> {
+    let has = |piece: &&Piece| {
+        let contours = piece.contours.iter().flat_map(|contour| marker.list.walk(contour.range)).map(|(_, s)| s.span);
+        let notches = piece.notches.iter().flat_map(Notch::strokes).map(|stroke| stroke.span);
+        let drills = piece.drills.iter().map(|drill| drill.span);
+        contours.chain(notches).chain(drills).any(|span| span.block == block)
+    };
+    marker.pieces.iter().find(has).filter(|_| block > 0)
+}
