@@ -3,9 +3,9 @@
 use super::plunge::{Plunge, WORTH_SHARE};
 use super::swing::swing;
 use crate::geom::{Point, polyline};
-use crate::ir::Toolpath;
-use crate::ir::declaration::{Declaration, Kind, Which};
+use crate::ir::declaration::{Declaration, Kind, Total, Which};
 use crate::ir::toolpath::{End, Overcut, PlungeCut, Run, Shape, Side, Step};
+use crate::ir::{Marker, Toolpath};
 use crate::machine::Knife;
 
 /// Lengths that differ by less are alike, mm: rounding.
@@ -26,6 +26,23 @@ pub fn declarations(toolpath: &Toolpath, cut: u32, drawn: &[Point], knife: &Knif
         }
     }
     of_cut.found
+}
+
+/// The sums of what the program of a marker declares, those of a kind after those of the one before it.
+pub fn totals(declared: &[Declaration], marker: &Marker) -> Vec<Total> {
+    let of_kind = |kind: Kind| {
+        let mut count = 0;
+        let worst = declared.iter().filter(|entry| entry.kind == kind).inspect(|_| count += 1);
+        // Of two that are alike the first.
+        let worst = worst.reduce(|worst, next| if next.magnitude_mm > worst.magnitude_mm { next } else { worst })?;
+        let cut = &marker.cuts[worst.cut as usize];
+        let points = marker.list.points(cut.range);
+        let at = polyline::place(&points, &polyline::stations(&points), worst.from_mm);
+        let at_mm = [at.x, at.y].map(|value| (value * PER_MM).round() / PER_MM);
+        let piece = marker.pieces[cut.piece as usize].number;
+        Some(Total { kind, count, worst_mm: worst.magnitude_mm, piece, at_mm })
+    };
+    Kind::ALL.into_iter().filter_map(of_kind).collect()
 }
 
 /// A cut as it is drawn.

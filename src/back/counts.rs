@@ -9,9 +9,9 @@
 
 use std::io::{self, SeekFrom};
 
-use super::target::{Context, Emit, Output, Parts, Proof, Target};
+use super::target::{Context, Emit, Outcome, Output, Parts, Proof, Target};
 use crate::diagnostic::{Diagnostic, code};
-use crate::ir::{Finding, Motion};
+use crate::ir::Motion;
 use crate::units::number::{exact, fixed, up};
 
 pub(super) const TARGET: Target = Target {
@@ -113,7 +113,7 @@ fn wrapped(counts: f64) -> i32 {
 }
 
 /// Fills in the number of records that were written.
-fn tail(context: &Context, _: &[Finding], out: &mut dyn Output) -> io::Result<()> {
+fn tail(context: &Context, _: Outcome, out: &mut dyn Output) -> io::Result<()> {
     let end = out.stream_position()?;
     let count = (end - HEADER_BYTES as u64) / RECORD_BYTES as u64;
     out.seek(SeekFrom::Start(0))?;

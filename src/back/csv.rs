@@ -6,8 +6,8 @@
 
 use std::io;
 
-use super::target::{Context, Emit, Output, Parts, Proof, Target, nothing};
-use crate::ir::{Finding, Motion};
+use super::target::{Context, Emit, Outcome, Output, Parts, Proof, Target, nothing};
+use crate::ir::Motion;
 use crate::units::{deg, number};
 
 pub(super) const TARGET: Target = Target {
@@ -55,6 +55,6 @@ fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<
 }
 
 #[allow(clippy::unnecessary_wraps, reason = "the signature is that of every target")]
-fn tail(_: &Context, _: &[Finding], _: &mut dyn Output) -> io::Result<()> {
+fn tail(_: &Context, _: Outcome, _: &mut dyn Output) -> io::Result<()> {
     Ok(())
 }

@@ -6,9 +6,9 @@
 use std::io;
 use std::path::Path;
 
-use super::target::{Context, Emit, Output, Parts, Proof, Target, nothing};
+use super::target::{Context, Emit, Outcome, Output, Parts, Proof, Target, nothing};
+use crate::ir::Motion;
 use crate::ir::motion::Kind;
-use crate::ir::{Finding, Motion};
 use crate::units::NS_PER_S;
 
 pub(super) const TARGET: Target = Target {
@@ -62,6 +62,6 @@ fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<
 }
 
 #[allow(clippy::unnecessary_wraps, reason = "the signature is that of every target")]
-fn tail(_: &Context, _: &[Finding], _: &mut dyn Output) -> io::Result<()> {
+fn tail(_: &Context, _: Outcome, _: &mut dyn Output) -> io::Result<()> {
     Ok(())
 }

@@ -20,10 +20,10 @@
 
 use std::io;
 
-use super::target::{Context, Emit, Output, Parts, Proof, Target, nothing};
+use super::target::{Context, Emit, Outcome, Output, Parts, Proof, Target, nothing};
+use crate::ir::Motion;
 use crate::ir::motion::{Kind, Phase, Task};
 use crate::ir::toolpath::{Edge, OrientationMode, Pose, Side};
-use crate::ir::{Finding, Motion};
 use crate::units::deg;
 use crate::units::number::{exact, fixed};
 
@@ -79,7 +79,7 @@ fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<
     out.write_all(text.as_bytes())
 }
 
-fn tail(_: &Context, _: &[Finding], out: &mut dyn Output) -> io::Result<()> {
+fn tail(_: &Context, _: Outcome, out: &mut dyn Output) -> io::Result<()> {
     out.write_all(b"}\n")
 }
 

@@ -14,7 +14,7 @@ mod npy;
 mod svg;
 mod target;
 
-pub use target::{ArcTarget, ArcWriter, Context, Emit, Estimate, Output, Parts, Proof, Target};
+pub use target::{ArcTarget, ArcWriter, Context, Emit, Estimate, Outcome, Output, Parts, Proof, Target};
 
 use crate::ir::Motion;
 

@@ -7,8 +7,8 @@
 
 use std::io::{self, SeekFrom};
 
-use super::target::{Context, Emit, Output, Parts, Proof, Target, nothing};
-use crate::ir::{Finding, Motion};
+use super::target::{Context, Emit, Outcome, Output, Parts, Proof, Target, nothing};
+use crate::ir::Motion;
 use crate::units::deg;
 
 pub(super) const TARGET: Target = Target {
@@ -64,7 +64,7 @@ fn body(motion: &Motion, context: &Context, out: &mut dyn Output) -> io::Result<
 }
 
 /// Fills in the number of records that were written.
-fn tail(_: &Context, _: &[Finding], out: &mut dyn Output) -> io::Result<()> {
+fn tail(_: &Context, _: Outcome, out: &mut dyn Output) -> io::Result<()> {
     let end = out.stream_position()?;
     let count = (end - HEADER_BYTES as u64) / RECORD_BYTES as u64;
     out.seek(SeekFrom::Start(0))?;

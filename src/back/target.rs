@@ -4,6 +4,7 @@ use std::io::{self, Seek, Write};
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::ir::arcs::{Interpolation, Unfit};
+use crate::ir::declaration::Total;
 use crate::ir::{Arcs, Finding, Marker, Motion, Toolpath};
 use crate::machine::Job;
 use crate::source::Source;
@@ -72,9 +73,17 @@ pub struct Parts<T> {
     pub head: fn(&Context, &mut dyn Output) -> io::Result<()>,
     /// Written for each form, in order.
     pub body: fn(&T, &Context, &mut dyn Output) -> io::Result<()>,
-    /// Written last, with what the verifier found in the setpoints of the same compile, or why there is no program; may
-    /// go back to the head.
-    pub tail: fn(&Context, &[Finding], &mut dyn Output) -> io::Result<()>,
+    /// Written last; may go back to the head.
+    pub tail: fn(&Context, Outcome, &mut dyn Output) -> io::Result<()>,
+}
+
+/// What is known of a compile when a program that shows it is ended; nothing of one that does not.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Outcome<'a> {
+    /// What the verifier found in the setpoints of the same compile, or why there is no program.
+    pub findings: &'a [Finding],
+    /// What it does beside the drawing, summed up.
+    pub declared: &'a [Total],
 }
 
 /// The refusals of a target that expresses everything.

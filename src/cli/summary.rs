@@ -4,9 +4,10 @@ use std::fmt::Write as _;
 
 use super::options::{counted, typed};
 use crate::diagnostic::{Diagnostics, Severity};
+use crate::ir::declaration::Total;
 use crate::machine::plot::Lines;
 use crate::machine::{Follow, Job, Mode, NotchStyle};
-use crate::pipeline::{Axes, Beside, Peak, Peaks, Report, Sides, Verdict, word};
+use crate::pipeline::{Axes, Peak, Peaks, Report, Sides, Verdict, word};
 use crate::units::S_PER_MIN;
 use crate::units::number::{fixed, short};
 
@@ -104,17 +105,8 @@ fn of_program(report: &Report, line: &mut impl FnMut(&str, String)) {
 }
 
 /// What the program does beside the drawing, a line a kind.
-fn declared(declared: &[Beside]) -> String {
-    let of_kind = |beside: &Beside| {
-        let Beside { kind, count, worst_mm, piece, at_mm: [x, y] } = *beside;
-        let [one, many] = kind.words();
-        let what = format!("{count} {}", if count == 1 { one } else { many });
-        if worst_mm == 0.0 {
-            return what;
-        }
-        format!("{what}, at most {} mm (piece {piece} at {}, {})", fixed(worst_mm, 2), fixed(x, 0), fixed(y, 0))
-    };
-    declared.iter().map(of_kind).collect::<Vec<String>>().join("\n             ")
+fn declared(declared: &[Total]) -> String {
+    declared.iter().map(ToString::to_string).collect::<Vec<String>>().join("\n             ")
 }
 
 /// What was done so that no overlap harms a part.

@@ -133,7 +133,7 @@ impl Judged {
             text: told.and_then(|told| told.line.as_ref()?.text.clone()),
         };
         let verdict = explained.map(|explained| &explained.verdict);
-        let passes = verdict.is_some_and(|verdict| verdict.passes());
+        let passes = verdict.is_some_and(pipeline::Verdict::passes);
         Self {
             verdict: if passes { Word::Pass } else { Word::Fail },
             rules: explained.map_or_else(Vec::new, |explained| explained.findings().map(rule).collect()),

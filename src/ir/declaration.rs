@@ -3,7 +3,11 @@
 //! A compile declares each deviation that it chose; the verifier measures the program and holds what it finds against
 //! these, and these against bounds of its own.
 
+use std::fmt;
+
 use serde::{Deserialize, Serialize};
+
+use crate::units::number::fixed;
 
 /// A deviation from the drawing.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -63,6 +67,33 @@ impl Kind {
             Self::Nibbled => ["plunge amid a line", "plunges amid lines"],
             Self::Lift => ["end amid a line", "ends amid lines"],
         }
+    }
+}
+
+/// All declarations of a kind, summed up.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Total {
+    /// The kind.
+    pub kind: Kind,
+    /// How many there are.
+    pub count: usize,
+    /// The greatest of them, mm; what it measures is said by the kind.
+    pub worst_mm: f64,
+    /// The number of the piece that this is of.
+    pub piece: u32,
+    /// Where it begins, mm.
+    pub at_mm: [f64; 2],
+}
+
+impl fmt::Display for Total {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let Self { kind, count, worst_mm, piece, at_mm: [x, y] } = *self;
+        let [one, many] = kind.words();
+        write!(f, "{count} {}", if count == 1 { one } else { many })?;
+        if worst_mm == 0.0 {
+            return Ok(());
+        }
+        write!(f, ", at most {} mm (piece {piece} at {}, {})", fixed(worst_mm, 2), fixed(x, 0), fixed(y, 0))
     }
 }
 

@@ -3,7 +3,6 @@
 //! Receives a source and a job, promises programs that are written whole and judged, or diagnostics. Never prints, and decides
 //! nothing about the cut.
 
-mod beside;
 mod input;
 mod judge;
 mod place;
@@ -18,7 +17,6 @@ mod told;
 mod toolpaths;
 
 pub use crate::analysis::area;
-pub use beside::Beside;
 pub use input::{Input, Judged, Reading, marker_of, read, read_to_judge};
 pub use judge::{about, advice, figures, foreign, judge_program};
 pub use product::{Medium, Product};
@@ -37,10 +35,12 @@ use self::input::{make_cuts, read_alone, run_passes};
 use self::judge::Asked;
 use self::program::{Sink, Written};
 use self::toolpaths::Toolpaths;
-use crate::back::{Context, Emit, Proof, SETPOINTS, Target};
+use crate::analysis::declare;
+use crate::back::{Context, Emit, Outcome, Proof, SETPOINTS, Target};
 use crate::diagnostic::Diagnostics;
 use crate::front::Dialect;
 use crate::ir::declaration::Declaration;
+use crate::ir::declaration::Total;
 use crate::ir::{Finding, text};
 use crate::machine::Job;
 use crate::pass::marker::MARKER_PASSES;
@@ -136,7 +136,7 @@ pub fn compile_all(
     })?;
     let mut report = Report::of(&input.marker, input.dialect.name);
     report.program = written.program;
-    report.declared = Beside::of(&written.declared, &input.marker);
+    report.declared = declare::totals(&written.declared, &input.marker);
     report.controller = written.estimate.map(Controller::from);
     let mut verdict: Option<Verdict> = None;
     if verify && !diagnostics.has_errors() {
@@ -147,7 +147,7 @@ pub fn compile_all(
         judge::report(verdict, &input.marker, job, diagnostics);
     }
     place::place(diagnostics, known, &input.marker, source, job);
-    finish(&context, products, verdict.as_ref(), diagnostics)?;
+    finish(&context, products, verdict.as_ref(), &report.declared, diagnostics)?;
     Ok((!diagnostics.has_errors()).then_some(Compiled { report, verdict, declared: written.declared }))
 }
 
@@ -185,6 +185,7 @@ fn finish(
     context: &Context,
     products: &mut [Product],
     verdict: Option<&Verdict>,
+    declared: &[Total],
     diagnostics: &Diagnostics,
 ) -> io::Result<()> {
     let mut findings = refused::findings(diagnostics);
@@ -193,7 +194,7 @@ fn finish(
         *shows_refusal = diagnostics.has_errors() && refused::is_picture(target);
         if let Emit::Toolpath(parts) = &target.emit {
             let mut out = BufWriter::new(&mut **out);
-            (parts.tail)(context, &findings, &mut out)?;
+            (parts.tail)(context, Outcome { findings: &findings, declared }, &mut out)?;
             out.flush()?;
         }
         out.flush()?;

@@ -11,7 +11,7 @@ use super::sound::assert_sound;
 use super::spent::Clock;
 use super::toolpaths::{Toolpaths, Window};
 use crate::analysis::declare;
-use crate::back::{ArcTarget, ArcWriter, Context, Emit, Estimate, Parts};
+use crate::back::{ArcTarget, ArcWriter, Context, Emit, Estimate, Outcome, Parts};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::ir::arcs::{Interpolation, Unfit};
 use crate::ir::check;
@@ -261,7 +261,7 @@ impl Writer<'_, '_, '_> {
         for Sink { form, out } in &mut *self.sinks {
             match form {
                 Form::Toolpath(_) => {}
-                Form::Motion(parts) => (parts.tail)(self.context, &[], out)?,
+                Form::Motion(parts) => (parts.tail)(self.context, Outcome::default(), out)?,
                 Form::Arcs(_, writer) => written.estimate = Some(writer.tail(out)?),
             }
             out.flush()?;

@@ -3,7 +3,7 @@
 use std::io::{self, BufWriter, Write};
 
 use super::product::Product;
-use crate::back::{Context, Emit, Proof, Target};
+use crate::back::{Context, Emit, Outcome, Proof, Target};
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, code};
 use crate::ir::Finding;
 use crate::ir::finding::Sighting;
@@ -42,7 +42,7 @@ pub(super) fn draw(context: &Context, products: &mut [Product], diagnostics: &Di
         if is_picture(target) {
             let mut out = BufWriter::new(&mut **out);
             (parts.head)(context, &mut out)?;
-            (parts.tail)(context, &findings, &mut out)?;
+            (parts.tail)(context, Outcome { findings: &findings, declared: &[] }, &mut out)?;
             out.flush()?;
             *shows_refusal = true;
         }

@@ -5,11 +5,11 @@
 
 use serde::{Serialize, Serializer};
 
-use super::beside::Beside;
 use super::rounded::{significant, to_millionths};
 use super::spent::Spent;
 use crate::back::Estimate;
 use crate::ir::Marker;
+use crate::ir::declaration::Total;
 use crate::ir::drawing::{Account, LineClass};
 use crate::ir::marker::{NotchForm, NotchKind};
 use crate::machine::{Follow, NotchStyle};
@@ -51,7 +51,7 @@ pub struct Report {
     #[serde(flatten)]
     pub program: Program,
     /// What the program does beside the drawing because it cannot do otherwise, by kind.
-    pub declared: Vec<Beside>,
+    pub declared: Vec<Total>,
     /// What a controller that plans for itself makes of the program; not there without such a target.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub controller: Option<Controller>,

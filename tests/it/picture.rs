@@ -2,8 +2,9 @@
 
 use std::io::Cursor;
 
-use cutc::back::{Context, Emit, Parts, TARGETS};
+use cutc::back::{Context, Emit, Outcome, Parts, TARGETS};
 use cutc::geom::{Heading, Point};
+use cutc::ir::declaration::{Kind, Total};
 use cutc::ir::finding::Sighting;
 use cutc::ir::list::{Joint, Segment};
 use cutc::ir::marker::{Contour, Drill, Label, Marker, Notch, NotchForm, NotchKind, OutlineNotch, Piece};
@@ -39,6 +40,12 @@ fn square_knife() -> Job {
     job
 }
 
+/// What the pictures say that the program declares.
+const DECLARED: [Total; 2] = [
+    Total { kind: Kind::Plunge, count: 4, worst_mm: 0.48, piece: 12, at_mm: [160.0, 50.0] },
+    Total { kind: Kind::Lift, count: 1, worst_mm: 0.0, piece: 1, at_mm: [0.0, 50.0] },
+];
+
 fn parts() -> &'static Parts<Toolpath> {
     let target = TARGETS.iter().find(|target| target.name == "svg").expect("a target named svg");
     match &target.emit {
@@ -56,7 +63,7 @@ fn picture(marker: &Marker, job: &Job, found: &[Finding]) -> String {
     for toolpath in support::toolpaths(marker, job) {
         (parts().body)(&toolpath, &context, &mut out).expect("a buffer takes all");
     }
-    (parts().tail)(&context, found, &mut out).expect("a buffer takes all");
+    (parts().tail)(&context, Outcome { findings: found, declared: &DECLARED }, &mut out).expect("a buffer takes all");
     String::from_utf8(out.into_inner()).expect("UTF-8")
 }
 

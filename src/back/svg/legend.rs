@@ -2,14 +2,14 @@
 
 use std::fmt::Write;
 
+use super::declared;
 use super::findings;
 use super::items::{Item, Symbol, items};
 use super::markup::{PathData, short};
 use super::piece::PALETTE;
 use super::sheet::{CELL_PX, LINE_PX, MARGIN_PX, Sheet, caption};
-use crate::back::target::Context;
+use crate::back::target::{Context, Outcome};
 use crate::geom::{Point, Vector};
-use crate::ir::Finding;
 use crate::units::MM_PER_M;
 
 /// Width of a symbol, pixels.
@@ -17,9 +17,14 @@ const SYMBOL_PX: f64 = 30.0;
 /// The scale bar is at most this part of the sheet's width.
 const SCALE_PART: f64 = 0.2;
 
-/// Scale bar, caption, symbols and the table of findings, below the drawing; with the numbers of rules that have a limit
-/// and that only report.
-pub(super) fn layer(sheet: &Sheet, context: &Context, found: &[Finding], limited: usize, reported: usize) -> String {
+/// Scale bar, caption, symbols and the tables of findings and of what is declared, below the drawing; with the numbers of
+/// rules that have a limit and that only report.
+pub(super) fn layer(
+    sheet: &Sheet,
+    context: &Context,
+    Outcome { findings: found, declared }: Outcome,
+    (limited, reported): (usize, usize),
+) -> String {
     let line = LINE_PX * sheet.px;
     let left = sheet.left + MARGIN_PX * sheet.px;
     let mut text = String::from("<g id=\"legend\" inkscape:groupmode=\"layer\" inkscape:label=\"legend\">\n");
@@ -54,7 +59,9 @@ pub(super) fn layer(sheet: &Sheet, context: &Context, found: &[Finding], limited
             let class = if finding.holds() { "" } else { "fails-text" };
             text.push_str(&sheet.text(class, Point::new(left, y), &findings::sentence(n, finding)));
         }
+        y += line;
     }
+    text.push_str(&declared::table(declared, sheet, Point::new(left, y)));
     let _infallible = writeln!(text, "</g>\n<view id=\"whole\" viewBox=\"{}\"/>", sheet.view_box());
     text
 }

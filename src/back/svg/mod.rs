@@ -6,10 +6,11 @@
 //!
 //! Layers from the bottom: what a plot draws and nobody cuts, pieces with their notches and numbers, labels, the
 //! knife's way (a group for each contour, notch and drill), the word `refused` where no program is written, the worst
-//! places that the verifier saw, the legend. In a browser the picture fills the window; a piece's number is a link to a
+//! places that the verifier saw, those of what the program declares, the legend. In a browser the picture fills the window; a piece's number is a link to a
 //! view of that piece, and the legend links to the whole and to the actual size.
 
 mod aside;
+mod declared;
 mod findings;
 mod items;
 mod knife;
@@ -22,8 +23,8 @@ mod spot;
 
 use std::io::{self, SeekFrom};
 
-use super::target::{Context, Emit, Output, Parts, Proof, Target, nothing};
-use crate::ir::{Finding, Toolpath, finding};
+use super::target::{Context, Emit, Outcome, Output, Parts, Proof, Target, nothing};
+use crate::ir::{Toolpath, finding};
 use sheet::Sheet;
 
 pub(super) const TARGET: Target = Target {
@@ -35,7 +36,7 @@ pub(super) const TARGET: Target = Target {
 };
 
 fn head(context: &Context, out: &mut dyn Output) -> io::Result<()> {
-    let sheet = Sheet::of(context, &[]);
+    let sheet = Sheet::of(context, Outcome::default());
     let mut text = sheet.opening();
     let mut shapes = piece::shapes(context.marker);
     let labels = label::layer(&mut shapes, &sheet, context);
@@ -52,20 +53,22 @@ fn body(toolpath: &Toolpath, context: &Context, out: &mut dyn Output) -> io::Res
     out.write_all(knife::group(toolpath, &context.job.profile.knife).as_bytes())
 }
 
-fn tail(context: &Context, found: &[Finding], out: &mut dyn Output) -> io::Result<()> {
+fn tail(context: &Context, outcome: Outcome, out: &mut dyn Output) -> io::Result<()> {
+    let Outcome { findings: found, declared } = outcome;
     let shown = findings::worth_a_ring(found);
-    let sheet = Sheet::of(context, &shown);
+    let sheet = Sheet::of(context, Outcome { findings: &shown, declared });
     let mut text = String::from("</g>\n");
     if found.iter().any(|finding| !finding.holds()) {
         text.push_str(&sheet.refused());
     }
     text.push_str(&findings::layer(&shown, &sheet, &context.job.profile.knife));
-    let (limited, reported) = finding::counts(found);
-    text.push_str(&legend::layer(&sheet, context, &shown, limited, reported));
+    text.push_str(&declared::layer(declared, &sheet));
+    let counts = finding::counts(found);
+    text.push_str(&legend::layer(&sheet, context, Outcome { findings: &shown, declared }, counts));
     text.push_str("</svg>\n");
     out.write_all(text.as_bytes())?;
     // The table of findings makes the sheet taller than the head could know.
-    let (before, now) = (Sheet::of(context, &[]).opening(), sheet.opening());
+    let (before, now) = (Sheet::of(context, Outcome::default()).opening(), sheet.opening());
     if before != now && before.len() == now.len() {
         let end = out.stream_position()?;
         out.seek(SeekFrom::Start(0))?;

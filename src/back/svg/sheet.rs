@@ -4,9 +4,8 @@ use std::fmt::Write;
 
 use super::items::items;
 use super::markup::{PathData, escape, mm, short};
-use crate::back::target::Context;
+use crate::back::target::{Context, Outcome};
 use crate::geom::{Extent, Point, Vector};
-use crate::ir::Finding;
 use crate::units::number::fixed;
 use crate::units::{MM_PER_INCH, MM_PER_M, deg};
 
@@ -57,6 +56,8 @@ path{vector-effect:non-scaling-stroke;fill:none;stroke-linejoin:round}
 .holds{stroke:#d08a00;stroke-width:1.1}
 .fails-text{fill:#d00000;font-weight:bold}
 .holds-text{fill:#9a6600}
+.declared{stroke:#7a3fb0;stroke-width:1.1}
+.declared-text{fill:#6a2fa0}
 .verdict{font-weight:bold}
 .frame{stroke:#bbb;stroke-width:.7}
 .axis{stroke:#666;stroke-width:1.2}
@@ -82,8 +83,8 @@ pub(super) struct Sheet {
 }
 
 impl Sheet {
-    /// The sheet of a marker, with room for a table of findings.
-    pub(super) fn of(context: &Context, found: &[Finding]) -> Self {
+    /// The sheet of a marker, with room for the tables of findings and of what is declared.
+    pub(super) fn of(context: &Context, Outcome { findings: found, declared }: Outcome) -> Self {
         let profile = &context.job.profile;
         let extent = context.marker.extent();
         let mut drawn = extent;
@@ -105,7 +106,8 @@ impl Sheet {
         let (left, top) = (drawn.min.x - margin, -drawn.max.y - margin);
         let legend = -drawn.min.y + margin;
         let mut sheet = Self { px, extent, left, top, width, height: 0.0, legend };
-        let lines = 2 + items(context).count().div_ceil(sheet.columns()) + found.len() + usize::from(!found.is_empty());
+        let table = |rows: usize| rows + usize::from(rows > 0);
+        let lines = 2 + items(context).count().div_ceil(sheet.columns()) + table(found.len()) + table(declared.len());
         sheet.height = legend - top + LINE_PX * px * (lines as f64 + 0.5);
         sheet
     }
