@@ -8,17 +8,13 @@ use crate::geom::region::{Ray, Regions, Room};
 use crate::ir::marker::Contour;
 use crate::ir::toolpath::Overcut;
 use crate::ir::{Marker, Toolpath};
-use crate::machine::Knife;
+use crate::machine::{Knife, MachineProfile};
 
 /// Part of the tolerance by which a straight extension may lie in a part: then it runs along an edge that is cut anyway.
 /// The rest is for how far the tip may leave its path.
 const SLACK_SHARE: f64 = 0.9;
 /// A way that enters the part within this length begins in it, mm: rounding.
 const INSIDE_EPSILON: f64 = 1e-6;
-
-/// Parts that overlap by less touch, mm, or by a diagonal of the unit of the file, if that is more: each outline was
-/// rounded by itself.
-const BAND: f64 = 0.2;
 
 /// The parts that lie on the cloth.
 #[derive(Debug)]
@@ -33,7 +29,7 @@ pub struct Cloth<'a> {
 
 impl<'a> Cloth<'a> {
     /// The cloth on which a marker lies. Contours that do not close bound nothing.
-    pub fn new(marker: &'a Marker) -> Self {
+    pub fn new(marker: &'a Marker, profile: &MachineProfile) -> Self {
         let nesting = Nesting::of(marker);
         let contours: Vec<&Contour> = marker.contours().map(|(_, contour)| contour).collect();
         // The closed lines of each part, by the piece that its outline is of.
@@ -45,7 +41,7 @@ impl<'a> Cloth<'a> {
         let points = |&line: &usize| marker.list.points(contours[line].range);
         let parts = Regions::new(lines.keys().copied(), |part| lines[&part].iter().map(points).collect());
         let part_of = (0..marker.pieces.len()).map(|piece| nesting.part_of(piece).unwrap_or(piece) as u32).collect();
-        Self { parts, part_of, band: (marker.unit * std::f64::consts::SQRT_2).max(BAND) }
+        Self { parts, part_of, band: profile.band(marker.unit) }
     }
 
     /// Whether a place lies in the part to which a piece belongs, by the piece's place in the marker.
@@ -74,7 +70,7 @@ pub struct Surroundings<'a> {
 impl Surroundings<'_> {
     /// How far a straight way goes before it enters a part.
     pub fn room(&self, ray: &Ray) -> Room {
-        self.cloth.parts.room(ray, self.part, SLACK_SHARE * self.tolerance)
+        self.cloth.parts.room(ray, self.part, [SLACK_SHARE * self.tolerance, self.cloth.band])
     }
 
     /// How deep a place lies in parts, mm, `reach` at the most: how far from their edges. What is in the band at an edge is

@@ -147,9 +147,9 @@ impl<'a> Regions<'a> {
         self.boxes.cost_at(point) + near.sum::<usize>()
     }
 
-    /// How far a way of `owner` goes before it enters a region, its own or another's. What comes no deeper than `slack` mm
-    /// enters nothing: it lies along an edge.
-    pub fn room(&self, ray: &Ray, owner: u32, slack: f64) -> Room {
+    /// How far a way of `owner` goes before it enters a region, its own or another's. What comes no deeper than `slack` mm, into
+    /// its own and into another, enters nothing: it lies along an edge.
+    pub fn room(&self, ray: &Ray, owner: u32, slack: [f64; 2]) -> Room {
         let mut room = Room { own: f64::INFINITY, other: f64::INFINITY };
         let mut extent = around(ray.from, SAME_EPSILON);
         let to = around(ray.from + ray.along * ray.reach, SAME_EPSILON);
@@ -170,7 +170,7 @@ impl<'a> Regions<'a> {
             }
             let middle = at(f64::midpoint(from, b));
             for region in near.iter().filter(|region| region.holds(middle)) {
-                let so_far = if region.owner == owner { room.own } else { room.other };
+                let (so_far, slack) = if region.owner == owner { (room.own, slack[0]) } else { (room.other, slack[1]) };
                 if from >= so_far || !PROBES.iter().any(|share| region.is_deep(at(from + (b - from) * share), slack)) {
                     continue;
                 }
@@ -314,7 +314,7 @@ mod tests {
     #[test]
     fn a_way_ends_where_it_enters_a_region() {
         let regions = Regions::new([1, 2], |owner| vec![square(if owner == 1 { 0.0 } else { 10.5 }, 0.0, 10.0)]);
-        let room = |ray: &Ray, owner| regions.room(ray, owner, 0.05);
+        let room = |ray: &Ray, owner| regions.room(ray, owner, [0.05; 2]);
         let from_corner = room(&east(10.0, 5.0), 1);
         assert!((from_corner.other - 0.5).abs() < 1e-9 && from_corner.own == f64::INFINITY);
         assert_eq!(room(&east(0.0, 5.0), 1).own, 0.0);
@@ -328,7 +328,7 @@ mod tests {
     #[test]
     fn no_regions_leave_room_everywhere() {
         let nothing = Regions::new([], |_| Vec::new());
-        assert_eq!(nothing.room(&east(0.0, 0.0), 0, 0.1).least(), f64::INFINITY);
+        assert_eq!(nothing.room(&east(0.0, 0.0), 0, [0.1; 2]).least(), f64::INFINITY);
         assert!(nothing.owners_at(Point::origin()).is_empty());
     }
 }

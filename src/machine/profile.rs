@@ -16,6 +16,7 @@ use super::gcode::Gcode;
 use super::key::{Key, Takes};
 use super::knife::Knife;
 use super::labels::Labels;
+use super::nest::Nest;
 use super::notches::Notches;
 pub use super::path::Fit;
 use super::path::{Corner, Path, Slow};
@@ -55,6 +56,8 @@ pub struct MachineProfile {
     pub knife: Knife,
     /// Notches.
     pub notch: Notches,
+    /// How parts lie beside each other.
+    pub nest: Nest,
     /// The drill.
     pub drill: Drill,
     /// Corners.
@@ -124,6 +127,7 @@ impl Default for MachineProfile {
             park: None,
             knife: Knife::default(),
             notch: Notches::default(),
+            nest: Nest::default(),
             drill: Drill::default(),
             corner: Corner::default(),
             slow: Slow::default(),
@@ -144,6 +148,8 @@ impl Default for MachineProfile {
 
 /// Least tolerance of the automatic rule, mm.
 const AUTO_TOLERANCE: f64 = 0.05;
+/// Least band of the automatic rule, mm: what no worker sees.
+const AUTO_BAND: f64 = 0.2;
 /// Largest distance of a point from its rounded place, in units of the grid: half the diagonal of a cell.
 const ROUNDING_REACH: f64 = 0.71;
 
@@ -157,6 +163,12 @@ impl MachineProfile {
     /// not smaller than what the file resolves, because its vertices carry that much noise.
     pub fn tolerance(&self, unit: f64) -> f64 {
         self.path.tolerance_mm.unwrap_or_else(|| AUTO_TOLERANCE.max(ROUNDING_REACH * unit))
+    }
+
+    /// How near to each other edges of two parts are one edge, mm, for a file whose numbers are multiples of `unit` mm: each
+    /// outline was rounded by itself, so that they may be a diagonal of that apart.
+    pub fn band(&self, unit: f64) -> f64 {
+        self.nest.band_mm.unwrap_or_else(|| AUTO_BAND.max(std::f64::consts::SQRT_2 * unit))
     }
 
     /// How far the blade may be turned from where its orientation mode has it in a program of G-code, rad: no farther

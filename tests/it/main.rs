@@ -28,6 +28,7 @@ mod many_info;
 mod markers;
 mod messages;
 mod motion;
+mod nest;
 mod notch_forms;
 mod notches;
 mod options;

@@ -18,7 +18,7 @@ pub struct Scene<'a> {
 impl<'a> Scene<'a> {
     /// The scene of a marker.
     pub fn new(marker: &'a Marker, job: &'a Job) -> Self {
-        Self { job, cloth: Cloth::new(marker), unit: marker.unit }
+        Self { job, cloth: Cloth::new(marker, &job.profile), unit: marker.unit }
     }
 
     /// The cloth and the blade as the cuts of a toolpath see them.

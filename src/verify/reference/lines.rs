@@ -52,7 +52,14 @@ impl<'a> Reference<'a> {
             first += ranks;
         }
         events.extend((first..).take(marker.closing.len()));
-        Self { marker, lines, holes, events, tolerance: profile.tolerance(marker.unit), band: band(marker.unit) }
+        Self {
+            marker,
+            lines,
+            holes,
+            events,
+            tolerance: profile.tolerance(marker.unit),
+            band: band(marker.unit, profile),
+        }
     }
 }
 

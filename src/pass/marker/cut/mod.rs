@@ -25,7 +25,7 @@ const BARE: Joint = Joint { lift: true, full_advance: true, no_overcut: true };
 fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     let style = job.profile.notch;
     if style.depth_mm.is_some() && style.style != NotchStyle::Skip {
-        style::check_depths(marker, &Cloth::new(marker), style, diagnostics);
+        style::check_depths(marker, &Cloth::new(marker, &job.profile), style, diagnostics);
     }
     let nesting = Nesting::of(marker);
     let Marker { list, pieces, cuts, .. } = marker;

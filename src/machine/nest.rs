@@ -1,0 +1,21 @@
+//! How parts lie beside each other: the keys `nest.*`.
+
+use serde::{Deserialize, Serialize};
+
+use super::key::{Key, Takes, from};
+use super::word::{Auto, OrWord, Word as _};
+
+/// The keys `nest.*`.
+#[rustfmt::skip] // a table: one row a key
+pub(super) const KEYS: &[Key] = &[
+    Key { name: "nest.band_mm", takes: Takes::NumberOr(from(0.01, 1.0), Auto::WORD), about: "Edges of two parts that are nearer to each other than this are one edge: a way along it\nenters neither. \"auto\" = 0.2 mm, or a diagonal of the unit of the file if that is more." },
+];
+
+/// How parts lie beside each other.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Default)]
+#[serde(default, deny_unknown_fields)]
+pub struct Nest {
+    /// As it was given; [`MachineProfile::band`](super::MachineProfile::band) is what holds.
+    #[serde(with = "OrWord::<Auto>")]
+    pub band_mm: Option<f64>,
+}

@@ -1,0 +1,130 @@
+//! Parts that touch: edges within the band are one edge, whatever the gap between them, and no gap gives a program that is
+//! refused.
+
+use std::fmt::Write as _;
+use std::io::Cursor;
+
+use cutc::back::TARGETS;
+use cutc::diagnostic::{Diagnostics, render};
+use cutc::ir::declaration::{Declaration, Kind, Which};
+use cutc::machine::Job;
+use cutc::pipeline::{self, Compiled};
+use cutc::source::Source;
+
+/// The part of the band within which facing edges lie.
+const WITHIN: f64 = 0.8;
+/// The automatic band of a file in thousandths of an inch, and how far rounding to them may move an edge, mm.
+const BAND: f64 = 0.2;
+const ROUNDING: f64 = 0.0254;
+/// What a gap may add to the way along an outline, mm: where something is declared is told to this.
+const PLACE: f64 = 2.0;
+
+/// A nest of bricks as CAD draws it: rows that share their edges, with T joints, V notches, and slits drawn as boxes on the
+/// common edges; each part is drawn in by half of the gap, mm, all round (negative: they overlap). In thousandths of an inch.
+fn bricks(gap: f64) -> String {
+    let rows: [(f64, &[f64]); 3] =
+        [(0.0, &[110.0, 90.0, 100.0]), (70.0, &[60.0, 150.0, 90.0]), (150.0, &[140.0, 160.0])];
+    let heights = [70.0, 80.0, 60.0];
+    let mut text = "H1*G70*".to_owned();
+    let mut number = 0;
+    for ((y, widths), height) in rows.into_iter().zip(heights) {
+        let mut x = 0.0;
+        for &width in widths {
+            number += 1;
+            let (left, right) = (x + gap / 2.0, x + width - gap / 2.0);
+            let (low, high) = (y + gap / 2.0, y + height - gap / 2.0);
+            // A V in the lower edge, a box in the upper one, a V in the right one.
+            let points = [
+                (left, low),
+                (left + 30.0, low),
+                (left + 31.0, low + 4.0),
+                (left + 32.0, low),
+                (right, low),
+                (right, low + 25.0),
+                (right - 4.0, low + 26.0),
+                (right, low + 27.0),
+                (right, high),
+                (left + 22.1, high),
+                (left + 22.1, high - 5.0),
+                (left + 22.0, high - 5.0),
+                (left + 22.0, high),
+                (left, high),
+                (left, low),
+            ];
+            let mils = |value: f64| ((20.0 + value) / 0.0254).round();
+            let at = points.map(|(x, y)| format!("X{}Y{}", mils(x), mils(y)));
+            let _infallible = write!(text, "N{number}*M15*M15*{}*M14*{}*M15*", at[0], at[1..].join("*"));
+            x += width;
+        }
+    }
+    text + "M0*\n"
+}
+
+/// A program with its verdict; every rule must hold, and nothing may be refused.
+fn compiled(gap: f64, job: &Job) -> (Compiled, Vec<u8>) {
+    let source = Source::new("nest.cut", bricks(gap).into_bytes()).expect("small");
+    let target = TARGETS.iter().find(|target| target.name == "csv").expect("setpoints are a target");
+    let order = pipeline::Order { from: None, target, verify: true };
+    let (mut out, mut found) = (Cursor::new(Vec::new()), Diagnostics::default());
+    let compiled = pipeline::compile(&source, job, order, &mut out, &mut found).expect("memory takes everything");
+    let compiled = compiled.unwrap_or_else(|| panic!("a gap of {gap} mm: {}", render(&found, &source)));
+    assert!(compiled.verdict.as_ref().is_some_and(pipeline::Verdict::passes), "a gap of {gap} mm");
+    (compiled, out.into_inner())
+}
+
+/// Headings of the blade at its plunges, whole degrees within a turn.
+fn headings(program: &[u8]) -> Vec<i32> {
+    let text = std::str::from_utf8(program).expect("rows are text");
+    let rows = text.lines().skip(1).map(|line| line.split(',').collect::<Vec<_>>());
+    let mut down = false;
+    let mut found = Vec::new();
+    for row in rows {
+        let is_down = row[4] == "1";
+        if is_down && !down {
+            let degrees: f64 = row[3].parse().expect("a number");
+            found.push((degrees.round() as i32).rem_euclid(360));
+        }
+        down = is_down;
+    }
+    found
+}
+
+/// A decision: what is done, at which cut, at which end, and about where.
+type Decision = (Kind, u32, Option<Which>, i64);
+
+fn decisions(declared: &[Declaration]) -> Vec<Decision> {
+    declared.iter().map(|d| (d.kind, d.cut, d.end, (d.from_mm / PLACE).round() as i64)).collect()
+}
+
+#[test]
+fn within_the_band_the_gap_decides_nothing() {
+    let job = Job::default();
+    let most = WITHIN * BAND - ROUNDING;
+    let (first, program) = compiled(0.0, &job);
+    let (decided, headed, figures) = (decisions(&first.declared), headings(&program), first.report.program);
+    assert!(decided.iter().any(|decision| decision.0 == Kind::Surplus) && headed.len() > 60, "something is decided");
+    for step in -4..=4_i32 {
+        let gap = most * f64::from(step) / 4.0;
+        let (compiled, program) = compiled(gap, &job);
+        let now = decisions(&compiled.declared);
+        let without = |these: &[Decision], those: &[Decision]| {
+            // A place at the middle between two told ones may be told as either.
+            let near = |a: &Decision, b: &Decision| (a.0, a.1, a.2) == (b.0, b.1, b.2) && (a.3 - b.3).abs() <= 1;
+            these.iter().filter(|a| !those.iter().any(|b| near(a, b))).copied().collect::<Vec<_>>()
+        };
+        assert_eq!([without(&now, &decided), without(&decided, &now)], [vec![], vec![]], "a gap of {gap} mm");
+        assert_eq!(headings(&program), headed, "a gap of {gap} mm");
+        assert_eq!(compiled.report.program.plunge_cuts, figures.plunge_cuts, "a gap of {gap} mm");
+    }
+}
+
+#[test]
+fn no_gap_is_refused_and_all_that_is_cut_beside_the_drawing_is_declared() {
+    for (width, back) in [(6.6, 6.35), (3.0, 1.5)] {
+        let mut job = Job::default();
+        (job.profile.knife.width_mm, job.profile.knife.back_mm) = (width, Some(back));
+        for gap in [-1.0, -0.6, -0.35, -0.25, -0.2, -0.15, -0.05, 0.0, 0.1, 0.19, 0.21, 0.3, 0.5, 1.0, 2.0] {
+            compiled(gap, &job);
+        }
+    }
+}
