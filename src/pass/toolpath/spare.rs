@@ -2,17 +2,17 @@
 //! longer than the step from one plunge to the next.
 
 use crate::analysis::cloth::Surroundings;
-use crate::analysis::plunge::PASSING_SHARE;
-use crate::geom::{Point, cross};
-use crate::ir::toolpath::{PlungeCut, Side, Step};
+use crate::analysis::plunge::{PASSING_SHARE, Plunge};
+use crate::geom::{Point, Vector, cross};
+use crate::ir::toolpath::{PlungeCut, Shape, Side, Step};
 
 /// Leaves those out of the steps of a toolpath, but never two in a row: the second may be what cuts the stretch of the first.
 pub(super) fn leave_out(steps: &mut Vec<Step>, around: &Surroundings) {
     let is_spare = |steps: &[Step], i: usize| {
-        let [Step::PlungeCut(before), Step::PlungeCut(cut), Step::PlungeCut(behind)] = &steps[i - 1..=i + 1] else {
-            return false;
-        };
-        cut.ends.iter().all(|end| end.side == Side::Contour) && are_over([before, behind], cut, around)
+        let [Step::PlungeCut(before), Step::PlungeCut(cut), behind] = &steps[i - 1..=i + 1] else { return false };
+        let Some(behind) = Blade::at_start(behind, around) else { return false };
+        cut.ends.iter().all(|end| end.side == Side::Contour)
+            && are_over([Blade::of(before, around), behind], cut, around)
     };
     let mut i = 1;
     while i + 1 < steps.len() {
@@ -23,10 +23,36 @@ pub(super) fn leave_out(steps: &mut Vec<Step>, around: &Surroundings) {
     }
 }
 
+/// A blade that is plunged.
+struct Blade {
+    tip: Point,
+    /// Unit vector from its heel to its tip.
+    along: Vector,
+}
+
+impl Blade {
+    /// That of a plunge cut.
+    fn of(cut: &PlungeCut, around: &Surroundings) -> Self {
+        Self { tip: cut.pose.centre + cut.along * around.knife.radius(), along: cut.along }
+    }
+
+    /// Where a step begins; `None` when it does not with a plunge.
+    fn at_start(step: &Step, around: &Surroundings) -> Option<Self> {
+        match step {
+            Step::PlungeCut(cut) => Some(Self::of(cut, around)),
+            Step::Run(run) if run.shape == Shape::Open => {
+                let plunge = Plunge::at_start(&run.extended(), around.knife.width_mm);
+                Some(Self { tip: plunge.tip, along: plunge.blade().try_normalize(0.0)? })
+            }
+            Step::Run(_) | Step::Turn(_) | Step::Travel(_) | Step::Drill(_) | Step::Event(_) => None,
+        }
+    }
+}
+
 /// Whether two blades together lie over all of the stretch of another.
-fn are_over(blades: [&PlungeCut; 2], cut: &PlungeCut, around: &Surroundings) -> bool {
+fn are_over(blades: [Blade; 2], cut: &PlungeCut, around: &Surroundings) -> bool {
     cut.points.windows(2).all(|ends| {
-        let [a, b] = blades.map(|blade| under(blade, [ends[0], ends[1]], around));
+        let [a, b] = blades.each_ref().map(|blade| under(blade, [ends[0], ends[1]], around));
         match (a, b) {
             (Some([0.0, to]), Some([from, 1.0])) | (Some([from, 1.0]), Some([0.0, to])) => to >= from,
             (Some(all), _) | (_, Some(all)) => all == [0.0, 1.0],
@@ -36,9 +62,8 @@ fn are_over(blades: [&PlungeCut; 2], cut: &PlungeCut, around: &Surroundings) -> 
 }
 
 /// The part of a segment, from 0 at its start to 1 at its end, that lies no farther beside a blade than that may pass it.
-fn under(blade: &PlungeCut, [from, to]: [Point; 2], around: &Surroundings) -> Option<[f64; 2]> {
-    let (knife, along) = (around.knife, blade.along);
-    let tip = blade.pose.centre + along * knife.radius();
+fn under(&Blade { tip, along }: &Blade, [from, to]: [Point; 2], around: &Surroundings) -> Option<[f64; 2]> {
+    let knife = around.knife;
     let [a, b] = [from, to].map(|point| [cross(along, point - tip), along.dot(&(point - tip))]);
     let beside = PASSING_SHARE * around.tolerance;
     let ranges = [[-beside, beside], [-knife.width_mm, 0.0]];

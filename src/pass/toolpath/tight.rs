@@ -30,7 +30,7 @@ use crate::analysis::plunge::{Plunge, overlaps};
 use crate::analysis::tight::{TightCurve, joined, tight_curves};
 use crate::diagnostic::Diagnostics;
 use crate::geom::region::Ray;
-use crate::geom::{left, ring};
+use crate::geom::{Point, left, polyline, ring};
 use crate::ir::toolpath::{OrientationMode, Run, Shape, Side, Toolpath};
 use crate::machine::TightCurves;
 
@@ -43,6 +43,9 @@ pub(super) const PASS: ToolpathPass = ToolpathPass {
 
 /// Greatest turn of a curve that one straight plunge may stand for, rad (110 degrees): of a quarter circle, rounded.
 const COVERED_TURN: f64 = 1.92;
+
+/// Least cosine of a line with the blade that cuts along it (57 degrees).
+const ALONG: f64 = 0.55;
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     let around = scene.around(toolpath);
@@ -136,7 +139,20 @@ fn is_best_covered(run: &Run, CurvedStart { deviation, curve }: &CurvedStart, ar
         && deviation.turned <= COVERED_TURN
         && !is_refused
         && !is_part
+        && leads_along(run)
         && deviation.distance < worst_overcut(run, curve, around)
+}
+
+/// Whether a run leads along its chord from its first piece to its last, and nowhere across it: there a blade would cut through
+/// the line, not along it.
+fn leads_along(run: &Run) -> bool {
+    let points = &run.points;
+    let blade = Plunge::over(points).blade();
+    let across = |(from, to): (Point, Point)| {
+        polyline::direction(from, to).is_some_and(|along| along.dot(&blade) < ALONG * blade.norm())
+    };
+    let last = points.len() - 1;
+    ![(points[0], points[1]), (points[last - 1], points[last])].into_iter().any(across)
 }
 
 /// Whether all of an open run is so near to its start that the blade has no way to go on it, and would cut across.
