@@ -30,6 +30,7 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "knife.max_down_mm", takes: Takes::NumberOr(from(1.0, 1.0e6), Off::WORD), about: "Maximum distance with the knife down: a longer cut is lifted there and rejoined with overlap." },
     Key { name: "knife.follow", takes: Takes::Word(words::<Follow>), about: "How the blade lies on curves: \"tangent\" = the tip on the line, the blade along it; \"chord\" =\ntip and heel both on the line." },
     Key { name: "knife.tight_curves", takes: Takes::Word(words::<TightCurves>), about: "Curves tighter than the blade, on which it would stand across as a chord (an arc of less than 0.55\nblade widths, a right angle rounded with less than 0.4): \"follow\" = cut along the tangent,\n\"nibble\" = by overlapping plunges within the tolerance, \"refuse\" = an error." },
+    Key { name: "knife.spare", takes: Takes::Word(words::<Spare>), about: "Where a cut shorter than the blade finds no waste for the rest of that: \"both\" = it lies least\ndeep in any part, \"own\" = in the part that is cut, \"other\" = in its neighbours." },
     Key { name: "knife.max_bow_mm", takes: Takes::Number(BLADE), about: "How far a blade that plunges on a curve may lie beside it: it is straight. Beyond that it is as\n`knife.tight_curves` says: a warning, nibbled, or an error." },
     Key { name: "knife.edges", takes: Takes::Whole(&[1, 2]), about: "Cutting edges: a blade with 2 may run either way round, heel first where C then turns less." },
     Key { name: "knife.yaw_deg", takes: Takes::Number(from(-45.0, 45.0)), about: "C yaw: a constant correction of the blade's angle, which is added to C in every cut." },
@@ -80,6 +81,8 @@ pub struct Knife {
     pub follow: Follow,
     /// On curves tighter than the blade.
     pub tight_curves: TightCurves,
+    /// Which part is spared where a plunge cut finds no waste.
+    pub spare: Spare,
     /// Of the body beside a curve that begins there.
     pub max_bow_mm: f64,
     /// Cutting edges.
@@ -96,6 +99,29 @@ pub enum Follow {
     Tangent,
     /// Tip and heel on the path: the blade is a chord of it.
     Chord,
+}
+
+/// Which part is spared by what a blade is longer than its cut, where it finds no waste.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Spare {
+    /// All alike.
+    Both,
+    /// The one that is cut.
+    Own,
+    /// The ones beside it.
+    Other,
+}
+
+impl Spare {
+    /// How deep a blade lies in the part that it cuts and in others, mm, the one that matters first.
+    pub fn weigh(self, [own, other]: [f64; 2]) -> [f64; 2] {
+        match self {
+            Self::Both => [own.max(other), other],
+            Self::Own => [own, other],
+            Self::Other => [other, own],
+        }
+    }
 }
 
 /// What is done about a curve on which the blade, as a chord of it, would stand across.
@@ -195,6 +221,7 @@ impl Default for Knife {
             max_down_mm: None,
             follow: Follow::Tangent,
             tight_curves: TightCurves::Follow,
+            spare: Spare::Both,
             max_bow_mm: 0.5,
             edges: 1,
             yaw_deg: 0.0,

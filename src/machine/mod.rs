@@ -37,7 +37,7 @@ mod word;
 
 pub use digest::{blake3_of, sha256_hex, sha256_of};
 pub use kinematics::Limits;
-pub use knife::{Follow, Knife, TightCurves};
+pub use knife::{Follow, Knife, Spare, TightCurves};
 pub use load::{Faults, load, load_given};
 pub use nest::Nest;
 pub use notches::{NotchStyle, Notches};

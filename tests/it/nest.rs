@@ -7,7 +7,7 @@ use std::io::Cursor;
 use cutc::back::TARGETS;
 use cutc::diagnostic::{Diagnostics, render};
 use cutc::ir::declaration::{Declaration, Kind, Which};
-use cutc::machine::Job;
+use cutc::machine::{Job, Spare};
 use cutc::pipeline::{self, Compiled};
 use cutc::source::Source;
 
@@ -116,6 +116,23 @@ fn within_the_band_the_gap_decides_nothing() {
         assert_eq!(headings(&program), headed, "a gap of {gap} mm");
         assert_eq!(compiled.report.program.plunge_cuts, figures.plunge_cuts, "a gap of {gap} mm");
     }
+}
+
+#[test]
+fn the_profile_says_which_part_is_spared() {
+    let deepest = |spare: Spare| {
+        let mut job = Job::default();
+        job.profile.knife.spare = spare;
+        let (compiled, _) = compiled(0.5, &job);
+        let surplus = compiled.declared.iter().filter(|declared| declared.kind == Kind::Surplus);
+        surplus.fold([0.0_f64; 2], |[own, other], declared| match declared.part {
+            Some(_) => [own.max(declared.magnitude_mm), other],
+            None => [own, other.max(declared.magnitude_mm)],
+        })
+    };
+    let [both, own, other] = [Spare::Both, Spare::Own, Spare::Other].map(deepest);
+    assert!(own[0] < both[0] && both[1] < own[1], "the part itself is spared: {own:?}, {both:?}");
+    assert!(other[1] < both[1] && both[0] < other[0], "the neighbours are spared: {other:?}, {both:?}");
 }
 
 #[test]

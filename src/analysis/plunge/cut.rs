@@ -99,9 +99,9 @@ impl Surplus<'_> {
         self.around.depths(from + along * way, self.overlaps[end] + way)
     }
 
-    /// How it is shared out to the two ends so that the deepest of its places lies least deep in any part, and how deep
-    /// that is beyond either end; of shares that are alike in this the one that goes least deep into other parts, then the
-    /// one that is nearest to `preferred`.
+    /// How it is shared out to the two ends so that the deepest of its places lies least deep in any part, or in those that
+    /// `knife.spare` names, and how deep that is beyond either end; of shares that are alike in this the one that goes least
+    /// deep into the others, then the one that is nearest to `preferred`.
     fn placed(&self, preferred: [f64; 2]) -> ([f64; 2], [Overcut; 2]) {
         let count = (self.length / STEP).ceil().max(1.0) as usize;
         let way = |i: usize| self.length * i as f64 / count as f64;
@@ -115,8 +115,9 @@ impl Surplus<'_> {
         let at = |i: usize| [deepest[0][i], deepest[1][count - i]];
         let harm = |i: usize| {
             let [before, behind] = at(i);
-            let both = before.max(behind);
-            [both.deepest(), both.other, (way(i) - preferred[0]).abs()]
+            let Overcut { own, other } = before.max(behind);
+            let [first, then] = self.around.knife.spare.weigh([own, other]);
+            [first, then, (way(i) - preferred[0]).abs()]
         };
         let least = (0..=count).map(|i| (harm(i), i)).min_by(|(a, i), (b, j)| {
             let by_harm = a.iter().zip(b).map(|(a, b)| a.total_cmp(b)).find(|order| order.is_ne());

@@ -12,7 +12,7 @@ pub(super) fn leave_out(steps: &mut Vec<Step>, around: &Surroundings) {
         let [Step::PlungeCut(before), Step::PlungeCut(cut), behind] = &steps[i - 1..=i + 1] else { return false };
         let Some(behind) = Blade::at_start(behind, around) else { return false };
         cut.ends.iter().all(|end| end.side == Side::Contour)
-            && are_over([Blade::of(before, around), behind], cut, around)
+            && are_over(&[Blade::of(before, around), behind], cut, around)
     };
     let mut i = 1;
     while i + 1 < steps.len() {
@@ -50,7 +50,7 @@ impl Blade {
 }
 
 /// Whether two blades together lie over all of the stretch of another.
-fn are_over(blades: [Blade; 2], cut: &PlungeCut, around: &Surroundings) -> bool {
+fn are_over(blades: &[Blade; 2], cut: &PlungeCut, around: &Surroundings) -> bool {
     cut.points.windows(2).all(|ends| {
         let [a, b] = blades.each_ref().map(|blade| under(blade, [ends[0], ends[1]], around));
         match (a, b) {

@@ -12,7 +12,7 @@ use super::worsts::Worsts;
 use crate::geom::{Point, Vector, polyline};
 use crate::ir::declaration::Kind;
 use crate::ir::finding::Sighting;
-use crate::machine::MachineProfile;
+use crate::machine::{MachineProfile, Spare};
 use crate::verify::declared::Declared;
 use crate::verify::reference::grid::{Grid, Run};
 use crate::verify::reference::inside::Inside;
@@ -33,6 +33,8 @@ pub(in crate::verify) struct Overcut<'a> {
     tolerance: f64,
     width: f64,
     band: f64,
+    /// Which part is spared by a plunge cut that finds no waste.
+    spare: Spare,
     /// How far the profile lets the blade cut into the part at a reflex corner, mm.
     reflex: f64,
     /// How deep the profile lets it cut into the part itself and into others, mm.
@@ -75,6 +77,7 @@ impl<'a> Overcut<'a> {
             tolerance: reference.tolerance + rounding,
             width: knife.width_mm,
             band: reference.band,
+            spare: knife.spare,
             reflex: knife.reflex_front_overlap_mm.max(knife.reflex_heel_overlap_mm),
             caps: [verify.max_overcut_part_mm, verify.max_overcut_neighbour_mm],
         }
@@ -104,10 +107,10 @@ impl<'a> Overcut<'a> {
         if deepest.iter().all(|(depth, _)| *depth == 0.0) {
             return;
         }
-        let least = if cut.is_plunge_cut() { self.least(stroke) + SHIFT } else { 0.0 };
+        let least = if cut.is_plunge_cut() { self.least(stroke).map(|least| least + SHIFT) } else { [0.0; 2] };
         // What is as deep as the band one way is in it the other.
-        let least = least.max(self.band);
-        let bounds = [least.max(self.reflex), least].map(|bound| bound + self.tolerance);
+        let [own, other] = least.map(|least| least.max(self.band));
+        let bounds = [own.max(self.reflex), other].map(|bound| bound + self.tolerance);
         let worsts = [&mut overcuts.part, &mut overcuts.neighbour];
         for (((depth, i), worst), (bound, cap)) in
             deepest.into_iter().zip(worsts).zip(bounds.into_iter().zip(self.caps))
@@ -166,10 +169,20 @@ impl<'a> Overcut<'a> {
         depths
     }
 
-    /// How deep a plunge cut must lie in some part wherever it is laid along its line so that it covers what it does, mm.
-    fn least(&self, stroke: &Ends) -> f64 {
+    /// How deep a plunge cut must lie in its own part and in others wherever it is laid along its line so that it covers what
+    /// it does, mm: in those that the profile spares as little as can be.
+    fn least(&self, stroke: &Ends) -> Depths {
         let Ends { trial, line, .. } = *stroke;
-        self.least_over(trial.core.map(|station| line.place(on_lap(line, station))), stroke)
+        let places = self.places(trial.core.map(|station| line.place(on_lap(line, station))), stroke);
+        let weighed = |depths: &Depths| self.spare.weigh(*depths);
+        let first = places.iter().map(|depths| weighed(depths)[0]).fold(f64::INFINITY, f64::min);
+        if self.spare == Spare::Both {
+            return [first; 2];
+        }
+        // Of places that are alike in what is spared, the least deep in the rest.
+        let alike = places.iter().map(weighed).filter(|weighed| weighed[0] <= first + SHIFT);
+        let then = alike.map(|weighed| weighed[1]).fold(f64::INFINITY, f64::min);
+        if self.spare == Spare::Own { [first, then] } else { [then, first] }
     }
 
     /// How deep a plunge cut lies in some part at the least when it cuts a curve by the chords of that, mm: the worst of the
@@ -183,24 +196,34 @@ impl<'a> Overcut<'a> {
     }
 
     /// How deep a blade that covers the way from one place to another lies in some part at the least, mm.
-    fn least_over(&self, [start, end]: [Point; 2], stroke: &Ends) -> f64 {
-        let Some(along) = polyline::direction(start, end) else { return 0.0 };
+    fn least_over(&self, ends: [Point; 2], stroke: &Ends) -> f64 {
+        let places = self.places(ends, stroke);
+        places.iter().map(|[own, other]| own.max(*other)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// How deep a blade that covers the way from one place to another lies in parts, at each place along that.
+    fn places(&self, [start, end]: [Point; 2], stroke: &Ends) -> Vec<Depths> {
+        let Some(along) = polyline::direction(start, end) else { return vec![[0.0; 2]] };
         let surplus = (self.width - (end - start).norm()).max(0.0);
         // How deep the deepest of all places up to each is, at either end.
         let count = (surplus / SHIFT).ceil() as usize;
-        let deepest = |from: Point, along: Vector| -> Vec<f64> {
-            let mut deepest = 0.0_f64;
-            let mut all = vec![0.0];
+        let deepest = |from: Point, along: Vector| -> Vec<Depths> {
+            let mut deepest = [0.0_f64; 2];
+            let mut all = vec![deepest];
             all.extend((1..=count).map(|i| {
                 let way = surplus * i as f64 / count as f64;
                 let depths = self.depths(from + along * way, way, stroke);
-                deepest = deepest.max(depths[0]).max(depths[1]);
+                deepest = [deepest[0].max(depths[0]), deepest[1].max(depths[1])];
                 deepest
             }));
             all
         };
         let (before, behind) = (deepest(start, -along), deepest(end, along));
-        (0..=count).map(|i| before[i].max(behind[count - i])).fold(f64::INFINITY, f64::min)
+        let at = |i: usize| {
+            let (before, behind) = (before[i], behind[count - i]);
+            [before[0].max(behind[0]), before[1].max(behind[1])]
+        };
+        (0..=count).map(at).collect()
     }
 }
 
