@@ -13,6 +13,8 @@ use crate::machine::{Knife, MachineProfile};
 /// Part of the tolerance by which a straight extension may lie in a part: then it runs along an edge that is cut anyway.
 /// The rest is for how far the tip may leave its path.
 const SLACK_SHARE: f64 = 0.9;
+/// Distance of two places of a way that are looked at, mm.
+const STEP: f64 = 0.1;
 /// A way that enters the part within this length begins in it, mm: rounding.
 const INSIDE_EPSILON: f64 = 1e-6;
 
@@ -47,6 +49,17 @@ impl<'a> Cloth<'a> {
     /// Whether a place lies in the part to which a piece belongs, by the piece's place in the marker.
     pub fn is_in_part(&self, piece: usize, place: Point) -> bool {
         self.parts.owners_at(place).contains(&self.part_of[piece])
+    }
+
+    /// The part in which a way from one place to another lies deepest, of those that a piece does not belong to; `None` when it
+    /// lies in none.
+    pub fn deepest_other(&self, piece: usize, [from, to]: [Point; 2]) -> Option<u32> {
+        let own = self.part_of[piece];
+        let length = (to - from).norm();
+        let steps = (length / STEP).ceil().max(1.0) as usize;
+        let places = (0..=steps).map(|i| from + (to - from) * (i as f64 / steps as f64));
+        let depths = places.flat_map(|place| self.parts.depths_at(place, length));
+        depths.filter(|(part, _)| *part != own).reduce(|a, b| if b.1 > a.1 { b } else { a }).map(|deepest| deepest.0)
     }
 
     /// The cloth as the cuts of a toolpath see it.

@@ -1,5 +1,6 @@
 //! What a finished toolpath does beside the drawing because it cannot do otherwise: its declarations.
 
+use super::cloth::Cloth;
 use super::plunge::{Plunge, WORTH_SHARE};
 use super::swing::swing;
 use crate::geom::{Point, polyline};
@@ -13,11 +14,11 @@ const SAME_EPSILON: f64 = 1e-6;
 /// What is declared is rounded to thousandths, how much it is upwards: people read it.
 const PER_MM: f64 = 1000.0;
 
-/// What the toolpath of the cut with this place in the marker does beside the line that is `drawn`; a closed one ends with
-/// its first point.
-pub fn declarations(toolpath: &Toolpath, cut: u32, drawn: &[Point], knife: &Knife) -> Vec<Declaration> {
+/// What the toolpath of the cut with this place in the marker does beside the line that is `drawn`, on this cloth; a closed
+/// one ends with its first point.
+pub fn declarations(toolpath: &Toolpath, cut: u32, drawn: &[Point], knife: &Knife, cloth: &Cloth) -> Vec<Declaration> {
     let drawn = Drawn { points: drawn, stations: polyline::stations(drawn) };
-    let mut of_cut = OfCut { toolpath, cut, drawn, knife, last: 0, found: Vec::new() };
+    let mut of_cut = OfCut { toolpath, cut, drawn, knife, cloth, last: 0, found: Vec::new() };
     for step in &toolpath.steps {
         match step {
             Step::Run(run) => of_cut.run(run),
@@ -75,6 +76,7 @@ struct OfCut<'a> {
     cut: u32,
     drawn: Drawn<'a>,
     knife: &'a Knife,
+    cloth: &'a Cloth<'a>,
     /// The chord of the cut that was found last: the next stretch is on it or behind it.
     last: usize,
     found: Vec<Declaration>,
@@ -112,12 +114,18 @@ impl OfCut<'_> {
         if cut.ends.iter().any(|end| end.side == Side::Contour) {
             self.declare(Kind::Nibbled, ends, None, polyline::length(&cut.points));
         }
-        for (which, Overcut { own, other }) in [Which::Start, Which::End].into_iter().zip(cut.overcut) {
-            for (depth, part) in [(own, Some(self.toolpath.part)), (other, None)] {
-                if depth > 0.0 {
-                    self.declare(Kind::Surplus, ends, Some(which), depth);
-                    self.found.last_mut().expect("just declared").part = part;
-                }
+        let tip = cut.pose.centre + cut.along * self.knife.radius();
+        let beyond = [[from, tip - cut.along * self.knife.width_mm], [to, tip]];
+        for ((which, Overcut { own, other }), beyond) in
+            [Which::Start, Which::End].into_iter().zip(cut.overcut).zip(beyond)
+        {
+            if own > 0.0 {
+                self.declare(Kind::Surplus, ends, Some(which), own);
+                self.in_part(Some(self.toolpath.part));
+            }
+            if other > 0.0 {
+                self.declare(Kind::Surplus, ends, Some(which), other);
+                self.in_part(self.cloth.deepest_other(self.toolpath.part as usize, beyond));
             }
         }
         self.ends([cut.heel, cut.front], cut.ends, cut.turned, ends, Shape::Open);
@@ -187,6 +195,11 @@ impl OfCut<'_> {
         } else {
             station.clamp(0.0, length)
         }
+    }
+
+    /// Says in which part the deviation that was declared last is.
+    fn in_part(&mut self, part: Option<u32>) {
+        self.found.last_mut().expect("one was declared").part = part;
     }
 
     fn declare(&mut self, kind: Kind, [from_mm, to_mm]: [f64; 2], end: Option<Which>, magnitude_mm: f64) {

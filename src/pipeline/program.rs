@@ -10,6 +10,7 @@ use super::report::{Axes, Program, Sides};
 use super::sound::assert_sound;
 use super::spent::Clock;
 use super::toolpaths::{Toolpaths, Window};
+use crate::analysis::cloth::Cloth;
 use crate::analysis::declare;
 use crate::back::{ArcTarget, ArcWriter, Context, Emit, Estimate, Outcome, Parts};
 use crate::diagnostic::{Diagnostic, Diagnostics};
@@ -102,6 +103,8 @@ struct Made {
 struct Wanted<'a> {
     job: &'a Job,
     marker: &'a Marker,
+    /// The cloth on which the parts lie; `None` where nothing is cut.
+    cloth: Option<&'a Cloth<'a>>,
     motion: bool,
     /// How each target of arcs can be told a path.
     interpolations: Vec<Interpolation>,
@@ -120,14 +123,16 @@ impl Wanted<'_> {
             toolpaths.par_iter().map(solve).collect()
         };
         let arcs = self.interpolations.iter().map(arcs).collect();
-        let declared = toolpaths.par_iter().zip(cuts_of).filter_map(|(toolpath, cut)| Some((toolpath, cut?)));
-        let declared = declared.flat_map_iter(|(toolpath, cut)| self.declarations(toolpath, cut)).collect();
+        let declared =
+            toolpaths.par_iter().zip(cuts_of).filter_map(|(toolpath, cut)| Some((toolpath, cut?, self.cloth?)));
+        let declared =
+            declared.flat_map_iter(|(toolpath, cut, cloth)| self.declarations(toolpath, cut, cloth)).collect();
         Made { toolpaths, cuts, arcs, declared, findings }
     }
 
-    fn declarations(&self, toolpath: &Toolpath, cut: u32) -> Vec<Declaration> {
+    fn declarations(&self, toolpath: &Toolpath, cut: u32, cloth: &Cloth) -> Vec<Declaration> {
         let drawn = self.marker.list.points(self.marker.cuts[cut as usize].range);
-        declare::declarations(toolpath, cut, &drawn, &self.job.profile.knife)
+        declare::declarations(toolpath, cut, &drawn, &self.job.profile.knife, cloth)
     }
 }
 
@@ -146,8 +151,7 @@ pub(super) fn write(
         count(&mut refused, refusal);
     }
     let interpolations = sinks.iter().filter_map(Sink::arc_target).map(|target| (target.interpolation)(job)).collect();
-    let wanted =
-        Wanted { job, marker: context.marker, motion: motion || sinks.iter().any(Sink::needs_motion), interpolations };
+    let motion = motion || sinks.iter().any(Sink::needs_motion);
     for Sink { form, out } in &mut *sinks {
         match form {
             Form::Toolpath(parts) => (parts.head)(context, out)?,
@@ -158,6 +162,7 @@ pub(super) fn write(
     let (planner, tally) = (Planner::new(job), Tally::default());
     let mut writer = Writer { sinks, context, planner, tally, declared: Vec::new(), refused };
     let (mut drawing, mut linking) = toolpaths.stages();
+    let wanted = Wanted { job, marker: context.marker, cloth: linking.cloth(), motion, interpolations };
     // Each stage has a window of its own: no core waits for the slowest.
     let (mut drawn, mut linked, mut made) = (drawing.next(), None, None);
     while drawn.is_some() || linked.is_some() || made.is_some() {

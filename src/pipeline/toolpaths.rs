@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::sound::assert_sound;
+use crate::analysis::cloth::Cloth;
 use crate::diagnostic::Diagnostics;
 use crate::ir::toolpath::{Pose, Step};
 use crate::ir::{Marker, Toolpath, check};
@@ -95,7 +96,12 @@ impl Drawing<'_, '_> {
     }
 }
 
-impl Linking<'_, '_> {
+impl<'t, 'a> Linking<'t, 'a> {
+    /// The cloth on which they lie; `None` where nothing is cut.
+    pub(super) fn cloth(&self) -> Option<&'t Cloth<'a>> {
+        self.scene.map(|scene| &scene.cloth)
+    }
+
     /// Finishes the next ones.
     pub(super) fn link(&mut self, mut window: Window) -> Window {
         let Some(scene) = self.scene else { return window };

@@ -125,9 +125,10 @@ fn the_profile_says_which_part_is_spared() {
         job.profile.knife.spare = spare;
         let (compiled, _) = compiled(0.5, &job);
         let surplus = compiled.declared.iter().filter(|declared| declared.kind == Kind::Surplus);
-        surplus.fold([0.0_f64; 2], |[own, other], declared| match declared.part {
-            Some(_) => [own.max(declared.magnitude_mm), other],
-            None => [own, other.max(declared.magnitude_mm)],
+        // Each piece is a part here, with two cuts: its slit and its outline.
+        surplus.fold([0.0_f64; 2], |[own, other], declared| match declared.part.expect("it lies in a part") {
+            part if part == declared.cut / 2 => [own.max(declared.magnitude_mm), other],
+            _ => [own, other.max(declared.magnitude_mm)],
         })
     };
     let [both, own, other] = [Spare::Both, Spare::Own, Spare::Other].map(deepest);

@@ -2,6 +2,7 @@
 
 use std::io::Cursor;
 
+use cutc::analysis::cloth::Cloth;
 use cutc::analysis::declare;
 use cutc::back::{Context, SETPOINTS};
 use cutc::ir::marker::Cut;
@@ -30,12 +31,13 @@ pub(crate) fn setpoints(marker: &Marker, job: &Job) -> Vec<u8> {
 /// What the program of a marker does beside the drawing.
 pub(crate) fn declared(marker: &Marker, job: &Job) -> Declared {
     let marker = super::with_cuts(marker, job);
+    let cloth = Cloth::new(&marker, &job.profile);
     let is_cut =
         |toolpath: &Toolpath| toolpath.steps.iter().any(|step| matches!(step, Step::Run(_) | Step::PlungeCut(_)));
     let cuts = super::toolpaths(&marker, job).into_iter().filter(is_cut);
     let of_cut = |(toolpath, (cut, index)): (Toolpath, (&Cut, u32))| {
         let drawn = marker.list.points(cut.range);
-        declare::declarations(&toolpath, index, &drawn, &job.profile.knife)
+        declare::declarations(&toolpath, index, &drawn, &job.profile.knife, &cloth)
     };
     Declared::new(cuts.zip(marker.cuts.iter().zip(0..)).flat_map(of_cut).collect())
 }
