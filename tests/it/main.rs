@@ -35,6 +35,7 @@ mod options;
 mod passes;
 mod picture;
 mod places;
+mod plunges;
 mod profile;
 mod properties;
 mod readme;
