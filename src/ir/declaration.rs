@@ -43,7 +43,7 @@ pub enum Kind {
     Plunge,
     /// A plunge cut that is longer than its line and has no room: how deep the rest lies in a part.
     Surplus,
-    /// The body of the blade on a curve that is tighter than it: how far its heel leaves the line.
+    /// The body of the blade on a curve that is tighter than it, or at a bend without a lift: how far it leaves the line.
     Swing,
     /// A plunge without motion amid a line: how long the stretch is that it cuts.
     Nibbled,
@@ -63,7 +63,7 @@ impl Kind {
             Self::Shortened => ["shortened overlap", "shortened overlaps"],
             Self::Plunge => ["plunge on a curve", "plunges on curves"],
             Self::Surplus => ["end of a plunge cut in a part", "ends of plunge cuts in parts"],
-            Self::Swing => ["tight curve", "tight curves"],
+            Self::Swing => ["swing at a bend", "swings at bends"],
             Self::Nibbled => ["plunge amid a line", "plunges amid lines"],
             Self::Lift => ["end amid a line", "ends amid lines"],
         }
