@@ -210,7 +210,8 @@ fn explain(rule: &str, told: &Told, out: &mut String) {
         let more = told.uncut.len().saturating_sub(MOST_PIECES);
         let more = if more == 0 { String::new() } else { format!(" and {more} more") };
         lines.push(format!("not cut at all: {}{more}", names.join(", ")));
-    } else if let Some(piece) = &told.piece {
+    }
+    if let Some(piece) = told.piece.as_ref().filter(|piece| !told.uncut.contains(piece)) {
         lines.push(format!("the place: {piece}"));
     }
     match &told.line {

@@ -92,7 +92,8 @@ fn quote(program: &mut dyn BufRead, lines: &mut [&mut Line]) -> io::Result<()> {
             }
             read += 1;
         }
-        let all = String::from_utf8_lossy(text.trim_ascii_end()).into_owned();
+        // Of what a terminal would obey the escape is shown.
+        let all: String = String::from_utf8_lossy(text.trim_ascii_end()).escape_debug().collect();
         line.text = Some(match all.char_indices().nth(LETTERS) {
             Some((end, _)) => format!("{}...", &all[..end]),
             None => all,

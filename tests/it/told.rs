@@ -51,6 +51,19 @@ fn a_row_that_was_moved_is_quoted_with_its_line() {
 }
 
 #[test]
+fn a_line_that_cannot_be_read_is_quoted_and_nothing_in_it_reaches_the_terminal() {
+    let room = Room::with("two.cut", PIECES);
+    room.says("compile two.cut -t csv", 0);
+    let text = room.text("two.csv");
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    lines[99] = "0.098000,abc\u{1b}[2J,0,0,0,0,0,0".to_owned();
+    fs::write(room.at("two.csv"), lines.join("\n") + "\n").expect("writable");
+    let said = room.says("verify two.csv --source two.cut", 1);
+    let quoted = r"line 100 of the program: 0.098000,abc\u{1b}[2J,0,0,0,0,0,0";
+    assert!(told(&said, "verify/format").contains(quoted) && !said.contains('\u{1b}'), "{said}");
+}
+
+#[test]
 fn a_piece_that_is_not_cut_is_named() {
     let room = Room::with("two.cut", PIECES);
     room.says("compile two.cut -t csv --pieces 1 -o one.csv", 0);

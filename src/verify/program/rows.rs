@@ -150,10 +150,8 @@ impl<'a> Rows<'a> {
 
     /// The line or record that was read last, as people find it: lines count from 1, the first is the header.
     fn place(&self) -> String {
-        match self.form {
-            Form::Array(_) | Form::Counts(..) => format!("record {}", self.tick),
-            Form::Table | Form::Stream(_) => format!("line {}", self.tick + FIRST_LINE),
-        }
+        let what = if matches!(self.form, Form::Table | Form::Stream(_)) { "line" } else { "record" };
+        format!("{what} {}", self.number())
     }
 
     /// Reads a record, or a line without its end. A last line that has none is how a program cut short looks.
@@ -190,11 +188,21 @@ impl<'a> Rows<'a> {
         Fetched::Row
     }
 
+    /// The number of the line or record that was read last.
+    fn number(&self) -> u64 {
+        match self.form {
+            Form::Table | Form::Stream(_) => self.tick + FIRST_LINE,
+            Form::Array(_) | Form::Counts(..) => self.tick,
+        }
+    }
+
     fn fail(&mut self, why: &str) {
         self.bad.count += 1;
         if self.bad.first.is_none() {
             let nowhere = Sighting { time: Some(0.0), line: None, point: Point::origin(), block: 0 };
-            self.bad.first = Some((self.last.map_or(nowhere, |row| row.sighting()), why.to_owned()));
+            // The axes stand where the last good row has them; the line is the bad one.
+            let place = self.last.map_or(nowhere, |row| row.sighting());
+            self.bad.first = Some((Sighting { line: Some(self.number()), ..place }, why.to_owned()));
         }
     }
 

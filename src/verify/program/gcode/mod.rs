@@ -117,7 +117,7 @@ impl<'a> Places<'a> {
             drill: 0,
             event: 0,
             block: 0,
-            line: 0,
+            line: 1,
         };
         let texts = texts(profile);
         Self {
