@@ -7,7 +7,7 @@ use crate::diagnostic::{Diagnostics, Severity};
 use crate::ir::declaration::Total;
 use crate::machine::plot::Lines;
 use crate::machine::{Follow, Job, Mode, NotchStyle};
-use crate::pipeline::{Axes, Peak, Peaks, Report, Sides, Verdict, word};
+use crate::pipeline::{Axes, Common, Peak, Peaks, Report, Sides, Verdict, word};
 use crate::units::S_PER_MIN;
 use crate::units::number::{fixed, short};
 
@@ -50,6 +50,12 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
     line("drills", report.drills.to_string());
     line("labels", report.labels.to_string());
     line("cut", format!("{} m", fixed(report.cut_m, 3)));
+    if let Some(Common { edges, length_m, shift_mm }) = report.common {
+        let (edges, length) = (counted(edges, "common edge"), fixed(length_m, 3));
+        let moved =
+            if shift_mm > 0.0 { format!(", moved by {} mm at the most", fixed(shift_mm, 2)) } else { String::new() };
+        line("common", format!("{length} m less: {edges} cut once{moved}"));
+    }
     of_program(report, &mut line);
     line("warnings", diagnostics.count(Severity::Warning).to_string());
     if let Some(axes) = &report.program.axes {

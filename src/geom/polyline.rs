@@ -40,6 +40,22 @@ pub fn distance_to_segment(point: Point, a: Point, b: Point) -> f64 {
     (point - (a + (b - a) * foot(point, a, b))).norm()
 }
 
+/// Distance of a point from the line through another along a unit vector, mm.
+pub fn distance_to_line(point: Point, from: Point, along: Vector) -> f64 {
+    super::cross(along, point - from).abs()
+}
+
+/// Distance of two segments, mm: nothing where they cross.
+pub fn distance_of_segments([a, b]: [Point; 2], [c, d]: [Point; 2]) -> f64 {
+    let side = |from: Point, to: Point, point: Point| super::cross(to - from, point - from);
+    let parts = |from: Point, to: Point, p: Point, q: Point| side(from, to, p) * side(from, to, q) < 0.0;
+    if parts(a, b, c, d) && parts(c, d, a, b) {
+        return 0.0;
+    }
+    let ends = [(a, c, d), (b, c, d), (c, a, b), (d, a, b)];
+    ends.into_iter().map(|(point, from, to)| distance_to_segment(point, from, to)).fold(f64::INFINITY, f64::min)
+}
+
 /// Distance from a point to a polyline of two points at least, mm.
 pub fn distance(point: Point, points: &[Point]) -> f64 {
     points.windows(2).map(|ends| distance_to_segment(point, ends[0], ends[1])).fold(f64::INFINITY, f64::min)

@@ -18,6 +18,8 @@ pub struct Marker {
     /// What the knife cuts, in order, those of a piece behind each other in the order of the pieces; none before the pass
     /// `cut`.
     pub cuts: Vec<Cut>,
+    /// The edges that parts have in common and that are cut once.
+    pub common: Vec<CommonEdge>,
     /// What the numbers of the file are multiples of, mm; 0 when they are not rounded to a grid.
     pub unit: f64,
     /// What happens behind the last piece.
@@ -83,6 +85,17 @@ pub struct Cut {
     pub range: Range,
 }
 
+/// An edge that two parts have in common and that is cut once: with the part that comes first.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CommonEdge {
+    /// The piece with which it is cut, and the one that is spared it: their places in the marker.
+    pub pieces: [u32; 2],
+    /// The edge as the outline of the spared one has it.
+    pub range: Range,
+    /// How far it is from where it is cut at the most, mm.
+    pub shift: f64,
+}
+
 /// What a cut is of the part that it cuts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CutKind {
@@ -90,6 +103,8 @@ pub enum CutKind {
     Outline,
     /// The closed line around a cut-out of it.
     Inner,
+    /// A stretch of one of the two: the rest is cut with other parts, or is a notch on an edge that is cut straight through.
+    Edge,
     /// A stroke of a notch.
     Slit,
     /// A line that does not close.
@@ -101,7 +116,7 @@ impl CutKind {
     pub fn is_closed(self) -> bool {
         match self {
             Self::Outline | Self::Inner => true,
-            Self::Slit | Self::Line => false,
+            Self::Edge | Self::Slit | Self::Line => false,
         }
     }
 }
@@ -269,13 +284,26 @@ impl Marker {
         self.list.points(contour.range).into_owned()
     }
 
-    /// Length of all contours and slits, mm, without overlaps.
+    /// Length of all cuts, mm, without overlaps; that of what is drawn as long as there are none.
     pub fn cut_length(&self) -> f64 {
-        let mut contours = 0.0;
-        for (_, contour) in self.contours() {
-            let points = self.list.points(contour.range);
-            contours = points.windows(2).fold(contours, |sum, ends| sum + (ends[1] - ends[0]).norm());
-        }
+        if self.cuts.is_empty() { self.drawn_length() } else { self.length(self.cuts.iter().map(|cut| cut.range)) }
+    }
+
+    /// Length of the edges that are cut once for two parts, mm.
+    pub fn common_length(&self) -> f64 {
+        self.length(self.common.iter().map(|edge| edge.range))
+    }
+
+    fn length(&self, ranges: impl Iterator<Item = Range>) -> f64 {
+        ranges.fold(0.0, |sum, range| {
+            let points = self.list.points(range);
+            points.windows(2).fold(sum, |sum, ends| sum + (ends[1] - ends[0]).norm())
+        })
+    }
+
+    /// Length of all contours and slits as they are drawn, mm.
+    pub fn drawn_length(&self) -> f64 {
+        let contours = self.length(self.contours().map(|(_, contour)| contour.range));
         let notches: f64 =
             self.pieces.iter().flat_map(|p| &p.notches).flat_map(Notch::strokes).map(|s| s.length()).sum();
         contours + notches

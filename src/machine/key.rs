@@ -28,6 +28,8 @@ pub enum Takes {
     Number(Within),
     /// A number in a range, or a word.
     NumberOr(Within, &'static str),
+    /// A number in a range, or one of the words of a type.
+    NumberOrWord(Within, fn() -> &'static [&'static str]),
     /// One of some whole numbers.
     Whole(&'static [i64]),
     /// A whole number of percent.
@@ -101,6 +103,9 @@ impl Takes {
         match self {
             Self::Number(within) => number(value).is_some_and(|v| within.holds(v)),
             Self::NumberOr(within, word) => is(word) || number(value).is_some_and(|v| within.holds(v)),
+            Self::NumberOrWord(within, words) => {
+                words().iter().any(|word| is(word)) || number(value).is_some_and(|v| within.holds(v))
+            }
             Self::Whole(numbers) => value.as_integer().is_some_and(|v| numbers.contains(&v)),
             Self::Percent => number(value).is_some_and(|v| PERCENT.holds(v) && v.fract() == 0.0),
             Self::Point => places(2),
@@ -127,6 +132,13 @@ impl Takes {
 
 fn number(value: &toml::Value) -> Option<f64> {
     value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
+}
+
+/// The words of a type, as a message lists them.
+fn quoted(words: fn() -> &'static [&'static str]) -> String {
+    let quoted: Vec<_> = words().iter().map(|word| format!("\"{word}\"")).collect();
+    let (last, others) = quoted.split_last().expect("a type has words");
+    if others.is_empty() { last.clone() } else { format!("{} or {last}", others.join(", ")) }
 }
 
 /// The table of a dotted name.
@@ -175,10 +187,11 @@ impl fmt::Display for Within {
 impl Key {
     /// The unit of its numbers, from the end of its name; empty when they have none.
     pub fn unit(&self) -> &'static str {
-        const UNITS: [(&str, &str); 12] = [
+        const UNITS: [(&str, &str); 13] = [
             ("per_mm", "counts/mm"),
             ("per_deg", "counts/degree"),
             (".offset", "counts"),
+            (".lines", "mm"),
             ("_mm", "mm"),
             ("_mm_s", "mm/s"),
             ("_mm_s2", "mm/s2"),
@@ -196,7 +209,12 @@ impl Key {
     /// The unit of its n-th number, which may be given in others; empty where it has none.
     pub fn unit_of(&self, n: usize) -> &'static str {
         match self.takes {
-            Takes::Number(_) | Takes::NumberOr(..) | Takes::Percent | Takes::Point | Takes::RangeOr(_) => self.unit(),
+            Takes::Number(_)
+            | Takes::NumberOr(..)
+            | Takes::NumberOrWord(..)
+            | Takes::Percent
+            | Takes::Point
+            | Takes::RangeOr(_) => self.unit(),
             Takes::Pose | Takes::PoseOr(_) => POSE_UNITS.get(n).copied().unwrap_or(""),
             // A length of a plot's unit is a text of its own kind.
             Takes::Length(_)
@@ -215,6 +233,7 @@ impl Key {
         match self.takes {
             Takes::Number(within) => format!("a number {within}{unit}"),
             Takes::NumberOr(within, word) => format!("a number {within}{unit}, or \"{word}\""),
+            Takes::NumberOrWord(within, words) => format!("a number {within}{unit}, {}", quoted(words)),
             Takes::Percent => format!("a whole number {PERCENT}{unit}"),
             Takes::Whole(numbers) => numbers.iter().map(ToString::to_string).collect::<Vec<_>>().join(" or "),
             Takes::Point => format!("two numbers [x, y]{unit}"),
@@ -224,11 +243,7 @@ impl Key {
             Takes::Length(within) => {
                 format!("a number {within} mm, or a text such as \"1/40 mm\", \"1/1000 in\", \"600 dpi\"")
             }
-            Takes::Word(words) => {
-                let quoted: Vec<_> = words().iter().map(|word| format!("\"{word}\"")).collect();
-                let (last, others) = quoted.split_last().expect("a type has words");
-                if others.is_empty() { last.clone() } else { format!("{} or {last}", others.join(", ")) }
-            }
+            Takes::Word(words) => quoted(words),
             Takes::Encoding => "the name of an encoding, such as \"windows-1251\"".to_owned(),
             Takes::Text => "text, a line or several".to_owned(),
             Takes::Steps => "a list of steps, such as [\"M64 P0\", \"G4 P0.05\"]".to_owned(),

@@ -6,6 +6,7 @@
 
 pub mod axes;
 mod codes;
+pub mod common;
 pub mod counts;
 mod digest;
 pub mod drill;
@@ -35,6 +36,7 @@ mod validate;
 pub mod verify;
 mod word;
 
+pub use common::{Common, CommonLines, Lines};
 pub use digest::{blake3_of, sha256_hex, sha256_of};
 pub use kinematics::Limits;
 pub use knife::{Follow, Knife, Spare, TightCurves};

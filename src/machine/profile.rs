@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::axes::{Axes, CAxis};
 pub use super::codes::CodeUse;
+use super::common::{Common, CommonLines, Lines};
 use super::counts::Counts;
 use super::drill::Drill;
 use super::gcode::Gcode;
@@ -58,6 +59,8 @@ pub struct MachineProfile {
     pub notch: Notches,
     /// How parts lie beside each other.
     pub nest: Nest,
+    /// Edges that two parts have in common.
+    pub common: Common,
     /// The drill.
     pub drill: Drill,
     /// Corners.
@@ -128,6 +131,7 @@ impl Default for MachineProfile {
             knife: Knife::default(),
             notch: Notches::default(),
             nest: Nest::default(),
+            common: Common::default(),
             drill: Drill::default(),
             corner: Corner::default(),
             slow: Slow::default(),
@@ -169,6 +173,16 @@ impl MachineProfile {
     /// outline was rounded by itself, so that they may be a diagonal of that apart.
     pub fn band(&self, unit: f64) -> f64 {
         self.nest.band_mm.unwrap_or_else(|| AUTO_BAND.max(std::f64::consts::SQRT_2 * unit))
+    }
+
+    /// How near to each other edges of two parts are cut once, mm, for a file whose numbers are multiples of `unit` mm; `None` =
+    /// each is cut.
+    pub fn common(&self, unit: f64) -> Option<f64> {
+        match self.common.lines {
+            Lines::Within(distance) => Some(distance),
+            Lines::Word(CommonLines::Auto) => Some(self.band(unit)),
+            Lines::Word(CommonLines::Off) => None,
+        }
     }
 
     /// How far the blade may be turned from where its orientation mode has it in a program of G-code, rad: no farther

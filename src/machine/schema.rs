@@ -87,7 +87,9 @@ fn described(key: &Key) -> Value {
 /// What a key takes.
 fn values(key: &Key) -> Value {
     let mut ways = match key.takes {
-        Takes::Number(within) | Takes::NumberOr(within, _) => quantities(numbers(within), &[key.unit()]),
+        Takes::Number(within) | Takes::NumberOr(within, _) | Takes::NumberOrWord(within, _) => {
+            quantities(numbers(within), &[key.unit()])
+        }
         Takes::Whole(numbers) => vec![json!({ "type": "integer", "enum": numbers })],
         Takes::Percent => {
             let mut whole = numbers(PERCENT);
@@ -106,6 +108,9 @@ fn values(key: &Key) -> Value {
     };
     if let Takes::NumberOr(_, other) | Takes::PoseOr(other) | Takes::RangeOr(other) = key.takes {
         ways.push(json!({ "const": other }));
+    }
+    if let Takes::NumberOrWord(_, words) = key.takes {
+        ways.push(json!({ "enum": words() }));
     }
     one_of(ways)
 }

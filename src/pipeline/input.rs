@@ -108,7 +108,7 @@ fn marker_passes() -> [&'static [MarkerPass]; 2] {
 }
 
 /// Makes the cuts of what was read.
-pub(super) fn make_cuts(input: &mut Input, source: &Source, job: &Job, diagnostics: &mut Diagnostics) {
+pub fn make_cuts(input: &mut Input, source: &Source, job: &Job, diagnostics: &mut Diagnostics) {
     run_passes(marker_passes()[1], &mut input.marker, source, job, diagnostics);
 }
 

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::io::{self, BufReader, Read as _};
 
-use super::input::{Judged, Reading, read_to_judge};
+use super::input::{Judged, Reading, make_cuts, read_to_judge};
 use super::product::{BLOCK, Medium};
 use super::rounded::significant;
 use super::told::{Explained, told};
@@ -44,7 +44,11 @@ pub fn judge_program(
     if diagnostics.has_errors() {
         return Ok(None);
     }
-    let Judged { input, reading } = judged;
+    let Judged { mut input, reading } = judged;
+    make_cuts(&mut input, source, job, diagnostics);
+    if diagnostics.has_errors() {
+        return Ok(None);
+    }
     let audit = audited(source, input.dialect, reading, job);
     let marker = &input.marker;
     let verdict = judge(Asked { source, marker, ground: None, declared, job }, &audit, program)?;

@@ -20,7 +20,7 @@ pub use crate::analysis::area;
 pub use input::{Input, Judged, Reading, marker_of, read, read_to_judge};
 pub use judge::{about, advice, figures, foreign, judge_program};
 pub use product::{Medium, Product};
-pub use report::{Axes, Controller, Drawn, Lines, Notches, Peak, Peaks, Program, Report, Sides};
+pub use report::{Axes, Common, Controller, Drawn, Lines, Notches, Peak, Peaks, Program, Report, Sides};
 pub use rounded::significant;
 pub use spent::{Spent, word};
 pub use told::{Explained, Line, Told};
@@ -31,7 +31,8 @@ use std::io::{self, BufWriter, Write};
 
 use tempfile::SpooledTempFile;
 
-use self::input::{make_cuts, read_alone, run_passes};
+pub use self::input::make_cuts;
+use self::input::{read_alone, run_passes};
 use self::judge::Asked;
 use self::program::{Sink, Written};
 use self::toolpaths::Toolpaths;
@@ -253,7 +254,6 @@ impl Proofs {
 /// The figures of the program that an input would become, nothing written and nothing judged; when it cannot be planned
 /// the diagnostics say why.
 pub fn estimate(input: &mut Input, source: &Source, job: &Job, diagnostics: &mut Diagnostics) -> io::Result<Program> {
-    make_cuts(input, source, job, diagnostics);
     if diagnostics.has_errors() {
         return Ok(Program::default());
     }

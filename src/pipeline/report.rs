@@ -44,6 +44,9 @@ pub struct Report {
     /// Length of contours and slits, without overlaps, m.
     #[serde(serialize_with = "micro")]
     pub cut_m: f64,
+    /// What is cut once for two parts; not there where nothing is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub common: Option<Common>,
     /// Of a plot: what its lines were taken for.
     #[serde(flatten)]
     pub drawn: Option<Drawn>,
@@ -55,6 +58,28 @@ pub struct Report {
     /// What a controller that plans for itself makes of the program; not there without such a target.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub controller: Option<Controller>,
+}
+
+/// Edges that are cut once for two parts.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Common {
+    /// How many there are.
+    pub edges: usize,
+    /// Their length, which is cut once less, m.
+    #[serde(serialize_with = "micro")]
+    pub length_m: f64,
+    /// How far one of them is from where it is cut at the most, mm.
+    #[serde(serialize_with = "micro")]
+    pub shift_mm: f64,
+}
+
+impl Common {
+    /// Those of a marker.
+    fn of(marker: &Marker) -> Option<Self> {
+        let edges = marker.common.len();
+        let shift_mm = marker.common.iter().map(|edge| edge.shift).fold(0.0, f64::max);
+        (edges > 0).then(|| Self { edges, length_m: marker.common_length() / MM_PER_M, shift_mm })
+    }
 }
 
 /// A program on a controller that plans for itself.
@@ -303,6 +328,7 @@ impl Report {
             drills: marker.pieces.iter().map(|p| p.drills.len()).sum(),
             labels: marker.pieces.iter().map(|p| p.labels.len()).sum(),
             cut_m: marker.cut_length() / MM_PER_M,
+            common: Common::of(marker),
             drawn: marker.drawing.as_ref().map(Drawn::of),
             program: Program::default(),
             declared: Vec::new(),

@@ -6,8 +6,9 @@ use super::axes::events::Events;
 use super::axes::limits::Limits;
 use super::axes::rest::Rest;
 use super::axes::table::Table;
-use super::cut::coverage::Coverage;
+use super::cut::coverage::{self, Coverage};
 use super::cut::done::Done;
+use super::cut::joints::Joints;
 use super::cut::naming::Naming;
 use super::cut::stroke::{Judge, Traced};
 use super::cut::strokes::Strokes;
@@ -138,7 +139,8 @@ pub(super) fn simulate(
         last: None,
     };
     let order = Order::new(&reference.lines);
-    let mut done = Done { coverage: Coverage::new(reference), order, worsts: judge.worsts() };
+    let joints = Joints::new(&judge.common.joints);
+    let mut done = Done { coverage: Coverage::new(reference), joints, order, worsts: judge.worsts() };
     // What is read, what is followed and what is judged are at work beside each other, each on strokes of its own.
     let (mut read, mut traced) = (watch.gather(&mut next), Vec::new());
     // Who makes room for rows gives it back: only then it is at hand for the next ones.
@@ -156,7 +158,9 @@ pub(super) fn simulate(
     let mut findings = watch.findings(&mut done);
     findings.extend(done.worsts.findings());
     let uncut = done.coverage.uncut();
-    findings.extend(done.coverage.findings(profile));
+    findings.push(done.coverage.finding(judge.common, profile));
+    findings.push(done.joints.finding(coverage::limit(profile)));
+    findings.push(judge.common.finding());
     findings.push(done.order.finding(profile.time.period()));
     (findings, uncut)
 }

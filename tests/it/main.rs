@@ -13,6 +13,7 @@ mod chord;
 mod cli;
 mod coarse;
 mod codes;
+mod common;
 mod drives;
 mod edits;
 mod entries;

@@ -16,6 +16,8 @@ const WITHIN: f64 = 0.8;
 /// The automatic band of a file in thousandths of an inch, and how far rounding to them may move an edge, mm.
 const BAND: f64 = 0.2;
 const ROUNDING: f64 = 0.0254;
+/// What a gap may turn a blade that is led over to a common edge, degrees: the rest of the way does not depend on it.
+const LED_OVER: i32 = 4;
 /// What a gap may add to the way along an outline, mm: where something is declared is told to this.
 const PLACE: f64 = 2.0;
 
@@ -113,7 +115,14 @@ fn within_the_band_the_gap_decides_nothing() {
             these.iter().filter(|a| !those.iter().any(|b| near(a, b))).copied().collect::<Vec<_>>()
         };
         assert_eq!([without(&now, &decided), without(&decided, &now)], [vec![], vec![]], "a gap of {gap} mm");
-        assert_eq!(headings(&program), headed, "a gap of {gap} mm");
+        let now = headings(&program);
+        let turned = now.iter().zip(&headed).map(|(a, b)| (a - b + 540).rem_euclid(360) - 180);
+        assert_eq!(now.len(), headed.len(), "a gap of {gap} mm");
+        assert!(
+            turned.clone().all(|turn| turn.abs() <= LED_OVER),
+            "a gap of {gap} mm: {:?}",
+            turned.collect::<Vec<_>>()
+        );
         assert_eq!(compiled.report.program.plunge_cuts, figures.plunge_cuts, "a gap of {gap} mm");
     }
 }

@@ -162,10 +162,10 @@ fn cuts(marker: &Marker) -> Vec<(usize, Span, [u64; 4])> {
 fn welding_loses_no_segment_and_no_length() {
     for seed in 0..2000 {
         let mut marker = raw_marker(&mut Random(seed));
-        let (before, length) = (cuts(&marker), marker.cut_length());
+        let (before, length) = (cuts(&marker), marker.drawn_length());
         run("weld", &mut marker);
         assert_eq!(cuts(&marker), before, "seed {seed}");
-        assert!((marker.cut_length() - length).abs() < 1e-9, "seed {seed}");
+        assert!((marker.drawn_length() - length).abs() < 1e-9, "seed {seed}");
         assert_eq!(check::marker(&marker), Vec::<String>::new(), "seed {seed}");
     }
 }

@@ -1,6 +1,6 @@
 //! The entries of the legend: what is drawn how.
 
-use super::aside;
+use super::{aside, common};
 use crate::back::target::Context;
 use crate::units::MM_PER_M;
 use crate::units::number::fixed;
@@ -23,7 +23,7 @@ pub(super) enum Symbol {
     Target,
 }
 
-/// The entries of a picture: those of all, then what of a plot is drawn and not cut.
+/// The entries of a picture: those of all, edges that are cut once, then what of a plot is drawn and not cut.
 pub(super) fn items(context: &Context) -> impl Iterator<Item = Item> {
     let aside = aside::classes(context).map(|class| Item {
         class: aside::ASIDE,
@@ -31,7 +31,9 @@ pub(super) fn items(context: &Context) -> impl Iterator<Item = Item> {
         meaning: format!("{}: {}, {} m, uncut", class.name, class.count, fixed(class.length / MM_PER_M, 1)),
     });
     let all = ITEMS.iter().map(|&(class, symbol, meaning)| Item { class, symbol, meaning: meaning.to_owned() });
-    all.chain(aside)
+    let common = common::meaning(context);
+    let common = common.map(|meaning| Item { class: common::COMMON, symbol: Symbol::Line, meaning });
+    all.chain(common).chain(aside)
 }
 
 const ITEMS: [(&str, Symbol, &str); 10] = [

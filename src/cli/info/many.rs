@@ -43,6 +43,7 @@ impl Arguments {
         let read = pipeline::read(&source, self.reading.from, job, &mut diagnostics);
         let (mut row, mut doubts) = (Row::new(source.name().as_ref(), State::Failed), String::new());
         if let Some(mut read) = read.filter(|_| !diagnostics.has_errors()) {
+            pipeline::make_cuts(&mut read, &source, job, &mut diagnostics);
             let program = pipeline::estimate(&mut read, &source, job, &mut diagnostics)?;
             let report = Report { program, ..Report::of(&read.marker, read.dialect.name) };
             if !diagnostics.has_errors() {

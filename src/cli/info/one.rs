@@ -31,6 +31,9 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished
     let input = pipeline::read(&source, arguments.reading.from, &job, &mut diagnostics);
     let mut known = None;
     if let Some(mut input) = input {
+        if !diagnostics.has_errors() {
+            pipeline::make_cuts(&mut input, &source, &job, &mut diagnostics);
+        }
         let report = Report::of(&input.marker, input.dialect.name);
         let figures = arguments.figures(Some(&input.marker).filter(|_| !diagnostics.has_errors()), &report);
         let mut all = Known::of(report, Facts::of(&input.marker), figures);

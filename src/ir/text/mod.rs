@@ -19,10 +19,13 @@
 //! notch castle out 79 0 to 80 -4 to 81 0 segments 3 @81..88#15
 //! label at 10 10 heading-rad 0 @30..39#5 mirrored @40..44#6
 //! field D @80..89#15
+//! piece 2 @84..86#16
 //! closing advance @90..93#16
 //! cut slit piece 1 sides 1 1
 //!   from 20 0 to 20 5 @60..70#12 lift full-advance no-overcut
 //! cut outline piece 1 sides 1 - contour 1
+//! common cut 1 spared 2 shift-mm 0.1
+//!   from 100.1 80 to 100.1 0 @90..94#20
 //! ```
 //!
 //! ```text
@@ -53,6 +56,7 @@
 //!
 //! - A `cut` is of the contour of its piece that it names, or of segments of its own. Its sides are the parts on its left
 //!   and right, by the places of their pieces from 1, as its piece is, or `-` for waste.
+//! - `common` is an edge that the first piece and the second have in common, as the second has it; it is cut with the first.
 //! - A `notch` is one that the contours make: the ends of its mouth with its tip between them, and how many segments lie
 //!   there.
 //! - `stab` is a plunge cut; `harm` has what it cuts too far of the part itself and of others before the start, and the
@@ -81,8 +85,13 @@ const JOINTS: [(&str, Flag); 3] = [
 
 const FORMS: [(&str, NotchForm); 3] = [("v", NotchForm::V), ("castle", NotchForm::Castle), ("u", NotchForm::U)];
 
-const KINDS: [(&str, CutKind); 4] =
-    [("outline", CutKind::Outline), ("inner", CutKind::Inner), ("slit", CutKind::Slit), ("line", CutKind::Line)];
+const KINDS: [(&str, CutKind); 5] = [
+    ("outline", CutKind::Outline),
+    ("inner", CutKind::Inner),
+    ("edge", CutKind::Edge),
+    ("slit", CutKind::Slit),
+    ("line", CutKind::Line),
+];
 
 const SHAPES: [(&str, Shape); 2] = [("open", Shape::Open), ("ring", Shape::Ring)];
 

@@ -5,7 +5,7 @@ use std::fmt::{self, Display, Formatter, Write as _};
 use super::{ENDS, EVENTS, FORMS, JOINTS, KINDS, ORIENTATION_MODES, SHAPES, SIDES};
 use crate::geom::Point;
 use crate::ir::list::{FULL_SPEED, Joint, Range, Segment};
-use crate::ir::marker::{Cut, Label, Marker, NotchKind, OutlineNotch, Piece};
+use crate::ir::marker::{CommonEdge, Cut, Label, Marker, NotchKind, OutlineNotch, Piece};
 use crate::ir::toolpath::{Edge, End, Overcut, PlungeCut, Pose, Run, Side, Step, Toolpath};
 use crate::source::Span;
 use crate::units::number::exact;
@@ -22,6 +22,11 @@ pub fn print_marker(marker: &Marker) -> String {
     }
     for cut in &marker.cuts {
         print_cut(&mut out, marker, cut);
+    }
+    for CommonEdge { pieces, range, shift } in &marker.common {
+        let [cut, spared] = pieces.map(|piece| piece + 1);
+        line(&mut out, format_args!("common cut {cut} spared {spared} shift-mm {}", exact(*shift)));
+        print_segments(&mut out, marker, *range);
     }
     out
 }

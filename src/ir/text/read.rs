@@ -8,7 +8,7 @@ use super::{ENDS, EVENTS, FORMS, JOINTS, KINDS, ORIENTATION_MODES, SHAPES, SIDES
 use crate::geom::{Heading, Point, Vector};
 use crate::ir::list::{FULL_SPEED, Joint, Range, Segment};
 use crate::ir::marker::{
-    Contour, Cut, Drill, Event, Field, Label, Marker, Notch, NotchKind, NotchStroke, OutlineNotch, Piece,
+    CommonEdge, Contour, Cut, Drill, Event, Field, Label, Marker, Notch, NotchKind, NotchStroke, OutlineNotch, Piece,
 };
 use crate::ir::toolpath::{self, Air, Edge, End, Overcut, PlungeCut, Pose, Run, Step, Toolpath};
 use crate::source::Span;
@@ -26,7 +26,7 @@ pub struct ReadError {
 type Read<T> = Result<T, ReadError>;
 
 /// What a line of a marker starts with.
-const LINES: &str = "piece, event, feed-mm-s, drill, slit, contour, notch, label, field, closing or cut";
+const LINES: &str = "piece, event, feed-mm-s, drill, slit, contour, notch, label, field, closing, cut or common";
 
 /// Reads the text of a marker.
 pub fn read_marker(text: &str) -> Read<Marker> {
@@ -47,6 +47,10 @@ pub fn read_marker(text: &str) -> Read<Marker> {
             "cut" => {
                 let cut = cut(&mut line, &mut lines, &mut marker)?;
                 marker.cuts.push(cut);
+            }
+            "common" => {
+                let edge = common(&mut line, &mut lines, &mut marker)?;
+                marker.common.push(edge);
             }
             "contour" => {
                 let closed = line.choice(&[("closed", true), ("open", false)])?;
@@ -95,24 +99,39 @@ fn of_piece(word: &str, line: &mut Line<'_>, marker: &mut Marker) -> Read<()> {
     Ok(())
 }
 
+/// The place of a piece, from 1.
+fn place(line: &mut Line<'_>, marker: &Marker) -> Read<u32> {
+    let place: usize = line.whole("the place of a piece")?;
+    let piece = place.checked_sub(1).filter(|&piece| piece < marker.pieces.len());
+    piece.map(|piece| piece as u32).ok_or_else(|| line.error("the place of a piece"))
+}
+
+/// An edge of the segments that follow that two parts have in common.
+fn common(line: &mut Line<'_>, lines: &mut Lines<'_>, marker: &mut Marker) -> Read<CommonEdge> {
+    line.expect("cut")?;
+    let cut = place(line, marker)?;
+    line.expect("spared")?;
+    let spared = place(line, marker)?;
+    line.expect("shift-mm")?;
+    let shift = line.number()?;
+    Ok(CommonEdge { pieces: [cut, spared], range: range(line, lines, marker)?, shift })
+}
+
 /// A cut of a contour, or of the segments that follow.
 fn cut(line: &mut Line<'_>, lines: &mut Lines<'_>, marker: &mut Marker) -> Read<Cut> {
     let kind = line.choice(&KINDS)?;
     line.expect("piece")?;
-    let place: usize = line.whole("the place of a piece")?;
-    let Some(piece) = place.checked_sub(1).filter(|&piece| piece < marker.pieces.len()) else {
-        return Err(line.error("the place of a piece"));
-    };
+    let piece = place(line, marker)?;
     line.expect("sides")?;
     let sides = [line.side()?, line.side()?];
     let range = if line.has("contour") {
         let contour: usize = line.whole("the place of a contour")?;
-        let found = contour.checked_sub(1).and_then(|contour| marker.pieces[piece].contours.get(contour));
+        let found = contour.checked_sub(1).and_then(|contour| marker.pieces[piece as usize].contours.get(contour));
         found.ok_or_else(|| line.error("the place of a contour"))?.range
     } else {
         range(line, lines, marker)?
     };
-    Ok(Cut { kind, piece: piece as u32, sides, range })
+    Ok(Cut { kind, piece, sides, range })
 }
 
 /// The segments that follow a line.

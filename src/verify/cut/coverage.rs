@@ -9,6 +9,7 @@ use crate::ir::Finding;
 use crate::ir::finding::Sighting;
 use crate::machine::MachineProfile;
 use crate::verify::program::row::PLACE_ROUNDING;
+use crate::verify::reference::common::Common;
 use crate::verify::reference::line::Line;
 use crate::verify::reference::lines::Reference;
 use crate::verify::worst::Worst;
@@ -115,20 +116,19 @@ impl<'a> Coverage<'a> {
     /// The pieces of which nothing is cut.
     pub(in crate::verify) fn uncut(&self) -> Vec<u32> {
         let mut pieces: BTreeMap<u32, bool> = BTreeMap::new();
-        for (line, cut) in self.reference.lines.iter().zip(&self.cut) {
+        for (line, cut) in self.reference.lines.iter().zip(&self.cut).filter(|(line, _)| !line.cut.is_edge) {
             *pieces.entry(line.piece).or_default() |= !cut.all().is_empty();
         }
         pieces.into_iter().filter(|(_, is_cut)| !is_cut).map(|(piece, _)| piece).collect()
     }
 
     /// The longest stretch that was left uncut.
-    pub(in crate::verify) fn findings(self, profile: &MachineProfile) -> Vec<Finding> {
-        // Rounding may part the two ends that meet.
-        let limit = profile.verify.max_uncut_mm + 2.0 * PLACE_ROUNDING;
+    pub(in crate::verify) fn finding(self, common: &Common, profile: &MachineProfile) -> Finding {
+        let limit = limit(profile);
         let nothing = Worst::new("verify/complete", "mm", Some(limit));
         let of_lines = |(lines, cuts): (&[Line], &[Stretches])| {
             let mut worst = nothing.clone();
-            for (line, cut) in lines.iter().zip(cuts) {
+            for (line, cut) in lines.iter().zip(cuts).filter(|(line, _)| !line.cut.is_edge) {
                 see_uncut(line, cut.all(), &mut worst);
             }
             worst
@@ -138,8 +138,16 @@ impl<'a> Coverage<'a> {
         for of_some in lines.map(of_lines).collect::<Vec<Worst>>() {
             worst.add(&of_some);
         }
-        vec![worst.finding()]
+        for &(length, place) in &common.uncut {
+            worst.see(length, || place);
+        }
+        worst.finding()
     }
+}
+
+/// Longest stretch that may be left uncut, mm: rounding may part two ends that meet.
+pub(in crate::verify) fn limit(profile: &MachineProfile) -> f64 {
+    profile.verify.max_uncut_mm + 2.0 * PLACE_ROUNDING
 }
 
 /// Sees how long the stretches of a line are that were left uncut.

@@ -12,6 +12,7 @@ mod drift;
 pub(super) mod follow;
 pub(super) mod heading;
 pub(super) mod heel;
+pub(super) mod joints;
 pub(super) mod naming;
 pub(super) mod overcut;
 mod overlap;

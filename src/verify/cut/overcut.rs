@@ -8,7 +8,7 @@
 use super::body::Cut;
 use super::heading::on_lap;
 use super::trial::Trial;
-use super::worsts::Worsts;
+use super::worsts::{Overcuts, Worsts};
 use crate::geom::{Point, Vector, polyline};
 use crate::ir::declaration::Kind;
 use crate::ir::finding::Sighting;
@@ -22,6 +22,11 @@ use crate::verify::worst::Worst;
 
 /// Distance of two places for a blade that are tried, mm: so much deeper than the best of them no other is less deep.
 const SHIFT: f64 = 0.1;
+
+/// How many times the band two corners are apart whose edges are that apart.
+const DIAGONAL: f64 = std::f64::consts::SQRT_2;
+/// How deep in parts it is seen how deep a place lies, mm: far more than is allowed.
+const ASIDE: f64 = 5.0;
 
 /// Judges overcuts.
 #[derive(Debug)]
@@ -88,6 +93,7 @@ impl<'a> Overcut<'a> {
         let Worsts { overcuts, declared: undeclared, .. } = worsts;
         let Ends { cut, trial, .. } = *stroke;
         let mut deepest = [(0.0, 0); 2];
+        self.see_aside(stroke, seen, overcuts);
         for (i, &point) in cut.points.iter().enumerate() {
             let beyond = trial.beyond(cut, i);
             if beyond <= self.rounding || trial.over.is_some_and(|over| over.spans(i)) {
@@ -121,6 +127,24 @@ impl<'a> Overcut<'a> {
         }
         if let Some(declared) = self.declared {
             self.hold(deepest, stroke, declared, seen, undeclared);
+        }
+    }
+
+    /// Judges what a stroke cuts along its line where that is on no edge of its own part: it is on one of another then, or leads
+    /// over to it and through it by the tolerance.
+    fn see_aside(&self, stroke: &Ends, seen: &impl Fn(usize) -> Sighting, overcuts: &mut Overcuts) {
+        let Ends { cut, trial, line, .. } = *stroke;
+        if line.aside.is_empty() {
+            return;
+        }
+        for i in trial.held.clone() {
+            let station = trial.feet[i].station;
+            if line.aside.iter().any(|&[from, to]| (from..=to).contains(&station)) {
+                let depths = self.depths(cut.points[i], ASIDE, stroke);
+                for (depth, worst) in depths.into_iter().zip([&mut overcuts.part, &mut overcuts.neighbour]) {
+                    worst.see_under(depth, DIAGONAL * self.band + 2.0 * self.tolerance, || seen(i));
+                }
+            }
         }
     }
 

@@ -21,6 +21,7 @@ use crate::machine::{Fit, Follow, Knife, MachineProfile};
 use crate::verify::axes::crawl;
 use crate::verify::declared::Declared;
 use crate::verify::program::row::{Going, Rounding, Row, SAGITTA};
+use crate::verify::reference::common::Common;
 use crate::verify::reference::ground::Ground;
 use crate::verify::reference::lines::Reference;
 use crate::verify::worst::Worst;
@@ -68,6 +69,8 @@ impl Traced {
 /// Judges strokes.
 pub(in crate::verify) struct Judge<'a> {
     pub(in crate::verify) reference: &'a Reference<'a>,
+    /// The edges that are cut with other parts.
+    pub(in crate::verify) common: &'a Common,
     /// Rounding of the rows.
     pub(in crate::verify) rows_rounding: Rounding,
     profile: &'a MachineProfile,
@@ -94,7 +97,7 @@ pub(in crate::verify) struct Judge<'a> {
 impl<'a> Judge<'a> {
     /// Judges by what must be cut and what lies where a program whose rows are rounded.
     pub(in crate::verify) fn new(
-        Ground { reference, grid, inside }: &'a Ground<'a>,
+        Ground { reference, grid, inside, common }: &'a Ground<'a>,
         declared: Option<&'a Declared>,
         profile: &'a MachineProfile,
         rounding: Rounding,
@@ -116,6 +119,7 @@ impl<'a> Judge<'a> {
         };
         Self {
             reference,
+            common,
             rows_rounding: rounding,
             profile,
             knife,
@@ -187,6 +191,7 @@ impl<'a> Judge<'a> {
         best.passed = done.coverage.passed(best.line, &best.stretches);
         done.order.cut(first.tick, best.line, stroke.sighting(cut, cut.body));
         done.coverage.add(best.line, &best.stretches, cut.is_plunge_cut());
+        done.joints.see(&cut.points, self.reference.lines[best.line].cut.index);
         traced.best = Some(best);
     }
 

@@ -176,7 +176,8 @@ impl Tracer<'_> {
             let point = cut.points[probe];
             for run in self.grid.near(point, REACH) {
                 if last.0 != run.line() {
-                    last = (run.line(), meant(run.line()));
+                    let is_edge = self.reference.lines[run.line()].cut.is_edge;
+                    last = (run.line(), !is_edge && meant(run.line()));
                 }
                 if !last.1 {
                     continue;

@@ -1,5 +1,6 @@
 //! What programs are judged by: the lines of a marker, and what lies where on the cloth.
 
+use super::common::Common;
 use super::grid::Grid;
 use super::inside::Inside;
 use super::lines::Reference;
@@ -14,6 +15,8 @@ pub struct Ground<'a> {
     pub(in crate::verify) grid: Grid,
     /// The parts.
     pub(in crate::verify) inside: Inside<'a>,
+    /// The edges that are cut with other parts.
+    pub(in crate::verify) common: Common,
 }
 
 impl<'a> Ground<'a> {
@@ -21,6 +24,8 @@ impl<'a> Ground<'a> {
     pub fn new(marker: &'a Marker, profile: &MachineProfile) -> Self {
         let reference = Reference::new(marker, profile);
         let (grid, inside) = rayon::join(|| Grid::new(&reference), || Inside::new(marker));
-        Self { reference, grid, inside }
+        let distance = profile.common(marker.unit).unwrap_or(0.0);
+        let common = Common::new(&reference.shared, &reference, &grid, distance);
+        Self { reference, grid, inside, common }
     }
 }

@@ -18,6 +18,8 @@ pub(in crate::verify) struct OfCut {
     pub(in crate::verify) round: Option<f64>,
     /// Whether it bounds a part.
     pub(in crate::verify) bounds: bool,
+    /// Whether it is no cut but the edge of a part, as it is drawn.
+    pub(in crate::verify) is_edge: bool,
     /// Whether codes of the file, or that it is a slit, may forbid overlaps at its ends.
     pub(in crate::verify) is_bare: bool,
 }
@@ -52,6 +54,9 @@ pub(in crate::verify) struct Line<'a> {
     pub(in crate::verify) ring: bool,
     /// By the stations of heel and tip: where it is too tight for the blade to be its chord. Few lines are.
     pub(in crate::verify) tight: Box<[[f64; 2]]>,
+    /// The stretches of it, by station, that are on no edge of its own part: none but where a part has edges in common with
+    /// others.
+    pub(in crate::verify) aside: Box<[[f64; 2]]>,
 }
 
 /// A chord of a line.
@@ -117,7 +122,7 @@ impl<'a> Line<'a> {
         ring: bool,
     ) -> Self {
         debug_assert_eq!(points.len(), path.len(), "all is known of every point");
-        Self { cut, piece, rank, points, path, caps, ring, tight: Box::default() }
+        Self { cut, piece, rank, points, path, caps, ring, tight: Box::default(), aside: Box::default() }
     }
 
     /// One of its points.

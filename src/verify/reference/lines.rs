@@ -8,10 +8,13 @@ use super::band::band;
 use super::caps::{BothWays, Feeds};
 use super::line::{Line, OfCut};
 use super::outline::{OfContour, Outline};
+use super::shared::{self, Drawn};
 use super::vertex::Vertex;
 use super::{notches, tight};
+use crate::geom::{Point, polyline};
 use crate::ir::Marker;
-use crate::ir::marker::NotchStroke;
+use crate::ir::list::Segment;
+use crate::ir::marker::{CutKind, NotchStroke};
 use crate::machine::{Follow, MachineProfile};
 
 /// All lines of a marker.
@@ -25,6 +28,8 @@ pub(in crate::verify) struct Reference<'a> {
     pub(in crate::verify) holes: Vec<usize>,
     /// Ranks of the events, in the order of the marker.
     pub(in crate::verify) events: Vec<usize>,
+    /// The closed contours of the pieces of which not all is cut with them.
+    pub(in crate::verify) shared: Vec<Vec<Drawn>>,
     /// Permitted deviation of the tip, mm.
     pub(in crate::verify) tolerance: f64,
     /// How deep a place in a part may lie and still be at its edge, mm.
@@ -40,13 +45,17 @@ impl<'a> Reference<'a> {
         let (mut lines, mut holes, mut events) = (Vec::with_capacity(count), Vec::new(), Vec::new());
         let mut first = 0;
         let mut first_cut = 0;
-        for (piece, OfPiece { ranks, cuts, lines: mut of_piece }) in marker.pieces.iter().zip(of_pieces) {
+        let mut shared = Vec::new();
+        for (piece, of_piece) in marker.pieces.iter().zip(of_pieces) {
+            let OfPiece { ranks, cuts, lines: mut of_piece, mut rings } = of_piece;
             events.extend((first..).take(piece.events.len()));
             holes.extend((first + piece.events.len()..).take(piece.drills.len()));
             for line in &mut of_piece {
                 line.rank += small(first);
-                line.cut.index += first_cut;
+                line.cut.index = line.cut.index.saturating_add(first_cut);
             }
+            rings.iter_mut().flatten().flat_map(|drawn| &mut drawn.cut).for_each(|cut| *cut += first_cut);
+            shared.append(&mut rings);
             first_cut += cuts;
             lines.append(&mut of_piece);
             first += ranks;
@@ -57,6 +66,7 @@ impl<'a> Reference<'a> {
             lines,
             holes,
             events,
+            shared,
             tolerance: profile.tolerance(marker.unit),
             band: band(marker.unit, profile),
         }
@@ -71,6 +81,8 @@ struct OfPiece<'a> {
     ranks: usize,
     /// How many cuts it has.
     cuts: u32,
+    /// Its closed contours, when not all of them is cut with it.
+    rings: Vec<Vec<Drawn>>,
 }
 
 impl<'a> OfPiece<'a> {
@@ -97,17 +109,51 @@ impl<'a> OfPiece<'a> {
         let slits =
             slits.iter().map(|(stroke, percent)| slit(stroke, [index, rank()].map(small), cut(), feeds.at(*percent)));
         let mut lines: Vec<Line> = slits.collect();
-        for outline in outlines {
+        let of_cuts = of_cuts(index, marker);
+        let drawn: Vec<Vec<Segment>> = if of_cuts.is_some() {
+            let closed = piece.contours.iter().zip(&outlines).filter(|(contour, _)| contour.closed);
+            closed.map(|(_, outline)| outline.segments().to_vec()).collect()
+        } else {
+            Vec::new()
+        };
+        let first = lines.len();
+        for outline in of_cuts.unwrap_or(outlines) {
             let place = OfContour { owner: [index, rank()].map(small), cut: cut(), feeds, profile, unit: marker.unit };
             lines.extend(outline.lines(place));
         }
+        let rings: Vec<Vec<Drawn>> = drawn.iter().map(|drawn| shared::parted(drawn, &lines[first..])).collect();
+        for line in lines[first..].iter_mut().filter(|_| !drawn.is_empty()) {
+            line.aside = shared::aside(line, &drawn).into();
+        }
+        lines.extend(rings.iter().map(|ring| edge(ring, [index, 0].map(small))));
         if profile.knife.follow == Follow::Chord {
             for line in &mut lines {
                 line.tight = tight::stretches(line, &profile.knife).into();
             }
         }
-        Self { lines, ranks: rank(), cuts: cut() }
+        Self { lines, rings, ranks: rank(), cuts: cut() }
     }
+}
+
+/// What the marker says is cut of the contours of a piece when that is not all of them; `None` when it is.
+fn of_cuts(index: usize, marker: &Marker) -> Option<Vec<Outline<'_>>> {
+    if marker.cuts.is_empty() {
+        return None;
+    }
+    let cuts = marker.cuts_of(small(index)).iter().filter(|cut| cut.kind != CutKind::Slit);
+    let is_whole = cuts.clone().all(|cut| cut.kind != CutKind::Edge)
+        && cuts.clone().count() == marker.pieces[index].contours.len();
+    (!is_whole).then(|| cuts.map(|cut| Outline::of_cut(cut, &marker.list)).collect())
+}
+
+/// The edge of a part as it is drawn.
+fn edge<'a>(ring: &[Drawn], owner: [u32; 2]) -> Line<'a> {
+    let points: Vec<Point> = std::iter::once(ring[0].ends[0]).chain(ring.iter().map(|chord| chord.ends[1])).collect();
+    let blocks = ring.iter().map(|chord| chord.block).chain(ring.last().map(|chord| chord.block));
+    let stations = polyline::stations(&points);
+    let path = stations.into_iter().zip(blocks).map(|(station, block)| Vertex { station, sagitta: 0.0, block });
+    let cut = OfCut { index: u32::MAX, offset: 0.0, round: None, bounds: true, is_edge: true, is_bare: true };
+    Line::new(owner, cut, Cow::Owned(points), path.collect(), BothWays::One(f64::INFINITY), false)
 }
 
 /// The line of a slit, `cap` mm/s being the greatest speed of the tip.
@@ -115,7 +161,7 @@ fn slit<'a>(stroke: &NotchStroke, owner: [u32; 2], index: u32, cap: f64) -> Line
     let from = Vertex { station: 0.0, sagitta: 0.0, block: stroke.span.block };
     let to = Vertex { station: stroke.length(), ..from };
     let points = Cow::Owned(vec![stroke.from, stroke.to]);
-    let cut = OfCut { index, offset: 0.0, round: None, bounds: false, is_bare: true };
+    let cut = OfCut { index, offset: 0.0, round: None, bounds: false, is_edge: false, is_bare: true };
     Line::new(owner, cut, points, Box::new([from, to]), BothWays::One(cap), false)
 }
 

@@ -5,6 +5,7 @@
 
 pub(super) mod band;
 pub(super) mod caps;
+pub(super) mod common;
 pub(super) mod grid;
 pub(super) mod ground;
 pub(super) mod inside;
@@ -14,5 +15,6 @@ pub(super) mod notches;
 pub(super) mod order;
 pub(super) mod outline;
 pub(super) mod parts;
+pub(super) mod shared;
 pub(super) mod tight;
 pub(super) mod vertex;

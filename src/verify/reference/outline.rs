@@ -10,8 +10,8 @@ use super::notches;
 use super::vertex::Vertex;
 use crate::geom::{Point, angle, corner};
 use crate::ir::Marker;
-use crate::ir::list::Segment;
-use crate::ir::marker::{Contour, OutlineNotch, Piece};
+use crate::ir::list::{Segment, SegmentList};
+use crate::ir::marker::{Contour, Cut, OutlineNotch, Piece};
 use crate::machine::{Fit, MachineProfile, Notches};
 
 /// Longest chord that counts as a chord of a curve, mm.
@@ -44,6 +44,8 @@ pub(in crate::verify) struct Outline<'a> {
     /// How it turns where each of them starts, rad.
     turns: Vec<f64>,
     closed: bool,
+    /// Whether it is the edge of a part.
+    bounds: bool,
     /// The points between the segments where the marker keeps them side by side, from its start on; else none.
     points: &'a [Point],
     /// The place of the first segment among those of the marker.
@@ -69,14 +71,26 @@ impl<'a> Outline<'a> {
             Cow::Borrowed(points) if replaced.is_empty() => points,
             Cow::Borrowed(_) | Cow::Owned(_) => &[],
         };
+        (Self::of_segments(segments, points, contour.closed), replaced)
+    }
+
+    /// A cut of a piece whose contours are not all cut with it: these are its edges, whatever is cut of them.
+    pub(in crate::verify) fn of_cut(cut: &Cut, list: &'a SegmentList) -> Self {
+        let segments = list.walk(cut.range).map(|(_, segment)| segment).collect();
+        Self { bounds: false, ..Self::of_segments(segments, &[], cut.kind.is_closed()) }
+    }
+
+    /// Its segments, as they are cut.
+    pub(in crate::verify) fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    fn of_segments(segments: Vec<Segment>, points: &'a [Point], closed: bool) -> Self {
         let count = segments.len();
         let before = |i: usize| &segments[(i + count - 1) % count];
         let way = |segment: &Segment| segment.to - segment.from;
         let turns = (0..count).map(|i| angle::turn(way(before(i)), way(&segments[i]))).collect();
-        (
-            Self { segments, turns, closed: contour.closed, points, first: 0, before: 0.0, stations: Vec::new() },
-            replaced,
-        )
+        Self { segments, turns, closed, bounds: closed, points, first: 0, before: 0.0, stations: Vec::new() }
     }
 
     /// Its lines, which end at its corners.
@@ -140,7 +154,8 @@ impl<'a> Outline<'a> {
             index: cut,
             offset: self.before + self.stations[from],
             round: self.closed.then(|| self.stations[self.segments.len()]),
-            bounds: self.closed,
+            bounds: self.bounds,
+            is_edge: false,
             is_bare: self.segments.iter().any(|segment| segment.joint.full_advance || segment.joint.no_overcut),
         };
         Line::new(owner, cut, self.points([from, to]), path, caps, ring)

@@ -37,7 +37,7 @@ impl Census {
 
     /// The census of a marker as it was read, before any pass.
     pub fn of(marker: &Marker) -> Self {
-        let mut census = Self { length: marker.cut_length(), ..Self::empty(marker.unit) };
+        let mut census = Self { length: marker.drawn_length(), ..Self::empty(marker.unit) };
         let is_plot = marker.drawing.is_some();
         for piece in &marker.pieces {
             // What has no length cuts nothing.

@@ -145,10 +145,10 @@ fn no_coordinate_wraps_around() {
 fn an_outline_that_is_cut_short_is_never_cut_in_silence() {
     let first = format!("IN;SP1;{}", rectangle(1000, 1000, 8000, 4000));
     let whole = format!("{first}{}PU;SP0;", rectangle(10_000, 1000, 8000, 4000));
-    let complete = read(&source(whole.clone()), &Job::default()).0.cut_length();
+    let complete = read(&source(whole.clone()), &Job::default()).0.drawn_length();
     for length in 1..whole.len() {
         let (marker, found) = read(&source(&whole.as_bytes()[..length]), &Job::default());
-        let is_complete = (marker.cut_length() - complete).abs() < 1e-9;
+        let is_complete = (marker.drawn_length() - complete).abs() < 1e-9;
         // Where the pen is up or was just lowered, or an outline is whole, nobody can tell that a part should follow.
         let is_whole = length + 1 >= first.len() && length <= first.len();
         let pen_is_up =

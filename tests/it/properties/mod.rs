@@ -110,7 +110,7 @@ fn read(bytes: &[u8], damage: &str) -> Option<f64> {
         let astray = spans(&marker).into_iter().chain(said).find(|span| !inside(span));
         assert_eq!(astray, None, "of {} bytes", bytes.len());
         render(&found, &source);
-        (!found.has_errors()).then(|| marker.cut_length())
+        (!found.has_errors()).then(|| marker.drawn_length())
     }));
     outcome.unwrap_or_else(|_| panic!("{damage}: {}", bytes.escape_ascii()))
 }

@@ -32,9 +32,12 @@ pub(crate) fn marker(points: &[Point]) -> Marker {
     marker
 }
 
-/// A marker with its cuts.
+/// A marker with its cuts: those that it has, or all of them.
 pub(crate) fn with_cuts(marker: &Marker, job: &Job) -> Marker {
     let mut marker = marker.clone();
+    if !marker.cuts.is_empty() {
+        return marker;
+    }
     let cut = MARKER_PASSES.iter().find(|pass| pass.name == "cut").expect("the pass makes the cuts");
     (cut.run)(&mut marker, job, &mut Diagnostics::default());
     marker

@@ -53,6 +53,10 @@ fn of_its_type(key: &Key) -> Vec<Value> {
             values.extend(around(within));
             values.push(word.into());
         }
+        Takes::NumberOrWord(within, words) => {
+            values.extend(around(within));
+            values.extend(words().iter().map(|&word| Value::from(word)));
+        }
         Takes::Whole(numbers) => values.extend((-1..=10).chain(numbers.iter().copied()).map(Value::from)),
         Takes::Percent => values.extend([0.0, 1.0, 74.0, 74.5, 100.0, 101.0].map(Value::from)),
         Takes::PoseOr(word) | Takes::RangeOr(word) => values.push(word.into()),

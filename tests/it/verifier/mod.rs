@@ -3,7 +3,7 @@
 mod audit;
 mod axes;
 mod blades;
-mod case;
+pub(crate) mod case;
 mod chords;
 mod drawings;
 mod harm;
@@ -29,6 +29,7 @@ use fastrand::Rng;
 use rayon::prelude::*;
 
 use crate::support::program::{declared, setpoints};
+use crate::support::with_cuts;
 use crate::verifier::case::Case;
 use crate::verifier::harm::Harm;
 
@@ -80,7 +81,8 @@ const DAMAGED_AT_LEAST: usize = 1399;
 const HARMLESS_AT_LEAST: usize = 230;
 
 fn judge(program: &[u8], marker: &Marker, declared: &Declared, job: &Job) -> Verdict {
-    verify::setpoints(&mut BufReader::new(program), Some(declared), &Ground::new(marker, &job.profile), job)
+    let marker = with_cuts(marker, job);
+    verify::setpoints(&mut BufReader::new(program), Some(declared), &Ground::new(&marker, &job.profile), job)
 }
 
 #[test]
@@ -209,12 +211,17 @@ fn a_damage_of_a_third_of_its_limit_is_accepted() {
 
 #[test]
 fn every_rule_with_a_limit_has_a_damage_that_aims_at_it() {
-    let reported_only = ["verify/body", "verify/swing", "verify/overcut-waste"];
+    let reported_only = ["verify/body", "verify/swing", "verify/overcut-waste", "verify/common"];
     // Of cut files that a target writes; `tests/it/rewritten.rs` damages those.
     let of_cut_files = ["verify/same", "verify/same-place"];
+    // Of parts that share edges; `tests/it/common.rs` damages their programs.
+    let of_common_lines = ["verify/joint"];
     let aimed: BTreeSet<&str> = damages().iter().map(|damage| damage.rule).collect();
     for rule in RULES.iter().map(|rule| &rule.name).filter(|rule| rule.starts_with("verify/")) {
-        let judged = aimed.contains(rule) || reported_only.contains(rule) || of_cut_files.contains(rule);
+        let judged = aimed.contains(rule)
+            || reported_only.contains(rule)
+            || of_cut_files.contains(rule)
+            || of_common_lines.contains(rule);
         assert!(judged, "{rule}");
     }
     assert!(aimed.iter().all(|rule| RULES.iter().any(|row| row.name == *rule)), "{aimed:?}");

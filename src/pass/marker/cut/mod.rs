@@ -5,15 +5,28 @@
 //! drawn is the same range of the list; one that runs straight over the mouths of its notches has a range of its own.
 //! Says where a slit that the profile makes deeper leads out of its part.
 
+mod common;
+mod facing;
+mod lead;
+mod ring;
+mod stretch;
 mod style;
 
+use std::collections::BTreeMap;
+
+use self::common::share;
+use self::facing::Near;
+use self::ring::{Mouth, Ring};
+use self::stretch::Asked;
+use self::style::Bridged;
 use super::pass::MarkerPass;
 use crate::analysis::cloth::Cloth;
 use crate::analysis::nesting::Nesting;
 use crate::diagnostic::Diagnostics;
-use crate::geom::ring;
+use crate::geom;
+use crate::geom::budget::Budget;
 use crate::ir::list::{Joint, Range, Segment, SegmentList};
-use crate::ir::marker::{Cut, CutKind, Marker, Notch, NotchStroke, OutlineNotch, Piece};
+use crate::ir::marker::{CommonEdge, Contour, Cut, CutKind, Marker, Notch, NotchStroke, OutlineNotch, Piece};
 use crate::machine::{Job, NotchStyle, Notches};
 
 pub(super) const PASS: MarkerPass =
@@ -28,11 +41,29 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
         style::check_depths(marker, &Cloth::new(marker, &job.profile), style, diagnostics);
     }
     let nesting = Nesting::of(marker);
-    let Marker { list, pieces, cuts, .. } = marker;
-    cuts.clear();
-    for (i, piece) in pieces.iter().enumerate() {
-        let mut cutting = Cutting { list, nesting: &nesting, style, piece: i, cuts };
-        cutting.cut(piece);
+    let asked = job.profile.common(marker.unit).map(|distance| Asked {
+        near: Near { distance, slack: marker.unit * std::f64::consts::SQRT_2 },
+        min: job.profile.common.min_mm,
+        beyond: job.profile.tolerance(marker.unit),
+        width: job.profile.knife.width_mm,
+    });
+    let Marker { list, pieces, cuts, common, .. } = marker;
+    (*cuts, *common) = (Vec::new(), Vec::new());
+    let mut cutting = Cutting { list, nesting: &nesting, style, piece: 0, cuts };
+    let mut slits = Vec::with_capacity(pieces.len());
+    let outlines: Vec<Vec<Range>> = pieces.iter().map(|piece| cutting.outlines(piece, &mut slits)).collect();
+    let mut shared = asked.map_or_else(BTreeMap::new, |asked| cutting.share(pieces, &outlines, asked, common));
+    for (i, (slits, ranges)) in slits.into_iter().zip(outlines).enumerate() {
+        cutting.piece = i;
+        for slit in slits {
+            cutting.slit(&slit);
+        }
+        for (range, line) in ranges.into_iter().zip(nesting.of_group(i)) {
+            match shared.remove(&line) {
+                Some(of_line) => of_line.into_iter().for_each(|segments| cutting.edge(segments, line)),
+                None => cutting.contour(range, line),
+            }
+        }
     }
 }
 
@@ -53,19 +84,61 @@ struct Cutting<'a> {
 }
 
 impl Cutting<'_> {
-    fn cut(&mut self, piece: &Piece) {
-        let mut slits: Vec<Slit> = piece.notches.iter().flat_map(|notch| self.drawn(notch)).collect();
-        let ranges: Vec<Range> = piece
-            .contours
-            .iter()
-            .map(|contour| self.outline(contour.range, &piece.outline_notches, &mut slits))
-            .collect();
-        for slit in slits {
-            self.slit(&slit);
+    /// The contours of a piece as they are cut; its slits are added to those of the pieces before it.
+    fn outlines(&mut self, piece: &Piece, slits: &mut Vec<Vec<Slit>>) -> Vec<Range> {
+        let mut of_piece: Vec<Slit> = piece.notches.iter().flat_map(|notch| self.drawn(notch)).collect();
+        let outline = |contour: &Contour| self.outline(contour.range, &piece.outline_notches, &mut of_piece);
+        let ranges = piece.contours.iter().map(outline).collect();
+        slits.push(of_piece);
+        ranges
+    }
+
+    /// What is cut of the lines that have edges in common with those of other parts; what these are cut with is added to
+    /// `common`.
+    fn share(
+        &mut self,
+        pieces: &[Piece],
+        outlines: &[Vec<Range>],
+        asked: Asked,
+        common: &mut Vec<CommonEdge>,
+    ) -> BTreeMap<usize, Vec<Vec<Segment>>> {
+        let mut lines = Vec::new();
+        let mut rings = Vec::new();
+        for (i, (piece, ranges)) in pieces.iter().zip(outlines).enumerate() {
+            for (&range, line) in ranges.iter().zip(self.nesting.of_group(i)) {
+                if let Some(ring) = self.ring(i, piece, range, line) {
+                    lines.push(line);
+                    rings.push(ring);
+                }
+            }
         }
-        for (range, line) in ranges.into_iter().zip(self.nesting.of_group(self.piece)) {
-            self.contour(range, line);
+        let Some(outcomes) = share(&mut rings, asked, &mut Budget::of_a_marker()) else { return BTreeMap::new() };
+        let mut cuts = BTreeMap::new();
+        for ((outcome, line), ring) in outcomes.into_iter().zip(lines).zip(&rings) {
+            for (other, segments, shift) in outcome.shared {
+                let range = self.list.append(segments).expect("a common edge has a length");
+                let pieces = [rings[other].piece, ring.piece].map(|piece| piece as u32);
+                common.push(CommonEdge { pieces, range, shift });
+            }
+            if let Some(of_line) = outcome.cuts {
+                cuts.insert(line, of_line);
+            }
         }
+        cuts
+    }
+
+    /// A closed line that bounds a part, as it is cut, straight over the mouths of its notches.
+    fn ring(&self, i: usize, piece: &Piece, range: Range, line: usize) -> Option<Ring> {
+        let outline = self.nesting.outline(line).filter(|_| self.nesting.lines()[line].is_closed)?;
+        let part = self.nesting.lines()[outline].group as usize;
+        let mut segments: Vec<Segment> = self.list.walk(range).map(|(_, segment)| segment).collect();
+        let is_drawn = self.style.style == NotchStyle::AsDrawn;
+        // What stands out of the part is cloth of it: a cut over its mouth would take it off.
+        let inwards: Vec<OutlineNotch> =
+            piece.outline_notches.iter().copied().filter(|notch| !notch.outwards).collect();
+        let mouths = if is_drawn { style::bridge(&mut segments, &inwards) } else { Vec::new() };
+        let mouths = mouths.into_iter().map(|bridged| Mouth { segment: bridged.at, legs: bridged.legs }).collect();
+        Some(Ring::new([i, part], self.is_part_left(range, line), segments, mouths))
     }
 
     /// The cuts of a notch that is drawn as strokes.
@@ -85,11 +158,10 @@ impl Cutting<'_> {
             return range;
         }
         if self.style.style == NotchStyle::Slit {
-            slits.extend(
-                bridged
-                    .iter()
-                    .map(|(notch, percent)| Slit { stroke: style::slit(notch, self.style), percent: *percent }),
-            );
+            slits.extend(bridged.iter().map(|Bridged { notch, percent, .. }| Slit {
+                stroke: style::slit(notch, self.style),
+                percent: *percent,
+            }));
         }
         self.list.append(outline).expect("an outline keeps more than its notches")
     }
@@ -108,10 +180,24 @@ impl Cutting<'_> {
             self.push(CutKind::Line, range, [part; 2]);
             return;
         }
-        // The inside of a ring that runs counter-clockwise is on its left.
-        let is_part_left = (ring::area(&self.list.points(range)) > 0.0) != is_inner;
         let kind = if is_inner { CutKind::Inner } else { CutKind::Outline };
-        self.push(kind, range, if is_part_left { [part, None] } else { [None, part] });
+        self.push(kind, range, if self.is_part_left(range, line) { [part, None] } else { [None, part] });
+    }
+
+    /// Whether the part that a closed line bounds is on its left: the inside of a ring that runs counter-clockwise is.
+    fn is_part_left(&self, range: Range, line: usize) -> bool {
+        (geom::ring::area(&self.list.points(range)) > 0.0) != self.nesting.is_inner(line)
+    }
+
+    /// A cut of a line that has edges in common with others.
+    fn edge(&mut self, segments: Vec<Segment>, line: usize) {
+        let is_closed = segments.first().map(|first| first.from) == segments.last().map(|last| last.to);
+        let range = self.list.append(segments).expect("it has a length");
+        if is_closed {
+            return self.contour(range, line);
+        }
+        let part = self.nesting.part_of(self.piece);
+        self.push(CutKind::Edge, range, [part; 2]);
     }
 
     fn push(&mut self, kind: CutKind, range: Range, sides: [Option<usize>; 2]) {

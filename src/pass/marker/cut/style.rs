@@ -71,9 +71,21 @@ pub(super) fn slit(notch: &OutlineNotch, notches: Notches) -> NotchStroke {
     NotchStroke { from: notch.root(), to: notch.root() + notch.inwards() * depth, span: notch.span }
 }
 
-/// Leads an outline straight over the mouths of its notches: these, in the order of the outline, each with the least speed
-/// of what it replaces in percent.
-pub(super) fn bridge(outline: &mut Vec<Segment>, notches: &[OutlineNotch]) -> Vec<(OutlineNotch, u8)> {
+/// A notch that an outline runs straight over.
+#[derive(Debug, Clone)]
+pub(super) struct Bridged {
+    /// The segment over its mouth.
+    pub(super) at: usize,
+    /// The notch.
+    pub(super) notch: OutlineNotch,
+    /// What the outline had there.
+    pub(super) legs: Vec<Segment>,
+    /// The least speed of that, in percent.
+    pub(super) percent: u8,
+}
+
+/// Leads an outline straight over the mouths of its notches: these, in the order of the outline.
+pub(super) fn bridge(outline: &mut Vec<Segment>, notches: &[OutlineNotch]) -> Vec<Bridged> {
     let mut at: BTreeMap<[u64; 2], Vec<&OutlineNotch>> = BTreeMap::new();
     for notch in notches {
         at.entry(bits(notch.mouth[0])).or_default().push(notch);
@@ -87,12 +99,19 @@ pub(super) fn bridge(outline: &mut Vec<Segment>, notches: &[OutlineNotch]) -> Ve
         let fits = |notch: &&&OutlineNotch| (notch.segments as usize) < count && last(notch).to == notch.mouth[1];
         let Some(&&notch) = opens.iter().find(fits).filter(|_| !is_gone[i]) else { continue };
         let replaced = (0..notch.segments as usize).map(|k| (i + k) % count);
-        let percent = replaced.clone().map(|k| drawn[k].percent).min().unwrap_or(first.percent);
+        let legs: Vec<Segment> = replaced.clone().map(|k| drawn[k]).collect();
+        let percent = legs.iter().map(|leg| leg.percent).min().unwrap_or(first.percent);
         replaced.skip(1).for_each(|k| is_gone[k] = true);
         outline[i] = Segment { to: notch.mouth[1], span: last(&notch).span, percent, ..*first };
-        bridged.push((notch, percent));
+        bridged.push(Bridged { at: i, notch, legs, percent });
     }
+    let mut count = 0..;
+    let places: Vec<usize> =
+        is_gone.iter().map(|gone| if *gone { usize::MAX } else { count.next().unwrap_or_default() }).collect();
     let mut is_gone = is_gone.into_iter();
     outline.retain(|_| !is_gone.next().unwrap_or_default());
+    for bridged in &mut bridged {
+        bridged.at = places[bridged.at];
+    }
     bridged
 }

@@ -1,0 +1,49 @@
+//! Edges that two parts have in common: the keys `common.*`.
+
+use serde::{Deserialize, Serialize};
+
+use super::key::{Key, Takes, from};
+use super::word::words;
+
+/// The keys `common.*`.
+#[rustfmt::skip] // a table: one row a key
+pub(super) const KEYS: &[Key] = &[
+    Key { name: "common.lines", takes: Takes::NumberOrWord(from(0.01, 1.0), words::<CommonLines>), about: "Edges of two parts that run this near to each other are cut once, along the part that is cut\nfirst; \"auto\" = the band (nest.band_mm), \"off\" = each part is cut all round." },
+    Key { name: "common.min_mm", takes: Takes::Number(from(1.0, 1000.0)), about: "Shorter edges are not cut once for two parts." },
+];
+
+/// How edges are cut that two parts have in common.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Common {
+    /// How near to each other they run.
+    pub lines: Lines,
+    /// The shortest that is cut once, mm.
+    pub min_mm: f64,
+}
+
+impl Default for Common {
+    fn default() -> Self {
+        Self { lines: Lines::Word(CommonLines::Auto), min_mm: 20.0 }
+    }
+}
+
+/// How near to each other two edges run that are cut once.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Lines {
+    /// So near, mm.
+    Within(f64),
+    /// As the word says.
+    Word(CommonLines),
+}
+
+/// What else [`Lines`] may be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CommonLines {
+    /// As near as the band.
+    Auto,
+    /// Every edge is cut for each part.
+    Off,
+}

@@ -1,0 +1,235 @@
+//! Common lines: which edges two parts have in common, with which of the two each is cut, and what is left of the other.
+//!
+//! An edge is cut with the part that comes first. What is left of the other's outline are open cuts, each led on until it
+//! crosses what is cut there already. Where that cannot be the edge is cut for both.
+
+use super::facing::{Facing, Segments};
+use super::lead::{Arrival, Leads, Neighbour};
+use super::ring::{Mouth, Ring};
+use super::stretch::{Asked, BREAK, Shared, stretches};
+use crate::geom::Point;
+use crate::geom::budget::Budget;
+use crate::ir::list::{Joint, Segment};
+
+/// How many distances of two edges a corner may be from the end of the other's edge.
+const CORNER: f64 = std::f64::consts::SQRT_2;
+/// Stretches that are shorter have no length, mm: rounding.
+const LEAST: f64 = 1e-6;
+
+/// What becomes of a ring.
+#[derive(Debug, Default)]
+pub(super) struct Outcome {
+    /// What is cut of it: open cuts, or itself when that is `None`.
+    pub(super) cuts: Option<Vec<Vec<Segment>>>,
+    /// What is cut with others, each with the ring of the one, and how far it is from there at the most, mm.
+    pub(super) shared: Vec<(usize, Vec<Segment>, f64)>,
+}
+
+/// Finds what rings, in the order in which they are cut, have in common; `None` when the search has no end. Rings whose
+/// notches stand on edges in common run straight over their mouths then, all others by their legs.
+pub(super) fn share(rings: &mut [Ring], asked: Asked, work: &mut Budget) -> Option<Vec<Outcome>> {
+    let mut segments = Segments::new(rings, asked.near.distance);
+    let mut facing = segments.facing(rings, asked.near, work)?;
+    let wanted: Vec<Vec<bool>> = (0..rings.len()).map(|ring| wanted_mouths(rings, &facing, ring, asked)).collect();
+    let mut is_changed = false;
+    for (ring, wanted) in rings.iter_mut().zip(&wanted) {
+        let mut wanted = wanted.iter();
+        is_changed |= ring.keep_mouths(|_| wanted.next().copied().unwrap_or_default());
+    }
+    if is_changed {
+        segments = Segments::new(rings, asked.near.distance);
+        facing = segments.facing(rings, asked.near, work)?;
+    }
+    let mut sharing = Sharing { rings, asked, leads: Leads::new(rings, &segments, asked) };
+    Some((0..rings.len()).map(|ring| sharing.settle(ring, &facing[ring])).collect())
+}
+
+/// Which of the mouths of a ring another part's edge, and not its mouth, lies along.
+fn wanted_mouths(rings: &[Ring], facing: &[Vec<Facing>], ring: usize, asked: Asked) -> Vec<bool> {
+    let own = &rings[ring];
+    let is_over = |mouth: &Mouth, [low, high]: [f64; 2], ring: &Ring| {
+        let [from, to] = [mouth.segment, mouth.segment + 1].map(|i| ring.station(i));
+        low < to - LEAST && high > from + LEAST
+    };
+    if own.mouths().is_empty() {
+        return Vec::new();
+    }
+    let common: Vec<Shared> = stretches(rings, own, &facing[ring], asked);
+    // What is within the band at the ends of two mouths that face each other is no base.
+    let least = 2.0 * asked.near.distance;
+    let is_wanted = |mouth: &Mouth| {
+        let [from, to] = [mouth.segment, mouth.segment + 1].map(|i| own.station(i));
+        let parts = common.iter().flat_map(|shared| &shared.parts);
+        let beside = parts.filter(|part| is_over(mouth, part.own.map(|station| station.rem_euclid(own.length())), own));
+        let bases = beside.filter_map(|part| {
+            let clip = |station: f64| ((station - part.own[0]) / part.length()).clamp(0.0, 1.0);
+            let there = part.part([clip(from), clip(to)]);
+            let theirs = [there.theirs[0].min(there.theirs[1]), there.theirs[0].max(there.theirs[1])];
+            let other = &rings[part.other];
+            (!other.mouths().iter().any(|mouth| is_over(mouth, theirs, other))).then(|| there.length())
+        });
+        bases.sum::<f64>() > least
+    };
+    own.mouths().iter().map(is_wanted).collect()
+}
+
+/// Open cuts, and the ways on which they were led on.
+#[derive(Debug, Default)]
+struct Led {
+    cuts: Vec<Vec<Segment>>,
+    ways: Vec<[Point; 2]>,
+}
+
+/// Settles ring after ring.
+struct Sharing<'a> {
+    rings: &'a [Ring],
+    asked: Asked,
+    leads: Leads<'a>,
+}
+
+impl Sharing<'_> {
+    /// What becomes of a ring, those before it being settled.
+    fn settle(&mut self, ring: usize, facing: &[Facing]) -> Outcome {
+        let kept: Vec<Facing> =
+            facing.iter().filter(|part| part.other < ring).flat_map(|part| self.leads.kept_of(part)).collect();
+        let own = &self.rings[ring];
+        let mut shared = stretches(self.rings, own, &kept, self.asked);
+        shared.sort_by(|a, b| a.own[0].total_cmp(&b.own[0]));
+        self.part(&mut shared, own);
+        for shared in &mut shared {
+            self.reach_corners(shared, own);
+        }
+        let Led { cuts, ways } = loop {
+            if shared.is_empty() {
+                return Outcome { cuts: self.legs(ring, None), shared: Vec::new() };
+            }
+            match self.cuts(ring, &shared) {
+                Ok(led) => break led,
+                // An end that finds nothing to cross: that edge is cut for both.
+                Err(failed) => drop(shared.remove(failed)),
+            }
+        };
+        self.leads.spare(ring, &shared, ways);
+        let edges = shared.iter().map(|shared| {
+            let shift = shared.parts.iter().flat_map(|part| part.apart).fold(0.0, f64::max);
+            (shared.other, own.stretch(shared.own), shift)
+        });
+        Outcome { shared: edges.collect(), cuts: self.legs(ring, Some(cuts)) }
+    }
+
+    /// The cuts of a ring with those of the notches on its edges in front; `None` where it is cut as it is.
+    fn legs(&self, ring: usize, cuts: Option<Vec<Vec<Segment>>>) -> Option<Vec<Vec<Segment>>> {
+        let own = &self.rings[ring];
+        if own.mouths().is_empty() {
+            return cuts;
+        }
+        let legs = own.mouths().iter().map(|mouth| self.leads.led_legs(ring, &mouth.legs));
+        let whole = || vec![own.segments().to_vec()];
+        Some(legs.chain(cuts.unwrap_or_else(whole)).collect())
+    }
+
+    /// Where two stretches lie over each other the one that begins first has what they share.
+    fn part(&self, shared: &mut Vec<Shared>, own: &Ring) {
+        let mut i = 1;
+        while i < shared.len() {
+            let before = shared[i - 1].own[1];
+            if shared[i].begin_at(before, self.asked.min) {
+                i += 1;
+            } else {
+                shared.remove(i);
+            }
+        }
+        if let ([first, ..], [.., last]) = (&mut shared.clone()[..], &shared[..])
+            && shared.len() > 1
+        {
+            let over = last.own[1] - own.length();
+            if over > first.own[0] {
+                if first.begin_at(over, self.asked.min) {
+                    shared[0] = first.clone();
+                } else {
+                    shared.remove(0);
+                }
+            }
+        }
+    }
+
+    /// Lets a stretch go on to the corners of its ring that stand as near to the end of the other's edge.
+    fn reach_corners(&self, shared: &mut Shared, own: &Ring) {
+        let reach = BREAK * self.asked.near.distance;
+        let other = &self.rings[shared.other];
+        let [start, end] = shared.own;
+        let is_near = |station: f64, theirs: f64| {
+            (own.place(station) - other.place(theirs)).norm() <= CORNER * self.asked.near.distance
+        };
+        if end - start >= own.length() - reach {
+            return;
+        }
+        if let Some(corner) = own.vertices([end, end + reach]).find(|&corner| is_near(corner, shared.theirs[1])) {
+            shared.own[1] = corner;
+        }
+        if let Some(corner) = own.vertices([start - reach, start]).filter(|&c| is_near(c, shared.theirs[0])).last() {
+            shared.own[0] = corner;
+        }
+    }
+
+    /// The open cuts between stretches, led on at either end; else which of these has an end that nothing crosses.
+    fn cuts(&self, ring: usize, shared: &[Shared]) -> Result<Led, usize> {
+        let own = &self.rings[ring];
+        let length = own.length();
+        let mut led = Led::default();
+        for (i, before) in shared.iter().enumerate() {
+            let next = (i + 1) % shared.len();
+            let behind = &shared[next];
+            let from = before.own[1];
+            let lap = if next <= i { length } else { 0.0 };
+            let to = (behind.own[0] + lap).max(from);
+            let bare = behind.parts[0].own[0] + lap - before.parts[before.parts.len() - 1].own[1];
+            let is_short = bare <= BREAK * self.asked.near.distance;
+            if is_short && (next == i || self.leads.meet(ring, [before, behind])) {
+                continue;
+            }
+            let like = own.stretch([from - LEAST, to + LEAST])[0];
+            let neighbours = [(before, 1), (behind, 0)].map(|(shared, end)| (shared.other, shared.theirs[end]));
+            let not = |other: usize| Some(other).filter(|_| is_short && before.other != behind.other);
+            let neighbour =
+                |i: usize| Neighbour { ring: neighbours[i].0, station: neighbours[i].1, not: not(neighbours[1 - i].0) };
+            let middle = f64::midpoint(from, to);
+            if let Some([start, at, end]) =
+                is_short.then(|| self.leads.tie(ring, middle, [neighbour(0), neighbour(1)])).flatten()
+            {
+                led.ways.extend([[start, at], [at, end]]);
+                let joint = Joint::default();
+                led.cuts.push(vec![
+                    Segment { from: start, to: at, joint, ..like },
+                    Segment { from: at, to: end, joint, ..like },
+                ]);
+                continue;
+            }
+            let arrival = |station: f64, is_along: bool| Arrival {
+                at: own.place(station),
+                along: own.arriving(station, is_along),
+            };
+            let arrivals = [arrival(from, false), arrival(to, true)];
+            let start = self.leads.lead(ring, arrivals[0], neighbour(0)).ok_or(i)?;
+            let end = self.leads.lead(ring, arrivals[1], neighbour(1)).ok_or(next)?;
+            // Where the outlines overlap it crosses the other's before it is led on.
+            let over = |Arrival { at, along }: Arrival| at - along * (2.0 * self.asked.near.distance);
+            for (arrival, end) in arrivals.into_iter().zip([start, end]) {
+                led.ways.push([over(arrival), arrival.at]);
+                led.ways.push([arrival.at, end]);
+            }
+            let mut cut = own.stretch([from, to]);
+            let at = own.place(from);
+            let ends = [cut.first().map_or(at, |first| first.from), cut.last().map_or(at, |last| last.to)];
+            let first = cut.first().copied().unwrap_or(like);
+            let last = cut.last().copied().unwrap_or(like);
+            cut.insert(0, Segment { from: start, to: ends[0], joint: Joint::default(), ..first });
+            cut.push(Segment { from: ends[1], to: end, joint: Joint::default(), ..last });
+            cut.retain(|segment| segment.length() > LEAST);
+            if !cut.is_empty() {
+                led.cuts.push(cut);
+            }
+        }
+        Ok(led)
+    }
+}

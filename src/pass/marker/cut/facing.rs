@@ -1,0 +1,149 @@
+//! Where edges of two parts face each other: as near as one edge, with the parts on either side.
+
+use super::ring::Ring;
+use crate::geom::boxes::Boxes;
+use crate::geom::budget::Budget;
+use crate::geom::{Extent, Point, cross, polyline};
+
+/// Least cosine between two edges that face each other (30 degrees): shorter ones than rounding tell no direction.
+const LEAST_COSINE: f64 = 0.866;
+/// Tangent of the greatest angle between them that rounding does not explain (2 degrees).
+const MOST_SLOPE: f64 = 0.035;
+/// Shorter stretches are none, mm: rounding.
+const LEAST: f64 = 1e-6;
+
+/// A stretch of a ring beside a stretch of another, both straight.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Facing {
+    /// Its stations on the ring, mm.
+    pub(super) own: [f64; 2],
+    /// The other ring.
+    pub(super) other: usize,
+    /// Which stations of that lie beside these.
+    pub(super) theirs: [f64; 2],
+    /// How far apart they are there, mm.
+    pub(super) apart: [f64; 2],
+}
+
+impl Facing {
+    /// The part of it between two shares of its length.
+    pub(super) fn part(&self, [from, to]: [f64; 2]) -> Self {
+        let between = |ends: [f64; 2]| [from, to].map(|share| ends[0] + (ends[1] - ends[0]) * share);
+        Self { own: between(self.own), theirs: between(self.theirs), apart: between(self.apart), ..*self }
+    }
+
+    /// Its length on its own ring, mm.
+    pub(super) fn length(&self) -> f64 {
+        self.own[1] - self.own[0]
+    }
+}
+
+/// How edges must lie to face each other.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Near {
+    /// How far apart they are at the most, mm.
+    pub(super) distance: f64,
+    /// By how much rounding may turn them, mm at either end.
+    pub(super) slack: f64,
+}
+
+/// The segments of rings, by place.
+#[derive(Debug)]
+pub(super) struct Segments {
+    boxes: Boxes,
+    /// The ring and the place on it of each.
+    of: Vec<[u32; 2]>,
+}
+
+impl Segments {
+    /// The segments of those rings that lie within a distance of another part's, mm.
+    pub(super) fn new(rings: &[Ring], distance: f64) -> Self {
+        let around = Boxes::new(rings.iter().map(Ring::extent).collect());
+        let is_near = |i: usize| around.near(around.all()[i].grown(distance)).any(|k| rings[k].part != rings[i].part);
+        let of_ring = |i: usize| (0..rings[i].segments().len()).map(move |k| [i, k].map(|place| place as u32));
+        let of: Vec<[u32; 2]> = (0..rings.len()).filter(|&i| is_near(i)).flat_map(of_ring).collect();
+        let extents = of.iter().map(|&of| {
+            let [from, to] = ends(rings, of);
+            Extent::between(from, to)
+        });
+        Self { boxes: Boxes::new(extents.collect()), of }
+    }
+
+    /// Those that meet a box: the ring of each, its place on it, and its ends.
+    pub(super) fn near<'a>(
+        &'a self,
+        rings: &'a [Ring],
+        extent: Extent,
+    ) -> impl Iterator<Item = ([usize; 2], [Point; 2])> + 'a {
+        self.boxes.near(extent).map(move |i| (self.of[i].map(|place| place as usize), ends(rings, self.of[i])))
+    }
+
+    /// For each ring where it faces others, by its stations; `None` when the search has no end.
+    pub(super) fn facing(&self, rings: &[Ring], near: Near, work: &mut Budget) -> Option<Vec<Vec<Facing>>> {
+        let mut found = vec![Vec::new(); rings.len()];
+        for (i, &[ring, segment]) in self.of.iter().enumerate() {
+            let around = self.boxes.all()[i].grown(near.distance);
+            if !work.spend(self.boxes.cost_near(&around)) {
+                return None;
+            }
+            let [own_ring, own_segment] = [ring, segment].map(|place| place as usize);
+            for k in self.boxes.near_from(i + 1, around) {
+                let [other, place] = self.of[k].map(|place| place as usize);
+                if rings[own_ring].part == rings[other].part {
+                    continue;
+                }
+                let is_same_way = rings[own_ring].is_part_left == rings[other].is_part_left;
+                let both = [[ring, segment], self.of[k]].map(|of| ends(rings, of));
+                let Some((own, theirs, apart)) = beside(both, is_same_way, near) else { continue };
+                let own = own.map(|station| station + rings[own_ring].station(own_segment));
+                let theirs = theirs.map(|station| station + rings[other].station(place));
+                found[own_ring].push(Facing { own, other, theirs, apart });
+                let turned = theirs[1] < theirs[0];
+                let [own, theirs, apart] = [own, theirs, apart].map(|[a, b]| if turned { [b, a] } else { [a, b] });
+                found[other].push(Facing { own: theirs, other: own_ring, theirs: own, apart });
+            }
+        }
+        for facing in &mut found {
+            facing.sort_by(|a, b| a.own[0].total_cmp(&b.own[0]).then(a.other.cmp(&b.other)));
+        }
+        Some(found)
+    }
+}
+
+/// The ends of a segment.
+fn ends(rings: &[Ring], [ring, segment]: [u32; 2]) -> [Point; 2] {
+    let segment = rings[ring as usize].segments()[segment as usize];
+    [segment.from, segment.to]
+}
+
+/// Stations from the start of a segment, those of another beside them, and how far apart they are.
+type Beside = ([f64; 2], [f64; 2], [f64; 2]);
+
+/// Where a segment lies beside another; `is_same_way` tells whether their rings go the same way round their parts, so that
+/// edges which face each other go opposite ways.
+fn beside([own, other]: [[Point; 2]; 2], is_same_way: bool, near: Near) -> Option<Beside> {
+    let along = polyline::direction(own[0], own[1])?;
+    let direction = polyline::direction(other[0], other[1])?;
+    let cosine = along.dot(&direction);
+    if (if is_same_way { -cosine } else { cosine }) < LEAST_COSINE {
+        return None;
+    }
+    let lengths = [own, other].map(|ends| (ends[1] - ends[0]).norm());
+    let at = other.map(|point| (point - own[0]).dot(&along));
+    let away = other.map(|point| cross(along, point - own[0]));
+    let slope = (away[1] - away[0]) / (at[1] - at[0]);
+    let away_at = |station: f64| away[0] + slope * (station - at[0]);
+    let (mut low, mut high) = (at[0].min(at[1]).max(0.0), at[0].max(at[1]).min(lengths[0]));
+    if slope != 0.0 {
+        let near = [-near.distance, near.distance].map(|limit| at[0] + (limit - away[0]) / slope);
+        (low, high) = (low.max(near[0].min(near[1])), high.min(near[0].max(near[1])));
+    } else if away[0].abs() > near.distance {
+        return None;
+    }
+    let apart = [low, high].map(away_at);
+    if high - low <= LEAST || (apart[1] - apart[0]).abs() > MOST_SLOPE * (high - low) + 2.0 * near.slack {
+        return None;
+    }
+    let theirs = [low, high].map(|station| (station - at[0]) / (at[1] - at[0]) * lengths[1]);
+    Some(([low, high], theirs, apart.map(f64::abs)))
+}

@@ -1,0 +1,258 @@
+//! Where open cuts end at others: led on until they cross what is cut there, so that no thread holds.
+//!
+//! A cut that comes to an edge at an angle goes straight on. One that runs along the edge is led over to it, gently, where the
+//! edge is cut on. Both end a little beyond it.
+
+use std::collections::HashMap;
+
+use super::facing::{Facing, Segments};
+use super::ring::{Ring, crossing};
+use super::stretch::{Asked, Shared};
+use crate::geom::{Extent, Point, Vector, polyline};
+use crate::ir::list::Segment;
+
+/// Sine of the least angle at which a cut goes straight on to another (15 degrees), and the cosine.
+const LEAST_SINE: f64 = 0.259;
+const LEAST_COSINE: f64 = 0.966;
+/// Tangent of the greatest angle at which a cut is led over to an edge that it runs along (6 degrees).
+const SLOPE: f64 = 0.105;
+/// How far such a cut goes through the edge, in tolerances: both may be off by one, and cross at a small angle.
+const THROUGH: f64 = 2.0;
+/// How often a way over to an edge that bends is halved.
+const HALVINGS: usize = 3;
+/// Places of such a way that are looked at.
+const PLACES: usize = 4;
+/// Side of the cells in which the ends of cuts are found, mm: longer than any way over.
+const CELL: f64 = 25.0;
+/// Stretches that are shorter have no length, mm: rounding.
+const LEAST: f64 = 1e-9;
+
+/// How a cut comes to where it should cross another.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Arrival {
+    /// The place.
+    pub(super) at: Point,
+    /// The unit vector along its way there.
+    pub(super) along: Vector,
+}
+
+/// What it should cross.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Neighbour {
+    /// The ring with which the edge ahead is cut.
+    pub(super) ring: usize,
+    /// The station of that beside the place, mm.
+    pub(super) station: f64,
+    /// A ring that is not meant.
+    pub(super) not: Option<usize>,
+}
+
+/// What is cut of the rings so far.
+#[derive(Debug)]
+pub(super) struct Leads<'a> {
+    rings: &'a [Ring],
+    segments: &'a Segments,
+    asked: Asked,
+    /// Of each ring what is cut with others.
+    spared: Vec<Vec<[f64; 2]>>,
+    /// The ways on which open cuts were led on, by place.
+    ways: HashMap<[i64; 2], Vec<[Point; 2]>>,
+}
+
+impl<'a> Leads<'a> {
+    pub(super) fn new(rings: &'a [Ring], segments: &'a Segments, asked: Asked) -> Self {
+        Self { rings, segments, asked, spared: vec![Vec::new(); rings.len()], ways: HashMap::new() }
+    }
+
+    /// Takes what of a ring is cut with others, and the ways on which what is left of it was led on.
+    pub(super) fn spare(&mut self, ring: usize, shared: &[Shared], ways: Vec<[Point; 2]>) {
+        let length = self.rings[ring].length();
+        for &Shared { own: [from, to], .. } in shared {
+            let lap = (from / length).floor() * length;
+            let (from, to) = (from - lap, to - lap);
+            self.spared[ring].push([from, to.min(length)]);
+            if to > length {
+                self.spared[ring].push([0.0, to - length]);
+            }
+        }
+        for way in ways {
+            self.ways.entry(cell(way[0])).or_default().push(way);
+        }
+    }
+
+    /// What of a stretch faces an edge that is cut.
+    pub(super) fn kept_of(&self, part: &Facing) -> Vec<Facing> {
+        let (from, to) = (part.theirs[0], part.theirs[1]);
+        let share = |station: f64| (station - from) / (to - from);
+        let spared = self.spared[part.other].iter().map(|ends| ends.map(share));
+        let kept = without([0.0, 1.0], spared.map(|[a, b]| [a.min(b), a.max(b)]));
+        kept.into_iter().map(|shares| part.part(shares)).collect()
+    }
+
+    /// Where a cut of a ring that comes to a place goes on to so that it crosses what is cut there with the others: no farther
+    /// where it crosses that already; `None` where it finds nothing to cross.
+    pub(super) fn lead(&self, ring: usize, Arrival { at, along }: Arrival, to: Neighbour) -> Option<Point> {
+        let ways = [1.0, -1.0].into_iter().filter_map(|sign| self.way_over(at, along, (to.ring, to.station, sign)));
+        if let Some((_, end)) = ways.max_by(|a, b| a.0.total_cmp(&b.0)) {
+            return Some(end);
+        }
+        let way = self.straight_on(ring, at, along, to.not)?;
+        Some(if way > LEAST { at + along * way } else { at })
+    }
+
+    /// A straight cut of a ring through a place where what is cut with one neighbour ends and what is cut with the next begins,
+    /// so that it crosses both: its ends, with the place between them.
+    pub(super) fn tie(&self, ring: usize, station: f64, [before, behind]: [Neighbour; 2]) -> Option<[Point; 3]> {
+        let own = &self.rings[ring];
+        let at = own.place(station);
+        let through = |first: Neighbour, second: Neighbour, is_along: bool| {
+            let start = self.lead(ring, Arrival { at, along: own.arriving(station, is_along) }, first)?;
+            let along = polyline::direction(start, at)?;
+            Some([start, self.lead(ring, Arrival { at, along }, second)?])
+        };
+        let [start, end] = through(before, behind, false)
+            .or_else(|| through(behind, before, true).map(|[end, start]| [start, end]))?;
+        Some([start, at, end])
+    }
+
+    /// How far a way from a place goes straight on until it is through a cut of this ring's forerunners, mm.
+    fn straight_on(&self, before: usize, at: Point, along: Vector, not: Option<usize>) -> Option<f64> {
+        let Asked { near, beyond, .. } = self.asked;
+        let reach = (near.distance + beyond) / LEAST_SINE;
+        let ends = [at - along * near.distance, at + along * reach];
+        let cuts = self.cut_near(before, Extent::between(ends[0], ends[1]).grown(beyond));
+        let others = cuts.iter().filter(|(ring, _)| not.is_none() || *ring != not);
+        let crossings = others.filter_map(|&(ring, ends)| {
+            let (ahead, sine) = crossing(at, along, ends, -near.distance)?;
+            let there = at + along * ahead;
+            let margin = ends.iter().map(|end| (end - there).norm()).fold(f64::INFINITY, f64::min);
+            (ahead <= reach && sine >= LEAST_SINE).then_some((ahead + beyond / sine, ring, margin))
+        });
+        let (way, ring, margin) = crossings.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
+        // What only grazes a corner is no crossing.
+        let end = at + along * way.max(0.0);
+        let is_through = |ends: [Point; 2]| polyline::distance_to_segment(end, ends[0], ends[1]) > beyond / 2.0;
+        let is_crossed = || cuts.iter().filter(|cut| cut.0 == ring).all(|cut| is_through(cut.1));
+        (margin > beyond || is_crossed()).then_some(way)
+    }
+
+    /// The end of a gentle way from a place over to an edge from a station of that on, with the cosine of the turn.
+    fn way_over(&self, at: Point, along: Vector, (other, from, sign): (usize, f64, f64)) -> Option<(f64, Point)> {
+        let Asked { near, beyond, .. } = self.asked;
+        let edge = &self.rings[other];
+        let through = (THROUGH * beyond).min(near.distance);
+        // From whichever side of the edge it comes it ends on the other.
+        let is_inside = edge.holds(at - along * (2.0 * near.distance));
+        // As long whatever lies between them, and no bend under the plunged blade.
+        let whole = ((near.distance + through) / SLOPE).max(self.asked.width);
+        (0..HALVINGS).map(|halving| whole / f64::from(1 << halving)).find_map(|length| {
+            let station = |share: f64| from + sign * length * share;
+            let end =
+                edge.place(station(1.0)) + edge.inwards(station(1.0)) * if is_inside { -through } else { through };
+            let cosine = polyline::direction(at, end)?.dot(&along);
+            let is_beside = (1..=PLACES).map(|i| i as f64 / PLACES as f64).all(|share| {
+                (edge.place(station(share)) - (at + (end - at) * share)).norm() <= near.distance + through
+            });
+            let is_cut = self.is_cut(other, [from, station(1.0)]);
+            (cosine >= LEAST_COSINE && is_beside && is_cut).then_some((cosine, end))
+        })
+    }
+
+    /// Whether all between two stations of a ring is cut with it.
+    fn is_cut(&self, ring: usize, [a, b]: [f64; 2]) -> bool {
+        let length = self.rings[ring].length();
+        let (low, high) = (a.min(b), a.max(b));
+        let lap = (low / length).floor() * length;
+        let (low, high) = (low - lap, high - lap);
+        let is_over = |[from, to]: [f64; 2]| from < high - LEAST && to > low + LEAST;
+        !self.spared[ring].iter().any(|&[from, to]| is_over([from, to]) || is_over([from + length, to + length]))
+    }
+
+    /// What is cut in a box of the rings before one: segments, each with its ring, and ways on which cuts were led on.
+    fn cut_near(&self, before: usize, extent: Extent) -> Vec<(Option<usize>, [Point; 2])> {
+        let mut found = Vec::new();
+        for ([ring, segment], _) in self.segments.near(self.rings, extent).filter(|([ring, _], _)| *ring < before) {
+            let own = &self.rings[ring];
+            let (from, to) = (own.station(segment), own.station(segment) + own.segments()[segment].length());
+            let kept = without([from, to], self.spared[ring].iter().copied());
+            let Segment { from: start, to: end, .. } = own.segments()[segment];
+            let place = |station: f64| start + (end - start) * ((station - from) / (to - from));
+            found.extend(kept.into_iter().map(|stretch| (Some(ring), stretch.map(place))));
+        }
+        // They are found in no order.
+        let key = |&(ring, [a, b]): &(Option<usize>, [Point; 2])| (ring, [a.x, a.y, b.x, b.y].map(f64::to_bits));
+        found.sort_unstable_by_key(key);
+        let [low, high] = [extent.min, extent.max].map(cell);
+        let cells = (low[0] - 1..=high[0] + 1).flat_map(|x| (low[1] - 1..=high[1] + 1).map(move |y| [x, y]));
+        let ways = cells.filter_map(|cell| self.ways.get(&cell)).flatten();
+        found.extend(ways.filter(|ends| Extent::between(ends[0], ends[1]).meets(&extent)).map(|&ends| (None, ends)));
+        found
+    }
+
+    /// Whether what is cut of one edge and what is cut of the next cross each other where the one ends and the other begins.
+    pub(super) fn meet(&self, ring: usize, [before, behind]: [&Shared; 2]) -> bool {
+        let at = self.rings[ring].place(before.own[1]);
+        let reach = 2.0 * (self.asked.near.distance + self.asked.beyond) / LEAST_SINE;
+        let cuts = self.cut_near(ring, Extent::between(at, at).grown(reach));
+        let meets = |one: &(Option<usize>, [Point; 2]), other: &(Option<usize>, [Point; 2])| {
+            let ([a, b], [c, d]) = (one.1, other.1);
+            // Two outlines may be off their lines: what only touches, or crosses at a small angle, is not sure to.
+            let is_sure = one.0 == other.0 || one.0.is_none() || other.0.is_none();
+            let touches = || [a, b].iter().any(|p| [c, d].iter().any(|q| (p - q).norm() <= LEAST));
+            let crosses = || {
+                let along = polyline::direction(a, b)?;
+                let (ahead, sine) = crossing(a, along, [c, d], -LEAST)?;
+                let there = a + along * ahead;
+                let margin = [a, b, c, d].iter().map(|end| (end - there).norm()).fold(f64::INFINITY, f64::min);
+                let is_clear = is_sure || sine >= LEAST_SINE && margin >= self.asked.near.distance;
+                (ahead <= (b - a).norm() + LEAST && is_clear).then_some(())
+            };
+            is_sure && touches() || crosses().is_some()
+        };
+        // What hangs together with the one edge grows until nothing is added.
+        let mut reached: Vec<bool> = cuts.iter().map(|(ring, _)| *ring == Some(before.other)).collect();
+        loop {
+            let grown: Vec<usize> = (0..cuts.len())
+                .filter(|&i| !reached[i] && (0..cuts.len()).any(|k| reached[k] && meets(&cuts[i], &cuts[k])))
+                .collect();
+            if grown.is_empty() {
+                break;
+            }
+            for i in grown {
+                reached[i] = true;
+            }
+        }
+        cuts.iter().zip(&reached).any(|((ring, _), &reached)| reached && *ring == Some(behind.other))
+    }
+
+    /// The legs of a notch, at either end led on through the edge that is cut over its mouth.
+    pub(super) fn led_legs(&self, ring: usize, legs: &[Segment]) -> Vec<Segment> {
+        let mut led = legs.to_vec();
+        let [Some(&first), Some(&last)] = [legs.first(), legs.last()] else { return led };
+        let on = |from: Point, to: Point| {
+            let along = polyline::direction(from, to)?;
+            let way = self.straight_on(ring + 1, to, along, None)?;
+            (way > LEAST).then(|| to + along * way)
+        };
+        if let Some(start) = on(first.to, first.from) {
+            led[0].from = start;
+        }
+        if let Some(end) = on(last.from, last.to) {
+            led[legs.len() - 1].to = end;
+        }
+        led
+    }
+}
+
+/// What some stretches leave of one.
+fn without(whole: [f64; 2], gone: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
+    gone.fold(vec![whole], |left, [from, to]| {
+        let parts = left.iter().flat_map(|&[low, high]| [[low, high.min(from)], [low.max(to), high]]);
+        parts.filter(|[low, high]| low < high).collect()
+    })
+}
+
+/// The cell of a place.
+fn cell(at: Point) -> [i64; 2] {
+    [at.x, at.y].map(|value| (value / CELL).floor() as i64)
+}

@@ -1,0 +1,89 @@
+//! Stretches that a ring has in common with others: what faces it, joined.
+
+use super::facing::{Facing, Near};
+use super::ring::Ring;
+
+/// How many distances of two edges what they have in common may be broken: about a corner the feet on the one miss the other.
+pub(super) const BREAK: f64 = 2.0;
+/// Stretches that are shorter have no length, mm: rounding.
+const LEAST: f64 = 1e-6;
+
+/// What is asked of edges that are cut once.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Asked {
+    /// How they must lie.
+    pub(super) near: Near,
+    /// The shortest, mm.
+    pub(super) min: f64,
+    /// How far an open cut goes beyond what it ends at, mm.
+    pub(super) beyond: f64,
+    /// Width of the blade, mm.
+    pub(super) width: f64,
+}
+
+/// A stretch of a ring that is cut with another.
+#[derive(Debug, Clone)]
+pub(super) struct Shared {
+    /// Its stations; on a ring that may be over its end, mm.
+    pub(super) own: [f64; 2],
+    /// The other ring, and the stations of that beside its ends.
+    pub(super) other: usize,
+    pub(super) theirs: [f64; 2],
+    /// The straight parts of it, in order.
+    pub(super) parts: Vec<Facing>,
+}
+
+impl Shared {
+    /// Lets it begin at a station at the earliest, mm; `false` when less than `min` is left.
+    pub(super) fn begin_at(&mut self, from: f64, min: f64) -> bool {
+        if self.own[0] >= from {
+            return true;
+        }
+        self.parts.retain(|part| part.own[1] > from + LEAST);
+        if let Some(first) = self.parts.first_mut().filter(|part| part.own[0] < from) {
+            *first = first.part([(from - first.own[0]) / first.length(), 1.0]);
+        }
+        let Some(first) = self.parts.first() else { return false };
+        (self.own[0], self.theirs[0]) = (first.own[0], first.theirs[0]);
+        self.own[1] - self.own[0] >= min
+    }
+}
+
+/// The stretches that a ring has in common with others, by what faces it, those as long as is asked.
+pub(super) fn stretches(rings: &[Ring], own: &Ring, facing: &[Facing], asked: Asked) -> Vec<Shared> {
+    let reach = BREAK * asked.near.distance;
+    let mut found: Vec<Shared> = Vec::new();
+    let meets = |before: &Shared, next: &Facing| {
+        let length = rings[before.other].length();
+        let across = (next.theirs[0] - before.theirs[1]).rem_euclid(length);
+        before.other == next.other && next.own[0] - before.own[1] <= reach && across.min(length - across) <= reach
+    };
+    for part in facing {
+        // Those that were begun last are the likeliest.
+        match found.iter_mut().rev().take(8).find(|before| meets(before, part)) {
+            Some(before) => {
+                if part.own[1] > before.own[1] {
+                    (before.own[1], before.theirs[1]) = (part.own[1], part.theirs[1]);
+                    before.parts.push(*part);
+                }
+            }
+            None => {
+                found.push(Shared { own: part.own, other: part.other, theirs: part.theirs, parts: vec![*part] });
+            }
+        }
+    }
+    // One that goes over the start of the ring was found in two.
+    let length = own.length();
+    if let Some(last) = (1..found.len()).rev().find(|&i| {
+        let first = found[0].parts[0];
+        meets(&found[i], &Facing { own: first.own.map(|station| station + length), ..first })
+    }) {
+        let first = found.remove(0);
+        let last = &mut found[last - 1];
+        let over = |part: &Facing| Facing { own: part.own.map(|station| station + length), ..*part };
+        last.parts.extend(first.parts.iter().map(over));
+        (last.own[1], last.theirs[1]) = (first.own[1] + length, first.theirs[1]);
+    }
+    found.retain(|shared| shared.own[1] - shared.own[0] >= asked.min);
+    found
+}

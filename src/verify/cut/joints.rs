@@ -1,0 +1,105 @@
+//! Where cuts of two parts must meet so that a part comes free: whether the blade's own ways do.
+
+use crate::geom::boxes::Boxes;
+use crate::geom::{Extent, Point, polyline};
+use crate::ir::Finding;
+use crate::ir::finding::Sighting;
+use crate::verify::reference::common::Joint;
+use crate::verify::worst::Worst;
+
+/// How far about a joint ways are looked at, mm: what one cut is led on until it crosses another.
+const REACH: f64 = 20.0;
+
+/// The blade's ways about joints.
+#[derive(Debug)]
+pub(in crate::verify) struct Joints<'a> {
+    all: &'a [Joint],
+    boxes: Boxes,
+    /// The ways that come by each joint, with the cut that they are of.
+    ways: Vec<Vec<Way>>,
+}
+
+/// A part of a way.
+#[derive(Debug)]
+struct Way {
+    cut: u32,
+    points: Vec<Point>,
+}
+
+impl<'a> Joints<'a> {
+    /// Of these nothing is known yet.
+    pub(in crate::verify) fn new(joints: &'a [Joint]) -> Self {
+        let extents = joints.iter().map(|joint| Extent::between(joint.at, joint.at).grown(REACH));
+        Self { all: joints, boxes: Boxes::new(extents.collect()), ways: joints.iter().map(|_| Vec::new()).collect() }
+    }
+
+    /// Sees what a stroke cuts, as a stretch of a cut of the marker.
+    pub(in crate::verify) fn see(&mut self, points: &[Point], cut: u32) {
+        if self.all.is_empty() {
+            return;
+        }
+        for i in self.boxes.near(Extent::of(points)).collect::<Vec<_>>() {
+            let extent = self.boxes.all()[i];
+            // Parts of it, each from the place before it comes near to the one behind.
+            let mut way: Vec<Point> = Vec::new();
+            for ends in points.windows(2) {
+                if Extent::between(ends[0], ends[1]).meets(&extent) {
+                    if way.is_empty() {
+                        way.push(ends[0]);
+                    }
+                    way.push(ends[1]);
+                } else if !way.is_empty() {
+                    self.ways[i].push(Way { cut, points: std::mem::take(&mut way) });
+                }
+            }
+            if !way.is_empty() {
+                self.ways[i].push(Way { cut, points: way });
+            }
+        }
+    }
+
+    /// How wide a thread is left at the joints at the most.
+    pub(in crate::verify) fn finding(&self, limit: f64) -> Finding {
+        let mut worst = Worst::new("verify/joint", "mm", Some(limit));
+        for (joint, ways) in self.all.iter().zip(&self.ways) {
+            worst.see(gap(joint, ways), || Sighting { time: None, line: None, point: joint.at, block: joint.block });
+        }
+        worst.finding()
+    }
+}
+
+/// How wide the widest gap is on the best way from the one cut of a joint to the other over all that is cut about it, mm.
+fn gap(joint: &Joint, ways: &[Way]) -> f64 {
+    let [from, to] = joint.cuts;
+    let mut least: Vec<f64> = ways.iter().map(|way| if way.cut == from { 0.0 } else { REACH }).collect();
+    let mut is_done = vec![false; ways.len()];
+    // The way that is reached over the narrowest gap is final, as in Dijkstra's search.
+    while let Some(next) = (0..ways.len()).filter(|&i| !is_done[i]).min_by(|&a, &b| least[a].total_cmp(&least[b])) {
+        if ways[next].cut == to {
+            return least[next];
+        }
+        is_done[next] = true;
+        for other in (0..ways.len()).filter(|&i| !is_done[i]).collect::<Vec<_>>() {
+            if least[other] > least[next] {
+                let apart = apart(&ways[next].points, &ways[other].points, least[other]);
+                least[other] = least[other].min(apart.max(least[next]));
+            }
+        }
+    }
+    REACH
+}
+
+/// Distance of two ways, mm, surely where that is less than `limit`.
+fn apart(one: &[Point], other: &[Point], limit: f64) -> f64 {
+    let mut least = limit;
+    for a in one.windows(2) {
+        let extent = Extent::between(a[0], a[1]).grown(least);
+        for b in other.windows(2).filter(|b| Extent::between(b[0], b[1]).meets(&extent)) {
+            least = least.min(polyline::distance_of_segments([a[0], a[1]], [b[0], b[1]]));
+            if least == 0.0 {
+                return 0.0;
+            }
+        }
+    }
+    least
+}

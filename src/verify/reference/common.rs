@@ -1,0 +1,181 @@
+//! Edges that are cut with another part: which cut stands for each stretch, how far that is off, and where cuts must meet.
+//!
+//! All of it is measured on the cloth: going along an edge that is spared, cuts of any part that run beside it are looked for.
+
+use super::grid::Grid;
+use super::lines::Reference;
+use super::shared::{Drawn, spared};
+use crate::geom::{Point, cross, polyline};
+use crate::ir::Finding;
+use crate::ir::finding::Sighting;
+use crate::verify::worst::Worst;
+
+/// Least cosine between an edge and a cut that stands for it (30 degrees): lines of a few units tell no direction.
+const ALONG: f64 = 0.866;
+/// How many distances of two edges one cut may be broken, or the next begin behind it: about corners.
+const BREAK: f64 = 2.5;
+/// Stretches that are shorter have no length, mm: rounding.
+const SAME: f64 = 1e-6;
+
+/// What holds for the edges that are cut with other parts.
+#[derive(Debug, Default)]
+pub(in crate::verify) struct Common {
+    /// Where one cut ends and the next goes on around a part.
+    pub(in crate::verify) joints: Vec<Joint>,
+    /// Stretches for which no cut stands, mm, each with its place.
+    pub(in crate::verify) uncut: Vec<(f64, Sighting)>,
+    /// The greatest distance of an edge from the cut that stands for it, mm, with its place.
+    pub(in crate::verify) shift: Option<(f64, Sighting)>,
+}
+
+/// A place at the edge of a part where two cuts must meet, so that it comes free.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::verify) struct Joint {
+    /// The place.
+    pub(in crate::verify) at: Point,
+    /// Source block of the edge there.
+    pub(in crate::verify) block: u32,
+    /// The cuts, by their places among those of the marker.
+    pub(in crate::verify) cuts: [u32; 2],
+}
+
+/// A stretch of an edge for which a cut stands.
+struct Stand {
+    /// Its stations along the edge, mm.
+    over: [f64; 2],
+    cut: u32,
+}
+
+impl Common {
+    /// Looks for what stands for the spared edges of some contours; these may lie so far apart, mm.
+    pub(in crate::verify) fn new(shared: &[Vec<Drawn>], reference: &Reference, grid: &Grid, distance: f64) -> Self {
+        let mut common = Self::default();
+        for ring in shared {
+            common.see(ring, reference, grid, distance);
+        }
+        common
+    }
+
+    /// How far edges are from the cuts that stand for them.
+    pub(in crate::verify) fn finding(&self) -> Finding {
+        let mut worst = Worst::new("verify/common", "mm", None);
+        if let Some((shift, place)) = self.shift {
+            worst.see(shift, || place);
+        }
+        worst.finding()
+    }
+
+    /// Goes once around a contour.
+    fn see(&mut self, ring: &[Drawn], reference: &Reference, grid: &Grid, distance: f64) {
+        // From the start of a stretch that is cut with the piece, if there is any.
+        let start =
+            (0..ring.len()).find(|&i| ring[i].cut.is_some() && ring[(i + ring.len() - 1) % ring.len()].cut.is_none());
+        let mut ring = ring.to_vec();
+        ring.rotate_left(start.unwrap_or(0));
+        let mut spared = spared(&ring).into_iter();
+        let mut cuts: Vec<(u32, Point, u32)> = Vec::new();
+        let mut is_in_spared = false;
+        for stretch in &ring {
+            let [from, _] = stretch.ends;
+            match stretch.cut {
+                Some(cut) => cuts.push((cut, from, stretch.block)),
+                None if is_in_spared => {}
+                None => {
+                    let edge = spared.next().expect("a spared stretch is one of them");
+                    cuts.extend(self.stands(&edge, reference, grid, distance));
+                }
+            }
+            is_in_spared = stretch.cut.is_none();
+        }
+        for (i, &(cut, at, block)) in cuts.iter().enumerate() {
+            let before = cuts[(i + cuts.len() - 1) % cuts.len()].0;
+            if before != cut {
+                self.joints.push(Joint { at, block, cuts: [before, cut] });
+            }
+        }
+    }
+
+    /// The cuts that stand for an edge, each with the place from which it does.
+    fn stands(&mut self, edge: &[Drawn], reference: &Reference, grid: &Grid, distance: f64) -> Vec<(u32, Point, u32)> {
+        let points: Vec<Point> =
+            std::iter::once(edge[0].ends[0]).chain(edge.iter().map(|chord| chord.ends[1])).collect();
+        let stations = polyline::stations(&points);
+        let length = stations[edge.len()];
+        let sighting = |station: f64| {
+            let chord = stations.partition_point(|&passed| passed <= station).clamp(1, edge.len()) - 1;
+            let point = polyline::place(&points, &stations, station);
+            Sighting { time: None, line: None, point, block: edge[chord].block }
+        };
+        let mut stands: Vec<Stand> = Vec::new();
+        let reach = BREAK * distance;
+        let mut shift = (0.0, 0.0);
+        for (chord, &start) in edge.iter().zip(&stations) {
+            for (over, cut, apart) in beside(chord, reference, grid, distance) {
+                let over = over.map(|way| way + start);
+                if apart > shift.0 {
+                    shift = (apart, over[0]);
+                }
+                let meets = |known: &&mut Stand| {
+                    known.cut == cut && over[0] <= known.over[1] + reach && over[1] >= known.over[0] - reach
+                };
+                match stands.iter_mut().find(meets) {
+                    Some(known) => known.over = [known.over[0].min(over[0]), known.over[1].max(over[1])],
+                    None => stands.push(Stand { over, cut }),
+                }
+            }
+        }
+        if shift.0 > self.shift.map_or(0.0, |known| known.0) {
+            self.shift = Some((shift.0, sighting(shift.1)));
+        }
+        let (mut at, mut chain) = (0.0, Vec::new());
+        while length - at > reach {
+            let next = stands.iter().filter(|stand| stand.over[0] <= at + reach && stand.over[1] > at + SAME);
+            let next = next.max_by(|a, b| a.over[1].total_cmp(&b.over[1]).then(b.cut.cmp(&a.cut)));
+            if let Some(Stand { over, cut }) = next {
+                let seen = sighting(at);
+                chain.push((*cut, seen.point, seen.block));
+                at = over[1];
+                continue;
+            }
+            let ahead = stands.iter().map(|stand| stand.over[0]).filter(|&from| from > at).fold(length, f64::min);
+            self.uncut.push((ahead - at, sighting(f64::midpoint(at, ahead))));
+            at = ahead;
+        }
+        chain
+    }
+}
+
+/// The cuts beside a chord of an edge: from where to where, of which cut of the marker, and how far off at the most, mm.
+fn beside(chord: &Drawn, reference: &Reference, grid: &Grid, distance: f64) -> Vec<([f64; 2], u32, f64)> {
+    let [from, to] = chord.ends;
+    let Some(along) = polyline::direction(from, to) else { return Vec::new() };
+    let length = (to - from).norm();
+    let middle = from + (to - from) / 2.0;
+    let mut found = Vec::new();
+    for run in grid.near(middle, length / 2.0 + distance) {
+        let line = &reference.lines[run.line()];
+        if line.cut.is_edge {
+            continue;
+        }
+        for ends in run.chords().map(|i| [line.point(i), line.point(i + 1)]) {
+            let Some(direction) = polyline::direction(ends[0], ends[1]) else { continue };
+            if direction.dot(&along).abs() < ALONG {
+                continue;
+            }
+            let [a, b] = ends.map(|end: Point| ((end - from).dot(&along), cross(along, end - from)));
+            let off = |way: f64| a.1 + (b.1 - a.1) * ((way - a.0) / (b.0 - a.0));
+            let (mut low, mut high) = (a.0.min(b.0).max(0.0), a.0.max(b.0).min(length));
+            if b.1 != a.1 {
+                let limits = [-distance, distance].map(|limit| a.0 + (limit - a.1) / (b.1 - a.1) * (b.0 - a.0));
+                (low, high) = (low.max(limits[0].min(limits[1])), high.min(limits[0].max(limits[1])));
+            } else if a.1.abs() > distance {
+                continue;
+            }
+            if high > low {
+                found.push(([low, high], line.cut.index, off(low).abs().max(off(high).abs()).min(distance)));
+            }
+        }
+    }
+    found.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]).then(a.1.cmp(&b.1)));
+    found
+}

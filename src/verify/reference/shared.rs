@@ -1,0 +1,110 @@
+//! A piece whose outline is not all cut with it: which of its stretches are, and which another part's cut must stand for.
+//!
+//! What is cut with a piece is what the marker says, and every chord of the drawing is looked for on that: what is not on it
+//! is spared.
+
+use super::line::Line;
+use crate::geom::boxes::Boxes;
+use crate::geom::{Extent, Point, polyline};
+use crate::ir::list::Segment;
+
+/// How far a cut may be from what it is drawn as, mm, and how short a stretch is none: rounding.
+const SAME: f64 = 1e-6;
+/// Least cosine between a chord and a cut along it.
+const ALONG: f64 = 0.999_999;
+
+/// A straight stretch of a closed contour, as it is drawn.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::verify) struct Drawn {
+    /// Its ends.
+    pub(in crate::verify) ends: [Point; 2],
+    /// The cut of its own piece that it lies on, by its place among those of the marker; `None` where it is spared.
+    pub(in crate::verify) cut: Option<u32>,
+    /// Source block of its chord.
+    pub(in crate::verify) block: u32,
+}
+
+/// Parts a closed contour into what lies on cuts of its own piece and what does not.
+pub(super) fn parted(drawn: &[Segment], own: &[Line]) -> Vec<Drawn> {
+    let chords: Vec<([Point; 2], u32)> = own
+        .iter()
+        .flat_map(|line| (0..line.chords()).map(|i| ([line.point(i), line.point(i + 1)], line.cut.index)))
+        .collect();
+    let extents = chords.iter().map(|([from, to], _)| Extent::between(*from, *to).grown(SAME));
+    let boxes = Boxes::new(extents.collect());
+    let mut found = Vec::new();
+    for segment in drawn {
+        let (length, way) = (segment.length(), segment.to - segment.from);
+        let near = boxes.near(Extent::between(segment.from, segment.to));
+        let mut on: Vec<([f64; 2], u32)> = near
+            .filter_map(|i| {
+                let (ends, cut) = chords[i];
+                Some((lies_on([segment.from, segment.to], ends)?, cut))
+            })
+            .collect();
+        on.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]).then(a.1.cmp(&b.1)));
+        let mut at = 0.0;
+        let mut push = |to: f64, cut: Option<u32>| {
+            if to - at > SAME {
+                let place = |station: f64| segment.from + way * (station / length);
+                found.push(Drawn { ends: [place(at), place(to)], cut, block: segment.span.block });
+                at = to;
+            }
+        };
+        for ([from, to], cut) in on {
+            push(from, None);
+            push(to, Some(cut));
+        }
+        push(length, None);
+    }
+    found
+}
+
+/// The stretches of a cut, by station, that lie on none of some contours of its own piece.
+pub(super) fn aside(line: &Line, drawn: &[Vec<Segment>]) -> Vec<[f64; 2]> {
+    let chords: Vec<[Point; 2]> = drawn.iter().flatten().map(|segment| [segment.from, segment.to]).collect();
+    let boxes = Boxes::new(chords.iter().map(|[from, to]| Extent::between(*from, *to).grown(SAME)).collect());
+    let mut found: Vec<[f64; 2]> = Vec::new();
+    for i in 0..line.chords() {
+        let (ends, start) = ([line.point(i), line.point(i + 1)], line.station(i));
+        let near = boxes.near(Extent::between(ends[0], ends[1]));
+        let mut on: Vec<[f64; 2]> = near.filter_map(|k| lies_on(ends, chords[k])).collect();
+        on.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let length = (ends[1] - ends[0]).norm();
+        let mut at = 0.0;
+        for [from, to] in on.into_iter().chain([[length; 2]]) {
+            if from - at > SAME {
+                found.push([start + at, start + from]);
+            }
+            at = f64::max(at, to);
+        }
+    }
+    found
+}
+
+/// From where to where a chord lies on a part of a cut that goes the same way.
+fn lies_on([from, to]: [Point; 2], ends: [Point; 2]) -> Option<[f64; 2]> {
+    let along = polyline::direction(from, to)?;
+    if polyline::direction(ends[0], ends[1])?.dot(&along) < ALONG {
+        return None;
+    }
+    if ends.iter().any(|end| polyline::distance_to_line(*end, from, along) > SAME) {
+        return None;
+    }
+    let [low, high] = ends.map(|end| (end - from).dot(&along).clamp(0.0, (to - from).norm()));
+    (high - low > SAME).then_some([low, high])
+}
+
+/// The spared stretches of a contour, joined, each with its blocks.
+pub(super) fn spared(ring: &[Drawn]) -> Vec<Vec<Drawn>> {
+    let mut found: Vec<Vec<Drawn>> = Vec::new();
+    for stretch in ring.iter().filter(|stretch| stretch.cut.is_none()) {
+        let goes_on =
+            |last: &Vec<Drawn>| last.last().is_some_and(|last| (last.ends[1] - stretch.ends[0]).norm() <= SAME);
+        match found.last_mut().filter(|last| goes_on(last)) {
+            Some(last) => last.push(*stretch),
+            None => found.push(vec![*stretch]),
+        }
+    }
+    found
+}

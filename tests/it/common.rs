@@ -1,0 +1,182 @@
+//! Common lines: what one cut stands for, that it is measured, and that nothing holds where cuts of several parts meet.
+
+use std::io::{BufReader, Cursor};
+
+use cutc::back::TARGETS;
+use cutc::diagnostic::{Diagnostics, render};
+use cutc::geom::{Point, Vector, polyline};
+use cutc::ir::Marker;
+use cutc::ir::list::Segment;
+use cutc::ir::marker::{Cut, CutKind};
+use cutc::machine::{CommonLines, Job, Lines, Numbers, Selection};
+use cutc::pipeline::{self, Compiled};
+use cutc::verify::{self, Ground, Verdict};
+
+use crate::support::program::{declared, setpoints};
+use crate::support::with_cuts;
+use crate::verifier::case::{marker, source};
+
+/// Rows of parts that share their edges, each of whose outlines was rounded by itself, with T joints and V notches.
+const NEST: &str = "touching-parts";
+
+/// How far a damage moves a cut, mm.
+const AWAY: f64 = 3.0;
+
+fn compiled(job: &Job) -> Compiled {
+    let source = source(NEST);
+    let target = TARGETS.iter().find(|target| target.name == "csv").expect("setpoints are a target");
+    let order = pipeline::Order { from: None, target, verify: true };
+    let (mut out, mut found) = (Cursor::new(Vec::new()), Diagnostics::default());
+    let compiled = pipeline::compile(&source, job, order, &mut out, &mut found).expect("memory takes everything");
+    compiled.unwrap_or_else(|| panic!("{}", render(&found, &source)))
+}
+
+fn without() -> Job {
+    let mut job = Job::default();
+    job.profile.common.lines = Lines::Word(CommonLines::Off);
+    job
+}
+
+fn length(marker: &Marker, cut: &Cut) -> f64 {
+    polyline::length(&marker.list.points(cut.range))
+}
+
+#[test]
+fn an_edge_of_two_parts_is_cut_once() {
+    let (once, twice) = (compiled(&Job::default()).report, compiled(&without()).report);
+    let common = once.common.expect("parts touch");
+    assert!(common.length_m > 0.4 && common.shift_mm <= 0.2, "{common:?}");
+    assert!(twice.common.is_none());
+    // What runs over the mouths of notches and what is led on are the rest.
+    let mouths = once.cut_m - (twice.cut_m - common.length_m);
+    assert!((0.0..0.05 * twice.cut_m).contains(&mouths), "{mouths} m");
+    let time = |report: pipeline::Report| report.program.time_s.expect("it is planned");
+    assert!(time(once) < time(twice));
+}
+
+#[test]
+fn each_outline_is_whole_where_that_is_asked_and_where_a_part_is_cut_alone() {
+    let marker = marker(NEST, &Job::default());
+    let whole = with_cuts(&marker, &without());
+    assert!(whole.cuts.iter().all(|cut| cut.kind == CutKind::Outline) && whole.cuts.len() == marker.pieces.len());
+    for number in 1..=marker.pieces.len() as u32 {
+        let selection = Selection { pieces: Numbers::parse(&number.to_string()).ok(), ..Selection::default() };
+        let job = Job { selection, ..Job::default() };
+        let alone = compiled(&job);
+        assert!(alone.report.common.is_none() && alone.verdict.is_some_and(|verdict| verdict.passes()));
+    }
+}
+
+/// A machine that cuts nothing past the ends of cuts: what meets then does so by itself.
+fn bare() -> Job {
+    let mut job = Job::default();
+    let knife = &mut job.profile.knife;
+    (knife.front_overlap_mm, knife.corner_front_overlap_mm) = (0.0, 0.0);
+    (knife.heel_overlap_mm, knife.corner_heel_overlap_mm) = (0.0, 0.0);
+    job
+}
+
+/// What is found in the program of other cuts than those of the marker.
+fn judged(change: impl FnOnce(&mut Marker)) -> Verdict {
+    let job = bare();
+    let marker = with_cuts(&marker(NEST, &job), &job);
+    let mut other = marker.clone();
+    change(&mut other);
+    let program = setpoints(&other, &job);
+    let ground = Ground::new(&marker, &job.profile);
+    verify::setpoints(&mut BufReader::new(&program[..]), Some(&declared(&marker, &job)), &ground, &job)
+}
+
+/// The same, where both are judged by what the other cuts are said to be.
+fn claimed(change: impl FnOnce(&mut Marker)) -> Verdict {
+    let job = bare();
+    let mut marker = with_cuts(&marker(NEST, &job), &job);
+    change(&mut marker);
+    let program = setpoints(&marker, &job);
+    let ground = Ground::new(&marker, &job.profile);
+    verify::setpoints(&mut BufReader::new(&program[..]), Some(&declared(&marker, &job)), &ground, &job)
+}
+
+fn breaks(verdict: &Verdict, rule: &str) -> bool {
+    verdict.broken().any(|finding| finding.rule == rule)
+}
+
+/// The place of an open cut of an outline that is long enough to be damaged.
+fn open_cut(marker: &Marker) -> usize {
+    let is_long = |cut: &Cut| cut.kind == CutKind::Edge && length(marker, cut) > 20.0 * AWAY;
+    marker.cuts.iter().position(is_long).expect("there is one")
+}
+
+/// Gives a cut other segments.
+fn redraw(marker: &mut Marker, cut: usize, change: impl FnOnce(&mut Vec<Segment>)) {
+    let mut segments: Vec<Segment> = marker.list.walk(marker.cuts[cut].range).map(|(_, segment)| segment).collect();
+    change(&mut segments);
+    marker.cuts[cut].range = marker.list.append(segments).expect("something is left");
+}
+
+#[test]
+fn the_program_of_a_nest_is_sound() {
+    for verdict in [judged(|_| {}), claimed(|_| {})] {
+        assert!(verdict.passes(), "{:#?}", verdict.broken().collect::<Vec<_>>());
+    }
+}
+
+/// A cut that ends before the one that it should cross leaves a thread, whoever says that it should end there.
+#[test]
+fn a_cut_that_does_not_reach_the_next_is_refused() {
+    let shorter = |marker: &mut Marker| {
+        let cut = open_cut(marker);
+        redraw(marker, cut, |segments| {
+            // Without the way on which it is led on.
+            segments.pop();
+            let last = segments.last_mut().expect("it is longer");
+            last.to -= (last.to - last.from).normalize() * AWAY;
+        });
+    };
+    assert!(breaks(&judged(shorter), "verify/complete"));
+    let verdict = claimed(shorter);
+    assert!(breaks(&verdict, "verify/complete") || breaks(&verdict, "verify/joint"), "{:#?}", verdict.findings);
+}
+
+/// The same by less than the outline tells: only where the cuts meet it is seen.
+#[test]
+fn a_thread_between_two_cuts_is_refused() {
+    let verdict = claimed(|marker| {
+        let cut = open_cut(marker);
+        redraw(marker, cut, |segments| {
+            // It is led on at either end; without that it ends where its outline leaves the common edge.
+            segments.pop();
+            segments.remove(0);
+            let back = |from: Point, to: Point| (to - from).normalize() * 0.3;
+            let first = segments.first_mut().expect("some is left");
+            first.from += back(first.from, first.to);
+            let last = segments.last_mut().expect("some is left");
+            last.to -= back(last.from, last.to);
+        });
+    });
+    assert!(breaks(&verdict, "verify/joint"), "{:#?}", verdict.findings);
+}
+
+#[test]
+fn an_edge_that_no_cut_stands_for_is_left_uncut() {
+    // Nothing is cut where the outline of the second part is said to be another's.
+    let verdict = claimed(|marker| {
+        let cut = open_cut(marker);
+        marker.cuts.remove(cut);
+    });
+    assert!(breaks(&verdict, "verify/complete"), "{:#?}", verdict.findings);
+}
+
+#[test]
+fn a_cut_that_is_led_into_a_part_is_refused() {
+    let verdict = claimed(|marker| {
+        let cut = open_cut(marker);
+        redraw(marker, cut, |segments| {
+            let last = segments.last_mut().expect("it has some");
+            let along = (last.to - last.from).normalize();
+            last.to += Vector::new(-along.y, along.x) * AWAY;
+        });
+    });
+    let is_deep = breaks(&verdict, "verify/overcut-neighbour") || breaks(&verdict, "verify/overcut-part");
+    assert!(is_deep, "{:#?}", verdict.findings);
+}
