@@ -47,7 +47,7 @@ pub const PAGES: &[Page] = &[
     },
     Page {
         name: "cutting",
-        about: "How it cuts: corners, order, overlaps, notches, curves, the turn of the blade",
+        about: "How it cuts: corners, order, overlaps, common lines, notches, curves, the turn of the blade",
         text: include_str!("cutting.md"),
     },
     Page {

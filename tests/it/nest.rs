@@ -64,13 +64,17 @@ fn bricks(gap: f64) -> String {
 
 /// A program with its verdict; every rule must hold, and nothing may be refused.
 fn compiled(gap: f64, job: &Job) -> (Compiled, Vec<u8>) {
-    let source = Source::new("nest.cut", bricks(gap).into_bytes()).expect("small");
+    made(&bricks(gap), &format!("a gap of {gap} mm"), job)
+}
+
+fn made(nest: &str, case: &str, job: &Job) -> (Compiled, Vec<u8>) {
+    let source = Source::new("nest.cut", nest.as_bytes().to_vec()).expect("small");
     let target = TARGETS.iter().find(|target| target.name == "csv").expect("setpoints are a target");
     let order = pipeline::Order { from: None, target, verify: true };
     let (mut out, mut found) = (Cursor::new(Vec::new()), Diagnostics::default());
     let compiled = pipeline::compile(&source, job, order, &mut out, &mut found).expect("memory takes everything");
-    let compiled = compiled.unwrap_or_else(|| panic!("a gap of {gap} mm: {}", render(&found, &source)));
-    assert!(compiled.verdict.as_ref().is_some_and(pipeline::Verdict::passes), "a gap of {gap} mm");
+    let compiled = compiled.unwrap_or_else(|| panic!("{case}: {}", render(&found, &source)));
+    assert!(compiled.verdict.as_ref().is_some_and(pipeline::Verdict::passes), "{case}");
     (compiled, out.into_inner())
 }
 
@@ -152,6 +156,55 @@ fn no_gap_is_refused_and_all_that_is_cut_beside_the_drawing_is_declared() {
         (job.profile.knife.width_mm, job.profile.knife.back_mm) = (width, Some(back));
         for gap in [-1.0, -0.6, -0.35, -0.25, -0.2, -0.15, -0.05, 0.0, 0.1, 0.19, 0.21, 0.3, 0.5, 1.0, 2.0] {
             compiled(gap, &job);
+        }
+    }
+}
+
+/// Forms of notches: places along the edge and how deep they stand in the part, mm.
+const FORMS: [(&str, &[(f64, f64)]); 5] = [
+    ("none", &[]),
+    ("v", &[(0.0, 0.0), (2.0, 5.0), (4.0, 0.0)]),
+    ("castle", &[(0.0, 0.0), (0.0, 4.0), (4.0, 4.0), (4.0, 0.0)]),
+    ("box", &[(0.0, 0.0), (0.0, 5.0), (0.1, 5.0), (0.1, 0.0)]),
+    ("u", &[(0.0, 0.0), (0.2, 1.5), (1.0, 2.6), (2.0, 3.0), (3.0, 2.6), (3.8, 1.5), (4.0, 0.0)]),
+];
+/// Where on an edge a notch stands, mm.
+const NOTCH_AT: f64 = 30.0;
+
+/// Two rows of three parts of 100 by 80 mm with a notch in the lower edges; those of the upper row face one in the upper
+/// edge of the part below, or the rows are shifted so that corners stand amid edges.
+fn rows(gap: f64, notch: &[(f64, f64)], is_facing: bool) -> String {
+    let mut text = "H1*G70*".to_owned();
+    let mils = |value: f64| ((60.0 + value) / 0.0254).round();
+    for number in 0..6 {
+        let (column, row) = (f64::from(number % 3), f64::from(number / 3));
+        let x = 100.0 * column + if is_facing { 0.0 } else { 40.0 * row };
+        let (left, right) = (x + gap / 2.0, x + 100.0 - gap / 2.0);
+        let (low, high) = (80.0 * row + gap / 2.0, 80.0 * row + 80.0 - gap / 2.0);
+        let mut points = vec![(left, low)];
+        points.extend(notch.iter().map(|(along, deep)| (x + NOTCH_AT + along, low + deep)));
+        points.extend([(right, low), (right, high)]);
+        let upper = notch.iter().rev().map(|(along, deep)| (x + NOTCH_AT + along, high - deep));
+        points.extend(upper.filter(|_| is_facing && row == 0.0));
+        points.extend([(left, high), (left, low)]);
+        let at: Vec<String> = points.into_iter().map(|(x, y)| format!("X{}Y{}", mils(x), mils(y))).collect();
+        let _infallible = write!(text, "N{}*M15*{}*M14*{}*M15*", number + 1, at[0], at[1..].join("*"));
+    }
+    text + "M0*\n"
+}
+
+#[test]
+fn whatever_notches_stand_on_common_edges_nothing_is_refused() {
+    for (form, notch) in FORMS {
+        for is_facing in [false, true] {
+            for gap in [-0.2, -0.1, 0.0, 0.1, 0.5, 2.0] {
+                let case = format!("{form}, facing {is_facing}, a gap of {gap} mm");
+                let (compiled, _) = made(&rows(gap, notch, is_facing), &case, &Job::default());
+                let length = compiled.report.common.map_or(0.0, |common| common.length_m);
+                // Four edges of 80 mm, and 300 mm between the rows, 40 less where they are shifted.
+                let expected = if gap.abs() <= WITHIN * BAND { if is_facing { 0.62 } else { 0.58 } } else { 0.0 };
+                assert!((expected - 0.02..=expected + 0.03).contains(&length) || gap == -0.2, "{case}: {length} m");
+            }
         }
     }
 }

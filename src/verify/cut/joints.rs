@@ -1,5 +1,7 @@
 //! Where cuts of two parts must meet so that a part comes free: whether the blade's own ways do.
 
+use rayon::prelude::*;
+
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, polyline};
 use crate::ir::Finding;
@@ -61,8 +63,9 @@ impl<'a> Joints<'a> {
     /// How wide a thread is left at the joints at the most.
     pub(in crate::verify) fn finding(&self, limit: f64) -> Finding {
         let mut worst = Worst::new("verify/joint", "mm", Some(limit));
-        for (joint, ways) in self.all.iter().zip(&self.ways) {
-            worst.see(gap(joint, ways), || Sighting { time: None, line: None, point: joint.at, block: joint.block });
+        let gaps: Vec<f64> = self.all.par_iter().zip(&self.ways).map(|(joint, ways)| gap(joint, ways)).collect();
+        for (joint, gap) in self.all.iter().zip(gaps) {
+            worst.see(gap, || Sighting { time: None, line: None, point: joint.at, block: joint.block });
         }
         worst.finding()
     }
@@ -71,6 +74,11 @@ impl<'a> Joints<'a> {
 /// How wide the widest gap is on the best way from the one cut of a joint to the other over all that is cut about it, mm.
 fn gap(joint: &Joint, ways: &[Way]) -> f64 {
     let [from, to] = joint.cuts;
+    // As nearly all do the two cross each other.
+    let of = |cut: u32| ways.iter().filter(move |way| way.cut == cut);
+    if of(from).any(|one| of(to).any(|other| apart(&one.points, &other.points, f64::MIN_POSITIVE) == 0.0)) {
+        return 0.0;
+    }
     let mut least: Vec<f64> = ways.iter().map(|way| if way.cut == from { 0.0 } else { REACH }).collect();
     let mut is_done = vec![false; ways.len()];
     // The way that is reached over the narrowest gap is final, as in Dijkstra's search.
