@@ -128,6 +128,26 @@ impl Extent {
         (self.min.x..=self.max.x).contains(&point.x) && (self.min.y..=self.max.y).contains(&point.y)
     }
 
+    /// What of a segment lies in the box, from its start on; `None` when it does not meet that.
+    pub fn clip(&self, [from, to]: [Point; 2]) -> Option<[Point; 2]> {
+        let way = to - from;
+        let (mut low, mut high) = (0.0, 1.0);
+        for axis in 0..2 {
+            let [near, far] = [self.min, self.max].map(|corner| corner[axis] - from[axis]);
+            if way[axis] == 0.0 {
+                if near > 0.0 || far < 0.0 {
+                    return None;
+                }
+                continue;
+            }
+            let [a, b] = [near, far].map(|away| away / way[axis]);
+            (low, high) = (greater(low, lesser(a, b)), lesser(high, greater(a, b)));
+        }
+        // An end that lies in the box stays what it is.
+        let place = |share: f64| if share == 1.0 { to } else { from + way * share };
+        (low <= high).then(|| [place(low), place(high)])
+    }
+
     /// Whether nothing was added yet.
     pub fn is_empty(&self) -> bool {
         self.min.x > self.max.x

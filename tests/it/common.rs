@@ -7,7 +7,7 @@ use cutc::diagnostic::{Diagnostics, render};
 use cutc::geom::{Point, Vector, polyline};
 use cutc::ir::Marker;
 use cutc::ir::list::Segment;
-use cutc::ir::marker::{Cut, CutKind};
+use cutc::ir::marker::{Contour, Cut, CutKind};
 use cutc::machine::{CommonLines, Job, Lines, Numbers, Selection};
 use cutc::pipeline::{self, Compiled};
 use cutc::verify::{self, Ground, Verdict};
@@ -67,10 +67,12 @@ fn each_outline_is_whole_where_that_is_asked_and_where_a_part_is_cut_alone() {
     }
 }
 
-/// A machine that cuts nothing past the ends of cuts: what meets then does so by itself.
+/// A machine that cuts nothing past the ends of cuts, with a blade that is narrower than the legs of notches are long: what
+/// meets then does so by itself.
 fn bare() -> Job {
     let mut job = Job::default();
     let knife = &mut job.profile.knife;
+    (knife.width_mm, knife.back_mm) = (3.0, Some(1.5));
     (knife.front_overlap_mm, knife.corner_front_overlap_mm) = (0.0, 0.0);
     (knife.heel_overlap_mm, knife.corner_heel_overlap_mm) = (0.0, 0.0);
     job
@@ -155,6 +157,35 @@ fn a_thread_between_two_cuts_is_refused() {
         });
     });
     assert!(breaks(&verdict, "verify/joint"), "{:#?}", verdict.findings);
+}
+
+/// Where the legs of a notch end before the run over its mouth the part hangs by a thread, wherever else they cross a cut.
+#[test]
+fn a_thread_at_one_end_of_a_notch_is_refused() {
+    for is_start in [true, false] {
+        let verdict = claimed(|marker| {
+            let is_notch = |cut: &Cut| cut.kind == CutKind::Edge && length(marker, cut) < 5.0 * AWAY;
+            let cut = marker.cuts.iter().position(is_notch).expect("notches stand on common edges");
+            redraw(marker, cut, |segments| {
+                let end = if is_start { segments.first_mut() } else { segments.last_mut() }.expect("it has legs");
+                let back = (end.to - end.from).normalize() * 0.5;
+                if is_start { end.from += back } else { end.to -= back }
+            });
+        });
+        assert!(breaks(&verdict, "verify/joint"), "{:#?}", verdict.findings);
+    }
+}
+
+#[test]
+fn an_open_line_of_a_part_with_common_edges_that_is_not_cut_is_refused() {
+    let verdict = claimed(|marker| {
+        let owner = marker.cuts[open_cut(marker)].piece as usize;
+        let [from, to] = [Point::new(500.0, 500.0), Point::new(510.0, 500.0)];
+        let like = marker.list.walk(marker.pieces[owner].contours[0].range).next().expect("it is not empty").1;
+        let range = marker.list.append([Segment { from, to, ..like }]).expect("it has a length");
+        marker.pieces[owner].contours.push(Contour { range, closed: false });
+    });
+    assert!(breaks(&verdict, "verify/complete"), "{:#?}", verdict.findings);
 }
 
 #[test]

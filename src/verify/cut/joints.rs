@@ -9,9 +9,6 @@ use crate::ir::finding::Sighting;
 use crate::verify::reference::common::Joint;
 use crate::verify::worst::Worst;
 
-/// How far about a joint ways are looked at, mm: what one cut is led on until it crosses another.
-const REACH: f64 = 20.0;
-
 /// The blade's ways about joints.
 #[derive(Debug)]
 pub(in crate::verify) struct Joints<'a> {
@@ -31,7 +28,7 @@ struct Way {
 impl<'a> Joints<'a> {
     /// Of these nothing is known yet.
     pub(in crate::verify) fn new(joints: &'a [Joint]) -> Self {
-        let extents = joints.iter().map(|joint| Extent::between(joint.at, joint.at).grown(REACH));
+        let extents = joints.iter().map(|joint| joint.about);
         Self { all: joints, boxes: Boxes::new(extents.collect()), ways: joints.iter().map(|_| Vec::new()).collect() }
     }
 
@@ -41,22 +38,17 @@ impl<'a> Joints<'a> {
             return;
         }
         for i in self.boxes.near(Extent::of(points)).collect::<Vec<_>>() {
-            let extent = self.boxes.all()[i];
-            // Parts of it, each from the place before it comes near to the one behind.
+            let about = self.boxes.all()[i];
             let mut way: Vec<Point> = Vec::new();
             for ends in points.windows(2) {
-                if Extent::between(ends[0], ends[1]).meets(&extent) {
-                    if way.is_empty() {
-                        way.push(ends[0]);
-                    }
-                    way.push(ends[1]);
-                } else if !way.is_empty() {
-                    self.ways[i].push(Way { cut, points: std::mem::take(&mut way) });
+                let Some([from, to]) = about.clip([ends[0], ends[1]]) else { continue };
+                if way.last() != Some(&from) {
+                    let before = std::mem::replace(&mut way, vec![from]);
+                    self.ways[i].extend((before.len() > 1).then_some(Way { cut, points: before }));
                 }
+                way.push(to);
             }
-            if !way.is_empty() {
-                self.ways[i].push(Way { cut, points: way });
-            }
+            self.ways[i].extend((way.len() > 1).then_some(Way { cut, points: way }));
         }
     }
 
@@ -65,6 +57,7 @@ impl<'a> Joints<'a> {
         let mut worst = Worst::new("verify/joint", "mm", Some(limit));
         let gaps: Vec<f64> = self.all.par_iter().zip(&self.ways).map(|(joint, ways)| gap(joint, ways)).collect();
         for (joint, gap) in self.all.iter().zip(gaps) {
+            worst.see(gap, || Sighting { time: None, line: None, point: joint.at, block: joint.block });
             worst.see(gap, || Sighting { time: None, line: None, point: joint.at, block: joint.block });
         }
         worst.finding()
@@ -79,7 +72,10 @@ fn gap(joint: &Joint, ways: &[Way]) -> f64 {
     if of(from).any(|one| of(to).any(|other| apart(&one.points, &other.points, f64::MIN_POSITIVE) == 0.0)) {
         return 0.0;
     }
-    let mut least: Vec<f64> = ways.iter().map(|way| if way.cut == from { 0.0 } else { REACH }).collect();
+    // What is not there at all is as far away as can be.
+    let (width, height) = joint.about.size();
+    let most = width.hypot(height);
+    let mut least: Vec<f64> = ways.iter().map(|way| if way.cut == from { 0.0 } else { most }).collect();
     let mut is_done = vec![false; ways.len()];
     // The way that is reached over the narrowest gap is final, as in Dijkstra's search.
     while let Some(next) = (0..ways.len()).filter(|&i| !is_done[i]).min_by(|&a, &b| least[a].total_cmp(&least[b])) {
@@ -94,7 +90,7 @@ fn gap(joint: &Joint, ways: &[Way]) -> f64 {
             }
         }
     }
-    REACH
+    most
 }
 
 /// Distance of two ways, mm, surely where that is less than `limit`.

@@ -3,9 +3,11 @@
 //! All of it is measured on the cloth: going along an edge that is spared, cuts of any part that run beside it are looked for.
 
 use super::grid::Grid;
+use super::line::Line;
 use super::lines::Reference;
 use super::shared::{Drawn, spared};
-use crate::geom::{Point, cross, polyline};
+use crate::geom::boxes::Boxes;
+use crate::geom::{Extent, Point, Vector, cross, polyline};
 use crate::ir::Finding;
 use crate::ir::finding::Sighting;
 use crate::verify::worst::Worst;
@@ -14,6 +16,11 @@ use crate::verify::worst::Worst;
 const ALONG: f64 = 0.866;
 /// How many distances of two edges one cut may be broken, or the next begin behind it: about corners.
 const BREAK: f64 = 2.5;
+/// How many distances of two edges from where the outlines need it two cuts may cross, or from the way on which one of them is
+/// led on: where outlines overlap one crosses the other before it ends.
+const ABOUT: f64 = 4.0;
+/// Longest part of an edge that cuts are looked for beside at a time, mm.
+const SPAN: f64 = 32.0;
 /// Stretches that are shorter have no length, mm: rounding.
 const SAME: f64 = 1e-6;
 
@@ -37,6 +44,8 @@ pub(in crate::verify) struct Joint {
     pub(in crate::verify) block: u32,
     /// The cuts, by their places among those of the marker.
     pub(in crate::verify) cuts: [u32; 2],
+    /// Where they must cross: about the place, and about the ways on which cuts are led on there.
+    pub(in crate::verify) about: Extent,
 }
 
 /// A stretch of an edge for which a cut stands.
@@ -52,6 +61,20 @@ impl Common {
         let mut common = Self::default();
         for ring in shared {
             common.see(ring, reference, grid, distance);
+        }
+        for stretch in reference.open.iter().filter(|stretch| stretch.cut.is_none()) {
+            let [from, to] = stretch.ends;
+            common.uncut.push(((to - from).norm(), sighting(from, stretch.block)));
+        }
+        let leads: Vec<Vec<Point>> = leads(&reference.lines);
+        let boxes = Boxes::new(leads.iter().map(|lead| Extent::of(lead).grown(ABOUT * distance)).collect());
+        for joint in &mut common.joints {
+            joint.about = Extent::between(joint.at, joint.at).grown(ABOUT * distance);
+            for lead in
+                boxes.at(joint.at).filter(|&lead| polyline::distance(joint.at, &leads[lead]) <= ABOUT * distance)
+            {
+                joint.about.join(&boxes.all()[lead]);
+            }
         }
         common
     }
@@ -73,38 +96,51 @@ impl Common {
         let mut ring = ring.to_vec();
         ring.rotate_left(start.unwrap_or(0));
         let mut spared = spared(&ring).into_iter();
-        let mut cuts: Vec<(u32, Point, u32)> = Vec::new();
+        let mut cuts: Vec<(u32, Sighting)> = Vec::new();
+        // A cut that leaves the edge and comes back to it leaves what lies between.
+        let mut left: Vec<(usize, f64, Sighting)> = Vec::new();
         let mut is_in_spared = false;
         for stretch in &ring {
             let [from, _] = stretch.ends;
             match stretch.cut {
-                Some(cut) => cuts.push((cut, from, stretch.block)),
+                Some(cut) => cuts.push((cut, sighting(from, stretch.block))),
                 None if is_in_spared => {}
                 None => {
                     let edge = spared.next().expect("a spared stretch is one of them");
-                    cuts.extend(self.stands(&edge, reference, grid, distance));
+                    let stands = self.stands(&edge, reference, grid, distance);
+                    if stands.is_empty() {
+                        let length = edge.iter().map(|chord| (chord.ends[1] - chord.ends[0]).norm()).sum();
+                        left.push((cuts.len(), length, sighting(from, stretch.block)));
+                    }
+                    cuts.extend(stands);
                 }
             }
             is_in_spared = stretch.cut.is_none();
         }
-        for (i, &(cut, at, block)) in cuts.iter().enumerate() {
-            let before = cuts[(i + cuts.len() - 1) % cuts.len()].0;
+        let count = cuts.len();
+        for (next, length, place) in left {
+            // Between two cuts it is measured whether these meet.
+            if count == 0 || cuts[next % count].0 == cuts[(next + count - 1) % count].0 {
+                self.uncut.push((length, place));
+            }
+        }
+        for (i, &(cut, Sighting { point: at, block, .. })) in cuts.iter().enumerate() {
+            let before = cuts[(i + count - 1) % count].0;
             if before != cut {
-                self.joints.push(Joint { at, block, cuts: [before, cut] });
+                self.joints.push(Joint { at, block, cuts: [before, cut], about: Extent::EMPTY });
             }
         }
     }
 
     /// The cuts that stand for an edge, each with the place from which it does.
-    fn stands(&mut self, edge: &[Drawn], reference: &Reference, grid: &Grid, distance: f64) -> Vec<(u32, Point, u32)> {
+    fn stands(&mut self, edge: &[Drawn], reference: &Reference, grid: &Grid, distance: f64) -> Vec<(u32, Sighting)> {
         let points: Vec<Point> =
             std::iter::once(edge[0].ends[0]).chain(edge.iter().map(|chord| chord.ends[1])).collect();
         let stations = polyline::stations(&points);
         let length = stations[edge.len()];
-        let sighting = |station: f64| {
+        let seen = |station: f64| {
             let chord = stations.partition_point(|&passed| passed <= station).clamp(1, edge.len()) - 1;
-            let point = polyline::place(&points, &stations, station);
-            Sighting { time: None, line: None, point, block: edge[chord].block }
+            sighting(polyline::place(&points, &stations, station), edge[chord].block)
         };
         let mut stands: Vec<Stand> = Vec::new();
         let reach = BREAK * distance;
@@ -125,24 +161,45 @@ impl Common {
             }
         }
         if shift.0 > self.shift.map_or(0.0, |known| known.0) {
-            self.shift = Some((shift.0, sighting(shift.1)));
+            self.shift = Some((shift.0, seen(shift.1)));
         }
         let (mut at, mut chain) = (0.0, Vec::new());
         while length - at > reach {
             let next = stands.iter().filter(|stand| stand.over[0] <= at + reach && stand.over[1] > at + SAME);
             let next = next.max_by(|a, b| a.over[1].total_cmp(&b.over[1]).then(b.cut.cmp(&a.cut)));
             if let Some(Stand { over, cut }) = next {
-                let seen = sighting(at);
-                chain.push((*cut, seen.point, seen.block));
+                chain.push((*cut, seen(at)));
                 at = over[1];
                 continue;
             }
             let ahead = stands.iter().map(|stand| stand.over[0]).filter(|&from| from > at).fold(length, f64::min);
-            self.uncut.push((ahead - at, sighting(f64::midpoint(at, ahead))));
+            self.uncut.push((ahead - at, seen(f64::midpoint(at, ahead))));
             at = ahead;
         }
         chain
     }
+}
+
+/// A place of the drawing, that no time of the program belongs to.
+fn sighting(point: Point, block: u32) -> Sighting {
+    Sighting { time: None, line: None, point, block }
+}
+
+/// The ways on which cuts are led on: where they begin and end on no edge of their own part.
+fn leads(lines: &[Line]) -> Vec<Vec<Point>> {
+    let mut found = Vec::new();
+    for (i, line) in lines.iter().enumerate().filter(|(_, line)| !line.cut.is_edge && line.cut.round.is_none()) {
+        let is_of_cut = |other: Option<&Line>| other.is_some_and(|other| other.cut.index == line.cut.index);
+        let begins = !is_of_cut(i.checked_sub(1).map(|before| &lines[before]));
+        let ends = !is_of_cut(lines.get(i + 1));
+        for &[from, to] in &line.aside {
+            if begins && from <= SAME || ends && line.length() - to <= SAME {
+                let inner = line.vertices(from, to).map(|vertex| line.point(vertex));
+                found.push(std::iter::once(line.place(from)).chain(inner).chain([line.place(to)]).collect());
+            }
+        }
+    }
+    found
 }
 
 /// The cuts beside a chord of an edge: from where to where, of which cut of the marker, and how far off at the most, mm.
@@ -150,7 +207,28 @@ fn beside(chord: &Drawn, reference: &Reference, grid: &Grid, distance: f64) -> V
     let [from, to] = chord.ends;
     let Some(along) = polyline::direction(from, to) else { return Vec::new() };
     let length = (to - from).norm();
-    let middle = from + (to - from) / 2.0;
+    let parts = (length / SPAN).ceil().max(1.0);
+    let span = length / parts;
+    let mut found = Vec::new();
+    for part in 0..parts as usize {
+        let start = from + along * (span * part as f64);
+        for (over, cut, off) in beside_part(start, along, span, reference, grid, distance) {
+            found.push((over.map(|way| way + span * part as f64), cut, off));
+        }
+    }
+    found
+}
+
+/// The same for a part of one, from a place along a unit vector.
+fn beside_part(
+    from: Point,
+    along: Vector,
+    length: f64,
+    reference: &Reference,
+    grid: &Grid,
+    distance: f64,
+) -> Vec<([f64; 2], u32, f64)> {
+    let middle = from + along * (length / 2.0);
     let mut found = Vec::new();
     for run in grid.near(middle, length / 2.0 + distance) {
         let line = &reference.lines[run.line()];

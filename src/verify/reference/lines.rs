@@ -30,6 +30,8 @@ pub(in crate::verify) struct Reference<'a> {
     pub(in crate::verify) events: Vec<usize>,
     /// The closed contours of the pieces of which not all is cut with them.
     pub(in crate::verify) shared: Vec<Vec<Drawn>>,
+    /// The open contours of these pieces: nothing stands for them.
+    pub(in crate::verify) open: Vec<Drawn>,
     /// Permitted deviation of the tip, mm.
     pub(in crate::verify) tolerance: f64,
     /// How deep a place in a part may lie and still be at its edge, mm.
@@ -45,9 +47,9 @@ impl<'a> Reference<'a> {
         let (mut lines, mut holes, mut events) = (Vec::with_capacity(count), Vec::new(), Vec::new());
         let mut first = 0;
         let mut first_cut = 0;
-        let mut shared = Vec::new();
+        let (mut shared, mut open) = (Vec::new(), Vec::new());
         for (piece, of_piece) in marker.pieces.iter().zip(of_pieces) {
-            let OfPiece { ranks, cuts, lines: mut of_piece, mut rings } = of_piece;
+            let OfPiece { ranks, cuts, lines: mut of_piece, mut rings, open: mut of_open } = of_piece;
             events.extend((first..).take(piece.events.len()));
             holes.extend((first + piece.events.len()..).take(piece.drills.len()));
             for line in &mut of_piece {
@@ -56,6 +58,7 @@ impl<'a> Reference<'a> {
             }
             rings.iter_mut().flatten().flat_map(|drawn| &mut drawn.cut).for_each(|cut| *cut += first_cut);
             shared.append(&mut rings);
+            open.append(&mut of_open);
             first_cut += cuts;
             lines.append(&mut of_piece);
             first += ranks;
@@ -67,6 +70,7 @@ impl<'a> Reference<'a> {
             holes,
             events,
             shared,
+            open,
             tolerance: profile.tolerance(marker.unit),
             band: band(marker.unit, profile),
         }
@@ -83,6 +87,8 @@ struct OfPiece<'a> {
     cuts: u32,
     /// Its closed contours, when not all of them is cut with it.
     rings: Vec<Vec<Drawn>>,
+    /// Its open contours then.
+    open: Vec<Drawn>,
 }
 
 impl<'a> OfPiece<'a> {
@@ -110,28 +116,32 @@ impl<'a> OfPiece<'a> {
             slits.iter().map(|(stroke, percent)| slit(stroke, [index, rank()].map(small), cut(), feeds.at(*percent)));
         let mut lines: Vec<Line> = slits.collect();
         let of_cuts = of_cuts(index, marker);
-        let drawn: Vec<Vec<Segment>> = if of_cuts.is_some() {
-            let closed = piece.contours.iter().zip(&outlines).filter(|(contour, _)| contour.closed);
-            closed.map(|(_, outline)| outline.segments().to_vec()).collect()
-        } else {
-            Vec::new()
-        };
+        let mut drawn: Vec<(bool, Vec<Segment>)> = Vec::new();
+        if of_cuts.is_some() {
+            let contours = piece.contours.iter().zip(&outlines);
+            drawn.extend(contours.map(|(contour, outline)| (contour.closed, outline.segments().to_vec())));
+        }
         let first = lines.len();
         for outline in of_cuts.unwrap_or(outlines) {
             let place = OfContour { owner: [index, rank()].map(small), cut: cut(), feeds, profile, unit: marker.unit };
             lines.extend(outline.lines(place));
         }
-        let rings: Vec<Vec<Drawn>> = drawn.iter().map(|drawn| shared::parted(drawn, &lines[first..])).collect();
-        for line in lines[first..].iter_mut().filter(|_| !drawn.is_empty()) {
-            line.aside = shared::aside(line, &drawn).into();
+        let (mut rings, mut open) = (Vec::new(), Vec::new());
+        for (is_closed, segments) in &drawn {
+            let parted = shared::parted(segments, &lines[first..]);
+            if *is_closed { rings.push(parted) } else { open.extend(parted) }
         }
-        lines.extend(rings.iter().map(|ring| edge(ring, [index, 0].map(small))));
+        for line in lines[first..].iter_mut().filter(|_| !drawn.is_empty()) {
+            line.aside = shared::aside(line, drawn.iter().flat_map(|(_, segments)| segments)).into();
+        }
+        let edges = rings.iter().filter(|ring| !ring.is_empty());
+        lines.extend(edges.map(|ring| edge(ring, [index, 0].map(small))));
         if profile.knife.follow == Follow::Chord {
             for line in &mut lines {
                 line.tight = tight::stretches(line, &profile.knife).into();
             }
         }
-        Self { lines, rings, ranks: rank(), cuts: cut() }
+        Self { lines, rings, open, ranks: rank(), cuts: cut() }
     }
 }
 

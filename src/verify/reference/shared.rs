@@ -13,7 +13,7 @@ const SAME: f64 = 1e-6;
 /// Least cosine between a chord and a cut along it.
 const ALONG: f64 = 0.999_999;
 
-/// A straight stretch of a closed contour, as it is drawn.
+/// A straight stretch of a contour, as it is drawn.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::verify) struct Drawn {
     /// Its ends.
@@ -24,7 +24,7 @@ pub(in crate::verify) struct Drawn {
     pub(in crate::verify) block: u32,
 }
 
-/// Parts a closed contour into what lies on cuts of its own piece and what does not.
+/// Parts a contour into what lies on cuts of its own piece and what does not.
 pub(super) fn parted(drawn: &[Segment], own: &[Line]) -> Vec<Drawn> {
     let chords: Vec<([Point; 2], u32)> = own
         .iter()
@@ -61,8 +61,8 @@ pub(super) fn parted(drawn: &[Segment], own: &[Line]) -> Vec<Drawn> {
 }
 
 /// The stretches of a cut, by station, that lie on none of some contours of its own piece.
-pub(super) fn aside(line: &Line, drawn: &[Vec<Segment>]) -> Vec<[f64; 2]> {
-    let chords: Vec<[Point; 2]> = drawn.iter().flatten().map(|segment| [segment.from, segment.to]).collect();
+pub(super) fn aside<'s>(line: &Line, drawn: impl Iterator<Item = &'s Segment>) -> Vec<[f64; 2]> {
+    let chords: Vec<[Point; 2]> = drawn.map(|segment| [segment.from, segment.to]).collect();
     let boxes = Boxes::new(chords.iter().map(|[from, to]| Extent::between(*from, *to).grown(SAME)).collect());
     let mut found: Vec<[f64; 2]> = Vec::new();
     for i in 0..line.chords() {

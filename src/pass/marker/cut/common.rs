@@ -28,7 +28,7 @@ pub(super) struct Outcome {
 /// Finds what rings, in the order in which they are cut, have in common; `None` when the search has no end. Rings whose
 /// notches stand on edges in common run straight over their mouths then, all others by their legs.
 pub(super) fn share(rings: &mut [Ring], asked: Asked, work: &mut Budget) -> Option<Vec<Outcome>> {
-    let mut segments = Segments::new(rings, asked.near.distance);
+    let mut segments = Segments::new(rings);
     let mut facing = segments.facing(rings, asked.near, work)?;
     let wanted: Vec<Vec<bool>> = (0..rings.len()).map(|ring| wanted_mouths(rings, &facing, ring, asked)).collect();
     let mut is_changed = false;
@@ -37,7 +37,7 @@ pub(super) fn share(rings: &mut [Ring], asked: Asked, work: &mut Budget) -> Opti
         is_changed |= ring.keep_mouths(|_| wanted.next().copied().unwrap_or_default());
     }
     if is_changed {
-        segments = Segments::new(rings, asked.near.distance);
+        segments = Segments::new(rings);
         facing = segments.facing(rings, asked.near, work)?;
     }
     let mut sharing = Sharing { rings, asked, leads: Leads::new(rings, &segments, asked) };
@@ -139,17 +139,11 @@ impl Sharing<'_> {
                 shared.remove(i);
             }
         }
-        if let ([first, ..], [.., last]) = (&mut shared.clone()[..], &shared[..])
-            && shared.len() > 1
+        // The last one may go on over the start of the ring.
+        if let [first, .., last] = &mut shared[..]
+            && !first.begin_at(last.own[1] - own.length(), self.asked.min)
         {
-            let over = last.own[1] - own.length();
-            if over > first.own[0] {
-                if first.begin_at(over, self.asked.min) {
-                    shared[0] = first.clone();
-                } else {
-                    shared.remove(0);
-                }
-            }
+            shared.remove(0);
         }
     }
 

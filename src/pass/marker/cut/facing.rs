@@ -12,6 +12,9 @@ const MOST_SLOPE: f64 = 0.035;
 /// Shorter stretches are none, mm: rounding.
 const LEAST: f64 = 1e-6;
 
+/// What two segments that face each other cost beside the comparison of their boxes: they are kept.
+const HIT: usize = 200;
+
 /// A stretch of a ring beside a stretch of another, both straight.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Facing {
@@ -56,12 +59,10 @@ pub(super) struct Segments {
 }
 
 impl Segments {
-    /// The segments of those rings that lie within a distance of another part's, mm.
-    pub(super) fn new(rings: &[Ring], distance: f64) -> Self {
-        let around = Boxes::new(rings.iter().map(Ring::extent).collect());
-        let is_near = |i: usize| around.near(around.all()[i].grown(distance)).any(|k| rings[k].part != rings[i].part);
+    /// The segments of all rings.
+    pub(super) fn new(rings: &[Ring]) -> Self {
         let of_ring = |i: usize| (0..rings[i].segments().len()).map(move |k| [i, k].map(|place| place as u32));
-        let of: Vec<[u32; 2]> = (0..rings.len()).filter(|&i| is_near(i)).flat_map(of_ring).collect();
+        let of: Vec<[u32; 2]> = (0..rings.len()).flat_map(of_ring).collect();
         let extents = of.iter().map(|&of| {
             let [from, to] = ends(rings, of);
             Extent::between(from, to)
@@ -95,6 +96,9 @@ impl Segments {
                 let is_same_way = rings[own_ring].is_part_left == rings[other].is_part_left;
                 let both = [[ring, segment], self.of[k]].map(|of| ends(rings, of));
                 let Some((own, theirs, apart)) = beside(both, is_same_way, near) else { continue };
+                if !work.spend(HIT) {
+                    return None;
+                }
                 let own = own.map(|station| station + rings[own_ring].station(own_segment));
                 let theirs = theirs.map(|station| station + rings[other].station(place));
                 found[own_ring].push(Facing { own, other, theirs, apart });

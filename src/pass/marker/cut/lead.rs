@@ -22,8 +22,8 @@ const THROUGH: f64 = 2.0;
 const HALVINGS: usize = 3;
 /// Places of such a way that are looked at.
 const PLACES: usize = 4;
-/// Side of the cells in which the ends of cuts are found, mm: longer than any way over.
-const CELL: f64 = 25.0;
+/// Cuts near a place that are looked at to see whether they hang together, at the most: in no lay there are more.
+const MOST_CUTS: usize = 200;
 /// Stretches that are shorter have no length, mm: rounding.
 const LEAST: f64 = 1e-9;
 
@@ -55,13 +55,20 @@ pub(super) struct Leads<'a> {
     asked: Asked,
     /// Of each ring what is cut with others.
     spared: Vec<Vec<[f64; 2]>>,
-    /// The ways on which open cuts were led on, by place.
+    /// How far a cut goes through an edge that it is led over to, and how long the way is, mm.
+    through: f64,
+    longest: f64,
+    /// The ways on which open cuts were led on, by cells as large as the longest.
     ways: HashMap<[i64; 2], Vec<[Point; 2]>>,
 }
 
 impl<'a> Leads<'a> {
     pub(super) fn new(rings: &'a [Ring], segments: &'a Segments, asked: Asked) -> Self {
-        Self { rings, segments, asked, spared: vec![Vec::new(); rings.len()], ways: HashMap::new() }
+        let Asked { near, beyond, width, .. } = asked;
+        let through = (THROUGH * beyond).min(near.distance);
+        // As long whatever lies between them, and no bend under the plunged blade.
+        let longest = ((near.distance + through) / SLOPE).max(width);
+        Self { rings, segments, asked, through, longest, spared: vec![Vec::new(); rings.len()], ways: HashMap::new() }
     }
 
     /// Takes what of a ring is cut with others, and the ways on which what is left of it was led on.
@@ -76,7 +83,7 @@ impl<'a> Leads<'a> {
             }
         }
         for way in ways {
-            self.ways.entry(cell(way[0])).or_default().push(way);
+            self.ways.entry(self.cell(way[0])).or_default().push(way);
         }
     }
 
@@ -138,14 +145,11 @@ impl<'a> Leads<'a> {
 
     /// The end of a gentle way from a place over to an edge from a station of that on, with the cosine of the turn.
     fn way_over(&self, at: Point, along: Vector, (other, from, sign): (usize, f64, f64)) -> Option<(f64, Point)> {
-        let Asked { near, beyond, .. } = self.asked;
+        let (near, through) = (self.asked.near, self.through);
         let edge = &self.rings[other];
-        let through = (THROUGH * beyond).min(near.distance);
         // From whichever side of the edge it comes it ends on the other.
         let is_inside = edge.holds(at - along * (2.0 * near.distance));
-        // As long whatever lies between them, and no bend under the plunged blade.
-        let whole = ((near.distance + through) / SLOPE).max(self.asked.width);
-        (0..HALVINGS).map(|halving| whole / f64::from(1 << halving)).find_map(|length| {
+        (0..HALVINGS).map(|halving| self.longest / f64::from(1 << halving)).find_map(|length| {
             let station = |share: f64| from + sign * length * share;
             let end =
                 edge.place(station(1.0)) + edge.inwards(station(1.0)) * if is_inside { -through } else { through };
@@ -182,11 +186,16 @@ impl<'a> Leads<'a> {
         // They are found in no order.
         let key = |&(ring, [a, b]): &(Option<usize>, [Point; 2])| (ring, [a.x, a.y, b.x, b.y].map(f64::to_bits));
         found.sort_unstable_by_key(key);
-        let [low, high] = [extent.min, extent.max].map(cell);
+        let [low, high] = [extent.min, extent.max].map(|corner| self.cell(corner));
         let cells = (low[0] - 1..=high[0] + 1).flat_map(|x| (low[1] - 1..=high[1] + 1).map(move |y| [x, y]));
         let ways = cells.filter_map(|cell| self.ways.get(&cell)).flatten();
         found.extend(ways.filter(|ends| Extent::between(ends[0], ends[1]).meets(&extent)).map(|&ends| (None, ends)));
         found
+    }
+
+    /// The cell of a place.
+    fn cell(&self, at: Point) -> [i64; 2] {
+        [at.x, at.y].map(|value| (value / self.longest).floor() as i64)
     }
 
     /// Whether what is cut of one edge and what is cut of the next cross each other where the one ends and the other begins.
@@ -209,20 +218,21 @@ impl<'a> Leads<'a> {
             };
             is_sure && touches() || crosses().is_some()
         };
-        // What hangs together with the one edge grows until nothing is added.
-        let mut reached: Vec<bool> = cuts.iter().map(|(ring, _)| *ring == Some(before.other)).collect();
-        loop {
-            let grown: Vec<usize> = (0..cuts.len())
-                .filter(|&i| !reached[i] && (0..cuts.len()).any(|k| reached[k] && meets(&cuts[i], &cuts[k])))
-                .collect();
-            if grown.is_empty() {
-                break;
-            }
-            for i in grown {
-                reached[i] = true;
-            }
+        if cuts.len() > MOST_CUTS {
+            return false;
         }
-        cuts.iter().zip(&reached).any(|((ring, _), &reached)| reached && *ring == Some(behind.other))
+        // What hangs together with the one edge, from there on.
+        let (mut reached, mut left): (Vec<usize>, Vec<usize>) =
+            (0..cuts.len()).partition(|&i| cuts[i].0 == Some(before.other));
+        while let Some(next) = reached.pop() {
+            if cuts[next].0 == Some(behind.other) {
+                return true;
+            }
+            let (met, rest): (Vec<usize>, Vec<usize>) = left.into_iter().partition(|&i| meets(&cuts[next], &cuts[i]));
+            reached.extend(met);
+            left = rest;
+        }
+        false
     }
 
     /// The legs of a notch, at either end led on through the edge that is cut over its mouth.
@@ -250,9 +260,4 @@ fn without(whole: [f64; 2], gone: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2
         let parts = left.iter().flat_map(|&[low, high]| [[low, high.min(from)], [low.max(to), high]]);
         parts.filter(|[low, high]| low < high).collect()
     })
-}
-
-/// The cell of a place.
-fn cell(at: Point) -> [i64; 2] {
-    [at.x, at.y].map(|value| (value / CELL).floor() as i64)
 }

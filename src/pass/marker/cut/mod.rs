@@ -1,9 +1,10 @@
 //! Cut: what the knife does, made from the pieces as they are drawn: slits first, then contours, piece by piece.
 //!
 //! Needs: pieces in cut order, with the notches that their outlines make, and only those that this run cuts. Leaves
-//! true: a cut for each contour and each stroke of a notch, in the style of the profile. A contour that is cut as it is
-//! drawn is the same range of the list; one that runs straight over the mouths of its notches has a range of its own.
-//! Says where a slit that the profile makes deeper leads out of its part.
+//! true: a cut for each contour and each stroke of a notch, in the style of the profile; where edges of two parts are one,
+//! open cuts for what is left of the later part's. A contour that is cut as it is drawn is the same range of the list; one
+//! that runs straight over the mouths of its notches has a range of its own. Says where a slit that the profile makes
+//! deeper leads out of its part.
 
 mod common;
 mod facing;
@@ -20,10 +21,12 @@ use self::ring::{Mouth, Ring};
 use self::stretch::Asked;
 use self::style::Bridged;
 use super::pass::MarkerPass;
+use super::search::search_ended;
 use crate::analysis::cloth::Cloth;
 use crate::analysis::nesting::Nesting;
 use crate::diagnostic::Diagnostics;
 use crate::geom;
+use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::ir::list::{Joint, Range, Segment, SegmentList};
 use crate::ir::marker::{CommonEdge, Contour, Cut, CutKind, Marker, Notch, NotchStroke, OutlineNotch, Piece};
@@ -52,7 +55,10 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     let mut cutting = Cutting { list, nesting: &nesting, style, piece: 0, cuts };
     let mut slits = Vec::with_capacity(pieces.len());
     let outlines: Vec<Vec<Range>> = pieces.iter().map(|piece| cutting.outlines(piece, &mut slits)).collect();
-    let mut shared = asked.map_or_else(BTreeMap::new, |asked| cutting.share(pieces, &outlines, asked, common));
+    let mut shared = match asked {
+        Some(asked) => cutting.share(pieces, &outlines, asked, common, diagnostics),
+        None => BTreeMap::new(),
+    };
     for (i, (slits, ranges)) in slits.into_iter().zip(outlines).enumerate() {
         cutting.piece = i;
         for slit in slits {
@@ -60,7 +66,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
         }
         for (range, line) in ranges.into_iter().zip(nesting.of_group(i)) {
             match shared.remove(&line) {
-                Some(of_line) => of_line.into_iter().for_each(|segments| cutting.edge(segments, line)),
+                Some(of_line) => of_line.into_iter().for_each(|segments| cutting.edge(segments, range, line)),
                 None => cutting.contour(range, line),
             }
         }
@@ -101,18 +107,26 @@ impl Cutting<'_> {
         outlines: &[Vec<Range>],
         asked: Asked,
         common: &mut Vec<CommonEdge>,
+        diagnostics: &mut Diagnostics,
     ) -> BTreeMap<usize, Vec<Vec<Segment>>> {
+        let around = Boxes::new(self.nesting.lines().iter().map(|line| line.extent).collect());
+        let is_near = |line: usize| {
+            let near = around.near(around.all()[line].grown(asked.near.distance));
+            near.into_iter().any(|other| self.part(other) != self.part(line))
+        };
         let mut lines = Vec::new();
         let mut rings = Vec::new();
         for (i, (piece, ranges)) in pieces.iter().zip(outlines).enumerate() {
-            for (&range, line) in ranges.iter().zip(self.nesting.of_group(i)) {
-                if let Some(ring) = self.ring(i, piece, range, line) {
-                    lines.push(line);
-                    rings.push(ring);
-                }
+            let of_piece = ranges.iter().zip(self.nesting.of_group(i));
+            for (&range, line) in of_piece.filter(|&(_, line)| self.nesting.lines()[line].is_closed && is_near(line)) {
+                lines.push(line);
+                rings.push(self.ring(i, piece, range, line));
             }
         }
-        let Some(outcomes) = share(&mut rings, asked, &mut Budget::of_a_marker()) else { return BTreeMap::new() };
+        let Some(outcomes) = share(&mut rings, asked, &mut Budget::of_a_marker()) else {
+            diagnostics.push(search_ended("edges that parts have in common are cut for each of them"));
+            return BTreeMap::new();
+        };
         let mut cuts = BTreeMap::new();
         for ((outcome, line), ring) in outcomes.into_iter().zip(lines).zip(&rings) {
             for (other, segments, shift) in outcome.shared {
@@ -128,9 +142,8 @@ impl Cutting<'_> {
     }
 
     /// A closed line that bounds a part, as it is cut, straight over the mouths of its notches.
-    fn ring(&self, i: usize, piece: &Piece, range: Range, line: usize) -> Option<Ring> {
-        let outline = self.nesting.outline(line).filter(|_| self.nesting.lines()[line].is_closed)?;
-        let part = self.nesting.lines()[outline].group as usize;
+    fn ring(&self, i: usize, piece: &Piece, range: Range, line: usize) -> Ring {
+        let part = self.part(line).expect("a closed line bounds a part");
         let mut segments: Vec<Segment> = self.list.walk(range).map(|(_, segment)| segment).collect();
         let is_drawn = self.style.style == NotchStyle::AsDrawn;
         // What stands out of the part is cloth of it: a cut over its mouth would take it off.
@@ -138,7 +151,12 @@ impl Cutting<'_> {
             piece.outline_notches.iter().copied().filter(|notch| !notch.outwards).collect();
         let mouths = if is_drawn { style::bridge(&mut segments, &inwards) } else { Vec::new() };
         let mouths = mouths.into_iter().map(|bridged| Mouth { segment: bridged.at, legs: bridged.legs }).collect();
-        Some(Ring::new([i, part], self.is_part_left(range, line), segments, mouths))
+        Ring::new([i, part], self.is_part_left(range, line), segments, mouths)
+    }
+
+    /// The part that a line is of, by the piece that its outline is of.
+    fn part(&self, line: usize) -> Option<usize> {
+        self.nesting.outline(line).map(|outline| self.nesting.lines()[outline].group as usize)
     }
 
     /// The cuts of a notch that is drawn as strokes.
@@ -174,14 +192,18 @@ impl Cutting<'_> {
     }
 
     fn contour(&mut self, range: Range, line: usize) {
-        let part = self.nesting.outline(line).map(|outline| self.nesting.lines()[outline].group as usize);
-        let is_inner = self.nesting.is_inner(line);
         if !self.nesting.lines()[line].is_closed {
-            self.push(CutKind::Line, range, [part; 2]);
+            self.push(CutKind::Line, range, [self.part(line); 2]);
             return;
         }
-        let kind = if is_inner { CutKind::Inner } else { CutKind::Outline };
-        self.push(kind, range, if self.is_part_left(range, line) { [part, None] } else { [None, part] });
+        let kind = if self.nesting.is_inner(line) { CutKind::Inner } else { CutKind::Outline };
+        self.push(kind, range, self.sides(range, line));
+    }
+
+    /// The parts on the left and on the right of a closed line, or of cuts that go the same way, of this range.
+    fn sides(&self, range: Range, line: usize) -> [Option<usize>; 2] {
+        let part = self.part(line);
+        if self.is_part_left(range, line) { [part, None] } else { [None, part] }
     }
 
     /// Whether the part that a closed line bounds is on its left: the inside of a ring that runs counter-clockwise is.
@@ -189,15 +211,14 @@ impl Cutting<'_> {
         (geom::ring::area(&self.list.points(range)) > 0.0) != self.nesting.is_inner(line)
     }
 
-    /// A cut of a line that has edges in common with others.
-    fn edge(&mut self, segments: Vec<Segment>, line: usize) {
+    /// A cut of a line, of this range, that has edges in common with others.
+    fn edge(&mut self, segments: Vec<Segment>, drawn: Range, line: usize) {
         let is_closed = segments.first().map(|first| first.from) == segments.last().map(|last| last.to);
         let range = self.list.append(segments).expect("it has a length");
         if is_closed {
             return self.contour(range, line);
         }
-        let part = self.nesting.part_of(self.piece);
-        self.push(CutKind::Edge, range, [part; 2]);
+        self.push(CutKind::Edge, range, self.sides(drawn, line));
     }
 
     fn push(&mut self, kind: CutKind, range: Range, sides: [Option<usize>; 2]) {

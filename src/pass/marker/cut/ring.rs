@@ -1,6 +1,6 @@
 //! A closed line of a part on its way to becoming cuts.
 
-use crate::geom::{Extent, Point, Vector, cross, polyline, ring};
+use crate::geom::{Point, Vector, cross, polyline, ring};
 use crate::ir::list::{Joint, Segment};
 
 /// Stretches that are shorter have no length, mm: rounding.
@@ -71,13 +71,6 @@ impl Ring {
     /// Where a segment starts, mm.
     pub(super) fn station(&self, segment: usize) -> f64 {
         self.stations[segment]
-    }
-
-    /// The box around it.
-    pub(super) fn extent(&self) -> Extent {
-        let mut extent = Extent::EMPTY;
-        self.segments.iter().for_each(|segment| extent.add(segment.to));
-        extent
     }
 
     /// Whether a place lies within its part, as far as it bounds that.

@@ -5,6 +5,8 @@ use super::ring::Ring;
 
 /// How many distances of two edges what they have in common may be broken: about a corner the feet on the one miss the other.
 pub(super) const BREAK: f64 = 2.0;
+/// Stretches that were begun last, of which one may go on: few parts lie over each other.
+const OPEN: usize = 8;
 /// Stretches that are shorter have no length, mm: rounding.
 const LEAST: f64 = 1e-6;
 
@@ -59,8 +61,7 @@ pub(super) fn stretches(rings: &[Ring], own: &Ring, facing: &[Facing], asked: As
         before.other == next.other && next.own[0] - before.own[1] <= reach && across.min(length - across) <= reach
     };
     for part in facing {
-        // Those that were begun last are the likeliest.
-        match found.iter_mut().rev().take(8).find(|before| meets(before, part)) {
+        match found.iter_mut().rev().take(OPEN).find(|before| meets(before, part)) {
             Some(before) => {
                 if part.own[1] > before.own[1] {
                     (before.own[1], before.theirs[1]) = (part.own[1], part.theirs[1]);
