@@ -56,6 +56,9 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
             if shift_mm > 0.0 { format!(", moved by {} mm at the most", fixed(shift_mm, 2)) } else { String::new() };
         line("common", format!("{length} m less: {edges} cut once{moved}"));
     }
+    if let Some(near) = report.near_m {
+        line("near", format!("{} m beside edges of other parts, a thin strip between two cuts", fixed(near, 3)));
+    }
     of_program(report, &mut line);
     line("warnings", diagnostics.count(Severity::Warning).to_string());
     if let Some(axes) = &report.program.axes {

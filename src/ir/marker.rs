@@ -20,6 +20,8 @@ pub struct Marker {
     pub cuts: Vec<Cut>,
     /// The edges that parts have in common and that are cut once.
     pub common: Vec<CommonEdge>,
+    /// Where edges of parts run beside those of others, so near that a thin strip stands between two cuts.
+    pub near: Vec<NearEdge>,
     /// What the numbers of the file are multiples of, mm; 0 when they are not rounded to a grid.
     pub unit: f64,
     /// What happens behind the last piece.
@@ -94,6 +96,15 @@ pub struct CommonEdge {
     pub range: Range,
     /// How far it is from where it is cut at the most, mm.
     pub shift: f64,
+}
+
+/// A straight stretch of an outline beside which another part's runs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NearEdge {
+    /// The piece that the outline is of: its place in the marker.
+    pub piece: u32,
+    /// The ends of the stretch, in the direction of the outline.
+    pub ends: [Point; 2],
 }
 
 /// What a cut is of the part that it cuts.
@@ -292,6 +303,11 @@ impl Marker {
     /// Length of the edges that are cut once for two parts, mm.
     pub fn common_length(&self) -> f64 {
         self.length(self.common.iter().map(|edge| edge.range))
+    }
+
+    /// Length of the edges that run beside those of other parts, mm; where both are cut each counts.
+    pub fn near_length(&self) -> f64 {
+        self.near.iter().map(|NearEdge { ends: [from, to], .. }| (to - from).norm()).sum()
     }
 
     fn length(&self, ranges: impl Iterator<Item = Range>) -> f64 {

@@ -24,6 +24,7 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "knife.clearance_mm", takes: Takes::Number(BLADE), about: "How far overlaps stay away from the next part; in a narrower gap they are shortened." },
     Key { name: "knife.feed_mm_s", takes: Takes::NumberOr(SPEED, Off::WORD), about: "Maximum cutting velocity of the tip; \"off\" = whatever the axes can do." },
     Key { name: "knife.slow_percent", takes: Takes::Percent, about: "Speed of slowed cuts (M25), a part of the cutting velocity." },
+    Key { name: "knife.near_percent", takes: Takes::Percent, about: "Speed along near lines (common.near_mm), a part of the speed that holds there." },
     Key { name: "knife.plunge_ms", takes: Takes::Number(REST), about: "How long the axes rest while the knife goes down." },
     Key { name: "knife.lift_ms", takes: Takes::Number(REST), about: "How long the axes rest while the knife comes up." },
     Key { name: "knife.clear_ms", takes: Takes::NumberOr(REST, Off::WORD), about: "How long after the lift command the blade is clear of the cloth, so that the axes may move\nbefore it is all the way up; \"off\" = they wait for lift_ms." },
@@ -67,6 +68,8 @@ pub struct Knife {
     pub feed_mm_s: Option<f64>,
     /// Of slowed cuts, whole.
     pub slow_percent: f64,
+    /// Along near lines, whole.
+    pub near_percent: f64,
     /// From the command until the blade is through.
     pub plunge_ms: f64,
     /// From the command until it is up.
@@ -158,6 +161,11 @@ impl Knife {
         self.slow_percent.clamp(1.0, 100.0) as u8
     }
 
+    /// Speed along near lines, as a share of the speed that holds there; `None` when that is all of it.
+    pub fn near_share(&self) -> Option<f64> {
+        (self.near_percent < 100.0).then_some(self.near_percent / 100.0)
+    }
+
     /// Centre to tip, mm. A blade narrower than its back (the back is often left at its default) has the C axis at
     /// its tip; that covers the point, of width 0.
     pub fn radius(&self) -> f64 {
@@ -215,6 +223,7 @@ impl Default for Knife {
             clearance_mm: 0.1,
             feed_mm_s: Some(760.0),
             slow_percent: 75.0,
+            near_percent: 100.0,
             plunge_ms: 80.0,
             lift_ms: 60.0,
             clear_ms: None,

@@ -47,6 +47,10 @@ pub struct Report {
     /// What is cut once for two parts; not there where nothing is.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub common: Option<Common>,
+    /// Length of the near lines, m: where edges of two parts run beside each other and both are cut, each counts; not there
+    /// where nothing is.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "micro_known")]
+    pub near_m: Option<f64>,
     /// Of a plot: what its lines were taken for.
     #[serde(flatten)]
     pub drawn: Option<Drawn>,
@@ -329,6 +333,7 @@ impl Report {
             labels: marker.pieces.iter().map(|p| p.labels.len()).sum(),
             cut_m: marker.cut_length() / MM_PER_M,
             common: Common::of(marker),
+            near_m: Some(marker.near_length() / MM_PER_M).filter(|&length| length > 0.0),
             drawn: marker.drawing.as_ref().map(Drawn::of),
             program: Program::default(),
             declared: Vec::new(),

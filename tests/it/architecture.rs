@@ -89,6 +89,7 @@ const BESIDE_A_TABLE: &[(&str, &str)] = &[
     ("foreign", "names the formats that are no dialect of ours"),
     ("frame", "makes the one toolpath that no pass edits"),
     ("lap", "says how far C turns along a run, for the passes that keep it in its range"),
+    ("near", "tells which stretches of a run are near lines, for the pass that slows down there"),
     ("nibble", "parts runs into plunges for the pass that nibbles"),
     ("pass", "says what a pass is"),
     ("runs", "finds the runs of a toolpath, which most passes edit alone"),

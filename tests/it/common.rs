@@ -5,9 +5,9 @@ use std::io::{BufReader, Cursor};
 use cutc::back::TARGETS;
 use cutc::diagnostic::{Diagnostics, render};
 use cutc::geom::{Point, Vector, polyline};
-use cutc::ir::Marker;
 use cutc::ir::list::Segment;
-use cutc::ir::marker::{Contour, Cut, CutKind};
+use cutc::ir::marker::{Contour, Cut, CutKind, Notch, NotchKind};
+use cutc::ir::{Marker, text};
 use cutc::machine::{CommonLines, Job, Lines, Numbers, Selection};
 use cutc::pipeline::{self, Compiled};
 use cutc::verify::{self, Ground, Verdict};
@@ -76,6 +76,15 @@ fn bare() -> Job {
     (knife.front_overlap_mm, knife.corner_front_overlap_mm) = (0.0, 0.0);
     (knife.heel_overlap_mm, knife.corner_heel_overlap_mm) = (0.0, 0.0);
     job
+}
+
+/// The marker with a slit more, 5 mm deep, on an edge of the fourth piece that is cut with the first.
+fn with_slit(job: &Job) -> Marker {
+    let mut marker = marker(NEST, job);
+    let [root, tip] = [90.0, 95.0].map(|y| Point::new(65.0, y));
+    let span = marker.list.walk(marker.pieces[3].contours[0].range).next().expect("it is not empty").1.span;
+    marker.pieces[3].notches.push(Notch { kind: NotchKind::Slit, root, tip, percent: 100, span });
+    with_cuts(&marker, job)
 }
 
 /// What is found in the program of other cuts than those of the marker.
@@ -176,6 +185,27 @@ fn a_thread_at_one_end_of_a_notch_is_refused() {
     }
 }
 
+/// An edge that is cut with another part lies up to the band off: a slit on it reaches that cut, so that it is open.
+#[test]
+fn a_slit_on_a_common_edge_reaches_the_cut_that_stands_for_it() {
+    let job = bare();
+    let marker = with_slit(&job);
+    let slit = marker.cuts.iter().position(|cut| cut.kind == CutKind::Slit).expect("it is cut");
+    let root = marker.list.points(marker.cuts[slit].range)[0];
+    // The first piece ends at 89.8 mm.
+    assert!((89.5..89.8).contains(&root.y), "{root}");
+    for (back, is_open) in [(0.0, true), (0.15, false)] {
+        let mut other = marker.clone();
+        redraw(&mut other, slit, |segments| segments[0].from.y += back);
+        let program = setpoints(&other, &job);
+        let ground = Ground::new(&marker, &job.profile);
+        let declared = declared(&marker, &job);
+        let verdict = verify::setpoints(&mut BufReader::new(&program[..]), Some(&declared), &ground, &job);
+        assert_eq!(breaks(&verdict, "verify/joint"), !is_open, "{:#?}", verdict.findings);
+        assert!(!is_open || verdict.passes(), "{:#?}", verdict.findings);
+    }
+}
+
 #[test]
 fn an_open_line_of_a_part_with_common_edges_that_is_not_cut_is_refused() {
     let verdict = claimed(|marker| {
@@ -210,4 +240,36 @@ fn a_cut_that_is_led_into_a_part_is_refused() {
     });
     let is_deep = breaks(&verdict, "verify/overcut-neighbour") || breaks(&verdict, "verify/overcut-part");
     assert!(is_deep, "{:#?}", verdict.findings);
+}
+
+/// A part with a strip of 1 mm to the next along one side, and that next part.
+const STRIP: &str = "marker unit-mm 0.1
+piece 1
+contour closed
+  from 0 0 to 100 0 @0..1#1
+  to 100 80 @1..2#2
+  to 0 80 @2..3#3
+  to 0 0 @3..4#4
+piece 2
+contour closed
+  from 101 20 to 150 20 @10..11#10
+  to 150 60 @11..12#11
+  to 101 60 @12..13#12
+  to 101 20 @13..14#13
+";
+
+#[test]
+fn near_lines_are_cut_as_slowly_as_is_asked_and_one_that_is_cut_faster_is_refused() {
+    let mut slow = Job::default();
+    slow.profile.knife.near_percent = 40.0;
+    let marker = with_cuts(&text::read_marker(STRIP).expect("a marker"), &slow);
+    assert!((marker.near_length() - 80.0).abs() < 1e-6, "{}", marker.near_length());
+    for (made, is_sound) in [(&slow, true), (&Job::default(), false)] {
+        let program = setpoints(&marker, made);
+        let ground = Ground::new(&marker, &slow.profile);
+        let declared = declared(&marker, made);
+        let verdict = verify::setpoints(&mut BufReader::new(&program[..]), Some(&declared), &ground, &slow);
+        assert_eq!(breaks(&verdict, "verify/feed"), !is_sound, "{:#?}", verdict.findings);
+        assert!(!is_sound || verdict.passes(), "{:#?}", verdict.findings);
+    }
 }

@@ -26,6 +26,7 @@
 //! cut outline piece 1 sides 1 - contour 1
 //! common cut 1 spared 2 shift-mm 0.1
 //!   from 100.1 80 to 100.1 0 @90..94#20
+//! near piece 2 40 80 to 160 80
 //! ```
 //!
 //! ```text
@@ -57,6 +58,7 @@
 //! - A `cut` is of the contour of its piece that it names, or of segments of its own. Its sides are the parts on its left
 //!   and right, by the places of their pieces from 1, as its piece is, or `-` for waste.
 //! - `common` is an edge that the first piece and the second have in common, as the second has it; it is cut with the first.
+//! - `near` is a stretch of an outline of that piece beside which another part's runs.
 //! - A `notch` is one that the contours make: the ends of its mouth with its tip between them, and how many segments lie
 //!   there.
 //! - `stab` is a plunge cut; `harm` has what it cuts too far of the part itself and of others before the start, and the

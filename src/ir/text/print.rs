@@ -5,7 +5,7 @@ use std::fmt::{self, Display, Formatter, Write as _};
 use super::{ENDS, EVENTS, FORMS, JOINTS, KINDS, ORIENTATION_MODES, SHAPES, SIDES};
 use crate::geom::Point;
 use crate::ir::list::{FULL_SPEED, Joint, Range, Segment};
-use crate::ir::marker::{CommonEdge, Cut, Label, Marker, NotchKind, OutlineNotch, Piece};
+use crate::ir::marker::{CommonEdge, Cut, Label, Marker, NearEdge, NotchKind, OutlineNotch, Piece};
 use crate::ir::toolpath::{Edge, End, Overcut, PlungeCut, Pose, Run, Side, Step, Toolpath};
 use crate::source::Span;
 use crate::units::number::exact;
@@ -27,6 +27,9 @@ pub fn print_marker(marker: &Marker) -> String {
         let [cut, spared] = pieces.map(|piece| piece + 1);
         line(&mut out, format_args!("common cut {cut} spared {spared} shift-mm {}", exact(*shift)));
         print_segments(&mut out, marker, *range);
+    }
+    for NearEdge { piece, ends: [from, to] } in &marker.near {
+        line(&mut out, format_args!("near piece {} {} to {}", piece + 1, Xy(*from), Xy(*to)));
     }
     out
 }

@@ -8,7 +8,8 @@ use super::{ENDS, EVENTS, FORMS, JOINTS, KINDS, ORIENTATION_MODES, SHAPES, SIDES
 use crate::geom::{Heading, Point, Vector};
 use crate::ir::list::{FULL_SPEED, Joint, Range, Segment};
 use crate::ir::marker::{
-    CommonEdge, Contour, Cut, Drill, Event, Field, Label, Marker, Notch, NotchKind, NotchStroke, OutlineNotch, Piece,
+    CommonEdge, Contour, Cut, Drill, Event, Field, Label, Marker, NearEdge, Notch, NotchKind, NotchStroke,
+    OutlineNotch, Piece,
 };
 use crate::ir::toolpath::{self, Air, Edge, End, Overcut, PlungeCut, Pose, Run, Step, Toolpath};
 use crate::source::Span;
@@ -26,7 +27,7 @@ pub struct ReadError {
 type Read<T> = Result<T, ReadError>;
 
 /// What a line of a marker starts with.
-const LINES: &str = "piece, event, feed-mm-s, drill, slit, contour, notch, label, field, closing, cut or common";
+const LINES: &str = "piece, event, feed-mm-s, drill, slit, contour, notch, label, field, closing, cut, common or near";
 
 /// Reads the text of a marker.
 pub fn read_marker(text: &str) -> Read<Marker> {
@@ -51,6 +52,13 @@ pub fn read_marker(text: &str) -> Read<Marker> {
             "common" => {
                 let edge = common(&mut line, &mut lines, &mut marker)?;
                 marker.common.push(edge);
+            }
+            "near" => {
+                line.expect("piece")?;
+                let piece = place(&mut line, &marker)?;
+                let from = line.point()?;
+                line.expect("to")?;
+                marker.near.push(NearEdge { piece, ends: [from, line.point()?] });
             }
             "contour" => {
                 let closed = line.choice(&[("closed", true), ("open", false)])?;

@@ -5,6 +5,7 @@
 
 mod cut;
 mod inspect;
+mod near;
 mod notch;
 mod order;
 mod pass;
@@ -29,5 +30,6 @@ pub const MARKER_PASSES: &[MarkerPass] = &[
     sanity::PASS,
     select::PASS,
     table::PASS,
+    near::PASS,
     cut::PASS,
 ];

@@ -8,6 +8,7 @@ mod down;
 mod entry;
 mod frame;
 mod lap;
+mod near;
 mod nibble;
 mod overlap;
 mod pass;

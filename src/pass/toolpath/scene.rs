@@ -1,5 +1,6 @@
 //! What passes look at beside a toolpath: the job, and the cloth around it.
 
+use super::near::NearLines;
 use crate::analysis::cloth::{Cloth, Surroundings};
 use crate::ir::{Marker, Toolpath};
 use crate::machine::Job;
@@ -11,6 +12,8 @@ pub struct Scene<'a> {
     pub job: &'a Job,
     /// The parts.
     pub cloth: Cloth<'a>,
+    /// The edges beside which another part's run.
+    pub(super) near: NearLines<'a>,
     /// What the numbers of the file are multiples of, mm; 0 when they are not rounded to a grid.
     pub unit: f64,
 }
@@ -18,7 +21,7 @@ pub struct Scene<'a> {
 impl<'a> Scene<'a> {
     /// The scene of a marker.
     pub fn new(marker: &'a Marker, job: &'a Job) -> Self {
-        Self { job, cloth: Cloth::new(marker, &job.profile), unit: marker.unit }
+        Self { job, cloth: Cloth::new(marker, &job.profile), near: NearLines::new(marker), unit: marker.unit }
     }
 
     /// The cloth and the blade as the cuts of a toolpath see them.

@@ -58,23 +58,47 @@ impl<'a> Feeds<'a> {
         if percent < FULL_SPEED { self.fastest() * f64::from(percent) / 100.0 } else { self.feed }
     }
 
-    /// The caps of a line whose chords have these speeds in percent; `ends` are how it starts and how it ends.
+    /// The caps of a line whose chords have these speeds in percent; `ends` are how it starts and how it ends, `near` the
+    /// stretches of it, by station, beside which another part's edge runs.
     pub(in crate::verify) fn both_ways(
         &self,
         path: &[Vertex],
         mut percents: impl DoubleEndedIterator<Item = u8> + Clone,
         ends: [End; 2],
+        near: &[[f64; 2]],
     ) -> BothWays {
         let chords = percents.clone().map(|percent| self.at(percent));
         let first = percents.next().unwrap_or(FULL_SPEED);
-        if self.profile.slow.before_corner_mm.is_none() && percents.all(|percent| percent == first) {
+        let is_even = near.is_empty() && self.profile.slow.before_corner_mm.is_none();
+        if is_even && percents.all(|percent| percent == first) {
             return BothWays::One(self.at(first));
         }
-        let stations: Vec<f64> = path.iter().map(|vertex| vertex.station).collect();
+        let mut stations: Vec<f64> = path.iter().map(|vertex| vertex.station).collect();
+        let mut chords: Vec<f64> = chords.collect();
+        if let Some(share) = self.profile.knife.near_share() {
+            self.slow_down(&mut stations, &mut chords, near, share);
+        }
         let length = stations[stations.len() - 1];
         let back: Vec<f64> = stations.iter().rev().map(|station| length - station).collect();
-        let against = self.caps(&back, chords.clone().rev().collect(), ends[0]);
-        BothWays::Each(Box::new([self.caps(&stations, chords.collect(), ends[1]), against]))
+        let against = self.caps(&back, chords.iter().rev().copied().collect(), ends[0]);
+        BothWays::Each(Box::new([self.caps(&stations, chords, ends[1]), against]))
+    }
+
+    /// Lowers the caps of chords between stations over some stretches to a share.
+    fn slow_down(&self, stations: &mut Vec<f64>, chords: &mut Vec<f64>, near: &[[f64; 2]], share: f64) {
+        let mut divide = |at: f64| {
+            let behind = stations.partition_point(|&station| station < at);
+            if behind > 0 && behind < stations.len() && stations[behind] > at {
+                stations.insert(behind, at);
+                chords.insert(behind, chords[behind - 1]);
+            }
+            behind.min(chords.len())
+        };
+        let slowed: Vec<[usize; 2]> = near.iter().map(|ends| ends.map(&mut divide)).collect();
+        let [x, y, _] = self.profile.axes.limits();
+        for [first, last] in slowed {
+            chords[first..last].iter_mut().for_each(|cap| *cap = cap.min(x.speed).min(y.speed) * share);
+        }
     }
 
     /// The caps of chords between stations, up to the end of the line.

@@ -5,7 +5,7 @@
 use super::grid::Grid;
 use super::line::Line;
 use super::lines::Reference;
-use super::shared::{Drawn, spared};
+use super::shared::{Around, Drawn, SAME, spared};
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, Vector, cross, polyline};
 use crate::ir::Finding;
@@ -21,8 +21,6 @@ const BREAK: f64 = 2.5;
 const ABOUT: f64 = 4.0;
 /// Longest part of an edge that cuts are looked for beside at a time, mm.
 const SPAN: f64 = 32.0;
-/// Stretches that are shorter have no length, mm: rounding.
-const SAME: f64 = 1e-6;
 
 /// What holds for the edges that are cut with other parts.
 #[derive(Debug, Default)]
@@ -57,10 +55,10 @@ struct Stand {
 
 impl Common {
     /// Looks for what stands for the spared edges of some contours; these may lie so far apart, mm.
-    pub(in crate::verify) fn new(shared: &[Vec<Drawn>], reference: &Reference, grid: &Grid, distance: f64) -> Self {
+    pub(in crate::verify) fn new(shared: &[Around], reference: &Reference, grid: &Grid, distance: f64) -> Self {
         let mut common = Self::default();
-        for ring in shared {
-            common.see(ring, reference, grid, distance);
+        for Around { slits, stretches } in shared {
+            common.see(stretches, &reference.lines[slits.clone()], reference, grid, distance);
         }
         for stretch in reference.open.iter().filter(|stretch| stretch.cut.is_none()) {
             let [from, to] = stretch.ends;
@@ -88,8 +86,8 @@ impl Common {
         worst.finding()
     }
 
-    /// Goes once around a contour.
-    fn see(&mut self, ring: &[Drawn], reference: &Reference, grid: &Grid, distance: f64) {
+    /// Goes once around a contour of a piece with slits.
+    fn see(&mut self, ring: &[Drawn], slits: &[Line], reference: &Reference, grid: &Grid, distance: f64) {
         // From the start of a stretch that is cut with the piece, if there is any.
         let start =
             (0..ring.len()).find(|&i| ring[i].cut.is_some() && ring[(i + ring.len() - 1) % ring.len()].cut.is_none());
@@ -107,7 +105,7 @@ impl Common {
                 None if is_in_spared => {}
                 None => {
                     let edge = spared.next().expect("a spared stretch is one of them");
-                    let stands = self.stands(&edge, reference, grid, distance);
+                    let stands = self.stands(&edge, slits, reference, grid, distance);
                     if stands.is_empty() {
                         let length = edge.iter().map(|chord| (chord.ends[1] - chord.ends[0]).norm()).sum();
                         left.push((cuts.len(), length, sighting(from, stretch.block)));
@@ -132,8 +130,15 @@ impl Common {
         }
     }
 
-    /// The cuts that stand for an edge, each with the place from which it does.
-    fn stands(&mut self, edge: &[Drawn], reference: &Reference, grid: &Grid, distance: f64) -> Vec<(u32, Sighting)> {
+    /// The cuts that stand for an edge, each with the place from which it does; those of slits on it must meet slits.
+    fn stands(
+        &mut self,
+        edge: &[Drawn],
+        slits: &[Line],
+        reference: &Reference,
+        grid: &Grid,
+        distance: f64,
+    ) -> Vec<(u32, Sighting)> {
         let points: Vec<Point> =
             std::iter::once(edge[0].ends[0]).chain(edge.iter().map(|chord| chord.ends[1])).collect();
         let stations = polyline::stations(&points);
@@ -163,6 +168,12 @@ impl Common {
         if shift.0 > self.shift.map_or(0.0, |known| known.0) {
             self.shift = Some((shift.0, seen(shift.1)));
         }
+        let slits = slits.iter().filter(|slit| is_on(root(slit), edge, distance));
+        self.joints.extend(slits.filter_map(|slit| {
+            let cut = first_across(slit, &stands, reference, grid, distance)?;
+            let (at, block) = (root(slit), slit.block(0));
+            Some(Joint { at, block, cuts: [cut, slit.cut.index], about: Extent::EMPTY })
+        }));
         let (mut at, mut chain) = (0.0, Vec::new());
         while length - at > reach {
             let next = stands.iter().filter(|stand| stand.over[0] <= at + reach && stand.over[1] > at + SAME);
@@ -178,6 +189,41 @@ impl Common {
         }
         chain
     }
+}
+
+/// Whether a place lies on an edge, mm.
+fn is_on(place: Point, edge: &[Drawn], distance: f64) -> bool {
+    edge.iter().any(|chord| polyline::distance_to_segment(place, chord.ends[0], chord.ends[1]) <= distance)
+}
+
+/// Where a slit stands on the edge that is drawn.
+fn root(slit: &Line) -> Point {
+    slit.place(slit.aside.first().map_or(0.0, |&[_, end]| end))
+}
+
+/// Which of the cuts that stand for an edge a slit on it comes to first, going out of the part.
+fn first_across(slit: &Line, stands: &[Stand], reference: &Reference, grid: &Grid, distance: f64) -> Option<u32> {
+    let root = root(slit);
+    let out = polyline::direction(slit.place(slit.length()), root)?;
+    let reach = ABOUT * distance;
+    let mut first: Option<(f64, u32)> = None;
+    for run in grid.near(root, reach) {
+        let line = &reference.lines[run.line()];
+        if line.cut.is_edge || !stands.iter().any(|stand| stand.cut == line.cut.index) {
+            continue;
+        }
+        for [a, b] in run.chords().map(|i| [line.point(i), line.point(i + 1)]) {
+            let sides = [a, b].map(|end| cross(out, end - root));
+            if (sides[0] > 0.0) == (sides[1] > 0.0) {
+                continue;
+            }
+            let way = (a + (b - a) * (sides[0] / (sides[0] - sides[1])) - root).dot(&out);
+            if way.abs() <= reach && first.is_none_or(|known| (way, line.cut.index) < known) {
+                first = Some((way, line.cut.index));
+            }
+        }
+    }
+    first.map(|(_, cut)| cut)
 }
 
 /// A place of the drawing, that no time of the program belongs to.

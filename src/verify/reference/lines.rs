@@ -7,14 +7,15 @@ use rayon::prelude::*;
 use super::band::band;
 use super::caps::{BothWays, Feeds};
 use super::line::{Line, OfCut};
+use super::near::Near;
 use super::outline::{OfContour, Outline};
-use super::shared::{self, Drawn};
+use super::shared::{self, Around, Drawn, SAME};
 use super::vertex::Vertex;
 use super::{notches, tight};
 use crate::geom::{Point, polyline};
 use crate::ir::Marker;
 use crate::ir::list::Segment;
-use crate::ir::marker::{CutKind, NotchStroke};
+use crate::ir::marker::{Cut, CutKind, NotchStroke};
 use crate::machine::{Follow, MachineProfile};
 
 /// All lines of a marker.
@@ -29,7 +30,7 @@ pub(in crate::verify) struct Reference<'a> {
     /// Ranks of the events, in the order of the marker.
     pub(in crate::verify) events: Vec<usize>,
     /// The closed contours of the pieces of which not all is cut with them.
-    pub(in crate::verify) shared: Vec<Vec<Drawn>>,
+    pub(in crate::verify) shared: Vec<Around>,
     /// The open contours of these pieces: nothing stands for them.
     pub(in crate::verify) open: Vec<Drawn>,
     /// Permitted deviation of the tip, mm.
@@ -41,7 +42,8 @@ pub(in crate::verify) struct Reference<'a> {
 impl<'a> Reference<'a> {
     /// The lines of `marker`.
     pub(in crate::verify) fn new(marker: &'a Marker, profile: &MachineProfile) -> Self {
-        let of_piece = |index| OfPiece::new(index, marker, profile);
+        let near = profile.knife.near_share().map(|_| Near::new(marker));
+        let of_piece = |index| OfPiece::new(index, marker, profile, near.as_ref());
         let of_pieces: Vec<OfPiece<'a>> = (0..marker.pieces.len()).into_par_iter().map(of_piece).collect();
         let count = of_pieces.iter().map(|piece| piece.lines.len()).sum();
         let (mut lines, mut holes, mut events) = (Vec::with_capacity(count), Vec::new(), Vec::new());
@@ -49,7 +51,7 @@ impl<'a> Reference<'a> {
         let mut first_cut = 0;
         let (mut shared, mut open) = (Vec::new(), Vec::new());
         for (piece, of_piece) in marker.pieces.iter().zip(of_pieces) {
-            let OfPiece { ranks, cuts, lines: mut of_piece, mut rings, open: mut of_open } = of_piece;
+            let OfPiece { ranks, cuts, lines: mut of_piece, slits, mut rings, open: mut of_open } = of_piece;
             events.extend((first..).take(piece.events.len()));
             holes.extend((first + piece.events.len()..).take(piece.drills.len()));
             for line in &mut of_piece {
@@ -57,7 +59,8 @@ impl<'a> Reference<'a> {
                 line.cut.index = line.cut.index.saturating_add(first_cut);
             }
             rings.iter_mut().flatten().flat_map(|drawn| &mut drawn.cut).for_each(|cut| *cut += first_cut);
-            shared.append(&mut rings);
+            let slits = lines.len()..lines.len() + slits;
+            shared.extend(rings.into_iter().map(|stretches| Around { slits: slits.clone(), stretches }));
             open.append(&mut of_open);
             first_cut += cuts;
             lines.append(&mut of_piece);
@@ -81,6 +84,8 @@ impl<'a> Reference<'a> {
 struct OfPiece<'a> {
     /// Its lines, their ranks counted from those of the piece.
     lines: Vec<Line<'a>>,
+    /// How many of them are slits: those that come first.
+    slits: usize,
     /// How many ranks the piece has.
     ranks: usize,
     /// How many cuts it has.
@@ -92,7 +97,7 @@ struct OfPiece<'a> {
 }
 
 impl<'a> OfPiece<'a> {
-    fn new(index: usize, marker: &'a Marker, profile: &MachineProfile) -> Self {
+    fn new(index: usize, marker: &'a Marker, profile: &MachineProfile, near: Option<&Near>) -> Self {
         let piece = &marker.pieces[index];
         // Events come first, then holes, then slits, then contours.
         let mut ranks = piece.events.len() + piece.drills.len()..;
@@ -112,26 +117,29 @@ impl<'a> OfPiece<'a> {
         // Those of the cuts in the piece follow each other as their ranks do.
         let mut cuts = 0..;
         let mut cut = || cuts.next().expect("a piece has fewer cuts than numbers");
-        let slits =
-            slits.iter().map(|(stroke, percent)| slit(stroke, [index, rank()].map(small), cut(), feeds.at(*percent)));
-        let mut lines: Vec<Line> = slits.collect();
         let of_cuts = of_cuts(index, marker);
+        let roots = if of_cuts.is_some() { roots(&slits, index, marker) } else { Vec::new() };
+        let slits = slits.iter().zip(roots.into_iter().chain(std::iter::repeat(None)));
+        let slits = slits
+            .map(|((stroke, percent), root)| slit(stroke, root, [index, rank()].map(small), cut(), feeds.at(*percent)));
+        let mut lines: Vec<Line> = slits.collect();
         let mut drawn: Vec<(bool, Vec<Segment>)> = Vec::new();
         if of_cuts.is_some() {
             let contours = piece.contours.iter().zip(&outlines);
             drawn.extend(contours.map(|(contour, outline)| (contour.closed, outline.segments().to_vec())));
         }
-        let first = lines.len();
+        let slits = lines.len();
         for outline in of_cuts.unwrap_or(outlines) {
-            let place = OfContour { owner: [index, rank()].map(small), cut: cut(), feeds, profile, unit: marker.unit };
+            let owner = [index, rank()].map(small);
+            let place = OfContour { owner, cut: cut(), feeds, near, profile, unit: marker.unit };
             lines.extend(outline.lines(place));
         }
         let (mut rings, mut open) = (Vec::new(), Vec::new());
         for (is_closed, segments) in &drawn {
-            let parted = shared::parted(segments, &lines[first..]);
+            let parted = shared::parted(segments, &lines[slits..]);
             if *is_closed { rings.push(parted) } else { open.extend(parted) }
         }
-        for line in lines[first..].iter_mut().filter(|_| !drawn.is_empty()) {
+        for line in lines[slits..].iter_mut().filter(|_| !drawn.is_empty()) {
             line.aside = shared::aside(line, drawn.iter().flat_map(|(_, segments)| segments)).into();
         }
         let edges = rings.iter().filter(|ring| !ring.is_empty());
@@ -141,7 +149,7 @@ impl<'a> OfPiece<'a> {
                 line.tight = tight::stretches(line, &profile.knife).into();
             }
         }
-        Self { lines, rings, open, ranks: rank(), cuts: cut() }
+        Self { lines, slits, rings, open, ranks: rank(), cuts: cut() }
     }
 }
 
@@ -156,6 +164,17 @@ fn of_cuts(index: usize, marker: &Marker) -> Option<Vec<Outline<'_>>> {
     (!is_whole).then(|| cuts.map(|cut| Outline::of_cut(cut, &marker.list)).collect())
 }
 
+/// Where slits of a piece with common edges begin, those that do so before the edge that is drawn.
+fn roots(slits: &[(NotchStroke, u8)], index: usize, marker: &Marker) -> Vec<Option<Point>> {
+    let cuts = marker.cuts_of(small(index)).iter().filter(|cut| cut.kind == CutKind::Slit);
+    let root_of = |(cut, (stroke, _)): (&Cut, &(NotchStroke, u8))| {
+        let &[root, tip] = &marker.list.points(cut.range)[..] else { return None };
+        let is_longer = tip == stroke.to && polyline::distance_to_segment(stroke.from, root, tip) <= SAME;
+        (is_longer && root != stroke.from).then_some(root)
+    };
+    cuts.zip(slits).map(root_of).collect()
+}
+
 /// The edge of a part as it is drawn.
 fn edge<'a>(ring: &[Drawn], owner: [u32; 2]) -> Line<'a> {
     let points: Vec<Point> = std::iter::once(ring[0].ends[0]).chain(ring.iter().map(|chord| chord.ends[1])).collect();
@@ -166,13 +185,16 @@ fn edge<'a>(ring: &[Drawn], owner: [u32; 2]) -> Line<'a> {
     Line::new(owner, cut, Cow::Owned(points), path.collect(), BothWays::One(f64::INFINITY), false)
 }
 
-/// The line of a slit, `cap` mm/s being the greatest speed of the tip.
-fn slit<'a>(stroke: &NotchStroke, owner: [u32; 2], index: u32, cap: f64) -> Line<'a> {
+/// The line of a slit, `cap` mm/s being the greatest speed of the tip; it may begin before the edge that is drawn.
+fn slit<'a>(stroke: &NotchStroke, root: Option<Point>, owner: [u32; 2], index: u32, cap: f64) -> Line<'a> {
+    let start = root.unwrap_or(stroke.from);
     let from = Vertex { station: 0.0, sagitta: 0.0, block: stroke.span.block };
-    let to = Vertex { station: stroke.length(), ..from };
-    let points = Cow::Owned(vec![stroke.from, stroke.to]);
+    let to = Vertex { station: (stroke.to - start).norm(), ..from };
+    let points = Cow::Owned(vec![start, stroke.to]);
     let cut = OfCut { index, offset: 0.0, round: None, bounds: false, is_edge: false, is_bare: true };
-    Line::new(owner, cut, points, Box::new([from, to]), BothWays::One(cap), false)
+    let mut line = Line::new(owner, cut, points, Box::new([from, to]), BothWays::One(cap), false);
+    line.aside = root.map(|root| [0.0, (stroke.from - root).norm()]).into_iter().collect();
+    line
 }
 
 /// An index or a rank, kept small: a large marker has a hundred thousand lines.

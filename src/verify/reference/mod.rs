@@ -11,6 +11,7 @@ pub(super) mod ground;
 pub(super) mod inside;
 pub(super) mod line;
 pub(super) mod lines;
+mod near;
 pub(super) mod notches;
 pub(super) mod order;
 pub(super) mod outline;

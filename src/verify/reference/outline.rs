@@ -6,6 +6,7 @@ use std::borrow::Cow;
 
 use super::caps::{End, Feeds};
 use super::line::{Line, OfCut};
+use super::near::Near;
 use super::notches;
 use super::vertex::Vertex;
 use crate::geom::{Point, angle, corner};
@@ -32,6 +33,8 @@ pub(in crate::verify) struct OfContour<'a> {
     pub(in crate::verify) cut: u32,
     /// How fast the tip may be in its piece.
     pub(in crate::verify) feeds: Feeds<'a>,
+    /// Where it may have to be slower; `None` where it may not.
+    pub(in crate::verify) near: Option<&'a Near<'a>>,
     pub(in crate::verify) profile: &'a MachineProfile,
     /// What the points of the marker are rounded to, mm; 0 = nothing.
     pub(in crate::verify) unit: f64,
@@ -139,7 +142,7 @@ impl<'a> Outline<'a> {
 
     /// The line of the segments from one up to another; `ends` are how it starts and how it ends.
     fn line(&self, [from, to]: [usize; 2], ring: bool, ends: [End; 2], place: OfContour) -> Line<'a> {
-        let OfContour { owner, cut, feeds, profile, .. } = place;
+        let OfContour { owner, cut, feeds, profile, near, .. } = place;
         let chords = &self.segments[from..to];
         let turn_at = |k: usize| match (k == 0 || k == chords.len(), ring) {
             (true, false) => 0.0,
@@ -149,7 +152,8 @@ impl<'a> Outline<'a> {
         let sagitta = |k: usize| sagitta(&chords[k], [turn_at(k), turn_at(k + 1)], profile);
         let path = path(chords, sagitta);
         let percents = chords.iter().map(|chord| chord.percent);
-        let caps = feeds.both_ways(&path, percents, ends);
+        let near = near.map_or_else(Vec::new, |near| near.along(owner[0], chords));
+        let caps = feeds.both_ways(&path, percents, ends, &near);
         let cut = OfCut {
             index: cut,
             offset: self.before + self.stations[from],

@@ -3,13 +3,15 @@
 //! What is cut with a piece is what the marker says, and every chord of the drawing is looked for on that: what is not on it
 //! is spared.
 
+use std::ops::Range;
+
 use super::line::Line;
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, polyline};
 use crate::ir::list::Segment;
 
 /// How far a cut may be from what it is drawn as, mm, and how short a stretch is none: rounding.
-const SAME: f64 = 1e-6;
+pub(super) const SAME: f64 = 1e-6;
 /// Least cosine between a chord and a cut along it.
 const ALONG: f64 = 0.999_999;
 
@@ -22,6 +24,15 @@ pub(in crate::verify) struct Drawn {
     pub(in crate::verify) cut: Option<u32>,
     /// Source block of its chord.
     pub(in crate::verify) block: u32,
+}
+
+/// A closed contour of a piece of which not all is cut with it.
+#[derive(Debug, Clone)]
+pub(in crate::verify) struct Around {
+    /// The slits of the piece among all lines.
+    pub(in crate::verify) slits: Range<usize>,
+    /// Its stretches, as they are drawn.
+    pub(in crate::verify) stretches: Vec<Drawn>,
 }
 
 /// Parts a contour into what lies on cuts of its own piece and what does not.
@@ -83,7 +94,7 @@ pub(super) fn aside<'s>(line: &Line, drawn: impl Iterator<Item = &'s Segment>) -
 }
 
 /// From where to where a chord lies on a part of a cut that goes the same way.
-fn lies_on([from, to]: [Point; 2], ends: [Point; 2]) -> Option<[f64; 2]> {
+pub(super) fn lies_on([from, to]: [Point; 2], ends: [Point; 2]) -> Option<[f64; 2]> {
     let along = polyline::direction(from, to)?;
     if polyline::direction(ends[0], ends[1])?.dot(&along) < ALONG {
         return None;

@@ -32,14 +32,15 @@ pub(crate) fn marker(points: &[Point]) -> Marker {
     marker
 }
 
-/// A marker with its cuts: those that it has, or all of them.
+/// A marker with its cuts and its near lines: those that it has, or all of them.
 pub(crate) fn with_cuts(marker: &Marker, job: &Job) -> Marker {
     let mut marker = marker.clone();
     if !marker.cuts.is_empty() {
         return marker;
     }
-    let cut = MARKER_PASSES.iter().find(|pass| pass.name == "cut").expect("the pass makes the cuts");
-    (cut.run)(&mut marker, job, &mut Diagnostics::default());
+    for pass in MARKER_PASSES.iter().filter(|pass| ["near", "cut"].contains(&pass.name)) {
+        (pass.run)(&mut marker, job, &mut Diagnostics::default());
+    }
     marker
 }
 

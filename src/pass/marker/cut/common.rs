@@ -7,6 +7,7 @@ use super::facing::{Facing, Segments};
 use super::lead::{Arrival, Leads, Neighbour};
 use super::ring::{Mouth, Ring};
 use super::stretch::{Asked, BREAK, Shared, stretches};
+use super::style::Slit;
 use crate::geom::Point;
 use crate::geom::budget::Budget;
 use crate::ir::list::{Joint, Segment};
@@ -26,8 +27,14 @@ pub(super) struct Outcome {
 }
 
 /// Finds what rings, in the order in which they are cut, have in common; `None` when the search has no end. Rings whose
-/// notches stand on edges in common run straight over their mouths then, all others by their legs.
-pub(super) fn share(rings: &mut [Ring], asked: Asked, work: &mut Budget) -> Option<Vec<Outcome>> {
+/// notches stand on edges in common run straight over their mouths then, all others by their legs. Slits, piece by piece,
+/// that stand on what is cut with another begin at that cut.
+pub(super) fn share(
+    rings: &mut [Ring],
+    slits: &mut [&mut [Slit]],
+    asked: Asked,
+    work: &mut Budget,
+) -> Option<Vec<Outcome>> {
     let mut segments = Segments::new(rings);
     let mut facing = segments.facing(rings, asked.near, work)?;
     let wanted: Vec<Vec<bool>> = (0..rings.len()).map(|ring| wanted_mouths(rings, &facing, ring, asked)).collect();
@@ -41,7 +48,15 @@ pub(super) fn share(rings: &mut [Ring], asked: Asked, work: &mut Budget) -> Opti
         facing = segments.facing(rings, asked.near, work)?;
     }
     let mut sharing = Sharing { rings, asked, leads: Leads::new(rings, &segments, asked) };
-    Some((0..rings.len()).map(|ring| sharing.settle(ring, &facing[ring])).collect())
+    let outcomes = (0..rings.len()).map(|ring| sharing.settle(ring, &facing[ring])).collect();
+    for (i, ring) in rings.iter().enumerate() {
+        for Slit { stroke, .. } in &mut *slits[ring.piece] {
+            if let Some(root) = sharing.leads.led_root(i, [stroke.from, stroke.to]) {
+                stroke.from = root;
+            }
+        }
+    }
+    Some(outcomes)
 }
 
 /// Which of the mouths of a ring another part's edge, and not its mouth, lies along.

@@ -252,6 +252,27 @@ impl<'a> Leads<'a> {
         }
         led
     }
+
+    /// Where a slit begins that stands on an edge of a ring that is cut with another: where it is through that cut, if that
+    /// is farther out.
+    pub(super) fn led_root(&self, ring: usize, [root, tip]: [Point; 2]) -> Option<Point> {
+        let (own, near) = (&self.rings[ring], self.asked.near.distance);
+        let around = Extent::between(root, root).grown(near);
+        let of_ring = self.segments.near(self.rings, around).filter(|([of, _], _)| *of == ring);
+        let feet = of_ring.map(|([_, segment], [from, to])| {
+            let length = (to - from).norm();
+            let along = (root - from).dot(&(to - from)) / length;
+            let away = polyline::distance_to_segment(root, from, to);
+            (away, own.station(segment) + along.clamp(0.0, length))
+        });
+        let (away, station) = feet.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)))?;
+        if away > near || self.is_cut(ring, [station - LEAST, station + 2.0 * LEAST]) {
+            return None;
+        }
+        let along = polyline::direction(tip, root)?;
+        let way = self.straight_on(ring, root, along, None)?;
+        (way > LEAST).then(|| root + along * way)
+    }
 }
 
 /// What some stretches leave of one.

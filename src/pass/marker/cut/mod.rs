@@ -19,7 +19,7 @@ use self::common::share;
 use self::facing::Near;
 use self::ring::{Mouth, Ring};
 use self::stretch::Asked;
-use self::style::Bridged;
+use self::style::{Bridged, Slit};
 use super::pass::MarkerPass;
 use super::search::search_ended;
 use crate::analysis::cloth::Cloth;
@@ -53,18 +53,17 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     let Marker { list, pieces, cuts, common, .. } = marker;
     (*cuts, *common) = (Vec::new(), Vec::new());
     let mut cutting = Cutting { list, nesting: &nesting, style, piece: 0, cuts };
-    let mut slits = Vec::with_capacity(pieces.len());
-    let outlines: Vec<Vec<Range>> = pieces.iter().map(|piece| cutting.outlines(piece, &mut slits)).collect();
+    let mut styled: Vec<Styled> = pieces.iter().map(|piece| cutting.styled(piece)).collect();
     let mut shared = match asked {
-        Some(asked) => cutting.share(pieces, &outlines, asked, common, diagnostics),
+        Some(asked) => cutting.share(pieces, &mut styled, asked, common, diagnostics),
         None => BTreeMap::new(),
     };
-    for (i, (slits, ranges)) in slits.into_iter().zip(outlines).enumerate() {
+    for (i, Styled { slits, outlines }) in styled.into_iter().enumerate() {
         cutting.piece = i;
         for slit in slits {
             cutting.slit(&slit);
         }
-        for (range, line) in ranges.into_iter().zip(nesting.of_group(i)) {
+        for (range, line) in outlines.into_iter().zip(nesting.of_group(i)) {
             match shared.remove(&line) {
                 Some(of_line) => of_line.into_iter().for_each(|segments| cutting.edge(segments, range, line)),
                 None => cutting.contour(range, line),
@@ -73,10 +72,11 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// A cut of a notch: a stroke, and its speed in percent of the speed of its piece.
-struct Slit {
-    stroke: NotchStroke,
-    percent: u8,
+/// A piece with its notches in the style of the profile.
+struct Styled {
+    slits: Vec<Slit>,
+    /// Its contours as they are cut.
+    outlines: Vec<Range>,
 }
 
 /// The cuts of a piece, as they are made.
@@ -90,21 +90,20 @@ struct Cutting<'a> {
 }
 
 impl Cutting<'_> {
-    /// The contours of a piece as they are cut; its slits are added to those of the pieces before it.
-    fn outlines(&mut self, piece: &Piece, slits: &mut Vec<Vec<Slit>>) -> Vec<Range> {
-        let mut of_piece: Vec<Slit> = piece.notches.iter().flat_map(|notch| self.drawn(notch)).collect();
-        let outline = |contour: &Contour| self.outline(contour.range, &piece.outline_notches, &mut of_piece);
-        let ranges = piece.contours.iter().map(outline).collect();
-        slits.push(of_piece);
-        ranges
+    /// The slits and the contours of a piece as they are cut.
+    fn styled(&mut self, piece: &Piece) -> Styled {
+        let mut slits: Vec<Slit> = piece.notches.iter().flat_map(|notch| self.drawn(notch)).collect();
+        let outline = |contour: &Contour| self.outline(contour.range, &piece.outline_notches, &mut slits);
+        let outlines = piece.contours.iter().map(outline).collect();
+        Styled { slits, outlines }
     }
 
     /// What is cut of the lines that have edges in common with those of other parts; what these are cut with is added to
-    /// `common`.
+    /// `common`, and slits on them are led on to these.
     fn share(
         &mut self,
         pieces: &[Piece],
-        outlines: &[Vec<Range>],
+        styled: &mut [Styled],
         asked: Asked,
         common: &mut Vec<CommonEdge>,
         diagnostics: &mut Diagnostics,
@@ -116,14 +115,15 @@ impl Cutting<'_> {
         };
         let mut lines = Vec::new();
         let mut rings = Vec::new();
-        for (i, (piece, ranges)) in pieces.iter().zip(outlines).enumerate() {
-            let of_piece = ranges.iter().zip(self.nesting.of_group(i));
+        for (i, (piece, styled)) in pieces.iter().zip(&*styled).enumerate() {
+            let of_piece = styled.outlines.iter().zip(self.nesting.of_group(i));
             for (&range, line) in of_piece.filter(|&(_, line)| self.nesting.lines()[line].is_closed && is_near(line)) {
                 lines.push(line);
                 rings.push(self.ring(i, piece, range, line));
             }
         }
-        let Some(outcomes) = share(&mut rings, asked, &mut Budget::of_a_marker()) else {
+        let mut slits: Vec<&mut [Slit]> = styled.iter_mut().map(|styled| &mut styled.slits[..]).collect();
+        let Some(outcomes) = share(&mut rings, &mut slits, asked, &mut Budget::of_a_marker()) else {
             diagnostics.push(search_ended("edges that parts have in common are cut for each of them"));
             return BTreeMap::new();
         };

@@ -18,6 +18,12 @@ use crate::units::number::fixed;
 const STEP: f64 = 0.25;
 const INSIDE: f64 = 0.05;
 
+/// A cut of a notch: a stroke, and its speed in percent of the speed of its piece.
+pub(super) struct Slit {
+    pub(super) stroke: NotchStroke,
+    pub(super) percent: u8,
+}
+
 /// The cuts of a notch that is drawn as a slit.
 pub(super) fn strokes(notch: &Notch, notches: Notches) -> impl Iterator<Item = NotchStroke> + use<> {
     let notch = deepened(notch, notches.depth_mm);
