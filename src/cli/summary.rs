@@ -50,7 +50,7 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
     line("drills", report.drills.to_string());
     line("labels", report.labels.to_string());
     line("cut", format!("{} m", fixed(report.cut_m, 3)));
-    if let Some(Common { edges, length_m, shift_mm }) = report.common {
+    if let &Some(Common { edges, length_m, shift_mm, .. }) = &report.common {
         let (edges, length) = (counted(edges, "common edge"), fixed(length_m, 3));
         let moved =
             if shift_mm > 0.0 { format!(", moved by {} mm at the most", fixed(shift_mm, 2)) } else { String::new() };

@@ -8,10 +8,11 @@ use serde::{Serialize, Serializer};
 use super::rounded::{significant, to_millionths};
 use super::spent::Spent;
 use crate::back::Estimate;
-use crate::ir::Marker;
+use crate::geom::polyline;
 use crate::ir::declaration::Total;
 use crate::ir::drawing::{Account, LineClass};
 use crate::ir::marker::{NotchForm, NotchKind};
+use crate::ir::{self, Marker};
 use crate::machine::{Follow, NotchStyle};
 use crate::units::{MM_PER_M, deg};
 
@@ -65,7 +66,7 @@ pub struct Report {
 }
 
 /// Edges that are cut once for two parts.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Common {
     /// How many there are.
     pub edges: usize,
@@ -75,14 +76,44 @@ pub struct Common {
     /// How far one of them is from where it is cut at the most, mm.
     #[serde(serialize_with = "micro")]
     pub shift_mm: f64,
+    /// Each of them, in the order of the pieces that are spared.
+    pub all: Vec<CommonEdge>,
+}
+
+/// An edge that is cut once for two parts.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct CommonEdge {
+    /// The number of the piece that it is cut with.
+    pub piece: u32,
+    /// That of the piece that is spared it.
+    pub spared: u32,
+    /// Its length, m.
+    #[serde(serialize_with = "micro")]
+    pub length_m: f64,
+    /// How far that of the piece that is spared is from there at the most, mm.
+    #[serde(serialize_with = "micro")]
+    pub shift_mm: f64,
 }
 
 impl Common {
     /// Those of a marker.
     fn of(marker: &Marker) -> Option<Self> {
-        let edges = marker.common.len();
-        let shift_mm = marker.common.iter().map(|edge| edge.shift).fold(0.0, f64::max);
-        (edges > 0).then(|| Self { edges, length_m: marker.common_length() / MM_PER_M, shift_mm })
+        let all: Vec<CommonEdge> = marker.common.iter().map(|edge| CommonEdge::of(marker, edge)).collect();
+        let shift_mm = all.iter().map(|edge| edge.shift_mm).fold(0.0, f64::max);
+        let length_m = marker.common_length() / MM_PER_M;
+        (!all.is_empty()).then(|| Self { edges: all.len(), length_m, shift_mm, all })
+    }
+}
+
+impl CommonEdge {
+    fn of(marker: &Marker, edge: &ir::marker::CommonEdge) -> Self {
+        let [piece, spared] = edge.pieces.map(|piece| marker.pieces[piece as usize].number);
+        Self {
+            piece,
+            spared,
+            length_m: polyline::length(&marker.list.points(edge.range)) / MM_PER_M,
+            shift_mm: edge.shift,
+        }
     }
 }
 

@@ -16,8 +16,8 @@ const LEAST_SINE: f64 = 0.259;
 const LEAST_COSINE: f64 = 0.966;
 /// Tangent of the greatest angle at which a cut is led over to an edge that it runs along (6 degrees).
 const SLOPE: f64 = 0.105;
-/// How far such a cut goes through the edge, in tolerances: both may be off by one, and cross at a small angle.
-const THROUGH: f64 = 2.0;
+/// How deep such a cut may end in a part, in distances of two edges: the diagonal of those of X and Y, as for other cuts.
+const DEEPEST: f64 = std::f64::consts::SQRT_2;
 /// How often a way over to an edge that bends is halved.
 const HALVINGS: usize = 3;
 /// Places of such a way that are looked at.
@@ -55,8 +55,7 @@ pub(super) struct Leads<'a> {
     asked: Asked,
     /// Of each ring what is cut with others.
     spared: Vec<Vec<[f64; 2]>>,
-    /// How far a cut goes through an edge that it is led over to, and how long the way is, mm.
-    through: f64,
+    /// How long the way over to an edge is, mm.
     longest: f64,
     /// The ways on which open cuts were led on, by cells as large as the longest.
     ways: HashMap<[i64; 2], Vec<[Point; 2]>>,
@@ -64,11 +63,10 @@ pub(super) struct Leads<'a> {
 
 impl<'a> Leads<'a> {
     pub(super) fn new(rings: &'a [Ring], segments: &'a Segments, asked: Asked) -> Self {
-        let Asked { near, beyond, width, .. } = asked;
-        let through = (THROUGH * beyond).min(near.distance);
+        let Asked { near, width, .. } = asked;
         // As long whatever lies between them, and no bend under the plunged blade.
-        let longest = ((near.distance + through) / SLOPE).max(width);
-        Self { rings, segments, asked, through, longest, spared: vec![Vec::new(); rings.len()], ways: HashMap::new() }
+        let longest = (2.0 * near.distance / SLOPE).max(width);
+        Self { rings, segments, asked, longest, spared: vec![Vec::new(); rings.len()], ways: HashMap::new() }
     }
 
     /// Takes what of a ring is cut with others, and the ways on which what is left of it was led on.
@@ -145,8 +143,14 @@ impl<'a> Leads<'a> {
 
     /// The end of a gentle way from a place over to an edge from a station of that on, with the cosine of the turn.
     fn way_over(&self, at: Point, along: Vector, (other, from, sign): (usize, f64, f64)) -> Option<(f64, Point)> {
-        let (near, through) = (self.asked.near, self.through);
+        let Asked { near, beyond, overlap, .. } = self.asked;
         let edge = &self.rings[other];
+        // Both cuts may be off their lines, and cross at a small angle: as far through as it may be. The overlap past its end
+        // goes on as it does, and stays within the distance.
+        let apart = (edge.place(from) - at).norm();
+        let past = overlap / self.longest;
+        let through =
+            (DEEPEST * near.distance + beyond - apart).min(near.distance * (1.0 - past) / (1.0 + past)).max(beyond);
         // From whichever side of the edge it comes it ends on the other.
         let is_inside = edge.holds(at - along * (2.0 * near.distance));
         (0..HALVINGS).map(|halving| self.longest / f64::from(1 << halving)).find_map(|length| {
