@@ -101,7 +101,7 @@ impl Common {
         let all: Vec<CommonEdge> = marker.common.iter().map(|edge| CommonEdge::of(marker, edge)).collect();
         let shift_mm = all.iter().map(|edge| edge.shift_mm).fold(0.0, f64::max);
         let length_m = marker.common_length() / MM_PER_M;
-        (!all.is_empty()).then(|| Self { edges: all.len(), length_m, shift_mm, all })
+        (!all.is_empty()).then_some(Self { edges: all.len(), length_m, shift_mm, all })
     }
 }
 
