@@ -146,19 +146,8 @@ const DEFAULT_BACK_MM: f64 = 6.35;
 impl Knife {
     /// How far the blade may go beyond both ends of a cut together, mm.
     pub fn overlaps(&self) -> f64 {
-        let [front, heel] = self.longest_overlaps();
-        front + heel
-    }
-
-    /// How far it may go beyond one of them, mm.
-    pub fn longest_overlap(&self) -> f64 {
-        let [front, heel] = self.longest_overlaps();
-        front.max(heel)
-    }
-
-    fn longest_overlaps(&self) -> [f64; 2] {
-        let front = self.front_overlap_mm.max(self.corner_front_overlap_mm);
-        [front, self.heel_overlap_mm.max(self.corner_heel_overlap_mm)]
+        let heel = self.heel_overlap_mm.max(self.corner_heel_overlap_mm);
+        heel + self.front_overlap_mm.max(self.corner_front_overlap_mm)
     }
 
     /// Longest cut that need not be lifted amid it, mm: with its overlaps it is no longer than the knife may stay down;

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use super::facing::{Facing, Segments};
 use super::ring::{Ring, crossing};
 use super::stretch::{Asked, Shared};
-use crate::geom::{Extent, Point, Vector, polyline};
+use crate::geom::{Extent, Point, Vector, left, polyline};
 use crate::ir::list::Segment;
 
 /// Sine of the least angle at which a cut goes straight on to another (15 degrees), and the cosine.
@@ -16,7 +16,9 @@ const LEAST_SINE: f64 = 0.259;
 const LEAST_COSINE: f64 = 0.966;
 /// Tangent of the greatest angle at which a cut is led over to an edge that it runs along (6 degrees).
 const SLOPE: f64 = 0.105;
-/// How deep such a cut may end in a part, in distances of two edges: the diagonal of those of X and Y, as for other cuts.
+/// How far such a cut goes through the edge, in distances of two edges.
+const THROUGH: f64 = std::f64::consts::FRAC_1_SQRT_2;
+/// How deep it may end in a part, in distances of two edges: the diagonal of those of X and Y, as for other cuts.
 const DEEPEST: f64 = std::f64::consts::SQRT_2;
 /// How often a way over to an edge that bends is halved.
 const HALVINGS: usize = 3;
@@ -117,7 +119,25 @@ impl<'a> Leads<'a> {
         };
         let [start, end] = through(before, behind, false)
             .or_else(|| through(behind, before, true).map(|[end, start]| [start, end]))?;
-        Some([start, at, end])
+        let tie = [start, at, end];
+        [before, behind].iter().all(|to| self.surely_crosses(ring, tie, to.ring)).then_some(tie)
+    }
+
+    /// Whether a tie of a ring crosses what is cut with another also where it lies to either side by half the tolerance: the
+    /// blade rounds the bends of both.
+    fn surely_crosses(&self, before: usize, tie: [Point; 3], other: usize) -> bool {
+        let ([start, at, end], aside) = (tie, self.asked.beyond / 2.0);
+        let cuts = self.cut_near(before, Extent::of(&tie).grown(aside));
+        let of_other = || cuts.iter().filter(|cut| cut.0 == Some(other));
+        let Some(across) = polyline::direction(start, end).map(left) else { return false };
+        [aside, -aside].into_iter().all(|aside| {
+            let [start, at, end] = [start, at, end].map(|place| place + across * aside);
+            [[start, at], [at, end]].into_iter().any(|[from, to]| {
+                let Some(along) = polyline::direction(from, to) else { return false };
+                let is_on = |ahead: f64| ahead <= (to - from).norm();
+                of_other().any(|cut| crossing(from, along, cut.1, 0.0).is_some_and(|(ahead, _)| is_on(ahead)))
+            })
+        })
     }
 
     /// How far a way from a place goes straight on until it is through a cut of this ring's forerunners, mm.
@@ -143,14 +163,12 @@ impl<'a> Leads<'a> {
 
     /// The end of a gentle way from a place over to an edge from a station of that on, with the cosine of the turn.
     fn way_over(&self, at: Point, along: Vector, (other, from, sign): (usize, f64, f64)) -> Option<(f64, Point)> {
-        let Asked { near, beyond, overlap, .. } = self.asked;
+        let Asked { near, beyond, .. } = self.asked;
         let edge = &self.rings[other];
-        // Both cuts may be off their lines, and cross at a small angle: as far through as it may be. The overlap past its end
-        // goes on as it does, and stays within the distance.
+        // Far enough, as both cuts may be off by the tolerance and cross at a small angle, and not so far that the overlap past
+        // its end, which goes on as it does, leaves the distance, or that it ends deeper than it may.
         let apart = (edge.place(from) - at).norm();
-        let past = overlap / self.longest;
-        let through =
-            (DEEPEST * near.distance + beyond - apart).min(near.distance * (1.0 - past) / (1.0 + past)).max(beyond);
+        let through = (THROUGH * near.distance).min(DEEPEST * near.distance + beyond - apart);
         // From whichever side of the edge it comes it ends on the other.
         let is_inside = edge.holds(at - along * (2.0 * near.distance));
         (0..HALVINGS).map(|halving| self.longest / f64::from(1 << halving)).find_map(|length| {

@@ -48,7 +48,6 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
         near: Near { distance, slack: marker.unit * std::f64::consts::SQRT_2 },
         min: job.profile.common.min_mm,
         beyond: job.profile.tolerance(marker.unit),
-        overlap: job.profile.knife.longest_overlap(),
         width: job.profile.knife.width_mm,
     });
     let Marker { list, pieces, cuts, common, .. } = marker;

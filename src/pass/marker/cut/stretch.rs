@@ -19,8 +19,6 @@ pub(super) struct Asked {
     pub(super) min: f64,
     /// How far an open cut goes beyond what it ends at, mm.
     pub(super) beyond: f64,
-    /// The longest overlap past the end of a cut, mm.
-    pub(super) overlap: f64,
     /// Width of the blade, mm.
     pub(super) width: f64,
 }
