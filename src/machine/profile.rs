@@ -19,6 +19,7 @@ use super::knife::Knife;
 use super::labels::Labels;
 use super::nest::Nest;
 use super::notches::Notches;
+use super::order::Order;
 pub use super::path::Fit;
 use super::path::{Corner, Path, Slow};
 use super::plot::Hpgl;
@@ -61,6 +62,8 @@ pub struct MachineProfile {
     pub nest: Nest,
     /// Edges that two parts have in common.
     pub common: Common,
+    /// In which order pieces are cut.
+    pub order: Order,
     /// The drill.
     pub drill: Drill,
     /// Corners.
@@ -132,6 +135,7 @@ impl Default for MachineProfile {
             notch: Notches::default(),
             nest: Nest::default(),
             common: Common::default(),
+            order: Order::default(),
             drill: Drill::default(),
             corner: Corner::default(),
             slow: Slow::default(),

@@ -41,6 +41,7 @@ mod profile;
 mod properties;
 mod readme;
 mod rewritten;
+mod route;
 mod targets;
 mod told;
 mod verifier;

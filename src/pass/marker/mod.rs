@@ -9,6 +9,7 @@ mod near;
 mod notch;
 mod order;
 mod pass;
+mod route;
 mod sanity;
 mod search;
 mod select;
@@ -28,6 +29,7 @@ pub const MARKER_PASSES: &[MarkerPass] = &[
     order::PASS,
     notch::PASS,
     sanity::PASS,
+    route::PASS,
     select::PASS,
     table::PASS,
     near::PASS,

@@ -63,7 +63,7 @@ fn waiting(pieces: &[Piece], nesting: &Nesting) -> BTreeMap<usize, Vec<usize>> {
 }
 
 /// The pieces within whose outlines a piece lies, in order.
-fn holders(piece: usize, nesting: &Nesting) -> Vec<usize> {
+pub(super) fn holders(piece: usize, nesting: &Nesting) -> Vec<usize> {
     let group = |line: usize| nesting.lines()[line].group as usize;
     // Its outline holds all else of it.
     let others = |line: usize| nesting.around(line).map(group).filter(|&holder| holder != piece);

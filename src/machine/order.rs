@@ -1,0 +1,41 @@
+//! In which order pieces are cut: the keys `order.*`.
+
+use serde::{Deserialize, Serialize};
+
+use super::key::{Key, Takes, from};
+use super::word::words;
+
+/// The keys `order.*`.
+#[rustfmt::skip] // a table: one row a key
+pub(super) const KEYS: &[Key] = &[
+    Key { name: "order.policy", takes: Takes::Word(words::<OrderPolicy>), about: "In which order pieces are cut: \"file\" = as in the file, what lies within a part before it;\n\"fastest\" = on the shortest way with the knife up, notches on the way round, each outline from\nthe corner that suits; \"steady\" = the same, the work moving along X (order.window_mm)." },
+    Key { name: "order.window_mm", takes: Takes::Number(from(10.0, 1.0e6)), about: "How far \"steady\" goes back in X at the most, from the left edge of one piece to that of another." },
+];
+
+/// In which order pieces are cut.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Order {
+    /// By what it is chosen.
+    pub policy: OrderPolicy,
+    /// How far the work goes back in X at the most when it is to be steady.
+    pub window_mm: f64,
+}
+
+impl Default for Order {
+    fn default() -> Self {
+        Self { policy: OrderPolicy::File, window_mm: 600.0 }
+    }
+}
+
+/// By what the order of pieces is chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum OrderPolicy {
+    /// The file.
+    File,
+    /// The least time with the knife up.
+    Fastest,
+    /// The same, with the work moving along X.
+    Steady,
+}

@@ -1,0 +1,257 @@
+//! Route: the order of pieces, notches and starts in which the knife travels least.
+//!
+//! Needs: all pieces with their notches, what lies within a part before it. Leaves true: with `order.policy` `"file"`
+//! everything; else the same pieces, each whole, what lies within a part before that still, events between the same pieces;
+//! slits on the way round, closed contours begun at a corner. With `"steady"` no piece lies farther behind the foremost so far
+//! than `order.window_mm`, but where something within it does.
+
+mod tour;
+mod visit;
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use self::tour::{START, Ways};
+use self::visit::{Air, Cuts, Stop, Visit};
+use super::order::holders;
+use super::pass::MarkerPass;
+use crate::analysis::nesting::Nesting;
+use crate::diagnostic::Diagnostics;
+use crate::geom::boxes::Boxes;
+use crate::geom::{Extent, Point, bits};
+use crate::ir::list::{Segment, SegmentList};
+use crate::ir::marker::{Marker, Piece};
+use crate::machine::{Job, OrderPolicy};
+
+pub(super) const PASS: MarkerPass = MarkerPass {
+    name: "route",
+    about: "orders pieces, notches and starts for the shortest travel, if that is asked",
+    run,
+};
+
+/// Visits beside which each is looked at in a tour.
+const NEAR: usize = 10;
+/// Visits of which these are chosen, at the most: in no lay there are more about one place.
+const MOST_AROUND: usize = 500;
+/// Visits between which the times of all moves are kept, at the most.
+const MOST_KNOWN: usize = 1000;
+/// How often the order and the visits are chosen in turn.
+const ROUNDS: usize = 3;
+
+fn run(marker: &mut Marker, job: &Job, _: &mut Diagnostics) {
+    if job.profile.order.policy == OrderPolicy::File {
+        return;
+    }
+    let nesting = Nesting::of(marker);
+    let held: Vec<Vec<usize>> = (0..marker.pieces.len()).map(|piece| holders(piece, &nesting)).collect();
+    let routing = Routing { job, air: Air::new(job), unit: marker.unit, held };
+    let Marker { pieces, list, .. } = marker;
+    let mut home = Stop::home(Point::new(job.profile.home[0], job.profile.home[1]));
+    // Where something is asked of the operator, that is asked between the same pieces.
+    let asked = (1..pieces.len()).filter(|&i| !pieces[i].events.is_empty());
+    let ends: Vec<usize> = asked.chain([pieces.len()]).collect();
+    let mut first = 0;
+    for end in ends {
+        home = routing.block(first..end, pieces, list, home);
+        first = end;
+    }
+}
+
+/// What routes go by.
+struct Routing<'a> {
+    job: &'a Job,
+    air: Air,
+    unit: f64,
+    /// For each piece those within whose outlines it lies.
+    held: Vec<Vec<usize>>,
+}
+
+impl Routing<'_> {
+    /// Orders some pieces among which nothing is asked; gives where the knife comes up behind the last.
+    fn block(&self, block: Range<usize>, pieces: &mut [Piece], list: &mut SegmentList, home: Stop) -> Stop {
+        let of = |piece: &Piece| Cuts::of(piece, list, self.job, self.unit);
+        let cuts: Vec<Cuts> = pieces[block.clone()].iter().map(of).collect();
+        let left: Vec<usize> = (0..cuts.len()).filter(|&i| !cuts[i].is_empty()).collect();
+        let visits: Vec<Vec<Visit>> = left.iter().map(|&i| cuts[i].visits(&self.air)).collect();
+        let extents: Vec<Extent> = left.iter().map(|&i| extent(&pieces[block.start + i], list)).collect();
+        let place = |piece: usize| left.binary_search(&piece.checked_sub(block.start)?).ok();
+        let mut before = vec![Vec::new(); left.len()];
+        for (k, &i) in left.iter().enumerate() {
+            for holder in self.held[block.start + i].iter().filter_map(|&holder| place(holder)) {
+                before[holder].push(k as u32);
+            }
+        }
+        let (order, chosen) = self.tour(&visits, &extents, &before, home);
+        let last = order.last().map_or(home, |&last| visits[last][chosen[last]].ends[1]);
+        let events = pieces.get_mut(block.start).map(|first| std::mem::take(&mut first.events)).unwrap_or_default();
+        let mut taken: Vec<Option<Piece>> =
+            pieces[block.clone()].iter_mut().map(|piece| Some(std::mem::take(piece))).collect();
+        let visited = order.iter().map(|&k| (left[k], Some(&visits[k][chosen[k]])));
+        let empty = (0..cuts.len()).filter(|i| left.binary_search(i).is_err()).map(|i| (i, None));
+        let sequence: Vec<(usize, Option<&Visit>)> = visited.chain(empty).collect();
+        for (slot, (i, visit)) in pieces[block.clone()].iter_mut().zip(sequence) {
+            *slot = taken[i].take().expect("each piece comes once");
+            if let Some(visit) = visit {
+                apply(visit, slot, list);
+            }
+        }
+        if let Some(first) = pieces.get_mut(block.start) {
+            first.events = events;
+        }
+        last
+    }
+
+    /// The order of visits, and which of each piece.
+    fn tour(
+        &self,
+        visits: &[Vec<Visit>],
+        extents: &[Extent],
+        before: &[Vec<u32>],
+        home: Stop,
+    ) -> (Vec<usize>, Vec<usize>) {
+        let along: Vec<f64> = extents.iter().map(|extent| extent.min.x).collect();
+        let order = &self.job.profile.order;
+        let window = (order.policy == OrderPolicy::Steady).then_some(order.window_mm);
+        let mut order = inner_first(strips(extents), before);
+        let mut chosen = visit::choose(&order, visits, &home, &self.air);
+        for round in 1..=ROUNDS {
+            let ends: Vec<[Stop; 2]> = visits.iter().zip(&chosen).map(|(of, &chosen)| of[chosen].ends).collect();
+            let near = near(&ends);
+            let time = |from: usize, to: usize| {
+                self.air.time(if from == START { &home } else { &ends[from][1] }, &ends[to][0])
+            };
+            let known = Known::new(ends.len(), &time);
+            let time = |from: usize, to: usize| known.time(from, to).unwrap_or_else(|| time(from, to));
+            let ways = Ways { time: &time, near: &near, before, along: &along, window };
+            tour::improve(&mut order, &ways, round == ROUNDS && known.count > 0);
+            chosen = visit::choose(&order, visits, &home, &self.air);
+        }
+        (order, chosen)
+    }
+}
+
+/// The times of all moves between visits, where these are few: they are asked for again and again.
+struct Known {
+    count: usize,
+    times: Vec<f64>,
+}
+
+impl Known {
+    fn new(count: usize, time: &dyn Fn(usize, usize) -> f64) -> Self {
+        if count > MOST_KNOWN {
+            return Self { count: 0, times: Vec::new() };
+        }
+        let times = (0..count).flat_map(|from| (0..count).map(move |to| time(from, to)));
+        Self { count, times: times.collect() }
+    }
+
+    fn time(&self, from: usize, to: usize) -> Option<f64> {
+        (from < self.count).then(|| self.times[from * self.count + to])
+    }
+}
+
+/// The box around all of a piece.
+fn extent(piece: &Piece, list: &SegmentList) -> Extent {
+    let mut extent = Extent::EMPTY;
+    piece.contours.iter().for_each(|contour| extent.join(&Extent::of(&list.points(contour.range))));
+    piece.notches.iter().for_each(|notch| extent.join(&Extent::between(notch.root, notch.tip)));
+    piece.drills.iter().for_each(|drill| extent.join(&Extent::between(drill.at, drill.at)));
+    extent
+}
+
+/// Visits in strips across the cloth, up and down in turn.
+fn strips(extents: &[Extent]) -> Vec<usize> {
+    let whole = extents.iter().fold(Extent::EMPTY, |mut whole, extent| {
+        whole.join(extent);
+        whole
+    });
+    let (width, height) = whole.size();
+    let middle = |i: usize| extents[i].min + (extents[i].max - extents[i].min) / 2.0;
+    // As wide as two pieces.
+    let strip = (2.0 * (width * height / extents.len().max(1) as f64).sqrt()).max(1.0);
+    let key = |&i: &usize| {
+        let at = middle(i);
+        let strip = ((at.x - whole.min.x) / strip).floor();
+        (strip, if strip % 2.0 == 0.0 { at.y } else { -at.y })
+    };
+    let mut order: Vec<usize> = (0..extents.len()).collect();
+    order.sort_by(|a, b| {
+        let ((a, up), (b, other)) = (key(a), key(b));
+        a.total_cmp(&b).then(up.total_cmp(&other))
+    });
+    order
+}
+
+/// The same order, but each behind those that come before it.
+fn inner_first(order: Vec<usize>, before: &[Vec<u32>]) -> Vec<usize> {
+    let mut sorted = Vec::with_capacity(order.len());
+    let mut is_done = vec![false; order.len()];
+    let mut waiting: Vec<_> = before.iter().map(|before| before.iter()).collect();
+    let mut open = Vec::new();
+    for visit in order {
+        open.push(visit);
+        while let Some(&visit) = open.last() {
+            if let Some(&inner) = waiting[visit].next() {
+                open.push(inner as usize);
+            } else {
+                open.pop();
+                sorted.extend((!is_done[visit]).then_some(visit));
+                is_done[visit] = true;
+            }
+        }
+    }
+    sorted
+}
+
+/// For each visit those that start near its end or end near its start.
+fn near(ends: &[[Stop; 2]]) -> Vec<Vec<u32>> {
+    let boxes =
+        |side: usize| Boxes::new(ends.iter().map(|ends| Extent::between(ends[side].at, ends[side].at)).collect());
+    let (starts, stops) = (boxes(0), boxes(1));
+    let mut whole = Extent::EMPTY;
+    for [start, end] in ends {
+        whole.join(&Extent::between(start.at, end.at));
+    }
+    let (width, height) = whole.size();
+    let least = ((width * height).max(width.max(height)) / ends.len() as f64).sqrt().max(1.0);
+    let nearest = |boxes: &Boxes, i: usize, at: Point| {
+        let mut reach = least;
+        loop {
+            let around = Extent::between(at, at).grown(reach);
+            let around = boxes.near(around).filter(|&k| k != i).take(MOST_AROUND);
+            let mut found: Vec<u32> = around.map(|k| k as u32).collect();
+            if found.len() >= NEAR || reach > width + height {
+                let away = |k: &u32| (boxes.all()[*k as usize].min - at).norm();
+                found.sort_by(|a, b| away(a).total_cmp(&away(b)).then(a.cmp(b)));
+                found.truncate(NEAR);
+                return found;
+            }
+            reach *= 2.0;
+        }
+    };
+    (0..ends.len())
+        .map(|i| {
+            let mut near = nearest(&starts, i, ends[i][1].at);
+            let other = nearest(&stops, i, ends[i][0].at);
+            near.extend(other.into_iter().filter(|k| !near.contains(k)).collect::<Vec<_>>());
+            near
+        })
+        .collect()
+}
+
+/// Puts the notches of a piece in the sequence of a visit, and lets its contours start where that has it.
+fn apply(visit: &Visit, piece: &mut Piece, list: &mut SegmentList) {
+    piece.notches = visit.slits.iter().map(|&slit| piece.notches[slit]).collect();
+    for (contour, &start) in piece.contours.iter_mut().zip(&visit.starts).filter(|(_, start)| **start > 0) {
+        let mut segments: Vec<Segment> = list.walk(contour.range).map(|(_, segment)| segment).collect();
+        segments.rotate_left(start);
+        contour.range = list.append(segments).expect("it has as many segments as before");
+    }
+    if visit.starts.iter().any(|&start| start > 0) {
+        // They stand in the order in which the contours come to them.
+        let places =
+            piece.contours.iter().flat_map(|contour| list.walk(contour.range)).map(|(_, segment)| bits(segment.from));
+        let place: BTreeMap<[u64; 2], usize> = places.zip(0..).collect();
+        piece.outline_notches.sort_by_key(|notch| place.get(&bits(notch.mouth[0])).copied());
+    }
+}

@@ -1,0 +1,182 @@
+//! The order in which pieces are cut: the same pieces, each whole, what lies in a part before it, on a shorter way.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+use std::io::Cursor;
+
+use cutc::back::TARGETS;
+use cutc::diagnostic::{Diagnostics, render};
+use cutc::geom::Extent;
+use cutc::ir::Marker;
+use cutc::machine::{Job, OrderPolicy};
+use cutc::pipeline::{self, Report};
+use cutc::source::Source;
+use fastrand::Rng;
+
+/// Parts in a row of the lay.
+const ROW: usize = 5;
+
+/// A lay of parts in no order, as a nesting program writes it: some with a cut-out that is a piece of its own, drawn behind
+/// its part or before it, slits in the order in which somebody set them, and two places where something is asked.
+fn lay(seed: u64, parts: usize) -> String {
+    let mut rng = Rng::with_seed(seed);
+    let mut places: Vec<usize> = (0..parts).collect();
+    rng.shuffle(&mut places);
+    let mut pieces = Vec::new();
+    for place in places {
+        let [x, y] = [(place / ROW) * 2000, (place % ROW) * 1500];
+        let (width, height) = (rng.usize(900..1700), rng.usize(800..1300));
+        let mut slits =
+            [0, 300, 600].map(|along| format!("X{}Y{y}*M14*X{}Y{}*M15*", x + 100 + along, x + 100 + along, y + 50));
+        rng.shuffle(&mut slits);
+        let part = format!(
+            "M15*{}X{x}Y{y}*M14*X{}Y{y}*X{}Y{}*X{x}Y{}*X{x}Y{y}*M15*",
+            slits.concat(),
+            x + width,
+            x + width,
+            y + height,
+            y + height
+        );
+        let cut_out = format!(
+            "M15*X{}Y{}*M14*X{}Y{}*X{}Y{}*X{}Y{}*M15*",
+            x + 300,
+            y + 300,
+            x + 500,
+            y + 300,
+            x + 500,
+            y + 600,
+            x + 300,
+            y + 300
+        );
+        pieces.push(part);
+        if rng.u8(0..3) == 0 {
+            let at = pieces.len() - rng.usize(0..2);
+            pieces.insert(at, cut_out);
+        }
+    }
+    let mut text = "H1*G71*".to_owned();
+    let asked = [pieces.len() / 3, 2 * pieces.len() / 3];
+    for (i, piece) in pieces.iter().enumerate() {
+        let stop = if asked.contains(&i) { "M01*" } else { "" };
+        let _infallible = write!(text, "N{}*{stop}{piece}", i + 1);
+    }
+    text + "M0*\n"
+}
+
+fn job(policy: OrderPolicy) -> Job {
+    let mut job = Job::default();
+    job.profile.order.policy = policy;
+    job
+}
+
+fn read(text: &str, job: &Job) -> Marker {
+    let source = Source::new("lay.cut", text.as_bytes().to_vec()).expect("small");
+    let mut found = Diagnostics::default();
+    let input = pipeline::read(&source, None, job, &mut found);
+    assert!(!found.has_errors(), "{}", render(&found, &source));
+    input.expect("it is read").marker
+}
+
+fn compiled(text: &str, job: &Job) -> (Report, Vec<u8>) {
+    let source = Source::new("lay.cut", text.as_bytes().to_vec()).expect("small");
+    let target = TARGETS.iter().find(|target| target.name == "csv").expect("setpoints are a target");
+    let order = pipeline::Order { from: None, target, verify: true };
+    let (mut out, mut found) = (Cursor::new(Vec::new()), Diagnostics::default());
+    let compiled = pipeline::compile(&source, job, order, &mut out, &mut found).expect("memory takes everything");
+    let compiled = compiled.unwrap_or_else(|| panic!("{}", render(&found, &source)));
+    assert!(compiled.verdict.is_some_and(|verdict| verdict.passes()));
+    (compiled.report, out.into_inner())
+}
+
+fn extent(marker: &Marker, piece: usize) -> Extent {
+    Extent::of(&marker.points(marker.pieces[piece].contours.last().expect("each has one")))
+}
+
+/// What is cut, whatever the order: of each piece its number, slits and lines, without where these start.
+fn contents(marker: &Marker) -> BTreeMap<u32, BTreeSet<String>> {
+    let of_piece = |i: usize| {
+        let piece = &marker.pieces[i];
+        let slits = piece.notches.iter().map(|notch| format!("slit {:?} {:?}", notch.root, notch.tip));
+        let lines = piece.contours.iter().flat_map(|contour| marker.list.walk(contour.range));
+        let lines = lines.map(|(_, segment)| format!("line {:?} {:?} {:?}", segment.from, segment.to, segment.span));
+        slits.chain(lines).collect()
+    };
+    (0..marker.pieces.len()).map(|i| (marker.pieces[i].number, of_piece(i))).collect()
+}
+
+#[test]
+fn an_order_leaves_every_piece_whole_and_what_lies_in_a_part_before_it() {
+    for seed in 0..40 {
+        let text = lay(seed, 30);
+        let file = read(&text, &job(OrderPolicy::File));
+        for policy in [OrderPolicy::Fastest, OrderPolicy::Steady] {
+            let job = job(policy);
+            let marker = read(&text, &job);
+            assert_eq!(contents(&marker), contents(&file), "seed {seed}");
+            let extents: Vec<Extent> = (0..marker.pieces.len()).map(|piece| extent(&marker, piece)).collect();
+            for (i, inner) in extents.iter().enumerate() {
+                let is_held = |outer: &Extent| holds(outer, inner);
+                let early = extents[..i].iter().any(|outer| is_held(outer) && outer != inner);
+                // Where something is asked between the two the file's order stands.
+                assert!(!early || file_has_it_so(&file, &marker, i), "seed {seed}: piece {}", marker.pieces[i].number);
+            }
+            // What is asked is asked between the same pieces.
+            let asked = |marker: &Marker| {
+                let mut groups = vec![BTreeSet::new()];
+                for piece in &marker.pieces {
+                    if !piece.events.is_empty() {
+                        groups.push(BTreeSet::new());
+                    }
+                    groups.last_mut().expect("there is one").insert(piece.number);
+                }
+                groups
+            };
+            assert_eq!(asked(&marker), asked(&file), "seed {seed}");
+            if policy == OrderPolicy::Steady {
+                let mut front = f64::NEG_INFINITY;
+                for (piece, extent) in marker.pieces.iter().zip(&extents) {
+                    if !piece.events.is_empty() {
+                        front = f64::NEG_INFINITY;
+                    }
+                    assert!(extent.min.x >= front - job.profile.order.window_mm, "seed {seed}: {}", piece.number);
+                    front = front.max(extent.min.x);
+                }
+            }
+        }
+    }
+}
+
+fn holds(outer: &Extent, inner: &Extent) -> bool {
+    let mut both = *outer;
+    both.join(inner);
+    both == *outer
+}
+
+/// Whether a piece lies in one that the file has in an earlier group.
+fn file_has_it_so(file: &Marker, marker: &Marker, inner: usize) -> bool {
+    let group = |number: u32| {
+        let at = file.pieces.iter().position(|piece| piece.number == number).expect("it is there");
+        file.pieces[..=at].iter().filter(|piece| !piece.events.is_empty()).count()
+    };
+    let own = extent(marker, inner);
+    let holders = (0..inner).filter(|&outer| {
+        let outer = extent(marker, outer);
+        holds(&outer, &own) && outer != own
+    });
+    let mut holders = holders.map(|outer| marker.pieces[outer].number);
+    holders.all(|outer| group(outer) < group(marker.pieces[inner].number))
+}
+
+#[test]
+fn an_order_for_the_shortest_travel_is_sound_saves_half_of_it_and_is_always_the_same() {
+    let text = lay(7, 30).replace("M01*", "");
+    let (file, _) = compiled(&text, &job(OrderPolicy::File));
+    let travel = |report: &Report| report.program.travel_m.expect("it is planned");
+    for policy in [OrderPolicy::Fastest, OrderPolicy::Steady] {
+        let (report, program) = compiled(&text, &job(policy));
+        assert!(travel(&report) < 0.5 * travel(&file), "{policy:?}: {} m", travel(&report));
+        assert!((report.cut_m - file.cut_m).abs() < 1e-9);
+        assert!(report.time_s() < file.time_s());
+        assert!(compiled(&text, &job(policy)).1 == program, "the same bytes");
+    }
+}
