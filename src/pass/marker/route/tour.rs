@@ -307,3 +307,90 @@ fn joining(i: usize, j: usize) -> [Option<Change>; 2 * MOST_MOVED + 2] {
     }
     changes
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Point;
+    use fastrand::Rng;
+
+    fn points(rng: &mut Rng, count: usize) -> Vec<Point> {
+        (0..count).map(|_| Point::new(rng.f64() * 1000.0, rng.f64() * 1000.0)).collect()
+    }
+
+    /// Distance between points; from the corner of the table to the first.
+    fn distance(points: &[Point]) -> impl Fn(usize, usize) -> f64 {
+        |from, to| (points[to] - if from == START { Point::origin() } else { points[from] }).norm()
+    }
+
+    fn length(order: &[usize], time: &dyn Fn(usize, usize) -> f64) -> f64 {
+        let from = std::iter::once(START).chain(order.iter().copied());
+        from.zip(order).map(|(from, &to)| time(from, to)).sum()
+    }
+
+    /// The tour over points from the order in which they are given.
+    fn toured(points: &[Point], before: &[Vec<u32>], window: Option<f64>) -> Vec<usize> {
+        let count = points.len();
+        let near: Vec<Vec<u32>> = (0..count)
+            .map(|i| {
+                let mut others: Vec<usize> = (0..count).filter(|&k| k != i).collect();
+                others.sort_by(|&a, &b| (points[a] - points[i]).norm().total_cmp(&(points[b] - points[i]).norm()));
+                others.into_iter().take(10).map(|k| k as u32).collect()
+            })
+            .collect();
+        let along: Vec<f64> = points.iter().map(|point| point.x).collect();
+        let mut order: Vec<usize> = (0..count).collect();
+        if window.is_some() {
+            order.sort_by(|&a, &b| along[a].total_cmp(&along[b]));
+        }
+        let time = distance(points);
+        improve(&mut order, &Ways { time: &time, near: &near, before, along: &along, window }, true);
+        order
+    }
+
+    fn shortest(left: &mut Vec<usize>, from: usize, time: &dyn Fn(usize, usize) -> f64) -> f64 {
+        if left.is_empty() {
+            return 0.0;
+        }
+        let mut least = f64::INFINITY;
+        for i in 0..left.len() {
+            let next = left.remove(i);
+            least = least.min(time(from, next) + shortest(left, next, time));
+            left.insert(i, next);
+        }
+        least
+    }
+
+    #[test]
+    fn tours_of_a_few_points_are_the_shortest_there_are() {
+        for seed in 0..15 {
+            let points = points(&mut Rng::with_seed(seed), 8);
+            let time = distance(&points);
+            let order = toured(&points, &vec![Vec::new(); 8], None);
+            let least = shortest(&mut (0..8).collect(), START, &time);
+            assert!(length(&order, &time) <= 1.001 * least, "seed {seed}: {} {least}", length(&order, &time));
+        }
+    }
+
+    #[test]
+    fn every_visit_is_made_once_and_no_rule_is_broken() {
+        for seed in 0..4 {
+            let mut rng = Rng::with_seed(seed);
+            let points = points(&mut rng, 120);
+            // Each third one waits for the one in front of it.
+            let before: Vec<Vec<u32>> = (0..120).map(|i| if i % 3 == 2 { vec![i - 1] } else { Vec::new() }).collect();
+            let order = toured(&points, &before, None);
+            let place = |visit: usize| order.iter().position(|&other| other == visit).expect("it is made");
+            assert!((0..120).all(|i| before[i].iter().all(|&other| place(other as usize) < place(i))), "seed {seed}");
+            let order = toured(&points, &vec![Vec::new(); 120], Some(150.0));
+            let mut front = f64::NEG_INFINITY;
+            for &visit in &order {
+                assert!(points[visit].x >= front - 150.0, "seed {seed}");
+                front = front.max(points[visit].x);
+            }
+            let mut sorted = order;
+            sorted.sort_unstable();
+            assert_eq!(sorted, (0..120).collect::<Vec<_>>());
+        }
+    }
+}
