@@ -31,10 +31,12 @@ pub(super) struct Mark {
     pub(super) bar: Option<usize>,
 }
 
-/// A stroke that may be a notch, by its shape: one line, or a leg of two that meet at its tip.
+/// A stroke that may be a notch, by its shape: one line, or one of two legs.
 struct Candidate {
     line: usize,
     leg: usize,
+    /// Whether the line has another.
+    is_leg: bool,
     ends: [Point; 2],
     /// The outlines that each end stands on, with the distance.
     on: [ArrayVec<(f64, usize), MEETING>; 2],
@@ -51,25 +53,36 @@ pub(super) struct Search<'a> {
     pub(super) outlines: &'a [usize],
 }
 
-/// The strokes of a line that may be notches, each with its place in the line.
-fn strokes(vertices: &[Vertex]) -> ArrayVec<(usize, [Point; 2]), 2> {
-    let is_notch = |[a, b]: [Point; 2]| (SHORTEST_NOTCH..=LONGEST_NOTCH).contains(&(b - a).norm());
-    let mut strokes = ArrayVec::new();
+/// A stroke of a line: the place that leads to its end, and both its ends.
+type Stroke = (usize, [Point; 2]);
+
+/// The stroke of a straight line that may be a notch.
+fn stroke(vertices: &[Vertex]) -> Option<Stroke> {
+    let first = vertices[0].at;
+    let far =
+        |(_, a): &(usize, &Vertex), (_, b): &(usize, &Vertex)| (a.at - first).norm().total_cmp(&(b.at - first).norm());
+    let (place, tip) = vertices.iter().enumerate().max_by(far).filter(|_| is_straight(vertices))?;
+    Some((place, [first, tip.at])).filter(|stroke| is_notch(stroke.1))
+}
+
+/// The legs of a line that may be notches: those of a V, which meet at its tip, and two slits that face each other across the
+/// common edge of two parts and were drawn or joined as one line.
+fn legs(vertices: &[Vertex]) -> Option<[Stroke; 2]> {
     let (first, last) = (vertices[0].at, vertices[vertices.len() - 1].at);
-    if is_straight(vertices) {
-        let far = |(_, a): &(usize, &Vertex), (_, b): &(usize, &Vertex)| {
-            (a.at - first).norm().total_cmp(&(b.at - first).norm())
-        };
-        if let Some((place, tip)) = vertices.iter().enumerate().max_by(far) {
-            strokes.push((place, [first, tip.at]));
+    let legs = match vertices {
+        [_, edge, _] if is_straight(vertices) => [(1, [edge.at, first]), (2, [edge.at, last])],
+        [_, edge, other, _] if is_straight(vertices) && (other.at - edge.at).norm() <= MOUTH => {
+            [(1, [edge.at, first]), (3, [other.at, last])]
         }
-    } else if let [_, tip, _] = vertices
-        && tip.span != vertices[2].span
-    {
         // The chords of an arc are no legs.
-        strokes.extend([(1, [first, tip.at]), (2, [last, tip.at])]);
-    }
-    if strokes.iter().all(|(_, ends)| is_notch(*ends)) { strokes } else { ArrayVec::new() }
+        [_, tip, end] if !is_straight(vertices) && tip.span != end.span => [(1, [first, tip.at]), (2, [last, tip.at])],
+        _ => return None,
+    };
+    legs.iter().all(|leg| is_notch(leg.1)).then_some(legs)
+}
+
+fn is_notch([a, b]: [Point; 2]) -> bool {
+    (SHORTEST_NOTCH..=LONGEST_NOTCH).contains(&(b - a).norm())
 }
 
 /// The notches among the open lines that were not taken for anything yet.
@@ -78,8 +91,11 @@ pub(super) fn on_outlines(search: Search, work: &mut Budget) -> Vec<Mark> {
     let open = (0..lines.len()).filter(|&i| !lines[i].is_closed && lines[i].is_open_question());
     let mut candidates: Vec<Candidate> = Vec::new();
     for line in open.filter(|&i| lines[i].length <= 4.0 * LONGEST_NOTCH) {
-        for (leg, ends) in strokes(lines[line].vertices(vertices)) {
-            candidates.push(Candidate { line, leg, ends, on: [ArrayVec::new(), ArrayVec::new()] });
+        let vertices = lines[line].vertices(vertices);
+        let whole = stroke(vertices).map(|stroke| (false, stroke));
+        let legs = legs(vertices).into_iter().flatten().map(|leg| (true, leg));
+        for (is_leg, (leg, ends)) in whole.into_iter().chain(legs) {
+            candidates.push(Candidate { line, leg, is_leg, ends, on: [ArrayVec::new(), ArrayVec::new()] });
         }
     }
     if candidates.is_empty() {
@@ -87,23 +103,20 @@ pub(super) fn on_outlines(search: Search, work: &mut Budget) -> Vec<Mark> {
     }
     let slack = ROUNDING * unit;
     meet(&mut candidates, search, MOUTH + slack, work);
-    let mut marks: Vec<Mark> =
-        candidates.iter().filter_map(|candidate| mark(candidate, search, TOUCH + slack, work)).collect();
+    let mut marks: Vec<(bool, Mark)> = Vec::new();
+    for candidate in &candidates {
+        // What is a notch as a whole has no legs.
+        let is_taken = marks.last().is_some_and(|(is_leg, mark)| mark.line == candidate.line && !is_leg);
+        if let Some(mark) = mark(candidate, search, TOUCH + slack, work).filter(|_| !is_taken) {
+            marks.push((candidate.is_leg, mark));
+        }
+    }
     // Of two legs both are cut or none is.
-    let is_leg = |mark: &Mark| {
-        lines[mark.line].end - lines[mark.line].first == 3 && !is_straight(lines[mark.line].vertices(vertices))
+    let is_kept = |k: usize, (is_leg, mark): &(bool, Mark)| {
+        let beside = [k.checked_sub(1), Some(k + 1)].into_iter().flatten().filter_map(|k| marks.get(k));
+        !is_leg || beside.filter(|(_, other)| other.line == mark.line).count() == 1
     };
-    let pairs: Vec<bool> = marks
-        .iter()
-        .enumerate()
-        .map(|(k, mark)| {
-            let beside = [k.checked_sub(1), Some(k + 1)].into_iter().flatten().filter_map(|k| marks.get(k));
-            !is_leg(mark) || beside.filter(|other| other.line == mark.line).count() == 1
-        })
-        .collect();
-    let mut keep = pairs.into_iter();
-    marks.retain(|_| keep.next().unwrap_or_default());
-    marks
+    marks.iter().enumerate().filter(|(k, mark)| is_kept(*k, mark)).map(|(_, mark)| mark.1).collect()
 }
 
 /// Finds the outlines that the ends of candidates stand on.
@@ -217,8 +230,9 @@ pub(super) fn from_edges(search: Search, work: &mut Budget) -> Vec<usize> {
         [all[0].at, all[all.len() - 1].at]
     };
     let long = (0..lines.len()).filter(|&i| is_long(&lines[i]));
-    let mut candidates: Vec<Candidate> =
-        long.map(|line| Candidate { line, leg: 0, ends: ends(line), on: [ArrayVec::new(), ArrayVec::new()] }).collect();
+    let mut candidates: Vec<Candidate> = long
+        .map(|line| Candidate { line, leg: 0, is_leg: false, ends: ends(line), on: [ArrayVec::new(), ArrayVec::new()] })
+        .collect();
     if !candidates.is_empty() {
         meet(&mut candidates, search, TOUCH + ROUNDING * unit, work);
     }

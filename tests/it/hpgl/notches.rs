@@ -98,6 +98,23 @@ fn a_mark_on_an_edge_of_two_parts_is_a_notch_of_the_one_that_it_leads_into() {
     }
 }
 
+/// Both start where the two edges meet, so that they are joined as strokes that continue each other.
+#[test]
+fn marks_that_face_each_other_on_an_edge_of_two_parts_are_a_notch_of_either() {
+    for gap in [-4, 0, 4] {
+        let parts = [rectangle(0, 0, 8000, 4000), rectangle(0, 4000 + gap, 8000, 4000)].concat();
+        let own = 4000 + gap;
+        for marks in [
+            format!("PU3000,4000;PD3000,3760;PU3000,{own};PD3000,4240;"),
+            format!("PU3000,3760;PD3000,4000;PU3000,4240;PD3000,{own};"),
+            "PU3000,3760;PD3000,4000,3000,4240;".to_owned(),
+        ] {
+            let found = slits(&format!("{parts}{marks}"), &Job::default());
+            assert_eq!(found.iter().map(Vec::len).collect::<Vec<_>>(), [1, 1], "{gap} {marks}");
+        }
+    }
+}
+
 #[test]
 fn an_outline_that_is_lifted_where_a_mark_starts_is_whole_and_has_the_notch() {
     let outline = "PU4000,4000;PD8000,4000;PU8000,4000;PD16000,4000,16000,16000,4000,16000,4000,4000;";
