@@ -8,7 +8,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::{self, Dialect, Read as Reader};
 use crate::ir::{Finding, Marker, check};
 use crate::machine::{Job, plot};
-use crate::pass::marker::{MARKER_PASSES, MarkerPass};
+use crate::pass::marker::{CUTTING_PASSES, MARKER_PASSES, MarkerPass};
 use crate::recognise;
 use crate::source::Source;
 use crate::verify::{Census, Works};
@@ -51,7 +51,7 @@ pub fn read(
     diagnostics: &mut Diagnostics,
 ) -> Option<Input> {
     let mut input = read_alone(source, from, job, diagnostics)?;
-    run_passes(marker_passes()[0], &mut input.marker, source, job, diagnostics);
+    run_passes(marker_passes().0, &mut input.marker, source, job, diagnostics);
     Some(input)
 }
 
@@ -64,7 +64,7 @@ pub fn read_to_judge(
 ) -> Option<Judged> {
     let mut input = read_alone(source, from, job, diagnostics)?;
     let (census, works) = rayon::join(|| Census::of(&input.marker), || Works::of(&input.marker));
-    run_passes(marker_passes()[0], &mut input.marker, source, job, diagnostics);
+    run_passes(marker_passes().0, &mut input.marker, source, job, diagnostics);
     let kept = works.kept(&input.marker, &job.profile);
     Some(Judged { input, reading: Reading { census, kept } })
 }
@@ -101,15 +101,14 @@ pub fn marker_of(dialect: &Dialect, source: &Source, job: &Job, diagnostics: &mu
     }
 }
 
-/// The passes that say what is drawn, and the one that makes cuts of it: only programs need these.
-fn marker_passes() -> [&'static [MarkerPass]; 2] {
-    let (last, first) = MARKER_PASSES.split_last().expect("there are passes");
-    [first, std::slice::from_ref(last)]
+/// The passes that say what is drawn, and those that say how it is cut.
+fn marker_passes() -> (&'static [MarkerPass], &'static [MarkerPass]) {
+    MARKER_PASSES.split_at(MARKER_PASSES.len() - CUTTING_PASSES)
 }
 
 /// Makes the cuts of what was read.
 pub fn make_cuts(input: &mut Input, source: &Source, job: &Job, diagnostics: &mut Diagnostics) {
-    run_passes(marker_passes()[1], &mut input.marker, source, job, diagnostics);
+    run_passes(marker_passes().1, &mut input.marker, source, job, diagnostics);
 }
 
 /// Runs marker passes. What they find is placed before a pass can take it away.

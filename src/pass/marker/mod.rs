@@ -35,3 +35,6 @@ pub const MARKER_PASSES: &[MarkerPass] = &[
     near::PASS,
     cut::PASS,
 ];
+
+/// How many of the last passes say how the knife cuts what is drawn: only programs need these.
+pub const CUTTING_PASSES: usize = 2;

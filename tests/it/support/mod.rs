@@ -6,7 +6,7 @@ use cutc::ir::list::{Joint, Segment};
 use cutc::ir::marker::{Contour, Marker, Piece};
 use cutc::ir::toolpath::{Run, Step, Toolpath};
 use cutc::machine::Job;
-use cutc::pass::marker::MARKER_PASSES;
+use cutc::pass::marker::{CUTTING_PASSES, MARKER_PASSES};
 use cutc::pass::toolpath::{Scene, TOOLPATH_PASSES, trace};
 use cutc::plan;
 use cutc::source::Span;
@@ -38,7 +38,7 @@ pub(crate) fn with_cuts(marker: &Marker, job: &Job) -> Marker {
     if !marker.cuts.is_empty() {
         return marker;
     }
-    for pass in MARKER_PASSES.iter().filter(|pass| ["near", "cut"].contains(&pass.name)) {
+    for pass in &MARKER_PASSES[MARKER_PASSES.len() - CUTTING_PASSES..] {
         (pass.run)(&mut marker, job, &mut Diagnostics::default());
     }
     marker
