@@ -3,7 +3,7 @@
 use crate::support::room::Room;
 
 /// An outline in tenths of a millimetre, the settings it was refused with, and why.
-const OUTLINES: [(&str, &str, &str); 5] = [
+const OUTLINES: [(&str, &str, &str); 6] = [
     (
         "a corner is smoothed right behind the plunged tip, which took the blade off its line",
         "--set knife.width_mm=6 --set knife.back_mm=4",
@@ -49,6 +49,13 @@ const OUTLINES: [(&str, &str, &str); 5] = [
          30Y339*X312Y336*X296Y332*X281Y328*X266Y324*X253Y320*X242Y316*X232Y311*X223Y306*X215Y301*X209Y296\
          *X205Y291*X202Y286*X200Y280*X200Y275*X202Y270*X205Y265*X209Y260*X215Y254*X223Y250*X232Y245*X242Y\
          240*M15*M0*",
+    ),
+    (
+        "the last plunge of the bottom of a notch cuts nothing that the one before does not",
+        "--set knife.width_mm=3 --set knife.back_mm=1.5",
+        "H1*G91*N1*M15*M15*X2473Y3056*M14*X2107Y2980*X2110Y2969*X2110Y2966*X2109Y2963*X2106Y2961*X2104Y29\
+         59*X2100Y2959*X2098Y2961*X2095Y2963*X2094Y2966*X2092Y2977*X1551Y2864*X1600Y2300*X2476Y2300*X2473\
+         Y3056*M15*M0*",
     ),
 ];
 

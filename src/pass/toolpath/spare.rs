@@ -10,9 +10,12 @@ use crate::ir::toolpath::{PlungeCut, Shape, Side, Step};
 pub(super) fn leave_out(steps: &mut Vec<Step>, around: &Surroundings) {
     let is_spare = |steps: &[Step], i: usize| {
         let [Step::PlungeCut(before), Step::PlungeCut(cut), behind] = &steps[i - 1..=i + 1] else { return false };
-        let Some(behind) = Blade::at_start(behind, around) else { return false };
-        cut.ends.iter().all(|end| end.side == Side::Contour)
-            && are_over(&[Blade::of(before, around), behind], cut, around)
+        let before = Blade::of(before, around);
+        let is_cut = || {
+            let behind = Blade::at_start(behind, around);
+            is_over(&before, cut, around) || behind.is_some_and(|behind| are_over(&[before, behind], cut, around))
+        };
+        cut.ends.iter().all(|end| end.side == Side::Contour) && is_cut()
     };
     let mut i = 1;
     while i + 1 < steps.len() {
@@ -49,10 +52,17 @@ impl Blade {
     }
 }
 
-/// Whether two blades together lie over all of the stretch of another.
+/// Whether a blade lies over all of the stretch of another, which would then cut nothing that is not cut already.
+fn is_over(blade: &Blade, cut: &PlungeCut, around: &Surroundings) -> bool {
+    let beside = around.tolerance;
+    cut.points.windows(2).all(|ends| under(blade, [ends[0], ends[1]], beside, around) == Some([0.0, 1.0]))
+}
+
+/// Whether two blades together surely lie over all of the stretch of another.
 fn are_over(blades: &[Blade; 2], cut: &PlungeCut, around: &Surroundings) -> bool {
+    let beside = PASSING_SHARE * around.tolerance;
     cut.points.windows(2).all(|ends| {
-        let [a, b] = blades.each_ref().map(|blade| under(blade, [ends[0], ends[1]], around));
+        let [a, b] = blades.each_ref().map(|blade| under(blade, [ends[0], ends[1]], beside, around));
         match (a, b) {
             (Some([0.0, to]), Some([from, 1.0])) | (Some([from, 1.0]), Some([0.0, to])) => to >= from,
             (Some(all), _) | (_, Some(all)) => all == [0.0, 1.0],
@@ -61,11 +71,15 @@ fn are_over(blades: &[Blade; 2], cut: &PlungeCut, around: &Surroundings) -> bool
     })
 }
 
-/// The part of a segment, from 0 at its start to 1 at its end, that lies no farther beside a blade than that may pass it.
-fn under(&Blade { tip, along }: &Blade, [from, to]: [Point; 2], around: &Surroundings) -> Option<[f64; 2]> {
+/// The part of a segment, from 0 at its start to 1 at its end, that lies no farther beside a blade than so many mm.
+fn under(
+    &Blade { tip, along }: &Blade,
+    [from, to]: [Point; 2],
+    beside: f64,
+    around: &Surroundings,
+) -> Option<[f64; 2]> {
     let knife = around.knife;
     let [a, b] = [from, to].map(|point| [cross(along, point - tip), along.dot(&(point - tip))]);
-    let beside = PASSING_SHARE * around.tolerance;
     let ranges = [[-beside, beside], [-knife.width_mm, 0.0]];
     (0..2).try_fold([0.0_f64, 1.0_f64], |[low, high], k| {
         let [from, to] = between(a[k], b[k], ranges[k])?;

@@ -138,7 +138,7 @@ impl Sharing<'_> {
         if own.mouths().is_empty() {
             return cuts;
         }
-        let legs = own.mouths().iter().map(|mouth| self.leads.led_legs(ring, &mouth.legs));
+        let legs = own.mouths().iter().map(|mouth| self.leads.led_legs(ring, mouth));
         let whole = || vec![own.segments().to_vec()];
         Some(legs.chain(cuts.unwrap_or_else(whole)).collect())
     }

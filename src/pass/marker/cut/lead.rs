@@ -6,7 +6,7 @@
 use std::collections::HashMap;
 
 use super::facing::{Facing, Segments};
-use super::ring::{Ring, crossing};
+use super::ring::{Mouth, Ring, crossing};
 use super::stretch::{Asked, Shared};
 use crate::geom::{Extent, Point, Vector, left, polyline};
 use crate::ir::list::Segment;
@@ -103,7 +103,7 @@ impl<'a> Leads<'a> {
         if let Some((_, end)) = ways.max_by(|a, b| a.0.total_cmp(&b.0)) {
             return Some(end);
         }
-        let way = self.straight_on(ring, at, along, to.not)?;
+        let way = self.straight_on(ring, at, along, |other| to.not.is_none() || other != to.not)?;
         Some(if way > LEAST { at + along * way } else { at })
     }
 
@@ -140,13 +140,20 @@ impl<'a> Leads<'a> {
         })
     }
 
-    /// How far a way from a place goes straight on until it is through a cut of this ring's forerunners, mm.
-    fn straight_on(&self, before: usize, at: Point, along: Vector, not: Option<usize>) -> Option<f64> {
+    /// How far a way from a place goes straight on until it is through a cut of this ring's forerunners that is meant, by its
+    /// ring, mm.
+    fn straight_on(
+        &self,
+        before: usize,
+        at: Point,
+        along: Vector,
+        is_meant: impl Fn(Option<usize>) -> bool,
+    ) -> Option<f64> {
         let Asked { near, beyond, .. } = self.asked;
         let reach = (near.distance + beyond) / LEAST_SINE;
         let ends = [at - along * near.distance, at + along * reach];
         let cuts = self.cut_near(before, Extent::between(ends[0], ends[1]).grown(beyond));
-        let others = cuts.iter().filter(|(ring, _)| not.is_none() || *ring != not);
+        let others = cuts.iter().filter(|(ring, _)| is_meant(*ring));
         let crossings = others.filter_map(|&(ring, ends)| {
             let (ahead, sine) = crossing(at, along, ends, -near.distance)?;
             let there = at + along * ahead;
@@ -257,19 +264,23 @@ impl<'a> Leads<'a> {
         false
     }
 
-    /// The legs of a notch, at either end led on through the edge that is cut over its mouth.
-    pub(super) fn led_legs(&self, ring: usize, legs: &[Segment]) -> Vec<Segment> {
+    /// The legs of a notch, at either end led on through the edge that is cut over its mouth: its own, or the one that is cut
+    /// in place of that.
+    pub(super) fn led_legs(&self, ring: usize, Mouth { segment, legs }: &Mouth) -> Vec<Segment> {
         let mut led = legs.to_vec();
         let [Some(&first), Some(&last)] = [legs.first(), legs.last()] else { return led };
-        let on = |from: Point, to: Point| {
+        let own = &self.rings[ring];
+        let [start, end] = [own.station(*segment), own.station(*segment) + own.segments()[*segment].length()];
+        let on = |from: Point, to: Point, ends: [f64; 2]| {
             let along = polyline::direction(from, to)?;
-            let way = self.straight_on(ring + 1, to, along, None)?;
+            let is_own = self.is_cut(ring, ends);
+            let way = self.straight_on(ring + 1, to, along, |other| !is_own || other == Some(ring))?;
             (way > LEAST).then(|| to + along * way)
         };
-        if let Some(start) = on(first.to, first.from) {
+        if let Some(start) = on(first.to, first.from, [start, start + 2.0 * LEAST]) {
             led[0].from = start;
         }
-        if let Some(end) = on(last.from, last.to) {
+        if let Some(end) = on(last.from, last.to, [end - 2.0 * LEAST, end]) {
             led[legs.len() - 1].to = end;
         }
         led
@@ -292,7 +303,7 @@ impl<'a> Leads<'a> {
             return None;
         }
         let along = polyline::direction(tip, root)?;
-        let way = self.straight_on(ring, root, along, None)?;
+        let way = self.straight_on(ring, root, along, |_| true)?;
         (way > LEAST).then(|| root + along * way)
     }
 }
@@ -303,4 +314,44 @@ fn without(whole: [f64; 2], gone: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2
         let parts = left.iter().flat_map(|&[low, high]| [[low, high.min(from)], [low.max(to), high]]);
         parts.filter(|[low, high]| low < high).collect()
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::facing::Near;
+    use super::*;
+    use crate::ir::list::Joint;
+    use crate::source::Span;
+
+    fn segment(from: [f64; 2], to: [f64; 2]) -> Segment {
+        let [from, to] = [from, to].map(|[x, y]| Point::new(x, y));
+        Segment { from, to, span: Span::default(), joint: Joint::default(), percent: 100 }
+    }
+
+    fn ring(piece: usize, corners: &[[f64; 2]], mouths: Vec<Mouth>) -> Ring {
+        let sides = corners.iter().zip(corners.iter().cycle().skip(1));
+        Ring::new([piece, piece], true, sides.map(|(&from, &to)| segment(from, to)).collect(), mouths)
+    }
+
+    /// Both legs cross the other's edge a little before they end: enough only where that is cut in place of their own.
+    #[test]
+    fn a_notch_ends_at_its_own_edge_where_that_is_cut() {
+        let legs = vec![segment([4.0, 0.0], [5.0, 4.0]), segment([5.0, 4.0], [6.0, 0.0])];
+        let corners = [[0.0, 0.0], [4.0, 0.0], [6.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]];
+        let own = ring(1, &corners, vec![Mouth { segment: 1, legs: legs.clone() }]);
+        let before = ring(0, &[[0.0, -9.0], [10.0, -9.0], [10.0, 0.17], [0.0, 0.17]], Vec::new());
+        let rings = [before, own];
+        let segments = Segments::new(&rings);
+        let near = Near { distance: 0.2, slack: 0.0 };
+        let asked = Asked { near, min: 5.0, beyond: 0.01, width: 3.0 };
+        let mut leads = Leads::new(&rings, &segments, asked);
+        let ends = |leads: &Leads| {
+            let led = leads.led_legs(1, &rings[1].mouths()[0]);
+            [led[0].from.y, led[1].to.y]
+        };
+        assert!(ends(&leads).iter().all(|y| (-0.02..-0.009).contains(y)), "{:?}", ends(&leads));
+        // Where the other's is cut in its place they have crossed that already.
+        leads.spared[1].push([0.0, 10.0]);
+        assert_eq!(ends(&leads), [0.0; 2]);
+    }
 }
