@@ -267,7 +267,7 @@ impl<'a> Leads<'a> {
     /// The legs of a notch, at either end led on through the edge that is cut over its mouth: its own, or the one that is cut
     /// in place of that.
     pub(super) fn led_legs(&self, ring: usize, Mouth { segment, legs }: &Mouth) -> Vec<Segment> {
-        let mut led = legs.to_vec();
+        let mut led = legs.clone();
         let [Some(&first), Some(&last)] = [legs.first(), legs.last()] else { return led };
         let own = &self.rings[ring];
         let [start, end] = [own.station(*segment), own.station(*segment) + own.segments()[*segment].length()];
