@@ -161,6 +161,6 @@ pub(super) fn simulate(
     findings.push(done.coverage.finding(judge.common, profile));
     findings.push(done.joints.finding(coverage::limit(profile)));
     findings.push(judge.common.finding());
-    findings.push(done.order.finding(profile.time.period()));
+    findings.extend(done.order.findings(judge.held, profile.time.period()));
     (findings, uncut)
 }

@@ -2,16 +2,21 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
-use std::io::Cursor;
+use std::io::{BufReader, Cursor};
 
 use cutc::back::TARGETS;
 use cutc::diagnostic::{Diagnostics, render};
 use cutc::geom::Extent;
 use cutc::ir::Marker;
+use cutc::ir::marker::Piece;
 use cutc::machine::{Job, OrderPolicy};
 use cutc::pipeline::{self, Report};
 use cutc::source::Source;
+use cutc::verify::{self, Ground};
 use fastrand::Rng;
+
+use crate::support::program::setpoints;
+use crate::support::with_cuts;
 
 /// Parts in a row of the lay.
 const ROW: usize = 5;
@@ -179,4 +184,40 @@ fn an_order_for_the_shortest_travel_is_sound_saves_half_of_it_and_is_always_the_
         assert!(report.time_s() < file.time_s());
         assert!(compiled(&text, &job(policy)).1 == program, "the same bytes");
     }
+}
+
+/// A pass that orders wrongly is found by the drawing: the order of the marker is no excuse.
+#[test]
+fn what_lies_in_a_part_is_cut_before_that_whatever_the_marker_says() {
+    // A part with a cut-out, a slit and a hole; its cut-out is a piece of its own in the second file.
+    let outline = "X0Y0*M14*X1000Y0*X1000Y800*X0Y800*X0Y0*M15*";
+    let cut_out = "X400Y300*M14*X600Y300*X600Y500*X400Y300*M15*";
+    let neighbour = "N9*X1500Y0*M14*X2500Y0*X2500Y800*X1500Y0*M15*";
+    let part = format!("H1*G71*M15*N1*X200Y600*M43*X500Y0*M14*X500Y60*M15*{cut_out}{outline}{neighbour}M0*");
+    let in_two = format!("H1*G71*M15*N1*{cut_out}N2*{outline}{neighbour}M0*");
+    let job = Job::default();
+    let freed = |marker: &Marker| {
+        let marker = with_cuts(marker, &job);
+        let program = setpoints(&marker, &job);
+        let ground = Ground::new(&marker, &job.profile);
+        let verdict = verify::setpoints(&mut BufReader::new(&program[..]), None, &ground, &job);
+        let value = |rule: &str| {
+            let finding = verdict.findings.iter().find(|finding| finding.rule == rule);
+            finding.expect("it is judged").worst
+        };
+        assert_eq!(value("verify/order"), 0.0, "{:#?}", verdict.findings);
+        value("verify/freed")
+    };
+    let change = |text: &str, change: &dyn Fn(&mut Vec<Piece>)| {
+        let mut marker = read(text, &job);
+        change(&mut marker.pieces);
+        marker
+    };
+    assert_eq!(freed(&read(&part, &job)), 0.0);
+    assert_eq!(freed(&read(&in_two, &job)), 0.0);
+    assert_eq!(freed(&change(&part, &|pieces| pieces[0].contours.reverse())), 1.0);
+    assert_eq!(freed(&change(&in_two, &|pieces| pieces.swap(0, 1))), 1.0);
+    assert_eq!(freed(&change(&in_two, &|pieces| pieces.swap(0, 2))), 1.0);
+    // What lies beside each other has no order.
+    assert_eq!(freed(&change(&in_two, &|pieces| pieces.rotate_right(1))), 0.0);
 }

@@ -23,6 +23,7 @@ use crate::verify::declared::Declared;
 use crate::verify::program::row::{Going, Rounding, Row, SAGITTA};
 use crate::verify::reference::common::Common;
 use crate::verify::reference::ground::Ground;
+use crate::verify::reference::held::Held;
 use crate::verify::reference::lines::Reference;
 use crate::verify::worst::Worst;
 
@@ -71,6 +72,8 @@ pub(in crate::verify) struct Judge<'a> {
     pub(in crate::verify) reference: &'a Reference<'a>,
     /// The edges that are cut with other parts.
     pub(in crate::verify) common: &'a Common,
+    /// What lies in parts.
+    pub(in crate::verify) held: &'a [Held],
     /// Rounding of the rows.
     pub(in crate::verify) rows_rounding: Rounding,
     profile: &'a MachineProfile,
@@ -97,7 +100,7 @@ pub(in crate::verify) struct Judge<'a> {
 impl<'a> Judge<'a> {
     /// Judges by what must be cut and what lies where a program whose rows are rounded.
     pub(in crate::verify) fn new(
-        Ground { reference, grid, inside, common }: &'a Ground<'a>,
+        Ground { reference, grid, inside, common, held }: &'a Ground<'a>,
         declared: Option<&'a Declared>,
         profile: &'a MachineProfile,
         rounding: Rounding,
@@ -120,6 +123,7 @@ impl<'a> Judge<'a> {
         Self {
             reference,
             common,
+            held,
             rows_rounding: rounding,
             profile,
             knife,

@@ -2,6 +2,7 @@
 
 use super::common::Common;
 use super::grid::Grid;
+use super::held::{Held, held};
 use super::inside::Inside;
 use super::lines::Reference;
 use crate::ir::Marker;
@@ -17,15 +18,18 @@ pub struct Ground<'a> {
     pub(in crate::verify) inside: Inside<'a>,
     /// The edges that are cut with other parts.
     pub(in crate::verify) common: Common,
+    /// What lies in parts.
+    pub(in crate::verify) held: Vec<Held>,
 }
 
 impl<'a> Ground<'a> {
     /// The ground of a marker.
     pub fn new(marker: &'a Marker, profile: &MachineProfile) -> Self {
         let reference = Reference::new(marker, profile);
-        let (grid, inside) = rayon::join(|| Grid::new(&reference), || Inside::new(marker));
+        let (grid, (inside, held)) =
+            rayon::join(|| Grid::new(&reference), || rayon::join(|| Inside::new(marker), || held(marker, &reference)));
         let distance = profile.common(marker.unit).unwrap_or(0.0);
         let common = Common::new(&reference.shared, &reference, &grid, distance);
-        Self { reference, grid, inside, common }
+        Self { reference, grid, inside, common, held }
     }
 }

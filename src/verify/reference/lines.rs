@@ -1,6 +1,7 @@
 //! What must be cut, as lines: the stretches of contours between corners, as `outline` finds them, and the slits.
 
 use std::borrow::Cow;
+use std::ops::Range;
 
 use rayon::prelude::*;
 
@@ -29,6 +30,8 @@ pub(in crate::verify) struct Reference<'a> {
     pub(in crate::verify) holes: Vec<usize>,
     /// Ranks of the events, in the order of the marker.
     pub(in crate::verify) events: Vec<usize>,
+    /// What is cut of each piece.
+    pub(in crate::verify) of_pieces: Vec<CutOfPiece>,
     /// The closed contours of the pieces of which not all is cut with them.
     pub(in crate::verify) shared: Vec<Around>,
     /// The open contours of these pieces: nothing stands for them.
@@ -37,6 +40,15 @@ pub(in crate::verify) struct Reference<'a> {
     pub(in crate::verify) tolerance: f64,
     /// How deep a place in a part may lie and still be at its edge, mm.
     pub(in crate::verify) band: f64,
+}
+
+/// What is cut of a piece.
+#[derive(Debug)]
+pub(in crate::verify) struct CutOfPiece {
+    /// Its slits among all lines.
+    pub(in crate::verify) slits: Range<usize>,
+    /// The ranks of what each of its contours is cut with, as far as it is cut with the piece.
+    pub(in crate::verify) contours: Vec<Range<u32>>,
 }
 
 impl<'a> Reference<'a> {
@@ -50,8 +62,9 @@ impl<'a> Reference<'a> {
         let mut first = 0;
         let mut first_cut = 0;
         let (mut shared, mut open) = (Vec::new(), Vec::new());
+        let mut cut_of_pieces = Vec::with_capacity(marker.pieces.len());
         for (piece, of_piece) in marker.pieces.iter().zip(of_pieces) {
-            let OfPiece { ranks, cuts, lines: mut of_piece, slits, mut rings, open: mut of_open } = of_piece;
+            let OfPiece { ranks, cuts, lines: mut of_piece, slits, contours, mut rings, open: mut of_open } = of_piece;
             events.extend((first..).take(piece.events.len()));
             holes.extend((first + piece.events.len()..).take(piece.drills.len()));
             for line in &mut of_piece {
@@ -61,6 +74,8 @@ impl<'a> Reference<'a> {
             rings.iter_mut().flatten().flat_map(|drawn| &mut drawn.cut).for_each(|cut| *cut += first_cut);
             let slits = lines.len()..lines.len() + slits;
             shared.extend(rings.into_iter().map(|stretches| Around { slits: slits.clone(), stretches }));
+            let contours = contours.into_iter().map(|ranks| ranks.start + small(first)..ranks.end + small(first));
+            cut_of_pieces.push(CutOfPiece { slits, contours: contours.collect() });
             open.append(&mut of_open);
             first_cut += cuts;
             lines.append(&mut of_piece);
@@ -72,6 +87,7 @@ impl<'a> Reference<'a> {
             lines,
             holes,
             events,
+            of_pieces: cut_of_pieces,
             shared,
             open,
             tolerance: profile.tolerance(marker.unit),
@@ -90,6 +106,8 @@ struct OfPiece<'a> {
     ranks: usize,
     /// How many cuts it has.
     cuts: u32,
+    /// The ranks of what each contour is cut with; none where all of it is cut with other pieces.
+    contours: Vec<Range<u32>>,
     /// Its closed contours, when not all of them is cut with it.
     rings: Vec<Vec<Drawn>>,
     /// Its open contours then.
@@ -135,8 +153,17 @@ impl<'a> OfPiece<'a> {
             lines.extend(outline.lines(place));
         }
         let (mut rings, mut open) = (Vec::new(), Vec::new());
+        // Those of what is cut of contours follow those of the slits.
+        let first = small(piece.events.len() + piece.drills.len());
+        let mut contours: Vec<Range<u32>> = Vec::new();
+        if drawn.is_empty() {
+            contours.extend((first + small(slits)..).take(piece.contours.len()).map(|rank| rank..rank + 1));
+        }
         for (is_closed, segments) in &drawn {
             let parted = shared::parted(segments, &lines[slits..]);
+            let cuts = parted.iter().filter_map(|stretch| stretch.cut);
+            let (least, most) = (cuts.clone().min().unwrap_or(0), cuts.max().map_or(0, |cut| cut + 1));
+            contours.push(first + least..first + most);
             if *is_closed { rings.push(parted) } else { open.extend(parted) }
         }
         for line in lines[slits..].iter_mut().filter(|_| !drawn.is_empty()) {
@@ -149,7 +176,7 @@ impl<'a> OfPiece<'a> {
                 line.tight = tight::stretches(line, &profile.knife).into();
             }
         }
-        Self { lines, slits, rings, open, ranks: rank(), cuts: cut() }
+        Self { lines, slits, contours, rings, open, ranks: rank(), cuts: cut() }
     }
 }
 

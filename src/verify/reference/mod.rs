@@ -8,6 +8,7 @@ pub(super) mod caps;
 pub(super) mod common;
 pub(super) mod grid;
 pub(super) mod ground;
+pub(super) mod held;
 pub(super) mod inside;
 pub(super) mod line;
 pub(super) mod lines;

@@ -1,5 +1,8 @@
-//! Whether events, holes, slits and contours come in the order of the marker.
+//! Whether events, holes, slits and contours come in the order of the marker, and what lies in a part before it comes free.
 
+use std::ops::Range;
+
+use super::held::Held;
 use super::line::Line;
 use crate::ir::Finding;
 use crate::ir::finding::Sighting;
@@ -58,9 +61,45 @@ impl<'a> Order<'a> {
         self.told.extend(told);
     }
 
-    /// How many come behind a later one, a tick being that long, s. Holes are known only when the program is over, so
-    /// all are brought into time first.
-    pub(in crate::verify) fn finding(mut self, period: f64) -> Finding {
+    /// How many come behind a later one, and how many in a part that is free, a tick being that long, s.
+    pub(in crate::verify) fn findings(self, held: &[Held], period: f64) -> [Finding; 2] {
+        let freed = self.freed(held, period);
+        [self.late(period), freed]
+    }
+
+    /// How many are cut or drilled in a part behind the last cut of its outline.
+    fn freed(&self, held: &[Held], period: f64) -> Finding {
+        let mut worst = Worst::new("verify/freed", "operations", Some(0.0));
+        let strokes = self.strokes.iter().map(|&Begun { tick, line }| {
+            let line = &self.lines[line as usize];
+            Seen { tick, rank: line.rank as usize, place: at(0.0, line.point(0), line.block(0)) }
+        });
+        // When the last of each rank begins.
+        let mut last: Vec<Option<Seen>> = Vec::new();
+        for seen in strokes.chain(self.told.iter().copied()) {
+            last.resize(last.len().max(seen.rank + 1), None);
+            if last[seen.rank].is_none_or(|known| known.tick <= seen.tick) {
+                last[seen.rank] = Some(seen);
+            }
+        }
+        let of_ranks = |ranks: &Range<u32>| {
+            let end = (ranks.end as usize).min(last.len());
+            let seen = last[(ranks.start as usize).min(end)..end].iter().flatten();
+            seen.max_by_key(|seen| seen.tick).copied()
+        };
+        let mut count = 0.0;
+        for Held { inner, outline } in held {
+            let (Some(inner), Some(outline)) = (of_ranks(inner), of_ranks(outline)) else { continue };
+            if inner.tick > outline.tick {
+                count += 1.0;
+                worst.see(count, || Sighting { time: Some(inner.tick as f64 * period), ..inner.place });
+            }
+        }
+        worst.finding()
+    }
+
+    /// How many come behind a later one. Holes are known only when the program is over, so all are brought into time first.
+    fn late(mut self, period: f64) -> Finding {
         let mut worst = Worst::new("verify/order", "operations", Some(0.0));
         let (mut greatest, mut late) = (0, 0.0);
         let mut see = |Seen { tick, rank, place }: Seen| {

@@ -1,9 +1,13 @@
 //! Damage to what rows say beside poses and outputs, and to the order of holes.
 
+use cutc::geom::ring;
+use cutc::ir::marker::{Contour, Piece};
+
 use crate::verifier::case::Case;
 use crate::verifier::harm::Harm;
 use crate::verifier::measure::{DAMAGING, SAME};
 use crate::verifier::rows::{Row, holes, pick, print, strokes, travels};
+use crate::verifier::sketch::edited;
 use crate::verifier::{Damage, damage};
 
 const BLOCK: &str = "verify/block";
@@ -100,6 +104,23 @@ pub(crate) const DAMAGES: &[Damage] = &[
         marker.pieces[last].drills.push(first);
         marker.pieces[0].drills = drills[1..].to_vec();
         (!holes(&case.rows).is_empty()).then(|| one(case.redrawn(&marker)))
+    }),
+    damage("slits of a part that is cut already", "verify/freed", |case, _| {
+        let last = case.marker.pieces.len().checked_sub(1).filter(|&last| last > 0)?;
+        let notch = *case.marker.pieces[0].notches.first()?;
+        Some(one(edited(case, |marker| {
+            marker.pieces[0].notches.remove(0);
+            marker.pieces[last].notches.push(notch);
+        })))
+    }),
+    damage("cut-outs of a part that is cut already", "verify/freed", |case, _| {
+        let points = |contour: &Contour| case.marker.points(contour);
+        let has_cut_out = |piece: &Piece| match &piece.contours[..] {
+            [inner, .., outline] => ring::contains(&points(outline), points(inner)[0]),
+            _ => false,
+        };
+        let piece = case.marker.pieces.iter().position(has_cut_out)?;
+        Some(one(edited(case, |marker| marker.pieces[piece].contours.reverse())))
     }),
 ];
 

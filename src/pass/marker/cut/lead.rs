@@ -318,9 +318,9 @@ fn without(whole: [f64; 2], gone: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2
 
 #[cfg(test)]
 mod tests {
-    use super::super::facing::Near;
     use super::*;
     use crate::ir::list::Joint;
+    use crate::pass::marker::cut::facing::Near;
     use crate::source::Span;
 
     fn segment(from: [f64; 2], to: [f64; 2]) -> Segment {
