@@ -4,6 +4,7 @@
 //! overlap, how far a blade may go before it enters a part, where it lies when it is plunged. Never edits, and is never
 //! asked by `verify`, which measures for itself.
 
+pub mod air;
 mod area;
 mod chord;
 pub mod cloth;

@@ -104,7 +104,7 @@ mod tests {
     use super::*;
     use crate::diagnostic::{Diagnostic, code};
 
-    const KEYS: [&str; 27] = [
+    const KEYS: [&str; 28] = [
         "dialect",
         "profile",
         "knife",
@@ -124,6 +124,7 @@ mod tests {
         "lifts",
         "time_s",
         "spent",
+        "savings",
         "axes",
         "warnings",
         "errors",

@@ -11,6 +11,7 @@ mod program;
 mod refused;
 mod report;
 mod rounded;
+mod savings;
 mod sound;
 mod spent;
 mod told;
@@ -22,6 +23,7 @@ pub use judge::{about, advice, figures, foreign, judge_program};
 pub use product::{Medium, Product};
 pub use report::{Axes, Common, Controller, Drawn, Lines, Notches, Peak, Peaks, Program, Report, Sides};
 pub use rounded::significant;
+pub use savings::Savings;
 pub use spent::{Spent, word};
 pub use told::{Explained, Line, Told};
 

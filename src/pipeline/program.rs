@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::product::Medium;
 use super::report::{Axes, Program, Sides};
+use super::savings::{CLEAR_SHARE, Savings};
 use super::sound::assert_sound;
 use super::spent::Clock;
 use super::toolpaths::{Toolpaths, Window};
@@ -160,21 +161,26 @@ pub(super) fn write(
         }
     }
     let (planner, tally) = (Planner::new(job), Tally::default());
+    let mut savings = None;
     let mut writer = Writer { sinks, context, planner, tally, declared: Vec::new(), refused };
     let (mut drawing, mut linking) = toolpaths.stages();
     let wanted = Wanted { job, marker: context.marker, cloth: linking.cloth(), motion, interpolations };
     // Each stage has a window of its own: no core waits for the slowest.
     let (mut drawn, mut linked, mut made) = (drawing.next(), None, None);
-    while drawn.is_some() || linked.is_some() || made.is_some() {
-        let before = (drawn.take(), linked.take(), made.take());
-        rayon::in_place_scope(|scope| {
-            scope.spawn(|_| made = before.1.map(|window| wanted.of(window)));
-            scope.spawn(|_| linked = before.0.map(|window| linking.link(window)));
-            scope.spawn(|_| drawn = drawing.next());
-            before.2.map_or(Ok(()), |made| writer.take(made, diagnostics))
-        })?;
-    }
-    writer.finish(wanted.motion, diagnostics)
+    rayon::in_place_scope(|beside| {
+        beside.spawn(|_| savings = wanted.motion.then(|| Savings::of(context.marker, job)));
+        while drawn.is_some() || linked.is_some() || made.is_some() {
+            let before = (drawn.take(), linked.take(), made.take());
+            rayon::in_place_scope(|scope| {
+                scope.spawn(|_| made = before.1.map(|window| wanted.of(window)));
+                scope.spawn(|_| linked = before.0.map(|window| linking.link(window)));
+                scope.spawn(|_| drawn = drawing.next());
+                before.2.map_or(Ok(()), |made| writer.take(made, diagnostics))
+            })?;
+        }
+        Ok::<(), io::Error>(())
+    })?;
+    writer.finish(savings, diagnostics)
 }
 
 /// Writes windows in order.
@@ -243,7 +249,8 @@ impl Writer<'_, '_, '_> {
         Ok(())
     }
 
-    fn finish(mut self, is_planned: bool, diagnostics: &mut Diagnostics) -> io::Result<Written> {
+    /// Ends the programs. What they could save is known where they were planned.
+    fn finish(mut self, savings: Option<Savings>, diagnostics: &mut Diagnostics) -> io::Result<Written> {
         for (first, cuts) in std::mem::take(&mut self.refused) {
             let Diagnostic { message, span, .. } = &first;
             let message = match span {
@@ -255,13 +262,13 @@ impl Writer<'_, '_, '_> {
             diagnostics.push(Diagnostic { message, ..first });
         }
         let mut written = Written { declared: std::mem::take(&mut self.declared), ..Written::default() };
-        if is_planned {
+        if let Some(savings) = savings {
             let end = self.planner.finish();
             self.motion(&end)?;
             if let Err(diagnostic) = self.planner.certify() {
                 diagnostics.push(diagnostic);
             }
-            written.program = self.tally.program(&self.planner, self.context.job);
+            written.program = self.tally.program(&self.planner, self.context.job, savings);
         }
         for Sink { form, out } in &mut *self.sinks {
             match form {
@@ -299,6 +306,9 @@ struct Tally {
     tangents: usize,
     lifts: usize,
     ticks: u64,
+    /// Ticks that moves could begin before the knife is all the way up, and those of the lift before.
+    clear: f64,
+    lifted: u32,
     sagitta: f64,
     sides: Sides,
     /// Where the time goes, in all and piece by piece.
@@ -361,12 +371,17 @@ impl Tally {
                 }
                 Kind::Cut | Kind::Rest | Kind::Wait | Kind::Drill(_) | Kind::Event(_) => {}
             }
+            if matches!(phase.kind, Kind::Travel | Kind::Turn) {
+                self.clear += f64::from(phase.ticks).min((1.0 - CLEAR_SHARE) * f64::from(self.lifted));
+            }
+            self.lifted = if phase.kind == Kind::Lift { phase.ticks } else { 0 };
             before = Some(phase.kind);
         }
     }
 
-    fn program(&self, planner: &Planner, job: &Job) -> Program {
+    fn program(&self, planner: &Planner, job: &Job, savings: Savings) -> Program {
         let period = job.profile.time.period();
+        let clear_s = job.profile.knife.clear_ms.is_none().then(|| self.clear * period);
         Program {
             travel_m: Some(self.travel / MM_PER_M),
             runs: Some(self.plunges),
@@ -384,6 +399,7 @@ impl Tally {
             time_s: Some((self.ticks - 1) as f64 * period),
             sides: Some(self.sides),
             spent: Some(self.clock.spent(period)),
+            savings: Some(Savings { clear_s, ..savings }),
             by_piece: self.by_piece.iter().map(|(piece, clock)| (*piece, clock.spent(period))).collect(),
             bulge_mm: Some(self.sagitta),
             axes: Some(Axes::new(&planner.peaks())),

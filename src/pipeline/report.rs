@@ -5,7 +5,8 @@
 
 use serde::{Serialize, Serializer};
 
-use super::rounded::{significant, to_millionths};
+use super::rounded::{micro, micro_known, significant, to_millionths};
+use super::savings::Savings;
 use super::spent::Spent;
 use crate::back::Estimate;
 use crate::geom::polyline;
@@ -263,6 +264,8 @@ pub struct Program {
     pub sides: Option<Sides>,
     /// Where that time goes.
     pub spent: Option<Spent>,
+    /// What it could save.
+    pub savings: Option<Savings>,
     /// The same for each piece by its number, in cut order.
     #[serde(skip)]
     pub by_piece: Vec<(u32, Spent)>,
@@ -374,16 +377,6 @@ impl Report {
 }
 
 // The signatures are those that serde calls.
-#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde hands fields over by reference")]
-fn micro<S: Serializer>(value: &f64, out: S) -> Result<S::Ok, S::Error> {
-    to_millionths(*value).serialize(out)
-}
-
-#[allow(clippy::ref_option, reason = "serde hands fields over by reference")]
-fn micro_known<S: Serializer>(value: &Option<f64>, out: S) -> Result<S::Ok, S::Error> {
-    value.map(to_millionths).serialize(out)
-}
-
 fn micro_pair<S: Serializer>(values: &[f64; 2], out: S) -> Result<S::Ok, S::Error> {
     values.map(to_millionths).serialize(out)
 }

@@ -1,5 +1,7 @@
 //! Figures as they are told: rounded far below what a machine resolves, without stray decimals.
 
+use serde::{Serialize, Serializer};
+
 /// Millionths that lengths and times are rounded to: micrometres of a metre, microseconds of a second.
 const MILLIONTHS: f64 = 1e6;
 /// The most decimals that [`significant`] keeps: what is smaller is noise of the computation.
@@ -19,6 +21,18 @@ pub fn significant(value: f64, digits: i32) -> f64 {
 /// Zero has no sign here: the sum of no lengths would have one.
 pub(super) fn to_millionths(value: f64) -> f64 {
     (value * MILLIONTHS).round() / MILLIONTHS + 0.0
+}
+
+/// Writes a figure so.
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde hands fields over by reference")]
+pub(super) fn micro<S: Serializer>(value: &f64, out: S) -> Result<S::Ok, S::Error> {
+    to_millionths(*value).serialize(out)
+}
+
+/// Writes one that may not be known so.
+#[allow(clippy::ref_option, reason = "serde hands fields over by reference")]
+pub(super) fn micro_known<S: Serializer>(value: &Option<f64>, out: S) -> Result<S::Ok, S::Error> {
+    value.map(to_millionths).serialize(out)
 }
 
 #[cfg(test)]

@@ -18,7 +18,7 @@ fn keys(value: &Value) -> Vec<&str> {
 }
 
 /// The keys of the figures as JSON, sorted.
-const FIGURES: [&str; 27] = [
+const FIGURES: [&str; 28] = [
     "axes",
     "closed_contours",
     "contours",
@@ -37,6 +37,7 @@ const FIGURES: [&str; 27] = [
     "pieces",
     "profile",
     "runs",
+    "savings",
     "sides",
     "spent",
     "stabs",

@@ -19,6 +19,7 @@ mod table;
 mod weld;
 
 pub use pass::MarkerPass;
+pub use route::saved_by;
 
 /// Every pass over the marker, in order.
 pub const MARKER_PASSES: &[MarkerPass] = &[

@@ -12,9 +12,10 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use self::tour::{START, Ways};
-use self::visit::{Air, Cuts, Stop, Visit};
+use self::visit::{Cuts, Measures, Visit};
 use super::order::holders;
 use super::pass::MarkerPass;
+use crate::analysis::air::{Air, Stop};
 use crate::analysis::nesting::Nesting;
 use crate::diagnostic::Diagnostics;
 use crate::geom::boxes::Boxes;
@@ -39,40 +40,112 @@ const MOST_KNOWN: usize = 1000;
 const ROUNDS: usize = 3;
 
 fn run(marker: &mut Marker, job: &Job, _: &mut Diagnostics) {
-    if job.profile.order.policy == OrderPolicy::File {
+    let policy = job.profile.order.policy;
+    if policy == OrderPolicy::File {
         return;
     }
-    let nesting = Nesting::of(marker);
-    let held: Vec<Vec<usize>> = (0..marker.pieces.len()).map(|piece| holders(piece, &nesting)).collect();
-    let routing = Routing { job, air: Air::new(job), unit: marker.unit, held };
+    let routing = Routing::of(marker, job, policy);
     let Marker { pieces, list, .. } = marker;
-    let mut home = Stop::home(Point::new(job.profile.home[0], job.profile.home[1]));
-    // Where something is asked of the operator, that is asked between the same pieces.
+    let mut home = routing.home();
+    for block in blocks(pieces) {
+        let route = routing.route(block.clone(), pieces, list, home);
+        home = route.end;
+        route.apply(&mut pieces[block], list);
+    }
+}
+
+/// The time of moves with the knife up that an order by a policy would save, s, as far as it is longer now.
+pub fn saved_by(policy: OrderPolicy, marker: &Marker, job: &Job) -> f64 {
+    let routing = Routing::of(marker, job, policy);
+    let (mut now, mut then) = (routing.home(), routing.home());
+    let mut saved = 0.0;
+    for block in blocks(&marker.pieces) {
+        let as_is = routing.as_is(block.clone(), &marker.pieces, &marker.list, now);
+        let route = routing.route(block, &marker.pieces, &marker.list, then);
+        (now, then) = (as_is.end, route.end);
+        saved += as_is.time - route.time;
+    }
+    saved.max(0.0)
+}
+
+/// The pieces in blocks among which nothing is asked of the operator: that is asked between the same ones.
+fn blocks(pieces: &[Piece]) -> Vec<Range<usize>> {
     let asked = (1..pieces.len()).filter(|&i| !pieces[i].events.is_empty());
     let ends: Vec<usize> = asked.chain([pieces.len()]).collect();
-    let mut first = 0;
-    for end in ends {
-        home = routing.block(first..end, pieces, list, home);
-        first = end;
-    }
+    std::iter::once(0).chain(ends.iter().copied()).zip(ends.iter().copied()).map(|(first, end)| first..end).collect()
 }
 
 /// What routes go by.
 struct Routing<'a> {
     job: &'a Job,
-    air: Air,
-    unit: f64,
+    policy: OrderPolicy,
+    measures: Measures,
     /// For each piece those within whose outlines it lies.
     held: Vec<Vec<usize>>,
 }
 
-impl Routing<'_> {
-    /// Orders some pieces among which nothing is asked; gives where the knife comes up behind the last.
-    fn block(&self, block: Range<usize>, pieces: &mut [Piece], list: &mut SegmentList, home: Stop) -> Stop {
-        let of = |piece: &Piece| Cuts::of(piece, list, self.job, self.unit);
+/// The order of the pieces of a block.
+struct Route {
+    /// Places in the block, each with how it is visited; none where nothing is cut.
+    sequence: Vec<(usize, Option<Visit>)>,
+    /// Time of the moves with the knife up, s.
+    time: f64,
+    /// Where the knife comes up in the end.
+    end: Stop,
+}
+
+impl Route {
+    /// Puts the pieces of the block in its order.
+    fn apply(self, pieces: &mut [Piece], list: &mut SegmentList) {
+        let events = pieces.first_mut().map(|first| std::mem::take(&mut first.events)).unwrap_or_default();
+        let mut taken: Vec<Option<Piece>> = pieces.iter_mut().map(|piece| Some(std::mem::take(piece))).collect();
+        for (slot, (i, visit)) in pieces.iter_mut().zip(self.sequence) {
+            *slot = taken[i].take().expect("each piece comes once");
+            if let Some(visit) = visit {
+                apply(&visit, slot, list);
+            }
+        }
+        if let Some(first) = pieces.first_mut() {
+            first.events = events;
+        }
+    }
+}
+
+impl<'a> Routing<'a> {
+    fn of(marker: &Marker, job: &'a Job, policy: OrderPolicy) -> Self {
+        let nesting = Nesting::of(marker);
+        let held = (0..marker.pieces.len()).map(|piece| holders(piece, &nesting)).collect();
+        let measures = Measures { air: Air::new(job), corner: job.profile.corner.angle(), unit: marker.unit };
+        Self { job, policy, measures, held }
+    }
+
+    /// Where the axes stand before the program, whatever the blade does there.
+    fn home(&self) -> Stop {
+        let [x, y, _] = self.job.profile.home;
+        Stop::anyhow(Point::new(x, y))
+    }
+
+    /// The pieces of a block as they are.
+    fn as_is(&self, block: Range<usize>, pieces: &[Piece], list: &SegmentList, home: Stop) -> Route {
+        let (mut time, mut end) = (0.0, home);
+        let of = |piece: &Piece| {
+            let cuts = Cuts::of(piece, list, &self.measures);
+            (!cuts.is_empty()).then(|| cuts.as_is(&self.measures.air))
+        };
+        let sequence: Vec<(usize, Option<Visit>)> = pieces[block].iter().map(of).enumerate().collect();
+        for visit in sequence.iter().filter_map(|(_, visit)| visit.as_ref()) {
+            time += self.measures.air.time(&end, &visit.ends[0]) + visit.within;
+            end = visit.ends[1];
+        }
+        Route { sequence, time, end }
+    }
+
+    /// The pieces of a block in the best order.
+    fn route(&self, block: Range<usize>, pieces: &[Piece], list: &SegmentList, home: Stop) -> Route {
+        let of = |piece: &Piece| Cuts::of(piece, list, &self.measures);
         let cuts: Vec<Cuts> = pieces[block.clone()].iter().map(of).collect();
         let left: Vec<usize> = (0..cuts.len()).filter(|&i| !cuts[i].is_empty()).collect();
-        let visits: Vec<Vec<Visit>> = left.iter().map(|&i| cuts[i].visits(&self.air)).collect();
+        let visits: Vec<Vec<Visit>> = left.iter().map(|&i| cuts[i].visits(&self.measures.air)).collect();
         let extents: Vec<Extent> = left.iter().map(|&i| extent(&pieces[block.start + i], list)).collect();
         let place = |piece: usize| left.binary_search(&piece.checked_sub(block.start)?).ok();
         let mut before = vec![Vec::new(); left.len()];
@@ -81,53 +154,43 @@ impl Routing<'_> {
                 before[holder].push(k as u32);
             }
         }
-        let (order, chosen) = self.tour(&visits, &extents, &before, home);
-        let last = order.last().map_or(home, |&last| visits[last][chosen[last]].ends[1]);
-        let events = pieces.get_mut(block.start).map(|first| std::mem::take(&mut first.events)).unwrap_or_default();
-        let mut taken: Vec<Option<Piece>> =
-            pieces[block.clone()].iter_mut().map(|piece| Some(std::mem::take(piece))).collect();
-        let visited = order.iter().map(|&k| (left[k], Some(&visits[k][chosen[k]])));
+        let Chosen { order, visit: chosen, time } = self.tour(&visits, &extents, &before, home);
+        let end = order.last().map_or(home, |&last| visits[last][chosen[last]].ends[1]);
+        let mut visits: Vec<Option<Visit>> =
+            visits.into_iter().zip(&chosen).map(|(mut of, &chosen)| Some(of.swap_remove(chosen))).collect();
+        let visited = order.iter().map(|&k| (left[k], visits[k].take()));
         let empty = (0..cuts.len()).filter(|i| left.binary_search(i).is_err()).map(|i| (i, None));
-        let sequence: Vec<(usize, Option<&Visit>)> = visited.chain(empty).collect();
-        for (slot, (i, visit)) in pieces[block.clone()].iter_mut().zip(sequence) {
-            *slot = taken[i].take().expect("each piece comes once");
-            if let Some(visit) = visit {
-                apply(visit, slot, list);
-            }
-        }
-        if let Some(first) = pieces.get_mut(block.start) {
-            first.events = events;
-        }
-        last
+        Route { sequence: visited.chain(empty).collect(), time, end }
     }
 
     /// The order of visits, and which of each piece.
-    fn tour(
-        &self,
-        visits: &[Vec<Visit>],
-        extents: &[Extent],
-        before: &[Vec<u32>],
-        home: Stop,
-    ) -> (Vec<usize>, Vec<usize>) {
+    fn tour(&self, visits: &[Vec<Visit>], extents: &[Extent], before: &[Vec<u32>], home: Stop) -> Chosen {
+        let air = &self.measures.air;
         let along: Vec<f64> = extents.iter().map(|extent| extent.min.x).collect();
-        let order = &self.job.profile.order;
-        let window = (order.policy == OrderPolicy::Steady).then_some(order.window_mm);
+        let window = (self.policy == OrderPolicy::Steady).then_some(self.job.profile.order.window_mm);
         let mut order = inner_first(strips(extents), before);
-        let mut chosen = visit::choose(&order, visits, &home, &self.air);
+        let (mut chosen, mut whole) = visit::choose(&order, visits, &home, air);
         for round in 1..=ROUNDS {
             let ends: Vec<[Stop; 2]> = visits.iter().zip(&chosen).map(|(of, &chosen)| of[chosen].ends).collect();
             let near = near(&ends);
-            let time = |from: usize, to: usize| {
-                self.air.time(if from == START { &home } else { &ends[from][1] }, &ends[to][0])
-            };
+            let time =
+                |from: usize, to: usize| air.time(if from == START { &home } else { &ends[from][1] }, &ends[to][0]);
             let known = Known::new(ends.len(), &time);
             let time = |from: usize, to: usize| known.time(from, to).unwrap_or_else(|| time(from, to));
             let ways = Ways { time: &time, near: &near, before, along: &along, window };
             tour::improve(&mut order, &ways, round == ROUNDS && known.count > 0);
-            chosen = visit::choose(&order, visits, &home, &self.air);
+            (chosen, whole) = visit::choose(&order, visits, &home, air);
         }
-        (order, chosen)
+        Chosen { order, visit: chosen, time: whole }
     }
+}
+
+/// An order of visits, and which of each piece.
+struct Chosen {
+    order: Vec<usize>,
+    visit: Vec<usize>,
+    /// Time of the moves with the knife up, s.
+    time: f64,
 }
 
 /// The times of all moves between visits, where these are few: they are asked for again and again.

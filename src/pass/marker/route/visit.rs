@@ -3,11 +3,10 @@
 //! Slits are cut on the way round the outline, from each of them on and either way, then each closed contour from the corner
 //! that is nearest in time. What the file asks for at the start of a contour holds there, so that such a one is left alone.
 
-use crate::geom::{Point, Vector, corner, polyline};
+use crate::analysis::air::{Air, Stop};
+use crate::geom::{Point, corner, polyline};
 use crate::ir::list::{Joint, Segment, SegmentList};
 use crate::ir::marker::{Contour, OutlineNotch, Piece};
-use crate::machine::kinematics::Move;
-use crate::machine::{Job, Limits};
 
 /// Visits of a piece that are looked at, at the most.
 const MOST_VISITS: usize = 32;
@@ -16,48 +15,15 @@ const MOST_LOOKS: usize = 10_000_000;
 /// Corners of a contour that are looked at, at the most.
 const MOST_STARTS: usize = 64;
 
-/// Where the knife comes down or up.
+/// What visits are made by.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Stop {
-    pub(super) at: Point,
-    /// Where the blade points, a unit vector; `None` = anywhere: a drill.
-    along: Option<Vector>,
-}
-
-impl Stop {
-    /// Where the axes stand before the program, whatever the blade does there.
-    pub(super) fn home(at: Point) -> Self {
-        Self { at, along: None }
-    }
-}
-
-/// How long moves with the knife up take.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Air {
-    limits: [Limits; 3],
-}
-
-impl Air {
-    pub(super) fn new(job: &Job) -> Self {
-        Self { limits: job.profile.axes.travel_limits() }
-    }
-
-    /// From rest to rest, s: X and Y along a line, C beside them the shorter way round.
-    pub(super) fn time(&self, from: &Stop, to: &Stop) -> f64 {
-        let [x, y, c] = self.limits;
-        let way = to.at - from.at;
-        let length = way.norm();
-        let line = if length > 0.0 {
-            Move::new(length, x.along(way.x / length).min(y.along(way.y / length))).duration()
-        } else {
-            0.0
-        };
-        let turn = match (from.along, to.along) {
-            (Some(from), Some(to)) => Move::new(from.dot(&to).clamp(-1.0, 1.0).acos(), c).duration(),
-            _ => 0.0,
-        };
-        line.max(turn)
-    }
+pub(super) struct Measures {
+    /// How long moves take.
+    pub(super) air: Air,
+    /// Greatest turn that is no corner, rad.
+    pub(super) corner: f64,
+    /// What coordinates are multiples of, mm.
+    pub(super) unit: f64,
 }
 
 /// A sequence of the cuts of a piece.
@@ -70,7 +36,7 @@ pub(super) struct Visit {
     /// Where the knife first comes down, and where it last comes up.
     pub(super) ends: [Stop; 2],
     /// Time of the moves between them, s.
-    within: f64,
+    pub(super) within: f64,
 }
 
 /// A start of a contour.
@@ -96,22 +62,22 @@ pub(super) struct Cuts {
 }
 
 impl Cuts {
-    pub(super) fn of(piece: &Piece, list: &SegmentList, job: &Job, unit: f64) -> Self {
+    pub(super) fn of(piece: &Piece, list: &SegmentList, measures: &Measures) -> Self {
+        let air = &measures.air;
         let contours: Vec<Vec<Segment>> = piece.contours.iter().map(|c| segments(c, list)).collect();
         let is_few = |outline: &Vec<Segment>| outline.len() * piece.notches.len() <= MOST_LOOKS;
         let is_closed = piece.contours.last().is_some_and(|last| last.closed);
         let outline = contours.last().filter(|outline| is_closed && is_few(outline));
         let slits = piece.notches.iter().map(|notch| {
             let strokes: Vec<_> = notch.strokes().collect();
-            let stop = |from: Point, to: Point, at: Point| Stop { at, along: polyline::direction(from, to) };
             let [first, last] = [strokes[0], strokes[strokes.len() - 1]];
-            let ends = [stop(first.from, first.to, first.from), stop(last.from, last.to, last.to)];
+            let ends = [air.down(first.from, first.to), air.up(last.from, last.to)];
             (ends, outline.map_or(0.0, |outline| station(outline, notch.root)))
         });
         Self {
-            drills: piece.drills.iter().map(|drill| Stop { at: drill.at, along: None }).collect(),
+            drills: piece.drills.iter().map(|drill| Stop::anyhow(drill.at)).collect(),
             slits: slits.collect(),
-            contours: piece.contours.iter().zip(&contours).map(|(c, of)| starts(c, of, piece, job, unit)).collect(),
+            contours: piece.contours.iter().zip(&contours).map(|(c, of)| starts(c, of, piece, measures)).collect(),
         }
     }
 
@@ -120,10 +86,15 @@ impl Cuts {
         self.drills.is_empty() && self.slits.is_empty() && self.contours.is_empty()
     }
 
+    /// The visit as it is drawn.
+    pub(super) fn as_is(&self, air: &Air) -> Visit {
+        self.visit((0..self.slits.len()).collect(), &|_, starts| starts[0], air)
+    }
+
     /// The ways in which it may be visited, that of the file first.
     pub(super) fn visits(&self, air: &Air) -> Vec<Visit> {
         let count = self.slits.len();
-        let mut visits = vec![self.visit((0..count).collect(), &|_, starts| starts[0], air)];
+        let mut visits = vec![self.as_is(air)];
         let mut round: Vec<usize> = (0..count).collect();
         round.sort_by(|&a, &b| self.slits[a].1.total_cmp(&self.slits[b].1));
         let nearest = |before: Option<&Stop>, starts: &[Start]| {
@@ -164,8 +135,9 @@ impl Cuts {
     }
 }
 
-/// Of the visits of each piece in an order those that take the least time together: dynamic programming, exact.
-pub(super) fn choose(order: &[usize], visits: &[Vec<Visit>], home: &Stop, air: &Air) -> Vec<usize> {
+/// Of the visits of each piece in an order those that take the least time together, with that time, s: dynamic programming,
+/// exact.
+pub(super) fn choose(order: &[usize], visits: &[Vec<Visit>], home: &Stop, air: &Air) -> (Vec<usize>, f64) {
     // For each visit of each piece the best one of the piece before.
     let mut came: Vec<Vec<usize>> = Vec::with_capacity(order.len());
     let mut spent: Vec<f64> = Vec::new();
@@ -187,13 +159,12 @@ pub(super) fn choose(order: &[usize], visits: &[Vec<Visit>], home: &Stop, air: &
         spent = reached.into_iter().map(|reached| reached.1).collect();
     }
     let mut chosen = vec![0; visits.len()];
-    let last = spent.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |last| last.0);
-    let mut at = last;
+    let (mut at, time) = spent.into_iter().enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default();
     for (i, &piece) in order.iter().enumerate().rev() {
         chosen[piece] = at;
         at = came[i][at];
     }
-    chosen
+    (chosen, time)
 }
 
 fn segments(contour: &Contour, list: &SegmentList) -> Vec<Segment> {
@@ -217,21 +188,19 @@ fn station(outline: &[Segment], point: Point) -> f64 {
 }
 
 /// Where a contour may start: as it does, and at its corners, if it is closed and the file asks for nothing on it.
-fn starts(contour: &Contour, of: &[Segment], piece: &Piece, job: &Job, unit: f64) -> Vec<Start> {
+fn starts(contour: &Contour, of: &[Segment], piece: &Piece, measures: &Measures) -> Vec<Start> {
+    let &Measures { air, corner: limit, unit } = measures;
     let count = of.len();
     let start = |i: usize| {
         // The last segment of a closed one ends where the first starts.
         let (first, last) = (&of[i], &of[(i + count - 1) % count]);
-        let down = Stop { at: first.from, along: polyline::direction(first.from, first.to) };
-        let up = Stop { at: last.to, along: polyline::direction(last.from, last.to) };
-        Start { segment: i, stops: [down, up] }
+        Start { segment: i, stops: [air.down(first.from, first.to), air.up(last.from, last.to)] }
     };
     let mut found = vec![start(0)];
     let is_plain = of.iter().all(|segment| segment.joint == Joint::default() && segment.percent == of[0].percent);
     if !contour.closed || !is_plain || count < 3 {
         return found;
     }
-    let limit = job.profile.corner.angle();
     let is_corner = |&i: &usize| {
         let before = (1..count).map(|k| of[(i + count - k) % count].from);
         let behind = (0..count - 1).map(|k| of[(i + k) % count].to);

@@ -1,0 +1,172 @@
+//! Moves with the knife up: how long they take, and how short those of a marker could be at the least.
+
+use rayon::prelude::*;
+
+use crate::geom::boxes::Boxes;
+use crate::geom::{Extent, Point, Vector, corner, polyline};
+use crate::ir::Marker;
+use crate::ir::marker::{Cut, CutKind};
+use crate::machine::kinematics::Move;
+use crate::machine::{Job, Limits};
+
+/// How far about the start of a cut the ends of others are looked for first, mm.
+const FIRST_REACH: f64 = 10.0;
+/// The farthest that they are looked for, mm: longer than any table.
+const LAST_REACH: f64 = 1.0e6;
+
+/// Where the axes stand when the knife comes down or up.
+#[derive(Debug, Clone, Copy)]
+pub struct Stop {
+    /// The C axis.
+    pub at: Point,
+    /// Where the blade points, a unit vector; `None` = anywhere: a drill.
+    pub along: Option<Vector>,
+}
+
+impl Stop {
+    /// With the blade pointing anywhere.
+    pub fn anyhow(at: Point) -> Self {
+        Self { at, along: None }
+    }
+}
+
+/// How long moves with the knife up take.
+#[derive(Debug, Clone, Copy)]
+pub struct Air {
+    limits: [Limits; 3],
+    /// From the C axis to the tip and to the heel, mm.
+    ends: [f64; 2],
+    is_double_edged: bool,
+}
+
+impl Air {
+    /// On the machine of a job.
+    pub fn new(job: &Job) -> Self {
+        let knife = &job.profile.knife;
+        Self { limits: job.profile.axes.travel_limits(), ends: knife.ends(), is_double_edged: knife.edges == 2 }
+    }
+
+    /// Where the axes stand when the blade comes down at the start of a cut that goes from one place on to another: its heel is
+    /// there.
+    pub fn down(&self, from: Point, to: Point) -> Stop {
+        let along = polyline::direction(from, to);
+        Stop { at: from + along.unwrap_or_default() * self.ends[1], along }
+    }
+
+    /// Where they stand when it comes up at the end of a cut that comes from one place to another: its tip is there.
+    pub fn up(&self, from: Point, to: Point) -> Stop {
+        let along = polyline::direction(from, to);
+        Stop { at: to - along.unwrap_or_default() * self.ends[0], along }
+    }
+
+    /// From rest to rest, s: X and Y along a line, C beside them the shorter way round.
+    pub fn time(&self, from: &Stop, to: &Stop) -> f64 {
+        let [x, y, c] = self.limits;
+        let way = to.at - from.at;
+        let length = way.norm();
+        let line = if length > 0.0 {
+            Move::new(length, x.along(way.x / length).min(y.along(way.y / length))).duration()
+        } else {
+            0.0
+        };
+        let turn = match (from.along, to.along) {
+            (Some(from), Some(to)) => {
+                let cosine = from.dot(&to);
+                let cosine = if self.is_double_edged { cosine.abs() } else { cosine };
+                Move::new(cosine.clamp(-1.0, 1.0).acos(), c).duration()
+            }
+            _ => 0.0,
+        };
+        line.max(turn)
+    }
+
+    /// The least time over such a distance, whichever way, s.
+    fn least_over(&self, distance: f64) -> f64 {
+        let [x, y, _] = self.limits;
+        let most = |x: f64, y: f64| x.hypot(y);
+        let both = Limits {
+            speed: most(x.speed, y.speed),
+            acceleration: most(x.acceleration, y.acceleration),
+            jerk: most(x.jerk, y.jerk),
+        };
+        Move::new(distance, both).duration()
+    }
+}
+
+/// What may come anywhere in the order: where the knife may come down for it, and where up.
+struct Item {
+    downs: Vec<Stop>,
+    ups: Vec<Stop>,
+}
+
+/// The time of the moves between the cuts and holes of a marker at the least, s: for each of them that of the shortest way from
+/// the end of any other to any of its starts. No order has a shorter way, and as a rule none has one as short.
+pub fn least(marker: &Marker, job: &Job) -> f64 {
+    let air = Air::new(job);
+    let cuts = marker.cuts.par_iter().map(|cut| Item::of_cut(cut, marker, job, &air));
+    let mut items: Vec<Item> = cuts.collect();
+    let drills = marker.pieces.iter().flat_map(|piece| &piece.drills).map(|drill| Stop::anyhow(drill.at));
+    items.extend(drills.map(|stop| Item { downs: vec![stop], ups: vec![stop] }));
+    let ups: Vec<(usize, Stop)> =
+        items.iter().enumerate().flat_map(|(i, item)| item.ups.iter().map(move |&up| (i, up))).collect();
+    let boxes = Boxes::new(ups.iter().map(|(_, up)| Extent::between(up.at, up.at)).collect());
+    let shortest = |(i, item): (usize, &Item)| {
+        let mut least = f64::INFINITY;
+        for down in &item.downs {
+            let mut reach = FIRST_REACH;
+            while reach < LAST_REACH {
+                for k in boxes.near(Extent::between(down.at, down.at).grown(reach)) {
+                    let (other, up) = &ups[k];
+                    if *other != i {
+                        least = least.min(air.time(up, down));
+                    }
+                }
+                if least <= air.least_over(reach) {
+                    break;
+                }
+                reach *= 2.0;
+            }
+        }
+        least
+    };
+    let mut all: Vec<f64> = items.par_iter().enumerate().map(shortest).filter(|least| least.is_finite()).collect();
+    // To one of them the knife comes from home.
+    all.sort_by(f64::total_cmp);
+    all.pop();
+    all.iter().sum()
+}
+
+impl Item {
+    fn of_cut(cut: &Cut, marker: &Marker, job: &Job, air: &Air) -> Self {
+        let points = marker.list.points(cut.range);
+        let last = points.len() - 1;
+        let is_closed = matches!(cut.kind, CutKind::Outline | CutKind::Inner) && points[0] == points[last];
+        if !is_closed {
+            // From either end.
+            return Self {
+                downs: vec![air.down(points[0], points[1]), air.down(points[last], points[last - 1])],
+                ups: vec![air.up(points[last - 1], points[last]), air.up(points[1], points[0])],
+            };
+        }
+        let at = |i: usize| points[i % last];
+        let limit = job.profile.corner.angle();
+        let is_corner = |&i: &usize| {
+            let before = (1..last).map(|k| at(i + last - k));
+            let behind = (1..last).map(|k| at(i + k));
+            corner::is_corner(at(i), &before, &behind, limit, marker.unit)
+        };
+        let mut starts: Vec<usize> = (0..last).filter(is_corner).collect();
+        // One that has no corners may start anywhere; all may start where they do.
+        if starts.is_empty() {
+            starts.extend(0..last);
+        } else if starts[0] != 0 {
+            starts.insert(0, 0);
+        }
+        let around = |i: usize| [at(i + last - 1), at(i), at(i + 1)];
+        let downs =
+            starts.iter().map(|&i| around(i)).flat_map(|[before, at, next]| [air.down(at, next), air.down(at, before)]);
+        let ups =
+            starts.iter().map(|&i| around(i)).flat_map(|[before, at, next]| [air.up(before, at), air.up(next, at)]);
+        Self { downs: downs.collect(), ups: ups.collect() }
+    }
+}
