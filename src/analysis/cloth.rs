@@ -27,7 +27,13 @@ pub struct Cloth<'a> {
     part_of: Vec<u32>,
     /// By how much parts may overlap that only touch, mm.
     band: f64,
+    /// A way of the blade that is no longer is none, mm: what is left uncut at either end without it is what rounding leaves,
+    /// too.
+    least_way: f64,
 }
+
+/// How long a way of the blade is none, in lengths that may be left uncut: half of it is left at either end.
+const LEAST_WAY_SHARE: f64 = 1.5;
 
 impl<'a> Cloth<'a> {
     /// The cloth on which a marker lies. Contours that do not close bound nothing.
@@ -43,7 +49,8 @@ impl<'a> Cloth<'a> {
         let points = |&line: &usize| marker.list.points(contours[line].range);
         let parts = Regions::new(lines.keys().copied(), |part| lines[&part].iter().map(points).collect());
         let part_of = (0..marker.pieces.len()).map(|piece| nesting.part_of(piece).unwrap_or(piece) as u32).collect();
-        Self { parts, part_of, band: profile.band(marker.unit) }
+        let least_way = LEAST_WAY_SHARE * profile.verify.max_uncut_mm;
+        Self { parts, part_of, band: profile.band(marker.unit), least_way }
     }
 
     /// Whether a place lies in the part to which a piece belongs, by the piece's place in the marker.
@@ -65,7 +72,7 @@ impl<'a> Cloth<'a> {
     /// The cloth as the cuts of a toolpath see it.
     pub fn around(&'a self, toolpath: &Toolpath, knife: &'a Knife) -> Surroundings<'a> {
         let part = self.part_of.get(toolpath.part as usize).copied().unwrap_or(toolpath.part);
-        Surroundings { knife, tolerance: toolpath.tolerance, cloth: self, part }
+        Surroundings { knife, tolerance: toolpath.tolerance, least_way: self.least_way, cloth: self, part }
     }
 }
 
@@ -76,6 +83,8 @@ pub struct Surroundings<'a> {
     pub knife: &'a Knife,
     /// Permitted deviation of the tip, mm.
     pub tolerance: f64,
+    /// A way of the blade between plunge and lift that is no longer is none, mm.
+    pub least_way: f64,
     cloth: &'a Cloth<'a>,
     part: u32,
 }

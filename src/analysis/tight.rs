@@ -161,6 +161,7 @@ mod tests {
             front: 0.0,
             heel: 0.0,
             feeds: vec![1.0; chords],
+            junctions: Vec::new(),
             ends: [End::default(); 2],
             turned: false,
             edge: Edge::Front,

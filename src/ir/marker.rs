@@ -22,6 +22,8 @@ pub struct Marker {
     pub common: Vec<CommonEdge>,
     /// Where edges of parts run beside those of others, so near that a thin strip stands between two cuts.
     pub near: Vec<NearEdge>,
+    /// Short ways about which cuts of several parts cross each other, so that no thread is left.
+    pub junctions: Vec<[Point; 2]>,
     /// What the numbers of the file are multiples of, mm; 0 when they are not rounded to a grid.
     pub unit: f64,
     /// What happens behind the last piece.

@@ -107,6 +107,8 @@ pub struct Run {
     pub heel: f64,
     /// Greatest speed of the tip on each chord, mm/s; infinite when nothing caps it.
     pub feeds: Vec<f64>,
+    /// The chords about which it crosses cuts of other parts; the tip keeps nearer to these. Empty = none.
+    pub junctions: Vec<bool>,
     /// What its two ends are.
     pub ends: [End; 2],
     /// Whether it is cut the other way round than the file has it.

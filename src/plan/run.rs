@@ -11,9 +11,9 @@ use crate::machine::Job;
 use crate::machine::kinematics::Move;
 use crate::plan::orientation::TooTight;
 use crate::plan::orientation::{Blade, Course, Entry, WAY_EPSILON, Way};
-use crate::plan::spline::ToleranceBand;
 use crate::plan::spline::{Blocks, Extended};
 use crate::plan::spline::{Curve, Smooth, smooth};
+use crate::plan::spline::{JUNCTION_SHARE, ToleranceBand};
 use crate::plan::timing::Cutting;
 use crate::plan::timing::Feed;
 use crate::plan::timing::{Bounds, profile};
@@ -108,14 +108,18 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
     let bounds = Bounds { axes: job.profile.axes.limits(), feed: Feed::new(&stations, feeds) };
     let order = Order { run, job, blocks: Blocks::new(&stations, blocks), bounds };
     let ends = [points[0], points[points.len() - 1]];
-    let is_straight = run.shape == Shape::Open && polyline::is_straight(points, STRAIGHT_SHARE * tolerance);
+    let straight_share = if extended.junctions.is_empty() { STRAIGHT_SHARE } else { JUNCTION_SHARE };
+    let is_straight = run.shape == Shape::Open && polyline::is_straight(points, straight_share * tolerance);
     if is_straight && order.bounds.feed.constant().is_some() {
         return order.straight(ends);
     }
     let smooth = if is_straight {
         Smooth { curve: Curve::line([0.0, extended.end], ends.map(|point| [point.x, point.y])), sagitta: 0.0 }
     } else {
-        order.smoothed(&ToleranceBand::new(points.clone(), tolerance, &job.profile))?
+        let band = || ToleranceBand::new(points.clone(), tolerance, &job.profile);
+        let nearer = (!extended.junctions.is_empty()).then(|| band().with_junctions(&extended.junctions));
+        // Where that is too tight the run keeps to its band, and the verifier measures whether the cuts cross.
+        nearer.and_then(|nearer| order.smoothed(&nearer).ok()).map_or_else(|| order.smoothed(&band()), Ok)?
     };
     let (mut cut, mut beside) = order.curved(&extended, &smooth)?;
     let most = match run.shape {

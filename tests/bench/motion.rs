@@ -107,6 +107,7 @@ fn plan_run(points: &[Point], job: &Job) {
         spans: vec![Span::default(); chords],
         joints: vec![Joint::default(); points.len()],
         feeds: vec![f64::INFINITY; chords],
+        junctions: Vec::new(),
         shape: Shape::Open,
         orientation: OrientationMode::Tangent,
         front: 0.0,

@@ -34,6 +34,7 @@ fn run(points: Vec<Point>, job: &Job) -> Run {
         spans: vec![Span::default(); points.len() - 1],
         joints: vec![Joint::default(); points.len()],
         feeds: vec![knife.feed_mm_s.unwrap_or(f64::INFINITY); points.len() - 1],
+        junctions: Vec::new(),
         points,
         shape: Shape::Open,
         orientation: OrientationMode::Tangent,

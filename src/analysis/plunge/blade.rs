@@ -43,9 +43,10 @@ impl Plunge {
         Self { heel: path[0], tip: path[last], chord: last - 1, covers_all: true }
     }
 
-    /// Whether the blade has a way to go on the path between plunge and lift; one exactly as long as the path has none.
-    pub fn has_way(&self, path: &[Point]) -> bool {
-        !self.covers_all && self.tip != path[path.len() - 1]
+    /// Whether the blade has a way to go on the path between plunge and lift that is longer than `least` mm.
+    pub fn has_way(&self, path: &[Point], least: f64) -> bool {
+        let last = path.len() - 1;
+        !self.covers_all && (self.chord + 1 < last || (path[last] - self.tip).norm() > least)
     }
 
     /// From its heel to its tip, mm.
@@ -76,7 +77,7 @@ mod tests {
     fn a_blade_exactly_as_long_as_its_path_has_no_way_to_go() {
         let path = [Point::new(0.0, 0.0), Point::new(4.0, 0.0), Point::new(6.0, 0.0)];
         let plunges = [5.0, 6.0, 7.0].map(|width| Plunge::at_start(&path, width));
-        assert_eq!(plunges.map(|plunge| plunge.has_way(&path)), [true, false, false]);
+        assert_eq!(plunges.map(|plunge| plunge.has_way(&path, 0.0)), [true, false, false]);
         assert_eq!(plunges.map(|plunge| plunge.covers_all), [false, false, true]);
         assert_eq!(plunges.map(|plunge| plunge.tip.x), [5.0, 6.0, 6.0]);
     }

@@ -34,13 +34,17 @@ impl BladePlacement {
     pub fn of(run: &Run, overlaps: [f64; 2], around: &Surroundings) -> Option<Self> {
         let width = around.knife.width_mm;
         let path = run.extended_by(overlaps);
-        if width == 0.0 || Plunge::at_start(&path, width).has_way(&path) {
+        if width == 0.0 || Plunge::at_start(&path, width).has_way(&path, around.least_way) {
             return None;
         }
         let (start, end) = (run.points[0], run.points[run.points.len() - 1]);
         let along = polyline::direction(start, end)?;
         let line = [start - along * overlaps[0], end + along * overlaps[1]];
-        let surplus = (width - (line[1] - line[0]).norm()).max(0.0);
+        let length = (line[1] - line[0]).norm();
+        // What it is shorter by is left at both ends alike.
+        let missing = (length - width).max(0.0) / 2.0;
+        let line = [line[0] + along * missing, line[1] - along * missing];
+        let surplus = (width - length).max(0.0);
         let reach = surplus + around.knife.clearance_mm;
         let rays = [Ray { from: line[0], along: -along, reach }, Ray { from: line[1], along, reach }];
         let rooms = rays.each_ref().map(|ray| around.room(ray));
@@ -52,7 +56,7 @@ impl BladePlacement {
         if left > 0.0 || surplus.is_deep(shares) {
             (shares, overcut) = surplus.placed(shares);
         }
-        let beyond = [overlaps[0] + shares[0], overlaps[1] + shares[1]];
+        let beyond = [0, 1].map(|end| (overlaps[end] + shares[end] - missing).max(0.0));
         Some(Self { along, tip: line[1] + along * shares[1], beyond, overcut })
     }
 

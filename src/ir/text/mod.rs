@@ -26,6 +26,7 @@
 //! cut outline piece 1 sides 1 - contour 1
 //! common cut 1 spared 2 shift-mm 0.1
 //!   from 100.1 80 to 100.1 0 @90..94#20
+//! junction 100 82 to 100.2 75
 //! near piece 2 40 80 to 160 80
 //! ```
 //!
@@ -37,7 +38,7 @@
 //!   start 3 0 c-rad 0
 //!   end 99 0 c-rad 0
 //!   point 0 0 full-advance
-//!   point 60 0 @4..9#2
+//!   point 60 0 @4..9#2 junction
 //!   point 100 0 @10..19#3 lift no-overcut
 //! stab along 1 0 front 1 heel 0.5 turned backwards harm 0.5 0 0.3 0.2
 //!   ends corner corner
@@ -58,6 +59,8 @@
 //! - A `cut` is of the contour of its piece that it names, or of segments of its own. Its sides are the parts on its left
 //!   and right, by the places of their pieces from 1, as its piece is, or `-` for waste.
 //! - `common` is an edge that the first piece and the second have in common, as the second has it; it is cut with the first.
+//! - A `junction` is a short way about which cuts of several parts cross; in a toolpath the word stands behind the end of a
+//!   chord about which that is so.
 //! - `near` is a stretch of an outline of that piece beside which another part's runs.
 //! - A `notch` is one that the contours make: the ends of its mouth with its tip between them, and how many segments lie
 //!   there.

@@ -28,6 +28,9 @@ pub fn print_marker(marker: &Marker) -> String {
         line(&mut out, format_args!("common cut {cut} spared {spared} shift-mm {}", exact(*shift)));
         print_segments(&mut out, marker, *range);
     }
+    for [from, to] in &marker.junctions {
+        line(&mut out, format_args!("junction {} to {}", Xy(*from), Xy(*to)));
+    }
     for NearEdge { piece, ends: [from, to] } in &marker.near {
         line(&mut out, format_args!("near piece {} {} to {}", piece + 1, Xy(*from), Xy(*to)));
     }
@@ -166,6 +169,8 @@ fn print_run(out: &mut String, run: &Run) {
         if let Some(feed) = chord.map(|chord| run.feeds[chord]).filter(|&feed| feed < greatest) {
             push(out, format_args!(" feed {}", exact(feed)));
         }
+        let is_junction = chord.is_some_and(|chord| run.junctions.get(chord) == Some(&true));
+        push(out, format_args!("{}", if is_junction { " junction" } else { "" }));
         line(out, format_args!("{}", Asked(run.joints[i])));
     }
 }

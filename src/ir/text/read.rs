@@ -27,7 +27,8 @@ pub struct ReadError {
 type Read<T> = Result<T, ReadError>;
 
 /// What a line of a marker starts with.
-const LINES: &str = "piece, event, feed-mm-s, drill, slit, contour, notch, label, field, closing, cut, common or near";
+const LINES: &str =
+    "piece, event, feed-mm-s, drill, slit, contour, notch, label, field, closing, cut, common, junction or near";
 
 /// Reads the text of a marker.
 pub fn read_marker(text: &str) -> Read<Marker> {
@@ -52,6 +53,11 @@ pub fn read_marker(text: &str) -> Read<Marker> {
             "common" => {
                 let edge = common(&mut line, &mut lines, &mut marker)?;
                 marker.common.push(edge);
+            }
+            "junction" => {
+                let from = line.point()?;
+                line.expect("to")?;
+                marker.junctions.push([from, line.point()?]);
             }
             "near" => {
                 line.expect("piece")?;
@@ -251,6 +257,7 @@ fn run(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Run> {
         spans: Vec::new(),
         joints: Vec::new(),
         feeds: Vec::new(),
+        junctions: Vec::new(),
         shape,
         orientation,
         front,
@@ -268,9 +275,13 @@ fn run(line: &mut Line<'_>, lines: &mut Lines<'_>) -> Read<Run> {
         if run.points.len() > 1 {
             run.spans.push(line.span()?);
             run.feeds.push(if line.has("feed") { line.number()? } else { feed });
+            run.junctions.push(line.has("junction"));
         }
         run.joints.push(line.joint());
         line.end()?;
+    }
+    if !run.junctions.contains(&true) {
+        run.junctions.clear();
     }
     Ok(run)
 }

@@ -167,6 +167,7 @@ fn step(random: &mut Random) -> Step {
                     .iter()
                     .map(|_| if random.flag() { f64::INFINITY } else { random.number().abs() + 1.0 })
                     .collect(),
+                junctions: if random.flag() { spans.iter().map(|_| true).collect() } else { Vec::new() },
                 ends: [random.end(), random.end()],
                 turned: random.flag(),
                 edge: if random.flag() { Edge::Back } else { Edge::Front },

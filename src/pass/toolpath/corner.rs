@@ -121,6 +121,7 @@ mod tests {
             front: 0.0,
             heel: 0.0,
             feeds: vec![1.0; coordinates.len()],
+            junctions: Vec::new(),
             ends: [End::default(); 2],
             turned: false,
             edge: Edge::Front,

@@ -7,7 +7,9 @@ mod corner;
 mod down;
 mod entry;
 mod frame;
+mod junctions;
 mod lap;
+mod meet;
 mod near;
 mod nibble;
 mod overlap;
@@ -46,4 +48,5 @@ pub const TOOLPATH_PASSES: &[ToolpathPass] = &[
     overlap::PASS,
     plunge::PASS,
     place::PASS,
+    meet::PASS,
 ];

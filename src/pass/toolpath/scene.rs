@@ -1,5 +1,6 @@
 //! What passes look at beside a toolpath: the job, and the cloth around it.
 
+use super::junctions::Junctions;
 use super::near::NearLines;
 use crate::analysis::cloth::{Cloth, Surroundings};
 use crate::ir::{Marker, Toolpath};
@@ -14,6 +15,8 @@ pub struct Scene<'a> {
     pub cloth: Cloth<'a>,
     /// The edges beside which another part's run.
     pub(super) near: NearLines<'a>,
+    /// Where cuts of several parts cross each other.
+    pub(super) junctions: Junctions<'a>,
     /// What the numbers of the file are multiples of, mm; 0 when they are not rounded to a grid.
     pub unit: f64,
 }
@@ -21,7 +24,8 @@ pub struct Scene<'a> {
 impl<'a> Scene<'a> {
     /// The scene of a marker.
     pub fn new(marker: &'a Marker, job: &'a Job) -> Self {
-        Self { job, cloth: Cloth::new(marker, &job.profile), near: NearLines::new(marker), unit: marker.unit }
+        let (near, junctions) = (NearLines::new(marker), Junctions::new(marker));
+        Self { job, cloth: Cloth::new(marker, &job.profile), near, junctions, unit: marker.unit }
     }
 
     /// The cloth and the blade as the cuts of a toolpath see them.

@@ -9,16 +9,18 @@ use crate::ir::toolpath::{PlungeCut, Shape, Side, Step};
 /// Leaves those out of the steps of a toolpath, but never two in a row: the second may be what cuts the stretch of the first.
 pub(super) fn leave_out(steps: &mut Vec<Step>, around: &Surroundings) {
     let is_spare = |steps: &[Step], i: usize| {
-        let [Step::PlungeCut(before), Step::PlungeCut(cut), behind] = &steps[i - 1..=i + 1] else { return false };
+        let [Step::PlungeCut(before), Step::PlungeCut(cut)] = &steps[i - 1..=i] else { return false };
         let before = Blade::of(before, around);
-        let is_cut = || {
-            let behind = Blade::at_start(behind, around);
-            is_over(&before, cut, around) || behind.is_some_and(|behind| are_over(&[before, behind], cut, around))
-        };
-        cut.ends.iter().all(|end| end.side == Side::Contour) && is_cut()
+        // Of one that ends at a corner the overlap there is asked for, which two others may not give.
+        let is_amid = || cut.ends.iter().all(|end| end.side == Side::Contour);
+        let behind = || steps.get(i + 1).and_then(|step| Blade::at_start(step, around));
+        let are_over = |behind: Blade| are_over(&[before, behind], cut, around);
+        // Nothing is overcut where the part itself lies beyond.
+        let is_bare = || cut.ends.iter().all(|end| end.bare || matches!(end.side, Side::Contour | Side::Part));
+        is_bare() && is_over(&before, cut, around) || is_amid() && behind().is_some_and(are_over)
     };
     let mut i = 1;
-    while i + 1 < steps.len() {
+    while i < steps.len() {
         if is_spare(steps, i) {
             steps.remove(i);
         }
@@ -27,6 +29,7 @@ pub(super) fn leave_out(steps: &mut Vec<Step>, around: &Surroundings) {
 }
 
 /// A blade that is plunged.
+#[derive(Debug, Clone, Copy)]
 struct Blade {
     tip: Point,
     /// Unit vector from its heel to its tip.

@@ -26,6 +26,7 @@ pub(super) fn between(run: &Run, [from, to]: [usize; 2], ends: [End; 2]) -> Run 
         spans: run.spans[from..to].to_vec(),
         joints: run.joints[from..=to].to_vec(),
         feeds: run.feeds[from..to].to_vec(),
+        junctions: Vec::new(),
         ends,
         ..*run
     }
@@ -148,6 +149,7 @@ impl<'a> Way<'a> {
             spans: Vec::new(),
             joints: vec![Joint::default()],
             feeds: Vec::new(),
+            junctions: Vec::new(),
             shape: Shape::Open,
             ends,
             ..*run

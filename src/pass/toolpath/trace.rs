@@ -75,6 +75,7 @@ fn raw(shape: Shape, job: &Job) -> Run {
         front: 0.0,
         heel: 0.0,
         feeds: Vec::new(),
+        junctions: Vec::new(),
         ends: [End::default(); 2],
         turned: false,
         edge: Edge::Front,

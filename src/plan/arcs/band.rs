@@ -3,6 +3,7 @@
 
 use crate::geom::{Point, Vector, left, polyline};
 use crate::machine::{Fit, MachineProfile};
+use crate::plan::spline::JUNCTION_SHARE;
 
 /// Turns of a curve differ by less than this factor from one vertex to the next.
 const ALIKE: f64 = 2.0;
@@ -12,7 +13,7 @@ const LENGTH_EPSILON: f64 = 1e-9;
 const TURN_EPSILON: f64 = 1e-6;
 
 /// A polyline and what counts as on it.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct ToleranceBand {
     /// Its points, no two in a row equal.
     pub(super) points: Vec<Point>,
@@ -24,6 +25,8 @@ pub(super) struct ToleranceBand {
     pub(super) sagittas: Vec<Vector>,
     /// The same as heights, to the left of the chord, mm.
     heights: Vec<f64>,
+    /// The part of the tolerance that each chord may use.
+    shares: Vec<f64>,
     /// Permitted deviation, mm.
     pub(super) tolerance: f64,
     /// Greatest chord sagitta, mm.
@@ -59,7 +62,22 @@ impl ToleranceBand {
         let heights: Vec<f64> = (0..end).map(height).collect();
         let sagitta = |i: usize| left(points[i + 1] - points[i]) * (heights[i] / (stations[i + 1] - stations[i]));
         let sagittas = (0..end).map(sagitta).collect();
-        Self { points, stations, turns, sagittas, heights, tolerance, sagitta_max: profile.path.chord_sag_max_mm }
+        let (shares, sagitta_max) = (vec![1.0; end], profile.path.chord_sag_max_mm);
+        Self { points, stations, turns, sagittas, heights, shares, tolerance, sagitta_max }
+    }
+
+    /// The same, nearer to the chords about which it crosses cuts of other parts.
+    pub(super) fn with_junctions(mut self, junctions: impl Iterator<Item = bool>) -> Self {
+        for (chord, _) in junctions.enumerate().filter(|(_, is_junction)| *is_junction) {
+            (self.sagittas[chord], self.heights[chord], self.shares[chord]) = (Vector::zeros(), 0.0, JUNCTION_SHARE);
+        }
+        self
+    }
+
+    /// Permitted deviation at a point between two chords, mm.
+    pub(super) fn tolerance_at(&self, point: usize) -> f64 {
+        let share = |chord: Option<usize>| chord.and_then(|chord| self.shares.get(chord)).copied().unwrap_or(1.0);
+        self.tolerance * share(point.checked_sub(1)).min(share(Some(point)))
     }
 
     /// Number of chords.
@@ -133,6 +151,7 @@ impl ToleranceBand {
         // The sagitta counts on its own side only: the other one is measured from the chord.
         let sagittas = [sagitta(from), sagitta(to)];
         let share = way / length;
+        let allowed = allowed * self.shares[chord];
         let beside = |side: f64| {
             let counts = if side * height > 0.0 { 1.0 } else { 0.0 };
             let end = |i: usize| side * (ends[i] - counts * sagittas[i]);

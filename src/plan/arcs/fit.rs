@@ -223,7 +223,7 @@ fn nodes(band: &ToleranceBand, ends: &Ends) -> Vec<Node> {
     // curve it is none.
     let shoulder = |chord: usize, vertex: usize| {
         let turn = band.turns[vertex].abs();
-        let way = ROUNDING_SHARE * band.tolerance / (turn / 4.0).tan();
+        let way = ROUNDING_SHARE * band.tolerance_at(vertex) / (turn / 4.0).tan();
         let longest = SHOULDER_SHARE * (band.stations[chord + 1] - band.stations[chord]);
         if turn <= TURN_EPSILON {
             None

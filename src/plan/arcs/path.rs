@@ -103,15 +103,21 @@ fn tip_arcs(
     let ring = run.shape == Shape::Ring;
     let turn = if ring { seam_turn(run) } else { 0.0 };
     let seam = [turn, if run.front == 0.0 { turn } else { 0.0 }];
+    let is_junction = |&chord: &usize| run.junctions.get(chord) == Some(&true);
     let band = ToleranceBand::new(points, tolerance, seam, &job.profile);
+    let nearer = chords.iter().any(&is_junction).then(|| band.clone().with_junctions(chords.iter().map(is_junction)));
     let start = if ring { at_seam(run) } else { band.direction(0) };
     let end = if ring && run.front == 0.0 { start } else { band.direction(band.chords() - 1) };
     let stops = (1..chords.len()).filter(|&k| run.feeds[chords[k - 1]] != run.feeds[chords[k]]).collect();
     let ends = Ends { start, end, stops, curvature: f64::INFINITY, spares: false, reach: 0.0 };
-    let gentle = |&reach: &f64| fit(&band, &Ends { curvature: GENTLE, reach, ..ends.clone() }).ok();
-    let gentle = if interpolation.circular { None } else { GENTLE_REACHES.iter().find_map(gentle) };
-    let arcs = gentle.map_or_else(|| fit(&band, &ends), Ok);
-    let arcs = arcs.or_else(|_| fit(&band, &Ends { spares: true, ..ends }))?;
+    let fitted = |band: &ToleranceBand| {
+        let gentle = |&reach: &f64| fit(band, &Ends { curvature: GENTLE, reach, ..ends.clone() }).ok();
+        let gentle = if interpolation.circular { None } else { GENTLE_REACHES.iter().find_map(gentle) };
+        let arcs = gentle.map_or_else(|| fit(band, &ends), Ok);
+        arcs.or_else(|_| fit(band, &Ends { spares: true, ..ends.clone() }))
+    };
+    // Where that is too tight the run keeps to its band, and the verifier measures whether the cuts cross.
+    let arcs = nearer.and_then(|nearer| fitted(&nearer).ok()).map_or_else(|| fitted(&band), Ok)?;
     Ok(TipArcs { arcs, start, from: band.points[0] })
 }
 

@@ -10,6 +10,9 @@ use crate::machine::profile::Fit;
 
 /// Smaller turns are none, rad: an overlap runs straight on, but for rounding.
 const TURN_EPSILON: f64 = 1e-6;
+/// The part of the tolerance that is used where a run crosses cuts of other parts. Passes lead these through each other as far
+/// as both are off their lines together: half of it.
+pub(in crate::plan) const JUNCTION_SHARE: f64 = 0.25;
 
 /// The neighbourhood of a polyline in which the tip must stay.
 #[derive(Debug, Clone)]
@@ -22,6 +25,8 @@ pub(in crate::plan) struct ToleranceBand {
     pub(super) turns: Vec<f64>,
     /// Chord sagitta of each chord: the outward normal times the height in its middle, mm.
     sagittas: Vec<Vector>,
+    /// The part of the tolerance that each chord may use.
+    shares: Vec<f64>,
     /// Permitted deviation, mm.
     pub(super) tolerance: f64,
 }
@@ -33,6 +38,8 @@ pub(super) struct Section {
     pub(super) base: Point,
     /// From there to the far end of the sagitta, mm.
     pub(super) sagitta: Vector,
+    /// The part of the tolerance that may be used there.
+    pub(super) share: f64,
 }
 
 impl ToleranceBand {
@@ -42,7 +49,16 @@ impl ToleranceBand {
         let inner = points.windows(3).map(|w| polyline::turn_at(w[0], w[1], w[2]));
         let turns = std::iter::once(0.0).chain(inner).chain([0.0]).collect();
         let sagittas = vec![Vector::zeros(); points.len() - 1];
-        Self { points, stations, turns, sagittas, tolerance }
+        let shares = vec![1.0; points.len() - 1];
+        Self { points, stations, turns, sagittas, shares, tolerance }
+    }
+
+    /// The same, nearer to the chords about which it crosses cuts of other parts; of these there may be none.
+    pub(in crate::plan) fn with_junctions(mut self, junctions: &[bool]) -> Self {
+        for chord in (0..junctions.len()).filter(|&chord| junctions[chord]) {
+            (self.sagittas[chord], self.shares[chord]) = (Vector::zeros(), JUNCTION_SHARE);
+        }
+        self
     }
 
     /// The band of a polyline.
@@ -77,7 +93,7 @@ impl ToleranceBand {
         let (start, end) = (self.stations[chord], self.stations[chord + 1]);
         let x = ((u - start) / (end - start)).clamp(0.0, 1.0);
         let base = self.points[chord] + (self.points[chord + 1] - self.points[chord]) * x;
-        Section { base, sagitta: self.sagittas[chord] * (4.0 * x * (1.0 - x)) }
+        Section { base, sagitta: self.sagittas[chord] * (4.0 * x * (1.0 - x)), share: self.shares[chord] }
     }
 }
 

@@ -12,6 +12,8 @@ pub(in crate::plan) struct Extended {
     pub(in crate::plan) blocks: Vec<u32>,
     /// Greatest speed of the tip on each chord, mm/s.
     pub(in crate::plan) feeds: Vec<f64>,
+    /// The chords about which the run crosses cuts of other parts; empty = none.
+    pub(in crate::plan) junctions: Vec<bool>,
     /// Station at which the run proper starts, mm.
     pub(in crate::plan) start: f64,
     /// Station at which the tip is lifted, mm.
@@ -43,14 +45,17 @@ fn open(run: &Run) -> Extended {
     let points = run.extended();
     let mut blocks: Vec<u32> = run.spans.iter().map(|s| s.block).collect();
     let mut feeds = run.feeds.clone();
+    let mut junctions = run.junctions.clone();
     if run.heel > 0.0 {
         blocks.insert(0, blocks[0]);
         feeds.insert(0, feeds[0]);
+        junctions.first().copied().into_iter().for_each(|first| junctions.insert(0, first));
     }
     blocks.resize(points.len() - 1, blocks[blocks.len() - 1]);
     feeds.resize(points.len() - 1, feeds[feeds.len() - 1]);
+    junctions.last().copied().into_iter().for_each(|last| junctions.resize(points.len() - 1, last));
     let end = polyline::length(&points);
-    Extended { points, blocks, feeds, start: 0.0, end }
+    Extended { points, blocks, feeds, junctions, start: 0.0, end }
 }
 
 /// Length of contour before the start and behind the end of a ring that joins the polyline, so that the curve there is
@@ -83,8 +88,10 @@ fn ring(run: &Run, heel: f64) -> Extended {
     let points = (0..=chords).map(|i| run.points[(first + i) % n]).collect();
     let blocks = (0..chords).map(|i| run.spans[(first + i) % n].block).collect();
     let feeds = (0..chords).map(|i| run.feeds[(first + i) % n]).collect();
+    let is_junction = |i: usize| run.junctions.get((first + i) % n).copied();
+    let junctions = (0..chords).filter_map(is_junction).collect();
     let end = start + polyline::length(&run.points) + run.front;
-    Extended { points, blocks, feeds, start, end }
+    Extended { points, blocks, feeds, junctions, start, end }
 }
 
 /// The source blocks of a run by station.

@@ -134,6 +134,11 @@ impl Sample {
     fn deviation(&self, control: &[[f64; 2]]) -> Vector {
         self.section.deviation(self.point(control)).0
     }
+
+    /// The same as a length, where only a part of the tolerance may be used as large as if all might, mm.
+    fn used(&self, control: &[[f64; 2]]) -> f64 {
+        self.deviation(control).norm() / self.section.share
+    }
 }
 
 /// One attempt: a choice of knots with everything that does not change over the iterations.
@@ -233,7 +238,7 @@ impl<'a> Problem<'a> {
     }
 
     fn greatest_deviation(&self, control: &[[f64; 2]]) -> f64 {
-        self.samples.iter().map(|s| s.deviation(&control[s.first..]).norm()).fold(0.0, f64::max)
+        self.samples.iter().map(|s| s.used(&control[s.first..])).fold(0.0, f64::max)
     }
 
     /// A curve strictly inside the band, with the weight of the penalty that gave it; otherwise where it leaves the band.
@@ -252,7 +257,7 @@ impl<'a> Problem<'a> {
             weight *= 0.1;
         }
         let Some((control, deviation)) = best else { return Err((self.band.stations.clone(), f64::INFINITY)) };
-        let out = |s: &&Sample| s.deviation(&control[s.first..]).norm() > TROUBLE_SHARE * self.bound;
+        let out = |s: &&Sample| s.used(&control[s.first..]) > TROUBLE_SHARE * self.bound;
         Err((self.samples.iter().filter(out).map(|s| s.u).collect(), deviation))
     }
 
@@ -282,10 +287,12 @@ impl<'a> Problem<'a> {
                     chord += 1;
                 }
                 let [[x, y]] = curve.derivatives_on::<1>(span, u);
-                let (away, used) = self.band.section(chord, u).deviation(Point::new(x, y));
-                deviation = deviation.max(away.norm());
+                let section = self.band.section(chord, u);
+                let (away, used) = section.deviation(Point::new(x, y));
+                let away = away.norm() / section.share;
+                deviation = deviation.max(away);
                 sagitta = sagitta.max(used);
-                if away.norm() > CHECK_SHARE * self.band.tolerance {
+                if away > CHECK_SHARE * self.band.tolerance {
                     violations.push(u);
                 }
             }
@@ -367,7 +374,9 @@ impl barrier::Problem<2> for Window<'_> {
         let square = self.bound * self.bound;
         slacks.clear();
         for sample in self.samples {
-            let slack = square - sample.deviation(&control[sample.first - self.near.start..]).norm_squared();
+            let share = sample.section.share;
+            let slack =
+                square * share * share - sample.deviation(&control[sample.first - self.near.start..]).norm_squared();
             if slack <= 0.0 || slack.is_nan() {
                 return Err(Outside);
             }

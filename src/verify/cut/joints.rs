@@ -58,7 +58,6 @@ impl<'a> Joints<'a> {
         let gaps: Vec<f64> = self.all.par_iter().zip(&self.ways).map(|(joint, ways)| gap(joint, ways)).collect();
         for (joint, gap) in self.all.iter().zip(gaps) {
             worst.see(gap, || Sighting { time: None, line: None, point: joint.at, block: joint.block });
-            worst.see(gap, || Sighting { time: None, line: None, point: joint.at, block: joint.block });
         }
         worst.finding()
     }

@@ -4,12 +4,12 @@
 //! crosses what is cut there already. Where that cannot be the edge is cut for both.
 
 use super::facing::{Facing, Segments};
-use super::lead::{Arrival, Leads, Neighbour};
+use super::lead::{Arrival, LEAST_COSINE, Leads, Neighbour};
 use super::ring::{Mouth, Ring};
 use super::stretch::{Asked, BREAK, Shared, stretches};
 use super::style::Slit;
-use crate::geom::Point;
 use crate::geom::budget::Budget;
+use crate::geom::{Point, polyline};
 use crate::ir::list::{Joint, Segment};
 
 /// How many distances of two edges a corner may be from the end of the other's edge.
@@ -24,6 +24,8 @@ pub(super) struct Outcome {
     pub(super) cuts: Option<Vec<Vec<Segment>>>,
     /// What is cut with others, each with the ring of the one, and how far it is from there at the most, mm.
     pub(super) shared: Vec<(usize, Vec<Segment>, f64)>,
+    /// Short ways about which its cuts cross others.
+    pub(super) junctions: Vec<[Point; 2]>,
 }
 
 /// Finds what rings, in the order in which they are cut, have in common; `None` when the search has no end. Rings whose
@@ -48,10 +50,11 @@ pub(super) fn share(
         facing = segments.facing(rings, asked.near, work)?;
     }
     let mut sharing = Sharing { rings, asked, leads: Leads::new(rings, &segments, asked) };
-    let outcomes = (0..rings.len()).map(|ring| sharing.settle(ring, &facing[ring])).collect();
+    let mut outcomes: Vec<Outcome> = (0..rings.len()).map(|ring| sharing.settle(ring, &facing[ring])).collect();
     for (i, ring) in rings.iter().enumerate() {
         for Slit { stroke, .. } in &mut *slits[ring.piece] {
             if let Some(root) = sharing.leads.led_root(i, [stroke.from, stroke.to]) {
+                outcomes[i].junctions.push([root, stroke.from]);
                 stroke.from = root;
             }
         }
@@ -74,16 +77,25 @@ fn wanted_mouths(rings: &[Ring], facing: &[Vec<Facing>], ring: usize, asked: Ask
     let least = 2.0 * asked.near.distance;
     let is_wanted = |mouth: &Mouth| {
         let [from, to] = [mouth.segment, mouth.segment + 1].map(|i| own.station(i));
-        let parts = common.iter().flat_map(|shared| &shared.parts);
-        let beside = parts.filter(|part| is_over(mouth, part.own.map(|station| station.rem_euclid(own.length())), own));
-        let bases = beside.filter_map(|part| {
+        let first_lap = |part: &Facing| {
+            let lap = (part.own[0] / own.length()).floor() * own.length();
+            Facing { own: part.own.map(|station| station - lap), ..*part }
+        };
+        let parts = common.iter().flat_map(|shared| &shared.parts).map(first_lap);
+        let beside = parts.filter(|part| is_over(mouth, part.own, own));
+        let (mut covered, mut base) = (0.0, 0.0);
+        for part in beside {
             let clip = |station: f64| ((station - part.own[0]) / part.length()).clamp(0.0, 1.0);
             let there = part.part([clip(from), clip(to)]);
             let theirs = [there.theirs[0].min(there.theirs[1]), there.theirs[0].max(there.theirs[1])];
             let other = &rings[part.other];
-            (!other.mouths().iter().any(|mouth| is_over(mouth, theirs, other))).then(|| there.length())
-        });
-        bases.sum::<f64>() > least
+            covered += there.length();
+            if !other.mouths().iter().any(|mouth| is_over(mouth, theirs, other)) {
+                base += there.length();
+            }
+        }
+        // Where the other's edge is not, what stands out of it may lie, or a third part.
+        base > least && covered >= to - from - least
     };
     own.mouths().iter().map(is_wanted).collect()
 }
@@ -93,6 +105,20 @@ fn wanted_mouths(rings: &[Ring], facing: &[Vec<Facing>], ring: usize, asked: Ask
 struct Led {
     cuts: Vec<Vec<Segment>>,
     ways: Vec<[Point; 2]>,
+    /// Where cuts cross each other as they are.
+    met: Vec<[Point; 2]>,
+}
+
+/// What of a ring lies between two stations, led on to two places; like a segment of it where that is nothing.
+fn led_on(own: &Ring, [from, to]: [f64; 2], [start, end]: [Point; 2], like: Segment) -> Vec<Segment> {
+    let mut cut = own.stretch([from, to]);
+    let at = own.place(from);
+    let ends = [cut.first().map_or(at, |first| first.from), cut.last().map_or(at, |last| last.to)];
+    let [first, last] = [cut.first(), cut.last()].map(|segment| segment.copied().unwrap_or(like));
+    cut.insert(0, Segment { from: start, to: ends[0], joint: Joint::default(), ..first });
+    cut.push(Segment { from: ends[1], to: end, joint: Joint::default(), ..last });
+    cut.retain(|segment| segment.length() > LEAST);
+    cut
 }
 
 /// Settles ring after ring.
@@ -114,9 +140,10 @@ impl Sharing<'_> {
         for shared in &mut shared {
             self.reach_corners(shared, own);
         }
-        let Led { cuts, ways } = loop {
+        let Led { cuts, ways, met } = loop {
             if shared.is_empty() {
-                return Outcome { cuts: self.legs(ring, None), shared: Vec::new() };
+                let (cuts, junctions) = self.legs(ring, None);
+                return Outcome { cuts, junctions, shared: Vec::new() };
             }
             match self.cuts(ring, &shared) {
                 Ok(led) => break led,
@@ -124,23 +151,32 @@ impl Sharing<'_> {
                 Err(failed) => drop(shared.remove(failed)),
             }
         };
+        let junctions: Vec<[Point; 2]> = ways.iter().copied().chain(met).collect();
         self.leads.spare(ring, &shared, ways);
         let edges = shared.iter().map(|shared| {
             let shift = shared.parts.iter().flat_map(|part| part.apart).fold(0.0, f64::max);
             (shared.other, own.stretch(shared.own), shift)
         });
-        Outcome { shared: edges.collect(), cuts: self.legs(ring, Some(cuts)) }
+        let shared = edges.collect();
+        let (cuts, of_legs) = self.legs(ring, Some(cuts));
+        Outcome { shared, cuts, junctions: [junctions, of_legs].concat() }
     }
 
-    /// The cuts of a ring with those of the notches on its edges in front; `None` where it is cut as it is.
-    fn legs(&self, ring: usize, cuts: Option<Vec<Vec<Segment>>>) -> Option<Vec<Vec<Segment>>> {
+    /// The cuts of a ring with those of the notches on its edges in front, `None` where it is cut as it is; and the ways on
+    /// which the legs of these cross what is cut over their mouths.
+    fn legs(&self, ring: usize, cuts: Option<Vec<Vec<Segment>>>) -> (Option<Vec<Vec<Segment>>>, Vec<[Point; 2]>) {
         let own = &self.rings[ring];
         if own.mouths().is_empty() {
-            return cuts;
+            return (cuts, Vec::new());
         }
-        let legs = own.mouths().iter().map(|mouth| self.leads.led_legs(ring, mouth));
+        let legs: Vec<Vec<Segment>> = own.mouths().iter().map(|mouth| self.leads.led_legs(ring, mouth)).collect();
+        let roots = own.mouths().iter().zip(&legs).filter_map(|(mouth, led)| {
+            let ends = |legs: &[Segment]| legs.first().zip(legs.last()).map(|(first, last)| [first.from, last.to]);
+            ends(&mouth.legs).zip(ends(led)).map(|([a, b], [c, d])| [[a, c], [b, d]])
+        });
+        let roots = roots.flatten().collect();
         let whole = || vec![own.segments().to_vec()];
-        Some(legs.chain(cuts.unwrap_or_else(whole)).collect())
+        (Some(legs.into_iter().chain(cuts.unwrap_or_else(whole)).collect()), roots)
     }
 
     /// Where two stretches lie over each other the one that begins first has what they share.
@@ -160,6 +196,16 @@ impl Sharing<'_> {
         {
             shared.remove(0);
         }
+    }
+
+    /// Whether a cut ends on a way off to the side that is no longer than the tip may be off it: the blade would only swing.
+    fn has_a_stub(&self, cut: &[Segment]) -> bool {
+        let is_stub = |end: &Segment, next: &Segment| {
+            let ways = [end, next].map(|segment| polyline::direction(segment.from, segment.to).unwrap_or_default());
+            end.length() <= self.asked.beyond && ways[0].dot(&ways[1]) < LEAST_COSINE
+        };
+        let [first, .., last] = cut else { return false };
+        is_stub(first, &cut[1]) || is_stub(last, &cut[cut.len() - 2])
     }
 
     /// Lets a stretch go on to the corners of its ring that stand as near to the end of the other's edge.
@@ -195,6 +241,7 @@ impl Sharing<'_> {
             let bare = behind.parts[0].own[0] + lap - before.parts[before.parts.len() - 1].own[1];
             let is_short = bare <= BREAK * self.asked.near.distance;
             if is_short && (next == i || self.leads.meet(ring, [before, behind])) {
+                led.met.push([from, to].map(|station| own.place(station)));
                 continue;
             }
             let like = own.stretch([from - LEAST, to + LEAST])[0];
@@ -227,14 +274,10 @@ impl Sharing<'_> {
                 led.ways.push([over(arrival), arrival.at]);
                 led.ways.push([arrival.at, end]);
             }
-            let mut cut = own.stretch([from, to]);
-            let at = own.place(from);
-            let ends = [cut.first().map_or(at, |first| first.from), cut.last().map_or(at, |last| last.to)];
-            let first = cut.first().copied().unwrap_or(like);
-            let last = cut.last().copied().unwrap_or(like);
-            cut.insert(0, Segment { from: start, to: ends[0], joint: Joint::default(), ..first });
-            cut.push(Segment { from: ends[1], to: end, joint: Joint::default(), ..last });
-            cut.retain(|segment| segment.length() > LEAST);
+            let cut = led_on(own, [from, to], [start, end], like);
+            if is_short && self.has_a_stub(&cut) {
+                return Err(i);
+            }
             if !cut.is_empty() {
                 led.cuts.push(cut);
             }

@@ -13,7 +13,7 @@ use crate::ir::list::Segment;
 
 /// Sine of the least angle at which a cut goes straight on to another (15 degrees), and the cosine.
 const LEAST_SINE: f64 = 0.259;
-const LEAST_COSINE: f64 = 0.966;
+pub(super) const LEAST_COSINE: f64 = 0.966;
 /// Tangent of the greatest angle at which a cut is led over to an edge that it runs along (6 degrees).
 const SLOPE: f64 = 0.105;
 /// How far such a cut goes through the edge, in distances of two edges.
@@ -157,15 +157,26 @@ impl<'a> Leads<'a> {
         let crossings = others.filter_map(|&(ring, ends)| {
             let (ahead, sine) = crossing(at, along, ends, -near.distance)?;
             let there = at + along * ahead;
-            let margin = ends.iter().map(|end| (end - there).norm()).fold(f64::INFINITY, f64::min);
-            (ahead <= reach && sine >= LEAST_SINE).then_some((ahead + beyond / sine, ring, margin))
+            let is_there = |end: &&Point| (**end - there).norm() <= beyond;
+            let end = ends.iter().find(is_there).copied();
+            (ahead <= reach && sine >= LEAST_SINE).then_some((ahead + beyond / sine, ring, end))
         });
-        let (way, ring, margin) = crossings.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
-        // What only grazes a corner is no crossing.
+        let (way, ring, grazed) = crossings.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
+        // What only grazes a corner is no crossing, and what only comes to where a cut ends none that is sure.
         let end = at + along * way.max(0.0);
         let is_through = |ends: [Point; 2]| polyline::distance_to_segment(end, ends[0], ends[1]) > beyond / 2.0;
-        let is_crossed = || cuts.iter().filter(|cut| cut.0 == ring).all(|cut| is_through(cut.1));
-        (margin > beyond || is_crossed()).then_some(way)
+        let is_crossed = |corner: Point| {
+            let away = cuts.iter().filter_map(|&(_, [from, to])| match corner {
+                corner if (from - corner).norm() <= LEAST => polyline::direction(from, to),
+                corner if (to - corner).norm() <= LEAST => polyline::direction(to, from),
+                _ => None,
+            });
+            let mut away = away.peekable();
+            let first = away.peek().copied().unwrap_or_default();
+            let goes_on = away.any(|along| along.dot(&first) < LEAST_COSINE);
+            goes_on && cuts.iter().filter(|cut| cut.0 == ring).all(|cut| is_through(cut.1))
+        };
+        grazed.is_none_or(is_crossed).then_some(way)
     }
 
     /// The end of a gentle way from a place over to an edge from a station of that on, with the cosine of the turn.
@@ -231,7 +242,11 @@ impl<'a> Leads<'a> {
     pub(super) fn meet(&self, ring: usize, [before, behind]: [&Shared; 2]) -> bool {
         let at = self.rings[ring].place(before.own[1]);
         let reach = 2.0 * (self.asked.near.distance + self.asked.beyond) / LEAST_SINE;
-        let cuts = self.cut_near(ring, Extent::between(at, at).grown(reach));
+        let about = Extent::between(at, at).grown(reach);
+        // What meets elsewhere only leaves a strip between the two that is open here.
+        let clipped = |(ring, ends)| about.clip(ends).filter(|[from, to]| from != to).map(|ends| (ring, ends));
+        let cuts: Vec<(Option<usize>, [Point; 2])> =
+            self.cut_near(ring, about).into_iter().filter_map(clipped).collect();
         let meets = |one: &(Option<usize>, [Point; 2]), other: &(Option<usize>, [Point; 2])| {
             let ([a, b], [c, d]) = (one.1, other.1);
             // Two outlines may be off their lines: what only touches, or crosses at a small angle, is not sure to.

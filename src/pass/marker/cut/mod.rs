@@ -26,6 +26,7 @@ use crate::analysis::cloth::Cloth;
 use crate::analysis::nesting::Nesting;
 use crate::diagnostic::Diagnostics;
 use crate::geom;
+use crate::geom::Point;
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
 use crate::ir::list::{Joint, Range, Segment, SegmentList};
@@ -50,12 +51,12 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
         beyond: job.profile.tolerance(marker.unit),
         width: job.profile.knife.width_mm,
     });
-    let Marker { list, pieces, cuts, common, .. } = marker;
-    (*cuts, *common) = (Vec::new(), Vec::new());
+    let Marker { list, pieces, cuts, common, junctions, .. } = marker;
+    (*cuts, *common, *junctions) = (Vec::new(), Vec::new(), Vec::new());
     let mut cutting = Cutting { list, nesting: &nesting, style, piece: 0, cuts };
     let mut styled: Vec<Styled> = pieces.iter().map(|piece| cutting.styled(piece)).collect();
     let mut shared = match asked {
-        Some(asked) => cutting.share(pieces, &mut styled, asked, common, diagnostics),
+        Some(asked) => cutting.share(pieces, &mut styled, asked, (common, junctions), diagnostics),
         None => BTreeMap::new(),
     };
     for (i, Styled { slits, outlines }) in styled.into_iter().enumerate() {
@@ -99,13 +100,13 @@ impl Cutting<'_> {
     }
 
     /// What is cut of the lines that have edges in common with those of other parts; what these are cut with is added to
-    /// `common`, and slits on them are led on to these.
+    /// `common`, where cuts cross each other to `junctions`, and slits on them are led on to these.
     fn share(
         &mut self,
         pieces: &[Piece],
         styled: &mut [Styled],
         asked: Asked,
-        common: &mut Vec<CommonEdge>,
+        (common, junctions): (&mut Vec<CommonEdge>, &mut Vec<[Point; 2]>),
         diagnostics: &mut Diagnostics,
     ) -> BTreeMap<usize, Vec<Vec<Segment>>> {
         let around = Boxes::new(self.nesting.lines().iter().map(|line| line.extent).collect());
@@ -129,6 +130,7 @@ impl Cutting<'_> {
         };
         let mut cuts = BTreeMap::new();
         for ((outcome, line), ring) in outcomes.into_iter().zip(lines).zip(&rings) {
+            junctions.extend(outcome.junctions);
             for (other, segments, shift) in outcome.shared {
                 let range = self.list.append(segments).expect("a common edge has a length");
                 let pieces = [rings[other].piece, ring.piece].map(|piece| piece as u32);

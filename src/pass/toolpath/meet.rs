@@ -1,0 +1,24 @@
+//! Pass `meet`: where cuts of several parts cross each other the tip keeps nearer to its line.
+//!
+//! Needs runs with all their points. Leaves marked the chords of these that come by a junction of the marker: there both cuts
+//! may be off their lines, and must cross all the same.
+
+use super::pass::ToolpathPass;
+use super::runs;
+use super::scene::Scene;
+use crate::diagnostic::Diagnostics;
+use crate::ir::toolpath::Toolpath;
+
+pub(super) const PASS: ToolpathPass = ToolpathPass {
+    name: "meet",
+    about: "keeps the tip near its line where cuts of several parts cross each other",
+    run,
+    chained: false,
+};
+
+fn run(toolpath: &mut Toolpath, scene: &Scene, _: &mut Diagnostics) {
+    for run in runs::each(toolpath) {
+        let by: Vec<bool> = run.points.windows(2).map(|ends| scene.junctions.is_by(ends[0], ends[1])).collect();
+        run.junctions = if by.contains(&true) { by } else { Vec::new() };
+    }
+}
