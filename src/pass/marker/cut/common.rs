@@ -20,8 +20,10 @@ const LEAST: f64 = 1e-6;
 /// What becomes of a ring.
 #[derive(Debug, Default)]
 pub(super) struct Outcome {
-    /// What is cut of it: open cuts, or itself when that is `None`.
+    /// What is cut of it: open cuts, or itself when that is `None`; the legs of notches on its edges first.
     pub(super) cuts: Option<Vec<Vec<Segment>>>,
+    /// How many of these are legs.
+    pub(super) legs: usize,
     /// What is cut with others, each with the ring of the one, and how far it is from there at the most, mm.
     pub(super) shared: Vec<(usize, Vec<Segment>, f64)>,
     /// Short ways about which its cuts cross others.
@@ -143,7 +145,8 @@ impl Sharing<'_> {
         let Led { cuts, ways, met } = loop {
             if shared.is_empty() {
                 let (cuts, junctions) = self.legs(ring, None);
-                return Outcome { cuts, junctions, shared: Vec::new() };
+                let legs = cuts.as_ref().map_or(0, |_| self.rings[ring].mouths().len());
+                return Outcome { cuts, legs, junctions, shared: Vec::new() };
             }
             match self.cuts(ring, &shared) {
                 Ok(led) => break led,
@@ -159,7 +162,7 @@ impl Sharing<'_> {
         });
         let shared = edges.collect();
         let (cuts, of_legs) = self.legs(ring, Some(cuts));
-        Outcome { shared, cuts, junctions: [junctions, of_legs].concat() }
+        Outcome { shared, cuts, legs: own.mouths().len(), junctions: [junctions, of_legs].concat() }
     }
 
     /// The cuts of a ring with those of the notches on its edges in front, `None` where it is cut as it is; and the ways on

@@ -10,6 +10,7 @@ mod common;
 mod facing;
 mod lead;
 mod ring;
+mod sequence;
 mod stretch;
 mod style;
 
@@ -18,10 +19,12 @@ use std::collections::BTreeMap;
 use self::common::share;
 use self::facing::Near;
 use self::ring::{Mouth, Ring};
+use self::sequence::sequence;
 use self::stretch::Asked;
 use self::style::{Bridged, Slit};
 use super::pass::MarkerPass;
 use super::search::search_ended;
+use crate::analysis::air::{Air, Stop};
 use crate::analysis::cloth::Cloth;
 use crate::analysis::nesting::Nesting;
 use crate::diagnostic::Diagnostics;
@@ -53,7 +56,9 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     });
     let Marker { list, pieces, cuts, common, junctions, .. } = marker;
     (*cuts, *common, *junctions) = (Vec::new(), Vec::new(), Vec::new());
-    let mut cutting = Cutting { list, nesting: &nesting, style, piece: 0, cuts };
+    let [x, y, _] = job.profile.home;
+    let (air, at) = (Air::new(job), Stop::anyhow(Point::new(x, y)));
+    let mut cutting = Cutting { list, nesting: &nesting, style, piece: 0, cuts, air, at };
     let mut styled: Vec<Styled> = pieces.iter().map(|piece| cutting.styled(piece)).collect();
     let mut shared = match asked {
         Some(asked) => cutting.share(pieces, &mut styled, asked, (common, junctions), diagnostics),
@@ -61,12 +66,15 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     };
     for (i, Styled { slits, outlines }) in styled.into_iter().enumerate() {
         cutting.piece = i;
+        if let Some(drill) = pieces[i].drills.last() {
+            cutting.at = Stop::anyhow(drill.at);
+        }
         for slit in slits {
             cutting.slit(&slit);
         }
         for (range, line) in outlines.into_iter().zip(nesting.of_group(i)) {
             match shared.remove(&line) {
-                Some(of_line) => of_line.into_iter().for_each(|segments| cutting.edge(segments, range, line)),
+                Some(of_line) => cutting.edges(of_line, range, line),
                 None => cutting.contour(range, line),
             }
         }
@@ -88,7 +96,13 @@ struct Cutting<'a> {
     /// Its place in the marker.
     piece: usize,
     cuts: &'a mut Vec<Cut>,
+    air: Air,
+    /// Where the axes stand behind the last one.
+    at: Stop,
 }
+
+/// The open cuts of a line that has edges in common with others: the legs of notches on these, and what is left of its own.
+type OfLine = [Vec<Vec<Segment>>; 2];
 
 impl Cutting<'_> {
     /// The slits and the contours of a piece as they are cut.
@@ -108,7 +122,7 @@ impl Cutting<'_> {
         asked: Asked,
         (common, junctions): (&mut Vec<CommonEdge>, &mut Vec<[Point; 2]>),
         diagnostics: &mut Diagnostics,
-    ) -> BTreeMap<usize, Vec<Vec<Segment>>> {
+    ) -> BTreeMap<usize, OfLine> {
         let around = Boxes::new(self.nesting.lines().iter().map(|line| line.extent).collect());
         let is_near = |line: usize| {
             let near = around.near(around.all()[line].grown(asked.near.distance));
@@ -136,8 +150,9 @@ impl Cutting<'_> {
                 let pieces = [rings[other].piece, ring.piece].map(|piece| piece as u32);
                 common.push(CommonEdge { pieces, range, shift });
             }
-            if let Some(of_line) = outcome.cuts {
-                cuts.insert(line, of_line);
+            if let Some(mut legs) = outcome.cuts {
+                let edges = legs.split_off(outcome.legs);
+                cuts.insert(line, [legs, edges]);
             }
         }
         cuts
@@ -213,17 +228,32 @@ impl Cutting<'_> {
         (geom::ring::area(&self.list.points(range)) > 0.0) != self.nesting.is_inner(line)
     }
 
-    /// A cut of a line, of this range, that has edges in common with others.
-    fn edge(&mut self, segments: Vec<Segment>, drawn: Range, line: usize) {
+    /// The cuts of a line, of this range, that has edges in common with others.
+    fn edges(&mut self, of_line: OfLine, drawn: Range, line: usize) {
+        for cuts in of_line {
+            let (turns, _) = sequence(&cuts, self.at, &self.air);
+            let mut cuts: Vec<Option<Vec<Segment>>> = cuts.into_iter().map(Some).collect();
+            for (cut, is_reversed) in turns {
+                self.edge(cuts[cut].take().expect("each comes once"), is_reversed, drawn, line);
+            }
+        }
+    }
+
+    fn edge(&mut self, segments: Vec<Segment>, is_reversed: bool, drawn: Range, line: usize) {
         let is_closed = segments.first().map(|first| first.from) == segments.last().map(|last| last.to);
         let range = self.list.append(segments).expect("it has a length");
         if is_closed {
             return self.contour(range, line);
         }
-        self.push(CutKind::Edge, range, self.sides(drawn, line));
+        let [left, right] = self.sides(drawn, line);
+        let (range, sides) = if is_reversed { (range.reversed(), [right, left]) } else { (range, [left, right]) };
+        self.push(CutKind::Edge, range, sides);
     }
 
     fn push(&mut self, kind: CutKind, range: Range, sides: [Option<usize>; 2]) {
+        if let [.., from, to] = self.list.points(range)[..] {
+            self.at = self.air.up(from, to);
+        }
         let sides = sides.map(|part| part.map(|part| part as u32));
         self.cuts.push(Cut { kind, piece: self.piece as u32, sides, range });
     }
