@@ -381,7 +381,7 @@ impl Tally {
 
     fn program(&self, planner: &Planner, job: &Job, savings: Savings) -> Program {
         let period = job.profile.time.period();
-        let clear_s = job.profile.knife.clear_ms.is_none().then(|| self.clear * period);
+        let clear_s = job.profile.knife.clear_ms.is_none().then_some(self.clear * period);
         Program {
             travel_m: Some(self.travel / MM_PER_M),
             runs: Some(self.plunges),
