@@ -5,20 +5,24 @@
 //! slits on the way round, closed contours begun at a corner. With `"steady"` no piece lies farther behind the foremost so far
 //! than `order.window_mm`, but where something within it does.
 
+mod near;
+mod sequence;
+mod times;
 mod tour;
 mod visit;
 
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use self::tour::{START, Ways};
+use self::near::near;
+use self::sequence::{START, Ways};
+use self::times::Times;
 use self::visit::{Cuts, Measures, Visit};
 use super::order::holders;
 use super::pass::MarkerPass;
 use crate::analysis::air::{Air, Stop};
 use crate::analysis::nesting::Nesting;
 use crate::diagnostic::Diagnostics;
-use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, bits};
 use crate::ir::list::{Segment, SegmentList};
 use crate::ir::marker::{Marker, Piece};
@@ -30,14 +34,12 @@ pub(super) const PASS: MarkerPass = MarkerPass {
     run,
 };
 
-/// Visits beside which each is looked at in a tour.
-const NEAR: usize = 10;
-/// Visits of which these are chosen, at the most: in no lay there are more about one place.
-const MOST_AROUND: usize = 500;
-/// Visits between which the times of all moves are kept, at the most.
-const MOST_KNOWN: usize = 1000;
-/// How often the order and the visits are chosen in turn.
-const ROUNDS: usize = 3;
+/// How often the order and the visits are chosen in turn, at the most.
+const ROUNDS: usize = 6;
+/// From which of these rounds on the order is looked for thoroughly: for rougher ones before other visits are chosen.
+const THOROUGH: usize = 3;
+/// Visits of which it is looked for from the first round on as well, at the most, and as often as something is gained.
+const FEW: usize = 1000;
 
 fn run(marker: &mut Marker, job: &Job, _: &mut Diagnostics) {
     let policy = job.profile.order.policy;
@@ -165,21 +167,42 @@ impl<'a> Routing<'a> {
 
     /// The order of visits, and which of each piece.
     fn tour(&self, visits: &[Vec<Visit>], extents: &[Extent], before: &[Vec<u32>], home: Stop) -> Chosen {
+        let late = self.tour_in_rounds(visits, extents, before, home, THOROUGH);
+        if visits.len() > FEW {
+            return late;
+        }
+        let early = self.tour_in_rounds(visits, extents, before, home, 1);
+        if early.time < late.time { early } else { late }
+    }
+
+    /// The same; the order is looked for thoroughly from some round on, of few until nothing is gained.
+    fn tour_in_rounds(
+        &self,
+        visits: &[Vec<Visit>],
+        extents: &[Extent],
+        before: &[Vec<u32>],
+        home: Stop,
+        first: usize,
+    ) -> Chosen {
         let air = &self.measures.air;
         let along: Vec<f64> = extents.iter().map(|extent| extent.min.x).collect();
         let window = (self.policy == OrderPolicy::Steady).then_some(self.job.profile.order.window_mm);
-        let mut order = inner_first(strips(extents), before);
+        let mut order = inner_first(strips(extents, window), before);
         let (mut chosen, mut whole) = visit::choose(&order, visits, &home, air);
         for round in 1..=ROUNDS {
             let ends: Vec<[Stop; 2]> = visits.iter().zip(&chosen).map(|(of, &chosen)| of[chosen].ends).collect();
-            let near = near(&ends);
+            let near = near(&ends.iter().map(|ends| ends.map(|stop| stop.at)).collect::<Vec<_>>());
             let time =
                 |from: usize, to: usize| air.time(if from == START { &home } else { &ends[from][1] }, &ends[to][0]);
-            let known = Known::new(ends.len(), &time);
-            let time = |from: usize, to: usize| known.time(from, to).unwrap_or_else(|| time(from, to));
+            let times = Times::new(ends.len(), &time);
+            let time = |from: usize, to: usize| times.time(from, to);
             let ways = Ways { time: &time, near: &near, before, along: &along, window };
-            tour::improve(&mut order, &ways, round == ROUNDS && known.count > 0);
+            tour::improve(&mut order, &ways, (round >= first).then_some(round as u64));
+            let last = whole;
             (chosen, whole) = visit::choose(&order, visits, &home, air);
+            if round >= first && (whole >= last || order.len() > FEW) {
+                break;
+            }
         }
         Chosen { order, visit: chosen, time: whole }
     }
@@ -193,26 +216,6 @@ struct Chosen {
     time: f64,
 }
 
-/// The times of all moves between visits, where these are few: they are asked for again and again.
-struct Known {
-    count: usize,
-    times: Vec<f64>,
-}
-
-impl Known {
-    fn new(count: usize, time: &dyn Fn(usize, usize) -> f64) -> Self {
-        if count > MOST_KNOWN {
-            return Self { count: 0, times: Vec::new() };
-        }
-        let times = (0..count).flat_map(|from| (0..count).map(move |to| time(from, to)));
-        Self { count, times: times.collect() }
-    }
-
-    fn time(&self, from: usize, to: usize) -> Option<f64> {
-        (from < self.count).then(|| self.times[from * self.count + to])
-    }
-}
-
 /// The box around all of a piece.
 fn extent(piece: &Piece, list: &SegmentList) -> Extent {
     let mut extent = Extent::EMPTY;
@@ -222,8 +225,8 @@ fn extent(piece: &Piece, list: &SegmentList) -> Extent {
     extent
 }
 
-/// Visits in strips across the cloth, up and down in turn.
-fn strips(extents: &[Extent]) -> Vec<usize> {
+/// Visits in strips across the cloth, up and down in turn, none wider than the window.
+fn strips(extents: &[Extent], window: Option<f64>) -> Vec<usize> {
     let whole = extents.iter().fold(Extent::EMPTY, |mut whole, extent| {
         whole.join(extent);
         whole
@@ -231,7 +234,8 @@ fn strips(extents: &[Extent]) -> Vec<usize> {
     let (width, height) = whole.size();
     let middle = |i: usize| extents[i].min + (extents[i].max - extents[i].min) / 2.0;
     // As wide as two pieces.
-    let strip = (2.0 * (width * height / extents.len().max(1) as f64).sqrt()).max(1.0);
+    let strip = 2.0 * (width * height / extents.len().max(1) as f64).sqrt();
+    let strip = strip.min(window.unwrap_or(f64::INFINITY)).max(1.0);
     let key = |&i: &usize| {
         let at = middle(i);
         let strip = ((at.x - whole.min.x) / strip).floor();
@@ -264,42 +268,6 @@ fn inner_first(order: Vec<usize>, before: &[Vec<u32>]) -> Vec<usize> {
         }
     }
     sorted
-}
-
-/// For each visit those that start near its end or end near its start.
-fn near(ends: &[[Stop; 2]]) -> Vec<Vec<u32>> {
-    let boxes =
-        |side: usize| Boxes::new(ends.iter().map(|ends| Extent::between(ends[side].at, ends[side].at)).collect());
-    let (starts, stops) = (boxes(0), boxes(1));
-    let mut whole = Extent::EMPTY;
-    for [start, end] in ends {
-        whole.join(&Extent::between(start.at, end.at));
-    }
-    let (width, height) = whole.size();
-    let least = ((width * height).max(width.max(height)) / ends.len() as f64).sqrt().max(1.0);
-    let nearest = |boxes: &Boxes, i: usize, at: Point| {
-        let mut reach = least;
-        loop {
-            let around = Extent::between(at, at).grown(reach);
-            let around = boxes.near(around).filter(|&k| k != i).take(MOST_AROUND);
-            let mut found: Vec<u32> = around.map(|k| k as u32).collect();
-            if found.len() >= NEAR || reach > width + height {
-                let away = |k: &u32| (boxes.all()[*k as usize].min - at).norm();
-                found.sort_by(|a, b| away(a).total_cmp(&away(b)).then(a.cmp(b)));
-                found.truncate(NEAR);
-                return found;
-            }
-            reach *= 2.0;
-        }
-    };
-    (0..ends.len())
-        .map(|i| {
-            let mut near = nearest(&starts, i, ends[i][1].at);
-            let other = nearest(&stops, i, ends[i][0].at);
-            near.extend(other.into_iter().filter(|k| !near.contains(k)).collect::<Vec<_>>());
-            near
-        })
-        .collect()
 }
 
 /// Puts the notches of a piece in the sequence of a visit, and lets its contours start where that has it.

@@ -1,317 +1,246 @@
 //! The order of visits in which the moves between them take the least time: a travelling salesman's tour with an open end.
 //!
-//! Moves of up to three visits to another place (Or, 1976) and reversals (2-opt) among near ones, from a tour of strips;
-//! then two neighbouring stretches are swapped at places that are spread evenly, the tour is improved there, and what is no
-//! better is taken back (Lourenço, Martin & Stützle 2003, *Iterated local search*). No clock and no dice: the same on every
-//! machine.
+//! Two moves are put in the place of two others and what lies between is turned round (2-opt), or three of three, by which a
+//! stretch comes to another place, turned or not (Or-opt, of any length). Only moves to near ones are looked at, and only
+//! while they may gain (Lin & Kernighan 1973, *An effective heuristic algorithm for the traveling-salesman problem*). Then
+//! stretches about a place are put in the opposite order, the tour is improved there, and what is no better is taken back
+//! (Applegate, Cook & Rohe 2003, *Chained Lin-Kernighan for large traveling salesman problems*). No clock and fixed dice: the
+//! same on every machine.
 
-use std::ops::Range;
+use std::collections::VecDeque;
 
-/// Visits that are moved together, at the most.
-const MOST_MOVED: usize = 3;
-/// Stretches that are reversed have as many visits at the most: the moves between them take other times then.
-const MOST_REVERSED: usize = 1000;
-/// Swapped stretches a visit, and in all.
-const KICKS_A_VISIT: usize = 15;
-const MOST_KICKS: usize = 3_000;
-/// Visits of a stretch that is swapped, at the most.
-const MOST_SWAPPED: usize = 30;
+use super::near::{Near, Nearest};
+use super::sequence::{Change, Sequence, Ways};
+
+/// Visits that change their places at once, at the most: each of them costs time.
+const MOST_CHANGED: usize = 30_000;
+/// How often stretches are swapped, for each visit and at the most.
+const KICKS_A_VISIT: usize = 25;
+const MOST_KICKS: usize = 100_000;
+/// Visits in the stretches that are swapped, at the most.
+const MOST_SWAPPED: usize = 50;
+/// Steps from each end of a stretch that is swapped to another, from one visit to one near it.
+const STEPS: usize = 2;
 /// Gains that are less are none, s: rounding.
 const LEAST_GAIN: f64 = 1e-9;
-/// Fractions whose multiples spread evenly in three dimensions: powers of the inverse root of x^4 = x + 1 (Roberts 2018, *The
-/// unreasonable effectiveness of quasirandom sequences*).
-const SPREAD: [f64; 3] = [0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_969_9];
 
-/// What a tour goes by.
-pub(super) struct Ways<'a> {
-    /// Time of the move from the end of one visit to the start of another, s; none ends where the tour starts, as `START`.
-    pub(super) time: &'a dyn Fn(usize, usize) -> f64,
-    /// Those near each visit.
-    pub(super) near: &'a [Vec<u32>],
-    /// Those that come before each visit.
-    pub(super) before: &'a [Vec<u32>],
-    /// Where each lies along X, mm, and how far the tour may go back there; `None` = as far as it likes.
-    pub(super) along: &'a [f64],
-    pub(super) window: Option<f64>,
-}
-
-/// Where the tour starts: no visit.
-pub(super) const START: usize = usize::MAX;
-
-/// Improves the order of visits, with swaps or without; rules that it keeps are kept.
-pub(super) fn improve(order: &mut Vec<usize>, ways: &Ways, is_last: bool) {
-    if order.len() < 2 {
+/// Improves the order of visits, with swaps that a seed chooses or without any; rules that it keeps are kept.
+pub(super) fn improve(order: &mut Vec<usize>, ways: &Ways, seed: Option<u64>) {
+    let count = order.len();
+    if count < 2 {
         return;
     }
-    let mut tour = Tour::new(std::mem::take(order), ways);
-    let all = tour.order.clone();
-    tour.settle(all);
-    let count = tour.order.len();
-    let kicks = if is_last { (KICKS_A_VISIT * count).min(MOST_KICKS) } else { 0 };
-    for kick in 1..=kicks {
-        let [place, first, second] = SPREAD.map(|step| (kick as f64 * step).fract());
-        let length = |share: f64| 1 + (share * (MOST_SWAPPED.min(count / 2)) as f64) as usize;
-        let low = (place * count as f64) as usize;
-        let (middle, high) = (low + length(first), low + length(first) + length(second));
-        if high <= count {
-            tour.kick([low, middle, high]);
+    let mut tour = Tour::new(order, ways);
+    for &visit in &*order {
+        tour.open(visit);
+    }
+    tour.settle();
+    if let Some(seed) = seed {
+        let mut dice = Dice(seed);
+        for _ in 0..(KICKS_A_VISIT * count).min(MOST_KICKS) {
+            tour.kick(&mut dice);
         }
     }
-    *order = tour.order;
+    *order = tour.sequence.order().collect();
 }
 
-/// A change of the order that can be taken back.
-#[derive(Clone, Copy)]
-enum Change {
-    /// What lies from the second place on comes before what lies from the first.
-    Swap([usize; 3]),
-    Reverse([usize; 2]),
-}
+/// Numbers without a pattern, always the same ones (Steele, Lea & Flood 2014, *Fast splittable pseudorandom number
+/// generators*).
+struct Dice(u64);
 
-impl Change {
-    /// The places that it is about, the last of them behind it.
-    fn places(self) -> [usize; 3] {
-        match self {
-            Self::Swap(places) => places,
-            Self::Reverse([low, high]) => [low, high, high],
-        }
-    }
-
-    /// The places before which others stand then.
-    fn seams(self) -> [usize; 3] {
-        let [low, middle, high] = self.places();
-        [low, low + high - middle, high]
+impl Dice {
+    /// The next one, below a limit of less than 2^32.
+    fn below(&mut self, limit: usize) -> usize {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let bits = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        (((bits >> 32) * limit as u64) >> 32) as usize
     }
 }
 
 struct Tour<'a> {
-    ways: &'a Ways<'a>,
-    order: Vec<usize>,
-    /// The place of each visit in the order.
-    place: Vec<usize>,
-    /// The farthest along X before each place, mm.
-    front: Vec<f64>,
-    /// Time of the move to each place from the one before, and of that back, s.
-    onward: Vec<f64>,
-    back: Vec<f64>,
+    sequence: Sequence<'a>,
+    /// For each visit those to which moves from it take the least time.
+    onward: Nearest,
+    /// And those from which moves to it do.
+    back: Nearest,
+    /// Visits about which something may be gained, each once.
+    queue: VecDeque<usize>,
+    is_open: Vec<bool>,
     /// The changes since the last kick.
     done: Vec<Change>,
 }
 
 impl<'a> Tour<'a> {
-    fn new(order: Vec<usize>, ways: &'a Ways<'a>) -> Self {
+    fn new(order: &[usize], ways: &'a Ways<'a>) -> Self {
         let count = order.len();
-        let (place, front) = (vec![0; count], vec![f64::NEG_INFINITY; count]);
-        let (onward, back) = (vec![0.0; count], vec![0.0; count]);
-        let mut tour = Self { ways, order, place, front, onward, back, done: Vec::new() };
-        tour.note(0..count);
-        (0..count).for_each(|place| tour.join(place));
-        tour
-    }
-
-    /// The visit at a place; the start before the first, `None` behind the last.
-    fn at(&self, place: Option<usize>) -> Option<usize> {
-        place.map_or(Some(START), |place| self.order.get(place).copied())
-    }
-
-    /// Time from one visit to the next, s; nothing behind the last.
-    fn time(&self, from: Option<usize>, to: Option<usize>) -> f64 {
-        match (from, to) {
-            (Some(from), Some(to)) => (self.ways.time)(from, to),
-            _ => 0.0,
+        Self {
+            sequence: Sequence::new(order, ways),
+            onward: Nearest::new(ways.near, ways.time),
+            back: Nearest::new(ways.near, |visit, other| (ways.time)(other, visit)),
+            queue: VecDeque::with_capacity(count),
+            is_open: vec![false; count],
+            done: Vec::new(),
         }
     }
 
-    /// Notes where visits stand.
-    fn note(&mut self, places: Range<usize>) {
-        for at in places {
-            let visit = self.order[at];
-            self.place[visit] = at;
-            let before = at
-                .checked_sub(1)
-                .map_or(f64::NEG_INFINITY, |before| f64::max(self.front[before], self.ways.along[self.order[before]]));
-            self.front[at] = before;
+    fn open(&mut self, visit: usize) {
+        if !self.is_open[visit] {
+            self.is_open[visit] = true;
+            self.queue.push_back(visit);
         }
-    }
-
-    /// How many rules the visits at some places break.
-    fn broken(&self, places: Range<usize>) -> usize {
-        let is_early = |at: usize| {
-            let before = &self.ways.before[self.order[at]];
-            before.iter().filter(|&&other| self.place[other as usize] > at).count()
-        };
-        let is_behind = |at: usize| {
-            self.ways.window.is_some_and(|window| self.ways.along[self.order[at]] < self.front[at] - window)
-        };
-        places.map(|at| is_early(at) + usize::from(is_behind(at))).sum()
-    }
-
-    /// Notes how long the moves between a place and the one before take.
-    fn join(&mut self, place: usize) {
-        let Some(&visit) = self.order.get(place) else { return };
-        let before = self.at(place.checked_sub(1));
-        self.onward[place] = self.time(before, Some(visit));
-        self.back[place] = if place > 0 { self.time(Some(visit), before) } else { 0.0 };
     }
 
     fn change(&mut self, change: Change) {
-        let [low, middle, high] = change.places();
-        match change {
-            Change::Swap(_) => {
-                self.order[low..high].rotate_left(middle - low);
-                self.onward[low..high].rotate_left(middle - low);
-                self.back[low..high].rotate_left(middle - low);
-            }
-            Change::Reverse(_) => {
-                self.order[low..high].reverse();
-                self.onward[low + 1..high].reverse();
-                self.back[low + 1..high].reverse();
-                self.onward[low + 1..high].swap_with_slice(&mut self.back[low + 1..high]);
-            }
-        }
-        self.note(low..high);
-        change.seams().into_iter().for_each(|place| self.join(place));
-    }
-
-    fn take_back(&mut self, change: Change) {
-        self.change(match change {
-            Change::Swap([low, middle, high]) => Change::Swap([low, low + high - middle, high]),
-            Change::Reverse(_) => change,
-        });
-    }
-
-    /// Changes the order unless more rules are broken then.
-    fn try_change(&mut self, change: Change) -> bool {
-        let [low, _, high] = change.places();
-        let before = self.broken(low..high);
-        self.change(change);
-        if self.broken(low..high) > before {
-            self.take_back(change);
-            return false;
-        }
+        self.sequence.change(change);
         self.done.push(change);
-        true
+        for place in change.seams() {
+            if let Some(visit) = self.sequence.get(place) {
+                self.open(visit);
+            }
+        }
     }
 
-    /// Swaps two neighbouring stretches and improves the tour there, unless that is worse in the end.
-    fn kick(&mut self, places: [usize; 3]) {
-        let change = Change::Swap(places);
-        let gain = self.gain(change);
-        self.done.clear();
-        if !self.try_change(change) {
+    /// Puts three stretches about some place in the opposite order and improves the tour there, unless that is worse in the
+    /// end. No change of two or three moves takes that back.
+    fn kick(&mut self, dice: &mut Dice) {
+        let mut visit = dice.below(self.sequence.count());
+        let mut cuts = [0; 4];
+        for cut in &mut cuts {
+            *cut = self.sequence.place(visit) + dice.below(2);
+            for _ in 0..STEPS {
+                let near = self.onward.of(visit);
+                visit = near.get(dice.below(near.len())).map_or(visit, |near| near.0 as usize);
+            }
+        }
+        cuts.sort_unstable();
+        let [low, second, third, high] = cuts;
+        if low == second || second == third || third == high || high - low > MOST_SWAPPED {
             return;
         }
-        let moved = self.about(change.seams());
-        if gain + self.settle(moved) < LEAST_GAIN {
-            for change in std::mem::take(&mut self.done).into_iter().rev() {
-                self.take_back(change);
+        self.done.clear();
+        let mut gain = 0.0;
+        // ABC to BCA to CBA.
+        let lower = low + third - second;
+        for change in [Change::swap([low, second, high]), Change::swap([low, lower, low + high - second])] {
+            if self.sequence.breaks(change) {
+                break;
+            }
+            gain += self.sequence.gain(change, f64::NEG_INFINITY);
+            self.change(change);
+        }
+        if gain + self.settle() < LEAST_GAIN {
+            while let Some(change) = self.done.pop() {
+                self.sequence.change(change.inverse());
             }
         }
     }
 
-    /// Improves the tour about some visits until nothing more is gained; what was gained, s.
-    fn settle(&mut self, mut open: Vec<usize>) -> f64 {
+    /// Improves the tour about the open visits until nothing more is gained; what was gained, s.
+    fn settle(&mut self) -> f64 {
         let mut gained = 0.0;
-        while let Some(visit) = open.pop() {
-            while let Some((gain, changed)) = self.improve_at(visit) {
+        while let Some(visit) = self.queue.pop_front() {
+            self.is_open[visit] = false;
+            while let Some((gain, change)) = self.gain_at(visit) {
                 gained += gain;
-                open.extend(changed);
+                self.change(change);
             }
         }
         gained
     }
 
-    /// The first change about a visit that gains: how much, s, and the visits whose neighbours are others now.
-    fn improve_at(&mut self, visit: usize) -> Option<(f64, Vec<usize>)> {
-        for k in 0..self.ways.near[visit].len() {
-            let other = self.ways.near[visit][k] as usize;
-            for [from, to] in [[visit, other], [other, visit]] {
-                let [i, j] = [from, to].map(|visit| self.place[visit]);
-                let time = (self.ways.time)(from, to);
-                // One of the two moves that it takes the place of must take longer.
-                if time >= self.onward.get(i + 1).copied().unwrap_or(0.0) && time >= self.onward[j] {
-                    continue;
+    /// A change about a visit that gains: how much, s.
+    fn gain_at(&self, visit: usize) -> Option<(f64, Change)> {
+        let place = self.sequence.place(visit);
+        // One of the moves that it takes the place of must take longer.
+        let most = self.sequence.onward(place).max(self.sequence.onward(place + 1));
+        let is_less = |near: &&Near| near.1 < most;
+        let place_of = |other: u32| self.sequence.place(other as usize);
+        let onward =
+            self.onward.of(visit).iter().take_while(is_less).map(|&(other, time)| (place, place_of(other), time));
+        let back = self.back.of(visit).iter().take_while(is_less).map(|&(other, time)| (place_of(other), place, time));
+        onward.chain(back).find_map(|(i, j, time)| self.gain_by(i, j, time))
+    }
+
+    /// A change that gains by the move from `i` to `j`, which takes so long: a stretch that ends at `i` or starts at `j` is
+    /// turned, or is moved so that it has someone near at its other end too.
+    fn gain_by(&self, i: usize, j: usize, time: f64) -> Option<(f64, Change)> {
+        let sequence = &self.sequence;
+        if j == i + 1 {
+            return None;
+        }
+        if i < j
+            && let Some(found) = [[i + 1, j + 1], [i, j]].into_iter().find_map(|places| self.gain(Change::turn(places)))
+        {
+            return Some(found);
+        }
+        let place_of = |&(other, _): &Near| sequence.place(other as usize);
+        if i + 1 < sequence.count() {
+            // What stands behind `i` comes behind `k`.
+            let most = sequence.onward(i + 1) + sequence.onward(j).max(sequence.onward(j + 1)) - time;
+            for k in self.back.of(sequence.at(i + 1)).iter().take_while(|near| near.1 < most).map(place_of) {
+                let turned = if i < j {
+                    (i + 1 < k && k <= j).then(|| Change { places: [i + 1, k, j + 1], turned: [false, true] })
+                } else {
+                    (k <= j).then(|| Change { places: [k, j + 1, i + 1], turned: [true, false] })
+                };
+                let found = [moved(i, j, k + 1), turned].into_iter().flatten().find_map(|change| self.gain(change));
+                if found.is_some() {
+                    return found;
                 }
-                for change in joining(i, j).into_iter().flatten() {
-                    if change.places()[2] > self.order.len() {
-                        continue;
-                    }
-                    let gain = self.gain(change);
-                    if gain > LEAST_GAIN && self.try_change(change) {
-                        return Some((gain, self.about(change.seams())));
-                    }
+            }
+        }
+        if j > 0 {
+            // What stands before `j` comes before `k`.
+            let most = sequence.onward(j) + sequence.onward(i).max(sequence.onward(i + 1)) - time;
+            for k in self.onward.of(sequence.at(j - 1)).iter().take_while(|near| near.1 < most).map(place_of) {
+                let turned = if i < j {
+                    (i <= k && k + 1 < j).then(|| Change { places: [i, k + 1, j], turned: [true, false] })
+                } else {
+                    (i <= k).then(|| Change { places: [j, i, k + 1], turned: [false, true] })
+                };
+                let found = [moved(i, j, k), turned].into_iter().flatten().find_map(|change| self.gain(change));
+                if found.is_some() {
+                    return found;
                 }
             }
         }
         None
     }
 
-    /// The visits on either side of some places.
-    fn about(&self, places: [usize; 3]) -> Vec<usize> {
-        let sides = places.into_iter().flat_map(|place| [place.checked_sub(1), Some(place)]);
-        sides.flatten().filter_map(|place| self.order.get(place).copied()).collect()
-    }
-
-    /// What a change gains, s.
-    fn gain(&self, change: Change) -> f64 {
-        match change {
-            Change::Swap(places) => self.swap_gain(places),
-            Change::Reverse(places) => self.reverse_gain(places),
+    /// What a change gains, s, if it does and breaks no more rules than are broken.
+    fn gain(&self, change: Change) -> Option<(f64, Change)> {
+        if change.count() > MOST_CHANGED {
+            return None;
         }
-    }
-
-    /// What is gained when what lies from the second place on comes before what lies from the first, s.
-    fn swap_gain(&self, [low, middle, high]: [usize; 3]) -> f64 {
-        let before = self.at(low.checked_sub(1));
-        let [first, second, behind] = [low, middle, high].map(|place| self.at(Some(place)));
-        let [first_end, second_end] = [middle - 1, high - 1].map(|place| self.at(Some(place)));
-        let now = self.time(before, first) + self.time(first_end, second) + self.time(second_end, behind);
-        now - self.time(before, second) - self.time(second_end, first) - self.time(first_end, behind)
-    }
-
-    /// What is gained when what lies between two places is reversed, s.
-    fn reverse_gain(&self, [low, high]: [usize; 2]) -> f64 {
-        if high - low < 2 || high - low > MOST_REVERSED {
-            return 0.0;
-        }
-        let before = self.at(low.checked_sub(1));
-        let [first, last, behind] = [low, high - 1, high].map(|place| self.at(Some(place)));
-        let ends = self.time(before, first) + self.time(last, behind);
-        let turned = self.time(before, last) + self.time(first, behind);
-        let within: f64 = self.onward[low + 1..high].iter().sum();
-        let back: f64 = self.back[low + 1..high].iter().sum();
-        ends + within - turned - back
+        let gain = self.sequence.gain(change, LEAST_GAIN);
+        (gain > LEAST_GAIN && !self.sequence.breaks(change)).then_some((gain, change))
     }
 }
 
-/// The changes that bring what stands at one place right before what stands at another, with up to some of its neighbours.
-fn joining(i: usize, j: usize) -> [Option<Change>; 2 * MOST_MOVED + 2] {
-    let mut changes = [None; 2 * MOST_MOVED + 2];
-    for length in 1..=MOST_MOVED {
-        let swaps = if j > i + 1 {
-            [Some([i + 1, j, j + length]), (i + 1 > length - 1).then(|| [i + 1 - length, i + 1, j])]
-        } else if j < i {
-            [
-                (j + length <= i).then(|| [j, j + length, i + 1]),
-                (i + 1 > j + length).then(|| [j, i + 1 - length, i + 1]),
-            ]
+/// The change that brings what stands at `i` right before what stands at `j`, by cutting the order before `k` as well, too.
+fn moved(i: usize, j: usize, k: usize) -> Option<Change> {
+    let places = if i < j {
+        if k <= i {
+            [k, i + 1, j]
+        } else if k > j {
+            [i + 1, j, k]
         } else {
-            [None; 2]
-        };
-        changes[2 * length - 2] = swaps[0].map(Change::Swap);
-        changes[2 * length - 1] = swaps[1].map(Change::Swap);
-    }
-    if j > i + 1 {
-        changes[2 * MOST_MOVED] = Some(Change::Reverse([i + 1, j + 1]));
-        changes[2 * MOST_MOVED + 1] = Some(Change::Reverse([i, j]));
-    }
-    changes
+            return None;
+        }
+    } else if j < k && k <= i {
+        [j, k, i + 1]
+    } else {
+        return None;
+    };
+    Some(Change::swap(places))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::geom::Point;
+    use crate::pass::marker::route::sequence::START;
     use fastrand::Rng;
 
     fn points(rng: &mut Rng, count: usize) -> Vec<Point> {
@@ -344,7 +273,7 @@ mod tests {
             order.sort_by(|&a, &b| along[a].total_cmp(&along[b]));
         }
         let time = distance(points);
-        improve(&mut order, &Ways { time: &time, near: &near, before, along: &along, window }, true);
+        improve(&mut order, &Ways { time: &time, near: &near, before, along: &along, window }, Some(0));
         order
     }
 
@@ -370,6 +299,39 @@ mod tests {
             let least = shortest(&mut (0..8).collect(), START, &time);
             assert!(length(&order, &time) <= 1.001 * least, "seed {seed}: {} {least}", length(&order, &time));
         }
+    }
+
+    /// Times as they are: from the end of one visit to the start of another, which are different places.
+    fn between(ends: &[[Point; 2]]) -> impl Fn(usize, usize) -> f64 {
+        |from, to| (ends[to][0] - if from == START { Point::origin() } else { ends[from][1] }).norm()
+    }
+
+    #[test]
+    fn tours_of_a_few_visits_that_end_elsewhere_are_the_shortest_there_are() {
+        for seed in 0..15 {
+            let mut rng = Rng::with_seed(seed);
+            let ends: Vec<[Point; 2]> =
+                points(&mut rng, 8).into_iter().zip(points(&mut rng, 8)).map(|(start, end)| [start, end]).collect();
+            let time = between(&ends);
+            let near: Vec<Vec<u32>> = (0..8).map(|i| (0..8).filter(|&k| k != i).collect()).collect();
+            let (before, along) = (vec![Vec::new(); 8], vec![0.0; 8]);
+            let mut order: Vec<usize> = (0..8).collect();
+            let ways = Ways { time: &time, near: &near, before: &before, along: &along, window: None };
+            improve(&mut order, &ways, Some(0));
+            let least = shortest(&mut (0..8).collect(), START, &time);
+            assert!(length(&order, &time) <= 1.001 * least, "seed {seed}: {} {least}", length(&order, &time));
+        }
+    }
+
+    #[test]
+    fn tours_are_short_and_the_same_each_time() {
+        let points = points(&mut Rng::with_seed(1), 1000);
+        let order = toured(&points, &vec![Vec::new(); 1000], None);
+        // The shortest tours come near this from above the more points there are; of 1,000 they are about 1.025 as long.
+        let least = 0.7124 * (1000.0f64 * 1e6).sqrt();
+        let length = length(&order, &distance(&points));
+        assert!(length < 1.055 * least, "{length} {least}");
+        assert_eq!(order, toured(&points, &vec![Vec::new(); 1000], None));
     }
 
     #[test]

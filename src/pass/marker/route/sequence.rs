@@ -1,0 +1,340 @@
+//! Visits one after another: what it gains when two neighbouring stretches change places or are turned round, and which rules
+//! are broken then.
+
+/// Places in each block: what turning gains is summed up within these, so that neither a sum over a stretch nor what a change
+/// of it costs grows much beyond its length.
+const BLOCK: usize = 64;
+
+/// What a tour goes by.
+pub(super) struct Ways<'a> {
+    /// Time of the move from the end of one visit to the start of another, s; none ends where the tour starts, as `START`.
+    pub(super) time: &'a dyn Fn(usize, usize) -> f64,
+    /// Those near each visit.
+    pub(super) near: &'a [Vec<u32>],
+    /// Those that come before each visit.
+    pub(super) before: &'a [Vec<u32>],
+    /// Where each lies along X, mm, and how far the tour may go back there; `None` = as far as it likes.
+    pub(super) along: &'a [f64],
+    pub(super) window: Option<f64>,
+}
+
+/// Where the tour starts: no visit.
+pub(super) const START: usize = usize::MAX;
+
+/// Two neighbouring stretches that change places, each turned round or not. With nothing in the second only the first is turned.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Change {
+    /// The place at which the first starts, at which the second does, and that behind it.
+    pub(super) places: [usize; 3],
+    /// Which of the two are turned round.
+    pub(super) turned: [bool; 2],
+}
+
+impl Change {
+    /// Without turning.
+    pub(super) fn swap(places: [usize; 3]) -> Self {
+        Self { places, turned: [false; 2] }
+    }
+
+    /// What lies between two places is turned.
+    pub(super) fn turn([low, high]: [usize; 2]) -> Self {
+        Self { places: [low, high, high], turned: [true, false] }
+    }
+
+    /// Visits that are moved.
+    pub(super) fn count(self) -> usize {
+        self.places[2] - self.places[0]
+    }
+
+    /// Where the stretch that was the second ends afterwards, and that which was the first starts.
+    fn middle_then(self) -> usize {
+        let [low, middle, high] = self.places;
+        low + high - middle
+    }
+
+    /// What takes it back.
+    pub(super) fn inverse(self) -> Self {
+        let ([low, _, high], [first, second]) = (self.places, self.turned);
+        Self { places: [low, self.middle_then(), high], turned: [second, first] }
+    }
+
+    /// The places on either side of those before which another stands afterwards, where there are any.
+    pub(super) fn seams(self) -> [usize; 6] {
+        let [low, _, high] = self.places;
+        let middle = self.middle_then();
+        [low.wrapping_sub(1), low, middle.wrapping_sub(1), middle, high - 1, high]
+    }
+
+    /// Where what stands at a place comes to stand.
+    fn place_then(self, place: usize) -> usize {
+        let ([low, middle, high], [first, second]) = (self.places, self.turned);
+        if place < low || high <= place {
+            place
+        } else if place < middle {
+            self.middle_then() + if first { middle - 1 - place } else { place - low }
+        } else {
+            low + if second { high - 1 - place } else { place - middle }
+        }
+    }
+}
+
+/// Visits in an order, with what is asked of it again and again.
+pub(super) struct Sequence<'a> {
+    ways: &'a Ways<'a>,
+    has_rules: bool,
+    order: Vec<u32>,
+    /// The place of each visit in the order.
+    place: Vec<u32>,
+    /// The farthest along X before each place, mm; noted if there is a window.
+    front: Vec<f64>,
+    /// Time of the move to each place from the one before, and of that back, s; behind the last there is none.
+    onward: Vec<f64>,
+    back: Vec<f64>,
+    /// How much less the moves to the places of a block up to each take back than onward, s.
+    saved: Vec<f64>,
+}
+
+impl<'a> Sequence<'a> {
+    pub(super) fn new(order: &[usize], ways: &'a Ways<'a>) -> Self {
+        let count = order.len();
+        let mut sequence = Self {
+            ways,
+            has_rules: ways.window.is_some() || ways.before.iter().any(|before| !before.is_empty()),
+            order: order.iter().map(|&visit| visit as u32).collect(),
+            place: vec![0; count],
+            front: vec![f64::NEG_INFINITY; count],
+            onward: vec![0.0; count + 1],
+            back: vec![0.0; count + 1],
+            saved: vec![0.0; count + 1],
+        };
+        (0..count).for_each(|place| sequence.join(place));
+        sequence.note(0, count);
+        sequence
+    }
+
+    pub(super) fn order(&self) -> impl Iterator<Item = usize> {
+        self.order.iter().map(|&visit| visit as usize)
+    }
+
+    pub(super) fn count(&self) -> usize {
+        self.order.len()
+    }
+
+    pub(super) fn place(&self, visit: usize) -> usize {
+        self.place[visit] as usize
+    }
+
+    /// The visit at a place.
+    pub(super) fn at(&self, place: usize) -> usize {
+        self.order[place] as usize
+    }
+
+    /// The same, if there is any.
+    pub(super) fn get(&self, place: usize) -> Option<usize> {
+        self.order.get(place).map(|&visit| visit as usize)
+    }
+
+    /// Time of the move to a place from the one before, s; none behind the last.
+    pub(super) fn onward(&self, place: usize) -> f64 {
+        self.onward[place]
+    }
+
+    /// The visit before a place, or the start.
+    fn before(&self, place: usize) -> usize {
+        place.checked_sub(1).map_or(START, |before| self.at(before))
+    }
+
+    /// Notes how long the moves between a place and the one before take.
+    fn join(&mut self, place: usize) {
+        if let Some(visit) = self.get(place) {
+            let before = self.before(place);
+            self.onward[place] = (self.ways.time)(before, visit);
+            // Nothing is turned with the start.
+            self.back[place] = if before == START { 0.0 } else { (self.ways.time)(visit, before) };
+        }
+    }
+
+    /// Notes what follows from who stands at some places.
+    fn note(&mut self, low: usize, high: usize) {
+        for (&visit, place) in self.order[low..high].iter().zip(low as u32..) {
+            self.place[visit as usize] = place;
+        }
+        if self.ways.window.is_some() {
+            let along = |place: usize| self.ways.along[self.order[place] as usize];
+            let before = low.checked_sub(1).map(|before| self.front[before].max(along(before)));
+            let mut front = before.unwrap_or(f64::NEG_INFINITY);
+            for place in low..high {
+                self.front[place] = front;
+                front = front.max(along(place));
+            }
+        }
+        // The move to the place behind them is another, too.
+        let end = (high + 1).next_multiple_of(BLOCK).min(self.saved.len());
+        let mut saved = if low.is_multiple_of(BLOCK) { 0.0 } else { self.saved[low - 1] };
+        for place in low..end {
+            if place.is_multiple_of(BLOCK) {
+                saved = 0.0;
+            }
+            saved += self.onward[place] - self.back[place];
+            self.saved[place] = saved;
+        }
+    }
+
+    /// How much less the moves between the first and the last of some places take back than onward, s.
+    fn saved(&self, [first, last]: [usize; 2]) -> f64 {
+        let blocks = first / BLOCK..last / BLOCK;
+        let whole: f64 = blocks.map(|block| self.saved[block * BLOCK + BLOCK - 1]).sum();
+        whole + self.saved[last] - self.saved[first]
+    }
+
+    /// What a change gains, s; if that is no more than asked for, something that is no more, either.
+    pub(super) fn gain(&self, change: Change, asked: f64) -> f64 {
+        let Change { places: [low, middle, high], turned } = change;
+        let time = self.ways.time;
+        let mut gain = self.onward[low] + self.onward[high];
+        let mut ends = |stretch: [usize; 2], is_turned: bool| {
+            let [first, last] = [stretch[0], stretch[1] - 1];
+            if is_turned {
+                gain += self.saved([first, last]);
+                [self.at(last), self.at(first)]
+            } else {
+                [self.at(first), self.at(last)]
+            }
+        };
+        let mut first = ends([low, middle], turned[0]);
+        if middle < high {
+            let second = ends([middle, high], turned[1]);
+            gain += self.onward[middle];
+            if gain > asked {
+                gain -= time(second[1], first[0]);
+            }
+            first[0] = second[0];
+        }
+        if gain > asked {
+            gain -= time(self.before(low), first[0]);
+        }
+        if gain > asked && high < self.count() {
+            gain -= time(first[1], self.at(high));
+        }
+        gain
+    }
+
+    /// Whether more rules are broken after a change than before.
+    pub(super) fn breaks(&self, change: Change) -> bool {
+        if !self.has_rules {
+            return false;
+        }
+        let Change { places: [low, middle, high], turned } = change;
+        let (mut now, mut then) = (0, 0);
+        for place in low..high {
+            for &other in &self.ways.before[self.at(place)] {
+                let other = self.place(other as usize);
+                now += usize::from(other > place);
+                then += usize::from(change.place_then(other) > change.place_then(place));
+            }
+        }
+        if let Some(window) = self.ways.window {
+            let along = |place: usize| self.ways.along[self.at(place)];
+            now += (low..high).filter(|&place| along(place) < self.front[place] - window).count();
+            let mut front = self.front[low];
+            for (start, end, is_turned) in [(middle, high, turned[1]), (low, middle, turned[0])] {
+                for place in start..end {
+                    let along = along(if is_turned { start + end - 1 - place } else { place });
+                    then += usize::from(along < front - window);
+                    front = front.max(along);
+                }
+            }
+        }
+        then > now
+    }
+
+    pub(super) fn change(&mut self, change: Change) {
+        let Change { places: [low, middle, high], turned } = change;
+        let then = change.middle_then();
+        self.order[low..high].rotate_left(middle - low);
+        self.onward[low..high].rotate_left(middle - low);
+        self.back[low..high].rotate_left(middle - low);
+        for (start, end, is_turned) in [(low, then, turned[1]), (then, high, turned[0])] {
+            if is_turned {
+                self.order[start..end].reverse();
+                self.onward[start + 1..end].reverse();
+                self.back[start + 1..end].reverse();
+                self.onward[start + 1..end].swap_with_slice(&mut self.back[start + 1..end]);
+            }
+        }
+        for place in [low, then, high] {
+            self.join(place);
+        }
+        self.note(low, high);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fastrand::Rng;
+
+    /// Makes changes of an order with times, rules and a window at random, and compares what is told of them with the orders.
+    fn check(count: usize, changes: usize, seed: u64) {
+        let mut rng = Rng::with_seed(seed);
+        let times: Vec<f64> = (0..(count + 1) * count).map(|_| rng.f64()).collect();
+        let time = |from: usize, to: usize| times[if from == START { count } else { from } * count + to];
+        let along: Vec<f64> = (0..count).map(|_| rng.f64()).collect();
+        let before: Vec<Vec<u32>> =
+            (0..count).map(|i| if i % 3 == 1 { vec![i as u32 - 1] } else { Vec::new() }).collect();
+        let ways = Ways { time: &time, near: &[], before: &before, along: &along, window: Some(0.3) };
+        let mut order: Vec<usize> = (0..count).collect();
+        let mut sequence = Sequence::new(&order, &ways);
+        let whole = |order: &[usize]| {
+            let from = std::iter::once(START).chain(order.iter().copied());
+            from.zip(order).map(|(from, &to)| time(from, to)).sum::<f64>()
+        };
+        let broken = |order: &[usize]| {
+            let place = |visit: usize| order.iter().position(|&other| other == visit).expect("each is in it");
+            let early = (0..count).flat_map(|i| before[i].iter().map(move |&other| (i, other as usize)));
+            let front = |at: usize| order[..at].iter().map(|&visit| along[visit]).fold(f64::NEG_INFINITY, f64::max);
+            early.filter(|&(i, other)| place(other) > place(i)).count()
+                + (0..count).filter(|&at| along[order[at]] < front(at) - 0.3).count()
+        };
+        for _ in 0..changes {
+            let mut places = [0; 3].map(|_: usize| rng.usize(0..=count));
+            places.sort_unstable();
+            let [low, middle, high] = places;
+            if low == middle {
+                continue;
+            }
+            let turned = [rng.bool(), middle < high && rng.bool()];
+            let change = Change { places, turned };
+            let mut then = order.clone();
+            let turn = |stretch: &[usize], is_turned: bool| {
+                let mut stretch = stretch.to_vec();
+                if is_turned {
+                    stretch.reverse();
+                }
+                stretch
+            };
+            let [first, second] = [turn(&order[low..middle], turned[0]), turn(&order[middle..high], turned[1])];
+            then.splice(low..high, second.into_iter().chain(first));
+            let gain = whole(&order) - whole(&then);
+            assert!((sequence.gain(change, f64::NEG_INFINITY) - gain).abs() < 1e-9, "{change:?}");
+            assert_eq!(sequence.breaks(change), broken(&then) > broken(&order), "{change:?}");
+            sequence.change(change);
+            assert!(sequence.order().eq(then.iter().copied()), "{change:?}");
+            if rng.bool() {
+                sequence.change(change.inverse());
+                assert!(sequence.order().eq(order.iter().copied()), "{change:?}");
+            } else {
+                order = then;
+            }
+            assert!((0..count).all(|place| sequence.place(sequence.at(place)) == place));
+        }
+    }
+
+    #[test]
+    fn a_change_gains_and_breaks_what_the_orders_tell() {
+        for seed in 0..10 {
+            check(7, 200, seed);
+            check(300, 200, seed);
+        }
+    }
+}
