@@ -8,7 +8,7 @@ use super::word::words;
 /// The keys `order.*`.
 #[rustfmt::skip] // a table: one row a key
 pub(super) const KEYS: &[Key] = &[
-    Key { name: "order.policy", takes: Takes::Word(words::<OrderPolicy>), about: "In which order pieces are cut: \"file\" = as in the file, what lies within a part before it;\n\"fastest\" = on the shortest way with the knife up, notches on the way round, each outline from\nthe corner that suits; \"steady\" = the same, the work moving along X (order.window_mm)." },
+    Key { name: "order.policy", takes: Takes::Word(words::<OrderPolicy>), about: "In which order pieces are cut: \"file\" = as in the file, what lies within a part before it;\n\"fastest\" = on the shortest way with the knife up, notches on the way round, each line from the\ncorner and in the direction that suit; \"steady\" = the same, the work moving along X\n(order.window_mm); \"auto\" = \"file\" for cut files, whose CAD chose it, \"steady\" for drawings." },
     Key { name: "order.window_mm", takes: Takes::Number(from(10.0, 1.0e6)), about: "How far \"steady\" goes back in X at the most, from the left edge of one piece to that of another." },
 ];
 
@@ -24,7 +24,18 @@ pub struct Order {
 
 impl Default for Order {
     fn default() -> Self {
-        Self { policy: OrderPolicy::File, window_mm: 600.0 }
+        Self { policy: OrderPolicy::Auto, window_mm: 600.0 }
+    }
+}
+
+impl Order {
+    /// By what the order of pieces is chosen that were read from a drawing, which has none of its own, or from a cut file.
+    pub fn policy(&self, is_drawing: bool) -> OrderPolicy {
+        match self.policy {
+            OrderPolicy::Auto if is_drawing => OrderPolicy::Steady,
+            OrderPolicy::Auto => OrderPolicy::File,
+            policy @ (OrderPolicy::File | OrderPolicy::Fastest | OrderPolicy::Steady) => policy,
+        }
     }
 }
 
@@ -32,6 +43,8 @@ impl Default for Order {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum OrderPolicy {
+    /// As suits what is read.
+    Auto,
     /// The file.
     File,
     /// The least time with the knife up.

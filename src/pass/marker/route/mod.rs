@@ -11,13 +11,13 @@ mod times;
 mod tour;
 mod visit;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use self::near::near;
 use self::sequence::{START, Ways};
 use self::times::Times;
-use self::visit::{Cuts, Measures, Visit};
+use self::visit::{Begin, Cuts, Measures, Visit};
 use super::order::holders;
 use super::pass::MarkerPass;
 use crate::analysis::air::{Air, Stop};
@@ -42,7 +42,7 @@ const THOROUGH: usize = 3;
 const FEW: usize = 1000;
 
 fn run(marker: &mut Marker, job: &Job, _: &mut Diagnostics) {
-    let policy = job.profile.order.policy;
+    let policy = job.profile.order.policy(marker.drawing.is_some());
     if policy == OrderPolicy::File {
         return;
     }
@@ -273,12 +273,20 @@ fn inner_first(order: Vec<usize>, before: &[Vec<u32>]) -> Vec<usize> {
 /// Puts the notches of a piece in the sequence of a visit, and lets its contours start where that has it.
 fn apply(visit: &Visit, piece: &mut Piece, list: &mut SegmentList) {
     piece.notches = visit.slits.iter().map(|&slit| piece.notches[slit]).collect();
-    for (contour, &start) in piece.contours.iter_mut().zip(&visit.starts).filter(|(_, start)| **start > 0) {
-        let mut segments: Vec<Segment> = list.walk(contour.range).map(|(_, segment)| segment).collect();
-        segments.rotate_left(start);
-        contour.range = list.append(segments).expect("it has as many segments as before");
+    for (contour, &Begin { segment, is_reversed }) in piece.contours.iter_mut().zip(&visit.starts) {
+        if segment > 0 {
+            let mut segments: Vec<Segment> = list.walk(contour.range).map(|(_, segment)| segment).collect();
+            segments.rotate_left(segment);
+            contour.range = list.append(segments).expect("it has as many segments as before");
+        }
+        if is_reversed {
+            contour.range = contour.range.reversed();
+            let points: BTreeSet<[u64; 2]> = list.points(contour.range).iter().map(|&point| bits(point)).collect();
+            let of_contour = piece.outline_notches.iter_mut().filter(|notch| points.contains(&bits(notch.mouth[0])));
+            of_contour.for_each(|notch| notch.mouth.reverse());
+        }
     }
-    if visit.starts.iter().any(|&start| start > 0) {
+    if visit.starts.iter().any(|start| *start != Begin::default()) {
         // They stand in the order in which the contours come to them.
         let places =
             piece.contours.iter().flat_map(|contour| list.walk(contour.range)).map(|(_, segment)| bits(segment.from));

@@ -12,7 +12,7 @@ use crate::ir::marker::{Contour, OutlineNotch, Piece};
 const MOST_VISITS: usize = 32;
 /// Comparisons of slits with segments of their outline, at the most: of more slits the sequence stays.
 const MOST_LOOKS: usize = 10_000_000;
-/// Corners of a contour that are looked at, at the most.
+/// Corners of a contour that are looked at, at the most, each either way round.
 const MOST_STARTS: usize = 64;
 
 /// What visits are made by.
@@ -31,19 +31,27 @@ pub(super) struct Measures {
 pub(super) struct Visit {
     /// The notches that are drawn as slits, by their places in the piece.
     pub(super) slits: Vec<usize>,
-    /// Where each contour starts, by its segments.
-    pub(super) starts: Vec<usize>,
+    /// Where each contour starts.
+    pub(super) starts: Vec<Begin>,
     /// Where the knife first comes down, and where it last comes up.
     pub(super) ends: [Stop; 2],
     /// Time of the moves between them, s.
     pub(super) within: f64,
 }
 
+/// How a contour is begun.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Begin {
+    /// The segment that starts where it is begun, by its place among those of the contour; of an open one the first.
+    pub(super) segment: usize,
+    /// Whether it is cut against its direction from there on.
+    pub(super) is_reversed: bool,
+}
+
 /// A start of a contour.
 #[derive(Debug, Clone, Copy)]
 struct Start {
-    /// The segment that is cut first, by its place among those of the contour.
-    segment: usize,
+    begin: Begin,
     /// Where the knife comes down then, and where it comes up.
     stops: [Stop; 2],
 }
@@ -126,8 +134,8 @@ impl Cuts {
         ends.extend(slits.iter().map(|&slit| self.slits[slit].0));
         let mut starts = Vec::with_capacity(self.contours.len());
         for contour in &self.contours {
-            let Start { segment, stops } = choose(ends.last().map(|ends| &ends[1]), contour);
-            starts.push(segment);
+            let Start { begin, stops } = choose(ends.last().map(|ends| &ends[1]), contour);
+            starts.push(begin);
             ends.push(stops);
         }
         let within = ends.windows(2).map(|pair| air.time(&pair[0][1], &pair[1][0])).sum();
@@ -187,17 +195,27 @@ fn station(outline: &[Segment], point: Point) -> f64 {
     best.1
 }
 
-/// Where a contour may start: as it does, and at its corners, if it is closed and the file asks for nothing on it.
+/// Where a contour may start: as it does, and, if the file asks for nothing on it, at its other end, or a closed one at its
+/// corners, either way round.
 fn starts(contour: &Contour, of: &[Segment], piece: &Piece, measures: &Measures) -> Vec<Start> {
     let &Measures { air, corner: limit, unit } = measures;
     let count = of.len();
-    let start = |i: usize| {
+    let start = |segment: usize, is_reversed: bool| {
+        let begin = Begin { segment, is_reversed };
         // The last segment of a closed one ends where the first starts.
-        let (first, last) = (&of[i], &of[(i + count - 1) % count]);
-        Start { segment: i, stops: [air.down(first.from, first.to), air.up(last.from, last.to)] }
+        let (first, last) = (&of[segment], &of[(segment + count - 1) % count]);
+        let stops = if is_reversed {
+            [air.down(last.to, last.from), air.up(first.to, first.from)]
+        } else {
+            [air.down(first.from, first.to), air.up(last.from, last.to)]
+        };
+        Start { begin, stops }
     };
-    let mut found = vec![start(0)];
+    let mut found = vec![start(0, false)];
     let is_plain = of.iter().all(|segment| segment.joint == Joint::default() && segment.percent == of[0].percent);
+    if is_plain {
+        found.push(start(0, true));
+    }
     if !contour.closed || !is_plain || count < 3 {
         return found;
     }
@@ -209,7 +227,8 @@ fn starts(contour: &Contour, of: &[Segment], piece: &Piece, measures: &Measures)
     let on_notch = on_notches(of, &piece.outline_notches);
     let corners: Vec<usize> = (1..count).filter(|&i| !on_notch[i]).filter(is_corner).collect();
     let step = corners.len().div_ceil(MOST_STARTS).max(1);
-    found.extend(corners.into_iter().step_by(step).map(start));
+    found
+        .extend(corners.into_iter().step_by(step).flat_map(|i| [false, true].map(|is_reversed| start(i, is_reversed))));
     found
 }
 
