@@ -23,6 +23,7 @@ use super::order::Order;
 pub use super::path::Fit;
 use super::path::{Corner, Path, Slow};
 use super::plot::Hpgl;
+use super::sheet::Sheet;
 use super::table::Table;
 use super::time::Time;
 use super::verify::Verify;
@@ -64,6 +65,8 @@ pub struct MachineProfile {
     pub common: Common,
     /// In which order pieces are cut.
     pub order: Order,
+    /// How the marker lies on the table.
+    pub sheet: Sheet,
     /// The drill.
     pub drill: Drill,
     /// Corners.
@@ -136,6 +139,7 @@ impl Default for MachineProfile {
             nest: Nest::default(),
             common: Common::default(),
             order: Order::default(),
+            sheet: Sheet::default(),
             drill: Drill::default(),
             corner: Corner::default(),
             slow: Slow::default(),
