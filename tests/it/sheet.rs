@@ -195,6 +195,16 @@ fn nests_that_share_their_edges_are_verified_on_any_sheet() {
     }
 }
 
+#[test]
+fn gaps_as_wide_as_the_band_are_no_matter_of_the_angle() {
+    // Gaps of two tenths, which is the band: turned, rounding makes them a little more here and a little less there.
+    let nest = files("markers").into_iter().find(|source| source.name() == "touching-parts.cut").expect("a fixture");
+    for angle in [3.0, 7.0, 11.0, 17.0, 29.0, 53.0] {
+        let sheet = Sheet { rotate_deg: angle, origin: Some([517.123, 3.7]), ..Sheet::default() };
+        compiled(&nest, &job(&sheet), "csv");
+    }
+}
+
 /// What is done to a marker that lies right.
 type Damage = (&'static str, fn(&mut Marker));
 
@@ -324,6 +334,24 @@ fn a_cut_file_of_a_sheet_is_read_back_as_it_lies() {
     let (one, other) = (again.extent(), laid.extent());
     assert!((one.min - other.min).norm() < 1e-5 && (one.max - other.max).norm() < 1e-5);
     assert!((again.drawn_length() - laid.drawn_length()).abs() < 1e-3);
+}
+
+#[test]
+fn cut_files_of_any_sheet_say_what_the_marker_says() {
+    let mut rng = Rng::with_seed(3);
+    let mut count = 0;
+    for marker in files("iso") {
+        let sheet = any_sheet(&mut rng);
+        let target = TARGETS.iter().find(|row| row.name == "iso").expect("a target");
+        let (mut out, mut found) = (Cursor::new(Vec::new()), Diagnostics::default());
+        let order = pipeline::Order { from: None, target, verify: true };
+        let made = pipeline::compile(&marker, &job(&sheet), order, &mut out, &mut found).expect("memory");
+        count += usize::from(made.is_some());
+        // Some cannot be written, or lie before an advance.
+        let broken = found.iter().filter(|finding| finding.code.name == "verify/broken").count();
+        assert_eq!(broken, 0, "{}, {sheet:?}: {}", marker.name(), render(&found, &marker));
+    }
+    assert!(count > 40, "{count} cut files");
 }
 
 #[test]

@@ -146,6 +146,7 @@ impl Way {
     }
 
     fn label(&self, label: &mut Label) {
+        let has_place = label.at.is_some();
         if let Some(at) = &mut label.at {
             self.move_place(at);
         }
@@ -158,7 +159,7 @@ impl Way {
         // A text without a direction runs along X of the file, wherever that goes.
         let heading = label.heading.unwrap_or(Heading::new(0.0));
         let turned = Heading::of(self.vector(heading.unit()));
-        if label.heading.is_some() || turned != heading {
+        if label.heading.is_some() || has_place && turned != heading {
             label.heading = Some(turned);
         }
     }

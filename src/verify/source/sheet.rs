@@ -221,7 +221,9 @@ impl Lay {
             other => (drawn.span, other),
         };
         let along = drawn.heading.map_or(0.0, Heading::radians);
-        let [x, y] = self.turned(along.cos(), along.sin());
+        // What has neither place nor direction lies nowhere.
+        let is_loose = drawn.at.is_none() && drawn.heading.is_none();
+        let [x, y] = if is_loose { [1.0, 0.0] } else { self.turned(along.cos(), along.sin()) };
         let askew = laid.heading.unwrap_or(Heading::new(0.0)).turn_to(Heading::new(y.atan2(x))).abs();
         if texts != (laid.span, laid.mirrored) || askew > SAME_EPSILON {
             return f64::INFINITY;
