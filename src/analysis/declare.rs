@@ -40,8 +40,9 @@ pub fn totals(declared: &[Declaration], marker: &Marker) -> Vec<Total> {
         let points = marker.list.points(cut.range);
         let at = polyline::place(&points, &polyline::stations(&points), worst.from_mm);
         let at_mm = [at.x, at.y].map(|value| (value * PER_MM).round() / PER_MM);
-        let piece = marker.pieces[cut.piece as usize].number;
-        Some(Total { kind, count, worst_mm: worst.magnitude_mm, piece, at_mm })
+        let piece = &marker.pieces[cut.piece as usize];
+        let (piece, copy) = (piece.number, piece.copy);
+        Some(Total { kind, count, worst_mm: worst.magnitude_mm, piece, copy, at_mm })
     };
     Kind::ALL.into_iter().filter_map(of_kind).collect()
 }

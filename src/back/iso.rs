@@ -77,7 +77,9 @@ struct File<'a> {
 
 impl<'a> File<'a> {
     fn new(context: &'a Context<'a>) -> Self {
-        let unit = UNITS.iter().map(|row| row.0).find(|&unit| unit == context.marker.unit);
+        // As the file had it: the rounding of a marker grows with that.
+        let growth = context.job.profile.sheet.growth();
+        let unit = UNITS.iter().map(|row| row.0).find(|&unit| unit * growth == context.marker.unit);
         Self {
             context,
             text: Vec::new(),
@@ -286,7 +288,9 @@ impl<'a> File<'a> {
     fn list_of_labels(&mut self) {
         let marker = self.context.marker;
         let is_named = |piece: &&Piece| piece.fields.first().is_some_and(|field| matches!(field.letter, b'L' | b'N'));
-        let with_fields = marker.pieces.iter().filter(|piece| is_cut(piece) && !piece.fields.is_empty());
+        // The list goes by numbers, which all copies have in common.
+        let is_listed = |piece: &&Piece| is_cut(piece) && !piece.fields.is_empty() && piece.copy < 2;
+        let with_fields = marker.pieces.iter().filter(is_listed);
         let (named, unnamed): (Vec<&Piece>, Vec<&Piece>) = with_fields.partition(is_named);
         if named.is_empty() && unnamed.is_empty() {
             return;

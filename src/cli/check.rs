@@ -11,6 +11,7 @@ use super::files;
 use super::finished::{Console, DONE, FAULTY, Finished, USAGE, say};
 use super::options::{Messages, Reading, counted};
 use super::report::{Findings, pretty};
+use super::setup;
 use crate::diagnostic::{Diagnostics, Severity, render_with};
 use crate::machine::Job;
 use crate::pipeline;
@@ -90,6 +91,7 @@ fn one(arguments: &Arguments, file: &Path, job: &Job) -> Finished {
                 let warnings = counted(diagnostics.count(Severity::Warning), "warning");
                 let dialect = dialect.unwrap_or("unknown");
                 say(&mut said, format_args!("{}: {dialect}, {errors}, {warnings}", source.name()));
+                said.push_str(&setup::sheet(job));
             }
             verdicts.push(checked.verdict());
         }

@@ -19,6 +19,11 @@ const DIGITS: i32 = 9;
 #[derive(Debug, Serialize)]
 pub(super) struct Labelled {
     piece: u32,
+    /// Not there where there is but one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    copy: Option<u32>,
+    #[serde(skip)]
+    name: String,
     labels: Vec<Label>,
     fields: Vec<Field>,
 }
@@ -53,6 +58,8 @@ pub(super) fn of(marker: &Marker, source: &Source, job: &Job) -> Vec<Labelled> {
     let field = |field: &marker::Field| Field { letter: char::from(field.letter), value: text(field.span) };
     let labelled = marker.pieces.iter().map(|piece| Labelled {
         piece: piece.number,
+        copy: Some(piece.copy).filter(|&copy| copy > 0),
+        name: piece.name(),
         labels: piece.labels.iter().map(label).collect(),
         fields: piece.fields.iter().map(field).collect(),
     });
@@ -69,10 +76,10 @@ pub(super) fn text(pieces: &[Labelled]) -> String {
         out.push_str("\n  piece      x mm      y mm  angle deg  label\n");
     }
     let number = |value: Option<f64>| value.map_or("-".to_owned(), |value| fixed(value, 1));
-    for Labelled { piece, labels, .. } in pieces {
+    for Labelled { name, labels, .. } in pieces {
         for Label { text, mirrored, x_mm, y_mm, angle_deg, .. } in labels {
             let (x, y, angle) = (number(*x_mm), number(*y_mm), number(*angle_deg));
-            let _ = writeln!(out, "  {piece:>5}  {x:>8}  {y:>8}  {angle:>9}  {text}");
+            let _ = writeln!(out, "  {name:>5}  {x:>8}  {y:>8}  {angle:>9}  {text}");
             if let Some(mirrored) = mirrored {
                 let _ = writeln!(out, "  {:>5}  {:>8}  {:>8}  {:>9}  {mirrored}", "", "", "", "mirrored:");
             }
@@ -81,9 +88,9 @@ pub(super) fn text(pieces: &[Labelled]) -> String {
     if pieces.iter().any(|piece| !piece.fields.is_empty()) {
         out.push_str("\n  piece  field behind M0\n");
     }
-    for Labelled { piece, fields, .. } in pieces {
+    for Labelled { name, fields, .. } in pieces {
         for Field { letter, value } in fields {
-            let _ = writeln!(out, "  {piece:>5}  {letter}  {value}");
+            let _ = writeln!(out, "  {name:>5}  {letter}  {value}");
         }
     }
     if out.contains(char::REPLACEMENT_CHARACTER) {

@@ -10,7 +10,7 @@ use super::{choices, files};
 use crate::diagnostic::{Detail, Severity, render_with};
 use crate::front::Dialect;
 use crate::machine::plot::{Inner, Lines};
-use crate::machine::{Faults, Job, Mode, NotNumbers, Numbers, Selection, load_given};
+use crate::machine::{Faults, Job, Mode, NotNumbers, Numbers, Selection, Start, load_given};
 use crate::source::Source;
 
 /// For an option behind those that stand under a heading of their own: it belongs to the command itself.
@@ -121,8 +121,10 @@ pub(super) struct Choice {
     skip: Option<Numbers>,
 
     /// Cut from the piece of this number on, in cut order: what an interrupted run has left
-    #[arg(long, value_name = "NUMBER")]
-    resume_from: Option<u32>,
+    ///
+    /// Of several copies (sheet.copies) the first, or as in `--resume-from 3/2` the second.
+    #[arg(long, value_name = "NUMBER", value_parser = start)]
+    resume_from: Option<Start>,
 
     /// The same motion with knife and drills up: nothing is cut
     #[arg(long, conflicts_with = "frame")]
@@ -135,6 +137,10 @@ pub(super) struct Choice {
 
 fn numbers(text: &str) -> Result<Numbers, NotNumbers> {
     Numbers::parse(text)
+}
+
+fn start(text: &str) -> Result<Start, NotNumbers> {
+    Start::parse(text)
 }
 
 /// Numbers of pens: any but 0, which stands for none.

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use super::explain::wrapped;
-use crate::machine::{Axis, Job, MachineProfile};
+use crate::machine::{Axis, Job, MachineProfile, Sheet};
 use crate::units::number::short;
 
 /// Columns that the text of a line may take.
@@ -16,6 +16,9 @@ const WIDTH: usize = 66;
 pub(super) struct Setup {
     profile: Profile,
     knife: Knife,
+    /// How the marker lies on the table; not there where it lies as the file has it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sheet: Option<Sheet>,
 }
 
 /// Where the values came from.
@@ -57,6 +60,7 @@ impl Setup {
                 set: job.origin.set.iter().cloned().collect(),
             },
             knife: Knife { width_mm: knife.width_mm, back_mm: back, radius_mm: rounded(knife.width_mm - back), axis },
+            sheet: Some(&job.profile.sheet).filter(|sheet| !sheet.is_plain()).cloned(),
         }
     }
 }
@@ -86,7 +90,16 @@ pub(super) fn text(job: &Job) -> String {
         ),
     };
     line("knife", &format!("{place}{why}"));
-    out
+    out + &sheet(job)
+}
+
+/// A line on how the marker lies on the table; empty where it lies as the file has it.
+pub(super) fn sheet(job: &Job) -> String {
+    let sheet = &job.profile.sheet;
+    if sheet.is_plain() {
+        return String::new();
+    }
+    format!("  {:10} {}\n", "sheet", wrapped(&sheet.to_string(), WIDTH).replace('\n', "\n             "))
 }
 
 #[cfg(test)]

@@ -4,6 +4,8 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
+use crate::ir::Marker;
+use crate::ir::marker::Piece;
 use crate::pipeline::{Program, Spent, significant, word};
 use crate::units::number::fixed;
 use crate::units::{S_PER_HOUR, S_PER_MIN};
@@ -15,16 +17,26 @@ const DIGITS: i32 = 9;
 #[derive(Debug, Serialize)]
 pub(super) struct Timed {
     piece: u32,
+    /// Not there where there is but one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    copy: Option<u32>,
+    #[serde(skip)]
+    name: String,
     time_s: f64,
     spent: Spent,
 }
 
 /// The pieces of a program, in cut order. The way to a piece counts as its own.
-pub(super) fn of(program: &Program) -> Vec<Timed> {
-    let timed = |(piece, spent): &(u32, Spent)| Timed {
-        piece: *piece,
-        time_s: significant(spent.total(), DIGITS),
-        spent: spent.clone(),
+pub(super) fn of(program: &Program, marker: &Marker) -> Vec<Timed> {
+    let timed = |([piece, part], spent): &([u32; 2], Spent)| {
+        let of = marker.pieces.get(*part as usize);
+        Timed {
+            piece: *piece,
+            copy: of.map(|piece| piece.copy).filter(|&copy| copy > 0),
+            name: of.map_or_else(|| piece.to_string(), Piece::name),
+            time_s: significant(spent.total(), DIGITS),
+            spent: spent.clone(),
+        }
     };
     program.by_piece.iter().map(timed).collect()
 }
@@ -40,9 +52,9 @@ pub(super) fn clock(seconds: f64) -> String {
 /// A row for each piece: its time, what the machine does in it, and what bounds most of its cutting.
 pub(super) fn text(pieces: &[Timed]) -> String {
     let mut out = String::from("\n  piece    time s     cut  travel    turn  plunge    lift   other  limited by\n");
-    for Timed { piece, time_s, spent } in pieces {
+    for Timed { name, time_s, spent, .. } in pieces {
         let other = spent.drill + spent.wait;
-        let _ = write!(out, "  {piece:>5}  {:>8}", fixed(*time_s, 2)); // a `String` takes all
+        let _ = write!(out, "  {name:>5}  {:>8}", fixed(*time_s, 2)); // a `String` takes all
         for part in [spent.cut, spent.travel, spent.turn, spent.plunge, spent.lift, other] {
             let _ = write!(out, "  {:>6}", fixed(part, 2));
         }

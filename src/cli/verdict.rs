@@ -74,13 +74,17 @@ struct Rule {
 #[derive(Serialize)]
 struct Named {
     number: u32,
+    /// Not there where there is but one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    copy: Option<u32>,
     #[serde(skip_serializing_if = "Option::is_none")]
     label: Option<String>,
 }
 
 impl Named {
     fn of(name: &PieceName) -> Self {
-        Self { number: name.number, label: name.label.clone() }
+        let copy = Some(name.copy).filter(|&copy| copy > 0);
+        Self { number: name.number, copy, label: name.label.clone() }
     }
 }
 
@@ -279,7 +283,7 @@ mod tests {
             uncut: vec![2],
             untimed: Vec::new(),
         };
-        let front = || PieceName { number: 4, label: Some("FRONT".to_owned()) };
+        let front = || PieceName { number: 4, copy: 0, label: Some("FRONT".to_owned()) };
         let text = Some("12.345,1695.377,20.000,0.000,1,0,0,268".to_owned());
         let told = vec![
             Told { piece: Some(front()), uncut: Vec::new(), line: Some(Line { number: 12_347, text }) },

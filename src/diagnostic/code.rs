@@ -221,6 +221,12 @@ mod table {
     /// Numbers that start again.
     pub static MARKER_NUMBER_TWICE: Code = warning(Spares, Shape, "marker/piece-number-twice", "The number of a piece comes again: two jobs may stand in one file, and both are cut.", "Two markers that were joined into one file are both cut, and --pieces takes both pieces of a number. If only one of them is meant, split the file.");
 
+    // How the marker lies on the table.
+    /// A sheet that takes places away from advances.
+    pub static SHEET_ADVANCE: Code = error(Shape, "sheet/advance", "The file moves the cloth on (M69), and the sheet of the profile would take the marker away from where it expects that.", "What is cut before an advance lies in the first window of the conveyor, and the advance is as long as the file means it: turned, mirrored end to end, scaled along X or copied, parts would be cut where no cloth is yet. Move or flip the marker only, or ignore the advance where the table is long enough.\n  cutc compile m.cut --set sheet.copies=2 --set codes.M69=ignore");
+    /// More than a program holds.
+    pub static SHEET_COPIES: Code = error(Shape, "sheet/too-many-copies", "So many copies of the marker have more points than one program can have; the hint says how many fit.", "A thousand million points are more than any table takes. Set sheet.copies to what the hint says, and run the program again.");
+
     // The choice of pieces.
     /// A number that no piece has.
     pub static SELECT_UNKNOWN_PIECE: Code = error(Shape, "select/unknown-piece", "A piece number that was asked for is not in the file; the message names the flag, the hint the numbers that there are.", "It is a slip of the hand or the wrong file; cutting what is left of the choice could waste cloth. Both ends of a range must be numbers of the file. `--dump-after inspect` shows the pieces with their numbers.\n  cutc compile m.cut --pieces 3,7-12");
@@ -351,6 +357,8 @@ pub static ALL: &[&Code] = &[
     &MARKER_TOO_MANY,
     &MARKER_SEARCH_ENDED,
     &MARKER_NUMBER_TWICE,
+    &SHEET_ADVANCE,
+    &SHEET_COPIES,
     &SELECT_UNKNOWN_PIECE,
     &SELECT_NOTHING_LEFT,
     &PATH_TIGHT,

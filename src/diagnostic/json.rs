@@ -13,6 +13,9 @@ pub struct Json {
     severity: Severity,
     file: String,
     piece: Option<u32>,
+    /// Not there where there is but one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    copy: Option<u32>,
     label: Option<String>,
     x_mm: Option<f64>,
     y_mm: Option<f64>,
@@ -48,6 +51,7 @@ impl Diagnostic {
             severity: self.code.severity,
             file: file.to_owned(),
             piece: self.piece.as_ref().map(|piece| piece.number),
+            copy: self.piece.as_ref().map(|piece| piece.copy).filter(|&copy| copy > 0),
             label: self.piece.as_ref().and_then(|piece| piece.label.clone()),
             x_mm,
             y_mm,

@@ -38,6 +38,8 @@ pub struct Diagnostic {
 pub struct PieceName {
     /// Its number in the file.
     pub number: u32,
+    /// The copy of the marker that it is of, from 1; 0 where there is but one.
+    pub copy: u32,
     /// Its first label, when it has one.
     pub label: Option<String>,
 }
@@ -45,6 +47,9 @@ pub struct PieceName {
 impl fmt::Display for PieceName {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(f, "piece {}", self.number)?;
+        if self.copy > 0 {
+            write!(f, " of copy {}", self.copy)?;
+        }
         self.label.as_ref().map_or(Ok(()), |label| write!(f, " \"{label}\""))
     }
 }

@@ -81,20 +81,29 @@ pub struct Total {
     pub worst_mm: f64,
     /// The number of the piece that this is of.
     pub piece: u32,
+    /// The copy of the marker that this is of, from 1; 0, and not there, where there is but one.
+    #[serde(skip_serializing_if = "is_only")]
+    pub copy: u32,
     /// Where it begins, mm.
     pub at_mm: [f64; 2],
 }
 
 impl fmt::Display for Total {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let Self { kind, count, worst_mm, piece, at_mm: [x, y] } = *self;
+        let Self { kind, count, worst_mm, piece, copy, at_mm: [x, y] } = *self;
         let [one, many] = kind.words();
         write!(f, "{count} {}", if count == 1 { one } else { many })?;
         if worst_mm == 0.0 {
             return Ok(());
         }
-        write!(f, ", at most {} mm (piece {piece} at {}, {})", fixed(worst_mm, 2), fixed(x, 0), fixed(y, 0))
+        let copy = if is_only(&copy) { String::new() } else { format!(" of copy {copy}") };
+        write!(f, ", at most {} mm (piece {piece}{copy} at {}, {})", fixed(worst_mm, 2), fixed(x, 0), fixed(y, 0))
     }
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde hands fields over by reference")]
+fn is_only(copy: &u32) -> bool {
+    *copy == 0
 }
 
 /// An end of a stretch that is cut in one go.

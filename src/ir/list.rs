@@ -153,6 +153,11 @@ impl SegmentList {
         Some(Range { first, last, backward: false, in_order: true })
     }
 
+    /// Moves every point.
+    pub fn move_points(&mut self, to: impl Fn(Point) -> Point) {
+        self.ends.iter_mut().for_each(|end| *end = to(*end));
+    }
+
     /// Walks a range in its direction. A segment that is walked backward comes out turned round.
     pub fn walk(&self, range: Range) -> Walk<'_> {
         let (at, end) = if range.backward { (range.last, range.first) } else { (range.first, range.last) };

@@ -37,6 +37,8 @@ pub struct Marker {
 pub struct Piece {
     /// Its number in the file (N), or its place in the order, from 1.
     pub number: u32,
+    /// Which copy of the marker it is of, from 1; 0 where there is but one.
+    pub copy: u32,
     /// Where it starts in the source.
     pub span: Span,
     /// Holes, in cut order.
@@ -278,6 +280,15 @@ pub struct Drill {
     pub tool: u8,
     /// Where it stands in the source.
     pub span: Span,
+}
+
+impl Piece {
+    /// What lists and pictures call it: its number, and behind a stroke the copy of the marker that it is of, if there are
+    /// several.
+    pub fn name(&self) -> String {
+        let Self { number, copy, .. } = self;
+        if *copy == 0 { number.to_string() } else { format!("{number}/{copy}") }
+    }
 }
 
 impl Marker {

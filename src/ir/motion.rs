@@ -14,6 +14,8 @@ use super::toolpath::{Edge, Event, OrientationMode, Overcut, Pose, Side};
 pub struct Motion {
     /// The number of the piece that it belongs to.
     pub piece: u32,
+    /// The place of that piece in the marker, from 0: numbers may come again.
+    pub part: u32,
     /// Tick at which its first phase begins, counted from the start of the program.
     pub first_tick: u64,
     /// Steps of the program before its first.

@@ -32,10 +32,14 @@ pub enum Takes {
     NumberOrWord(Within, fn() -> &'static [&'static str]),
     /// One of some whole numbers.
     Whole(&'static [i64]),
+    /// A whole number from 1 on.
+    Count(u32),
     /// A whole number of percent.
     Percent,
     /// Two numbers, `[x, y]`.
     Point,
+    /// Two numbers or a word.
+    PointOr(&'static str),
     /// Three numbers, `[x_mm, y_mm, c_deg]`.
     Pose,
     /// Three numbers or a word.
@@ -107,8 +111,10 @@ impl Takes {
                 words().iter().any(|word| is(word)) || number(value).is_some_and(|v| within.holds(v))
             }
             Self::Whole(numbers) => value.as_integer().is_some_and(|v| numbers.contains(&v)),
+            Self::Count(most) => value.as_integer().is_some_and(|v| (1..=i64::from(most)).contains(&v)),
             Self::Percent => number(value).is_some_and(|v| PERCENT.holds(v) && v.fract() == 0.0),
             Self::Point => places(2),
+            Self::PointOr(word) => is(word) || places(2),
             Self::Pose => places(3),
             Self::PoseOr(word) => is(word) || places(3),
             Self::RangeOr(word) => is(word) || (places(2) && list(2).is_some_and(|ends| ends[0] < ends[1])),
@@ -187,11 +193,12 @@ impl fmt::Display for Within {
 impl Key {
     /// The unit of its numbers, from the end of its name; empty when they have none.
     pub fn unit(&self) -> &'static str {
-        const UNITS: [(&str, &str); 13] = [
+        const UNITS: [(&str, &str); 14] = [
             ("per_mm", "counts/mm"),
             ("per_deg", "counts/degree"),
             (".offset", "counts"),
             (".lines", "mm"),
+            (".origin", "mm"),
             ("_mm", "mm"),
             ("_mm_s", "mm/s"),
             ("_mm_s2", "mm/s2"),
@@ -214,11 +221,13 @@ impl Key {
             | Takes::NumberOrWord(..)
             | Takes::Percent
             | Takes::Point
+            | Takes::PointOr(_)
             | Takes::RangeOr(_) => self.unit(),
             Takes::Pose | Takes::PoseOr(_) => POSE_UNITS.get(n).copied().unwrap_or(""),
             // A length of a plot's unit is a text of its own kind.
             Takes::Length(_)
             | Takes::Whole(_)
+            | Takes::Count(_)
             | Takes::Word(_)
             | Takes::Encoding
             | Takes::Text
@@ -236,7 +245,9 @@ impl Key {
             Takes::NumberOrWord(within, words) => format!("a number {within}{unit}, {}", quoted(words)),
             Takes::Percent => format!("a whole number {PERCENT}{unit}"),
             Takes::Whole(numbers) => numbers.iter().map(ToString::to_string).collect::<Vec<_>>().join(" or "),
+            Takes::Count(most) => format!("a whole number from 1 to {most}"),
             Takes::Point => format!("two numbers [x, y]{unit}"),
+            Takes::PointOr(word) => format!("two numbers [x, y]{unit}, or \"{word}\""),
             Takes::Pose => "three numbers [x_mm, y_mm, c_deg]".to_owned(),
             Takes::PoseOr(word) => format!("three numbers [x_mm, y_mm, c_deg], or \"{word}\""),
             Takes::RangeOr(word) => format!("two numbers [least, greatest]{unit}, or \"{word}\""),

@@ -9,7 +9,9 @@ use super::key::Family;
 pub use super::key::{Key, Takes, Within, shown_value};
 use super::plot;
 use super::profile::{self, MachineProfile};
-use super::{axes, common, counts, drill, gcode, knife, labels, nest, notches, order, path, table, time, verify};
+use super::{
+    axes, common, counts, drill, gcode, knife, labels, nest, notches, order, path, sheet, table, time, verify,
+};
 
 /// The rows of each section, in the order in which a profile is written.
 const SECTIONS: &[&[Key]] = &[
@@ -19,6 +21,7 @@ const SECTIONS: &[&[Key]] = &[
     nest::KEYS,
     common::KEYS,
     order::KEYS,
+    sheet::KEYS,
     drill::KEYS,
     path::KEYS,
     axes::KEYS,

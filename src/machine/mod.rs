@@ -30,6 +30,7 @@ pub mod plot;
 pub mod profile;
 mod schema;
 mod selection;
+pub mod sheet;
 mod show;
 pub mod table;
 pub mod time;
@@ -49,7 +50,8 @@ pub use origin::{Axis, Origin};
 pub use path::Fit;
 pub use profile::{FileUnit, MachineProfile};
 pub use schema::schema;
-pub use selection::{Mode, NotNumbers, Numbers, Selection};
+pub use selection::{Mode, NotNumbers, Numbers, Selection, Start};
+pub use sheet::{Flip, Mirror, Sheet};
 pub use show::Comments;
 pub use table::Table;
 

@@ -23,6 +23,7 @@ use super::order::Order;
 pub use super::path::Fit;
 use super::path::{Corner, Path, Slow};
 use super::plot::Hpgl;
+use super::sheet::Sheet;
 use super::table::Table;
 use super::time::Time;
 use super::verify::Verify;
@@ -64,6 +65,8 @@ pub struct MachineProfile {
     pub common: Common,
     /// In which order pieces are cut.
     pub order: Order,
+    /// How the marker lies on the table.
+    pub sheet: Sheet,
     /// The drill.
     pub drill: Drill,
     /// Corners.
@@ -136,6 +139,7 @@ impl Default for MachineProfile {
             nest: Nest::default(),
             common: Common::default(),
             order: Order::default(),
+            sheet: Sheet::default(),
             drill: Drill::default(),
             corner: Corner::default(),
             slow: Slow::default(),
@@ -158,6 +162,9 @@ impl Default for MachineProfile {
 const AUTO_TOLERANCE: f64 = 0.05;
 /// Least band of the automatic rule, mm: what no worker sees.
 const AUTO_BAND: f64 = 0.2;
+/// How much farther from each other than the band edges are one all the same, mm: the gap of many nests is the band, and
+/// rounding of a turned one must not tear its edges to pieces.
+const BAND_EPSILON: f64 = 1e-9;
 /// Largest distance of a point from its rounded place, in units of the grid: half the diagonal of a cell.
 const ROUNDING_REACH: f64 = 0.71;
 
@@ -176,14 +183,14 @@ impl MachineProfile {
     /// How near to each other edges of two parts are one edge, mm, for a file whose numbers are multiples of `unit` mm: each
     /// outline was rounded by itself, so that they may be a diagonal of that apart.
     pub fn band(&self, unit: f64) -> f64 {
-        self.nest.band_mm.unwrap_or_else(|| AUTO_BAND.max(std::f64::consts::SQRT_2 * unit))
+        self.nest.band_mm.unwrap_or_else(|| AUTO_BAND.max(std::f64::consts::SQRT_2 * unit)) + BAND_EPSILON
     }
 
     /// How near to each other edges of two parts are cut once, mm, for a file whose numbers are multiples of `unit` mm; `None` =
     /// each is cut.
     pub fn common(&self, unit: f64) -> Option<f64> {
         match self.common.lines {
-            Lines::Within(distance) => Some(distance),
+            Lines::Within(distance) => Some(distance + BAND_EPSILON),
             Lines::Word(CommonLines::Auto) => Some(self.band(unit)),
             Lines::Word(CommonLines::Off) => None,
         }

@@ -71,7 +71,7 @@ fn described(key: &Key) -> Value {
     let expects = key.expects();
     let (first, rest) = expects.split_at(1);
     let or = match key.takes {
-        Takes::Point | Takes::Pose | Takes::PoseOr(_) | Takes::RangeOr(_) => "; each number may be",
+        Takes::Point | Takes::PointOr(_) | Takes::Pose | Takes::PoseOr(_) | Takes::RangeOr(_) => "; each number may be",
         _ => ", or",
     };
     let texts = quantity::kind(key.unit_of(0)).map(|(_, examples)| format!("{or} a text such as {examples}"));
@@ -91,12 +91,13 @@ fn values(key: &Key) -> Value {
             quantities(numbers(within), &[key.unit()])
         }
         Takes::Whole(numbers) => vec![json!({ "type": "integer", "enum": numbers })],
+        Takes::Count(most) => vec![json!({ "type": "integer", "minimum": 1, "maximum": most })],
         Takes::Percent => {
             let mut whole = numbers(PERCENT);
             whole["type"] = "integer".into();
             quantities(whole, &[key.unit()])
         }
-        Takes::Point | Takes::RangeOr(_) => vec![places(key, 2)],
+        Takes::Point | Takes::PointOr(_) | Takes::RangeOr(_) => vec![places(key, 2)],
         Takes::Pose | Takes::PoseOr(_) => vec![places(key, 3)],
         Takes::Length(within) => vec![numbers(within), json!({ "type": "string", "pattern": PlotUnit::pattern() })],
         Takes::Word(words) => vec![json!({ "enum": words() })],
@@ -106,7 +107,8 @@ fn values(key: &Key) -> Value {
         Takes::Steps => vec![json!({ "type": "array", "items": { "$ref": STEP } })],
         Takes::Flag => vec![json!({ "type": "boolean" })],
     };
-    if let Takes::NumberOr(_, other) | Takes::PoseOr(other) | Takes::RangeOr(other) = key.takes {
+    if let Takes::NumberOr(_, other) | Takes::PointOr(other) | Takes::PoseOr(other) | Takes::RangeOr(other) = key.takes
+    {
         ways.push(json!({ "const": other }));
     }
     if let Takes::NumberOrWord(_, words) = key.takes {

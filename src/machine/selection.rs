@@ -11,8 +11,8 @@ pub struct Selection {
     pub pieces: Option<Numbers>,
     /// Not these.
     pub skip: Option<Numbers>,
-    /// Only the first piece of this number and those behind it in cut order.
-    pub resume_from: Option<u32>,
+    /// Only this piece and those behind it in cut order.
+    pub resume_from: Option<Start>,
 }
 
 impl Selection {
@@ -25,6 +25,32 @@ impl Selection {
     pub fn has(&self, number: u32) -> bool {
         self.pieces.as_ref().is_none_or(|only| only.has(number))
             && !self.skip.as_ref().is_some_and(|skipped| skipped.has(number))
+    }
+}
+
+/// The piece that a run begins with, as in `3`, or `3/2` for that of the second copy.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Start {
+    /// Its number; the first piece that has it.
+    pub number: u32,
+    /// The copy of the marker that it is of, from 1.
+    pub copy: u32,
+}
+
+impl Start {
+    /// Reads a number, or a number and a copy.
+    pub fn parse(text: &str) -> Result<Self, NotNumbers> {
+        let (number, copy) = text.split_once('/').unwrap_or((text, "1"));
+        let whole = |word: &str| Numbers::parse(word)?.only().ok_or_else(|| NotNumbers::Word(word.to_owned()));
+        Ok(Self { number: whole(number)?, copy: whole(copy)? })
+    }
+}
+
+/// As it is typed.
+impl fmt::Display for Start {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { number, copy } = self;
+        if *copy == 1 { write!(out, "{number}") } else { write!(out, "{number}/{copy}") }
     }
 }
 
@@ -62,6 +88,14 @@ impl Numbers {
             if last < first { Err(NotNumbers::Backward(first, last)) } else { Ok([first, last]) }
         };
         Ok(Self { ranges: text.split(',').map(range).collect::<Result<_, _>>()? })
+    }
+
+    /// The one number that was written, if it is one.
+    fn only(&self) -> Option<u32> {
+        match self.ranges[..] {
+            [[first, last]] if first == last => Some(first),
+            _ => None,
+        }
     }
 
     /// Whether a number is among them.
@@ -130,6 +164,16 @@ mod tests {
         }
         assert_eq!(Numbers::parse("4294967296"), Err(NotNumbers::Word("4294967296".to_owned())));
         assert_eq!(Numbers::parse("12-7"), Err(NotNumbers::Backward(12, 7)));
+    }
+
+    #[test]
+    fn a_run_begins_with_a_piece_of_a_copy() {
+        for (text, number, copy) in [("3", 3, 1), ("3/2", 3, 2), ("0/1", 0, 1)] {
+            let start = Start::parse(text).expect("a piece");
+            assert_eq!(start, Start { number, copy });
+            assert_eq!(start.to_string(), text.trim_end_matches("/1"));
+        }
+        assert!(["", "3/", "/2", "3-4", "3,4", "3/2/1", "x", "-1"].iter().all(|text| Start::parse(text).is_err()));
     }
 
     #[test]

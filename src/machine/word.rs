@@ -49,6 +49,8 @@ pub(super) struct Off;
 pub(super) struct AsDrawn;
 /// `"auto"`: found from other values.
 pub(super) struct Auto;
+/// `"corner"`: where a corner of the table is.
+pub(super) struct Corner;
 /// `"stay"`: no move.
 pub(super) struct Stay;
 /// `"unbounded"`: an axis without ends.
@@ -64,6 +66,10 @@ impl Word for AsDrawn {
 
 impl Word for Off {
     const WORD: &'static str = "off";
+}
+
+impl Word for Corner {
+    const WORD: &'static str = "corner";
 }
 
 impl Word for Auto {

@@ -8,10 +8,10 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::{self, Dialect, Read as Reader};
 use crate::ir::{Finding, Marker, check};
 use crate::machine::{Job, plot};
-use crate::pass::marker::{CUTTING_PASSES, MARKER_PASSES, MarkerPass};
+use crate::pass::marker::{CUTTING_PASSES, DRAWN_PASSES, MARKER_PASSES, MarkerPass};
 use crate::recognise;
 use crate::source::Source;
-use crate::verify::{Census, Works};
+use crate::verify::{Census, Drawn, Works};
 
 /// A file as read and passed: what is cut, in which order.
 #[derive(Debug)]
@@ -40,6 +40,8 @@ pub struct Reading {
     pub census: Census,
     /// Whether all of it is still cut behind them.
     pub kept: Finding,
+    /// Whether that lies where the sheet of the profile has it; `None` where it lies as the file has it.
+    pub laid: Option<Finding>,
 }
 
 /// Reads a source as `from`, or as what its content looks like, and runs the marker passes. `None` when nothing can be
@@ -64,9 +66,17 @@ pub fn read_to_judge(
 ) -> Option<Judged> {
     let mut input = read_alone(source, from, job, diagnostics)?;
     let (census, works) = rayon::join(|| Census::of(&input.marker), || Works::of(&input.marker));
-    run_passes(marker_passes().0, &mut input.marker, source, job, diagnostics);
-    let kept = works.kept(&input.marker, &job.profile);
-    Some(Judged { input, reading: Reading { census, kept } })
+    let (drawing, laying) = marker_passes().0.split_at(DRAWN_PASSES);
+    run_passes(drawing, &mut input.marker, source, job, diagnostics);
+    // What a sheet moves cannot be compared with the file, but only with what was drawn.
+    let drawn =
+        (!job.profile.sheet.is_plain()).then(|| (works.kept(&input.marker, &job.profile), Drawn::of(&input.marker)));
+    run_passes(laying, &mut input.marker, source, job, diagnostics);
+    let (kept, laid) = match drawn {
+        Some((kept, drawn)) => (kept, Some(drawn.laid(&input.marker, job))),
+        None => (works.kept(&input.marker, &job.profile), None),
+    };
+    Some(Judged { input, reading: Reading { census, kept, laid } })
 }
 
 /// The marker as the source says it, before any pass.

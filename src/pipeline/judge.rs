@@ -112,9 +112,9 @@ pub(super) fn judge(
 
 /// What was read of the source against its bytes, and what the passes kept of that.
 pub(super) fn audited(source: &Source, dialect: &Dialect, reading: Reading, job: &Job) -> Vec<Finding> {
-    let Reading { census, kept } = reading;
+    let Reading { census, kept, laid } = reading;
     let audit = verify::source_audit(dialect.name, source.bytes(), &census, &job.profile);
-    audit.into_iter().flatten().chain([kept]).collect()
+    audit.into_iter().flatten().chain([kept]).chain(laid).collect()
 }
 
 /// What is left of a marker where the knife stays up: the events of a dry run, and nothing of a frame.
@@ -178,7 +178,7 @@ pub(super) fn report(verdict: &Verdict, marker: &Marker, job: &Job, diagnostics:
             }
             (None, _) if finding.rule == TABLE => {
                 format!(
-                    "move the marker {} mm away from that edge: the blade reaches beyond its lines",
+                    "move the marker {} mm away from that edge (`sheet.origin`): the blade reaches beyond its lines",
                     up(finding.worst, 1)
                 )
             }

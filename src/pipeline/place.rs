@@ -15,9 +15,9 @@ const LETTERS: usize = 24;
 /// Tells findings that have a span in which piece they are and where, as far as the marker knows; what is known stays,
 /// and so do the first `known` ones. One walk over the marker, and none when there is nothing to tell.
 pub(super) fn place(diagnostics: &mut Diagnostics, known: usize, marker: &Marker, source: &Source, job: &Job) {
-    let mut wanted: BTreeMap<u32, Option<OnCloth>> = BTreeMap::new();
+    let mut wanted: BTreeMap<u32, Vec<OnCloth>> = BTreeMap::new();
     for finding in diagnostics.iter().skip(known).filter(|finding| finding.piece.is_none()) {
-        wanted.extend(finding.span.map(|span| (span.start, None)));
+        wanted.extend(finding.span.map(|span| (span.start, Vec::new())));
     }
     if wanted.is_empty() {
         return;
@@ -26,9 +26,11 @@ pub(super) fn place(diagnostics: &mut Diagnostics, known: usize, marker: &Marker
         let mut see = |span: Span, point: Option<Point>| {
             // What came from no block is at no place of the source.
             if span.block > 0
-                && let Some(place) = wanted.get_mut(&span.start)
+                && let Some(places) = wanted.get_mut(&span.start)
+                // The first in each copy of the marker.
+                && places.iter().all(|place| place.copy != piece.copy)
             {
-                place.get_or_insert(OnCloth { piece: Some(i), point });
+                places.push(OnCloth { piece: Some(i), copy: piece.copy, point });
             }
         };
         for contour in &piece.contours {
@@ -43,12 +45,18 @@ pub(super) fn place(diagnostics: &mut Diagnostics, known: usize, marker: &Marker
     }
     // What a drawing has beside that is of no piece.
     for vertex in marker.drawing.iter().flat_map(|account| &account.aside.vertices) {
-        if let Some(place) = wanted.get_mut(&vertex.span.start) {
-            place.get_or_insert(OnCloth { piece: None, point: Some(vertex.at) });
+        if let Some(places) = wanted.get_mut(&vertex.span.start).filter(|places| places.is_empty()) {
+            places.push(OnCloth { piece: None, copy: 0, point: Some(vertex.at) });
         }
     }
     diagnostics.revise(known, |finding| {
-        let place = finding.span.and_then(|span| wanted.get(&span.start)?.as_ref());
+        let places = finding.span.and_then(|span| wanted.get(&span.start)).into_iter().flatten();
+        // Of several copies the one where it was found.
+        let away = |place: &OnCloth| {
+            let [at, point] = [finding.at.map(Point::from), place.point].map(|at| at.unwrap_or(Point::origin()));
+            if finding.at.is_none() { 0.0 } else { (at - point).norm() }
+        };
+        let place = places.min_by(|a, b| away(a).total_cmp(&away(b)));
         let Some(place) = place.filter(|_| finding.piece.is_none()) else { return };
         finding.piece = place.piece.map(|piece| Box::new(name(&marker.pieces[piece], source, job)));
         finding.at = finding.at.or(place.point.map(Into::into));
@@ -58,6 +66,7 @@ pub(super) fn place(diagnostics: &mut Diagnostics, known: usize, marker: &Marker
 /// A piece, by its index, and a point of it or of what is not cut.
 struct OnCloth {
     piece: Option<usize>,
+    copy: u32,
     point: Option<Point>,
 }
 
@@ -69,5 +78,5 @@ pub(super) fn name(piece: &Piece, source: &Source, job: &Job) -> PieceName {
         Some((end, _)) => format!("{}...", text[..end].trim_end()),
         None => text,
     });
-    PieceName { number: piece.number, label }
+    PieceName { number: piece.number, copy: piece.copy, label }
 }

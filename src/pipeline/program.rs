@@ -206,7 +206,7 @@ impl Writer<'_, '_, '_> {
             match cuts {
                 Err(refused) => refused.into_iter().for_each(|finding| diagnostics.push(finding)),
                 Ok(cuts) => {
-                    self.tally.take(toolpath.piece, &cuts);
+                    self.tally.take([toolpath.piece, toolpath.part], &cuts);
                     let motion = self.planner.join(toolpath, cuts);
                     assert_sound("plan", || check::motion(&motion));
                     self.motion(&motion)?;
@@ -313,7 +313,7 @@ struct Tally {
     sides: Sides,
     /// Where the time goes, in all and piece by piece.
     clock: Clock,
-    by_piece: Vec<(u32, Clock)>,
+    by_piece: Vec<([u32; 2], Clock)>,
 }
 
 impl Sides {
@@ -336,9 +336,10 @@ impl Sides {
 }
 
 impl Tally {
-    /// The clock of a piece; what belongs to none has the number 0 and is part of the last.
-    fn clock_of(&mut self, piece: u32) -> &mut Clock {
-        if self.by_piece.last().is_none_or(|(last, _)| *last != piece && piece > 0) {
+    /// The clock of a piece, by its number and its place in the marker; what belongs to none has the number 0 and is part of
+    /// the last.
+    fn clock_of(&mut self, piece: [u32; 2]) -> &mut Clock {
+        if self.by_piece.last().is_none_or(|(last, _)| *last != piece && piece[0] > 0) {
             self.by_piece.push((piece, Clock::default()));
         }
         let last = self.by_piece.len() - 1;
@@ -346,7 +347,7 @@ impl Tally {
     }
 
     /// Takes what is known of cuts before they are joined to a motion.
-    fn take(&mut self, piece: u32, cuts: &[Cut]) {
+    fn take(&mut self, piece: [u32; 2], cuts: &[Cut]) {
         for cut in cuts {
             self.sagitta = self.sagitta.max(cut.sagitta);
             self.clock.bind(&cut.shares);
@@ -357,7 +358,7 @@ impl Tally {
     fn add(&mut self, motion: &Motion) {
         self.ticks += motion.ticks();
         self.clock.add(motion);
-        self.clock_of(motion.piece).add(motion);
+        self.clock_of([motion.piece, motion.part]).add(motion);
         motion.tasks.iter().for_each(|task| self.sides.add(task));
         self.tangents += motion.tasks.iter().filter(|task| task.orientation == Some(OrientationMode::Tangent)).count();
         let mut before = None;

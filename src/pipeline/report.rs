@@ -88,6 +88,9 @@ pub struct CommonEdge {
     pub piece: u32,
     /// That of the piece that is spared it.
     pub spared: u32,
+    /// The copies of the marker that the two are of, from 1; not there where there is but one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub copies: Option<[u32; 2]>,
     /// Its length, m.
     #[serde(serialize_with = "micro")]
     pub length_m: f64,
@@ -108,10 +111,13 @@ impl Common {
 
 impl CommonEdge {
     fn of(marker: &Marker, edge: &ir::marker::CommonEdge) -> Self {
-        let [piece, spared] = edge.pieces.map(|piece| marker.pieces[piece as usize].number);
+        let pieces = edge.pieces.map(|piece| &marker.pieces[piece as usize]);
+        let [piece, spared] = pieces.map(|piece| piece.number);
+        let copies = pieces.map(|piece| piece.copy);
         Self {
             piece,
             spared,
+            copies: Some(copies).filter(|copies| *copies != [0; 2]),
             length_m: polyline::length(&marker.list.points(edge.range)) / MM_PER_M,
             shift_mm: edge.shift,
         }
@@ -266,9 +272,9 @@ pub struct Program {
     pub spent: Option<Spent>,
     /// What it could save.
     pub savings: Option<Savings>,
-    /// The same for each piece by its number, in cut order.
+    /// The same for each piece by its number and its place in the marker, in cut order.
     #[serde(skip)]
-    pub by_piece: Vec<(u32, Spent)>,
+    pub by_piece: Vec<([u32; 2], Spent)>,
     /// The farthest that the way of the knife bulges beyond the chords of flattened curves, mm.
     #[serde(skip)]
     pub bulge_mm: Option<f64>,

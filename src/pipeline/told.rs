@@ -6,6 +6,7 @@ use std::io::{self, BufRead, BufReader};
 use super::place::name;
 use super::product::{BLOCK, Medium};
 use crate::diagnostic::PieceName;
+use crate::geom::{Point, polyline};
 use crate::ir::marker::{Notch, Piece};
 use crate::ir::{Finding, Marker};
 use crate::machine::Job;
@@ -68,7 +69,7 @@ pub(super) fn told(
         let uncut = if finding.rule == COMPLETE { &verdict.uncut[..] } else { &[] };
         let line = place.line.map(|number| Line { number, text: None });
         let uncut = uncut.iter().map(|&piece| named(&marker.pieces[piece as usize])).collect();
-        Some(Told { piece: piece_of(marker, place.block).map(named), uncut, line })
+        Some(Told { piece: piece_of(marker, place.block, place.point).map(named), uncut, line })
     };
     let mut told: Vec<Told> = verdict.broken().map(|finding| tell(finding).unwrap_or_default()).collect();
     let mut lines: Vec<&mut Line> = told.iter_mut().filter_map(|told| told.line.as_mut()).collect();
@@ -102,13 +103,23 @@ fn quote(program: &mut dyn BufRead, lines: &mut [&mut Line]) -> io::Result<()> {
     Ok(())
 }
 
-/// The piece in which a block cuts.
-fn piece_of(marker: &Marker, block: u32) -> Option<&Piece> {
+/// The piece in which a block cuts; of several copies the one that lies nearest to a place.
+fn piece_of(marker: &Marker, block: u32, place: Point) -> Option<&Piece> {
     let has = |piece: &&Piece| {
         let contours = piece.contours.iter().flat_map(|contour| marker.list.walk(contour.range)).map(|(_, s)| s.span);
         let notches = piece.notches.iter().flat_map(Notch::strokes).map(|stroke| stroke.span);
         let drills = piece.drills.iter().map(|drill| drill.span);
         contours.chain(notches).chain(drills).any(|span| span.block == block)
     };
-    marker.pieces.iter().find(has).filter(|_| block > 0)
+    let pieces = marker.pieces.iter().filter(|_| block > 0);
+    if marker.pieces.iter().all(|piece| piece.copy == 0) {
+        return pieces.clone().find(has);
+    }
+    let away = |piece: &Piece| {
+        let contours = piece.contours.iter().flat_map(|contour| marker.list.lines(contour.range));
+        let ways = contours.chain(piece.notches.iter().map(|notch| [notch.root, notch.tip]));
+        let ways = ways.chain(piece.drills.iter().map(|drill| [drill.at; 2]));
+        ways.map(|[from, to]| polyline::distance_to_segment(place, from, to)).fold(f64::INFINITY, f64::min)
+    };
+    pieces.filter(has).map(|piece| (away(piece), piece)).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, piece)| piece)
 }

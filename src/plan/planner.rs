@@ -38,7 +38,7 @@ impl<'a> Planner<'a> {
 
     /// The timed motion of a toolpath whose runs were solved.
     pub fn join(&mut self, toolpath: &Toolpath, cuts: Vec<Cut>) -> Motion {
-        let mut motion = self.begin(toolpath.piece);
+        let mut motion = self.begin([toolpath.piece, toolpath.part]);
         let mut cuts = cuts.into_iter();
         let mut kind = Kind::Travel;
         for (step, next) in toolpath.steps.iter().zip(toolpath.steps.iter().skip(1).map(Some).chain([None])) {
@@ -73,7 +73,7 @@ impl<'a> Planner<'a> {
 
     /// The end of the program: to the park pose if there is one, and a last setpoint at rest.
     pub fn finish(&mut self) -> Motion {
-        let mut motion = self.begin(0);
+        let mut motion = self.begin([0; 2]);
         if let Some([x, y, c]) = self.job.profile.park {
             self.go(Kind::Travel, Pose::new(x, y, rad(c)), &mut motion);
         }
@@ -102,9 +102,9 @@ impl<'a> Planner<'a> {
     }
 
     /// A motion that begins now.
-    fn begin(&self, piece: u32) -> Motion {
+    fn begin(&self, [piece, part]: [u32; 2]) -> Motion {
         let (first_tick, first_step, first_time) = (self.tick, self.steps, self.time);
-        Motion { piece, first_tick, first_step, first_time, phases: Vec::new(), tasks: Vec::new() }
+        Motion { piece, part, first_tick, first_step, first_time, phases: Vec::new(), tasks: Vec::new() }
     }
 
     /// To the start of a run, down, along it and up; `kind` is that of the rapid before it.

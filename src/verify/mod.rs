@@ -26,6 +26,7 @@ pub use rules::{RULES, Rule, rule};
 pub use source::audit::source_audit;
 pub use source::census::Census;
 pub use source::kept::Works;
+pub use source::sheet::Drawn;
 pub use verdict::{Verdict, sort};
 
 use std::io::BufRead;

@@ -66,6 +66,7 @@ pub const RULES: &[Rule] = &[
     Rule { name: "source/bounds", needs_time: false, needs_cut: false, about: "the marker has the bounds of the file", more: "The reader and a second scan of the same bytes must find the same box: a piece displaced or of another size would be seen here. Please report the file." },
     Rule { name: "source/moments", needs_time: false, needs_cut: false, about: "the lines of a plot lie where the file draws them", more: "The reader and a second scan of the same plot must find its lines in the same places: a part that is moved, turned or mirrored within the bounds would be seen here. Please report the file." },
     Rule { name: "source/kept", needs_time: false, needs_cut: false, about: "every block that cuts or drills in the file as read does so in the marker that is cut", more: "Between reading and cutting lines are joined, points and slits that stand twice are dropped, pieces are chosen. A block that is lost on that way would leave a line uncut. Please report the file." },
+    Rule { name: "source/laid", needs_time: false, needs_cut: false, about: "everything that is drawn lies where the sheet of the profile has it, in every copy", more: "Where the keys of `sheet` turn, mirror, scale, move or copy the marker, every point, hole, notch and text is laid a second time by other means: what differs would be cut in another size, at another place or not at all. Please report the file with the profile." },
 ];
 
 /// The row of a rule, by its name.

@@ -45,7 +45,7 @@ fn length(marker: &Marker, cut: &Cut) -> f64 {
 fn an_edge_of_two_parts_is_cut_once() {
     let (once, twice) = (compiled(&Job::default()).report, compiled(&without()).report);
     let common = once.common.as_ref().expect("parts touch");
-    assert!(common.length_m > 0.4 && common.shift_mm <= 0.2, "{common:?}");
+    assert!(common.length_m > 0.4 && common.shift_mm <= 0.2 + 1e-9, "{common:?}");
     assert!(twice.common.is_none());
     // What runs over the mouths of notches and what is led on are the rest.
     let mouths = once.cut_m - (twice.cut_m - common.length_m);

@@ -23,7 +23,7 @@ const PLACE: f64 = 2.0;
 
 /// A nest of bricks as CAD draws it: rows that share their edges, with T joints, V notches, and slits drawn as boxes on the
 /// common edges; each part is drawn in by half of the gap, mm, all round (negative: they overlap). In thousandths of an inch.
-fn bricks(gap: f64) -> String {
+pub(crate) fn bricks(gap: f64) -> String {
     let rows: [(f64, &[f64]); 3] =
         [(0.0, &[110.0, 90.0, 100.0]), (70.0, &[60.0, 150.0, 90.0]), (150.0, &[140.0, 160.0])];
     let heights = [70.0, 80.0, 60.0];

@@ -25,7 +25,7 @@ pub(super) fn layer(context: &Context) -> String {
     let name = "inkscape:groupmode=\"layer\" inkscape:label=\"common edges\"";
     let mut text = format!("<g id=\"common\" {name} transform=\"scale(1,-1)\">\n");
     for edge in &marker.common {
-        let [cut, spared] = edge.pieces.map(|piece| marker.pieces[piece as usize].number);
+        let [cut, spared] = edge.pieces.map(|piece| marker.pieces[piece as usize].name());
         let mut data = PathData::default();
         data.line(marker.list.points(edge.range).iter().copied());
         let shift = fixed(edge.shift, 2);

@@ -61,7 +61,7 @@ pub(super) fn layer(shapes: &mut [Shape], sheet: &Sheet, context: &Context) -> S
             shape.keep_off(block.edges(height));
         }
         if !drawn.is_empty() {
-            let _infallible = writeln!(text, "<g inkscape:label=\"labels of piece {}\">\n{drawn}</g>", shape.number);
+            let _infallible = writeln!(text, "<g inkscape:label=\"labels of piece {}\">\n{drawn}</g>", piece.name());
         }
     }
     if text.is_empty() {

@@ -30,7 +30,9 @@ const VIEW_MARGIN: f64 = 0.06;
 #[derive(Debug)]
 pub(super) struct Shape {
     /// Its number in the file.
-    pub(super) number: u32,
+    number: u32,
+    /// The same, with its copy if there are several.
+    name: String,
     /// Its contours.
     pub(super) contours: Vec<Contour>,
     /// Places that its number keeps off: its drills and labels.
@@ -103,9 +105,9 @@ pub(super) fn shapes(marker: &Marker) -> Vec<Shape> {
             .map(|d| d.span)
             .chain(piece.notches.iter().flat_map(marker::Notch::strokes).map(|cut| cut.span));
         let spans = std::iter::once::<Span>(piece.span).chain(cut).chain(marked);
-        let number = piece.number;
-        let title = format!("piece {number}{}", blocks(spans));
-        shapes.push(Shape { number, extent, title, contours, taken: drills, notches: notches(piece) });
+        let (number, name) = (piece.number, piece.name());
+        let title = format!("piece {name}{}", blocks(spans));
+        shapes.push(Shape { number, name, extent, title, contours, taken: drills, notches: notches(piece) });
     }
     shapes
 }
@@ -200,10 +202,10 @@ pub(super) fn layer(shapes: &[Shape], sheet: &Sheet) -> String {
 }
 
 fn group(shape: &Shape, order: u32, sheet: &Sheet, text: &mut String) {
-    let number = shape.number;
+    let Shape { number, name, .. } = shape;
     let _infallible = writeln!(
         text,
-        "<g id=\"piece-{order}\" class=\"n{number}\" inkscape:label=\"piece {number}\"><title>{}</title>",
+        "<g id=\"piece-{order}\" class=\"n{number}\" inkscape:label=\"piece {name}\"><title>{}</title>",
         escape(&shape.title)
     );
     let rings = shape.rings();
@@ -220,20 +222,20 @@ fn group(shape: &Shape, order: u32, sheet: &Sheet, text: &mut String) {
     if !shape.extent.is_empty() {
         let middle = shape.extent.min + (shape.extent.max - shape.extent.min) / 2.0;
         let spot = spot::find(&rings, &shape.taken).unwrap_or(Spot { at: middle, clear: 0.0 });
-        text.push_str(&label(number, order, spot, sheet));
+        text.push_str(&label(name, order, spot, sheet));
     }
     text.push_str("</g>\n");
 }
 
 /// The number of a piece, as large as its spot allows; a link to the view of the piece.
-fn label(number: u32, order: u32, spot: Spot, sheet: &Sheet) -> String {
-    let digits = f64::from(number.checked_ilog10().unwrap_or(0) + 1);
+fn label(name: &str, order: u32, spot: Spot, sheet: &Sheet) -> String {
+    let digits = name.len() as f64;
     let largest = NUMBER_MAX_PX * sheet.px;
     let fitting = spot.clear / (digits * DIGIT_WIDTH / 2.0).hypot(DIGIT_HEIGHT / 2.0);
     // A piece without an inside has its number over its lines, small.
     let size = if spot.clear > 0.0 { fitting.min(largest) } else { largest / 2.0 };
     format!(
-        "<a href=\"#view-{order}\"><text class=\"number\" transform=\"scale(1,-1)\" x=\"{}\" y=\"{}\" font-size=\"{}\">{number}</text></a>\n",
+        "<a href=\"#view-{order}\"><text class=\"number\" transform=\"scale(1,-1)\" x=\"{}\" y=\"{}\" font-size=\"{}\">{name}</text></a>\n",
         mm(spot.at.x),
         mm(-spot.at.y + size * DIGIT_HEIGHT / 2.0),
         mm(size)

@@ -43,7 +43,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished
         let is_planned = arguments.time || arguments.pricing.price().is_some();
         if is_planned && !diagnostics.has_errors() {
             all.report.program = pipeline::estimate(&mut input, &source, &job, &mut diagnostics)?;
-            all.time_by_piece = arguments.time.then(|| times::of(&all.report.program));
+            all.time_by_piece = arguments.time.then(|| times::of(&all.report.program, &input.marker));
         }
         all.price(arguments);
         known = Some(all);
@@ -137,6 +137,9 @@ impl Known {
         // The table of the axes stays last.
         let (head, axes) = text.split_at(text.find(summary::AXES).unwrap_or(text.len()));
         let mut out = head.to_owned();
+        if self.time_by_piece.is_none() {
+            out += &setup::sheet(job);
+        }
         out += &self.cloth();
         out += axes;
         out += &drawn::text(&self.report);

@@ -19,7 +19,7 @@
 //! notch castle out 79 0 to 80 -4 to 81 0 segments 3 @81..88#15
 //! label at 10 10 heading-rad 0 @30..39#5 mirrored @40..44#6
 //! field D @80..89#15
-//! piece 2 @84..86#16
+//! piece 2 copy 1 @84..86#16
 //! closing advance @90..93#16
 //! cut slit piece 1 sides 1 1
 //!   from 20 0 to 20 5 @60..70#12 lift full-advance no-overcut
@@ -56,6 +56,7 @@
 //! it starts, those behind a point what it asks for there. A contour is printed in the direction that it is walked in
 //! and read as one that is walked in list order: the same segments, the same joints.
 //!
+//! - A piece of a marker of which there are several copies names its copy, from 1.
 //! - A `cut` is of the contour of its piece that it names, or of segments of its own. Its sides are the parts on its left
 //!   and right, by the places of their pieces from 1, as its piece is, or `-` for waste.
 //! - `common` is an edge that the first piece and the second have in common, as the second has it; it is cut with the first.

@@ -38,7 +38,7 @@ pub fn print_marker(marker: &Marker) -> String {
 }
 
 fn print_piece(out: &mut String, marker: &Marker, piece: &Piece) {
-    line(out, format_args!("piece {}{}", piece.number, At(piece.span)));
+    line(out, format_args!("piece {}{}{}", piece.number, OfCopy(piece.copy), At(piece.span)));
     for event in &piece.events {
         line(out, format_args!("event {}{}", word(&EVENTS, event.kind), At(event.span)));
     }
@@ -247,6 +247,15 @@ impl Display for At {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Span { start, end, block } = self.0;
         if self.0 == Span::default() { Ok(()) } else { write!(f, " @{start}..{end}#{block}") }
+    }
+}
+
+/// A copy with the blank before it; nothing where there is but one.
+struct OfCopy(u32);
+
+impl Display for OfCopy {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        if self.0 == 0 { Ok(()) } else { write!(f, " copy {}", self.0) }
     }
 }
 

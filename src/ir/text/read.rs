@@ -43,7 +43,8 @@ pub fn read_marker(text: &str) -> Read<Marker> {
         match line.word(LINES)? {
             "piece" => {
                 let number = line.whole("a piece number")?;
-                marker.pieces.push(Piece { number, span: line.span()?, ..Piece::default() });
+                let copy = if line.has("copy") { line.whole("a number of a copy")? } else { 0 };
+                marker.pieces.push(Piece { number, copy, span: line.span()?, ..Piece::default() });
             }
             "closing" => marker.closing.push(event(&mut line)?),
             "cut" => {

@@ -82,6 +82,7 @@ fn marker(random: &mut Random) -> Marker {
     for _ in 0..random.below(4) {
         let mut piece = Piece {
             number: random.below(99) as u32,
+            copy: random.below(3) as u32,
             span: random.span(),
             drills: random.some(2, |r| Drill { at: r.point(), tool: 1 + r.below(4) as u8, span: r.span() }),
             notches: random.some(2, |r| Notch {
@@ -208,7 +209,7 @@ fn a_marker_survives_the_round_trip_to_the_bit() {
         assert_eq!(after.unit.to_bits(), before.unit.to_bits());
         assert_eq!((after.pieces.len(), &after.closing), (before.pieces.len(), &before.closing));
         for (a, b) in after.pieces.iter().zip(&before.pieces) {
-            assert_eq!((a.number, a.span), (b.number, b.span));
+            assert_eq!((a.number, a.copy, a.span), (b.number, b.copy, b.span));
             assert_eq!(
                 (&a.drills, &a.notches, &a.outline_notches, &a.labels),
                 (&b.drills, &b.notches, &b.outline_notches, &b.labels)

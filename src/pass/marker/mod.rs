@@ -13,6 +13,7 @@ mod route;
 mod sanity;
 mod search;
 mod select;
+mod sheet;
 mod slit;
 mod spike;
 mod table;
@@ -30,12 +31,16 @@ pub const MARKER_PASSES: &[MarkerPass] = &[
     order::PASS,
     notch::PASS,
     sanity::PASS,
+    sheet::PASS,
     route::PASS,
     select::PASS,
     table::PASS,
     near::PASS,
     cut::PASS,
 ];
+
+/// How many of the first passes find what is drawn, where the file draws it: the next one lays it on the table.
+pub const DRAWN_PASSES: usize = 7;
 
 /// How many of the last passes say how the knife cuts what is drawn: only programs need these.
 pub const CUTTING_PASSES: usize = 2;

@@ -6,7 +6,7 @@
 use super::pass::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::ir::marker::{Marker, Piece};
-use crate::machine::{Job, Numbers};
+use crate::machine::{Job, Numbers, Start};
 
 pub(super) const PASS: MarkerPass =
     MarkerPass { name: "select", about: "keeps the pieces that --pieces, --skip and --resume-from leave", run };
@@ -20,7 +20,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     let flags = [
         ("--pieces", written(&selection.pieces)),
         ("--skip", written(&selection.skip)),
-        ("--resume-from", selection.resume_from.into_iter().collect()),
+        ("--resume-from", selection.resume_from.iter().map(|start| start.number).collect()),
     ];
     let mut unknown = false;
     for (flag, numbers) in flags {
@@ -37,7 +37,18 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     if unknown {
         return;
     }
-    let resumed = selection.resume_from.and_then(|number| marker.pieces.iter().position(|p| p.number == number));
+    let resumed = selection.resume_from.map(|Start { number, copy }| {
+        marker.pieces.iter().position(|piece| piece.number == number && piece.copy.max(1) == copy).ok_or(copy)
+    });
+    let resumed = match resumed.transpose() {
+        Ok(resumed) => resumed,
+        Err(copy) => {
+            let message = format!("--resume-from: there is no copy {copy}");
+            let hint = format!("the marker is cut {} times: sheet.copies", job.profile.sheet.copies);
+            diagnostics.push(Diagnostic::new(&code::SELECT_UNKNOWN_PIECE, message).hint(hint));
+            return;
+        }
+    };
     let first = resumed.unwrap_or(0);
     let all = marker.pieces.len();
     let mut place = 0..;

@@ -5,11 +5,11 @@
 
 use super::pass::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::Point;
+use crate::geom::{Extent, Point};
 use crate::ir::marker::{Marker, Notch};
-use crate::machine::{Job, Knife, Table};
+use crate::machine::{Job, Knife, Sheet, Table};
 use crate::source::Span;
-use crate::units::number::{fixed, up};
+use crate::units::number::{exact, fixed, up};
 
 pub(super) const PASS: MarkerPass = MarkerPass { name: "table", about: "finds what lies off the table", run };
 
@@ -44,7 +44,79 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     };
     let finding = Diagnostic::new(code, format!("{what}: {}", ways.join(", ")));
     let finding = finding.at(span).on_cloth(place).by(off);
-    diagnostics.push(axes.iter().filter_map(Axis::advice).fold(finding, Diagnostic::hint));
+    let moves = axes.map(|axis| axis.advice());
+    let hints = if moves.iter().flatten().all(|advice| matches!(advice, Advice::Move(_))) {
+        vec![moved(&moves, &job.profile.sheet)]
+    } else {
+        let alone = |(advice, name): (&Option<Advice>, &str)| Some(advice.as_ref()?.alone(name));
+        moves.iter().zip(["X", "Y"]).filter_map(alone).chain(fitting(marker, &extent, job)).collect()
+    };
+    diagnostics.push(hints.into_iter().fold(finding, Diagnostic::hint));
+}
+
+/// How to move a marker that fits, and the key that does it.
+fn moved(moves: &[Option<Advice>; 2], sheet: &Sheet) -> String {
+    let by = |i: usize| if let Some(Advice::Move(by)) = &moves[i] { by.as_str() } else { "" };
+    let words: Vec<String> = [("X", by(0)), ("Y", by(1))]
+        .iter()
+        .filter(|(_, by)| !by.is_empty())
+        .map(|(name, by)| format!("{name} {by} mm"))
+        .collect();
+    let hint = format!("move the marker by {}", words.join(" and "));
+    let Some(origin) = sheet.origin else { return hint };
+    // Three decimals are all that is said of a way.
+    let place = |i: usize| exact(((origin[i] + by(i).parse::<f64>().unwrap_or(0.0)) * 1e3).round() / 1e3);
+    format!("{hint}: sheet.origin = [{}, {}]", place(0), place(1))
+}
+
+/// What fits where the marker does not: fewer copies, or the marker turned by a quarter.
+fn fitting(marker: &Marker, extent: &Extent, job: &Job) -> Option<String> {
+    let (sheet, table) = (&job.profile.sheet, &job.profile.table);
+    let room =
+        [table.x_mm, table.y_mm].map(|ends| ends.map_or(f64::INFINITY, |[least, most]| most - least + OFF_EPSILON));
+    let (width, height) = extent.size();
+    if sheet.copies > 1 {
+        let of_copy = |copy: u32| {
+            let piece = |piece: usize| marker.pieces[piece].copy == copy;
+            marker.contours().filter(|(i, _)| piece(*i)).fold(Extent::EMPTY, |mut extent, (_, contour)| {
+                extent.join(&Extent::of(&marker.list.points(contour.range)));
+                extent
+            })
+        };
+        let [first, second] = [1, 2].map(of_copy);
+        if first.is_empty() || second.is_empty() || height > room[1] {
+            return None;
+        }
+        let pitch = second.min.x - first.min.x;
+        let more = ((room[0] - first.size().0) / pitch).floor();
+        return (more >= 0.0).then(|| format!("so many copies fit: sheet.copies = {}", exact(more + 1.0)));
+    }
+    let fits = height <= room[0] && width <= room[1];
+    // Scaled alike the box of the turned marker is this one, turned.
+    (fits && job.selection.is_all() && sheet.scale_x == sheet.scale_y).then(|| {
+        let turned = exact((sheet.rotate_deg + 90.0).rem_euclid(360.0));
+        format!("turned by a quarter it fits: sheet.rotate_deg = {turned}, sheet.origin = \"corner\"")
+    })
+}
+
+/// What to do about a marker that is beyond the table along an axis.
+enum Advice {
+    /// To move it by that, mm, as it is told.
+    Move(String),
+    /// It does not fit: how long it is, how much too long, and how long the table.
+    TooLong([String; 3]),
+}
+
+impl Advice {
+    /// In words.
+    fn alone(&self, name: &str) -> String {
+        match self {
+            Self::Move(by) => format!("move the marker by {name} {by} mm"),
+            Self::TooLong([lies, over, has]) => format!(
+                "along {name} the marker does not fit: its {lies} mm are {over} mm more than the table has, {has} mm"
+            ),
+        }
+    }
 }
 
 /// The place of the marker that is the farthest off, with its source.
@@ -99,16 +171,12 @@ impl Axis<'_> {
     }
 
     /// How to move the marker; or that it does not fit.
-    fn advice(&self) -> Option<String> {
-        let ([below, above], [least, most], name) = (self.beyond()?, self.table?, self.name);
+    fn advice(&self) -> Option<Advice> {
+        let ([below, above], [least, most]) = (self.beyond()?, self.table?);
         let room = (most - least) - (self.lies[1] - self.lies[0]);
         if room < 0.0 {
-            let size = [self.lies[1] - self.lies[0], most - least].map(|size| fixed(size, DECIMALS));
-            let [lies, has] = size;
-            return Some(format!(
-                "along {name} the marker does not fit: its {lies} mm are {} mm more than the table has, {has} mm",
-                up(-room - OFF_EPSILON, DECIMALS)
-            ));
+            let [lies, has] = [self.lies[1] - self.lies[0], most - least].map(|size| fixed(size, DECIMALS));
+            return Some(Advice::TooLong([lies, up(-room - OFF_EPSILON, DECIMALS), has]));
         }
         // The blade reaches so far from its tip; where there is room for that it is to stay on the table, too.
         let knife = self.knife;
@@ -116,7 +184,7 @@ impl Axis<'_> {
         let spare = reach.min(room / 2.0);
         let by = below.max(above) + spare;
         let by = if spare > STEP { up(by - OFF_EPSILON, DECIMALS) } else { fixed(by, FINE_DECIMALS) };
-        Some(format!("move the marker by {name} {}{by} mm", if below > above { '+' } else { '-' }))
+        Some(Advice::Move(format!("{}{by}", if below > above { '+' } else { '-' })))
     }
 }
 
@@ -127,7 +195,7 @@ mod tests {
     fn advice(lies: [f64; 2], table: [f64; 2]) -> (Option<String>, Option<String>) {
         let knife = Knife::default();
         let axis = Axis { name: "X", lies, table: Some(table), knife: &knife };
-        (axis.over(), axis.advice())
+        (axis.over(), axis.advice().map(|advice| advice.alone("X")))
     }
 
     #[test]

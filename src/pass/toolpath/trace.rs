@@ -12,14 +12,14 @@ use crate::machine::{Follow, Job};
 /// poses. An event stands alone, between the pieces or behind the last.
 pub fn trace<'a>(marker: &'a Marker, job: &'a Job) -> impl Iterator<Item = Toolpath> + 'a {
     let tolerance = job.profile.tolerance(marker.unit);
-    let last = marker.pieces.last().map_or(0, |piece| piece.number);
+    let last = marker.pieces.iter().zip(0..).last().map_or([0; 2], |(piece, part)| [piece.number, part]);
     let pieces = marker.pieces.iter().zip(0..).flat_map(move |(piece, part)| {
         let events = piece.events.iter().map(event);
         let drills = piece.drills.iter().map(|d| Step::Drill(Drill { at: d.at, tool: d.tool, span: d.span }));
         let cuts = marker.cuts_of(part).iter().map(move |cut| Step::Run(run(marker, piece, cut, job)));
         events.chain(drills).chain(cuts).map(move |step| toolpath([piece.number, part], tolerance, step))
     });
-    pieces.chain(marker.closing.iter().map(move |closing| toolpath([last, 0], tolerance, event(closing))))
+    pieces.chain(marker.closing.iter().map(move |closing| toolpath(last, tolerance, event(closing))))
 }
 
 fn event(event: &Event) -> Step {

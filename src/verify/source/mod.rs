@@ -1,5 +1,5 @@
-//! The audit of the source: its bytes, read by other means than the reader's, hold what the marker holds, and no pass
-//! loses any of it.
+//! The audit of the source: its bytes, read by other means than the reader's, hold what the marker holds, no pass
+//! loses any of it, and all of it lies where the sheet has it.
 //!
 //! Receives the bytes, and the marker as it was read and as it is cut; promises a finding under each rule `source/`. Never
 //! uses a reader of `front`.
@@ -9,4 +9,5 @@ pub(super) mod census;
 pub(super) mod hpgl;
 pub(super) mod kept;
 pub(super) mod scan;
+pub(super) mod sheet;
 pub(super) mod words;

@@ -59,7 +59,8 @@ fn of_its_type(key: &Key) -> Vec<Value> {
         }
         Takes::Whole(numbers) => values.extend((-1..=10).chain(numbers.iter().copied()).map(Value::from)),
         Takes::Percent => values.extend([0.0, 1.0, 74.0, 74.5, 100.0, 101.0].map(Value::from)),
-        Takes::PoseOr(word) | Takes::RangeOr(word) => values.push(word.into()),
+        Takes::Count(most) => values.extend([0, 1, 2, i64::from(most), i64::from(most) + 1].map(Value::from)),
+        Takes::PointOr(word) | Takes::PoseOr(word) | Takes::RangeOr(word) => values.push(word.into()),
         Takes::Word(words) => {
             values.extend(words().iter().map(|&word| Value::from(word)));
             values.extend(words().iter().map(|word| format!("{word}s").into()));

@@ -129,7 +129,8 @@ pub(super) fn expected(marker: &Marker, source: &Source) -> Vec<Said> {
             }
             said.push(Said::Contour(cut));
         }
-        if !piece.fields.is_empty() {
+        // One list names the pieces of all copies.
+        if !piece.fields.is_empty() && piece.copy < 2 {
             let named = matches!(piece.fields[0].letter, b'L' | b'N');
             fields.push((named, piece));
         }

@@ -1,0 +1,158 @@
+//! How the marker lies on the table: the keys `sheet.*`.
+//!
+//! The marker is turned first; all other keys speak of X and Y of the table, along the cloth and across it. Whatever is
+//! done, the lower left corner of its box stays where the file has it, and only `origin` moves that.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::key::{Key, Takes, from};
+use super::word::{Corner, OrWord, Word as _, words};
+use crate::units::number::exact;
+
+/// Most copies of one marker: longer tables there are none.
+pub const COPIES_MAX: u32 = 1000;
+
+/// The keys `sheet.*`.
+#[rustfmt::skip] // a table: one row a key
+pub(super) const KEYS: &[Key] = &[
+    Key { name: "sheet.origin", takes: Takes::PointOr(Corner::WORD), about: "How far the marker is moved on the table: where the origin of the file comes to lie; \"corner\" =\nits lower left corner lies in that of the table." },
+    Key { name: "sheet.mirror", takes: Takes::Word(words::<Mirror>), about: "\"ends\" = mirrored along the cloth: the end at small X comes to large X, its sides stay." },
+    Key { name: "sheet.flip", takes: Takes::Word(words::<Flip>), about: "\"sides\" = mirrored across the cloth, as a marker that is laid face down: the side at small Y\ncomes to large Y, its ends stay." },
+    Key { name: "sheet.rotate_deg", takes: Takes::Number(from(-360.0, 360.0)), about: "The marker is turned by that, counter-clockwise, before all else." },
+    Key { name: "sheet.scale_x", takes: Takes::Number(from(0.8, 1.2)), about: "The marker becomes longer along the cloth by this factor: 1.03 where it shrinks by 3 percent." },
+    Key { name: "sheet.scale_y", takes: Takes::Number(from(0.8, 1.2)), about: "The same across the cloth." },
+    Key { name: "sheet.copies", takes: Takes::Count(COPIES_MAX), about: "The marker is cut so many times, one behind the other along the cloth." },
+    Key { name: "sheet.copies_gap_mm", takes: Takes::Number(from(0.0, 10_000.0)), about: "From the end of one copy to the beginning of the next." },
+];
+
+/// How the marker lies on the table.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Sheet {
+    /// Where the origin of the file comes to lie; `None` = the corner of the marker lies in that of the table.
+    #[serde(with = "OrWord::<Corner>")]
+    pub origin: Option<[f64; 2]>,
+    /// Whether its ends change places.
+    pub mirror: Mirror,
+    /// Whether its sides change places.
+    pub flip: Flip,
+    /// By how much it is turned.
+    pub rotate_deg: f64,
+    /// By what it is longer along the cloth.
+    pub scale_x: f64,
+    /// By what it is wider across the cloth.
+    pub scale_y: f64,
+    /// How many times it is cut.
+    pub copies: u32,
+    /// How far a copy is from the next.
+    pub copies_gap_mm: f64,
+}
+
+/// Whether the ends of the marker change places.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Mirror {
+    /// They stay.
+    #[default]
+    Off,
+    /// They do.
+    Ends,
+}
+
+/// Whether the sides of the marker change places.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Flip {
+    /// They stay.
+    #[default]
+    Off,
+    /// They do.
+    Sides,
+}
+
+impl Default for Sheet {
+    fn default() -> Self {
+        Self {
+            origin: Some([0.0; 2]),
+            mirror: Mirror::Off,
+            flip: Flip::Off,
+            rotate_deg: 0.0,
+            scale_x: 1.0,
+            scale_y: 1.0,
+            copies: 1,
+            copies_gap_mm: 0.0,
+        }
+    }
+}
+
+impl Sheet {
+    /// Whether the marker lies as the file has it, once.
+    pub fn is_plain(&self) -> bool {
+        Self { copies_gap_mm: 0.0, ..self.clone() } == Self::default()
+    }
+
+    /// Whether X of the cloth is that of the file but for where it begins, and there is one copy: so conveyors of the file
+    /// find the cloth where they expect it.
+    pub fn keeps_length(&self) -> bool {
+        let Self { origin: _, mirror, flip: _, rotate_deg, scale_x, scale_y: _, copies, copies_gap_mm: _ } = *self;
+        mirror == Mirror::Off && rotate_deg == 0.0 && scale_x == 1.0 && copies == 1
+    }
+
+    /// Whether it shows the other side of the parts.
+    pub fn is_mirrored(&self) -> bool {
+        (self.mirror == Mirror::Ends) != (self.flip == Flip::Sides)
+    }
+
+    /// By how much it makes what is small larger at the most: the rounding of the file grows with the marker.
+    pub fn growth(&self) -> f64 {
+        self.scale_x.max(self.scale_y)
+    }
+}
+
+/// As a report tells it.
+impl fmt::Display for Sheet {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let mut told = Vec::new();
+        if self.rotate_deg != 0.0 {
+            told.push(format!("turned by {} degrees", exact(self.rotate_deg)));
+        }
+        match self.mirror {
+            Mirror::Off => {}
+            Mirror::Ends => told.push("ends mirrored".to_owned()),
+        }
+        match self.flip {
+            Flip::Off => {}
+            Flip::Sides => told.push("sides flipped".to_owned()),
+        }
+        if (self.scale_x, self.scale_y) != (1.0, 1.0) {
+            told.push(format!("scaled by {} x {}", exact(self.scale_x), exact(self.scale_y)));
+        }
+        match self.origin {
+            None => told.push("in the corner of the table".to_owned()),
+            Some([0.0, 0.0]) => {}
+            Some([x, y]) => told.push(format!("moved by {}, {} mm", exact(x), exact(y))),
+        }
+        if self.copies > 1 {
+            told.push(format!("{} copies, {} mm apart", self.copies, exact(self.copies_gap_mm)));
+        }
+        f.write_str(&told.join(", "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sheet_tells_what_it_does_and_nothing_else() {
+        let plain = Sheet { copies_gap_mm: 5.0, ..Sheet::default() };
+        assert!(plain.is_plain() && plain.to_string().is_empty());
+        let sheet = Sheet { origin: Some([10.0, 2.5]), mirror: Mirror::Ends, scale_x: 1.03, copies: 3, ..plain };
+        let told = "ends mirrored, scaled by 1.03 x 1, moved by 10, 2.5 mm, 3 copies, 5 mm apart";
+        assert_eq!(sheet.to_string(), told);
+        assert!(!sheet.is_plain() && sheet.is_mirrored());
+        assert!(!Sheet { flip: Flip::Sides, ..sheet }.is_mirrored());
+    }
+}

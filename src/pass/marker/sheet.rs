@@ -1,0 +1,218 @@
+//! Sheet: the marker is laid on the table as the profile says: turned, mirrored, scaled, moved, copied.
+//!
+//! Needs: all that is found by its size as the file draws it, such as notches. Leaves true: the same pieces, in the same
+//! order, once for each copy; what is asked of the operator is asked in each of them. Whatever is done, the lower left corner
+//! of the box stays where it is, but for `sheet.origin`. Texts turn with their pieces and stay readable: they are never
+//! mirrored, and where the file has another text for mirrored pieces, that one is shown. A marker that moves the cloth on by
+//! itself is not made longer, turned or copied: its advances belong to the places that the file has.
+
+use super::pass::MarkerPass;
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::{Extent, Heading, Point, Vector};
+use crate::ir::drawing::{Account, Aside};
+use crate::ir::marker::{Contour, Event, Label, Marker, NotchKind, Piece};
+use crate::ir::toolpath;
+use crate::machine::{Flip, Job, Mirror, Sheet, Table};
+
+pub(super) const PASS: MarkerPass =
+    MarkerPass { name: "sheet", about: "turns, mirrors, scales, moves and copies the marker, if that is asked", run };
+
+/// Degrees of a quarter turn.
+const QUARTER: f64 = 90.0;
+/// Segments of all copies together, at the most: their ids are 32 bits long.
+const MOST_SEGMENTS: usize = 1 << 30;
+
+fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
+    let sheet = &job.profile.sheet;
+    if sheet.is_plain() {
+        return;
+    }
+    if let Some(advance) = advances(marker).next().filter(|_| !sheet.keeps_length()) {
+        let message = "the file moves the cloth on, so that its marker cannot be turned, mirrored end to end, scaled along X or copied";
+        let hint = "leave these keys of `sheet` out, or switch the advance off: codes.M69 = \"ignore\"";
+        diagnostics.push(Diagnostic::new(&code::SHEET_ADVANCE, message).at(advance.span).hint(hint));
+        return;
+    }
+    let copies = sheet.copies as usize;
+    let segments: usize =
+        marker.contours().map(|(_, contour)| marker.list.points(contour.range).len()).sum::<usize>() + 1;
+    if segments.saturating_mul(copies) > MOST_SEGMENTS {
+        let message = format!("{copies} copies of {segments} points are more than one program can have");
+        let hint = format!("this marker can be copied {} times: sheet.copies", MOST_SEGMENTS / segments);
+        diagnostics.push(Diagnostic::new(&code::SHEET_COPIES, message).hint(hint));
+        return;
+    }
+    let drawn = marker.extent();
+    if drawn.is_empty() {
+        return;
+    }
+    lay(marker, &Way::of(sheet));
+    let laid = marker.extent();
+    let by = origin(sheet, &job.profile.table, &drawn, &laid);
+    lay(marker, &Way { by, ..Way::STAYS });
+    marker.unit *= sheet.growth();
+    let pitch = laid.size().0 + sheet.copies_gap_mm;
+    copy(marker, copies, Vector::new(pitch, 0.0));
+}
+
+/// Where the file moves the cloth on.
+fn advances(marker: &Marker) -> impl Iterator<Item = &Event> {
+    let events = marker.pieces.iter().flat_map(|piece| &piece.events).chain(&marker.closing);
+    events.filter(|event| event.kind == toolpath::Event::Advance)
+}
+
+/// By how much a marker is moved that has become another about the origin of the file.
+fn origin(sheet: &Sheet, table: &Table, drawn: &Extent, laid: &Extent) -> Vector {
+    match sheet.origin {
+        Some([x, y]) if Way::of(sheet).stays() => Vector::new(x, y),
+        Some([x, y]) => drawn.min - laid.min + Vector::new(x, y),
+        None => {
+            let least = |range: Option<[f64; 2]>| range.map_or(0.0, |[least, _]| least);
+            Point::new(least(table.x_mm), least(table.y_mm)) - laid.min
+        }
+    }
+}
+
+/// Where places come to lie.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Way {
+    /// Where a step along X goes, and one along Y.
+    axes: [Vector; 2],
+    by: Vector,
+    /// Whether left becomes right.
+    is_mirrored: bool,
+}
+
+impl Way {
+    const STAYS: Self =
+        Self { axes: [Vector::new(1.0, 0.0), Vector::new(0.0, 1.0)], by: Vector::new(0.0, 0.0), is_mirrored: false };
+
+    /// About the origin of the file: turned, then mirrored and scaled along X and Y of the table.
+    fn of(sheet: &Sheet) -> Self {
+        // Quarter turns to the bit, so that edges along an axis stay such.
+        let (sin, cos) = match (sheet.rotate_deg / QUARTER).rem_euclid(4.0) {
+            0.0 => (0.0, 1.0),
+            1.0 => (1.0, 0.0),
+            2.0 => (0.0, -1.0),
+            3.0 => (-1.0, 0.0),
+            _ => sheet.rotate_deg.to_radians().sin_cos(),
+        };
+        let along = match sheet.mirror {
+            Mirror::Off => sheet.scale_x,
+            Mirror::Ends => -sheet.scale_x,
+        };
+        let across = match sheet.flip {
+            Flip::Off => sheet.scale_y,
+            Flip::Sides => -sheet.scale_y,
+        };
+        let axis = |step: Vector| Vector::new(along * step.x, across * step.y);
+        Self {
+            axes: [axis(Vector::new(cos, sin)), axis(Vector::new(-sin, cos))],
+            is_mirrored: sheet.is_mirrored(),
+            ..Self::STAYS
+        }
+    }
+
+    fn stays(&self) -> bool {
+        self.axes == Self::STAYS.axes
+    }
+
+    fn vector(&self, step: Vector) -> Vector {
+        self.axes[0] * step.x + self.axes[1] * step.y
+    }
+
+    fn place(&self, at: Point) -> Point {
+        Point::origin() + self.vector(at.coords) + self.by
+    }
+
+    fn move_place(&self, at: &mut Point) {
+        *at = self.place(*at);
+    }
+
+    fn piece(&self, piece: &mut Piece) {
+        piece.drills.iter_mut().for_each(|drill| self.move_place(&mut drill.at));
+        for notch in &mut piece.notches {
+            self.move_place(&mut notch.root);
+            self.move_place(&mut notch.tip);
+            match &mut notch.kind {
+                NotchKind::Slit => {}
+                NotchKind::T(bar) => [&mut bar.from, &mut bar.to].into_iter().for_each(|at| self.move_place(at)),
+            }
+        }
+        for notch in &mut piece.outline_notches {
+            notch.mouth.iter_mut().chain([&mut notch.tip]).for_each(|at| self.move_place(at));
+        }
+        piece.labels.iter_mut().for_each(|label| self.label(label));
+    }
+
+    fn label(&self, label: &mut Label) {
+        let has_place = label.at.is_some();
+        if let Some(at) = &mut label.at {
+            self.move_place(at);
+        }
+        if let Some(mirrored) = label.mirrored.as_mut().filter(|_| self.is_mirrored) {
+            std::mem::swap(mirrored, &mut label.span);
+        }
+        if self.stays() {
+            return;
+        }
+        // A text without a direction runs along X of the file, wherever that goes.
+        let heading = label.heading.unwrap_or(Heading::new(0.0));
+        let turned = Heading::of(self.vector(heading.unit()));
+        if label.heading.is_some() || has_place && turned != heading {
+            label.heading = Some(turned);
+        }
+    }
+}
+
+/// Moves all that is cut, and all that is shown.
+fn lay(marker: &mut Marker, way: &Way) {
+    if *way == Way::STAYS {
+        return;
+    }
+    marker.list.move_points(|at| way.place(at));
+    marker.pieces.iter_mut().for_each(|piece| way.piece(piece));
+    for vertex in marker.drawing.iter_mut().flat_map(|account| &mut account.aside.vertices) {
+        way.move_place(&mut vertex.at);
+    }
+}
+
+/// Puts copies behind the marker, each so far from the one before it.
+fn copy(marker: &mut Marker, copies: usize, step: Vector) {
+    if copies < 2 {
+        return;
+    }
+    let first = marker.pieces.len();
+    let segments = marker.contours().map(|(_, contour)| marker.list.points(contour.range).len()).sum::<usize>();
+    let ranges = marker.contours().count();
+    marker.list.reserve(segments * (copies - 1), ranges * (copies - 1));
+    marker.pieces.reserve_exact(first * (copies - 1));
+    let aside = marker.drawing.as_ref().map(|Account { aside, .. }| aside.clone());
+    for number in 2..=copies {
+        let way = Way { by: step * (number - 1) as f64, ..Way::STAYS };
+        for i in 0..first {
+            let mut piece = Piece { copy: number as u32, ..marker.pieces[i].clone() };
+            for Contour { range, .. } in &mut piece.contours {
+                let segments: Vec<_> = marker.list.walk(*range).map(|(_, segment)| segment).collect();
+                let moved = segments.into_iter().map(|mut segment| {
+                    way.move_place(&mut segment.from);
+                    way.move_place(&mut segment.to);
+                    segment
+                });
+                *range = marker.list.append(moved).expect("it has as many segments as before");
+            }
+            way.piece(&mut piece);
+            marker.pieces.push(piece);
+        }
+        for (class, vertices) in aside.iter().flat_map(Aside::each) {
+            let mut vertices = vertices.to_vec();
+            for vertex in &mut vertices {
+                way.move_place(&mut vertex.at);
+            }
+            if let Some(account) = &mut marker.drawing {
+                account.aside.add(class, &vertices);
+            }
+        }
+    }
+    marker.pieces[..first].iter_mut().for_each(|piece| piece.copy = 1);
+}

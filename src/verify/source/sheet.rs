@@ -1,0 +1,252 @@
+//! Whether what was drawn lies on the table as the profile asks: every piece in every copy, to the last point, and nothing
+//! else. Where it should lie is found here from the keys of the profile alone.
+
+use std::collections::BTreeMap;
+
+use crate::geom::{Extent, Heading, Point, Rotation};
+use crate::ir::finding::Sighting;
+use crate::ir::list::Segment;
+use crate::ir::marker::{Contour, Drill, Event, Label, Notch, OutlineNotch, Piece};
+use crate::ir::{Finding, Marker};
+use crate::machine::{Flip, Job, MachineProfile, Mirror};
+use crate::verify::worst::{Worst, at};
+
+/// Rounding of places on a table that is a kilometre long, mm.
+const PLACE_EPSILON: f64 = 1e-6;
+/// Rounding of directions, rad, and of the unit, as a part of it.
+const SAME_EPSILON: f64 = 1e-9;
+
+/// A marker where the file draws it.
+#[derive(Debug, Clone)]
+pub struct Drawn(Marker);
+
+/// A piece by its number, the byte at which it starts and its copy.
+type Name = (u32, u32, u32);
+
+impl Drawn {
+    /// A marker that no sheet has moved yet.
+    pub fn of(marker: &Marker) -> Self {
+        Self(marker.clone())
+    }
+
+    /// How far anything of a marker is from where the sheet of the profile has it; infinite where something is missing, is one
+    /// too many or is not the same. Whole pieces may be missing that are not selected.
+    pub fn laid(&self, marker: &Marker, job: &Job) -> Finding {
+        let mut worst = Worst::new("source/laid", "mm", Some(PLACE_EPSILON));
+        let Self(drawn) = self;
+        let table = Lay::of(drawn, &job.profile);
+        let mut laid: BTreeMap<Name, Vec<&Piece>> = BTreeMap::new();
+        for piece in marker.pieces.iter().rev() {
+            laid.entry((piece.number, piece.span.start, piece.copy)).or_default().push(piece);
+        }
+        let copies = job.profile.sheet.copies;
+        for copy in 1..=copies {
+            let table = table.of_copy(copy);
+            let number = if copies > 1 { copy } else { 0 };
+            for piece in &drawn.pieces {
+                let found = laid.get_mut(&(piece.number, piece.span.start, number)).and_then(Vec::pop);
+                let Some(found) = found else {
+                    // Those before the one that a run begins with are gone as well.
+                    let is_due = job.selection.has(piece.number) && job.selection.resume_from.is_none();
+                    worst.see(if is_due { f64::INFINITY } else { 0.0 }, || of(piece, &table));
+                    continue;
+                };
+                table.compare((drawn, piece), (marker, found), &mut worst);
+            }
+        }
+        for extra in laid.into_values().flatten() {
+            worst.see(f64::INFINITY, || at(0.0, Point::origin(), extra.span.block));
+        }
+        let unit = drawn.unit * job.profile.sheet.scale_x.max(job.profile.sheet.scale_y);
+        let told = |marker: &Marker, times: u32| -> Vec<Event> {
+            let events = marker.pieces.iter().flat_map(|piece| &piece.events).copied();
+            std::iter::repeat_n(events.collect::<Vec<_>>(), times as usize).flatten().collect()
+        };
+        let is_told = !job.selection.is_all() || told(drawn, copies) == told(marker, 1);
+        if !is_told || drawn.closing != marker.closing || (marker.unit - unit).abs() > SAME_EPSILON * unit {
+            worst.see(f64::INFINITY, || at(0.0, Point::origin(), 0));
+        }
+        worst.finding()
+    }
+}
+
+/// Where a piece should be.
+fn of(piece: &Piece, table: &Lay) -> Sighting {
+    let labels = piece.labels.iter().filter_map(|label| label.at);
+    let place = piece.drills.iter().map(|drill| drill.at).chain(piece.notches.iter().map(|notch| notch.root));
+    at(0.0, table.place(place.chain(labels).next().unwrap_or(Point::origin())), piece.span.block)
+}
+
+/// Where places of the file come to lie on the table.
+#[derive(Debug, Clone, Copy)]
+struct Lay {
+    turn: f64,
+    /// What X and Y are multiplied by behind the turn.
+    factors: [f64; 2],
+    /// From one copy to the next.
+    pitch: f64,
+    by: [f64; 2],
+}
+
+impl Lay {
+    fn of(drawn: &Marker, profile: &MachineProfile) -> Self {
+        let sheet = &profile.sheet;
+        let mut lay = Self {
+            turn: sheet.rotate_deg.to_radians(),
+            factors: [sheet.scale_x, sheet.scale_y],
+            pitch: 0.0,
+            by: [0.0; 2],
+        };
+        if sheet.mirror == Mirror::Ends {
+            lay.factors[0] *= -1.0;
+        }
+        if sheet.flip == Flip::Sides {
+            lay.factors[1] *= -1.0;
+        }
+        let (mut before, mut behind) = (Extent::EMPTY, Extent::EMPTY);
+        let mut see = |place: Point| {
+            before.add(place);
+            behind.add(lay.place(place));
+        };
+        for piece in &drawn.pieces {
+            piece.contours.iter().for_each(|contour| drawn.points(contour).into_iter().for_each(&mut see));
+            let strokes = piece.notches.iter().flat_map(Notch::strokes);
+            strokes.flat_map(|stroke| [stroke.from, stroke.to]).for_each(&mut see);
+            piece.drills.iter().map(|drill| drill.at).for_each(&mut see);
+        }
+        if before.is_empty() {
+            return lay;
+        }
+        let corner = match sheet.origin {
+            Some([x, y]) => [before.min.x + x, before.min.y + y],
+            None => [profile.table.x_mm, profile.table.y_mm].map(|ends| ends.map_or(0.0, |[least, _]| least)),
+        };
+        lay.by = [corner[0] - behind.min.x, corner[1] - behind.min.y];
+        lay.pitch = behind.max.x - behind.min.x + sheet.copies_gap_mm;
+        lay
+    }
+
+    /// Of a copy, from 1.
+    fn of_copy(self, copy: u32) -> Self {
+        let [x, y] = self.by;
+        Self { by: [x + f64::from(copy - 1) * self.pitch, y], ..self }
+    }
+
+    fn place(&self, at: Point) -> Point {
+        let [x, y] = self.turned(at.x, at.y);
+        Point::new(x + self.by[0], y + self.by[1])
+    }
+
+    fn turned(&self, x: f64, y: f64) -> [f64; 2] {
+        let along = Rotation(self.turn).unit();
+        [self.factors[0] * (x * along.x - y * along.y), self.factors[1] * (x * along.y + y * along.x)]
+    }
+
+    fn away(&self, drawn: Point, laid: Point) -> f64 {
+        (self.place(drawn) - laid).norm()
+    }
+
+    /// Compares a piece as it is drawn with one that lies on the table.
+    fn compare(&self, drawn: (&Marker, &Piece), laid: (&Marker, &Piece), worst: &mut Worst) {
+        let (one, other) = (drawn.1, laid.1);
+        let counts = |piece: &Piece| {
+            [
+                piece.contours.len(),
+                piece.notches.len(),
+                piece.drills.len(),
+                piece.labels.len(),
+                piece.outline_notches.len(),
+            ]
+        };
+        if counts(one) != counts(other) || one.feed != other.feed || one.fields != other.fields {
+            worst.see(f64::INFINITY, || of(one, self));
+            return;
+        }
+        for (drawn, laid) in contours(drawn).into_iter().zip(contours(laid)) {
+            self.contour(&drawn, &laid, worst);
+        }
+        for (drawn, laid) in
+            by_span(&one.notches, |n| n.span.start).into_iter().zip(by_span(&other.notches, |n| n.span.start))
+        {
+            let strokes = |notch: &Notch| notch.strokes().collect::<Vec<_>>();
+            let (strokes, found) = (strokes(drawn), strokes(laid));
+            let is_same = strokes.len() == found.len() && drawn.percent == laid.percent;
+            let ways = strokes.iter().zip(&found);
+            let away = ways.map(|(a, b)| self.away(a.from, b.from).max(self.away(a.to, b.to))).fold(0.0, f64::max);
+            worst.see(if is_same { away } else { f64::INFINITY }, || at(0.0, laid.tip, laid.span.block));
+        }
+        for (drawn, laid) in one.drills.iter().zip(&other.drills) {
+            let Drill { at: place, tool, span } = *laid;
+            let is_same = (drawn.tool, drawn.span) == (tool, span);
+            worst.see(if is_same { self.away(drawn.at, place) } else { f64::INFINITY }, || at(0.0, place, span.block));
+        }
+        for (drawn, laid) in one.labels.iter().zip(&other.labels) {
+            worst.see(self.label(drawn, laid), || at(0.0, laid.at.unwrap_or(Point::origin()), laid.span.block));
+        }
+        let sorted = |piece: &Piece| {
+            by_span(&piece.outline_notches, |notch| notch.span.start).into_iter().copied().collect::<Vec<_>>()
+        };
+        for (drawn, laid) in sorted(one).into_iter().zip(sorted(other)) {
+            let told = |n: &OutlineNotch| (n.form, n.outwards, n.segments, n.span);
+            let away = [0, 1].map(|i| self.away(drawn.mouth[i], laid.mouth[i]));
+            let away = away[0].max(away[1]).max(self.away(drawn.tip, laid.tip));
+            let is_same = told(&drawn) == told(&laid);
+            worst.see(if is_same { away } else { f64::INFINITY }, || at(0.0, laid.tip, laid.span.block));
+        }
+    }
+
+    /// Compares contours: closed ones may begin elsewhere.
+    fn contour(&self, drawn: &[Segment], laid: &[Segment], worst: &mut Worst) {
+        let first = &drawn[0];
+        let begin = (0..laid.len()).filter(|&i| laid[i].span == first.span);
+        let away = |i: &usize| self.away(first.from, laid[*i].from);
+        let begin = begin.min_by(|a, b| away(a).total_cmp(&away(b)));
+        let Some(begin) = begin.filter(|_| drawn.len() == laid.len()) else {
+            worst.see(f64::INFINITY, || at(0.0, self.place(first.from), first.span.block));
+            return;
+        };
+        for (drawn, laid) in drawn.iter().zip(laid.iter().cycle().skip(begin)) {
+            let told = |segment: &Segment| (segment.span, segment.percent, segment.joint);
+            let away = self.away(drawn.from, laid.from).max(self.away(drawn.to, laid.to));
+            let away = if told(drawn) == told(laid) { away } else { f64::INFINITY };
+            worst.see(away, || at(0.0, laid.to, laid.span.block));
+        }
+    }
+
+    /// How far a text is from its place; infinite where it is another, or points elsewhere.
+    fn label(&self, drawn: &Label, laid: &Label) -> f64 {
+        let is_mirrored = self.factors[0] * self.factors[1] < 0.0;
+        let texts = match drawn.mirrored {
+            Some(mirrored) if is_mirrored => (mirrored, Some(drawn.span)),
+            other => (drawn.span, other),
+        };
+        let along = drawn.heading.map_or(0.0, Heading::radians);
+        // What has neither place nor direction lies nowhere.
+        let is_loose = drawn.at.is_none() && drawn.heading.is_none();
+        let [x, y] = if is_loose { [1.0, 0.0] } else { self.turned(along.cos(), along.sin()) };
+        let askew = laid.heading.unwrap_or(Heading::new(0.0)).turn_to(Heading::new(y.atan2(x))).abs();
+        if texts != (laid.span, laid.mirrored) || askew > SAME_EPSILON {
+            return f64::INFINITY;
+        }
+        match (drawn.at, laid.at) {
+            (Some(drawn), Some(laid)) => self.away(drawn, laid),
+            (None, None) => 0.0,
+            (Some(_), None) | (None, Some(_)) => f64::INFINITY,
+        }
+    }
+}
+
+/// The segments of each contour of a piece, by the first byte that any of them came from: they may come in another order.
+fn contours((marker, piece): (&Marker, &Piece)) -> Vec<Vec<Segment>> {
+    let segments = |contour: &Contour| marker.list.walk(contour.range).map(|(_, segment)| segment).collect::<Vec<_>>();
+    let mut contours: Vec<Vec<Segment>> = piece.contours.iter().map(segments).collect();
+    contours.sort_by_key(|segments| segments.iter().map(|segment| segment.span.start).min());
+    contours
+}
+
+/// Some things in the order of the file.
+fn by_span<T>(things: &[T], start: impl Fn(&T) -> u32) -> Vec<&T> {
+    let mut sorted: Vec<&T> = things.iter().collect();
+    sorted.sort_by_key(|thing| start(thing));
+    sorted
+}
