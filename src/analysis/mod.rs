@@ -15,5 +15,6 @@ pub mod outlines;
 pub mod plunge;
 mod swing;
 pub mod tight;
+pub mod waits;
 
 pub use area::area;

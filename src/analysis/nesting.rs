@@ -174,6 +174,16 @@ impl Nesting {
         widest.or_else(|| self.of_group(group).next())
     }
 
+    /// The other groups within whose closed lines a group lies, in order: its widest line holds all else of it.
+    pub fn holders(&self, group: usize) -> Vec<usize> {
+        let Some(outline) = self.widest(group) else { return Vec::new() };
+        let others = self.around(outline).map(|line| self.lines[line].group as usize);
+        let mut holders: Vec<usize> = others.filter(|&holder| holder != group).collect();
+        holders.sort_unstable();
+        holders.dedup();
+        holders
+    }
+
     /// The part to which a group belongs, by the group of its outline: another where its widest closed line bounds a
     /// cut-out of that; `None` where none of its lines is closed.
     pub fn part_of(&self, group: usize) -> Option<usize> {

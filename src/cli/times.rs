@@ -6,7 +6,8 @@ use serde::Serialize;
 
 use crate::ir::Marker;
 use crate::ir::marker::Piece;
-use crate::pipeline::{Program, Spent, significant, word};
+use crate::ir::toolpath::Event;
+use crate::pipeline::{Program, Spent, Waits, significant, waits, word};
 use crate::units::number::fixed;
 use crate::units::{S_PER_HOUR, S_PER_MIN};
 
@@ -22,18 +23,29 @@ pub(super) struct Timed {
     copy: Option<u32>,
     #[serde(skip)]
     name: String,
+    /// The numbers of the pieces that lie in it and come before it.
+    waits_for: Vec<String>,
+    /// What is asked before it.
+    asked: Vec<&'static str>,
     time_s: f64,
     spent: Spent,
 }
 
+/// Pieces that one waits for that are named in its row, at the most; JSON has all.
+const NAMED: usize = 3;
+
 /// The pieces of a program, in cut order. The way to a piece counts as its own.
 pub(super) fn of(program: &Program, marker: &Marker) -> Vec<Timed> {
+    let waits = waits(marker);
     let timed = |([piece, part], spent): &([u32; 2], Spent)| {
         let of = marker.pieces.get(*part as usize);
+        let Waits { inner, events } = waits.get(*part as usize).cloned().unwrap_or_default();
         Timed {
             piece: *piece,
             copy: of.map(|piece| piece.copy).filter(|&copy| copy > 0),
             name: of.map_or_else(|| piece.to_string(), Piece::name),
+            waits_for: inner.into_iter().map(|inner| marker.pieces[inner].name()).collect(),
+            asked: events.into_iter().map(|event| asked(event.kind)).collect(),
             time_s: significant(spent.total(), DIGITS),
             spent: spent.clone(),
         }
@@ -52,7 +64,7 @@ pub(super) fn clock(seconds: f64) -> String {
 /// A row for each piece: its time, what the machine does in it, and what bounds most of its cutting.
 pub(super) fn text(pieces: &[Timed]) -> String {
     let mut out = String::from("\n  piece    time s     cut  travel    turn  plunge    lift   other  limited by\n");
-    for Timed { name, time_s, spent, .. } in pieces {
+    for Timed { name, time_s, spent, waits_for, asked, .. } in pieces {
         let other = spent.drill + spent.wait;
         let _ = write!(out, "  {name:>5}  {:>8}", fixed(*time_s, 2)); // a `String` takes all
         for part in [spent.cut, spent.travel, spent.turn, spent.plunge, spent.lift, other] {
@@ -61,9 +73,26 @@ pub(super) fn text(pieces: &[Timed]) -> String {
         if let Some((bound, _)) = spent.bounds.iter().max_by(|a, b| a.1.total_cmp(&b.1)) {
             let _ = write!(out, "  {}", word(*bound));
         }
+        let mut waits: Vec<&str> = asked.clone();
+        waits.extend(waits_for.iter().take(NAMED).map(String::as_str));
+        let more = waits_for.len().saturating_sub(NAMED);
+        if !waits.is_empty() {
+            let _ = write!(out, "; waits for {}", waits.join(", "));
+        }
+        if more > 0 {
+            let _ = write!(out, " and {more} more");
+        }
         out.push('\n');
     }
     out
+}
+
+/// What is asked of the operator or the conveyor, in a word.
+fn asked(event: Event) -> &'static str {
+    match event {
+        Event::Stop => "the operator",
+        Event::Advance => "the conveyor",
+    }
 }
 
 #[cfg(test)]

@@ -18,6 +18,7 @@ mod told;
 mod toolpaths;
 
 pub use crate::analysis::area;
+pub use crate::analysis::waits::{Waits, waits};
 pub use input::{Input, Judged, Reading, marker_of, read, read_to_judge};
 pub use judge::{about, advice, figures, foreign, judge_program};
 pub use product::{Medium, Product};

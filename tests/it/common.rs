@@ -232,10 +232,11 @@ fn an_edge_that_no_cut_stands_for_is_left_uncut() {
 fn a_cut_that_is_led_into_a_part_is_refused() {
     let verdict = claimed(|marker| {
         let cut = open_cut(marker);
+        let side = if marker.cuts[cut].sides[0].is_some() { AWAY } else { -AWAY };
         redraw(marker, cut, |segments| {
             let last = segments.last_mut().expect("it has some");
             let along = (last.to - last.from).normalize();
-            last.to += Vector::new(-along.y, along.x) * AWAY;
+            last.to += Vector::new(-along.y, along.x) * side;
         });
     });
     let is_deep = breaks(&verdict, "verify/overcut-neighbour") || breaks(&verdict, "verify/overcut-part");

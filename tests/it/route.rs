@@ -8,6 +8,7 @@ use cutc::back::TARGETS;
 use cutc::diagnostic::{Diagnostics, render};
 use cutc::geom::Extent;
 use cutc::ir::Marker;
+use cutc::ir::list::Segment;
 use cutc::ir::marker::Piece;
 use cutc::machine::{Job, OrderPolicy};
 use cutc::pipeline::{self, Report};
@@ -97,13 +98,18 @@ fn extent(marker: &Marker, piece: usize) -> Extent {
     Extent::of(&marker.points(marker.pieces[piece].contours.last().expect("each has one")))
 }
 
-/// What is cut, whatever the order: of each piece its number, slits and lines, without where these start.
+/// What is cut, whatever the order: of each piece its number, slits and lines, without where these start and which way they go.
 fn contents(marker: &Marker) -> BTreeMap<u32, BTreeSet<String>> {
     let of_piece = |i: usize| {
         let piece = &marker.pieces[i];
         let slits = piece.notches.iter().map(|notch| format!("slit {:?} {:?}", notch.root, notch.tip));
         let lines = piece.contours.iter().flat_map(|contour| marker.list.walk(contour.range));
-        let lines = lines.map(|(_, segment)| format!("line {:?} {:?} {:?}", segment.from, segment.to, segment.span));
+        // From whichever end it is cut.
+        let lines = lines.map(|(_, Segment { from, to, span, .. })| {
+            let [low, high] =
+                if from.x.total_cmp(&to.x).then(from.y.total_cmp(&to.y)).is_lt() { [from, to] } else { [to, from] };
+            format!("line {low:?} {high:?} {span:?}")
+        });
         slits.chain(lines).collect()
     };
     (0..marker.pieces.len()).map(|i| (marker.pieces[i].number, of_piece(i))).collect()

@@ -106,7 +106,8 @@ pub(super) fn shapes(marker: &Marker) -> Vec<Shape> {
             .chain(piece.notches.iter().flat_map(marker::Notch::strokes).map(|cut| cut.span));
         let spans = std::iter::once::<Span>(piece.span).chain(cut).chain(marked);
         let (number, name) = (piece.number, piece.name());
-        let title = format!("piece {name}{}", blocks(spans));
+        let place = shapes.len() + 1;
+        let title = format!("piece {name}, {place} of {} in cut order{}", marker.pieces.len(), blocks(spans));
         shapes.push(Shape { number, name, extent, title, contours, taken: drills, notches: notches(piece) });
     }
     shapes

@@ -55,23 +55,11 @@ fn waiting(pieces: &[Piece], nesting: &Nesting) -> BTreeMap<usize, Vec<usize>> {
     let mut asked = 0;
     for (i, piece) in pieces.iter().enumerate() {
         asked = if piece.events.is_empty() { asked } else { i };
-        for holder in holders(i, nesting).into_iter().filter(|holder| (asked..i).contains(holder)) {
+        for holder in nesting.holders(i).into_iter().filter(|holder| (asked..i).contains(holder)) {
             waiting.entry(holder).or_default().push(i);
         }
     }
     waiting
-}
-
-/// The pieces within whose outlines a piece lies, in order.
-pub(super) fn holders(piece: usize, nesting: &Nesting) -> Vec<usize> {
-    let group = |line: usize| nesting.lines()[line].group as usize;
-    // Its outline holds all else of it.
-    let others = |line: usize| nesting.around(line).map(group).filter(|&holder| holder != piece);
-    let Some(outline) = nesting.widest(piece) else { return Vec::new() };
-    let mut holders: Vec<usize> = others(outline).collect();
-    holders.sort_unstable();
-    holders.dedup();
-    holders
 }
 
 /// Puts pieces in the order in which each comes when all that it waits for has come, and otherwise as in the file.

@@ -188,29 +188,40 @@ impl Lay {
         };
         for (drawn, laid) in sorted(one).into_iter().zip(sorted(other)) {
             let told = |n: &OutlineNotch| (n.form, n.outwards, n.segments, n.span);
-            let away = [0, 1].map(|i| self.away(drawn.mouth[i], laid.mouth[i]));
-            let away = away[0].max(away[1]).max(self.away(drawn.tip, laid.tip));
+            let [from, to] = laid.mouth;
+            let mouths = [[from, to], [to, from]].into_iter();
+            let away = mouths.map(|mouth| self.away(drawn.mouth[0], mouth[0]).max(self.away(drawn.mouth[1], mouth[1])));
+            let away = away.fold(f64::INFINITY, f64::min).max(self.away(drawn.tip, laid.tip));
             let is_same = told(&drawn) == told(&laid);
             worst.see(if is_same { away } else { f64::INFINITY }, || at(0.0, laid.tip, laid.span.block));
         }
     }
 
-    /// Compares contours: closed ones may begin elsewhere.
+    /// Compares contours: closed ones may begin elsewhere, and all may be cut the other way.
     fn contour(&self, drawn: &[Segment], laid: &[Segment], worst: &mut Worst) {
+        let turned = laid.iter().rev().map(|&segment| Segment { from: segment.to, to: segment.from, ..segment });
+        let turned: Vec<Segment> = turned.collect();
+        let nearer = [laid, &turned].map(|laid| self.farthest(drawn, laid)).into_iter();
+        let (away, place) = nearer.min_by(|a, b| a.0.total_cmp(&b.0)).expect("there are two");
+        worst.see(away, || place);
+    }
+
+    /// The farthest of the segments of a contour from where it should be, mm, with its place.
+    fn farthest(&self, drawn: &[Segment], laid: &[Segment]) -> (f64, Sighting) {
         let first = &drawn[0];
         let begin = (0..laid.len()).filter(|&i| laid[i].span == first.span);
         let away = |i: &usize| self.away(first.from, laid[*i].from);
         let begin = begin.min_by(|a, b| away(a).total_cmp(&away(b)));
         let Some(begin) = begin.filter(|_| drawn.len() == laid.len()) else {
-            worst.see(f64::INFINITY, || at(0.0, self.place(first.from), first.span.block));
-            return;
+            return (f64::INFINITY, at(0.0, self.place(first.from), first.span.block));
         };
-        for (drawn, laid) in drawn.iter().zip(laid.iter().cycle().skip(begin)) {
+        let all = drawn.iter().zip(laid.iter().cycle().skip(begin)).map(|(drawn, laid)| {
             let told = |segment: &Segment| (segment.span, segment.percent, segment.joint);
             let away = self.away(drawn.from, laid.from).max(self.away(drawn.to, laid.to));
             let away = if told(drawn) == told(laid) { away } else { f64::INFINITY };
-            worst.see(away, || at(0.0, laid.to, laid.span.block));
-        }
+            (away, at(0.0, laid.to, laid.span.block))
+        });
+        all.max_by(|a, b| a.0.total_cmp(&b.0)).expect("a contour has a segment")
     }
 
     /// How far a text is from its place; infinite where it is another, or points elsewhere.

@@ -6,7 +6,7 @@ use cutc::machine::Job;
 use cutc::machine::plot::Lines;
 
 use super::audit::audit;
-use super::{as_read, read, source};
+use super::{as_drawn, as_read, read, source};
 
 #[test]
 fn arcs_through_places_on_a_line_are_lines_whatever_the_scale() {
@@ -39,7 +39,7 @@ fn arcs_through_places_on_a_line_are_lines_whatever_the_scale() {
 fn a_mirrored_scale_gives_the_mirror_image_curves_and_all() {
     let drawing = "SP1;PU20,20;PD100,20;AA100,60,180;AR0,10,-90;PD20,100,20,20;PU40,60;EW10,0,90;PU80,60;EW10,30,-200;\
                    PU60,40;AT70,50,60,60;PD60,40;PU150,150;CI20;PU;";
-    let job = Job::default();
+    let job = as_drawn();
     let plain = source(format!("IN;IP0,0,8000,8000;SC0,200,0,200;{drawing}"));
     let whole = read(&plain, &job).0;
     for (scale, is_turned) in [("0,200,200,0", false), ("200,0,0,200", true)] {

@@ -14,7 +14,7 @@ use cutc::front::{self, by_name};
 use cutc::geom::Point;
 use cutc::ir::Marker;
 use cutc::machine::plot::{Inner, Lines, PenUse, PlotUnit};
-use cutc::machine::{Job, Numbers};
+use cutc::machine::{Job, Numbers, OrderPolicy};
 use cutc::pipeline::{self, Report};
 use cutc::source::Source;
 
@@ -27,6 +27,13 @@ fn read(source: &Source, job: &Job) -> (Marker, Vec<&'static str>) {
     let mut found = Diagnostics::default();
     let input = pipeline::read(source, by_name("hpgl"), job, &mut found).expect("the dialect is given");
     (input.marker, found.iter().map(|diagnostic| diagnostic.code.name).collect())
+}
+
+/// A job that cuts plots in the order in which they are drawn.
+fn as_drawn() -> Job {
+    let mut job = Job::default();
+    job.profile.order.policy = OrderPolicy::File;
+    job
 }
 
 /// The marker as it was read, before any pass.
@@ -169,7 +176,7 @@ fn check_dialects(grid: i64, most: u64) {
         assert!(!found.has_errors(), "{found:?}");
         let (outlines, slits) = shapes(&cut);
         for drawn in [Drawn::Spikes, Drawn::Marks] {
-            let (plotted, found) = read(&source(plot(&parts, drawn)), &Job::default());
+            let (plotted, found) = read(&source(plot(&parts, drawn)), &as_drawn());
             assert!(!found.iter().any(|code| code.starts_with("hpgl/")), "seed {seed}: {found:?}");
             let (drawn_outlines, drawn_slits) = shapes(&plotted);
             assert!(outlines_agree(&outlines, &drawn_outlines, most), "seed {seed}: {outlines:?} {drawn_outlines:?}");

@@ -58,6 +58,8 @@ pub(super) fn share(
             if let Some(root) = sharing.leads.led_root(i, [stroke.from, stroke.to]) {
                 outcomes[i].junctions.push([root, stroke.from]);
                 stroke.from = root;
+            } else if outcomes[i].cuts.is_some() {
+                outcomes[i].junctions.push([stroke.from; 2]);
             }
         }
     }

@@ -18,7 +18,6 @@ use self::near::near;
 use self::sequence::{START, Ways};
 use self::times::Times;
 use self::visit::{Begin, Cuts, Measures, Visit};
-use super::order::holders;
 use super::pass::MarkerPass;
 use crate::analysis::air::{Air, Stop};
 use crate::analysis::nesting::Nesting;
@@ -116,7 +115,7 @@ impl Route {
 impl<'a> Routing<'a> {
     fn of(marker: &Marker, job: &'a Job, policy: OrderPolicy) -> Self {
         let nesting = Nesting::of(marker);
-        let held = (0..marker.pieces.len()).map(|piece| holders(piece, &nesting)).collect();
+        let held = (0..marker.pieces.len()).map(|piece| nesting.holders(piece)).collect();
         let measures = Measures { air: Air::new(job), corner: job.profile.corner.angle(), unit: marker.unit };
         Self { job, policy, measures, held }
     }
