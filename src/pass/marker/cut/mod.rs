@@ -231,23 +231,21 @@ impl Cutting<'_> {
     /// The cuts of a line, of this range, that has edges in common with others.
     fn edges(&mut self, of_line: OfLine, drawn: Range, line: usize) {
         for cuts in of_line {
-            let (turns, _) = sequence(&cuts, self.at, &self.air);
+            let order = sequence(&cuts, self.at, &self.air);
             let mut cuts: Vec<Option<Vec<Segment>>> = cuts.into_iter().map(Some).collect();
-            for (cut, is_reversed) in turns {
-                self.edge(cuts[cut].take().expect("each comes once"), is_reversed, drawn, line);
+            for cut in order {
+                self.edge(cuts[cut].take().expect("each comes once"), drawn, line);
             }
         }
     }
 
-    fn edge(&mut self, segments: Vec<Segment>, is_reversed: bool, drawn: Range, line: usize) {
+    fn edge(&mut self, segments: Vec<Segment>, drawn: Range, line: usize) {
         let is_closed = segments.first().map(|first| first.from) == segments.last().map(|last| last.to);
         let range = self.list.append(segments).expect("it has a length");
         if is_closed {
             return self.contour(range, line);
         }
-        let [left, right] = self.sides(drawn, line);
-        let (range, sides) = if is_reversed { (range.reversed(), [right, left]) } else { (range, [left, right]) };
-        self.push(CutKind::Edge, range, sides);
+        self.push(CutKind::Edge, range, self.sides(drawn, line));
     }
 
     fn push(&mut self, kind: CutKind, range: Range, sides: [Option<usize>; 2]) {
