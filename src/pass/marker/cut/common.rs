@@ -203,11 +203,11 @@ impl Sharing<'_> {
         }
     }
 
-    /// Whether a cut ends on a way off to the side that is no longer than the tip may be off it: the blade would only swing.
+    /// Whether a cut ends on a way off to the side that is no longer than two edges lie apart: the blade would only swing.
     fn has_a_stub(&self, cut: &[Segment]) -> bool {
         let is_stub = |end: &Segment, next: &Segment| {
             let ways = [end, next].map(|segment| polyline::direction(segment.from, segment.to).unwrap_or_default());
-            end.length() <= self.asked.beyond && ways[0].dot(&ways[1]) < LEAST_COSINE
+            end.length() <= self.asked.near.distance && ways[0].dot(&ways[1]) < LEAST_COSINE
         };
         let [first, .., last] = cut else { return false };
         is_stub(first, &cut[1]) || is_stub(last, &cut[cut.len() - 2])

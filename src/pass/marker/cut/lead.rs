@@ -24,6 +24,8 @@ const DEEPEST: f64 = std::f64::consts::SQRT_2;
 const HALVINGS: usize = 3;
 /// Places of such a way that are looked at.
 const PLACES: usize = 4;
+/// How far about a place cuts meet that should meet there, in distances of two edges.
+const ABOUT: f64 = 3.0;
 /// Cuts near a place that are looked at to see whether they hang together, at the most: in no lay there are more.
 const MOST_CUTS: usize = 200;
 /// Stretches that are shorter have no length, mm: rounding.
@@ -241,8 +243,7 @@ impl<'a> Leads<'a> {
     /// Whether what is cut of one edge and what is cut of the next cross each other where the one ends and the other begins.
     pub(super) fn meet(&self, ring: usize, [before, behind]: [&Shared; 2]) -> bool {
         let at = self.rings[ring].place(before.own[1]);
-        let reach = 2.0 * (self.asked.near.distance + self.asked.beyond) / LEAST_SINE;
-        let about = Extent::between(at, at).grown(reach);
+        let about = Extent::between(at, at).grown(ABOUT * self.asked.near.distance);
         // What meets elsewhere only leaves a strip between the two that is open here.
         let clipped = |(ring, ends)| about.clip(ends).filter(|[from, to]| from != to).map(|ends| (ring, ends));
         let cuts: Vec<(Option<usize>, [Point; 2])> =
