@@ -11,8 +11,9 @@ use super::stretch::{Asked, Shared};
 use crate::geom::{Extent, Point, Vector, left, polyline};
 use crate::ir::list::Segment;
 
-/// Sine of the least angle at which a cut goes straight on to another (15 degrees), and the cosine.
+/// Sine of the least angle at which a cut goes straight on to another (15 degrees).
 const LEAST_SINE: f64 = 0.259;
+/// Cosine of that angle: ways that turn by less go straight on.
 pub(super) const LEAST_COSINE: f64 = 0.966;
 /// Tangent of the greatest angle at which a cut is led over to an edge that it runs along (6 degrees).
 const SLOPE: f64 = 0.105;
@@ -168,10 +169,14 @@ impl<'a> Leads<'a> {
         let end = at + along * way.max(0.0);
         let is_through = |ends: [Point; 2]| polyline::distance_to_segment(end, ends[0], ends[1]) > beyond / 2.0;
         let is_crossed = |corner: Point| {
-            let away = cuts.iter().filter_map(|&(_, [from, to])| match corner {
-                corner if (from - corner).norm() <= LEAST => polyline::direction(from, to),
-                corner if (to - corner).norm() <= LEAST => polyline::direction(to, from),
-                _ => None,
+            let away = cuts.iter().filter_map(|&(_, [from, to])| {
+                if (from - corner).norm() <= LEAST {
+                    polyline::direction(from, to)
+                } else if (to - corner).norm() <= LEAST {
+                    polyline::direction(to, from)
+                } else {
+                    None
+                }
             });
             let mut away = away.peekable();
             let first = away.peek().copied().unwrap_or_default();
