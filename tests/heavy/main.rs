@@ -9,6 +9,8 @@ mod crowded;
 #[path = "../it/motion.rs"]
 mod motion;
 #[cfg(feature = "heavy")]
+mod nests;
+#[cfg(feature = "heavy")]
 #[path = "../it/properties/mod.rs"]
 mod properties;
 #[cfg(feature = "heavy")]

@@ -274,3 +274,44 @@ fn near_lines_are_cut_as_slowly_as_is_asked_and_one_that_is_cut_faster_is_refuse
         assert!(!is_sound || verdict.passes(), "{:#?}", verdict.findings);
     }
 }
+
+/// A part with a U in its right edge, and one that stands out into that with a narrower V.
+const FACING: [&str; 2] = [
+    "contour closed
+  from 0 0 to 100 0 @0..1#1
+  to 100 38 @1..2#2
+  to 97 38.6 @2..3#3
+  to 96 40 @3..4#4
+  to 97 41.4 @4..5#5
+  to 100 42 @5..6#6
+  to 100 80 @6..7#7
+  to 0 80 @7..8#8
+  to 0 0 @8..9#9
+notch u 100 38 to 96 40 to 100 42 segments 4 @3..4#4
+",
+    "contour closed
+  from 100 80 to 100 41 @20..21#20
+  to 97.5 40 @21..22#21
+  to 100 39 @22..23#22
+  to 100 0 @23..24#23
+  to 200 0 @24..25#24
+  to 200 80 @25..26#25
+  to 100 80 @26..27#26
+notch v out 100 41 to 97.5 40 to 100 39 segments 2 @21..22#21
+",
+];
+
+#[test]
+fn a_mouth_is_not_cut_over_where_the_other_part_stands_out_into_it() {
+    for order in [[0, 1], [1, 0]] {
+        let pieces = order.iter().zip(1..).map(|(&i, number)| format!("piece {number}\n{}", FACING[i]));
+        let text = pieces.fold(String::from("marker unit-mm 0.1\n"), |text, piece| text + &piece);
+        let marker = with_cuts(&text::read_marker(&text).expect("a marker"), &Job::default());
+        assert!(!marker.common.is_empty(), "the edges beside it are cut once");
+        let middle = Point::new(100.0, 40.0);
+        for cut in &marker.cuts {
+            let away = polyline::distance(middle, &marker.list.points(cut.range));
+            assert!(away > 0.5, "{order:?}: a cut passes {away} mm from the middle of the mouth");
+        }
+    }
+}

@@ -2,14 +2,12 @@
 //! refused.
 
 use std::fmt::Write as _;
-use std::io::Cursor;
 
-use cutc::back::TARGETS;
-use cutc::diagnostic::{Diagnostics, render};
 use cutc::ir::declaration::{Declaration, Kind, Which};
 use cutc::machine::{Job, Spare};
-use cutc::pipeline::{self, Compiled};
-use cutc::source::Source;
+use cutc::pipeline::Compiled;
+
+use crate::support::nests::{Recipe, compiled as verified};
 
 /// The part of the band within which facing edges lie.
 const WITHIN: f64 = 0.8;
@@ -68,14 +66,7 @@ fn compiled(gap: f64, job: &Job) -> (Compiled, Vec<u8>) {
 }
 
 fn made(nest: &str, case: &str, job: &Job) -> (Compiled, Vec<u8>) {
-    let source = Source::new("nest.cut", nest.as_bytes().to_vec()).expect("small");
-    let target = TARGETS.iter().find(|target| target.name == "csv").expect("setpoints are a target");
-    let order = pipeline::Order { from: None, target, verify: true };
-    let (mut out, mut found) = (Cursor::new(Vec::new()), Diagnostics::default());
-    let compiled = pipeline::compile(&source, job, order, &mut out, &mut found).expect("memory takes everything");
-    let compiled = compiled.unwrap_or_else(|| panic!("{case}: {}", render(&found, &source)));
-    assert!(compiled.verdict.as_ref().is_some_and(pipeline::Verdict::passes), "{case}");
-    (compiled, out.into_inner())
+    verified(nest, "csv", job).unwrap_or_else(|why| panic!("{case}: {why}"))
 }
 
 /// Headings of the blade at its plunges, whole degrees within a turn.
@@ -207,4 +198,23 @@ fn whatever_notches_stand_on_common_edges_nothing_is_refused() {
             }
         }
     }
+}
+
+/// Some faults show only among dozens of parts; `tests/heavy/nests.rs` has more of them.
+#[test]
+fn nests_of_dozens_of_parts_are_cut_with_the_notches_that_they_were_drawn_with() {
+    let wrong = |&seed: &u64| {
+        let recipe = Recipe::of(seed, 30, 10);
+        let nest = recipe.nest();
+        assert_eq!(nest.text, recipe.nest().text, "the same recipe, the same bytes");
+        let compiled = match verified(&nest.text, "csv", &Job::default()) {
+            Ok((compiled, _)) => compiled,
+            Err(why) => return Some(format!("{recipe:?}: {why}")),
+        };
+        assert!(recipe.gap > 0.4 || compiled.report.common.is_some(), "{recipe:?}: edges are cut once");
+        let found = compiled.report.notches;
+        (found != nest.notches).then(|| format!("{recipe:?}: {found:?}, drawn were {:?}", nest.notches))
+    };
+    let found: Vec<String> = [2, 5, 8, 11, 13, 17, 22, 25].iter().filter_map(wrong).collect();
+    assert!(found.is_empty(), "{}", found.join("\n\n"));
 }

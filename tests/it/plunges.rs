@@ -1,5 +1,8 @@
 //! Outlines whose plunges once ended in a refusal of our own: each is cut, and its program accepted.
 
+use cutc::machine::Job;
+
+use crate::support::nests::compiled;
 use crate::support::room::Room;
 
 /// An outline in tenths of a millimetre, the settings it was refused with, and why.
@@ -65,5 +68,19 @@ fn plunges_lie_as_the_verifier_has_them() {
         let room = Room::with("outline.cut", outline);
         let said = room.says(&format!("compile outline.cut -t csv {settings}"), 0);
         assert!(said.contains("verified"), "{why}: {said}");
+    }
+}
+
+/// A slit of 30 by 1 units is 3.002 mm long: between plunge and lift there is no way that the blade could go.
+#[test]
+fn a_slit_hardly_longer_than_the_blade_is_one_plunge() {
+    let mut job = Job::default();
+    (job.profile.knife.width_mm, job.profile.knife.back_mm) = (3.0, Some(1.5));
+    let slit = "H1*G71*N1*M15*X500Y500*M14*X1500Y500*X1500Y1500*X500Y1500*X500Y500*M15*\
+        M19*X1000Y500*M14*X1001Y530*M15*M0*";
+    for target in ["csv", "gcode"] {
+        let (compiled, _) = compiled(slit, target, &job).unwrap_or_else(|why| panic!("{target}: {why}"));
+        // What G-code is moved by says no plunge cuts.
+        assert!(matches!(compiled.report.program.plunge_cuts, Some(1) | None), "{target}");
     }
 }

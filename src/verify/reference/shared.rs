@@ -93,16 +93,17 @@ pub(super) fn aside<'s>(line: &Line, drawn: impl Iterator<Item = &'s Segment>) -
     found
 }
 
-/// From where to where a chord lies on a part of a cut that goes the same way.
+/// From where to where a chord lies on a part of a cut, whichever way that goes.
 pub(super) fn lies_on([from, to]: [Point; 2], ends: [Point; 2]) -> Option<[f64; 2]> {
     let along = polyline::direction(from, to)?;
-    if polyline::direction(ends[0], ends[1])?.dot(&along) < ALONG {
+    if polyline::direction(ends[0], ends[1])?.dot(&along).abs() < ALONG {
         return None;
     }
     if ends.iter().any(|end| polyline::distance_to_line(*end, from, along) > SAME) {
         return None;
     }
-    let [low, high] = ends.map(|end| (end - from).dot(&along).clamp(0.0, (to - from).norm()));
+    let [one, other] = ends.map(|end| (end - from).dot(&along).clamp(0.0, (to - from).norm()));
+    let (low, high) = (one.min(other), one.max(other));
     (high - low > SAME).then_some([low, high])
 }
 
@@ -118,4 +119,17 @@ pub(super) fn spared(ring: &[Drawn]) -> Vec<Vec<Drawn>> {
         }
     }
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_chord_lies_on_a_cut_whichever_way_that_goes() {
+        let ends = |from: f64, to: f64| [from, to].map(|x| Point::new(x, 0.0));
+        for (from, to) in [(2.0, 8.0), (8.0, 2.0)] {
+            assert_eq!(lies_on(ends(0.0, 10.0), ends(from, to)), Some([2.0, 8.0]));
+        }
+    }
 }

@@ -11,6 +11,8 @@ use cutc::pass::toolpath::{Scene, TOOLPATH_PASSES, trace};
 use cutc::plan;
 use cutc::source::Span;
 
+pub(crate) mod cloth;
+pub(crate) mod nests;
 pub(crate) mod page;
 pub(crate) mod program;
 pub(crate) mod room;

@@ -375,4 +375,19 @@ mod tests {
         leads.spared[1].push([0.0, 10.0]);
         assert_eq!(ends(&leads), [0.0; 2]);
     }
+
+    /// Where a cut comes to the end of another nothing is crossed for sure, as it does at a corner where the other goes on.
+    #[test]
+    fn a_cut_is_led_on_over_a_corner_but_not_over_an_end() {
+        let rings = [ring(0, &[[0.0, -9.0], [10.0, -9.0], [10.0, 0.0], [0.0, 0.0]], Vec::new())];
+        let segments = Segments::new(&rings);
+        let asked = Asked { near: Near { distance: 0.2, slack: 0.0 }, min: 5.0, beyond: 0.01, width: 3.0 };
+        let mut leads = Leads::new(&rings, &segments, asked);
+        let along = Vector::new(-2.0, -1.0).normalize();
+        let way = |leads: &Leads| leads.straight_on(1, Point::new(10.1, 0.047), along, |_| true);
+        assert!(way(&leads).is_some_and(|way| way > 0.11));
+        // The upper side is cut with another part.
+        leads.spared[0].push([19.0, 29.0]);
+        assert_eq!(way(&leads), None);
+    }
 }
