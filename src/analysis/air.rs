@@ -1,4 +1,4 @@
-//! Moves with the knife up: how long they take, and how short those of a marker could be at the least.
+//! Moves with the knife up: how long they take, and about how short those of a marker could be at the least.
 
 use rayon::prelude::*;
 
@@ -9,6 +9,8 @@ use crate::ir::marker::{Cut, CutKind};
 use crate::machine::kinematics::Move;
 use crate::machine::{Job, Limits};
 
+/// Starts of a closed line that are looked at, at the most.
+const MOST_STARTS: usize = 64;
 /// How far about the start of a cut the ends of others are looked for first, mm.
 const FIRST_REACH: f64 = 10.0;
 /// The farthest that they are looked for, mm: longer than any table.
@@ -37,13 +39,22 @@ pub struct Air {
     /// From the C axis to the tip and to the heel, mm.
     ends: [f64; 2],
     is_double_edged: bool,
+    /// Where the drill stands, seen from the C axis, mm.
+    drill: Vector,
 }
 
 impl Air {
     /// On the machine of a job.
     pub fn new(job: &Job) -> Self {
         let knife = &job.profile.knife;
-        Self { limits: job.profile.axes.travel_limits(), ends: knife.ends(), is_double_edged: knife.edges == 2 }
+        let [x, y] = job.profile.drill.offset_mm;
+        let (limits, is_double_edged) = (job.profile.axes.travel_limits(), knife.edges == 2);
+        Self { limits, ends: knife.ends(), is_double_edged, drill: Vector::new(x, y) }
+    }
+
+    /// Where the axes stand when a hole is drilled.
+    pub fn drill(&self, at: Point) -> Stop {
+        Stop::anyhow(at - self.drill)
     }
 
     /// Where the axes stand when the blade comes down at the start of a cut that goes from one place on to another: its heel is
@@ -100,12 +111,13 @@ struct Item {
 }
 
 /// The time of the moves between the cuts and holes of a marker at the least, s: for each of them that of the shortest way from
-/// the end of any other to any of its starts. No order has a shorter way, and as a rule none has one as short.
+/// the end of any other to any of its starts. As a rule no order has one as short; overlaps, which are left out, may shorten
+/// a way by their lengths.
 pub fn least(marker: &Marker, job: &Job) -> f64 {
     let air = Air::new(job);
     let cuts = marker.cuts.par_iter().map(|cut| Item::of_cut(cut, marker, job, &air));
     let mut items: Vec<Item> = cuts.collect();
-    let drills = marker.pieces.iter().flat_map(|piece| &piece.drills).map(|drill| Stop::anyhow(drill.at));
+    let drills = marker.pieces.iter().flat_map(|piece| &piece.drills).map(|drill| air.drill(drill.at));
     items.extend(drills.map(|stop| Item { downs: vec![stop], ups: vec![stop] }));
     let ups: Vec<(usize, Stop)> =
         items.iter().enumerate().flat_map(|(i, item)| item.ups.iter().map(move |&up| (i, up))).collect();
@@ -156,10 +168,13 @@ impl Item {
             corner::is_corner(at(i), &before, &behind, limit, marker.unit)
         };
         let mut starts: Vec<usize> = (0..last).filter(is_corner).collect();
-        // One that has no corners may start anywhere; all may start where they do.
+        // One without corners counts as if it could start anywhere.
         if starts.is_empty() {
             starts.extend(0..last);
-        } else if starts[0] != 0 {
+        }
+        let step = starts.len().div_ceil(MOST_STARTS);
+        starts = starts.into_iter().step_by(step).collect();
+        if starts[0] != 0 {
             starts.insert(0, 0);
         }
         let around = |i: usize| [at(i + last - 1), at(i), at(i + 1)];

@@ -27,12 +27,13 @@ pub struct Cloth<'a> {
     part_of: Vec<u32>,
     /// By how much parts may overlap that only touch, mm.
     band: f64,
-    /// A way of the blade that is no longer is none, mm: what is left uncut at either end without it is what rounding leaves,
-    /// too.
+    /// A blade is plunged once, without a run, where its way would be no longer than this, mm: half of it stays uncut at either
+    /// end.
     least_way: f64,
 }
 
-/// How long a way of the blade is none, in lengths that may be left uncut: half of it is left at either end.
+/// How long a way of the blade is none, in lengths that may be left uncut: less than two, since half of it is left at either
+/// end.
 const LEAST_WAY_SHARE: f64 = 1.5;
 
 impl<'a> Cloth<'a> {

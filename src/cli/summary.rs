@@ -124,7 +124,7 @@ fn could_save(spent: &Spent, savings: &Savings, line: &mut impl FnMut(&str, Stri
     let is_worth_telling = |saved: &f64| *saved >= TELLING_SHARE * spent.total();
     if spent.travel > 0.0 {
         let [travel, least] = [spent.travel, least_travel_s].map(|time| fixed(time, 1));
-        line("order", format!("{travel} s from cut to cut; in no order less than {least} s"));
+        line("order", format!("{travel} s from cut to cut; about {least} s at the least"));
     }
     let steady = steady_s.filter(is_worth_telling).map(|saved| (r#"order.policy = "steady""#, saved));
     let clear = clear_s.filter(is_worth_telling).map(|saved| ("knife.clear_ms, a third of lift_ms,", saved));
@@ -362,7 +362,7 @@ mod tests {
           spent      cut 50 %, travel 17 %, turn 13 %, plunge 12 %, lift 9 %
           limited by starts and stops 50 %, jerk of c 25 %, feed 20 %,
                      acceleration of x 5 %
-          order      20.0 s from cut to cut; in no order less than 9.8 s
+          order      20.0 s from cut to cut; about 9.8 s at the least
                      order.policy = "steady" would save about 7 s, 6 %
           bulge      0.138 mm beyond the chords of flattened curves
           warnings   0

@@ -23,7 +23,7 @@ pub(super) struct Timed {
     copy: Option<u32>,
     #[serde(skip)]
     name: String,
-    /// The numbers of the pieces that lie in it and come before it.
+    /// The names of the pieces that lie in it and come before it.
     waits_for: Vec<String>,
     /// What is asked before it.
     asked: Vec<&'static str>,
@@ -45,7 +45,7 @@ pub(super) fn of(program: &Program, marker: &Marker) -> Vec<Timed> {
             copy: of.map(|piece| piece.copy).filter(|&copy| copy > 0),
             name: of.map_or_else(|| piece.to_string(), Piece::name),
             waits_for: inner.into_iter().map(|inner| marker.pieces[inner].name()).collect(),
-            asked: events.into_iter().map(|event| asked(event.kind)).collect(),
+            asked: events.into_iter().map(|event| asked_for(event.kind)).collect(),
             time_s: significant(spent.total(), DIGITS),
             spent: spent.clone(),
         }
@@ -88,10 +88,10 @@ pub(super) fn text(pieces: &[Timed]) -> String {
 }
 
 /// What is asked of the operator or the conveyor, in a word.
-fn asked(event: Event) -> &'static str {
+fn asked_for(event: Event) -> &'static str {
     match event {
-        Event::Stop => "the operator",
-        Event::Advance => "the conveyor",
+        Event::Stop => "stop",
+        Event::Advance => "advance",
     }
 }
 

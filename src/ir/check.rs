@@ -122,11 +122,11 @@ const UNIT_EPSILON: f64 = 1e-9;
 fn run_faults(run: &Run) -> Vec<&'static str> {
     let mut faults = Vec::new();
     let chords = run.points.len().saturating_sub(1);
-    if chords == 0
-        || [run.spans.len() + 1, run.feeds.len() + 1, run.joints.len()] != [chords + 1; 3]
-        || ![0, chords].contains(&run.junctions.len())
-    {
+    if chords == 0 || [run.spans.len() + 1, run.feeds.len() + 1, run.joints.len()] != [chords + 1; 3] {
         faults.push("a run needs a span and a speed a chord, and a joint a point");
+    }
+    if ![0, chords].contains(&run.junctions.len()) {
+        faults.push("a run marks every chord as a junction or not, or none");
     }
     if run.points.iter().any(|&p| !finite(p)) || !pose_finite(run.start) || !pose_finite(run.end) {
         faults.push("a number is not finite");

@@ -22,9 +22,10 @@ pub struct Marker {
     pub common: Vec<CommonEdge>,
     /// Where edges of parts run beside those of others, so near that a thin strip stands between two cuts.
     pub near: Vec<NearEdge>,
-    /// Short ways about which cuts of several parts cross each other, so that no thread is left.
+    /// Where cuts of several parts must cross: lines from where a cut leaves its own outline to where it ends across another
+    /// part's, mm; without a length where two cross as they are drawn.
     pub junctions: Vec<[Point; 2]>,
-    /// What the numbers of the file are multiples of, mm; 0 when they are not rounded to a grid.
+    /// The grid to which the file rounds, mm, as large as it lies on the table; 0 when there is none.
     pub unit: f64,
     /// What happens behind the last piece.
     pub closing: Vec<Event>,

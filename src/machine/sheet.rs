@@ -97,7 +97,7 @@ impl Sheet {
     /// find the cloth where they expect it.
     pub fn keeps_length(&self) -> bool {
         let Self { origin: _, mirror, flip: _, rotate_deg, scale_x, scale_y: _, copies, copies_gap_mm: _ } = *self;
-        mirror == Mirror::Off && rotate_deg == 0.0 && scale_x == 1.0 && copies == 1
+        mirror == Mirror::Off && rotate_deg.rem_euclid(360.0) == 0.0 && scale_x == 1.0 && copies == 1
     }
 
     /// Whether it shows the other side of the parts.

@@ -14,7 +14,7 @@ pub(super) const CLEAR_SHARE: f64 = 1.0 / 3.0;
 /// What a program could save.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Savings {
-    /// Time of the moves from cut to cut that no order of them can do without, s.
+    /// About the time of the moves from cut to cut that no order of them can do without, s.
     #[serde(serialize_with = "micro")]
     pub least_travel_s: f64,
     /// What the order `steady` would save, s, about; none where another than the file's is asked for.

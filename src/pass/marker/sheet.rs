@@ -19,8 +19,8 @@ pub(super) const PASS: MarkerPass =
 
 /// Degrees of a quarter turn.
 const QUARTER: f64 = 90.0;
-/// Segments of all copies together, at the most: their ids are 32 bits long.
-const MOST_SEGMENTS: usize = 1 << 30;
+/// Segments of all copies together, at the most: they take some gigabytes of memory.
+const MOST_SEGMENTS: usize = 1 << 26;
 
 fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     let sheet = &job.profile.sheet;

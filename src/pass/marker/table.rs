@@ -76,18 +76,24 @@ fn fitting(marker: &Marker, extent: &Extent, job: &Job) -> Option<String> {
         [table.x_mm, table.y_mm].map(|ends| ends.map_or(f64::INFINITY, |[least, most]| most - least + OFF_EPSILON));
     let (width, height) = extent.size();
     if sheet.copies > 1 {
-        let of_copy = |copy: u32| {
-            let piece = |piece: usize| marker.pieces[piece].copy == copy;
-            marker.contours().filter(|(i, _)| piece(*i)).fold(Extent::EMPTY, |mut extent, (_, contour)| {
-                extent.join(&Extent::of(&marker.list.points(contour.range)));
-                extent
-            })
-        };
-        let [first, second] = [1, 2].map(of_copy);
-        if first.is_empty() || second.is_empty() || height > room[1] {
+        if !job.selection.is_all() {
             return None;
         }
+        let of_copy = |copy: u32| {
+            let mut extent = Extent::EMPTY;
+            for piece in marker.pieces.iter().filter(|piece| piece.copy == copy) {
+                let lines = piece.contours.iter().map(|contour| Extent::of(&marker.list.points(contour.range)));
+                let strokes = piece.notches.iter().flat_map(Notch::strokes).map(|s| Extent::between(s.from, s.to));
+                let holes = piece.drills.iter().map(|drill| Extent::between(drill.at, drill.at));
+                lines.chain(strokes).chain(holes).for_each(|of| extent.join(&of));
+            }
+            extent
+        };
+        let [first, second] = [1, 2].map(of_copy);
         let pitch = second.min.x - first.min.x;
+        if first.is_empty() || second.is_empty() || height > room[1] || pitch <= 0.0 {
+            return None;
+        }
         let more = ((room[0] - first.size().0) / pitch).floor();
         return (more >= 0.0).then(|| format!("so many copies fit: sheet.copies = {}", exact(more + 1.0)));
     }

@@ -4,7 +4,7 @@ use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, polyline};
 use crate::ir::Marker;
 
-/// How near to a chord a junction is that it comes by, mm: edges that have parted so far do not cross any more.
+/// A chord passes a junction that is no farther than this, mm: the widest that two edges of a band may be apart.
 const REACH: f64 = 1.0;
 
 /// The junctions of a marker, by place.

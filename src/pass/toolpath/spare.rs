@@ -1,5 +1,5 @@
-//! Plunge cuts of a nibbled curve that nobody needs: the blades before and behind cut all of their stretch, since the blade is
-//! longer than the step from one plunge to the next.
+//! Plunge cuts that nobody needs: the blade before, or those before and behind together, cut all of their stretch, as on a
+//! nibbled curve whose steps are shorter than the blade.
 
 use crate::analysis::cloth::Surroundings;
 use crate::analysis::plunge::{PASSING_SHARE, Plunge};
@@ -16,8 +16,8 @@ pub(super) fn leave_out(steps: &mut Vec<Step>, around: &Surroundings) {
         let behind = || steps.get(i + 1).and_then(|step| Blade::at_start(step, around));
         let are_over = |behind: Blade| are_over(&[before, behind], cut, around);
         // Nothing is overcut where the part itself lies beyond.
-        let is_bare = || cut.ends.iter().all(|end| end.bare || matches!(end.side, Side::Contour | Side::Part));
-        is_bare() && is_over(&before, cut, around) || is_amid() && behind().is_some_and(are_over)
+        let asks_no_overlap = || cut.ends.iter().all(|end| end.bare || matches!(end.side, Side::Contour | Side::Part));
+        asks_no_overlap() && is_over(&before, cut, around) || is_amid() && behind().is_some_and(are_over)
     };
     let mut i = 1;
     while i < steps.len() {

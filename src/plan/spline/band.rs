@@ -10,8 +10,8 @@ use crate::machine::profile::Fit;
 
 /// Smaller turns are none, rad: an overlap runs straight on, but for rounding.
 const TURN_EPSILON: f64 = 1e-6;
-/// The part of the tolerance that is used where a run crosses cuts of other parts. Passes lead these through each other as far
-/// as both are off their lines together: half of it.
+/// The part of the tolerance that is used on chords by a junction. Cuts reach past each other by one tolerance; two tips that
+/// are each off by a quarter use half of that.
 pub(in crate::plan) const JUNCTION_SHARE: f64 = 0.25;
 
 /// The neighbourhood of a polyline in which the tip must stay.

@@ -49,11 +49,15 @@ fn open(run: &Run) -> Extended {
     if run.heel > 0.0 {
         blocks.insert(0, blocks[0]);
         feeds.insert(0, feeds[0]);
-        junctions.first().copied().into_iter().for_each(|first| junctions.insert(0, first));
+        if let Some(&first) = junctions.first() {
+            junctions.insert(0, first);
+        }
     }
     blocks.resize(points.len() - 1, blocks[blocks.len() - 1]);
     feeds.resize(points.len() - 1, feeds[feeds.len() - 1]);
-    junctions.last().copied().into_iter().for_each(|last| junctions.resize(points.len() - 1, last));
+    if let Some(&last) = junctions.last() {
+        junctions.resize(points.len() - 1, last);
+    }
     let end = polyline::length(&points);
     Extended { points, blocks, feeds, junctions, start: 0.0, end }
 }

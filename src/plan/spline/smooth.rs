@@ -135,7 +135,7 @@ impl Sample {
         self.section.deviation(self.point(control)).0
     }
 
-    /// The same as a length, where only a part of the tolerance may be used as large as if all might, mm.
+    /// How much of the tolerance is used, as mm of the whole: a deviation divided by its share.
     fn used(&self, control: &[[f64; 2]]) -> f64 {
         self.deviation(control).norm() / self.section.share
     }

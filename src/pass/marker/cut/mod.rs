@@ -10,18 +10,18 @@ mod common;
 mod facing;
 mod lead;
 mod ring;
-mod sequence;
 mod stretch;
 mod style;
+mod travel;
 
 use std::collections::BTreeMap;
 
 use self::common::share;
 use self::facing::Near;
 use self::ring::{Mouth, Ring};
-use self::sequence::sequence;
 use self::stretch::Asked;
 use self::style::{Bridged, Slit};
+use self::travel::sequence;
 use super::pass::MarkerPass;
 use super::search::search_ended;
 use crate::analysis::air::{Air, Stop};
@@ -67,7 +67,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     for (i, Styled { slits, outlines }) in styled.into_iter().enumerate() {
         cutting.piece = i;
         if let Some(drill) = pieces[i].drills.last() {
-            cutting.at = Stop::anyhow(drill.at);
+            cutting.at = cutting.air.drill(drill.at);
         }
         for slit in slits {
             cutting.slit(&slit);

@@ -2,7 +2,8 @@
 //!
 //! Needs: all pieces with their notches, what lies within a part before it. Leaves true: with `order.policy` `"file"`
 //! everything; else the same pieces, each whole, what lies within a part before that still, events between the same pieces;
-//! slits on the way round, closed contours begun at a corner. With `"steady"` no piece lies farther behind the foremost so far
+//! slits on the way round, closed contours begun as they are drawn or at a corner, either way round, open ones from either
+//! end, unless the file asks for something on them. With `"steady"` no piece lies farther behind the foremost so far
 //! than `order.window_mm`, but where something within it does.
 
 mod near;
@@ -24,12 +25,12 @@ use crate::analysis::nesting::Nesting;
 use crate::diagnostic::Diagnostics;
 use crate::geom::{Extent, Point, bits};
 use crate::ir::list::{Segment, SegmentList};
-use crate::ir::marker::{Marker, Piece};
+use crate::ir::marker::{Marker, OutlineNotch, Piece};
 use crate::machine::{Job, OrderPolicy};
 
 pub(super) const PASS: MarkerPass = MarkerPass {
     name: "route",
-    about: "orders pieces, notches and starts for the shortest travel, if that is asked",
+    about: "orders pieces and notches and chooses starts and directions for the shortest travel",
     run,
 };
 
@@ -224,7 +225,11 @@ fn extent(piece: &Piece, list: &SegmentList) -> Extent {
     extent
 }
 
-/// Visits in strips across the cloth, up and down in turn, none wider than the window.
+/// Strips that are narrower hold one piece each, mm.
+const LEAST_STRIP: f64 = 1.0;
+
+/// Visits in strips across the cloth, up and down in turn; with a window by their left edges, which that is about, and none
+/// wider than that.
 fn strips(extents: &[Extent], window: Option<f64>) -> Vec<usize> {
     let whole = extents.iter().fold(Extent::EMPTY, |mut whole, extent| {
         whole.join(extent);
@@ -234,10 +239,11 @@ fn strips(extents: &[Extent], window: Option<f64>) -> Vec<usize> {
     let middle = |i: usize| extents[i].min + (extents[i].max - extents[i].min) / 2.0;
     // As wide as two pieces.
     let strip = 2.0 * (width * height / extents.len().max(1) as f64).sqrt();
-    let strip = strip.min(window.unwrap_or(f64::INFINITY)).max(1.0);
+    let strip = strip.min(window.unwrap_or(f64::INFINITY)).max(LEAST_STRIP);
     let key = |&i: &usize| {
         let at = middle(i);
-        let strip = ((at.x - whole.min.x) / strip).floor();
+        let along = if window.is_some() { extents[i].min.x } else { at.x };
+        let strip = ((along - whole.min.x) / strip).floor();
         (strip, if strip % 2.0 == 0.0 { at.y } else { -at.y })
     };
     let mut order: Vec<usize> = (0..extents.len()).collect();
@@ -281,7 +287,8 @@ fn apply(visit: &Visit, piece: &mut Piece, list: &mut SegmentList) {
         if is_reversed {
             contour.range = contour.range.reversed();
             let points: BTreeSet<[u64; 2]> = list.points(contour.range).iter().map(|&point| bits(point)).collect();
-            let of_contour = piece.outline_notches.iter_mut().filter(|notch| points.contains(&bits(notch.mouth[0])));
+            let is_on = |notch: &OutlineNotch| notch.mouth.iter().all(|&end| points.contains(&bits(end)));
+            let of_contour = piece.outline_notches.iter_mut().filter(|notch| is_on(notch));
             of_contour.for_each(|notch| notch.mouth.reverse());
         }
     }

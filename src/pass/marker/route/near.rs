@@ -5,8 +5,10 @@ use crate::geom::{Extent, Point};
 
 /// Visits that are near each, on either side, by their distance.
 const NEAR: usize = 10;
-/// Visits of which these are chosen, at the most: in no lay there are more about one place.
+/// Visits of which these are chosen, at the most: where more stand about one place any of them will do.
 const MOST_AROUND: usize = 500;
+/// How far about a place visits are looked for at the least, mm.
+const LEAST_REACH: f64 = 1.0;
 /// Visits of those near each that are nearest in time.
 const NEAREST: usize = 8;
 
@@ -19,7 +21,8 @@ pub(super) fn near(ends: &[[Point; 2]]) -> Vec<Vec<u32>> {
         whole.join(&Extent::between(*start, *end));
     }
     let (width, height) = whole.size();
-    let least = ((width * height).max(width.max(height)) / ends.len() as f64).sqrt().max(1.0);
+    let count = ends.len() as f64;
+    let least = (width * height / count).sqrt().max(width.max(height) / count).max(LEAST_REACH);
     let nearest = |boxes: &Boxes, i: usize, at: Point| {
         let mut reach = least;
         loop {

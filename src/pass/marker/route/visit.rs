@@ -83,7 +83,7 @@ impl Cuts {
             (ends, outline.map_or(0.0, |outline| station(outline, notch.root)))
         });
         Self {
-            drills: piece.drills.iter().map(|drill| Stop::anyhow(drill.at)).collect(),
+            drills: piece.drills.iter().map(|drill| air.drill(drill.at)).collect(),
             slits: slits.collect(),
             contours: piece.contours.iter().zip(&contours).map(|(c, of)| starts(c, of, piece, measures)).collect(),
         }
