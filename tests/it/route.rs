@@ -188,7 +188,11 @@ fn an_order_for_the_shortest_travel_is_sound_saves_half_of_it_and_is_always_the_
         assert!(travel(&report) < 0.5 * travel(&file), "{policy:?}: {} m", travel(&report));
         assert!((report.cut_m - file.cut_m).abs() < 1e-9);
         assert!(report.time_s() < file.time_s());
-        assert!(compiled(&text, &job(policy)).1 == program, "the same bytes");
+        for threads in [1, 2] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+            let again = pool.install(|| compiled(&text, &job(policy)).1);
+            assert!(again == program, "the same bytes on {threads} threads");
+        }
     }
 }
 
