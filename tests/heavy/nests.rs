@@ -13,23 +13,14 @@ const SEEDS: u64 = 90;
 /// Width of a blade and of its back, mm.
 const BLADES: [[f64; 2]; 3] = [[6.6, 6.35], [8.89, 6.35], [3.0, 1.5]];
 /// Seeds that are still refused, each by a fault of ours: which rule is broken, by how much, and where.
-const LEFT_OUT: [(u64, &str); 16] = [
-    (7, "overcut-neighbour 1.73 mm, piece 11 at 927.6, 422.7 mm"),
+const LEFT_OUT: [(u64, &str); 7] = [
     (14, "joint 0.033 mm, piece 21 at 335.5, 373.1 mm"),
     (16, "overcut-neighbour 1.26 mm, piece 36 at 1194.2, 611.2 mm"),
     (21, "overcut-neighbour 1.83 mm, piece 28 at 944.6, 489.7 mm"),
-    (28, "joint 0.048 mm, piece 13 at 890.1, 454.8 mm"),
     (35, "overcut-neighbour 1.65 mm, piece 25 at 1412.7, 164.9 mm"),
-    (36, "joint 0.021 mm, piece 28 at 405.4, 304.3 mm"),
-    (37, "joint 0.024 mm, piece 36 at 1344.9, 634.5 mm"),
-    (42, "heading 0.56 degrees, piece 23 at 478.6, 200.4 mm"),
     (45, "joint 0.27 mm, piece 12 at 1171.7, 236.2 mm"),
-    (52, "overcut-neighbour 1.66 mm, piece 16 at 704.2, 310.0 mm"),
     (55, "joint 0.25 mm, piece 12 at 1173.2, 597.7 mm"),
-    (62, "joint 0.024 mm, piece 38 at 448.6, 255.3 mm"),
-    (67, "overcut-neighbour 0.52 mm, piece 24 at 405.7, 202.7 mm"),
     (71, "joint 0.29 mm, piece 32 at 724.9, 681.2 mm"),
-    (77, "joint 0.053 mm, piece 30 at 1494.3, 252.5 mm"),
 ];
 
 /// What is wrong with the programs of a seed; the nest is then kept, so that it can be looked at.
@@ -65,4 +56,8 @@ fn no_nest_is_refused_whatever_notches_gaps_and_blades() {
     let seeds: Vec<u64> = (0..SEEDS).filter(|&seed| LEFT_OUT.iter().all(|(left, _)| *left != seed)).collect();
     let found: Vec<String> = seeds.into_par_iter().filter_map(wrong).collect();
     assert!(found.is_empty(), "{} of {SEEDS} nests:\n{}", found.len(), found.join("\n\n"));
+    // The list of those that are known to be refused is no longer than it must be.
+    let mended: Vec<u64> =
+        LEFT_OUT.into_par_iter().map(|(seed, _)| seed).filter(|&seed| wrong(seed).is_none()).collect();
+    assert!(mended.is_empty(), "these seeds need not be left out any more: {mended:?}");
 }

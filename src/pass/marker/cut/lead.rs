@@ -103,11 +103,27 @@ impl<'a> Leads<'a> {
     /// where it crosses that already; `None` where it finds nothing to cross.
     pub(super) fn lead(&self, ring: usize, Arrival { at, along }: Arrival, to: Neighbour) -> Option<Point> {
         let ways = [1.0, -1.0].into_iter().filter_map(|sign| self.way_over(at, along, (to.ring, to.station, sign)));
+        let ways = ways.filter(|&(_, end)| !self.enters_another(ring, to.ring, [at, end]));
         if let Some((_, end)) = ways.max_by(|a, b| a.0.total_cmp(&b.0)) {
             return Some(end);
         }
         let way = self.straight_on(ring, at, along, |other| to.not.is_none() || other != to.not)?;
         Some(if way > LEAST { at + along * way } else { at })
+    }
+
+    /// Whether a way of a ring along an edge of another goes through the outline of a third part, such as a notch of it that
+    /// stands out over the edge.
+    fn enters_another(&self, own: usize, other: usize, ends: [Point; 2]) -> bool {
+        let known = [own, other].map(|ring| self.rings[ring].part);
+        let [from, to] = ends;
+        let Some(along) = polyline::direction(from, to) else { return false };
+        let margin = self.asked.near.distance;
+        let crosses = |segment: [Point; 2]| {
+            crossing(from, along, segment, margin)
+                .is_some_and(|(ahead, sine)| sine >= LEAST_SINE && ahead <= (to - from).norm() - margin)
+        };
+        let mut near = self.segments.near(self.rings, Extent::between(from, to));
+        near.any(|([ring, _], segment)| !known.contains(&self.rings[ring].part) && crosses(segment))
     }
 
     /// A straight cut of a ring through a place where what is cut with one neighbour ends and what is cut with the next begins,
