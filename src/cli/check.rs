@@ -13,7 +13,7 @@ use super::options::{Messages, Reading, counted};
 use super::report::{Findings, pretty};
 use super::setup;
 use crate::diagnostic::{Diagnostics, Severity, render_with};
-use crate::machine::Job;
+use crate::machine::{Job, OrderPolicy};
 use crate::pipeline;
 use crate::source::Source;
 use crate::units::MM_PER_M;
@@ -111,7 +111,10 @@ impl Arguments {
     fn checked(&self, file: &Path, job: &Job) -> anyhow::Result<Checked> {
         let source = files::read(file)?;
         let mut diagnostics = Diagnostics::default();
-        let input = pipeline::read(&source, self.reading.from, job, &mut diagnostics);
+        // Whatever the order, the same is wrong with a file.
+        let mut job = job.clone();
+        job.profile.order.policy = OrderPolicy::File;
+        let input = pipeline::read(&source, self.reading.from, &job, &mut diagnostics);
         let dialect = input.as_ref().map(|input| input.dialect.name);
         let good = input.filter(|_| !diagnostics.has_errors()).map(|input| input.marker);
         let row = Row {
