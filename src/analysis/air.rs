@@ -104,6 +104,24 @@ impl Air {
     }
 }
 
+/// The time of the moves between the cuts and holes of a marker in their order, s, the way from home included; lifts amid a cut
+/// are not.
+pub fn spent(marker: &Marker, job: &Job) -> f64 {
+    let air = Air::new(job);
+    let [x, y, _] = job.profile.home;
+    let (mut time, mut at) = (0.0, Stop::anyhow(Point::new(x, y)));
+    let mut go = |down: Stop, up: Stop| time += air.time(&std::mem::replace(&mut at, up), &down);
+    for (piece, part) in marker.pieces.iter().zip(0..) {
+        piece.drills.iter().map(|drill| air.drill(drill.at)).for_each(|stop| go(stop, stop));
+        for cut in marker.cuts_of(part) {
+            let points = marker.list.points(cut.range);
+            let last = points.len() - 1;
+            go(air.down(points[0], points[1]), air.up(points[last - 1], points[last]));
+        }
+    }
+    time
+}
+
 /// What may come anywhere in the order: where the knife may come down for it, and where up.
 struct Item {
     downs: Vec<Stop>,

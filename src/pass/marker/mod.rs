@@ -11,6 +11,7 @@ mod order;
 mod pass;
 mod route;
 mod sanity;
+mod saved;
 mod search;
 mod select;
 mod sheet;
@@ -20,7 +21,7 @@ mod table;
 mod weld;
 
 pub use pass::MarkerPass;
-pub use route::saved_by;
+pub use saved::saved_by;
 
 /// Every pass over the marker, in order.
 pub const MARKER_PASSES: &[MarkerPass] = &[

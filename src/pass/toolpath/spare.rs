@@ -15,8 +15,16 @@ pub(super) fn leave_out(steps: &mut Vec<Step>, around: &Surroundings) {
         let is_amid = || cut.ends.iter().all(|end| end.side == Side::Contour);
         let behind = || steps.get(i + 1).and_then(|step| Blade::at_start(step, around));
         let are_over = |behind: Blade| are_over(&[before, behind], cut, around);
-        // Nothing is overcut where the part itself lies beyond.
-        let asks_no_overlap = || cut.ends.iter().all(|end| end.bare || matches!(end.side, Side::Contour | Side::Part));
+        // Where the part itself lies beyond, nothing is overcut unless the profile asks for it.
+        let knife = around.knife;
+        let spares_parts = knife.reflex_front_overlap_mm == 0.0 && knife.reflex_heel_overlap_mm == 0.0;
+        let asks_no_overlap = || {
+            cut.ends.iter().all(|end| match end.side {
+                Side::Contour => true,
+                Side::Part => end.bare || spares_parts,
+                Side::Waste | Side::Gap => end.bare,
+            })
+        };
         asks_no_overlap() && is_over(&before, cut, around) || is_amid() && behind().is_some_and(are_over)
     };
     let mut i = 1;

@@ -204,14 +204,14 @@ impl Sharing<'_> {
     }
 
     /// The end of a cut, 0 or 1, that is a way off to the side no longer than two edges lie apart: the blade would only swing.
-    fn stub(&self, cut: &[Segment]) -> Option<usize> {
-        let is_stub = |end: &Segment, next: &Segment| {
+    fn short_end(&self, cut: &[Segment]) -> Option<usize> {
+        let is_short = |end: &Segment, next: &Segment| {
             let ways = [end, next].map(|segment| polyline::direction(segment.from, segment.to).unwrap_or_default());
             end.length() <= self.asked.near.distance && ways[0].dot(&ways[1]) < LEAST_COSINE
         };
         let [first, .., last] = cut else { return None };
-        let ends = [is_stub(first, &cut[1]), is_stub(last, &cut[cut.len() - 2])];
-        ends.iter().position(|&is_stub| is_stub)
+        let ends = [is_short(first, &cut[1]), is_short(last, &cut[cut.len() - 2])];
+        ends.iter().position(|&is_short| is_short)
     }
 
     /// Lets a stretch go on to the corners of its ring that stand as near to the end of the other's edge.
@@ -281,7 +281,7 @@ impl Sharing<'_> {
                 led.ways.push([arrival.at, end]);
             }
             let cut = led_on(own, [from, to], [start, end], like);
-            if let Some(end) = is_short.then(|| self.stub(&cut)).flatten() {
+            if let Some(end) = is_short.then(|| self.short_end(&cut)).flatten() {
                 return Err([i, next][end]);
             }
             if !cut.is_empty() {

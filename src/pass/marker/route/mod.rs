@@ -56,20 +56,6 @@ fn run(marker: &mut Marker, job: &Job, _: &mut Diagnostics) {
     }
 }
 
-/// The time of moves with the knife up that an order by a policy would save, s, as far as it is longer now.
-pub fn saved_by(policy: OrderPolicy, marker: &Marker, job: &Job) -> f64 {
-    let routing = Routing::of(marker, job, policy);
-    let (mut now, mut then) = (routing.home(), routing.home());
-    let mut saved = 0.0;
-    for block in blocks(&marker.pieces) {
-        let as_is = routing.as_is(block.clone(), &marker.pieces, &marker.list, now);
-        let route = routing.route(block, &marker.pieces, &marker.list, then);
-        (now, then) = (as_is.end, route.end);
-        saved += as_is.time - route.time;
-    }
-    saved.max(0.0)
-}
-
 /// The pieces in blocks among which nothing is asked of the operator: that is asked between the same ones.
 fn blocks(pieces: &[Piece]) -> Vec<Range<usize>> {
     let asked = (1..pieces.len()).filter(|&i| !pieces[i].events.is_empty());
@@ -90,8 +76,6 @@ struct Routing<'a> {
 struct Route {
     /// Places in the block, each with how it is visited; none where nothing is cut.
     sequence: Vec<(usize, Option<Visit>)>,
-    /// Time of the moves with the knife up, s.
-    time: f64,
     /// Where the knife comes up in the end.
     end: Stop,
 }
@@ -127,21 +111,6 @@ impl<'a> Routing<'a> {
         Stop::anyhow(Point::new(x, y))
     }
 
-    /// The pieces of a block as they are.
-    fn as_is(&self, block: Range<usize>, pieces: &[Piece], list: &SegmentList, home: Stop) -> Route {
-        let (mut time, mut end) = (0.0, home);
-        let of = |piece: &Piece| {
-            let cuts = Cuts::of(piece, list, &self.measures);
-            (!cuts.is_empty()).then(|| cuts.as_is(&self.measures.air))
-        };
-        let sequence: Vec<(usize, Option<Visit>)> = pieces[block].iter().map(of).enumerate().collect();
-        for visit in sequence.iter().filter_map(|(_, visit)| visit.as_ref()) {
-            time += self.measures.air.time(&end, &visit.ends[0]) + visit.within;
-            end = visit.ends[1];
-        }
-        Route { sequence, time, end }
-    }
-
     /// The pieces of a block in the best order.
     fn route(&self, block: Range<usize>, pieces: &[Piece], list: &SegmentList, home: Stop) -> Route {
         let of = |piece: &Piece| Cuts::of(piece, list, &self.measures);
@@ -156,13 +125,13 @@ impl<'a> Routing<'a> {
                 before[holder].push(k as u32);
             }
         }
-        let Chosen { order, visit: chosen, time } = self.tour(&visits, &extents, &before, home);
+        let Chosen { order, visit: chosen, .. } = self.tour(&visits, &extents, &before, home);
         let end = order.last().map_or(home, |&last| visits[last][chosen[last]].ends[1]);
         let mut visits: Vec<Option<Visit>> =
             visits.into_iter().zip(&chosen).map(|(mut of, &chosen)| Some(of.swap_remove(chosen))).collect();
         let visited = order.iter().map(|&k| (left[k], visits[k].take()));
         let empty = (0..cuts.len()).filter(|i| left.binary_search(i).is_err()).map(|i| (i, None));
-        Route { sequence: visited.chain(empty).collect(), time, end }
+        Route { sequence: visited.chain(empty).collect(), end }
     }
 
     /// The order of visits, and which of each piece.
