@@ -90,6 +90,7 @@ const BESIDE_A_TABLE: &[(&str, &str)] = &[
     ("frame", "makes the one toolpath that no pass edits"),
     ("lap", "says how far C turns along a run, for the passes that keep it in its range"),
     ("near", "tells which stretches of a run are near lines, for the pass that slows down there"),
+    ("saved", "tells what another order would save: runs two of the passes on a copy"),
     ("junctions", "tells which chords come by a junction, for the pass that keeps the tip near its line there"),
     ("nibble", "parts runs into plunges for the pass that nibbles"),
     ("pass", "says what a pass is"),
