@@ -1,11 +1,15 @@
 //! Junctions of a marker, to be asked which of them a chord comes by.
 
 use crate::geom::boxes::Boxes;
-use crate::geom::{Extent, Point, polyline};
+use crate::geom::{Extent, Point, Vector, polyline};
 use crate::ir::Marker;
 
 /// A chord passes a junction that is no farther than this, mm: the widest that two edges of a band may be apart.
 const REACH: f64 = 1.0;
+/// Places that are nearer are one, mm: rounding.
+const SAME_PLACE: f64 = 1e-6;
+/// Cosine of the greatest angle between two ways that are one: rounding.
+const SAME_WAY: f64 = 1.0 - 1e-9;
 
 /// The junctions of a marker, by place.
 #[derive(Debug)]
@@ -25,5 +29,13 @@ impl<'a> Junctions<'a> {
     pub(super) fn is_by(&self, from: Point, to: Point) -> bool {
         let mut near = self.boxes.near(Extent::between(from, to)).map(|i| self.ways[i]);
         near.any(|way| polyline::distance_of_segments(way, [from, to]) <= REACH)
+    }
+
+    /// How far a cut goes on beyond a place where it leaves its own outline, along a unit vector, to be through the cut of another
+    /// part, mm; 0 where none is to be crossed.
+    pub(super) fn beyond(&self, from: Point, along: Vector) -> f64 {
+        let near = self.boxes.near(Extent::between(from, from)).map(|i| self.ways[i]);
+        let here = near.filter(|[start, _]| (start - from).norm() <= SAME_PLACE).map(|[start, end]| end - start);
+        here.filter(|way| way.dot(&along) >= SAME_WAY * way.norm()).map(|way| way.norm()).fold(0.0, f64::max)
     }
 }

@@ -3,7 +3,7 @@
 //! Needs runs split at corners. Leaves every run with its overlaps, each straight on beyond its end: as far as the
 //! profile wants where that is waste, by `knife.reflex_front_overlap_mm` and `knife.reflex_heel_overlap_mm` where it is
 //! the part itself (a reflex corner, the inner end of a slit), and shortened to the gap less `knife.clearance_mm` where
-//! a part lies ahead. A run that begins on a curve has only as much of its heel overlap as keeps the plunged blade near
+//! a part lies ahead. At a junction it goes on, whatever lies there, until it is through the other's cut. A run that begins on a curve has only as much of its heel overlap as keeps the plunged blade near
 //! its start. After Wang, Zhang & Zhao, *Research on Cutter Knife Tangent Following and Compensating Algorithm*, 2013,
 //! doi 10.7690/bgzdh.2013.02.026.
 
@@ -13,7 +13,7 @@ use super::scene::Scene;
 use super::worst::Worst;
 use crate::analysis::plunge::overlaps;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::Extent;
+use crate::geom::{Extent, polyline};
 use crate::ir::toolpath::{Run, Shape, Toolpath};
 use crate::machine::Knife;
 use crate::source::Span;
@@ -31,7 +31,8 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     let mut shortened = Worst::default();
     for run in runs::each(toolpath) {
         let [heel, front] = overlaps(run, &around);
-        (run.heel, run.front) = (heel.length, front.length);
+        let [least_heel, least_front] = across(run, scene);
+        (run.heel, run.front) = (heel.length.max(least_heel), front.length.max(least_front));
         (run.ends[0].side, run.ends[1].side) = (heel.side, front.side);
         for (overlap, span) in [(heel, run.spans[0]), (front, run.spans[run.spans.len() - 1])] {
             if overlap.missing > 0.0 {
@@ -43,6 +44,19 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
         }
     }
     report(&shortened, toolpath.piece, diagnostics);
+}
+
+/// How far a run must go past its start and its end to be through cuts of other parts that end beside it, mm.
+fn across(run: &Run, scene: &Scene) -> [f64; 2] {
+    let n = run.points.len();
+    let beyond = |end: usize, before: usize| {
+        let along = polyline::direction(run.points[before], run.points[end])?;
+        Some(scene.junctions.beyond(run.points[end], along))
+    };
+    match run.shape {
+        Shape::Open => [beyond(0, 1), beyond(n - 1, n - 2)].map(Option::unwrap_or_default),
+        Shape::Ring => [0.0; 2],
+    }
 }
 
 /// An overlap that is shorter than the profile wants it.

@@ -272,15 +272,19 @@ impl Sharing<'_> {
                 along: own.arriving(station, is_along),
             };
             let arrivals = [arrival(from, false), arrival(to, true)];
-            let start = self.leads.lead(ring, arrivals[0], neighbour(0)).ok_or(i)?;
-            let end = self.leads.lead(ring, arrivals[1], neighbour(1)).ok_or(next)?;
-            // Where the outlines overlap it crosses the other's before it is led on.
-            let over = |Arrival { at, along }: Arrival| at - along * (2.0 * self.asked.near.distance);
-            for (arrival, end) in arrivals.into_iter().zip([start, end]) {
-                led.ways.push([over(arrival), arrival.at]);
-                led.ways.push([arrival.at, end]);
+            let mut ends = [Point::origin(); 2];
+            for (k, arrival) in arrivals.into_iter().enumerate() {
+                let past = if is_short { None } else { self.leads.past_corner(arrival, neighbour(k)) };
+                ends[k] = match past {
+                    Some(past) => past.end,
+                    None => self.leads.lead(ring, arrival, neighbour(k)).ok_or([i, next][k])?,
+                };
+                // Where the outlines overlap it crosses the other's before it is led on.
+                let over = arrival.at - arrival.along * (2.0 * self.asked.near.distance);
+                led.ways.extend([[over, arrival.at], [arrival.at, ends[k]]]);
+                led.ways.extend(past.map(|past| past.corner));
             }
-            let cut = led_on(own, [from, to], [start, end], like);
+            let cut = led_on(own, [from, to], ends, like);
             if let Some(end) = is_short.then(|| self.short_end(&cut)).flatten() {
                 return Err([i, next][end]);
             }

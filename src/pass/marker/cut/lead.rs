@@ -12,7 +12,7 @@ use crate::geom::{Extent, Point, Vector, left, polyline};
 use crate::ir::list::Segment;
 
 /// Sine of the least angle at which a cut goes straight on to another (15 degrees).
-const LEAST_SINE: f64 = 0.259;
+pub(super) const LEAST_SINE: f64 = 0.259;
 /// Cosine of that angle: ways that turn by less go straight on.
 pub(super) const LEAST_COSINE: f64 = 0.966;
 /// Tangent of the greatest angle at which a cut is led over to an edge that it runs along (6 degrees).
@@ -55,9 +55,9 @@ pub(super) struct Neighbour {
 /// What is cut of the rings so far.
 #[derive(Debug)]
 pub(super) struct Leads<'a> {
-    rings: &'a [Ring],
+    pub(super) rings: &'a [Ring],
     segments: &'a Segments,
-    asked: Asked,
+    pub(super) asked: Asked,
     /// Of each ring what is cut with others.
     spared: Vec<Vec<[f64; 2]>>,
     /// How long the way over to an edge is, mm.
@@ -226,7 +226,7 @@ impl<'a> Leads<'a> {
     }
 
     /// Whether all between two stations of a ring is cut with it.
-    fn is_cut(&self, ring: usize, [a, b]: [f64; 2]) -> bool {
+    pub(super) fn is_cut(&self, ring: usize, [a, b]: [f64; 2]) -> bool {
         let length = self.rings[ring].length();
         let (low, high) = (a.min(b), a.max(b));
         let lap = (low / length).floor() * length;
@@ -380,7 +380,7 @@ mod tests {
         let rings = [before, own];
         let segments = Segments::new(&rings);
         let near = Near { distance: 0.2, slack: 0.0 };
-        let asked = Asked { near, min: 5.0, beyond: 0.01, width: 3.0 };
+        let asked = Asked { near, min: 5.0, beyond: 0.01, width: 3.0, corner: 0.8 };
         let mut leads = Leads::new(&rings, &segments, asked);
         let ends = |leads: &Leads| {
             let led = leads.led_legs(1, &rings[1].mouths()[0]);
@@ -397,7 +397,7 @@ mod tests {
     fn a_cut_is_led_on_over_a_corner_but_not_over_an_end() {
         let rings = [ring(0, &[[0.0, -9.0], [10.0, -9.0], [10.0, 0.0], [0.0, 0.0]], Vec::new())];
         let segments = Segments::new(&rings);
-        let asked = Asked { near: Near { distance: 0.2, slack: 0.0 }, min: 5.0, beyond: 0.01, width: 3.0 };
+        let asked = Asked { near: Near { distance: 0.2, slack: 0.0 }, min: 5.0, beyond: 0.01, width: 3.0, corner: 0.8 };
         let mut leads = Leads::new(&rings, &segments, asked);
         let along = Vector::new(-2.0, -1.0).normalize();
         let way = |leads: &Leads| leads.straight_on(1, Point::new(10.1, 0.047), along, |_| true);

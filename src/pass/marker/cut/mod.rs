@@ -9,6 +9,7 @@
 mod common;
 mod facing;
 mod lead;
+mod past;
 mod ring;
 mod stretch;
 mod style;
@@ -53,6 +54,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
         min: job.profile.common.min_mm,
         beyond: job.profile.tolerance(marker.unit),
         width: job.profile.knife.width_mm,
+        corner: job.profile.corner.angle(),
     });
     let Marker { list, pieces, cuts, common, junctions, .. } = marker;
     (*cuts, *common, *junctions) = (Vec::new(), Vec::new(), Vec::new());

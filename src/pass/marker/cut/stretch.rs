@@ -21,6 +21,8 @@ pub(super) struct Asked {
     pub(super) beyond: f64,
     /// Width of the blade, mm.
     pub(super) width: f64,
+    /// The least turn at which the blade is lifted, rad.
+    pub(super) corner: f64,
 }
 
 /// A stretch of a ring that is cut with another.
