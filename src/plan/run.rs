@@ -13,7 +13,7 @@ use crate::plan::orientation::TooTight;
 use crate::plan::orientation::{Blade, Course, Entry, WAY_EPSILON, Way};
 use crate::plan::spline::{Blocks, Extended};
 use crate::plan::spline::{Curve, Smooth, smooth};
-use crate::plan::spline::{JUNCTION_SHARE, ToleranceBand};
+use crate::plan::spline::{JUNCTION_SHARES, ToleranceBand};
 use crate::plan::timing::Cutting;
 use crate::plan::timing::Feed;
 use crate::plan::timing::{Bounds, profile};
@@ -108,7 +108,7 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
     let bounds = Bounds { axes: job.profile.axes.limits(), feed: Feed::new(&stations, feeds) };
     let order = Order { run, job, blocks: Blocks::new(&stations, blocks), bounds };
     let ends = [points[0], points[points.len() - 1]];
-    let straight_share = if extended.junctions.is_empty() { STRAIGHT_SHARE } else { JUNCTION_SHARE };
+    let straight_share = if extended.junctions.is_empty() { STRAIGHT_SHARE } else { JUNCTION_SHARES[0] };
     let is_straight = run.shape == Shape::Open && polyline::is_straight(points, straight_share * tolerance);
     if is_straight && order.bounds.feed.constant().is_some() {
         return order.straight(ends);
@@ -117,9 +117,10 @@ pub(super) fn solve(run: &Run, tolerance: f64, job: &Job) -> Result<Cut, Diagnos
         Smooth { curve: Curve::line([0.0, extended.end], ends.map(|point| [point.x, point.y])), sagitta: 0.0 }
     } else {
         let band = || ToleranceBand::new(points.clone(), tolerance, &job.profile);
-        let nearer = (!extended.junctions.is_empty()).then(|| band().with_junctions(&extended.junctions));
-        // Where that is too tight the run keeps to its band, and the verifier measures whether the cuts cross.
-        nearer.and_then(|nearer| order.smoothed(&nearer).ok()).map_or_else(|| order.smoothed(&band()), Ok)?
+        let mut shares = JUNCTION_SHARES.iter().filter(|_| !extended.junctions.is_empty());
+        let nearer = |&share: &f64| order.smoothed(&band().with_junctions(&extended.junctions, share)).ok();
+        // Where all that is too tight the run keeps to its band, and the verifier measures whether the cuts cross.
+        shares.find_map(nearer).map_or_else(|| order.smoothed(&band()), Ok)?
     };
     let (mut cut, mut beside) = order.curved(&extended, &smooth)?;
     let most = match run.shape {

@@ -3,7 +3,6 @@
 
 use crate::geom::{Point, Vector, left, polyline};
 use crate::machine::{Fit, MachineProfile};
-use crate::plan::spline::JUNCTION_SHARE;
 
 /// Turns of a curve differ by less than this factor from one vertex to the next.
 const ALIKE: f64 = 2.0;
@@ -66,10 +65,10 @@ impl ToleranceBand {
         Self { points, stations, turns, sagittas, heights, shares, tolerance, sagitta_max }
     }
 
-    /// The same, nearer to the chords about which it crosses cuts of other parts.
-    pub(super) fn with_junctions(mut self, junctions: impl Iterator<Item = bool>) -> Self {
+    /// The same, with a share of the tolerance by the chords about which it crosses cuts of other parts.
+    pub(super) fn with_junctions(mut self, junctions: impl Iterator<Item = bool>, share: f64) -> Self {
         for (chord, _) in junctions.enumerate().filter(|(_, is_junction)| *is_junction) {
-            (self.sagittas[chord], self.heights[chord], self.shares[chord]) = (Vector::zeros(), 0.0, JUNCTION_SHARE);
+            (self.sagittas[chord], self.heights[chord], self.shares[chord]) = (Vector::zeros(), 0.0, share);
         }
         self
     }

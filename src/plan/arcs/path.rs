@@ -9,6 +9,7 @@ use crate::geom::{Heading, Point, Rotation, Vector, angle, polyline};
 use crate::ir::arcs::{Deviation, Interpolation, Path};
 use crate::ir::toolpath::{Pose, Run, Shape};
 use crate::machine::Job;
+use crate::plan::spline::JUNCTION_SHARES;
 use crate::units::rad;
 
 /// Part of the permitted angle by which C may be off where it turns evenly along arcs; the rest is for decimals.
@@ -105,7 +106,7 @@ fn tip_arcs(
     let seam = [turn, if run.front == 0.0 { turn } else { 0.0 }];
     let is_junction = |&chord: &usize| run.junctions.get(chord) == Some(&true);
     let band = ToleranceBand::new(points, tolerance, seam, &job.profile);
-    let nearer = chords.iter().any(&is_junction).then(|| band.clone().with_junctions(chords.iter().map(is_junction)));
+    let mut shares = JUNCTION_SHARES.iter().filter(|_| chords.iter().any(&is_junction));
     let start = if ring { at_seam(run) } else { band.direction(0) };
     let end = if ring && run.front == 0.0 { start } else { band.direction(band.chords() - 1) };
     let stops = (1..chords.len()).filter(|&k| run.feeds[chords[k - 1]] != run.feeds[chords[k]]).collect();
@@ -116,8 +117,9 @@ fn tip_arcs(
         let arcs = gentle.map_or_else(|| fit(band, &ends), Ok);
         arcs.or_else(|_| fit(band, &Ends { spares: true, ..ends.clone() }))
     };
-    // Where that is too tight the run keeps to its band, and the verifier measures whether the cuts cross.
-    let arcs = nearer.and_then(|nearer| fitted(&nearer).ok()).map_or_else(|| fitted(&band), Ok)?;
+    let nearer = |&share: &f64| fitted(&band.clone().with_junctions(chords.iter().map(is_junction), share)).ok();
+    // Where all that is too tight the run keeps to its band, and the verifier measures whether the cuts cross.
+    let arcs = shares.find_map(nearer).map_or_else(|| fitted(&band), Ok)?;
     Ok(TipArcs { arcs, start, from: band.points[0] })
 }
 

@@ -10,9 +10,9 @@ use crate::machine::profile::Fit;
 
 /// Smaller turns are none, rad: an overlap runs straight on, but for rounding.
 const TURN_EPSILON: f64 = 1e-6;
-/// The part of the tolerance that is used on chords by a junction. Cuts reach past each other by one tolerance; two tips that
-/// are each off by a quarter use half of that.
-pub(in crate::plan) const JUNCTION_SHARE: f64 = 0.25;
+/// The part of the tolerance that is used on chords by a junction, and what is tried where that is too tight. Cuts reach past
+/// each other by one tolerance; two tips that are each off by a quarter use half of that.
+pub(in crate::plan) const JUNCTION_SHARES: [f64; 2] = [0.25, 0.5];
 
 /// The neighbourhood of a polyline in which the tip must stay.
 #[derive(Debug, Clone)]
@@ -53,10 +53,11 @@ impl ToleranceBand {
         Self { points, stations, turns, sagittas, shares, tolerance }
     }
 
-    /// The same, nearer to the chords about which it crosses cuts of other parts; of these there may be none.
-    pub(in crate::plan) fn with_junctions(mut self, junctions: &[bool]) -> Self {
+    /// The same, with a share of the tolerance by the chords about which it crosses cuts of other parts; of these there may be
+    /// none.
+    pub(in crate::plan) fn with_junctions(mut self, junctions: &[bool], share: f64) -> Self {
         for chord in (0..junctions.len()).filter(|&chord| junctions[chord]) {
-            (self.sagittas[chord], self.shares[chord]) = (Vector::zeros(), JUNCTION_SHARE);
+            (self.sagittas[chord], self.shares[chord]) = (Vector::zeros(), share);
         }
         self
     }

@@ -8,6 +8,6 @@ mod extended;
 mod knots;
 mod smooth;
 
-pub(super) use band::{JUNCTION_SHARE, ToleranceBand};
+pub(super) use band::{JUNCTION_SHARES, ToleranceBand};
 pub(super) use extended::{Blocks, Extended};
 pub(super) use smooth::{Curve, Smooth, smooth};

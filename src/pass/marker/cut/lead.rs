@@ -21,6 +21,8 @@ const SLOPE: f64 = 0.105;
 const THROUGH: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// How deep it may end in a part, in distances of two edges: the diagonal of those of X and Y, as for other cuts.
 const DEEPEST: f64 = std::f64::consts::SQRT_2;
+/// How far beside an edge a place surely lies on that side of it, in distances of two edges: nearer ones may be off by rounding.
+const SURE: f64 = 0.5;
 /// How often a way over to an edge that bends is halved.
 const HALVINGS: usize = 3;
 /// Places of such a way that are looked at.
@@ -211,14 +213,20 @@ impl<'a> Leads<'a> {
         let apart = (edge.place(from) - at).norm();
         let through = (THROUGH * near.distance).min(DEEPEST * near.distance + beyond - apart);
         // From whichever side of the edge it comes it ends on the other.
-        let is_inside = edge.holds(at - along * (2.0 * near.distance));
+        let is_inside = || {
+            // Behind a corner of the edge, if there is one.
+            let ahead = from + sign * 2.0 * near.distance;
+            let aside = (at - edge.place(ahead)).dot(&edge.inwards(ahead));
+            let is_sure = aside.abs() > SURE * near.distance;
+            if is_sure { aside > 0.0 } else { edge.holds(at - along * (2.0 * near.distance)) }
+        };
+        let through = if is_inside() { -through } else { through };
         (0..HALVINGS).map(|halving| self.longest / f64::from(1 << halving)).find_map(|length| {
             let station = |share: f64| from + sign * length * share;
-            let end =
-                edge.place(station(1.0)) + edge.inwards(station(1.0)) * if is_inside { -through } else { through };
+            let end = edge.place(station(1.0)) + edge.inwards(station(1.0)) * through;
             let cosine = polyline::direction(at, end)?.dot(&along);
             let is_beside = (1..=PLACES).map(|i| i as f64 / PLACES as f64).all(|share| {
-                (edge.place(station(share)) - (at + (end - at) * share)).norm() <= near.distance + through
+                (edge.place(station(share)) - (at + (end - at) * share)).norm() <= near.distance + through.abs()
             });
             let is_cut = self.is_cut(other, [from, station(1.0)]);
             (cosine >= LEAST_COSINE && is_beside && is_cut).then_some((cosine, end))
@@ -324,7 +332,7 @@ impl<'a> Leads<'a> {
     }
 
     /// Where a slit begins that stands on an edge of a ring that is cut with another: where it is through that cut, if that
-    /// is farther out.
+    /// is farther out; beside such an edge it is where it is through its own.
     pub(super) fn led_root(&self, ring: usize, [root, tip]: [Point; 2]) -> Option<Point> {
         let (own, near) = (&self.rings[ring], self.asked.near.distance);
         let around = Extent::between(root, root).grown(near);
@@ -336,11 +344,14 @@ impl<'a> Leads<'a> {
             (away, own.station(segment) + along.clamp(0.0, length))
         });
         let (away, station) = feet.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)))?;
-        if away > near || self.is_cut(ring, [station - LEAST, station + 2.0 * LEAST]) {
+        let is_cut_within = |reach: f64| self.is_cut(ring, [station - reach, station + reach]);
+        let is_own = is_cut_within(2.0 * LEAST);
+        if away > near || is_own && is_cut_within(2.0 * near) {
             return None;
         }
         let along = polyline::direction(tip, root)?;
-        let way = self.straight_on(ring, root, along, |_| true)?;
+        let (before, is_meant) = (ring + usize::from(is_own), |other| !is_own || other == Some(ring));
+        let way = self.straight_on(before, root, along, is_meant)?;
         (way > LEAST).then(|| root + along * way)
     }
 }

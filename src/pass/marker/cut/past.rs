@@ -29,7 +29,8 @@ impl Leads<'_> {
         let straight = STRAIGHT * self.asked.width;
         let is_fit = |&corner: &f64| {
             let about = [corner - straight, corner + straight];
-            let is_straight = ring.vertices([about[0], corner]).chain(ring.vertices([corner, about[1]])).next().is_none();
+            let is_straight =
+                ring.vertices([about[0], corner]).chain(ring.vertices([corner, about[1]])).next().is_none();
             is_straight && self.is_cut(to.ring, about)
         };
         let mut corners = ring.vertices([to.station - reach, to.station + reach]).filter(is_fit);
