@@ -23,7 +23,7 @@ use crate::verify::worst::Worst;
 /// Distance of two places for a blade that are tried, mm: so much deeper than the best of them no other is less deep.
 const SHIFT: f64 = 0.1;
 
-/// How many times the band two corners are apart whose edges are that apart.
+/// How many times as far apart as edges are the corners that these make.
 const DIAGONAL: f64 = std::f64::consts::SQRT_2;
 /// How deep in parts it is seen how deep a place lies, mm: far more than is allowed.
 const ASIDE: f64 = 5.0;
@@ -38,6 +38,8 @@ pub(in crate::verify) struct Overcut<'a> {
     tolerance: f64,
     width: f64,
     band: f64,
+    /// How far an edge may be moved that is cut with another part, mm.
+    shift: f64,
     /// Which part is spared by a plunge cut that finds no waste.
     spare: Spare,
     /// How far the profile lets the blade cut into the part at a reflex corner, mm.
@@ -82,6 +84,7 @@ impl<'a> Overcut<'a> {
             tolerance: reference.tolerance + rounding,
             width: knife.width_mm,
             band: reference.band,
+            shift: reference.common.max(reference.band),
             spare: knife.spare,
             reflex: knife.reflex_front_overlap_mm.max(knife.reflex_heel_overlap_mm),
             caps: [verify.max_overcut_part_mm, verify.max_overcut_neighbour_mm],
@@ -130,8 +133,8 @@ impl<'a> Overcut<'a> {
         }
     }
 
-    /// Judges what a stroke cuts along its line where that is on no edge of its own part: it is on one of another then, or leads
-    /// over to it and through it by the tolerance.
+    /// Judges what a stroke cuts along its line where that is on no edge of its own part: it is on one of another then, which
+    /// the profile lets stand for its own, or leads over to it and through it by the tolerance.
     fn see_aside(&self, stroke: &Ends, seen: &impl Fn(usize) -> Sighting, overcuts: &mut Overcuts) {
         let Ends { cut, trial, line, .. } = *stroke;
         if line.aside.is_empty() {
@@ -142,7 +145,7 @@ impl<'a> Overcut<'a> {
             if line.aside.iter().any(|&[from, to]| (from..=to).contains(&station)) {
                 let depths = self.depths(cut.points[i], ASIDE, stroke);
                 for (depth, worst) in depths.into_iter().zip([&mut overcuts.part, &mut overcuts.neighbour]) {
-                    worst.see_under(depth, DIAGONAL * self.band + 2.0 * self.tolerance, || seen(i));
+                    worst.see_under(depth, DIAGONAL * self.shift + 2.0 * self.tolerance, || seen(i));
                 }
             }
         }
