@@ -96,14 +96,11 @@ impl Surroundings<'_> {
         self.cloth.parts.room(ray, self.part, [SLACK_SHARE * self.tolerance, self.cloth.band])
     }
 
-    /// How deep a place lies in parts, mm, `reach` at the most: how far from their edges. What is in the band at an edge is
-    /// not in the part.
+    /// How deep a place lies in parts, mm, `reach` at the most: how far from their edges. What is in the band at an edge, or in
+    /// the outer quarter of a strip, is not in the part.
     pub fn depths(&self, place: Point, reach: f64) -> Overcut {
         let mut depths = Overcut::default();
-        if reach <= self.cloth.band {
-            return depths;
-        }
-        for (part, depth) in self.cloth.parts.depths_at(place, reach).filter(|(_, depth)| *depth > self.cloth.band) {
+        for (part, depth) in self.cloth.parts.deep_at(place, reach, self.cloth.band) {
             let deepest = if part == self.part { &mut depths.own } else { &mut depths.other };
             *deepest = deepest.max(depth);
         }
