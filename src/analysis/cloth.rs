@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::nesting::Nesting;
-use crate::geom::Point;
+use crate::geom::boxes::Boxes;
 use crate::geom::region::{Ray, Regions, Room};
-use crate::ir::marker::Contour;
+use crate::geom::{Extent, Point, polyline};
+use crate::ir::marker::{Contour, CutKind};
 use crate::ir::toolpath::Overcut;
 use crate::ir::{Marker, Toolpath};
 use crate::machine::{Knife, MachineProfile};
@@ -23,6 +24,9 @@ const INSIDE_EPSILON: f64 = 1e-6;
 pub struct Cloth<'a> {
     /// Inside their outlines, not inside their cut-outs, whichever way round these are drawn.
     parts: Regions<'a>,
+    /// The slits that are cut, and their boxes: what lies on one of them is cut anyway.
+    slits: Vec<[Point; 2]>,
+    slit_boxes: Boxes,
     /// The part to which each piece belongs: one that lies in another is a cut-out of that.
     part_of: Vec<u32>,
     /// By how much parts may overlap that only touch, mm.
@@ -51,7 +55,10 @@ impl<'a> Cloth<'a> {
         let parts = Regions::new(lines.keys().copied(), |part| lines[&part].iter().map(points).collect());
         let part_of = (0..marker.pieces.len()).map(|piece| nesting.part_of(piece).unwrap_or(piece) as u32).collect();
         let least_way = LEAST_WAY_SHARE * profile.verify.max_uncut_mm;
-        Self { parts, part_of, band: profile.band(marker.unit), least_way }
+        let cuts = marker.cuts.iter().filter(|cut| cut.kind == CutKind::Slit);
+        let slits: Vec<[Point; 2]> = cuts.flat_map(|cut| marker.list.lines(cut.range)).collect();
+        let slit_boxes = Boxes::new(slits.iter().map(|ends| Extent::between(ends[0], ends[1])).collect());
+        Self { parts, slits, slit_boxes, part_of, band: profile.band(marker.unit), least_way }
     }
 
     /// Whether a place lies in the part to which a piece belongs, by the piece's place in the marker.
@@ -68,6 +75,12 @@ impl<'a> Cloth<'a> {
         let places = (0..=steps).map(|i| from + (to - from) * (i as f64 / steps as f64));
         let depths = places.flat_map(|place| self.parts.depths_at(place, length));
         depths.filter(|(part, _)| *part != own).reduce(|a, b| if b.1 > a.1 { b } else { a }).map(|deepest| deepest.0)
+    }
+
+    /// Whether a place lies no farther than so many mm from a slit that is cut.
+    fn is_on_slit(&self, place: Point, slack: f64) -> bool {
+        let mut near = self.slit_boxes.near(Extent::between(place, place).grown(slack)).map(|i| self.slits[i]);
+        near.any(|[from, to]| polyline::distance_to_segment(place, from, to) <= slack)
     }
 
     /// The cloth as the cuts of a toolpath see it.
@@ -96,14 +109,14 @@ impl Surroundings<'_> {
         self.cloth.parts.room(ray, self.part, [SLACK_SHARE * self.tolerance, self.cloth.band])
     }
 
-    /// How deep a place lies in parts, mm, `reach` at the most: how far from their edges. What is in the band at an edge is
-    /// not in the part.
+    /// How deep a place lies in parts, mm, `reach` at the most: how far from their edges. What is in the band at an edge, or in
+    /// the outer quarter of a strip, is not in the part, and what lies on a slit, of whichever part, is cut anyway.
     pub fn depths(&self, place: Point, reach: f64) -> Overcut {
         let mut depths = Overcut::default();
-        if reach <= self.cloth.band {
+        if self.cloth.is_on_slit(place, SLACK_SHARE * self.tolerance) {
             return depths;
         }
-        for (part, depth) in self.cloth.parts.depths_at(place, reach).filter(|(_, depth)| *depth > self.cloth.band) {
+        for (part, depth) in self.cloth.parts.deep_at(place, reach, self.cloth.band) {
             let deepest = if part == self.part { &mut depths.own } else { &mut depths.other };
             *deepest = deepest.max(depth);
         }

@@ -1,5 +1,7 @@
 //! What a finished toolpath does beside the drawing because it cannot do otherwise: its declarations.
 
+use std::collections::BTreeSet;
+
 use super::cloth::Cloth;
 use super::plunge::{Plunge, WORTH_SHARE};
 use super::swing::swing;
@@ -32,17 +34,19 @@ pub fn declarations(toolpath: &Toolpath, cut: u32, drawn: &[Point], knife: &Knif
 /// The sums of what the program of a marker declares, those of a kind after those of the one before it.
 pub fn totals(declared: &[Declaration], marker: &Marker) -> Vec<Total> {
     let of_kind = |kind: Kind| {
-        let mut count = 0;
-        let worst = declared.iter().filter(|entry| entry.kind == kind).inspect(|_| count += 1);
+        let of_kind = || declared.iter().filter(|entry| entry.kind == kind);
+        let (count, pieces) = (of_kind().count(), of_kind().map(|entry| marker.cuts[entry.cut as usize].piece));
+        let pieces = pieces.collect::<BTreeSet<_>>().len();
         // Of two that are alike the first.
-        let worst = worst.reduce(|worst, next| if next.magnitude_mm > worst.magnitude_mm { next } else { worst })?;
+        let worst =
+            of_kind().reduce(|worst, next| if next.magnitude_mm > worst.magnitude_mm { next } else { worst })?;
         let cut = &marker.cuts[worst.cut as usize];
         let points = marker.list.points(cut.range);
         let at = polyline::place(&points, &polyline::stations(&points), worst.from_mm);
         let at_mm = [at.x, at.y].map(|value| (value * PER_MM).round() / PER_MM);
         let piece = &marker.pieces[cut.piece as usize];
         let (piece, copy) = (piece.number, piece.copy);
-        Some(Total { kind, count, worst_mm: worst.magnitude_mm, piece, copy, at_mm })
+        Some(Total { kind, count, pieces, worst_mm: worst.magnitude_mm, piece, copy, at_mm })
     };
     Kind::ALL.into_iter().filter_map(of_kind).collect()
 }

@@ -37,7 +37,7 @@ pub(super) struct Machine {
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Messages")]
 pub(super) struct Messages {
-    /// Tell every finding; without it at most three of a code, and how many more there are
+    /// Tell every finding; without it warnings of a code are summed up, the worst of them told
     #[arg(long, conflicts_with = "quiet")]
     pub(super) all: bool,
 

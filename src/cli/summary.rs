@@ -53,11 +53,12 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
     line("drills", report.drills.to_string());
     line("labels", report.labels.to_string());
     line("cut", format!("{} m", fixed(report.cut_m, 3)));
-    if let &Some(Common { edges, length_m, shift_mm, .. }) = &report.common {
-        let (edges, length) = (counted(edges, "common edge"), fixed(length_m, 3));
+    if let &Some(Common { edges, length_m, spared_m, shift_mm, .. }) = &report.common {
+        let edges = counted(edges, "common edge");
+        let [length, spared] = [length_m, spared_m].map(|length| fixed(length, 3));
         let moved =
             if shift_mm > 0.0 { format!(", moved by {} mm at the most", fixed(shift_mm, 2)) } else { String::new() };
-        line("common", format!("{length} m less: {edges} cut once{moved}"));
+        line("common", format!("{spared} m less: {edges}, {length} m, cut once{moved}"));
     }
     if let Some(near) = report.near_m {
         line("near", format!("{} m beside edges of other parts, a thin strip between two cuts", fixed(near, 3)));

@@ -32,6 +32,17 @@ pub enum Fault {
     Shape,
 }
 
+/// How findings of a code are told to people; programs get each.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Telling {
+    /// One by one: each must be mended.
+    Each,
+    /// A few of them: each says something else.
+    Few,
+    /// How many there are, and the worst: they are alike but for place and measure.
+    Worst,
+}
+
 /// One kind of finding.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Code {
@@ -54,6 +65,15 @@ impl Code {
     pub fn rank(&self) -> (Severity, Harm, usize) {
         let row = ALL.iter().position(|code| code.name == self.name).unwrap_or(ALL.len());
         (self.severity, self.harm, row)
+    }
+
+    /// How findings of it are told.
+    pub fn telling(&self) -> Telling {
+        match (self.severity, self.fault) {
+            (Severity::Error, Fault::Text | Fault::Shape) => Telling::Each,
+            (Severity::Warning, Fault::Text) => Telling::Few,
+            (Severity::Warning, Fault::Shape) => Telling::Worst,
+        }
     }
 }
 
@@ -242,8 +262,6 @@ mod table {
     pub static PATH_TIGHT_CURVE: Code = warning(Spoils, Shape, "path/tight-curve", "A curve is tighter than the blade, which would stand across it: it is cut along the tangent, or nibbled, as `knife.tight_curves` says.", "On such a curve the blade is longer than the curve is wide: whatever `knife.follow` says, its heel swings out of the line and tears the cloth. A narrower knife helps; knife.tight_curves = \"nibble\" cuts the curve by plunges, which is slower and cuts past it along its tangents.");
     /// The same, refused.
     pub static PATH_TIGHT_CURVE_REFUSED: Code = error(Shape, "path/tight-curve-refused", "A curve is tighter than the blade, and `knife.tight_curves` is \"refuse\".", "The profile wants no curve cut that the blade cannot follow. Use a narrower knife, draw the curve wider, or set knife.tight_curves to \"follow\" or \"nibble\".");
-    /// Overlaps that the gap between parts does not hold.
-    pub static PATH_SHORTENED: Code = warning(Spares, Shape, "path/overlap-shortened", "The gap beside a part is narrower than the overlaps; they are shortened so that they stay out of the next part.", "At a corner the blade cuts a little past the end, so that the threads there are cut for sure. Where the next part is nearer than that, the overlap ends before it: some threads may hold. Leave more room in the marker, or make the overlaps smaller.\n  knife.corner_front_overlap_mm = 0.4");
     /// A blade longer than its cut, with nowhere to go.
     pub static PATH_OVERCUT: Code = warning(Spoils, Shape, "path/overcut", "The blade is longer than a short cut and there is no waste at its ends: it cuts past them, where that lies least deep in any part.", "A cut shorter than the blade is one plunge, and what the blade is longer by lies beyond its ends: in the waste if there is any, otherwise in the part. A narrower knife cuts less far; a notch of another shape may need no such cut.");
     /// The same, deeper than the profile allows.
@@ -365,7 +383,6 @@ pub static ALL: &[&Code] = &[
     &PATH_BOWED_PLUNGE,
     &PATH_TIGHT_CURVE,
     &PATH_TIGHT_CURVE_REFUSED,
-    &PATH_SHORTENED,
     &PATH_OVERCUT,
     &PATH_OVERCUT_REFUSED,
     &PATH_NOTCH_THROUGH,

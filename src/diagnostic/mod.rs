@@ -25,7 +25,7 @@ pub struct Diagnostic {
     pub piece: Option<Box<PieceName>>,
     /// The place on the cloth, X and Y in mm.
     pub at: Option<[f64; 2]>,
-    /// How bad it is, mm, where that can be measured: of its code the worst are told first.
+    /// How bad it is, mm, where that can be measured: of its code the worst is told first, or alone.
     pub by: Option<f64>,
     /// What is wrong and where: lower case, no full stop, values with units.
     pub message: String,

@@ -1,12 +1,16 @@
 //! The text rendering: message, place, a window of the source where the text is at fault, hints.
 //!
 //! A marker of hundreds of pieces has hundreds of findings of one kind. So findings stand by their code, the worst code
-//! first; of each a few are told, what all of them say is said once, and a tally stands at the end.
+//! first, and a tally stands at the end. An error is what somebody mends, and is told each. Warnings on what is drawn
+//! are alike but for place and measure: they are summed up, and the worst is told. Warnings on the text differ in what
+//! they show: of each code a few are told, and what all of them say is said once.
 //!
 //! A cut file is often one line of 59 kB, so never a whole line is shown, only a window around the place.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
+use super::code::Telling;
 use super::{Code, Diagnostic, Diagnostics, Fault, Severity};
 use crate::source::{Lines, Source, Span};
 use crate::units::number::fixed;
@@ -14,7 +18,9 @@ use crate::units::number::fixed;
 /// Bytes of source shown before and after the place.
 const WINDOW_BEFORE: usize = 28;
 const WINDOW_AFTER: usize = 40;
-/// How many findings of a code are told.
+/// How many errors of a code are told: who has mended so many runs it again.
+const MOST_ERRORS: usize = 20;
+/// How many warnings of a code are told that are not summed up.
 const MOST_TOLD: usize = 3;
 /// Findings that are told in all before there is only one of each code.
 const ROOM: usize = 4;
@@ -57,18 +63,23 @@ pub fn render_with(diagnostics: &Diagnostics, source: &Source, detail: Detail) -
         }
     }
     let mut out = String::new();
-    let most = match detail {
-        Detail::Short | Detail::Errors => (ROOM / groups.len().max(1)).clamp(1, MOST_TOLD),
+    let few = (ROOM / groups.len().max(1)).clamp(1, MOST_TOLD);
+    let most = |code: &Code| match detail {
+        Detail::Short | Detail::Errors => match code.telling() {
+            Telling::Each => MOST_ERRORS,
+            Telling::Few => few,
+            Telling::Worst => 1,
+        },
         Detail::All => usize::MAX,
         Detail::Counts => 0,
     };
     let mut lines = source.lines();
     for group in &mut groups {
-        let told = if most > 0 && group.code.severity == Severity::Error { most.max(MOST_TOLD) } else { most };
-        group.render(&mut out, source, &mut lines, told);
+        group.render(&mut out, source, &mut lines, most(group.code));
     }
-    if groups.iter().any(|group| group.count > most) {
-        tally(&mut out, &groups);
+    let is_untold = |group: &Group| group.count > most(group.code);
+    if groups.iter().any(is_untold) {
+        tally(&mut out, &groups, |group| detail != Detail::Counts && is_untold(group));
     }
     out
 }
@@ -89,9 +100,11 @@ impl Group<'_> {
             let bad = |finding: &Diagnostic| (finding.by.unwrap_or(0.0) / ALIKE).round();
             bad(b).total_cmp(&bad(a)).then_with(|| a.span.cmp(&b.span))
         });
+        let is_summed = most > 0 && self.count > most && self.code.telling() == Telling::Worst;
+        let lead = if is_summed { self.sum() } else { String::new() };
         let told = &self.findings[..self.findings.len().min(most)];
         for (i, finding) in told.iter().enumerate() {
-            render_one(out, finding, source, &mut *lines);
+            render_one(out, &lead, finding, source, &mut *lines);
             // What the next one says as well is said behind that.
             if told.get(i + 1).is_none_or(|next| next.hints != finding.hints) {
                 for hint in &finding.hints {
@@ -101,26 +114,39 @@ impl Group<'_> {
         }
         match self.count - told.len() {
             0 => {}
-            _ if most == 0 => {}
+            _ if most == 0 || is_summed => {}
             more if self.findings.len() > told.len() => {
-                let _ = writeln!(out, "  ... and {more} more (`--all`)");
+                let _ = writeln!(out, "  ... and {more} more");
             }
             more => {
                 let _ = writeln!(out, "  ... and {more} more like these");
             }
         }
     }
+
+    /// How many there are and on how many pieces, before the first of them, which is the worst where that can be measured.
+    fn sum(&self) -> String {
+        let pieces: BTreeSet<_> = self.findings.iter().filter_map(|finding| finding.piece.as_deref()).collect();
+        let on = match pieces.len() {
+            0 => String::new(),
+            1 => " on one piece".to_owned(),
+            many => format!(" on {many} pieces"),
+        };
+        let is_measured = self.findings.first().is_some_and(|finding| finding.by.is_some());
+        format!("{} findings{on}, the {}: ", self.count, if is_measured { "worst" } else { "first" })
+    }
 }
 
-/// How many there are of each code, the worst first.
-fn tally(out: &mut String, groups: &[Group]) {
+/// How many there are of each code, the worst first, and how to be told each where that is told nowhere.
+fn tally(out: &mut String, groups: &[Group], is_untold: impl Fn(&Group) -> bool) {
     for severity in [Severity::Error, Severity::Warning] {
         let of_severity = || groups.iter().filter(|group| group.code.severity == severity);
         let count: usize = of_severity().map(|group| group.count).sum();
         if count == 0 {
             continue;
         }
-        let mut line = format!("{count} {}{}:", word(severity), if count == 1 { "" } else { "s" });
+        let more = if of_severity().any(&is_untold) { " (`--all` tells each)" } else { "" };
+        let mut line = format!("{count} {}{}{more}:", word(severity), if count == 1 { "" } else { "s" });
         let mut words = of_severity().map(|group| format!(" {} {}", group.count, group.code.name)).peekable();
         while let Some(mut next) = words.next() {
             if words.peek().is_some() {
@@ -143,8 +169,9 @@ fn word(severity: Severity) -> &'static str {
     }
 }
 
-fn render_one(out: &mut String, diagnostic: &Diagnostic, source: &Source, lines: &mut Lines) {
-    let _ = writeln!(out, "{}[{}]: {}", word(diagnostic.code.severity), diagnostic.code.name, diagnostic.message);
+fn render_one(out: &mut String, lead: &str, diagnostic: &Diagnostic, source: &Source, lines: &mut Lines) {
+    let Diagnostic { code, message, .. } = diagnostic;
+    let _ = writeln!(out, "{}[{}]: {lead}{message}", word(code.severity), code.name);
     let mut place = on_cloth(diagnostic);
     if let Some(span) = diagnostic.span {
         let in_text = in_text(span, lines, place.is_empty());
@@ -204,7 +231,7 @@ fn visible(byte: u8) -> char {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagnostic::code;
+    use crate::diagnostic::{PieceName, code};
 
     #[test]
     fn a_long_line_is_shown_as_a_window() {
@@ -223,5 +250,33 @@ mod tests {
            |                                ^
           = hint: write a number
         ");
+    }
+
+    #[test]
+    fn warnings_on_what_is_drawn_are_one_a_code_the_worst_and_errors_are_told_each() {
+        let source = Source::new("nest.cut", b"X1Y1*".to_vec()).expect("small");
+        let mut found = Diagnostics::default();
+        for (number, by) in [(1, 0.2), (2, 0.9), (2, 0.4)] {
+            let piece = PieceName { number, copy: 0, label: None };
+            let warning = Diagnostic::new(&code::PATH_OVERCUT, format!("it cuts {by} mm into another part")).by(by);
+            let warning = warning.on_cloth([by, 7.0]).hint("a narrower blade cuts less deep");
+            found.push(Diagnostic { piece: Some(Box::new(piece)), ..warning });
+            found.push(Diagnostic::new(&code::PATH_OVERCUT_REFUSED, format!("it would cut {by} mm into its part")));
+        }
+        insta::assert_snapshot!(render(&found, &source), @r"
+        error[path/overcut-refused]: it would cut 0.2 mm into its part
+          --> nest.cut
+        error[path/overcut-refused]: it would cut 0.9 mm into its part
+          --> nest.cut
+        error[path/overcut-refused]: it would cut 0.4 mm into its part
+          --> nest.cut
+        warning[path/overcut]: 3 findings on 2 pieces, the worst: it cuts 0.9 mm into another part
+          --> nest.cut: piece 2 at 0.9, 7.0 mm
+          = hint: a narrower blade cuts less deep
+        3 errors: 3 path/overcut-refused
+        3 warnings (`--all` tells each): 3 path/overcut
+        ");
+        let all = render_with(&found, &source, Detail::All);
+        assert_eq!(all.matches("warning[path/overcut]: it cuts").count(), 3, "{all}");
     }
 }

@@ -16,6 +16,10 @@ const EDGES_A_BAND: usize = 4;
 const BANDS_AN_EDGE: f64 = 4.0;
 /// Places nearer than this are the same, mm: rounding of coordinates of some metres.
 const SAME_EPSILON: f64 = 1e-9;
+/// How deep a place may lie in a strip and still be at its edge, in widths of that.
+const STRIP_SHARE: f64 = 0.25;
+/// Least cosine between the two edges of a strip (10 degrees): of those of a corner one ends where the other begins.
+const PARALLEL: f64 = 0.985;
 /// Where between two crossings it is seen whether a way lies well inside.
 const PROBES: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 
@@ -137,8 +141,23 @@ impl<'a> Regions<'a> {
 
     /// The owners in whose region a point lies, each with how far the point is from the edges of that, mm, `reach` at the most.
     pub fn depths_at(&self, point: Point, reach: f64) -> impl Iterator<Item = (u32, f64)> + '_ {
+        self.depths_at_of(point, reach).map(|(region, depth)| (region.owner, depth))
+    }
+
+    /// The same, of those in which a point lies deeper than `slack` mm, or than a quarter of the width of a strip.
+    pub fn deep_at(&self, point: Point, reach: f64, slack: f64) -> impl Iterator<Item = (u32, f64)> + '_ {
+        self.depths_at_of(point, reach).filter_map(move |(region, depth)| {
+            let is_in_strip = || {
+                let nearest = region.nearest(point, slack);
+                nearest.is_some_and(|(_, edge)| depth > region.edge_of_strip(point, edge, slack))
+            };
+            (depth > slack || is_in_strip()).then_some((region.owner, depth))
+        })
+    }
+
+    fn depths_at_of(&self, point: Point, reach: f64) -> impl Iterator<Item = (&Region<'a>, f64)> + '_ {
         let near = self.boxes.at(point).map(|i| &self.owners[i]);
-        near.filter(move |region| region.holds(point)).map(move |region| (region.owner, region.depth(point, reach)))
+        near.filter(move |region| region.holds(point)).map(move |region| (region, region.depth(point, reach)))
     }
 
     /// What [`Regions::owners_at`] costs, in comparisons of boxes and of edges.
@@ -148,7 +167,7 @@ impl<'a> Regions<'a> {
     }
 
     /// How far a way of `owner` goes before it enters a region, its own or another's. What comes no deeper than `slack` mm, into
-    /// its own and into another, enters nothing: it lies along an edge.
+    /// its own and into another, or than a quarter of the width of a strip, enters nothing: it lies along an edge.
     pub fn room(&self, ray: &Ray, owner: u32, slack: [f64; 2]) -> Room {
         let mut room = Room { own: f64::INFINITY, other: f64::INFINITY };
         let mut extent = around(ray.from, SAME_EPSILON);
@@ -238,16 +257,47 @@ impl<'a> Region<'a> {
         edges.iter().map(|&i| self.edge(i)).filter(move |edge| edge.extent().meets(&extent))
     }
 
-    /// Whether a point that lies in it is farther than `slack` mm from its edges.
+    /// Whether a point that lies in it is farther than `slack` mm from its edges, or than a quarter of its width where it is a
+    /// strip.
     fn is_deep(&self, point: Point, slack: f64) -> bool {
-        let mut near = self.near(around(point, slack));
-        !near.any(|edge| polyline::distance_to_segment(point, edge.from, edge.to) <= slack)
+        self.nearest(point, slack).is_none_or(|(away, edge)| away > self.edge_of_strip(point, edge, slack))
+    }
+
+    /// The edge that is nearest to a point, and how far that is, mm, where it is no farther than `reach`.
+    fn nearest(&self, point: Point, reach: f64) -> Option<(f64, Edge)> {
+        let near = self.near(around(point, reach)).map(|edge| (edge.distance(point), edge));
+        near.filter(|(away, _)| *away <= reach).min_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// How deep a point may lie in a strip and still be at its edge, mm; infinite where it is in none that is so narrow that
+    /// this were less than `slack`.
+    fn edge_of_strip(&self, point: Point, nearest: Edge, slack: f64) -> f64 {
+        STRIP_SHARE * self.width_at(point, nearest, slack / STRIP_SHARE)
+    }
+
+    /// How wide it is across a point and the edge that is nearest to that, mm; infinite where it is no strip there, or one that
+    /// is wider than `most`.
+    fn width_at(&self, point: Point, edge: Edge, most: f64) -> f64 {
+        let Some(along) = polyline::direction(edge.from, edge.to) else { return f64::INFINITY };
+        let away = cross(along, point - edge.from);
+        let across = Vector::new(-along.y, along.x) * away.signum();
+        let ray = Ray { from: point, along: across, reach: most - away.abs() };
+        let mut extent = around(point, SAME_EPSILON);
+        extent.add(point + across * ray.reach);
+        let mut ways = Vec::new();
+        for other in self.near(extent) {
+            let direction = polyline::direction(other.from, other.to);
+            if direction.is_some_and(|direction| direction.dot(&along).abs() >= PARALLEL) {
+                other.crossings(&ray, &mut ways);
+            }
+        }
+        away.abs() + ways.into_iter().fold(f64::INFINITY, f64::min)
     }
 
     /// How far a point that lies in it is from its edges, mm, `reach` at the most.
     fn depth(&self, point: Point, reach: f64) -> f64 {
         let near = self.near(around(point, reach));
-        near.map(|edge| polyline::distance_to_segment(point, edge.from, edge.to)).fold(reach, f64::min)
+        near.map(|edge| edge.distance(point)).fold(reach, f64::min)
     }
 
     /// Whether a ray to the right of a point crosses its edges an odd number of times.
@@ -264,6 +314,10 @@ impl<'a> Region<'a> {
 impl Edge {
     fn extent(&self) -> Extent {
         Extent::between(self.from, self.to)
+    }
+
+    fn distance(&self, point: Point) -> f64 {
+        polyline::distance_to_segment(point, self.from, self.to)
     }
 
     /// Adds how far along a way it crosses or touches it.
@@ -323,6 +377,29 @@ mod tests {
         assert_eq!(room(&east(10.0, 0.04), 1).least(), f64::INFINITY);
         // What begins in another region has no room there.
         assert_eq!(room(&east(12.0, 5.0), 1), Room { own: f64::INFINITY, other: 0.0 });
+    }
+
+    #[test]
+    fn a_way_across_a_strip_enters_it_however_narrow_that_is_and_one_beside_a_corner_does_not() {
+        let strip = |width: f64| {
+            let corners = [(5.0, 0.0), (5.0 + width, 0.0), (5.0 + width, 30.0), (5.0, 30.0)];
+            corners.map(|(x, y)| Point::new(x, y)).to_vec().into()
+        };
+        for width in [0.01, 0.1, 0.3, 0.4, 0.8, 3.0] {
+            let regions =
+                Regions::new([1, 2], |owner| vec![if owner == 1 { strip(width) } else { square(50.0, 0.0, 5.0) }]);
+            let room = |ray: &Ray| regions.room(ray, 2, [0.05, 0.2]).other;
+            assert!((room(&east(0.0, 10.0)) - 5.0).abs() < 1e-9, "across {width} mm");
+            // Along its edge, a fifth of its width or of the band inside.
+            let inside = 5.0 + 0.2 * width.min(0.2);
+            let up = Ray { from: Point::new(inside, 1.0), along: Vector::new(0.0, 1.0), reach: 20.0 };
+            assert_eq!(room(&up), f64::INFINITY, "along {width} mm");
+            let deep = |x: f64| regions.deep_at(Point::new(x, 10.0), 5.0, 0.2).count();
+            assert_eq!([deep(inside), deep(5.0 + width / 2.0)], [0, 1], "in {width} mm");
+        }
+        let corner = [(0.0, 0.0), (30.0, 0.0), (30.0, 17.3)].map(|(x, y)| Point::new(x, y)).to_vec();
+        let regions = Regions::new([1], |_| vec![corner.clone().into()]);
+        assert_eq!(regions.deep_at(Point::new(0.4, 0.1), 5.0, 0.2).count(), 0);
     }
 
     #[test]

@@ -77,6 +77,8 @@ pub struct Total {
     pub kind: Kind,
     /// How many there are.
     pub count: usize,
+    /// Of how many pieces.
+    pub pieces: usize,
     /// The greatest of them, mm; what it measures is said by the kind.
     pub worst_mm: f64,
     /// The number of the piece that this is of.
@@ -90,9 +92,12 @@ pub struct Total {
 
 impl fmt::Display for Total {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let Self { kind, count, worst_mm, piece, copy, at_mm: [x, y] } = *self;
+        let Self { kind, count, pieces, worst_mm, piece, copy, at_mm: [x, y] } = *self;
         let [one, many] = kind.words();
         write!(f, "{count} {}", if count == 1 { one } else { many })?;
+        if count > 1 {
+            write!(f, " on {pieces} piece{}", if pieces == 1 { "" } else { "s" })?;
+        }
         if worst_mm == 0.0 {
             return Ok(());
         }

@@ -20,6 +20,8 @@ pub struct Marker {
     pub cuts: Vec<Cut>,
     /// The edges that parts have in common and that are cut once.
     pub common: Vec<CommonEdge>,
+    /// By how much less is cut than if every part were cut all round, mm.
+    pub spared: f64,
     /// Where edges of parts run beside those of others, so near that a thin strip stands between two cuts.
     pub near: Vec<NearEdge>,
     /// Where cuts of several parts must cross: lines from where a cut leaves its own outline to where it ends across another
@@ -103,12 +105,12 @@ pub struct CommonEdge {
     pub shift: f64,
 }
 
-/// A straight stretch of an outline beside which another part's runs.
+/// A straight stretch of a cut around a part beside which one around another part runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearEdge {
-    /// The piece that the outline is of: its place in the marker.
+    /// The piece that it is cut with: its place in the marker.
     pub piece: u32,
-    /// The ends of the stretch, in the direction of the outline.
+    /// The ends of the stretch, in the direction of the cut.
     pub ends: [Point; 2],
 }
 

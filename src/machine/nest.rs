@@ -8,7 +8,7 @@ use super::word::{Auto, OrWord, Word as _};
 /// The keys `nest.*`.
 #[rustfmt::skip] // a table: one row a key
 pub(super) const KEYS: &[Key] = &[
-    Key { name: "nest.band_mm", takes: Takes::NumberOr(from(0.01, 1.0), Auto::WORD), about: "Edges of two parts that are nearer to each other than this are one edge: a way along it\nenters neither. \"auto\" = 0.2 mm, or a diagonal of the unit of the file if that is more." },
+    Key { name: "nest.band_mm", takes: Takes::NumberOr(from(0.01, 1.0), Auto::WORD), about: "Edges of two parts that are nearer to each other than this are one edge: a way along it\nenters neither. \"auto\" = 0.2 mm, or a diagonal of the unit of the file if that is more.\nIn a strip it is a quarter of its width at the most." },
 ];
 
 /// How parts lie beside each other.

@@ -71,9 +71,12 @@ pub struct Report {
 pub struct Common {
     /// How many there are.
     pub edges: usize,
-    /// Their length, which is cut once less, m.
+    /// Their length, m.
     #[serde(serialize_with = "micro")]
     pub length_m: f64,
+    /// How much less is cut than if every part were cut all round, m: less than their length, since open cuts are led on.
+    #[serde(serialize_with = "micro")]
+    pub spared_m: f64,
     /// How far one of them is from where it is cut at the most, mm.
     #[serde(serialize_with = "micro")]
     pub shift_mm: f64,
@@ -104,8 +107,8 @@ impl Common {
     fn of(marker: &Marker) -> Option<Self> {
         let all: Vec<CommonEdge> = marker.common.iter().map(|edge| CommonEdge::of(marker, edge)).collect();
         let shift_mm = all.iter().map(|edge| edge.shift_mm).fold(0.0, f64::max);
-        let length_m = marker.common_length() / MM_PER_M;
-        (!all.is_empty()).then_some(Self { edges: all.len(), length_m, shift_mm, all })
+        let [length_m, spared_m] = [marker.common_length(), marker.spared].map(|length| length / MM_PER_M);
+        (!all.is_empty()).then_some(Self { edges: all.len(), length_m, spared_m, shift_mm, all })
     }
 }
 

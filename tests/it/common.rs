@@ -47,6 +47,8 @@ fn an_edge_of_two_parts_is_cut_once() {
     let common = once.common.as_ref().expect("parts touch");
     assert!(common.length_m > 0.4 && common.shift_mm <= 0.2 + 1e-9, "{common:?}");
     assert!(twice.common.is_none());
+    let spared = twice.cut_m - once.cut_m;
+    assert!((common.spared_m - spared).abs() < 1e-9, "{} m, in truth {spared} m", common.spared_m);
     // What runs over the mouths of notches and what is led on are the rest.
     let mouths = once.cut_m - (twice.cut_m - common.length_m);
     assert!((0.0..0.05 * twice.cut_m).contains(&mouths), "{mouths} m");
@@ -272,6 +274,23 @@ fn near_lines_are_cut_as_slowly_as_is_asked_and_one_that_is_cut_faster_is_refuse
         let verdict = verify::setpoints(&mut BufReader::new(&program[..]), Some(&declared), &ground, &slow);
         assert_eq!(breaks(&verdict, "verify/feed"), !is_sound, "{:#?}", verdict.findings);
         assert!(!is_sound || verdict.passes(), "{:#?}", verdict.findings);
+    }
+}
+
+#[test]
+fn an_edge_is_moved_as_far_as_the_profile_lets_it_and_no_farther() {
+    let mut wide = Job::default();
+    wide.profile.common.lines = Lines::Within(1.0);
+    let marker = with_cuts(&text::read_marker(STRIP).expect("a marker"), &wide);
+    let shifts: Vec<f64> = marker.common.iter().map(|edge| edge.shift).collect();
+    assert!(matches!(shifts[..], [shift] if (shift - 1.0).abs() < 1e-6), "{shifts:?}");
+    let program = setpoints(&marker, &wide);
+    let declared = declared(&marker, &wide);
+    for (job, is_sound) in [(&wide, true), (&Job::default(), false)] {
+        let ground = Ground::new(&marker, &job.profile);
+        let verdict = verify::setpoints(&mut BufReader::new(&program[..]), Some(&declared), &ground, job);
+        assert_eq!(verdict.passes(), is_sound, "{:#?}", verdict.findings);
+        assert_eq!(breaks(&verdict, "verify/complete"), !is_sound, "{:#?}", verdict.findings);
     }
 }
 

@@ -20,12 +20,13 @@ fn overlapping(count: u32) -> String {
 }
 
 #[test]
-fn three_of_a_code_are_told_and_how_many_more_there_are() {
+fn warnings_of_a_code_are_summed_up_and_each_is_told_to_who_asks() {
     let room = Room::with("row.cut", &overlapping(68));
     let (_, said) = room.expect("check row.cut", DONE);
-    assert_eq!(said.matches("warning[marker/overlapping-pieces]").count(), 3, "{said}");
-    assert!(said.contains("... and 64 more (`--all`)") && said.contains("67 marker/overlapping-pieces"), "{said}");
-    assert!(said.contains("overlap by 0.30 mm") && said.lines().count() < 15, "{said}");
+    assert_eq!(said.matches("warning[marker/overlapping-pieces]").count(), 1, "{said}");
+    assert!(said.contains("67 findings on 67 pieces, the worst: the outlines of"), "{said}");
+    assert!(said.contains("67 warnings (`--all` tells each): 67 marker/overlapping-pieces"), "{said}");
+    assert!(said.contains("overlap by 0.30 mm") && said.lines().count() < 8, "{said}");
     assert!(said.contains("--> row.cut: piece 2 \"FRONT 1\" at 100.0, "), "{said}");
     let (_, all) = room.expect("check --all row.cut", DONE);
     assert_eq!(all.matches("warning[marker/overlapping-pieces]").count(), 67, "{all}");

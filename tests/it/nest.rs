@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 
 use cutc::ir::declaration::{Declaration, Kind, Which};
-use cutc::machine::{Job, Spare};
+use cutc::machine::{CommonLines, Job, Lines, Spare};
 use cutc::pipeline::Compiled;
 
 use crate::support::nests::{Recipe, compiled as verified};
@@ -147,6 +147,58 @@ fn no_gap_is_refused_and_all_that_is_cut_beside_the_drawing_is_declared() {
         (job.profile.knife.width_mm, job.profile.knife.back_mm) = (width, Some(back));
         for gap in [-1.0, -0.6, -0.35, -0.25, -0.2, -0.15, -0.05, 0.0, 0.1, 0.19, 0.21, 0.3, 0.5, 1.0, 2.0] {
             compiled(gap, &job);
+        }
+    }
+}
+
+#[test]
+fn edges_as_far_apart_as_the_profile_lets_them_be_are_cut_once_and_nothing_is_refused() {
+    let mut job = Job::default();
+    job.profile.common.lines = Lines::Within(1.0);
+    for gap in [0.3, 0.5, 0.8] {
+        let (made, _) = compiled(gap, &job);
+        let common = made.report.common.expect("edges are cut once");
+        assert!((common.shift_mm - gap).abs() <= 2.0 * ROUNDING, "{gap} mm: {common:?}");
+        // The farther apart edges lie the longer are the ways on which open cuts are led over to them.
+        assert!((0.5..1.0).contains(&(common.spared_m / common.length_m)), "{gap} mm: {common:?}");
+    }
+}
+
+/// A part with a V notch in its upper edge, and a strap of this width along that, behind which lies waste, mm.
+fn strap(width: f64) -> String {
+    let part = [(0.0, 0.0), (100.0, 0.0), (100.0, 50.0), (51.0, 50.0), (50.0, 46.0), (49.0, 50.0), (0.0, 50.0)];
+    let strap = [(0.0, 50.0), (100.0, 50.0), (100.0, 50.0 + width), (0.0, 50.0 + width)];
+    let piece = |number: usize, corners: &[(f64, f64)]| {
+        let at = |&(x, y): &(f64, f64)| format!("X{}Y{}", (x / 0.0254).round(), (y / 0.0254).round());
+        let all: Vec<String> = corners.iter().map(at).collect();
+        format!("N{number}*M15*{}*M14*{}*{}*M15*", all[0], all[1..].join("*"), all[0])
+    };
+    format!("H1*G70*{}{}M0*\n", piece(1, &part), piece(2, &strap))
+}
+
+#[test]
+fn no_strap_is_cut_across_undeclared_however_narrow_it_is_and_however_wide_the_band() {
+    for width in [0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.85, 1.2, 2.0] {
+        for band in [None, Some(1.0)] {
+            let case = format!("a strap of {width} mm, a band of {band:?}");
+            let mut job = Job::default();
+            job.profile.nest.band_mm = band;
+            job.profile.common.lines = Lines::Word(CommonLines::Off);
+            let (made, program) = made(&strap(width), &case, &job);
+            let declared = made.declared.iter().any(|said| said.kind == Kind::Surplus && said.part == Some(1));
+            // A blade that stands upright amid the strap's length cuts across it.
+            let knife = &job.profile.knife;
+            let text = std::str::from_utf8(&program).expect("rows are text");
+            let across = text.lines().skip(1).any(|line| {
+                let row: Vec<f64> = line.split(',').map(|word| word.parse().expect("a number")).collect();
+                let [x, y, c] = [row[1], row[2], row[3].to_radians()];
+                let ends = [knife.radius(), knife.radius() - knife.width_mm].map(|way| y + way * c.sin());
+                row[4] == 1.0
+                    && (5.0..95.0).contains(&x)
+                    && ends[0].min(ends[1]) < 49.0
+                    && ends[0].max(ends[1]) > 50.0 + width
+            });
+            assert!(declared || !across, "{case}");
         }
     }
 }

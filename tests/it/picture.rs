@@ -42,8 +42,8 @@ fn square_knife() -> Job {
 
 /// What the pictures say that the program declares.
 const DECLARED: [Total; 2] = [
-    Total { kind: Kind::Plunge, count: 4, worst_mm: 0.48, piece: 12, copy: 0, at_mm: [160.0, 50.0] },
-    Total { kind: Kind::Lift, count: 1, worst_mm: 0.0, piece: 1, copy: 0, at_mm: [0.0, 50.0] },
+    Total { kind: Kind::Plunge, count: 4, pieces: 4, worst_mm: 0.48, piece: 12, copy: 0, at_mm: [160.0, 50.0] },
+    Total { kind: Kind::Lift, count: 1, pieces: 1, worst_mm: 0.0, piece: 1, copy: 0, at_mm: [0.0, 50.0] },
 ];
 
 fn parts() -> &'static Parts<Toolpath> {

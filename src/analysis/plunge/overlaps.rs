@@ -17,8 +17,6 @@ pub struct Overlap {
     pub length: f64,
     /// Where it goes.
     pub side: Side,
-    /// By how much it is shorter than the profile wants it there, for want of room, mm.
-    pub missing: f64,
 }
 
 /// The overlaps of a run: how far the heel stands before its start, and how far the tip goes past its end.
@@ -83,13 +81,13 @@ impl Wanted {
             (false, true) => Side::Gap,
             (false, false) => Side::Waste,
         };
-        Overlap { length, side, missing: wanted - length }
+        Overlap { length, side }
     }
 }
 
 impl Overlap {
     fn none(end: End) -> Self {
-        Self { length: 0.0, side: end.side, missing: 0.0 }
+        Self { length: 0.0, side: end.side }
     }
 }
 

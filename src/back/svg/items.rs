@@ -1,6 +1,6 @@
 //! The entries of the legend: what is drawn how.
 
-use super::{aside, common};
+use super::{aside, common, near};
 use crate::back::target::Context;
 use crate::units::MM_PER_M;
 use crate::units::number::fixed;
@@ -23,7 +23,7 @@ pub(super) enum Symbol {
     Target,
 }
 
-/// The entries of a picture: those of all, edges that are cut once, then what of a plot is drawn and not cut.
+/// The entries of a picture: those of all, edges that are cut once, those that run near others, then what of a plot is drawn and not cut.
 pub(super) fn items(context: &Context) -> impl Iterator<Item = Item> {
     let aside = aside::classes(context).map(|class| Item {
         class: aside::ASIDE,
@@ -33,7 +33,8 @@ pub(super) fn items(context: &Context) -> impl Iterator<Item = Item> {
     let all = ITEMS.iter().map(|&(class, symbol, meaning)| Item { class, symbol, meaning: meaning.to_owned() });
     let common = common::meaning(context);
     let common = common.map(|meaning| Item { class: common::COMMON, symbol: Symbol::Line, meaning });
-    all.chain(common).chain(aside)
+    let near = near::meaning(context).map(|meaning| Item { class: near::NEAR, symbol: Symbol::Line, meaning });
+    all.chain(common).chain(near).chain(aside)
 }
 
 const ITEMS: [(&str, Symbol, &str); 10] = [

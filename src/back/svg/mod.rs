@@ -5,9 +5,10 @@
 //! any zoom, symbols are as large as the blade suggests: the whole shows pieces, a corner shows its overlaps.
 //!
 //! Layers from the bottom: what a plot draws and nobody cuts, pieces with their notches and numbers, labels, the
-//! knife's way (a group for each contour, notch and drill), edges that are cut once for two parts, the word `refused` where no program is written, the worst
-//! places that the verifier saw, those of what the program declares, the legend. In a browser the picture fills the window; a piece's number is a link to a
-//! view of that piece, and the legend links to the whole and to the actual size.
+//! knife's way (a group for each contour, notch and drill), the word `refused` where no program is written, edges that are
+//! cut once for two parts, near lines, the worst places that the verifier saw, those of what the program declares, the
+//! legend. In a browser the picture fills the window; a piece's number is a link to a view of that piece, and the legend
+//! links to the whole and to the actual size.
 
 mod aside;
 mod common;
@@ -18,6 +19,7 @@ mod knife;
 mod label;
 mod legend;
 mod markup;
+mod near;
 mod piece;
 mod sheet;
 mod spot;
@@ -63,6 +65,7 @@ fn tail(context: &Context, outcome: Outcome, out: &mut dyn Output) -> io::Result
         text.push_str(&sheet.refused());
     }
     text.push_str(&common::layer(context));
+    text.push_str(&near::layer(context));
     text.push_str(&findings::layer(&shown, &sheet, &context.job.profile.knife));
     text.push_str(&declared::layer(declared, &sheet));
     let counts = finding::counts(found);

@@ -43,6 +43,7 @@ path{vector-effect:non-scaling-stroke;fill:none;stroke-linejoin:round}
 .notch{stroke:currentColor;stroke-opacity:.5;stroke-width:6;stroke-linecap:round}
 .aside{stroke:#9a9a9a;stroke-width:.6}
 .common{stroke:#8fd400;stroke-width:5;stroke-opacity:.7}
+.near{stroke:#00a3c4;stroke-width:4;stroke-opacity:.6}
 .run{stroke:currentColor;stroke-width:1.5}
 .air{stroke:#8c8c8c;stroke-width:.7;stroke-dasharray:5 4}
 .over{fill:#d6006c;stroke:#d6006c;stroke-width:1.3}

@@ -62,7 +62,8 @@
 //! - `common` is an edge that the first piece and the second have in common, as the second has it; it is cut with the first.
 //! - A `junction` is a short way about which cuts of several parts cross; in a toolpath the word stands behind the end of a
 //!   chord about which that is so.
-//! - `near` is a stretch of an outline of that piece beside which another part's runs.
+//! - `near` is a stretch of a cut of that piece beside which one around another part runs.
+//! - How much less is cut for all common edges, a mere figure, is not printed.
 //! - A `notch` is one that the contours make: the ends of its mouth with its tip between them, and how many segments lie
 //!   there.
 //! - `stab` is a plunge cut; `harm` has what it cuts too far of the part itself and of others before the start, and the

@@ -36,8 +36,8 @@ pub const MARKER_PASSES: &[MarkerPass] = &[
     route::PASS,
     select::PASS,
     table::PASS,
-    near::PASS,
     cut::PASS,
+    near::PASS,
 ];
 
 /// How many of the first passes find what is drawn, where the file draws it: the next one lays it on the table.

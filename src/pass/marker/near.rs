@@ -1,17 +1,16 @@
-//! Near: where edges of two parts run beside each other, too far apart to be cut as one and so near that a thin strip of
-//! cloth stands between the two cuts.
+//! Near: where cuts of two parts run beside each other, not cut as one and so near that a thin strip of cloth stands between
+//! them, or none.
 //!
-//! Needs: pieces in cut order, only those that this run cuts. Leaves true: `near` holds the stretches of closed lines beside
-//! which, outside of their own part, an edge of another part runs at more than `common.lines` and at most `common.near_mm`.
+//! Needs: the cuts of the pieces. Leaves true: `near` holds the stretches of cuts around parts beside which, outside of their
+//! own part or over its edge by the band, a cut around another part runs at `common.near_mm` at the most.
 
 use super::pass::MarkerPass;
 use super::search::search_ended;
-use crate::analysis::nesting::Nesting;
 use crate::diagnostic::Diagnostics;
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
-use crate::geom::{Extent, Point, cross, polyline, ring};
-use crate::ir::marker::{Marker, NearEdge};
+use crate::geom::{Extent, Point, cross, polyline};
+use crate::ir::marker::{Cut, CutKind, Marker, NearEdge};
 use crate::machine::Job;
 
 pub(super) const PASS: MarkerPass = MarkerPass { name: "near", about: "finds thin strips between two cuts", run };
@@ -23,10 +22,10 @@ const LEAST: f64 = 1e-6;
 /// What two edges beside each other cost beside the comparison of their boxes: they are kept.
 const HIT: usize = 200;
 
-/// A chord of a closed line.
+/// A chord of a cut around a part.
 struct Chord {
     piece: u32,
-    /// The part that the line bounds.
+    /// The part that the cut bounds.
     part: u32,
     /// Whether that lies on its left.
     is_part_left: bool,
@@ -34,34 +33,48 @@ struct Chord {
 }
 
 fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
-    let least = job.profile.common(marker.unit).unwrap_or(0.0);
     let most = job.profile.common.near_mm;
     marker.near.clear();
-    if most <= least {
+    if most == 0.0 {
         return;
     }
-    let chords = chords(marker, most);
-    match near(&chords, [least, most], &mut Budget::of_a_marker()) {
-        Some(near) => marker.near = near,
+    let over = job.profile.band(marker.unit);
+    match near(&chords(marker, most), [-over, most], &mut Budget::of_a_marker()) {
+        Some(mut near) => {
+            leave_out_crossings(&mut near, most);
+            marker.near = near;
+        }
         None => diagnostics.push(search_ended("edges that run beside another part's are not found")),
     }
 }
 
-/// The chords of the closed lines that lie near other parts, mm.
+/// The chords of the cuts around parts that lie near those around others, mm.
 fn chords(marker: &Marker, distance: f64) -> Vec<Chord> {
-    let nesting = Nesting::of(marker);
-    let part = |line: usize| nesting.outline(line).map(|outline| nesting.lines()[outline].group);
-    let boxes = Boxes::new(nesting.lines().iter().map(|line| line.extent).collect());
-    let is_near = |line: usize| boxes.near(boxes.all()[line].grown(distance)).any(|other| part(other) != part(line));
+    let around = |cut: &&Cut| match cut.kind {
+        CutKind::Outline | CutKind::Inner | CutKind::Edge => true,
+        CutKind::Slit | CutKind::Line => false,
+    };
+    let cuts: Vec<(&Cut, Extent)> =
+        marker.cuts.iter().filter(around).map(|cut| (cut, Extent::of(&marker.list.points(cut.range)))).collect();
+    let boxes = Boxes::new(cuts.iter().map(|(_, extent)| *extent).collect());
+    let part = |cut: &Cut| cut.sides[0].or(cut.sides[1]);
     let mut chords = Vec::new();
-    for (line, (piece, contour)) in marker.contours().enumerate() {
-        let Some(part) = part(line).filter(|_| contour.closed && is_near(line)) else { continue };
-        let points = marker.list.points(contour.range);
-        let is_part_left = (ring::area(&points) > 0.0) != nesting.is_inner(line);
-        let of_line = |ends: &[Point]| Chord { piece: piece as u32, part, is_part_left, ends: [ends[0], ends[1]] };
-        chords.extend(points.windows(2).map(of_line));
+    for &(cut, extent) in &cuts {
+        let mut beside = boxes.near(extent.grown(distance));
+        let Some(of) = part(cut).filter(|_| beside.any(|other| part(cuts[other].0) != part(cut))) else { continue };
+        let is_part_left = cut.sides[0].is_some();
+        let of_cut = |ends: &[Point]| Chord { piece: cut.piece, part: of, is_part_left, ends: [ends[0], ends[1]] };
+        chords.extend(marker.list.points(cut.range).windows(2).map(of_cut));
     }
     chords
+}
+
+/// Leaves out where cuts only cross or meet: a strip is longer than it is wide, mm.
+fn leave_out_crossings(near: &mut Vec<NearEdge>, wide: f64) {
+    let goes_on = |a: &NearEdge, b: &NearEdge| a.piece == b.piece && (b.ends[0] - a.ends[1]).norm() <= LEAST;
+    let length = |edge: &NearEdge| (edge.ends[1] - edge.ends[0]).norm();
+    let strips = near.chunk_by(goes_on).filter(|strip| strip.iter().map(length).sum::<f64>() > wide);
+    *near = strips.flatten().copied().collect();
 }
 
 /// The stretches of chords beside which others run so near; `None` when the search has no end.
@@ -114,7 +127,7 @@ fn stretch(chord: &Chord, other: [Point; 2], [least, most]: [f64; 2]) -> Option<
     if slope != 0.0 {
         let limits = [least, most].map(|limit| at[0] + (limit - away[0]) / slope);
         (low, high) = (low.max(limits[0].min(limits[1])), high.min(limits[0].max(limits[1])));
-    } else if away[0] <= least || away[0] > most {
+    } else if away[0] < least || away[0] > most {
         return None;
     }
     (high - low > LEAST).then_some([low, high])

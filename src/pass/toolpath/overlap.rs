@@ -10,13 +10,11 @@
 use super::pass::ToolpathPass;
 use super::runs;
 use super::scene::Scene;
-use super::worst::Worst;
 use crate::analysis::plunge::overlaps;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Extent, polyline};
 use crate::ir::toolpath::{Run, Shape, Toolpath};
 use crate::machine::Knife;
-use crate::source::Span;
 use crate::units::number::fixed;
 
 pub(super) const PASS: ToolpathPass = ToolpathPass {
@@ -28,22 +26,15 @@ pub(super) const PASS: ToolpathPass = ToolpathPass {
 
 fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     let around = scene.around(toolpath);
-    let mut shortened = Worst::default();
     for run in runs::each(toolpath) {
         let [heel, front] = overlaps(run, &around);
         let [least_heel, least_front] = across(run, scene);
         (run.heel, run.front) = (heel.length.max(least_heel), front.length.max(least_front));
         (run.ends[0].side, run.ends[1].side) = (heel.side, front.side);
-        for (overlap, span) in [(heel, run.spans[0]), (front, run.spans[run.spans.len() - 1])] {
-            if overlap.missing > 0.0 {
-                shortened.see(Shortened { by: overlap.missing, span }, |shortened| shortened.by);
-            }
-        }
         if run.shape == Shape::Ring {
             warn_if_tight(run, around.knife, diagnostics);
         }
     }
-    report(&shortened, toolpath.piece, diagnostics);
 }
 
 /// How far a run must go past its start and its end to be through cuts of other parts that end beside it, mm.
@@ -57,28 +48,6 @@ fn across(run: &Run, scene: &Scene) -> [f64; 2] {
         Shape::Open => [beyond(0, 1), beyond(n - 1, n - 2)].map(Option::unwrap_or_default),
         Shape::Ring => [0.0; 2],
     }
-}
-
-/// An overlap that is shorter than the profile wants it.
-struct Shortened {
-    /// By how much, mm.
-    by: f64,
-    span: Span,
-}
-
-fn report(shortened: &Worst<Shortened>, piece: u32, diagnostics: &mut Diagnostics) {
-    let Some(worst) = shortened.place() else { return };
-    let by = fixed(worst.by, 2);
-    let message = match shortened.count() {
-        1 => format!("an overlap of piece {piece} is shortened by {by} mm: the next part is too near"),
-        n => format!("{n} overlaps of piece {piece} are shortened, the most by {by} mm: the next part is too near"),
-    };
-    diagnostics.push(
-        Diagnostic::new(&code::PATH_SHORTENED, message)
-            .at(worst.span)
-            .by(worst.by)
-            .hint("leave more room between the parts, or take smaller overlaps"),
-    );
 }
 
 fn warn_if_tight(run: &Run, knife: &Knife, diagnostics: &mut Diagnostics) {

@@ -8,12 +8,12 @@
 use super::pass::ToolpathPass;
 use super::scene::Scene;
 use super::spare;
-use super::worst::Worst;
 use crate::analysis::cloth::Surroundings;
 use crate::analysis::plunge::BladePlacement;
-use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::polyline;
 use crate::ir::toolpath::{End, Overcut, PlungeCut, Pose, Run, Shape, Side, Step, Toolpath};
+use crate::machine::Knife;
 use crate::units::number::fixed;
 
 pub(super) const PASS: ToolpathPass = ToolpathPass {
@@ -42,16 +42,10 @@ fn run(toolpath: &mut Toolpath, scene: &Scene, diagnostics: &mut Diagnostics) {
     });
     let verify = &scene.job.profile.verify;
     let exceeds = |depth: f64, cap: Option<f64>| cap.is_some_and(|cap| depth > cap);
-    let (mut overcuts, mut refused) = (Worst::default(), Worst::default());
     for plunge_cut in plunge_cuts.filter(|plunge_cut| depth(plunge_cut).deepest() > 0.0) {
         let Overcut { own, other } = depth(plunge_cut);
         let is_refused = exceeds(own, verify.max_overcut_part_mm) || exceeds(other, verify.max_overcut_neighbour_mm);
-        let seen = if is_refused { &mut refused } else { &mut overcuts };
-        // Of two as deep the one that lies in another part is worse.
-        seen.see(plunge_cut, |plunge_cut| [depth(plunge_cut).deepest(), depth(plunge_cut).other]);
-    }
-    for said in [warning(&overcuts, &around), refusal(&refused, &around)].into_iter().flatten() {
-        diagnostics.push(said);
+        diagnostics.push(said(plunge_cut, is_refused, around.knife));
     }
 }
 
@@ -94,25 +88,17 @@ fn beyond(plunge_cut: &PlungeCut) -> String {
     overcuts.map(said).collect::<Vec<String>>().join(", ")
 }
 
-/// Warns of the worst overcut of a toolpath; `None` when there is none.
-fn warning(overcuts: &Worst<&PlungeCut>, around: &Surroundings) -> Option<Diagnostic> {
-    let said = said(&code::PATH_OVERCUT, overcuts, around)?;
-    Some(said.hint("a narrower blade cuts less deep"))
-}
-
-/// Refuses the worst of those that the profile does not allow; `None` when there is none.
-fn refusal(refused: &Worst<&PlungeCut>, around: &Surroundings) -> Option<Diagnostic> {
-    let said = said(&code::PATH_OVERCUT_REFUSED, refused, around)?;
-    Some(said.hint(
-        "a narrower blade cuts less deep; `verify.max_overcut_part_mm` and `verify.max_overcut_neighbour_mm` allow more",
-    ))
-}
-
-fn said(code: &'static Code, overcuts: &Worst<&PlungeCut>, around: &Surroundings) -> Option<Diagnostic> {
-    let plunge_cut = overcuts.place()?;
-    let (length, width) = (fixed(polyline::length(&plunge_cut.points), 2), fixed(around.knife.width_mm, 2));
-    let (beyond, more) = (beyond(plunge_cut), overcuts.and_more());
-    let message = format!("the blade of {width} mm is longer than this cut of {length} mm: it cuts {beyond}{more}");
+/// Warns of a plunge cut into a part, or refuses it.
+fn said(plunge_cut: &PlungeCut, is_refused: bool, knife: &Knife) -> Diagnostic {
+    let (code, hint) = if is_refused {
+        let keys = "`verify.max_overcut_part_mm` and `verify.max_overcut_neighbour_mm` allow more";
+        (&code::PATH_OVERCUT_REFUSED, format!("a narrower blade cuts less deep; {keys}"))
+    } else {
+        (&code::PATH_OVERCUT, "a narrower blade cuts less deep".to_owned())
+    };
+    let (length, width) = (fixed(polyline::length(&plunge_cut.points), 2), fixed(knife.width_mm, 2));
+    let beyond = beyond(plunge_cut);
+    let message = format!("the blade of {width} mm is longer than this cut of {length} mm: it cuts {beyond}");
     let span = plunge_cut.spans[plunge_cut.spans.len() - 1];
-    Some(Diagnostic::new(code, message).at(span).by(depth(plunge_cut).deepest()))
+    Diagnostic::new(code, message).at(span).by(depth(plunge_cut).deepest()).hint(hint)
 }

@@ -27,11 +27,6 @@ impl<T> Worst<T> {
         self.worst.as_ref()
     }
 
-    /// How many were seen.
-    pub(super) fn count(&self) -> usize {
-        self.count
-    }
-
     /// How many there are beside the worst, in words.
     pub(super) fn and_more(&self) -> String {
         match self.count.saturating_sub(1) {

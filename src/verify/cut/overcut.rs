@@ -1,7 +1,8 @@
 //! What the blade cuts beyond the ends of its line: how far in waste, and how deep in parts.
 //!
 //! A place is as deep in a part as it is far from that part's edges, inside, and no deeper than it is far from the end of
-//! its line, which may be drawn amid a part; less than the band is no depth. A way may go as deep into its own part as
+//! its line, which may be drawn amid a part; less than the band is no depth, nor less than a quarter of the width of a strip
+//! in that. A way may go as deep into its own part as
 //! the profile has it for reflex corners, and not into another. A plunge cut may be longer than its line: as deep as the
 //! least deep of all places where it covers that.
 
@@ -23,8 +24,12 @@ use crate::verify::worst::Worst;
 /// Distance of two places for a blade that are tried, mm: so much deeper than the best of them no other is less deep.
 const SHIFT: f64 = 0.1;
 
-/// How many times the band two corners are apart whose edges are that apart.
+/// How many times as far apart as edges are the corners that these make.
 const DIAGONAL: f64 = std::f64::consts::SQRT_2;
+/// How deep a place may lie in a strip and still be at its edge, in widths of that.
+const STRIP_SHARE: f64 = 0.25;
+/// Least cosine between the edges of what is surely a strip (8 degrees), and that between the ways to the two.
+const STRIP: f64 = 0.99;
 /// How deep in parts it is seen how deep a place lies, mm: far more than is allowed.
 const ASIDE: f64 = 5.0;
 
@@ -38,6 +43,8 @@ pub(in crate::verify) struct Overcut<'a> {
     tolerance: f64,
     width: f64,
     band: f64,
+    /// How far an edge may be moved that is cut with another part, mm.
+    shift: f64,
     /// Which part is spared by a plunge cut that finds no waste.
     spare: Spare,
     /// How far the profile lets the blade cut into the part at a reflex corner, mm.
@@ -82,6 +89,7 @@ impl<'a> Overcut<'a> {
             tolerance: reference.tolerance + rounding,
             width: knife.width_mm,
             band: reference.band,
+            shift: reference.common.max(reference.band),
             spare: knife.spare,
             reflex: knife.reflex_front_overlap_mm.max(knife.reflex_heel_overlap_mm),
             caps: [verify.max_overcut_part_mm, verify.max_overcut_neighbour_mm],
@@ -115,7 +123,9 @@ impl<'a> Overcut<'a> {
         }
         let least = if cut.is_plunge_cut() { self.least(stroke).map(|least| least + SHIFT) } else { [0.0; 2] };
         // What is as deep as the band one way is in it the other.
-        let [own, other] = least.map(|least| least.max(self.band));
+        let bands =
+            deepest.map(|(depth, i)| if depth > self.band { self.band } else { self.band_at(cut.points[i], stroke) });
+        let [own, other] = [0, 1].map(|k| least[k].max(bands[k]));
         let bounds = [own.max(self.reflex), other].map(|bound| bound + self.tolerance);
         let worsts = [&mut overcuts.part, &mut overcuts.neighbour];
         for (((depth, i), worst), (bound, cap)) in
@@ -126,12 +136,12 @@ impl<'a> Overcut<'a> {
             }
         }
         if let Some(declared) = self.declared {
-            self.hold(deepest, stroke, declared, seen, undeclared);
+            self.hold(deepest, bands, stroke, declared, seen, undeclared);
         }
     }
 
-    /// Judges what a stroke cuts along its line where that is on no edge of its own part: it is on one of another then, or leads
-    /// over to it and through it by the tolerance.
+    /// Judges what a stroke cuts along its line where that is on no edge of its own part: it is on one of another then, which
+    /// the profile lets stand for its own, or leads over to it and through it by the tolerance.
     fn see_aside(&self, stroke: &Ends, seen: &impl Fn(usize) -> Sighting, overcuts: &mut Overcuts) {
         let Ends { cut, trial, line, .. } = *stroke;
         if line.aside.is_empty() {
@@ -142,7 +152,7 @@ impl<'a> Overcut<'a> {
             if line.aside.iter().any(|&[from, to]| (from..=to).contains(&station)) {
                 let depths = self.depths(cut.points[i], ASIDE, stroke);
                 for (depth, worst) in depths.into_iter().zip([&mut overcuts.part, &mut overcuts.neighbour]) {
-                    worst.see_under(depth, DIAGONAL * self.band + 2.0 * self.tolerance, || seen(i));
+                    worst.see_under(depth, DIAGONAL * self.shift + 2.0 * self.tolerance, || seen(i));
                 }
             }
         }
@@ -152,6 +162,7 @@ impl<'a> Overcut<'a> {
     fn hold(
         &self,
         deepest: [(f64, usize); 2],
+        bands: [f64; 2],
         stroke: &Ends,
         declared: &Declared,
         seen: &impl Fn(usize) -> Sighting,
@@ -160,8 +171,8 @@ impl<'a> Overcut<'a> {
         let Ends { cut, trial, line, .. } = *stroke;
         let kind = if cut.is_plunge_cut() { Kind::Surplus } else { Kind::Overcut };
         let most = declared.most(kind, line, trial.reach).max(if cut.is_plunge_cut() { 0.0 } else { self.reflex });
-        for (depth, i) in deepest {
-            undeclared.see((depth - most.max(self.band) - self.tolerance).max(0.0), || seen(i));
+        for ((depth, i), band) in deepest.into_iter().zip(bands) {
+            undeclared.see((depth - most.max(band) - self.tolerance).max(0.0), || seen(i));
         }
     }
 
@@ -186,11 +197,24 @@ impl<'a> Overcut<'a> {
             let is_of_part = |piece| self.inside.part_of(piece) == part;
             let depth = lines.distance_to_edges(point, beyond, is_of_part).min(beyond);
             let deepest = &mut depths[usize::from(part != own)];
-            if depth > self.band {
+            if depth > self.band || depth > STRIP_SHARE * lines.width_of_strip(point, self.strip(), is_of_part) {
                 *deepest = f64::max(*deepest, depth);
             }
         }
         depths
+    }
+
+    /// How deep a place may lie in a part and still be at its edge, mm: the band, or less in a strip.
+    fn band_at(&self, point: Point, &Ends { lines, .. }: &Ends) -> f64 {
+        let parts = self.inside.pieces_at(point).into_iter();
+        let widths =
+            parts.map(|part| lines.width_of_strip(point, self.strip(), |piece| self.inside.part_of(piece) == part));
+        widths.map(|width| STRIP_SHARE * width).fold(self.band, f64::min)
+    }
+
+    /// How wide a strip is at the most whose edges are nearer than the band, mm.
+    fn strip(&self) -> f64 {
+        self.band / STRIP_SHARE
     }
 
     /// How deep a plunge cut must lie in its own part and in others wherever it is laid along its line so that it covers what
@@ -265,6 +289,32 @@ impl Lines<'_> {
         };
         let edges = self.grid.near(point, reach).filter(is_edge);
         edges.map(|run| self.distance_to_run(run, point)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// How wide some pieces are at a place where they surely are a strip, mm: from the edge on one side of it to that on the
+    /// other; infinite where they are none, or wider than `most`.
+    fn width_of_strip(self, point: Point, most: f64, is_of: impl Fn(usize) -> bool) -> f64 {
+        let mut edges: Vec<[Vector; 2]> = Vec::new();
+        for run in self.grid.near(point, most) {
+            let line = &self.reference.lines[run.line()];
+            if !line.cut.bounds || !is_of(line.piece as usize) {
+                continue;
+            }
+            for [a, b] in run.chords().map(|chord| [line.point(chord), line.point(chord + 1)]) {
+                let way = a + (b - a) * polyline::foot(point, a, b) - point;
+                if let Some(along) = polyline::direction(a, b).filter(|_| way.norm() <= most) {
+                    edges.push([way, along]);
+                }
+            }
+        }
+        let Some(&[nearest, along]) = edges.iter().min_by(|a, b| a[0].norm().total_cmp(&b[0].norm())) else {
+            return f64::INFINITY;
+        };
+        let is_across = |[way, direction]: &&[Vector; 2]| {
+            direction.dot(&along).abs() >= STRIP && way.dot(&nearest) <= -STRIP * way.norm() * nearest.norm()
+        };
+        let widths = edges.iter().filter(is_across).map(|[way, _]| way.norm() + nearest.norm());
+        widths.filter(|&width| width <= most && nearest.norm() > 0.0).fold(f64::INFINITY, f64::min)
     }
 
     fn distance_to_run(self, run: &Run, point: Point) -> f64 {

@@ -28,8 +28,7 @@ impl<'a> Ground<'a> {
         let reference = Reference::new(marker, profile);
         let (grid, (inside, held)) =
             rayon::join(|| Grid::new(&reference), || rayon::join(|| Inside::new(marker), || held(marker, &reference)));
-        let distance = profile.common(marker.unit).unwrap_or(0.0);
-        let common = Common::new(&reference.shared, &reference, &grid, distance);
+        let common = Common::new(&reference.shared, &reference, &grid, reference.common);
         Self { reference, grid, inside, common, held }
     }
 }

@@ -40,6 +40,8 @@ pub(in crate::verify) struct Reference<'a> {
     pub(in crate::verify) tolerance: f64,
     /// How deep a place in a part may lie and still be at its edge, mm.
     pub(in crate::verify) band: f64,
+    /// How far apart edges of two parts may lie that are cut once, mm; 0 where each is cut.
+    pub(in crate::verify) common: f64,
 }
 
 /// What is cut of a piece.
@@ -92,6 +94,7 @@ impl<'a> Reference<'a> {
             open,
             tolerance: profile.tolerance(marker.unit),
             band: band(marker.unit, profile),
+            common: profile.common(marker.unit).unwrap_or(0.0),
         }
     }
 }

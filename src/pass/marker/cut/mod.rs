@@ -30,9 +30,9 @@ use crate::analysis::cloth::Cloth;
 use crate::analysis::nesting::Nesting;
 use crate::diagnostic::Diagnostics;
 use crate::geom;
-use crate::geom::Point;
 use crate::geom::boxes::Boxes;
 use crate::geom::budget::Budget;
+use crate::geom::{Point, polyline};
 use crate::ir::list::{Joint, Range, Segment, SegmentList};
 use crate::ir::marker::{CommonEdge, Contour, Cut, CutKind, Marker, Notch, NotchStroke, OutlineNotch, Piece};
 use crate::machine::{Job, NotchStyle, Notches};
@@ -62,10 +62,16 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     let (air, at) = (Air::new(job), Stop::anyhow(Point::new(x, y)));
     let mut cutting = Cutting { list, nesting: &nesting, style, piece: 0, cuts, air, at };
     let mut styled: Vec<Styled> = pieces.iter().map(|piece| cutting.styled(piece)).collect();
+    let slits: f64 = styled.iter().flat_map(|styled| &styled.slits).map(|slit| slit.stroke.length()).sum();
     let mut shared = match asked {
         Some(asked) => cutting.share(pieces, &mut styled, asked, (common, junctions), diagnostics),
         None => BTreeMap::new(),
     };
+    // What would be cut were each part cut all round.
+    let alone = (!shared.is_empty()).then(|| {
+        let outlines = styled.iter().flat_map(|styled| &styled.outlines);
+        slits + outlines.map(|&range| polyline::length(&cutting.list.points(range))).sum::<f64>()
+    });
     for (i, Styled { slits, outlines }) in styled.into_iter().enumerate() {
         cutting.piece = i;
         if let Some(drill) = pieces[i].drills.last() {
@@ -81,6 +87,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
             }
         }
     }
+    marker.spared = alone.map_or(0.0, |alone| alone - marker.cut_length());
 }
 
 /// A piece with its notches in the style of the profile.
