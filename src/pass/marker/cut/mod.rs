@@ -245,11 +245,10 @@ impl Cutting<'_> {
 
     /// The cuts of a line, of this range, that has edges in common with others.
     fn edges(&mut self, of_line: OfLine, drawn: Range, line: usize) {
-        let groups = [Group::Legs as fn(usize) -> Group, Group::Edges];
-        for (cuts, group) in of_line.into_iter().zip(groups) {
+        for cuts in of_line {
             let first = self.cuts.len();
             cuts.into_iter().for_each(|cut| self.edge(cut, drawn, line));
-            self.group(group(first));
+            self.group(Group::Edges(first));
         }
     }
 

@@ -1,4 +1,5 @@
-//! In which order and direction what common lines leave of outlines is cut: the file says neither.
+//! In which order what common lines leave of outlines is cut: the file does not say. Each keeps its direction: led over other
+//! cuts the other way round it may leave threads there.
 
 use std::ops::Range;
 
@@ -7,7 +8,7 @@ use crate::geom::Point;
 use crate::ir::list::SegmentList;
 use crate::ir::marker::{Cut, Marker, Piece};
 use crate::machine::Job;
-use crate::pass::marker::visit::{Cuts, Measures, Start, Visit, choose};
+use crate::pass::marker::visit::{Cuts, Measures, Visit, choose};
 
 /// What a cut is made with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,26 +17,13 @@ pub(in crate::pass::marker) enum Group {
     Slits,
     /// A contour, by its place in its piece, cut as a whole.
     Contour(usize),
-    /// The legs of notches on one with common lines, by the place of the first: in any order, each as it is, for the blade cuts
-    /// both legs of a notch from the edge inwards anyhow.
-    Legs(usize),
-    /// What common lines leave of one, by the place of the first: in any order, from either end.
+    /// What common lines leave of one, or the legs of notches on it, by the place of the first: in any order.
     Edges(usize),
 }
 
-impl Group {
-    /// Where a cut of it may start that is a contour with common lines no longer.
-    pub(in crate::pass::marker) fn starts(self, cut: &Cut, list: &SegmentList, measures: &Measures) -> Vec<Start> {
-        match self {
-            Self::Slits | Self::Contour(_) | Self::Legs(_) => vec![measures.as_is(cut.range, list)],
-            Self::Edges(_) => measures.either_way(cut.range, list),
-        }
-    }
-}
-
-/// Puts what is left of outlines in the order and directions with the least travel; all else stays as it is.
+/// Puts what is left of outlines in the order with the least travel; all else stays as it is.
 pub(super) fn arrange(marker: &mut Marker, groups: &[Group], job: &Job) {
-    if !groups.iter().any(|group| matches!(group, Group::Legs(_) | Group::Edges(_))) {
+    if !groups.iter().any(|group| matches!(group, Group::Edges(_))) {
         return; // as in most files
     }
     let measures = Measures::new(job, marker.unit);
@@ -55,8 +43,8 @@ pub(super) fn arrange(marker: &mut Marker, groups: &[Group], job: &Job) {
         let range = ranges[i].clone();
         let made: Vec<Cut> = cuts[range.clone()].to_vec();
         let fixed = range.len() - of_piece[chosen].cuts.len();
-        for (cut, (place, begin)) in cuts[range].iter_mut().skip(fixed).zip(&of_piece[chosen].cuts) {
-            *cut = if begin.is_reversed { reversed(made[*place]) } else { made[*place] };
+        for (cut, &(place, _)) in cuts[range].iter_mut().skip(fixed).zip(&of_piece[chosen].cuts) {
+            *cut = made[place];
         }
     }
 }
@@ -67,16 +55,11 @@ fn as_made(piece: &Piece, cuts: &[Cut], groups: &[Group], list: &SegmentList, me
     for (place, cut) in cuts.iter().enumerate() {
         match groups[place] {
             Group::Slits => made.fixed.push(measures.as_is(cut.range, list).stops),
-            group @ Group::Contour(_) => made.add(place, group.starts(cut, list, measures), false),
-            group @ (Group::Legs(_) | Group::Edges(_)) => {
-                made.add(place, group.starts(cut, list, measures), place > 0 && groups[place - 1] == group);
+            Group::Contour(_) => made.add(place, vec![measures.as_is(cut.range, list)], false),
+            group @ Group::Edges(_) => {
+                made.add(place, vec![measures.as_is(cut.range, list)], place > 0 && groups[place - 1] == group);
             }
         }
     }
     made
-}
-
-fn reversed(cut: Cut) -> Cut {
-    let [left, right] = cut.sides;
-    Cut { range: cut.range.reversed(), sides: [right, left], ..cut }
 }
