@@ -247,7 +247,9 @@ impl Cutting<'_> {
     fn edges(&mut self, of_line: OfLine, drawn: Range, line: usize) {
         for cuts in of_line {
             let first = self.cuts.len();
-            cuts.into_iter().for_each(|cut| self.edge(cut, drawn, line));
+            for cut in cuts {
+                self.edge(cut, drawn, line);
+            }
             self.group(Group::Edges(first));
         }
     }

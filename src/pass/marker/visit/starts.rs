@@ -64,7 +64,7 @@ impl Measures {
 
     fn of_ends(&self, of: &[Segment]) -> Vec<Start> {
         let ways = [false, true].map(|is_reversed| Begin { segment: 0, is_reversed });
-        ways[..1 + usize::from(is_plain(of))].iter().map(|&begin| Start::new(of, begin, &self.air)).collect()
+        ways[..=usize::from(is_plain(of))].iter().map(|&begin| Start::new(of, begin, &self.air)).collect()
     }
 
     /// Where a contour may start: as it does, and, if the file asks for nothing on it, at its other end, or a closed one at its

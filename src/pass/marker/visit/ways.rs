@@ -242,20 +242,21 @@ mod tests {
         }
     }
 
+    fn shortest(left: &mut Vec<[Stop; 2]>, from: &Stop, air: &Air) -> f64 {
+        let mut least = if left.is_empty() { 0.0 } else { f64::INFINITY };
+        for i in 0..left.len() {
+            let next = left.remove(i);
+            least = least.min(air.time(from, &next[0]) + shortest(left, &next[1], air));
+            left.insert(i, next);
+        }
+        least
+    }
+
     /// The time of the shortest order of cuts some of which are turned round, s: every order is looked at.
     fn least_of(cuts: &[[[f64; 2]; 2]], turned: usize) -> f64 {
         let air = Air::new(&Job::default());
-        let stops: Vec<[Stop; 2]> =
+        let mut stops: Vec<[Stop; 2]> =
             cuts.iter().enumerate().map(|(i, &ends)| cut(ends, &air)[turned >> i & 1].stops).collect();
-        fn shortest(left: &mut Vec<[Stop; 2]>, from: &Stop, air: &Air) -> f64 {
-            let mut least = if left.is_empty() { 0.0 } else { f64::INFINITY };
-            for i in 0..left.len() {
-                let next = left.remove(i);
-                least = least.min(air.time(from, &next[0]) + shortest(left, &next[1], air));
-                left.insert(i, next);
-            }
-            least
-        }
-        shortest(&mut stops.clone(), &Stop::anyhow(Point::origin()), &air)
+        shortest(&mut stops, &Stop::anyhow(Point::origin()), &air)
     }
 }
