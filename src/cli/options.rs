@@ -10,7 +10,7 @@ use super::{choices, files};
 use crate::diagnostic::{Detail, Severity, render_with};
 use crate::front::Dialect;
 use crate::machine::plot::{Inner, Lines};
-use crate::machine::{Faults, Job, Mode, NotNumbers, Numbers, Selection, Start, load_given};
+use crate::machine::{Faults, Job, Mode, NotNumbers, NotStart, Numbers, Selection, Start, load_given};
 use crate::source::Source;
 
 /// For an option behind those that stand under a heading of their own: it belongs to the command itself.
@@ -139,7 +139,7 @@ fn numbers(text: &str) -> Result<Numbers, NotNumbers> {
     Numbers::parse(text)
 }
 
-fn start(text: &str) -> Result<Start, NotNumbers> {
+fn start(text: &str) -> Result<Start, NotStart> {
     Start::parse(text)
 }
 

@@ -302,8 +302,13 @@ impl Marker {
 
     /// The cuts of a piece, by its place.
     pub fn cuts_of(&self, piece: u32) -> &[Cut] {
+        &self.cuts[self.range_of(piece)]
+    }
+
+    /// The places of these among all cuts.
+    pub fn range_of(&self, piece: u32) -> std::ops::Range<usize> {
         let first = |piece: u32| self.cuts.partition_point(|cut| cut.piece < piece);
-        &self.cuts[first(piece)..first(piece + 1)]
+        first(piece)..first(piece + 1)
     }
 
     /// The points of a contour: one more than its segments; a closed one ends with its first point.

@@ -50,7 +50,7 @@ pub use origin::{Axis, Origin};
 pub use path::Fit;
 pub use profile::{FileUnit, MachineProfile};
 pub use schema::schema;
-pub use selection::{Mode, NotNumbers, Numbers, Selection, Start};
+pub use selection::{Mode, NotNumbers, NotStart, Numbers, Selection, Start};
 pub use sheet::{Flip, Mirror, Sheet};
 pub use show::Comments;
 pub use table::Table;

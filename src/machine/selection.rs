@@ -39,10 +39,11 @@ pub struct Start {
 
 impl Start {
     /// Reads a number, or a number and a copy.
-    pub fn parse(text: &str) -> Result<Self, NotNumbers> {
+    pub fn parse(text: &str) -> Result<Self, NotStart> {
         let (number, copy) = text.split_once('/').unwrap_or((text, "1"));
-        let whole = |word: &str| Numbers::parse(word)?.only().ok_or_else(|| NotNumbers::Word(word.to_owned()));
-        Ok(Self { number: whole(number)?, copy: whole(copy)? })
+        let whole = |word: &str| Numbers::parse(word).ok()?.only();
+        let start = whole(number).zip(whole(copy)).map(|(number, copy)| Self { number, copy });
+        start.ok_or_else(|| NotStart(text.to_owned()))
     }
 }
 
@@ -53,6 +54,13 @@ impl fmt::Display for Start {
         if *copy == 1 { write!(out, "{number}") } else { write!(out, "{number}/{copy}") }
     }
 }
+
+/// What names no piece to begin with.
+#[derive(Debug, Error, PartialEq, Eq)]
+#[error(
+    "`{0}` names no piece; give its number, and that of its copy behind a stroke if there are several, as in 3 or 3/2"
+)]
+pub struct NotStart(String);
 
 /// Numbers of pieces, as in `3,7-12`.
 #[derive(Debug, Clone, PartialEq, Eq)]

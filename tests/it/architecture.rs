@@ -103,6 +103,7 @@ const BESIDE_A_TABLE: &[(&str, &str)] = &[
     ("target", "says what a target is"),
     ("tight_report", "says what the pass `tight` does"),
     ("trace", "makes the toolpaths that the passes edit"),
+    ("visit", "says in which ways the cuts of a piece may be made, for the passes that order pieces and cuts"),
     ("worst", "keeps the worst of what a pass says of many places alike"),
 ];
 

@@ -10,7 +10,7 @@ use cutc::geom::Extent;
 use cutc::ir::Marker;
 use cutc::ir::list::Segment;
 use cutc::ir::marker::Piece;
-use cutc::machine::{Job, OrderPolicy};
+use cutc::machine::{CommonLines, Job, Lines, OrderPolicy};
 use cutc::pipeline::{self, Report};
 use cutc::source::Source;
 use cutc::verify::{self, Ground};
@@ -230,4 +230,98 @@ fn what_lies_in_a_part_is_cut_before_that_whatever_the_marker_says() {
     assert_eq!(freed(&change(&in_two, &|pieces| pieces.swap(0, 2))), 1.0);
     // What lies beside each other has no order.
     assert_eq!(freed(&change(&in_two, &|pieces| pieces.rotate_right(1))), 0.0);
+}
+
+/// Rows of parts that touch on all sides, in no order, each third of them with a cut-out that is a piece of its own.
+fn touching(seed: u64, parts: usize) -> String {
+    let mut rng = Rng::with_seed(seed);
+    let mut places: Vec<usize> = (0..parts).collect();
+    rng.shuffle(&mut places);
+    let mut text = "H1*G71*".to_owned();
+    let mut number = 0;
+    for place in places {
+        let [x, y] = [(place / ROW) * 1600, (place % ROW) * 1000];
+        let (right, top) = (x + 1600, y + 1000);
+        let mut pieces = vec![format!("X{x}Y{y}*M14*X{right}Y{y}*X{right}Y{top}*X{x}Y{top}*X{x}Y{y}*M15*")];
+        if place % 3 == 0 {
+            let (x, y) = (x + 600, y + 300);
+            let cut_out = format!("X{x}Y{y}*M14*X{}Y{y}*X{}Y{}*X{x}Y{y}*M15*", x + 300, x + 300, y + 300);
+            pieces.insert(rng.usize(0..2), cut_out);
+        }
+        for piece in pieces {
+            number += 1;
+            let _infallible = write!(text, "N{number}*M15*{piece}");
+        }
+    }
+    text + "M0*\n"
+}
+
+#[test]
+fn with_common_lines_an_order_saves_time_and_breaks_no_rule() {
+    let time = |report: &Report| report.time_s().expect("it is planned");
+    for seed in 0..4 {
+        let text = touching(seed, 30);
+        let (file, _) = compiled(&text, &job(OrderPolicy::File));
+        assert!(file.common.as_ref().is_some_and(|common| common.length_m > 2.0), "the parts touch");
+        for policy in [OrderPolicy::Fastest, OrderPolicy::Steady] {
+            let job = job(policy);
+            let (report, program) = compiled(&text, &job);
+            assert!(time(&report) < 0.9 * time(&file), "seed {seed}: {} {}", time(&report), time(&file));
+            let mut apart = job.clone();
+            apart.profile.common.lines = Lines::Word(CommonLines::Off);
+            let (apart, _) = compiled(&text, &apart);
+            assert!(time(&report) < time(&apart), "seed {seed}: {} {}", time(&report), time(&apart));
+            let marker = read(&text, &job);
+            assert_eq!(contents(&marker), contents(&read(&text, &self::job(OrderPolicy::File))), "seed {seed}");
+            if policy == OrderPolicy::Steady {
+                let lefts = (0..marker.pieces.len()).map(|piece| extent(&marker, piece).min.x);
+                let mut front = f64::NEG_INFINITY;
+                for (left, place) in lefts.zip(0..) {
+                    let holds_nothing = extent(&marker, place).size().0 < 100.0;
+                    assert!(holds_nothing || left >= front - job.profile.order.window_mm, "seed {seed}: {place}");
+                    front = front.max(left);
+                }
+            }
+            for threads in [1, 2] {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+                let again = pool.install(|| compiled(&text, &job).1);
+                assert!(again == program, "the same bytes on {threads} threads");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_order_of_the_file_stays_with_common_lines() {
+    let text = touching(1, 30);
+    let file = read(&text, &job(OrderPolicy::File));
+    let made = with_cuts(&file, &job(OrderPolicy::File));
+    let numbers = |marker: &Marker| marker.pieces.iter().map(|piece| piece.number).collect::<Vec<_>>();
+    assert_eq!(numbers(&made), numbers(&file));
+    assert!(made.cuts.is_sorted_by_key(|cut| cut.piece));
+    let mut sorted = numbers(&made);
+    sorted.sort_unstable();
+    // What lies in a part is the only reason for another order.
+    assert_eq!(sorted, (1..=file.pieces.len() as u32).collect::<Vec<_>>());
+}
+
+#[test]
+fn a_cut_out_behind_a_part_that_others_share_edges_with_is_found() {
+    let text = touching(2, 9);
+    let job = job(OrderPolicy::File);
+    let freed = |marker: &Marker| {
+        let marker = with_cuts(marker, &job);
+        let program = setpoints(&marker, &job);
+        let ground = Ground::new(&marker, &job.profile);
+        let verdict = verify::setpoints(&mut BufReader::new(&program[..]), None, &ground, &job);
+        verdict.findings.iter().find(|finding| finding.rule == "verify/freed").expect("it is judged").worst
+    };
+    let mut marker = read(&text, &job);
+    assert_eq!(freed(&marker), 0.0);
+    // All cut-outs behind all parts, the edges of which are cut with one another.
+    marker.pieces.sort_by_key(|piece| {
+        let lines = piece.contours.iter().map(|contour| contour.range);
+        lines.map(|range| Extent::of(&marker.list.points(range)).size().0 < 100.0).max()
+    });
+    assert_eq!(freed(&marker), 3.0);
 }

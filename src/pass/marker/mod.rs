@@ -18,6 +18,7 @@ mod sheet;
 mod slit;
 mod spike;
 mod table;
+mod visit;
 mod weld;
 
 pub use pass::MarkerPass;

@@ -18,8 +18,9 @@ const OFF_EPSILON: f64 = 1e-6;
 /// Decimals of distances, and of those that have no room for rounding.
 const DECIMALS: u32 = 1;
 const FINE_DECIMALS: u32 = 3;
-/// What a distance of so many decimals is rounded by at the most, mm.
+/// The steps of both, mm.
 const STEP: f64 = 0.1;
+const FINE_STEP: f64 = 0.001;
 
 fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     let table = &job.profile.table;
@@ -45,7 +46,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     let finding = Diagnostic::new(code, format!("{what}: {}", ways.join(", ")));
     let finding = finding.at(span).on_cloth(place).by(off);
     let moves = axes.map(|axis| axis.advice());
-    let hints = if moves.iter().flatten().all(|advice| matches!(advice, Advice::Move(_))) {
+    let hints = if moves.iter().flatten().all(|advice| matches!(advice, Advice::Move { .. })) {
         vec![moved(&moves, &job.profile.sheet)]
     } else {
         let alone = |(advice, name): (&Option<Advice>, &str)| Some(advice.as_ref()?.alone(name));
@@ -56,16 +57,12 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
 
 /// How to move a marker that fits, and the key that does it.
 fn moved(moves: &[Option<Advice>; 2], sheet: &Sheet) -> String {
-    let by = |i: usize| if let Some(Advice::Move(by)) = &moves[i] { by.as_str() } else { "" };
-    let words: Vec<String> = [("X", by(0)), ("Y", by(1))]
-        .iter()
-        .filter(|(_, by)| !by.is_empty())
-        .map(|(name, by)| format!("{name} {by} mm"))
-        .collect();
+    let words: Vec<String> =
+        moves.iter().zip(["X", "Y"]).filter_map(|(advice, name)| Some(advice.as_ref()?.way(name))).collect();
     let hint = format!("move the marker by {}", words.join(" and "));
     let Some(origin) = sheet.origin else { return hint };
     // Three decimals are all that is said of a way.
-    let place = |i: usize| exact(((origin[i] + by(i).parse::<f64>().unwrap_or(0.0)) * 1e3).round() / 1e3);
+    let place = |i: usize| exact(((origin[i] + moves[i].as_ref().map_or(0.0, Advice::by)) * 1e3).round() / 1e3);
     format!("{hint}: sheet.origin = [{}, {}]", place(0), place(1))
 }
 
@@ -107,17 +104,36 @@ fn fitting(marker: &Marker, extent: &Extent, job: &Job) -> Option<String> {
 
 /// What to do about a marker that is beyond the table along an axis.
 enum Advice {
-    /// To move it by that, mm, as it is told.
-    Move(String),
+    /// To move it by that, mm, told with so many decimals: it has no more.
+    Move { by: f64, decimals: u32 },
     /// It does not fit: how long it is, how much too long, and how long the table.
     TooLong([String; 3]),
 }
 
 impl Advice {
+    /// How far it is moved, mm.
+    fn by(&self) -> f64 {
+        match self {
+            Self::Move { by, .. } => *by,
+            Self::TooLong(_) => 0.0,
+        }
+    }
+
+    /// The same in words.
+    fn way(&self, name: &str) -> String {
+        match self {
+            Self::Move { by, decimals } => {
+                let sign = if *by < 0.0 { '-' } else { '+' };
+                format!("{name} {sign}{} mm", fixed(by.abs(), *decimals))
+            }
+            Self::TooLong(_) => String::new(),
+        }
+    }
+
     /// In words.
     fn alone(&self, name: &str) -> String {
         match self {
-            Self::Move(by) => format!("move the marker by {name} {by} mm"),
+            Self::Move { .. } => format!("move the marker by {}", self.way(name)),
             Self::TooLong([lies, over, has]) => format!(
                 "along {name} the marker does not fit: its {lies} mm are {over} mm more than the table has, {has} mm"
             ),
@@ -189,8 +205,12 @@ impl Axis<'_> {
         let reach = knife.width_mm + knife.front_overlap_mm.max(knife.corner_front_overlap_mm);
         let spare = reach.min(room / 2.0);
         let by = below.max(above) + spare;
-        let by = if spare > STEP { up(by - OFF_EPSILON, DECIMALS) } else { fixed(by, FINE_DECIMALS) };
-        Some(Advice::Move(format!("{}{by}", if below > above { '+' } else { '-' })))
+        let (by, decimals) = if spare > STEP {
+            (((by - OFF_EPSILON) / STEP).ceil() * STEP, DECIMALS)
+        } else {
+            ((by / FINE_STEP).round() * FINE_STEP, FINE_DECIMALS)
+        };
+        Some(Advice::Move { by: if below > above { by } else { -by }, decimals })
     }
 }
 

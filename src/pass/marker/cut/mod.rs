@@ -22,10 +22,10 @@ use self::facing::Near;
 use self::ring::{Mouth, Ring};
 use self::stretch::Asked;
 use self::style::{Bridged, Slit};
-use self::travel::sequence;
+pub(super) use self::travel::Group;
+use self::travel::arrange;
 use super::pass::MarkerPass;
 use super::search::search_ended;
-use crate::analysis::air::{Air, Stop};
 use crate::analysis::cloth::Cloth;
 use crate::analysis::nesting::Nesting;
 use crate::diagnostic::Diagnostics;
@@ -44,6 +44,19 @@ pub(super) const PASS: MarkerPass =
 const BARE: Joint = Joint { lift: true, full_advance: true, no_overcut: true };
 
 fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
+    let groups = make(marker, job, diagnostics);
+    arrange(marker, &groups, job);
+}
+
+/// Makes the cuts as the pass does, without a word; for each the group that it is of.
+pub(super) fn made(marker: &mut Marker, job: &Job) -> Vec<Group> {
+    let groups = make(marker, job, &mut Diagnostics::default());
+    arrange(marker, &groups, job);
+    groups
+}
+
+/// Makes the cuts; for each the group that it is of.
+fn make(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) -> Vec<Group> {
     let style = job.profile.notch;
     if style.depth_mm.is_some() && style.style != NotchStyle::Skip {
         style::check_depths(marker, &Cloth::new(marker, &job.profile), style, diagnostics);
@@ -58,9 +71,7 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     });
     let Marker { list, pieces, cuts, common, junctions, .. } = marker;
     (*cuts, *common, *junctions) = (Vec::new(), Vec::new(), Vec::new());
-    let [x, y, _] = job.profile.home;
-    let (air, at) = (Air::new(job), Stop::anyhow(Point::new(x, y)));
-    let mut cutting = Cutting { list, nesting: &nesting, style, piece: 0, cuts, air, at };
+    let mut cutting = Cutting { list, nesting: &nesting, style, piece: 0, cuts, groups: Vec::new() };
     let mut styled: Vec<Styled> = pieces.iter().map(|piece| cutting.styled(piece)).collect();
     let slits: f64 = styled.iter().flat_map(|styled| &styled.slits).map(|slit| slit.stroke.length()).sum();
     let mut shared = match asked {
@@ -74,20 +85,21 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     });
     for (i, Styled { slits, outlines }) in styled.into_iter().enumerate() {
         cutting.piece = i;
-        if let Some(drill) = pieces[i].drills.last() {
-            cutting.at = cutting.air.drill(drill.at);
-        }
         for slit in slits {
             cutting.slit(&slit);
         }
-        for (range, line) in outlines.into_iter().zip(nesting.of_group(i)) {
+        cutting.group(Group::Slits);
+        for ((contour, range), line) in outlines.into_iter().enumerate().zip(nesting.of_group(i)) {
             match shared.remove(&line) {
                 Some(of_line) => cutting.edges(of_line, range, line),
                 None => cutting.contour(range, line),
             }
+            cutting.group(Group::Contour(contour));
         }
     }
+    let groups = cutting.groups;
     marker.spared = alone.map_or(0.0, |alone| alone - marker.cut_length());
+    groups
 }
 
 /// A piece with its notches in the style of the profile.
@@ -105,9 +117,8 @@ struct Cutting<'a> {
     /// Its place in the marker.
     piece: usize,
     cuts: &'a mut Vec<Cut>,
-    air: Air,
-    /// Where the axes stand behind the last one.
-    at: Stop,
+    /// For each of them the group that it is of.
+    groups: Vec<Group>,
 }
 
 /// The open cuts of a line that has edges in common with others: the legs of notches on these, and what is left of its own.
@@ -237,14 +248,19 @@ impl Cutting<'_> {
         (geom::ring::area(&self.list.points(range)) > 0.0) != self.nesting.is_inner(line)
     }
 
+    /// What was made since the last group is one.
+    fn group(&mut self, group: Group) {
+        self.groups.resize(self.cuts.len(), group);
+    }
+
     /// The cuts of a line, of this range, that has edges in common with others.
     fn edges(&mut self, of_line: OfLine, drawn: Range, line: usize) {
         for cuts in of_line {
-            let order = sequence(&cuts, self.at, &self.air);
-            let mut cuts: Vec<Option<Vec<Segment>>> = cuts.into_iter().map(Some).collect();
-            for cut in order {
-                self.edge(cuts[cut].take().expect("each comes once"), drawn, line);
+            let first = self.cuts.len();
+            for cut in cuts {
+                self.edge(cut, drawn, line);
             }
+            self.group(Group::Edges(first));
         }
     }
 
@@ -258,9 +274,6 @@ impl Cutting<'_> {
     }
 
     fn push(&mut self, kind: CutKind, range: Range, sides: [Option<usize>; 2]) {
-        if let [.., from, to] = self.list.points(range)[..] {
-            self.at = self.air.up(from, to);
-        }
         let sides = sides.map(|part| part.map(|part| part as u32));
         self.cuts.push(Cut { kind, piece: self.piece as u32, sides, range });
     }

@@ -1,0 +1,182 @@
+//! Pieces in their order: between two places where something is asked of the operator that is chosen anew.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+
+use super::tours::{Tour, Tours};
+use crate::analysis::air::{Air, Stop};
+use crate::analysis::nesting::Nesting;
+use crate::geom::{Extent, Point, bits};
+use crate::ir::list::{Segment, SegmentList};
+use crate::ir::marker::{Marker, OutlineNotch, Piece};
+use crate::machine::{Job, OrderPolicy};
+use crate::pass::marker::visit::{Begin, Cuts, Visit};
+
+/// Among which orders the best is looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Search {
+    /// All of them.
+    Whole,
+    /// Those that are much like the one that there is.
+    Near,
+}
+
+/// Puts pieces that are cut so in the best order, block by block.
+pub(super) fn order(marker: &mut Marker, job: &Job, cuts: &dyn Fn(usize, &Marker) -> Cuts, search: Search) {
+    let routing = Routing::of(marker, job);
+    let cuts: Vec<Cuts> = (0..marker.pieces.len()).map(|piece| cuts(piece, marker)).collect();
+    let Marker { pieces, list, .. } = marker;
+    let mut home = routing.home;
+    for block in blocks(pieces) {
+        let lay = Lay { cuts: &cuts[block.clone()], first: block.start, pieces, list };
+        let route = routing.route(&lay, home, search);
+        home = route.end;
+        route.apply(&mut pieces[block], list);
+    }
+}
+
+/// The pieces of a block.
+struct Lay<'a> {
+    /// How each is cut.
+    cuts: &'a [Cuts],
+    /// The place of its first piece.
+    first: usize,
+    pieces: &'a [Piece],
+    list: &'a SegmentList,
+}
+
+/// The pieces in blocks among which nothing is asked of the operator: that is asked between the same ones.
+fn blocks(pieces: &[Piece]) -> Vec<Range<usize>> {
+    let asked = (1..pieces.len()).filter(|&i| !pieces[i].events.is_empty());
+    let ends: Vec<usize> = asked.chain([pieces.len()]).collect();
+    std::iter::once(0).chain(ends.iter().copied()).zip(ends.iter().copied()).map(|(first, end)| first..end).collect()
+}
+
+/// What routes go by.
+struct Routing {
+    air: Air,
+    /// How far pieces may lie behind the foremost so far, mm, if that counts.
+    window: Option<f64>,
+    /// Where the axes stand before the program, whatever the blade does there.
+    home: Stop,
+    /// For each piece those within whose outlines it lies.
+    held: Vec<Vec<usize>>,
+}
+
+/// The order of the pieces of a block.
+struct Route {
+    /// Places in the block, each with how it is visited; none where nothing is cut.
+    sequence: Vec<(usize, Option<Visit>)>,
+    /// Where the knife comes up in the end.
+    end: Stop,
+}
+
+impl Route {
+    /// Puts the pieces of the block in its order.
+    fn apply(self, pieces: &mut [Piece], list: &mut SegmentList) {
+        let events = pieces.first_mut().map(|first| std::mem::take(&mut first.events)).unwrap_or_default();
+        let mut taken: Vec<Option<Piece>> = pieces.iter_mut().map(|piece| Some(std::mem::take(piece))).collect();
+        for (slot, (i, visit)) in pieces.iter_mut().zip(self.sequence) {
+            *slot = taken[i].take().expect("each piece comes once");
+            if let Some(visit) = visit {
+                apply(&visit, slot, list);
+            }
+        }
+        if let Some(first) = pieces.first_mut() {
+            first.events = events;
+        }
+    }
+}
+
+impl Routing {
+    fn of(marker: &Marker, job: &Job) -> Self {
+        let nesting = Nesting::of(marker);
+        let held = (0..marker.pieces.len()).map(|piece| nesting.holders(piece)).collect();
+        let [x, y, _] = job.profile.home;
+        Self { air: Air::new(job), window: window(marker, job), home: Stop::anyhow(Point::new(x, y)), held }
+    }
+
+    /// The pieces of a block in the best order, from where the axes stand before it.
+    fn route(&self, lay: &Lay, home: Stop, search: Search) -> Route {
+        let left: Vec<usize> = (0..lay.cuts.len()).filter(|&i| !lay.cuts[i].is_empty()).collect();
+        let visits: Vec<Vec<Visit>> = left.iter().map(|&i| lay.cuts[i].visits(&self.air)).collect();
+        let extents = left.iter().map(|&i| extent(&lay.pieces[lay.first + i], lay.list)).collect();
+        let place = |piece: usize| left.binary_search(&piece.checked_sub(lay.first)?).ok();
+        let mut before = vec![Vec::new(); left.len()];
+        for (k, &i) in left.iter().enumerate() {
+            for holder in self.held[lay.first + i].iter().filter_map(|&holder| place(holder)) {
+                before[holder].push(k as u32);
+            }
+        }
+        let tours = Tours { visits: &visits, extents, before, home, air: self.air, window: self.window };
+        let Tour { order, visit: chosen, .. } = match search {
+            Search::Whole => tours.best(),
+            Search::Near => tours.like((0..visits.len()).collect()),
+        };
+        let end = order.last().map_or(home, |&last| visits[last][chosen[last]].ends[1]);
+        let mut visits: Vec<Option<Visit>> =
+            visits.into_iter().zip(&chosen).map(|(mut of, &chosen)| Some(of.swap_remove(chosen))).collect();
+        let visited = order.iter().map(|&k| (left[k], visits[k].take()));
+        let empty = (0..lay.cuts.len()).filter(|i| left.binary_search(i).is_err()).map(|i| (i, None));
+        Route { sequence: visited.chain(empty).collect(), end }
+    }
+}
+
+/// Whether each piece lies no farther behind the foremost before it than the window, if there is one, in each block.
+pub(super) fn keeps_window(marker: &Marker, job: &Job) -> bool {
+    let Some(window) = window(marker, job) else { return true };
+    blocks(&marker.pieces).into_iter().all(|block| {
+        let mut front = f64::NEG_INFINITY;
+        marker.pieces[block].iter().map(|piece| extent(piece, &marker.list)).filter(|extent| !extent.is_empty()).all(
+            |extent| {
+                let is_kept = extent.min.x >= front - window;
+                front = front.max(extent.min.x);
+                is_kept
+            },
+        )
+    })
+}
+
+/// How far pieces may lie behind the foremost before them, mm, if that counts.
+fn window(marker: &Marker, job: &Job) -> Option<f64> {
+    let order = job.profile.order;
+    (order.policy(marker.drawing.is_some()) == OrderPolicy::Steady).then_some(order.window_mm)
+}
+
+/// The box around all of a piece.
+fn extent(piece: &Piece, list: &SegmentList) -> Extent {
+    let mut extent = Extent::EMPTY;
+    piece.contours.iter().for_each(|contour| extent.join(&Extent::of(&list.points(contour.range))));
+    piece.notches.iter().for_each(|notch| extent.join(&Extent::between(notch.root, notch.tip)));
+    piece.drills.iter().for_each(|drill| extent.join(&Extent::between(drill.at, drill.at)));
+    extent
+}
+
+/// Puts the notches of a piece in the sequence of a visit, and lets its contours start where that has it.
+fn apply(visit: &Visit, piece: &mut Piece, list: &mut SegmentList) {
+    piece.notches = visit.slits.iter().map(|&slit| piece.notches[slit]).collect();
+    let begun = |i: usize| visit.cuts.iter().find(|(contour, _)| *contour == i).map(|(_, begin)| *begin);
+    for (i, contour) in piece.contours.iter_mut().enumerate() {
+        // What is cut of one with common lines has directions of its own.
+        let Begin { segment, is_reversed } = begun(i).unwrap_or_default();
+        if segment > 0 {
+            let mut segments: Vec<Segment> = list.walk(contour.range).map(|(_, segment)| segment).collect();
+            segments.rotate_left(segment);
+            contour.range = list.append(segments).expect("it has as many segments as before");
+        }
+        if is_reversed {
+            contour.range = contour.range.reversed();
+            let points: BTreeSet<[u64; 2]> = list.points(contour.range).iter().map(|&point| bits(point)).collect();
+            let is_on = |notch: &OutlineNotch| notch.mouth.iter().all(|&end| points.contains(&bits(end)));
+            let of_contour = piece.outline_notches.iter_mut().filter(|notch| is_on(notch));
+            of_contour.for_each(|notch| notch.mouth.reverse());
+        }
+    }
+    if visit.cuts.iter().any(|(_, begin)| *begin != Begin::default()) {
+        // They stand in the order in which the contours come to them.
+        let places =
+            piece.contours.iter().flat_map(|contour| list.walk(contour.range)).map(|(_, segment)| bits(segment.from));
+        let place: BTreeMap<[u64; 2], usize> = places.zip(0..).collect();
+        piece.outline_notches.sort_by_key(|notch| place.get(&bits(notch.mouth[0])).copied());
+    }
+}

@@ -1,0 +1,266 @@
+//! Visits of pieces: in which sequence and from which starts the cuts of one may be made, and how long the moves take.
+//!
+//! Slits are cut on the way round the outline, from each of them on and either way; then what is cut of each contour: a closed
+//! line from the corner that is nearest in time, what common lines leave of one in any order and either way. What the file asks
+//! for at the start of a line holds there, so that such a one is left alone.
+
+mod starts;
+mod ways;
+
+pub(super) use self::starts::{Begin, Measures, Start};
+use self::ways::{Group, State};
+use crate::analysis::air::{Air, Stop};
+use crate::geom::{Point, polyline};
+use crate::ir::list::{Segment, SegmentList};
+use crate::ir::marker::Piece;
+
+/// Visits of a piece that are looked at, at the most, as a rule.
+const MOST_VISITS: usize = 32;
+/// Comparisons of slits with segments of their outline, at the most: of more slits the sequence stays.
+const MOST_LOOKS: usize = 10_000_000;
+
+/// A sequence of the cuts of a piece.
+#[derive(Debug, Clone)]
+pub(super) struct Visit {
+    /// The notches that are drawn as slits, by their places in the piece.
+    pub(super) slits: Vec<usize>,
+    /// The other cuts by their places, each with how it is begun.
+    pub(super) cuts: Vec<(usize, Begin)>,
+    /// Where the knife first comes down, and where it last comes up.
+    pub(super) ends: [Stop; 2],
+    /// Time of the moves between them, s.
+    pub(super) within: f64,
+}
+
+/// Cuts that may be made in any order.
+#[derive(Debug)]
+struct Unordered {
+    /// The place of the first of them: the others follow it.
+    first: usize,
+    /// For each where it may start, as it is first.
+    starts: Vec<Vec<Start>>,
+}
+
+/// A piece as it may be visited.
+#[derive(Debug, Default)]
+pub(super) struct Cuts {
+    /// What comes first, in this order: where the knife comes down and up.
+    pub(super) fixed: Vec<[Stop; 2]>,
+    /// Slits, with where each stands on the outline, mm from its start.
+    slits: Vec<([Stop; 2], f64)>,
+    /// What is cut of contours, one group after the other.
+    groups: Vec<Unordered>,
+}
+
+/// The first cuts of a visit.
+struct Begun {
+    slits: Vec<usize>,
+    cuts: Vec<(usize, Begin)>,
+    ends: Option<[Stop; 2]>,
+    within: f64,
+}
+
+impl Begun {
+    fn visit(self) -> Visit {
+        let Self { slits, cuts, ends, within } = self;
+        Visit { slits, cuts, ends: ends.expect("something is cut or drilled"), within }
+    }
+
+    /// With cuts that follow.
+    fn with(&self, stops: [Stop; 2], cuts: &[(usize, Begin)], time: f64) -> Self {
+        Self {
+            slits: self.slits.clone(),
+            cuts: [&self.cuts, cuts].concat(),
+            ends: Some([self.ends.map_or(stops[0], |ends| ends[0]), stops[1]]),
+            within: self.within + time,
+        }
+    }
+}
+
+impl Cuts {
+    /// As it is drawn: each contour is cut whole.
+    pub(super) fn drawn(piece: &Piece, list: &SegmentList, measures: &Measures) -> Self {
+        let mut drawn = Self::marks(piece, list, measures);
+        for (place, contour) in piece.contours.iter().enumerate() {
+            drawn.add(place, measures.of_contour(contour, piece, list), false);
+        }
+        drawn
+    }
+
+    /// The holes and slits of a piece.
+    pub(super) fn marks(piece: &Piece, list: &SegmentList, measures: &Measures) -> Self {
+        let air = &measures.air;
+        let is_few = |outline: &Vec<Segment>| outline.len() * piece.notches.len() <= MOST_LOOKS;
+        let outline = piece.contours.last().filter(|last| last.closed && !piece.notches.is_empty());
+        let outline =
+            outline.map(|outline| list.walk(outline.range).map(|(_, segment)| segment).collect()).filter(is_few);
+        let slits = piece.notches.iter().map(|notch| {
+            let strokes: Vec<_> = notch.strokes().collect();
+            let [first, last] = [strokes[0], strokes[strokes.len() - 1]];
+            let ends = [air.down(first.from, first.to), air.up(last.from, last.to)];
+            (ends, outline.as_ref().map_or(0.0, |outline| station(outline, notch.root)))
+        });
+        Self { slits: slits.collect(), ..Self::of_drills(piece, measures) }
+    }
+
+    /// The holes alone.
+    pub(super) fn of_drills(piece: &Piece, measures: &Measures) -> Self {
+        let fixed = piece.drills.iter().map(|drill| [measures.air.drill(drill.at); 2]).collect();
+        Self { fixed, slits: Vec::new(), groups: Vec::new() }
+    }
+
+    /// Adds a cut with its starts behind the others, or to the last of them that may be made in any order.
+    pub(super) fn add(&mut self, place: usize, starts: Vec<Start>, is_of_last: bool) {
+        match self.groups.last_mut().filter(|_| is_of_last) {
+            Some(group) => group.starts.push(starts),
+            None => self.groups.push(Unordered { first: place, starts: vec![starts] }),
+        }
+    }
+
+    /// Whether anything is cut or drilled.
+    pub(super) fn is_empty(&self) -> bool {
+        self.fixed.is_empty() && self.slits.is_empty() && self.groups.is_empty()
+    }
+
+    /// The ways in which it may be visited, that of the file first.
+    pub(super) fn visits(&self, air: &Air) -> Vec<Visit> {
+        let groups: Vec<Group> = self.groups.iter().map(|group| Group::new(&group.starts, air)).collect();
+        let mut begun = self.rounds(air);
+        if self.slits.is_empty() && !self.fixed.is_empty() {
+            begun.push(self.begun(Vec::new(), air));
+        }
+        let mut from = 0;
+        if let (true, Some(first)) = (begun.is_empty(), groups.first()) {
+            // Nothing comes before them: they begin with each of their states.
+            from = 1;
+            let nothing = self.begun(Vec::new(), air);
+            let step = first.states().len().div_ceil(2 * MOST_VISITS).max(1);
+            for &state in first.states().iter().step_by(step) {
+                let into = |other: State| if other == state { 0.0 } else { f64::INFINITY };
+                begun.extend(self.led_on(0, first, &nothing, &into));
+            }
+        }
+        let most = (2 * MOST_VISITS).div_ceil(begun.len().max(1));
+        let ended = begun.into_iter().flat_map(|begun| self.ended(from, &groups, begun, most, air));
+        std::iter::once(self.as_is(air)).chain(ended).collect()
+    }
+
+    /// Rounds of the slits behind what is fixed: from several of them on, onward and back.
+    fn rounds(&self, air: &Air) -> Vec<Begun> {
+        let count = self.slits.len();
+        let mut round: Vec<usize> = (0..count).collect();
+        round.sort_by(|&a, &b| self.slits[a].1.total_cmp(&self.slits[b].1));
+        let step = (2 * count).div_ceil(MOST_VISITS).max(1);
+        let sequences = (0..count).step_by(step).flat_map(|first| {
+            let onward: Vec<usize> = (0..count).map(|i| round[(first + i) % count]).collect();
+            let back: Vec<usize> = (0..count).map(|i| round[(first + count - i) % count]).collect();
+            [onward, back]
+        });
+        sequences.map(|slits| self.begun(slits, air)).collect()
+    }
+
+    /// What is fixed, and slits in a sequence.
+    fn begun(&self, slits: Vec<usize>, air: &Air) -> Begun {
+        let stops: Vec<[Stop; 2]> =
+            self.fixed.iter().copied().chain(slits.iter().map(|&slit| self.slits[slit].0)).collect();
+        let within = stops.windows(2).map(|pair| air.time(&pair[0][1], &pair[1][0])).sum();
+        let ends = stops.first().zip(stops.last()).map(|(first, last)| [first[0], last[1]]);
+        Begun { slits, cuts: Vec::new(), ends, within }
+    }
+
+    /// A visit so far, led on through a group in each way that may be the best.
+    fn led_on(&self, place: usize, group: &Group, begun: &Begun, into: &dyn Fn(State) -> f64) -> Vec<Begun> {
+        let Unordered { first, starts } = &self.groups[place];
+        let mut ways = group.shortest(into);
+        // Another start of one closed line is no other end of it: the nearest is the best.
+        ways.truncate(if starts.len() == 1 && starts[0].len() > 2 { 1 } else { MOST_VISITS });
+        let led = ways.into_iter().map(|way| {
+            let [from, to] = [way.states[0], way.states[way.states.len() - 1]].map(|state| group.stops(state));
+            let cuts: Vec<(usize, Begin)> =
+                way.states.iter().map(|&[cut, start]| (first + cut, starts[cut][start].begin)).collect();
+            begun.with([from[0], to[1]], &cuts, way.time)
+        });
+        led.collect()
+    }
+
+    /// A visit led on through all groups from one on, in so many ways at the most.
+    fn ended(&self, from: usize, groups: &[Group], begun: Begun, most: usize, air: &Air) -> Vec<Visit> {
+        let mut all = vec![begun];
+        for (place, group) in groups.iter().enumerate().skip(from) {
+            let led = |begun: &Begun| {
+                let into = |state: State| begun.ends.map_or(0.0, |ends| air.time(&ends[1], &group.stops(state)[0]));
+                self.led_on(place, group, begun, &into)
+            };
+            all = all.iter().flat_map(led).collect();
+            all.sort_by(|a, b| a.within.total_cmp(&b.within));
+            all.truncate(most);
+        }
+        all.into_iter().map(Begun::visit).collect()
+    }
+
+    /// All as it is drawn.
+    fn as_is(&self, air: &Air) -> Visit {
+        let mut begun = self.begun((0..self.slits.len()).collect(), air);
+        for Unordered { first, starts } in &self.groups {
+            for (cut, starts) in (*first..).zip(starts) {
+                let Start { begin, stops } = starts[0];
+                let time = begun.ends.map_or(0.0, |ends| air.time(&ends[1], &stops[0]));
+                begun = begun.with(stops, &[(cut, begin)], time);
+            }
+        }
+        begun.visit()
+    }
+}
+
+/// Of the visits of each piece in an order those that take the least time together, with that time, s: dynamic programming,
+/// exact.
+pub(in crate::pass::marker) fn choose(
+    order: &[usize],
+    visits: &[Vec<Visit>],
+    home: &Stop,
+    air: &Air,
+) -> (Vec<usize>, f64) {
+    // For each visit of each piece the best one of the piece before.
+    let mut came: Vec<Vec<usize>> = Vec::with_capacity(order.len());
+    let mut spent: Vec<f64> = Vec::new();
+    for (i, &piece) in order.iter().enumerate() {
+        let before = i.checked_sub(1).map(|before| &visits[order[before]]);
+        let best = |visit: &Visit| match before {
+            None => (0, air.time(home, &visit.ends[0])),
+            Some(before) => {
+                let times = before.iter().zip(&spent).map(|(b, spent)| spent + air.time(&b.ends[1], &visit.ends[0]));
+                times.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).expect("each piece has a visit")
+            }
+        };
+        let reached: Vec<(usize, f64)> = visits[piece]
+            .iter()
+            .map(|visit| (best(visit), visit.within))
+            .map(|((from, time), within)| (from, time + within))
+            .collect();
+        came.push(reached.iter().map(|reached| reached.0).collect());
+        spent = reached.into_iter().map(|reached| reached.1).collect();
+    }
+    let mut chosen = vec![0; visits.len()];
+    let (mut at, time) = spent.into_iter().enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default();
+    for (i, &piece) in order.iter().enumerate().rev() {
+        chosen[piece] = at;
+        at = came[i][at];
+    }
+    (chosen, time)
+}
+
+/// How far from the start of an outline the place of it is that is nearest to a point, mm.
+fn station(outline: &[Segment], point: Point) -> f64 {
+    let mut start = 0.0;
+    let mut best = (f64::INFINITY, 0.0);
+    for segment in outline {
+        let away = polyline::distance_to_segment(point, segment.from, segment.to);
+        if away < best.0 {
+            let length = segment.length();
+            let along = (point - segment.from).dot(&(segment.to - segment.from)) / length;
+            best = (away, start + along.clamp(0.0, length));
+        }
+        start += segment.length();
+    }
+    best.1
+}
