@@ -230,6 +230,21 @@ fn an_edge_that_no_cut_stands_for_is_left_uncut() {
     assert!(breaks(&verdict, "verify/complete"), "{:#?}", verdict.findings);
 }
 
+/// An open cut ends beside a corner that no overlap passes: only what is led on past it meets that cut.
+#[test]
+fn a_corner_that_is_not_passed_leaves_a_thread() {
+    let job = bare();
+    let marker = with_cuts(&marker(NEST, &job), &job);
+    let mut other = marker.clone();
+    other.junctions.clear();
+    for (program, is_sound) in [(setpoints(&marker, &job), true), (setpoints(&other, &job), false)] {
+        let ground = Ground::new(&marker, &job.profile);
+        let declared = declared(&marker, &job);
+        let verdict = verify::setpoints(&mut BufReader::new(&program[..]), Some(&declared), &ground, &job);
+        assert_eq!(breaks(&verdict, "verify/joint"), !is_sound, "{:#?}", verdict.findings);
+    }
+}
+
 #[test]
 fn a_cut_that_is_led_into_a_part_is_refused() {
     let verdict = claimed(|marker| {
@@ -237,8 +252,10 @@ fn a_cut_that_is_led_into_a_part_is_refused() {
         let side = if marker.cuts[cut].sides[0].is_some() { AWAY } else { -AWAY };
         redraw(marker, cut, |segments| {
             let last = segments.last_mut().expect("it has some");
-            let along = (last.to - last.from).normalize();
-            last.to += Vector::new(-along.y, along.x) * side;
+            let (along, end) = ((last.to - last.from).normalize(), last.to);
+            last.to -= along * (2.0 * AWAY);
+            let led = Segment { from: last.to, to: end + Vector::new(-along.y, along.x) * side, ..*last };
+            segments.push(led);
         });
     });
     let is_deep = breaks(&verdict, "verify/overcut-neighbour") || breaks(&verdict, "verify/overcut-part");

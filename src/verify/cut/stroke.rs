@@ -346,7 +346,13 @@ impl<'a> Judge<'a> {
         }
         let allowed = self.overlap + self.reference.tolerance;
         for i in 0..cut.points.len() {
-            stray.see(trial.beyond(cut, i) - allowed, || seen(i));
+            let beyond = trial.beyond(cut, i);
+            if beyond > allowed {
+                let end = self.reference.lines[trial.line].place(trial.feet[i].station);
+                stray.see(beyond - allowed.max(self.reference.across(end)), || seen(i));
+            } else {
+                stray.see(beyond - allowed, || seen(i));
+            }
         }
     }
 

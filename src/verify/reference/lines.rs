@@ -53,7 +53,18 @@ pub(in crate::verify) struct CutOfPiece {
     pub(in crate::verify) contours: Vec<Range<u32>>,
 }
 
+/// How many distances of two edges a cut goes past its end at the most to be through another part's.
+const ACROSS: f64 = 4.0;
+
 impl<'a> Reference<'a> {
+    /// How far past the end of a line at a place the knife may go because another part's cut ends beside it there, mm: nothing
+    /// holds where both are through each other.
+    pub(in crate::verify) fn across(&self, end: Point) -> f64 {
+        let here = self.marker.junctions.iter().filter(|[from, _]| (from - end).norm() <= self.tolerance);
+        let ways = here.map(|[from, to]| (to - from).norm() + self.tolerance);
+        ways.filter(|&way| way <= ACROSS * self.common).fold(0.0, f64::max)
+    }
+
     /// The lines of `marker`.
     pub(in crate::verify) fn new(marker: &'a Marker, profile: &MachineProfile) -> Self {
         let near = profile.knife.near_share().map(|_| Near::new(marker));
