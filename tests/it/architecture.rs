@@ -30,9 +30,11 @@ const IMPORTS: &[(&str, &[&str])] = &[
     // A checker measures for itself what it checks.
     ("verify", FOUNDATION),
     ("pipeline", ALL_BUT_CLI),
+    // Another machine: it reads what the cutter reads.
+    ("sew", &["source", "diagnostic", "units", "geom", "ir", "machine", "front", "recognise"]),
     ("manual", &[]),
     // The tables of the stages, but not what they do.
-    ("cli", &["pipeline", "front", "back", "pass", "source", "machine", "diagnostic", "ir", "units", "manual"]),
+    ("cli", &["pipeline", "front", "back", "pass", "source", "machine", "diagnostic", "ir", "units", "manual", "sew"]),
     ("main", &["cli"]),
 ];
 
