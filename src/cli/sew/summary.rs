@@ -122,10 +122,10 @@ pub(super) fn text(source: &Source, figures: &Figures, quiet: bool) -> String {
         format!("{} to {} stitches/min", sum.rpm[0], sum.rpm[1])
     };
     let slowest = figures.runs.iter().min_by(|a, b| a.rpm.total_cmp(&b.rpm));
-    let why = slowest.and_then(|run| Some((run, run.record?, run.pitch_mm?))).map_or(String::new(), |told| {
-        let (run, record, pitch) = told;
-        let by = if run.limit == "user" { "your limit for" } else { "" };
-        format!("; the slowest by {by}a stitch of {} mm (record {record})", fixed(pitch, 2)).replace("fora", "for a")
+    let told = slowest.and_then(|run| Some((run.limit, run.record?, run.pitch_mm?)));
+    let why = told.map_or(String::new(), |(limit, record, pitch)| {
+        let by = if limit == "user" { "your limit for a stitch" } else { "a stitch" };
+        format!("; the slowest by {by} of {} mm (record {record})", fixed(pitch, 2))
     });
     line("speed", format!("{speed}{why}"));
     line(
@@ -143,7 +143,7 @@ pub(super) fn text(source: &Source, figures: &Figures, quiet: bool) -> String {
     );
     let queue = &figures.queue;
     let fares = match queue.underruns {
-        0 => format!("never below {}", counted(queue.lowest, "entry").replace("entrys", "entries")),
+        0 => format!("never fewer than {} in it", queue.lowest),
         n => format!("runs dry {n} times"),
     };
     line("queue", format!("{} deep, {} entries/s: {fares}", queue.depth, queue.producer_hz));

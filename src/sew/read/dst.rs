@@ -130,10 +130,13 @@ fn field(header: &[u8], name: &[u8]) -> Option<i32> {
 /// Warns where the header says something else than the records do.
 fn check_header(header: &[u8], count: &Count, out: &mut Diagnostics) {
     let mut wrong = Vec::new();
-    let names: [&[u8]; 4] = [b"+X:", b"-X:", b"+Y:", b"-Y:"];
-    for (name, reach) in names.into_iter().zip(count.reach) {
-        if let Some(told) = field(header, name).filter(|&told| told != reach) {
-            wrong.push(format!("{} {told} instead of {reach}", String::from_utf8_lossy(name)));
+    let [right, left, up, down] = count.reach;
+    // Some systems have Y count downwards in the header.
+    let sides: [(&[u8], [i32; 2]); 4] =
+        [(b"+X:", [right; 2]), (b"-X:", [left; 2]), (b"+Y:", [up, down]), (b"-Y:", [down, up])];
+    for (name, reach) in sides {
+        if let Some(told) = field(header, name).filter(|told| !reach.contains(told)) {
+            wrong.push(format!("{} {told} instead of {}", String::from_utf8_lossy(name), reach[0]));
         }
     }
     // Some systems count stitches, others all records, with the end or without.

@@ -2,11 +2,15 @@
 //!
 //! Receives what is planned, promises bytes that depend on nothing else, and decides nothing.
 
+mod chart;
 mod dst;
 mod exp;
+mod html;
+mod markup;
 mod pulses;
 mod queue;
 mod stitch_file;
+mod svg;
 
 use std::io::{self, Write};
 
@@ -51,7 +55,17 @@ pub enum Proof {
 }
 
 /// Every target; the first is the default.
-pub const TARGETS: &[Target] = &[queue::ROWS, queue::JSON, pulses::ROWS, pulses::RECORDS, dst::TARGET, exp::TARGET];
+pub const TARGETS: &[Target] = &[
+    queue::ROWS,
+    queue::JSON,
+    pulses::ROWS,
+    pulses::RECORDS,
+    dst::TARGET,
+    exp::TARGET,
+    svg::TARGET,
+    chart::TARGET,
+    html::TARGET,
+];
 
 /// For targets that can express everything.
 fn nothing(_: &Program, _: &Job, _: &mut Diagnostics) {}
