@@ -10,6 +10,7 @@
 //! has a speed for each run besides. A stitch file is stitches at once. Pulses are made while they are written (`train`),
 //! so that the length of a program does not matter. `verify` knows the forms, but nothing of who makes them.
 
+mod asked;
 mod estimate;
 mod fifo;
 mod fit;
@@ -23,6 +24,7 @@ mod train;
 pub mod verify;
 mod write;
 
+pub use asked::Asked;
 pub use estimate::{Estimate, estimate};
 pub use fifo::{Fifo, simulate};
 pub use pattern::{Element, Pattern, Seam};
@@ -43,17 +45,6 @@ use crate::source::Source;
 
 /// A run is told of that takes this much longer than at the speed that half of its stitches allow, as a part of it.
 const TOLD_COST: f64 = 0.1;
-
-/// What is asked of a file beside the profile.
-#[derive(Debug, Clone, Default)]
-pub struct Asked {
-    /// What it is read as, a format or a dialect; `None` = what its content looks like.
-    pub from: Option<String>,
-    /// The pen or layer of a drawing whose lines are sewn; `None` = contours.
-    pub line: Option<String>,
-    /// How far inside closed contours are sewn, mm.
-    pub inset: f64,
-}
 
 /// Reads a source and plans how it is sewn. `None` when nothing can be sewn; faults of the data are diagnostics.
 pub fn plan(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) -> Option<Program> {
@@ -76,7 +67,9 @@ pub fn plan(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) ->
     }
     let stitches = fit::fit(stitches, sewing, out);
     let runs = speed::runs(&stitches, sewing);
-    tell(&stitches, &runs, sewing, out);
+    if !out.has_errors() {
+        tell(&stitches, &runs, sewing, out);
+    }
     (!out.has_errors()).then_some(Program { format, pattern, stitches, runs })
 }
 

@@ -8,13 +8,11 @@ mod ends;
 mod order;
 mod pitch;
 
+use self::pitch::SAME_EPSILON;
 use super::pattern::{Pattern, Seam};
 use super::stitches::{Op, Step, Stitches};
 use crate::geom::Point;
 use crate::machine::Sewing;
-
-/// Places nearer than this are one, mm: far below a step of any machine.
-const SAME_EPSILON: f64 = 1e-6;
 
 /// Lays the stitches of a pattern.
 pub(super) fn lay(pattern: &Pattern, sewing: &Sewing) -> Stitches {

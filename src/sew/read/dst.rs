@@ -3,8 +3,8 @@
 //! A coordinate is a sum of 81, 27, 9, 3 and 1 with signs, in tenths of a millimetre; three jumps in a row or more stand for
 //! a trim.
 
+use super::format::{Format, Input};
 use super::moves::{Moves, span};
-use super::{Format, Input};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::source::{Source, Span};
 

@@ -1,7 +1,7 @@
 //! Melco EXP: pairs of signed bytes, tenths of a millimetre; 0x80 begins a command: 01 colour, 04 jump, 80 trim.
 
+use super::format::{Format, Input};
 use super::moves::{Moves, span};
-use super::{Format, Input};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::source::Source;
 

@@ -6,40 +6,19 @@
 
 mod dst;
 mod exp;
+mod format;
 mod inset;
 mod moves;
 mod outline;
 mod pattern;
 mod queue;
 
-use super::Asked;
-use super::pattern::Pattern;
-use super::stitches::Stitches;
+pub use format::{Format, Input};
+
+use super::asked::Asked;
 use crate::diagnostic::Diagnostics;
 use crate::machine::Job;
 use crate::source::Source;
-
-/// A format of sewing machines: a row of [`FORMATS`].
-#[derive(Debug)]
-pub struct Format {
-    /// Name, as `--from` takes it.
-    pub name: &'static str,
-    /// What it is, in a line.
-    pub about: &'static str,
-    /// Whether a file is one, by its bytes and the extension of its name.
-    pub is_it: fn(&[u8], &str) -> bool,
-    /// Reads it.
-    pub read: fn(&Source, &mut Diagnostics) -> Input,
-}
-
-/// What a file says.
-#[derive(Debug)]
-pub enum Input {
-    /// Lines to be sewn.
-    Pattern(Pattern),
-    /// Needle points.
-    Stitches(Stitches),
-}
 
 /// Every format of sewing machines.
 pub const FORMATS: &[Format] = &[pattern::FORMAT, queue::FORMAT, dst::FORMAT, exp::FORMAT];

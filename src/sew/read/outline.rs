@@ -8,7 +8,7 @@ use crate::geom::Point;
 use crate::ir::{Drawing, Marker};
 use crate::machine::Job;
 use crate::recognise;
-use crate::sew::Asked;
+use crate::sew::asked::Asked;
 use crate::sew::pattern::{Pattern, Seam};
 use crate::source::{Source, Span};
 

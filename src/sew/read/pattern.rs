@@ -4,7 +4,7 @@
 //! behind a blank, `tie`, `back-tack` or `open` for its ends, `thread 2` and `stop`. Empty = a straight seam as the profile
 //! has it.
 
-use super::{Format, Input};
+use super::format::{Format, Input};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
 use crate::machine::sewing::Ends;
@@ -58,7 +58,12 @@ fn add(open: &mut Option<Seam>, point: Point, words: &str, span: Span) -> Result
     match open {
         Some(seam) if words.is_empty() => seam.points.push(point),
         Some(_) => return Err(format!("`{words}` stands amid a seam; an element begins behind a blank line")),
-        None => *open = Some(seam(Seam::plain(vec![point], span), words)?),
+        None => {
+            // Its points are a seam all the same: one slip is one fault.
+            let plain = Seam::plain(vec![point], span);
+            *open = Some(plain.clone());
+            *open = Some(seam(plain, words)?);
+        }
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! The entries of a stitch queue, as the target `queue` writes them: `op,dx_mm,dy_mm,value`.
 
-use super::{Format, Input};
+use super::format::{Format, Input};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
 use crate::sew::stitches::{Op, Step, Stitches};

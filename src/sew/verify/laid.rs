@@ -1,6 +1,6 @@
 //! Whether the stitches are such as the machine makes, and lie on the lines of the pattern.
 
-use super::Ground;
+use super::ground::Ground;
 use super::rules::Rule;
 use super::worst::Worst;
 use crate::geom::boxes::Boxes;
@@ -9,8 +9,8 @@ use crate::machine::Sewing;
 use crate::sew::pattern::{Element, Pattern, Seam};
 use crate::sew::stitches::Op;
 
-/// How far beside seams needle points are looked for, mm: what is farther is told as so far.
-const LOOK: f64 = 5.0;
+/// How far beyond what is allowed needle points are looked for, mm: what is farther is told as so far.
+const LOOK: f64 = 1.0;
 
 /// Judges all stitches.
 pub(super) fn judge(ground: &Ground, worst: &mut Worst) {
@@ -25,7 +25,7 @@ fn pitches(ground: &Ground, worst: &mut Worst) {
     let mut at = Point::origin();
     for (step, entry) in ground.stitches.steps.iter().zip(1..) {
         if step.op == Op::Stitch {
-            let pitch = (step.to.x - at.x).hypot(step.to.y - at.y);
+            let pitch = (step.to - at).norm();
             let place = Some((entry, step.to));
             worst.see(Rule::LongPitch, pitch - ground.sewing.max_pitch_mm, place);
             if !step.is_tie {
@@ -45,15 +45,14 @@ fn half_width(seam: &Seam, sewing: &Sewing) -> f64 {
     }
 }
 
-/// Each corner of a seam, with how far from it the needle may be.
+/// How far around a line of a half width needle points are looked for, mm.
+fn reach(width: f64, sewing: &Sewing) -> f64 {
+    width + sewing.min_pitch_mm + LOOK
+}
+
+/// Each corner of a seam has a needle point near it.
 fn corners(pattern: &Pattern, ground: &Ground, worst: &mut Worst) {
-    let mut needles: Vec<Point> = ground.stitches.steps.iter().filter(|s| s.op == Op::Stitch).map(|s| s.to).collect();
-    needles.sort_by(|a, b| a.x.total_cmp(&b.x));
-    let nearest = |corner: Point| {
-        let first = needles.partition_point(|needle| needle.x < corner.x - LOOK);
-        let near = needles[first..].iter().take_while(|needle| needle.x <= corner.x + LOOK);
-        near.map(|needle| (needle.x - corner.x).hypot(needle.y - corner.y)).fold(LOOK, f64::min)
-    };
+    let mut corners: Vec<(Point, f64)> = Vec::new();
     for seam in &pattern.seams {
         let mut points = seam.points.clone();
         points.dedup();
@@ -62,10 +61,26 @@ fn corners(pattern: &Pattern, ground: &Ground, worst: &mut Worst) {
             let is_end = i == 0 || i + 1 == points.len();
             let turn = || turn(points[i] - points[i - 1], points[i + 1] - points[i]).to_degrees();
             if is_end || turn() >= ground.sewing.corner_deg {
-                worst.see(Rule::Corner, nearest(points[i]) - width, Some((0, points[i])));
+                corners.push((points[i], width));
             }
         }
     }
+    let around = |&(corner, width): &(Point, f64)| square(corner, reach(width, ground.sewing));
+    let boxes = Boxes::new(corners.iter().map(around).collect());
+    let mut nearest: Vec<f64> = corners.iter().map(|&(_, width)| reach(width, ground.sewing)).collect();
+    for step in ground.stitches.steps.iter().filter(|step| step.op == Op::Stitch) {
+        for i in boxes.at(step.to) {
+            nearest[i] = nearest[i].min((step.to - corners[i].0).norm());
+        }
+    }
+    for ((corner, width), nearest) in corners.into_iter().zip(nearest) {
+        worst.see(Rule::Corner, nearest - width, Some((0, corner)));
+    }
+}
+
+/// The square around a point, mm.
+fn square(middle: Point, reach: f64) -> Extent {
+    Extent { min: middle, max: middle }.grown(reach)
 }
 
 /// How far a way turns, rad.
@@ -84,18 +99,14 @@ fn on_seam(pattern: &Pattern, ground: &Ground, worst: &mut Worst) {
         }
     }
     let around = |([a, b], width): &([Point; 2], f64)| {
-        let reach = Vector::new(LOOK + width, LOOK + width);
-        let mut extent = Extent::EMPTY;
-        for end in [a, b] {
-            extent.add(end - reach);
-            extent.add(end + reach);
-        }
-        extent
+        let mut extent = Extent { min: *a, max: *a };
+        extent.add(*b);
+        extent.grown(reach(*width, ground.sewing))
     };
     let boxes = Boxes::new(lines.iter().map(around).collect());
     for (step, entry) in ground.stitches.steps.iter().zip(1..).filter(|(step, _)| step.op == Op::Stitch) {
         let beside = |i: usize| beside(step.to, lines[i].0) - lines[i].1;
-        let off = boxes.at(step.to).map(beside).fold(LOOK, f64::min);
+        let off = boxes.at(step.to).map(beside).fold(reach(0.0, ground.sewing), f64::min);
         worst.see(Rule::OnSeam, off, Some((entry, step.to)));
     }
 }

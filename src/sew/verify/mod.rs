@@ -4,6 +4,7 @@
 //! lays, plans and writes: it counts pulses, measures intervals and decodes records for itself. Never repairs anything.
 
 mod clock;
+mod ground;
 mod laid;
 mod pulse_records;
 mod pulse_rows;
@@ -15,26 +16,14 @@ mod spindle;
 mod stitch_file;
 mod worst;
 
+pub use ground::Ground;
 pub use rules::{RULES, Rule};
 
 use std::io::{self, BufRead};
 
+use self::ground::Unread;
 use self::worst::Worst;
-use super::pattern::Pattern;
-use super::stitches::Stitches;
 use crate::ir::Finding;
-use crate::machine::Sewing;
-
-/// What a program is held against.
-#[derive(Debug, Clone, Copy)]
-pub struct Ground<'a> {
-    /// What must be sewn, entry by entry.
-    pub stitches: &'a Stitches,
-    /// The lines that these were laid on; `None` where the file had the stitches.
-    pub pattern: Option<&'a Pattern>,
-    /// The machine.
-    pub sewing: &'a Sewing,
-}
 
 /// What kind of bytes are judged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -97,25 +86,4 @@ pub fn judge(input: &mut dyn BufRead, bytes: Bytes, ground: &Ground) -> io::Resu
     };
     worst.see(Rule::Format, f64::from(u8::from(unread.is_some())), None);
     Ok(Verdict { findings: worst.findings(ground.sewing), unread })
-}
-
-/// Why the rest of a program is not read.
-#[derive(Debug)]
-enum Unread {
-    /// The disk.
-    Io(io::Error),
-    /// Something that is no part of a program.
-    Row(String),
-}
-
-impl From<io::Error> for Unread {
-    fn from(error: io::Error) -> Self {
-        Self::Io(error)
-    }
-}
-
-impl Unread {
-    fn row(number: u64, what: &str) -> Self {
-        Self::Row(format!("row {number}: {what}"))
-    }
 }

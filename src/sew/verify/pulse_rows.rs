@@ -2,7 +2,7 @@
 
 use std::io::BufRead;
 
-use super::Unread;
+use super::ground::Unread;
 use super::pulses::{OPS, Row};
 
 /// How well an interval is known, microseconds: both ends have three decimals.

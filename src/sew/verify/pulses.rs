@@ -1,10 +1,10 @@
 //! Every pulse: how many there are, which way, when, and where the needle stands then.
 
 use super::clock;
+use super::ground::{Ground, Unread};
 use super::rules::Rule;
 use super::spindle::Spindle;
 use super::worst::Worst;
-use super::{Ground, Unread};
 use crate::geom::Point;
 use crate::sew::stitches::Op;
 

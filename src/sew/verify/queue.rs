@@ -1,12 +1,13 @@
 //! Entries of a queue: the increments add up to the needle points, and each stitch fits at the speed that holds.
 
+use std::collections::BTreeMap;
 use std::io::BufRead;
 
 use super::clock;
+use super::ground::{Ground, Unread};
 use super::rules::Rule;
 use super::spindle::Spindle;
 use super::worst::Worst;
-use super::{Ground, Unread};
 use crate::geom::Point;
 use crate::sew::stitches::Op;
 
@@ -35,6 +36,8 @@ pub(super) fn judge(
     worst: &mut Worst,
 ) -> Result<(), Unread> {
     let (mut line, mut number, mut i) = (String::new(), 0, 0);
+    // Few moves are different.
+    let mut times: BTreeMap<u64, f64> = BTreeMap::new();
     let (mut at, mut rpm, mut spindle, mut is_ended) = ([0.0; 2], 0.0, Spindle::default(), false);
     loop {
         line.clear();
@@ -71,7 +74,10 @@ pub(super) fn judge(
         see(ground, worst, i, (is_asked, at));
         spindle.see(i, if is_sewn { rpm } else { 0.0 }, ground, worst);
         if is_sewn {
-            fits(ground, worst, i, (way, rpm));
+            let steps = way.map(|way| (way / ground.sewing.step_mm).abs().round() as u64);
+            let steps = steps[0].max(steps[1]);
+            let needed = *times.entry(steps).or_insert_with(|| clock::least_move_us(ground.sewing, steps));
+            fits(ground, worst, i, (needed, rpm));
         }
         i += 1;
     }
@@ -98,10 +104,8 @@ fn see(ground: &Ground, worst: &mut Worst, i: usize, (is_asked, at): (bool, [f64
     }
 }
 
-/// Whether a stitch fits into its window at a speed.
-fn fits(ground: &Ground, worst: &mut Worst, i: usize, (way, rpm): ([f64; 2], f64)) {
-    let steps = way.map(|way| (way / ground.sewing.step_mm).abs().round() as u64);
-    let needed = clock::least_move_us(ground.sewing, steps[0].max(steps[1]));
+/// Whether a stitch that needs some time, microseconds, fits into its window at a speed.
+fn fits(ground: &Ground, worst: &mut Worst, i: usize, (needed, rpm): (f64, f64)) {
     let window = clock::window_us(ground.sewing, rpm);
     let place = ground.stitches.steps.get(i).map(|step| (i as u32 + 1, step.to));
     worst.see(Rule::Window, needed - window * (1.0 + WINDOW_EPSILON), place);

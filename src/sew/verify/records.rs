@@ -16,8 +16,21 @@ pub(super) enum Kind {
     Stop,
 }
 
-/// The records of a file, and how many values of its header are wrong; or what cannot be read.
-pub(super) type Decoded = Result<(Vec<Record>, Option<u32>), String>;
+/// What a file says.
+#[derive(Debug)]
+pub(super) struct File {
+    pub(super) records: Vec<Record>,
+    /// How many values of its header are wrong, where it has one.
+    pub(super) header: Option<u32>,
+    /// From so many jumps in a row on machines cut the thread.
+    pub(super) trim_jumps: Option<usize>,
+}
+
+/// What a file says, or what cannot be read.
+pub(super) type Decoded = Result<File, String>;
+
+/// Jumps in a row that machines take for a trim in a DST file.
+const TRIM_JUMPS: usize = 3;
 
 const DST_HEADER: usize = 512;
 
@@ -76,7 +89,7 @@ pub(super) fn dst(bytes: &[u8]) -> Decoded {
         !fields.iter().any(|(field, told)| *field == name && told.parse() == Ok(value))
     };
     let wrong = told.iter().filter(is_wrong).count();
-    Ok((records, Some(wrong as u32)))
+    Ok(File { records, header: Some(wrong as u32), trim_jumps: Some(TRIM_JUMPS) })
 }
 
 /// Decodes an EXP file.
@@ -102,5 +115,9 @@ pub(super) fn exp(bytes: &[u8]) -> Decoded {
         at = [at[0] + signed(way[0]), at[1] + signed(way[1])];
         records.push(Record { kind, at });
     }
-    if rest.is_empty() { Ok((records, None)) } else { Err("the last record is cut off".to_owned()) }
+    if rest.is_empty() {
+        Ok(File { records, header: None, trim_jumps: None })
+    } else {
+        Err("the last record is cut off".to_owned())
+    }
 }

@@ -1,6 +1,6 @@
 //! The speed of the spindle: its limits, and that it does not change within a run.
 
-use super::Ground;
+use super::ground::Ground;
 use super::rules::Rule;
 use super::worst::Worst;
 use crate::geom::Point;

@@ -2,26 +2,24 @@
 
 use std::io::BufRead;
 
-use super::records::{Decoded, Kind, Record};
+use super::ground::{Ground, Unread};
+use super::records::{Decoded, File, Kind, Record};
 use super::rules::Rule;
 use super::worst::Worst;
-use super::{Ground, Unread};
 use crate::geom::Point;
 use crate::sew::stitches::Op;
 
 /// Units of stitch files in a millimetre.
 const PER_MM: f64 = 10.0;
-/// Jumps in a row that machines take for a trim.
-const TRIM_JUMPS: usize = 3;
-/// The longest move of a record, mm.
-const LONGEST: f64 = 12.1;
+/// The longest move of a record at which no rounding makes it two, mm.
+const LONGEST: f64 = 12.0;
 
 /// What lies between two stitches or stops, and the one that follows.
 #[derive(Debug, Default, Clone, Copy)]
 struct Gap {
     /// Whether the thread is cut.
     is_cut: bool,
-    /// Jumps of the file in it.
+    /// Jumps in it: of the file, or those that a pattern needs at the most.
     jumps: usize,
     /// The stitch or stop behind it: whether it is a stitch, and where, mm.
     end: Option<(bool, Point)>,
@@ -36,13 +34,12 @@ pub(super) fn judge(
 ) -> Result<(), Unread> {
     let mut bytes = Vec::new();
     input.read_to_end(&mut bytes)?;
-    let (records, header) = decode(&bytes).map_err(Unread::Row)?;
+    let File { records, header, trim_jumps } = decode(&bytes).map_err(Unread::Row)?;
     if let Some(wrong) = header {
         worst.see(Rule::Header, wrong.into(), None);
     }
     let (planned, found) = (planned(ground), found(&records));
     worst.count(Rule::Entries, planned.len().abs_diff(found.len()) as f64, None);
-    let mut before = Point::origin();
     for ((planned, entry), found) in planned.iter().zip(&found) {
         let place = planned.end.map(|(_, point)| (*entry, point));
         match (planned.end, found.end) {
@@ -54,12 +51,11 @@ pub(super) fn judge(
             (None, None) => {}
             (Some(_), None) | (None, Some(_)) => worst.count(Rule::Entries, 1.0, place),
         }
-        // Three jumps may also be a long way.
-        let far = planned.end.map_or(0.0, |(_, to)| (to.x - before.x).abs().max((to.y - before.y).abs()));
-        let is_cut = found.is_cut || found.jumps >= TRIM_JUMPS;
-        let wrong = if planned.is_cut { !is_cut } else { is_cut && far <= (TRIM_JUMPS - 1) as f64 * LONGEST };
+        // Jumps that stand for a trim may also be a long way.
+        let is_trim = |jumps: usize| trim_jumps.is_some_and(|least| jumps >= least);
+        let is_cut = found.is_cut || is_trim(found.jumps);
+        let wrong = if planned.is_cut { !is_cut } else { is_cut && !is_trim(planned.jumps) };
         worst.count(Rule::Commands, f64::from(u8::from(wrong)), place);
-        before = planned.end.map_or(before, |(_, to)| to);
     }
     Ok(())
 }
@@ -68,11 +64,17 @@ pub(super) fn judge(
 fn planned(ground: &Ground) -> Vec<(Gap, u32)> {
     let mut gaps = Vec::new();
     let mut gap = Gap::default();
+    let mut at = Point::origin();
     for (step, entry) in ground.stitches.steps.iter().zip(1..) {
+        let way = (step.to.x - at.x).abs().max((step.to.y - at.y).abs());
+        let records = (way / LONGEST).ceil() as usize;
+        at = step.to;
         match step.op {
-            Op::Jump => {}
+            Op::Jump => gap.jumps += records.max(1),
             Op::Trim => gap.is_cut = true,
             Op::Stitch | Op::Stop | Op::Color(_) => {
+                // The last of its records is no jump.
+                gap.jumps += records.saturating_sub(1);
                 gap.end = Some((step.op == Op::Stitch, step.to));
                 gaps.push((std::mem::take(&mut gap), entry));
             }

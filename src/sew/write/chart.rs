@@ -5,7 +5,7 @@
 
 use std::io::{self, Write};
 
-use super::{Proof, Target, nothing};
+use super::target::{Proof, Target, nothing};
 use crate::machine::{Job, Sewing};
 use crate::sew::program::{Move, Program};
 use crate::sew::stitches::Op;

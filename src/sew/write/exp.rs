@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::stitch_file::{Record, records};
-use super::{Proof, Target, nothing};
+use super::target::{Proof, Target, nothing};
 use crate::machine::Job;
 use crate::sew::program::Program;
 

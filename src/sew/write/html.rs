@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::{Proof, Target};
+use super::target::{Proof, Target};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::machine::Job;
 use crate::machine::sewing::Ramp;

@@ -4,7 +4,7 @@
 
 use std::io::{self, Write};
 
-use super::{Proof, Target, nothing};
+use super::target::{Proof, Target, nothing};
 use crate::machine::Job;
 use crate::sew::program::Program;
 use crate::sew::stitches::Op;

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::markup::{color, extent, mm, path, speeds};
-use super::{Proof, Target, nothing};
+use super::target::{Proof, Target, nothing};
 use crate::geom::Point;
 use crate::machine::Job;
 use crate::sew::program::Program;
