@@ -40,6 +40,9 @@
 //! | [`manual`] | the manual, a page a topic, rows of [`manual::PAGES`] |
 //! | `cli` | arguments as typed to a job as meant; the binary adds printing and the exit code |
 //!
+//! Other machines of the sewing floor are small pipelines of the same shape: [`sew`] reads what `front` reads and has its own
+//! forms, targets and verifier.
+//!
 //! To find a thing, follow the data: a wrong coordinate is `front`'s, a wrong order or overlap `pass`'s, a shaking axis
 //! `plan`'s, a wrong column `back`'s.
 //!

@@ -246,6 +246,12 @@ pub(super) fn faults(sewing: &Sewing) -> Vec<Fault> {
         let hint = "seams would be laid with stitches that the machine does not make";
         faults.push(Fault::of_range(&["sewing.pitch_mm", "sewing.min_pitch_mm", "sewing.max_pitch_mm"], message, hint));
     }
+    if f64::from(sewing.grid_rpm) > sewing.max_rpm {
+        let (grid, most) = (sewing.grid_rpm, sewing.max_rpm);
+        let message = format!("`sewing.grid_rpm` is {grid} rpm, more than `sewing.max_rpm`, {most} rpm");
+        let hint = "no multiple of it is a speed that the spindle has";
+        faults.push(Fault::of_range(&["sewing.grid_rpm", "sewing.max_rpm"], message, hint));
+    }
     if let Some(most) = sewing.max_hz.filter(|&most| most < sewing.start_hz) {
         let message = format!("`sewing.max_hz` is {most} Hz, less than `sewing.start_hz`, {} Hz", sewing.start_hz);
         let hint = "the motors start at a rate that the drives take";

@@ -113,7 +113,8 @@ impl Drive {
         }
         // The ramps that leave the cap for as long as it takes: way = cap window - (cap - start) ramp_time.
         let ramp_time = (cap * window - way) / (cap - start);
-        if ramp_time <= 0.0 {
+        // A start rate that is the greatest leaves no ramp.
+        if ramp_time.is_nan() || ramp_time <= 0.0 {
             return even;
         }
         let acceleration = (cap - start) / ramp_time;

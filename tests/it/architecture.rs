@@ -245,6 +245,23 @@ fn a_module_imports_only_what_the_architecture_allows() {
 }
 
 #[test]
+fn the_verifier_of_sewn_patterns_knows_their_forms_and_nothing_of_who_makes_them() {
+    let mut faults = Vec::new();
+    for file in sources("src/sew/verify") {
+        for rest in after(&file.code, "sew::") {
+            let named: String = rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+            if !["pattern", "stitches", "verify"].contains(&named.as_str()) {
+                faults.push(format!("{}: names `sew::{named}`", file.path.display()));
+            }
+        }
+        if file.path.ends_with("mod.rs") && after(&file.code, "use super::").next().is_some() {
+            faults.push(format!("{}: names what lies beside the verifier", file.path.display()));
+        }
+    }
+    report(&faults);
+}
+
+#[test]
 fn packages_printing_and_side_effects_stay_where_they_belong() {
     let mut faults = Vec::new();
     for file in sources("src") {

@@ -1,9 +1,8 @@
 //! A closed contour some way inside: where the seam goes.
 
-use crate::geom::{Point, Vector, cross, left, polyline};
+use crate::geom::boxes::Boxes;
+use crate::geom::{Extent, Point, Vector, cross, left, polyline};
 
-/// Rounds of taking away edges that have turned over; each takes one away at least.
-const ROUNDS: usize = 10_000;
 /// How much nearer to the contour a place may be, as a part of the inset: rounding of intersections.
 const NEAR_EPSILON: f64 = 1e-6;
 /// Sine of the angle between edges below which these are one line.
@@ -27,22 +26,29 @@ pub(super) fn inset(points: &[Point], distance: f64) -> Option<Vec<Point>> {
         .map(|(from, along)| Edge { at: from + left(along) * inwards, along })
         .collect();
     // An edge shorter than the inset takes up turns over: without it its neighbours meet.
-    for _ in 0..ROUNDS {
+    loop {
         if edges.len() < 3 {
             return None;
         }
         let corners = corners(&edges);
         let count = edges.len();
-        let way = |i: usize| (corners[(i + 1) % count] - corners[i]).dot(&edges[i].along);
-        let worst = (0..count).min_by(|a, b| way(*a).total_cmp(&way(*b)))?;
-        if way(worst) >= 0.0 {
+        let ways: Vec<f64> = (0..count).map(|i| (corners[(i + 1) % count] - corners[i]).dot(&edges[i].along)).collect();
+        if ways.iter().all(|&way| way >= 0.0) {
             let mut out = corners;
             out.push(out[0]);
             return is_inside(&out, points, distance).then_some(out);
         }
-        edges.remove(worst);
+        // Of neighbours that turn over the one that does so most goes first: it may be all that is wrong with the other.
+        let goes = |i: usize| {
+            let (before, behind) = (ways[(i + count - 1) % count], ways[(i + 1) % count]);
+            ways[i] < 0.0 && ways[i] < before && ways[i] <= behind
+        };
+        let kept: Vec<Edge> = (0..count).filter(|&i| !goes(i)).map(|i| edges[i]).collect();
+        if kept.len() == count {
+            return None;
+        }
+        edges = kept;
     }
-    None
 }
 
 /// Where each edge begins: where it meets the one before it.
@@ -61,8 +67,11 @@ fn corners(edges: &[Edge]) -> Vec<Point> {
 /// Whether every place of a line is as far from a contour as asked.
 fn is_inside(line: &[Point], contour: &[Point], distance: f64) -> bool {
     let least = distance * (1.0 - NEAR_EPSILON);
-    let pairs = line.windows(2).flat_map(|a| contour.windows(2).map(move |b| ([a[0], a[1]], [b[0], b[1]])));
-    pairs.into_iter().all(|(a, b)| polyline::distance_of_segments(a, b) >= least)
+    let boxes = Boxes::new(contour.windows(2).map(|ends| Extent::of(ends).grown(distance)).collect());
+    line.windows(2).all(|a| {
+        let apart = |i: usize| polyline::distance_of_segments([a[0], a[1]], [contour[i], contour[i + 1]]);
+        boxes.near(Extent::of(a)).all(|i| apart(i) >= least)
+    })
 }
 
 #[cfg(test)]

@@ -20,7 +20,7 @@ pub(super) const FORMAT: Format = Format {
 
 const HEADER: &[u8] = b"x_mm,y_mm,element";
 /// Largest coordinate, mm: no machine is as large.
-const FARTHEST: f64 = 1e5;
+const FARTHEST: f64 = 1e4;
 /// Corners of a box.
 const BOX_CORNERS: usize = 4;
 

@@ -15,7 +15,7 @@ pub(super) const FORMAT: Format = Format {
 
 const HEADER: &[u8] = b"op,dx_mm,dy_mm,value";
 /// Largest increment, mm: no machine is as large.
-const FARTHEST: f64 = 1e5;
+const FARTHEST: f64 = 1e4;
 
 /// What a row says.
 enum Row {

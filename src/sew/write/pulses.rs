@@ -44,21 +44,18 @@ const MAGIC: &[u8] = b"\x93NUMPY\x01\x00";
 type Pulse = (f64, [i8; 2]);
 
 /// The pulses of an entry in the order of their times, X before Y.
-fn merged(entry: &Move, sewing: &Sewing, out: &mut Vec<Pulse>) {
-    out.clear();
+fn merged(entry: &Move, sewing: &Sewing) -> impl Iterator<Item = Pulse> + use<> {
     let [x, y] = entry.trains(sewing);
     let [sign_x, sign_y] = entry.pulses.map(|pulses| pulses.signum() as i8);
+    let still = (x.pulses() + y.pulses() == 0).then_some((0.0, [0, 0]));
+    let mut xs = x.times().map(|time| time * US_PER_S).peekable();
     let mut ys = y.times().map(|time| time * US_PER_S).peekable();
-    for time in x.times().map(|time| time * US_PER_S) {
-        while let Some(before) = ys.next_if(|&y| y < time) {
-            out.push((before, [0, sign_y]));
-        }
-        out.push((time, [sign_x, 0]));
-    }
-    out.extend(ys.map(|time| (time, [0, sign_y])));
-    if out.is_empty() {
-        out.push((0.0, [0, 0]));
-    }
+    let next = move || match (xs.peek().copied(), ys.peek().copied()) {
+        (Some(x), Some(y)) if y < x => ys.next().map(|time| (time, [0, sign_y])),
+        (Some(_), _) => xs.next().map(|time| (time, [sign_x, 0])),
+        (None, _) => ys.next().map(|time| (time, [0, sign_y])),
+    };
+    std::iter::from_fn(next).chain(still)
 }
 
 /// The number of an operation in records, its word in rows.
@@ -80,18 +77,18 @@ fn each(
     push: fn(&mut Vec<u8>, &Move, u16, Pulse),
 ) -> io::Result<()> {
     let sewing = &job.profile.sewing;
-    let (mut block, mut pulses, mut thread) = (Vec::with_capacity(2 * BLOCK_BYTES), Vec::new(), 1);
+    let (mut block, mut thread) = (Vec::with_capacity(2 * BLOCK_BYTES), 1);
     for entry in program.moves(job) {
         if let Op::Color(number) = entry.step.op {
             thread = number;
         }
-        merged(&entry, sewing, &mut pulses);
-        for &pulse in &pulses {
+        for pulse in merged(&entry, sewing) {
             push(&mut block, &entry, thread, pulse);
-        }
-        if block.len() >= BLOCK_BYTES {
-            out.write_all(&block)?;
-            block.clear();
+            // A jump may have more pulses than memory should hold.
+            if block.len() >= BLOCK_BYTES {
+                out.write_all(&block)?;
+                block.clear();
+            }
         }
     }
     out.write_all(&block)
