@@ -12,8 +12,8 @@ use crate::machine::sewing::OnLong;
 use crate::units::S_PER_MIN;
 
 /// Makes all stitches such as the machine can make.
-pub(super) fn fit(stitches: Stitches, sewing: &Sewing, out: &mut Diagnostics) -> Stitches {
-    let merged = merge(&stitches, sewing, out);
+pub(super) fn fit(stitches: &Stitches, sewing: &Sewing, out: &mut Diagnostics) -> Stitches {
+    let merged = merge(stitches, sewing, out);
     match sewing.on_long {
         OnLong::Slow => {
             refuse(&merged, sewing, out, Drive::of(sewing), false);
@@ -164,7 +164,7 @@ mod tests {
 
     fn fitted(pitches_mm: &[f64], sewing: &Sewing) -> (Vec<f64>, Vec<&'static str>) {
         let mut out = Diagnostics::default();
-        let stitches = fit(along(pitches_mm), sewing, &mut out);
+        let stitches = fit(&along(pitches_mm), sewing, &mut out);
         (pitches(&stitches), out.iter().map(|found| found.code.name).collect())
     }
 
@@ -189,7 +189,7 @@ mod tests {
     #[test]
     fn what_is_too_long_is_refused_with_its_record() {
         let mut out = Diagnostics::default();
-        fit(along(&[2.0, 13.0]), &Sewing::default(), &mut out);
+        fit(&along(&[2.0, 13.0]), &Sewing::default(), &mut out);
         assert!(out.has_errors() && out.iter().any(|found| found.message.contains("record 2")));
         assert_eq!(
             fitted(&[2.5, 3.0], &Sewing { on_long: OnLong::Reject, ..Sewing::default() }).1,

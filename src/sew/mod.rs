@@ -65,7 +65,7 @@ pub fn plan(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) ->
         out.push(Diagnostic::new(&code::SEW_NOTHING, "the file holds nothing to sew").hint(hint));
         return None;
     }
-    let stitches = fit::fit(stitches, sewing, out);
+    let stitches = fit::fit(&stitches, sewing, out);
     let runs = speed::runs(&stitches, sewing);
     if !out.has_errors() {
         tell(&stitches, &runs, sewing, out);

@@ -1,6 +1,6 @@
 //! The speed of each run: the greatest constant one at which every stitch of it fits into its window.
 //!
-//! n_max = min(user, machine, 60 window / longest move), rounded down to the grid. A turn is a stitch, so that the spindle
+//! It is the least of the user's, the machine's and 60 window / longest move, rounded down to the grid. A turn is a stitch, so that the spindle
 //! never changes its speed within a run but for the soft start.
 
 use std::ops::Range;
@@ -114,7 +114,7 @@ pub(super) fn duration(run: &Run, sewing: &Sewing) -> f64 {
     soft as f64 * S_PER_MIN / soft_rpm + rest * S_PER_MIN / run.rpm
 }
 
-/// How far the needle goes between two entries with the needle up, s.
+/// How long a move with the needle up takes, s.
 pub(super) fn jump_time(from: Point, to: Point, drive: &Drive) -> f64 {
     let most = pulses(from, to, drive).into_iter().map(i64::unsigned_abs).max().unwrap_or(0);
     drive.train(u32::try_from(most).unwrap_or(u32::MAX), None).time()

@@ -118,7 +118,7 @@ impl Drive {
             return even;
         }
         let acceleration = (cap - start) / ramp_time;
-        let ramp_way = (start + cap) / 2.0 * ramp_time;
+        let ramp_way = f64::midpoint(start, cap) * ramp_time;
         Train { pulses, step, start, acceleration, ramp_way, ramp_time, cruise: cap, time: window }
     }
 }

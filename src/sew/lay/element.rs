@@ -32,7 +32,7 @@ fn zigzag(points: &[Point], width: f64, pitch: f64, sewing: &Sewing) -> Vec<Poin
         let behind = if i + 1 < middle.len() { along(here, middle[i + 1]) } else { Vector::zeros() };
         // Where the line turns back the side is that of the way before.
         let direction = (before + behind).try_normalize(f64::EPSILON).unwrap_or(before);
-        let side = if i % 2 == 0 { 1.0 } else { -1.0 };
+        let side = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
         here + left(direction) * (side * width / 2.0)
     };
     (0..middle.len()).map(point).collect()

@@ -35,10 +35,11 @@ fn tied(first: Point, rest: &[Point], sewing: &Sewing) -> Vec<(Point, bool)> {
     let head = toward(first, rest[0], sewing);
     let tail = toward(last, before, sewing);
     let stitches = sewing.tie_stitches;
-    let mut out: Vec<(Point, bool)> = (0..stitches).map(|i| (if i % 2 == 0 { head } else { first }, true)).collect();
+    let mut out: Vec<(Point, bool)> =
+        (0..stitches).map(|i| (if i.is_multiple_of(2) { head } else { first }, true)).collect();
     out.extend(rest[..rest.len() - 1].iter().map(|&point| (point, false)));
     // The mirror image of the beginning: it ends where the seam does.
-    out.extend((1..=stitches).rev().map(|i| (if i % 2 == 0 { last } else { tail }, i != stitches)));
+    out.extend((1..=stitches).rev().map(|i| (if i.is_multiple_of(2) { last } else { tail }, i != stitches)));
     out.push((last, true));
     out
 }

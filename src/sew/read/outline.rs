@@ -37,12 +37,11 @@ pub(super) fn read(
             pattern.seams.push(seam);
             continue;
         }
-        match inset(&seam.points, asked.inset) {
-            Some(points) => pattern.seams.push(Seam { points, ..seam }),
-            None => {
-                let message = format!("the contour that starts here is too narrow for an inset of {} mm", asked.inset);
-                out.push(Diagnostic::new(&code::SEW_INSET, message).at(span).hint("give a smaller `--inset`"));
-            }
+        if let Some(points) = inset(&seam.points, asked.inset) {
+            pattern.seams.push(Seam { points, ..seam });
+        } else {
+            let message = format!("the contour that starts here is too narrow for an inset of {} mm", asked.inset);
+            out.push(Diagnostic::new(&code::SEW_INSET, message).at(span).hint("give a smaller `--inset`"));
         }
     }
     Some((dialect.name, pattern))

@@ -47,7 +47,7 @@ pub(super) fn least_move_us(sewing: &Sewing, steps: u64) -> f64 {
         long *= 2.0;
     }
     for _ in 0..HALVINGS {
-        let middle = (short + long) / 2.0;
+        let middle = f64::midpoint(short, long);
         if reach(middle) < way { short = middle } else { long = middle }
     }
     long * US

@@ -1,4 +1,4 @@
-//! Reads pulses from records of a NumPy array.
+//! Reads pulses from records of a `NumPy` array.
 
 use std::io::BufRead;
 

@@ -152,8 +152,10 @@ pub(super) fn json(text: &str) -> Option<Entry> {
         ("TRIM", None, None, None) => Some(Entry::Trim),
         ("STOP", None, None, None) => Some(Entry::Stop),
         ("END", None, None, None) => Some(Entry::End),
-        ("COLOR", None, None, Some(thread)) => (thread.fract() == 0.0 && (0.0..=f64::from(u16::MAX)).contains(&thread))
-            .then(|| Entry::Color(thread as u16)),
+        ("COLOR", None, None, Some(thread)) => {
+            let is_number = thread.fract() == 0.0 && (0.0..=f64::from(u16::MAX)).contains(&thread);
+            is_number.then_some(Entry::Color(thread as u16))
+        }
         ("SPEED", None, None, Some(rpm)) => Some(Entry::Speed(rpm)),
         _ => None,
     }

@@ -69,9 +69,10 @@ pub(super) fn dst(bytes: &[u8]) -> Decoded {
         records.push(Record { kind, at });
     }
     let stops = records.iter().filter(|record| record.kind == Kind::Stop).count();
+    let count = |number: usize| i64::try_from(number).unwrap_or(i64::MAX);
     let told = [
-        ("ST", end as i64),
-        ("CO", stops as i64),
+        ("ST", count(end)),
+        ("CO", count(stops)),
         ("+X", reach[0]),
         ("-X", reach[1]),
         ("+Y", reach[2]),

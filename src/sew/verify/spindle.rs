@@ -16,7 +16,7 @@ pub(super) struct Spindle {
     stitches: u32,
     /// The speed of the run behind its soft start.
     rpm: Option<f64>,
-    /// The least limit by pitch of the run.
+    /// That of its soft start.
     soft: Option<f64>,
 }
 

@@ -122,9 +122,10 @@ fn panel(entries: &[Move], sewing: &Sewing, (top, time, most): (f64, f64, f64), 
         for (axis, class) in [(0, "x"), (1, "y")] {
             let mut data = format!("M{},{}", px(start), rate_px(0.0));
             for (from, to, rate) in rates(entry, axis, sewing) {
-                data += &format!(" L{0},{2} L{1},{2}", px(start + from), px(start + to), rate_px(rate));
+                let (from, to, rate) = (px(start + from), px(start + to), rate_px(rate));
+                data.extend([" L", &from, ",", &rate, " L", &to, ",", &rate]);
             }
-            data += &format!(" V{}", rate_px(0.0));
+            data.extend([" V", &rate_px(0.0)]);
             writeln!(out, "<path class=\"{class}\" d=\"{data}\"/>")?;
         }
         let [x, y] = entry.pulses;

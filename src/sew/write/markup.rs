@@ -20,7 +20,7 @@ pub(super) fn path(points: impl IntoIterator<Item = Point>) -> String {
     let mut data = String::new();
     for point in points {
         data.push(if data.is_empty() { 'M' } else { ' ' });
-        data += &format!("{},{}", mm(point.x), mm(point.y));
+        data.extend([&mm(point.x), ",", &mm(point.y)]);
     }
     data
 }

@@ -1,4 +1,4 @@
-//! Every pulse of X and Y: rows of text, or records of a NumPy array.
+//! Every pulse of X and Y: rows of text, or records of a `NumPy` array.
 //!
 //! Times count from the moment at which the spindle passes the angle where the window begins, which its encoder tells; of
 //! an entry with the needle up (speed 0) from its own start. An entry without pulses has one row, in which nothing moves.

@@ -3,8 +3,9 @@
 use std::fmt::Write as _;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use cutc::machine::Job;
+use cutc::machine::{Job, load};
 use cutc::sew::{Limit, Op};
+use cutc::source::Source;
 use fastrand::Rng;
 
 use super::{broken, fixture, plan, planned, target, written};
@@ -159,6 +160,19 @@ fn contours_of_cut_files_are_sewn_inside_and_lines_of_plots_by_their_pen() {
     }
     assert_eq!(room.read("2.queue.csv"), room.read("seam.queue.csv"));
     assert!(room.says("sew part.plt --line 7 -t queue", FAULTY).contains("pens or layers are 1, 2"));
+}
+
+#[test]
+fn the_picture_of_the_manual_is_what_the_program_draws() {
+    let profile = String::from_utf8(fixture("machines/sew-capped.toml")).expect("text");
+    let profile = Source::new("sew-capped.toml", profile.into_bytes()).expect("small");
+    let job = Job { profile: load(Some(&profile), &[]).expect("legal"), ..Job::default() };
+    let drawn = written(&planned("sew/slant.csv", &job), &job, "timing");
+    let shown = fixture("pictures/slant.timing.svg");
+    assert!(cutc::manual::PAGES.iter().any(|page| page.text.contains("fixtures/pictures/slant.timing.svg")));
+    let command =
+        "cutc sew fixtures/sew/slant.csv -p fixtures/machines/sew-capped.toml -t timing -o fixtures/pictures/";
+    assert!(drawn == shown, "the picture is stale: write it anew with `{command} --force`");
 }
 
 #[test]

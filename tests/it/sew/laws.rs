@@ -1,5 +1,7 @@
 //! What holds of every pattern: over seeded random ones.
 
+use std::fmt::Write as _;
+
 use cutc::geom::Point;
 use cutc::machine::Job;
 use cutc::machine::sewing::{OnLong, Ramp};
@@ -14,7 +16,7 @@ fn random_queue(random: &mut Rng, longest: f64) -> Vec<u8> {
     for _ in 0..random.usize(3..40) {
         let (angle, pitch) = (random.f64() * std::f64::consts::TAU, 0.2 + (longest - 0.2) * random.f64());
         let word = if random.u8(0..12) == 0 { "JUMP" } else { "STITCH" };
-        text += &format!("{word},{:.4},{:.4},\n", pitch * angle.cos(), pitch * angle.sin());
+        _ = writeln!(text, "{word},{:.4},{:.4},", pitch * angle.cos(), pitch * angle.sin());
         if random.u8(0..15) == 0 {
             text += ["TRIM,,,\n", "STOP,,,\n", "COLOR,,,2\n"][random.usize(0..3)];
         }
