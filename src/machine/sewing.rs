@@ -19,7 +19,7 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "sewing.feed_end_deg", takes: Takes::Number(from(0.0, 360.0)), about: "Angle at which they must have arrived; the window between the two may pass 0." },
     Key { name: "sewing.step_mm", takes: Takes::Number(from(0.001, 1.0)), about: "Way of X and of Y for one pulse of their stepping motors." },
     Key { name: "sewing.start_hz", takes: Takes::Number(from(0.0, 1.0e6)), about: "Rate at which the motors start and stop without losing pulses; 0 = from rest." },
-    Key { name: "sewing.acceleration_mm_s2", takes: Takes::Number(from(1.0, 1.0e6)), about: "How fast X and Y may become faster or slower beyond that rate." },
+    Key { name: "sewing.feed_acceleration_mm_s2", takes: Takes::Number(from(1.0, 1.0e6)), about: "How fast X and Y may become faster or slower beyond that rate." },
     Key { name: "sewing.max_hz", takes: Takes::NumberOr(from(1.0, 1.0e7), Off::WORD), about: "Highest rate of pulses that the drives take; \"off\" = any." },
     Key { name: "sewing.ramp", takes: Takes::Word(words::<Ramp>), about: "\"fill\" = the gentlest ramp that just fills the window; \"fastest\" = as fast as the drives can, then\nidle until the window ends." },
     Key { name: "sewing.max_rpm", takes: Takes::Number(from(10.0, 20_000.0)), about: "Highest speed of the spindle: a turn is a stitch." },
@@ -61,7 +61,7 @@ pub struct Sewing {
     /// The rate without a ramp.
     pub start_hz: f64,
     /// Of X and of Y.
-    pub acceleration_mm_s2: f64,
+    pub feed_acceleration_mm_s2: f64,
     /// The greatest rate.
     #[serde(with = "OrWord::<Off>")]
     pub max_hz: Option<f64>,
@@ -169,7 +169,7 @@ impl Default for Sewing {
             feed_end_deg: 110.0,
             step_mm: 0.05,
             start_hz: 2836.364,
-            acceleration_mm_s2: 26_657.85,
+            feed_acceleration_mm_s2: 26_657.85,
             max_hz: Some(20_000.0),
             ramp: Ramp::Fill,
             max_rpm: 3200.0,

@@ -179,7 +179,7 @@ mod tests {
     #[test]
     fn long_stitches_are_split_into_equal_ones_that_fit() {
         let sewing =
-            Sewing { acceleration_mm_s2: 80_000.0, start_hz: 0.0, on_long: OnLong::Split, ..Sewing::default() };
+            Sewing { feed_acceleration_mm_s2: 80_000.0, start_hz: 0.0, on_long: OnLong::Split, ..Sewing::default() };
         assert_eq!(fitted(&[2.5, 6.0, 2.5], &sewing), (vec![2.5, 2.0, 2.0, 2.0, 2.5], vec!["sew/split-stitches"]));
         assert_eq!(fitted(&[2.5, 2.6], &sewing).1, [""; 0]);
         let (pitches, _) = fitted(&[30.0], &sewing);

@@ -165,7 +165,7 @@ mod tests {
     #[test]
     fn one_long_stitch_slows_its_run_down_and_tells_what_it_costs() {
         let sewing = Sewing {
-            acceleration_mm_s2: 80_000.0,
+            feed_acceleration_mm_s2: 80_000.0,
             start_hz: 0.0,
             soft_start_rpm: None,
             grid_rpm: 1,

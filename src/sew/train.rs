@@ -46,7 +46,7 @@ impl Drive {
         Self {
             step: sewing.step_mm,
             start: sewing.start(),
-            acceleration: sewing.acceleration_mm_s2,
+            acceleration: sewing.feed_acceleration_mm_s2,
             cap: sewing.cap(),
             ramp: sewing.ramp,
         }
@@ -191,7 +191,7 @@ mod tests {
         let first = [341.6, 663.7, 969.4, 1260.8, 1539.9];
         check(&sewing, (50, 3200.0), first, (Some(171.1), 11_458.33));
         check(&sewing, (60, 2800.0), first, (Some(159.1), 13_095.24));
-        let from_rest = Sewing { start_hz: 0.0, acceleration_mm_s2: 76_170.0, ..Sewing::default() };
+        let from_rest = Sewing { start_hz: 0.0, feed_acceleration_mm_s2: 76_170.0, ..Sewing::default() };
         check(&from_rest, (50, 3200.0), [1145.8, 1620.5, 1984.6, 2291.7, 2562.2], (None, 11_458.33));
     }
 

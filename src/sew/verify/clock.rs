@@ -18,7 +18,7 @@ pub(super) fn window_us(sewing: &Sewing, rpm: f64) -> f64 {
 
 /// The least time of the first step of a motor, microseconds: from the start rate on with the greatest acceleration.
 pub(super) fn first_step_us(sewing: &Sewing) -> f64 {
-    let (start, acceleration) = (sewing.start_hz * sewing.step_mm, sewing.acceleration_mm_s2);
+    let (start, acceleration) = (sewing.start_hz * sewing.step_mm, sewing.feed_acceleration_mm_s2);
     ((start * start + 2.0 * acceleration * sewing.step_mm).sqrt() - start) / acceleration * US
 }
 
@@ -38,9 +38,9 @@ pub(super) fn least_move_us(sewing: &Sewing, steps: u64) -> f64 {
     let top = sewing.max_hz.map_or(f64::INFINITY, |rate| rate * sewing.step_mm);
     let reach = |time: f64| {
         // Half of the time the speed rises, then it falls; what lies above the top is cut off.
-        let peak = start + sewing.acceleration_mm_s2 * time / 2.0;
+        let peak = start + sewing.feed_acceleration_mm_s2 * time / 2.0;
         let over = (peak - top).max(0.0);
-        start * time + (peak - start) * time / 2.0 - over * over / sewing.acceleration_mm_s2
+        start * time + (peak - start) * time / 2.0 - over * over / sewing.feed_acceleration_mm_s2
     };
     let (mut short, mut long) = (0.0, 1.0);
     while reach(long) < way {

@@ -48,7 +48,7 @@ fn write(program: &Program, job: &Job, out: &mut dyn Write) -> io::Result<()> {
         exact(sewing.feed_end_deg),
         exact(sewing.step_mm),
         exact(sewing.start()),
-        exact(sewing.acceleration_mm_s2),
+        exact(sewing.feed_acceleration_mm_s2),
         sewing.ramp == Ramp::Fill,
         exact(sewing.trim_time()),
     )?;

@@ -112,7 +112,7 @@ fn one_profile_reproduces_both_headline_figures() {
 fn one_long_stitch_costs_what_the_equations_say() {
     let mut job = Job::default();
     let sewing = &mut job.profile.sewing;
-    sewing.acceleration_mm_s2 = 80_000.0;
+    sewing.feed_acceleration_mm_s2 = 80_000.0;
     sewing.start_hz = 0.0;
     sewing.soft_start_rpm = None;
     sewing.grid_rpm = 1;
