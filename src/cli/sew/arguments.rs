@@ -46,7 +46,7 @@ pub(in crate::cli) struct Arguments {
     inset: Option<f64>,
 
     /// What is done about stitches that are too long for the speed (overrides `sewing.on_long`)
-    #[arg(long, value_enum)]
+    #[arg(long, value_enum, value_name = "HOW")]
     on_long: Option<OnLong>,
 
     #[command(flatten)]

@@ -62,7 +62,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
             said.push_str(&text);
             Stdout::Program(spool)
         }
-        (Format::Json, None) => Stdout::Text(super::report::json_of(figures, &diagnostics, &source, &job)),
+        (Format::Json, None) => Stdout::Text(summary::json(figures, &diagnostics, &source, &job)),
         (Format::Text, None) => Stdout::Text(text),
     };
     for path in paths.iter().filter(|_| !arguments.messages.quiet) {
@@ -100,7 +100,7 @@ fn refused(
     say(&mut said, format_args!("{}: {errors}, {warnings}; no program was written", source.name()));
     said.extend(paths.iter().map(|path| files::move_aside(path)));
     let stdout = match arguments.format {
-        Format::Json => super::report::json_of(summary::nothing(), diagnostics, source, job),
+        Format::Json => summary::json(summary::nothing(), diagnostics, source, job),
         Format::Text => String::new(),
     };
     Finished::text(stdout, said, FAULTY)

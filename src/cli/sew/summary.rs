@@ -5,7 +5,9 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use crate::cli::options::counted;
-use crate::cli::report;
+use crate::cli::report::{self, Findings, pretty};
+use crate::cli::setup::Profile;
+use crate::diagnostic::Diagnostics;
 use crate::machine::Job;
 use crate::sew::verify::Verdict;
 use crate::sew::{self, Estimate, Fifo, Limit, Program};
@@ -91,6 +93,19 @@ impl Figures {
             verified: verdicts.iter().map(verified).collect(),
         }
     }
+}
+
+/// Any figures as JSON, with the profile and what was found.
+pub(super) fn json(figures: impl Serialize, diagnostics: &Diagnostics, source: &Source, job: &Job) -> String {
+    #[derive(Serialize)]
+    struct Json<T: Serialize> {
+        profile: Profile,
+        #[serde(flatten)]
+        figures: T,
+        #[serde(flatten)]
+        findings: Findings,
+    }
+    pretty(&Json { profile: Profile::of(job), figures, findings: Findings::of(diagnostics, source) })
 }
 
 /// The keys of the figures, all null.
