@@ -37,7 +37,7 @@ pub use write::{Proof, TARGETS, Target};
 
 use std::io::{self, BufRead};
 
-use self::verify::{Bytes, Ground, Verdict};
+use self::verify::{Bytes, Ground, Original, Verdict};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
 use crate::machine::{Job, Sewing};
@@ -98,8 +98,14 @@ fn tell(stitches: &Stitches, runs: &[Run], sewing: &Sewing, out: &mut Diagnostic
     }
 }
 
-/// Judges the bytes of a program; `None` where these are none of its own, as of pictures.
-pub fn judge(program: &Program, job: &Job, proof: Proof, input: &mut dyn BufRead) -> io::Result<Option<Verdict>> {
+/// Judges the bytes of a program that was made from a source; `None` where these are none of its own, as of pictures.
+pub fn judge(
+    program: &Program,
+    source: &Source,
+    job: &Job,
+    proof: Proof,
+    input: &mut dyn BufRead,
+) -> io::Result<Option<Verdict>> {
     let bytes = match proof {
         Proof::PulseRows => Bytes::PulseRows,
         Proof::PulseRecords => Bytes::PulseRecords,
@@ -109,6 +115,16 @@ pub fn judge(program: &Program, job: &Job, proof: Proof, input: &mut dyn BufRead
         Proof::Exp => Bytes::Exp,
         Proof::None => return Ok(None),
     };
-    let ground = Ground { stitches: &program.stitches, pattern: program.pattern.as_ref(), sewing: &job.profile.sewing };
+    let original = match program.format {
+        "dst" => Original::Dst(source.bytes()),
+        "exp" => Original::Exp(source.bytes()),
+        _ => Original::Other,
+    };
+    let ground = Ground {
+        stitches: &program.stitches,
+        pattern: program.pattern.as_ref(),
+        sewing: &job.profile.sewing,
+        original,
+    };
     verify::judge(input, bytes, &ground).map(Some)
 }

@@ -104,7 +104,8 @@ impl Made<'_> {
         if !self.verify {
             return Ok(());
         }
-        let verdict = sew::judge(program, self.job, target.proof, &mut BufReader::with_capacity(BLOCK_BYTES, file))?;
+        let verdict =
+            sew::judge(program, self.source, self.job, target.proof, &mut BufReader::with_capacity(BLOCK_BYTES, file))?;
         if let Some(verdict) = verdict {
             tell(&verdict, target, out);
             verdicts.push((target.name, verdict));

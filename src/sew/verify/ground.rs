@@ -15,6 +15,19 @@ pub struct Ground<'a> {
     pub pattern: Option<&'a Pattern>,
     /// The machine.
     pub sewing: &'a Sewing,
+    /// The file itself, where it has stitches.
+    pub original: Original<'a>,
+}
+
+/// A file that stitches were read from.
+#[derive(Debug, Clone, Copy)]
+pub enum Original<'a> {
+    /// A DST file.
+    Dst(&'a [u8]),
+    /// An EXP file.
+    Exp(&'a [u8]),
+    /// Another, of which the pattern tells.
+    Other,
 }
 
 /// Why the rest of a program is not read.

@@ -6,6 +6,7 @@
 mod clock;
 mod ground;
 mod laid;
+mod original;
 mod pulse_records;
 mod pulse_rows;
 mod pulses;
@@ -16,7 +17,7 @@ mod spindle;
 mod stitch_file;
 mod worst;
 
-pub use ground::Ground;
+pub use ground::{Ground, Original};
 pub use rules::{RULES, Rule};
 
 use std::io::{self, BufRead};
@@ -67,6 +68,7 @@ impl Verdict {
 pub fn judge(input: &mut dyn BufRead, bytes: Bytes, ground: &Ground) -> io::Result<Verdict> {
     let mut worst = Worst::new();
     laid::judge(ground, &mut worst);
+    original::judge(ground, &mut worst);
     let read = match bytes {
         Bytes::PulseRows => {
             pulses::judge(|each| pulse_rows::read(input, each), pulse_rows::TICK_US, ground, &mut worst)

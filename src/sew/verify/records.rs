@@ -22,6 +22,8 @@ pub(super) struct File {
     pub(super) records: Vec<Record>,
     /// How many values of its header are wrong, where it has one.
     pub(super) header: Option<u32>,
+    /// Whether bytes stand behind its end.
+    pub(super) has_more: bool,
     /// From so many jumps in a row on machines cut the thread.
     pub(super) trim_jumps: Option<usize>,
 }
@@ -41,9 +43,6 @@ pub(super) fn dst(bytes: &[u8]) -> Decoded {
     let (mut at, mut reach) = ([0_i64; 2], [0_i64; 4]);
     let (triples, rest) = body.as_chunks::<3>();
     let end = triples.iter().position(|triple| *triple == [0, 0, 0xF3]).ok_or("the end is missing")?;
-    if end + 1 != triples.len() || !rest.is_empty() {
-        return Err("bytes stand behind the end".to_owned());
-    }
     for (i, &[a, b, c]) in triples[..end].iter().enumerate() {
         let kind = match c & 0b1100_0011 {
             0b0000_0011 => Kind::Stitch,
@@ -90,7 +89,8 @@ pub(super) fn dst(bytes: &[u8]) -> Decoded {
         !fields.iter().any(|(field, told)| *field == name && told.parse() == Ok(value))
     };
     let wrong = told.iter().filter(is_wrong).count();
-    Ok(File { records, header: Some(wrong as u32), trim_jumps: Some(TRIM_JUMPS) })
+    let has_more = end + 1 != triples.len() || !rest.is_empty();
+    Ok(File { records, header: Some(wrong as u32), has_more, trim_jumps: Some(TRIM_JUMPS) })
 }
 
 /// Decodes an EXP file.
@@ -107,6 +107,7 @@ pub(super) fn exp(bytes: &[u8]) -> Decoded {
                 0x80 => (Kind::Trim, [0, 0]),
                 0x04 => (Kind::Jump, [*x, *y]),
                 0x01 => (Kind::Stop, [*x, *y]),
+                0x02 => (Kind::Stitch, [*x, *y]),
                 _ => return Err(format!("command {second:02x} is none")),
             }
         } else {
@@ -117,7 +118,7 @@ pub(super) fn exp(bytes: &[u8]) -> Decoded {
         records.push(Record { kind, at });
     }
     if rest.is_empty() {
-        Ok(File { records, header: None, trim_jumps: None })
+        Ok(File { records, header: None, has_more: false, trim_jumps: None })
     } else {
         Err("the last record is cut off".to_owned())
     }

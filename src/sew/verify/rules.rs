@@ -45,6 +45,8 @@ pub enum Rule {
     Commands,
     /// The header of a file.
     Header,
+    /// What was read is what the file says.
+    Source,
 }
 
 /// What is said of a rule.
@@ -85,6 +87,7 @@ pub const RULES: &[Row] = &[
     Row { rule: Rule::Decoded, name: "sew-verify/decoded", unit: "mm", about: "each stitch of a stitch file is within half of its unit of the pattern", more: "Stitch files know tenths of a millimetre. More than half of one is another place: a reader that rounds moves instead of places drifts away by such." },
     Row { rule: Rule::Commands, name: "sew-verify/commands", unit: "", about: "trims, stops and changes of thread of a stitch file are those of the pattern", more: "A trim that is missing leaves a thread across the piece, and one too many a seam that opens. Three jumps in a row are a trim in a DST file." },
     Row { rule: Rule::Header, name: "sew-verify/header", unit: "", about: "the header of a DST file says what its records do", more: "Machines place the pattern within their field by the header: a wrong one drives the needle into the clamp. The value is how many entries are wrong." },
+    Row { rule: Rule::Source, name: "sew-verify/source", unit: "", about: "every stitch of a stitch file that is read is sewn, in its order, and no other but parts of one that is split", more: "The reader and a second decoder of the same bytes must find the same stitches; only those that are too short may be merged. Please report the file if they do not." },
 ];
 
 impl Rule {
@@ -102,6 +105,7 @@ impl Rule {
             | Self::Direction
             | Self::Commands
             | Self::Header
+            | Self::Source
             | Self::Speed
             | Self::SteadySpeed => 0.0,
             Self::EndPoint => sewing.step_mm / 2.0 + PLACE_EPSILON,
@@ -132,6 +136,6 @@ mod tests {
         for (i, row) in RULES.iter().enumerate() {
             assert_eq!(row.rule as usize, i, "{}", row.name);
         }
-        assert_eq!(RULES.len(), Rule::Header as usize + 1);
+        assert_eq!(RULES.len(), Rule::Source as usize + 1);
     }
 }

@@ -34,7 +34,10 @@ pub(super) fn judge(
 ) -> Result<(), Unread> {
     let mut bytes = Vec::new();
     input.read_to_end(&mut bytes)?;
-    let File { records, header, trim_jumps } = decode(&bytes).map_err(Unread::Row)?;
+    let File { records, header, has_more, trim_jumps } = decode(&bytes).map_err(Unread::Row)?;
+    if has_more {
+        return Err(Unread::Row("bytes stand behind the end".to_owned()));
+    }
     if let Some(wrong) = header {
         worst.see(Rule::Header, wrong.into(), None);
     }

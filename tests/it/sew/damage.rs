@@ -3,10 +3,11 @@
 use std::collections::BTreeSet;
 
 use cutc::machine::Job;
+use cutc::machine::sewing::OnLong;
 use cutc::sew::verify::RULES;
 use cutc::sew::{Op, Program, Step};
 
-use super::{broken, planned, written};
+use super::{broken, fixture, planned, written};
 
 /// A way to damage a program: its name, the target, the rule that it breaks, and what it does.
 struct Damage(&'static str, &'static str, &'static str, fn(&mut Vec<String>));
@@ -95,7 +96,7 @@ fn every_damage_of_rows_is_refused_under_its_rule() {
         let text = String::from_utf8(written(&program, &job, target)).expect("text");
         let mut rows: Vec<String> = text.lines().map(str::to_owned).collect();
         run(&mut rows);
-        let broken = broken(&program, &job, target, &bytes(&rows));
+        let broken = broken(&program, &[], &job, (target, &bytes(&rows)));
         assert!(broken.contains(rule), "{name}: {rule} holds, but {broken:?} do not");
     }
 }
@@ -140,7 +141,7 @@ fn every_damage_of_bytes_is_refused_under_its_rule() {
     for (name, target, rule, run) in BYTE_DAMAGES {
         let mut bytes = written(&program, &job, target);
         run(&mut bytes);
-        let broken = broken(&program, &job, target, &bytes);
+        let broken = broken(&program, &[], &job, (target, &bytes));
         assert!(broken.contains(rule), "{name}: {rule} holds, but {broken:?} do not");
     }
 }
@@ -163,15 +164,47 @@ fn every_damage_of_what_is_laid_is_refused_under_its_rule() {
         let mut program: Program = planned("sew/pocket.csv", &job);
         run(&mut program.stitches.steps);
         let bytes = written(&program, &job, "dst");
-        let broken = broken(&program, &job, "dst", &bytes);
+        let broken = broken(&program, &[], &job, ("dst", &bytes));
         assert!(broken.contains(rule), "{name}: {rule} holds, but {broken:?} do not");
     }
+}
+
+/// Ways in which a reader of stitch files could go wrong: what it makes of the steps.
+#[rustfmt::skip] // a table: a damage a row
+const READ_DAMAGES: &[(&str, fn(&mut Vec<Step>))] = &[
+    ("a stitch is lost", |steps| _ = steps.remove(30)),
+    ("a stitch is made up", |steps| { let mut step = steps[30]; step.to.x += 1.0; steps.insert(30, step); }),
+    ("all stitches behind one are displaced", |steps| steps[50..].iter_mut().for_each(|step| step.to.y += 0.1)),
+    ("the last stitch is lost", |steps| { let i = steps.iter().rposition(|step| step.op == Op::Stitch).expect("a stitch"); steps.remove(i); }),
+];
+const SOURCE: &str = "sew-verify/source";
+
+#[test]
+fn every_fault_of_a_reader_of_stitch_files_is_seen() {
+    let job = Job::default();
+    for name in ["sew/seat.dst", "sew/three-seams.exp"] {
+        for (damage, run) in READ_DAMAGES {
+            let mut program = planned(name, &job);
+            run(&mut program.stitches.steps);
+            let bytes = written(&program, &job, "exp");
+            let broken = broken(&program, &fixture(name), &job, ("exp", &bytes));
+            assert!(broken.contains(&SOURCE), "{name}, {damage}: {broken:?}");
+        }
+    }
+    // What is split is no fault.
+    let mut job = job;
+    job.profile.sewing.on_long = OnLong::Split;
+    let program = planned("sew/three-seams.exp", &job);
+    assert!(program.stitches.count() > planned("sew/three-seams.exp", &Job::default()).stitches.count());
+    let bytes = written(&program, &job, "exp");
+    assert_eq!(broken(&program, &fixture("sew/three-seams.exp"), &job, ("exp", &bytes)), [""; 0]);
 }
 
 #[test]
 fn every_rule_is_broken_by_a_damage() {
     let rows = DAMAGES.iter().map(|Damage(_, _, rule, _)| *rule);
-    let aimed: BTreeSet<&str> =
-        rows.chain(BYTE_DAMAGES.iter().map(|row| row.2)).chain(LAID_DAMAGES.iter().map(|row| row.1)).collect();
+    let bytes = BYTE_DAMAGES.iter().map(|row| row.2);
+    let laid = LAID_DAMAGES.iter().map(|row| row.1);
+    let aimed: BTreeSet<&str> = rows.chain(bytes).chain(laid).chain([SOURCE]).collect();
     assert_eq!(aimed, RULES.iter().map(|row| row.name).collect());
 }

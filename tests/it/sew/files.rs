@@ -28,7 +28,8 @@ fn every_pattern_is_sewn_and_said() {
     let job = Job::default();
     let mut all = String::new();
     for name in names("sew") {
-        let (program, said, _) = plan(&name, fixture(&name), &job);
+        let original = fixture(&name);
+        let (program, said, _) = plan(&name, original.clone(), &job);
         let program = program.unwrap_or_else(|| panic!("{name}: {said}"));
         let _ = writeln!(all, "{name}: {}, {} stitches", program.format, program.stitches.count());
         for run in &program.runs {
@@ -42,7 +43,7 @@ fn every_pattern_is_sewn_and_said() {
         all += &said;
         for name in ["queue", "jsonl", "pulses", "pulses-npy", "dst", "exp"] {
             let bytes = written(&program, &job, name);
-            assert_eq!(broken(&program, &job, name, &bytes), [""; 0], "{name}");
+            assert_eq!(broken(&program, &original, &job, (name, &bytes)), [""; 0], "{name}");
             assert_eq!(bytes, written(&program, &job, name));
         }
     }
@@ -81,7 +82,7 @@ fn damaged_files_are_refused_or_sewn_but_never_end_in_a_panic() {
                 if let Some(program) = plan(&name, bytes.clone(), &job).0 {
                     for target in ["queue", "dst"] {
                         let written = written(&program, &job, target);
-                        assert_eq!(broken(&program, &job, target, &written), [""; 0]);
+                        assert_eq!(broken(&program, &bytes, &job, (target, &written)), [""; 0]);
                     }
                 }
             }));

@@ -42,8 +42,9 @@ fn written(program: &Program, job: &Job, name: &str) -> Vec<u8> {
     bytes
 }
 
-/// The codes of the rules that some bytes break.
-fn broken(program: &Program, job: &Job, name: &str, bytes: &[u8]) -> Vec<&'static str> {
-    let verdict = sew::judge(program, job, target(name).proof, &mut &bytes[..]).expect("memory is readable");
+/// The codes of the rules that some bytes break, of a program that was made from others.
+fn broken(program: &Program, original: &[u8], job: &Job, (name, bytes): (&str, &[u8])) -> Vec<&'static str> {
+    let source = Source::new("original", original.to_vec()).expect("small");
+    let verdict = sew::judge(program, &source, job, target(name).proof, &mut &bytes[..]).expect("memory is readable");
     verdict.expect("the target is judged").broken().map(|finding| finding.rule).collect()
 }
