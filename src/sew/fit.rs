@@ -9,7 +9,6 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
 use crate::machine::Sewing;
 use crate::machine::sewing::OnLong;
-use crate::units::S_PER_MIN;
 
 /// Makes all stitches such as the machine can make.
 pub(super) fn fit(stitches: &Stitches, sewing: &Sewing, out: &mut Diagnostics) -> Stitches {
@@ -90,7 +89,7 @@ fn refuse(stitches: &Stitches, sewing: &Sewing, out: &mut Diagnostics, drive: Dr
             out.push(Diagnostic::new(&code::SEW_LONG, message).on_cloth(step.to).by(pitch).hint(hint));
         } else if at_speed {
             let (rpm, wanted) = (speed::alone(from, step.to, sewing, &drive).0, wanted(pitch, sewing));
-            if speed::on_grid(rpm, sewing) < wanted {
+            if rpm < wanted {
                 let message = format!(
                     "the stitch of record {record}, {pitch:.3} mm long, fits at {rpm:.0} rpm, not at {wanted:.0} rpm"
                 );
@@ -128,8 +127,9 @@ fn split(stitches: &Stitches, sewing: &Sewing, out: &mut Diagnostics) -> Stitche
 fn parts(from: Point, step: &Step, sewing: &Sewing, drive: &Drive) -> u32 {
     let way = step.to - from;
     let pitch = way.norm();
-    let speed = |to: Point| speed::on_grid(speed::alone(from, to, sewing, drive).0, sewing);
-    if pitch <= sewing.max_pitch_mm + PITCH_EPSILON && speed(step.to) >= wanted(pitch, sewing) {
+    if pitch <= sewing.max_pitch_mm + PITCH_EPSILON
+        && speed::alone(from, step.to, sewing, drive).0 >= wanted(pitch, sewing)
+    {
         return 1;
     }
     let fits = |parts: u32| {
@@ -137,8 +137,7 @@ fn parts(from: Point, step: &Step, sewing: &Sewing, drive: &Drive) -> u32 {
         // Rounding to whole pulses makes one of the parts a pulse longer.
         let longest = way.x.abs().max(way.y.abs()) / f64::from(parts);
         let pulses = (longest / drive.step - PITCH_EPSILON).ceil().max(0.0) as u32;
-        let rpm = S_PER_MIN * sewing.window() / drive.least_time(pulses);
-        part <= sewing.max_pitch_mm + PITCH_EPSILON && speed::on_grid(rpm, sewing) >= wanted(part, sewing)
+        part <= sewing.max_pitch_mm + PITCH_EPSILON && speed::fitting(pulses, sewing, drive) >= wanted(part, sewing)
     };
     let least = sewing.min_pitch_mm.max(drive.step);
     let most = ((pitch / least) as u32).max(1);

@@ -44,15 +44,20 @@ pub(super) fn rpm_at(run: &Run, step: usize, sewing: &Sewing) -> f64 {
     soft.map_or(run.rpm, |soft| soft.min(run.rpm).floor())
 }
 
-/// The speed of a stitch alone, unrounded, stitches a minute, and whether it is the user's limit.
+/// The greatest speed of a stitch alone, stitches a minute, and whether it is the user's limit.
 pub(super) fn alone(from: Point, to: Point, sewing: &Sewing, drive: &Drive) -> (f64, bool) {
     let most = pulses(from, to, drive).into_iter().map(i64::unsigned_abs).max().unwrap_or(0);
-    let fits = match drive.least_time(most as u32) {
-        0.0 => f64::INFINITY,
-        time => S_PER_MIN * sewing.window() / time,
-    };
-    let user = user((to - from).norm(), sewing);
+    let fits = fitting(u32::try_from(most).unwrap_or(u32::MAX), sewing, drive);
+    let user = on_grid(user((to - from).norm(), sewing), sewing);
     (fits.min(user), user < fits)
+}
+
+/// The greatest speed at which so many pulses of an axis fit into the window; infinite for none.
+pub(super) fn fitting(pulses: u32, sewing: &Sewing, drive: &Drive) -> f64 {
+    match drive.least_time(pulses) {
+        0.0 => f64::INFINITY,
+        time => on_grid(S_PER_MIN * sewing.window() / time * (1.0 + GRID_EPSILON), sewing),
+    }
 }
 
 /// The user's limit for a stitch of a pitch, mm; infinite where there is none.
@@ -69,10 +74,10 @@ pub(super) fn pulses(from: Point, to: Point, drive: &Drive) -> [i64; 2] {
     [drive.grid(to.x) - drive.grid(from.x), drive.grid(to.y) - drive.grid(from.y)]
 }
 
-/// A speed on the grid; 0 where it is below the first.
+/// The greatest speed of the grid up to a limit; 0 where that is below the first.
 pub(super) fn on_grid(rpm: f64, sewing: &Sewing) -> f64 {
     let grid = f64::from(sewing.grid_rpm);
-    (rpm * (1.0 + GRID_EPSILON) / grid).floor() * grid
+    (rpm / grid).floor() * grid
 }
 
 /// The speed of every run.
@@ -81,21 +86,21 @@ pub(super) fn runs(stitches: &Stitches, sewing: &Sewing) -> Vec<Run> {
     let mut speeds: Vec<f64> = Vec::new();
     let run = |steps: Range<usize>| {
         speeds.clear();
-        let (mut least, mut limit) = (sewing.max_rpm, Limit::Machine);
+        let machine = on_grid(sewing.max_rpm, sewing);
+        let (mut least, mut limit) = (machine, Limit::Machine);
         for i in steps.clone() {
             let from = if i == 0 { Point::origin() } else { stitches.steps[i - 1].to };
             let (rpm, is_user) = alone(from, stitches.steps[i].to, sewing, &drive);
             if rpm < least {
                 (least, limit) = (rpm, if is_user { Limit::User(i) } else { Limit::Stitch(i) });
             }
-            speeds.push(rpm.min(sewing.max_rpm));
+            speeds.push(rpm.min(machine));
         }
-        let (rpm, middle) = (on_grid(least, sewing), speeds.len() / 2);
+        let middle = speeds.len() / 2;
         let (_, half, _) = speeds.select_nth_unstable_by(middle, f64::total_cmp);
-        let half = on_grid(*half, sewing);
-        let mut run = Run { steps, rpm, limit, cost: 0.0 };
-        let usual = Run { rpm: half, ..run.clone() };
-        if rpm > 0.0 {
+        let mut run = Run { steps, rpm: least, limit, cost: 0.0 };
+        let usual = Run { rpm: *half, ..run.clone() };
+        if least > 0.0 {
             run.cost = duration(&run, sewing) - duration(&usual, sewing);
         }
         run

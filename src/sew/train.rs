@@ -66,9 +66,12 @@ impl Drive {
     /// The pulses of a move, as the ramp mode has it: of a stitch within its window, s; `None` = as fast as the drive can,
     /// as with the needle up.
     pub fn train(&self, pulses: u32, window: Option<f64>) -> Train {
+        let fastest = self.fastest(pulses);
         match (self.ramp, window) {
             (Ramp::Fill, Some(window)) => self.filling(pulses, window),
-            (Ramp::Fastest, Some(_)) | (Ramp::Fill | Ramp::Fastest, None) => self.fastest(pulses),
+            // The grid of speeds forgives a millionth of a window; the needle does not.
+            (Ramp::Fastest, Some(window)) if fastest.time > window => self.filling(pulses, window),
+            (Ramp::Fastest, Some(_)) | (Ramp::Fill | Ramp::Fastest, None) => fastest,
         }
     }
 
@@ -202,14 +205,14 @@ mod tests {
             let drive = Drive::of(&sewing);
             for pulses in 1..=254 {
                 let least = drive.least_time(pulses);
-                for slack in [1.0, 1.001, 1.3, 4.0] {
+                for slack in [1.0 - 5e-7, 1.0, 1.001, 1.3, 4.0] {
                     let train = drive.train(pulses, Some(least * slack));
                     let times: Vec<f64> = train.times().collect();
                     assert!(times.is_sorted() && times[0] > 0.0, "{pulses} {slack}: {times:?}");
                     assert!(times[times.len() - 1] <= least * slack * (1.0 + 1e-12));
                     // At the joints of ramp and cruise a pulse may stand on either side.
                     let fastest = times.windows(2).map(|pair| sewing.step_mm / (pair[1] - pair[0])).fold(0.0, f64::max);
-                    assert!(fastest <= drive.cap * (1.0 + 1e-9), "{pulses} {slack}: {fastest}");
+                    assert!(fastest <= drive.cap * (1.0 + 1e-6), "{pulses} {slack}: {fastest}");
                 }
             }
         }

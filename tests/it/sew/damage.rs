@@ -169,9 +169,11 @@ fn every_damage_of_what_is_laid_is_refused_under_its_rule() {
     }
 }
 
-/// Ways in which a reader of stitch files could go wrong: what it makes of the steps.
+/// A way in which a reader of stitch files could go wrong: its name, and what it makes of the steps.
+type ReadDamage = (&'static str, fn(&mut Vec<Step>));
+
 #[rustfmt::skip] // a table: a damage a row
-const READ_DAMAGES: &[(&str, fn(&mut Vec<Step>))] = &[
+const READ_DAMAGES: &[ReadDamage] = &[
     ("a stitch is lost", |steps| _ = steps.remove(30)),
     ("a stitch is made up", |steps| { let mut step = steps[30]; step.to.x += 1.0; steps.insert(30, step); }),
     ("all stitches behind one are displaced", |steps| steps[50..].iter_mut().for_each(|step| step.to.y += 0.1)),

@@ -27,12 +27,15 @@ fn random_queue(random: &mut Rng, longest: f64) -> Vec<u8> {
 #[test]
 fn random_patterns_are_proven_in_every_form_and_mode() {
     let mut random = Rng::with_seed(2026);
-    for i in 0..120 {
+    for i in 0..300 {
         let mut job = Job::default();
         let sewing = &mut job.profile.sewing;
         sewing.ramp = if random.bool() { Ramp::Fill } else { Ramp::Fastest };
         sewing.on_long = if random.bool() { OnLong::Slow } else { OnLong::Split };
-        sewing.start_hz = [0.0, 1500.0, 2836.364][random.usize(0..3)];
+        sewing.start_hz = [0.0, 1500.0, 2836.364, 3400.0][random.usize(0..4)];
+        sewing.feed_acceleration_mm_s2 = 10.0_f64.powf(3.0 + 2.0 * random.f64());
+        sewing.grid_rpm = [1, 10, 50][random.usize(0..3)];
+        sewing.max_rpm = 1000.0 + 4000.0 * random.f64();
         sewing.max_hz = [None, Some(3500.0), Some(6000.0)][random.usize(0..3)];
         sewing.step_mm = [0.05, 0.1, 0.0125][random.usize(0..3)];
         sewing.soft_start_rpm = [None, Some(400.0)][random.usize(0..2)];
