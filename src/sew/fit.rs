@@ -43,20 +43,23 @@ fn merge(stitches: &Stitches, sewing: &Sewing, out: &mut Diagnostics) -> Stitche
                 continue;
             }
         } else {
-            end_run(&mut steps, pending.take());
+            end_run(&mut steps, pending.take(), least);
         }
         steps.push(*step);
         at = step.to;
     }
-    end_run(&mut steps, pending.take());
+    end_run(&mut steps, pending.take(), least);
     Stitches { steps }
 }
 
 /// A run ends with a stitch that is too short: the one before it goes to its end instead.
-fn end_run(steps: &mut Vec<Step>, pending: Option<Step>) {
+fn end_run(steps: &mut Vec<Step>, pending: Option<Step>, least: f64) {
     let Some(short) = pending else { return };
+    // A seam that turns back there would leave the one before it too short.
+    let before = steps.len().checked_sub(2).map_or(Point::origin(), |i| steps[i].to);
+    let is_long = (short.to - before).norm() >= least;
     match steps.last_mut() {
-        Some(last) if last.op == Op::Stitch && !last.is_tie => last.to = short.to,
+        Some(last) if last.op == Op::Stitch && !last.is_tie && is_long => last.to = short.to,
         // There is none that could: the thread is held there.
         Some(_) | None => steps.push(Step { is_tie: true, ..short }),
     }
@@ -121,6 +124,16 @@ fn split(stitches: &Stitches, sewing: &Sewing, out: &mut Diagnostics) -> Stitche
         out.push(Diagnostic::new(&code::SEW_SPLIT, message).hint(hint));
     }
     Stitches { steps }
+}
+
+/// The longest pitch that fits in every direction at the speed that it would have, mm; at least the least one.
+pub(super) fn longest(sewing: &Sewing) -> f64 {
+    let drive = Drive::of(sewing);
+    let most = (sewing.max_pitch_mm / drive.step + PITCH_EPSILON) as u32;
+    let pitch = |pulses: u32| f64::from(pulses) * drive.step;
+    let fits = |pulses: &u32| speed::fitting(*pulses, sewing, &drive) >= wanted(pitch(*pulses), sewing);
+    // A stitch that is not longer than so many steps has no more pulses wherever it begins.
+    (1..=most).rev().find(fits).map_or(0.0, pitch).max(sewing.min_pitch_mm).max(drive.step)
 }
 
 /// Into how many stitches one is split: the fewest that fit, and none shorter than the machine can make.

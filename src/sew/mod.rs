@@ -40,6 +40,7 @@ use std::io::{self, BufRead};
 use self::verify::{Bytes, Ground, Original, Verdict};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
+use crate::machine::sewing::OnLong;
 use crate::machine::{Job, Sewing};
 use crate::source::Source;
 
@@ -52,7 +53,7 @@ pub fn plan(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) ->
     let (format, input) = read::read(source, asked, job, out)?;
     let (pattern, stitches) = match input {
         Input::Pattern(pattern) => {
-            let stitches = lay::lay(&pattern, sewing);
+            let stitches = laid(&pattern, sewing, out);
             (Some(pattern), stitches)
         }
         Input::Stitches(stitches) => (None, stitches),
@@ -71,6 +72,27 @@ pub fn plan(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) ->
         tell(&stitches, &runs, sewing, out);
     }
     (!out.has_errors()).then_some(Program { format, pattern, stitches, runs })
+}
+
+/// The stitches of a pattern. Where long ones are to be split seams are laid closer at once: parts of a stitch would lie on
+/// its chord, beside a seam that curves.
+fn laid(pattern: &Pattern, sewing: &Sewing, out: &mut Diagnostics) -> Stitches {
+    let stitches = lay::lay(pattern, sewing);
+    let pitch = fit::longest(sewing);
+    if sewing.on_long != OnLong::Split || sewing.pitch_mm <= pitch {
+        return stitches;
+    }
+    let closer = lay::lay(pattern, &Sewing { pitch_mm: pitch, ..sewing.clone() });
+    let added = closer.count().saturating_sub(stitches.count());
+    if added > 0 {
+        let message = format!(
+            "{added} penetrations are added: seams are laid at {pitch:.2} mm, as `sewing.pitch_mm`, {} mm, is too long for the speed",
+            sewing.pitch_mm
+        );
+        let hint = "needle holes weaken leather and coated cloth; `--on-long slow` keeps the pitch";
+        out.push(Diagnostic::new(&code::SEW_SPLIT, message).hint(hint));
+    }
+    closer
 }
 
 /// Tells of runs that a stitch slows down, and of those that no speed suits.

@@ -18,7 +18,18 @@ pub(super) fn needle_points(seam: &Seam, sewing: &Sewing) -> Vec<Point> {
             points.extend(zigzag(&back, sewing.tack_width_mm, sewing.tack_pitch_mm, sewing));
             points
         }
-        Element::BoxX => straight(&box_x(&seam.points)),
+        // Its corners are corners however flat it is.
+        Element::BoxX => even(&box_x(&seam.points), sewing.pitch_mm, 0.0),
+    }
+}
+
+/// The line along which the thread of a seam runs: straight seams and boxes follow their lines, others go from needle point to
+/// needle point.
+pub(super) fn line(seam: &Seam, points: &[Point]) -> Vec<Point> {
+    match seam.element {
+        Element::Straight => distinct(&seam.points),
+        Element::BoxX => box_x(&seam.points),
+        Element::Zigzag | Element::BarTack => points.to_vec(),
     }
 }
 

@@ -1,11 +1,12 @@
 //! Locking the ends of a seam, so that the thread does not pull out.
 
-use crate::geom::Point;
+use crate::geom::{Point, polyline};
 use crate::machine::Sewing;
 use crate::machine::sewing::Ends;
 
 /// The needle points of a seam behind its first one, with its ends locked: each place, and whether it belongs to a lock.
-pub(super) fn locked(points: &[Point], ends: Ends, sewing: &Sewing) -> Vec<(Point, bool)> {
+/// Ties lie on `line`, along which the thread runs.
+pub(super) fn locked(points: &[Point], line: &[Point], ends: Ends, sewing: &Sewing) -> Vec<(Point, bool)> {
     let plain = |points: &[Point]| points.iter().map(|&point| (point, false)).collect::<Vec<_>>();
     let [first, rest @ ..] = points else { return Vec::new() };
     if rest.is_empty() {
@@ -13,7 +14,7 @@ pub(super) fn locked(points: &[Point], ends: Ends, sewing: &Sewing) -> Vec<(Poin
     }
     match ends {
         Ends::Open => plain(rest),
-        Ends::Tie => tied(*first, rest, sewing),
+        Ends::Tie => tied((*first, rest), line, sewing),
         Ends::BackTack => {
             let count = (sewing.back_tack_stitches as usize).min(rest.len());
             // There, back, and on; at the end on, back, and there again.
@@ -29,11 +30,12 @@ pub(super) fn locked(points: &[Point], ends: Ends, sewing: &Sewing) -> Vec<(Poin
 }
 
 /// A seam with short stitches back and forth along the path at its ends; its needle points stay where they are.
-fn tied(first: Point, rest: &[Point], sewing: &Sewing) -> Vec<(Point, bool)> {
+fn tied((first, rest): (Point, &[Point]), line: &[Point], sewing: &Sewing) -> Vec<(Point, bool)> {
     let last = rest[rest.len() - 1];
     let before = if rest.len() > 1 { rest[rest.len() - 2] } else { first };
-    let head = toward(first, rest[0], sewing);
-    let tail = toward(last, before, sewing);
+    let head = on_line(line, (rest[0] - first).norm(), sewing);
+    let back: Vec<Point> = line.iter().rev().copied().collect();
+    let tail = on_line(&back, (last - before).norm(), sewing);
     let stitches = sewing.tie_stitches;
     let mut out: Vec<(Point, bool)> =
         (0..stitches).map(|i| (if i.is_multiple_of(2) { head } else { first }, true)).collect();
@@ -44,12 +46,11 @@ fn tied(first: Point, rest: &[Point], sewing: &Sewing) -> Vec<(Point, bool)> {
     out
 }
 
-/// The place of a tie on the way from an end of a seam to its next needle point: half way where that is near.
-fn toward(end: Point, next: Point, sewing: &Sewing) -> Point {
-    let way = next - end;
-    let pitch = way.norm();
+/// The place of a tie along a line from its beginning, where the next needle point is a pitch away: half way where that is
+/// near.
+fn on_line(line: &[Point], pitch: f64, sewing: &Sewing) -> Point {
     let room = (pitch - sewing.min_pitch_mm).max(pitch / 2.0);
-    end + way * (sewing.tie_mm.min(room) / pitch)
+    polyline::place(line, &polyline::stations(line), sewing.tie_mm.min(room))
 }
 
 #[cfg(test)]
@@ -59,7 +60,7 @@ mod tests {
     fn check(ends: Ends, stitches: u32, expected: &[f64]) {
         let points: Vec<Point> = [0.0, 2.0, 4.0, 6.0].iter().map(|&x| Point::new(x, 0.0)).collect();
         let sewing = Sewing { tie_mm: 0.5, tie_stitches: stitches, back_tack_stitches: 2, ..Sewing::default() };
-        let xs: Vec<f64> = locked(&points, ends, &sewing).iter().map(|(point, _)| point.x).collect();
+        let xs: Vec<f64> = locked(&points, &points, ends, &sewing).iter().map(|(point, _)| point.x).collect();
         assert_eq!(xs, expected);
     }
 

@@ -67,7 +67,9 @@ impl Work<'_> {
             // The needle goes down where it stands: the first needle point of the seam.
             self.push(Op::Stitch, start, (true, record));
         }
-        for (to, is_tie) in ends::locked(&points, seam.ends.unwrap_or(self.sewing.ends), self.sewing) {
+        let ends = seam.ends.unwrap_or(self.sewing.ends);
+        let line = element::line(seam, &points);
+        for (to, is_tie) in ends::locked(&points, &line, ends, self.sewing) {
             self.push(Op::Stitch, to, (is_tie, record));
         }
         self.is_sewn = true;

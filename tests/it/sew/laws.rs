@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use cutc::geom::Point;
 use cutc::machine::Job;
-use cutc::machine::sewing::{OnLong, Ramp};
+use cutc::machine::sewing::{OnLong, Ramp, SeamOrder};
 use cutc::sew::{Drive, Op, Program};
 use fastrand::Rng;
 
@@ -53,6 +53,59 @@ fn random_patterns_are_proven_in_every_form_and_mode() {
                 job.profile.sewing,
                 String::from_utf8_lossy(&queue)
             );
+        }
+    }
+}
+
+/// A pattern of random lines with random elements: straight ones, corners, curves, edges down to a hundredth of a millimetre.
+fn random_pattern(random: &mut Rng) -> Vec<u8> {
+    let mut text = "x_mm,y_mm,element".to_owned();
+    for _ in 0..random.usize(1..6) {
+        let element = ["straight", "zigzag", "bar-tack", "box-x"][random.usize(0..4)];
+        let words = [
+            element,
+            ["", "tie", "back-tack", "open"][random.usize(0..4)],
+            ["", "thread 2", "stop"][random.usize(0..3)],
+        ];
+        let count = match element {
+            "bar-tack" => 2,
+            "box-x" => 4,
+            _ => random.usize(2..30),
+        };
+        let (mut at, mut heading) = ([100.0 * random.f64(), 100.0 * random.f64()], random.f64() * 6.0);
+        text += "\n";
+        for i in 0..count {
+            let words = if i == 0 { words.join(" ") } else { String::new() };
+            _ = write!(text, "\n{:.4},{:.4},{words}", at[0], at[1]);
+            let length = 10.0_f64.powf(-2.0 + 3.5 * random.f64());
+            heading += [0.0, 0.1, 1.5708, 3.0 * random.f64()][random.usize(0..4)];
+            at = [at[0] + length * heading.cos(), at[1] + length * heading.sin()];
+        }
+    }
+    text.into_bytes()
+}
+
+#[test]
+fn random_lines_are_laid_with_every_corner_and_on_their_seams() {
+    let mut random = Rng::with_seed(31);
+    for i in 0..400 {
+        let mut job = Job::default();
+        let sewing = &mut job.profile.sewing;
+        sewing.order = [SeamOrder::File, SeamOrder::Travel][random.usize(0..2)];
+        sewing.on_long = [OnLong::Slow, OnLong::Split][random.usize(0..2)];
+        sewing.pitch_mm = [0.5, 2.5, 4.0][random.usize(0..3)];
+        sewing.min_pitch_mm = [0.0, 0.1, 0.3][random.usize(0..3)];
+        sewing.tie_stitches = random.u32(1..6);
+        sewing.back_tack_stitches = random.u32(1..9);
+        sewing.trim = random.bool();
+        let pattern = random_pattern(&mut random);
+        let shown = String::from_utf8_lossy(&pattern).into_owned();
+        let (program, said, _) = plan("x.csv", pattern, &job);
+        let Some(program) = program else { panic!("{i}: {said}\n{shown}") };
+        for target in ["queue", "pulses-npy", "dst"] {
+            let bytes = written(&program, &job, target);
+            let broken = broken(&program, &[], &job, (target, &bytes));
+            assert!(broken.is_empty(), "{i} {target}: {broken:?} {:?}\n{shown}", job.profile.sewing);
         }
     }
 }
