@@ -78,7 +78,7 @@ fn random_pattern(random: &mut Rng) -> Vec<u8> {
             let words = if i == 0 { words.join(" ") } else { String::new() };
             _ = write!(text, "\n{:.4},{:.4},{words}", at[0], at[1]);
             let length = 10.0_f64.powf(-2.0 + 3.5 * random.f64());
-            heading += [0.0, 0.1, 1.5708, 3.0 * random.f64()][random.usize(0..4)];
+            heading += [0.0, 0.1, std::f64::consts::FRAC_PI_2, 3.0 * random.f64()][random.usize(0..4)];
             at = [at[0] + length * heading.cos(), at[1] + length * heading.sin()];
         }
     }
