@@ -36,8 +36,12 @@
 //! | [`back`] | targets: a form to bytes, a file each, rows of [`back::TARGETS`]; printing only |
 //! | `verify` | `program`: readers of its own; `reference`: what must be cut; `cut` and `axes`: what blade and axes do; `source`: the audit of the reader |
 //! | [`pipeline`] | names every stage once, in order |
+//! | [`sew`] | the pattern-sewing machine, a pipeline of its own: patterns to stitches, pulses and stitch files |
 //! | [`manual`] | the manual, a page a topic, rows of [`manual::PAGES`] |
 //! | `cli` | arguments as typed to a job as meant; the binary adds printing and the exit code |
+//!
+//! Other machines of the sewing floor are small pipelines of the same shape: [`sew`] reads what `front` reads and has its own
+//! forms, targets and verifier.
 //!
 //! To find a thing, follow the data: a wrong coordinate is `front`'s, a wrong order or overlap `pass`'s, a shaking axis
 //! `plan`'s, a wrong column `back`'s.
@@ -82,6 +86,7 @@ pub mod pass;
 pub mod pipeline;
 pub mod plan;
 pub mod recognise;
+pub mod sew;
 pub mod source;
 pub mod units;
 pub mod verify;

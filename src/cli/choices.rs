@@ -9,6 +9,7 @@ use crate::machine::plot;
 use crate::manual::{PAGES, Page};
 use crate::pass::marker::MARKER_PASSES;
 use crate::pass::toolpath::TOOLPATH_PASSES;
+use crate::sew;
 
 /// How figures are given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -63,6 +64,19 @@ pub(super) fn dialects() -> impl TypedValueParser<Value = &'static Dialect> {
     names(DIALECTS.iter().map(|dialect| (dialect.name, dialect.about))).map(|name| {
         DIALECTS.iter().find(|dialect| dialect.name == name).expect("clap lets only the names of the table pass")
     })
+}
+
+/// Reads the name of a target of sewn patterns.
+pub(super) fn sewing_targets() -> impl TypedValueParser<Value = &'static sew::Target> {
+    names(sew::TARGETS.iter().map(|target| (target.name, target.about))).map(|name| {
+        sew::TARGETS.iter().find(|target| target.name == name).expect("clap lets only the names of the table pass")
+    })
+}
+
+/// Reads the name of what can be sewn: a format of sewing machines, or a dialect.
+pub(super) fn sewing_formats() -> impl TypedValueParser<Value = String> {
+    let formats = sew::FORMATS.iter().map(|format| (format.name, format.about));
+    names(formats.chain(DIALECTS.iter().map(|dialect| (dialect.name, dialect.about))))
 }
 
 /// Reads the name of a page of the manual.

@@ -173,7 +173,7 @@ pub(super) fn below(out: &Path, name: &Path, targets: &[&'static Target]) -> Vec
 
 /// Whether a program can stand at a path: no directory or device is there, and neither it nor what stands beside it is
 /// one of some inputs.
-fn writable(path: &Path, inputs: &[&Path]) -> anyhow::Result<()> {
+pub(super) fn writable(path: &Path, inputs: &[&Path]) -> anyhow::Result<()> {
     if fs::metadata(path).is_ok_and(|target| !target.is_file()) {
         return Err(failure(
             format!("`{}` is not a regular file", path.display()),
@@ -202,7 +202,7 @@ pub(super) fn not_of_another(path: &Path, input: &Path) -> anyhow::Result<()> {
 }
 
 /// Whether a path is a directory, or written as one.
-fn names_directory(path: &Path) -> bool {
+pub(super) fn names_directory(path: &Path) -> bool {
     path.is_dir() || path.as_os_str().to_string_lossy().ends_with(MAIN_SEPARATOR)
 }
 

@@ -11,6 +11,7 @@ use crate::machine::MachineProfile;
 use crate::machine::keys::{self, KEYS, Key};
 use crate::manual;
 use crate::pipeline::RULES;
+use crate::sew;
 
 /// Columns of an explanation.
 const COLUMNS: usize = 80;
@@ -48,7 +49,9 @@ fn topics() -> impl Iterator<Item = Topic> {
         more: code.more,
     });
     let rules = RULES.iter().map(|rule| Topic { name: rule.name, kind: "rule", about: rule.about, more: rule.more });
-    codes.chain(rules)
+    let sewing = sew::verify::RULES.iter();
+    let sewing = sewing.map(|rule| Topic { name: rule.name, kind: "rule", about: rule.about, more: rule.more });
+    codes.chain(rules).chain(sewing)
 }
 
 fn severity(severity: Severity) -> &'static str {

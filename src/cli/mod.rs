@@ -25,6 +25,7 @@ mod profile;
 mod provenance;
 mod report;
 mod setup;
+mod sew;
 mod stop;
 mod summary;
 mod times;
@@ -61,6 +62,8 @@ enum Command {
     Compile(compile::Arguments),
     /// Compile every cutter file that comes into a folder, until it is stopped
     Watch(watch::Arguments),
+    /// Sew patterns and stitch files: to queues, feed pulses and stitch files
+    Sew(sew::Arguments),
     /// Judge programs, edited by hand or not: do they cut what their cutter files say?
     Verify(verify::Arguments),
     /// Read cutter files and say everything that is wrong with them; writes nothing
@@ -91,6 +94,7 @@ pub fn run(words: impl IntoIterator<Item = OsString>, console: &mut Console) -> 
     let finished = match &arguments.command {
         Command::Compile(arguments) => compile::run(arguments, console),
         Command::Watch(arguments) => watch::run(arguments, &words[2..], console),
+        Command::Sew(arguments) => sew::run(arguments),
         Command::Verify(arguments) => verify::run(arguments, console),
         Command::Check(arguments) => check::run(arguments, console),
         Command::Info(arguments) => info::run(arguments, console),

@@ -23,13 +23,24 @@ pub(super) struct Setup {
 
 /// Where the values came from.
 #[derive(Debug, Serialize)]
-struct Profile {
+pub(super) struct Profile {
     /// Name of the file, without its directory; null = none was given, the default machine was used.
     file: Option<String>,
     /// Of the values in effect, as the provenance of a program has it.
     sha256: String,
     /// Keys that `--set` changed.
     set: Vec<String>,
+}
+
+impl Profile {
+    /// That of a job.
+    pub(super) fn of(job: &Job) -> Self {
+        Self {
+            file: job.origin.file.clone(),
+            sha256: job.profile.digest(),
+            set: job.origin.set.iter().cloned().collect(),
+        }
+    }
 }
 
 /// The blade.
@@ -54,11 +65,7 @@ impl Setup {
         };
         let back = knife.back_mm.unwrap_or_default();
         Self {
-            profile: Profile {
-                file: job.origin.file.clone(),
-                sha256: job.profile.digest(),
-                set: job.origin.set.iter().cloned().collect(),
-            },
+            profile: Profile::of(job),
             knife: Knife { width_mm: knife.width_mm, back_mm: back, radius_mm: rounded(knife.width_mm - back), axis },
             sheet: Some(&job.profile.sheet).filter(|sheet| !sheet.is_plain()).cloned(),
         }

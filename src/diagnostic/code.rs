@@ -291,6 +291,40 @@ mod table {
     /// A rule does not hold.
     pub static VERIFY_BROKEN: Code = error(Shape, "verify/broken", "The program, read back, breaks a rule; the message names the rule, the worst value, the limit, the time and the place.", "The program was thrown away before it could reach the machine. The message names the rule; `cutc explain` with that name says what it protects. Where a rule has a key of its own in the profile, the hint names it.");
 
+    // Sewn patterns.
+    /// No stitch.
+    pub static SEW_NOTHING: Code = error(Shape, "sew/nothing-to-sew", "The file holds no line and no stitch.", "The pattern is empty, or holds what is no line. `cutc info` tells what is in a drawing; `--line` names the pen or layer whose lines are sewn.\n  cutc sew seat.plt --line 2");
+    /// A row that says nothing known.
+    pub static SEW_ROW: Code = error(Text, "sew/row", "A row of a pattern or of a queue cannot be read; the message says why.", "Sewing on without it would leave a gap or displace all that follows. Mend the row: decimal points, commas between the fields.\n  0,0,zigzag open");
+    /// A file that ends too soon.
+    pub static SEW_TRUNCATED: Code = error(Text, "sew/truncated", "A stitch file or queue ends before its end.", "What is missing would not be sewn, and a thread would be left uncut. Transfer the file again as binary data and compare the sizes of both.");
+    /// A record that is none.
+    pub static SEW_RECORD: Code = error(Text, "sew/record", "A record of a stitch file is none that its format knows; the message has its number.", "All that follows would be sewn in another place. The file is damaged, or is of another format: name that with `--from`.\n  cutc sew odd.bin --from exp");
+    /// A header that tells something else.
+    pub static SEW_HEADER: Code = warning(Spares, Text, "sew/header", "The header of a DST file does not fit its stitches; the message says what it tells and what there is.", "The stitches are sewn as they are. If the header is right, some are missing: compare with the original. Headers of files that were edited are often wrong.");
+    /// Jump after jump.
+    pub static SEW_JUMPS: Code = warning(Spares, Shape, "sew/jump-storm", "So many jumps follow one another that the file is most likely damaged.", "Jumps in a row are made as one move, so nothing is lost, but no system writes so many. Look at the picture (-t svg), and compare the stitches with the original.");
+    /// An element on a line that cannot bear it.
+    pub static SEW_ELEMENT: Code = error(Shape, "sew/element", "An element of a pattern does not suit its line: a box needs four corners, a bar tack two points, any other two places.", "What was meant cannot be told from the points, and a tack in the wrong place is a hole in the garment. Mend the points, or take another element.\n  0,0,box-x");
+    /// An inset that leaves nothing.
+    pub static SEW_INSET: Code = error(Shape, "sew/inset", "A contour is too narrow for the inset that is asked for.", "The seam would run outside the part, or through another seam: somewhere the contour is narrower than twice the inset. Take a smaller `--inset`, or draw the seam.");
+    /// No such line.
+    pub static SEW_NO_LINE: Code = error(Shape, "sew/no-line", "The file has no line of the name that `--line` gives; the hint names those that it has.", "Pens and layers have the names that the file gives them; `seam` means the seam lines that are recognised in parts.\n  cutc sew parts.plt --line seam");
+    /// A stitch that is too short.
+    pub static SEW_SHORT: Code = warning(Spares, Shape, "sew/short-stitch", "A stitch is shorter than `sewing.min_pitch_mm`; it is merged with the next. The message has its record.", "Stitches that are too short pile up under the needle and break the thread. Where they are meant, to lock a seam, lower the key.");
+    /// A stitch that is too long.
+    pub static SEW_LONG: Code = error(Shape, "sew/long-stitch", "A stitch is longer than the machine can make, or than its speed allows where `sewing.on_long` is \"reject\". The message has its record.", "The needle would be dragged through the cloth. `--on-long split` makes it several, `--on-long slow` sews its run more slowly.");
+    /// Stitches that were split.
+    pub static SEW_SPLIT: Code = warning(Spoils, Shape, "sew/split-stitches", "Stitches too long for the speed were split into equal ones; the message has how many penetrations that adds.", "The seam has more holes than were drawn, which shows on leather and weakens it. `--on-long slow` keeps every stitch and takes more time.");
+    /// A run that one stitch slows down.
+    pub static SEW_SLOWED: Code = warning(Spares, Shape, "sew/slowed-run", "A run is sewn more slowly than most of its stitches allow, because of one; the message names it and what it costs.", "The spindle keeps one speed within a run. Shorten the stitch in the pattern, split it (`--on-long split`), or end the run before it by a trim.");
+    /// No speed at all.
+    pub static SEW_NO_SPEED: Code = error(Shape, "sew/no-speed", "A stitch fits into its window at no speed of the spindle.", "Even the slowest turn is too short for the move. Look at `sewing.feed_start_deg`, `sewing.feed_end_deg`, the acceleration and `sewing.grid_rpm`, or split the stitch.");
+    /// The queue runs dry.
+    pub static SEW_UNDERRUN: Code = warning(Spares, Shape, "sew/underrun", "The host does not fill the queue as fast as the machine takes from it; the message says from which entry on.", "The machine stops amid a seam and waits. A deeper queue bridges it, a faster host or a slower spindle ends it.\n  cutc sew seat.dst --set sewing.queue_depth=1024");
+    /// The program breaks a rule.
+    pub static SEW_BROKEN: Code = error(Shape, "sew/broken", "The program, read back, breaks a rule; the message names the rule, the worst value, the limit and the entry.", "The program is not written: it would not sew what the file says. Please report the file: a pattern that is read without errors should be sewn as it is.");
+
     // Machine profile.
     /// The TOML is broken.
     pub static PROFILE_SYNTAX: Code = error(Text, "profile/syntax", "The profile is not valid TOML.", "TOML wants a key, an equals sign and a value on a line; text stands in quotes. `cutc profile init` prints a profile that is right.\n  knife.width_mm = 7.2");
@@ -395,6 +429,22 @@ pub static ALL: &[&Code] = &[
     &PLAN_CERTIFY,
     &TARGET_REFUSED,
     &VERIFY_BROKEN,
+    &SEW_NOTHING,
+    &SEW_ROW,
+    &SEW_TRUNCATED,
+    &SEW_RECORD,
+    &SEW_HEADER,
+    &SEW_JUMPS,
+    &SEW_ELEMENT,
+    &SEW_INSET,
+    &SEW_NO_LINE,
+    &SEW_SHORT,
+    &SEW_LONG,
+    &SEW_SPLIT,
+    &SEW_SLOWED,
+    &SEW_NO_SPEED,
+    &SEW_UNDERRUN,
+    &SEW_BROKEN,
     &PROFILE_SYNTAX,
     &PROFILE_UNKNOWN_KEY,
     &PROFILE_TYPE,

@@ -56,6 +56,8 @@ pub enum Takes {
     Text,
     /// A list of steps of a controller.
     Steps,
+    /// A list of pairs of numbers, each in its range.
+    Pairs(Within, Within),
     /// True or false.
     Flag,
 }
@@ -131,6 +133,15 @@ impl Takes {
                 let is_step = |step: &toml::Value| step.as_str().is_some_and(|text| Step::read(text).is_ok());
                 value.as_array().is_some_and(|steps| steps.iter().all(is_step))
             }
+            Self::Pairs(first, second) => {
+                let is_pair = |pair: &toml::Value| match pair.as_array().map(Vec::as_slice) {
+                    Some([a, b]) => {
+                        number(a).is_some_and(|v| first.holds(v)) && number(b).is_some_and(|v| second.holds(v))
+                    }
+                    Some(_) | None => false,
+                };
+                value.as_array().is_some_and(|pairs| pairs.iter().all(is_pair))
+            }
             Self::Flag => value.is_bool(),
         }
     }
@@ -193,7 +204,7 @@ impl fmt::Display for Within {
 impl Key {
     /// The unit of its numbers, from the end of its name; empty when they have none.
     pub fn unit(&self) -> &'static str {
-        const UNITS: [(&str, &str); 14] = [
+        const UNITS: [(&str, &str); 16] = [
             ("per_mm", "counts/mm"),
             ("per_deg", "counts/degree"),
             (".offset", "counts"),
@@ -208,6 +219,8 @@ impl Key {
             ("_deg_s2", "degrees/s2"),
             ("_deg_s3", "degrees/s3"),
             ("_ms", "ms"),
+            ("_hz", "Hz"),
+            ("_rpm", "rpm"),
         ];
         let percent = self.name.ends_with("_percent").then_some("percent");
         UNITS.iter().find(|(end, _)| self.name.ends_with(end)).map(|&(_, unit)| unit).or(percent).unwrap_or("")
@@ -232,6 +245,7 @@ impl Key {
             | Takes::Encoding
             | Takes::Text
             | Takes::Steps
+            | Takes::Pairs(..)
             | Takes::Flag => "",
         }
     }
@@ -258,6 +272,9 @@ impl Key {
             Takes::Encoding => "the name of an encoding, such as \"windows-1251\"".to_owned(),
             Takes::Text => "text, a line or several".to_owned(),
             Takes::Steps => "a list of steps, such as [\"M64 P0\", \"G4 P0.05\"]".to_owned(),
+            Takes::Pairs(first, second) => {
+                format!("a list of pairs, the first number of each {first}, the second {second}")
+            }
             Takes::Flag => "true or false".to_owned(),
         }
     }

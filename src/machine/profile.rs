@@ -23,6 +23,7 @@ use super::order::Order;
 pub use super::path::Fit;
 use super::path::{Corner, Path, Slow};
 use super::plot::Hpgl;
+use super::sewing::Sewing;
 use super::sheet::Sheet;
 use super::table::Table;
 use super::time::Time;
@@ -93,6 +94,8 @@ pub struct MachineProfile {
     pub hpgl: Hpgl,
     /// The texts of labels.
     pub labels: Labels,
+    /// The pattern-sewing machine.
+    pub sewing: Sewing,
     /// Codes of the cutter file by name, `M19`.
     pub codes: BTreeMap<String, CodeUse>,
 }
@@ -153,6 +156,7 @@ impl Default for MachineProfile {
             verify: Verify::default(),
             hpgl: Hpgl::default(),
             labels: Labels::default(),
+            sewing: Sewing::default(),
             codes: BTreeMap::new(),
         }
     }

@@ -105,6 +105,11 @@ fn values(key: &Key) -> Value {
         Takes::Encoding => vec![json!({ "enum": &encoding::NAMES[..] }), json!({ "type": "string" })],
         Takes::Text => vec![json!({ "type": "string", "pattern": r"^[\n -~]*$" })],
         Takes::Steps => vec![json!({ "type": "array", "items": { "$ref": STEP } })],
+        Takes::Pairs(first, second) => {
+            let pair = [numbers(first), numbers(second)];
+            let pair = json!({ "type": "array", "minItems": 2, "maxItems": 2, "prefixItems": pair });
+            vec![json!({ "type": "array", "items": pair })]
+        }
         Takes::Flag => vec![json!({ "type": "boolean" })],
     };
     if let Takes::NumberOr(_, other) | Takes::PointOr(other) | Takes::PoseOr(other) | Takes::RangeOr(other) = key.takes

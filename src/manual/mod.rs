@@ -51,6 +51,11 @@ pub const PAGES: &[Page] = &[
         text: include_str!("cutting.md"),
     },
     Page {
+        name: "sewing",
+        about: "The pattern-sewing machine: stitches, speeds, feed pulses, stitch files",
+        text: include_str!("sewing.md"),
+    },
+    Page {
         name: "verification",
         about: "How a program is verified, and every rule",
         text: include_str!("verification.md"),

@@ -16,6 +16,8 @@ mod samples;
 
 mod schema;
 
+mod stitches;
+
 mod tables;
 
 use std::path::Path;

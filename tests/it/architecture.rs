@@ -30,9 +30,11 @@ const IMPORTS: &[(&str, &[&str])] = &[
     // A checker measures for itself what it checks.
     ("verify", FOUNDATION),
     ("pipeline", ALL_BUT_CLI),
+    // Another machine: it reads what the cutter reads.
+    ("sew", &["source", "diagnostic", "units", "geom", "ir", "machine", "front", "recognise"]),
     ("manual", &[]),
     // The tables of the stages, but not what they do.
-    ("cli", &["pipeline", "front", "back", "pass", "source", "machine", "diagnostic", "ir", "units", "manual"]),
+    ("cli", &["pipeline", "front", "back", "pass", "source", "machine", "diagnostic", "ir", "units", "manual", "sew"]),
     ("main", &["cli"]),
 ];
 
@@ -238,6 +240,23 @@ fn a_module_imports_only_what_the_architecture_allows() {
             if import != file.module && !allowed.contains(&import.as_str()) {
                 faults.push(format!("{}: `{}` must not import `{import}`", file.path.display(), file.module));
             }
+        }
+    }
+    report(&faults);
+}
+
+#[test]
+fn the_verifier_of_sewn_patterns_knows_their_forms_and_nothing_of_who_makes_them() {
+    let mut faults = Vec::new();
+    for file in sources("src/sew/verify") {
+        for rest in after(&file.code, "sew::") {
+            let named: String = rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+            if !["pattern", "stitches", "verify"].contains(&named.as_str()) {
+                faults.push(format!("{}: names `sew::{named}`", file.path.display()));
+            }
+        }
+        if file.path.ends_with("mod.rs") && after(&file.code, "use super::").next().is_some() {
+            faults.push(format!("{}: names what lies beside the verifier", file.path.display()));
         }
     }
     report(&faults);

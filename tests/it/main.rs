@@ -42,6 +42,7 @@ mod properties;
 mod readme;
 mod rewritten;
 mod route;
+mod sew;
 mod sheet;
 mod targets;
 mod told;

@@ -10,6 +10,7 @@ use cutc::diagnostic::code;
 use cutc::front::DIALECTS;
 use cutc::machine::keys::{self, KEYS};
 use cutc::manual::{PAGES, Page, glossary};
+use cutc::sew;
 use cutc::verify::RULES;
 use yaml_rust2::{Yaml, YamlLoader};
 
@@ -97,6 +98,9 @@ fn every_command_of_the_manual_runs() {
     let room = room_of_many(false);
     fs::copy(root().join("fixtures/pictures/marker.cut"), room.at("marker.cut")).expect("a copy");
     room.write("machine.toml", b"knife.width_mm = 7.2\n");
+    for name in ["pocket.csv", "seat.dst"] {
+        fs::copy(root().join("fixtures/sew").join(name), room.at(name)).expect("a copy");
+    }
     room.expect("compile marker.cut", DONE);
     for Page { name, text, .. } in PAGES {
         let commands = commands(text);
@@ -134,6 +138,12 @@ fn list(name: &str) -> String {
     let rows: Vec<String> = match name {
         "dialects" => DIALECTS.iter().map(|dialect| format!("`{}`: {}.", dialect.name, dialect.about)).collect(),
         "targets" => TARGETS.iter().map(|target| format!("`{}`: {}.", target.name, target.about)).collect(),
+        "sewing formats" => sew::FORMATS.iter().map(|format| format!("`{}`: {}.", format.name, format.about)).collect(),
+        "sewing targets" => {
+            let row = |target: &sew::Target| format!("`{}` (`.{}`): {}.", target.name, target.extension, target.about);
+            sew::TARGETS.iter().map(row).collect()
+        }
+        "sewing rules" => sew::verify::RULES.iter().map(|rule| format!("`{}`: {}.", rule.name, rule.about)).collect(),
         "rules" => RULES.iter().map(|rule| format!("`{}`: {}.", rule.name, rule.about)).collect(),
         "codes" => {
             let severity = |code: &code::Code| format!("{:?}", code.severity).to_lowercase();

@@ -70,6 +70,13 @@ fn of_its_type(key: &Key) -> Vec<Value> {
             values.extend(STEPS.iter().map(|&step| Value::Array(vec!["M9".into(), step.into()])));
             values.extend([Value::Array(vec!["M0".into(), 5.into()]), "M0".into()]);
         }
+        Takes::Pairs(first, second) => {
+            let pairs = around(first).into_iter().zip(around(second)).map(|(a, b)| Value::Array(vec![a, b]));
+            let pairs: Vec<Value> = pairs.collect();
+            values.extend(pairs.iter().map(|pair| Value::Array(vec![pair.clone()])));
+            values.push(Value::Array(pairs));
+            values.push(Value::Array(vec![Value::Array(vec![1.into()])]));
+        }
         Takes::Text => values.extend(["(a)\nM2", "M2\u{e9}"].map(Value::from)),
         Takes::Point | Takes::Pose | Takes::Flag => {}
     }

@@ -21,8 +21,6 @@ const SLOPE: f64 = 0.105;
 const THROUGH: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// How deep it may end in a part, in distances of two edges: the diagonal of those of X and Y, as for other cuts.
 const DEEPEST: f64 = std::f64::consts::SQRT_2;
-/// How far beside an edge a place surely lies on that side of it, in distances of two edges: nearer ones may be off by rounding.
-const SURE: f64 = 0.5;
 /// How often a way over to an edge that bends is halved.
 const HALVINGS: usize = 3;
 /// Places of such a way that are looked at.
@@ -213,14 +211,8 @@ impl<'a> Leads<'a> {
         let apart = (edge.place(from) - at).norm();
         let through = (THROUGH * near.distance).min(DEEPEST * near.distance + beyond - apart);
         // From whichever side of the edge it comes it ends on the other.
-        let is_inside = || {
-            // Behind a corner of the edge, if there is one.
-            let ahead = from + sign * 2.0 * near.distance;
-            let aside = (at - edge.place(ahead)).dot(&edge.inwards(ahead));
-            let is_sure = aside.abs() > SURE * near.distance;
-            if is_sure { aside > 0.0 } else { edge.holds(at - along * (2.0 * near.distance)) }
-        };
-        let through = if is_inside() { -through } else { through };
+        let is_inside = edge.holds(at - along * (2.0 * near.distance));
+        let through = if is_inside { -through } else { through };
         (0..HALVINGS).map(|halving| self.longest / f64::from(1 << halving)).find_map(|length| {
             let station = |share: f64| from + sign * length * share;
             let end = edge.place(station(1.0)) + edge.inwards(station(1.0)) * through;

@@ -29,15 +29,19 @@ pub(super) const PASS: MarkerPass = MarkerPass {
 };
 
 fn run(marker: &mut Marker, job: &Job, _: &mut Diagnostics) {
-    let policy = job.profile.order.policy(marker.drawing.is_some());
-    if policy == OrderPolicy::File {
+    if job.profile.order.policy(marker.drawing.is_some()) == OrderPolicy::File {
         return;
     }
-    let measures = Measures::new(job, marker.unit);
     let as_filed = job.profile.common(marker.unit).is_some().then(|| marker.clone());
-    let of = |piece: usize, marker: &Marker| Cuts::drawn(&marker.pieces[piece], &marker.list, &measures);
-    order(marker, job, &of, Search::Whole);
+    once(marker, job);
     if let Some(as_filed) = as_filed {
         again::improve(marker, as_filed, job);
     }
+}
+
+/// Orders pieces as they are drawn, and not once more by what common lines leave of them: in a part of the time.
+pub(super) fn once(marker: &mut Marker, job: &Job) {
+    let measures = Measures::new(job, marker.unit);
+    let of = |piece: usize, marker: &Marker| Cuts::drawn(&marker.pieces[piece], &marker.list, &measures);
+    order(marker, job, &of, Search::Whole);
 }

@@ -1,0 +1,174 @@
+//! What is said of a sewn pattern: stitches, speeds, times, the queue, the verdict.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+
+use crate::cli::options::counted;
+use crate::cli::report::{self, Findings, pretty};
+use crate::cli::setup::Profile;
+use crate::diagnostic::Diagnostics;
+use crate::machine::Job;
+use crate::sew::verify::Verdict;
+use crate::sew::{self, Estimate, Fifo, Limit, Program};
+use crate::source::Source;
+use crate::units::number::fixed;
+
+/// The figures of a pattern.
+#[derive(Debug, Serialize)]
+pub(super) struct Figures {
+    format: &'static str,
+    estimate: Estimate,
+    runs: Vec<Run>,
+    queue: Fifo,
+    verified: Vec<Verified>,
+}
+
+/// A run.
+#[derive(Debug, Serialize)]
+struct Run {
+    stitches: usize,
+    rpm: f64,
+    /// "machine", "user" or "stitch".
+    limit: &'static str,
+    /// The record of the stitch that limits it, where one does.
+    record: Option<u32>,
+    /// Its length.
+    pitch_mm: Option<f64>,
+    cost_s: f64,
+}
+
+/// What a program is worth.
+#[derive(Debug, Serialize)]
+struct Verified {
+    target: &'static str,
+    rules: Vec<Rule>,
+}
+
+/// The worst under a rule.
+#[derive(Debug, Serialize)]
+struct Rule {
+    code: &'static str,
+    worst: f64,
+    limit: Option<f64>,
+    unit: &'static str,
+}
+
+impl Figures {
+    pub(super) fn of(program: &Program, queue: Fifo, job: &Job, verdicts: &[(&'static str, Verdict)]) -> Self {
+        let stitches = &program.stitches;
+        let run = |run: &sew::Run| {
+            let (limit, step) = match run.limit {
+                Limit::Machine => ("machine", None),
+                Limit::User(i) => ("user", Some(i)),
+                Limit::Stitch(i) => ("stitch", Some(i)),
+            };
+            let pitch = |i: usize| {
+                let from = if i == 0 { [0.0; 2] } else { stitches.steps[i - 1].to.into() };
+                let to: [f64; 2] = stitches.steps[i].to.into();
+                (to[0] - from[0]).hypot(to[1] - from[1])
+            };
+            Run {
+                stitches: run.steps.len(),
+                rpm: run.rpm,
+                limit,
+                record: step.map(|i| stitches.steps[i].record),
+                pitch_mm: step.map(pitch),
+                cost_s: run.cost,
+            }
+        };
+        let verified = |(target, verdict): &(&'static str, Verdict)| Verified {
+            target,
+            rules: verdict
+                .findings
+                .iter()
+                .map(|f| Rule { code: f.rule, worst: f.worst, limit: f.limit, unit: f.unit })
+                .collect(),
+        };
+        Self {
+            format: program.format,
+            estimate: sew::estimate(program, job),
+            runs: program.runs.iter().map(run).collect(),
+            queue,
+            verified: verdicts.iter().map(verified).collect(),
+        }
+    }
+}
+
+/// Any figures as JSON, with the profile and what was found.
+pub(super) fn json(figures: impl Serialize, diagnostics: &Diagnostics, source: &Source, job: &Job) -> String {
+    #[derive(Serialize)]
+    struct Json<T: Serialize> {
+        profile: Profile,
+        #[serde(flatten)]
+        figures: T,
+        #[serde(flatten)]
+        findings: Findings,
+    }
+    pretty(&Json { profile: Profile::of(job), figures, findings: Findings::of(diagnostics, source) })
+}
+
+/// The keys of the figures, all null.
+pub(super) fn nothing() -> serde_json::Value {
+    report::nothing(&Figures {
+        format: "",
+        estimate: Estimate::default(),
+        runs: Vec::new(),
+        queue: Fifo::default(),
+        verified: Vec::new(),
+    })
+}
+
+/// The figures for people.
+pub(super) fn text(source: &Source, figures: &Figures, quiet: bool) -> String {
+    let mut out = String::new();
+    if quiet {
+        return out;
+    }
+    let sum = &figures.estimate;
+    let mut line = |label: &str, text: String| {
+        // Writing into a `String` cannot fail.
+        let _ = writeln!(out, "  {label:10} {text}");
+    };
+    line("stitches", format!("{} in {}, {} m", sum.stitches, counted(sum.runs, "run"), fixed(sum.thread_m, 2)));
+    let speed = if sum.rpm[0] == sum.rpm[1] {
+        format!("{} stitches/min", sum.rpm[0])
+    } else {
+        format!("{} to {} stitches/min", sum.rpm[0], sum.rpm[1])
+    };
+    let slowest = figures.runs.iter().min_by(|a, b| a.rpm.total_cmp(&b.rpm));
+    let told = slowest.and_then(|run| Some((run.limit, run.record?, run.pitch_mm?)));
+    let why = told.map_or(String::new(), |(limit, record, pitch)| {
+        let by = if limit == "user" { "your limit for a stitch" } else { "a stitch" };
+        format!("; the slowest by {by} of {} mm (record {record})", fixed(pitch, 2))
+    });
+    line("speed", format!("{speed}{why}"));
+    line(
+        "time",
+        format!(
+            "{} s: {} s sewing, {} s starting, {} s in {}, {} s in {}",
+            fixed(sum.time_s, 1),
+            fixed(sum.sewing_s, 1),
+            fixed(sum.starting_s, 1),
+            fixed(sum.jumping_s, 1),
+            counted(sum.jumps, "jump"),
+            fixed(sum.trimming_s, 1),
+            counted(sum.trims, "trim"),
+        ),
+    );
+    let queue = &figures.queue;
+    let fares = match queue.underruns {
+        0 => format!("never fewer than {} in it", queue.lowest),
+        n => format!("runs dry {n} times"),
+    };
+    line("queue", format!("{} deep, {} entries/s: {fares}", queue.depth, queue.producer_hz));
+    match &figures.verified[..] {
+        [] => line("verified", "no (--no-verify)".to_owned()),
+        verified => {
+            for program in verified {
+                line("verified", format!("{}: {} hold", program.target, counted(program.rules.len(), "rule")));
+            }
+        }
+    }
+    format!("{}: {}\n{out}", source.name(), figures.format)
+}

@@ -1,0 +1,67 @@
+//! How long a pattern takes: runs with their soft starts, jumps, trims. What an operator takes at stops is not known.
+
+use serde::Serialize;
+
+use super::program::Program;
+use super::speed;
+use super::stitches::Op;
+use super::train::Drive;
+use crate::machine::Job;
+
+/// What a pattern amounts to.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct Estimate {
+    /// Penetrations.
+    pub stitches: usize,
+    /// Runs of stitches.
+    pub runs: usize,
+    /// Moves with the needle up.
+    pub jumps: usize,
+    /// Cuts of the thread.
+    pub trims: usize,
+    /// Waits for the operator, other threads among them.
+    pub stops: usize,
+    /// Length of all stitches, m.
+    pub thread_m: f64,
+    /// Least and greatest speed of runs behind their soft start, stitches a minute.
+    pub rpm: [f64; 2],
+    /// Time of all stitches, s.
+    pub sewing_s: f64,
+    /// Time of starting and stopping, s.
+    pub starting_s: f64,
+    /// Time of all jumps, s.
+    pub jumping_s: f64,
+    /// Time of all trims, s.
+    pub trimming_s: f64,
+    /// All of it, s.
+    pub time_s: f64,
+}
+
+/// Estimates a program.
+pub fn estimate(program: &Program, job: &Job) -> Estimate {
+    let sewing = &job.profile.sewing;
+    let drive = Drive::of(sewing);
+    let mut sum = Estimate { runs: program.runs.len(), rpm: [f64::INFINITY, 0.0], ..Estimate::default() };
+    for (from, step) in program.stitches.moves() {
+        match step.op {
+            Op::Stitch => {
+                sum.stitches += 1;
+                sum.thread_m += (step.to - from).norm() / crate::units::MM_PER_M;
+            }
+            Op::Jump => {
+                sum.jumps += 1;
+                sum.jumping_s += speed::jump_time(from, step.to, &drive);
+            }
+            Op::Trim => sum.trims += 1,
+            Op::Stop | Op::Color(_) => sum.stops += 1,
+        }
+    }
+    for run in &program.runs {
+        sum.sewing_s += speed::duration(run, sewing);
+        sum.rpm = [sum.rpm[0].min(run.rpm), sum.rpm[1].max(run.rpm)];
+    }
+    sum.starting_s = program.runs.len() as f64 * sewing.start_time();
+    sum.trimming_s = sum.trims as f64 * sewing.trim_time();
+    sum.time_s = sum.sewing_s + sum.starting_s + sum.jumping_s + sum.trimming_s;
+    sum
+}

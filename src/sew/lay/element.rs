@@ -1,0 +1,92 @@
+//! What is made along a line: needle points of straight seams, zigzags, bar tacks and boxes.
+
+use super::pitch::{distinct, even};
+use crate::geom::{Point, Vector, left};
+use crate::machine::Sewing;
+use crate::sew::pattern::{Element, Seam};
+
+/// The needle points of a seam, before its ends are locked.
+pub(super) fn needle_points(seam: &Seam, sewing: &Sewing) -> Vec<Point> {
+    let straight = |points: &[Point]| even(points, sewing.pitch_mm, sewing.corner_deg);
+    match seam.element {
+        Element::Straight => straight(&seam.points),
+        Element::Zigzag => zigzag(&seam.points, sewing.zigzag_width_mm, sewing.zigzag_pitch_mm, sewing),
+        Element::BarTack => {
+            // There straight, back from side to side over it.
+            let mut points = straight(&seam.points);
+            let back: Vec<Point> = seam.points.iter().rev().copied().collect();
+            points.extend(zigzag(&back, sewing.tack_width_mm, sewing.tack_pitch_mm, sewing));
+            points
+        }
+        // Its corners are corners however flat it is.
+        Element::BoxX => even(&box_x(&seam.points), sewing.pitch_mm, 0.0),
+    }
+}
+
+/// The line along which the thread of a seam runs: straight seams and boxes follow their lines, others go from needle point to
+/// needle point.
+pub(super) fn line(seam: &Seam, points: &[Point]) -> Vec<Point> {
+    match seam.element {
+        Element::Straight => distinct(&seam.points),
+        Element::BoxX => box_x(&seam.points),
+        Element::Zigzag | Element::BarTack => points.to_vec(),
+    }
+}
+
+/// Needle points on both sides of a line in turn, half a width from it; at a vertex on its bisector.
+fn zigzag(points: &[Point], width: f64, pitch: f64, sewing: &Sewing) -> Vec<Point> {
+    let middle = even(points, pitch, sewing.corner_deg);
+    let along = |a: Point, b: Point| (b - a).try_normalize(0.0).unwrap_or_else(Vector::zeros);
+    let point = |i: usize| {
+        let here = middle[i];
+        let before = if i > 0 { along(middle[i - 1], here) } else { Vector::zeros() };
+        let behind = if i + 1 < middle.len() { along(here, middle[i + 1]) } else { Vector::zeros() };
+        // Where the line turns back the side is that of the way before.
+        let direction = (before + behind).try_normalize(f64::EPSILON).unwrap_or(before);
+        let side = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
+        here + left(direction) * (side * width / 2.0)
+    };
+    (0..middle.len()).map(point).collect()
+}
+
+/// The way around a box and along its diagonals, in one go: around, across, along an edge once more, across.
+fn box_x(points: &[Point]) -> Vec<Point> {
+    match distinct(points)[..] {
+        [a, b, c, d, ..] => vec![a, b, c, d, a, c, d, b],
+        _ => points.to_vec(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::Span;
+
+    fn laid(element: Element, points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+        let points = points.iter().map(|&[x, y]| Point::new(x, y)).collect();
+        let seam = Seam { element, ..Seam::plain(points, Span::default()) };
+        let rounded = |value: f64| (value * 1e3).round() / 1e3;
+        needle_points(&seam, &Sewing::default()).iter().map(|p| [rounded(p.x), rounded(p.y)]).collect()
+    }
+
+    #[test]
+    fn a_zigzag_goes_from_side_to_side() {
+        let points = laid(Element::Zigzag, &[[0.0, 0.0], [3.0, 0.0]]);
+        assert_eq!(points, [[0.0, 1.5], [1.0, -1.5], [2.0, 1.5], [3.0, -1.5]]);
+    }
+
+    #[test]
+    fn a_bar_tack_comes_back_over_its_straight_seam() {
+        let points = laid(Element::BarTack, &[[0.0, 0.0], [4.0, 0.0]]);
+        assert_eq!(points[..3], [[0.0, 0.0], [2.0, 0.0], [4.0, 0.0]]);
+        assert_eq!((points.len(), points[3], points[13]), (14, [4.0, -1.0], [0.0, -1.0]));
+    }
+
+    #[test]
+    fn a_box_is_sewn_with_both_diagonals_in_one_go() {
+        let points = laid(Element::BoxX, &[[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0], [0.0, 0.0]]);
+        let corners: Vec<[f64; 2]> = points.into_iter().filter(|p| p.iter().all(|v| [0.0, 2.0].contains(v))).collect();
+        let [a, b, c, d] = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
+        assert_eq!(corners, [a, b, c, d, a, c, d, b]);
+    }
+}

@@ -1,0 +1,122 @@
+//! The order of seams: the file's, or that of a short way with the needle up.
+//!
+//! Threads keep their order, a stop stays before its seam, and no seam is turned round: upper thread and lower thread make
+//! different sides of a stitch, which differ by the direction in which it is sewn.
+
+use crate::geom::Point;
+use crate::machine::Sewing;
+use crate::machine::sewing::SeamOrder;
+use crate::sew::pattern::{Pattern, Seam};
+
+/// Up to so many seams an order is bettered beyond going to the nearest: each round takes their square.
+const BETTERED: usize = 2000;
+/// Rounds of that at the most; the gain of later ones is small.
+const ROUNDS: usize = 40;
+/// Least gain of a change, mm: rounding must not lead it round in circles.
+const GAIN_EPSILON: f64 = 1e-6;
+
+/// The seams as they are sewn.
+pub(super) fn order<'p>(pattern: &'p Pattern, sewing: &Sewing) -> Vec<&'p Seam> {
+    let seams: Vec<&Seam> = pattern.seams.iter().filter(|seam| !seam.points.is_empty()).collect();
+    match sewing.order {
+        SeamOrder::File => seams,
+        SeamOrder::Travel => {
+            let mut at = Point::origin();
+            let mut out = Vec::with_capacity(seams.len());
+            for group in seams.chunk_by(|a, b| a.thread == b.thread && !b.stop) {
+                // A stop belongs before the first of its group.
+                let (fixed, free) = group.split_at(usize::from(group[0].stop));
+                out.extend_from_slice(fixed);
+                at = fixed.first().map_or(at, |seam| end(seam));
+                let group = shortest(free, at);
+                at = group.last().map_or(at, |seam| end(seam));
+                out.extend(group);
+            }
+            out
+        }
+    }
+}
+
+fn end(seam: &Seam) -> Point {
+    seam.points[seam.points.len() - 1]
+}
+
+fn way(from: Point, to: Point) -> f64 {
+    (to - from).norm()
+}
+
+/// From the nearest to the nearest, then each seam to where it costs least.
+fn shortest<'p>(seams: &[&'p Seam], start: Point) -> Vec<&'p Seam> {
+    let mut left = seams.to_vec();
+    let mut out = Vec::with_capacity(left.len());
+    let mut at = start;
+    while !left.is_empty() {
+        let distance = |i: &usize| way(at, left[*i].points[0]);
+        let nearest = (0..left.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).expect("some are left");
+        // The others stay in their order, so that of equals the first is taken.
+        let seam = left.remove(nearest);
+        at = end(seam);
+        out.push(seam);
+    }
+    if out.len() <= BETTERED {
+        for _ in 0..ROUNDS {
+            if !better(&mut out, start) {
+                break;
+            }
+        }
+    }
+    out
+}
+
+/// Puts each seam where it costs least; whether any was moved.
+fn better(seams: &mut Vec<&Seam>, start: Point) -> bool {
+    let mut is_moved = false;
+    for from in 0..seams.len() {
+        let before = |seams: &[&Seam], i: usize| if i == 0 { start } else { end(seams[i - 1]) };
+        let seam = seams[from];
+        let entered = way(before(seams, from), seam.points[0]);
+        let left = seams
+            .get(from + 1)
+            .map_or((0.0, 0.0), |next| (way(end(seam), next.points[0]), way(before(seams, from), next.points[0])));
+        let spared = entered + left.0 - left.1;
+        let rest: Vec<&Seam> = seams.iter().enumerate().filter(|(i, _)| *i != from).map(|(_, seam)| *seam).collect();
+        let cost = |to: usize| {
+            let behind = rest
+                .get(to)
+                .map_or(0.0, |next| way(end(seam), next.points[0]) - way(before(&rest, to), next.points[0]));
+            way(before(&rest, to), seam.points[0]) + behind
+        };
+        let best = (0..=rest.len()).min_by(|a, b| cost(*a).total_cmp(&cost(*b))).expect("there is a place");
+        if best != from && cost(best) < spared - GAIN_EPSILON {
+            *seams = rest;
+            seams.insert(best, seam);
+            is_moved = true;
+        }
+    }
+    is_moved
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::Span;
+
+    fn starts(rows: &[(f64, u16, bool)], order: SeamOrder) -> Vec<f64> {
+        let seam = |&(x, thread, stop): &(f64, u16, bool)| Seam {
+            thread,
+            stop,
+            ..Seam::plain(vec![Point::new(x, 0.0), Point::new(x + 1.0, 0.0)], Span::default())
+        };
+        let pattern = Pattern { seams: rows.iter().map(seam).collect() };
+        super::order(&pattern, &Sewing { order, ..Sewing::default() }).iter().map(|seam| seam.points[0].x).collect()
+    }
+
+    #[test]
+    fn a_short_way_keeps_threads_stops_and_directions() {
+        let plain = [(9.0, 1, false), (0.0, 1, false), (5.0, 1, false)];
+        assert_eq!(starts(&plain, SeamOrder::File), [9.0, 0.0, 5.0]);
+        assert_eq!(starts(&plain, SeamOrder::Travel), [0.0, 5.0, 9.0]);
+        let threads = [(9.0, 1, false), (0.0, 1, false), (1.0, 2, false), (3.0, 2, true), (2.0, 2, false)];
+        assert_eq!(starts(&threads, SeamOrder::Travel), [0.0, 9.0, 1.0, 3.0, 2.0]);
+    }
+}

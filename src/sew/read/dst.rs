@@ -1,0 +1,171 @@
+//! Tajima DST: a header of 512 bytes, then records of three bytes.
+//!
+//! A coordinate is a sum of 81, 27, 9, 3 and 1 with signs, in tenths of a millimetre; three jumps in a row or more stand for
+//! a trim.
+
+use super::format::{Format, Input};
+use super::moves::{Moves, span};
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::source::{Source, Span};
+
+pub(super) const FORMAT: Format = Format {
+    name: "dst",
+    about: "stitch files of Tajima machines",
+    is_it: |bytes, extension| extension == "dst" || (bytes.len() >= HEADER_BYTES && bytes.starts_with(b"LA:")),
+    read,
+};
+
+const HEADER_BYTES: usize = 512;
+const RECORD_BYTES: usize = 3;
+/// Jumps in a row that stand for a trim.
+const TRIM_JUMPS: u32 = 3;
+
+/// Weights of the bits of the three bytes: x, then y, 0 where a bit says something else.
+const BITS: [[(i32, i32); 8]; 3] = [
+    [(1, 0), (-1, 0), (9, 0), (-9, 0), (0, -9), (0, 9), (0, -1), (0, 1)],
+    [(3, 0), (-3, 0), (27, 0), (-27, 0), (0, -27), (0, 27), (0, -3), (0, 3)],
+    [(0, 0), (0, 0), (81, 0), (-81, 0), (0, -81), (0, 81), (0, 0), (0, 0)],
+];
+
+/// How far a record moves, tenths of a millimetre.
+fn way(record: [u8; RECORD_BYTES]) -> [i32; 2] {
+    let mut way = [0; 2];
+    for (byte, weights) in record.into_iter().zip(BITS) {
+        for (bit, (x, y)) in weights.into_iter().enumerate() {
+            if byte >> bit & 1 == 1 {
+                way = [way[0] + x, way[1] + y];
+            }
+        }
+    }
+    way
+}
+
+/// What the records of a file amount to, to hold its header against.
+#[derive(Debug, Default)]
+struct Count {
+    stitches: u32,
+    records: u32,
+    colors: u32,
+    at: [i32; 2],
+    /// Greatest reach to +X, -X, +Y, -Y.
+    reach: [i32; 4],
+}
+
+fn read(source: &Source, out: &mut Diagnostics) -> Input {
+    let bytes = source.bytes();
+    let mut moves = Moves::new(Some(TRIM_JUMPS));
+    let Some((header, body)) = bytes.split_at_checked(HEADER_BYTES) else {
+        let message = format!("the file has {} bytes, fewer than the header of a DST file", bytes.len());
+        out.push(Diagnostic::new(&code::SEW_TRUNCATED, message).hint("transfer it again"));
+        return Input::Stitches(moves.finish(out));
+    };
+    let mut count = Count::default();
+    let mut is_ended = false;
+    let (records, rest) = body.as_chunks::<RECORD_BYTES>();
+    for (i, &record) in records.iter().enumerate() {
+        let number = i as u32 + 1;
+        let place = span(HEADER_BYTES + i * RECORD_BYTES, RECORD_BYTES, number);
+        let last = record[2];
+        if last == 0xF3 {
+            is_ended = true;
+            break;
+        }
+        let way = way(record);
+        count.add(way);
+        match last & 0xC3 {
+            0x03 => {
+                count.stitches += 1;
+                moves.stitch(way, number, out);
+            }
+            0x83 => moves.jump(way, number),
+            0xC3 => {
+                count.colors += 1;
+                moves.color(number, out);
+                if way != [0, 0] {
+                    moves.jump(way, number);
+                }
+            }
+            _ => refuse(record, place, out),
+        }
+    }
+    if !is_ended {
+        let message = format!("the file ends behind record {} without its end (00 00 F3)", records.len());
+        let hint = "the end of the pattern is missing: transfer the file again, and compare sizes";
+        let at = span(HEADER_BYTES + records.len() * RECORD_BYTES, rest.len(), records.len() as u32);
+        out.push(Diagnostic::new(&code::SEW_TRUNCATED, message).at(at).hint(hint));
+    }
+    if !out.has_errors() {
+        check_header(header, &count, out);
+    }
+    Input::Stitches(moves.finish(out))
+}
+
+fn refuse(record: [u8; RECORD_BYTES], place: Span, out: &mut Diagnostics) {
+    let [a, b, c] = record;
+    let message = format!("record {} is none of a DST file: {a:02x} {b:02x} {c:02x}", place.block);
+    let hint = "the two lowest bits of a record are set; the file is damaged, or is another format";
+    out.push(Diagnostic::new(&code::SEW_RECORD, message).at(place).hint(hint));
+}
+
+impl Count {
+    fn add(&mut self, [x, y]: [i32; 2]) {
+        self.records += 1;
+        self.at = [self.at[0].saturating_add(x), self.at[1].saturating_add(y)];
+        let [x, y] = self.at;
+        let reach = [x, -x, y, -y];
+        for (most, now) in self.reach.iter_mut().zip(reach) {
+            *most = (*most).max(now);
+        }
+    }
+}
+
+/// The number that a field of the header holds.
+fn field(header: &[u8], name: &[u8]) -> Option<i32> {
+    let at = memchr::memmem::find(header, name)? + name.len();
+    let rest = &header[at..];
+    let text = std::str::from_utf8(&rest[..rest.iter().position(|&byte| byte == b'\r')?]).ok()?;
+    text.replace(' ', "").parse().ok()
+}
+
+/// Warns where the header says something else than the records do.
+fn check_header(header: &[u8], count: &Count, out: &mut Diagnostics) {
+    let mut wrong = Vec::new();
+    let [right, left, up, down] = count.reach;
+    // Some systems have Y count downwards in the header.
+    let sides: [(&[u8], [i32; 2]); 4] =
+        [(b"+X:", [right; 2]), (b"-X:", [left; 2]), (b"+Y:", [up, down]), (b"-Y:", [down, up])];
+    for (name, reach) in sides {
+        if let Some(told) = field(header, name).filter(|told| !reach.contains(told)) {
+            wrong.push(format!("{} {told} instead of {}", String::from_utf8_lossy(name), reach[0]));
+        }
+    }
+    // Some systems count stitches, others all records, with the end or without.
+    if let Some(told) = field(header, b"ST:")
+        .filter(|&told| !(i64::from(count.stitches)..=i64::from(count.records) + 1).contains(&i64::from(told)))
+    {
+        wrong.push(format!("ST: {told} instead of {}", count.records));
+    }
+    // Changes, or threads.
+    let colors = i64::from(count.colors);
+    if let Some(told) = field(header, b"CO:").filter(|&told| !(colors..=colors + 1).contains(&i64::from(told))) {
+        wrong.push(format!("CO: {told} instead of {colors}"));
+    }
+    if !wrong.is_empty() {
+        let message = format!("the header does not fit the stitches: {}", wrong.join(", "));
+        let hint = "the stitches are sewn as they are; an edited or damaged file may lack some";
+        out.push(Diagnostic::new(&code::SEW_HEADER, message).at(span(0, HEADER_BYTES, 0)).hint(hint));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn records_are_those_of_machines() {
+        assert_eq!(way([0x01, 0x06, 0x03]), [25, 0]);
+        assert_eq!(way([0x00, 0x05, 0x03]), [30, 0]);
+        assert_eq!(way([0x02, 0xa9, 0x03]), [-25, 30]);
+        assert_eq!(way([0x55, 0x55, 0x17]), [121, -121]);
+    }
+}

@@ -1,0 +1,117 @@
+//! A closed contour some way inside: where the seam goes.
+
+use crate::geom::boxes::Boxes;
+use crate::geom::{Extent, Point, Vector, cross, left, polyline};
+
+/// How much nearer to the contour a place may be, as a part of the inset: rounding of intersections.
+const NEAR_EPSILON: f64 = 1e-6;
+/// Sine of the angle between edges below which these are one line.
+const PARALLEL_EPSILON: f64 = 1e-9;
+
+/// An edge, moved inside: a point of it and its direction.
+#[derive(Clone, Copy)]
+struct Edge {
+    at: Point,
+    along: Vector,
+}
+
+/// The contour at a distance inside, closed; `None` where there is no room. Corners stay corners.
+pub(super) fn inset(points: &[Point], distance: f64) -> Option<Vec<Point>> {
+    let ring = &points[..points.len() - 1];
+    let area: f64 = (0..ring.len()).map(|i| cross(ring[i].coords, ring[(i + 1) % ring.len()].coords)).sum();
+    let inwards = if area > 0.0 { distance } else { -distance };
+    let ends = (0..ring.len()).map(|i| (ring[i], ring[(i + 1) % ring.len()]));
+    let mut edges: Vec<Edge> = ends
+        .filter_map(|(from, to)| polyline::direction(from, to).map(|along| (from, along)))
+        .map(|(from, along)| Edge { at: from + left(along) * inwards, along })
+        .collect();
+    // An edge shorter than the inset takes up turns over: without it its neighbours meet.
+    loop {
+        if edges.len() < 3 {
+            return None;
+        }
+        let corners = corners(&edges);
+        let count = edges.len();
+        let ways: Vec<f64> = (0..count).map(|i| (corners[(i + 1) % count] - corners[i]).dot(&edges[i].along)).collect();
+        if ways.iter().all(|&way| way >= 0.0) {
+            let mut out = corners;
+            out.push(out[0]);
+            return is_inside(&out, points, distance).then_some(out);
+        }
+        // Of neighbours that turn over the one that does so most goes first: it may be all that is wrong with the other.
+        let goes = |i: usize| {
+            let (before, behind) = (ways[(i + count - 1) % count], ways[(i + 1) % count]);
+            ways[i] < 0.0 && ways[i] < before && ways[i] <= behind
+        };
+        let kept: Vec<Edge> = (0..count).filter(|&i| !goes(i)).map(|i| edges[i]).collect();
+        if kept.len() == count {
+            return None;
+        }
+        edges = kept;
+    }
+}
+
+/// Where each edge begins: where it meets the one before it.
+fn corners(edges: &[Edge]) -> Vec<Point> {
+    let meet = |i: usize| {
+        let (before, edge) = (edges[(i + edges.len() - 1) % edges.len()], edges[i]);
+        let sine = cross(before.along, edge.along);
+        if sine.abs() < PARALLEL_EPSILON {
+            return edge.at;
+        }
+        before.at + before.along * (cross(edge.at - before.at, edge.along) / sine)
+    };
+    (0..edges.len()).map(meet).collect()
+}
+
+/// Whether every place of a line is as far from a contour as asked.
+fn is_inside(line: &[Point], contour: &[Point], distance: f64) -> bool {
+    let least = distance * (1.0 - NEAR_EPSILON);
+    let boxes = Boxes::new(contour.windows(2).map(|ends| Extent::of(ends).grown(distance)).collect());
+    line.windows(2).all(|a| {
+        let apart = |i: usize| polyline::distance_of_segments([a[0], a[1]], [contour[i], contour[i + 1]]);
+        boxes.near(Extent::of(a)).all(|i| apart(i) >= least)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(points: &[[f64; 2]], distance: f64, expected: Option<&[[f64; 2]]>) {
+        let points: Vec<Point> = points.iter().map(|&[x, y]| Point::new(x, y)).collect();
+        let rounded = |value: f64| (value * 1e6).round() / 1e6;
+        let found = inset(&points, distance);
+        let found = found.map(|points| points.iter().map(|p| [rounded(p.x), rounded(p.y)]).collect::<Vec<_>>());
+        assert_eq!(found.as_deref(), expected);
+    }
+
+    #[test]
+    fn a_contour_shrinks_and_small_edges_go() {
+        let square = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0], [0.0, 0.0]];
+        let inner = [[2.0, 2.0], [8.0, 2.0], [8.0, 8.0], [2.0, 8.0], [2.0, 2.0]];
+        check(&square, 2.0, Some(&inner));
+        let turned: Vec<[f64; 2]> = square.iter().rev().copied().collect();
+        check(&turned, 2.0, Some(&[[2.0, 2.0], [2.0, 8.0], [8.0, 8.0], [8.0, 2.0], [2.0, 2.0]]));
+        check(&square, 5.1, None);
+        let cut = [[0.0, 0.0], [9.5, 0.0], [10.0, 0.5], [10.0, 10.0], [0.0, 10.0], [0.0, 0.0]];
+        check(&cut, 2.0, Some(&inner));
+        // A waist narrower than twice the inset.
+        let waist = [
+            [0.0, 0.0],
+            [10.0, 0.0],
+            [10.0, 4.5],
+            [30.0, 4.5],
+            [30.0, 0.0],
+            [40.0, 0.0],
+            [40.0, 10.0],
+            [30.0, 10.0],
+            [30.0, 5.5],
+            [10.0, 5.5],
+            [10.0, 10.0],
+            [0.0, 10.0],
+            [0.0, 0.0],
+        ];
+        check(&waist, 1.0, None);
+    }
+}

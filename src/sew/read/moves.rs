@@ -1,0 +1,110 @@
+//! Stitches from the moves of a stitch file: relative, in whole tenths of a millimetre.
+
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::Point;
+use crate::sew::stitches::{Op, Step, Stitches};
+use crate::source::Span;
+
+/// Units of stitch files in a millimetre.
+const PER_MM: f64 = 10.0;
+/// Jumps in a row from which on a file is most likely damaged: the longest machine is crossed in fewer.
+const JUMP_STORM: u32 = 200;
+
+/// Collects moves.
+#[derive(Debug, Default)]
+pub(super) struct Moves {
+    stitches: Stitches,
+    /// Where the needle stands, in tenths of a millimetre.
+    at: [i64; 2],
+    thread: u16,
+    /// Jumps since the last entry, and the record of the first of them.
+    jumps: u32,
+    jumped_from: u32,
+    /// From so many jumps in a row on these stand for a trim.
+    trim_from: Option<u32>,
+}
+
+impl Moves {
+    /// Of a format in which so many jumps in a row stand for a trim.
+    pub(super) fn new(trim_from: Option<u32>) -> Self {
+        Self { trim_from, thread: 1, ..Self::default() }
+    }
+
+    fn push(&mut self, op: Op, record: u32) {
+        let to = Point::new(self.at[0] as f64 / PER_MM, self.at[1] as f64 / PER_MM);
+        let last = self.stitches.steps.last();
+        let is_first = last.is_none_or(|step| step.op.ends_run());
+        let before = last.map_or(Point::origin(), |step| step.to);
+        // The needle goes down where a jump ended, which is no stitch that was lost.
+        let is_tie = op == Op::Stitch && is_first && before == to;
+        self.stitches.steps.push(Step { op, to, is_tie, record });
+    }
+
+    /// A stitch.
+    pub(super) fn stitch(&mut self, way: [i32; 2], record: u32, out: &mut Diagnostics) {
+        self.land(out);
+        self.go(way);
+        self.push(Op::Stitch, record);
+    }
+
+    /// A move with the needle up.
+    pub(super) fn jump(&mut self, way: [i32; 2], record: u32) {
+        if self.jumps == 0 {
+            self.jumped_from = record;
+        }
+        self.jumps += 1;
+        self.go(way);
+    }
+
+    /// The thread is cut.
+    pub(super) fn trim(&mut self, record: u32, out: &mut Diagnostics) {
+        self.land(out);
+        self.push(Op::Trim, record);
+    }
+
+    /// The next thread is taken.
+    pub(super) fn color(&mut self, record: u32, out: &mut Diagnostics) {
+        self.land(out);
+        self.thread = self.thread.saturating_add(1);
+        self.push(Op::Color(self.thread), record);
+    }
+
+    fn go(&mut self, [x, y]: [i32; 2]) {
+        self.at = [self.at[0] + i64::from(x), self.at[1] + i64::from(y)];
+    }
+
+    /// Jumps in a row are one.
+    fn land(&mut self, out: &mut Diagnostics) {
+        let (jumps, record) = (std::mem::take(&mut self.jumps), self.jumped_from);
+        if jumps == 0 {
+            return;
+        }
+        if jumps > JUMP_STORM {
+            let message = format!("{jumps} jumps follow one another from record {record} on");
+            let hint = "a pattern crosses its machine in fewer: compare it with the original";
+            out.push(Diagnostic::new(&code::SEW_JUMPS, message).hint(hint));
+        }
+        let landed = self.at;
+        let before = self.stitches.steps.last().map_or(Point::origin(), |step| step.to);
+        self.at = [before.x, before.y].map(|value| (value * PER_MM).round() as i64);
+        let has_thread = self.stitches.steps.last().is_some_and(|step| step.op == Op::Stitch);
+        if has_thread && self.trim_from.is_some_and(|least| jumps >= least) {
+            self.push(Op::Trim, record);
+        }
+        if landed != self.at {
+            self.at = landed;
+            self.push(Op::Jump, record);
+        }
+    }
+
+    /// What was collected.
+    pub(super) fn finish(mut self, out: &mut Diagnostics) -> Stitches {
+        self.land(out);
+        self.stitches
+    }
+}
+
+/// Where a record stands in the source.
+pub(super) fn span(start: usize, bytes: usize, record: u32) -> Span {
+    Span { start: start as u32, end: (start + bytes) as u32, block: record }
+}

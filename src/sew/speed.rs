@@ -1,0 +1,207 @@
+//! The speed of each run: the greatest constant one at which every stitch of it fits into its window.
+//!
+//! It is the least of the user's, the machine's and 60 window / longest move, rounded down to the grid. A turn is a stitch, so that the spindle
+//! never changes its speed within a run but for the soft start.
+
+use std::ops::Range;
+
+use super::stitches::{Op, Stitches};
+use super::train::Drive;
+use crate::geom::Point;
+use crate::machine::Sewing;
+use crate::units::S_PER_MIN;
+
+/// How much below a multiple of the grid a speed still is that multiple, as a part of it: the times of pulses are rounded.
+const GRID_EPSILON: f64 = 1e-6;
+
+/// A run of stitches, and how fast it is sewn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Run {
+    /// Its entries.
+    pub steps: Range<usize>,
+    /// Stitches a minute behind the soft start.
+    pub rpm: f64,
+    /// What keeps it from being sewn faster.
+    pub limit: Limit,
+    /// How much longer it takes than at the speed that half of its stitches allow, s.
+    pub cost: f64,
+}
+
+/// What limits the speed of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Limit {
+    /// The spindle.
+    Machine,
+    /// The user's limits by pitch, for the stitch of this entry.
+    User(usize),
+    /// The time that the stitch of this entry takes.
+    Stitch(usize),
+}
+
+/// The speed that the spindle has during an entry of a run, stitches a minute: the first are sewn softly.
+pub(super) fn rpm_at(run: &Run, step: usize, sewing: &Sewing) -> f64 {
+    let soft = sewing.soft_start_rpm.filter(|_| step < run.steps.start + sewing.soft_start_stitches as usize);
+    soft.map_or(run.rpm, |soft| soft.min(run.rpm).floor())
+}
+
+/// The greatest speed of a stitch alone, stitches a minute, and whether it is the user's limit.
+pub(super) fn alone(from: Point, to: Point, sewing: &Sewing, drive: &Drive) -> (f64, bool) {
+    let most = pulses(from, to, drive).into_iter().map(i64::unsigned_abs).max().unwrap_or(0);
+    let fits = fitting(u32::try_from(most).unwrap_or(u32::MAX), sewing, drive);
+    let user = on_grid(user((to - from).norm(), sewing), sewing);
+    (fits.min(user), user < fits)
+}
+
+/// The greatest speed at which so many pulses of an axis fit into the window; infinite for none.
+pub(super) fn fitting(pulses: u32, sewing: &Sewing, drive: &Drive) -> f64 {
+    match drive.least_time(pulses) {
+        0.0 => f64::INFINITY,
+        time => on_grid(S_PER_MIN * sewing.window() / time * (1.0 + GRID_EPSILON), sewing),
+    }
+}
+
+/// The user's limit for a stitch of a pitch, mm; infinite where there is none.
+pub(super) fn user(pitch: f64, sewing: &Sewing) -> f64 {
+    let rows = sewing.speeds.iter().filter(|[from, _]| pitch >= from - PITCH_EPSILON);
+    rows.map(|[_, rpm]| *rpm).fold(f64::INFINITY, f64::min)
+}
+
+/// Rounding of places, mm: a stitch of 2.5 mm is one wherever it lies.
+pub(super) const PITCH_EPSILON: f64 = 1e-6;
+
+/// Pulses of X and Y from one place to another.
+pub(super) fn pulses(from: Point, to: Point, drive: &Drive) -> [i64; 2] {
+    [drive.grid(to.x) - drive.grid(from.x), drive.grid(to.y) - drive.grid(from.y)]
+}
+
+/// The greatest speed of the grid up to a limit; 0 where that is below the first.
+pub(super) fn on_grid(rpm: f64, sewing: &Sewing) -> f64 {
+    let grid = f64::from(sewing.grid_rpm);
+    (rpm / grid).floor() * grid
+}
+
+/// The speed of every run.
+pub(super) fn runs(stitches: &Stitches, sewing: &Sewing) -> Vec<Run> {
+    let drive = Drive::of(sewing);
+    let mut speeds: Vec<f64> = Vec::new();
+    let run = |steps: Range<usize>| {
+        speeds.clear();
+        let machine = on_grid(sewing.max_rpm, sewing);
+        let (mut least, mut limit) = (machine, Limit::Machine);
+        for i in steps.clone() {
+            let from = if i == 0 { Point::origin() } else { stitches.steps[i - 1].to };
+            let (rpm, is_user) = alone(from, stitches.steps[i].to, sewing, &drive);
+            if rpm < least {
+                (least, limit) = (rpm, if is_user { Limit::User(i) } else { Limit::Stitch(i) });
+            }
+            speeds.push(rpm.min(machine));
+        }
+        let middle = speeds.len() / 2;
+        let (_, half, _) = speeds.select_nth_unstable_by(middle, f64::total_cmp);
+        let mut run = Run { steps, rpm: least, limit, cost: 0.0 };
+        let usual = Run { rpm: *half, ..run.clone() };
+        if least > 0.0 {
+            run.cost = duration(&run, sewing) - duration(&usual, sewing);
+        }
+        run
+    };
+    stitches.runs().into_iter().map(run).collect()
+}
+
+/// How long the stitches of a run take, s.
+pub(super) fn duration(run: &Run, sewing: &Sewing) -> f64 {
+    let soft = match sewing.soft_start_rpm {
+        Some(_) => run.steps.len().min(sewing.soft_start_stitches as usize),
+        None => 0,
+    };
+    let rest = (run.steps.len() - soft) as f64;
+    let soft_rpm = rpm_at(run, run.steps.start, sewing);
+    soft as f64 * S_PER_MIN / soft_rpm + rest * S_PER_MIN / run.rpm
+}
+
+/// How long a move with the needle up takes, s.
+pub(super) fn jump_time(from: Point, to: Point, drive: &Drive) -> f64 {
+    let most = pulses(from, to, drive).into_iter().map(i64::unsigned_abs).max().unwrap_or(0);
+    drive.train(u32::try_from(most).unwrap_or(u32::MAX), None).time()
+}
+
+/// The speed that the spindle has during each entry, in order; 0 where it stands.
+pub(super) fn speeds<'a>(
+    stitches: &'a Stitches,
+    runs: &'a [Run],
+    sewing: &'a Sewing,
+) -> impl Iterator<Item = f64> + 'a {
+    let mut runs = runs.iter().peekable();
+    stitches.steps.iter().enumerate().map(move |(i, step)| {
+        while runs.next_if(|run| run.steps.end <= i).is_some() {}
+        match (step.op, runs.peek()) {
+            (Op::Stitch, Some(run)) => rpm_at(run, i, sewing),
+            (Op::Stitch | Op::Jump | Op::Trim | Op::Stop | Op::Color(_), _) => 0.0,
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sew::stitches::Step;
+
+    /// Stitches of these pitches along X.
+    fn along(pitches: &[f64]) -> Stitches {
+        let mut x = 0.0;
+        let step = |pitch: &f64| {
+            x += pitch;
+            Step { op: Op::Stitch, to: Point::new(x, 0.0), is_tie: false, record: 0 }
+        };
+        Stitches { steps: pitches.iter().map(step).collect() }
+    }
+
+    #[test]
+    fn the_headline_figures_are_computed() {
+        let sewing = Sewing { max_rpm: 5000.0, ..Sewing::default() };
+        for (pitch, rpm) in [(2.5, 3200.0), (3.0, 2800.0)] {
+            let run = &runs(&along(&[pitch; 20]), &sewing)[0];
+            assert_eq!(run.rpm, rpm, "{pitch} mm");
+            assert!(matches!(run.limit, Limit::Stitch(_)));
+        }
+        assert_eq!(runs(&along(&[1.0; 5]), &Sewing::default())[0].limit, Limit::Machine);
+    }
+
+    #[test]
+    fn one_long_stitch_slows_its_run_down_and_tells_what_it_costs() {
+        let sewing = Sewing {
+            feed_acceleration_mm_s2: 80_000.0,
+            start_hz: 0.0,
+            soft_start_rpm: None,
+            grid_rpm: 1,
+            ..Sewing::default()
+        };
+        let mut pitches = [2.5; 201];
+        pitches[100] = 6.0;
+        let run = &runs(&along(&pitches), &sewing)[0];
+        // 2116.95 stitches a minute, and the grid is whole ones.
+        assert_eq!((run.rpm, run.limit), (2116.0, Limit::Stitch(100)));
+        assert!((duration(run, &sewing) - 5.70).abs() < 0.005);
+        assert!((run.cost - (5.697 - 3.769)).abs() < 0.005, "{}", run.cost);
+    }
+
+    #[test]
+    fn limits_of_the_user_hold_from_their_pitch_on() {
+        let sewing = Sewing { speeds: vec![[2.0, 1500.0], [3.0, 900.0]], ..Sewing::default() };
+        let rpm = |pitch: f64| runs(&along(&[pitch; 8]), &sewing)[0].rpm;
+        assert_eq!([rpm(1.9), rpm(2.0), rpm(2.9), rpm(3.0)], [3200.0, 1500.0, 1500.0, 900.0]);
+    }
+
+    #[test]
+    fn a_slower_spindle_never_makes_a_stitch_too_long() {
+        let (sewing, mut random) = (Sewing::default(), fastrand::Rng::with_seed(7));
+        let drive = Drive::of(&sewing);
+        for _ in 0..2000 {
+            let pulses = random.u32(1..=254);
+            let fits = |rpm: f64| drive.least_time(pulses) <= sewing.window() * 60.0 / rpm;
+            let rpm = 100.0 + 4000.0 * random.f64();
+            let slower = rpm * random.f64().max(0.01);
+            assert!(!fits(rpm) || fits(slower), "{pulses} pulses fit at {rpm} but not at {slower}");
+        }
+    }
+}

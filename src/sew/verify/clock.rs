@@ -1,0 +1,71 @@
+//! Times that the machine allows: the window of a stitch, and the least time of a move.
+
+use crate::machine::Sewing;
+
+/// Seconds in a minute.
+const MINUTE: f64 = 60.0;
+/// Microseconds in a second.
+const US: f64 = 1e6;
+
+/// The time from feed start to feed end at a speed, microseconds.
+pub(super) fn window_us(sewing: &Sewing, rpm: f64) -> f64 {
+    let mut turn = sewing.feed_end_deg - sewing.feed_start_deg;
+    while turn < 0.0 {
+        turn += 360.0;
+    }
+    turn / 360.0 * MINUTE * US / rpm
+}
+
+/// The least time of the first step of a motor, microseconds: from the start rate on with the greatest acceleration.
+pub(super) fn first_step_us(sewing: &Sewing) -> f64 {
+    let (start, acceleration) = (sewing.start_hz * sewing.step_mm, sewing.feed_acceleration_mm_s2);
+    ((start * start + 2.0 * acceleration * sewing.step_mm).sqrt() - start) / acceleration * US
+}
+
+/// The least interval of the drives, microseconds; 0 = any.
+pub(super) fn least_interval_us(sewing: &Sewing) -> f64 {
+    sewing.max_hz.map_or(0.0, |rate| US / rate)
+}
+
+/// The least time of a move of so many steps, microseconds: up from the start rate, on at the greatest rate where that is
+/// reached, and down. Found by halving the time until the way fits, not from the closed form.
+pub(super) fn least_move_us(sewing: &Sewing, steps: u64) -> f64 {
+    if steps == 0 {
+        return 0.0;
+    }
+    let way = steps as f64 * sewing.step_mm;
+    let start = sewing.start_hz * sewing.step_mm;
+    let top = sewing.max_hz.map_or(f64::INFINITY, |rate| rate * sewing.step_mm);
+    let reach = |time: f64| {
+        // Half of the time the speed rises, then it falls; what lies above the top is cut off.
+        let peak = start + sewing.feed_acceleration_mm_s2 * time / 2.0;
+        let over = (peak - top).max(0.0);
+        start * time + (peak - start) * time / 2.0 - over * over / sewing.feed_acceleration_mm_s2
+    };
+    let (mut short, mut long) = (0.0, 1.0);
+    while reach(long) < way {
+        long *= 2.0;
+    }
+    for _ in 0..HALVINGS {
+        let middle = f64::midpoint(short, long);
+        if reach(middle) < way { short = middle } else { long = middle }
+    }
+    long * US
+}
+
+/// Halvings of a second until rounding decides.
+const HALVINGS: u32 = 60;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_least_time_of_a_move_is_that_of_the_headline_figures() {
+        let sewing = Sewing::default();
+        for (steps, rpm) in [(50, 3200.0), (60, 2800.0)] {
+            assert!((least_move_us(&sewing, steps) / window_us(&sewing, rpm) - 1.0).abs() < 1e-4);
+        }
+        assert!((first_step_us(&sewing) - 341.6).abs() < 0.1);
+    }
+}

@@ -1,0 +1,53 @@
+//! What a program is held against, and why it may not be read.
+
+use std::io;
+
+use crate::machine::Sewing;
+use crate::sew::pattern::Pattern;
+use crate::sew::stitches::Stitches;
+
+/// What a program is held against.
+#[derive(Debug, Clone, Copy)]
+pub struct Ground<'a> {
+    /// What must be sewn, entry by entry.
+    pub stitches: &'a Stitches,
+    /// The lines that these were laid on; `None` where the file had the stitches.
+    pub pattern: Option<&'a Pattern>,
+    /// The machine.
+    pub sewing: &'a Sewing,
+    /// The file itself, where it has stitches.
+    pub original: Original<'a>,
+}
+
+/// A file that stitches were read from.
+#[derive(Debug, Clone, Copy)]
+pub enum Original<'a> {
+    /// A DST file.
+    Dst(&'a [u8]),
+    /// An EXP file.
+    Exp(&'a [u8]),
+    /// Another, of which the pattern tells.
+    Other,
+}
+
+/// Why the rest of a program is not read.
+#[derive(Debug)]
+pub(super) enum Unread {
+    /// The disk.
+    Io(io::Error),
+    /// Something that is no part of a program.
+    Row(String),
+}
+
+impl From<io::Error> for Unread {
+    fn from(error: io::Error) -> Self {
+        Self::Io(error)
+    }
+}
+
+impl Unread {
+    /// Of a row that is none.
+    pub(super) fn row(number: u64, what: &str) -> Self {
+        Self::Row(format!("row {number}: {what}"))
+    }
+}

@@ -1,0 +1,119 @@
+//! Whether the stitches are such as the machine makes, and lie on the lines of the pattern.
+
+use super::ground::Ground;
+use super::rules::Rule;
+use super::worst::Worst;
+use crate::geom::boxes::Boxes;
+use crate::geom::{Extent, Point, Vector};
+use crate::machine::Sewing;
+use crate::sew::pattern::{Element, Pattern, Seam};
+use crate::sew::stitches::Op;
+
+/// How far beyond what is allowed needle points are looked for, mm: what is farther is told as so far.
+const LOOK: f64 = 1.0;
+
+/// Judges all stitches.
+pub(super) fn judge(ground: &Ground, worst: &mut Worst) {
+    pitches(ground, worst);
+    if let Some(pattern) = ground.pattern {
+        corners(pattern, ground, worst);
+        on_seam(pattern, ground, worst);
+    }
+}
+
+fn pitches(ground: &Ground, worst: &mut Worst) {
+    let mut at = Point::origin();
+    for (step, entry) in ground.stitches.steps.iter().zip(1..) {
+        if step.op == Op::Stitch {
+            let pitch = (step.to - at).norm();
+            let place = Some((entry, step.to));
+            worst.see(Rule::LongPitch, pitch - ground.sewing.max_pitch_mm, place);
+            if !step.is_tie {
+                worst.see(Rule::ShortPitch, ground.sewing.min_pitch_mm - pitch, place);
+            }
+        }
+        at = step.to;
+    }
+}
+
+/// Half the width of a seam, mm.
+fn half_width(seam: &Seam, sewing: &Sewing) -> f64 {
+    match seam.element {
+        Element::Straight | Element::BoxX => 0.0,
+        Element::Zigzag => sewing.zigzag_width_mm / 2.0,
+        Element::BarTack => sewing.tack_width_mm / 2.0,
+    }
+}
+
+/// How far around a line of a half width needle points are looked for, mm.
+fn reach(width: f64, sewing: &Sewing) -> f64 {
+    width + sewing.min_pitch_mm + LOOK
+}
+
+/// Each corner of a seam has a needle point near it.
+fn corners(pattern: &Pattern, ground: &Ground, worst: &mut Worst) {
+    let mut corners: Vec<(Point, f64)> = Vec::new();
+    for seam in &pattern.seams {
+        let mut points = seam.points.clone();
+        points.dedup();
+        let width = half_width(seam, ground.sewing);
+        for i in 0..points.len() {
+            let is_end = i == 0 || i + 1 == points.len();
+            let turn = || turn(points[i] - points[i - 1], points[i + 1] - points[i]).to_degrees();
+            if is_end || turn() >= ground.sewing.corner_deg {
+                corners.push((points[i], width));
+            }
+        }
+    }
+    let around = |&(corner, width): &(Point, f64)| square(corner, reach(width, ground.sewing));
+    let boxes = Boxes::new(corners.iter().map(around).collect());
+    let mut nearest: Vec<f64> = corners.iter().map(|&(_, width)| reach(width, ground.sewing)).collect();
+    for step in ground.stitches.steps.iter().filter(|step| step.op == Op::Stitch) {
+        for i in boxes.at(step.to) {
+            nearest[i] = nearest[i].min((step.to - corners[i].0).norm());
+        }
+    }
+    for ((corner, width), nearest) in corners.into_iter().zip(nearest) {
+        worst.see(Rule::Corner, nearest - width, Some((0, corner)));
+    }
+}
+
+/// The square around a point, mm.
+fn square(middle: Point, reach: f64) -> Extent {
+    Extent { min: middle, max: middle }.grown(reach)
+}
+
+/// How far a way turns, rad.
+fn turn(before: Vector, behind: Vector) -> f64 {
+    (before.dot(&behind) / (before.norm() * behind.norm())).clamp(-1.0, 1.0).acos()
+}
+
+fn on_seam(pattern: &Pattern, ground: &Ground, worst: &mut Worst) {
+    let mut lines: Vec<([Point; 2], f64)> = Vec::new();
+    for seam in &pattern.seams {
+        let width = half_width(seam, ground.sewing);
+        lines.extend(seam.points.windows(2).map(|pair| ([pair[0], pair[1]], width)));
+        if seam.element == Element::BoxX && seam.points.len() >= 4 {
+            let p = &seam.points;
+            lines.extend([[p[0], p[2]], [p[1], p[3]], [p[3], p[0]]].map(|ends| (ends, width)));
+        }
+    }
+    let around = |([a, b], width): &([Point; 2], f64)| {
+        let mut extent = Extent { min: *a, max: *a };
+        extent.add(*b);
+        extent.grown(reach(*width, ground.sewing))
+    };
+    let boxes = Boxes::new(lines.iter().map(around).collect());
+    for (step, entry) in ground.stitches.steps.iter().zip(1..).filter(|(step, _)| step.op == Op::Stitch) {
+        let beside = |i: usize| beside(step.to, lines[i].0) - lines[i].1;
+        let off = boxes.at(step.to).map(beside).fold(reach(0.0, ground.sewing), f64::min);
+        worst.see(Rule::OnSeam, off, Some((entry, step.to)));
+    }
+}
+
+/// How far a point is from a line, mm.
+fn beside(point: Point, [a, b]: [Point; 2]) -> f64 {
+    let (way, to) = (b - a, point - a);
+    let along = (to.dot(&way) / way.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    (to - way * along).norm()
+}

@@ -1,0 +1,91 @@
+//! The verifier of sewn patterns: judges from the bytes what needle, cloth and motors do.
+//!
+//! Receives the bytes of a program, the stitches and the pattern that it must sew, and the profile. Shares no code with what
+//! lays, plans and writes: it counts pulses, measures intervals and decodes records for itself. Never repairs anything.
+
+mod clock;
+mod ground;
+mod laid;
+mod original;
+mod pulse_records;
+mod pulse_rows;
+mod pulses;
+mod queue;
+mod records;
+mod rules;
+mod spindle;
+mod stitch_file;
+mod worst;
+
+pub use ground::{Ground, Original};
+pub use rules::{RULES, Rule};
+
+use std::io::{self, BufRead};
+
+use self::ground::Unread;
+use self::worst::Worst;
+use crate::ir::Finding;
+
+/// What kind of bytes are judged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Bytes {
+    /// Pulses, rows of text.
+    PulseRows,
+    /// Pulses, records of an array.
+    PulseRecords,
+    /// Entries of a queue, rows of text.
+    QueueRows,
+    /// Entries of a queue, JSON.
+    QueueJson,
+    /// A DST file.
+    Dst,
+    /// An EXP file.
+    Exp,
+}
+
+/// What a program is worth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Verdict {
+    /// The worst value under each rule that says something of it, in the order of [`RULES`].
+    pub findings: Vec<Finding>,
+    /// What cannot be read, when something cannot.
+    pub unread: Option<String>,
+}
+
+impl Verdict {
+    /// Whether every rule holds.
+    pub fn passes(&self) -> bool {
+        self.findings.iter().all(Finding::holds)
+    }
+
+    /// The findings that do not hold.
+    pub fn broken(&self) -> impl Iterator<Item = &Finding> {
+        self.findings.iter().filter(|finding| !finding.holds())
+    }
+}
+
+/// Judges a program from its bytes.
+pub fn judge(input: &mut dyn BufRead, bytes: Bytes, ground: &Ground) -> io::Result<Verdict> {
+    let mut worst = Worst::new();
+    laid::judge(ground, &mut worst);
+    original::judge(ground, &mut worst);
+    let read = match bytes {
+        Bytes::PulseRows => {
+            pulses::judge(|each| pulse_rows::read(input, each), pulse_rows::TICK_US, ground, &mut worst)
+        }
+        Bytes::PulseRecords => {
+            pulses::judge(|each| pulse_records::read(input, each), pulse_records::TICK_US, ground, &mut worst)
+        }
+        Bytes::QueueRows => queue::judge(input, queue::row, ground, &mut worst),
+        Bytes::QueueJson => queue::judge(input, queue::json, ground, &mut worst),
+        Bytes::Dst => stitch_file::judge(input, records::dst, ground, &mut worst),
+        Bytes::Exp => stitch_file::judge(input, records::exp, ground, &mut worst),
+    };
+    let unread = match read {
+        Ok(()) => None,
+        Err(Unread::Io(error)) => return Err(error),
+        Err(Unread::Row(message)) => Some(message),
+    };
+    worst.see(Rule::Format, f64::from(u8::from(unread.is_some())), None);
+    Ok(Verdict { findings: worst.findings(ground.sewing), unread })
+}

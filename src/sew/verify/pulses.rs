@@ -1,0 +1,205 @@
+//! Every pulse: how many there are, which way, when, and where the needle stands then.
+
+use super::clock;
+use super::ground::{Ground, Unread};
+use super::rules::Rule;
+use super::spindle::Spindle;
+use super::worst::Worst;
+use crate::geom::Point;
+use crate::sew::stitches::Op;
+
+/// Microseconds in a second.
+const US: f64 = 1e6;
+
+/// A row of a program.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Row {
+    /// The entry that it is of, from 1.
+    pub(super) entry: u32,
+    /// What that asks for; the number of a thread is apart.
+    pub(super) op: u8,
+    pub(super) rpm: f64,
+    pub(super) thread: u16,
+    pub(super) time_us: f64,
+    /// The pulse of X and of Y.
+    pub(super) pulse: [i8; 2],
+}
+
+/// The words of operations, each at its number.
+pub(super) const OPS: [&str; 5] = ["STITCH", "JUMP", "TRIM", "STOP", "COLOR"];
+
+/// The number of an operation.
+fn number(op: Op) -> u8 {
+    match op {
+        Op::Stitch => 0,
+        Op::Jump => 1,
+        Op::Trim => 2,
+        Op::Stop => 3,
+        Op::Color(_) => 4,
+    }
+}
+
+/// Judges rows that `read` gives one by one; intervals are known to a tick, microseconds.
+pub(super) fn judge(
+    read: impl FnOnce(&mut dyn FnMut(Row)) -> Result<(), Unread>,
+    tick_us: f64,
+    ground: &Ground,
+    worst: &mut Worst,
+) -> Result<(), Unread> {
+    let mut judge = Judge {
+        ground,
+        worst,
+        tick_us,
+        first_us: clock::first_step_us(ground.sewing),
+        least_us: clock::least_interval_us(ground.sewing),
+        spindle: Spindle::default(),
+        entry: None,
+        next: 0,
+        at: [0; 2],
+        thread: 1,
+    };
+    read(&mut |row| judge.row(row))?;
+    judge.end();
+    Ok(())
+}
+
+struct Judge<'a> {
+    ground: &'a Ground<'a>,
+    worst: &'a mut Worst,
+    tick_us: f64,
+    /// The least first interval, and the least of all.
+    first_us: f64,
+    least_us: f64,
+    spindle: Spindle,
+    entry: Option<Entry>,
+    /// Place of the entry that comes next.
+    next: usize,
+    /// Where the motors stand, steps.
+    at: [i64; 2],
+    thread: u16,
+}
+
+/// The entry that is being read.
+struct Entry {
+    /// Its place among them.
+    i: usize,
+    rpm: f64,
+    axes: [Axis; 2],
+    time_us: f64,
+}
+
+/// What one axis did so far for an entry.
+#[derive(Debug, Clone, Copy, Default)]
+struct Axis {
+    count: i64,
+    sum: i64,
+    last_us: f64,
+    /// The last interval, once there is one.
+    interval: Option<f64>,
+    /// Whether intervals have begun to rise.
+    rises: bool,
+}
+
+impl Judge<'_> {
+    fn place(&self, i: usize) -> Option<(u32, Point)> {
+        self.ground.stitches.steps.get(i).map(|step| (i as u32 + 1, step.to))
+    }
+
+    fn row(&mut self, row: Row) {
+        let is_same = self.entry.as_ref().is_some_and(|entry| entry.i as u64 + 1 == u64::from(row.entry));
+        if !is_same {
+            self.finish();
+            self.begin(&row);
+        }
+        let Some(mut entry) = self.entry.take() else { return };
+        let place = self.place(entry.i);
+        if row.rpm != entry.rpm {
+            self.worst.see(Rule::SteadySpeed, (row.rpm - entry.rpm).abs(), place);
+        }
+        self.worst.see(Rule::Time, entry.time_us - row.time_us, place);
+        entry.time_us = row.time_us;
+        for (axis, pulse) in entry.axes.iter_mut().zip(row.pulse) {
+            if pulse != 0 {
+                self.pulse(axis, (row.time_us, pulse), place);
+            }
+        }
+        self.entry = Some(entry);
+    }
+
+    /// An entry begins.
+    fn begin(&mut self, row: &Row) {
+        let i = (row.entry as usize).wrapping_sub(1);
+        let Some(step) = self.ground.stitches.steps.get(i) else {
+            self.worst.count(Rule::Entries, 1.0, None);
+            return;
+        };
+        let place = Some((row.entry, step.to));
+        let thread = if let Op::Color(thread) = step.op { thread } else { self.thread };
+        self.thread = thread;
+        let is_other = i != self.next || row.op != number(step.op) || row.thread != thread;
+        self.worst.count(Rule::Entries, f64::from(u8::from(is_other)), place);
+        self.next = i + 1;
+        self.spindle.see(i, row.rpm, self.ground, self.worst);
+        self.entry = Some(Entry { i, rpm: row.rpm, axes: [Axis::default(); 2], time_us: 0.0 });
+    }
+
+    /// A pulse of an axis.
+    fn pulse(&mut self, axis: &mut Axis, (time, pulse): (f64, i8), place: Option<(u32, Point)>) {
+        let sewing = self.ground.sewing;
+        let interval = time - axis.last_us;
+        axis.last_us = time;
+        axis.count += 1;
+        axis.sum += i64::from(pulse);
+        self.worst.see(Rule::LeastInterval, self.least_us - interval, place);
+        match axis.interval {
+            None => self.worst.see(Rule::FirstInterval, self.first_us - interval, place),
+            Some(before) => {
+                axis.rises |= interval > before + self.tick_us;
+                if axis.rises {
+                    self.worst.see(Rule::Ramp, before - interval, place);
+                }
+                // Mean speeds of neighbours, which are those at their middles.
+                let [v0, v1] = [before, interval].map(|interval| sewing.step_mm * US / interval);
+                let apart = f64::midpoint(before, interval) / US;
+                let rounding = (v0 / before + v1 / interval) * self.tick_us;
+                self.worst.see(Rule::Acceleration, ((v1 - v0).abs() - rounding) / apart, place);
+            }
+        }
+        axis.interval = Some(interval);
+    }
+
+    /// The entry is at its end.
+    fn finish(&mut self) {
+        let Some(entry) = self.entry.take() else { return };
+        let (steps, sewing) = (&self.ground.stitches.steps, self.ground.sewing);
+        let step = &steps[entry.i];
+        let before = if entry.i == 0 { Point::origin() } else { steps[entry.i - 1].to };
+        let place = Some((entry.i as u32 + 1, step.to));
+        let nearest = |coordinate: f64| (coordinate / sewing.step_mm).round() as i64;
+        let asked = [(before.x, step.to.x), (before.y, step.to.y)].map(|(from, to)| nearest(to) - nearest(from));
+        for (k, axis) in entry.axes.iter().enumerate() {
+            self.worst.see(Rule::Count, (axis.count - asked[k].abs()).abs() as f64, place);
+            // Pulses against the rest, or all of them against the stitch.
+            let against = if axis.sum * asked[k] < 0 { axis.count } else { axis.count - axis.sum.abs() };
+            self.worst.see(Rule::Direction, against as f64, place);
+            self.at[k] += axis.sum;
+            if let Some(last) = axis.interval {
+                self.worst.see(Rule::FirstInterval, self.first_us - last, place);
+            }
+        }
+        let off = [step.to.x, step.to.y].into_iter().zip(self.at);
+        let off = off.map(|(planned, at)| (at as f64 * sewing.step_mm - planned).abs()).fold(0.0, f64::max);
+        self.worst.see(Rule::EndPoint, off, place);
+        if entry.rpm > 0.0 {
+            let last = entry.axes.iter().map(|axis| axis.last_us).fold(0.0, f64::max);
+            self.worst.see(Rule::Window, last - clock::window_us(sewing, entry.rpm), place);
+        }
+    }
+
+    /// The program is at its end.
+    fn end(&mut self) {
+        self.finish();
+        let missing = self.ground.stitches.steps.len().saturating_sub(self.next);
+        self.worst.count(Rule::Entries, missing as f64, self.place(self.next));
+    }
+}

@@ -1,0 +1,162 @@
+//! Entries of a queue: the increments add up to the needle points, and each stitch fits at the speed that holds.
+
+use std::collections::BTreeMap;
+use std::io::BufRead;
+
+use super::clock;
+use super::ground::{Ground, Unread};
+use super::rules::Rule;
+use super::spindle::Spindle;
+use super::worst::Worst;
+use crate::geom::Point;
+use crate::sew::stitches::Op;
+
+/// Rounding of times, as a part of the window: the speed is a whole number.
+const WINDOW_EPSILON: f64 = 2e-6;
+
+/// An entry.
+#[derive(Debug, PartialEq)]
+pub(super) enum Entry {
+    /// The header.
+    Head,
+    /// A stitch or a jump, with its increments, mm.
+    Way(bool, [f64; 2]),
+    Trim,
+    Stop,
+    Color(u16),
+    Speed(f64),
+    End,
+}
+
+/// Judges a queue whose lines `parse` reads.
+pub(super) fn judge(
+    input: &mut dyn BufRead,
+    parse: fn(&str) -> Option<Entry>,
+    ground: &Ground,
+    worst: &mut Worst,
+) -> Result<(), Unread> {
+    let (mut line, mut number, mut i) = (String::new(), 0, 0);
+    // Few moves are different.
+    let mut times: BTreeMap<u64, f64> = BTreeMap::new();
+    let (mut at, mut rpm, mut spindle, mut is_ended) = ([0.0; 2], 0.0, Spindle::default(), false);
+    loop {
+        line.clear();
+        number += 1;
+        match input.read_line(&mut line) {
+            Ok(0) => break,
+            Ok(_) => {}
+            Err(error) if error.kind() == std::io::ErrorKind::InvalidData => {
+                return Err(Unread::row(number, "it is no text"));
+            }
+            Err(error) => return Err(error.into()),
+        }
+        let text = line.strip_suffix('\n').ok_or_else(|| Unread::row(number, "it is cut off"))?;
+        let entry = parse(text).filter(|entry| *entry != Entry::Head || number == 1);
+        let entry = entry.filter(|_| !is_ended).ok_or_else(|| Unread::row(number, "it is no entry"))?;
+        let (is_asked, way) = match entry {
+            Entry::Head => continue,
+            Entry::Speed(speed) => {
+                rpm = speed;
+                continue;
+            }
+            Entry::End => {
+                is_ended = true;
+                continue;
+            }
+            Entry::Way(true, way) => (op(ground, i) == Some(Op::Stitch), way),
+            Entry::Way(false, way) => (op(ground, i) == Some(Op::Jump), way),
+            Entry::Trim => (op(ground, i) == Some(Op::Trim), [0.0; 2]),
+            Entry::Stop => (op(ground, i) == Some(Op::Stop), [0.0; 2]),
+            Entry::Color(thread) => (op(ground, i) == Some(Op::Color(thread)), [0.0; 2]),
+        };
+        at = [at[0] + way[0], at[1] + way[1]];
+        let is_sewn = matches!(entry, Entry::Way(true, _));
+        see(ground, worst, i, (is_asked, at));
+        spindle.see(i, if is_sewn { rpm } else { 0.0 }, ground, worst);
+        if is_sewn {
+            let steps = way.map(|way| (way / ground.sewing.step_mm).abs().round() as u64);
+            let steps = steps[0].max(steps[1]);
+            let needed = *times.entry(steps).or_insert_with(|| clock::least_move_us(ground.sewing, steps));
+            fits(ground, worst, i, (needed, rpm));
+        }
+        i += 1;
+    }
+    if !is_ended {
+        return Err(Unread::row(number, "END is missing"));
+    }
+    worst.count(Rule::Entries, ground.stitches.steps.len().abs_diff(i) as f64, None);
+    Ok(())
+}
+
+fn op(ground: &Ground, i: usize) -> Option<Op> {
+    ground.stitches.steps.get(i).map(|step| step.op)
+}
+
+/// Sees an entry, whether it is the one that is asked for, and where the needle stands behind it.
+fn see(ground: &Ground, worst: &mut Worst, i: usize, (is_asked, at): (bool, [f64; 2])) {
+    let step = ground.stitches.steps.get(i);
+    let place = step.map(|step| (i as u32 + 1, step.to));
+    worst.count(Rule::Entries, f64::from(u8::from(!is_asked)), place);
+    let planned = step.map_or(Point::new(f64::NAN, f64::NAN), |step| step.to);
+    let off = (at[0] - planned.x).abs().max((at[1] - planned.y).abs());
+    if step.is_some() {
+        worst.see(Rule::EndPoint, off, place);
+    }
+}
+
+/// Whether a stitch that needs some time, microseconds, fits into its window at a speed.
+fn fits(ground: &Ground, worst: &mut Worst, i: usize, (needed, rpm): (f64, f64)) {
+    let window = clock::window_us(ground.sewing, rpm);
+    let place = ground.stitches.steps.get(i).map(|step| (i as u32 + 1, step.to));
+    worst.see(Rule::Window, needed - window * (1.0 + WINDOW_EPSILON), place);
+}
+
+/// An increment or another number.
+fn number(text: &str) -> Option<f64> {
+    text.parse().ok().filter(|value: &f64| value.is_finite())
+}
+
+/// Reads an entry from a row of text.
+pub(super) fn row(text: &str) -> Option<Entry> {
+    let mut fields = text.split(',');
+    let [word, dx, dy, value] = [fields.next()?, fields.next()?, fields.next()?, fields.next()?];
+    if fields.next().is_some() {
+        return None;
+    }
+    let is_bare = dx.is_empty() && dy.is_empty();
+    match word {
+        "op" => Some(Entry::Head),
+        "STITCH" | "JUMP" if value.is_empty() => Some(Entry::Way(word == "STITCH", [number(dx)?, number(dy)?])),
+        "TRIM" if is_bare && value.is_empty() => Some(Entry::Trim),
+        "STOP" if is_bare && value.is_empty() => Some(Entry::Stop),
+        "END" if is_bare && value.is_empty() => Some(Entry::End),
+        "COLOR" if is_bare => value.parse().ok().map(Entry::Color),
+        "SPEED" if is_bare => number(value).map(Entry::Speed),
+        _ => None,
+    }
+}
+
+/// Reads an entry from a line of JSON.
+pub(super) fn json(text: &str) -> Option<Entry> {
+    #[derive(serde::Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Line<'a> {
+        op: &'a str,
+        dx_mm: Option<f64>,
+        dy_mm: Option<f64>,
+        value: Option<f64>,
+    }
+    let Line { op, dx_mm, dy_mm, value } = serde_json::from_str(text).ok()?;
+    match (op, dx_mm, dy_mm, value) {
+        ("STITCH" | "JUMP", Some(dx), Some(dy), None) => Some(Entry::Way(op == "STITCH", [dx, dy])),
+        ("TRIM", None, None, None) => Some(Entry::Trim),
+        ("STOP", None, None, None) => Some(Entry::Stop),
+        ("END", None, None, None) => Some(Entry::End),
+        ("COLOR", None, None, Some(thread)) => {
+            let is_number = thread.fract() == 0.0 && (0.0..=f64::from(u16::MAX)).contains(&thread);
+            is_number.then_some(Entry::Color(thread as u16))
+        }
+        ("SPEED", None, None, Some(rpm)) => Some(Entry::Speed(rpm)),
+        _ => None,
+    }
+}

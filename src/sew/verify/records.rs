@@ -1,0 +1,125 @@
+//! Decodes stitch files, from the descriptions of their formats.
+
+/// What a record does, and where the needle stands behind it, tenths of a millimetre.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Record {
+    pub(super) kind: Kind,
+    pub(super) at: [i64; 2],
+}
+
+/// What a record does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Stitch,
+    Jump,
+    Trim,
+    Stop,
+}
+
+/// What a file says.
+#[derive(Debug)]
+pub(super) struct File {
+    pub(super) records: Vec<Record>,
+    /// How many values of its header are wrong, where it has one.
+    pub(super) header: Option<u32>,
+    /// Whether bytes stand behind its end.
+    pub(super) has_more: bool,
+    /// From so many jumps in a row on machines cut the thread.
+    pub(super) trim_jumps: Option<usize>,
+}
+
+/// What a file says, or what cannot be read.
+pub(super) type Decoded = Result<File, String>;
+
+/// Jumps in a row that machines take for a trim in a DST file.
+const TRIM_JUMPS: usize = 3;
+
+const DST_HEADER: usize = 512;
+
+/// Decodes a DST file.
+pub(super) fn dst(bytes: &[u8]) -> Decoded {
+    let (header, body) = bytes.split_at_checked(DST_HEADER).ok_or("the header is cut off")?;
+    let mut records = Vec::new();
+    let (mut at, mut reach) = ([0_i64; 2], [0_i64; 4]);
+    let (triples, rest) = body.as_chunks::<3>();
+    let end = triples.iter().position(|triple| *triple == [0, 0, 0xF3]).ok_or("the end is missing")?;
+    for (i, &[a, b, c]) in triples[..end].iter().enumerate() {
+        let kind = match c & 0b1100_0011 {
+            0b0000_0011 => Kind::Stitch,
+            0b1000_0011 => Kind::Jump,
+            0b1100_0011 => Kind::Stop,
+            _ => return Err(format!("record {} is none", i + 1)),
+        };
+        // Bit by bit, as the format is described: one up, the next down.
+        let bit = |byte: u8, place: u32| i64::from(byte >> place & 1);
+        let x = bit(a, 0) - bit(a, 1)
+            + 9 * (bit(a, 2) - bit(a, 3))
+            + 3 * (bit(b, 0) - bit(b, 1))
+            + 27 * (bit(b, 2) - bit(b, 3))
+            + 81 * (bit(c, 2) - bit(c, 3));
+        let y = bit(a, 7) - bit(a, 6)
+            + 9 * (bit(a, 5) - bit(a, 4))
+            + 3 * (bit(b, 7) - bit(b, 6))
+            + 27 * (bit(b, 5) - bit(b, 4))
+            + 81 * (bit(c, 5) - bit(c, 4));
+        at = [at[0] + x, at[1] + y];
+        let now = [at[0], -at[0], at[1], -at[1]];
+        (0..4).for_each(|side| reach[side] = reach[side].max(now[side]));
+        records.push(Record { kind, at });
+    }
+    let stops = records.iter().filter(|record| record.kind == Kind::Stop).count();
+    let count = |number: usize| i64::try_from(number).unwrap_or(i64::MAX);
+    let told = [
+        ("ST", count(end)),
+        ("CO", count(stops)),
+        ("+X", reach[0]),
+        ("-X", reach[1]),
+        ("+Y", reach[2]),
+        ("-Y", reach[3]),
+        ("AX", at[0]),
+        ("AY", at[1]),
+    ];
+    let text = String::from_utf8_lossy(header);
+    let fields: Vec<(&str, String)> = text
+        .split('\r')
+        .filter_map(|field| field.split_once(':'))
+        .map(|(name, value)| (name, value.replace(' ', "")))
+        .collect();
+    let is_wrong = |&&(name, value): &&(&str, i64)| {
+        !fields.iter().any(|(field, told)| *field == name && told.parse() == Ok(value))
+    };
+    let wrong = told.iter().filter(is_wrong).count();
+    let has_more = end + 1 != triples.len() || !rest.is_empty();
+    Ok(File { records, header: Some(wrong as u32), has_more, trim_jumps: Some(TRIM_JUMPS) })
+}
+
+/// Decodes an EXP file.
+pub(super) fn exp(bytes: &[u8]) -> Decoded {
+    let mut records = Vec::new();
+    let mut at = [0_i64; 2];
+    let mut rest = bytes;
+    while let [first, second, behind @ ..] = rest {
+        rest = behind;
+        let (kind, way) = if *first == 0x80 {
+            let [x, y, behind @ ..] = rest else { return Err("the last record is cut off".to_owned()) };
+            rest = behind;
+            match second {
+                0x80 => (Kind::Trim, [0, 0]),
+                0x04 => (Kind::Jump, [*x, *y]),
+                0x01 => (Kind::Stop, [*x, *y]),
+                0x02 => (Kind::Stitch, [*x, *y]),
+                _ => return Err(format!("command {second:02x} is none")),
+            }
+        } else {
+            (Kind::Stitch, [*first, *second])
+        };
+        let signed = |byte: u8| if byte < 128 { i64::from(byte) } else { i64::from(byte) - 256 };
+        at = [at[0] + signed(way[0]), at[1] + signed(way[1])];
+        records.push(Record { kind, at });
+    }
+    if rest.is_empty() {
+        Ok(File { records, header: None, has_more: false, trim_jumps: None })
+    } else {
+        Err("the last record is cut off".to_owned())
+    }
+}

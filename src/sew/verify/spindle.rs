@@ -1,0 +1,55 @@
+//! The speed of the spindle: its limits, and that it does not change within a run.
+
+use super::ground::Ground;
+use super::rules::Rule;
+use super::worst::Worst;
+use crate::geom::Point;
+use crate::sew::stitches::Op;
+
+/// Rounding of places, mm.
+const PLACE_EPSILON: f64 = 1e-4;
+
+/// Follows the speed from entry to entry.
+#[derive(Debug, Default)]
+pub(super) struct Spindle {
+    /// Stitches of the run so far.
+    stitches: u32,
+    /// The speed of the run behind its soft start.
+    rpm: Option<f64>,
+    /// That of its soft start.
+    soft: Option<f64>,
+}
+
+impl Spindle {
+    /// Sees the speed of an entry, by its place among them; 0 = the spindle stands.
+    pub(super) fn see(&mut self, i: usize, rpm: f64, ground: &Ground, worst: &mut Worst) {
+        let Some(step) = ground.stitches.steps.get(i) else { return };
+        let place = Some((i as u32 + 1, step.to));
+        match step.op {
+            Op::Stitch => {}
+            Op::Jump | Op::Trim | Op::Stop | Op::Color(_) => {
+                *self = Self::default();
+                worst.see(Rule::Speed, rpm, place);
+                return;
+            }
+        }
+        let sewing = ground.sewing;
+        let from = if i == 0 { Point::origin() } else { ground.stitches.steps[i - 1].to };
+        let pitch = (step.to.x - from.x).hypot(step.to.y - from.y);
+        let mut limit = sewing.max_rpm;
+        for [from, rpm] in &sewing.speeds {
+            if pitch >= *from + PLACE_EPSILON {
+                limit = limit.min(*rpm);
+            }
+        }
+        let is_soft = self.stitches < sewing.soft_start_stitches && sewing.soft_start_rpm.is_some();
+        self.stitches += 1;
+        let steady = if is_soft { &mut self.soft } else { &mut self.rpm };
+        let usual = *steady.get_or_insert(rpm);
+        worst.see(Rule::SteadySpeed, (rpm - usual).abs(), place);
+        if let Some(soft) = sewing.soft_start_rpm.filter(|_| is_soft) {
+            limit = limit.min(soft);
+        }
+        worst.see(Rule::Speed, if rpm > 0.0 { rpm - limit } else { limit }, place);
+    }
+}

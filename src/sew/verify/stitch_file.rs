@@ -1,0 +1,107 @@
+//! Stitch files: what their records do is what the pattern says.
+
+use std::io::BufRead;
+
+use super::ground::{Ground, Unread};
+use super::records::{Decoded, File, Kind, Record};
+use super::rules::Rule;
+use super::worst::Worst;
+use crate::geom::Point;
+use crate::sew::stitches::Op;
+
+/// Units of stitch files in a millimetre.
+const PER_MM: f64 = 10.0;
+/// The longest move of a record at which no rounding makes it two, mm.
+const LONGEST: f64 = 12.0;
+
+/// What lies between two stitches or stops, and the one that follows.
+#[derive(Debug, Default, Clone, Copy)]
+struct Gap {
+    /// Whether the thread is cut.
+    is_cut: bool,
+    /// Jumps in it: of the file, or those that a pattern needs at the most.
+    jumps: usize,
+    /// The stitch or stop behind it: whether it is a stitch, and where, mm.
+    end: Option<(bool, Point)>,
+}
+
+/// Judges a file that `decode` reads.
+pub(super) fn judge(
+    input: &mut dyn BufRead,
+    decode: fn(&[u8]) -> Decoded,
+    ground: &Ground,
+    worst: &mut Worst,
+) -> Result<(), Unread> {
+    let mut bytes = Vec::new();
+    input.read_to_end(&mut bytes)?;
+    let File { records, header, has_more, trim_jumps } = decode(&bytes).map_err(Unread::Row)?;
+    if has_more {
+        return Err(Unread::Row("bytes stand behind the end".to_owned()));
+    }
+    if let Some(wrong) = header {
+        worst.see(Rule::Header, wrong.into(), None);
+    }
+    let (planned, found) = (planned(ground), found(&records));
+    worst.count(Rule::Entries, planned.len().abs_diff(found.len()) as f64, None);
+    for ((planned, entry), found) in planned.iter().zip(&found) {
+        let place = planned.end.map(|(_, point)| (*entry, point));
+        match (planned.end, found.end) {
+            (Some((is_stitch, asked)), Some((is, point))) => {
+                worst.count(Rule::Entries, f64::from(u8::from(is_stitch != is)), place);
+                let off = (point.x - asked.x).abs().max((point.y - asked.y).abs());
+                worst.see(Rule::Decoded, off, place);
+            }
+            (None, None) => {}
+            (Some(_), None) | (None, Some(_)) => worst.count(Rule::Entries, 1.0, place),
+        }
+        // Jumps that stand for a trim may also be a long way.
+        let is_trim = |jumps: usize| trim_jumps.is_some_and(|least| jumps >= least);
+        let is_cut = found.is_cut || is_trim(found.jumps);
+        let wrong = if planned.is_cut { !is_cut } else { is_cut && !is_trim(planned.jumps) };
+        worst.count(Rule::Commands, f64::from(u8::from(wrong)), place);
+    }
+    Ok(())
+}
+
+/// What the pattern asks for, each gap with the entry at its end, from 1.
+fn planned(ground: &Ground) -> Vec<(Gap, u32)> {
+    let mut gaps = Vec::new();
+    let mut gap = Gap::default();
+    let mut at = Point::origin();
+    for (step, entry) in ground.stitches.steps.iter().zip(1..) {
+        let way = (step.to.x - at.x).abs().max((step.to.y - at.y).abs());
+        let records = (way / LONGEST).ceil() as usize;
+        at = step.to;
+        match step.op {
+            Op::Jump => gap.jumps += records.max(1),
+            Op::Trim => gap.is_cut = true,
+            Op::Stitch | Op::Stop | Op::Color(_) => {
+                // The last of its records is no jump.
+                gap.jumps += records.saturating_sub(1);
+                gap.end = Some((step.op == Op::Stitch, step.to));
+                gaps.push((std::mem::take(&mut gap), entry));
+            }
+        }
+    }
+    gaps.push((gap, ground.stitches.steps.len() as u32));
+    gaps
+}
+
+/// What a file does.
+fn found(records: &[Record]) -> Vec<Gap> {
+    let mut gaps = Vec::new();
+    let mut gap = Gap::default();
+    for record in records {
+        match record.kind {
+            Kind::Jump => gap.jumps += 1,
+            Kind::Trim => gap.is_cut = true,
+            Kind::Stitch | Kind::Stop => {
+                let at = Point::new(record.at[0] as f64 / PER_MM, record.at[1] as f64 / PER_MM);
+                gap.end = Some((record.kind == Kind::Stitch, at));
+                gaps.push(std::mem::take(&mut gap));
+            }
+        }
+    }
+    gaps.push(gap);
+    gaps
+}
