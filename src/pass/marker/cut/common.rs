@@ -203,15 +203,23 @@ impl Sharing<'_> {
         }
     }
 
-    /// The end of a cut, 0 or 1, that is a way off to the side no longer than two edges lie apart: the blade would only swing.
-    fn short_end(&self, cut: &[Segment]) -> Option<usize> {
-        let is_short = |end: &Segment, next: &Segment| {
+    /// The end, 0 or 1, of a cut that must not be made. One that is no longer than two edges lie apart is a stub: the blade
+    /// would cut what lies about it. Of one that `is_short` an end is wrong that is a way off to the side as short as that: the
+    /// blade would only swing.
+    fn short_end(&self, cut: &[Segment], is_short: bool) -> Option<usize> {
+        if !cut.is_empty() && cut.iter().map(Segment::length).sum::<f64>() <= self.asked.near.distance {
+            return Some(0);
+        }
+        if !is_short {
+            return None;
+        }
+        let swings = |end: &Segment, next: &Segment| {
             let ways = [end, next].map(|segment| polyline::direction(segment.from, segment.to).unwrap_or_default());
             end.length() <= self.asked.near.distance && ways[0].dot(&ways[1]) < LEAST_COSINE
         };
         let [first, .., last] = cut else { return None };
-        let ends = [is_short(first, &cut[1]), is_short(last, &cut[cut.len() - 2])];
-        ends.iter().position(|&is_short| is_short)
+        let ends = [swings(first, &cut[1]), swings(last, &cut[cut.len() - 2])];
+        ends.iter().position(|&swings| swings)
     }
 
     /// Lets a stretch go on to the corners of its ring that stand as near to the end of the other's edge.
@@ -285,7 +293,7 @@ impl Sharing<'_> {
                 led.ways.extend(past.map(|past| past.corner));
             }
             let cut = led_on(own, [from, to], ends, like);
-            if let Some(end) = is_short.then(|| self.short_end(&cut)).flatten() {
+            if let Some(end) = self.short_end(&cut, is_short) {
                 return Err([i, next][end]);
             }
             if !cut.is_empty() {
