@@ -307,7 +307,7 @@ mod table {
     /// An element on a line that cannot bear it.
     pub static SEW_ELEMENT: Code = error(Shape, "sew/element", "An element of a pattern does not suit its line: a box needs four corners, a bar tack two points, any other two places.", "What was meant cannot be told from the points, and a tack in the wrong place is a hole in the garment. Mend the points, or take another element.\n  0,0,box-x");
     /// An inset that leaves nothing.
-    pub static SEW_INSET: Code = error(Shape, "sew/inset", "A contour is too narrow for the inset that is asked for.", "The seam would run outside the part, or through another seam: somewhere the contour is narrower than twice the inset. Take a smaller `--inset`, or draw the seam.");
+    pub static SEW_INSET: Code = error(Shape, "sew/inset", "A contour is too narrow for the inset that is asked for, or the file has no contours.", "The seam would run outside the part, or through another seam: somewhere the contour is narrower than twice the inset. Take a smaller `--inset`, or draw the seam.");
     /// No such line.
     pub static SEW_NO_LINE: Code = error(Shape, "sew/no-line", "The file has no line of the name that `--line` gives; the hint names those that it has.", "Pens and layers have the names that the file gives them; `seam` means the seam lines that are recognised in parts.\n  cutc sew parts.plt --line seam");
     /// A stitch that is too short.

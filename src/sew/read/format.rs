@@ -26,3 +26,24 @@ pub enum Input {
     /// Needle points.
     Stitches(Stitches),
 }
+
+/// What some programs write before text in UTF-8.
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
+/// Whether the first line of a text is this one, in capital letters or small ones, or begins with it.
+pub(super) fn begins_with(bytes: &[u8], header: &[u8]) -> bool {
+    let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
+    bytes.get(..header.len()).is_some_and(|first| first.eq_ignore_ascii_case(header))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_header_is_known_behind_the_mark_that_spreadsheets_write() {
+        for (text, is_known) in [("op,x\n", true), ("\u{feff}OP,X", true), ("op", false), ("\u{feff}xop,x", false)] {
+            assert_eq!(begins_with(text.as_bytes(), b"op,x"), is_known, "{text:?}");
+        }
+    }
+}

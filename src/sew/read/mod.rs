@@ -16,7 +16,7 @@ mod queue;
 pub use format::{Format, Input};
 
 use super::asked::Asked;
-use crate::diagnostic::Diagnostics;
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::machine::Job;
 use crate::source::Source;
 
@@ -32,7 +32,24 @@ pub(super) fn read(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnost
         None => FORMATS.iter().find(|format| (format.is_it)(source.bytes(), &extension)),
     };
     match format {
-        Some(format) => Some((format.name, (format.read)(source, out))),
+        Some(format) => {
+            refuse_choices(format, asked, out);
+            Some((format.name, (format.read)(source, out)))
+        }
         None => outline::read(source, asked, job, out).map(|(name, pattern)| (name, Input::Pattern(pattern))),
+    }
+}
+
+/// Refuses choices among lines and contours where a file has none: its seams are where they are sewn.
+fn refuse_choices(format: &Format, asked: &Asked, out: &mut Diagnostics) {
+    if let Some(line) = &asked.line {
+        let message =
+            format!("a file of the format {} has no pens or layers, so none has the name `{line}`", format.name);
+        out.push(Diagnostic::new(&code::SEW_NO_LINE, message).hint("leave `--line` out: all of the file is sewn"));
+    }
+    if asked.inset != 0.0 {
+        let message = format!("a file of the format {} has no contours inside which to sew", format.name);
+        let hint = "leave `--inset` out: the seams of the file are where they are sewn";
+        out.push(Diagnostic::new(&code::SEW_INSET, message).hint(hint));
     }
 }

@@ -4,7 +4,7 @@
 //! behind a blank, `tie`, `back-tack` or `open` for its ends, `thread 2` and `stop`. Empty = a straight seam as the profile
 //! has it.
 
-use super::format::{Format, Input};
+use super::format::{Format, Input, begins_with};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
 use crate::machine::sewing::Ends;
@@ -14,7 +14,7 @@ use crate::source::{Source, Span};
 pub(super) const FORMAT: Format = Format {
     name: "pattern",
     about: "seams as points in mm: `x_mm,y_mm,element`, a row a point, a blank line between seams",
-    is_it: |bytes, _| bytes.len() >= HEADER.len() && bytes[..HEADER.len()].eq_ignore_ascii_case(HEADER),
+    is_it: |bytes, _| begins_with(bytes, HEADER),
     read,
 };
 

@@ -1,6 +1,6 @@
 //! The entries of a stitch queue, as the target `queue` writes them: `op,dx_mm,dy_mm,value`.
 
-use super::format::{Format, Input};
+use super::format::{Format, Input, begins_with};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
 use crate::sew::stitches::{Op, Step, Stitches};
@@ -9,7 +9,7 @@ use crate::source::{Source, Span};
 pub(super) const FORMAT: Format = Format {
     name: "queue",
     about: "entries of a stitch queue: `op,dx_mm,dy_mm,value`, as the target queue writes them",
-    is_it: |bytes, _| bytes.len() >= HEADER.len() && bytes[..HEADER.len()].eq_ignore_ascii_case(HEADER),
+    is_it: |bytes, _| begins_with(bytes, HEADER),
     read,
 };
 
@@ -36,7 +36,8 @@ fn read(source: &Source, out: &mut Diagnostics) -> Input {
         if row == 1 || line.trim_ascii().is_empty() {
             continue;
         }
-        match parse(line) {
+        let parsed = if is_ended { Err("the row stands behind END".to_owned()) } else { parse(line) };
+        match parsed {
             Ok(Row::Step(op, [dx, dy])) => {
                 at = Point::new(at.x + dx, at.y + dy);
                 // The header is no record.
@@ -73,11 +74,12 @@ fn parse(line: &[u8]) -> Result<Row, String> {
         "JUMP" => Ok(Row::Step(Op::Jump, [number(dx)?, number(dy)?])),
         "TRIM" => Ok(Row::Step(Op::Trim, [0.0; 2])),
         "STOP" => Ok(Row::Step(Op::Stop, [0.0; 2])),
-        "COLOR" => value
-            .parse()
-            .map(|thread| Row::Step(Op::Color(thread), [0.0; 2]))
-            .map_err(|_| format!("`{value}` is no number of a thread")),
-        "SPEED" => Ok(Row::Nothing),
+        "COLOR" => match value.parse() {
+            Ok(thread) if thread > 0 => Ok(Row::Step(Op::Color(thread), [0.0; 2])),
+            Ok(_) | Err(_) => Err(format!("`{value}` is no number of a thread")),
+        },
+        "SPEED" if value.parse::<f64>().is_ok_and(|rpm| rpm > 0.0) => Ok(Row::Nothing),
+        "SPEED" => Err(format!("`{value}` is no speed in rpm")),
         "END" => Ok(Row::End),
         _ => Err(format!("`{op}` is no entry of a queue")),
     }

@@ -161,6 +161,10 @@ fn contours_of_cut_files_are_sewn_inside_and_lines_of_plots_by_their_pen() {
     }
     assert_eq!(room.read("2.queue.csv"), room.read("seam.queue.csv"));
     assert!(room.says("sew part.plt --line 7 -t queue", FAULTY).contains("pens or layers are 1, 2"));
+    // A pattern is sewn where it says.
+    room.write("pocket.csv", &fixture("sew/pocket.csv"));
+    assert!(room.says("sew pocket.csv --inset 2 -t queue", FAULTY).contains("no contours"));
+    assert!(room.says("sew pocket.csv --line seam -t queue", FAULTY).contains("no pens or layers"));
 }
 
 #[test]
