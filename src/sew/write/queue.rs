@@ -1,6 +1,7 @@
 //! Entries of the queue from which the motion part takes its stitches: rows of text, or JSON a line each.
 //!
-//! Increments are multiples of the step: whoever divides them by it has the pulses, and no sum drifts away.
+//! Increments are multiples of the step to four decimals: whoever divides them by it and rounds has the pulses, and no sum
+//! of these drifts away.
 
 use std::io::{self, Write};
 

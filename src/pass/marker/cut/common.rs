@@ -203,8 +203,8 @@ impl Sharing<'_> {
         }
     }
 
-    /// The end, 0 or 1, of a cut that must not be made. One that is no longer than two edges lie apart is a stub: the blade
-    /// would cut what lies about it. Of one that `is_short` an end is wrong that is a way off to the side as short as that: the
+    /// The end, 0 or 1, of a cut that must not be made. One that is no longer than two edges lie apart is too short for
+    /// any blade, which would cut what lies about it. Of one that `is_short` an end is wrong that is a way off to the side as short as that: the
     /// blade would only swing.
     fn short_end(&self, cut: &[Segment], is_short: bool) -> Option<usize> {
         if !cut.is_empty() && cut.iter().map(Segment::length).sum::<f64>() <= self.asked.near.distance {
