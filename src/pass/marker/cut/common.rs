@@ -268,11 +268,9 @@ impl Sharing<'_> {
                 is_short.then(|| self.leads.tie(ring, middle, [neighbour(0), neighbour(1)])).flatten()
             {
                 led.ways.extend([[start, at], [at, end]]);
+                let ways = [[start, at], [at, end]].into_iter().filter(|[from, to]| from != to);
                 let joint = Joint::default();
-                led.cuts.push(vec![
-                    Segment { from: start, to: at, joint, ..like },
-                    Segment { from: at, to: end, joint, ..like },
-                ]);
+                led.cuts.push(ways.map(|[from, to]| Segment { from, to, joint, ..like }).collect());
                 continue;
             }
             let arrival = |station: f64, is_along: bool| Arrival {

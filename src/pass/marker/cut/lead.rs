@@ -102,6 +102,11 @@ impl<'a> Leads<'a> {
     /// Where a cut of a ring that comes to a place goes on to so that it crosses what is cut there with the others: no farther
     /// where it crosses that already; `None` where it finds nothing to cross.
     pub(super) fn lead(&self, ring: usize, Arrival { at, along }: Arrival, to: Neighbour) -> Option<Point> {
+        // Where it goes through the neighbour's outline at an angle, such as beside a corner of it, it needs no way over.
+        let through = self.straight_on(ring, at, along, |other| other == Some(to.ring));
+        if let Some(way) = through.filter(|&way| way <= self.asked.near.distance) {
+            return Some(at + along * way.max(0.0));
+        }
         let ways = [1.0, -1.0].into_iter().filter_map(|sign| self.way_over(at, along, (to.ring, to.station, sign)));
         let ways = ways.filter(|&(_, end)| !self.enters_another(ring, to.ring, [at, end]));
         if let Some((_, end)) = ways.max_by(|a, b| a.0.total_cmp(&b.0)) {
@@ -112,18 +117,30 @@ impl<'a> Leads<'a> {
     }
 
     /// Whether a way of a ring along an edge of another goes through the outline of a third part, such as a notch of it that
-    /// stands out over the edge.
-    fn enters_another(&self, own: usize, other: usize, ends: [Point; 2]) -> bool {
+    /// stands out over the edge, or lies in it deeper than edges lie apart.
+    fn enters_another(&self, own: usize, other: usize, [from, to]: [Point; 2]) -> bool {
         let known = [own, other].map(|ring| self.rings[ring].part);
-        let [from, to] = ends;
         let Some(along) = polyline::direction(from, to) else { return false };
         let margin = self.asked.near.distance;
         let crosses = |segment: [Point; 2]| {
             crossing(from, along, segment, margin)
                 .is_some_and(|(ahead, sine)| sine >= LEAST_SINE && ahead <= (to - from).norm() - margin)
         };
-        let mut near = self.segments.near(self.rings, Extent::between(from, to));
-        near.any(|([ring, _], segment)| !known.contains(&self.rings[ring].part) && crosses(segment))
+        let near = self.segments.near(self.rings, Extent::between(from, to).grown(DEEPEST * margin));
+        let third = near.filter(|([ring, _], _)| !known.contains(&self.rings[*ring].part));
+        let (mut rings, segments): (Vec<usize>, Vec<[Point; 2]>) = third.map(|([ring, _], ends)| (ring, ends)).unzip();
+        rings.sort_unstable_by_key(|&ring| (self.rings[ring].part, ring));
+        rings.dedup();
+        let is_clear = |place: Point| {
+            let distance = |ends: &[Point; 2]| polyline::distance_to_segment(place, ends[0], ends[1]);
+            segments.iter().all(|ends| distance(ends) > DEEPEST * margin)
+        };
+        let is_in_one = |place: Point| {
+            let mut parts = rings.chunk_by(|&a, &b| self.rings[a].part == self.rings[b].part);
+            parts.any(|rings| rings.iter().all(|&ring| self.rings[ring].holds(place)))
+        };
+        let mut places = (1..=PLACES).map(|i| from + (to - from) * (i as f64 / PLACES as f64));
+        segments.iter().copied().any(crosses) || places.any(|place| is_clear(place) && is_in_one(place))
     }
 
     /// A straight cut of a ring through a place where what is cut with one neighbour ends and what is cut with the next begins,
@@ -210,8 +227,12 @@ impl<'a> Leads<'a> {
         // its end, which goes on as it does, leaves the distance, or that it ends deeper than it may.
         let apart = (edge.place(from) - at).norm();
         let through = (THROUGH * near.distance).min(DEEPEST * near.distance + beyond - apart);
-        // From whichever side of the edge it comes it ends on the other.
-        let is_inside = edge.holds(at - along * (2.0 * near.distance));
+        // From whichever side of the edge it comes it ends on the other: the side of where it begins, unless that lies about
+        // on the edge.
+        let ahead = from + sign * 2.0 * near.distance;
+        let aside = (at - edge.place(ahead)).dot(&edge.inwards(ahead));
+        let is_on = aside.abs() <= near.distance / 2.0;
+        let is_inside = if is_on { edge.holds(at - along * (2.0 * near.distance)) } else { aside > 0.0 };
         let through = if is_inside { -through } else { through };
         (0..HALVINGS).map(|halving| self.longest / f64::from(1 << halving)).find_map(|length| {
             let station = |share: f64| from + sign * length * share;
