@@ -9,7 +9,7 @@ use super::word::words;
 #[rustfmt::skip] // a table: one row a key
 pub(super) const KEYS: &[Key] = &[
     Key { name: "common.lines", takes: Takes::NumberOrWord(from(0.01, 1.0), words::<CommonLines>), about: "Edges of two parts that run this near to each other are cut once, along the part that is cut\nfirst; \"auto\" = the band (nest.band_mm), \"off\" = each part is cut all round." },
-    Key { name: "common.min_mm", takes: Takes::Number(from(1.0, 1000.0)), about: "Shorter edges are not cut once for two parts." },
+    Key { name: "common.min_mm", takes: Takes::Number(from(1.0, 1000.0)), about: "Shorter edges are not cut once for two parts; where one goes on from the end of another they\ncount together." },
     Key { name: "common.near_mm", takes: Takes::Number(from(0.0, 10.0)), about: "Edges that run this near to another part's, and are not cut as one, count as near lines: a\nthin strip stands between two cuts. 0 = none; see knife.near_percent." },
 ];
 
@@ -19,7 +19,7 @@ pub(super) const KEYS: &[Key] = &[
 pub struct Common {
     /// How near to each other they run.
     pub lines: Lines,
-    /// The shortest that is cut once, mm.
+    /// The shortest that is cut once, mm; where one goes on from the end of another they count together.
     pub min_mm: f64,
     /// How near to another part's edge a near line runs, mm; 0 = there are none.
     pub near_mm: f64,

@@ -186,10 +186,11 @@ impl Sharing<'_> {
 
     /// Where two stretches lie over each other the one that begins first has what they share.
     fn part(&self, shared: &mut Vec<Shared>, own: &Ring) {
+        let least = self.asked.least();
         let mut i = 1;
         while i < shared.len() {
             let before = shared[i - 1].own[1];
-            if shared[i].begin_at(before, self.asked.min) {
+            if shared[i].begin_at(before, least) {
                 i += 1;
             } else {
                 shared.remove(i);
@@ -197,7 +198,7 @@ impl Sharing<'_> {
         }
         // The last one may go on over the start of the ring.
         if let [first, .., last] = &mut shared[..]
-            && !first.begin_at(last.own[1] - own.length(), self.asked.min)
+            && !first.begin_at(last.own[1] - own.length(), least)
         {
             shared.remove(0);
         }

@@ -15,7 +15,7 @@ const LEAST: f64 = 1e-6;
 pub(super) struct Asked {
     /// How they must lie.
     pub(super) near: Near,
-    /// The shortest, mm.
+    /// The shortest, mm: one or several that go on where one ends.
     pub(super) min: f64,
     /// How far an open cut goes beyond what it ends at, mm.
     pub(super) beyond: f64,
@@ -23,6 +23,14 @@ pub(super) struct Asked {
     pub(super) width: f64,
     /// The least turn at which the blade is lifted, rad.
     pub(super) corner: f64,
+}
+
+impl Asked {
+    /// Where a stretch goes on from the end of another it may be shorter than `min`, but no shorter than the blade is wide,
+    /// mm: what is left beside it would be cut by a plunge longer than it.
+    pub(super) fn least(self) -> f64 {
+        self.width.max(BREAK * self.near.distance).min(self.min)
+    }
 }
 
 /// A stretch of a ring that is cut with another.
@@ -38,8 +46,8 @@ pub(super) struct Shared {
 }
 
 impl Shared {
-    /// Lets it begin at a station at the earliest, mm; `false` when less than `min` is left.
-    pub(super) fn begin_at(&mut self, from: f64, min: f64) -> bool {
+    /// Lets it begin at a station at the earliest, mm; `false` when no more than `least` is left.
+    pub(super) fn begin_at(&mut self, from: f64, least: f64) -> bool {
         if self.own[0] >= from {
             return true;
         }
@@ -49,11 +57,12 @@ impl Shared {
         }
         let Some(first) = self.parts.first() else { return false };
         (self.own[0], self.theirs[0]) = (first.own[0], first.theirs[0]);
-        self.own[1] - self.own[0] >= min
+        self.own[1] - self.own[0] > least
     }
 }
 
-/// The stretches that a ring has in common with others, by what faces it, those as long as is asked.
+/// The stretches that a ring has in common with others, by what faces it. Where one goes on from the end of another nothing
+/// is cut between them: together they are as long as is asked.
 pub(super) fn stretches(rings: &[Ring], own: &Ring, facing: &[Facing], asked: Asked) -> Vec<Shared> {
     let reach = BREAK * asked.near.distance;
     let mut found: Vec<Shared> = Vec::new();
@@ -87,6 +96,30 @@ pub(super) fn stretches(rings: &[Ring], own: &Ring, facing: &[Facing], asked: As
         last.parts.extend(first.parts.iter().map(over));
         (last.own[1], last.theirs[1]) = (first.own[1] + length, first.theirs[1]);
     }
-    found.retain(|shared| shared.own[1] - shared.own[0] >= asked.min);
+    found.retain(|shared| shared.own[1] - shared.own[0] > asked.least());
+    let chains = chains(&found, length, reach);
+    let is_long =
+        |station: f64| chains.iter().any(|&[from, to]| from <= station && station <= to && to - from >= asked.min);
+    found.retain(|shared| is_long(shared.own[0]));
     found
+}
+
+/// What stretches of a ring of a length cover together, where each begins no farther than `reach` behind another's end.
+fn chains(stretches: &[Shared], length: f64, reach: f64) -> Vec<[f64; 2]> {
+    let mut ends: Vec<[f64; 2]> = stretches.iter().map(|shared| shared.own).collect();
+    ends.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let mut chains: Vec<[f64; 2]> = Vec::new();
+    for [from, to] in ends {
+        match chains.last_mut() {
+            Some(last) if from - last[1] <= reach => last[1] = last[1].max(to),
+            _ => chains.push([from, to]),
+        }
+    }
+    // The last one may go on over the start of the ring.
+    if let [first, .., last] = &mut chains[..]
+        && first[0] + length - last[1] <= reach
+    {
+        (first[0], last[1]) = (last[0] - length, first[1] + length);
+    }
+    chains
 }
