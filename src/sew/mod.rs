@@ -20,6 +20,7 @@ mod program;
 mod read;
 mod speed;
 mod stitches;
+mod tell;
 mod train;
 pub mod verify;
 mod write;
@@ -37,26 +38,25 @@ pub use write::{Proof, TARGETS, Target};
 
 use std::io::{self, BufRead};
 
+use self::fit::Fit;
+use self::read::Reading;
 use self::verify::{Bytes, Ground, Original, Verdict};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::Point;
 use crate::machine::sewing::OnLong;
 use crate::machine::{Job, Sewing};
 use crate::source::Source;
-
-/// A run is told of that takes this much longer than at the speed that half of its stitches allow, as a part of it.
-const TOLD_COST: f64 = 0.1;
+use crate::units::number::{exact, fixed};
 
 /// Reads a source and plans how it is sewn. `None` when nothing can be sewn; faults of the data are diagnostics.
 pub fn plan(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) -> Option<Program> {
     let sewing = &job.profile.sewing;
-    let (format, input) = read::read(source, asked, job, out)?;
-    let (pattern, stitches) = match input {
+    let Reading { format, record_word, input } = read::read(source, asked, job, out)?;
+    let (pattern, stitches, speeds) = match input {
         Input::Pattern(pattern) => {
             let stitches = laid(&pattern, sewing, out);
-            (Some(pattern), stitches)
+            (Some(pattern), stitches, Vec::new())
         }
-        Input::Stitches(stitches) => (None, stitches),
+        Input::Stitches(stitches, speeds) => (None, stitches, speeds),
     };
     if out.has_errors() {
         return None;
@@ -66,12 +66,13 @@ pub fn plan(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) ->
         out.push(Diagnostic::new(&code::SEW_NOTHING, "the file holds nothing to sew").hint(hint));
         return None;
     }
-    let stitches = fit::fit(&stitches, sewing, out);
+    let stitches = Fit::new(sewing, record_word).fit(&stitches, out);
     let runs = speed::runs(&stitches, sewing);
+    let program = Program { format, record_word, pattern, stitches, runs };
     if !out.has_errors() {
-        tell(&stitches, &runs, sewing, out);
+        tell::tell(&program, &speeds, sewing, out);
     }
-    (!out.has_errors()).then_some(Program { format, pattern, stitches, runs })
+    (!out.has_errors()).then_some(program)
 }
 
 /// The stitches of a pattern. Where long ones are to be split seams are laid closer at once: parts of a stitch would lie on
@@ -86,38 +87,14 @@ fn laid(pattern: &Pattern, sewing: &Sewing, out: &mut Diagnostics) -> Stitches {
     let added = closer.count().saturating_sub(stitches.count());
     if added > 0 {
         let message = format!(
-            "{added} penetrations are added: seams are laid at {pitch:.2} mm, as `sewing.pitch_mm`, {} mm, is too long for the speed",
-            sewing.pitch_mm
+            "{added} penetrations are added: seams are laid at {} mm, as `sewing.pitch_mm`, {} mm, is too long for the speed",
+            fixed(pitch, 2),
+            exact(sewing.pitch_mm)
         );
         let hint = "needle holes weaken leather and coated cloth; `--on-long slow` keeps the pitch";
         out.push(Diagnostic::new(&code::SEW_SPLIT, message).hint(hint));
     }
     closer
-}
-
-/// Tells of runs that a stitch slows down, and of those that no speed suits.
-fn tell(stitches: &Stitches, runs: &[Run], sewing: &Sewing, out: &mut Diagnostics) {
-    for (run, number) in runs.iter().zip(1..) {
-        let (Limit::Stitch(i) | Limit::User(i)) = run.limit else { continue };
-        let step = &stitches.steps[i];
-        let from = if i == 0 { Point::origin() } else { stitches.steps[i - 1].to };
-        let pitch = (step.to - from).norm();
-        let which = format!("the stitch of record {}, {pitch:.3} mm long,", step.record);
-        if run.rpm <= 0.0 {
-            let message = format!("{which} fits at no speed of the grid, {} rpm", sewing.grid_rpm);
-            let hint = "split it with `--on-long split`, or look at window, acceleration and grid of the profile";
-            out.push(Diagnostic::new(&code::SEW_NO_SPEED, message).on_cloth(step.to).hint(hint));
-        } else if run.cost > TOLD_COST * (speed::duration(run, sewing) - run.cost) {
-            let message = format!(
-                "run {number} of {} stitches is sewn at {} rpm: {which} allows no more; that costs {:.2} s",
-                run.steps.len(),
-                run.rpm,
-                run.cost
-            );
-            let hint = "`--on-long split` makes it several stitches and keeps the speed";
-            out.push(Diagnostic::new(&code::SEW_SLOWED, message).on_cloth(step.to).by(run.cost).hint(hint));
-        }
-    }
 }
 
 /// Judges the bytes of a program that was made from a source; `None` where these are none of its own, as of pictures.
@@ -140,6 +117,7 @@ pub fn judge(
     let original = match program.format {
         "dst" => Original::Dst(source.bytes()),
         "exp" => Original::Exp(source.bytes()),
+        "queue" => Original::Queue(source.bytes()),
         _ => Original::Other,
     };
     let ground = Ground {

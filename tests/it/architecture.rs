@@ -31,7 +31,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("verify", FOUNDATION),
     ("pipeline", ALL_BUT_CLI),
     // Another machine: it reads what the cutter reads.
-    ("sew", &["source", "diagnostic", "units", "geom", "ir", "machine", "front", "recognise"]),
+    ("sew", &["source", "diagnostic", "units", "geom", "ir", "machine", "analysis", "front", "recognise"]),
     ("manual", &[]),
     // The tables of the stages, but not what they do.
     ("cli", &["pipeline", "front", "back", "pass", "source", "machine", "diagnostic", "ir", "units", "manual", "sew"]),

@@ -1,9 +1,9 @@
 //! What is made along a line: needle points of straight seams, zigzags, bar tacks and boxes.
 
-use super::pitch::{distinct, even};
+use super::pitch::even;
 use crate::geom::{Point, Vector, left};
 use crate::machine::Sewing;
-use crate::sew::pattern::{Element, Seam};
+use crate::sew::pattern::{Element, Seam, distinct};
 
 /// The needle points of a seam, before its ends are locked.
 pub(super) fn needle_points(seam: &Seam, sewing: &Sewing) -> Vec<Point> {

@@ -9,8 +9,8 @@ use super::target::{Proof, Target, nothing};
 use crate::machine::{Job, Sewing};
 use crate::sew::program::{Move, Program};
 use crate::sew::stitches::Op;
-use crate::units::S_PER_MIN;
 use crate::units::number::fixed;
+use crate::units::{MS_PER_S, S_PER_MIN};
 
 pub(super) const TARGET: Target = Target {
     name: "timing",
@@ -34,8 +34,6 @@ const ANGLE_HEIGHT: f64 = 70.0;
 const RATE_HEIGHT: f64 = 160.0;
 /// Hertz in a kilohertz.
 const HZ_PER_KHZ: f64 = 1000.0;
-/// Milliseconds in a second.
-const MS_PER_S: f64 = 1000.0;
 const TURN_DEG: f64 = 360.0;
 
 fn write(program: &Program, job: &Job, out: &mut dyn Write) -> io::Result<()> {

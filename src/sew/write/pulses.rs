@@ -9,6 +9,7 @@ use super::target::{Proof, Target, nothing};
 use crate::machine::{Job, Sewing};
 use crate::sew::program::{Move, Program};
 use crate::sew::stitches::Op;
+use crate::units::US_PER_S;
 use crate::units::number::{push_fixed, push_integer};
 
 pub(super) const ROWS: Target = Target {
@@ -29,8 +30,6 @@ pub(super) const RECORDS: Target = Target {
     proof: Proof::PulseRecords,
 };
 
-/// Microseconds in a second.
-const US_PER_S: f64 = 1e6;
 /// Decimals of times, microseconds.
 const DECIMALS: u32 = 3;
 /// Bytes that are collected before they are written.

@@ -46,7 +46,7 @@ fn random_patterns_are_proven_in_every_form_and_mode() {
         let Some(program) = program else { panic!("{i}: {said}\n{}", String::from_utf8_lossy(&queue)) };
         for target in ["queue", "jsonl", "pulses", "pulses-npy", "dst", "exp"] {
             let bytes = written(&program, &job, target);
-            let broken = broken(&program, &[], &job, (target, &bytes));
+            let broken = broken(&program, &queue, &job, (target, &bytes));
             assert!(
                 broken.is_empty(),
                 "{i} {target}: {broken:?} {:?}\n{}",
