@@ -41,25 +41,25 @@ impl<'a> Fit<'a> {
     fn merge(&self, stitches: &Stitches, out: &mut Diagnostics) -> Stitches {
         let least = self.sewing.min_pitch_mm - PITCH_EPSILON;
         let mut steps: Vec<Step> = Vec::with_capacity(stitches.steps.len());
-        // A needle point that is left out when a stitch follows it.
-        let mut pending: Option<Step> = None;
+        // Needle points that are left out when a stitch follows them.
+        let mut short: Vec<Step> = Vec::new();
         let mut at = Point::origin();
         for step in &stitches.steps {
             if step.op == Op::Stitch {
-                pending = None;
                 let pitch = (step.to - at).norm();
                 if !step.is_tie && pitch < least {
                     self.report_short(step, pitch, out);
-                    pending = Some(*step);
+                    short.push(*step);
                     continue;
                 }
             } else {
-                end_run(&mut steps, pending.take(), least);
+                end_run(&mut steps, &short, least);
             }
+            short.clear();
             steps.push(*step);
             at = step.to;
         }
-        end_run(&mut steps, pending.take(), least);
+        end_run(&mut steps, &short, least);
         Stitches { steps }
     }
 
@@ -159,16 +159,17 @@ impl<'a> Fit<'a> {
     }
 }
 
-/// A run ends with a stitch that is too short: the one before it goes to its end instead.
-fn end_run(steps: &mut Vec<Step>, pending: Option<Step>, least: f64) {
-    let Some(short) = pending else { return };
-    // A seam that turns back there would leave the one before it too short.
+/// A run ends with stitches that are too short: the one before them goes to its end instead.
+fn end_run(steps: &mut Vec<Step>, short: &[Step], least: f64) {
+    let Some(&end) = short.last() else { return };
+    // A seam that turns back there would leave the one before it too short, or lose a corner.
     let before = steps.len().checked_sub(2).map_or(Point::origin(), |i| steps[i].to);
-    let is_long = (short.to - before).norm() >= least;
+    let is_long = (end.to - before).norm() >= least;
+    let is_near = short.iter().all(|step| (step.to - end.to).norm() <= least);
     match steps.last_mut() {
-        Some(last) if last.op == Op::Stitch && !last.is_tie && is_long => last.to = short.to,
+        Some(last) if last.op == Op::Stitch && !last.is_tie && is_long && is_near => last.to = end.to,
         // There is none that could: the thread is held there.
-        Some(_) | None => steps.push(Step { is_tie: true, ..short }),
+        Some(_) | None => steps.push(Step { is_tie: true, ..end }),
     }
 }
 
@@ -216,6 +217,8 @@ mod tests {
         assert_eq!(fitted(&[2.0, 0.05, 2.0], &sewing), (vec![2.0, 2.05], vec!["sew/short-stitch"]));
         assert_eq!(fitted(&[2.0, 0.05], &sewing), (vec![2.05], vec!["sew/short-stitch"]));
         assert_eq!(fitted(&[2.0, 0.06, 0.06, 2.0], &sewing).0, [2.0, 0.12, 2.0]);
+        // What lies between is never farther from a needle point than the least pitch.
+        assert_eq!(fitted(&[2.0, -0.09, 0.18], &sewing).0, [2.0, 0.09]);
     }
 
     #[test]

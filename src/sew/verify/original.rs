@@ -11,10 +11,6 @@ use crate::geom::Point;
 
 /// Rounding of sums of increments, mm.
 const SUM_EPSILON: f64 = 1e-6;
-/// A run that ends with stitches too short ends where the last of them does: so many of the least pitch may lie between a
-/// stitch that is left out there and that end, one on each side of a stitch that is moved to it.
-const END_PITCHES: f64 = 2.0;
-
 /// Counts what the file says and is not sewn, and what is sewn and not in it.
 pub(super) fn judge(ground: &Ground, worst: &mut Worst) {
     let decoded = match ground.original {
@@ -68,10 +64,10 @@ impl Audit<'_> {
                 last = place;
                 continue;
             }
-            let is_near = |other: Point, pitches: f64| (place - other).norm() <= self.least * pitches + SUM_EPSILON;
+            let is_near = |other: Point, reach: f64| (place - other).norm() <= reach + SUM_EPSILON;
             // The end itself is sewn, if only by the stitch before that is there already.
             let is_short = match asked.last() {
-                Some(&end) if i + 1 < asked.len() => is_near(last, 1.0) || is_near(end, END_PITCHES),
+                Some(&end) if i + 1 < asked.len() => is_near(last, self.least) || is_near(end, self.least),
                 Some(_) | None => is_near(last, 0.0),
             };
             self.worst.count(Rule::Source, f64::from(u8::from(!is_short)), Some((0, place)));
