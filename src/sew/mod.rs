@@ -34,7 +34,7 @@ pub use read::{FORMATS, Format, Input};
 pub use speed::{Limit, Run};
 pub use stitches::{Op, Step, Stitches};
 pub use train::{Drive, Train};
-pub use write::{Proof, TARGETS, Target};
+pub use write::{TARGETS, Target};
 
 use std::io::{self, BufRead};
 
@@ -97,34 +97,33 @@ fn laid(pattern: &Pattern, sewing: &Sewing, out: &mut Diagnostics) -> Stitches {
     closer
 }
 
-/// Judges the bytes of a program that was made from a source; `None` where these are none of its own, as of pictures.
-pub fn judge(
-    program: &Program,
-    source: &Source,
-    job: &Job,
-    proof: Proof,
-    input: &mut dyn BufRead,
-) -> io::Result<Option<Verdict>> {
-    let bytes = match proof {
-        Proof::PulseRows => Bytes::PulseRows,
-        Proof::PulseRecords => Bytes::PulseRecords,
-        Proof::QueueRows => Bytes::QueueRows,
-        Proof::QueueJson => Bytes::QueueJson,
-        Proof::Dst => Bytes::Dst,
-        Proof::Exp => Bytes::Exp,
-        Proof::None => return Ok(None),
-    };
-    let original = match program.format {
-        "dst" => Original::Dst(source.bytes()),
-        "exp" => Original::Exp(source.bytes()),
-        "queue" => Original::Queue(source.bytes()),
-        _ => Original::Other,
-    };
-    let ground = Ground {
-        stitches: &program.stitches,
-        pattern: program.pattern.as_ref(),
-        sewing: &job.profile.sewing,
-        original,
-    };
-    verify::judge(input, bytes, &ground).map(Some)
+/// A program with what it was made from.
+#[derive(Debug, Clone, Copy)]
+pub struct Made<'a> {
+    /// The program.
+    pub program: &'a Program,
+    /// The file.
+    pub source: &'a Source,
+    /// The machine.
+    pub job: &'a Job,
+}
+
+impl Made<'_> {
+    /// Judges the bytes that were written of it.
+    pub fn judge(&self, bytes: Bytes, input: &mut dyn BufRead) -> io::Result<Verdict> {
+        let Self { program, source, job } = *self;
+        let original = match program.format {
+            "dst" => Original::Dst(source.bytes()),
+            "exp" => Original::Exp(source.bytes()),
+            "queue" => Original::Queue(source.bytes()),
+            _ => Original::Other,
+        };
+        let ground = Ground {
+            stitches: &program.stitches,
+            pattern: program.pattern.as_ref(),
+            sewing: &job.profile.sewing,
+            original,
+        };
+        verify::judge(input, bytes, &ground)
+    }
 }

@@ -1,5 +1,6 @@
 //! Units. Inside, lengths are mm, times s, angles rad; every conversion factor stands here.
 
+pub mod array;
 pub mod digits;
 pub mod number;
 pub mod quantity;

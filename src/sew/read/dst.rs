@@ -6,13 +6,15 @@
 use super::format::{Format, Input};
 use super::moves::{Moves, span};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::front::sewn;
 use crate::source::{Source, Span};
 
 pub(super) const FORMAT: Format = Format {
     name: "dst",
     about: "stitch files of Tajima machines",
+    extensions: &["dst"],
     record_word: "record",
-    is_it: |bytes, extension| extension == "dst" || (bytes.len() >= HEADER_BYTES && bytes.starts_with(b"LA:")),
+    is_it: |bytes, extension| extension == "dst" || sewn::is_dst(bytes),
     read,
 };
 

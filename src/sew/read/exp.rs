@@ -8,6 +8,7 @@ use crate::source::Source;
 pub(super) const FORMAT: Format = Format {
     name: "exp",
     about: "stitch files of Melco machines",
+    extensions: &["exp"],
     record_word: "record",
     is_it: |_, extension| extension == "exp",
     read,

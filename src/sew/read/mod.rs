@@ -18,6 +18,7 @@ pub use format::{Format, Input};
 
 use super::asked::Asked;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::front::DIALECTS;
 use crate::machine::Job;
 use crate::source::Source;
 
@@ -41,11 +42,25 @@ pub(super) fn read(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnost
         None => FORMATS.iter().find(|format| (format.is_it)(source.bytes(), &extension)),
     };
     let Some(Format { name, record_word, read, .. }) = format else {
-        let (format, pattern) = outline::read(source, asked, job, out)?;
+        let first = out.iter().len();
+        let Some((format, pattern)) = outline::read(source, asked, job, out) else {
+            out.revise(first, |found| found.hints = vec![known()]);
+            return None;
+        };
         return Some(Reading { format, record_word: outline::RECORD_WORD, input: Input::Pattern(pattern) });
     };
     refuse_choices(name, asked, out);
     Some(Reading { format: name, record_word, input: read(source, out) })
+}
+
+/// What is read.
+fn known() -> String {
+    let formats: Vec<&str> = FORMATS.iter().map(|format| format.name).collect();
+    let dialects: Vec<&str> = DIALECTS.iter().map(|dialect| dialect.name).collect();
+    let (formats, dialects) = (formats.join(", "), dialects.join(", "));
+    format!(
+        "`cutc sew` reads {formats}, and the lines of {dialects}; if it is one of them all the same, name it with `--from`"
+    )
 }
 
 /// Refuses choices among lines and contours where a file has none: its seams are where they are sewn.

@@ -4,8 +4,9 @@
 //! behind a blank, `tie`, `back-tack` or `open` for its ends, `thread 2` and `stop`. Empty = a straight seam as the profile
 //! has it.
 
-use super::format::{FARTHEST, Format, Input, begins_with};
+use super::format::{FARTHEST, Format, Input};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::front::sewn;
 use crate::geom::Point;
 use crate::machine::sewing::Ends;
 use crate::sew::pattern::{Element, Pattern, Seam, distinct};
@@ -14,12 +15,12 @@ use crate::source::{Source, Span};
 pub(super) const FORMAT: Format = Format {
     name: "pattern",
     about: "seams as points in mm: `x_mm,y_mm,element`, a row a point, a blank line between seams",
+    extensions: &["csv"],
     record_word: "line",
-    is_it: |bytes, _| begins_with(bytes, HEADER),
+    is_it: |bytes, _| sewn::is_pattern(bytes),
     read,
 };
 
-const HEADER: &[u8] = b"x_mm,y_mm,element";
 /// Corners of a box.
 const BOX_CORNERS: usize = 4;
 

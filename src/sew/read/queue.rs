@@ -1,7 +1,8 @@
 //! The entries of a stitch queue, as the target `queue` writes them: `op,dx_mm,dy_mm,value`.
 
-use super::format::{FARTHEST, Format, Input, Speed, begins_with};
+use super::format::{FARTHEST, Format, Input, Speed};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::front::sewn;
 use crate::geom::Point;
 use crate::sew::stitches::{Op, Step, Stitches};
 use crate::source::{Source, Span};
@@ -9,12 +10,11 @@ use crate::source::{Source, Span};
 pub(super) const FORMAT: Format = Format {
     name: "queue",
     about: "entries of a stitch queue: `op,dx_mm,dy_mm,value`, as the target queue writes them",
+    extensions: &["csv"],
     record_word: "record",
-    is_it: |bytes, _| begins_with(bytes, HEADER),
+    is_it: |bytes, _| sewn::is_queue(bytes),
     read,
 };
-
-const HEADER: &[u8] = b"op,dx_mm,dy_mm,value";
 
 /// What a row says.
 enum Row {

@@ -152,9 +152,11 @@ impl Judge<'_> {
         match axis.interval {
             None => self.worst.see(Rule::FirstInterval, self.first_us - interval, place),
             Some(before) => {
-                axis.rises |= interval > before + self.tick_us;
+                // Two intervals differ by the rounding of both.
+                let rounding = 2.0 * self.tick_us;
+                axis.rises |= interval > before + rounding;
                 if axis.rises {
-                    self.worst.see(Rule::Ramp, before - interval, place);
+                    self.worst.see(Rule::Ramp, before - interval - rounding, place);
                 }
                 // Mean speeds of neighbours, which are those at their middles.
                 let [v0, v1] = [before, interval].map(|interval| sewing.step_mm * US_PER_S / interval);

@@ -49,7 +49,7 @@ pub(super) fn judge(
             (Some((is_stitch, asked)), Some((is, point))) => {
                 worst.count(Rule::Entries, f64::from(u8::from(is_stitch != is)), place);
                 let off = (point.x - asked.x).abs().max((point.y - asked.y).abs());
-                worst.see(Rule::Decoded, off, place);
+                worst.see(Rule::NeedlePoint, off, place);
             }
             (None, None) => {}
             (Some(_), None) | (None, Some(_)) => worst.count(Rule::Entries, 1.0, place),

@@ -6,10 +6,11 @@
 use std::io::{self, Write};
 
 use super::stitch_file::{Record, records};
-use super::target::{Proof, Target};
+use super::target::Target;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::machine::Job;
 use crate::sew::program::Program;
+use crate::sew::verify::Bytes;
 
 pub(super) const TARGET: Target = Target {
     name: "dst",
@@ -17,7 +18,7 @@ pub(super) const TARGET: Target = Target {
     extension: "dst",
     refusals,
     write,
-    proof: Proof::Dst,
+    proof: Some(Bytes::Dst),
 };
 
 const HEADER_BYTES: usize = 512;

@@ -1,6 +1,7 @@
 //! The pattern-sewing machine: what is read, what is sewn how fast, and what is written.
 
 mod audit;
+mod command;
 mod contours;
 mod damage;
 mod files;
@@ -9,7 +10,7 @@ mod stitch_files;
 
 use cutc::diagnostic::{Diagnostics, render};
 use cutc::machine::Job;
-use cutc::sew::{self, Asked, Program, TARGETS, Target};
+use cutc::sew::{self, Asked, Made, Program, TARGETS, Target};
 use cutc::source::Source;
 use fastrand::Rng;
 
@@ -49,8 +50,9 @@ fn written(program: &Program, job: &Job, name: &str) -> Vec<u8> {
 /// The codes of the rules that some bytes break, of a program that was made from others.
 fn broken(program: &Program, original: &[u8], job: &Job, (name, bytes): (&str, &[u8])) -> Vec<&'static str> {
     let source = Source::new("original", original.to_vec()).expect("small");
-    let verdict = sew::judge(program, &source, job, target(name).proof, &mut &bytes[..]).expect("memory is readable");
-    verdict.expect("the target is judged").broken().map(|finding| finding.rule).collect()
+    let proof = target(name).proof.expect("the target is judged");
+    let verdict = Made { program, source: &source, job }.judge(proof, &mut &bytes[..]).expect("memory is readable");
+    verdict.broken().map(|finding| finding.rule).collect()
 }
 
 /// A stitch file of random records: short moves and long ones, ways back, doubled points, jumps, trims, stops.
