@@ -21,9 +21,9 @@ pub enum Element {
     Straight,
     /// Stitches from side to side of the line.
     Zigzag,
-    /// A narrow, close zigzag over a straight seam: it holds pocket corners and belt loops.
+    /// A narrow, close zigzag over an underlay, a straight seam: it holds pocket corners and belt loops.
     BarTack,
-    /// A box along four corners and its two diagonals, in one go.
+    /// A box along four corners and its two diagonals, without a cut of the thread.
     BoxX,
 }
 

@@ -22,10 +22,10 @@ pub(super) fn tell(program: &Program, speeds: &[Speed], sewing: &Sewing, out: &m
     others(program, speeds, sewing, out);
 }
 
-/// Tells of runs that a stitch slows down, the dearest first, and of those that no speed suits.
+/// Tells of runs that a stitch slows down, the costliest first, and of those that no speed suits.
 fn slowed(program: &Program, sewing: &Sewing, out: &mut Diagnostics) {
     let Program { stitches, runs, record_word, .. } = program;
-    let mut dear: Vec<(usize, &Run)> = Vec::new();
+    let mut costly: Vec<(usize, &Run)> = Vec::new();
     let which = |i: usize| {
         let step = &stitches.steps[i];
         let from = if i == 0 { Point::origin() } else { stitches.steps[i - 1].to };
@@ -40,11 +40,11 @@ fn slowed(program: &Program, sewing: &Sewing, out: &mut Diagnostics) {
             let hint = "split it with `--on-long split`, or look at window, acceleration and grid of the profile";
             out.push(Diagnostic::new(&code::SEW_NO_SPEED, message).on_cloth(step.to).hint(hint));
         } else if run.cost > TOLD_COST * (speed::duration(run, sewing) - run.cost) {
-            dear.push((number, run));
+            costly.push((number, run));
         }
     }
-    dear.sort_by(|(_, a), (_, b)| b.cost.total_cmp(&a.cost));
-    for (number, run) in dear {
+    costly.sort_by(|(_, a), (_, b)| b.cost.total_cmp(&a.cost));
+    for (number, run) in costly {
         let (Limit::Stitch(i) | Limit::User(i)) = run.limit else { continue };
         let (step, which) = which(i);
         let message = format!(

@@ -52,19 +52,19 @@ pub(super) fn run(
     let work = |i: usize, input: &Input| {
         let source = match files::read(&input.path) {
             Ok(source) => source,
-            Err(error) => return Step::Over(Outcome::failed(input, &error)),
+            Err(error) => return Step::Over(Box::new(Outcome::failed(input, &error))),
         };
         let made = many.made(input, &source);
         if shard.is_some_and(|shard| !shard.has(&made.source_sha256)) {
-            return Step::Over(Outcome::elsewhere());
+            return Step::Over(Box::new(Outcome::elsewhere()));
         }
         match many.manifest.standing(&made).filter(|_| *changed) {
-            Some(line) => Step::Over(many.unchanged(input, line)),
+            Some(line) => Step::Over(Box::new(many.unchanged(input, line))),
             None => Step::Drafted(Box::new(many.draft(input, source, made, &places[i]))),
         }
     };
     let settle = |i: usize, step: Step| match step {
-        Step::Over(outcome) => outcome,
+        Step::Over(outcome) => *outcome,
         Step::Drafted(one) => many.publish(*one).outcome(&inputs[i], many.job, *messages, *format),
     };
     let telling = Telling { columns: Columns::Planned, quiet: messages.quiet, json: *format == Format::Json };
@@ -83,7 +83,7 @@ pub(super) fn run(
 /// How far one of many files is when it was worked on.
 enum Step {
     /// There is no more to do.
-    Over(Outcome),
+    Over(Box<Outcome>),
     /// It was compiled, but is not yet in its places.
     Drafted(Box<One>),
 }
