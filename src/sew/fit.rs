@@ -114,6 +114,11 @@ impl<'a> Fit<'a> {
         (to - from).norm() * f64::from(pulses - most) / f64::from(pulses.max(1))
     }
 
+    /// Whether any stitch does not fit at full speed.
+    pub(super) fn splits(&self, stitches: &Stitches) -> bool {
+        stitches.moves().any(|(from, step)| step.op == Op::Stitch && self.parts([from, step.to]) > 1)
+    }
+
     /// Splits stitches that do not fit at full speed into equal ones.
     fn split(&self, stitches: &Stitches, out: &mut Diagnostics) -> Stitches {
         let mut steps = Vec::with_capacity(stitches.steps.len());
@@ -178,14 +183,15 @@ fn wanted(pitch: f64, sewing: &Sewing) -> f64 {
     speed::on_grid(speed::user(pitch, sewing).min(sewing.max_rpm), sewing)
 }
 
-/// The longest pitch that fits in every direction at the speed that it would have, mm; at least the least one.
+/// The longest pitch up to which all fit in every direction at the speed that they would have, mm; at least the least one.
 pub(super) fn longest(sewing: &Sewing) -> f64 {
     let drive = Drive::of(sewing);
     let most = (sewing.max_pitch_mm / drive.step + PITCH_EPSILON) as u32;
     let pitch = |pulses: u32| f64::from(pulses) * drive.step;
     let fits = |pulses: &u32| speed::fitting(*pulses, sewing, &drive) >= wanted(pitch(*pulses), sewing);
-    // A stitch that is not longer than so many steps has no more pulses wherever it begins.
-    (1..=most).rev().find(fits).map_or(0.0, pitch).max(sewing.min_pitch_mm).max(drive.step)
+    // A stitch that is not longer than so many steps has no more pulses wherever it begins. One that is shorter must fit,
+    // too, at the higher speed that the user's limits may let it have.
+    (1..=most).take_while(fits).last().map_or(0.0, pitch).max(sewing.min_pitch_mm).max(drive.step)
 }
 
 #[cfg(test)]

@@ -45,7 +45,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::machine::sewing::OnLong;
 use crate::machine::{Job, Sewing};
 use crate::source::Source;
-use crate::units::number::{exact, fixed};
+use crate::units::number::fixed;
 
 /// Reads a source and plans how it is sewn. `None` when nothing can be sewn; faults of the data are diagnostics.
 pub fn plan(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) -> Option<Program> {
@@ -80,16 +80,21 @@ pub fn plan(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) ->
 fn laid(pattern: &Pattern, sewing: &Sewing, out: &mut Diagnostics) -> Stitches {
     let stitches = lay::lay(pattern, sewing);
     let pitch = fit::longest(sewing);
-    if sewing.on_long != OnLong::Split || sewing.pitch_mm <= pitch {
+    let closer = Sewing {
+        pitch_mm: sewing.pitch_mm.min(pitch),
+        zigzag_pitch_mm: sewing.zigzag_pitch_mm.min(pitch),
+        tack_pitch_mm: sewing.tack_pitch_mm.min(pitch),
+        ..sewing.clone()
+    };
+    if sewing.on_long != OnLong::Split || closer == *sewing || !Fit::new(sewing, "").splits(&stitches) {
         return stitches;
     }
-    let closer = lay::lay(pattern, &Sewing { pitch_mm: pitch, ..sewing.clone() });
+    let closer = lay::lay(pattern, &closer);
     let added = closer.count().saturating_sub(stitches.count());
     if added > 0 {
+        let pitch = fixed(pitch, 2);
         let message = format!(
-            "{added} penetrations are added: seams are laid at {} mm, as `sewing.pitch_mm`, {} mm, is too long for the speed",
-            fixed(pitch, 2),
-            exact(sewing.pitch_mm)
+            "{added} penetrations are added: seams are laid at {pitch} mm at the most, as longer stitches do not fit at full speed"
         );
         let hint = "needle holes weaken leather and coated cloth; `--on-long slow` keeps the pitch";
         out.push(Diagnostic::new(&code::SEW_SPLIT, message).hint(hint));
