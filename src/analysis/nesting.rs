@@ -107,6 +107,16 @@ impl Nesting {
         }
     }
 
+    /// What holds each of some lines, each by itself; closed ones end with their first point.
+    pub fn of_lines(lines: &[&[Point]]) -> Self {
+        let line = |(group, points): (usize, &&[Point])| {
+            let is_closed = points.len() > 2 && points.first() == points.last();
+            Line { extent: Extent::of(points), group: group as u32, is_closed, may_hold: is_closed }
+        };
+        let all = lines.iter().enumerate().map(line).collect();
+        Self::new(all, WHOLLY, |i| Cow::Borrowed(lines[i]), &mut Budget::of_a_marker())
+    }
+
     /// What holds each of some contours, each with its group.
     fn of_contours(list: &SegmentList, contours: &[(usize, &Contour)]) -> Self {
         let line = |&(group, contour): &(usize, &Contour)| Line {

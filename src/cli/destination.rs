@@ -101,7 +101,7 @@ impl Asked<'_> {
     /// The file of one program.
     fn path(&self, target: &Target) -> anyhow::Result<PathBuf> {
         let Self { out, input, profile, force, .. } = *self;
-        let name = program_name(input, target);
+        let name = program_name(input, target.extension);
         let path = match out {
             None if is_dash(input) => {
                 return Err(failure(
@@ -144,31 +144,38 @@ impl Asked<'_> {
     }
 }
 
-/// The name of the program that a target makes from an input.
-fn program_name(input: &Path, target: &Target) -> OsString {
+/// The name of the program that is made from an input, by the extension of its target.
+fn program_name(input: &Path, extension: &str) -> OsString {
     let stem = if is_dash(input) { STDIN.as_ref() } else { input.file_stem().unwrap_or(input.as_os_str()) };
     let mut name = OsString::from(stem);
-    name.push(format!(".{}", target.extension));
+    name.push(format!(".{extension}"));
     name
+}
+
+/// Whether a place is one for one program: standard output, or what is a file or named like one.
+pub(super) fn is_one_file(out: &Path) -> bool {
+    is_dash(out) || (!out.is_dir() && (out.is_file() || (!names_directory(out) && out.extension().is_some())))
+}
+
+/// The error of many programs that have one such place.
+pub(super) fn of_many(out: &Path) -> anyhow::Error {
+    failure(format!("`-o {}` is one place for many programs", out.display()), "name a directory, as in `-o out/`")
 }
 
 /// The targets of many files, which go below a folder.
 pub(super) fn targets_of_many(out: &Path, typed: &[&'static Target]) -> anyhow::Result<Vec<&'static Target>> {
-    let is_file = !out.is_dir() && (out.is_file() || (!names_directory(out) && out.extension().is_some()));
-    if is_dash(out) || is_file {
-        return Err(failure(
-            format!("`-o {}` is one place for many programs", out.display()),
-            "name a directory, as in `-o out/`",
-        ));
+    if is_one_file(out) {
+        return Err(of_many(out));
     }
     let folder = Path::new(DIRECTORY);
     Asked { out: Some(folder), targets: typed, input: folder, profile: None, force: false }.targets()
 }
 
-/// Where the programs of one of many files go: below a folder, in the structure that the file was found in.
-pub(super) fn below(out: &Path, name: &Path, targets: &[&'static Target]) -> Vec<PathBuf> {
+/// Where the programs of one of many files go, by the extensions of their targets: below a folder, in the structure that
+/// the file was found in.
+pub(super) fn below(out: &Path, name: &Path, extensions: &[&str]) -> Vec<PathBuf> {
     let folder = out.join(name.parent().unwrap_or(Path::new("")));
-    targets.iter().map(|target| folder.join(program_name(name, target))).collect()
+    extensions.iter().map(|extension| folder.join(program_name(name, extension))).collect()
 }
 
 /// Whether a program can stand at a path: no directory or device is there, and neither it nor what stands beside it is

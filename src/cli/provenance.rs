@@ -9,7 +9,7 @@ use super::files;
 use super::finished::say;
 use super::options::typed;
 use super::report::pretty;
-use crate::back::{Proof, TARGETS, Target};
+use crate::back::{Proof, TARGETS};
 use crate::ir::declaration::Declaration;
 use crate::machine::{Job, blake3_of, sha256_hex};
 use crate::source::Source;
@@ -27,8 +27,9 @@ struct Provenance<'a> {
     /// Of the values in effect, `--set` included.
     profile_sha256: String,
     target: &'a str,
-    period_ms: f64,
-    units: Units,
+    /// What the program of a cutter is timed by and told in; not there of other machines.
+    #[serde(flatten)]
+    scale: Option<Scale>,
     verified: Verified,
     /// Digest of the program.
     program_blake3: &'a str,
@@ -37,8 +38,15 @@ struct Provenance<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     declared: Option<&'a [Declaration]>,
     /// What was chosen beside the whole marker and the knife, as it is typed; not there when nothing was.
-    #[serde(skip_serializing_if = "String::is_empty")]
-    options: String,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    options: &'a str,
+}
+
+/// Period and units of setpoints.
+#[derive(Serialize)]
+struct Scale {
+    period_ms: f64,
+    units: Units,
 }
 
 /// Units of the setpoints.
@@ -66,18 +74,29 @@ pub(super) enum Verified {
 pub(super) struct Made<'a> {
     pub(super) source: &'a Source,
     pub(super) job: &'a Job,
-    pub(super) target: &'a Target,
+    /// Name of the target.
+    pub(super) target: &'a str,
     /// What it is worth.
     pub(super) verified: Verified,
     /// Digest of its bytes.
     pub(super) blake3: &'a str,
-    /// What it does beside the drawing.
-    pub(super) declared: &'a [Declaration],
+    /// Where it is one of a cutter.
+    pub(super) cut: Option<Cut<'a>>,
+    /// What was chosen beside the profile, as it is typed.
+    pub(super) options: &'a str,
+}
+
+/// What is told of a program of a cutter beside that.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cut<'a> {
+    /// What it does beside the drawing; `None` when it is not judged by how it moves.
+    pub(super) declared: Option<&'a [Declaration]>,
 }
 
 /// The provenance of a program as JSON.
-pub(super) fn json(Made { source, job, target, verified, blake3, declared }: &Made) -> String {
-    let is_moved = matches!(target.proof, Proof::Setpoints | Proof::Positions);
+pub(super) fn json(Made { source, job, target, verified, blake3, cut, options }: &Made) -> String {
+    let scale =
+        || Scale { period_ms: job.profile.time.period_ms, units: Units { time: "s", length: "mm", angle: "deg" } };
     let name = Path::new(source.name()).file_name().map(|name| name.to_string_lossy().into_owned());
     pretty(&Provenance {
         version: env!("CARGO_PKG_VERSION"),
@@ -85,13 +104,12 @@ pub(super) fn json(Made { source, job, target, verified, blake3, declared }: &Ma
         source_sha256: sha256_hex(source.bytes()),
         profile: job.origin.name(),
         profile_sha256: job.profile.digest(),
-        target: target.name,
-        period_ms: job.profile.time.period_ms,
-        units: Units { time: "s", length: "mm", angle: "deg" },
+        target,
+        scale: cut.map(|_| scale()),
         verified: *verified,
         program_blake3: blake3,
-        declared: is_moved.then_some(*declared),
-        options: typed(job),
+        declared: cut.and_then(|cut| cut.declared),
+        options,
     })
 }
 

@@ -302,6 +302,14 @@ mod table {
     pub static SEW_RECORD: Code = error(Text, "sew/record", "A record of a stitch file is none that its format knows; the message has its number.", "All that follows would be sewn in another place. The file is damaged, or is of another format: name that with `--from`.\n  cutc sew odd.bin --from exp");
     /// A header that tells something else.
     pub static SEW_HEADER: Code = warning(Spares, Text, "sew/header", "The header of a DST file does not fit its stitches; the message says what it tells and what there is.", "The stitches are sewn as they are. If the header is right, some are missing: compare with the original. Headers of files that were edited are often wrong.");
+    /// More than the pattern.
+    pub static SEW_BEHIND_END: Code = warning(Spares, Text, "sew/behind-end", "Bytes stand behind the end of a stitch file; they are not sewn.", "Machines stop at the end, and so does this. If two files have run together, or a damaged byte ends the pattern too soon, stitches are missing: compare their number with the original.");
+    /// Speeds that are others now.
+    pub static SEW_SPEEDS: Code = warning(Spares, Shape, "sew/other-speeds", "A queue that is read asks for other speeds than it is sewn at: speeds are computed from the profile.", "SPEED rows are written anew, so an edit of them by hand has no effect. Limit the speed by `sewing.max_rpm`, or by pitch with `sewing.speeds`.\n  cutc sew pocket.queue.csv --set sewing.max_rpm=2500");
+    /// A machine that is hardly used.
+    pub static SEW_SLOW: Code = warning(Spares, Shape, "sew/slow-pattern", "No run is sewn at a quarter of the greatest speed of the spindle, because no stitch fits into its window faster.", "The pattern takes many times as long as it should: most likely an angle of the window, a step or a rate of the profile is mistyped. The message has the window.\n  sewing.feed_start_deg = 250\n  sewing.feed_end_deg = 110");
+    /// Jumps that cut the thread.
+    pub static SEW_JUMPS_CUT: Code = warning(Spares, Shape, "sew/jumps-cut", "Long moves without a trim are three jumps or more in a DST file, which most machines take for one.", "The thread is cut where it was to run on, and a seam may open. Let the thread be cut there anyway (`sewing.trim`), or write EXP, which has a record for a trim.");
     /// Jump after jump.
     pub static SEW_JUMPS: Code = warning(Spares, Shape, "sew/jump-storm", "So many jumps follow one another that the file is most likely damaged.", "Jumps in a row are made as one move, so nothing is lost, but no system writes so many. Look at the picture (-t svg), and compare the stitches with the original.");
     /// An element on a line that cannot bear it.
@@ -434,6 +442,10 @@ pub static ALL: &[&Code] = &[
     &SEW_TRUNCATED,
     &SEW_RECORD,
     &SEW_HEADER,
+    &SEW_BEHIND_END,
+    &SEW_SPEEDS,
+    &SEW_SLOW,
+    &SEW_JUMPS_CUT,
     &SEW_JUMPS,
     &SEW_ELEMENT,
     &SEW_INSET,

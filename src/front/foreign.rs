@@ -1,5 +1,6 @@
 //! Recognises what cutc does not read, so that the message can say what a file is and what to do.
 
+use super::sewn;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::source::Source;
 
@@ -28,10 +29,15 @@ pub(super) fn refuse_unread(source: &Source, out: &mut Diagnostics) -> bool {
         None => false,
         Some(format) => {
             let message = format!("this is {}, not a cutter file", format.what);
-            out.push(Diagnostic::new(&code::SOURCE_UNKNOWN, message).hint(format.hint));
+            out.push(Diagnostic::new(&code::SOURCE_UNKNOWN, message).hint(hint(source, format.hint)));
             true
         }
     }
+}
+
+/// What to do about a source: what its name tells, else what is given.
+pub(super) fn hint(source: &Source, hint: &'static str) -> &'static str {
+    if sewn::is_stitch_file(source.name()) { SEW } else { hint }
 }
 
 struct Format {
@@ -42,8 +48,13 @@ struct Format {
 
 const EXPORT_CUT: &str = "let the CAD export an ISO cut file for a knife cutter";
 
+const SEW: &str = "`cutc sew` reads stitch files, patterns and stitch queues of sewing machines";
+
 /// What is recognised, the surest signs first.
 const FORMATS: &[Format] = &[
+    Format { what: "a stitch file of a sewing machine (DST)", hint: SEW, is: sewn::is_dst },
+    Format { what: "a pattern for a sewing machine", hint: SEW, is: sewn::is_pattern },
+    Format { what: "a stitch queue of a sewing machine", hint: SEW, is: sewn::is_queue },
     Format { what: "a zip archive", hint: "unpack it and give cutc the files inside", is: |b| b.starts_with(b"PK") },
     Format { what: "a PDF document", hint: EXPORT_CUT, is: |b| b.starts_with(b"%PDF") },
     Format { what: "a PNG picture", hint: EXPORT_CUT, is: |b| b.starts_with(b"\x89PNG") },
@@ -155,6 +166,8 @@ mod tests {
 
     #[test]
     fn a_foreign_file_is_called_by_its_name() {
+        check(b"x_mm,y_mm,element\n0,0,\n", Some("a pattern for a sewing machine"));
+        check(b"op,dx_mm,dy_mm,value\nEND,,,\n", Some("a stitch queue of a sewing machine"));
         check(b"PK\x03\x04\x14\0", Some("a zip archive"));
         check(b"G04 comment*\n%FSLAX24Y24*%\n%MOIN*%\nX0Y0D02*", Some("a Gerber file for circuit boards (RS-274X)"));
         check(b"%\nG21\nG0 X1 Y2\nM30\n", Some("G-code for a machine tool"));

@@ -10,6 +10,7 @@ mod dialect;
 mod foreign;
 mod hpgl;
 mod iso;
+pub mod sewn;
 
 pub use dialect::{Dialect, Likeness, Read, Word};
 
@@ -44,7 +45,8 @@ pub fn detect(
         let known: Vec<&str> = DIALECTS.iter().map(|dialect| dialect.name).collect();
         let message = format!("the content is none of the dialects that cutc reads: {}", known.join(", "));
         let finding = Diagnostic::new(&code::SOURCE_UNKNOWN, message);
-        diagnostics.push(finding.hint("if it is one of them all the same, name it with `--from`"));
+        diagnostics
+            .push(finding.hint(foreign::hint(source, "if it is one of them all the same, name it with `--from`")));
     }
     found
 }

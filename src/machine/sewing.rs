@@ -201,9 +201,14 @@ impl Default for Sewing {
 }
 
 impl Sewing {
+    /// The window, degrees, 0 to 360.
+    pub fn window_deg(&self) -> f64 {
+        (self.feed_end_deg - self.feed_start_deg).rem_euclid(TURN_DEG)
+    }
+
     /// The window as a part of a turn, 0 to 1.
     pub fn window(&self) -> f64 {
-        (self.feed_end_deg - self.feed_start_deg).rem_euclid(TURN_DEG) / TURN_DEG
+        self.window_deg() / TURN_DEG
     }
 
     /// Speed at which X and Y start, mm/s.

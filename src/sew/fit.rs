@@ -9,68 +9,173 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
 use crate::machine::Sewing;
 use crate::machine::sewing::OnLong;
+use crate::units::number::{exact, fixed};
 
-/// Makes all stitches such as the machine can make.
-pub(super) fn fit(stitches: &Stitches, sewing: &Sewing, out: &mut Diagnostics) -> Stitches {
-    let merged = merge(stitches, sewing, out);
-    match sewing.on_long {
-        OnLong::Slow => {
-            refuse(&merged, sewing, out, Drive::of(sewing), false);
-            merged
-        }
-        OnLong::Split => split(&merged, sewing, out),
-        OnLong::Reject => {
-            refuse(&merged, sewing, out, Drive::of(sewing), true);
-            merged
-        }
-    }
+/// Stitches against what a machine can make.
+pub(super) struct Fit<'a> {
+    sewing: &'a Sewing,
+    drive: Drive,
+    /// What the records of the file are called.
+    record_word: &'static str,
 }
 
-/// Merges stitches that are too short with the next, at the end of a run with the one before.
-fn merge(stitches: &Stitches, sewing: &Sewing, out: &mut Diagnostics) -> Stitches {
-    let least = sewing.min_pitch_mm - PITCH_EPSILON;
-    let mut steps: Vec<Step> = Vec::with_capacity(stitches.steps.len());
-    // A needle point that is left out when a stitch follows it.
-    let mut pending: Option<Step> = None;
-    let mut at = Point::origin();
-    for step in &stitches.steps {
-        if step.op == Op::Stitch {
-            pending = None;
-            let pitch = (step.to - at).norm();
-            if !step.is_tie && pitch < least {
-                report(step, pitch, sewing, out);
-                pending = Some(*step);
-                continue;
+impl<'a> Fit<'a> {
+    /// On a machine, of a file whose records are called so.
+    pub(super) fn new(sewing: &'a Sewing, record_word: &'static str) -> Self {
+        Self { sewing, drive: Drive::of(sewing), record_word }
+    }
+
+    /// Makes all stitches such as the machine can make.
+    pub(super) fn fit(&self, stitches: &Stitches, out: &mut Diagnostics) -> Stitches {
+        let merged = self.merge(stitches, out);
+        match self.sewing.on_long {
+            OnLong::Slow | OnLong::Reject => {
+                self.refuse(&merged, out);
+                merged
             }
-        } else {
-            end_run(&mut steps, pending.take(), least);
+            OnLong::Split => self.split(&merged, out),
         }
-        steps.push(*step);
-        at = step.to;
     }
-    end_run(&mut steps, pending.take(), least);
-    Stitches { steps }
+
+    /// Merges stitches that are too short with the next, at the end of a run with the one before.
+    fn merge(&self, stitches: &Stitches, out: &mut Diagnostics) -> Stitches {
+        let least = self.sewing.min_pitch_mm - PITCH_EPSILON;
+        let mut steps: Vec<Step> = Vec::with_capacity(stitches.steps.len());
+        // Needle points that are left out when a stitch follows them.
+        let mut short: Vec<Step> = Vec::new();
+        let mut at = Point::origin();
+        for step in &stitches.steps {
+            if step.op == Op::Stitch {
+                let pitch = (step.to - at).norm();
+                if !step.is_tie && pitch < least {
+                    self.report_short(step, pitch, out);
+                    short.push(*step);
+                    continue;
+                }
+            } else {
+                end_run(&mut steps, &short, least);
+            }
+            short.clear();
+            steps.push(*step);
+            at = step.to;
+        }
+        end_run(&mut steps, &short, least);
+        Stitches { steps }
+    }
+
+    fn report_short(&self, step: &Step, pitch: f64, out: &mut Diagnostics) {
+        let least = self.sewing.min_pitch_mm;
+        let message = format!(
+            "the stitch of {} {} is {} mm long, less than `sewing.min_pitch_mm`, {} mm: it is merged with the next",
+            self.record_word,
+            step.record,
+            fixed(pitch, 3),
+            exact(least)
+        );
+        out.push(Diagnostic::new(&code::SEW_SHORT, message).on_cloth(step.to).by(least - pitch));
+    }
+
+    /// Refuses stitches that are longer than the machine can make, and all that do not fit at full speed if so asked.
+    fn refuse(&self, stitches: &Stitches, out: &mut Diagnostics) {
+        let Self { sewing, drive, record_word } = self;
+        for (from, step) in stitches.moves().filter(|(_, step)| step.op == Op::Stitch) {
+            let pitch = (step.to - from).norm();
+            let (record, long) = (step.record, fixed(pitch, 3));
+            if pitch > sewing.max_pitch_mm + PITCH_EPSILON {
+                let most = sewing.max_pitch_mm;
+                let message = format!(
+                    "the stitch of {record_word} {record} is {long} mm long, more than `sewing.max_pitch_mm`, {} mm",
+                    exact(most)
+                );
+                let hint = "no speed helps: split it with `--on-long split`, or make it a jump";
+                out.push(Diagnostic::new(&code::SEW_LONG, message).on_cloth(step.to).by(pitch - most).hint(hint));
+            } else if sewing.on_long == OnLong::Reject {
+                let ends = [from, step.to];
+                let (rpm, wanted) = (speed::alone(ends, sewing, drive).0, wanted(pitch, sewing));
+                if rpm < wanted {
+                    let (fits, full) = (fixed(rpm, 0), fixed(wanted, 0));
+                    let message = format!(
+                        "the stitch of {record_word} {record}, {long} mm long, fits at {fits} rpm, not at {full} rpm"
+                    );
+                    let hint = "`--on-long slow` sews its run more slowly, `--on-long split` makes it several stitches";
+                    let found = Diagnostic::new(&code::SEW_LONG, message).on_cloth(step.to);
+                    out.push(found.by(self.excess(ends, wanted)).hint(hint));
+                }
+            }
+        }
+    }
+
+    /// By how much a stitch is longer than what fits in its direction at a speed, mm.
+    fn excess(&self, [from, to]: [Point; 2], rpm: f64) -> f64 {
+        let pulses = speed::pulses(from, to, &self.drive).into_iter().map(i64::unsigned_abs).max().unwrap_or(0);
+        let pulses = u32::try_from(pulses).unwrap_or(u32::MAX);
+        let fits = |pulses: &u32| speed::fitting(*pulses, self.sewing, &self.drive) >= rpm;
+        let most = (0..pulses).rev().find(fits).unwrap_or(0);
+        (to - from).norm() * f64::from(pulses - most) / f64::from(pulses.max(1))
+    }
+
+    /// Whether any stitch does not fit at full speed.
+    pub(super) fn splits(&self, stitches: &Stitches) -> bool {
+        stitches.moves().any(|(from, step)| step.op == Op::Stitch && self.parts([from, step.to]) > 1)
+    }
+
+    /// Splits stitches that do not fit at full speed into equal ones.
+    fn split(&self, stitches: &Stitches, out: &mut Diagnostics) -> Stitches {
+        let mut steps = Vec::with_capacity(stitches.steps.len());
+        let mut added = 0;
+        for (from, step) in stitches.moves() {
+            let parts = if step.op == Op::Stitch { self.parts([from, step.to]) } else { 1 };
+            for part in 1..parts {
+                let to = from + (step.to - from) * (f64::from(part) / f64::from(parts));
+                steps.push(Step { to, ..*step });
+            }
+            added += parts - 1;
+            steps.push(*step);
+        }
+        if added > 0 {
+            let message =
+                format!("{added} penetrations are added: stitches too long for the speed are split into equal ones");
+            let hint = "needle holes weaken leather and coated cloth; `--on-long slow` keeps every stitch as it is";
+            out.push(Diagnostic::new(&code::SEW_SPLIT, message).hint(hint));
+        }
+        Stitches { steps }
+    }
+
+    /// Into how many stitches one is split: the fewest that fit, and none shorter than the machine can make.
+    fn parts(&self, [from, to]: [Point; 2]) -> u32 {
+        let Self { sewing, drive, .. } = self;
+        let way = to - from;
+        let pitch = way.norm();
+        if pitch <= sewing.max_pitch_mm + PITCH_EPSILON
+            && speed::alone([from, to], sewing, drive).0 >= wanted(pitch, sewing)
+        {
+            return 1;
+        }
+        let fits = |parts: u32| {
+            let part = pitch / f64::from(parts);
+            // Rounding to whole pulses makes one of the parts a pulse longer.
+            let longest = way.x.abs().max(way.y.abs()) / f64::from(parts);
+            let pulses = (longest / drive.step - PITCH_EPSILON).ceil().max(0.0) as u32;
+            part <= sewing.max_pitch_mm + PITCH_EPSILON && speed::fitting(pulses, sewing, drive) >= wanted(part, sewing)
+        };
+        let least = sewing.min_pitch_mm.max(drive.step);
+        let most = ((pitch / least) as u32).max(1);
+        (1..most).find(|&parts| fits(parts)).unwrap_or(most)
+    }
 }
 
-/// A run ends with a stitch that is too short: the one before it goes to its end instead.
-fn end_run(steps: &mut Vec<Step>, pending: Option<Step>, least: f64) {
-    let Some(short) = pending else { return };
-    // A seam that turns back there would leave the one before it too short.
+/// A run ends with stitches that are too short: the one before them goes to its end instead.
+fn end_run(steps: &mut Vec<Step>, short: &[Step], least: f64) {
+    let Some(&end) = short.last() else { return };
+    // A seam that turns back there would leave the one before it too short, or lose a corner.
     let before = steps.len().checked_sub(2).map_or(Point::origin(), |i| steps[i].to);
-    let is_long = (short.to - before).norm() >= least;
+    let is_long = (end.to - before).norm() >= least;
+    let is_near = short.iter().all(|step| (step.to - end.to).norm() <= least);
     match steps.last_mut() {
-        Some(last) if last.op == Op::Stitch && !last.is_tie && is_long => last.to = short.to,
+        Some(last) if last.op == Op::Stitch && !last.is_tie && is_long && is_near => last.to = end.to,
         // There is none that could: the thread is held there.
-        Some(_) | None => steps.push(Step { is_tie: true, ..short }),
+        Some(_) | None => steps.push(Step { is_tie: true, ..end }),
     }
-}
-
-fn report(step: &Step, pitch: f64, sewing: &Sewing, out: &mut Diagnostics) {
-    let message = format!(
-        "the stitch of record {} is {pitch:.3} mm long, less than `sewing.min_pitch_mm`, {} mm: it is merged with the next",
-        step.record, sewing.min_pitch_mm
-    );
-    out.push(Diagnostic::new(&code::SEW_SHORT, message).on_cloth(step.to).by(sewing.min_pitch_mm - pitch));
 }
 
 /// The speed that a stitch of a pitch would have if it fitted, stitches a minute.
@@ -78,83 +183,15 @@ fn wanted(pitch: f64, sewing: &Sewing) -> f64 {
     speed::on_grid(speed::user(pitch, sewing).min(sewing.max_rpm), sewing)
 }
 
-/// Refuses stitches that are longer than the machine can make, and all that do not fit at full speed if so asked.
-fn refuse(stitches: &Stitches, sewing: &Sewing, out: &mut Diagnostics, drive: Drive, at_speed: bool) {
-    for (from, step) in stitches.moves().filter(|(_, step)| step.op == Op::Stitch) {
-        let pitch = (step.to - from).norm();
-        let record = step.record;
-        if pitch > sewing.max_pitch_mm + PITCH_EPSILON {
-            let message = format!(
-                "the stitch of record {record} is {pitch:.3} mm long, more than `sewing.max_pitch_mm`, {} mm",
-                sewing.max_pitch_mm
-            );
-            let hint = "no speed helps: split it with `--on-long split`, or make it a jump";
-            out.push(Diagnostic::new(&code::SEW_LONG, message).on_cloth(step.to).by(pitch).hint(hint));
-        } else if at_speed {
-            let (rpm, wanted) = (speed::alone(from, step.to, sewing, &drive).0, wanted(pitch, sewing));
-            if rpm < wanted {
-                let message = format!(
-                    "the stitch of record {record}, {pitch:.3} mm long, fits at {rpm:.0} rpm, not at {wanted:.0} rpm"
-                );
-                let hint = "`--on-long slow` sews its run more slowly, `--on-long split` makes it several stitches";
-                out.push(Diagnostic::new(&code::SEW_LONG, message).on_cloth(step.to).by(pitch).hint(hint));
-            }
-        }
-    }
-}
-
-/// Splits stitches that do not fit at full speed into equal ones.
-fn split(stitches: &Stitches, sewing: &Sewing, out: &mut Diagnostics) -> Stitches {
-    let drive = Drive::of(sewing);
-    let mut steps = Vec::with_capacity(stitches.steps.len());
-    let mut added = 0;
-    for (from, step) in stitches.moves() {
-        let parts = if step.op == Op::Stitch { parts(from, step, sewing, &drive) } else { 1 };
-        for part in 1..parts {
-            let to = from + (step.to - from) * (f64::from(part) / f64::from(parts));
-            steps.push(Step { to, ..*step });
-        }
-        added += parts - 1;
-        steps.push(*step);
-    }
-    if added > 0 {
-        let message =
-            format!("{added} penetrations are added: stitches too long for the speed are split into equal ones");
-        let hint = "needle holes weaken leather and coated cloth; `--on-long slow` keeps every stitch as it is";
-        out.push(Diagnostic::new(&code::SEW_SPLIT, message).hint(hint));
-    }
-    Stitches { steps }
-}
-
-/// The longest pitch that fits in every direction at the speed that it would have, mm; at least the least one.
+/// The longest pitch up to which all fit in every direction at the speed that they would have, mm; at least the least one.
 pub(super) fn longest(sewing: &Sewing) -> f64 {
     let drive = Drive::of(sewing);
     let most = (sewing.max_pitch_mm / drive.step + PITCH_EPSILON) as u32;
     let pitch = |pulses: u32| f64::from(pulses) * drive.step;
     let fits = |pulses: &u32| speed::fitting(*pulses, sewing, &drive) >= wanted(pitch(*pulses), sewing);
-    // A stitch that is not longer than so many steps has no more pulses wherever it begins.
-    (1..=most).rev().find(fits).map_or(0.0, pitch).max(sewing.min_pitch_mm).max(drive.step)
-}
-
-/// Into how many stitches one is split: the fewest that fit, and none shorter than the machine can make.
-fn parts(from: Point, step: &Step, sewing: &Sewing, drive: &Drive) -> u32 {
-    let way = step.to - from;
-    let pitch = way.norm();
-    if pitch <= sewing.max_pitch_mm + PITCH_EPSILON
-        && speed::alone(from, step.to, sewing, drive).0 >= wanted(pitch, sewing)
-    {
-        return 1;
-    }
-    let fits = |parts: u32| {
-        let part = pitch / f64::from(parts);
-        // Rounding to whole pulses makes one of the parts a pulse longer.
-        let longest = way.x.abs().max(way.y.abs()) / f64::from(parts);
-        let pulses = (longest / drive.step - PITCH_EPSILON).ceil().max(0.0) as u32;
-        part <= sewing.max_pitch_mm + PITCH_EPSILON && speed::fitting(pulses, sewing, drive) >= wanted(part, sewing)
-    };
-    let least = sewing.min_pitch_mm.max(drive.step);
-    let most = ((pitch / least) as u32).max(1);
-    (1..most).find(|&parts| fits(parts)).unwrap_or(most)
+    // A stitch that is not longer than so many steps has no more pulses wherever it begins. One that is shorter must fit,
+    // too, at the higher speed that the user's limits may let it have.
+    (1..=most).take_while(fits).last().map_or(0.0, pitch).max(sewing.min_pitch_mm).max(drive.step)
 }
 
 #[cfg(test)]
@@ -176,7 +213,7 @@ mod tests {
 
     fn fitted(pitches_mm: &[f64], sewing: &Sewing) -> (Vec<f64>, Vec<&'static str>) {
         let mut out = Diagnostics::default();
-        let stitches = fit(&along(pitches_mm), sewing, &mut out);
+        let stitches = Fit::new(sewing, "record").fit(&along(pitches_mm), &mut out);
         (pitches(&stitches), out.iter().map(|found| found.code.name).collect())
     }
 
@@ -186,6 +223,8 @@ mod tests {
         assert_eq!(fitted(&[2.0, 0.05, 2.0], &sewing), (vec![2.0, 2.05], vec!["sew/short-stitch"]));
         assert_eq!(fitted(&[2.0, 0.05], &sewing), (vec![2.05], vec!["sew/short-stitch"]));
         assert_eq!(fitted(&[2.0, 0.06, 0.06, 2.0], &sewing).0, [2.0, 0.12, 2.0]);
+        // What lies between is never farther from a needle point than the least pitch.
+        assert_eq!(fitted(&[2.0, -0.09, 0.18], &sewing).0, [2.0, 0.09]);
     }
 
     #[test]
@@ -201,8 +240,16 @@ mod tests {
     #[test]
     fn what_is_too_long_is_refused_with_its_record() {
         let mut out = Diagnostics::default();
-        fit(&along(&[2.0, 13.0]), &Sewing::default(), &mut out);
+        Fit::new(&Sewing::default(), "record").fit(&along(&[2.0, 13.0]), &mut out);
         assert!(out.has_errors() && out.iter().any(|found| found.message.contains("record 2")));
+        let by = |sewing: &Sewing, pitch: f64| {
+            let mut out = Diagnostics::default();
+            Fit::new(sewing, "record").fit(&along(&[2.0, pitch]), &mut out);
+            out.iter().map(|found| found.by.map(|by| (by * 1e6).round() / 1e6)).collect::<Vec<_>>()
+        };
+        // Of 3 mm 2.5 fit at full speed.
+        let reject = Sewing { on_long: OnLong::Reject, ..Sewing::default() };
+        assert_eq!((by(&Sewing::default(), 13.0), by(&reject, 3.0)), (vec![Some(0.3)], vec![Some(0.5)]));
         assert_eq!(
             fitted(&[2.5, 3.0], &Sewing { on_long: OnLong::Reject, ..Sewing::default() }).1,
             ["sew/long-stitch"]

@@ -20,6 +20,7 @@ mod program;
 mod read;
 mod speed;
 mod stitches;
+mod tell;
 mod train;
 pub mod verify;
 mod write;
@@ -33,30 +34,29 @@ pub use read::{FORMATS, Format, Input};
 pub use speed::{Limit, Run};
 pub use stitches::{Op, Step, Stitches};
 pub use train::{Drive, Train};
-pub use write::{Proof, TARGETS, Target};
+pub use write::{TARGETS, Target};
 
 use std::io::{self, BufRead};
 
+use self::fit::Fit;
+use self::read::Reading;
 use self::verify::{Bytes, Ground, Original, Verdict};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::Point;
 use crate::machine::sewing::OnLong;
 use crate::machine::{Job, Sewing};
 use crate::source::Source;
-
-/// A run is told of that takes this much longer than at the speed that half of its stitches allow, as a part of it.
-const TOLD_COST: f64 = 0.1;
+use crate::units::number::fixed;
 
 /// Reads a source and plans how it is sewn. `None` when nothing can be sewn; faults of the data are diagnostics.
 pub fn plan(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) -> Option<Program> {
     let sewing = &job.profile.sewing;
-    let (format, input) = read::read(source, asked, job, out)?;
-    let (pattern, stitches) = match input {
+    let Reading { format, record_word, input } = read::read(source, asked, job, out)?;
+    let (pattern, stitches, speeds) = match input {
         Input::Pattern(pattern) => {
             let stitches = laid(&pattern, sewing, out);
-            (Some(pattern), stitches)
+            (Some(pattern), stitches, Vec::new())
         }
-        Input::Stitches(stitches) => (None, stitches),
+        Input::Stitches(stitches, speeds) => (None, stitches, speeds),
     };
     if out.has_errors() {
         return None;
@@ -66,12 +66,13 @@ pub fn plan(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) ->
         out.push(Diagnostic::new(&code::SEW_NOTHING, "the file holds nothing to sew").hint(hint));
         return None;
     }
-    let stitches = fit::fit(&stitches, sewing, out);
+    let stitches = Fit::new(sewing, record_word).fit(&stitches, out);
     let runs = speed::runs(&stitches, sewing);
+    let program = Program { format, record_word, pattern, stitches, runs };
     if !out.has_errors() {
-        tell(&stitches, &runs, sewing, out);
+        tell::tell(&program, &speeds, sewing, out);
     }
-    (!out.has_errors()).then_some(Program { format, pattern, stitches, runs })
+    (!out.has_errors()).then_some(program)
 }
 
 /// The stitches of a pattern. Where long ones are to be split seams are laid closer at once: parts of a stitch would lie on
@@ -79,15 +80,21 @@ pub fn plan(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) ->
 fn laid(pattern: &Pattern, sewing: &Sewing, out: &mut Diagnostics) -> Stitches {
     let stitches = lay::lay(pattern, sewing);
     let pitch = fit::longest(sewing);
-    if sewing.on_long != OnLong::Split || sewing.pitch_mm <= pitch {
+    let closer = Sewing {
+        pitch_mm: sewing.pitch_mm.min(pitch),
+        zigzag_pitch_mm: sewing.zigzag_pitch_mm.min(pitch),
+        tack_pitch_mm: sewing.tack_pitch_mm.min(pitch),
+        ..sewing.clone()
+    };
+    if sewing.on_long != OnLong::Split || closer == *sewing || !Fit::new(sewing, "").splits(&stitches) {
         return stitches;
     }
-    let closer = lay::lay(pattern, &Sewing { pitch_mm: pitch, ..sewing.clone() });
+    let closer = lay::lay(pattern, &closer);
     let added = closer.count().saturating_sub(stitches.count());
     if added > 0 {
+        let pitch = fixed(pitch, 2);
         let message = format!(
-            "{added} penetrations are added: seams are laid at {pitch:.2} mm, as `sewing.pitch_mm`, {} mm, is too long for the speed",
-            sewing.pitch_mm
+            "{added} penetrations are added: seams are laid at {pitch} mm at the most, as longer stitches do not fit at full speed"
         );
         let hint = "needle holes weaken leather and coated cloth; `--on-long slow` keeps the pitch";
         out.push(Diagnostic::new(&code::SEW_SPLIT, message).hint(hint));
@@ -95,58 +102,33 @@ fn laid(pattern: &Pattern, sewing: &Sewing, out: &mut Diagnostics) -> Stitches {
     closer
 }
 
-/// Tells of runs that a stitch slows down, and of those that no speed suits.
-fn tell(stitches: &Stitches, runs: &[Run], sewing: &Sewing, out: &mut Diagnostics) {
-    for (run, number) in runs.iter().zip(1..) {
-        let (Limit::Stitch(i) | Limit::User(i)) = run.limit else { continue };
-        let step = &stitches.steps[i];
-        let from = if i == 0 { Point::origin() } else { stitches.steps[i - 1].to };
-        let pitch = (step.to - from).norm();
-        let which = format!("the stitch of record {}, {pitch:.3} mm long,", step.record);
-        if run.rpm <= 0.0 {
-            let message = format!("{which} fits at no speed of the grid, {} rpm", sewing.grid_rpm);
-            let hint = "split it with `--on-long split`, or look at window, acceleration and grid of the profile";
-            out.push(Diagnostic::new(&code::SEW_NO_SPEED, message).on_cloth(step.to).hint(hint));
-        } else if run.cost > TOLD_COST * (speed::duration(run, sewing) - run.cost) {
-            let message = format!(
-                "run {number} of {} stitches is sewn at {} rpm: {which} allows no more; that costs {:.2} s",
-                run.steps.len(),
-                run.rpm,
-                run.cost
-            );
-            let hint = "`--on-long split` makes it several stitches and keeps the speed";
-            out.push(Diagnostic::new(&code::SEW_SLOWED, message).on_cloth(step.to).by(run.cost).hint(hint));
-        }
-    }
+/// A program with what it was made from.
+#[derive(Debug, Clone, Copy)]
+pub struct Made<'a> {
+    /// The program.
+    pub program: &'a Program,
+    /// The file.
+    pub source: &'a Source,
+    /// The machine.
+    pub job: &'a Job,
 }
 
-/// Judges the bytes of a program that was made from a source; `None` where these are none of its own, as of pictures.
-pub fn judge(
-    program: &Program,
-    source: &Source,
-    job: &Job,
-    proof: Proof,
-    input: &mut dyn BufRead,
-) -> io::Result<Option<Verdict>> {
-    let bytes = match proof {
-        Proof::PulseRows => Bytes::PulseRows,
-        Proof::PulseRecords => Bytes::PulseRecords,
-        Proof::QueueRows => Bytes::QueueRows,
-        Proof::QueueJson => Bytes::QueueJson,
-        Proof::Dst => Bytes::Dst,
-        Proof::Exp => Bytes::Exp,
-        Proof::None => return Ok(None),
-    };
-    let original = match program.format {
-        "dst" => Original::Dst(source.bytes()),
-        "exp" => Original::Exp(source.bytes()),
-        _ => Original::Other,
-    };
-    let ground = Ground {
-        stitches: &program.stitches,
-        pattern: program.pattern.as_ref(),
-        sewing: &job.profile.sewing,
-        original,
-    };
-    verify::judge(input, bytes, &ground).map(Some)
+impl Made<'_> {
+    /// Judges the bytes that were written of it.
+    pub fn judge(&self, bytes: Bytes, input: &mut dyn BufRead) -> io::Result<Verdict> {
+        let Self { program, source, job } = *self;
+        let original = match program.format {
+            "dst" => Original::Dst(source.bytes()),
+            "exp" => Original::Exp(source.bytes()),
+            "queue" => Original::Queue(source.bytes()),
+            _ => Original::Other,
+        };
+        let ground = Ground {
+            stitches: &program.stitches,
+            pattern: program.pattern.as_ref(),
+            sewing: &job.profile.sewing,
+            original,
+        };
+        verify::judge(input, bytes, &ground)
+    }
 }

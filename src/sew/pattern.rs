@@ -4,6 +4,16 @@ use crate::geom::Point;
 use crate::machine::sewing::Ends;
 use crate::source::Span;
 
+/// Places nearer than this are one, mm: far below a step of any machine.
+pub(super) const SAME_EPSILON: f64 = 1e-6;
+
+/// A line without points that repeat the one before them.
+pub(super) fn distinct(points: &[Point]) -> Vec<Point> {
+    let mut distinct = points.to_vec();
+    distinct.dedup_by(|next, last| (*next - *last).norm() <= SAME_EPSILON);
+    distinct
+}
+
 /// What is made along a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Element {
@@ -11,9 +21,9 @@ pub enum Element {
     Straight,
     /// Stitches from side to side of the line.
     Zigzag,
-    /// A narrow, close zigzag over a straight seam: it holds pocket corners and belt loops.
+    /// A narrow, close zigzag over an underlay, a straight seam: it holds pocket corners and belt loops.
     BarTack,
-    /// A box along four corners and its two diagonals, in one go.
+    /// A box along four corners and its two diagonals, without a cut of the thread.
     BoxX,
 }
 

@@ -13,6 +13,8 @@ use crate::units::S_PER_MIN;
 pub struct Program {
     /// What it was read as.
     pub format: &'static str,
+    /// What the records of such a file are called.
+    pub record_word: &'static str,
     /// What was to be sewn; `None` where the file had the stitches.
     pub pattern: Option<Pattern>,
     /// What is sewn.

@@ -45,7 +45,7 @@ pub(super) fn rpm_at(run: &Run, step: usize, sewing: &Sewing) -> f64 {
 }
 
 /// The greatest speed of a stitch alone, stitches a minute, and whether it is the user's limit.
-pub(super) fn alone(from: Point, to: Point, sewing: &Sewing, drive: &Drive) -> (f64, bool) {
+pub(super) fn alone([from, to]: [Point; 2], sewing: &Sewing, drive: &Drive) -> (f64, bool) {
     let most = pulses(from, to, drive).into_iter().map(i64::unsigned_abs).max().unwrap_or(0);
     let fits = fitting(u32::try_from(most).unwrap_or(u32::MAX), sewing, drive);
     let user = on_grid(user((to - from).norm(), sewing), sewing);
@@ -90,7 +90,7 @@ pub(super) fn runs(stitches: &Stitches, sewing: &Sewing) -> Vec<Run> {
         let (mut least, mut limit) = (machine, Limit::Machine);
         for i in steps.clone() {
             let from = if i == 0 { Point::origin() } else { stitches.steps[i - 1].to };
-            let (rpm, is_user) = alone(from, stitches.steps[i].to, sewing, &drive);
+            let (rpm, is_user) = alone([from, stitches.steps[i].to], sewing, &drive);
             if rpm < least {
                 (least, limit) = (rpm, if is_user { Limit::User(i) } else { Limit::Stitch(i) });
             }

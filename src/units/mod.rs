@@ -1,5 +1,6 @@
 //! Units. Inside, lengths are mm, times s, angles rad; every conversion factor stands here.
 
+pub mod array;
 pub mod digits;
 pub mod number;
 pub mod quantity;
@@ -8,6 +9,8 @@ pub mod quantity;
 pub const MM_PER_INCH: f64 = 25.4;
 /// Milliseconds in a second.
 pub const MS_PER_S: f64 = 1000.0;
+/// Microseconds in a second.
+pub const US_PER_S: f64 = 1e6;
 /// Nanoseconds in a second.
 pub const NS_PER_S: f64 = 1e9;
 /// Seconds in a minute.
@@ -16,6 +19,8 @@ pub const S_PER_MIN: f64 = 60.0;
 pub const S_PER_HOUR: f64 = 3600.0;
 /// Millimetres in a metre.
 pub const MM_PER_M: f64 = 1000.0;
+/// Tenths of a millimetre, the unit of stitch files, in a millimetre.
+pub const TENTHS_PER_MM: f64 = 10.0;
 /// Square millimetres in a square metre.
 pub const MM2_PER_M2: f64 = MM_PER_M * MM_PER_M;
 

@@ -31,7 +31,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("verify", FOUNDATION),
     ("pipeline", ALL_BUT_CLI),
     // Another machine: it reads what the cutter reads.
-    ("sew", &["source", "diagnostic", "units", "geom", "ir", "machine", "front", "recognise"]),
+    ("sew", &["source", "diagnostic", "units", "geom", "ir", "machine", "analysis", "front", "recognise"]),
     ("manual", &[]),
     // The tables of the stages, but not what they do.
     ("cli", &["pipeline", "front", "back", "pass", "source", "machine", "diagnostic", "ir", "units", "manual", "sew"]),
@@ -99,6 +99,7 @@ const BESIDE_A_TABLE: &[(&str, &str)] = &[
     ("runs", "finds the runs of a toolpath, which most passes edit alone"),
     ("scene", "holds what passes look at beside a toolpath"),
     ("search", "shares out searches over all pieces, for several passes"),
+    ("sewn", "recognises files of sewing machines"),
     ("spare", "leaves out plunges of a nibbled curve that cut nothing new"),
     ("start", "finds where a run begins on a curve beside which the plunged blade would lie"),
     ("stretch", "parts runs for the passes that lift the knife amid one"),

@@ -1,5 +1,6 @@
 //! Many files: which they are, work on them side by side, what is said of each, together and in order, and a table of all.
 
+mod collisions;
 mod figures;
 mod inputs;
 mod manifest;
@@ -14,6 +15,7 @@ use std::thread;
 
 use clap::Args;
 
+pub(super) use collisions::refuse_collisions;
 pub(super) use figures::{Cloth, Figures};
 pub(super) use inputs::{Input, Inputs, extensions, files_in, find, find_programs, hint, is_cutter_file};
 pub(super) use manifest::{Line, Made, Manifest, Output, Verdict};

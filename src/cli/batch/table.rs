@@ -31,6 +31,10 @@ pub(in crate::cli) struct Row {
     pub(in crate::cli) pieces: Option<usize>,
     /// Length of what is cut, m.
     pub(in crate::cli) cut_m: Option<f64>,
+    /// Of what is sewn.
+    pub(in crate::cli) stitches: Option<usize>,
+    /// Length of these, m.
+    pub(in crate::cli) thread_m: Option<f64>,
     /// What the program takes, s.
     pub(in crate::cli) time_s: Option<f64>,
     /// Where they were asked for.
@@ -48,7 +52,17 @@ impl Row {
     /// A row of which no more is known.
     pub(in crate::cli) fn new(file: &Path, state: State) -> Self {
         let file = file.display().to_string();
-        Self { file, state, pieces: None, cut_m: None, time_s: None, figures: None, worst: String::new() }
+        Self {
+            file,
+            state,
+            pieces: None,
+            cut_m: None,
+            stitches: None,
+            thread_m: None,
+            time_s: None,
+            figures: None,
+            worst: String::new(),
+        }
     }
 }
 
@@ -61,6 +75,8 @@ pub(in crate::cli) enum Columns {
     Planned,
     /// All that is known of a file, with what it costs at a price.
     Counted(Option<Price>),
+    /// Stitches, their length and time.
+    Sewn,
     /// None but the verdict.
     Judged,
 }
@@ -128,6 +144,7 @@ fn titles(columns: Columns) -> Vec<String> {
             let known: &[&str] = &["pieces", "cut m", "time", "notches", "area m2", "cloth mm", "used %"];
             &[known, if price.is_some() { costs } else { &[] }, &["worst finding"]]
         }
+        Columns::Sewn => &[&["stitches", "thread m", "time", "worst finding"]],
         Columns::Judged => &[&["verdict"]],
     };
     std::iter::once("file").chain(titles.concat()).map(str::to_owned).collect()
@@ -140,6 +157,8 @@ pub(in crate::cli) fn sum(rows: &[Row]) -> Row {
         state: State::Done,
         pieces: Some(rows.iter().filter_map(|row| row.pieces).sum()),
         cut_m: Some(rows.iter().filter_map(|row| row.cut_m).sum()),
+        stitches: Some(rows.iter().filter_map(|row| row.stitches).sum()),
+        thread_m: Some(rows.iter().filter_map(|row| row.thread_m).sum()),
         time_s: Some(rows.iter().filter_map(|row| row.time_s).sum()),
         figures: Figures::sum(rows.iter().filter_map(|row| row.figures.as_ref())),
         worst: String::new(),
@@ -175,6 +194,11 @@ impl Row {
                 }));
                 cells.push(worst);
                 cells
+            }
+            Columns::Sewn => {
+                let stitches = self.stitches.map_or_else(String::new, |stitches| stitches.to_string());
+                let thread = self.thread_m.map_or_else(String::new, |thread| fixed(thread, 2));
+                vec![file, stitches, thread, time(), worst]
             }
             Columns::Judged => vec![file, worst],
         }

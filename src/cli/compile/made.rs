@@ -4,11 +4,12 @@ use std::io::{self, Seek as _, Write as _};
 use std::path::{Path, PathBuf};
 
 use super::arguments::Making;
-use crate::back::Target;
+use crate::back::{Proof, Target};
 use crate::cli::draft::{self, Draft};
 use crate::cli::files;
 use crate::cli::finished::say;
-use crate::cli::provenance::{self, Made, Verified};
+use crate::cli::options::typed;
+use crate::cli::provenance::{self, Cut, Made, Verified};
 use crate::diagnostic::Diagnostics;
 use crate::machine::{Job, blake3_of, sha256_of};
 use crate::pipeline::{self, Choices, Compiled, Medium, Product};
@@ -128,7 +129,10 @@ impl Compile<'_> {
         let Self { source, job, .. } = *self;
         let mut meta = Draft::new(path)?;
         let written = program.rewind().and_then(|()| blake3_of(program)).and_then(|blake3| {
-            let text = provenance::json(&Made { source, job, target, verified, blake3: &blake3, declared });
+            let is_moved = matches!(target.proof, Proof::Setpoints | Proof::Positions);
+            let cut = Some(Cut { declared: is_moved.then_some(declared) });
+            let (target, options) = (target.name, &typed(job));
+            let text = provenance::json(&Made { source, job, target, verified, blake3: &blake3, cut, options });
             meta.file().write_all(text.as_bytes())
         });
         written.map_err(|error| files::cannot_write(path, &error))?;

@@ -1,7 +1,6 @@
 //! Many files, each to its place below one folder.
 
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::arguments::{Arguments, Making};
 use super::made::{Compile, Drafted, Ended, Whole};
@@ -9,20 +8,18 @@ use super::one;
 use crate::back::Target;
 use crate::cli::batch::{
     self, Batch, Columns, Input, Line, Made, Manifest, Outcome, Output, Row, Stages, State, Telling, Verdict,
+    refuse_collisions,
 };
 use crate::cli::choices::Format;
 use crate::cli::destination::{below, not_of_another, targets_of_many};
 use crate::cli::draft::{self, MadeFolders};
-use crate::cli::finished::{Console, Finished, USAGE, failure, say};
+use crate::cli::finished::{Console, Finished, USAGE, say};
 use crate::cli::options::{Messages, typed};
 use crate::cli::{files, report};
 use crate::diagnostic::{Diagnostics, render_with};
 use crate::machine::{Job, sha256_hex};
 use crate::pipeline::{Compiled, Report};
 use crate::source::Source;
-
-/// Collisions that are told; more are counted.
-const MOST_TOLD: usize = 10;
 
 pub(super) fn run(
     arguments: &Arguments,
@@ -37,7 +34,8 @@ pub(super) fn run(
         Ok(job) => job,
         Err(refused) => return Ok(refused),
     };
-    let places: Vec<Vec<PathBuf>> = inputs.iter().map(|input| below(out, &input.name, &targets)).collect();
+    let extensions: Vec<&str> = targets.iter().map(|target| target.extension).collect();
+    let places: Vec<Vec<PathBuf>> = inputs.iter().map(|input| below(out, &input.name, &extensions)).collect();
     refuse_collisions(inputs, &places)?;
     let manifest_at = Manifest::place(out, *shard);
     let mut folder = MadeFolders::of([manifest_at.as_path()])?;
@@ -54,19 +52,19 @@ pub(super) fn run(
     let work = |i: usize, input: &Input| {
         let source = match files::read(&input.path) {
             Ok(source) => source,
-            Err(error) => return Step::Over(Outcome::failed(input, &error)),
+            Err(error) => return Step::Over(Box::new(Outcome::failed(input, &error))),
         };
         let made = many.made(input, &source);
         if shard.is_some_and(|shard| !shard.has(&made.source_sha256)) {
-            return Step::Over(Outcome::elsewhere());
+            return Step::Over(Box::new(Outcome::elsewhere()));
         }
         match many.manifest.standing(&made).filter(|_| *changed) {
-            Some(line) => Step::Over(many.unchanged(input, line)),
+            Some(line) => Step::Over(Box::new(many.unchanged(input, line))),
             None => Step::Drafted(Box::new(many.draft(input, source, made, &places[i]))),
         }
     };
     let settle = |i: usize, step: Step| match step {
-        Step::Over(outcome) => outcome,
+        Step::Over(outcome) => *outcome,
         Step::Drafted(one) => many.publish(*one).outcome(&inputs[i], many.job, *messages, *format),
     };
     let telling = Telling { columns: Columns::Planned, quiet: messages.quiet, json: *format == Format::Json };
@@ -85,44 +83,9 @@ pub(super) fn run(
 /// How far one of many files is when it was worked on.
 enum Step {
     /// There is no more to do.
-    Over(Outcome),
+    Over(Box<Outcome>),
     /// It was compiled, but is not yet in its places.
     Drafted(Box<One>),
-}
-
-/// Refuses files of which two would be written to one place, or one over an input.
-fn refuse_collisions(inputs: &[Input], places: &[Vec<PathBuf>]) -> anyhow::Result<()> {
-    let mut wanted: BTreeMap<&Path, Vec<&Input>> = BTreeMap::new();
-    for (input, paths) in inputs.iter().zip(places) {
-        for path in paths {
-            wanted.entry(path).or_default().push(input);
-        }
-    }
-    let known: BTreeMap<_, _> =
-        inputs.iter().filter_map(|input| Some((input.path.canonicalize().ok()?, input))).collect();
-    let mut told = Vec::new();
-    for (path, of) in wanted {
-        let names: Vec<_> = of.iter().map(|input| format!("`{}`", input.path.display())).collect();
-        if names.len() > 1 {
-            told.push(format!("`{}` would be written for {}", path.display(), names.join(" and ")));
-        }
-        if let Some(over) = path.canonicalize().ok().and_then(|path| known.get(&path)) {
-            told.push(format!("`{}` is an input: it is never overwritten for {}", over.path.display(), names[0]));
-        }
-    }
-    if told.is_empty() {
-        return Ok(());
-    }
-    let more = told.len().saturating_sub(MOST_TOLD);
-    told.truncate(MOST_TOLD);
-    if more > 0 {
-        told.push(format!("and {more} more"));
-    }
-    Err(failure(
-        format!("nothing was compiled, because programs would collide:\n  {}", told.join("\n  ")),
-        "name the folder that holds them all, whose structure is kept below -o, or choose some by a pattern, as in \
-         `'in/**/*.cut'`",
-    ))
 }
 
 /// What all files of a batch or a hot folder share.

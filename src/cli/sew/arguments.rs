@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use crate::cli::batch::Threads;
 use crate::cli::choices::{self, Format};
 use crate::cli::options::{Machine, Messages, NO_HEADING};
 use crate::machine::Job;
@@ -17,11 +18,13 @@ use crate::sew::{Asked, Target};
 /// back and judged first. `cutc manual sewing` has the equations, the keys and the rules.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct Arguments {
-    /// Pattern, stitch file or any file with lines; `-` for standard input
-    #[arg(value_name = "FILE")]
-    pub(super) file: PathBuf,
+    /// Patterns, stitch files or any files with lines, folders of such, or patterns of names as 'in/*.dst'; `-` for standard
+    /// input
+    #[arg(required = true, value_name = "FILE")]
+    pub(super) files: Vec<PathBuf>,
 
-    /// Where the program goes: a file, a directory (made when it ends in `/`), or `-` for standard output
+    /// Where the program goes: a file, a directory (made when it ends in `/`), or `-` for standard output; of many files a
+    /// directory
     #[arg(short, long)]
     pub(super) out: Option<PathBuf>,
 
@@ -52,12 +55,15 @@ pub(in crate::cli) struct Arguments {
     #[command(flatten)]
     pub(super) machine: Machine,
 
-    /// How to give the figures
-    #[arg(long, value_enum, default_value = "text")]
+    #[command(flatten)]
+    pub(super) threads: Threads,
+
+    /// How to give the figures; of many files JSON is a list
+    #[arg(long, value_enum, default_value = "text", help_heading = NO_HEADING)]
     pub(super) format: Format,
 
     /// Do not read the program back and judge it; summary and provenance say so
-    #[arg(long)]
+    #[arg(long, help_heading = NO_HEADING)]
     pub(super) no_verify: bool,
 
     #[command(flatten, next_help_heading = NO_HEADING)]

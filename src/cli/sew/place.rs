@@ -3,19 +3,34 @@
 use std::path::{Path, PathBuf};
 
 use super::arguments::Arguments;
-use crate::cli::destination::{names_directory, not_of_another, writable};
+use crate::cli::destination::{is_one_file, names_directory, not_of_another, of_many, writable};
 use crate::cli::files::{STDIN, directory, is_dash};
 use crate::cli::finished::failure;
 use crate::sew::{TARGETS, Target};
 
-/// What is written: what was typed, else what the name says, else the default.
-pub(super) fn targets(arguments: &Arguments) -> anyhow::Result<Vec<&'static Target>> {
+/// What was typed, else the default.
+fn typed(arguments: &Arguments) -> anyhow::Result<Vec<&'static Target>> {
     let typed = &arguments.targets;
     if let Some(twice) = typed.iter().enumerate().find(|(i, t)| typed[..*i].iter().any(|u| u.name == t.name)) {
         return Err(failure(format!("the target `{}` is named twice", twice.1.name), "name each target once"));
     }
+    Ok(if typed.is_empty() { vec![&TARGETS[0]] } else { typed.clone() })
+}
+
+/// What is written of many files, which go below a folder.
+pub(super) fn targets_of_many(arguments: &Arguments) -> anyhow::Result<Vec<&'static Target>> {
+    if let Some(out) = arguments.out.as_deref().filter(|out| is_one_file(out)) {
+        return Err(of_many(out));
+    }
+    typed(arguments)
+}
+
+/// What is written: what was typed, else what the name says, else the default.
+pub(super) fn targets(arguments: &Arguments) -> anyhow::Result<Vec<&'static Target>> {
+    let default = typed(arguments)?;
+    let typed = &arguments.targets;
     let Some(out) = arguments.out.as_deref().filter(|out| !is_dash(out) && !names_directory(out)) else {
-        return Ok(if typed.is_empty() { vec![&TARGETS[0]] } else { typed.clone() });
+        return Ok(default);
     };
     let name = out.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     // `a.csv` is one of two targets: only the whole of an extension tells.
@@ -39,8 +54,7 @@ pub(super) fn targets(arguments: &Arguments) -> anyhow::Result<Vec<&'static Targ
 }
 
 /// The file of each program: never the input, nor the program of another.
-pub(super) fn paths(arguments: &Arguments, targets: &[&'static Target]) -> anyhow::Result<Vec<PathBuf>> {
-    let input = arguments.file.as_path();
+pub(super) fn paths(arguments: &Arguments, input: &Path, targets: &[&'static Target]) -> anyhow::Result<Vec<PathBuf>> {
     if arguments.out.is_none() && is_dash(input) {
         return Err(failure(
             "a program that is made from standard input has no name",

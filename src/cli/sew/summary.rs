@@ -5,19 +5,23 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use crate::cli::options::counted;
-use crate::cli::report::{self, Findings, pretty};
+use crate::cli::report::{Findings, pretty};
 use crate::cli::setup::Profile;
 use crate::diagnostic::Diagnostics;
+use crate::ir::Finding;
 use crate::machine::Job;
 use crate::sew::verify::Verdict;
-use crate::sew::{self, Estimate, Fifo, Limit, Program};
+use crate::sew::{self, Estimate, Fifo, Limit, Made, Target};
 use crate::source::Source;
-use crate::units::number::fixed;
+use crate::units::number::{exact, fixed};
 
 /// The figures of a pattern.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Default, Serialize)]
 pub(super) struct Figures {
     format: &'static str,
+    /// What its records are called.
+    #[serde(skip)]
+    record_word: &'static str,
     estimate: Estimate,
     runs: Vec<Run>,
     queue: Fifo,
@@ -42,6 +46,8 @@ struct Run {
 #[derive(Debug, Serialize)]
 struct Verified {
     target: &'static str,
+    /// The target whose bytes were judged: another of the same program where the target is a picture.
+    judged: &'static str,
     rules: Vec<Rule>,
 }
 
@@ -55,7 +61,13 @@ struct Rule {
 }
 
 impl Figures {
-    pub(super) fn of(program: &Program, queue: Fifo, job: &Job, verdicts: &[(&'static str, Verdict)]) -> Self {
+    /// Those of a program that was written as some targets, of which some were judged.
+    pub(super) fn of(
+        Made { program, job, .. }: Made,
+        queue: Fifo,
+        targets: &[&'static Target],
+        verdicts: &[(&'static Target, Verdict)],
+    ) -> Self {
         let stitches = &program.stitches;
         let run = |run: &sew::Run| {
             let (limit, step) = match run.limit {
@@ -77,20 +89,20 @@ impl Figures {
                 cost_s: run.cost,
             }
         };
-        let verified = |(target, verdict): &(&'static str, Verdict)| Verified {
-            target,
-            rules: verdict
-                .findings
-                .iter()
-                .map(|f| Rule { code: f.rule, worst: f.worst, limit: f.limit, unit: f.unit })
-                .collect(),
+        let rule = |f: &Finding| Rule { code: f.rule, worst: f.worst, limit: f.limit, unit: f.unit };
+        let of = |target: &&'static Target| {
+            let own = verdicts.iter().find(|(judged, _)| judged.name == target.name);
+            let (judged, verdict) = own.or_else(|| verdicts.first())?;
+            let rules = verdict.findings.iter().map(rule).collect();
+            Some(Verified { target: target.name, judged: judged.name, rules })
         };
         Self {
             format: program.format,
+            record_word: program.record_word,
             estimate: sew::estimate(program, job),
             runs: program.runs.iter().map(run).collect(),
             queue,
-            verified: verdicts.iter().map(verified).collect(),
+            verified: targets.iter().filter_map(of).collect(),
         }
     }
 }
@@ -108,17 +120,6 @@ pub(super) fn json(figures: impl Serialize, diagnostics: &Diagnostics, source: &
     pretty(&Json { profile: Profile::of(job), figures, findings: Findings::of(diagnostics, source) })
 }
 
-/// The keys of the figures, all null.
-pub(super) fn nothing() -> serde_json::Value {
-    report::nothing(&Figures {
-        format: "",
-        estimate: Estimate::default(),
-        runs: Vec::new(),
-        queue: Fifo::default(),
-        verified: Vec::new(),
-    })
-}
-
 /// The figures for people.
 pub(super) fn text(source: &Source, figures: &Figures, quiet: bool) -> String {
     let mut out = String::new();
@@ -132,15 +133,15 @@ pub(super) fn text(source: &Source, figures: &Figures, quiet: bool) -> String {
     };
     line("stitches", format!("{} in {}, {} m", sum.stitches, counted(sum.runs, "run"), fixed(sum.thread_m, 2)));
     let speed = if sum.rpm[0] == sum.rpm[1] {
-        format!("{} stitches/min", sum.rpm[0])
+        format!("{} stitches/min", exact(sum.rpm[0]))
     } else {
-        format!("{} to {} stitches/min", sum.rpm[0], sum.rpm[1])
+        format!("{} to {} stitches/min", exact(sum.rpm[0]), exact(sum.rpm[1]))
     };
     let slowest = figures.runs.iter().min_by(|a, b| a.rpm.total_cmp(&b.rpm));
     let told = slowest.and_then(|run| Some((run.limit, run.record?, run.pitch_mm?)));
     let why = told.map_or(String::new(), |(limit, record, pitch)| {
         let by = if limit == "user" { "your limit for a stitch" } else { "a stitch" };
-        format!("; the slowest by {by} of {} mm (record {record})", fixed(pitch, 2))
+        format!("; the slowest by {by} of {} mm ({} {record})", fixed(pitch, 2), figures.record_word)
     });
     line("speed", format!("{speed}{why}"));
     line(
@@ -161,12 +162,18 @@ pub(super) fn text(source: &Source, figures: &Figures, quiet: bool) -> String {
         0 => format!("never fewer than {} in it", queue.lowest),
         n => format!("runs dry {n} times"),
     };
-    line("queue", format!("{} deep, {} entries/s: {fares}", queue.depth, queue.producer_hz));
+    line("queue", format!("{} deep, {} entries/s: {fares}", queue.depth, exact(queue.producer_hz)));
     match &figures.verified[..] {
         [] => line("verified", "no (--no-verify)".to_owned()),
         verified => {
             for program in verified {
-                line("verified", format!("{}: {} hold", program.target, counted(program.rules.len(), "rule")));
+                let rules = counted(program.rules.len(), "rule");
+                let text = if program.judged == program.target {
+                    format!("{}: {rules} hold", program.target)
+                } else {
+                    format!("{}, a picture, is not read back: {rules} hold of {}", program.target, program.judged)
+                };
+                line("verified", text);
             }
         }
     }

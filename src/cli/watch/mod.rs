@@ -236,7 +236,8 @@ impl Watch<'_> {
     fn work(&mut self, console: &mut Console) {
         let (mut finished, mut taken) = (Vec::new(), BTreeSet::new());
         for (path, stamp) in self.files.ready(Instant::now()) {
-            let places = below(self.folders.out, self.folders.name(&path), &self.settings.targets);
+            let extensions: Vec<&str> = self.settings.targets.iter().map(|target| target.extension).collect();
+            let places = below(self.folders.out, self.folders.name(&path), &extensions);
             // Of two files for one place the second waits, to find whose it is.
             if places.iter().all(|place| !taken.contains(place)) {
                 taken.extend(places.iter().cloned());

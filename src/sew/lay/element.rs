@@ -1,21 +1,24 @@
 //! What is made along a line: needle points of straight seams, zigzags, bar tacks and boxes.
 
-use super::pitch::{distinct, even};
+use super::pitch::even;
 use crate::geom::{Point, Vector, left};
 use crate::machine::Sewing;
-use crate::sew::pattern::{Element, Seam};
+use crate::sew::pattern::{Element, Seam, distinct};
 
 /// The needle points of a seam, before its ends are locked.
 pub(super) fn needle_points(seam: &Seam, sewing: &Sewing) -> Vec<Point> {
     let straight = |points: &[Point]| even(points, sewing.pitch_mm, sewing.corner_deg);
     match seam.element {
         Element::Straight => straight(&seam.points),
-        Element::Zigzag => zigzag(&seam.points, sewing.zigzag_width_mm, sewing.zigzag_pitch_mm, sewing),
+        Element::Zigzag => {
+            let (width, pitch) = (sewing.zigzag_width_mm, sewing.zigzag_pitch_mm);
+            zigzag(&even(&seam.points, pitch, sewing.corner_deg), width)
+        }
         Element::BarTack => {
-            // There straight, back from side to side over it.
+            // The underlay, then the zigzag back over it.
             let mut points = straight(&seam.points);
             let back: Vec<Point> = seam.points.iter().rev().copied().collect();
-            points.extend(zigzag(&back, sewing.tack_width_mm, sewing.tack_pitch_mm, sewing));
+            points.extend(zigzag(&even(&back, sewing.tack_pitch_mm, sewing.corner_deg), sewing.tack_width_mm));
             points
         }
         // Its corners are corners however flat it is.
@@ -33,9 +36,8 @@ pub(super) fn line(seam: &Seam, points: &[Point]) -> Vec<Point> {
     }
 }
 
-/// Needle points on both sides of a line in turn, half a width from it; at a vertex on its bisector.
-fn zigzag(points: &[Point], width: f64, pitch: f64, sewing: &Sewing) -> Vec<Point> {
-    let middle = even(points, pitch, sewing.corner_deg);
+/// Needle points on both sides of a line in turn, half a width from each of its points; at a vertex on its bisector.
+fn zigzag(middle: &[Point], width: f64) -> Vec<Point> {
     let along = |a: Point, b: Point| (b - a).try_normalize(0.0).unwrap_or_else(Vector::zeros);
     let point = |i: usize| {
         let here = middle[i];
@@ -49,7 +51,7 @@ fn zigzag(points: &[Point], width: f64, pitch: f64, sewing: &Sewing) -> Vec<Poin
     (0..middle.len()).map(point).collect()
 }
 
-/// The way around a box and along its diagonals, in one go: around, across, along an edge once more, across.
+/// The way around a box and along its diagonals without a cut of the thread: around, across, along an edge once more, across.
 fn box_x(points: &[Point]) -> Vec<Point> {
     match distinct(points)[..] {
         [a, b, c, d, ..] => vec![a, b, c, d, a, c, d, b],
@@ -83,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn a_box_is_sewn_with_both_diagonals_in_one_go() {
+    fn a_box_is_sewn_with_both_diagonals_and_one_thread() {
         let points = laid(Element::BoxX, &[[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0], [0.0, 0.0]]);
         let corners: Vec<[f64; 2]> = points.into_iter().filter(|p| p.iter().all(|v| [0.0, 2.0].contains(v))).collect();
         let [a, b, c, d] = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];

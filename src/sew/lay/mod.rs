@@ -8,8 +8,7 @@ mod ends;
 mod order;
 mod pitch;
 
-use self::pitch::SAME_EPSILON;
-use super::pattern::{Pattern, Seam};
+use super::pattern::{Pattern, SAME_EPSILON, Seam};
 use super::stitches::{Op, Step, Stitches};
 use crate::geom::Point;
 use crate::machine::Sewing;

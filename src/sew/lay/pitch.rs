@@ -1,20 +1,12 @@
 //! Needle points along a line: one on each corner, the rest evenly between.
 
 use crate::geom::{Point, polyline};
+use crate::sew::pattern::distinct;
 use crate::units::rad;
 
-/// Places nearer than this are one, mm: far below a step of any machine.
-pub(super) const SAME_EPSILON: f64 = 1e-6;
 /// How much longer than the pitch a stitch may become for the sake of one stitch less, as a part of it: lengths of lines
 /// carry the rounding of their sums.
 const PITCH_EPSILON: f64 = 1e-9;
-
-/// A line without points that repeat the one before them.
-pub(super) fn distinct(points: &[Point]) -> Vec<Point> {
-    let mut distinct = points.to_vec();
-    distinct.dedup_by(|next, last| (*next - *last).norm() <= SAME_EPSILON);
-    distinct
-}
 
 /// Needle points along a line, its ends included: on every vertex where it turns by `corner_deg` or more, and between two of
 /// these evenly, at most `pitch` apart along the line.

@@ -6,29 +6,36 @@
 use super::format::{Format, Input};
 use super::moves::{Moves, span};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::front::sewn;
 use crate::source::{Source, Span};
 
 pub(super) const FORMAT: Format = Format {
     name: "dst",
     about: "stitch files of Tajima machines",
-    is_it: |bytes, extension| extension == "dst" || (bytes.len() >= HEADER_BYTES && bytes.starts_with(b"LA:")),
+    extensions: &["dst"],
+    record_word: "record",
+    is_it: |bytes, extension| extension == "dst" || sewn::is_dst(bytes),
     read,
 };
 
 const HEADER_BYTES: usize = 512;
 const RECORD_BYTES: usize = 3;
+/// Bits of the last byte that end a pattern, whatever the other bytes say: 81 up and 81 down at once, which no move has.
+const END: u8 = 0xF3;
+/// What fills the last block of a file on many disks.
+const FILLING: [u8; 5] = [0x00, 0x1A, b' ', b'\r', b'\n'];
 /// Jumps in a row that stand for a trim.
 const TRIM_JUMPS: u32 = 3;
 
 /// Weights of the bits of the three bytes: x, then y, 0 where a bit says something else.
-const BITS: [[(i32, i32); 8]; 3] = [
+const BITS: [[(i64, i64); 8]; 3] = [
     [(1, 0), (-1, 0), (9, 0), (-9, 0), (0, -9), (0, 9), (0, -1), (0, 1)],
     [(3, 0), (-3, 0), (27, 0), (-27, 0), (0, -27), (0, 27), (0, -3), (0, 3)],
     [(0, 0), (0, 0), (81, 0), (-81, 0), (0, -81), (0, 81), (0, 0), (0, 0)],
 ];
 
 /// How far a record moves, tenths of a millimetre.
-fn way(record: [u8; RECORD_BYTES]) -> [i32; 2] {
+fn way(record: [u8; RECORD_BYTES]) -> [i64; 2] {
     let mut way = [0; 2];
     for (byte, weights) in record.into_iter().zip(BITS) {
         for (bit, (x, y)) in weights.into_iter().enumerate() {
@@ -46,9 +53,9 @@ struct Count {
     stitches: u32,
     records: u32,
     colors: u32,
-    at: [i32; 2],
+    at: [i64; 2],
     /// Greatest reach to +X, -X, +Y, -Y.
-    reach: [i32; 4],
+    reach: [i64; 4],
 }
 
 fn read(source: &Source, out: &mut Diagnostics) -> Input {
@@ -57,17 +64,17 @@ fn read(source: &Source, out: &mut Diagnostics) -> Input {
     let Some((header, body)) = bytes.split_at_checked(HEADER_BYTES) else {
         let message = format!("the file has {} bytes, fewer than the header of a DST file", bytes.len());
         out.push(Diagnostic::new(&code::SEW_TRUNCATED, message).hint("transfer it again"));
-        return Input::Stitches(moves.finish(out));
+        return Input::Stitches(moves.finish(out), Vec::new());
     };
     let mut count = Count::default();
-    let mut is_ended = false;
+    let mut end = None;
     let (records, rest) = body.as_chunks::<RECORD_BYTES>();
     for (i, &record) in records.iter().enumerate() {
         let number = i as u32 + 1;
         let place = span(HEADER_BYTES + i * RECORD_BYTES, RECORD_BYTES, number);
         let last = record[2];
-        if last == 0xF3 {
-            is_ended = true;
+        if last & END == END {
+            end = Some((i + 1) * RECORD_BYTES);
             break;
         }
         let way = way(record);
@@ -88,7 +95,9 @@ fn read(source: &Source, out: &mut Diagnostics) -> Input {
             _ => refuse(record, place, out),
         }
     }
-    if !is_ended {
+    if let Some(end) = end {
+        check_rest(body, end, out);
+    } else {
         let message = format!("the file ends behind record {} without its end (00 00 F3)", records.len());
         let hint = "the end of the pattern is missing: transfer the file again, and compare sizes";
         let at = span(HEADER_BYTES + records.len() * RECORD_BYTES, rest.len(), records.len() as u32);
@@ -97,7 +106,18 @@ fn read(source: &Source, out: &mut Diagnostics) -> Input {
     if !out.has_errors() {
         check_header(header, &count, out);
     }
-    Input::Stitches(moves.finish(out))
+    Input::Stitches(moves.finish(out), Vec::new())
+}
+
+/// Warns of what stands behind the end of the records.
+fn check_rest(body: &[u8], end: usize, out: &mut Diagnostics) {
+    let rest = &body[end..];
+    if rest.iter().any(|byte| !FILLING.contains(byte)) {
+        let message = format!("{} bytes stand behind the end of the pattern; they are not sewn", rest.len());
+        let hint = "two files may have run together, or the end came too soon: compare the stitches with the original";
+        let place = span(HEADER_BYTES + end, rest.len(), (end / RECORD_BYTES) as u32 + 1);
+        out.push(Diagnostic::new(&code::SEW_BEHIND_END, message).at(place).hint(hint));
+    }
 }
 
 fn refuse(record: [u8; RECORD_BYTES], place: Span, out: &mut Diagnostics) {
@@ -108,9 +128,9 @@ fn refuse(record: [u8; RECORD_BYTES], place: Span, out: &mut Diagnostics) {
 }
 
 impl Count {
-    fn add(&mut self, [x, y]: [i32; 2]) {
+    fn add(&mut self, [x, y]: [i64; 2]) {
         self.records += 1;
-        self.at = [self.at[0].saturating_add(x), self.at[1].saturating_add(y)];
+        self.at = [self.at[0] + x, self.at[1] + y];
         let [x, y] = self.at;
         let reach = [x, -x, y, -y];
         for (most, now) in self.reach.iter_mut().zip(reach) {
@@ -120,7 +140,7 @@ impl Count {
 }
 
 /// The number that a field of the header holds.
-fn field(header: &[u8], name: &[u8]) -> Option<i32> {
+fn field(header: &[u8], name: &[u8]) -> Option<i64> {
     let at = memchr::memmem::find(header, name)? + name.len();
     let rest = &header[at..];
     let text = std::str::from_utf8(&rest[..rest.iter().position(|&byte| byte == b'\r')?]).ok()?;
@@ -132,7 +152,7 @@ fn check_header(header: &[u8], count: &Count, out: &mut Diagnostics) {
     let mut wrong = Vec::new();
     let [right, left, up, down] = count.reach;
     // Some systems have Y count downwards in the header.
-    let sides: [(&[u8], [i32; 2]); 4] =
+    let sides: [(&[u8], [i64; 2]); 4] =
         [(b"+X:", [right; 2]), (b"-X:", [left; 2]), (b"+Y:", [up, down]), (b"-Y:", [down, up])];
     for (name, reach) in sides {
         if let Some(told) = field(header, name).filter(|told| !reach.contains(told)) {
@@ -140,14 +160,14 @@ fn check_header(header: &[u8], count: &Count, out: &mut Diagnostics) {
         }
     }
     // Some systems count stitches, others all records, with the end or without.
-    if let Some(told) = field(header, b"ST:")
-        .filter(|&told| !(i64::from(count.stitches)..=i64::from(count.records) + 1).contains(&i64::from(told)))
+    if let Some(told) =
+        field(header, b"ST:").filter(|told| !(i64::from(count.stitches)..=i64::from(count.records) + 1).contains(told))
     {
         wrong.push(format!("ST: {told} instead of {}", count.records));
     }
     // Changes, or threads.
     let colors = i64::from(count.colors);
-    if let Some(told) = field(header, b"CO:").filter(|&told| !(colors..=colors + 1).contains(&i64::from(told))) {
+    if let Some(told) = field(header, b"CO:").filter(|told| !(colors..=colors + 1).contains(told)) {
         wrong.push(format!("CO: {told} instead of {colors}"));
     }
     if !wrong.is_empty() {

@@ -5,8 +5,14 @@ use super::moves::{Moves, span};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::source::Source;
 
-pub(super) const FORMAT: Format =
-    Format { name: "exp", about: "stitch files of Melco machines", is_it: |_, extension| extension == "exp", read };
+pub(super) const FORMAT: Format = Format {
+    name: "exp",
+    about: "stitch files of Melco machines",
+    extensions: &["exp"],
+    record_word: "record",
+    is_it: |_, extension| extension == "exp",
+    read,
+};
 
 const ESCAPE: u8 = 0x80;
 const COLOR: u8 = 0x01;
@@ -30,7 +36,7 @@ fn read(source: &Source, out: &mut Diagnostics) -> Input {
             out.push(Diagnostic::new(&code::SEW_TRUNCATED, message).at(place).hint(hint));
             break;
         };
-        let way = [words[length - 2], words[length - 1]].map(|byte| i32::from(byte.cast_signed()));
+        let way = [words[length - 2], words[length - 1]].map(|byte| i64::from(byte.cast_signed()));
         match (is_command, words[1]) {
             (false, _) | (true, STITCH) => moves.stitch(way, record, out),
             (true, JUMP) => moves.jump(way, record),
@@ -50,5 +56,5 @@ fn read(source: &Source, out: &mut Diagnostics) -> Input {
         }
         at += length;
     }
-    Input::Stitches(moves.finish(out))
+    Input::Stitches(moves.finish(out), Vec::new())
 }

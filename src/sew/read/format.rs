@@ -12,6 +12,10 @@ pub struct Format {
     pub name: &'static str,
     /// What it is, in a line.
     pub about: &'static str,
+    /// What names of such files end in, without the dot.
+    pub extensions: &'static [&'static str],
+    /// What its records are called, as in "record 3".
+    pub record_word: &'static str,
     /// Whether a file is one, by its bytes and the extension of its name.
     pub is_it: fn(&[u8], &str) -> bool,
     /// Reads it.
@@ -23,27 +27,18 @@ pub struct Format {
 pub enum Input {
     /// Lines to be sewn.
     Pattern(Pattern),
-    /// Needle points.
-    Stitches(Stitches),
+    /// Needle points, with the speeds that the file asks for.
+    Stitches(Stitches, Vec<Speed>),
 }
 
-/// What some programs write before text in UTF-8.
-const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
-
-/// Whether the first line of a text is this one, in capital letters or small ones, or begins with it.
-pub(super) fn begins_with(bytes: &[u8], header: &[u8]) -> bool {
-    let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
-    bytes.get(..header.len()).is_some_and(|first| first.eq_ignore_ascii_case(header))
+/// A speed that a file asks for, from a record on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Speed {
+    /// The record, from 1.
+    pub record: u32,
+    /// Stitches a minute.
+    pub rpm: f64,
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_header_is_known_behind_the_mark_that_spreadsheets_write() {
-        for (text, is_known) in [("op,x\n", true), ("\u{feff}OP,X", true), ("op", false), ("\u{feff}xop,x", false)] {
-            assert_eq!(begins_with(text.as_bytes(), b"op,x"), is_known, "{text:?}");
-        }
-    }
-}
+/// The largest coordinate or increment of a text, mm: no machine is as large.
+pub(super) const FARTHEST: f64 = 1e4;

@@ -1,7 +1,7 @@
-//! A closed contour some way inside: where the seam goes.
+//! A closed contour some way inside, or around a cut-out: where the seam goes.
 
 use crate::geom::boxes::Boxes;
-use crate::geom::{Extent, Point, Vector, cross, left, polyline};
+use crate::geom::{Extent, Point, Vector, cross, left, polyline, ring};
 
 /// How much nearer to the contour a place may be, as a part of the inset: rounding of intersections.
 const NEAR_EPSILON: f64 = 1e-6;
@@ -15,14 +15,12 @@ struct Edge {
     along: Vector,
 }
 
-/// The contour at a distance inside, closed; `None` where there is no room. Corners stay corners.
+/// The closed contour at a distance inside, around it where that is negative, closed; `None` where there is no room. Corners
+/// stay corners.
 pub(super) fn inset(points: &[Point], distance: f64) -> Option<Vec<Point>> {
-    let ring = &points[..points.len() - 1];
-    let area: f64 = (0..ring.len()).map(|i| cross(ring[i].coords, ring[(i + 1) % ring.len()].coords)).sum();
-    let inwards = if area > 0.0 { distance } else { -distance };
-    let ends = (0..ring.len()).map(|i| (ring[i], ring[(i + 1) % ring.len()]));
-    let mut edges: Vec<Edge> = ends
-        .filter_map(|(from, to)| polyline::direction(from, to).map(|along| (from, along)))
+    let inwards = if ring::area(points) > 0.0 { distance } else { -distance };
+    let mut edges: Vec<Edge> = (points.windows(2))
+        .filter_map(|ends| polyline::direction(ends[0], ends[1]).map(|along| (ends[0], along)))
         .map(|(from, along)| Edge { at: from + left(along) * inwards, along })
         .collect();
     // An edge shorter than the inset takes up turns over: without it its neighbours meet.
@@ -36,7 +34,7 @@ pub(super) fn inset(points: &[Point], distance: f64) -> Option<Vec<Point>> {
         if ways.iter().all(|&way| way >= 0.0) {
             let mut out = corners;
             out.push(out[0]);
-            return is_inside(&out, points, distance).then_some(out);
+            return is_clear(&out, points, distance.abs()).then_some(out);
         }
         // Of neighbours that turn over the one that does so most goes first: it may be all that is wrong with the other.
         let goes = |i: usize| {
@@ -64,8 +62,8 @@ fn corners(edges: &[Edge]) -> Vec<Point> {
     (0..edges.len()).map(meet).collect()
 }
 
-/// Whether every place of a line is as far from a contour as asked.
-fn is_inside(line: &[Point], contour: &[Point], distance: f64) -> bool {
+/// Whether every place of a line is as far from a contour as asked, mm.
+pub(super) fn is_clear(line: &[Point], contour: &[Point], distance: f64) -> bool {
     let least = distance * (1.0 - NEAR_EPSILON);
     let boxes = Boxes::new(contour.windows(2).map(|ends| Extent::of(ends).grown(distance)).collect());
     line.windows(2).all(|a| {
@@ -96,6 +94,10 @@ mod tests {
         check(&square, 5.1, None);
         let cut = [[0.0, 0.0], [9.5, 0.0], [10.0, 0.5], [10.0, 10.0], [0.0, 10.0], [0.0, 0.0]];
         check(&cut, 2.0, Some(&inner));
+        let outer = [[-2.0, -2.0], [12.0, -2.0], [12.0, 12.0], [-2.0, 12.0], [-2.0, -2.0]];
+        check(&square, -2.0, Some(&outer));
+        let turned_outer: Vec<[f64; 2]> = outer.iter().rev().copied().collect();
+        check(&turned, -2.0, Some(&turned_outer));
         // A waist narrower than twice the inset.
         let waist = [
             [0.0, 0.0],

@@ -13,42 +13,64 @@ mod outline;
 mod pattern;
 mod queue;
 
+pub(super) use format::Speed;
 pub use format::{Format, Input};
 
 use super::asked::Asked;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::front::DIALECTS;
 use crate::machine::Job;
 use crate::source::Source;
 
 /// Every format of sewing machines.
 pub const FORMATS: &[Format] = &[pattern::FORMAT, queue::FORMAT, dst::FORMAT, exp::FORMAT];
 
-/// Reads a source as what was asked, or as what it looks like; the name of that beside what it says. `None` when it is
-/// nothing that is known.
-pub(super) fn read(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) -> Option<(&'static str, Input)> {
+/// What a source was read as, and what it says.
+pub(super) struct Reading {
+    /// The format or dialect.
+    pub(super) format: &'static str,
+    /// What its records are called.
+    pub(super) record_word: &'static str,
+    pub(super) input: Input,
+}
+
+/// Reads a source as what was asked, or as what it looks like. `None` when it is nothing that is known.
+pub(super) fn read(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) -> Option<Reading> {
     let extension = source.name().rsplit_once('.').map_or("", |(_, extension)| extension).to_ascii_lowercase();
     let format = match asked.from.as_deref() {
         Some(name) => FORMATS.iter().find(|format| format.name == name),
         None => FORMATS.iter().find(|format| (format.is_it)(source.bytes(), &extension)),
     };
-    match format {
-        Some(format) => {
-            refuse_choices(format, asked, out);
-            Some((format.name, (format.read)(source, out)))
-        }
-        None => outline::read(source, asked, job, out).map(|(name, pattern)| (name, Input::Pattern(pattern))),
-    }
+    let Some(Format { name, record_word, read, .. }) = format else {
+        let first = out.iter().len();
+        let Some((format, pattern)) = outline::read(source, asked, job, out) else {
+            out.revise(first, |found| found.hints = vec![known()]);
+            return None;
+        };
+        return Some(Reading { format, record_word: outline::RECORD_WORD, input: Input::Pattern(pattern) });
+    };
+    refuse_choices(name, asked, out);
+    Some(Reading { format: name, record_word, input: read(source, out) })
+}
+
+/// What is read.
+fn known() -> String {
+    let formats: Vec<&str> = FORMATS.iter().map(|format| format.name).collect();
+    let dialects: Vec<&str> = DIALECTS.iter().map(|dialect| dialect.name).collect();
+    let (formats, dialects) = (formats.join(", "), dialects.join(", "));
+    format!(
+        "`cutc sew` reads {formats}, and the lines of {dialects}; if it is one of them all the same, name it with `--from`"
+    )
 }
 
 /// Refuses choices among lines and contours where a file has none: its seams are where they are sewn.
-fn refuse_choices(format: &Format, asked: &Asked, out: &mut Diagnostics) {
+fn refuse_choices(format: &str, asked: &Asked, out: &mut Diagnostics) {
     if let Some(line) = &asked.line {
-        let message =
-            format!("a file of the format {} has no pens or layers, so none has the name `{line}`", format.name);
+        let message = format!("a file of the format {format} has no pens or layers, so none has the name `{line}`");
         out.push(Diagnostic::new(&code::SEW_NO_LINE, message).hint("leave `--line` out: all of the file is sewn"));
     }
     if asked.inset != 0.0 {
-        let message = format!("a file of the format {} has no contours inside which to sew", format.name);
+        let message = format!("a file of the format {format} has no contours inside which to sew");
         let hint = "leave `--inset` out: the seams of the file are where they are sewn";
         out.push(Diagnostic::new(&code::SEW_INSET, message).hint(hint));
     }

@@ -4,9 +4,8 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
 use crate::sew::stitches::{Op, Step, Stitches};
 use crate::source::Span;
+use crate::units::TENTHS_PER_MM;
 
-/// Units of stitch files in a millimetre.
-const PER_MM: f64 = 10.0;
 /// Jumps in a row from which on a file is most likely damaged: the longest machine is crossed in fewer.
 const JUMP_STORM: u32 = 200;
 
@@ -31,7 +30,7 @@ impl Moves {
     }
 
     fn push(&mut self, op: Op, record: u32) {
-        let to = Point::new(self.at[0] as f64 / PER_MM, self.at[1] as f64 / PER_MM);
+        let to = Point::new(self.at[0] as f64 / TENTHS_PER_MM, self.at[1] as f64 / TENTHS_PER_MM);
         let last = self.stitches.steps.last();
         let is_first = last.is_none_or(|step| step.op.ends_run());
         let before = last.map_or(Point::origin(), |step| step.to);
@@ -41,14 +40,14 @@ impl Moves {
     }
 
     /// A stitch.
-    pub(super) fn stitch(&mut self, way: [i32; 2], record: u32, out: &mut Diagnostics) {
+    pub(super) fn stitch(&mut self, way: [i64; 2], record: u32, out: &mut Diagnostics) {
         self.land(out);
         self.go(way);
         self.push(Op::Stitch, record);
     }
 
     /// A move with the needle up.
-    pub(super) fn jump(&mut self, way: [i32; 2], record: u32) {
+    pub(super) fn jump(&mut self, way: [i64; 2], record: u32) {
         if self.jumps == 0 {
             self.jumped_from = record;
         }
@@ -69,8 +68,8 @@ impl Moves {
         self.push(Op::Color(self.thread), record);
     }
 
-    fn go(&mut self, [x, y]: [i32; 2]) {
-        self.at = [self.at[0] + i64::from(x), self.at[1] + i64::from(y)];
+    fn go(&mut self, [x, y]: [i64; 2]) {
+        self.at = [self.at[0] + x, self.at[1] + y];
     }
 
     /// Jumps in a row are one.
@@ -86,7 +85,7 @@ impl Moves {
         }
         let landed = self.at;
         let before = self.stitches.steps.last().map_or(Point::origin(), |step| step.to);
-        self.at = [before.x, before.y].map(|value| (value * PER_MM).round() as i64);
+        self.at = [before.x, before.y].map(|value| (value * TENTHS_PER_MM).round() as i64);
         let has_thread = self.stitches.steps.last().is_some_and(|step| step.op == Op::Stitch);
         if has_thread && self.trim_from.is_some_and(|least| jumps >= least) {
             self.push(Op::Trim, record);

@@ -1,21 +1,34 @@
 //! Lines of whatever else `cutc` reads: contours of cut files and lists of points, lines of plots by their pen or layer,
 //! seam lines that were recognised.
 
-use super::inset::inset;
+use std::collections::BTreeMap;
+
+use super::inset;
+use crate::analysis::nesting::Nesting;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::{self, Dialect, Read};
 use crate::geom::Point;
+use crate::ir::drawing::Vertex;
 use crate::ir::{Drawing, Marker};
 use crate::machine::Job;
 use crate::recognise;
 use crate::sew::asked::Asked;
 use crate::sew::pattern::{Pattern, Seam};
 use crate::source::{Source, Span};
+use crate::units::number::exact;
 
+/// What the records of a cutter file or a plot are called.
+pub(super) const RECORD_WORD: &str = "block";
 /// The name of recognised seam lines, as `--line` takes it.
 const SEAM: &str = "seam";
 /// What recognition calls them.
 const SEAM_LINE: &str = "seam line";
+
+/// A line of a file, and where it begins.
+struct Line {
+    points: Vec<Point>,
+    span: Span,
+}
 
 /// Reads the lines of a file; the name of its dialect beside them.
 pub(super) fn read(
@@ -29,59 +42,98 @@ pub(super) fn read(
         Some(name) => front::by_name(name),
         None => front::detect(source, extension, out),
     }?;
-    let lines = lines(dialect, source, asked, job, out);
-    let mut pattern = Pattern::default();
-    for (points, span) in lines {
-        let seam = Seam::plain(points, span);
-        if asked.inset == 0.0 || !seam.is_closed() {
-            pattern.seams.push(seam);
-            continue;
-        }
-        if let Some(points) = inset(&seam.points, asked.inset) {
-            pattern.seams.push(Seam { points, ..seam });
-        } else {
-            let message = format!("the contour that starts here is too narrow for an inset of {} mm", asked.inset);
-            out.push(Diagnostic::new(&code::SEW_INSET, message).at(span).hint("give a smaller `--inset`"));
-        }
-    }
-    Some((dialect.name, pattern))
+    let lines = Reader { source, job }.lines(dialect, asked.line.as_deref(), out);
+    let seams = if asked.inset == 0.0 { as_drawn(lines) } else { moved(&lines, asked.inset, out) };
+    Some((dialect.name, Pattern { seams }))
 }
 
-type Line = (Vec<Point>, Span);
+fn as_drawn(lines: Vec<Line>) -> Vec<Seam> {
+    lines.into_iter().map(|Line { points, span }| Seam::plain(points, span)).collect()
+}
 
-/// The lines that were asked for, in the order of the file.
-fn lines(dialect: &Dialect, source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) -> Vec<Line> {
-    match (dialect.read, asked.line.as_deref()) {
-        (Read::Marker(read), None) => contours(&read(source, job, out)),
-        (Read::Drawing(read), Some(name)) if name != SEAM => strokes(&read(source, job, out), name, out),
-        (Read::Drawing(read), asked) => {
-            let drawing = read(source, job, out);
-            if out.has_errors() {
-                return Vec::new();
-            }
-            let marker = recognise::marker(drawing, job, out);
-            if asked.is_none() { contours(&marker) } else { seam_lines(&marker, out) }
+/// The seams of lines, closed ones so far from their line, mm, within the cloth: inside outlines, around cut-outs. Those of
+/// a part do not come nearer to any other line of it.
+fn moved(lines: &[Line], inset: f64, out: &mut Diagnostics) -> Vec<Seam> {
+    let nesting = Nesting::of_lines(&lines.iter().map(|line| &line.points[..]).collect::<Vec<_>>());
+    let is_closed = |i: &usize| nesting.lines()[*i].is_closed;
+    let mut parts: BTreeMap<Option<usize>, Vec<usize>> = BTreeMap::new();
+    for i in (0..lines.len()).filter(is_closed) {
+        parts.entry(nesting.outline(i)).or_default().push(i);
+    }
+    let mut seams = Vec::with_capacity(lines.len());
+    for (i, Line { points, span }) in lines.iter().enumerate() {
+        if !is_closed(&i) {
+            seams.push(Seam::plain(points.clone(), *span));
+            continue;
         }
-        (Read::Marker(_), Some(name)) => {
-            let message = format!("the file has no line `{name}`: its lines have no pens or layers");
-            out.push(Diagnostic::new(&code::SEW_NO_LINE, message).hint("leave `--line` out: its contours are sewn"));
-            Vec::new()
+        let distance = if nesting.is_inner(i) { -inset } else { inset };
+        let others = parts[&nesting.outline(i)].iter().filter(|&&other| other != i);
+        let found = inset::inset(points, distance);
+        let wrong = match &found {
+            _ if nesting.ended().is_some_and(|ended| ended <= i) => {
+                "too many lines lie in one another to tell outlines from cut-outs"
+            }
+            None => "the contour that starts here is too narrow",
+            Some(seam) if !others.clone().all(|&other| inset::is_clear(seam, &lines[other].points, inset)) => {
+                "the contour that starts here is too near to another of its part"
+            }
+            Some(seam) => {
+                seams.push(Seam::plain(seam.clone(), *span));
+                continue;
+            }
+        };
+        let message = format!("{wrong} for an inset of {} mm", exact(inset));
+        out.push(Diagnostic::new(&code::SEW_INSET, message).at(*span).hint("give a smaller `--inset`"));
+    }
+    seams
+}
+
+/// What a file is read by.
+struct Reader<'a> {
+    source: &'a Source,
+    job: &'a Job,
+}
+
+impl Reader<'_> {
+    /// The lines that were asked for, in the order of the file.
+    fn lines(&self, dialect: &Dialect, asked: Option<&str>, out: &mut Diagnostics) -> Vec<Line> {
+        let Self { source, job } = *self;
+        match (dialect.read, asked) {
+            (Read::Marker(read), None) => contours(&read(source, job, out)),
+            (Read::Drawing(read), Some(name)) if name != SEAM => strokes(&read(source, job, out), name, out),
+            (Read::Drawing(read), asked) => {
+                let drawing = read(source, job, out);
+                if out.has_errors() {
+                    return Vec::new();
+                }
+                let marker = recognise::marker(drawing, job, out);
+                if asked.is_none() { contours(&marker) } else { seam_lines(&marker, out) }
+            }
+            (Read::Marker(_), Some(name)) => {
+                let message = format!("the file has no line `{name}`: its lines have no pens or layers");
+                let hint = "leave `--line` out: its contours are sewn";
+                out.push(Diagnostic::new(&code::SEW_NO_LINE, message).hint(hint));
+                Vec::new()
+            }
         }
     }
 }
 
 fn contours(marker: &Marker) -> Vec<Line> {
-    marker.contours().map(|(piece, contour)| (marker.points(contour), marker.pieces[piece].span)).collect()
+    let contours = marker.contours();
+    contours.map(|(i, contour)| Line { points: marker.points(contour), span: marker.pieces[i].span }).collect()
+}
+
+/// The line through some places of a drawing.
+fn through(places: &[Vertex]) -> Line {
+    Line { points: places.iter().map(|place| place.at).collect(), span: places[0].span }
 }
 
 /// The strokes of a pen or layer.
 fn strokes(drawing: &Drawing, name: &str, out: &mut Diagnostics) -> Vec<Line> {
     let is_asked = |pen: u16| drawing.pens.get(usize::from(pen)).is_some_and(|pen| pen.name == name);
     let strokes = drawing.strokes.iter().filter(|stroke| is_asked(stroke.pen));
-    let lines: Vec<Line> = strokes
-        .map(|stroke| &drawing.vertices[stroke.range()])
-        .map(|places| (places.iter().map(|place| place.at).collect(), places[0].span))
-        .collect();
+    let lines: Vec<Line> = strokes.map(|stroke| through(&drawing.vertices[stroke.range()])).collect();
     if lines.is_empty() && !out.has_errors() {
         let names: Vec<&str> = drawing.pens.iter().map(|pen| pen.name.as_str()).collect();
         let message = format!("the file has no line `{name}`");
@@ -95,8 +147,7 @@ fn strokes(drawing: &Drawing, name: &str, out: &mut Diagnostics) -> Vec<Line> {
 fn seam_lines(marker: &Marker, out: &mut Diagnostics) -> Vec<Line> {
     let aside = marker.drawing.iter().flat_map(|account| account.aside.each());
     let seams = aside.filter(|(class, places)| *class == Some(SEAM_LINE) && !places.is_empty());
-    let lines: Vec<Line> =
-        seams.map(|(_, places)| (places.iter().map(|place| place.at).collect(), places[0].span)).collect();
+    let lines: Vec<Line> = seams.map(|(_, places)| through(places)).collect();
     if lines.is_empty() && !out.has_errors() {
         let message = "no seam line was recognised in the file";
         let hint = "a seam line is closed and follows the outline around it from inside; `cutc info` tells what lines were taken for";

@@ -4,28 +4,31 @@
 //! behind a blank, `tie`, `back-tack` or `open` for its ends, `thread 2` and `stop`. Empty = a straight seam as the profile
 //! has it.
 
-use super::format::{Format, Input, begins_with};
+use super::format::{FARTHEST, Format, Input};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::front::sewn;
 use crate::geom::Point;
 use crate::machine::sewing::Ends;
-use crate::sew::pattern::{Element, Pattern, Seam};
+use crate::sew::pattern::{Element, Pattern, Seam, distinct};
 use crate::source::{Source, Span};
 
 pub(super) const FORMAT: Format = Format {
     name: "pattern",
     about: "seams as points in mm: `x_mm,y_mm,element`, a row a point, a blank line between seams",
-    is_it: |bytes, _| begins_with(bytes, HEADER),
+    extensions: &["csv"],
+    record_word: "line",
+    is_it: |bytes, _| sewn::is_pattern(bytes),
     read,
 };
 
-const HEADER: &[u8] = b"x_mm,y_mm,element";
-/// Largest coordinate, mm: no machine is as large.
-const FARTHEST: f64 = 1e4;
 /// Corners of a box.
 const BOX_CORNERS: usize = 4;
 
 /// The words for the ends of a seam.
 const ENDS: [(&str, Ends); 3] = [("tie", Ends::Tie), ("back-tack", Ends::BackTack), ("open", Ends::Open)];
+/// The words for its thread, before a number, and for a wait before it.
+const THREAD: &str = "thread";
+const STOP: &str = "stop";
 
 fn read(source: &Source, out: &mut Diagnostics) -> Input {
     let mut pattern = Pattern::default();
@@ -44,13 +47,21 @@ fn read(source: &Source, out: &mut Diagnostics) -> Input {
         }
         let added = point(&text).and_then(|(point, words)| add(&mut open, point, words, span));
         if let Err(message) = added {
-            let hint =
-                "a row is x and y in mm and, in the first of a seam, what is made along it, as in `0,0,zigzag open`";
-            out.push(Diagnostic::new(&code::SEW_ROW, message).at(span).hint(hint));
+            out.push(Diagnostic::new(&code::SEW_ROW, message).at(span).hint(hint()));
         }
     }
     finish(open.take(), &mut pattern, out);
     Input::Pattern(pattern)
+}
+
+/// What a row may say.
+fn hint() -> String {
+    let elements = Element::WORDS.map(|(word, _)| word).join(", ");
+    let ends = ENDS.map(|(word, _)| word).join(", ");
+    format!(
+        "a row is x and y in mm and, in the first of a seam, what is made along it, as in `0,0,zigzag open`: one of \
+         {elements}, and of {ends}, `{THREAD} 2`, `{STOP}`"
+    )
 }
 
 /// Adds a point to the seam that is open, or begins one.
@@ -90,9 +101,9 @@ fn seam(mut seam: Seam, words: &str) -> Result<Seam, String> {
             seam.element = *element;
         } else if let Some((_, ends)) = ENDS.iter().find(|(name, _)| *name == word) {
             seam.ends = Some(*ends);
-        } else if word == "stop" {
+        } else if word == STOP {
             seam.stop = true;
-        } else if word == "thread" {
+        } else if word == THREAD {
             let number = words.next().unwrap_or_default();
             let thread = number.parse().ok().filter(|&thread: &u16| thread > 0);
             seam.thread = thread.ok_or_else(|| format!("`{number}` is no number of a thread"))?;
@@ -103,19 +114,19 @@ fn seam(mut seam: Seam, words: &str) -> Result<Seam, String> {
     Ok(seam)
 }
 
-/// A seam is at its end.
+/// A seam is at its end: without places that repeat the one before them, which are no corners.
 fn finish(seam: Option<Seam>, pattern: &mut Pattern, out: &mut Diagnostics) {
-    let Some(seam) = seam else { return };
-    let mut distinct = seam.points.clone();
-    distinct.dedup();
-    let corners = distinct.len() - usize::from(distinct.len() > 1 && distinct.first() == distinct.last());
+    let Some(mut seam) = seam else { return };
+    seam.points = distinct(&seam.points);
+    let points = &seam.points;
+    let corners = points.len() - usize::from(points.len() > 1 && points.first() == points.last());
     let wrong = match seam.element {
         Element::BoxX if corners != BOX_CORNERS => Some(format!("a box has four corners, and this has {corners}")),
-        Element::BarTack if distinct.len() != 2 => {
-            Some(format!("a bar tack goes from one point to another, and this has {}", distinct.len()))
+        Element::BarTack if points.len() != 2 => {
+            Some(format!("a bar tack goes from one point to another, and this has {}", points.len()))
         }
         Element::Straight | Element::Zigzag | Element::BarTack | Element::BoxX => {
-            (distinct.len() < 2).then(|| "the seam that starts here has no two different points".to_owned())
+            (points.len() < 2).then(|| "the seam that starts here has no two different points".to_owned())
         }
     };
     match wrong {

@@ -1,7 +1,8 @@
 //! The entries of a stitch queue, as the target `queue` writes them: `op,dx_mm,dy_mm,value`.
 
-use super::format::{Format, Input, begins_with};
+use super::format::{FARTHEST, Format, Input, Speed};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::front::sewn;
 use crate::geom::Point;
 use crate::sew::stitches::{Op, Step, Stitches};
 use crate::source::{Source, Span};
@@ -9,24 +10,22 @@ use crate::source::{Source, Span};
 pub(super) const FORMAT: Format = Format {
     name: "queue",
     about: "entries of a stitch queue: `op,dx_mm,dy_mm,value`, as the target queue writes them",
-    is_it: |bytes, _| begins_with(bytes, HEADER),
+    extensions: &["csv"],
+    record_word: "record",
+    is_it: |bytes, _| sewn::is_queue(bytes),
     read,
 };
-
-const HEADER: &[u8] = b"op,dx_mm,dy_mm,value";
-/// Largest increment, mm: no machine is as large.
-const FARTHEST: f64 = 1e4;
 
 /// What a row says.
 enum Row {
     Step(Op, [f64; 2]),
-    /// A speed, which is computed anew, or nothing.
-    Nothing,
+    /// Stitches a minute.
+    Speed(f64),
     End,
 }
 
 fn read(source: &Source, out: &mut Diagnostics) -> Input {
-    let mut steps = Vec::new();
+    let (mut steps, mut speeds) = (Vec::new(), Vec::new());
     let mut at = Point::origin();
     let mut start = 0;
     let mut is_ended = false;
@@ -44,7 +43,7 @@ fn read(source: &Source, out: &mut Diagnostics) -> Input {
                 let is_tie = op == Op::Stitch && dx == 0.0 && dy == 0.0;
                 steps.push(Step { op, to: at, is_tie, record: row - 1 });
             }
-            Ok(Row::Nothing) => {}
+            Ok(Row::Speed(rpm)) => speeds.push(Speed { record: row - 1, rpm }),
             Ok(Row::End) => is_ended = true,
             Err(message) => {
                 let hint = "a row is STITCH or JUMP with two increments in mm, TRIM, STOP, COLOR n, SPEED n or END";
@@ -56,7 +55,7 @@ fn read(source: &Source, out: &mut Diagnostics) -> Input {
         let hint = "the end of the pattern is missing: transfer the file again, and compare sizes";
         out.push(Diagnostic::new(&code::SEW_TRUNCATED, "the queue has no END").hint(hint));
     }
-    Input::Stitches(Stitches { steps })
+    Input::Stitches(Stitches { steps }, speeds)
 }
 
 fn parse(line: &[u8]) -> Result<Row, String> {
@@ -78,8 +77,10 @@ fn parse(line: &[u8]) -> Result<Row, String> {
             Ok(thread) if thread > 0 => Ok(Row::Step(Op::Color(thread), [0.0; 2])),
             Ok(_) | Err(_) => Err(format!("`{value}` is no number of a thread")),
         },
-        "SPEED" if value.parse::<f64>().is_ok_and(|rpm| rpm > 0.0) => Ok(Row::Nothing),
-        "SPEED" => Err(format!("`{value}` is no speed in rpm")),
+        "SPEED" => match value.parse() {
+            Ok(rpm) if rpm > 0.0 => Ok(Row::Speed(rpm)),
+            Ok(_) | Err(_) => Err(format!("`{value}` is no speed in rpm")),
+        },
         "END" => Ok(Row::End),
         _ => Err(format!("`{op}` is no entry of a queue")),
     }

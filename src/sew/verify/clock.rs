@@ -1,30 +1,29 @@
 //! Times that the machine allows: the window of a stitch, and the least time of a move.
 
 use crate::machine::Sewing;
+use crate::units::{S_PER_MIN, US_PER_S};
 
-/// Seconds in a minute.
-const MINUTE: f64 = 60.0;
-/// Microseconds in a second.
-const US: f64 = 1e6;
+/// A turn of the spindle, degrees.
+const TURN_DEG: f64 = 360.0;
 
 /// The time from feed start to feed end at a speed, microseconds.
 pub(super) fn window_us(sewing: &Sewing, rpm: f64) -> f64 {
     let mut turn = sewing.feed_end_deg - sewing.feed_start_deg;
     while turn < 0.0 {
-        turn += 360.0;
+        turn += TURN_DEG;
     }
-    turn / 360.0 * MINUTE * US / rpm
+    turn / TURN_DEG * S_PER_MIN * US_PER_S / rpm
 }
 
 /// The least time of the first step of a motor, microseconds: from the start rate on with the greatest acceleration.
 pub(super) fn first_step_us(sewing: &Sewing) -> f64 {
     let (start, acceleration) = (sewing.start_hz * sewing.step_mm, sewing.feed_acceleration_mm_s2);
-    ((start * start + 2.0 * acceleration * sewing.step_mm).sqrt() - start) / acceleration * US
+    ((start * start + 2.0 * acceleration * sewing.step_mm).sqrt() - start) / acceleration * US_PER_S
 }
 
 /// The least interval of the drives, microseconds; 0 = any.
 pub(super) fn least_interval_us(sewing: &Sewing) -> f64 {
-    sewing.max_hz.map_or(0.0, |rate| US / rate)
+    sewing.max_hz.map_or(0.0, |rate| US_PER_S / rate)
 }
 
 /// The least time of a move of so many steps, microseconds: up from the start rate, on at the greatest rate where that is
@@ -50,7 +49,7 @@ pub(super) fn least_move_us(sewing: &Sewing, steps: u64) -> f64 {
         let middle = f64::midpoint(short, long);
         if reach(middle) < way { short = middle } else { long = middle }
     }
-    long * US
+    long * US_PER_S
 }
 
 /// Halvings of a second until rounding decides.

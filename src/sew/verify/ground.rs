@@ -19,13 +19,15 @@ pub struct Ground<'a> {
     pub original: Original<'a>,
 }
 
-/// A file that stitches were read from.
+/// A file that stitches were read from, to be decoded a second time.
 #[derive(Debug, Clone, Copy)]
 pub enum Original<'a> {
     /// A DST file.
     Dst(&'a [u8]),
     /// An EXP file.
     Exp(&'a [u8]),
+    /// A queue, rows of text.
+    Queue(&'a [u8]),
     /// Another, of which the pattern tells.
     Other,
 }

@@ -4,6 +4,7 @@
 //! lays, plans and writes: it counts pulses, measures intervals and decodes records for itself. Never repairs anything.
 
 mod clock;
+mod events;
 mod ground;
 mod laid;
 mod original;
@@ -76,8 +77,8 @@ pub fn judge(input: &mut dyn BufRead, bytes: Bytes, ground: &Ground) -> io::Resu
         Bytes::PulseRecords => {
             pulses::judge(|each| pulse_records::read(input, each), pulse_records::TICK_US, ground, &mut worst)
         }
-        Bytes::QueueRows => queue::judge(input, queue::row, ground, &mut worst),
-        Bytes::QueueJson => queue::judge(input, queue::json, ground, &mut worst),
+        Bytes::QueueRows => queue::judge(input, queue::ROWS, ground, &mut worst),
+        Bytes::QueueJson => queue::judge(input, queue::JSON, ground, &mut worst),
         Bytes::Dst => stitch_file::judge(input, records::dst, ground, &mut worst),
         Bytes::Exp => stitch_file::judge(input, records::exp, ground, &mut worst),
     };

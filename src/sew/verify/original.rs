@@ -1,68 +1,111 @@
-//! The audit of the reader: what a stitch file says, decoded a second time, is what is sewn.
+//! The audit of the reader: what a stitch file or a queue says, decoded a second time, is what is sewn.
 //!
 //! Stitches may be left out where they are too short, and added on the way to one that is too long; nothing else.
 
+use super::events::{self, Event};
 use super::ground::{Ground, Original};
-use super::records::{self, Kind};
+use super::records;
 use super::rules::Rule;
 use super::worst::Worst;
 use crate::geom::Point;
-use crate::sew::stitches::Op;
 
-/// Units of stitch files in a millimetre.
-const PER_MM: f64 = 10.0;
-/// Rounding of places, mm.
-const PLACE_EPSILON: f64 = 1e-6;
-/// Into how many stitches one is split at the most: the longest by the shortest.
-const MOST_PARTS: usize = 1000;
-
-/// Counts the stitches of the file that are not sewn, and those that are sewn and not in it.
+/// Rounding of sums of increments, mm.
+const SUM_EPSILON: f64 = 1e-6;
+/// Counts what the file says and is not sewn, and what is sewn and not in it.
 pub(super) fn judge(ground: &Ground, worst: &mut Worst) {
     let decoded = match ground.original {
-        Original::Dst(bytes) => records::dst(bytes),
-        Original::Exp(bytes) => records::exp(bytes),
+        Original::Dst(bytes) => records::dst(bytes).ok().as_ref().map(events::of_records),
+        Original::Exp(bytes) => records::exp(bytes).ok().as_ref().map(events::of_records),
+        Original::Queue(bytes) => events::of_queue(bytes),
         Original::Other => return,
     };
-    let Ok(file) = decoded else {
-        worst.see(Rule::Source, f64::INFINITY, None);
-        return;
-    };
-    let stitches = file.records.iter().filter(|record| record.kind == Kind::Stitch);
-    let asked: Vec<Point> =
-        stitches.map(|record| Point::new(record.at[0] as f64 / PER_MM, record.at[1] as f64 / PER_MM)).collect();
-    let sewn: Vec<(Point, u32)> = (ground.stitches.steps.iter().zip(1..))
-        .filter(|(step, _)| step.op == Op::Stitch)
-        .map(|(step, entry)| (step.to, entry))
-        .collect();
-    let near = |a: Point, b: Point, reach: f64| (a - b).norm() <= reach;
     worst.count(Rule::Source, 0.0, None);
-    let (mut next, mut last) = (0, None);
-    for (i, &place) in asked.iter().enumerate() {
-        let ahead = &sewn[next..sewn.len().min(next + MOST_PARTS)];
-        let Some(found) = ahead.iter().position(|(point, _)| near(*point, place, PLACE_EPSILON)) else {
-            // Merged with a neighbour that is too near.
-            let is_short = |other: Option<&Point>| {
-                other.is_some_and(|other| near(*other, place, ground.sewing.min_pitch_mm + PLACE_EPSILON))
-            };
-            let is_merged = is_short(i.checked_sub(1).map(|i| &asked[i]))
-                || is_short(asked.get(i + 1))
-                || last.is_some_and(|last| is_short(Some(&last)));
-            worst.count(Rule::Source, f64::from(u8::from(!is_merged)), Some((0, place)));
-            continue;
-        };
-        for &(point, entry) in &ahead[..found] {
-            let is_between = last.is_some_and(|last| is_between(point, last, place));
-            worst.count(Rule::Source, f64::from(u8::from(!is_between)), Some((entry, point)));
-        }
-        next += found + 1;
-        last = Some(place);
-    }
-    for &(point, entry) in &sewn[next..] {
-        worst.count(Rule::Source, 1.0, Some((entry, point)));
+    match decoded {
+        Some(asked) => Audit { least: ground.sewing.min_pitch_mm, worst }.judge(&asked, &events::sewn(ground.stitches)),
+        None => worst.see(Rule::Source, f64::INFINITY, None),
     }
 }
 
-/// Whether a point lies on the way from one place to another.
-fn is_between(point: Point, from: Point, to: Point) -> bool {
-    (point - from).norm() + (to - point).norm() <= (to - from).norm() + PLACE_EPSILON
+struct Audit<'w> {
+    /// The shortest stitch that is no fault, mm.
+    least: f64,
+    worst: &'w mut Worst,
+}
+
+/// A needle point that is sewn, and its entry.
+type Sewn = (Point, u32);
+
+impl Audit<'_> {
+    /// Run by run, and what lies between.
+    fn judge(&mut self, mut asked: &[Event], mut sewn: &[(Event, u32)]) {
+        let mut needle = Point::origin();
+        while !asked.is_empty() || !sewn.is_empty() {
+            let places: Vec<Point> = asked.iter().map_while(stitch).collect();
+            let made: Vec<Sewn> = sewn.iter().map_while(|(event, entry)| Some((stitch(event)?, *entry))).collect();
+            self.run(&places, &made, needle);
+            needle = places.last().copied().unwrap_or(needle);
+            (asked, sewn) = (&asked[places.len()..], &sewn[made.len()..]);
+            let (wanted, found) = (asked.first(), sewn.first());
+            if let Some(Event::Jump(place)) = wanted {
+                needle = *place;
+            }
+            let is_other = !alike(wanted, found.map(|(event, _)| event));
+            self.worst.count(Rule::Source, f64::from(u8::from(is_other)), found.map(|&(_, entry)| (entry, needle)));
+            (asked, sewn) = (asked.get(1..).unwrap_or_default(), sewn.get(1..).unwrap_or_default());
+        }
+    }
+
+    /// The stitches of a run, from where the needle stands before it.
+    fn run(&mut self, asked: &[Point], mut sewn: &[Sewn], needle: Point) {
+        let mut last = needle;
+        for (i, &place) in asked.iter().enumerate() {
+            if let Some(parts) = parts(sewn, last, place) {
+                sewn = &sewn[parts + 1..];
+                last = place;
+                continue;
+            }
+            let is_near = |other: Point, reach: f64| (place - other).norm() <= reach + SUM_EPSILON;
+            // The end itself is sewn, if only by the stitch before that is there already.
+            let is_short = match asked.last() {
+                Some(&end) if i + 1 < asked.len() => is_near(last, self.least) || is_near(end, self.least),
+                Some(_) | None => is_near(last, 0.0),
+            };
+            self.worst.count(Rule::Source, f64::from(u8::from(!is_short)), Some((0, place)));
+        }
+        for &(point, entry) in sewn {
+            self.worst.count(Rule::Source, 1.0, Some((entry, point)));
+        }
+    }
+}
+
+fn stitch(event: &Event) -> Option<Point> {
+    match event {
+        Event::Stitch(place) => Some(*place),
+        Event::Jump(_) | Event::Trim | Event::Stop | Event::Thread(_) => None,
+    }
+}
+
+/// Whether what is sewn is what is asked for.
+fn alike(asked: Option<&Event>, sewn: Option<&Event>) -> bool {
+    match (asked, sewn) {
+        (Some(Event::Jump(a)), Some(Event::Jump(b))) => (a - b).norm() <= SUM_EPSILON,
+        (asked, sewn) => asked == sewn,
+    }
+}
+
+/// How many stitches lie on the way to a place before the one that is there; `None` when there is none.
+fn parts(sewn: &[Sewn], from: Point, to: Point) -> Option<usize> {
+    let mut at = 0.0;
+    for (count, &(point, _)) in sewn.iter().enumerate() {
+        if (point - to).norm() <= SUM_EPSILON {
+            return Some(count);
+        }
+        let (gone, left) = ((point - from).norm(), (to - point).norm());
+        // Straight on, and never back.
+        if gone + left > (to - from).norm() + SUM_EPSILON || gone < at {
+            return None;
+        }
+        at = gone;
+    }
+    None
 }

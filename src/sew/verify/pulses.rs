@@ -7,9 +7,7 @@ use super::spindle::Spindle;
 use super::worst::Worst;
 use crate::geom::Point;
 use crate::sew::stitches::Op;
-
-/// Microseconds in a second.
-const US: f64 = 1e6;
+use crate::units::US_PER_S;
 
 /// A row of a program.
 #[derive(Debug, Clone, Copy)]
@@ -154,13 +152,15 @@ impl Judge<'_> {
         match axis.interval {
             None => self.worst.see(Rule::FirstInterval, self.first_us - interval, place),
             Some(before) => {
-                axis.rises |= interval > before + self.tick_us;
+                // Two intervals differ by the rounding of both.
+                let rounding = 2.0 * self.tick_us;
+                axis.rises |= interval > before + rounding;
                 if axis.rises {
-                    self.worst.see(Rule::Ramp, before - interval, place);
+                    self.worst.see(Rule::Ramp, before - interval - rounding, place);
                 }
                 // Mean speeds of neighbours, which are those at their middles.
-                let [v0, v1] = [before, interval].map(|interval| sewing.step_mm * US / interval);
-                let apart = f64::midpoint(before, interval) / US;
+                let [v0, v1] = [before, interval].map(|interval| sewing.step_mm * US_PER_S / interval);
+                let apart = f64::midpoint(before, interval) / US_PER_S;
                 let rounding = (v0 / before + v1 / interval) * self.tick_us;
                 self.worst.see(Rule::Acceleration, ((v1 - v0).abs() - rounding) / apart, place);
             }

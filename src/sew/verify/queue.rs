@@ -17,8 +17,6 @@ const WINDOW_EPSILON: f64 = 2e-6;
 /// An entry.
 #[derive(Debug, PartialEq)]
 pub(super) enum Entry {
-    /// The header.
-    Head,
     /// A stitch or a jump, with its increments, mm.
     Way(bool, [f64; 2]),
     Trim,
@@ -28,13 +26,22 @@ pub(super) enum Entry {
     End,
 }
 
-/// Judges a queue whose lines `parse` reads.
-pub(super) fn judge(
-    input: &mut dyn BufRead,
-    parse: fn(&str) -> Option<Entry>,
-    ground: &Ground,
-    worst: &mut Worst,
-) -> Result<(), Unread> {
+/// How a queue is written.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Form {
+    /// Its first line, where that is no entry.
+    head: Option<&'static str>,
+    /// Reads any other.
+    entry: fn(&str) -> Option<Entry>,
+}
+
+/// Rows of text.
+pub(super) const ROWS: Form = Form { head: Some("op,dx_mm,dy_mm,value"), entry: row };
+/// JSON, a line each.
+pub(super) const JSON: Form = Form { head: None, entry: json };
+
+/// Judges a queue of some form.
+pub(super) fn judge(input: &mut dyn BufRead, form: Form, ground: &Ground, worst: &mut Worst) -> Result<(), Unread> {
     let (mut line, mut number, mut i) = (String::new(), 0, 0);
     // Few moves are different.
     let mut times: BTreeMap<u64, f64> = BTreeMap::new();
@@ -51,10 +58,14 @@ pub(super) fn judge(
             Err(error) => return Err(error.into()),
         }
         let text = line.strip_suffix('\n').ok_or_else(|| Unread::row(number, "it is cut off"))?;
-        let entry = parse(text).filter(|entry| *entry != Entry::Head || number == 1);
-        let entry = entry.filter(|_| !is_ended).ok_or_else(|| Unread::row(number, "it is no entry"))?;
+        if let Some(head) = form.head.filter(|_| number == 1) {
+            if text == head {
+                continue;
+            }
+            return Err(Unread::row(number, "it is not the header"));
+        }
+        let entry = (form.entry)(text).filter(|_| !is_ended).ok_or_else(|| Unread::row(number, "it is no entry"))?;
         let (is_asked, way) = match entry {
-            Entry::Head => continue,
             Entry::Speed(speed) => {
                 rpm = speed;
                 continue;
@@ -117,7 +128,7 @@ fn number(text: &str) -> Option<f64> {
 }
 
 /// Reads an entry from a row of text.
-pub(super) fn row(text: &str) -> Option<Entry> {
+fn row(text: &str) -> Option<Entry> {
     let mut fields = text.split(',');
     let [word, dx, dy, value] = [fields.next()?, fields.next()?, fields.next()?, fields.next()?];
     if fields.next().is_some() {
@@ -125,7 +136,6 @@ pub(super) fn row(text: &str) -> Option<Entry> {
     }
     let is_bare = dx.is_empty() && dy.is_empty();
     match word {
-        "op" => Some(Entry::Head),
         "STITCH" | "JUMP" if value.is_empty() => Some(Entry::Way(word == "STITCH", [number(dx)?, number(dy)?])),
         "TRIM" if is_bare && value.is_empty() => Some(Entry::Trim),
         "STOP" if is_bare && value.is_empty() => Some(Entry::Stop),
@@ -137,7 +147,7 @@ pub(super) fn row(text: &str) -> Option<Entry> {
 }
 
 /// Reads an entry from a line of JSON.
-pub(super) fn json(text: &str) -> Option<Entry> {
+fn json(text: &str) -> Option<Entry> {
     #[derive(serde::Deserialize)]
     #[serde(deny_unknown_fields)]
     struct Line<'a> {

@@ -24,6 +24,8 @@ pub(super) struct File {
     pub(super) header: Option<u32>,
     /// Whether bytes stand behind its end.
     pub(super) has_more: bool,
+    /// Whether the record that ends it says anything beside that: machines stop there all the same.
+    pub(super) has_odd_end: bool,
     /// From so many jumps in a row on machines cut the thread.
     pub(super) trim_jumps: Option<usize>,
 }
@@ -42,7 +44,9 @@ pub(super) fn dst(bytes: &[u8]) -> Decoded {
     let mut records = Vec::new();
     let (mut at, mut reach) = ([0_i64; 2], [0_i64; 4]);
     let (triples, rest) = body.as_chunks::<3>();
-    let end = triples.iter().position(|triple| *triple == [0, 0, 0xF3]).ok_or("the end is missing")?;
+    // Both bits of 81 up and down, which no move has.
+    let is_end = |triple: &[u8; 3]| triple[2] & 0b1111_0011 == 0b1111_0011;
+    let end = triples.iter().position(is_end).ok_or("the end is missing")?;
     for (i, &[a, b, c]) in triples[..end].iter().enumerate() {
         let kind = match c & 0b1100_0011 {
             0b0000_0011 => Kind::Stitch,
@@ -90,7 +94,8 @@ pub(super) fn dst(bytes: &[u8]) -> Decoded {
     };
     let wrong = told.iter().filter(is_wrong).count();
     let has_more = end + 1 != triples.len() || !rest.is_empty();
-    Ok(File { records, header: Some(wrong as u32), has_more, trim_jumps: Some(TRIM_JUMPS) })
+    let has_odd_end = triples[end] != [0, 0, 0xF3];
+    Ok(File { records, header: Some(wrong as u32), has_more, has_odd_end, trim_jumps: Some(TRIM_JUMPS) })
 }
 
 /// Decodes an EXP file.
@@ -118,7 +123,7 @@ pub(super) fn exp(bytes: &[u8]) -> Decoded {
         records.push(Record { kind, at });
     }
     if rest.is_empty() {
-        Ok(File { records, header: None, has_more: false, trim_jumps: None })
+        Ok(File { records, header: None, has_more: false, has_odd_end: false, trim_jumps: None })
     } else {
         Err("the last record is cut off".to_owned())
     }

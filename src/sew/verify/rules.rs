@@ -40,7 +40,7 @@ pub enum Rule {
     /// Every needle point is on its seam.
     OnSeam,
     /// Stitches of a file are where the pattern has them.
-    Decoded,
+    NeedlePoint,
     /// Trims, stops and threads of a file.
     Commands,
     /// The header of a file.
@@ -84,10 +84,10 @@ pub const RULES: &[Row] = &[
     Row { rule: Rule::LongPitch, name: "sew-verify/long-pitch", unit: "mm", about: "no stitch is longer than the machine can make", more: "Neither the clamp nor the thread take-up of the machine reaches farther. The value is by how much the longest passes `sewing.max_pitch_mm`." },
     Row { rule: Rule::Corner, name: "sew-verify/corner", unit: "mm", about: "every corner of a seam has a needle point", more: "A seam that cuts a corner short shows on the finished piece. Edges shorter than the least pitch are merged, so that much is allowed." },
     Row { rule: Rule::OnSeam, name: "sew-verify/on-seam", unit: "mm", about: "every needle point is on its seam, or within its width", more: "Stitches beside the seam line miss the lower ply or the folded edge, and the seam opens. What merging short stitches moves is allowed, and no more." },
-    Row { rule: Rule::Decoded, name: "sew-verify/decoded", unit: "mm", about: "each stitch of a stitch file is within half of its unit of the pattern", more: "Stitch files know tenths of a millimetre. More than half of one is another place: a reader that rounds moves instead of places drifts away by such." },
-    Row { rule: Rule::Commands, name: "sew-verify/commands", unit: "", about: "trims, stops and changes of thread of a stitch file are those of the pattern", more: "A trim that is missing leaves a thread across the piece, and one too many a seam that opens. Three jumps in a row are a trim in a DST file." },
+    Row { rule: Rule::NeedlePoint, name: "sew-verify/needle-point", unit: "mm", about: "each stitch of a stitch file is within half of its unit of the pattern", more: "Stitch files know tenths of a millimetre. More than half of one is another place: a reader that rounds moves instead of places drifts away by such." },
+    Row { rule: Rule::Commands, name: "sew-verify/commands", unit: "", about: "trims of a stitch file are those of the pattern", more: "A trim that is missing leaves a thread across the piece, and one too many a seam that opens. Three jumps in a row are a trim in a DST file." },
     Row { rule: Rule::Header, name: "sew-verify/header", unit: "", about: "the header of a DST file says what its records do", more: "Machines place the pattern within their field by the header: a wrong one drives the needle into the clamp. The value is how many entries are wrong." },
-    Row { rule: Rule::Source, name: "sew-verify/source", unit: "", about: "every stitch of a stitch file that is read is sewn, in its order, and no other but parts of one that is split", more: "The reader and a second decoder of the same bytes must find the same stitches; only those that are too short may be merged. Please report the file if they do not." },
+    Row { rule: Rule::Source, name: "sew-verify/source", unit: "", about: "stitches, jumps, trims, stops and threads of a stitch file or queue that is read are sewn, in their order, and nothing else but parts of a stitch that is split", more: "The reader and a second decoder of the same bytes must find the same; only stitches that are too short may be merged with their neighbours. The value is how many differ. Please report the file." },
 ];
 
 impl Rule {
@@ -113,13 +113,13 @@ impl Rule {
             Self::Acceleration => sewing.feed_acceleration_mm_s2 * (1.0 + ACCELERATION_EPSILON),
             Self::ShortPitch | Self::LongPitch => PLACE_EPSILON,
             Self::Corner | Self::OnSeam => sewing.min_pitch_mm + PLACE_EPSILON,
-            Self::Decoded => FILE_UNIT / 2.0 + PLACE_EPSILON,
+            Self::NeedlePoint => FILE_UNIT / 2.0 + PLACE_EPSILON,
         }
     }
 }
 
 /// Rounding of places, mm: rows have four decimals.
-const PLACE_EPSILON: f64 = 1e-4;
+pub(super) const PLACE_EPSILON: f64 = 1e-4;
 /// Rounding of times, microseconds: rows have three decimals, and an interval two ends.
 const TIME_US: f64 = 0.0015;
 /// Rounding of accelerations, as a part: times are sums of roots.

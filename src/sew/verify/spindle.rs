@@ -1,13 +1,10 @@
 //! The speed of the spindle: its limits, and that it does not change within a run.
 
 use super::ground::Ground;
-use super::rules::Rule;
+use super::rules::{PLACE_EPSILON, Rule};
 use super::worst::Worst;
 use crate::geom::Point;
 use crate::sew::stitches::Op;
-
-/// Rounding of places, mm.
-const PLACE_EPSILON: f64 = 1e-4;
 
 /// Follows the speed from entry to entry.
 #[derive(Debug, Default)]

@@ -8,9 +8,8 @@ use super::rules::Rule;
 use super::worst::Worst;
 use crate::geom::Point;
 use crate::sew::stitches::Op;
+use crate::units::TENTHS_PER_MM;
 
-/// Units of stitch files in a millimetre.
-const PER_MM: f64 = 10.0;
 /// The longest move of a record at which no rounding makes it two, mm.
 const LONGEST: f64 = 12.0;
 
@@ -34,9 +33,10 @@ pub(super) fn judge(
 ) -> Result<(), Unread> {
     let mut bytes = Vec::new();
     input.read_to_end(&mut bytes)?;
-    let File { records, header, has_more, trim_jumps } = decode(&bytes).map_err(Unread::Row)?;
-    if has_more {
-        return Err(Unread::Row("bytes stand behind the end".to_owned()));
+    let File { records, header, has_more, has_odd_end, trim_jumps } = decode(&bytes).map_err(Unread::Row)?;
+    if has_more || has_odd_end {
+        let what = if has_more { "bytes stand behind the end" } else { "the end is none that every machine knows" };
+        return Err(Unread::Row(what.to_owned()));
     }
     if let Some(wrong) = header {
         worst.see(Rule::Header, wrong.into(), None);
@@ -49,7 +49,7 @@ pub(super) fn judge(
             (Some((is_stitch, asked)), Some((is, point))) => {
                 worst.count(Rule::Entries, f64::from(u8::from(is_stitch != is)), place);
                 let off = (point.x - asked.x).abs().max((point.y - asked.y).abs());
-                worst.see(Rule::Decoded, off, place);
+                worst.see(Rule::NeedlePoint, off, place);
             }
             (None, None) => {}
             (Some(_), None) | (None, Some(_)) => worst.count(Rule::Entries, 1.0, place),
@@ -96,7 +96,7 @@ fn found(records: &[Record]) -> Vec<Gap> {
             Kind::Jump => gap.jumps += 1,
             Kind::Trim => gap.is_cut = true,
             Kind::Stitch | Kind::Stop => {
-                let at = Point::new(record.at[0] as f64 / PER_MM, record.at[1] as f64 / PER_MM);
+                let at = Point::new(record.at[0] as f64 / TENTHS_PER_MM, record.at[1] as f64 / TENTHS_PER_MM);
                 gap.end = Some((record.kind == Kind::Stitch, at));
                 gaps.push(std::mem::take(&mut gap));
             }

@@ -5,12 +5,12 @@
 
 use std::io::{self, Write};
 
-use super::target::{Proof, Target, nothing};
+use super::target::{Target, nothing};
 use crate::machine::{Job, Sewing};
 use crate::sew::program::{Move, Program};
 use crate::sew::stitches::Op;
-use crate::units::S_PER_MIN;
-use crate::units::number::fixed;
+use crate::units::number::{exact, fixed};
+use crate::units::{MS_PER_S, S_PER_MIN};
 
 pub(super) const TARGET: Target = Target {
     name: "timing",
@@ -18,7 +18,7 @@ pub(super) const TARGET: Target = Target {
     extension: "timing.svg",
     refusals: nothing,
     write,
-    proof: Proof::None,
+    proof: None,
 };
 
 /// Stitches that are shown.
@@ -32,10 +32,9 @@ const LEFT: f64 = 70.0;
 const RIGHT: f64 = 20.0;
 const ANGLE_HEIGHT: f64 = 70.0;
 const RATE_HEIGHT: f64 = 160.0;
+const GAP: f64 = 20.0;
 /// Hertz in a kilohertz.
 const HZ_PER_KHZ: f64 = 1000.0;
-/// Milliseconds in a second.
-const MS_PER_S: f64 = 1000.0;
 const TURN_DEG: f64 = 360.0;
 
 fn write(program: &Program, job: &Job, out: &mut dyn Write) -> io::Result<()> {
@@ -57,8 +56,8 @@ fn write(program: &Program, job: &Job, out: &mut dyn Write) -> io::Result<()> {
     let most = peak(&fast, sewing).max(peak(&slow, sewing));
     // Both on one scale of time, so that they can be compared.
     let time = SHOWN as f64 * S_PER_MIN / slower;
-    panel(&fast, sewing, (30.0, time, most), out)?;
-    panel(&slow, sewing, (345.0, time, most), out)?;
+    Panel { sewing, top: 30.0, time, most }.draw(&fast, out)?;
+    Panel { sewing, top: 345.0, time, most }.draw(&slow, out)?;
     writeln!(out, "</svg>")
 }
 
@@ -92,74 +91,100 @@ fn peak(entries: &[Move], sewing: &Sewing) -> f64 {
     rates.map(|(.., rate)| rate).fold(0.0, f64::max)
 }
 
-/// Three stitches: `top` px, the time that the picture is wide, s, and the greatest rate, Hz.
-fn panel(entries: &[Move], sewing: &Sewing, (top, time, most): (f64, f64, f64), out: &mut dyn Write) -> io::Result<()> {
-    let turn = S_PER_MIN / entries[0].rpm;
-    let px = |t: f64| fixed(LEFT + t / time * (WIDTH - LEFT - RIGHT), 2);
-    let angle_px = |angle: f64| fixed(top + ANGLE_HEIGHT * (1.0 - angle / TURN_DEG), 2);
-    let base = top + ANGLE_HEIGHT + 20.0 + RATE_HEIGHT;
-    let rate_px = |rate: f64| fixed(base - rate / most * RATE_HEIGHT, 2);
-    writeln!(
-        out,
-        "<text x=\"{LEFT}\" y=\"{}\">{} stitches/min: a turn of {} ms, a window of {} ms</text>",
-        top - 8.0,
-        entries[0].rpm,
-        fixed(turn * MS_PER_S, 2),
-        fixed(turn * sewing.window() * MS_PER_S, 2)
-    )?;
-    for (k, entry) in entries.iter().enumerate() {
-        // A stitch is a turn that begins with its window.
-        let start = k as f64 * turn;
-        let [from, to] = [start, start + turn * sewing.window()];
+/// Where three stitches are drawn, and to which scales.
+#[derive(Clone, Copy)]
+struct Panel<'a> {
+    sewing: &'a Sewing,
+    /// Its upper edge, px.
+    top: f64,
+    /// The time that the picture is wide, s.
+    time: f64,
+    /// The greatest rate, Hz.
+    most: f64,
+}
+
+impl Panel<'_> {
+    /// Of a time, s.
+    fn x(&self, time: f64) -> String {
+        fixed(LEFT + time / self.time * (WIDTH - LEFT - RIGHT), 2)
+    }
+
+    /// Of an angle of the spindle, degrees.
+    fn angle_y(&self, angle: f64) -> String {
+        fixed(self.top + ANGLE_HEIGHT * (1.0 - angle / TURN_DEG), 2)
+    }
+
+    /// The lower edge, px.
+    fn base(&self) -> f64 {
+        self.top + ANGLE_HEIGHT + GAP + RATE_HEIGHT
+    }
+
+    /// Of a rate, Hz.
+    fn rate_y(&self, rate: f64) -> String {
+        fixed(self.base() - rate / self.most * RATE_HEIGHT, 2)
+    }
+
+    fn draw(&self, entries: &[Move], out: &mut dyn Write) -> io::Result<()> {
+        let (sewing, top) = (self.sewing, self.top);
+        let turn = S_PER_MIN / entries[0].rpm;
         writeln!(
             out,
-            "<rect class=\"window\" x=\"{}\" y=\"{top}\" width=\"{}\" height=\"{}\"/>",
-            px(from),
-            fixed((to - from) / time * (WIDTH - LEFT - RIGHT), 2),
-            base - top
+            "<text x=\"{LEFT}\" y=\"{}\">{} stitches/min: a turn of {} ms, a window of {} ms</text>",
+            top - 8.0,
+            exact(entries[0].rpm),
+            fixed(turn * MS_PER_S, 2),
+            fixed(turn * sewing.window() * MS_PER_S, 2)
         )?;
-        angle(sewing, (start, turn), &px, &angle_px, out)?;
+        for (k, entry) in entries.iter().enumerate() {
+            self.stitch(entry, k as f64 * turn, out)?;
+        }
+        writeln!(out, "<path class=\"axis\" d=\"M{LEFT},{top} V{} H{}\"/>", self.base(), WIDTH - RIGHT)?;
+        for (text, y) in [("360 deg", self.angle_y(TURN_DEG)), ("0", self.angle_y(0.0)), ("0 kHz", self.rate_y(0.0))] {
+            writeln!(out, "<text class=\"small\" x=\"8\" y=\"{y}\">{text}</text>")?;
+        }
+        let (most, y) = (fixed(self.most / HZ_PER_KHZ, 2), self.rate_y(self.most));
+        writeln!(out, "<text class=\"small\" x=\"8\" y=\"{y}\">{most} kHz</text>")?;
+        writeln!(
+            out,
+            "<text class=\"small\" x=\"{}\" y=\"{}\"><tspan fill=\"#c22\">X</tspan> <tspan fill=\"#22c\">Y</tspan> pulse rate, <tspan fill=\"#444\">spindle angle</tspan>, <tspan fill=\"#4a4\">window</tspan></text>",
+            WIDTH - 290.0,
+            top - 8.0
+        )
+    }
+
+    /// A stitch: a turn that begins with its window, at a time.
+    fn stitch(&self, entry: &Move, start: f64, out: &mut dyn Write) -> io::Result<()> {
+        let (sewing, base) = (self.sewing, self.base());
+        let turn = S_PER_MIN / entry.rpm;
+        let width = fixed(turn * sewing.window() / self.time * (WIDTH - LEFT - RIGHT), 2);
+        let (left, top) = (self.x(start), self.top);
+        let height = base - top;
+        writeln!(out, "<rect class=\"window\" x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\"/>")?;
+        self.angle(start, turn, out)?;
         for (axis, class) in [(0, "x"), (1, "y")] {
-            let mut data = format!("M{},{}", px(start), rate_px(0.0));
+            let mut data = format!("M{left},{}", self.rate_y(0.0));
             for (from, to, rate) in rates(entry, axis, sewing) {
-                let (from, to, rate) = (px(start + from), px(start + to), rate_px(rate));
+                let (from, to, rate) = (self.x(start + from), self.x(start + to), self.rate_y(rate));
                 data.extend([" L", &from, ",", &rate, " L", &to, ",", &rate]);
             }
-            data.extend([" V", &rate_px(0.0)]);
+            data.extend([" V", &self.rate_y(0.0)]);
             writeln!(out, "<path class=\"{class}\" d=\"{data}\"/>")?;
         }
         let [x, y] = entry.pulses;
+        let below = base + 16.0;
         writeln!(
             out,
-            "<text class=\"small\" x=\"{}\" y=\"{}\">entry {}: X {x}, Y {y} pulses</text>",
-            px(start),
-            base + 16.0,
+            "<text class=\"small\" x=\"{left}\" y=\"{below}\">entry {}: X {x}, Y {y} pulses</text>",
             entry.entry
-        )?;
+        )
     }
-    writeln!(out, "<path class=\"axis\" d=\"M{LEFT},{top} V{base} H{}\"/>", WIDTH - RIGHT)?;
-    for (text, y) in [("360 deg", angle_px(TURN_DEG)), ("0", angle_px(0.0)), ("0 kHz", rate_px(0.0))] {
-        writeln!(out, "<text class=\"small\" x=\"8\" y=\"{y}\">{text}</text>")?;
-    }
-    writeln!(out, "<text class=\"small\" x=\"8\" y=\"{}\">{} kHz</text>", rate_px(most), fixed(most / HZ_PER_KHZ, 2))?;
-    writeln!(
-        out,
-        "<text class=\"small\" x=\"{}\" y=\"{}\"><tspan fill=\"#c22\">X</tspan> <tspan fill=\"#22c\">Y</tspan> pulse rate, <tspan fill=\"#444\">spindle angle</tspan>, <tspan fill=\"#4a4\">window</tspan></text>",
-        WIDTH - 290.0,
-        top - 8.0
-    )
-}
 
-/// The angle of the spindle during a turn that begins with the window.
-fn angle(
-    sewing: &Sewing,
-    (start, turn): (f64, f64),
-    px: &dyn Fn(f64) -> String,
-    angle_px: &dyn Fn(f64) -> String,
-    out: &mut dyn Write,
-) -> io::Result<()> {
-    let wraps = start + turn * (TURN_DEG - sewing.feed_start_deg) / TURN_DEG;
-    let (from, top, bottom) = (angle_px(sewing.feed_start_deg), angle_px(TURN_DEG), angle_px(0.0));
-    let (begins, wraps, ends) = (px(start), px(wraps), px(start + turn));
-    writeln!(out, "<path class=\"angle\" d=\"M{begins},{from} L{wraps},{top} M{wraps},{bottom} L{ends},{from}\"/>")
+    /// The angle of the spindle during a turn that begins with the window.
+    fn angle(&self, start: f64, turn: f64, out: &mut dyn Write) -> io::Result<()> {
+        let feed_start = self.sewing.feed_start_deg;
+        let wraps = start + turn * (TURN_DEG - feed_start) / TURN_DEG;
+        let (from, top, bottom) = (self.angle_y(feed_start), self.angle_y(TURN_DEG), self.angle_y(0.0));
+        let (begins, wraps, ends) = (self.x(start), self.x(wraps), self.x(start + turn));
+        writeln!(out, "<path class=\"angle\" d=\"M{begins},{from} L{wraps},{top} M{wraps},{bottom} L{ends},{from}\"/>")
+    }
 }

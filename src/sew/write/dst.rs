@@ -6,17 +6,19 @@
 use std::io::{self, Write};
 
 use super::stitch_file::{Record, records};
-use super::target::{Proof, Target, nothing};
+use super::target::Target;
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::machine::Job;
 use crate::sew::program::Program;
+use crate::sew::verify::Bytes;
 
 pub(super) const TARGET: Target = Target {
     name: "dst",
     about: "a stitch file of Tajima machines, which have their own speeds",
     extension: "dst",
-    refusals: nothing,
+    refusals,
     write,
-    proof: Proof::Dst,
+    proof: Some(Bytes::Dst),
 };
 
 const HEADER_BYTES: usize = 512;
@@ -56,35 +58,93 @@ fn record([mut x, mut y]: [i64; 2], kind: u8) -> [u8; 3] {
     bytes
 }
 
-fn write(program: &Program, _: &Job, out: &mut dyn Write) -> io::Result<()> {
-    let mut body: Vec<u8> = Vec::with_capacity(3 * program.stitches.steps.len() + 64);
-    let (mut at, mut reach, mut stops) = ([0_i64; 2], [0_i64; 4], 0);
+/// What the records of a program amount to.
+#[derive(Debug, Default)]
+struct Sums {
+    records: i64,
+    stops: i64,
+    /// Where the last one ends, tenths of a millimetre.
+    at: [i64; 2],
+    /// How far all of them reach from the start: right, left, up, down.
+    reach: [i64; 4],
+    /// Moves without a trim that are as many jumps as one.
+    cuts: usize,
+}
+
+/// Gives each record, and what they amount to.
+fn encode(program: &Program, mut put: impl FnMut([u8; 3])) -> Sums {
+    let mut sums = Sums::default();
+    // Jumps in a row, while the thread runs on.
+    let mut jumps = None;
     records(program, LONGEST, |kind, way| {
-        let mut put = |way: [i64; 2], kind: u8| {
-            body.extend_from_slice(&record(way, kind));
-            at = [at[0] + way[0], at[1] + way[1]];
-            let now = [at[0], -at[0], at[1], -at[1]];
-            reach.iter_mut().zip(now).for_each(|(most, now)| *most = (*most).max(now));
+        let mut move_by = |way: [i64; 2], kind: u8| {
+            put(record(way, kind));
+            sums.records += 1;
+            sums.at = [sums.at[0] + way[0], sums.at[1] + way[1]];
+            let now = [sums.at[0], -sums.at[0], sums.at[1], -sums.at[1]];
+            sums.reach.iter_mut().zip(now).for_each(|(most, now)| *most = (*most).max(now));
         };
         match kind {
-            Record::Stitch => put(way, STITCH),
-            Record::Jump => put(way, JUMP),
-            Record::Trim => TRIM_WAYS.into_iter().for_each(|way| put(way, JUMP)),
+            Record::Stitch => {
+                move_by(way, STITCH);
+                jumps = Some(0);
+            }
+            Record::Jump => {
+                move_by(way, JUMP);
+                jumps = jumps.map(|jumps| jumps + 1);
+                sums.cuts += usize::from(jumps == Some(TRIM_WAYS.len()));
+            }
+            Record::Trim => {
+                for way in TRIM_WAYS {
+                    move_by(way, JUMP);
+                }
+                jumps = None;
+            }
             Record::Stop => {
-                put(way, STOP);
-                stops += 1;
+                move_by(way, STOP);
+                sums.stops += 1;
+                jumps = None;
             }
         }
     });
-    let count = body.len() / END.len();
+    sums
+}
+
+fn refusals(program: &Program, _: &Job, out: &mut Diagnostics) {
+    let sums = encode(program, |_| {});
+    let reach = sums.reach.into_iter().max().unwrap_or(0);
+    for (what, value, digits) in
+        [("records", sums.records, 7), ("stops", sums.stops, 3), ("tenths of a millimetre from the start", reach, 5)]
+    {
+        let most = 10_i64.pow(digits) - 1;
+        if value > most {
+            let message = format!("the header of a DST file has room for {most} {what}, and the pattern has {value}");
+            let hint = "sew it in parts, or write EXP, which has no header";
+            out.push(Diagnostic::new(&code::TARGET_REFUSED, message).hint(hint));
+        }
+    }
+    if sums.cuts > 0 {
+        let message = format!(
+            "{} moves without a trim are {} jumps or more in the DST file: most machines cut the thread there",
+            sums.cuts,
+            TRIM_WAYS.len()
+        );
+        let hint = "set `sewing.trim`, move such seams nearer to each other, or write EXP";
+        out.push(Diagnostic::new(&code::SEW_JUMPS_CUT, message).hint(hint));
+    }
+}
+
+fn write(program: &Program, _: &Job, out: &mut dyn Write) -> io::Result<()> {
+    let mut body: Vec<u8> = Vec::with_capacity(3 * program.stitches.steps.len() + 64);
+    let sums = encode(program, |record| body.extend_from_slice(&record));
     body.extend_from_slice(&END);
-    out.write_all(&header(count, stops, at, reach))?;
+    out.write_all(&header(&sums))?;
     out.write_all(&body)
 }
 
-/// The header: how many records, threads and how far the pattern reaches from its start, tenths of a millimetre.
-fn header(records: usize, stops: u32, at: [i64; 2], reach: [i64; 4]) -> Vec<u8> {
-    let [right, left, up, down] = reach;
+/// The header: how many records and stops, and how far the pattern reaches from its start, tenths of a millimetre.
+fn header(sums: &Sums) -> Vec<u8> {
+    let Sums { records, stops, at, reach: [right, left, up, down], .. } = sums;
     let signed = |value: i64| format!("{}{:5}", if value < 0 { '-' } else { '+' }, value.abs());
     let text = format!(
         "LA:{:<16}\rST:{records:7}\rCO:{stops:3}\r+X:{right:5}\r-X:{left:5}\r+Y:{up:5}\r-Y:{down:5}\rAX:{}\rAY:{}\rMX:{}\rMY:{}\rPD:******\r\u{1a}",

@@ -3,9 +3,10 @@
 use std::io::{self, Write};
 
 use super::stitch_file::{Record, records};
-use super::target::{Proof, Target, nothing};
+use super::target::{Target, nothing};
 use crate::machine::Job;
 use crate::sew::program::Program;
+use crate::sew::verify::Bytes;
 
 pub(super) const TARGET: Target = Target {
     name: "exp",
@@ -13,7 +14,7 @@ pub(super) const TARGET: Target = Target {
     extension: "exp",
     refusals: nothing,
     write,
-    proof: Proof::Exp,
+    proof: Some(Bytes::Exp),
 };
 
 /// The longest move of a record, tenths of a millimetre: -128 is the byte that begins commands.

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::target::{Proof, Target};
+use super::target::Target;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::machine::Job;
 use crate::machine::sewing::Ramp;
@@ -16,7 +16,7 @@ pub(super) const TARGET: Target = Target {
     extension: "html",
     refusals,
     write,
-    proof: Proof::None,
+    proof: None,
 };
 
 /// The page, without machine and entries.
@@ -62,7 +62,7 @@ fn write(program: &Program, job: &Job, out: &mut dyn Write) -> io::Result<()> {
         };
         let [x, y] = [entry.step.to.x, entry.step.to.y].map(|value| fixed(value, DECIMALS));
         let [kx, ky] = entry.pulses;
-        writeln!(out, "[{op},{x},{y},{},{kx},{ky}],", entry.rpm)?;
+        writeln!(out, "[{op},{x},{y},{},{kx},{ky}],", exact(entry.rpm))?;
     }
     write!(out, "]{tail}")
 }

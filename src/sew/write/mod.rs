@@ -13,7 +13,7 @@ mod stitch_file;
 mod svg;
 mod target;
 
-pub use target::{Proof, Target};
+pub use target::Target;
 
 /// Every target; the first is the default.
 pub const TARGETS: &[Target] = &[

@@ -5,10 +5,13 @@
 
 use std::io::{self, Write};
 
-use super::target::{Proof, Target, nothing};
+use super::target::{Target, nothing};
 use crate::machine::{Job, Sewing};
 use crate::sew::program::{Move, Program};
 use crate::sew::stitches::Op;
+use crate::sew::verify::Bytes;
+use crate::units::US_PER_S;
+use crate::units::array::header;
 use crate::units::number::{push_fixed, push_integer};
 
 pub(super) const ROWS: Target = Target {
@@ -17,7 +20,7 @@ pub(super) const ROWS: Target = Target {
     extension: "pulses.csv",
     refusals: nothing,
     write: rows,
-    proof: Proof::PulseRows,
+    proof: Some(Bytes::PulseRows),
 };
 
 pub(super) const RECORDS: Target = Target {
@@ -26,19 +29,16 @@ pub(super) const RECORDS: Target = Target {
     extension: "pulses.npy",
     refusals: nothing,
     write: records,
-    proof: Proof::PulseRecords,
+    proof: Some(Bytes::PulseRecords),
 };
 
-/// Microseconds in a second.
-const US_PER_S: f64 = 1e6;
 /// Decimals of times, microseconds.
 const DECIMALS: u32 = 3;
 /// Bytes that are collected before they are written.
 const BLOCK_BYTES: usize = 1 << 16;
-/// Bytes before the first record: a multiple of 64, so that memory maps are aligned.
-const HEADER_BYTES: usize = 256;
-/// Magic string, version 1.0.
-const MAGIC: &[u8] = b"\x93NUMPY\x01\x00";
+/// Names and types of the fields of a record.
+const FIELDS: &str = "('t_us', '<f8'), ('entry', '<u4'), ('rpm', '<u2'), ('thread', '<u2'), ('op', '|u1'), \
+                      ('x', '|i1'), ('y', '|i1')";
 
 /// A row: the time in microseconds, and the pulse of X and of Y, of which one is 0.
 type Pulse = (f64, [i8; 2]);
@@ -119,7 +119,7 @@ fn rows(program: &Program, job: &Job, out: &mut dyn Write) -> io::Result<()> {
 
 fn records(program: &Program, job: &Job, out: &mut dyn Write) -> io::Result<()> {
     let rows = |pulses: [i64; 2]| pulses.iter().map(|pulses| pulses.unsigned_abs()).sum::<u64>().max(1);
-    out.write_all(&header(program.moves(job).map(|entry| rows(entry.pulses)).sum()))?;
+    out.write_all(&header(FIELDS, program.moves(job).map(|entry| rows(entry.pulses)).sum()))?;
     each(program, job, out, |block, entry, thread, (time, [x, y])| {
         block.extend_from_slice(&time.to_le_bytes());
         block.extend_from_slice(&entry.entry.to_le_bytes());
@@ -127,19 +127,4 @@ fn records(program: &Program, job: &Job, out: &mut dyn Write) -> io::Result<()> 
         block.extend_from_slice(&thread.to_le_bytes());
         block.extend_from_slice(&[op(entry.step.op).0, x.cast_unsigned(), y.cast_unsigned()]);
     })
-}
-
-/// The header of an array of `count` records: a Python literal, padded with blanks and ended by a line feed.
-fn header(count: u64) -> Vec<u8> {
-    let mut bytes = MAGIC.to_vec();
-    let length = HEADER_BYTES - MAGIC.len() - 2;
-    bytes.extend_from_slice(&(length as u16).to_le_bytes());
-    let fields = "('t_us', '<f8'), ('entry', '<u4'), ('rpm', '<u2'), ('thread', '<u2'), ('op', '|u1'), \
-                  ('x', '|i1'), ('y', '|i1')";
-    let text = format!("{{'descr': [{fields}], 'fortran_order': False, 'shape': ({count},), }}");
-    bytes.extend_from_slice(text.as_bytes());
-    debug_assert!(bytes.len() < HEADER_BYTES, "a count has 20 digits at most");
-    bytes.resize(HEADER_BYTES - 1, b' ');
-    bytes.push(b'\n');
-    bytes
 }

@@ -2,9 +2,7 @@
 
 use crate::sew::program::Program;
 use crate::sew::stitches::{Op, Step};
-
-/// Units in a millimetre.
-const PER_MM: f64 = 10.0;
+use crate::units::TENTHS_PER_MM;
 
 /// What a record says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,5 +43,5 @@ pub(super) fn records(program: &Program, longest: i64, mut each: impl FnMut(Reco
 
 /// Where the needle stands behind an entry, tenths of a millimetre.
 pub(super) fn place(step: &Step) -> [i64; 2] {
-    [step.to.x, step.to.y].map(|value| (value * PER_MM).round() as i64)
+    [step.to.x, step.to.y].map(|value| (value * TENTHS_PER_MM).round() as i64)
 }

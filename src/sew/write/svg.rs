@@ -3,11 +3,12 @@
 use std::io::{self, Write};
 
 use super::markup::{color, extent, mm, path, speeds};
-use super::target::{Proof, Target, nothing};
+use super::target::{Target, nothing};
 use crate::geom::Point;
 use crate::machine::Job;
 use crate::sew::program::Program;
 use crate::sew::stitches::Op;
+use crate::units::number::exact;
 
 pub(super) const TARGET: Target = Target {
     name: "svg",
@@ -15,11 +16,13 @@ pub(super) const TARGET: Target = Target {
     extension: "svg",
     refusals: nothing,
     write,
-    proof: Proof::None,
+    proof: None,
 };
 
 /// Free space around the pattern, mm; the legend stands in it.
 const MARGIN: f64 = 12.0;
+/// From the left edge to the legend, mm.
+const LEGEND_MARGIN: f64 = 3.0;
 /// Radius of a needle point, mm.
 const NEEDLE: f64 = 0.3;
 /// Rows of the legend.
@@ -29,7 +32,9 @@ const LEGEND: [(&str, &str); 4] =
 fn write(program: &Program, job: &Job, out: &mut dyn Write) -> io::Result<()> {
     let extent = extent(program);
     let range = speeds(program, job);
-    let (width, height) = (extent.max.x - extent.min.x + 2.0 * MARGIN, extent.max.y - extent.min.y + 2.0 * MARGIN);
+    // The legend has room beside a small pattern, too.
+    let width = (extent.max.x - extent.min.x + 2.0 * MARGIN).max(legend_width());
+    let height = extent.max.y - extent.min.y + 2.0 * MARGIN;
     writeln!(
         out,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}mm\" height=\"{1}mm\" viewBox=\"{2} {3} {0} {1}\">",
@@ -68,7 +73,12 @@ fn threads(program: &Program, job: &Job, range: [f64; 2], out: &mut dyn Write) -
             return Ok(());
         }
         let data = path(points);
-        writeln!(out, "<path stroke=\"{}\" d=\"{data}\"><title>{speed} rpm</title></path>", color(speed, range))
+        writeln!(
+            out,
+            "<path stroke=\"{}\" d=\"{data}\"><title>{} rpm</title></path>",
+            color(speed, range),
+            exact(speed)
+        )
     };
     for entry in program.moves(job) {
         if entry.rpm != speed {
@@ -106,9 +116,19 @@ fn marks(program: &Program, out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
+/// Room for a mark and its text, mm.
+fn row_width(text: &str) -> f64 {
+    4.0 + 1.75 * text.len() as f64
+}
+
+/// Room for the legend and its margins, mm.
+fn legend_width() -> f64 {
+    2.0 * LEGEND_MARGIN + LEGEND.iter().map(|(_, text)| row_width(text)).sum::<f64>()
+}
+
 /// What the marks mean, and the colours of least and greatest speed.
 fn legend(corner: Point, top: f64, range: [f64; 2], out: &mut dyn Write) -> io::Result<()> {
-    let (mut x, y) = (corner.x - MARGIN + 3.0, top - MARGIN + 4.0);
+    let (mut x, y) = (corner.x - MARGIN + LEGEND_MARGIN, top - MARGIN + 4.0);
     for (class, text) in LEGEND {
         if class == "jump" {
             writeln!(out, "<path class=\"jump\" d=\"M{},{} h3\"/>", mm(x - 1.5), mm(y - 1.0))?;
@@ -116,12 +136,12 @@ fn legend(corner: Point, top: f64, range: [f64; 2], out: &mut dyn Write) -> io::
             writeln!(out, "<circle class=\"{class}\" cx=\"{}\" cy=\"{}\" r=\".8\"/>", mm(x), mm(y - 1.0))?;
         }
         writeln!(out, "<text x=\"{}\" y=\"{}\">{text}</text>", mm(x + 2.2), mm(y))?;
-        x += 4.0 + 1.75 * text.len() as f64;
+        x += row_width(text);
     }
-    let mut x = corner.x - MARGIN + 3.0;
+    let mut x = corner.x - MARGIN + LEGEND_MARGIN;
     for rpm in range {
         writeln!(out, "<path stroke=\"{}\" d=\"M{},{} h3\"/>", color(rpm, range), mm(x - 1.5), mm(y + 3.6))?;
-        writeln!(out, "<text x=\"{}\" y=\"{}\">{rpm} rpm</text>", mm(x + 2.2), mm(y + 4.6))?;
+        writeln!(out, "<text x=\"{}\" y=\"{}\">{} rpm</text>", mm(x + 2.2), mm(y + 4.6), exact(rpm))?;
         x += 22.0;
     }
     Ok(())

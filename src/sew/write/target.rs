@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use crate::diagnostic::Diagnostics;
 use crate::machine::Job;
 use crate::sew::program::Program;
+use crate::sew::verify::Bytes;
 
 /// What a program is written as: a row of [`TARGETS`](super::TARGETS).
 #[derive(Debug)]
@@ -19,27 +20,8 @@ pub struct Target {
     pub refusals: fn(&Program, &Job, &mut Diagnostics),
     /// Writes it.
     pub write: fn(&Program, &Job, &mut dyn Write) -> io::Result<()>,
-    /// How its bytes are judged.
-    pub proof: Proof,
-}
-
-/// How the bytes of a target are judged.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Proof {
-    /// As pulses, rows of text.
-    PulseRows,
-    /// As pulses, records.
-    PulseRecords,
-    /// As entries of a queue, rows of text.
-    QueueRows,
-    /// As entries of a queue, JSON.
-    QueueJson,
-    /// As a DST file.
-    Dst,
-    /// As an EXP file.
-    Exp,
-    /// Pictures: the pulses of the same program are judged.
-    None,
+    /// How its bytes are judged; `None` of pictures: the pulses of the same program are.
+    pub proof: Option<Bytes>,
 }
 
 /// For targets that can express everything.

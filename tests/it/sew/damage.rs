@@ -109,7 +109,7 @@ const NPY_BODY: usize = 256;
 
 #[rustfmt::skip] // a table: a damage a row
 const BYTE_DAMAGES: &[ByteDamage] = &[
-    ("a stitch of a DST file is a tenth longer", "dst", "sew-verify/decoded", |bytes| bytes[DST_BODY + 90] ^= 0x01),
+    ("a stitch of a DST file is a tenth longer", "dst", "sew-verify/needle-point", |bytes| bytes[DST_BODY + 90] ^= 0x01),
     ("a stitch of a DST file is left out", "dst", "sew-verify/entries", |bytes| _ = bytes.drain(DST_BODY + 90..DST_BODY + 93)),
     ("a stitch of a DST file becomes a jump", "dst", "sew-verify/entries", |bytes| bytes[DST_BODY + 92] |= 0x80),
     ("a DST file without its end", "dst", "sew-verify/format", |bytes| bytes.truncate(bytes.len() - 3)),
@@ -122,7 +122,7 @@ const BYTE_DAMAGES: &[ByteDamage] = &[
         let at = at.expect("a trim");
         bytes.drain(at..at + 9);
     }),
-    ("a stitch of an EXP file is longer", "exp", "sew-verify/decoded", |bytes| bytes[61] = bytes[61].wrapping_add(2)),
+    ("a stitch of an EXP file is longer", "exp", "sew-verify/needle-point", |bytes| bytes[61] = bytes[61].wrapping_add(2)),
     ("an EXP file that is cut off", "exp", "sew-verify/format", |bytes| _ = bytes.pop()),
     ("a command of an EXP file that is none", "exp", "sew-verify/format", |bytes| { let i = (0..bytes.len()).find(|&i| bytes[i] == 0x80).expect("a jump"); bytes[i + 1] = 0x55; }),
     ("a trim of an EXP file is left out", "exp", "sew-verify/commands", |bytes| { let i = bytes.windows(2).position(|two| two == [0x80, 0x80]).expect("a trim"); bytes.drain(i..i + 4); }),

@@ -46,7 +46,7 @@ fn random_patterns_are_proven_in_every_form_and_mode() {
         let Some(program) = program else { panic!("{i}: {said}\n{}", String::from_utf8_lossy(&queue)) };
         for target in ["queue", "jsonl", "pulses", "pulses-npy", "dst", "exp"] {
             let bytes = written(&program, &job, target);
-            let broken = broken(&program, &[], &job, (target, &bytes));
+            let broken = broken(&program, &queue, &job, (target, &bytes));
             assert!(
                 broken.is_empty(),
                 "{i} {target}: {broken:?} {:?}\n{}",
@@ -185,4 +185,50 @@ fn one_long_stitch_costs_what_the_equations_say() {
     let (stitches, rpm, split) = time(&job);
     assert_eq!((stitches, rpm), (204, 3200.0));
     assert!((split - 60.0 / 3200.0 - 3.81).abs() < 0.005);
+}
+
+/// Patterns and keys that a long search found, each refused once by the verifier.
+const FOUND: [(&str, &str, &[&str]); 3] = [
+    (
+        "a run ends with stitches too short on both sides of it",
+        "-51.8828,101.6025,straight open\n-50.6600,99.3014,\n-52.4821,102.7218,\n-52.4555,102.6742,\n-52.5212,102.7865,\n",
+        &[],
+    ),
+    (
+        "a limit by pitch lets long stitches fit, but not shorter ones",
+        "-3.958654,-116.258676,straight open\n-3.615435,-115.520800,\n-1.652429,-117.103599,\n-0.230505,-115.340113,\n-2.5,-113,\n",
+        &[
+            "sewing.on_long=split",
+            "sewing.start_hz=1500",
+            "sewing.max_rpm=4500",
+            "sewing.corner_deg=150",
+            "sewing.speeds=[[2, 1800], [3, 1500]]",
+        ],
+    ),
+    (
+        "a zigzag around a curve as narrow as its pitch",
+        "0,0,zigzag\n0.3,0.1,\n0.5,0.35,\n0.5,0.65,\n0.3,0.9,\n0,1,\n-0.3,0.9,\n-0.5,0.65,\n-0.5,0.35,\n-0.3,0.1,\n0,0,\n0.3,0.1,\n",
+        &[
+            "sewing.on_long=split",
+            "sewing.step_mm=0.0125",
+            "sewing.feed_acceleration_mm_s2=1000",
+            "sewing.max_hz=4000",
+            "sewing.min_pitch_mm=0.05",
+            "sewing.zigzag_width_mm=0.3",
+        ],
+    ),
+];
+
+#[test]
+fn what_a_search_found_refused_is_sewn() {
+    for (name, seam, set) in FOUND {
+        let set: Vec<String> = set.iter().map(|key| (*key).to_owned()).collect();
+        let job = Job { profile: cutc::machine::load(None, &set).expect("legal"), ..Job::default() };
+        let (program, said, _) = plan("x.csv", format!("x_mm,y_mm,element\n{seam}").into_bytes(), &job);
+        let program = program.unwrap_or_else(|| panic!("{name}: {said}"));
+        for target in ["queue", "pulses", "pulses-npy", "dst"] {
+            let bytes = written(&program, &job, target);
+            assert_eq!(broken(&program, &[], &job, (target, &bytes)), [""; 0], "{name}, {target}");
+        }
+    }
 }

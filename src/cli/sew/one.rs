@@ -1,0 +1,54 @@
+//! One file: what is said of it is said at length.
+
+use std::path::{Path, PathBuf};
+
+use super::arguments::Arguments;
+use super::sewn::{Programs, Sewing};
+use super::{place, summary};
+use crate::cli::choices::Format;
+use crate::cli::draft::MadeFolders;
+use crate::cli::files;
+use crate::cli::finished::{DONE, FAULTY, Finished, Stdout, failure, say};
+
+pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished> {
+    let targets = place::targets(arguments)?;
+    let is_stdout = arguments.out.as_deref().is_some_and(files::is_dash);
+    if is_stdout && (arguments.format == Format::Json || targets.len() > 1) {
+        return Err(failure(
+            "`-o -` is one place for one program, without `--format json`",
+            "write to files with -o DIRECTORY",
+        ));
+    }
+    let paths = if is_stdout { Vec::new() } else { place::paths(arguments, file, &targets)? };
+    let source = files::read(file)?;
+    let job = match arguments.machine.job()? {
+        Ok(job) => arguments.of(job),
+        Err(mut refused) => {
+            // A slip in an argument is no verdict on the program that is there.
+            if refused.code == FAULTY {
+                refused.stderr.extend(paths.iter().map(|path| files::move_aside(path)));
+            }
+            return Ok(refused);
+        }
+    };
+    let _made = MadeFolders::of(paths.iter().map(PathBuf::as_path))?;
+    let sewn = Sewing { arguments, targets: &targets, job: &job }.sew(&source, &paths)?;
+    let json = (arguments.format == Format::Json).then(|| sewn.json(&source, &job));
+    let mut said = sewn.said;
+    let Some(Programs { figures, written, .. }) = sewn.made else {
+        return Ok(Finished::text(json.unwrap_or_default(), said, FAULTY));
+    };
+    let text = summary::text(&source, &figures, arguments.messages.quiet);
+    let stdout = match (json, written.stdout) {
+        (_, Some(spool)) => {
+            said.push_str(&text);
+            Stdout::Program(spool)
+        }
+        (Some(json), None) => Stdout::Text(json),
+        (None, None) => Stdout::Text(text),
+    };
+    for path in paths.iter().filter(|_| !arguments.messages.quiet) {
+        say(&mut said, format_args!("wrote `{}`", path.display()));
+    }
+    Ok(Finished { stdout, stderr: said, code: DONE })
+}

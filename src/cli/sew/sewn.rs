@@ -1,0 +1,105 @@
+//! A file from its bytes to programs in their places: what `cutc sew` does with each.
+
+use std::path::PathBuf;
+
+use super::arguments::Arguments;
+use super::made::{Writing, Written};
+use super::summary;
+use crate::cli::finished::say;
+use crate::cli::options::counted;
+use crate::cli::{files, report};
+use crate::diagnostic::{Diagnostic, Diagnostics, Severity, code, render_with};
+use crate::machine::Job;
+use crate::sew::{self, Asked, Estimate, Fifo, Made, Program, Target};
+use crate::source::Source;
+use crate::units::number::fixed;
+
+/// What is made of files.
+pub(super) struct Sewing<'a> {
+    pub(super) arguments: &'a Arguments,
+    pub(super) targets: &'a [&'static Target],
+    pub(super) job: &'a Job,
+}
+
+/// What became of a file.
+pub(super) struct Sewn {
+    /// What was found.
+    pub(super) diagnostics: Diagnostics,
+    /// What was written; `None` when it was refused.
+    pub(super) made: Option<Programs>,
+    /// All that is said of it on standard error.
+    pub(super) said: String,
+}
+
+/// What was written of a file.
+pub(super) struct Programs {
+    pub(super) estimate: Estimate,
+    pub(super) figures: summary::Figures,
+    pub(super) written: Written,
+}
+
+impl Sewing<'_> {
+    /// Sews a file: programs to their paths, or the only one for standard output. What is refused leaves nothing; older
+    /// programs of these names are moved aside.
+    pub(super) fn sew(&self, source: &Source, paths: &[PathBuf]) -> anyhow::Result<Sewn> {
+        let Self { arguments, targets, job } = *self;
+        let asked = arguments.asked();
+        let mut diagnostics = Diagnostics::default();
+        let mut made = None;
+        if let Some((program, fifo)) = planned(source, &asked, job, &mut diagnostics) {
+            let of = Made { program: &program, source, job };
+            let options = &typed(&asked);
+            let written =
+                Writing { made: of, targets, options, verify: !arguments.no_verify }.write(paths, &mut diagnostics)?;
+            let figures = summary::Figures::of(of, fifo, targets, &written.verdicts);
+            made = Some(Programs { estimate: sew::estimate(&program, job), figures, written });
+        }
+        let mut said = render_with(&diagnostics, source, arguments.messages.detail(arguments.format));
+        if diagnostics.has_errors() {
+            made = None;
+            let errors = counted(diagnostics.count(Severity::Error), "error");
+            let warnings = counted(diagnostics.count(Severity::Warning), "warning");
+            say(&mut said, format_args!("{}: {errors}, {warnings}; no program was written", source.name()));
+            said.extend(paths.iter().map(|path| files::move_aside(path)));
+        }
+        Ok(Sewn { diagnostics, made, said })
+    }
+}
+
+impl Sewn {
+    /// The figures as JSON, all null of what was refused.
+    pub(super) fn json(&self, source: &Source, job: &Job) -> String {
+        let blank = || report::nothing(&summary::Figures::default());
+        let figures =
+            self.made.as_ref().map(|made| serde_json::to_value(&made.figures).expect("figures are plain data"));
+        summary::json(figures.unwrap_or_else(blank), &self.diagnostics, source, job)
+    }
+}
+
+/// What is sewn, and how the queue fares; `None` when nothing can be sewn.
+fn planned(source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) -> Option<(Program, Fifo)> {
+    let program = sew::plan(source, asked, job, out)?;
+    let fifo = sew::simulate(&program, job);
+    if fifo.underruns > 0 {
+        let message = format!(
+            "a queue of {} entries, filled at {} a second, runs dry {} times from entry {} on; the machine waits {} s",
+            fifo.depth,
+            fifo.producer_hz,
+            fifo.underruns,
+            fifo.first_underrun,
+            fixed(fifo.waited_s, 1)
+        );
+        let needed = fixed(fifo.needed_hz.ceil(), 0);
+        let hint = format!("a host of {needed} entries a second keeps up (`sewing.producer_hz`)");
+        out.push(Diagnostic::new(&code::SEW_UNDERRUN, message).hint(hint));
+    }
+    Some((program, fifo))
+}
+
+/// What was asked of a file, as it is typed.
+fn typed(asked: &Asked) -> String {
+    let from = asked.from.as_ref().map(|from| format!("--from {from}"));
+    let line = asked.line.as_ref().map(|line| format!("--line {line}"));
+    let inset = (asked.inset != 0.0).then(|| format!("--inset {}", asked.inset));
+    [from, line, inset].into_iter().flatten().collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,60 @@
+//! Recognises files of sewing machines, which `cutc sew` reads, so that other commands can say so.
+
+/// What some programs write before text in UTF-8.
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+/// The first row of a pattern.
+const PATTERN: &[u8] = b"x_mm,y_mm,element";
+/// The first row of a stitch queue.
+const QUEUE: &[u8] = b"op,dx_mm,dy_mm,value";
+/// What the header of a DST file begins with, and its length.
+const DST: &[u8] = b"LA:";
+const DST_HEADER_BYTES: usize = 512;
+
+/// Whether a text is a pattern: seams as lists of points.
+pub fn is_pattern(bytes: &[u8]) -> bool {
+    begins_with(bytes, PATTERN)
+}
+
+/// Whether a text is the entries of a stitch queue.
+pub fn is_queue(bytes: &[u8]) -> bool {
+    begins_with(bytes, QUEUE)
+}
+
+/// Whether a file is a stitch file of Tajima machines.
+pub fn is_dst(bytes: &[u8]) -> bool {
+    bytes.len() >= DST_HEADER_BYTES && bytes.starts_with(DST)
+}
+
+/// Whether a name is one of a stitch file; of those of Melco machines nothing else tells.
+pub(super) fn is_stitch_file(name: &str) -> bool {
+    let extension = name.rsplit_once('.').map(|(_, extension)| extension.to_ascii_lowercase());
+    matches!(extension.as_deref(), Some("dst" | "exp"))
+}
+
+/// Whether the first line of a text is this one, in capital letters or small ones and whatever blanks are between, or begins
+/// with it.
+fn begins_with(bytes: &[u8], header: &[u8]) -> bool {
+    let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
+    let mut found = bytes.iter().filter(|byte| !matches!(byte, b' ' | b'\t'));
+    header.iter().all(|known| found.next().is_some_and(|byte| byte.eq_ignore_ascii_case(known)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_header_is_known_behind_the_mark_that_spreadsheets_write() {
+        let texts =
+            [("op,x\n", true), ("\u{feff}OP,X", true), ("op, x\r\n", true), ("op", false), ("\u{feff}xop,x", false)];
+        for (text, is_known) in texts {
+            assert_eq!(begins_with(text.as_bytes(), b"op,x"), is_known, "{text:?}");
+        }
+    }
+
+    #[test]
+    fn stitch_files_are_known_by_their_names_and_headers() {
+        assert!(is_stitch_file("a/seat.EXP") && is_stitch_file("x.dst") && !is_stitch_file("exp"));
+        assert!(is_dst(&[b"LA:".as_slice(), &[b' '; 509]].concat()) && !is_dst(b"LA:"));
+    }
+}

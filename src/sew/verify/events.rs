@@ -1,0 +1,116 @@
+//! What a file of stitches says, event by event, decoded for the audit of its reader.
+
+use super::records::{File, Kind, Record};
+use crate::geom::Point;
+use crate::sew::stitches::{Op, Stitches};
+use crate::units::TENTHS_PER_MM;
+
+/// What happens, and where the needle stands behind it, mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Event {
+    /// The needle pierces the cloth.
+    Stitch(Point),
+    /// The cloth was moved with the needle up.
+    Jump(Point),
+    /// The thread is cut.
+    Trim,
+    /// The machine waits.
+    Stop,
+    /// The thread of that number is taken.
+    Thread(u16),
+}
+
+/// What is sewn, each with its entry, from 1.
+pub(super) fn sewn(stitches: &Stitches) -> Vec<(Event, u32)> {
+    let event = |op: Op, to: Point| match op {
+        Op::Stitch => Event::Stitch(to),
+        Op::Jump => Event::Jump(to),
+        Op::Trim => Event::Trim,
+        Op::Stop => Event::Stop,
+        Op::Color(thread) => Event::Thread(thread),
+    };
+    stitches.steps.iter().zip(1..).map(|(step, entry)| (event(step.op, step.to), entry)).collect()
+}
+
+/// What the records of a stitch file say: jumps in a row are one move, and cut a thread that sews where their number says
+/// so; a stop is the next thread.
+pub(super) fn of_records(file: &File) -> Vec<Event> {
+    let mut events = Events { list: Vec::new(), jumps: 0, needle: [0; 2], trim_jumps: file.trim_jumps };
+    let (mut at, mut thread) = ([0; 2], 1_u16);
+    for &Record { kind, at: to } in &file.records {
+        match kind {
+            Kind::Jump => events.jumps += 1,
+            Kind::Stitch => {
+                events.land(at);
+                events.list.push(Event::Stitch(place(to)));
+                events.needle = to;
+            }
+            Kind::Trim => {
+                events.land(at);
+                events.list.push(Event::Trim);
+            }
+            Kind::Stop => {
+                events.land(at);
+                thread = thread.saturating_add(1);
+                events.list.push(Event::Thread(thread));
+                events.jumps = usize::from(to != at);
+            }
+        }
+        at = to;
+    }
+    events.land(at);
+    events.list
+}
+
+struct Events {
+    list: Vec<Event>,
+    /// Jumps in a row.
+    jumps: usize,
+    /// Where the needle stood before them, tenths of a millimetre.
+    needle: [i64; 2],
+    /// From so many on they cut the thread.
+    trim_jumps: Option<usize>,
+}
+
+impl Events {
+    /// The jumps before an event end at a place.
+    fn land(&mut self, at: [i64; 2]) {
+        let jumps = std::mem::take(&mut self.jumps);
+        let sews = matches!(self.list.last(), Some(Event::Stitch(_)));
+        if sews && jumps > 0 && self.trim_jumps.is_some_and(|least| jumps >= least) {
+            self.list.push(Event::Trim);
+        }
+        if at != self.needle {
+            self.list.push(Event::Jump(place(at)));
+            self.needle = at;
+        }
+    }
+}
+
+fn place(at: [i64; 2]) -> Point {
+    Point::new(at[0] as f64 / TENTHS_PER_MM, at[1] as f64 / TENTHS_PER_MM)
+}
+
+/// What the rows of a queue say; `None` when one says nothing.
+pub(super) fn of_queue(bytes: &[u8]) -> Option<Vec<Event>> {
+    let text = String::from_utf8_lossy(bytes);
+    let (mut events, mut at) = (Vec::new(), Point::origin());
+    for row in text.lines().skip(1).filter(|row| !row.trim().is_empty()) {
+        let mut fields = row.split(',').map(str::trim);
+        let [word, dx, dy, value] = std::array::from_fn(|_| fields.next().unwrap_or_default());
+        if matches!(word, "STITCH" | "JUMP") {
+            at = Point::new(at.x + dx.parse::<f64>().ok()?, at.y + dy.parse::<f64>().ok()?);
+        }
+        events.push(match word {
+            "STITCH" => Event::Stitch(at),
+            "JUMP" => Event::Jump(at),
+            "TRIM" => Event::Trim,
+            "STOP" => Event::Stop,
+            "COLOR" => Event::Thread(value.parse().ok()?),
+            "SPEED" => continue,
+            "END" => return Some(events),
+            _ => return None,
+        });
+    }
+    None
+}

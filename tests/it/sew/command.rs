@@ -1,0 +1,93 @@
+//! `cutc sew` as it is used: many files, files that are none, what is said of pictures; and what other commands say of
+//! files of sewing machines.
+
+use super::fixture;
+use crate::support::room::{DONE, FAULTY, Room, USAGE};
+
+#[test]
+fn many_files_are_sewn_below_one_folder() {
+    let room = Room::new();
+    std::fs::create_dir_all(room.at("in/b")).expect("writable");
+    room.write("in/a.dst", &fixture("sew/seat.dst"));
+    room.write("in/b/c.csv", &fixture("sew/pocket.csv"));
+    room.write("in/bad.dst", &fixture("invalid/sew/record.dst"));
+    let said = room.says("sew in -t queue,svg -o out", FAULTY);
+    assert!(said.contains("3 files, 2 done, 1 failed") && said.contains("FAILED sew/record"), "{said}");
+    assert!(said.contains("stitches") && said.contains("thread m"), "{said}");
+    for name in ["out/a.queue.csv", "out/a.svg", "out/b/c.queue.csv", "out/b/c.svg.meta.json"] {
+        assert!(room.has(name), "{name}");
+    }
+    assert!(!room.has("out/bad.queue.csv"));
+    // What one alone gives.
+    room.says("sew in/a.dst -t queue -o one/", DONE);
+    assert_eq!(room.read("one/a.queue.csv"), room.read("out/a.queue.csv"));
+    let (json, _) = room.expect("sew in/a.dst in/bad.dst -t queue -o out --format json", FAULTY);
+    let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    assert_eq!((&json[0]["format"], &json[1]["format"]), (&"dst".into(), &serde_json::Value::Null));
+    assert!(room.says("sew in/a.dst in/b/c.csv -o x.queue.csv", USAGE).contains("one place for many programs"));
+    room.write("in/a.exp", &fixture("sew/three-seams.exp"));
+    assert!(room.says("sew in/a.dst in/a.exp -t queue -o out", USAGE).contains("would collide"));
+    assert!(room.says("sew in/*.none", USAGE).contains(".dst"));
+}
+
+#[test]
+fn pictures_are_not_said_to_be_read_back() {
+    let room = Room::new();
+    room.write("pocket.csv", &fixture("sew/pocket.csv"));
+    let said = room.says("sew pocket.csv -t svg", DONE);
+    assert!(said.contains("svg, a picture, is not read back") && said.contains("hold of pulses-npy"), "{said}");
+    let (json, _) = room.expect("sew pocket.csv -t svg,queue --format json", DONE);
+    let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    let judged = |i: usize| (json["verified"][i]["target"].clone(), json["verified"][i]["judged"].clone());
+    assert_eq!([judged(0), judged(1)], [("svg".into(), "queue".into()), ("queue".into(), "queue".into())]);
+}
+
+#[test]
+fn other_commands_say_who_reads_files_of_sewing_machines() {
+    let room = Room::new();
+    let files = ["sew/seat.dst", "sew/three-seams.exp", "sew/pocket.csv", "sew/headline.csv"];
+    for name in files {
+        let file = name.rsplit('/').next().expect("a name");
+        room.write(file, &fixture(name));
+        for command in ["check", "info", "compile -o made/"] {
+            let said = room.says(&format!("{command} {file}"), FAULTY);
+            assert!(said.contains("`cutc sew` reads"), "{command} {file}: {said}");
+        }
+    }
+}
+
+#[test]
+fn a_file_that_nothing_reads_is_told_all_that_is_read() {
+    let room = Room::new();
+    room.write("x.txt", b"hello world\n");
+    for file in ["x.txt", "junk.cut"] {
+        let said = room.says(&format!("sew {file}"), FAULTY);
+        assert!(said.contains("reads pattern, queue, dst, exp, and the lines of iso, hpgl"), "{said}");
+    }
+}
+
+#[test]
+fn records_are_called_what_they_are_in_the_file() {
+    let room = Room::new();
+    room.write("line.csv", b"x_mm,y_mm,element\n0,0,\n0,9,\n\n0,20,\n13,20,\n");
+    let said = room.says("sew line.csv --set sewing.pitch_mm=12.7 --on-long reject", FAULTY);
+    assert!(said.contains("the stitch of line 2, 7.600 mm long"), "{said}");
+    let said = room.says("sew circle.cut --set sewing.pitch_mm=12.7 --on-long reject", FAULTY);
+    assert!(said.contains("the stitch of block"), "{said}");
+}
+
+#[test]
+fn the_legend_of_a_small_picture_is_not_cut_off() {
+    let room = Room::new();
+    room.write("dot.csv", b"x_mm,y_mm,element\n0,0,\n5,0,\n");
+    room.says("sew dot.csv -t svg", DONE);
+    let svg = room.text("dot.svg");
+    let width = svg.split_once("width=\"").expect("a width").1.split_once("mm").expect("in mm").0;
+    let left = svg.split_once("viewBox=\"").expect("a box").1.split_once(' ').expect("numbers").0;
+    let text = svg.split("<text x=\"").nth(4).expect("a row of the legend");
+    let (at, text) = text.split_once('"').expect("a place");
+    let letters = text.split_once('>').expect("text").1.split_once('<').expect("text").0.len();
+    let number = |text: &str| text.parse::<f64>().expect("a number");
+    // Letters of 3 mm are half as wide on average.
+    assert!(number(at) + 1.5 * letters as f64 <= number(left) + number(width), "{svg}");
+}
