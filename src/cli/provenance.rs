@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::files;
 use super::finished::say;
-use super::options::typed;
+use super::options::{file_name, typed};
 use super::report::pretty;
 use crate::back::{Proof, TARGETS, Target};
 use crate::ir::declaration::Declaration;
@@ -36,9 +36,20 @@ struct Provenance<'a> {
     /// how it moves.
     #[serde(skip_serializing_if = "Option::is_none")]
     declared: Option<&'a [Declaration]>,
+    /// The centre line that the marker follows; not there when there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    centre: Option<CentreFile>,
     /// What was chosen beside the whole marker and the knife, as it is typed; not there when nothing was.
     #[serde(skip_serializing_if = "String::is_empty")]
     options: String,
+}
+
+/// The file of a centre line.
+#[derive(Serialize)]
+struct CentreFile {
+    /// Without its directory.
+    file: String,
+    sha256: String,
 }
 
 /// Units of the setpoints.
@@ -78,10 +89,9 @@ pub(super) struct Made<'a> {
 /// The provenance of a program as JSON.
 pub(super) fn json(Made { source, job, target, verified, blake3, declared }: &Made) -> String {
     let is_moved = matches!(target.proof, Proof::Setpoints | Proof::Positions);
-    let name = Path::new(source.name()).file_name().map(|name| name.to_string_lossy().into_owned());
     pretty(&Provenance {
         version: env!("CARGO_PKG_VERSION"),
-        source: name.unwrap_or_else(|| source.name().to_owned()),
+        source: file_name(source),
         source_sha256: sha256_hex(source.bytes()),
         profile: job.origin.name(),
         profile_sha256: job.profile.digest(),
@@ -91,6 +101,10 @@ pub(super) fn json(Made { source, job, target, verified, blake3, declared }: &Ma
         verified: *verified,
         program_blake3: blake3,
         declared: is_moved.then_some(*declared),
+        centre: job
+            .centre
+            .as_ref()
+            .map(|centre| CentreFile { file: file_name(&centre.source), sha256: sha256_hex(centre.source.bytes()) }),
         options: typed(job),
     })
 }
@@ -167,6 +181,19 @@ pub(super) fn doubts(program: &Path, path: &Path, source: &Source, job: &Job) ->
             ),
         );
     }
+    let centre = job.centre.as_ref().map(|centre| sha256_hex(centre.source.bytes()));
+    if let (Some(told), Some(given)) = (meta["centre"]["sha256"].as_str(), &centre)
+        && told != given
+    {
+        say(
+            &mut said,
+            format_args!(
+                "warning: the program follows another centre line\n  --> {path}: `{}`, with other bytes\n  \
+                 = hint: name the file that it was compiled with with --centre",
+                meta["centre"]["file"].as_str().unwrap_or("another file")
+            ),
+        );
+    }
     doubt_options(&mut said, &meta, &path, job);
     said
 }
@@ -175,8 +202,11 @@ pub(super) fn doubts(program: &Path, path: &Path, source: &Source, job: &Job) ->
 fn doubt_options(said: &mut String, meta: &serde_json::Value, path: &impl std::fmt::Display, job: &Job) {
     let (made, asked) = (meta["options"].as_str().unwrap_or_default(), typed(job));
     if made != asked {
-        let made =
-            if made.is_empty() { "none of --pieces, --skip, --resume-from, --dry-run and --frame" } else { made };
+        let made = if made.is_empty() {
+            "none of --pieces, --skip, --resume-from, --dry-run, --frame and --centre"
+        } else {
+            made
+        };
         say(
             said,
             format_args!(

@@ -6,7 +6,7 @@
 use std::io::{self, Write};
 
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::machine::Centre;
+use crate::machine::CentreLine;
 use crate::source::{Source, Span};
 use crate::units::number::{push_fixed, short};
 
@@ -21,7 +21,7 @@ const ROW: &str =
     "a row is two numbers in mm, as in `125.5,-0.75`, and `conv_mm` is greater in each than in the one before";
 
 /// Reads a centre line; `None` when it has faults, which are diagnostics.
-pub fn read(source: Source, out: &mut Diagnostics) -> Option<Centre> {
+pub fn read(source: &Source, out: &mut Diagnostics) -> Option<CentreLine> {
     let mut rows: Vec<[f64; 2]> = Vec::new();
     let mut start = 0;
     let mut has_header = false;
@@ -57,7 +57,7 @@ pub fn read(source: Source, out: &mut Diagnostics) -> Option<Centre> {
         let hint = "give two at the least: where the conveyor begins, and where it ends";
         out.push(Diagnostic::new(&code::CENTRE_SHORT, message).hint(hint));
     }
-    if is_sound { Centre::new(source, rows) } else { None }
+    CentreLine::new(rows).filter(|_| is_sound)
 }
 
 /// A row, which the conveyor has come to behind another.
@@ -104,7 +104,7 @@ mod tests {
         write(&rows, &mut bytes).expect("a vector takes bytes");
         assert!(bytes.starts_with(b"conv_mm,centre_mm\n0.000,-0.125\n"));
         let mut out = Diagnostics::default();
-        let read = read(Source::new("centre.csv", bytes).expect("small"), &mut out).expect("a line");
+        let read = read(&Source::new("centre.csv", bytes).expect("small"), &mut out).expect("a line");
         assert_eq!((read.rows(), out.iter().len()), (&rows[..], 0));
     }
 }

@@ -17,6 +17,8 @@ const GAP: f64 = 42.0;
 const COLUMNS: usize = 910;
 /// Colours of what follows the cloth, in its order.
 const COLORS: [&str; 4] = ["#c22", "#b8b8b8", "#3a3", "#a4c"];
+/// Width of a letter of the legend, about.
+const LETTER: f64 = 6.4;
 /// Parts of an axis, at the most.
 const TICKS: f64 = 6.0;
 
@@ -67,11 +69,15 @@ fn head(names: &[&str], out: &mut dyn Write) -> io::Result<()> {
     )?;
     let entries = names.iter().zip(COLORS).map(|(name, color)| (*name, format!("stroke:{color}")));
     let cloth = ("centre of the cloth", "stroke:#222;stroke-dasharray:5 3".to_owned());
-    let mut x = LEFT;
-    for (name, style) in entries.chain([cloth]) {
-        writeln!(out, "<path style=\"{style};stroke-width:2\" d=\"M{},16 h18\"/>", fixed(x, 1))?;
-        writeln!(out, "<text class=\"small\" x=\"{}\" y=\"20\">{name}</text>", fixed(x + 22.0, 1))?;
-        x += 40.0 + 5.6 * name.len() as f64;
+    let (mut x, mut y) = (LEFT, 16.0);
+    for (name, style) in [cloth].into_iter().chain(entries) {
+        let width = 46.0 + LETTER * name.len() as f64;
+        if x + width > WIDTH {
+            (x, y) = (LEFT, y + 16.0);
+        }
+        writeln!(out, "<path style=\"{style};stroke-width:2\" d=\"M{},{y} h18\"/>", fixed(x, 1))?;
+        writeln!(out, "<text class=\"small\" x=\"{}\" y=\"{}\">{name}</text>", fixed(x + 22.0, 1), y + 4.0)?;
+        x += width;
     }
     Ok(())
 }

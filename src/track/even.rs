@@ -2,8 +2,8 @@
 
 /// Parts of the length of evening in which readings are averaged: a long log is no reason to fit many points.
 const BINS: f64 = 32.0;
-/// The least distance of rows, mm: the last decimal that is printed.
-const STEP: f64 = 0.001;
+/// The least distance of rows, mm: two of the last decimal that is printed.
+const STEP: f64 = 0.002;
 
 /// The line through readings (place of the conveyor, never going back, and centre, mm): each point is that of the parabola
 /// which fits the readings within half of `length` best (least squares; Savitzky and Golay 1964), so that neither slope nor
@@ -15,7 +15,14 @@ pub(super) fn even(readings: &[[f64; 2]], length: f64) -> Vec<[f64; 2]> {
         let near = &means[before(at - length / 2.0)..before(at + length / 2.0 + STEP)];
         [*at, fit(near, *at).unwrap_or(*mean)]
     };
-    means.iter().map(evened).collect()
+    let mut line: Vec<[f64; 2]> = means.iter().map(evened).collect();
+    // The line reaches as far as the readings do.
+    if let ([first, .., last], [[from, _], .., [to, _]]) = (&mut line[..], readings) {
+        for (row, at) in [(first, *from), (last, *to)] {
+            *row = evened(&[at, row[1]]);
+        }
+    }
+    line
 }
 
 /// Means of readings that lie within a distance of the first of them.
@@ -55,7 +62,10 @@ fn fit(points: &[[f64; 2]], at: f64) -> Option<f64> {
     };
     let whole = det([[s[0], s[1], s[2]], [s[1], s[2], s[3]], [s[2], s[3], s[4]]]);
     let value = det([[b[0], s[1], s[2]], [b[1], s[2], s[3]], [b[2], s[3], s[4]]]) / whole;
-    value.is_finite().then_some(value)
+    // Where the cloth jumps a parabola swings beyond: nobody has seen it there.
+    let [least, most] =
+        points.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], [_, y]| [least.min(*y), most.max(*y)]);
+    value.is_finite().then(|| value.clamp(least, most))
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use super::scenario::Scenario;
 use super::simulate::{self, Follower};
 use super::{law, log};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::machine::Tracking;
+use crate::machine::{CentreLine, Tracking};
 use crate::source::Source;
 
 /// What must be known for something that is written.
@@ -95,19 +95,8 @@ impl Tracked {
 
     /// The centre line at the place of the conveyor of each row, mm.
     fn along_centre(&self) -> Vec<f64> {
-        let mut behind = 0;
-        let line = &self.centre;
-        let along = |at: &f64| {
-            while behind < line.len() && line[behind][0] < *at {
-                behind += 1;
-            }
-            match (behind.checked_sub(1).map(|before| line[before]), line.get(behind)) {
-                (Some([from, start]), Some([to, end])) => start + (end - start) * (at - from) / (to - from),
-                (Some([_, centre]), None) => centre,
-                (None, next) => next.map_or(0.0, |[_, centre]| *centre),
-            }
-        };
-        if line.is_empty() { Vec::new() } else { self.conveyor.iter().map(along).collect() }
+        let line = CentreLine::new(self.centre.clone());
+        line.map_or_else(Vec::new, |line| self.conveyor.iter().map(|at| line.at(*at)).collect())
     }
 
     /// Where conveyor and centre of the cloth are by the readings that see both edges, mm: M = c - (I - J) q/2.
