@@ -10,8 +10,8 @@ use cutc::diagnostic::code;
 use cutc::front::DIALECTS;
 use cutc::machine::keys::{self, KEYS};
 use cutc::manual::{PAGES, Page, glossary};
-use cutc::{sew, track};
 use cutc::verify::RULES;
+use cutc::{sew, track};
 use yaml_rust2::{Yaml, YamlLoader};
 
 use crate::support::page::{blocks, commands, expect_same, page, search_path, section};

@@ -134,10 +134,15 @@ fn the_command_writes_all_or_nothing_and_says_how_well_the_cloth_is_followed() {
     assert!(stdout.contains("PI guide") && stdout.contains("older, two mechanisms, 10 mm/s"), "{stdout}");
     assert!(!room.has("step.commands.csv"), "nobody asked for it");
     room.expect("track --simulate step.toml -t log,centre --plot step.svg", DONE);
-    assert!(room.text("step.svg").starts_with("<svg ") && room.text("step.svg.meta.json").contains("\"target\": \"svg\""));
+    assert!(
+        room.text("step.svg").starts_with("<svg ") && room.text("step.svg.meta.json").contains("\"target\": \"svg\"")
+    );
     let (stdout, _) = room.expect("track step.log.csv", DONE);
     assert!(stdout.contains("301 samples") && stdout.contains("driving"), "{stdout}");
-    assert!(room.text("step.log.commands.csv").starts_with("t_s,i,j,status,direction,v_mm_s\n0.000000,32,32,centred,0,0.000\n"));
+    assert!(
+        room.text("step.log.commands.csv")
+            .starts_with("t_s,i,j,status,direction,v_mm_s\n0.000000,32,32,centred,0,0.000\n")
+    );
     let (stdout, _) = room.expect("track --simulate step.toml --format json", DONE);
     let json: serde_json::Value = serde_json::from_str(&stdout).expect("JSON");
     assert!(json["followers"][0]["settling_s"].as_f64().is_some_and(|time| time < 0.5), "{stdout}");

@@ -123,7 +123,7 @@ fn damage_that_passes_within_the_debounce_time_moves_nothing() {
             let simulation = run(&still, &track);
             assert!(simulation.followers[0].places.iter().all(|&place| place == 0.0), "{edge:?} {depth}");
             let seen = simulation.replay.commands.iter().filter(|command| command.status == Status::Waiting).count();
-            assert!(seen >= 50, "{seen} samples saw it");
+            assert!(seen >= 45, "{seen} samples saw it");
         }
     }
     // The same without it: what is tried does move a carriage.
@@ -170,7 +170,9 @@ fn two_controllers_that_read_the_same_say_the_same_to_the_bit() {
             }
             let [one, other] = [0, 1].map(|i: usize| controllers[i].step(&laws[i], reading));
             assert_eq!((one.status, one.velocity.to_bits()), (other.status, other.velocity.to_bits()));
-            assert!(one.velocity.abs() <= track.max_speed_mm_s && !(one.velocity == 0.0 && one.velocity.is_sign_negative()));
+            assert!(
+                one.velocity.abs() <= track.max_speed_mm_s && !(one.velocity == 0.0 && one.velocity.is_sign_negative())
+            );
             // A copy goes on as the one it was made of.
             if rng.u8(..) == 0 {
                 controllers[1] = controllers[0].clone();
