@@ -181,21 +181,26 @@ pub(super) fn doubts(program: &Path, path: &Path, source: &Source, job: &Job) ->
             ),
         );
     }
-    let centre = job.centre.as_ref().map(|centre| sha256_hex(centre.source.bytes()));
-    if let (Some(told), Some(given)) = (meta["centre"]["sha256"].as_str(), &centre)
+    doubt_centre(&mut said, &meta, &path, job);
+    doubt_options(&mut said, &meta, &path, job);
+    said
+}
+
+/// Says that a program follows another centre line than it is judged by, if it does.
+fn doubt_centre(said: &mut String, meta: &serde_json::Value, path: &impl std::fmt::Display, job: &Job) {
+    let given = job.centre.as_ref().map(|centre| sha256_hex(centre.source.bytes()));
+    if let (Some(told), Some(given)) = (meta["centre"]["sha256"].as_str(), &given)
         && told != given
     {
         say(
-            &mut said,
+            said,
             format_args!(
                 "warning: the program follows another centre line\n  --> {path}: `{}`, with other bytes\n  \
-                 = hint: name the file that it was compiled with with --centre",
+                 = hint: give the file that it was compiled with as --centre",
                 meta["centre"]["file"].as_str().unwrap_or("another file")
             ),
         );
     }
-    doubt_options(&mut said, &meta, &path, job);
-    said
 }
 
 /// Says that a program was made with other options than it is judged with, if it was.

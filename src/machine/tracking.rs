@@ -198,7 +198,7 @@ mod tests {
 
     #[test]
     fn a_debounce_time_is_filled_by_samples() {
-        let samples = |debounce_ms, period_ms| Tracking { debounce_ms, period_ms, ..Tracking::default() }.debounce();
+        let samples = |debounce_ms, period_ms| Tracking { period_ms, debounce_ms, ..Tracking::default() }.debounce();
         assert_eq!([samples(60.0, 10.0), samples(61.0, 10.0), samples(0.3, 0.1), samples(0.0, 10.0)], [6, 7, 3, 0]);
     }
 

@@ -53,7 +53,7 @@ pub fn read(source: &Source, out: &mut Diagnostics) -> Option<CentreLine> {
         }
     }
     if rows.len() < 2 && is_sound {
-        let message = format!("the centre line has {} rows", rows.len());
+        let message = format!("the centre line has fewer than two rows: {}", rows.len());
         let hint = "give two at the least: where the conveyor begins, and where it ends";
         out.push(Diagnostic::new(&code::CENTRE_SHORT, message).hint(hint));
     }

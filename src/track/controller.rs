@@ -37,7 +37,7 @@ pub struct Reading {
 /// What the controller makes of a reading.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Status {
-    /// I = J: nothing to do.
+    /// I = J, or one count beyond that on the way to it: nothing to do.
     Centred,
     /// Off centre, but not long enough yet.
     Waiting,
@@ -96,6 +96,8 @@ pub struct Controller {
     /// The side that is told, -1, 0 or 1, and for how many samples behind the first.
     side: i8,
     held: u16,
+    /// The side to which the carriage was driven last; 0 = to none yet.
+    driven: i8,
     /// |I - J| of the last samples, a ring.
     deviations: [u16; MOST_DEBOUNCE],
     at: u16,
@@ -119,7 +121,7 @@ impl Controller {
     /// A controller that has read nothing yet.
     pub const fn new() -> Self {
         let upstream = Upstream { raw: [0; MOST_FILTER], filtered: [0; MOST_DELAY], count: 0, raw_at: 0, at: 0 };
-        Self { side: 0, held: 0, deviations: [0; MOST_DEBOUNCE], at: 0, upstream }
+        Self { side: 0, held: 0, driven: 0, deviations: [0; MOST_DEBOUNCE], at: 0, upstream }
     }
 
     /// Takes the readings of a sample and says what the drive has to do.
@@ -142,6 +144,7 @@ impl Controller {
         if let Some(status) = alarm {
             self.side = 0;
             self.held = 0;
+            self.driven = 0;
             return Command { status, velocity: 0.0 };
         }
         let (status, back) = self.decide(law, left, right);
@@ -153,6 +156,9 @@ impl Controller {
     ///
     /// The speed is that of the least deviation of the debounce time: damage beside an edge that is being followed must not
     /// make the carriage jump, either. On the way to the centre that is the last one.
+    ///
+    /// One count to the other side than the carriage came from is centred: a ruler reads within one count, and where both
+    /// change at the same place no reading is ever I = J, so that the carriage would be driven to and fro for good.
     fn decide(&mut self, law: &Law, left: u16, right: u16) -> (Status, f64) {
         let side = match left.cmp(&right) {
             core::cmp::Ordering::Less => 1,
@@ -163,12 +169,13 @@ impl Controller {
         self.side = side;
         self.at = (self.at + 1) % MOST_DEBOUNCE as u16;
         self.deviations[usize::from(self.at)] = left.abs_diff(right);
-        if side == 0 {
+        if side == 0 || (left.abs_diff(right) == 1 && side == -self.driven) {
             return (Status::Centred, 0.0);
         }
         if self.held < law.debounce {
             return (Status::Waiting, 0.0);
         }
+        self.driven = side;
         let mut least = u16::MAX;
         for back in 0..=law.debounce.min(MOST_DEBOUNCE as u16 - 1) {
             let at = (self.at + MOST_DEBOUNCE as u16 - back) % MOST_DEBOUNCE as u16;
@@ -193,7 +200,7 @@ impl Upstream {
         let last = self.raw[usize::from(self.raw_at)];
         self.raw_at = (self.raw_at + 1) % MOST_FILTER as u16;
         // Where an edge is lost nothing is known of the centre: it is taken to stay.
-        let now = if is_lost { last } else { left as i16 - right as i16 };
+        let now = if is_lost { last } else { left.wrapping_sub(right).cast_signed() };
         self.raw[usize::from(self.raw_at)] = now;
         let (need, taken) = (window + delay, 2 * filter + 1);
         self.count = self.count.saturating_add(1).min(need.saturating_add(taken));

@@ -41,7 +41,7 @@ const NEEDED: usize = 3;
 /// Farthest places, mm, and latest times, s: no conveyor is as long, no shift either.
 const FARTHEST: f64 = 1e9;
 /// A sample is missing where the time to the next differs from the period by more than this part of it.
-const MISSING: f64 = 0.5;
+const MISSING: f64 = 0.4;
 
 /// Reads a log. Faults of the data are diagnostics; rows that have one are left out.
 pub(super) fn read(source: &Source, track: &Tracking, out: &mut Diagnostics) -> Vec<Row> {

@@ -22,7 +22,7 @@ mod tests {
         let track = Tracking::default();
         for step in -200..200_i32 {
             let (off, wider) = (f64::from(step) * 0.037, f64::from(step % 17) * 0.31);
-            let half = (track.width_mm + wider) / 2.0;
+            let half = track.width_mm.midpoint(wider);
             let [i, j] = covered(&track, off, [-half, half]).map(f64::from);
             assert!((i - j - 2.0 * off).abs() <= 1.0 && (i + j - 64.0 - wider).abs() <= 1.0, "{off} {wider}: {i} {j}");
         }

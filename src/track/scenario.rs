@@ -3,7 +3,7 @@
 use serde::Deserialize;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
 
-use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::diagnostic::{Diagnostic, Diagnostics, Severity, code};
 use crate::machine::Tracking;
 use crate::source::{Source, Span};
 
@@ -118,7 +118,7 @@ impl Scenario {
             out.push(Diagnostic::new(&code::TRACK_SCENARIO, "the scenario is not UTF-8 text"));
             return None;
         };
-        let known = out.count(crate::diagnostic::Severity::Error);
+        let known = out.count(Severity::Error);
         let mut scenario = Self::still(track);
         let (root, errors) = DeTable::parse_recoverable(text);
         for error in &errors {
@@ -134,16 +134,29 @@ impl Scenario {
                     out.push(Diagnostic::new(&code::TRACK_SCENARIO, message).at(at).hint(hint));
                 }
             }
-            if scenario.duration / track.period() > MOST_SAMPLES {
-                let message = format!("{} s are more than {MOST_SAMPLES:e} periods", scenario.duration);
-                out.push(Diagnostic::new(&code::TRACK_SCENARIO, message).hint("take a shorter `duration_s`"));
-            }
-            if scenario.measured_from >= scenario.duration {
-                let message = "nothing is measured: `measured_from_s` is not before `duration_s`";
-                out.push(Diagnostic::new(&code::TRACK_SCENARIO, message));
-            }
         }
-        (out.count(crate::diagnostic::Severity::Error) == known).then_some(scenario)
+        if out.count(Severity::Error) > known {
+            return None;
+        }
+        if let Some([message, hint]) = scenario.fault(track) {
+            out.push(Diagnostic::new(&code::TRACK_SCENARIO, message).hint(hint));
+            return None;
+        }
+        Some(scenario)
+    }
+
+    /// What is wrong with its values together, and what to do.
+    fn fault(&self, track: &Tracking) -> Option<[String; 2]> {
+        let Self { duration, measured_from, .. } = self;
+        if duration / track.period() > MOST_SAMPLES {
+            let message = format!("{duration} s are more than {MOST_SAMPLES:e} periods");
+            return Some([message, "take a shorter `duration_s`".to_owned()]);
+        }
+        (measured_from >= duration).then(|| {
+            let message =
+                format!("nothing is measured: `measured_from_s` is {measured_from}, `duration_s` {duration} s");
+            [message, "take a smaller `measured_from_s`, or a longer duration".to_owned()]
+        })
     }
 
     /// Takes a key in; or what is wrong with it, and what to do.

@@ -114,7 +114,10 @@ fn table(followers: &[Follower]) -> String {
     let width = followers.iter().map(|follower| follower.name.len()).max().unwrap_or(0);
     let columns = ["settling", "overshoot", "reversals", "residual", "worst", "rms"];
     let mut out = format!("\n  {:width$}", "");
-    columns.iter().for_each(|column| out.push_str(&format!(" {column:>10}")));
+    // Writing into a `String` cannot fail.
+    for column in columns {
+        let _ = write!(out, " {column:>10}");
+    }
     out.push('\n');
     for Follower { name, measures } in followers {
         let jump = measures.overshoot_mm;
@@ -133,7 +136,9 @@ fn table(followers: &[Follower]) -> String {
             mm(measures.rms_mm),
         ];
         let _ = write!(out, "  {name:width$}");
-        cells.iter().for_each(|cell| out.push_str(&format!(" {cell:>10}")));
+        for cell in cells {
+            let _ = write!(out, " {cell:>10}");
+        }
         out.push('\n');
     }
     out

@@ -27,9 +27,9 @@ fn names(folder: &str) -> Vec<String> {
 /// Reads a file as what its name says it is; what is said of it, and whether it can be used.
 fn read(name: &str, bytes: Vec<u8>, track: &Tracking) -> (bool, String) {
     let (source, mut out) = (source(name, bytes), Diagnostics::default());
-    let is_read = if name.ends_with(".toml") {
+    let is_read = if name.contains(".toml") {
         Scenario::read(&source, track, &mut out).is_some()
-    } else if name.ends_with(".centre.csv") {
+    } else if name.contains(".centre.") {
         centre::read(&source, &mut out).is_some()
     } else {
         Tracked::of_log(&source, track, Needs::Centre, &mut out).is_some()

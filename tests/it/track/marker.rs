@@ -18,6 +18,9 @@ use cutc::verify::Drawn;
 use super::{fixture, source};
 use crate::support::room::{DONE, FAULTY, Room};
 
+/// What is done to a marker.
+type Harm = fn(&mut Marker);
+
 /// A marker with all that a cloth carries: parts that touch, a cut-out, notches, a drill, labels.
 const MARKER: &str = "fixtures/markers/drills-and-slits.cut";
 
@@ -114,7 +117,6 @@ fn a_marker_that_does_not_follow_is_refused() {
     unparted.list.move_points(|at| Point::new(at.x, at.y + line.at(at.x)));
     assert!(!away(&unparted).0);
     // A piece, a hole, a notch and a line that lie elsewhere.
-    type Harm = fn(&mut Marker);
     let harms: [(&str, Harm); 5] = [
         ("a piece is missing", |marker| _ = marker.pieces.pop()),
         ("a hole", |marker| {
