@@ -331,7 +331,7 @@ mod table {
     /// A row that cannot be read.
     pub static TRACK_ROW: Code = error(Text, "track/row", "A row of a log cannot be read, or does not follow the one before it; the message says why.", "Leaving it out would shift all that the controller counts by a sample. Mend the row: decimal points, commas, times that go on.\n  0.010,33,31");
     /// A header alone.
-    pub static TRACK_NO_ROWS: Code = error(Text, "track/no-rows", "A log has no rows.", "Nothing was recorded. Look at the recorder, and at the size of its file.");
+    pub static TRACK_NO_ROWS: Code = error(Text, "track/no-rows", "A log has no rows.", "Nothing was recorded, or all of it was lost on the way: the carriage cannot have followed anything by it. Look at the recorder, and compare the sizes of its file and of this one.");
     /// Rows in another rhythm.
     pub static TRACK_PERIOD: Code = error(Text, "track/period", "Most rows of a log are not `track.period_ms` apart.", "The controller counts samples: with another period its debounce time and what it feeds forward would be others. Set the period of the log.\n  cutc track log.csv --set track.period_ms=5");
     /// Samples that are missing.

@@ -19,18 +19,18 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "track.sensors", takes: Takes::Count(256), about: "How many sensors each of the two rulers has." },
     Key { name: "track.pitch_mm", takes: Takes::Number(from(0.01, 50.0)), about: "From one sensor to the next. The centre is known to half of it." },
     Key { name: "track.width_mm", takes: Takes::Number(from(1.0, 20_000.0)), about: "Nominal width of the cloth: from the middle of one ruler to that of the other." },
-    Key { name: "track.width_range_mm", takes: Takes::RangeOr(Off::WORD), about: "Least and greatest width of the cloth: the carriage stops where it is exceeded. \"off\" = whatever the\nrulers see." },
+    Key { name: "track.width_range_mm", takes: Takes::RangeOr(Off::WORD), about: "Least and greatest width of the cloth: the carriage stops where it is exceeded. \"off\" = whatever\nthe rulers see." },
     Key { name: "track.period_ms", takes: Takes::Number(from(0.1, 1000.0)), about: "From one pair of readings to the next." },
     Key { name: "track.least_speed_mm_s", takes: Takes::Number(from(0.0, 1000.0)), about: "f: speed of the carriage to which that by the deviation is added." },
     Key { name: "track.gain_mm_s", takes: Takes::Number(from(0.0, 1000.0)), about: "k: speed for each sensor by which the rulers differ, that is for each half pitch off centre." },
     Key { name: "track.max_speed_mm_s", takes: Takes::Number(from(1.0, 10_000.0)), about: "Greatest speed of the carriage." },
-    Key { name: "track.acceleration_mm_s2", takes: Takes::Number(from(1.0, 1.0e6)), about: "How fast the carriage may become faster or slower." },
+    Key { name: "track.carriage_acceleration_mm_s2", takes: Takes::Number(from(1.0, 1.0e6)), about: "How fast the carriage may become faster or slower." },
     Key { name: "track.latency_ms", takes: Takes::Number(from(0.0, 1000.0)), about: "From a reading to when the drive has the command." },
     Key { name: "track.lag_ms", takes: Takes::Number(from(0.0, 1000.0)), about: "Time constant with which the drive follows a command." },
     Key { name: "track.brake", takes: Takes::Flag, about: "Whether the speed is kept low enough to stop at the centre with 0.6 of the acceleration, whatever\nthe gain." },
     Key { name: "track.debounce_ms", takes: Takes::Number(from(0.0, 10_000.0)), about: "How long the cloth must lie to one side before the carriage moves: longer than damage of the edge\ntakes to pass a ruler." },
     Key { name: "track.cloth_mm_s", takes: Takes::Number(between(0.0, 10_000.0)), about: "Speed of the conveyor, for logs that do not tell where it is." },
-    Key { name: "track.upstream_mm", takes: Takes::NumberOr(from(1.0, 100_000.0), Off::WORD), about: "How far upstream a fixed second pair of rulers sees the cloth; its motion is fed forward. \"off\" = there\nis none." },
+    Key { name: "track.upstream_mm", takes: Takes::NumberOr(from(1.0, 100_000.0), Off::WORD), about: "How far upstream a fixed second pair of rulers sees the cloth; its motion is fed forward. \"off\" =\nthere is none." },
     Key { name: "track.centre_mm", takes: Takes::Number(from(0.0, 10_000.0)), about: "Length of cloth over which the centre line that is written is evened: readings have steps of half a\npitch." },
 ];
 
@@ -56,7 +56,7 @@ pub struct Tracking {
     /// vmax.
     pub max_speed_mm_s: f64,
     /// a.
-    pub acceleration_mm_s2: f64,
+    pub carriage_acceleration_mm_s2: f64,
     /// From reading to command.
     pub latency_ms: f64,
     /// Of the drive.
@@ -85,7 +85,7 @@ impl Default for Tracking {
             least_speed_mm_s: 1.0,
             gain_mm_s: 6.0,
             max_speed_mm_s: 200.0,
-            acceleration_mm_s2: 800.0,
+            carriage_acceleration_mm_s2: 800.0,
             latency_ms: 10.0,
             lag_ms: 20.0,
             brake: true,

@@ -32,7 +32,7 @@ impl Drive {
             velocity: 0.0,
             late: std::iter::repeat_n(0.0, late).collect(),
             lag: track.lag(),
-            acceleration: track.acceleration_mm_s2,
+            acceleration: track.carriage_acceleration_mm_s2,
             step,
         }
     }

@@ -75,8 +75,12 @@ mod tests {
     #[test]
     fn a_parabola_stays_as_it_is() {
         let readings: Vec<[f64; 2]> = (0..400).map(f64::from).map(|x| [x, 3.0 - 0.02 * x + 1e-4 * x * x]).collect();
-        for [x, y] in even(&readings, 60.0) {
-            assert!((y - (3.0 - 0.02 * x + 1e-4 * x * x)).abs() < 1e-3, "{x} {y}");
+        let line = even(&readings, 60.0);
+        let (first, last) = (0, line.len() - 1);
+        for (i, [x, y]) in line.into_iter().enumerate() {
+            // At its ends the line goes no farther to the side than what was read nearby.
+            let accuracy = if i == first || i == last { 0.1 } else { 1e-3 };
+            assert!((y - (3.0 - 0.02 * x + 1e-4 * x * x)).abs() < accuracy, "{x} {y}");
         }
     }
 

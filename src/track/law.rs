@@ -42,7 +42,7 @@ fn speed_at(track: &Tracking, deviation: f64) -> f64 {
     if !track.brake {
         return wanted;
     }
-    let b = BRAKE * track.acceleration_mm_s2;
+    let b = BRAKE * track.carriage_acceleration_mm_s2;
     let dead = track.latency() + 1.5 * track.period() + track.lag();
     let way = (deviation - 1.0) * track.pitch_mm / 2.0;
     let stoppable = b * ((dead * dead + 2.0 * way / b).sqrt() - dead);
@@ -75,7 +75,7 @@ pub fn overshoot(track: &Tracking) -> [f64; 3] {
     let first = (track.least_speed_mm_s + track.gain_mm_s) * 2.0 * dead / track.pitch_mm;
     let farthest = f64::from(track.sensors.saturating_sub(2));
     let falls = stiffness * speed_at(track, farthest);
-    [first, if track.brake { 0.0 } else { falls / (track.acceleration_mm_s2 / 2.0) }, stiffness * dead * 2.0]
+    [first, if track.brake { 0.0 } else { falls / (track.carriage_acceleration_mm_s2 / 2.0) }, stiffness * dead * 2.0]
 }
 
 /// Notes which of the conditions a profile does not keep.

@@ -79,7 +79,7 @@ fn any_plant(rng: &mut Rng) -> Tracking {
             least_speed_mm_s: 5.0 * rng.f64(),
             gain_mm_s: 0.2 + 8.0 * rng.f64(),
             max_speed_mm_s: 20.0 + 400.0 * rng.f64(),
-            acceleration_mm_s2: 100.0 + 4000.0 * rng.f64(),
+            carriage_acceleration_mm_s2: 100.0 + 4000.0 * rng.f64(),
             latency_ms: 20.0 * rng.f64(),
             lag_ms: 40.0 * rng.f64(),
             brake: rng.bool(),
