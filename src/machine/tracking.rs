@@ -31,7 +31,7 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "track.debounce_ms", takes: Takes::Number(from(0.0, 10_000.0)), about: "How long the cloth must lie to one side before the carriage moves: longer than damage of the edge\ntakes to pass a ruler." },
     Key { name: "track.cloth_mm_s", takes: Takes::Number(between(0.0, 10_000.0)), about: "Speed of the conveyor, for logs that do not tell where it is." },
     Key { name: "track.upstream_mm", takes: Takes::NumberOr(from(1.0, 100_000.0), Off::WORD), about: "How far upstream a fixed second pair of rulers sees the cloth; its motion is fed forward. \"off\" =\nthere is none." },
-    Key { name: "track.centre_mm", takes: Takes::Number(from(0.0, 10_000.0)), about: "Length of cloth over which the centre line that is written is evened: readings have steps of half a\npitch." },
+    Key { name: "track.centre_mm", takes: Takes::Number(from(0.0, 10_000.0)), about: "Length of cloth over which the centre line that is written is evened: readings have steps of half\na pitch." },
 ];
 
 /// A carriage that follows the cloth.
