@@ -37,11 +37,12 @@
 //! | `verify` | `program`: readers of its own; `reference`: what must be cut; `cut` and `axes`: what blade and axes do; `source`: the audit of the reader |
 //! | [`pipeline`] | names every stage once, in order |
 //! | [`sew`] | the pattern-sewing machine, a pipeline of its own: patterns to stitches, pulses and stitch files |
+//! | [`track`] | the carriage that follows the centre of a moving cloth: ruler readings to commands and centre lines |
 //! | [`manual`] | the manual, a page a topic, rows of [`manual::PAGES`] |
 //! | `cli` | arguments as typed to a job as meant; the binary adds printing and the exit code |
 //!
 //! Other machines of the sewing floor are small pipelines of the same shape: [`sew`] reads what `front` reads and has its own
-//! forms, targets and verifier.
+//! forms, targets and verifier; [`track`] reads logs, and a firmware can take its controller over.
 //!
 //! To find a thing, follow the data: a wrong coordinate is `front`'s, a wrong order or overlap `pass`'s, a shaking axis
 //! `plan`'s, a wrong column `back`'s.
@@ -88,5 +89,6 @@ pub mod plan;
 pub mod recognise;
 pub mod sew;
 pub mod source;
+pub mod track;
 pub mod units;
 pub mod verify;

@@ -9,7 +9,7 @@ use crate::machine::plot;
 use crate::manual::{PAGES, Page};
 use crate::pass::marker::MARKER_PASSES;
 use crate::pass::toolpath::TOOLPATH_PASSES;
-use crate::sew;
+use crate::{sew, track};
 
 /// How figures are given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -70,6 +70,13 @@ pub(super) fn dialects() -> impl TypedValueParser<Value = &'static Dialect> {
 pub(super) fn sewing_targets() -> impl TypedValueParser<Value = &'static sew::Target> {
     names(sew::TARGETS.iter().map(|target| (target.name, target.about))).map(|name| {
         sew::TARGETS.iter().find(|target| target.name == name).expect("clap lets only the names of the table pass")
+    })
+}
+
+/// Reads the name of what is written of a tracked cloth.
+pub(super) fn tracking_targets() -> impl TypedValueParser<Value = &'static track::Target> {
+    names(track::TARGETS.iter().map(|target| (target.name, target.about))).map(|name| {
+        track::TARGETS.iter().find(|target| target.name == name).expect("clap lets only the names of the table pass")
     })
 }
 

@@ -21,8 +21,8 @@ pub(super) struct Asked<'a> {
     pub(super) targets: &'a [&'static Target],
     /// The cutter file.
     pub(super) input: &'a Path,
-    /// The machine profile.
-    pub(super) profile: Option<&'a Path>,
+    /// The machine profile, and the centre line.
+    pub(super) beside: [Option<&'a Path>; 2],
     /// Whether a program that was made from another input may be overwritten.
     pub(super) force: bool,
 }
@@ -100,7 +100,7 @@ impl Asked<'_> {
 
     /// The file of one program.
     fn path(&self, target: &Target) -> anyhow::Result<PathBuf> {
-        let Self { out, input, profile, force, .. } = *self;
+        let Self { out, input, beside, force, .. } = *self;
         let name = program_name(input, target.extension);
         let path = match out {
             None if is_dash(input) => {
@@ -134,7 +134,7 @@ impl Asked<'_> {
             let message = format!("cannot write `{shown}`: there is no directory `{}`", folder.display());
             return Err(failure(message, "create it first, or name another one"));
         }
-        let inputs = [Some(input).filter(|input| !is_dash(input)), profile];
+        let inputs = [Some(input).filter(|input| !is_dash(input))].into_iter().chain(beside);
         let inputs: Vec<&Path> = inputs.into_iter().flatten().collect();
         writable(&path, &inputs)?;
         if !force {
@@ -168,7 +168,7 @@ pub(super) fn targets_of_many(out: &Path, typed: &[&'static Target]) -> anyhow::
         return Err(of_many(out));
     }
     let folder = Path::new(DIRECTORY);
-    Asked { out: Some(folder), targets: typed, input: folder, profile: None, force: false }.targets()
+    Asked { out: Some(folder), targets: typed, input: folder, beside: [None; 2], force: false }.targets()
 }
 
 /// Where the programs of one of many files go, by the extensions of their targets: below a folder, in the structure that
@@ -229,7 +229,7 @@ mod tests {
     use crate::cli::files;
 
     fn find(out: Option<&Path>, input: &Path) -> Result<Place, String> {
-        let asked = Asked { out, targets: &[], input, profile: None, force: false };
+        let asked = Asked { out, targets: &[], input, beside: [None; 2], force: false };
         asked.destination().map(|found| found.place).map_err(|error| error.to_string())
     }
 
@@ -249,8 +249,13 @@ mod tests {
     #[test]
     fn without_a_target_the_extension_chooses_it() {
         let written = |out: &str, targets: &[&'static Target]| {
-            let asked =
-                Asked { out: Some(Path::new(out)), targets, input: Path::new("a.cut"), profile: None, force: false };
+            let asked = Asked {
+                out: Some(Path::new(out)),
+                targets,
+                input: Path::new("a.cut"),
+                beside: [None; 2],
+                force: false,
+            };
             let found = asked.destination().map_err(|error| error.to_string())?;
             Ok::<_, String>(found.targets.iter().map(|target| target.name).collect::<Vec<_>>())
         };
@@ -290,7 +295,7 @@ mod tests {
         fs::write(meta(&program), r#"{"source": "m05.cut"}"#).expect("writable");
         let find = |input: &str, force| {
             let asked =
-                Asked { out: Some(directory.path()), targets: &[], input: Path::new(input), profile: None, force };
+                Asked { out: Some(directory.path()), targets: &[], input: Path::new(input), beside: [None; 2], force };
             asked.destination().map(|found| found.place).map_err(|error| error.to_string())
         };
         assert!(find("in/m05.plt", false).expect_err("refused").contains("made from `m05.cut`, not from `m05.plt`"));

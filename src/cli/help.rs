@@ -22,6 +22,7 @@ pub(super) const EXAMPLES: &str = "  cutc compile marker.cut                    
   cutc compile marker.cut --pieces 3,7-12     some pieces only; --skip and --resume-from likewise
   cutc compile marker.cut --dry-run           the same motion, knife up; --frame: once around the box
   cutc sew pocket.csv -t queue,svg            a pattern for a sewing machine: stitches, speeds
+  cutc track log.csv -t centre                the line that moving cloth took: compile --centre follows it
   cutc explain iso/open-slit                  what a message means and what to do
   cutc manual many-files                      folders of files at once, several machines
   cutc profile init -o machine.toml           every key of a machine with its default

@@ -1,17 +1,19 @@
 //! Options that several commands share.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use clap::Args;
 
 use super::choices::Format;
 use super::finished::{FAULTY, Finished, USAGE, failure, say};
 use super::{choices, files};
-use crate::diagnostic::{Detail, Severity, render_with};
+use crate::diagnostic::{Detail, Diagnostics, Severity, render_with};
 use crate::front::Dialect;
 use crate::machine::plot::{Inner, Lines};
-use crate::machine::{Faults, Job, Mode, NotNumbers, NotStart, Numbers, Selection, Start, load_given};
+use crate::machine::{Centre, Faults, Job, Mode, NotNumbers, NotStart, Numbers, Selection, Start, load_given};
 use crate::source::Source;
+use crate::track;
 
 /// For an option behind those that stand under a heading of their own: it belongs to the command itself.
 pub(super) const NO_HEADING: Option<&str> = None;
@@ -133,6 +135,13 @@ pub(super) struct Choice {
     /// No cut, but once around the box of what would be cut, knife up: the C axis from home along it and back
     #[arg(long)]
     frame: bool,
+
+    /// Follow cloth that wanders on its conveyor: the line of its centre, as `cutc track -t centre` writes it
+    ///
+    /// Every place is moved across by as much as the centre of the cloth is off the middle when the conveyor is at its X; lines
+    /// are parted so that they follow within a part of the tolerance.
+    #[arg(long, value_name = "FILE")]
+    centre: Option<PathBuf>,
 }
 
 fn numbers(text: &str) -> Result<Numbers, NotNumbers> {
@@ -151,8 +160,22 @@ fn pens(text: &str) -> anyhow::Result<Numbers> {
 }
 
 impl Choice {
-    /// The job, with this choice.
-    pub(super) fn of(&self, job: Job) -> Job {
+    /// The file of the centre line as typed.
+    pub(super) fn centre(&self) -> Option<&Path> {
+        self.centre.as_deref()
+    }
+
+    /// The job, with this choice; or what is wrong with its centre line.
+    pub(super) fn of(&self, job: Job) -> anyhow::Result<Result<Job, Finished>> {
+        let mut centre = None;
+        if let Some(path) = &self.centre {
+            let source = files::read(path)?;
+            let mut found = Diagnostics::default();
+            match track::centre::read(&source, &mut found) {
+                Some(line) => centre = Some(Arc::new(Centre { line, source })),
+                None => return Ok(Err(unfit(&found, &source))),
+            }
+        }
         let selection =
             Selection { pieces: self.pieces.clone(), skip: self.skip.clone(), resume_from: self.resume_from };
         let mode = match (self.dry_run, self.frame) {
@@ -160,8 +183,16 @@ impl Choice {
             (true, false) => Mode::Dry,
             (false, false) => Mode::Cut,
         };
-        Job { selection, mode, ..job }
+        Ok(Ok(Job { selection, mode, centre, ..job }))
     }
+}
+
+/// What is said about a faulty centre line.
+fn unfit(found: &Diagnostics, source: &Source) -> Finished {
+    let mut said = render_with(found, source, Detail::All);
+    let errors = counted(found.count(Severity::Error), "error");
+    say(&mut said, format_args!("the centre line `{}` has {errors}", source.name()));
+    Finished::text(String::new(), said, FAULTY)
 }
 
 /// The choice of a job as it is typed; empty when all is cut.
@@ -181,12 +212,19 @@ pub(super) fn typed(job: &Job) -> String {
     words.extend(pieces.iter().map(|numbers| format!("--pieces {numbers}")));
     words.extend(skip.iter().map(|numbers| format!("--skip {numbers}")));
     words.extend(resume_from.iter().map(|number| format!("--resume-from {number}")));
+    words.extend(job.centre.iter().map(|centre| format!("--centre {}", file_name(&centre.source))));
     match job.mode {
         Mode::Cut => {}
         Mode::Dry => words.push("--dry-run".to_owned()),
         Mode::Frame => words.push("--frame".to_owned()),
     }
     words.join(" ")
+}
+
+/// The name of a file without its directory.
+pub(super) fn file_name(source: &Source) -> String {
+    let name = Path::new(source.name()).file_name().map(|name| name.to_string_lossy().into_owned());
+    name.unwrap_or_else(|| source.name().to_owned())
 }
 
 impl Machine {

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::files;
 use super::finished::say;
-use super::options::typed;
+use super::options::{file_name, typed};
 use super::report::pretty;
 use crate::back::{Proof, TARGETS};
 use crate::ir::declaration::Declaration;
@@ -37,6 +37,9 @@ struct Provenance<'a> {
     /// how it moves.
     #[serde(skip_serializing_if = "Option::is_none")]
     declared: Option<&'a [Declaration]>,
+    /// The centre line that the marker follows; not there when there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    centre: Option<CentreFile>,
     /// What was chosen beside the whole marker and the knife, as it is typed; not there when nothing was.
     #[serde(skip_serializing_if = "str::is_empty")]
     options: &'a str,
@@ -47,6 +50,14 @@ struct Provenance<'a> {
 struct Scale {
     period_ms: f64,
     units: Units,
+}
+
+/// The file of a centre line.
+#[derive(Serialize)]
+struct CentreFile {
+    /// Without its directory.
+    file: String,
+    sha256: String,
 }
 
 /// Units of the setpoints.
@@ -97,10 +108,9 @@ pub(super) struct Cut<'a> {
 pub(super) fn json(Made { source, job, target, verified, blake3, cut, options }: &Made) -> String {
     let scale =
         || Scale { period_ms: job.profile.time.period_ms, units: Units { time: "s", length: "mm", angle: "deg" } };
-    let name = Path::new(source.name()).file_name().map(|name| name.to_string_lossy().into_owned());
     pretty(&Provenance {
         version: env!("CARGO_PKG_VERSION"),
-        source: name.unwrap_or_else(|| source.name().to_owned()),
+        source: file_name(source),
         source_sha256: sha256_hex(source.bytes()),
         profile: job.origin.name(),
         profile_sha256: job.profile.digest(),
@@ -109,6 +119,10 @@ pub(super) fn json(Made { source, job, target, verified, blake3, cut, options }:
         verified: *verified,
         program_blake3: blake3,
         declared: cut.and_then(|cut| cut.declared),
+        centre: job
+            .centre
+            .as_ref()
+            .map(|centre| CentreFile { file: file_name(&centre.source), sha256: sha256_hex(centre.source.bytes()) }),
         options,
     })
 }
@@ -185,16 +199,37 @@ pub(super) fn doubts(program: &Path, path: &Path, source: &Source, job: &Job) ->
             ),
         );
     }
+    doubt_centre(&mut said, &meta, &path, job);
     doubt_options(&mut said, &meta, &path, job);
     said
+}
+
+/// Says that a program follows another centre line than it is judged by, if it does.
+fn doubt_centre(said: &mut String, meta: &serde_json::Value, path: &impl std::fmt::Display, job: &Job) {
+    let given = job.centre.as_ref().map(|centre| sha256_hex(centre.source.bytes()));
+    if let (Some(told), Some(given)) = (meta["centre"]["sha256"].as_str(), &given)
+        && told != given
+    {
+        say(
+            said,
+            format_args!(
+                "warning: the program follows another centre line\n  --> {path}: `{}`, with other bytes\n  \
+                 = hint: give the file that it was compiled with as --centre",
+                meta["centre"]["file"].as_str().unwrap_or("another file")
+            ),
+        );
+    }
 }
 
 /// Says that a program was made with other options than it is judged with, if it was.
 fn doubt_options(said: &mut String, meta: &serde_json::Value, path: &impl std::fmt::Display, job: &Job) {
     let (made, asked) = (meta["options"].as_str().unwrap_or_default(), typed(job));
     if made != asked {
-        let made =
-            if made.is_empty() { "none of --pieces, --skip, --resume-from, --dry-run and --frame" } else { made };
+        let made = if made.is_empty() {
+            "none of --pieces, --skip, --resume-from, --dry-run, --frame and --centre"
+        } else {
+            made
+        };
         say(
             said,
             format_args!(

@@ -333,6 +333,40 @@ mod table {
     /// The program breaks a rule.
     pub static SEW_BROKEN: Code = error(Shape, "sew/broken", "The program, read back, breaks a rule; the message names the rule, the worst value, the limit and the entry.", "The program is not written: it would not sew what the file says. Please report the file: a pattern that is read without errors should be sewn as it is.");
 
+    // Tracking the centre of a moving cloth.
+    /// The first row of a log.
+    pub static TRACK_HEADER: Code = error(Text, "track/header", "The first row of a log does not name its columns.", "Without names I and J could be taken for each other, and the carriage would run away from the centre. Write them as the hint has them.\n  t_s,i,j");
+    /// A row that cannot be read.
+    pub static TRACK_ROW: Code = error(Text, "track/row", "A row of a log cannot be read, or does not follow the one before it; the message says why.", "Leaving it out would shift all that the controller counts by a sample. Mend the row: decimal points, commas, times that go on.\n  0.010,33,31");
+    /// A header alone.
+    pub static TRACK_NO_ROWS: Code = error(Text, "track/no-rows", "A log has no rows.", "Nothing was recorded, or all of it was lost on the way: the carriage cannot have followed anything by it. Look at the recorder, and compare the sizes of its file and of this one.");
+    /// Rows in another rhythm.
+    pub static TRACK_PERIOD: Code = error(Text, "track/period", "Most rows of a log are not `track.period_ms` apart.", "The controller counts samples: with another period its debounce time and what it feeds forward would be others. Set the period of the log.\n  cutc track log.csv --set track.period_ms=5");
+    /// Samples that are missing.
+    pub static TRACK_GAP: Code = warning(Spares, Text, "track/gap", "Samples are missing in a log; behind them the controller begins anew.", "What the carriage did meanwhile is not known. If the recorder loses samples, so may the controller: look at the load of its processor.");
+    /// An edge that is lost.
+    pub static TRACK_LOST: Code = warning(Spoils, Text, "track/edge-lost", "All sensors of a ruler are covered, or none: its edge is lost, and the drive is off until it is found.", "Meanwhile the heads do not follow the cloth, and what they cut there is displaced. Bring the cloth between the rulers before it is cut; longer rulers lose it less easily.");
+    /// A width outside its limits.
+    pub static TRACK_WIDTH: Code = warning(Spoils, Text, "track/width", "The width of the cloth is outside `track.width_range_mm`; the drive is off until it is inside.", "A fold, a tear or a seam between two bolts: parts may lie beyond the edge of the cloth. Look at the place before it is cut, or widen the range.\n  track.width_range_mm = [1480, 1520]");
+    /// A profile that may overshoot.
+    pub static TRACK_OVERSHOOT: Code = warning(Spares, Shape, "track/overshoot", "The profile breaks a condition under which the carriage is sure not to overshoot; the message says which and by how much.", "The conditions are sufficient, not necessary: it may do well all the same. Simulate it with the delays of your machine before you believe it.\n  cutc track --simulate step.toml -p machine.toml");
+    /// A carriage whose place is not known.
+    pub static TRACK_CARRIAGE: Code = warning(Spoils, Shape, "track/carriage-assumed", "A log does not tell where the carriage was; it is taken to have followed the commands.", "The rulers tell where the cloth is from the carriage, so the centre line is only as true as its place. Log its encoder as the column `carriage_mm`, in mm to the right of the middle.");
+    /// Upstream rulers that nobody logged.
+    pub static TRACK_NO_UPSTREAM: Code = warning(Spares, Shape, "track/no-upstream", "The profile has rulers upstream, but the log does not have their readings; nothing is fed forward.", "The carriage then only follows what it sees, and is farther off centre than it could be. Log the readings as columns `up_i` and `up_j`.");
+    /// No line to write.
+    pub static TRACK_NO_CENTRE: Code = error(Shape, "track/no-centre", "A log sees both edges of the cloth in no two places of the conveyor, so that there is no centre line.", "The edges are lost throughout, or the conveyor stands. Look at the picture of another run, and at the column `conv_mm`.");
+    /// A scenario that cannot be read.
+    pub static TRACK_SCENARIO: Code = error(Text, "track/scenario", "A scenario has a key that is none, or a value that is out of its range.", "A mistyped key would leave the cloth lying still without a word. `cutc manual tracking` lists the keys.\n  offset_mm = 20");
+    /// The first row of a centre line.
+    pub static CENTRE_HEADER: Code = error(Text, "centre/header", "The first row of a centre line is not `conv_mm,centre_mm`.", "Another file of numbers would move every part to one side. Give the file that `cutc track -t centre` writes.\n  cutc compile marker.cut --centre cloth.centre.csv");
+    /// A row that cannot be read.
+    pub static CENTRE_ROW: Code = error(Text, "centre/row", "A row of a centre line cannot be read, or the conveyor does not go on in it; the message says why.", "Guessing it would cut parts beside their places. Mend the row, or make the file anew from the log.\n  125.5,-0.75");
+    /// A line without two ends.
+    pub static CENTRE_SHORT: Code = error(Text, "centre/short", "A centre line has fewer than two rows.", "One place says nothing of how the cloth lies beside it. For cloth that lies straight give its two ends.\n  0,1.5\n  3000,1.5");
+    /// A marker that is longer than its centre line.
+    pub static CENTRE_BEYOND: Code = warning(Spoils, Shape, "centre/beyond", "The marker reaches beyond the ends of the centre line, where the cloth is taken to lie as at the nearer end.", "Nobody has seen the cloth there. Record the whole of it, or move the marker to where it was seen (`sheet.origin`).");
+
     // Machine profile.
     /// The TOML is broken.
     pub static PROFILE_SYNTAX: Code = error(Text, "profile/syntax", "The profile is not valid TOML.", "TOML wants a key, an equals sign and a value on a line; text stands in quotes. `cutc profile init` prints a profile that is right.\n  knife.width_mm = 7.2");
@@ -457,6 +491,22 @@ pub static ALL: &[&Code] = &[
     &SEW_NO_SPEED,
     &SEW_UNDERRUN,
     &SEW_BROKEN,
+    &TRACK_HEADER,
+    &TRACK_ROW,
+    &TRACK_NO_ROWS,
+    &TRACK_PERIOD,
+    &TRACK_GAP,
+    &TRACK_LOST,
+    &TRACK_WIDTH,
+    &TRACK_OVERSHOOT,
+    &TRACK_CARRIAGE,
+    &TRACK_NO_UPSTREAM,
+    &TRACK_NO_CENTRE,
+    &TRACK_SCENARIO,
+    &CENTRE_HEADER,
+    &CENTRE_ROW,
+    &CENTRE_SHORT,
+    &CENTRE_BEYOND,
     &PROFILE_SYNTAX,
     &PROFILE_UNKNOWN_KEY,
     &PROFILE_TYPE,

@@ -5,6 +5,7 @@
 //! the schema, the help and the manual.
 
 pub mod axes;
+mod centre;
 mod codes;
 pub mod common;
 pub mod counts;
@@ -35,10 +36,14 @@ pub mod sheet;
 mod show;
 pub mod table;
 pub mod time;
+pub mod tracking;
 mod validate;
 pub mod verify;
 mod word;
 
+use std::sync::Arc;
+
+pub use centre::{Centre, CentreLine};
 pub use common::{Common, CommonLines, Lines};
 pub use digest::{blake3_of, sha256_hex, sha256_of};
 pub use kinematics::Limits;
@@ -56,6 +61,7 @@ pub use sewing::Sewing;
 pub use sheet::{Flip, Mirror, Sheet};
 pub use show::Comments;
 pub use table::Table;
+pub use tracking::Tracking;
 
 /// What one compile is asked to do: the profile and the options of this run.
 #[derive(Debug, Clone, Default)]
@@ -70,4 +76,6 @@ pub struct Job {
     pub mode: Mode,
     /// Which lines of a plot it cuts.
     pub lines: plot::Lines,
+    /// Where the cloth lies across the conveyor that brings it; `None` = everywhere in the middle.
+    pub centre: Option<Arc<Centre>>,
 }

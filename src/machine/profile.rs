@@ -27,6 +27,7 @@ use super::sewing::Sewing;
 use super::sheet::Sheet;
 use super::table::Table;
 use super::time::Time;
+use super::tracking::Tracking;
 use super::verify::Verify;
 use super::word::{OrWord, Stay, Word as _, words};
 use crate::units::{MM_PER_INCH, rad};
@@ -96,6 +97,8 @@ pub struct MachineProfile {
     pub labels: Labels,
     /// The pattern-sewing machine.
     pub sewing: Sewing,
+    /// The carriage that follows a moving cloth.
+    pub track: Tracking,
     /// Codes of the cutter file by name, `M19`.
     pub codes: BTreeMap<String, CodeUse>,
 }
@@ -157,6 +160,7 @@ impl Default for MachineProfile {
             hpgl: Hpgl::default(),
             labels: Labels::default(),
             sewing: Sewing::default(),
+            track: Tracking::default(),
             codes: BTreeMap::new(),
         }
     }

@@ -7,7 +7,7 @@ use super::key::{Key, Takes, shown_value};
 use super::keys::KEYS;
 use super::knife::Knife;
 use super::profile::MachineProfile;
-use super::sewing;
+use super::{sewing, tracking};
 use crate::diagnostic::code;
 
 /// How much `back_mm` and `radius_mm` together may miss the width, mm: they are read off a gauge in hundredths.
@@ -57,6 +57,7 @@ fn rules(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault
     faults.extend(headings(profile, is_given));
     faults.extend(gcode::faults(profile));
     faults.extend(sewing::faults(&profile.sewing));
+    faults.extend(tracking::faults(&profile.track));
     faults
 }
 

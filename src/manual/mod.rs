@@ -56,6 +56,11 @@ pub const PAGES: &[Page] = &[
         text: include_str!("sewing.md"),
     },
     Page {
+        name: "tracking",
+        about: "Cloth that moves: a carriage that follows its centre, and markers that do",
+        text: include_str!("tracking.md"),
+    },
+    Page {
         name: "verification",
         about: "How a program is verified, and every rule",
         text: include_str!("verification.md"),

@@ -68,9 +68,9 @@ pub fn read_to_judge(
     let (census, works) = rayon::join(|| Census::of(&input.marker), || Works::of(&input.marker));
     let (drawing, laying) = marker_passes().0.split_at(DRAWN_PASSES);
     run_passes(drawing, &mut input.marker, source, job, diagnostics);
-    // What a sheet moves cannot be compared with the file, but only with what was drawn.
-    let drawn =
-        (!job.profile.sheet.is_plain()).then(|| (works.kept(&input.marker, &job.profile), Drawn::of(&input.marker)));
+    // What a sheet or the cloth moves cannot be compared with the file, but only with what was drawn.
+    let is_moved = !job.profile.sheet.is_plain() || job.centre.is_some();
+    let drawn = is_moved.then(|| (works.kept(&input.marker, &job.profile), Drawn::of(&input.marker)));
     run_passes(laying, &mut input.marker, source, job, diagnostics);
     let (kept, laid) = match drawn {
         Some((kept, drawn)) => (kept, Some(drawn.laid(&input.marker, job))),

@@ -32,9 +32,26 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("pipeline", ALL_BUT_CLI),
     // Another machine: it reads what the cutter reads.
     ("sew", &["source", "diagnostic", "units", "geom", "ir", "machine", "analysis", "front", "recognise"]),
+    ("track", &["source", "diagnostic", "units", "machine"]),
     ("manual", &[]),
     // The tables of the stages, but not what they do.
-    ("cli", &["pipeline", "front", "back", "pass", "source", "machine", "diagnostic", "ir", "units", "manual", "sew"]),
+    (
+        "cli",
+        &[
+            "pipeline",
+            "front",
+            "back",
+            "pass",
+            "source",
+            "machine",
+            "diagnostic",
+            "ir",
+            "units",
+            "manual",
+            "sew",
+            "track",
+        ],
+    ),
     ("main", &["cli"]),
 ];
 

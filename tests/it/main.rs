@@ -46,6 +46,7 @@ mod sew;
 mod sheet;
 mod targets;
 mod told;
+mod track;
 mod verifier;
 #[cfg(unix)]
 mod watch;

@@ -10,8 +10,8 @@ use cutc::diagnostic::code;
 use cutc::front::DIALECTS;
 use cutc::machine::keys::{self, KEYS};
 use cutc::manual::{PAGES, Page, glossary};
-use cutc::sew;
 use cutc::verify::RULES;
+use cutc::{sew, track};
 use yaml_rust2::{Yaml, YamlLoader};
 
 use crate::support::page::{blocks, commands, expect_same, page, search_path, section};
@@ -101,6 +101,9 @@ fn every_command_of_the_manual_runs() {
     for name in ["pocket.csv", "seat.dst"] {
         fs::copy(root().join("fixtures/sew").join(name), room.at(name)).expect("a copy");
     }
+    for name in ["step.toml", "wander.toml"] {
+        fs::copy(root().join("fixtures/track").join(name), room.at(name)).expect("a copy");
+    }
     room.expect("compile marker.cut", DONE);
     for Page { name, text, .. } in PAGES {
         let commands = commands(text);
@@ -142,6 +145,11 @@ fn list(name: &str) -> String {
         "sewing targets" => {
             let row = |target: &sew::Target| format!("`{}` (`.{}`): {}.", target.name, target.extension, target.about);
             sew::TARGETS.iter().map(row).collect()
+        }
+        "tracking targets" => {
+            let row =
+                |target: &track::Target| format!("`{}` (`.{}`): {}.", target.name, target.extension, target.about);
+            track::TARGETS.iter().map(row).collect()
         }
         "sewing rules" => sew::verify::RULES.iter().map(|rule| format!("`{}`: {}.", rule.name, rule.about)).collect(),
         "rules" => RULES.iter().map(|rule| format!("`{}`: {}.", rule.name, rule.about)).collect(),

@@ -2,16 +2,18 @@
 
 use std::fmt::Write as _;
 use std::path::Path;
+use std::sync::Arc;
 
 use cutc::diagnostic::Diagnostics;
 use cutc::geom::Point;
 use cutc::ir::list::{Joint, Segment};
 use cutc::ir::marker::{Contour, Marker, Piece};
 use cutc::ir::{check, text};
-use cutc::machine::Job;
+use cutc::machine::{Centre, Job};
 use cutc::pass::marker::{MARKER_PASSES, MarkerPass};
 use cutc::pass::toolpath::{Scene, TOOLPATH_PASSES};
-use cutc::source::Span;
+use cutc::source::{Source, Span};
+use cutc::track::centre;
 use cutc::units::number::fixed;
 
 fn marker_pass(name: &str) -> Option<&'static MarkerPass> {
@@ -24,11 +26,16 @@ fn run(name: &str, marker: &mut Marker) -> Diagnostics {
     found
 }
 
-/// The job of a text: its lines that start with `;!` are keys of the profile.
+/// The job of a text: its lines that start with `;!` are keys of the profile, those with `;@` rows of a centre line.
 fn job(input: &str) -> Job {
     let keys: Vec<&str> = input.lines().filter_map(|line| line.strip_prefix(";!")).collect();
     let profile = toml::from_str(&keys.join("\n")).unwrap_or_else(|error| panic!("{error}"));
-    Job { profile, ..Job::default() }
+    let rows: Vec<&str> = input.lines().filter_map(|line| line.strip_prefix(";@")).collect();
+    let text = format!("conv_mm,centre_mm\n{}\n", rows.join("\n"));
+    let source = Source::new("centre.csv", text.into_bytes()).expect("small");
+    let mut found = Diagnostics::default();
+    let line = (!rows.is_empty()).then(|| centre::read(&source, &mut found).expect("a centre line"));
+    Job { profile, centre: line.map(|line| Arc::new(Centre { line, source })), ..Job::default() }
 }
 
 /// The text that a pass makes of a text, then what it says and what `ir::check` finds.

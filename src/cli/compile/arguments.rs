@@ -110,8 +110,16 @@ impl Making {
         self.reading.machine.profile.as_deref()
     }
 
-    /// The job, or what is wrong with its profile.
+    /// The file of the centre line as typed.
+    pub(in crate::cli) fn centre(&self) -> Option<&Path> {
+        self.choice.centre()
+    }
+
+    /// The job, or what is wrong with its profile or its centre line.
     pub(in crate::cli) fn job(&self) -> anyhow::Result<Result<Job, Finished>> {
-        Ok(self.reading.job()?.map(|job| self.choice.of(job)))
+        match self.reading.job()? {
+            Ok(job) => self.choice.of(job),
+            Err(refused) => Ok(Err(refused)),
+        }
     }
 }

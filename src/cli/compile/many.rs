@@ -102,6 +102,8 @@ impl<'a> Many<'a> {
     pub(in crate::cli) fn made(&self, input: &Input, source: &Source) -> Made {
         let mut options = vec![typed(self.job)];
         options.extend(self.making.reading.from.map(|dialect| format!("--from {}", dialect.name)));
+        let centre = self.job.centre.as_ref().map(|centre| sha256_hex(centre.source.bytes()));
+        options.extend(centre.map(|sha256| format!("(sha256 {sha256})")));
         options.extend(self.making.no_verify.then(|| "--no-verify".to_owned()));
         options.retain(|option| !option.is_empty());
         Made {

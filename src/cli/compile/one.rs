@@ -25,8 +25,8 @@ const MOST_LINES: usize = 10;
 
 pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished> {
     let Making { out, targets, force, .. } = &arguments.making;
-    let profile = arguments.making.profile();
-    let asked = Asked { out: out.as_deref(), targets, input: file, profile, force: *force };
+    let beside = [arguments.making.profile(), arguments.making.centre()];
+    let asked = Asked { out: out.as_deref(), targets, input: file, beside, force: *force };
     let Destination { targets, place } = asked.destination()?;
     if place == Place::Stdout && arguments.format == Format::Json {
         return Err(failure(

@@ -6,7 +6,9 @@ use clap::Args;
 
 use crate::cli::batch::Threads;
 use crate::cli::choices::Format;
+use crate::cli::finished::Finished;
 use crate::cli::options::{Choice, Messages, NO_HEADING, Reading};
+use crate::machine::Job;
 
 /// Arguments of `cutc verify`.
 ///
@@ -55,4 +57,14 @@ pub(in crate::cli) struct Arguments {
     /// What the program was compiled with
     #[command(flatten)]
     pub(super) choice: Choice,
+}
+
+impl Arguments {
+    /// The job that programs were made by, or what is wrong with its profile or its centre line.
+    pub(super) fn job(&self) -> anyhow::Result<Result<Job, Finished>> {
+        match self.reading.job()? {
+            Ok(job) => self.choice.of(job),
+            Err(refused) => Ok(Err(refused)),
+        }
+    }
 }

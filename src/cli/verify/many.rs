@@ -64,10 +64,10 @@ pub(super) fn run(
     threads: usize,
     console: &mut Console,
 ) -> anyhow::Result<Finished> {
-    let Arguments { source, reading, messages, choice, format, .. } = arguments;
+    let Arguments { source, messages, format, .. } = arguments;
     let sources = if source.is_dir() { Sources::Folder(source) } else { Sources::File(files::read(source)?) };
-    let job = match reading.job()? {
-        Ok(job) => choice.of(job),
+    let job = match arguments.job()? {
+        Ok(job) => job,
         Err(refused) => return Ok(refused),
     };
     let is_json = *format == Format::Json;

@@ -41,8 +41,8 @@ pub(super) fn run(arguments: &Arguments, program: &Path, source: &Path) -> anyho
         }
     };
     let source = files::read(source)?;
-    let job = match arguments.reading.job()? {
-        Ok(job) => arguments.choice.of(job),
+    let job = match arguments.job()? {
+        Ok(job) => job,
         Err(refused) => return Ok(refused),
     };
     let Judged { verdict, said } = arguments.judge(&mut program, &source, &job)?;

@@ -15,8 +15,8 @@ use crate::machine::Job;
 
 /// The file with the options of a folder.
 pub(super) const NAME: &str = "cutc.toml";
-/// The option that names a file: in a folder it is meant from there.
-const PROFILE: &str = "profile";
+/// The options that name a file: in a folder it is meant from there.
+const FILES: [&str; 2] = ["profile", "centre"];
 
 /// What some files look like; `None` = not there.
 pub(super) type Stamps = Vec<Option<Stamp>>;
@@ -58,9 +58,10 @@ impl Settings {
             failure(format!("{from}{message}"), "its keys are the long options of `cutc watch`, each given once")
         })?;
         let targets = targets_of_many(arguments.making.place(), arguments.making.targets())?;
-        let profile = arguments.making.profile().map(Path::to_owned);
-        let stamps = std::iter::once(stamp).chain(profile.as_deref().map(Stamp::at)).collect();
-        let read = std::iter::once(file).chain(profile).collect();
+        let named = [arguments.making.profile(), arguments.making.centre()];
+        let named: Vec<PathBuf> = named.into_iter().flatten().map(Path::to_owned).collect();
+        let stamps = std::iter::once(stamp).chain(named.iter().map(|path| Stamp::at(path))).collect();
+        let read = std::iter::once(file).chain(named).collect();
         Ok(arguments.making.job()?.map(|job| Self { arguments, targets, job, read, stamps }))
     }
 
@@ -106,7 +107,7 @@ fn words(file: &Path, folder: &Path) -> anyhow::Result<Vec<OsString>> {
                     continue;
                 }
                 toml::Value::Boolean(false) => continue,
-                toml::Value::String(path) if key == PROFILE => folder.join(path).into_os_string(),
+                toml::Value::String(path) if FILES.contains(&key.as_str()) => folder.join(path).into_os_string(),
                 toml::Value::String(text) => text.into(),
                 toml::Value::Integer(number) => number.to_string().into(),
                 toml::Value::Float(_) | toml::Value::Datetime(_) | toml::Value::Array(_) | toml::Value::Table(_) => {

@@ -3,6 +3,7 @@
 //! Receives a marker as it was read, promises one whose cuts are made, in cut order; what is doubtful is reported. Never knows
 //! how the blade moves.
 
+mod centre;
 mod cut;
 mod inspect;
 mod near;
@@ -34,6 +35,7 @@ pub const MARKER_PASSES: &[MarkerPass] = &[
     notch::PASS,
     sanity::PASS,
     sheet::PASS,
+    centre::PASS,
     route::PASS,
     select::PASS,
     table::PASS,

@@ -9,6 +9,7 @@ use crate::ir::list::Segment;
 use crate::ir::marker::{Contour, Drill, Event, Label, Notch, OutlineNotch, Piece};
 use crate::ir::{Finding, Marker};
 use crate::machine::{Flip, Job, MachineProfile, Mirror};
+use crate::verify::source::cloth::Cloth;
 use crate::verify::worst::{Worst, at};
 
 /// Rounding of places on a table that is a kilometre long, mm.
@@ -32,9 +33,12 @@ impl Drawn {
     /// How far anything of a marker is from where the sheet of the profile has it; infinite where something is missing, is one
     /// too many or is not the same. Whole pieces may be missing that are not selected.
     pub fn laid(&self, marker: &Marker, job: &Job) -> Finding {
-        let mut worst = Worst::new("source/laid", "mm", Some(PLACE_EPSILON));
+        let cloth = Cloth::of(job);
+        // What wanders is followed within the tolerance.
+        let limit = if cloth.is_some() { job.profile.tolerance(marker.unit) } else { PLACE_EPSILON };
+        let mut worst = Worst::new("source/laid", "mm", Some(limit));
         let Self(drawn) = self;
-        let table = Lay::of(drawn, &job.profile);
+        let table = Lay { cloth: cloth.as_ref(), ..Lay::of(drawn, &job.profile) };
         let mut laid: BTreeMap<Name, Vec<&Piece>> = BTreeMap::new();
         for piece in marker.pieces.iter().rev() {
             laid.entry((piece.number, piece.span.start, piece.copy)).or_default().push(piece);
@@ -79,16 +83,18 @@ fn of(piece: &Piece, table: &Lay) -> Sighting {
 
 /// Where places of the file come to lie on the table.
 #[derive(Debug, Clone, Copy)]
-struct Lay {
+struct Lay<'a> {
     turn: f64,
     /// What X and Y are multiplied by behind the turn.
     factors: [f64; 2],
     /// From one copy to the next.
     pitch: f64,
     by: [f64; 2],
+    /// What carries it across.
+    cloth: Option<&'a Cloth>,
 }
 
-impl Lay {
+impl Lay<'_> {
     fn of(drawn: &Marker, profile: &MachineProfile) -> Self {
         let sheet = &profile.sheet;
         let mut lay = Self {
@@ -96,6 +102,7 @@ impl Lay {
             factors: [sheet.scale_x, sheet.scale_y],
             pitch: 0.0,
             by: [0.0; 2],
+            cloth: None,
         };
         if sheet.mirror == Mirror::Ends {
             lay.factors[0] *= -1.0;
@@ -133,6 +140,12 @@ impl Lay {
     }
 
     fn place(&self, at: Point) -> Point {
+        let laid = self.on_table(at);
+        self.cloth.map_or(laid, |cloth| cloth.carried(laid))
+    }
+
+    /// Where the sheet alone has a place.
+    fn on_table(&self, at: Point) -> Point {
         let [x, y] = self.turned(at.x, at.y);
         Point::new(x + self.by[0], y + self.by[1])
     }
@@ -187,12 +200,14 @@ impl Lay {
             by_span(&piece.outline_notches, |notch| notch.span.start).into_iter().copied().collect::<Vec<_>>()
         };
         for (drawn, laid) in sorted(one).into_iter().zip(sorted(other)) {
-            let told = |n: &OutlineNotch| (n.form, n.outwards, n.segments, n.span);
+            // Lines of a notch may be parted where the cloth wanders.
+            let parted = if self.cloth.is_some() { laid.segments.saturating_sub(drawn.segments) } else { 0 };
+            let told = |n: &OutlineNotch| (n.form, n.outwards, n.span);
             let [from, to] = laid.mouth;
             let mouths = [[from, to], [to, from]].into_iter();
             let away = mouths.map(|mouth| self.away(drawn.mouth[0], mouth[0]).max(self.away(drawn.mouth[1], mouth[1])));
             let away = away.fold(f64::INFINITY, f64::min).max(self.away(drawn.tip, laid.tip));
-            let is_same = told(&drawn) == told(&laid);
+            let is_same = told(&drawn) == told(&laid) && drawn.segments + parted == laid.segments;
             worst.see(if is_same { away } else { f64::INFINITY }, || at(0.0, laid.tip, laid.span.block));
         }
     }
@@ -212,9 +227,12 @@ impl Lay {
         let begin = (0..laid.len()).filter(|&i| laid[i].span == first.span);
         let away = |i: &usize| self.away(first.from, laid[*i].from);
         let begin = begin.min_by(|a, b| away(a).total_cmp(&away(b)));
-        let Some(begin) = begin.filter(|_| drawn.len() == laid.len()) else {
+        let Some(begin) = begin.filter(|_| drawn.len() == laid.len() || self.cloth.is_some()) else {
             return (f64::INFINITY, at(0.0, self.place(first.from), first.span.block));
         };
+        if let Some(cloth) = self.cloth {
+            return self.farthest_parted(cloth, drawn, laid.iter().cycle().skip(begin).take(laid.len()));
+        }
         let all = drawn.iter().zip(laid.iter().cycle().skip(begin)).map(|(drawn, laid)| {
             let told = |segment: &Segment| (segment.span, segment.percent, segment.joint);
             let away = self.away(drawn.from, laid.from).max(self.away(drawn.to, laid.to));
@@ -222,6 +240,24 @@ impl Lay {
             (away, at(0.0, laid.to, laid.span.block))
         });
         all.max_by(|a, b| a.0.total_cmp(&b.0)).expect("a contour has a segment")
+    }
+
+    /// The same of a contour whose lines may be parted where the cloth wanders.
+    fn farthest_parted<'s>(
+        &self,
+        cloth: &Cloth,
+        drawn: &[Segment],
+        mut laid: impl Iterator<Item = &'s Segment>,
+    ) -> (f64, Sighting) {
+        let mut worst = (0.0, at(0.0, self.place(drawn[0].from), drawn[0].span.block));
+        for line in drawn {
+            let on_table = Segment { from: self.on_table(line.from), to: self.on_table(line.to), ..*line };
+            let away = cloth.parted(&on_table, &mut laid);
+            if away > worst.0 {
+                worst = (away, at(0.0, self.place(line.to), line.span.block));
+            }
+        }
+        if laid.next().is_some() { (f64::INFINITY, worst.1) } else { worst }
     }
 
     /// How far a text is from its place; infinite where it is another, or points elsewhere.

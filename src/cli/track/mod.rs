@@ -1,0 +1,88 @@
+//! `cutc track`: ruler readings of a moving cloth to commands for the carriage, and to the line that the cloth took.
+
+mod arguments;
+mod made;
+mod place;
+mod summary;
+
+pub(super) use arguments::Arguments;
+
+use std::path::Path;
+
+use self::place::Place;
+use super::choices::Format;
+use super::draft::MadeFolders;
+use super::files;
+use super::finished::{DONE, FAULTY, Finished, Stdout, failure, say};
+use super::options::counted;
+use crate::diagnostic::{Diagnostics, Severity, render_with};
+use crate::machine::Job;
+use crate::source::Source;
+use crate::track::{Needs, Tracked};
+
+pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
+    let places = place::places(arguments)?;
+    if arguments.format == Format::Json && places.iter().any(|(_, place)| *place == Place::Stdout) {
+        return Err(failure("`-o -` and `--format json` both want standard output", "write to a file with -o FILE"));
+    }
+    let paths: Vec<&Path> = places
+        .iter()
+        .filter_map(|(_, place)| match place {
+            Place::File(path) => Some(path.as_path()),
+            Place::Stdout => None,
+        })
+        .collect();
+    let source = files::read(&arguments.file)?;
+    let job = match arguments.machine.job()? {
+        Ok(job) => job,
+        Err(mut refused) => {
+            // A slip in an argument is no verdict on what is there.
+            if refused.code == FAULTY {
+                refused.stderr.extend(paths.iter().map(|path| files::move_aside(path)));
+            }
+            return Ok(refused);
+        }
+    };
+    let _made = MadeFolders::of(paths.iter().copied())?;
+    let needs = places.iter().map(|(target, _)| target.needs).max().unwrap_or(Needs::Commands);
+    let mut diagnostics = Diagnostics::default();
+    let track = &job.profile.track;
+    let tracked = if arguments.simulate {
+        Tracked::of_scenario(&source, track, needs, &mut diagnostics)
+    } else {
+        Tracked::of_log(&source, track, needs, &mut diagnostics)
+    };
+    let Some(tracked) = tracked else {
+        return Ok(refused(arguments, &source, &paths, &diagnostics, &job));
+    };
+    let spool = made::write(&tracked, &places, &source, &job)?;
+    let mut said = render_with(&diagnostics, &source, arguments.messages.detail(arguments.format));
+    let figures = summary::Figures::of(&tracked);
+    let text = summary::text(&source, &figures, arguments.messages.quiet);
+    let stdout = match (arguments.format, spool) {
+        (_, Some(spool)) => {
+            said.push_str(&text);
+            Stdout::Program(spool)
+        }
+        (Format::Json, None) => Stdout::Text(summary::json(figures, &diagnostics, &source, &job)),
+        (Format::Text, None) => Stdout::Text(text),
+    };
+    for path in paths.iter().filter(|_| !arguments.messages.quiet) {
+        say(&mut said, format_args!("wrote `{}`", path.display()));
+    }
+    Ok(Finished { stdout, stderr: said, code: DONE })
+}
+
+/// What is said when nothing is written. Older files of these names are moved aside.
+fn refused(arguments: &Arguments, source: &Source, paths: &[&Path], diagnostics: &Diagnostics, job: &Job) -> Finished {
+    let mut said = render_with(diagnostics, source, arguments.messages.detail(arguments.format));
+    let errors = counted(diagnostics.count(Severity::Error), "error");
+    let warnings = counted(diagnostics.count(Severity::Warning), "warning");
+    say(&mut said, format_args!("{}: {errors}, {warnings}; nothing was written", source.name()));
+    said.extend(paths.iter().map(|path| files::move_aside(path)));
+    let stdout = match arguments.format {
+        Format::Json => summary::json(summary::nothing(), diagnostics, source, job),
+        Format::Text => String::new(),
+    };
+    Finished::text(stdout, said, FAULTY)
+}

@@ -1,0 +1,145 @@
+//! What is said of a log or a scenario: statuses, speeds, and how well the cloth is followed.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+
+use crate::cli::report::{self, Findings, pretty};
+use crate::cli::setup::Profile;
+use crate::diagnostic::Diagnostics;
+use crate::machine::Job;
+use crate::source::Source;
+use crate::track::Tracked;
+use crate::track::controller::Status;
+use crate::track::measure::Measures;
+use crate::units::number::fixed;
+
+/// The figures of a log or a scenario.
+#[derive(Debug, Serialize, Default)]
+pub(super) struct Figures {
+    samples: usize,
+    duration_s: f64,
+    /// How many samples had each status.
+    statuses: Vec<Counted>,
+    /// The fastest that the carriage is driven.
+    max_speed_mm_s: f64,
+    /// Where the centre of the cloth was least and most, mm; null where it is not known.
+    centre_mm: Option<[f64; 2]>,
+    /// What followed the cloth of a scenario; empty for a log.
+    followers: Vec<Follower>,
+}
+
+/// How often something is.
+#[derive(Debug, Serialize)]
+struct Counted {
+    status: &'static str,
+    samples: usize,
+}
+
+/// How well something follows a cloth.
+#[derive(Debug, Serialize)]
+struct Follower {
+    name: String,
+    #[serde(flatten)]
+    measures: Measures,
+}
+
+/// Every status, in the order in which they are told.
+const STATUSES: [Status; 6] =
+    [Status::Centred, Status::Waiting, Status::Driving, Status::LostCovered, Status::LostOpen, Status::Width];
+
+impl Figures {
+    pub(super) fn of(tracked: &Tracked) -> Self {
+        let commands = &tracked.replay.commands;
+        let rows = &tracked.replay.rows;
+        let count = |status: Status| commands.iter().filter(|command| command.status == status).count();
+        let counted = STATUSES.map(|status| Counted { status: status.name(), samples: count(status) });
+        let ends = |[least, most]: [f64; 2], [_, at]: &[f64; 2]| [least.min(*at), most.max(*at)];
+        let centre = tracked.centre.iter().fold([f64::INFINITY, f64::NEG_INFINITY], ends);
+        Self {
+            samples: rows.len(),
+            duration_s: rows.last().map_or(0.0, |last| last.time - rows[0].time),
+            statuses: counted.into_iter().filter(|counted| counted.samples > 0).collect(),
+            max_speed_mm_s: commands.iter().map(|command| command.velocity.abs()).fold(0.0, f64::max),
+            centre_mm: Some(centre).filter(|_| !tracked.centre.is_empty()),
+            followers: tracked
+                .followers
+                .iter()
+                .map(|(follower, measures)| Follower { name: follower.name.clone(), measures: *measures })
+                .collect(),
+        }
+    }
+}
+
+/// Any figures as JSON, with the profile and what was found.
+pub(super) fn json(figures: impl Serialize, diagnostics: &Diagnostics, source: &Source, job: &Job) -> String {
+    #[derive(Serialize)]
+    struct Json<T: Serialize> {
+        profile: Profile,
+        #[serde(flatten)]
+        figures: T,
+        #[serde(flatten)]
+        findings: Findings,
+    }
+    pretty(&Json { profile: Profile::of(job), figures, findings: Findings::of(diagnostics, source) })
+}
+
+/// The keys of the figures, all null.
+pub(super) fn nothing() -> serde_json::Value {
+    report::nothing(&Figures::default())
+}
+
+/// The figures for people.
+pub(super) fn text(source: &Source, figures: &Figures, quiet: bool) -> String {
+    let mut out = String::new();
+    if quiet {
+        return out;
+    }
+    // Writing into a `String` cannot fail.
+    let _ = writeln!(out, "{}: {} samples, {} s", source.name(), figures.samples, fixed(figures.duration_s, 2));
+    let statuses = figures.statuses.iter().map(|counted| format!("{} {}", counted.samples, counted.status));
+    let _ = writeln!(out, "  {:9} {}", "samples", statuses.collect::<Vec<_>>().join(", "));
+    let _ = writeln!(out, "  {:9} at most {} mm/s", "carriage", fixed(figures.max_speed_mm_s, 1));
+    if let Some([least, most]) = figures.centre_mm {
+        let _ = writeln!(out, "  {:9} from {} to {} mm", "centre", fixed(least, 2), fixed(most, 2));
+    }
+    if !figures.followers.is_empty() {
+        out.push_str(&table(&figures.followers));
+    }
+    out
+}
+
+/// A row for each that followed the cloth.
+fn table(followers: &[Follower]) -> String {
+    let width = followers.iter().map(|follower| follower.name.len()).max().unwrap_or(0);
+    let columns = ["settling", "overshoot", "reversals", "residual", "worst", "rms"];
+    let mut out = format!("\n  {:width$}", "");
+    // Writing into a `String` cannot fail.
+    for column in columns {
+        let _ = write!(out, " {column:>10}");
+    }
+    out.push('\n');
+    for Follower { name, measures } in followers {
+        let jump = measures.overshoot_mm;
+        let settling = match (jump, measures.settling_s) {
+            (None, _) => "-".to_owned(),
+            (Some(_), None) => "never".to_owned(),
+            (Some(_), Some(time)) => format!("{} s", fixed(time, 2)),
+        };
+        let mm = |value: f64| format!("{} mm", fixed(value, 2));
+        let cells = [
+            settling,
+            jump.map_or("-".to_owned(), mm),
+            measures.reversals.to_string(),
+            mm(measures.residual_mm),
+            mm(measures.worst_mm),
+            mm(measures.rms_mm),
+        ];
+        let _ = write!(out, "  {name:width$}");
+        for cell in cells {
+            let _ = write!(out, " {cell:>10}");
+        }
+        out.push('\n');
+    }
+    out
+}

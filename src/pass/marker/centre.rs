@@ -1,0 +1,151 @@
+//! Centre: where the cloth wanders on its conveyor, the marker goes with it.
+//!
+//! Needs: the marker as it lies on the table, X along the feed. Leaves true: the same pieces in the same order, each place
+//! moved across by as much as the centre of the cloth is off the middle when the conveyor is at its X. What is straight on the
+//! cloth is not so on a machine past which it wanders: lines are parted where the centre line bends, so that they follow it
+//! within a part of the tolerance. All places go by one line of few rows, so that edges which touch still do.
+
+use super::pass::MarkerPass;
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::Point;
+use crate::ir::list::{Range, SegmentList};
+use crate::ir::marker::{Marker, NotchKind, OutlineNotch, Piece};
+use crate::machine::{CentreLine, Job};
+use crate::units::number::{fixed, up};
+
+pub(super) const PASS: MarkerPass =
+    MarkerPass { name: "centre", about: "moves the marker with the cloth that wanders", run };
+
+/// The part of the tolerance by which lines may leave the centre line: the knife may leave them by the whole of it.
+const PART: f64 = 0.25;
+/// A line is not parted where it leaves the centre line by less if it is not, mm: no file resolves it.
+const STRAIGHT_EPSILON: f64 = 0.001;
+/// Decimals of places of the conveyor, mm.
+const DECIMALS: u32 = 1;
+
+fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
+    let Some(centre) = &job.centre else { return };
+    let extent = marker.extent();
+    if extent.is_empty() {
+        return;
+    }
+    tell(&centre.line, [extent.min.x, extent.max.x], diagnostics);
+    let shift = Shift(centre.line.simplified(PART * job.profile.tolerance(marker.unit)));
+    for piece in &mut marker.pieces {
+        for contour in &mut piece.contours {
+            part(&mut marker.list, &mut contour.range, &shift);
+        }
+        recount(piece, &marker.list);
+        shift.piece(piece);
+    }
+    marker.list.move_points(|at| shift.place(at));
+    for vertex in marker.drawing.iter_mut().flat_map(|account| &mut account.aside.vertices) {
+        shift.move_place(&mut vertex.at);
+    }
+}
+
+/// Says how far a marker reaches beyond the ends of the centre line.
+fn tell(centre: &CentreLine, [from, to]: [f64; 2], diagnostics: &mut Diagnostics) {
+    let [start, end] = centre.range();
+    let beyond = (start - from).max(to - end);
+    if beyond <= 0.0 {
+        return;
+    }
+    let place = |x| fixed(x, DECIMALS);
+    let message = format!(
+        "the marker lies from X {} to {} mm, the centre line is known from {} to {}: beyond its ends the cloth is taken to lie \
+         as it does there",
+        place(from),
+        place(to),
+        place(start),
+        place(end)
+    );
+    let hint = format!("record {} mm more of the cloth, or move the marker (`sheet.origin`)", up(beyond, DECIMALS));
+    diagnostics.push(Diagnostic::new(&code::CENTRE_BEYOND, message).by(beyond).hint(hint));
+}
+
+/// How places move across, by a line of few rows.
+struct Shift(CentreLine);
+
+impl Shift {
+    fn place(&self, at: Point) -> Point {
+        Point::new(at.x, at.y + self.0.at(at.x))
+    }
+
+    fn move_place(&self, at: &mut Point) {
+        *at = self.place(*at);
+    }
+
+    /// Where the line bends between two places of the conveyor, in the direction from the one to the other.
+    fn bends(&self, from: f64, to: f64) -> Vec<f64> {
+        let Self(line) = self;
+        let (rows, [least, most]) = (line.rows(), [from.min(to), from.max(to)]);
+        let first = rows.partition_point(|[place, _]| *place <= least);
+        let end = first + rows[first..].partition_point(|[place, _]| *place < most);
+        let mut bends: Vec<f64> = Vec::new();
+        for i in first..end {
+            let [place, centre] = rows[i];
+            let before = bends.last().copied().unwrap_or(least);
+            let next = if i + 1 < end { rows[i + 1][0] } else { most };
+            let share = (place - before) / (next - before);
+            let straight = line.at(before) + (line.at(next) - line.at(before)) * share;
+            if (centre - straight).abs() > STRAIGHT_EPSILON {
+                bends.push(place);
+            }
+        }
+        if from > to {
+            bends.reverse();
+        }
+        bends
+    }
+
+    /// Moves what a piece has beside its contours. Strokes of notches are short: they are not parted.
+    fn piece(&self, piece: &mut Piece) {
+        piece.drills.iter_mut().for_each(|drill| self.move_place(&mut drill.at));
+        for notch in &mut piece.notches {
+            self.move_place(&mut notch.root);
+            self.move_place(&mut notch.tip);
+            match &mut notch.kind {
+                NotchKind::Slit => {}
+                NotchKind::T(bar) => [&mut bar.from, &mut bar.to].into_iter().for_each(|at| self.move_place(at)),
+            }
+        }
+        for notch in &mut piece.outline_notches {
+            notch.mouth.iter_mut().chain([&mut notch.tip]).for_each(|at| self.move_place(at));
+        }
+        piece.labels.iter_mut().filter_map(|label| label.at.as_mut()).for_each(|at| self.move_place(at));
+    }
+}
+
+/// Parts the lines of a contour where the centre line bends.
+fn part(list: &mut SegmentList, range: &mut Range, shift: &Shift) {
+    if list.lines(*range).all(|[from, to]| shift.bends(from.x, to.x).is_empty()) {
+        return;
+    }
+    let mut cursor = list.cursor(range);
+    loop {
+        let segment = cursor.segment();
+        let step = segment.to - segment.from;
+        for x in shift.bends(segment.from.x, segment.to.x) {
+            cursor.split(Point::new(x, segment.from.y + step.y * ((x - segment.from.x) / step.x)));
+            cursor.advance();
+        }
+        if !cursor.advance() {
+            break;
+        }
+    }
+}
+
+/// Counts anew the segments of the notches that the contours of a piece make: some may have been parted.
+fn recount(piece: &mut Piece, list: &SegmentList) {
+    let Piece { contours, outline_notches, .. } = piece;
+    for OutlineNotch { mouth, segments, .. } in outline_notches {
+        let counted = contours.iter().find_map(|contour| {
+            let points = list.points(contour.range);
+            let ring = if contour.closed { &points[..points.len() - 1] } else { &points[..] };
+            let first = ring.iter().position(|at| *at == mouth[0])?;
+            (1..ring.len()).find(|k| ring[(first + k) % ring.len()] == mouth[1])
+        });
+        *segments = (*segments).max(counted.map_or(0, |count| count as u32));
+    }
+}

@@ -1,0 +1,110 @@
+//! Centre lines as files: CSV with the header `conv_mm,centre_mm`, a row a place of the conveyor.
+//!
+//! What is read is sound: two rows at the least, all numbers finite, the conveyor goes forward. Every fault of a file is found
+//! in one run.
+
+use std::io::{self, Write};
+
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::machine::CentreLine;
+use crate::source::{Source, Span};
+use crate::units::number::{push_fixed, short};
+
+/// The first row.
+const HEADER: &str = "conv_mm,centre_mm";
+/// Decimals, mm.
+const DECIMALS: u32 = 3;
+/// Farthest places, mm.
+const FARTHEST: f64 = 1e9;
+/// What a row is.
+const ROW: &str =
+    "a row is two numbers in mm, as in `125.5,-0.75`, and `conv_mm` is greater in each than in the one before";
+
+/// Reads a centre line; `None` when it has faults, which are diagnostics.
+pub fn read(source: &Source, out: &mut Diagnostics) -> Option<CentreLine> {
+    let mut rows: Vec<[f64; 2]> = Vec::new();
+    let mut start = 0;
+    let mut has_header = false;
+    let mut is_sound = true;
+    for (line, block) in source.bytes().split(|&byte| byte == b'\n').zip(1..) {
+        // A `Source` is below 4 GiB.
+        let span = Span { start, end: start + line.len() as u32, block };
+        start = span.end + 1;
+        let line = if block == 1 { line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(line) } else { line };
+        if line.trim_ascii().is_empty() {
+            continue;
+        }
+        if !has_header {
+            has_header = true;
+            if line.trim_ascii() != HEADER.as_bytes() {
+                let message = format!("the first row is not `{HEADER}`");
+                let hint = "`cutc track LOG.csv -t centre` writes such a file";
+                out.push(Diagnostic::new(&code::CENTRE_HEADER, message).at(span).hint(hint));
+                return None;
+            }
+            continue;
+        }
+        match parse(line, rows.last()) {
+            Ok(row) => rows.push(row),
+            Err(message) => {
+                is_sound = false;
+                out.push(Diagnostic::new(&code::CENTRE_ROW, message).at(span).hint(ROW));
+            }
+        }
+    }
+    if rows.len() < 2 && is_sound {
+        let message = format!("the centre line has fewer than two rows: {}", rows.len());
+        let hint = "give two at the least: where the conveyor begins, and where it ends";
+        out.push(Diagnostic::new(&code::CENTRE_SHORT, message).hint(hint));
+    }
+    CentreLine::new(rows).filter(|_| is_sound)
+}
+
+/// A row, which the conveyor has come to behind another.
+fn parse(line: &[u8], last: Option<&[f64; 2]>) -> Result<[f64; 2], String> {
+    let text = std::str::from_utf8(line).map_err(|_| "the row is no text".to_owned())?;
+    let fields: Vec<&str> = text.split(',').map(str::trim).collect();
+    let [conveyor, centre] = fields[..] else {
+        return Err(format!("the row has {} fields instead of 2", fields.len()));
+    };
+    let number = |field: &str| match field.parse::<f64>() {
+        Ok(value) if value.abs() <= FARTHEST => Ok(value + 0.0), // zero has no sign
+        Ok(_) | Err(_) => Err(format!("`{}` is no place in mm", field.escape_debug())),
+    };
+    let row = [number(conveyor)?, number(centre)?];
+    match last {
+        Some([before, _]) if row[0] <= *before => {
+            Err(format!("the conveyor does not go on: {} mm comes behind {} mm", short(row[0]), short(*before)))
+        }
+        _ => Ok(row),
+    }
+}
+
+/// Writes a centre line: places of the conveyor, each greater than the one before in what is printed of it, and of the
+/// centre, mm.
+pub(super) fn write(rows: &[[f64; 2]], out: &mut dyn Write) -> io::Result<()> {
+    let mut block = format!("{HEADER}\n").into_bytes();
+    for [conveyor, centre] in rows {
+        push_fixed(&mut block, *conveyor, DECIMALS);
+        block.push(b',');
+        push_fixed(&mut block, *centre, DECIMALS);
+        block.push(b'\n');
+    }
+    out.write_all(&block)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_written_is_read_again() {
+        let rows = [[0.0, -0.125], [2.5, 0.0], [1000.0, 7.25]];
+        let mut bytes = Vec::new();
+        write(&rows, &mut bytes).expect("a vector takes bytes");
+        assert!(bytes.starts_with(b"conv_mm,centre_mm\n0.000,-0.125\n"));
+        let mut out = Diagnostics::default();
+        let read = read(&Source::new("centre.csv", bytes).expect("small"), &mut out).expect("a line");
+        assert_eq!((read.rows(), out.iter().len()), (&rows[..], 0));
+    }
+}

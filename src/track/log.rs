@@ -1,0 +1,231 @@
+//! Logs: ruler readings as CSV, `t_s,i,j` and what else is known, a row a sample.
+//!
+//! Promises rows whose times increase and whose readings a ruler can give; every fault of a file is found in one run.
+
+use super::row::Row;
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::machine::Tracking;
+use crate::source::{Source, Span};
+use crate::units::MS_PER_S;
+use crate::units::number::short;
+
+/// What a column holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Column {
+    Time,
+    Left,
+    Right,
+    UpstreamLeft,
+    UpstreamRight,
+    Conveyor,
+    Carriage,
+    /// What an earlier run said of it.
+    Said,
+}
+
+/// The columns that a log may have; the first three it must.
+const COLUMNS: [(&str, Column); 10] = [
+    ("t_s", Column::Time),
+    ("i", Column::Left),
+    ("j", Column::Right),
+    ("up_i", Column::UpstreamLeft),
+    ("up_j", Column::UpstreamRight),
+    ("conv_mm", Column::Conveyor),
+    ("carriage_mm", Column::Carriage),
+    ("status", Column::Said),
+    ("direction", Column::Said),
+    ("v_mm_s", Column::Said),
+];
+/// How many of these must be there.
+const NEEDED: usize = 3;
+/// Farthest places, mm, and latest times, s: no conveyor is as long, no shift either.
+const FARTHEST: f64 = 1e9;
+/// A sample is missing where the time to the next differs from the period by more than this part of it.
+const MISSING: f64 = 0.4;
+
+/// Reads a log. Faults of the data are diagnostics; rows that have one are left out.
+pub(super) fn read(source: &Source, track: &Tracking, out: &mut Diagnostics) -> Vec<Row> {
+    let bytes = source.bytes();
+    let mut lines = Lines { bytes, at: 0, block: 0 };
+    let Some((header, span)) = lines.next() else {
+        out.push(Diagnostic::new(&code::SOURCE_EMPTY, "the log is empty"));
+        return Vec::new();
+    };
+    let columns = match columns(header) {
+        Ok(columns) => columns,
+        Err((message, hint)) => {
+            out.push(Diagnostic::new(&code::TRACK_HEADER, message).at(span).hint(hint));
+            return Vec::new();
+        }
+    };
+    let mut rows: Vec<Row> = Vec::with_capacity(bytes.len() / header.len().max(8));
+    for (line, span) in lines {
+        let row = parse(line, &columns, track).map(|row| Row { start: span.start, ..row });
+        match row.and_then(|row| follows(rows.last(), &row).map(|()| row)) {
+            Ok(row) => rows.push(row),
+            Err(message) => {
+                let hint = format!("a row is {}, with decimal points and commas", names(&columns));
+                out.push(Diagnostic::new(&code::TRACK_ROW, message).at(span).hint(hint));
+            }
+        }
+    }
+    if rows.is_empty() && !out.has_errors() {
+        out.push(Diagnostic::new(&code::TRACK_NO_ROWS, "the log has a header and no row"));
+    }
+    if !out.has_errors() {
+        rhythm(&rows, track, out);
+    }
+    rows
+}
+
+/// The lines of a text that are not blank, with their spans.
+struct Lines<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    block: u32,
+}
+
+impl<'a> Iterator for Lines<'a> {
+    type Item = (&'a [u8], Span);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        while self.at < self.bytes.len() {
+            let rest = &self.bytes[self.at..];
+            let length = memchr::memchr(b'\n', rest).unwrap_or(rest.len());
+            let (start, line) = (self.at, &rest[..length]);
+            self.at += length + 1;
+            self.block += 1;
+            // A byte order mark says nothing.
+            let line = if start == 0 { line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(line) } else { line };
+            if !line.trim_ascii().is_empty() {
+                // A `Source` is below 4 GiB.
+                let span = Span { start: start as u32, end: (start + length) as u32, block: self.block };
+                return Some((line, span));
+            }
+        }
+        None
+    }
+}
+
+/// The names of columns, as the header has them.
+fn names(columns: &[Column]) -> String {
+    let names = columns.iter().map(|column| {
+        let known = COLUMNS.iter().find(|(_, known)| known == column);
+        known.map_or("", |(name, known)| if *known == Column::Said { "what was said" } else { name })
+    });
+    format!("`{}`", names.collect::<Vec<_>>().join(","))
+}
+
+/// What the columns of a header hold; or what is wrong with it, and what to do.
+fn columns(header: &[u8]) -> Result<Vec<Column>, (String, String)> {
+    let known: Vec<&str> = COLUMNS.iter().map(|(name, _)| *name).collect();
+    let hint = || {
+        format!("the first row is `{}`, and may go on with {}", known[..NEEDED].join(","), known[NEEDED..].join(", "))
+    };
+    let text = std::str::from_utf8(header).map_err(|_| ("the first row is no text".to_owned(), hint()))?;
+    let mut columns = Vec::new();
+    for name in text.split(',').map(str::trim) {
+        let column = known.iter().position(|known| *known == name).map(|i| COLUMNS[i].1);
+        let column = column.ok_or_else(|| (format!("`{}` is no column of a log", name.escape_debug()), hint()))?;
+        if column != Column::Said && columns.contains(&column) {
+            return Err((format!("the column `{name}` stands twice"), hint()));
+        }
+        columns.push(column);
+    }
+    if let Some((name, _)) = COLUMNS[..NEEDED].iter().find(|(_, column)| !columns.contains(column)) {
+        return Err((format!("the column `{name}` is missing"), hint()));
+    }
+    if columns.contains(&Column::UpstreamLeft) != columns.contains(&Column::UpstreamRight) {
+        return Err(("the rulers upstream are a pair: `up_i` and `up_j`".to_owned(), hint()));
+    }
+    Ok(columns)
+}
+
+/// A row, without its place.
+fn parse(line: &[u8], columns: &[Column], track: &Tracking) -> Result<Row, String> {
+    let text = std::str::from_utf8(line).map_err(|_| "the row is no text".to_owned())?;
+    let mut row = Row { time: 0.0, covered: [0; 2], upstream: None, conveyor: None, carriage: None, start: 0 };
+    let mut upstream = [0; 2];
+    let mut fields = text.trim_end().split(',');
+    for column in columns {
+        let Some(field) = fields.next() else {
+            let count = text.split(',').count();
+            return Err(format!("the row has {count} fields instead of {}", columns.len()));
+        };
+        let field = field.trim();
+        match column {
+            Column::Time => row.time = number(field, "time in s")?,
+            Column::Left => row.covered[0] = count(field, track)?,
+            Column::Right => row.covered[1] = count(field, track)?,
+            Column::UpstreamLeft => upstream[0] = count(field, track)?,
+            Column::UpstreamRight => upstream[1] = count(field, track)?,
+            Column::Conveyor => row.conveyor = Some(number(field, "place of the conveyor in mm")?),
+            Column::Carriage => row.carriage = Some(number(field, "place of the carriage in mm")?),
+            Column::Said => {}
+        }
+    }
+    if fields.next().is_some() {
+        let count = text.split(',').count();
+        return Err(format!("the row has {count} fields instead of {}", columns.len()));
+    }
+    row.upstream = columns.contains(&Column::UpstreamLeft).then_some(upstream);
+    Ok(row)
+}
+
+fn number(field: &str, what: &str) -> Result<f64, String> {
+    match field.parse::<f64>() {
+        Ok(value) if value.abs() <= FARTHEST => Ok(value + 0.0), // zero has no sign
+        Ok(_) | Err(_) => Err(format!("`{}` is no {what}", field.escape_debug())),
+    }
+}
+
+fn count(field: &str, track: &Tracking) -> Result<u16, String> {
+    match field.parse::<u16>() {
+        Ok(value) if u32::from(value) <= track.sensors => Ok(value),
+        Ok(value) => Err(format!("{value} sensors are covered, but `track.sensors` is {}", track.sensors)),
+        Err(_) => Err(format!("`{}` is no number of sensors", field.escape_debug())),
+    }
+}
+
+/// Whether a row may stand behind another.
+fn follows(last: Option<&Row>, row: &Row) -> Result<(), String> {
+    let Some(last) = last else { return Ok(()) };
+    if row.time <= last.time {
+        return Err(format!(
+            "the time {} s is not behind that of the row before, {} s",
+            short(row.time),
+            short(last.time)
+        ));
+    }
+    match (last.conveyor, row.conveyor) {
+        (Some(before), Some(now)) if now < before => {
+            Err(format!("the conveyor goes back, from {} to {} mm", short(before), short(now)))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Whether a row comes so long behind the one before it that samples between the two are missing.
+pub(super) fn is_gap(before: &Row, row: &Row, track: &Tracking) -> bool {
+    (row.time - before.time - track.period()).abs() > MISSING * track.period()
+}
+
+/// Looks at the times of all rows: most must be a period apart; elsewhere samples are missing.
+fn rhythm(rows: &[Row], track: &Tracking, out: &mut Diagnostics) {
+    let gaps: Vec<&Row> = rows.windows(2).filter(|w| is_gap(&w[0], &w[1], track)).map(|w| &w[1]).collect();
+    if gaps.len() > rows.len() / 2 {
+        let mut steps: Vec<f64> = rows.windows(2).map(|w| w[1].time - w[0].time).collect();
+        steps.sort_by(f64::total_cmp);
+        let step = steps[steps.len() / 2] * MS_PER_S;
+        let message =
+            format!("the log has a row each {} ms, but `track.period_ms` is {}", short(step), track.period_ms);
+        let hint = format!("the controller counts samples: --set track.period_ms={}", short(step));
+        out.push(Diagnostic::new(&code::TRACK_PERIOD, message).hint(hint));
+        return;
+    }
+    for row in gaps {
+        let message = format!("samples are missing before {} s: the controller begins anew", short(row.time));
+        let span = Span { start: row.start, end: row.start, block: 0 };
+        out.push(Diagnostic::new(&code::TRACK_GAP, message).at(span));
+    }
+}

@@ -1,0 +1,18 @@
+//! A row of a log: what was read at a time, and what else is known of it.
+
+/// A sample.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Row {
+    /// When it was read, s.
+    pub time: f64,
+    /// I and J: covered sensors of the rulers over the left and the right edge.
+    pub covered: [u16; 2],
+    /// The same upstream.
+    pub upstream: Option<[u16; 2]>,
+    /// Where the conveyor was, mm.
+    pub conveyor: Option<f64>,
+    /// Where the carriage was, mm.
+    pub carriage: Option<f64>,
+    /// The byte at which the row begins.
+    pub start: u32,
+}

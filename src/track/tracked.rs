@@ -1,0 +1,131 @@
+//! What a log or a scenario came to: all that is written and shown of it.
+
+use super::controller::Status;
+use super::even::even;
+use super::measure::{Measures, measure};
+use super::replay::{self, Replay};
+use super::scenario::Scenario;
+use super::simulate::{self, Follower};
+use super::{law, log};
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::machine::{CentreLine, Tracking};
+use crate::source::Source;
+
+/// What must be known for something that is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Needs {
+    /// What the controller says.
+    Commands,
+    /// And where conveyor and carriage are.
+    Places,
+    /// And the line that the cloth takes.
+    Centre,
+}
+
+/// What a log or a scenario came to.
+#[derive(Debug)]
+pub struct Tracked {
+    /// Rows and commands.
+    pub replay: Replay,
+    /// Where the conveyor is at each row, mm.
+    pub conveyor: Vec<f64>,
+    /// Where the carriage is at each row, mm; empty when nobody needs it.
+    pub carriage: Vec<f64>,
+    /// The centre of the cloth by the place of the conveyor, mm; empty likewise.
+    pub centre: Vec<[f64; 2]>,
+    /// The centre of the cloth under the carriage at each row, mm, by that line, or as a scenario has it; empty likewise.
+    pub cloth: Vec<f64>,
+    /// What follows the cloth of a scenario, the controller first, each with how well it does; none for a log.
+    pub followers: Vec<(Follower, Measures)>,
+}
+
+impl Tracked {
+    /// Replays a log; `None` when it has faults, which are diagnostics.
+    pub fn of_log(source: &Source, track: &Tracking, needs: Needs, out: &mut Diagnostics) -> Option<Self> {
+        let rows = log::read(source, track, out);
+        if out.has_errors() {
+            return None;
+        }
+        law::note(track, out);
+        if track.upstream_mm.is_some() && rows.iter().all(|row| row.upstream.is_none()) {
+            let message =
+                "`track.upstream_mm` is given, but the log has no columns `up_i` and `up_j`: nothing is fed forward";
+            out.push(Diagnostic::new(&code::TRACK_NO_UPSTREAM, message));
+        }
+        let replay = replay::replay(rows, track, out);
+        let conveyor = replay.rows.iter().map(|row| row.conveyor.unwrap_or(row.time * track.cloth_mm_s)).collect();
+        let carriage = if needs >= Needs::Places { replay::carriage(&replay, track, out) } else { Vec::new() };
+        let tracked = Self { replay, conveyor, carriage, centre: Vec::new(), cloth: Vec::new(), followers: Vec::new() };
+        let mut tracked = tracked.with_centre(track, needs, out)?;
+        tracked.cloth = tracked.along_centre();
+        Some(tracked)
+    }
+
+    /// Simulates a scenario; `None` when it has faults, which are diagnostics.
+    pub fn of_scenario(source: &Source, track: &Tracking, needs: Needs, out: &mut Diagnostics) -> Option<Self> {
+        let scenario = Scenario::read(source, track, out)?;
+        law::note(track, out);
+        let simulation = simulate::compare(&scenario, track);
+        let measured = |follower: Follower| {
+            let measures = measure(&follower, &simulation.cloth, &scenario, track);
+            (follower, measures)
+        };
+        let followers: Vec<_> = simulation.followers.into_iter().map(measured).collect();
+        let replay = simulation.replay;
+        let conveyor = replay.rows.iter().filter_map(|row| row.conveyor).collect();
+        let carriage = replay.rows.iter().filter_map(|row| row.carriage).collect();
+        let cloth = simulation.cloth;
+        Self { replay, conveyor, carriage, centre: Vec::new(), cloth, followers }.with_centre(track, needs, out)
+    }
+
+    /// With the centre line, where it is needed; `None` when there is none.
+    fn with_centre(mut self, track: &Tracking, needs: Needs, out: &mut Diagnostics) -> Option<Self> {
+        if needs < Needs::Centre {
+            return Some(self);
+        }
+        let readings: Vec<[f64; 2]> = self.readings(track).collect();
+        self.centre = even(&without_damage(&readings, track.debounce().into()), track.centre_mm);
+        if self.centre.len() < 2 {
+            let message = "there is no centre line: both edges are seen in no two places of the conveyor";
+            out.push(Diagnostic::new(&code::TRACK_NO_CENTRE, message));
+            return None;
+        }
+        Some(self)
+    }
+
+    /// The centre line at the place of the conveyor of each row, mm.
+    fn along_centre(&self) -> Vec<f64> {
+        let line = CentreLine::new(self.centre.clone());
+        line.map_or_else(Vec::new, |line| self.conveyor.iter().map(|at| line.at(*at)).collect())
+    }
+
+    /// Where conveyor and centre of the cloth are by the readings that see both edges, mm: M = c - (I - J) q/2.
+    fn readings(&self, track: &Tracking) -> impl Iterator<Item = [f64; 2]> {
+        let half = track.pitch_mm / 2.0;
+        let rows = self.replay.rows.iter().zip(&self.replay.commands);
+        rows.zip(self.conveyor.iter().zip(&self.carriage)).filter_map(move |((row, command), (conveyor, carriage))| {
+            let [left, right] = row.covered.map(f64::from);
+            match command.status {
+                Status::Centred | Status::Waiting | Status::Driving => {
+                    Some([*conveyor, carriage - (left - right) * half])
+                }
+                Status::LostCovered | Status::LostOpen | Status::Width => None,
+            }
+        })
+    }
+}
+
+/// Readings without damage of the edges that passes within so many samples: each becomes the median of as many on its either
+/// side.
+fn without_damage(readings: &[[f64; 2]], samples: usize) -> Vec<[f64; 2]> {
+    let mut sorted: Vec<f64> = Vec::with_capacity(2 * samples + 1);
+    let median = |(i, [at, _]): (usize, &[f64; 2])| {
+        // As many on both sides, also at the ends.
+        let reach = samples.min(i).min(readings.len() - 1 - i);
+        sorted.clear();
+        sorted.extend(readings[i - reach..=i + reach].iter().map(|[_, centre]| *centre));
+        sorted.sort_unstable_by(f64::total_cmp);
+        [*at, sorted[reach]]
+    };
+    readings.iter().enumerate().map(median).collect()
+}

@@ -1,0 +1,102 @@
+//! Where cloth that wanders on its conveyor carries what is drawn: read again from the bytes of the centre line, and found by
+//! other means than those of the pass that moves the marker.
+
+use crate::geom::Point;
+use crate::ir::list::{Joint, Segment};
+use crate::machine::Job;
+
+/// Rounding of places along the feed, mm: nothing moves a place there.
+const ALONG_EPSILON: f64 = 1e-6;
+
+/// A cloth by the rows of its centre line: place of the conveyor and of the centre, mm.
+#[derive(Debug, Clone)]
+pub(super) struct Cloth(Vec<[f64; 2]>);
+
+impl Cloth {
+    /// That of a job; `None` where the cloth lies in the middle.
+    pub(super) fn of(job: &Job) -> Option<Self> {
+        let bytes = job.centre.as_ref()?.source.bytes();
+        let row = |line: &[u8]| {
+            let comma = line.iter().position(|&byte| byte == b',')?;
+            let number = |text: &[u8]| std::str::from_utf8(text).ok()?.trim().parse::<f64>().ok();
+            Some([number(&line[..comma])?, number(&line[comma + 1..])?])
+        };
+        Some(Self(bytes.split(|&byte| byte == b'\n').filter_map(row).collect()))
+    }
+
+    /// How far the cloth is carried across at a place along the feed, mm; not a number where nothing tells.
+    fn across(&self, x: f64) -> f64 {
+        let Self(rows) = self;
+        let [[start, first], .., [end, last]] = rows[..] else { return f64::NAN };
+        if x <= start {
+            return first;
+        }
+        if x >= end {
+            return last;
+        }
+        let (mut low, mut high) = (0, rows.len() - 1);
+        while high - low > 1 {
+            let middle = low.midpoint(high);
+            if rows[middle][0] > x { high = middle } else { low = middle }
+        }
+        let ([a, from], [b, to]) = (rows[low], rows[high]);
+        (from * (b - x) + to * (x - a)) / (b - a)
+    }
+
+    /// Where a place comes to lie.
+    pub(super) fn carried(&self, at: Point) -> Point {
+        Point::new(at.x, at.y + self.across(at.x))
+    }
+
+    /// How far a point is from where the line between two places comes to lie, mm.
+    fn off([from, to]: [Point; 2], at: Point, across: f64) -> f64 {
+        let x = at.x.clamp(from.x.min(to.x), from.x.max(to.x));
+        let share = if (to.x - from.x).abs() > ALONG_EPSILON { (x - from.x) / (to.x - from.x) } else { return 0.0 };
+        (at.x - x).hypot(at.y - (from.y + (to.y - from.y) * share + across))
+    }
+
+    /// How far a stroke is from where the line between two places comes to lie, mm, at its ends and wherever that bends.
+    fn astray(&self, line: [Point; 2], [from, to]: [Point; 2]) -> f64 {
+        let Self(rows) = self;
+        let ends = [from, to].map(|at| Self::off(line, at, self.across(at.x)));
+        let [least, most] = [from.x.min(to.x), from.x.max(to.x)];
+        let start = rows.partition_point(|[x, _]| *x <= least);
+        let bends = rows[start..].iter().take_while(|[x, _]| *x < most).map(|[x, across]| {
+            let y = from.y + (to.y - from.y) * ((x - from.x) / (to.x - from.x));
+            Self::off(line, Point::new(*x, y), *across)
+        });
+        ends.into_iter().chain(bends).fold(0.0, worse)
+    }
+
+    /// How far a line as the sheet lays it is from its parts, which come first among `parts`, mm; they are taken out of these.
+    /// Infinite where they are none of it.
+    pub(super) fn parted<'s>(&self, line: &Segment, parts: &mut impl Iterator<Item = &'s Segment>) -> f64 {
+        let ends = [line.from, line.to];
+        let along = line.to.x - line.from.x;
+        let mut worst = 0.0;
+        let (mut is_first, mut has_joint) = (true, false);
+        loop {
+            let Some(part) = parts.next() else { return f64::INFINITY };
+            let has_same = (part.span, part.percent) == (line.span, line.percent);
+            let goes_on = (part.to.x - part.from.x) * along >= 0.0;
+            has_joint |= part.joint == line.joint;
+            if !has_same || !goes_on || (part.joint != line.joint && part.joint != Joint::default()) {
+                return f64::INFINITY;
+            }
+            worst = worse(worst, self.astray(ends, [part.from, part.to]));
+            if is_first {
+                worst = worse(worst, (self.carried(line.from) - part.from).norm());
+            }
+            is_first = false;
+            if (part.to.x - line.to.x).abs() <= ALONG_EPSILON {
+                worst = worse(worst, (self.carried(line.to) - part.to).norm());
+                return if has_joint { worst } else { f64::INFINITY };
+            }
+        }
+    }
+}
+
+/// The greater of two; what is no number is the greatest.
+fn worse(one: f64, other: f64) -> f64 {
+    if one.is_nan() || other.is_nan() { f64::INFINITY } else { one.max(other) }
+}

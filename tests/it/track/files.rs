@@ -1,0 +1,158 @@
+//! Logs, scenarios and centre lines: each is read or refused as it should be, whatever is done to it.
+
+use std::fmt::Write as _;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use cutc::diagnostic::{Diagnostics, render};
+use cutc::machine::Tracking;
+use cutc::track::scenario::Scenario;
+use cutc::track::{Needs, Tracked, centre};
+use fastrand::Rng;
+
+use super::{fixture, replayed, source, written};
+use crate::support::room::{DONE, FAULTY, Room, USAGE};
+
+/// Damages of each file that are tried.
+const DAMAGES: usize = 300;
+
+fn names(folder: &str) -> Vec<String> {
+    let path = format!("{}/fixtures/{folder}", env!("CARGO_MANIFEST_DIR"));
+    let entries = std::fs::read_dir(path).expect("a folder");
+    let mut names: Vec<String> =
+        entries.map(|entry| format!("{folder}/{}", entry.expect("readable").file_name().to_string_lossy())).collect();
+    names.sort();
+    names
+}
+
+/// Reads a file as what its name says it is; what is said of it, and whether it can be used.
+fn read(name: &str, bytes: Vec<u8>, track: &Tracking) -> (bool, String) {
+    let (source, mut out) = (source(name, bytes), Diagnostics::default());
+    let is_read = if name.contains(".toml") {
+        Scenario::read(&source, track, &mut out).is_some()
+    } else if name.contains(".centre.") {
+        centre::read(&source, &mut out).is_some()
+    } else {
+        Tracked::of_log(&source, track, Needs::Centre, &mut out).is_some()
+    };
+    assert_eq!(is_read, !out.has_errors(), "{name}");
+    (is_read, render(&out, &source))
+}
+
+#[test]
+fn every_log_and_scenario_is_read_and_said() {
+    let mut all = String::new();
+    for name in names("track") {
+        let (is_read, said) = read(&name, fixture(&name), &Tracking::default());
+        assert!(is_read, "{name}: {said}");
+        let _ = write!(all, "{name}\n{said}");
+    }
+    insta::assert_snapshot!(all);
+}
+
+#[test]
+fn every_fault_of_a_file_is_said_with_its_place() {
+    let mut all = String::new();
+    for name in names("invalid/track") {
+        let (is_read, said) = read(&name, fixture(&name), &Tracking::default());
+        assert!(!is_read, "{name}: {said}");
+        let _ = writeln!(all, "{name}\n{said}");
+    }
+    insta::assert_snapshot!(all);
+}
+
+#[test]
+fn damaged_files_are_refused_or_read_but_never_end_in_a_panic() {
+    let mut random = Rng::with_seed(27);
+    for name in names("track").into_iter().chain(names("invalid/track")) {
+        let bytes = fixture(&name);
+        for _ in 0..DAMAGES {
+            let mut bytes = bytes.clone();
+            match random.u8(0..3) {
+                0 => bytes.truncate(random.usize(0..=bytes.len())),
+                1 => bytes.insert(random.usize(0..=bytes.len()), random.u8(..)),
+                _ if bytes.is_empty() => {}
+                _ => {
+                    let at = random.usize(0..bytes.len());
+                    bytes[at] = random.u8(..);
+                }
+            }
+            let tried = catch_unwind(AssertUnwindSafe(|| read(&name, bytes.clone(), &Tracking::default())));
+            assert!(tried.is_ok(), "{name}: {}", bytes.escape_ascii());
+        }
+    }
+}
+
+#[test]
+fn the_log_of_a_simulation_replays_to_the_same_commands() {
+    for upstream_mm in [None, Some(400.0)] {
+        let track = Tracking { upstream_mm, ..Tracking::default() };
+        for name in ["track/step.toml", "track/wander-fast.toml", "track/damage.toml"] {
+            let (toml, mut out) = (source(name, fixture(name)), Diagnostics::default());
+            let simulated = Tracked::of_scenario(&toml, &track, Needs::Centre, &mut out).expect("a scenario");
+            let log = written(&simulated, "log");
+            let (replay, said) = replayed("x.csv", log.clone(), &track);
+            let replay = replay.unwrap_or_else(|| panic!("{name}: {said}"));
+            assert_eq!(written(&simulated, "commands"), written(&replay, "commands"), "{name}");
+            assert_eq!(written(&simulated, "centre"), written(&replay, "centre"), "{name}");
+            assert_eq!(log, written(&replay, "log"), "{name}");
+            // What an earlier run said may stand in a log.
+            assert!(replayed("x.csv", written(&replay, "commands"), &Tracking::default()).0.is_some());
+            // A carriage that is not logged is taken to have followed the commands, which is what it did.
+            let header = if upstream_mm.is_some() { "t_s,i,j,up_i,up_j" } else { "t_s,i,j" };
+            let fields = header.matches(',').count() + 1;
+            let text = String::from_utf8(log).expect("text");
+            let bare: Vec<String> =
+                text.lines().map(|line| line.split(',').take(fields).collect::<Vec<_>>().join(",")).collect();
+            let (bare, said) = replayed("x.csv", bare.join("\n"), &track);
+            assert!(said.contains("track/carriage-assumed"), "{said}");
+            assert_eq!(written(&bare.expect("a log"), "centre"), written(&replay, "centre"), "{name}");
+        }
+    }
+}
+
+#[test]
+fn the_centre_line_is_that_of_the_cloth() {
+    for (name, within) in [("track/wander.toml", 0.25), ("track/wander-fast.toml", 0.6)] {
+        let track = Tracking::default();
+        let scenario = super::scenario(name, &track);
+        let (toml, mut out) = (source(name, fixture(name)), Diagnostics::default());
+        let simulated = Tracked::of_scenario(&toml, &track, Needs::Centre, &mut out).expect("a scenario");
+        let line = source("x.centre.csv", written(&simulated, "centre"));
+        let line = centre::read(&line, &mut out).expect("a centre line");
+        let off = |[at, centre]: &[f64; 2]| (centre - scenario.centre(at / track.cloth_mm_s)).abs();
+        let worst = line.rows().iter().map(off).fold(0.0, f64::max);
+        assert!(worst <= within, "{name}: {worst}");
+        assert!(line.range()[1] > 3990.0, "{:?}", line.range());
+    }
+}
+
+#[test]
+fn the_command_writes_all_or_nothing_and_says_how_well_the_cloth_is_followed() {
+    let room = Room::new();
+    room.write("step.toml", &fixture("track/step.toml"));
+    let (stdout, _) = room.expect("track --simulate step.toml", DONE);
+    assert!(stdout.contains("PI guide") && stdout.contains("older, two mechanisms, 10 mm/s"), "{stdout}");
+    assert!(!room.has("step.commands.csv"), "nobody asked for it");
+    room.expect("track --simulate step.toml -t log,centre --plot step.svg", DONE);
+    assert!(
+        room.text("step.svg").starts_with("<svg ") && room.text("step.svg.meta.json").contains("\"target\": \"svg\"")
+    );
+    let (stdout, _) = room.expect("track step.log.csv", DONE);
+    assert!(stdout.contains("301 samples") && stdout.contains("driving"), "{stdout}");
+    assert!(
+        room.text("step.log.commands.csv")
+            .starts_with("t_s,i,j,status,direction,v_mm_s\n0.000000,32,32,centred,0,0.000\n")
+    );
+    let (stdout, _) = room.expect("track --simulate step.toml --format json", DONE);
+    let json: serde_json::Value = serde_json::from_str(&stdout).expect("JSON");
+    assert!(json["followers"][0]["settling_s"].as_f64().is_some_and(|time| time < 0.5), "{stdout}");
+    let (stdout, stderr) = room.expect("track step.log.csv -o -", DONE);
+    assert!(stdout.starts_with("t_s,i,j,status") && stderr.contains("301 samples"), "{stderr}");
+    // A log that is damaged leaves nothing that could be taken for its commands.
+    room.write("step.log.csv", b"t_s,i,j\n0,32,32\n0.01,x,32\n");
+    let said = room.says("track step.log.csv", FAULTY);
+    assert!(said.contains("`x` is no number of sensors") && said.contains("line 3"), "{said}");
+    assert!(!room.has("step.log.commands.csv") && room.has("step.log.commands.csv.stale"));
+    room.expect("track step.toml -o step.toml", USAGE);
+    room.expect("track -o x.csv -t log,centre step.log.csv", USAGE);
+}
