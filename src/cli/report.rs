@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::setup::Setup;
+use super::setup::{Profile, Setup};
 use crate::diagnostic::{Code, Diagnostics, Json, Severity};
 use crate::ir::Marker;
 use crate::machine::Job;
@@ -83,6 +83,24 @@ pub(super) fn json_of_file(
 /// Any figures with the findings as one JSON object.
 pub(super) fn json_of(figures: impl Serialize, diagnostics: &Diagnostics, source: &Source, job: &Job) -> String {
     pretty(&Figures { setup: Setup::of(job), report: figures, findings: Findings::of(diagnostics, source) })
+}
+
+/// Figures of another machine, with the profile and the findings, as one JSON object.
+pub(super) fn json_by_profile(
+    figures: impl Serialize,
+    diagnostics: &Diagnostics,
+    source: &Source,
+    job: &Job,
+) -> String {
+    #[derive(Serialize)]
+    struct Json<T: Serialize> {
+        profile: Profile,
+        #[serde(flatten)]
+        figures: T,
+        #[serde(flatten)]
+        findings: Findings,
+    }
+    pretty(&Json { profile: Profile::of(job), figures, findings: Findings::of(diagnostics, source) })
 }
 
 /// The keys of some figures, all null.

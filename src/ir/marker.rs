@@ -292,6 +292,20 @@ impl Piece {
         let Self { number, copy, .. } = self;
         if *copy == 0 { number.to_string() } else { format!("{number}/{copy}") }
     }
+
+    /// Every place of its drill holes and its notches. Those of its contours are the segment list's.
+    pub fn places_mut(&mut self) -> impl Iterator<Item = &mut Point> {
+        let drills = self.drills.iter_mut().map(|drill| &mut drill.at);
+        let notches = self.notches.iter_mut().flat_map(|Notch { root, tip, kind, .. }| {
+            let bar = match kind {
+                NotchKind::Slit => None,
+                NotchKind::T(bar) => Some([&mut bar.from, &mut bar.to]),
+            };
+            [root, tip].into_iter().chain(bar.into_iter().flatten())
+        });
+        let drawn = self.outline_notches.iter_mut();
+        drills.chain(notches).chain(drawn.flat_map(|notch| notch.mouth.iter_mut().chain([&mut notch.tip])))
+    }
 }
 
 impl Marker {

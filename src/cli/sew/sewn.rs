@@ -72,7 +72,7 @@ impl Sewn {
         let blank = || report::nothing(&summary::Figures::default());
         let figures =
             self.made.as_ref().map(|made| serde_json::to_value(&made.figures).expect("figures are plain data"));
-        summary::json(figures.unwrap_or_else(blank), &self.diagnostics, source, job)
+        report::json_by_profile(figures.unwrap_or_else(blank), &self.diagnostics, source, job)
     }
 }
 

@@ -5,11 +5,7 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use crate::cli::options::counted;
-use crate::cli::report::{Findings, pretty};
-use crate::cli::setup::Profile;
-use crate::diagnostic::Diagnostics;
 use crate::ir::Finding;
-use crate::machine::Job;
 use crate::sew::verify::Verdict;
 use crate::sew::{self, Estimate, Fifo, Limit, Made, Target};
 use crate::source::Source;
@@ -105,19 +101,6 @@ impl Figures {
             verified: targets.iter().filter_map(of).collect(),
         }
     }
-}
-
-/// Any figures as JSON, with the profile and what was found.
-pub(super) fn json(figures: impl Serialize, diagnostics: &Diagnostics, source: &Source, job: &Job) -> String {
-    #[derive(Serialize)]
-    struct Json<T: Serialize> {
-        profile: Profile,
-        #[serde(flatten)]
-        figures: T,
-        #[serde(flatten)]
-        findings: Findings,
-    }
-    pretty(&Json { profile: Profile::of(job), figures, findings: Findings::of(diagnostics, source) })
 }
 
 /// The figures for people.

@@ -15,6 +15,7 @@ use super::draft::MadeFolders;
 use super::files;
 use super::finished::{DONE, FAULTY, Finished, Stdout, failure, say};
 use super::options::counted;
+use super::report;
 use crate::diagnostic::{Diagnostics, Severity, render_with};
 use crate::machine::Job;
 use crate::source::Source;
@@ -64,7 +65,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
             said.push_str(&text);
             Stdout::Program(spool)
         }
-        (Format::Json, None) => Stdout::Text(summary::json(figures, &diagnostics, &source, &job)),
+        (Format::Json, None) => Stdout::Text(report::json_by_profile(figures, &diagnostics, &source, &job)),
         (Format::Text, None) => Stdout::Text(text),
     };
     for path in paths.iter().filter(|_| !arguments.messages.quiet) {
@@ -81,7 +82,7 @@ fn refused(arguments: &Arguments, source: &Source, paths: &[&Path], diagnostics:
     say(&mut said, format_args!("{}: {errors}, {warnings}; nothing was written", source.name()));
     said.extend(paths.iter().map(|path| files::move_aside(path)));
     let stdout = match arguments.format {
-        Format::Json => summary::json(summary::nothing(), diagnostics, source, job),
+        Format::Json => report::json_by_profile(summary::nothing(), diagnostics, source, job),
         Format::Text => String::new(),
     };
     Finished::text(stdout, said, FAULTY)

@@ -4,10 +4,7 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use crate::cli::report::{self, Findings, pretty};
-use crate::cli::setup::Profile;
-use crate::diagnostic::Diagnostics;
-use crate::machine::Job;
+use crate::cli::report::{self};
 use crate::source::Source;
 use crate::track::Tracked;
 use crate::track::controller::Status;
@@ -69,19 +66,6 @@ impl Figures {
                 .collect(),
         }
     }
-}
-
-/// Any figures as JSON, with the profile and what was found.
-pub(super) fn json(figures: impl Serialize, diagnostics: &Diagnostics, source: &Source, job: &Job) -> String {
-    #[derive(Serialize)]
-    struct Json<T: Serialize> {
-        profile: Profile,
-        #[serde(flatten)]
-        figures: T,
-        #[serde(flatten)]
-        findings: Findings,
-    }
-    pretty(&Json { profile: Profile::of(job), figures, findings: Findings::of(diagnostics, source) })
 }
 
 /// The keys of the figures, all null.

@@ -9,7 +9,7 @@ use super::pass::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
 use crate::ir::list::{Range, SegmentList};
-use crate::ir::marker::{Marker, NotchKind, OutlineNotch, Piece};
+use crate::ir::marker::{Marker, OutlineNotch, Piece};
 use crate::machine::{CentreLine, Job};
 use crate::units::number::{fixed, up};
 
@@ -101,18 +101,7 @@ impl Shift {
 
     /// Moves what a piece has beside its contours. Strokes of notches are short: they are not parted.
     fn piece(&self, piece: &mut Piece) {
-        piece.drills.iter_mut().for_each(|drill| self.move_place(&mut drill.at));
-        for notch in &mut piece.notches {
-            self.move_place(&mut notch.root);
-            self.move_place(&mut notch.tip);
-            match &mut notch.kind {
-                NotchKind::Slit => {}
-                NotchKind::T(bar) => [&mut bar.from, &mut bar.to].into_iter().for_each(|at| self.move_place(at)),
-            }
-        }
-        for notch in &mut piece.outline_notches {
-            notch.mouth.iter_mut().chain([&mut notch.tip]).for_each(|at| self.move_place(at));
-        }
+        piece.places_mut().for_each(|at| self.move_place(at));
         piece.labels.iter_mut().filter_map(|label| label.at.as_mut()).for_each(|at| self.move_place(at));
     }
 }

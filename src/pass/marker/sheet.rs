@@ -10,7 +10,7 @@ use super::pass::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Extent, Heading, Point, Vector};
 use crate::ir::drawing::{Account, Aside};
-use crate::ir::marker::{Contour, Event, Label, Marker, NotchKind, Piece};
+use crate::ir::marker::{Contour, Event, Label, Marker, Piece};
 use crate::ir::toolpath;
 use crate::machine::{Flip, Job, Mirror, Sheet, Table};
 
@@ -130,18 +130,7 @@ impl Way {
     }
 
     fn piece(&self, piece: &mut Piece) {
-        piece.drills.iter_mut().for_each(|drill| self.move_place(&mut drill.at));
-        for notch in &mut piece.notches {
-            self.move_place(&mut notch.root);
-            self.move_place(&mut notch.tip);
-            match &mut notch.kind {
-                NotchKind::Slit => {}
-                NotchKind::T(bar) => [&mut bar.from, &mut bar.to].into_iter().for_each(|at| self.move_place(at)),
-            }
-        }
-        for notch in &mut piece.outline_notches {
-            notch.mouth.iter_mut().chain([&mut notch.tip]).for_each(|at| self.move_place(at));
-        }
+        piece.places_mut().for_each(|at| self.move_place(at));
         piece.labels.iter_mut().for_each(|label| self.label(label));
     }
 

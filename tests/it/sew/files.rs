@@ -1,7 +1,6 @@
 //! Files of patterns and stitches: each is read or refused as it should be, whatever is done to it.
 
 use std::fmt::Write as _;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use cutc::machine::{Job, load};
 use cutc::sew::{Limit, Op};
@@ -9,19 +8,11 @@ use cutc::source::Source;
 use fastrand::Rng;
 
 use super::{broken, fixture, plan, planned, target, written};
+use crate::support::damage::{names, survives};
 use crate::support::room::{DONE, FAULTY, Room, USAGE};
 
 /// Damages of each file that are tried.
 const DAMAGES: usize = 400;
-
-fn names(folder: &str) -> Vec<String> {
-    let path = format!("{}/fixtures/{folder}", env!("CARGO_MANIFEST_DIR"));
-    let entries = std::fs::read_dir(path).expect("a folder");
-    let mut names: Vec<String> =
-        entries.map(|entry| format!("{folder}/{}", entry.expect("readable").file_name().to_string_lossy())).collect();
-    names.sort();
-    names
-}
 
 #[test]
 fn every_pattern_is_sewn_and_said() {
@@ -65,29 +56,15 @@ fn every_fault_of_a_file_is_said() {
 fn damaged_files_are_refused_or_sewn_but_never_end_in_a_panic() {
     let mut random = Rng::with_seed(11);
     for name in names("sew").into_iter().chain(names("invalid/sew")) {
-        let bytes = fixture(&name);
-        for _ in 0..DAMAGES {
-            let mut bytes = bytes.clone();
-            match random.u8(0..3) {
-                0 => bytes.truncate(random.usize(0..=bytes.len())),
-                1 => bytes.insert(random.usize(0..=bytes.len()), random.u8(..)),
-                _ if bytes.is_empty() => {}
-                _ => {
-                    let at = random.usize(0..bytes.len());
-                    bytes[at] = random.u8(..);
+        survives(&mut random, DAMAGES, (&name, &fixture(&name)), |bytes| {
+            let job = Job::default();
+            if let Some(program) = plan(&name, bytes.to_vec(), &job).0 {
+                for target in ["queue", "dst"] {
+                    let written = written(&program, &job, target);
+                    assert_eq!(broken(&program, bytes, &job, (target, &written)), [""; 0]);
                 }
             }
-            let tried = catch_unwind(AssertUnwindSafe(|| {
-                let job = Job::default();
-                if let Some(program) = plan(&name, bytes.clone(), &job).0 {
-                    for target in ["queue", "dst"] {
-                        let written = written(&program, &job, target);
-                        assert_eq!(broken(&program, &bytes, &job, (target, &written)), [""; 0]);
-                    }
-                }
-            }));
-            assert!(tried.is_ok(), "{name}: {}", bytes.escape_ascii());
-        }
+        });
     }
 }
 

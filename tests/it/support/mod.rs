@@ -12,6 +12,7 @@ use cutc::plan;
 use cutc::source::Span;
 
 pub(crate) mod cloth;
+pub(crate) mod damage;
 pub(crate) mod nests;
 pub(crate) mod page;
 pub(crate) mod program;

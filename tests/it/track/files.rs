@@ -1,7 +1,6 @@
 //! Logs, scenarios and centre lines: each is read or refused as it should be, whatever is done to it.
 
 use std::fmt::Write as _;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use cutc::diagnostic::{Diagnostics, render};
 use cutc::machine::Tracking;
@@ -10,19 +9,11 @@ use cutc::track::{Needs, Tracked, centre};
 use fastrand::Rng;
 
 use super::{fixture, replayed, source, written};
+use crate::support::damage::{names, survives};
 use crate::support::room::{DONE, FAULTY, Room, USAGE};
 
 /// Damages of each file that are tried.
 const DAMAGES: usize = 300;
-
-fn names(folder: &str) -> Vec<String> {
-    let path = format!("{}/fixtures/{folder}", env!("CARGO_MANIFEST_DIR"));
-    let entries = std::fs::read_dir(path).expect("a folder");
-    let mut names: Vec<String> =
-        entries.map(|entry| format!("{folder}/{}", entry.expect("readable").file_name().to_string_lossy())).collect();
-    names.sort();
-    names
-}
 
 /// Reads a file as what its name says it is; what is said of it, and whether it can be used.
 fn read(name: &str, bytes: Vec<u8>, track: &Tracking) -> (bool, String) {
@@ -64,21 +55,9 @@ fn every_fault_of_a_file_is_said_with_its_place() {
 fn damaged_files_are_refused_or_read_but_never_end_in_a_panic() {
     let mut random = Rng::with_seed(27);
     for name in names("track").into_iter().chain(names("invalid/track")) {
-        let bytes = fixture(&name);
-        for _ in 0..DAMAGES {
-            let mut bytes = bytes.clone();
-            match random.u8(0..3) {
-                0 => bytes.truncate(random.usize(0..=bytes.len())),
-                1 => bytes.insert(random.usize(0..=bytes.len()), random.u8(..)),
-                _ if bytes.is_empty() => {}
-                _ => {
-                    let at = random.usize(0..bytes.len());
-                    bytes[at] = random.u8(..);
-                }
-            }
-            let tried = catch_unwind(AssertUnwindSafe(|| read(&name, bytes.clone(), &Tracking::default())));
-            assert!(tried.is_ok(), "{name}: {}", bytes.escape_ascii());
-        }
+        survives(&mut random, DAMAGES, (&name, &fixture(&name)), |bytes| {
+            read(&name, bytes.to_vec(), &Tracking::default());
+        });
     }
 }
 
