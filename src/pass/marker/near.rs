@@ -39,7 +39,8 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
         return;
     }
     let over = job.profile.band(marker.unit);
-    match near(&chords(marker, most), [-over, most], &mut Budget::of_a_marker()) {
+    let chords = chords(marker, most);
+    match near(&chords, [-over, most], &mut Budget::of_lines(chords.len())) {
         Some(mut near) => {
             leave_out_crossings(&mut near, most);
             marker.near = near;

@@ -141,7 +141,8 @@ impl<'a> Overcut<'a> {
     }
 
     /// Judges what a stroke cuts along its line where that is on no edge of its own part: it is on one of another then, which
-    /// the profile lets stand for its own, or leads over to it and through it by the tolerance.
+    /// the profile lets stand for its own, or leads over to it and through it by the tolerance. No place is deeper than it is
+    /// far from what is drawn: where parts overlap the edge of the one lies amid the other.
     fn see_aside(&self, stroke: &Ends, seen: &impl Fn(usize) -> Sighting, overcuts: &mut Overcuts) {
         let Ends { cut, trial, line, .. } = *stroke;
         if line.aside.is_empty() {
@@ -150,7 +151,8 @@ impl<'a> Overcut<'a> {
         for i in trial.held.clone() {
             let station = trial.feet[i].station;
             if line.aside.iter().any(|&[from, to]| (from..=to).contains(&station)) {
-                let depths = self.depths(cut.points[i], ASIDE, stroke);
+                let away = self.inside.distance_to_edges(cut.points[i], ASIDE).min(ASIDE);
+                let depths = self.depths(cut.points[i], away, stroke);
                 for (depth, worst) in depths.into_iter().zip([&mut overcuts.part, &mut overcuts.neighbour]) {
                     worst.see_under(depth, DIAGONAL * self.shift + 2.0 * self.tolerance, || seen(i));
                 }

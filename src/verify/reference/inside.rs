@@ -8,7 +8,7 @@ use super::parts;
 use crate::geom::boxes::Boxes;
 use crate::geom::shape::Shape;
 use crate::geom::slots::Slots;
-use crate::geom::{Extent, Point};
+use crate::geom::{Extent, Point, polyline};
 use crate::ir::Marker;
 use crate::ir::marker::Piece;
 
@@ -77,6 +77,12 @@ impl<'a> Inside<'a> {
         odd
     }
 
+    /// How far a point is from all lines that bound a part, as they are drawn, mm: surely where that is less than `reach`.
+    pub(in crate::verify) fn distance_to_edges(&self, point: Point, reach: f64) -> f64 {
+        let near = self.boxes.near(Extent::between(point, point).grown(reach));
+        near.map(|part| self.parts[part].distance(point, reach)).fold(f64::INFINITY, f64::min)
+    }
+
     /// The pieces in whose own rings a point lies.
     fn rings_at(&self, point: Point) -> impl Iterator<Item = usize> + '_ {
         let near = self.boxes.at(point).map(|part| &self.parts[part]);
@@ -128,6 +134,13 @@ impl<'a> Part<'a> {
         let place = (edge - self.firsts[ring]) as usize;
         let [from, to] = self.rings[ring][place..place + 2] else { unreachable!("an edge has two ends") };
         [from, to]
+    }
+
+    /// How far a point is from its edges in the bands within `reach`, mm.
+    fn distance(&self, point: Point, reach: f64) -> f64 {
+        let bands = self.band(point.y - reach)..=self.band(point.y + reach);
+        let ends = bands.flat_map(|band| self.edges.of(band)).map(|&edge| self.ends(edge));
+        ends.map(|[from, to]| polyline::distance_to_segment(point, from, to)).fold(f64::INFINITY, f64::min)
     }
 
     /// Whether a ray to the right of a point crosses the edges an odd number of times.

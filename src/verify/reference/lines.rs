@@ -10,10 +10,11 @@ use super::caps::{BothWays, Feeds};
 use super::line::{Line, OfCut};
 use super::near::Near;
 use super::outline::{OfContour, Outline};
-use super::shared::{self, Around, Drawn, SAME};
+use super::shared::{self, Around, Chords, Drawn, SAME};
 use super::vertex::Vertex;
 use super::{notches, tight};
-use crate::geom::{Point, polyline};
+use crate::geom::boxes::Boxes;
+use crate::geom::{Extent, Point, polyline};
 use crate::ir::Marker;
 use crate::ir::list::Segment;
 use crate::ir::marker::{Cut, CutKind, NotchStroke};
@@ -36,6 +37,8 @@ pub(in crate::verify) struct Reference<'a> {
     pub(in crate::verify) shared: Vec<Around>,
     /// The open contours of these pieces: nothing stands for them.
     pub(in crate::verify) open: Vec<Drawn>,
+    /// Where the marker's junctions begin.
+    junctions: Boxes,
     /// Permitted deviation of the tip, mm.
     pub(in crate::verify) tolerance: f64,
     /// How deep a place in a part may lie and still be at its edge, mm.
@@ -60,7 +63,8 @@ impl<'a> Reference<'a> {
     /// How far past the end of a line at a place the knife may go because another part's cut ends beside it there, mm: nothing
     /// holds where both are through each other.
     pub(in crate::verify) fn across(&self, end: Point) -> f64 {
-        let here = self.marker.junctions.iter().filter(|[from, _]| (from - end).norm() <= self.tolerance);
+        let near = self.junctions.near(Extent::between(end, end).grown(self.tolerance));
+        let here = near.map(|i| self.marker.junctions[i]).filter(|[from, _]| (from - end).norm() <= self.tolerance);
         let ways = here.map(|[from, to]| (to - from).norm() + self.tolerance);
         ways.filter(|&way| way <= ACROSS * self.common).fold(0.0, f64::max)
     }
@@ -103,6 +107,7 @@ impl<'a> Reference<'a> {
             of_pieces: cut_of_pieces,
             shared,
             open,
+            junctions: Boxes::new(marker.junctions.iter().map(|[from, _]| Extent::between(*from, *from)).collect()),
             tolerance: profile.tolerance(marker.unit),
             band: band(marker.unit, profile),
             common: profile.common(marker.unit).unwrap_or(0.0),
@@ -173,15 +178,17 @@ impl<'a> OfPiece<'a> {
         if drawn.is_empty() {
             contours.extend((first + small(slits)..).take(piece.contours.len()).map(|rank| rank..rank + 1));
         }
+        let own = Chords::of_cuts(if drawn.is_empty() { &[] } else { &lines[slits..] });
         for (is_closed, segments) in &drawn {
-            let parted = shared::parted(segments, &lines[slits..]);
+            let parted = shared::parted(segments, &own);
             let cuts = parted.iter().filter_map(|stretch| stretch.cut);
             let (least, most) = (cuts.clone().min().unwrap_or(0), cuts.max().map_or(0, |cut| cut + 1));
             contours.push(first + least..first + most);
             if *is_closed { rings.push(parted) } else { open.extend(parted) }
         }
+        let contours_drawn = Chords::of_contours(drawn.iter().flat_map(|(_, segments)| segments));
         for line in lines[slits..].iter_mut().filter(|_| !drawn.is_empty()) {
-            line.aside = shared::aside(line, drawn.iter().flat_map(|(_, segments)| segments)).into();
+            line.aside = shared::aside(line, &contours_drawn).into();
         }
         let edges = rings.iter().filter(|ring| !ring.is_empty());
         lines.extend(edges.map(|ring| edge(ring, [index, 0].map(small))));

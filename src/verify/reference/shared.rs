@@ -35,24 +35,46 @@ pub(in crate::verify) struct Around {
     pub(in crate::verify) stretches: Vec<Drawn>,
 }
 
+/// Chords by place, each with what it is of.
+#[derive(Debug)]
+pub(super) struct Chords {
+    chords: Vec<([Point; 2], u32)>,
+    boxes: Boxes,
+}
+
+impl Chords {
+    fn new(chords: Vec<([Point; 2], u32)>) -> Self {
+        let extents = chords.iter().map(|([from, to], _)| Extent::between(*from, *to).grown(SAME));
+        Self { boxes: Boxes::new(extents.collect()), chords }
+    }
+
+    /// Those of cuts, each with the place of its cut among those of the marker.
+    pub(super) fn of_cuts(cuts: &[Line]) -> Self {
+        let chords = cuts
+            .iter()
+            .flat_map(|line| (0..line.chords()).map(move |i| ([line.point(i), line.point(i + 1)], line.cut.index)));
+        Self::new(chords.collect())
+    }
+
+    /// Those of contours as they are drawn.
+    pub(super) fn of_contours<'s>(drawn: impl Iterator<Item = &'s Segment>) -> Self {
+        Self::new(drawn.map(|segment| ([segment.from, segment.to], segment.span.block)).collect())
+    }
+
+    /// Those that meet the box of a chord.
+    fn near(&self, [from, to]: [Point; 2]) -> impl Iterator<Item = ([Point; 2], u32)> {
+        self.boxes.near(Extent::between(from, to)).map(|i| self.chords[i])
+    }
+}
+
 /// Parts a contour into what lies on cuts of its own piece and what does not.
-pub(super) fn parted(drawn: &[Segment], own: &[Line]) -> Vec<Drawn> {
-    let chords: Vec<([Point; 2], u32)> = own
-        .iter()
-        .flat_map(|line| (0..line.chords()).map(|i| ([line.point(i), line.point(i + 1)], line.cut.index)))
-        .collect();
-    let extents = chords.iter().map(|([from, to], _)| Extent::between(*from, *to).grown(SAME));
-    let boxes = Boxes::new(extents.collect());
+pub(super) fn parted(drawn: &[Segment], own: &Chords) -> Vec<Drawn> {
     let mut found = Vec::new();
     for segment in drawn {
         let (length, way) = (segment.length(), segment.to - segment.from);
-        let near = boxes.near(Extent::between(segment.from, segment.to));
-        let mut on: Vec<([f64; 2], u32)> = near
-            .filter_map(|i| {
-                let (ends, cut) = chords[i];
-                Some((lies_on([segment.from, segment.to], ends)?, cut))
-            })
-            .collect();
+        let chord = [segment.from, segment.to];
+        let near = own.near(chord);
+        let mut on: Vec<([f64; 2], u32)> = near.filter_map(|(ends, cut)| Some((lies_on(chord, ends)?, cut))).collect();
         on.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]).then(a.1.cmp(&b.1)));
         let mut at = 0.0;
         let mut push = |to: f64, cut: Option<u32>| {
@@ -72,14 +94,11 @@ pub(super) fn parted(drawn: &[Segment], own: &[Line]) -> Vec<Drawn> {
 }
 
 /// The stretches of a cut, by station, that lie on none of some contours of its own piece.
-pub(super) fn aside<'s>(line: &Line, drawn: impl Iterator<Item = &'s Segment>) -> Vec<[f64; 2]> {
-    let chords: Vec<[Point; 2]> = drawn.map(|segment| [segment.from, segment.to]).collect();
-    let boxes = Boxes::new(chords.iter().map(|[from, to]| Extent::between(*from, *to).grown(SAME)).collect());
+pub(super) fn aside(line: &Line, drawn: &Chords) -> Vec<[f64; 2]> {
     let mut found: Vec<[f64; 2]> = Vec::new();
     for i in 0..line.chords() {
         let (ends, start) = ([line.point(i), line.point(i + 1)], line.station(i));
-        let near = boxes.near(Extent::between(ends[0], ends[1]));
-        let mut on: Vec<[f64; 2]> = near.filter_map(|k| lies_on(ends, chords[k])).collect();
+        let mut on: Vec<[f64; 2]> = drawn.near(ends).filter_map(|(chord, _)| lies_on(ends, chord)).collect();
         on.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let length = (ends[1] - ends[0]).norm();
         let mut at = 0.0;

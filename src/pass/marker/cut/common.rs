@@ -4,12 +4,12 @@
 //! crosses what is cut there already. Where that cannot be the edge is cut for both.
 
 use super::facing::{Facing, Segments};
-use super::lead::{Arrival, LEAST_COSINE, Leads, Neighbour};
+use super::lead::{Arrival, LEAST_COSINE, LEAST_SINE, Leads, Neighbour};
 use super::ring::{Mouth, Ring};
 use super::stretch::{Asked, BREAK, Shared, stretches};
 use super::style::Slit;
 use crate::geom::budget::Budget;
-use crate::geom::{Point, polyline};
+use crate::geom::{Point, cross, polyline};
 use crate::ir::list::{Joint, Segment};
 
 /// How many distances of two edges a corner may be from the end of the other's edge.
@@ -55,7 +55,8 @@ pub(super) fn share(
     let mut outcomes: Vec<Outcome> = (0..rings.len()).map(|ring| sharing.settle(ring, &facing[ring])).collect();
     for (i, ring) in rings.iter().enumerate() {
         for Slit { stroke, .. } in &mut *slits[ring.piece] {
-            if let Some(root) = sharing.leads.led_root(i, [stroke.from, stroke.to]) {
+            let Some(station) = sharing.leads.foot(i, stroke.from) else { continue };
+            if let Some(root) = sharing.leads.led_root(i, station, [stroke.from, stroke.to]) {
                 outcomes[i].junctions.push([root, stroke.from]);
                 stroke.from = root;
             } else if outcomes[i].cuts.is_some() {
@@ -80,6 +81,9 @@ fn wanted_mouths(rings: &[Ring], facing: &[Vec<Facing>], ring: usize, asked: Ask
     // What is within the band at the ends of two mouths that face each other is no base.
     let least = 2.0 * asked.near.distance;
     let is_wanted = |mouth: &Mouth| {
+        if is_shallow(mouth, own) {
+            return false;
+        }
         let [from, to] = [mouth.segment, mouth.segment + 1].map(|i| own.station(i));
         let first_lap = |part: &Facing| {
             let lap = (part.own[0] / own.length()).floor() * own.length();
@@ -102,6 +106,14 @@ fn wanted_mouths(rings: &[Ring], facing: &[Vec<Facing>], ring: usize, asked: Ask
         base > least && covered >= to - from - least
     };
     own.mouths().iter().map(is_wanted).collect()
+}
+
+/// Whether the legs of a notch leave its edge at so small an angle that they would not surely cross what is cut over its mouth.
+fn is_shallow(mouth: &Mouth, own: &Ring) -> bool {
+    let over = own.arriving(own.station(mouth.segment + 1), true);
+    let ends = [mouth.legs.first(), mouth.legs.last()].into_iter().flatten();
+    let mut ways = ends.filter_map(|leg| polyline::direction(leg.from, leg.to));
+    ways.any(|way| cross(way, over).abs() < LEAST_SINE)
 }
 
 /// Open cuts, and the ways on which they were led on.
@@ -159,7 +171,8 @@ impl Sharing<'_> {
         let junctions: Vec<[Point; 2]> = ways.iter().copied().chain(met).collect();
         self.leads.spare(ring, &shared, ways);
         let edges = shared.iter().map(|shared| {
-            let shift = shared.parts.iter().flat_map(|part| part.apart).fold(0.0, f64::max);
+            let ends = shared.own.map(|end| self.leads.distance(shared.other, own.place(end)));
+            let shift = shared.parts.iter().flat_map(|part| part.apart).chain(ends).fold(0.0, f64::max);
             (shared.other, own.stretch(shared.own), shift)
         });
         let shared = edges.collect();
@@ -197,7 +210,8 @@ impl Sharing<'_> {
             }
         }
         // The last one may go on over the start of the ring.
-        if let [first, .., last] = &mut shared[..]
+        while let [first, .., last] = &mut shared[..]
+            && last.own[1] - own.length() > first.own[0]
             && !first.begin_at(last.own[1] - own.length(), least)
         {
             shared.remove(0);
@@ -205,20 +219,23 @@ impl Sharing<'_> {
     }
 
     /// The end, 0 or 1, of a cut that must not be made. One that is no longer than two edges lie apart is too short for
-    /// any blade, which would cut what lies about it. Of one that `is_short` an end is wrong that is a way off to the side as short as that: the
-    /// blade would only swing.
+    /// any blade, which would cut what lies about it. Of one that `is_short` an end is wrong that is a way off to the side as
+    /// short as that: the blade would only swing; and so is one that comes back along itself, as at the tip of a wedge.
     fn short_end(&self, cut: &[Segment], is_short: bool) -> Option<usize> {
         if !cut.is_empty() && cut.iter().map(Segment::length).sum::<f64>() <= self.asked.near.distance {
             return Some(0);
         }
+        let [first, .., last] = cut else { return None };
         if !is_short {
             return None;
         }
+        let along = |segment: &Segment| polyline::direction(segment.from, segment.to).unwrap_or_default();
+        if along(first).dot(&along(last)) <= -LEAST_COSINE {
+            return Some(0);
+        }
         let swings = |end: &Segment, next: &Segment| {
-            let ways = [end, next].map(|segment| polyline::direction(segment.from, segment.to).unwrap_or_default());
-            end.length() <= self.asked.near.distance && ways[0].dot(&ways[1]) < LEAST_COSINE
+            end.length() <= self.asked.near.distance && along(end).dot(&along(next)) < LEAST_COSINE
         };
-        let [first, .., last] = cut else { return None };
         let ends = [swings(first, &cut[1]), swings(last, &cut[cut.len() - 2])];
         ends.iter().position(|&swings| swings)
     }

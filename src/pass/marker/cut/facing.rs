@@ -35,6 +35,16 @@ impl Facing {
         Self { own: between(self.own), theirs: between(self.theirs), apart: between(self.apart), ..*self }
     }
 
+    /// Which share of its length lies before a station of its own ring.
+    fn share(&self, station: f64) -> f64 {
+        (station - self.own[0]) / self.length()
+    }
+
+    /// How far apart they are at a station of its own ring, mm.
+    fn apart_at(&self, station: f64) -> f64 {
+        self.apart[0] + (self.apart[1] - self.apart[0]) * self.share(station)
+    }
+
     /// Its length on its own ring, mm.
     pub(super) fn length(&self) -> f64 {
         self.own[1] - self.own[0]
@@ -90,7 +100,7 @@ impl Segments {
             let [own_ring, own_segment] = [ring, segment].map(|place| place as usize);
             for k in self.boxes.near_from(i + 1, around) {
                 let [other, place] = self.of[k].map(|place| place as usize);
-                if rings[own_ring].part == rings[other].part {
+                if !may_share(&rings[own_ring], &rings[other]) {
                     continue;
                 }
                 let is_same_way = rings[own_ring].is_part_left == rings[other].is_part_left;
@@ -107,11 +117,52 @@ impl Segments {
                 found[other].push(Facing { own: theirs, other: own_ring, theirs: own, apart });
             }
         }
-        for facing in &mut found {
+        let mut nearest = Vec::with_capacity(found.len());
+        for mut facing in found {
             facing.sort_by(|a, b| a.own[0].total_cmp(&b.own[0]).then(a.other.cmp(&b.other)));
+            nearest.push(nearest_of(facing, near.slack, work)?);
         }
-        Some(found)
+        Some(nearest)
     }
+}
+
+/// Whether two rings may have an edge in common: they bound two parts that lie on the table at the same time.
+fn may_share(one: &Ring, other: &Ring) -> bool {
+    one.part != other.part && one.advances == other.advances
+}
+
+/// What faces a ring, in order, without what lies behind something nearer: a narrow part between two others has both edges,
+/// and these have none in common. `None` when the search has no end.
+fn nearest_of(facing: Vec<Facing>, slack: f64, work: &mut Budget) -> Option<Vec<Facing>> {
+    let mut behind: Vec<Vec<[f64; 2]>> = vec![Vec::new(); facing.len()];
+    let mut open: Vec<usize> = Vec::new();
+    for (i, part) in facing.iter().enumerate() {
+        open.retain(|&before| facing[before].own[1] > part.own[0]);
+        if !work.spend(open.len()) {
+            return None;
+        }
+        for &before in &open {
+            let both = [part.own[0], part.own[1].min(facing[before].own[1])];
+            let [own, other] = [part, &facing[before]].map(|part| part.apart_at(f64::midpoint(both[0], both[1])));
+            if (own - other).abs() > slack {
+                behind[if own > other { i } else { before }].push(both);
+            }
+        }
+        open.push(i);
+    }
+    let kept = facing.iter().zip(behind).flat_map(|(part, behind)| {
+        let shares = behind.into_iter().map(|ends| ends.map(|station| part.share(station)));
+        without([0.0, 1.0], shares).into_iter().map(|shares| part.part(shares))
+    });
+    Some(kept.collect())
+}
+
+/// What some stretches leave of one.
+pub(super) fn without(whole: [f64; 2], gone: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
+    gone.fold(vec![whole], |left, [from, to]| {
+        let parts = left.iter().flat_map(|&[low, high]| [[low, high.min(from)], [low.max(to), high]]);
+        parts.filter(|[low, high]| low < high).collect()
+    })
 }
 
 /// The ends of a segment.

@@ -5,7 +5,7 @@
 
 use std::collections::HashMap;
 
-use super::facing::{Facing, Segments};
+use super::facing::{Facing, Segments, without};
 use super::ring::{Mouth, Ring, crossing};
 use super::stretch::{Asked, Shared};
 use crate::geom::{Extent, Point, Vector, left, polyline};
@@ -221,7 +221,7 @@ impl<'a> Leads<'a> {
 
     /// The end of a gentle way from a place over to an edge from a station of that on, with the cosine of the turn.
     fn way_over(&self, at: Point, along: Vector, (other, from, sign): (usize, f64, f64)) -> Option<(f64, Point)> {
-        let Asked { near, beyond, .. } = self.asked;
+        let Asked { near, beyond, width, .. } = self.asked;
         let edge = &self.rings[other];
         // Far enough, as both cuts may be off by the tolerance and cross at a small angle, and not so far that the overlap past
         // its end, which goes on as it does, leaves the distance, or that it ends deeper than it may.
@@ -242,7 +242,9 @@ impl<'a> Leads<'a> {
                 (edge.place(station(share)) - (at + (end - at) * share)).norm() <= near.distance + through.abs()
             });
             let is_cut = self.is_cut(other, [from, station(1.0)]);
-            (cosine >= LEAST_COSINE && is_beside && is_cut).then_some((cosine, end))
+            // A blade that is plunged over the bend is off one of the two ways.
+            let is_straight = length >= width || cosine * cosine >= 1.0 - (beyond / length).powi(2);
+            (cosine >= LEAST_COSINE && is_beside && is_cut && is_straight).then_some((cosine, end))
         })
     }
 
@@ -344,22 +346,37 @@ impl<'a> Leads<'a> {
         led
     }
 
-    /// Where a slit begins that stands on an edge of a ring that is cut with another: where it is through that cut, if that
-    /// is farther out; beside such an edge it is where it is through its own.
-    pub(super) fn led_root(&self, ring: usize, [root, tip]: [Point; 2]) -> Option<Point> {
-        let (own, near) = (&self.rings[ring], self.asked.near.distance);
-        let around = Extent::between(root, root).grown(near);
-        let of_ring = self.segments.near(self.rings, around).filter(|([of, _], _)| *of == ring);
-        let feet = of_ring.map(|([_, segment], [from, to])| {
+    /// The station of a ring beside a place that lies on it, up to the distance of two edges.
+    pub(super) fn foot(&self, ring: usize, at: Point) -> Option<f64> {
+        let own = &self.rings[ring];
+        let feet = self.near(ring, at).map(|(segment, [from, to])| {
             let length = (to - from).norm();
-            let along = (root - from).dot(&(to - from)) / length;
-            let away = polyline::distance_to_segment(root, from, to);
-            (away, own.station(segment) + along.clamp(0.0, length))
+            let along = (at - from).dot(&(to - from)) / length;
+            (polyline::distance_to_segment(at, from, to), own.station(segment) + along.clamp(0.0, length))
         });
-        let (away, station) = feet.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)))?;
+        let nearest = feet.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        nearest.filter(|&(away, _)| away <= self.asked.near.distance).map(|(_, station)| station)
+    }
+
+    /// How far a place is from a ring, mm: surely where that is about the distance of two edges.
+    pub(super) fn distance(&self, ring: usize, at: Point) -> f64 {
+        let near = self.near(ring, at).map(|(_, [from, to])| polyline::distance_to_segment(at, from, to));
+        near.reduce(f64::min).unwrap_or_default()
+    }
+
+    /// The segments of a ring about a place, each with its ends.
+    fn near(&self, ring: usize, at: Point) -> impl Iterator<Item = (usize, [Point; 2])> {
+        let around = Extent::between(at, at).grown(DEEPEST * self.asked.near.distance);
+        let near = self.segments.near(self.rings, around);
+        near.filter(move |([of, _], _)| *of == ring).map(|([_, segment], ends)| (segment, ends))
+    }
+
+    /// Where a slit begins that stands on an edge of a ring, by its station, that is cut with another: where it is through
+    /// that cut, if that is farther out; beside such an edge it is where it is through its own.
+    pub(super) fn led_root(&self, ring: usize, station: f64, [root, tip]: [Point; 2]) -> Option<Point> {
         let is_cut_within = |reach: f64| self.is_cut(ring, [station - reach, station + reach]);
         let is_own = is_cut_within(2.0 * LEAST);
-        if away > near || is_own && is_cut_within(2.0 * near) {
+        if is_own && is_cut_within(2.0 * self.asked.near.distance) {
             return None;
         }
         let along = polyline::direction(tip, root)?;
@@ -367,14 +384,6 @@ impl<'a> Leads<'a> {
         let way = self.straight_on(before, root, along, is_meant)?;
         (way > LEAST).then(|| root + along * way)
     }
-}
-
-/// What some stretches leave of one.
-fn without(whole: [f64; 2], gone: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
-    gone.fold(vec![whole], |left, [from, to]| {
-        let parts = left.iter().flat_map(|&[low, high]| [[low, high.min(from)], [low.max(to), high]]);
-        parts.filter(|[low, high]| low < high).collect()
-    })
 }
 
 #[cfg(test)]

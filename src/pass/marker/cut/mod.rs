@@ -35,6 +35,7 @@ use crate::geom::budget::Budget;
 use crate::geom::{Point, polyline};
 use crate::ir::list::{Joint, Range, Segment, SegmentList};
 use crate::ir::marker::{CommonEdge, Contour, Cut, CutKind, Marker, Notch, NotchStroke, OutlineNotch, Piece};
+use crate::ir::toolpath::Event;
 use crate::machine::{Job, NotchStyle, Notches};
 
 pub(super) const PASS: MarkerPass =
@@ -150,15 +151,20 @@ impl Cutting<'_> {
         };
         let mut lines = Vec::new();
         let mut rings = Vec::new();
+        let mut advances = 0;
         for (i, (piece, styled)) in pieces.iter().zip(&*styled).enumerate() {
+            advances += piece.events.iter().filter(|event| event.kind == Event::Advance).count();
             let of_piece = styled.outlines.iter().zip(self.nesting.of_group(i));
             for (&range, line) in of_piece.filter(|&(_, line)| self.nesting.lines()[line].is_closed && is_near(line)) {
                 lines.push(line);
-                rings.push(self.ring(i, piece, range, line));
+                let mut ring = self.ring(i, piece, range, line);
+                ring.advances = advances;
+                rings.push(ring);
             }
         }
         let mut slits: Vec<&mut [Slit]> = styled.iter_mut().map(|styled| &mut styled.slits[..]).collect();
-        let Some(outcomes) = share(&mut rings, &mut slits, asked, &mut Budget::of_a_marker()) else {
+        let count = rings.iter().map(|ring| ring.segments().len()).sum();
+        let Some(outcomes) = share(&mut rings, &mut slits, asked, &mut Budget::of_lines(count)) else {
             diagnostics.push(search_ended("edges that parts have in common are cut for each of them"));
             return BTreeMap::new();
         };

@@ -15,6 +15,8 @@ pub(super) struct Ring {
     pub(super) part: u32,
     /// Whether the part is on its left.
     pub(super) is_part_left: bool,
+    /// How often the cloth is moved on before it is cut.
+    pub(super) advances: usize,
     /// Its segments, the last of which ends where the first starts.
     segments: Vec<Segment>,
     /// Length from its start to each segment, and of all, mm.
@@ -39,7 +41,8 @@ impl Ring {
         segments: Vec<Segment>,
         mouths: Vec<Mouth>,
     ) -> Self {
-        let mut ring = Self { piece, part: part as u32, is_part_left, segments, stations: Vec::new(), mouths };
+        let part = part as u32;
+        let mut ring = Self { piece, part, is_part_left, advances: 0, segments, stations: Vec::new(), mouths };
         ring.measure();
         ring
     }

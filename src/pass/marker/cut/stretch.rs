@@ -86,13 +86,15 @@ pub(super) fn stretches(rings: &[Ring], own: &Ring, facing: &[Facing], asked: As
     }
     // One that goes over the start of the ring was found in two.
     let length = own.length();
-    if let Some(last) = (1..found.len()).rev().find(|&i| {
-        let first = found[0].parts[0];
-        meets(&found[i], &Facing { own: first.own.map(|station| station + length), ..first })
-    }) {
-        let first = found.remove(0);
+    let over = |part: &Facing| Facing { own: part.own.map(|station| station + length), ..*part };
+    let begins_late = (1..found.len()).find(|&i| found[i].own[0] > reach).unwrap_or(found.len());
+    let joined = |first: usize| {
+        let mut later = (first + 1..found.len()).rev();
+        later.find(|&last| meets(&found[last], &over(&found[first].parts[0]))).map(|last| [first, last])
+    };
+    if let Some([first, last]) = (0..begins_late).find_map(joined) {
+        let first = found.remove(first);
         let last = &mut found[last - 1];
-        let over = |part: &Facing| Facing { own: part.own.map(|station| station + length), ..*part };
         last.parts.extend(first.parts.iter().map(over));
         (last.own[1], last.theirs[1]) = (first.own[1] + length, first.theirs[1]);
     }

@@ -111,13 +111,11 @@ pub(super) fn bridge(outline: &mut Vec<Segment>, notches: &[OutlineNotch]) -> Ve
         outline[i] = Segment { to: notch.mouth[1], span: last(&notch).span, percent, ..*first };
         bridged.push(Bridged { at: i, notch, legs, percent });
     }
-    let mut count = 0..;
-    let places: Vec<usize> =
-        is_gone.iter().map(|gone| if *gone { usize::MAX } else { count.next().unwrap_or_default() }).collect();
+    let mut count = (0..).peekable();
+    let places: Vec<Option<usize>> = is_gone.iter().map(|gone| count.next_if(|_| !gone)).collect();
     let mut is_gone = is_gone.into_iter();
     outline.retain(|_| !is_gone.next().unwrap_or_default());
-    for bridged in &mut bridged {
-        bridged.at = places[bridged.at];
-    }
-    bridged
+    // One that another begins within is none.
+    let placed = |bridged: Bridged| Some(Bridged { at: places[bridged.at]?, ..bridged });
+    bridged.into_iter().filter_map(placed).collect()
 }
