@@ -75,11 +75,9 @@ impl<'a> Reference<'a> {
         let of_piece = |index| OfPiece::new(index, marker, profile, near.as_ref());
         let of_pieces: Vec<OfPiece<'a>> = (0..marker.pieces.len()).into_par_iter().map(of_piece).collect();
         let count = of_pieces.iter().map(|piece| piece.lines.len()).sum();
-        let (mut lines, mut holes, mut events) = (Vec::with_capacity(count), Vec::new(), Vec::new());
-        let mut first = 0;
-        let mut first_cut = 0;
-        let (mut shared, mut open) = (Vec::new(), Vec::new());
-        let mut cut_of_pieces = Vec::with_capacity(marker.pieces.len());
+        let (mut first, mut first_cut, mut lines) = (0, 0, Vec::with_capacity(count));
+        let (mut holes, mut events) = (Vec::new(), Vec::new());
+        let (mut shared, mut open, mut cut_of_pieces) = (Vec::new(), Vec::new(), Vec::new());
         for (piece, of_piece) in marker.pieces.iter().zip(of_pieces) {
             let OfPiece { ranks, cuts, lines: mut of_piece, slits, contours, mut rings, open: mut of_open } = of_piece;
             events.extend((first..).take(piece.events.len()));
@@ -107,12 +105,17 @@ impl<'a> Reference<'a> {
             of_pieces: cut_of_pieces,
             shared,
             open,
-            junctions: Boxes::new(marker.junctions.iter().map(|[from, _]| Extent::between(*from, *from)).collect()),
+            junctions: starts(&marker.junctions),
             tolerance: profile.tolerance(marker.unit),
             band: band(marker.unit, profile),
             common: profile.common(marker.unit).unwrap_or(0.0),
         }
     }
+}
+
+/// Where junctions begin, by place.
+fn starts(junctions: &[[Point; 2]]) -> Boxes {
+    Boxes::new(junctions.iter().map(|[from, _]| Extent::between(*from, *from)).collect())
 }
 
 /// What is cut of a piece.
@@ -141,15 +144,12 @@ impl<'a> OfPiece<'a> {
         let mut rank = || ranks.next().expect("a marker has fewer lines than numbers");
         let feeds = Feeds::new(profile, piece);
         let mut replaced = Vec::new();
-        let outlines: Vec<Outline> = piece
-            .contours
-            .iter()
-            .map(|contour| {
-                let (outline, bridged) = Outline::new(contour, piece, marker, profile.notch);
-                replaced.extend(bridged);
-                outline
-            })
-            .collect();
+        let outline = |contour| {
+            let (outline, bridged) = Outline::new(contour, piece, marker, profile.notch);
+            replaced.extend(bridged);
+            outline
+        };
+        let outlines: Vec<Outline> = piece.contours.iter().map(outline).collect();
         let slits = notches::slits(piece, profile.notch, &replaced);
         // Those of the cuts in the piece follow each other as their ranks do.
         let mut cuts = 0..;

@@ -171,8 +171,7 @@ impl Sharing<'_> {
         let junctions: Vec<[Point; 2]> = ways.iter().copied().chain(met).collect();
         self.leads.spare(ring, &shared, ways);
         let edges = shared.iter().map(|shared| {
-            let ends = shared.own.map(|end| self.leads.distance(shared.other, own.place(end)));
-            let shift = shared.parts.iter().flat_map(|part| part.apart).chain(ends).fold(0.0, f64::max);
+            let shift = shared.parts.iter().flat_map(|part| part.apart).fold(0.0, f64::max);
             (shared.other, own.stretch(shared.own), shift)
         });
         let shared = edges.collect();
@@ -291,11 +290,7 @@ impl Sharing<'_> {
                 led.cuts.push(ways.map(|[from, to]| Segment { from, to, joint, ..like }).collect());
                 continue;
             }
-            let arrival = |station: f64, is_along: bool| Arrival {
-                at: own.place(station),
-                along: own.arriving(station, is_along),
-            };
-            let arrivals = [arrival(from, false), arrival(to, true)];
+            let arrivals = [Arrival::on(own, from, false), Arrival::on(own, to, true)];
             let mut ends = [Point::origin(); 2];
             for (k, arrival) in arrivals.into_iter().enumerate() {
                 let past = if is_short { None } else { self.leads.past_corner(arrival, neighbour(k)) };

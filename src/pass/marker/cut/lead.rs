@@ -39,6 +39,16 @@ pub(super) struct Arrival {
     pub(super) at: Point,
     /// The unit vector along its way there.
     pub(super) along: Vector,
+    /// How far that is straight, mm.
+    pub(super) straight: f64,
+}
+
+impl Arrival {
+    /// That of a ring at a station of it, in its own direction or against that.
+    pub(super) fn on(ring: &Ring, station: f64, is_along: bool) -> Self {
+        let straight = ring.arriving_on(station, is_along).length();
+        Self { at: ring.place(station), along: ring.arriving(station, is_along), straight }
+    }
 }
 
 /// What it should cross.
@@ -101,13 +111,14 @@ impl<'a> Leads<'a> {
 
     /// Where a cut of a ring that comes to a place goes on to so that it crosses what is cut there with the others: no farther
     /// where it crosses that already; `None` where it finds nothing to cross.
-    pub(super) fn lead(&self, ring: usize, Arrival { at, along }: Arrival, to: Neighbour) -> Option<Point> {
+    pub(super) fn lead(&self, ring: usize, arrival: Arrival, to: Neighbour) -> Option<Point> {
+        let Arrival { at, along, .. } = arrival;
         // Where it goes through the neighbour's outline at an angle, such as beside a corner of it, it needs no way over.
         let through = self.straight_on(ring, at, along, |other| other == Some(to.ring));
         if let Some(way) = through.filter(|&way| way <= self.asked.near.distance) {
             return Some(at + along * way.max(0.0));
         }
-        let ways = [1.0, -1.0].into_iter().filter_map(|sign| self.way_over(at, along, (to.ring, to.station, sign)));
+        let ways = [1.0, -1.0].into_iter().filter_map(|sign| self.way_over(arrival, (to.ring, to.station, sign)));
         let ways = ways.filter(|&(_, end)| !self.enters_another(ring, to.ring, [at, end]));
         if let Some((_, end)) = ways.max_by(|a, b| a.0.total_cmp(&b.0)) {
             return Some(end);
@@ -149,9 +160,10 @@ impl<'a> Leads<'a> {
         let own = &self.rings[ring];
         let at = own.place(station);
         let through = |first: Neighbour, second: Neighbour, is_along: bool| {
-            let start = self.lead(ring, Arrival { at, along: own.arriving(station, is_along) }, first)?;
+            let start = self.lead(ring, Arrival::on(own, station, is_along), first)?;
             let along = polyline::direction(start, at)?;
-            Some([start, self.lead(ring, Arrival { at, along }, second)?])
+            let straight = (at - start).norm();
+            Some([start, self.lead(ring, Arrival { at, along, straight }, second)?])
         };
         let [start, end] = through(before, behind, false)
             .or_else(|| through(behind, before, true).map(|[end, start]| [start, end]))?;
@@ -220,7 +232,8 @@ impl<'a> Leads<'a> {
     }
 
     /// The end of a gentle way from a place over to an edge from a station of that on, with the cosine of the turn.
-    fn way_over(&self, at: Point, along: Vector, (other, from, sign): (usize, f64, f64)) -> Option<(f64, Point)> {
+    fn way_over(&self, arrival: Arrival, (other, from, sign): (usize, f64, f64)) -> Option<(f64, Point)> {
+        let Arrival { at, along, straight } = arrival;
         let Asked { near, beyond, width, .. } = self.asked;
         let edge = &self.rings[other];
         // Far enough, as both cuts may be off by the tolerance and cross at a small angle, and not so far that the overlap past
@@ -242,8 +255,10 @@ impl<'a> Leads<'a> {
                 (edge.place(station(share)) - (at + (end - at) * share)).norm() <= near.distance + through.abs()
             });
             let is_cut = self.is_cut(other, [from, station(1.0)]);
-            // A blade that is plunged over the bend is off one of the two ways.
-            let is_straight = length >= width || cosine * cosine >= 1.0 - (beyond / length).powi(2);
+            // A blade that is plunged over the bend stands on a chord of both ways: so far from that the bend is, of which
+            // each of the two may be off by half. What is shorter than the blade is cut by plunges of its own.
+            let off = length * (width - length) / width * (1.0 - cosine * cosine).sqrt();
+            let is_straight = length >= width || straight < width - length || off / 2.0 <= beyond;
             (cosine >= LEAST_COSINE && is_beside && is_cut && is_straight).then_some((cosine, end))
         })
     }
@@ -349,26 +364,15 @@ impl<'a> Leads<'a> {
     /// The station of a ring beside a place that lies on it, up to the distance of two edges.
     pub(super) fn foot(&self, ring: usize, at: Point) -> Option<f64> {
         let own = &self.rings[ring];
-        let feet = self.near(ring, at).map(|(segment, [from, to])| {
+        let around = Extent::between(at, at).grown(self.asked.near.distance);
+        let of_ring = self.segments.near(self.rings, around).filter(|([of, _], _)| *of == ring);
+        let feet = of_ring.map(|([_, segment], [from, to])| {
             let length = (to - from).norm();
             let along = (at - from).dot(&(to - from)) / length;
             (polyline::distance_to_segment(at, from, to), own.station(segment) + along.clamp(0.0, length))
         });
         let nearest = feet.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
         nearest.filter(|&(away, _)| away <= self.asked.near.distance).map(|(_, station)| station)
-    }
-
-    /// How far a place is from a ring, mm: surely where that is about the distance of two edges.
-    pub(super) fn distance(&self, ring: usize, at: Point) -> f64 {
-        let near = self.near(ring, at).map(|(_, [from, to])| polyline::distance_to_segment(at, from, to));
-        near.reduce(f64::min).unwrap_or_default()
-    }
-
-    /// The segments of a ring about a place, each with its ends.
-    fn near(&self, ring: usize, at: Point) -> impl Iterator<Item = (usize, [Point; 2])> {
-        let around = Extent::between(at, at).grown(DEEPEST * self.asked.near.distance);
-        let near = self.segments.near(self.rings, around);
-        near.filter(move |([of, _], _)| *of == ring).map(|([_, segment], ends)| (segment, ends))
     }
 
     /// Where a slit begins that stands on an edge of a ring, by its station, that is cut with another: where it is through

@@ -38,7 +38,7 @@ impl Leads<'_> {
     }
 
     /// The same at one corner, with the edge `before` or behind it.
-    fn past(&self, ring: &Ring, corner: f64, before: bool, Arrival { at, along }: Arrival) -> Option<Past> {
+    fn past(&self, ring: &Ring, corner: f64, before: bool, Arrival { at, along, .. }: Arrival) -> Option<Past> {
         let (edge, next) = (ring.arriving(corner, before), -ring.arriving(corner, !before));
         let sine = cross(along, edge);
         let is_corner = angle::is_turned(edge, next, self.asked.corner);

@@ -122,6 +122,13 @@ impl Ring {
     /// The direction in which it arrives at a station, or leaves it against its own direction: a unit vector along the way
     /// that ends there.
     pub(super) fn arriving(&self, station: f64, is_along: bool) -> Vector {
+        let Segment { from, to, .. } = self.arriving_on(station, is_along);
+        let along = (to - from) / (to - from).norm();
+        if is_along { along } else { -along }
+    }
+
+    /// The segment on which it does so.
+    pub(super) fn arriving_on(&self, station: f64, is_along: bool) -> Segment {
         let count = self.segments.len();
         let (i, at) = self.segment_at(station);
         let near = |a: f64| (a - at).abs() <= SAME_PLACE;
@@ -132,9 +139,7 @@ impl Ring {
         } else {
             i
         };
-        let Segment { from, to, .. } = self.segments[i];
-        let along = (to - from) / (to - from).norm();
-        if is_along { along } else { -along }
+        self.segments[i]
     }
 
     /// Unit vector across it at a station, into its part.
