@@ -10,6 +10,7 @@ use cutc::ir::marker::{Contour, Cut, CutKind, Notch, NotchKind};
 use cutc::ir::{Marker, text};
 use cutc::machine::{CommonLines, Job, Lines, Numbers, Selection};
 use cutc::pipeline::{self, Compiled};
+use cutc::source::Source;
 use cutc::verify::{self, Ground, Verdict};
 
 use crate::support::program::{declared, setpoints};
@@ -23,12 +24,26 @@ const NEST: &str = "touching-parts";
 const AWAY: f64 = 3.0;
 
 fn compiled(job: &Job) -> Compiled {
-    let source = source(NEST);
+    made(&source(NEST), job)
+}
+
+fn made(source: &Source, job: &Job) -> Compiled {
     let target = TARGETS.iter().find(|target| target.name == "csv").expect("setpoints are a target");
     let order = pipeline::Order { from: None, target, verify: true };
     let (mut out, mut found) = (Cursor::new(Vec::new()), Diagnostics::default());
-    let compiled = pipeline::compile(&source, job, order, &mut out, &mut found).expect("memory takes everything");
-    compiled.unwrap_or_else(|| panic!("{}", render(&found, &source)))
+    let compiled = pipeline::compile(source, job, order, &mut out, &mut found).expect("memory takes everything");
+    compiled.unwrap_or_else(|| panic!("{}", render(&found, source)))
+}
+
+/// Parts of which each is a rectangle from one corner to another, in 0.1 mm, with what stands between them.
+fn rectangles(parts: &[[i32; 4]], between: &str) -> Source {
+    let part = |(&[left, low, right, high], number): (&[i32; 4], u32)| {
+        let corners = [(left, low), (right, low), (right, high), (left, high), (left, low)];
+        let at = corners.map(|(x, y)| format!("X{x}Y{y}"));
+        format!("N{number}*M15*{}*M14*{}*M15*", at[0], at[1..].join("*"))
+    };
+    let parts: Vec<String> = parts.iter().zip(1..).map(part).collect();
+    Source::new("parts.cut", format!("H1*G71*{}M0*", parts.join(between)).into_bytes()).expect("it is short")
 }
 
 fn without() -> Job {
@@ -54,6 +69,26 @@ fn an_edge_of_two_parts_is_cut_once() {
     assert!((0.0..0.05 * twice.cut_m).contains(&mouths), "{mouths} m");
     let time = |report: pipeline::Report| report.program.time_s.expect("it is planned");
     assert!(time(once) < time(twice));
+}
+
+/// An advance may be off by more than edges lie apart.
+#[test]
+fn no_edge_is_cut_once_over_an_advance_of_the_cloth() {
+    let parts = [[100, 100, 2000, 1000], [100, 1000, 2000, 1900]];
+    let common = |between: &str| made(&rectangles(&parts, between), &Job::default()).report.common;
+    assert!(common("").is_some());
+    assert!(common("M69*").is_none());
+}
+
+#[test]
+fn a_strap_between_two_parts_keeps_both_of_its_edges_however_wide_common_lines_are() {
+    let parts = [[100, 100, 2000, 1000], [100, 1000, 2000, 1005], [100, 1005, 2000, 1900]];
+    let mut job = Job::default();
+    job.profile.common.lines = Lines::Within(1.0);
+    for order in [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
+        let common = made(&rectangles(&order.map(|i| parts[i]), ""), &job).report.common;
+        assert!(common.as_ref().is_none_or(|common| common.shift_mm < 1e-9), "{order:?}: {common:?}");
+    }
 }
 
 #[test]

@@ -120,7 +120,7 @@ impl Segments {
         let mut nearest = Vec::with_capacity(found.len());
         for mut facing in found {
             facing.sort_by(|a, b| a.own[0].total_cmp(&b.own[0]).then(a.other.cmp(&b.other)));
-            nearest.push(nearest_of(facing, near.slack, work)?);
+            nearest.push(nearest_of(&facing, near.slack, work)?);
         }
         Some(nearest)
     }
@@ -133,7 +133,7 @@ fn may_share(one: &Ring, other: &Ring) -> bool {
 
 /// What faces a ring, in order, without what lies behind something nearer: a narrow part between two others has both edges,
 /// and these have none in common. `None` when the search has no end.
-fn nearest_of(facing: Vec<Facing>, slack: f64, work: &mut Budget) -> Option<Vec<Facing>> {
+fn nearest_of(facing: &[Facing], slack: f64, work: &mut Budget) -> Option<Vec<Facing>> {
     let mut behind: Vec<Vec<[f64; 2]>> = vec![Vec::new(); facing.len()];
     let mut open: Vec<usize> = Vec::new();
     for (i, part) in facing.iter().enumerate() {
