@@ -13,7 +13,7 @@ pub(super) const COMMON: &str = "common";
 /// What the legend says of them; `None` where there are none.
 pub(super) fn meaning(context: &Context) -> Option<String> {
     let (edges, length) = (context.marker.common.len(), context.marker.common_length());
-    (edges > 0).then(|| format!("cut once for two parts: {edges}, {} m", fixed(length / MM_PER_M, 1)))
+    (edges > 0).then(|| format!("common edges: {edges}, {} m", fixed(length / MM_PER_M, 1)))
 }
 
 /// The layer of them.
