@@ -26,7 +26,7 @@ pub(super) fn arrange(marker: &mut Marker, groups: &[Group], job: &Job) {
     if !groups.iter().any(|group| matches!(group, Group::Edges(_))) {
         return; // as in most files
     }
-    let measures = Measures::new(job, marker.unit);
+    let measures = Measures::new(job, marker);
     let ranges: Vec<Range<usize>> = (0..marker.pieces.len() as u32).map(|piece| marker.range_of(piece)).collect();
     let Marker { pieces, cuts, list, .. } = marker;
     let given: Vec<Cuts> = pieces
@@ -51,7 +51,7 @@ pub(super) fn arrange(marker: &mut Marker, groups: &[Group], job: &Job) {
 
 /// A piece as its cuts are made, slits first.
 fn as_made(piece: &Piece, cuts: &[Cut], groups: &[Group], list: &SegmentList, measures: &Measures) -> Cuts {
-    let mut made = Cuts::of_drills(piece, measures);
+    let mut made = Cuts::of_drills(piece, list, measures);
     for (place, cut) in cuts.iter().enumerate() {
         match groups[place] {
             Group::Slits => made.fixed.push(measures.as_is(cut.range, list).stops),

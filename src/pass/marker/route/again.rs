@@ -4,7 +4,7 @@
 //! Which of two parts an edge is cut with follows from their order, so that other cuts are made in another one. The order is
 //! looked for with the cuts that the last one gives, a few times; the one whose cuts take the least time stays.
 
-use super::block::{Search, keeps_window, order};
+use super::block::{Search, is_allowed, order};
 use crate::analysis::air;
 use crate::ir::Marker;
 use crate::machine::Job;
@@ -35,7 +35,7 @@ pub(super) fn improve(marker: &mut Marker, as_filed: Marker, job: &Job) {
     if routed.marker.common.is_empty() {
         return;
     }
-    let filed = keeps_window(&as_filed, job).then(|| Made::of(as_filed, job));
+    let filed = is_allowed(&as_filed, job).then(|| Made::of(as_filed, job));
     let mut least = routed.time;
     for made in filed.into_iter().chain([routed]) {
         let best = made.improved(job);
@@ -86,7 +86,7 @@ impl Made {
 
     /// How a piece is cut: contours that are cut as a whole begin anywhere, by their places; edges have places behind these.
     fn cuts_of(&self, piece: usize, marker: &Marker, job: &Job) -> Cuts {
-        let measures = Measures::new(job, marker.unit);
+        let measures = Measures::new(job, marker);
         let (of_piece, list) = (&marker.pieces[piece], &self.marker.list);
         let mut cuts = Cuts::marks(of_piece, list, &measures);
         let range = self.marker.range_of(piece as u32);

@@ -3,13 +3,14 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
+use super::small;
 use super::tours::{Tour, Tours};
 use crate::analysis::air::{Air, Stop};
 use crate::analysis::nesting::Nesting;
 use crate::geom::{Extent, Point, bits};
 use crate::ir::list::{Segment, SegmentList};
 use crate::ir::marker::{Marker, OutlineNotch, Piece};
-use crate::machine::{Job, OrderPolicy};
+use crate::machine::{Job, Order, OrderPolicy};
 use crate::pass::marker::visit::{Begin, Cuts, Visit};
 
 /// Among which orders the best is looked for.
@@ -59,7 +60,7 @@ struct Routing {
     window: Option<f64>,
     /// Where the axes stand before the program, whatever the blade does there.
     home: Stop,
-    /// For each piece those within whose outlines it lies.
+    /// For each piece those that come after it: within whose outlines it lies, and, if it is small, the larger ones beside it.
     held: Vec<Vec<usize>>,
 }
 
@@ -91,9 +92,9 @@ impl Route {
 impl Routing {
     fn of(marker: &Marker, job: &Job) -> Self {
         let nesting = Nesting::of(marker);
-        let held = (0..marker.pieces.len()).map(|piece| nesting.holders(piece)).collect();
         let [x, y, _] = job.profile.home;
-        Self { air: Air::new(job), window: window(marker, job), home: Stop::anyhow(Point::new(x, y)), held }
+        let window = steady(marker, job).map(|order| order.window_mm);
+        Self { air: Air::new(job), window, home: Stop::anyhow(Point::new(x, y)), held: held(marker, &nesting, job) }
     }
 
     /// The pieces of a block in the best order, from where the axes stand before it.
@@ -122,25 +123,40 @@ impl Routing {
     }
 }
 
-/// Whether each piece lies no farther behind the foremost before it than the window, if there is one, in each block.
-pub(super) fn keeps_window(marker: &Marker, job: &Job) -> bool {
-    let Some(window) = window(marker, job) else { return true };
+/// Whether pieces come in an order that `steady` allows, if that is asked for: none farther behind the foremost before it than
+/// the window, in each block, and small ones before those that hold them.
+pub(super) fn is_allowed(marker: &Marker, job: &Job) -> bool {
+    let Some(Order { window_mm, .. }) = steady(marker, job) else { return true };
+    let held = held(marker, &Nesting::of(marker), job);
     blocks(&marker.pieces).into_iter().all(|block| {
         let mut front = f64::NEG_INFINITY;
-        marker.pieces[block].iter().map(|piece| extent(piece, &marker.list)).filter(|extent| !extent.is_empty()).all(
-            |extent| {
-                let is_kept = extent.min.x >= front - window;
-                front = front.max(extent.min.x);
-                is_kept
-            },
-        )
+        let first = block.start;
+        block.into_iter().all(|piece| {
+            let extent = extent(&marker.pieces[piece], &marker.list);
+            let is_kept = extent.is_empty() || extent.min.x >= front - window_mm;
+            front = front.max(extent.min.x);
+            is_kept && !held[piece].iter().any(|holder| (first..piece).contains(holder))
+        })
     })
 }
 
-/// How far pieces may lie behind the foremost before them, mm, if that counts.
-fn window(marker: &Marker, job: &Job) -> Option<f64> {
+/// For each piece those that come after it.
+fn held(marker: &Marker, nesting: &Nesting, job: &Job) -> Vec<Vec<usize>> {
+    let mut held: Vec<Vec<usize>> = (0..marker.pieces.len()).map(|piece| nesting.holders(piece)).collect();
+    if let Some(order) = steady(marker, job) {
+        for (held, larger) in held.iter_mut().zip(small::held(marker, nesting, &order)) {
+            held.extend(larger);
+            held.sort_unstable();
+            held.dedup();
+        }
+    }
+    held
+}
+
+/// What holds for the order if the work is to be steady.
+fn steady(marker: &Marker, job: &Job) -> Option<Order> {
     let order = job.profile.order;
-    (order.policy(marker.drawing.is_some()) == OrderPolicy::Steady).then_some(order.window_mm)
+    (order.policy(marker.drawing.is_some()) == OrderPolicy::Steady).then_some(order)
 }
 
 /// The box around all of a piece.

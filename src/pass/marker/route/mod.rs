@@ -5,12 +5,14 @@
 //! slits on the way round, closed contours begun as they are drawn or at a corner, either way round, open ones from either
 //! end, unless the file asks for something on them. Where parts have edges in common the order goes by the cuts that the pass
 //! `cut` makes of them. With `"steady"` no piece lies farther behind the foremost so far
-//! than `order.window_mm`, but where something within it does.
+//! than `order.window_mm`, but where something within it does; small pieces come before the larger ones next to them; and each
+//! piece ends towards the cloth that is still uncut, if one of its ways does.
 
 mod again;
 mod block;
 mod near;
 mod sequence;
+mod small;
 mod times;
 mod tour;
 mod tours;
@@ -41,7 +43,7 @@ fn run(marker: &mut Marker, job: &Job, _: &mut Diagnostics) {
 
 /// Orders pieces as they are drawn, and not once more by what common lines leave of them: in a part of the time.
 pub(super) fn once(marker: &mut Marker, job: &Job) {
-    let measures = Measures::new(job, marker.unit);
+    let measures = Measures::new(job, marker);
     let of = |piece: usize, marker: &Marker| Cuts::drawn(&marker.pieces[piece], &marker.list, &measures);
     order(marker, job, &of, Search::Whole);
 }

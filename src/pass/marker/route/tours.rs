@@ -2,6 +2,7 @@
 
 use super::near::near;
 use super::sequence::{START, Ways};
+use super::small::AHEAD;
 use super::times::Times;
 use super::tour;
 use crate::analysis::air::{Air, Stop};
@@ -95,7 +96,7 @@ impl Tours<'_> {
 const LEAST_STRIP: f64 = 1.0;
 
 /// Visits in strips across the cloth, up and down in turn; with a window by their left edges, which that is about, and none
-/// wider than that.
+/// wider than what is left of that when a small piece is brought before one that it lies ahead of.
 fn strips(extents: &[Extent], window: Option<f64>) -> Vec<usize> {
     let whole = extents.iter().fold(Extent::EMPTY, |mut whole, extent| {
         whole.join(extent);
@@ -105,7 +106,7 @@ fn strips(extents: &[Extent], window: Option<f64>) -> Vec<usize> {
     let middle = |i: usize| extents[i].min + (extents[i].max - extents[i].min) / 2.0;
     // As wide as two pieces.
     let strip = 2.0 * (width * height / extents.len().max(1) as f64).sqrt();
-    let strip = strip.min(window.unwrap_or(f64::INFINITY)).max(LEAST_STRIP);
+    let strip = strip.min(window.map_or(f64::INFINITY, |window| (1.0 - AHEAD) * window)).max(LEAST_STRIP);
     let key = |&i: &usize| {
         let at = middle(i);
         let along = if window.is_some() { extents[i].min.x } else { at.x };

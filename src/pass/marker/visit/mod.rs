@@ -2,7 +2,8 @@
 //!
 //! Slits are cut on the way round the outline, from each of them on and either way; then what is cut of each contour: a closed
 //! line from the corner that is nearest in time, what common lines leave of one in any order and either way. What the file asks
-//! for at the start of a line holds there, so that such a one is left alone.
+//! for at the start of a line holds there, so that such a one is left alone. Where the work is to be steady only those ways count
+//! that end towards the cloth that is still uncut, if there are any.
 
 mod starts;
 mod ways;
@@ -10,7 +11,7 @@ mod ways;
 pub(super) use self::starts::{Begin, Measures, Start};
 use self::ways::{Group, State};
 use crate::analysis::air::{Air, Stop};
-use crate::geom::{Point, polyline};
+use crate::geom::{Extent, Point, polyline};
 use crate::ir::list::{Segment, SegmentList};
 use crate::ir::marker::Piece;
 
@@ -18,6 +19,9 @@ use crate::ir::marker::Piece;
 const MOST_VISITS: usize = 32;
 /// Comparisons of slits with segments of their outline, at the most: of more slits the sequence stays.
 const MOST_LOOKS: usize = 10_000_000;
+
+/// How far from its front edge a piece ends when the work is to be steady, at the most, as a part of its length along X.
+const AT_FRONT: f64 = 0.5;
 
 /// A sequence of the cuts of a piece.
 #[derive(Debug, Clone)]
@@ -30,6 +34,8 @@ pub(super) struct Visit {
     pub(super) ends: [Stop; 2],
     /// Time of the moves between them, s.
     pub(super) within: f64,
+    /// Whether it ends where the piece should.
+    is_at_front: bool,
 }
 
 /// Cuts that may be made in any order.
@@ -50,6 +56,8 @@ pub(super) struct Cuts {
     slits: Vec<([Stop; 2], f64)>,
     /// What is cut of contours, one group after the other.
     groups: Vec<Unordered>,
+    /// From which X on the last of them should end, mm.
+    front: Option<f64>,
 }
 
 /// The first cuts of a visit.
@@ -58,21 +66,25 @@ struct Begun {
     cuts: Vec<(usize, Begin)>,
     ends: Option<[Stop; 2]>,
     within: f64,
+    is_at_front: bool,
 }
 
 impl Begun {
     fn visit(self) -> Visit {
-        let Self { slits, cuts, ends, within } = self;
-        Visit { slits, cuts, ends: ends.expect("something is cut or drilled"), within }
+        let Self { slits, cuts, ends, within, is_at_front } = self;
+        Visit { slits, cuts, ends: ends.expect("something is cut or drilled"), within, is_at_front }
     }
 
-    /// With cuts that follow.
-    fn with(&self, stops: [Stop; 2], cuts: &[(usize, Begin)], time: f64) -> Self {
+    /// With cuts that follow, the moves to and between which take so long, s.
+    fn with(&self, starts: &[(usize, Start)], time: f64, is_at_front: bool) -> Self {
+        let [first, last] = [&starts[0].1, &starts[starts.len() - 1].1];
+        let cuts = starts.iter().map(|&(cut, Start { begin, .. })| (cut, begin));
         Self {
             slits: self.slits.clone(),
-            cuts: [&self.cuts, cuts].concat(),
-            ends: Some([self.ends.map_or(stops[0], |ends| ends[0]), stops[1]]),
+            cuts: self.cuts.iter().copied().chain(cuts).collect(),
+            ends: Some([self.ends.map_or(first.stops[0], |ends| ends[0]), last.stops[1]]),
             within: self.within + time,
+            is_at_front,
         }
     }
 }
@@ -100,13 +112,18 @@ impl Cuts {
             let ends = [air.down(first.from, first.to), air.up(last.from, last.to)];
             (ends, outline.as_ref().map_or(0.0, |outline| station(outline, notch.root)))
         });
-        Self { slits: slits.collect(), ..Self::of_drills(piece, measures) }
+        Self { slits: slits.collect(), ..Self::of_drills(piece, list, measures) }
     }
 
     /// The holes alone.
-    pub(super) fn of_drills(piece: &Piece, measures: &Measures) -> Self {
+    pub(super) fn of_drills(piece: &Piece, list: &SegmentList, measures: &Measures) -> Self {
         let fixed = piece.drills.iter().map(|drill| [measures.air.drill(drill.at); 2]).collect();
-        Self { fixed, slits: Vec::new(), groups: Vec::new() }
+        let outline = piece.contours.last().filter(|last| measures.is_steady && last.closed);
+        let front = outline.map(|outline| {
+            let extent = Extent::of(&list.points(outline.range));
+            extent.max.x - AT_FRONT * extent.size().0
+        });
+        Self { fixed, slits: Vec::new(), groups: Vec::new(), front }
     }
 
     /// Adds a cut with its starts behind the others, or to the last of them that may be made in any order.
@@ -142,7 +159,11 @@ impl Cuts {
         }
         let most = (2 * MOST_VISITS).div_ceil(begun.len().max(1));
         let ended = begun.into_iter().flat_map(|begun| self.ended(from, &groups, begun, most, air));
-        std::iter::once(self.as_is(air)).chain(ended).collect()
+        let mut visits: Vec<Visit> = std::iter::once(self.as_is(air)).chain(ended).collect();
+        if self.front.is_some() && visits.iter().any(|visit| visit.is_at_front) {
+            visits.retain(|visit| visit.is_at_front);
+        }
+        visits
     }
 
     /// Rounds of the slits behind what is fixed: from several of them on, onward and back.
@@ -165,20 +186,20 @@ impl Cuts {
             self.fixed.iter().copied().chain(slits.iter().map(|&slit| self.slits[slit].0)).collect();
         let within = stops.windows(2).map(|pair| air.time(&pair[0][1], &pair[1][0])).sum();
         let ends = stops.first().zip(stops.last()).map(|(first, last)| [first[0], last[1]]);
-        Begun { slits, cuts: Vec::new(), ends, within }
+        Begun { slits, cuts: Vec::new(), ends, within, is_at_front: false }
     }
 
     /// A visit so far, led on through a group in each way that may be the best.
     fn led_on(&self, place: usize, group: &Group, begun: &Begun, into: &dyn Fn(State) -> f64) -> Vec<Begun> {
         let Unordered { first, starts } = &self.groups[place];
-        let mut ways = group.shortest(into);
+        let is_last = place + 1 == self.groups.len();
+        let is_at_front = |[cut, start]: State| is_last && self.is_at_front(&starts[cut][start]);
+        let mut ways = group.shortest(into, &is_at_front);
         // Another start of one closed line is no other end of it: the nearest is the best.
         ways.truncate(if starts.len() == 1 && starts[0].len() > 2 { 1 } else { MOST_VISITS });
         let led = ways.into_iter().map(|way| {
-            let [from, to] = [way.states[0], way.states[way.states.len() - 1]].map(|state| group.stops(state));
-            let cuts: Vec<(usize, Begin)> =
-                way.states.iter().map(|&[cut, start]| (first + cut, starts[cut][start].begin)).collect();
-            begun.with([from[0], to[1]], &cuts, way.time)
+            let states = way.states.iter().map(|&[cut, start]| (first + cut, starts[cut][start]));
+            begun.with(&states.collect::<Vec<_>>(), way.time, is_at_front(way.states[way.states.len() - 1]))
         });
         led.collect()
     }
@@ -198,14 +219,18 @@ impl Cuts {
         all.into_iter().map(Begun::visit).collect()
     }
 
+    /// Whether the piece may end where a cut of it does.
+    fn is_at_front(&self, start: &Start) -> bool {
+        self.front.is_some_and(|front| start.to.x >= front)
+    }
+
     /// All as it is drawn.
     fn as_is(&self, air: &Air) -> Visit {
         let mut begun = self.begun((0..self.slits.len()).collect(), air);
         for Unordered { first, starts } in &self.groups {
             for (cut, starts) in (*first..).zip(starts) {
-                let Start { begin, stops } = starts[0];
-                let time = begun.ends.map_or(0.0, |ends| air.time(&ends[1], &stops[0]));
-                begun = begun.with(stops, &[(cut, begin)], time);
+                let time = begun.ends.map_or(0.0, |ends| air.time(&ends[1], &starts[0].stops[0]));
+                begun = begun.with(&[(cut, starts[0])], time, self.is_at_front(&starts[0]));
             }
         }
         begun.visit()
