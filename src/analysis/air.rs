@@ -122,23 +122,6 @@ pub fn spent(marker: &Marker, job: &Job) -> f64 {
     time
 }
 
-/// The time at the corners amid the cuts of a marker, s: the knife comes up, C turns, and it goes down again.
-pub fn at_corners(marker: &Marker, job: &Job) -> f64 {
-    let (air, knife) = (Air::new(job), &job.profile.knife);
-    let limit = job.profile.corner.angle();
-    let of_cut = |cut: &Cut| {
-        let points = marker.list.points(cut.range);
-        let last = points.len() - 1;
-        let corners = (1..last).filter(|&i| {
-            let (before, behind) = (points[..i].iter().rev(), points[i + 1..].iter());
-            corner::is_corner(points[i], &before.copied(), &behind.copied(), limit, marker.unit)
-        });
-        let turn = |i: usize| air.time(&air.up(points[i - 1], points[i]), &air.down(points[i], points[i + 1]));
-        corners.map(|i| turn(i) + knife.clear() + knife.plunge()).sum::<f64>()
-    };
-    marker.cuts.iter().map(of_cut).sum()
-}
-
 /// What may come anywhere in the order: where the knife may come down for it, and where up.
 struct Item {
     downs: Vec<Stop>,

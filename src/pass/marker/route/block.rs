@@ -3,14 +3,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-use super::small;
+use super::rules::{Rules, extent};
 use super::tours::{Tour, Tours};
 use crate::analysis::air::{Air, Stop};
-use crate::analysis::nesting::Nesting;
-use crate::geom::{Extent, Point, bits};
+use crate::geom::{Point, bits};
 use crate::ir::list::{Segment, SegmentList};
 use crate::ir::marker::{Marker, OutlineNotch, Piece};
-use crate::machine::{Job, Order, OrderPolicy};
+use crate::machine::Job;
 use crate::pass::marker::visit::{Begin, Cuts, Visit};
 
 /// Among which orders the best is looked for.
@@ -56,12 +55,9 @@ fn blocks(pieces: &[Piece]) -> Vec<Range<usize>> {
 /// What routes go by.
 struct Routing {
     air: Air,
-    /// How far pieces may lie behind the foremost so far, mm, if that counts.
-    window: Option<f64>,
     /// Where the axes stand before the program, whatever the blade does there.
     home: Stop,
-    /// For each piece those that come after it: within whose outlines it lies, and, if it is small, the larger ones beside it.
-    held: Vec<Vec<usize>>,
+    rules: Rules,
 }
 
 /// The order of the pieces of a block.
@@ -91,10 +87,8 @@ impl Route {
 
 impl Routing {
     fn of(marker: &Marker, job: &Job) -> Self {
-        let nesting = Nesting::of(marker);
         let [x, y, _] = job.profile.home;
-        let window = steady(marker, job).map(|order| order.window_mm);
-        Self { air: Air::new(job), window, home: Stop::anyhow(Point::new(x, y)), held: held(marker, &nesting, job) }
+        Self { air: Air::new(job), home: Stop::anyhow(Point::new(x, y)), rules: Rules::of(marker, job) }
     }
 
     /// The pieces of a block in the best order, from where the axes stand before it.
@@ -105,11 +99,11 @@ impl Routing {
         let place = |piece: usize| left.binary_search(&piece.checked_sub(lay.first)?).ok();
         let mut before = vec![Vec::new(); left.len()];
         for (k, &i) in left.iter().enumerate() {
-            for holder in self.held[lay.first + i].iter().filter_map(|&holder| place(holder)) {
+            for holder in self.rules.held[lay.first + i].iter().filter_map(|&holder| place(holder)) {
                 before[holder].push(k as u32);
             }
         }
-        let tours = Tours { visits: &visits, extents, before, home, air: self.air, window: self.window };
+        let tours = Tours { visits: &visits, extents, before, home, air: self.air, window: self.rules.window };
         let Tour { order, visit: chosen, .. } = match search {
             Search::Whole => tours.best(),
             Search::Near => tours.like((0..visits.len()).collect()),
@@ -121,51 +115,6 @@ impl Routing {
         let empty = (0..lay.cuts.len()).filter(|i| left.binary_search(i).is_err()).map(|i| (i, None));
         Route { sequence: visited.chain(empty).collect(), end }
     }
-}
-
-/// Whether pieces come in an order that `steady` allows, if that is asked for: none farther behind the foremost before it than
-/// the window, in each block, and small ones before those that hold them.
-pub(super) fn is_allowed(marker: &Marker, job: &Job) -> bool {
-    let Some(Order { window_mm, .. }) = steady(marker, job) else { return true };
-    let held = held(marker, &Nesting::of(marker), job);
-    blocks(&marker.pieces).into_iter().all(|block| {
-        let mut front = f64::NEG_INFINITY;
-        let first = block.start;
-        block.into_iter().all(|piece| {
-            let extent = extent(&marker.pieces[piece], &marker.list);
-            let is_kept = extent.is_empty() || extent.min.x >= front - window_mm;
-            front = front.max(extent.min.x);
-            is_kept && !held[piece].iter().any(|holder| (first..piece).contains(holder))
-        })
-    })
-}
-
-/// For each piece those that come after it.
-fn held(marker: &Marker, nesting: &Nesting, job: &Job) -> Vec<Vec<usize>> {
-    let mut held: Vec<Vec<usize>> = (0..marker.pieces.len()).map(|piece| nesting.holders(piece)).collect();
-    if let Some(order) = steady(marker, job) {
-        for (held, larger) in held.iter_mut().zip(small::held(marker, nesting, &order)) {
-            held.extend(larger);
-            held.sort_unstable();
-            held.dedup();
-        }
-    }
-    held
-}
-
-/// What holds for the order if the work is to be steady.
-fn steady(marker: &Marker, job: &Job) -> Option<Order> {
-    let order = job.profile.order;
-    (order.policy(marker.drawing.is_some()) == OrderPolicy::Steady).then_some(order)
-}
-
-/// The box around all of a piece.
-fn extent(piece: &Piece, list: &SegmentList) -> Extent {
-    let mut extent = Extent::EMPTY;
-    piece.contours.iter().for_each(|contour| extent.join(&Extent::of(&list.points(contour.range))));
-    piece.notches.iter().for_each(|notch| extent.join(&Extent::between(notch.root, notch.tip)));
-    piece.drills.iter().for_each(|drill| extent.join(&Extent::between(drill.at, drill.at)));
-    extent
 }
 
 /// Puts the notches of a piece in the sequence of a visit, and lets its contours start where that has it.

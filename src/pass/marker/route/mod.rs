@@ -11,6 +11,7 @@
 mod again;
 mod block;
 mod near;
+mod rules;
 mod sequence;
 mod small;
 mod times;
