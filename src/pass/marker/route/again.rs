@@ -21,7 +21,7 @@ const MOST_PIECES: usize = 2000;
 /// Rounds after which the search ends when none of them gains.
 const PATIENCE: usize = 3;
 /// Pieces of all orders together in which two parts have changed places, at the most.
-const MOST_EXCHANGED: usize = 60_000;
+const MOST_EXCHANGED: usize = 20_000;
 /// Gains that are less are none, s.
 const LEAST_GAIN: f64 = 1e-6;
 

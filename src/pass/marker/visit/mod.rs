@@ -21,7 +21,7 @@ const MOST_VISITS: usize = 32;
 const MOST_LOOKS: usize = 10_000_000;
 
 /// How far from its front edge a piece ends when the work is to be steady, at the most, as a part of its length along X.
-const AT_FRONT: f64 = 0.5;
+const AT_FRONT: f64 = 1.0 / 3.0;
 
 /// A sequence of the cuts of a piece.
 #[derive(Debug, Clone)]
