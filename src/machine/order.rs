@@ -27,7 +27,7 @@ pub struct Order {
 
 impl Default for Order {
     fn default() -> Self {
-        Self { policy: OrderPolicy::Auto, window_mm: 600.0, small_mm2: 10_000.0 }
+        Self { policy: OrderPolicy::Auto, window_mm: 600.0, small_mm2: 2500.0 }
     }
 }
 
