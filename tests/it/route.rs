@@ -9,7 +9,7 @@ use cutc::diagnostic::{Diagnostics, render};
 use cutc::geom::Extent;
 use cutc::ir::Marker;
 use cutc::ir::list::Segment;
-use cutc::ir::marker::Piece;
+use cutc::ir::marker::{CutKind, Piece};
 use cutc::machine::{CommonLines, Job, Lines, OrderPolicy};
 use cutc::pipeline::{self, Report};
 use cutc::source::Source;
@@ -324,4 +324,94 @@ fn a_cut_out_behind_a_part_that_others_share_edges_with_is_found() {
         lines.map(|range| Extent::of(&marker.list.points(range)).size().0 < 100.0).max()
     });
     assert_eq!(freed(&marker), 3.0);
+}
+
+/// A lay with a gap of 4 mm in which each third place holds a small piece, in no order.
+fn with_small(seed: u64, places: usize) -> String {
+    let mut rng = Rng::with_seed(seed);
+    let mut order: Vec<usize> = (0..places).collect();
+    rng.shuffle(&mut order);
+    let mut text = "H1*G71*".to_owned();
+    for (number, place) in order.into_iter().enumerate() {
+        let [x, y] = [(place / ROW) * 1640, (place % ROW) * 1040];
+        let [width, height] = if place % 3 == 1 { [400, 400] } else { [1600, 1000] };
+        let (right, top) = (x + width, y + height);
+        let begin = if rng.bool() { format!("X{x}Y{y}*M14*X{right}Y{y}*") } else { format!("X{x}Y{y}*M14*") };
+        let end = if begin.len() > 20 { format!("X{x}Y{top}*X{x}Y{y}*") } else { format!("X{x}Y{top}*X{right}Y{top}*X{right}Y{y}*X{x}Y{y}*") };
+        let middle = if begin.len() > 20 { format!("X{right}Y{top}*") } else { String::new() };
+        let _infallible = write!(text, "N{}*M15*{begin}{middle}{end}M15*", number + 1);
+    }
+    text + "M0*\n"
+}
+
+/// How many larger pieces come before a small one next to them.
+fn freed_before_small(marker: &Marker, window_mm: f64) -> usize {
+    let extents: Vec<Extent> = (0..marker.pieces.len()).map(|piece| extent(marker, piece)).collect();
+    let is_small = |extent: &Extent| extent.size().0 < 100.0;
+    let is_next = |large: &Extent, small: &Extent| {
+        let is_ahead = small.min.x > large.min.x + 0.5 * window_mm;
+        !is_ahead && large.grown(10.0).meets(small)
+    };
+    let early = |(i, small): (usize, &Extent)| {
+        extents[..i].iter().filter(|large| !is_small(large) && is_next(large, small)).count()
+    };
+    extents.iter().enumerate().filter(|(_, extent)| is_small(extent)).map(early).sum()
+}
+
+#[test]
+fn small_pieces_are_cut_before_the_larger_ones_next_to_them_when_the_work_is_steady() {
+    let mut freed = [0; 2];
+    for seed in 0..10 {
+        let text = with_small(seed, 40);
+        for lines in [CommonLines::Off, CommonLines::Auto] {
+            let mut job = job(OrderPolicy::Steady);
+            job.profile.common.lines = Lines::Word(lines);
+            let window_mm = job.profile.order.window_mm;
+            let marker = read(&text, &job);
+            assert_eq!(freed_before_small(&marker, window_mm), 0, "seed {seed}");
+            let lefts: Vec<f64> = (0..marker.pieces.len()).map(|piece| extent(&marker, piece).min.x).collect();
+            let fronts = lefts.iter().scan(f64::NEG_INFINITY, |front, &left| {
+                *front = front.max(left);
+                Some(*front)
+            });
+            assert!(fronts.zip(&lefts).all(|(front, &left)| left >= front - window_mm), "seed {seed}");
+            // Without a small one nothing asks for it, nor does another policy.
+            job.profile.order.small_mm2 = 0.0;
+            freed[0] += freed_before_small(&read(&text, &job), window_mm);
+            job.profile.order = cutc::machine::Order { policy: OrderPolicy::Fastest, ..Job::default().profile.order };
+            freed[1] += freed_before_small(&read(&text, &job), window_mm);
+        }
+    }
+    assert!(freed.iter().all(|&freed| freed > 20), "{freed:?}");
+}
+
+#[test]
+fn pieces_end_towards_the_cloth_that_is_still_uncut_when_the_work_is_steady() {
+    let mut elsewhere = 0;
+    for seed in 0..10 {
+        for (text, lines) in [(lay(seed, 30), CommonLines::Off), (touching(seed, 30), CommonLines::Auto)] {
+            for policy in [OrderPolicy::Steady, OrderPolicy::Fastest] {
+                let mut job = job(policy);
+                job.profile.common.lines = Lines::Word(lines);
+                let marker = with_cuts(&read(&text, &job), &job);
+                for piece in 0..marker.pieces.len() {
+                    let front = extent(&marker, piece);
+                    let front = front.max.x - front.size().0 / 3.0;
+                    let range = marker.range_of(piece as u32);
+                    // Behind slits and inner lines; a corner in front there is always, and each end of an edge may be there.
+                    let outline = marker.cuts[range].iter().filter(|cut| matches!(cut.kind, CutKind::Outline | CutKind::Edge));
+                    let ends: Vec<f64> =
+                        outline.map(|cut| *marker.list.points(cut.range).last().expect("a cut has an end")).map(|end| end.x).collect();
+                    let is_at_front = ends.last().is_none_or(|&end| end >= front);
+                    let can_be = ends.iter().any(|&end| end >= front) || ends.len() == 1 && lines == CommonLines::Off;
+                    if policy == OrderPolicy::Steady {
+                        assert!(is_at_front || !can_be, "seed {seed}: piece {}", marker.pieces[piece].number);
+                    } else {
+                        elsewhere += usize::from(!is_at_front && can_be);
+                    }
+                }
+            }
+        }
+    }
+    assert!(elsewhere > 100, "{elsewhere}");
 }
