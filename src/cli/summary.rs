@@ -128,11 +128,11 @@ fn could_save(spent: &Spent, savings: &Savings, line: &mut impl FnMut(&str, Stri
         let [travel, least] = [spent.travel, least_travel_s].map(|time| fixed(time, 1));
         line("order", format!("{travel} s from cut to cut; about {least} s at the least"));
     }
-    let steady = steady_s.filter(is_worth_telling).map(|saved| (r#"order.policy = "steady""#, saved));
-    let clear = clear_s.filter(is_worth_telling).map(|saved| ("knife.clear_ms, a third of lift_ms,", saved));
-    for (what, saved) in steady.into_iter().chain(clear) {
+    let steady = steady_s.filter(is_worth_telling).map(|saved| (r#"order.policy = "steady""#, " or more", saved));
+    let clear = clear_s.filter(is_worth_telling).map(|saved| ("knife.clear_ms, a third of lift_ms,", "", saved));
+    for (what, more, saved) in steady.into_iter().chain(clear) {
         let share = 100.0 * saved / spent.total();
-        line("", format!("{what} would save about {} s, {} %", fixed(saved, 0), fixed(share, 0)));
+        line("", format!("{what} would save about {} s{more}, {} %", fixed(saved, 0), fixed(share, 0)));
     }
 }
 

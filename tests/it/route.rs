@@ -337,7 +337,11 @@ fn with_small(seed: u64, places: usize) -> String {
         let [width, height] = if place % 3 == 1 { [400, 400] } else { [1600, 1000] };
         let (right, top) = (x + width, y + height);
         let begin = if rng.bool() { format!("X{x}Y{y}*M14*X{right}Y{y}*") } else { format!("X{x}Y{y}*M14*") };
-        let end = if begin.len() > 20 { format!("X{x}Y{top}*X{x}Y{y}*") } else { format!("X{x}Y{top}*X{right}Y{top}*X{right}Y{y}*X{x}Y{y}*") };
+        let end = if begin.len() > 20 {
+            format!("X{x}Y{top}*X{x}Y{y}*")
+        } else {
+            format!("X{x}Y{top}*X{right}Y{top}*X{right}Y{y}*X{x}Y{y}*")
+        };
         let middle = if begin.len() > 20 { format!("X{right}Y{top}*") } else { String::new() };
         let _infallible = write!(text, "N{}*M15*{begin}{middle}{end}M15*", number + 1);
     }
@@ -399,9 +403,12 @@ fn pieces_end_towards_the_cloth_that_is_still_uncut_when_the_work_is_steady() {
                     let front = front.max.x - front.size().0 / 3.0;
                     let range = marker.range_of(piece as u32);
                     // Behind slits and inner lines; a corner in front there is always, and each end of an edge may be there.
-                    let outline = marker.cuts[range].iter().filter(|cut| matches!(cut.kind, CutKind::Outline | CutKind::Edge));
-                    let ends: Vec<f64> =
-                        outline.map(|cut| *marker.list.points(cut.range).last().expect("a cut has an end")).map(|end| end.x).collect();
+                    let outline =
+                        marker.cuts[range].iter().filter(|cut| matches!(cut.kind, CutKind::Outline | CutKind::Edge));
+                    let ends: Vec<f64> = outline
+                        .map(|cut| *marker.list.points(cut.range).last().expect("a cut has an end"))
+                        .map(|end| end.x)
+                        .collect();
                     let is_at_front = ends.last().is_none_or(|&end| end >= front);
                     let can_be = ends.iter().any(|&end| end >= front) || ends.len() == 1 && lines == CommonLines::Off;
                     if policy == OrderPolicy::Steady {

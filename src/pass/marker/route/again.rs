@@ -36,9 +36,19 @@ struct Made {
 /// Puts pieces with common lines in a better order, if there is one: also one that is like that of the file, where this
 /// suits what the parts have in common.
 pub(super) fn improve(marker: &mut Marker, as_filed: Marker, job: &Job) {
+    let Some(least) = ordered(marker, as_filed, job) else { return };
+    let best = Made::of(marker.clone(), job).exchanged(job).improved(job);
+    if best.time < least - LEAST_GAIN {
+        *marker = best.without_cuts();
+    }
+}
+
+/// The same, but parts do not change places two by two, which takes as long as all else. About what the cuts take then, s; `None`
+/// without common lines.
+pub(super) fn ordered(marker: &mut Marker, as_filed: Marker, job: &Job) -> Option<f64> {
     let routed = Made::of(marker.clone(), job);
     if routed.marker.common.is_empty() {
-        return;
+        return None;
     }
     let as_is: Vec<usize> = (0..as_filed.pieces.len()).collect();
     let is_allowed = Rules::of(&as_filed, job).broken(&as_is) == 0;
@@ -51,11 +61,7 @@ pub(super) fn improve(marker: &mut Marker, as_filed: Marker, job: &Job) {
             *marker = best.without_cuts();
         }
     }
-    let exchanged = Made::of(marker.clone(), job).exchanged(job);
-    let best = exchanged.improved(job);
-    if best.time < least - LEAST_GAIN {
-        *marker = best.without_cuts();
-    }
+    Some(least)
 }
 
 impl Made {
@@ -68,11 +74,12 @@ impl Made {
     /// The best that is found from here on: each order is looked for near the one before, with the cuts that this gives.
     fn improved(self, job: &Job) -> Self {
         let rounds = (MOST_PIECES / self.marker.pieces.len()).clamp(1, ROUNDS);
+        let measures = Measures::new(job, &self.marker);
         let (mut best, mut walked, mut waited) = (self, None::<Self>, 0);
         for _ in 0..rounds {
             let made = walked.as_ref().unwrap_or(&best);
             let mut other = made.without_cuts();
-            order(&mut other, job, &|piece, marker| made.cuts_of(piece, marker, job), Search::Near);
+            order(&mut other, job, &|piece, _| made.cuts_of(piece, &measures), Search::Near);
             let made = Self::of(other, job);
             if made.time < best.time - LEAST_GAIN {
                 (best, walked, waited) = (made, None, 0);
@@ -98,7 +105,8 @@ impl Made {
         let (mut best, mut left) = (self, MOST_EXCHANGED / count);
         let mut is_improved = true;
         while std::mem::take(&mut is_improved) {
-            let mut pairs: Vec<[usize; 2]> = best.marker.common.iter().map(|edge| edge.pieces.map(|i| order[i as usize])).collect();
+            let pieces = best.marker.common.iter().map(|edge| edge.pieces);
+            let mut pairs: Vec<[usize; 2]> = pieces.map(|pair| pair.map(|place| order[place as usize])).collect();
             pairs.sort_unstable();
             pairs.dedup();
             for pair in pairs {
@@ -127,10 +135,9 @@ impl Made {
     }
 
     /// How a piece is cut: contours that are cut as a whole begin anywhere, by their places; edges have places behind these.
-    fn cuts_of(&self, piece: usize, marker: &Marker, job: &Job) -> Cuts {
-        let measures = Measures::new(job, marker);
-        let (of_piece, list) = (&marker.pieces[piece], &self.marker.list);
-        let mut cuts = Cuts::marks(of_piece, list, &measures);
+    fn cuts_of(&self, piece: usize, measures: &Measures) -> Cuts {
+        let (of_piece, list) = (&self.marker.pieces[piece], &self.marker.list);
+        let mut cuts = Cuts::marks(of_piece, list, measures);
         let range = self.marker.range_of(piece as u32);
         let groups = &self.groups[range.clone()];
         for (place, cut) in self.marker.cuts[range].iter().enumerate() {
@@ -147,7 +154,7 @@ impl Made {
             }
         }
         // One that is cut with others alone keeps a place among these.
-        if cuts.is_empty() { Cuts::drawn(of_piece, list, &measures) } else { cuts }
+        if cuts.is_empty() { Cuts::drawn(of_piece, list, measures) } else { cuts }
     }
 }
 

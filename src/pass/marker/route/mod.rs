@@ -35,15 +35,29 @@ fn run(marker: &mut Marker, job: &Job, _: &mut Diagnostics) {
     if job.profile.order.policy(marker.drawing.is_some()) == OrderPolicy::File {
         return;
     }
-    let as_filed = job.profile.common(marker.unit).is_some().then(|| marker.clone());
+    let as_filed = as_filed(marker, job);
     once(marker, job);
     if let Some(as_filed) = as_filed {
         again::improve(marker, as_filed, job);
     }
 }
 
-/// Orders pieces as they are drawn, and not once more by what common lines leave of them: in a part of the time.
-pub(super) fn once(marker: &mut Marker, job: &Job) {
+/// Orders pieces by the policy of a job in a part of the time, and not as well where parts have edges in common.
+pub(super) fn roughly(marker: &mut Marker, job: &Job) {
+    let as_filed = as_filed(marker, job);
+    once(marker, job);
+    if let Some(as_filed) = as_filed {
+        again::ordered(marker, as_filed, job);
+    }
+}
+
+/// The marker in the order of the file, where parts may have edges in common.
+fn as_filed(marker: &Marker, job: &Job) -> Option<Marker> {
+    job.profile.common(marker.unit).is_some().then(|| marker.clone())
+}
+
+/// Orders pieces as they are drawn, whatever common lines leave of them.
+fn once(marker: &mut Marker, job: &Job) {
     let measures = Measures::new(job, marker);
     let of = |piece: usize, marker: &Marker| Cuts::drawn(&marker.pieces[piece], &marker.list, &measures);
     order(marker, job, &of, Search::Whole);

@@ -22,8 +22,10 @@ struct Outline {
 
 /// For each piece the larger ones that come after it, because it is small and they lie next to it.
 pub(super) fn held(marker: &Marker, nesting: &Nesting, order: &Order) -> Vec<Vec<usize>> {
-    let outlines: Vec<Option<Outline>> =
-        (0..marker.pieces.len()).map(|piece| outline(marker, nesting, piece, order)).collect();
+    let outlines: Vec<Option<Outline>> = (0..marker.pieces.len())
+        .map(|piece| outline(marker, nesting, piece))
+        .map(|points| points.map(|points| Outline::new(points, order)))
+        .collect();
     let mut held = vec![Vec::new(); outlines.len()];
     if !outlines.iter().flatten().any(|outline| outline.is_small) {
         return held;
@@ -55,11 +57,16 @@ pub(super) fn held(marker: &Marker, nesting: &Nesting, order: &Order) -> Vec<Vec
     held
 }
 
-/// The outline of a piece that bounds a part.
-fn outline(marker: &Marker, nesting: &Nesting, piece: usize, order: &Order) -> Option<Outline> {
+impl Outline {
+    fn new(points: Vec<Point>, order: &Order) -> Self {
+        let is_small = ring::area(&points).abs() < order.small_mm2;
+        Self { extent: Extent::of(&points), points, is_small }
+    }
+}
+
+/// The points of the outline of a piece, if it bounds a part.
+fn outline(marker: &Marker, nesting: &Nesting, piece: usize) -> Option<Vec<Point>> {
     let line = nesting.widest(piece).filter(|&line| nesting.lines()[line].is_closed && !nesting.is_inner(line))?;
     let contour = marker.pieces[piece].contours[line - nesting.of_group(piece).start];
-    let points = marker.list.points(contour.range).into_owned();
-    let is_small = ring::area(&points).abs() < order.small_mm2;
-    Some(Outline { points, extent: nesting.lines()[line].extent, is_small })
+    Some(marker.list.points(contour.range).into_owned())
 }

@@ -141,60 +141,80 @@ impl Cuts {
 
     /// The ways in which it may be visited, that of the file first.
     pub(super) fn visits(&self, air: &Air) -> Vec<Visit> {
-        let groups: Vec<Group> = self.groups.iter().map(|group| Group::new(&group.starts, air)).collect();
-        let mut begun = self.rounds(air);
-        if self.slits.is_empty() && !self.fixed.is_empty() {
-            begun.push(self.begun(Vec::new(), air));
+        let groups = self.groups.iter().map(|group| Group::new(&group.starts, air)).collect();
+        Search { cuts: self, groups, air }.visits()
+    }
+
+    /// Whether the piece may end where a cut of it does.
+    fn is_at_front(&self, start: &Start) -> bool {
+        self.front.is_some_and(|front| start.to.x >= front)
+    }
+}
+
+/// A search for the ways in which a piece may be visited.
+struct Search<'a> {
+    cuts: &'a Cuts,
+    /// What is cut of contours, with the times between.
+    groups: Vec<Group<'a>>,
+    air: &'a Air,
+}
+
+impl Search<'_> {
+    fn visits(&self) -> Vec<Visit> {
+        let mut begun = self.rounds();
+        if self.cuts.slits.is_empty() && !self.cuts.fixed.is_empty() {
+            begun.push(self.begun(Vec::new()));
         }
         let mut from = 0;
-        if let (true, Some(first)) = (begun.is_empty(), groups.first()) {
+        if let (true, Some(first)) = (begun.is_empty(), self.groups.first()) {
             // Nothing comes before them: they begin with each of their states.
             from = 1;
-            let nothing = self.begun(Vec::new(), air);
+            let nothing = self.begun(Vec::new());
             let step = first.states().len().div_ceil(2 * MOST_VISITS).max(1);
             for &state in first.states().iter().step_by(step) {
                 let into = |other: State| if other == state { 0.0 } else { f64::INFINITY };
-                begun.extend(self.led_on(0, first, &nothing, &into));
+                begun.extend(self.led_on(0, &nothing, &into));
             }
         }
         let most = (2 * MOST_VISITS).div_ceil(begun.len().max(1));
-        let ended = begun.into_iter().flat_map(|begun| self.ended(from, &groups, begun, most, air));
-        let mut visits: Vec<Visit> = std::iter::once(self.as_is(air)).chain(ended).collect();
-        if self.front.is_some() && visits.iter().any(|visit| visit.is_at_front) {
+        let ended = begun.into_iter().flat_map(|begun| self.ended(from, begun, most));
+        let mut visits: Vec<Visit> = std::iter::once(self.as_is()).chain(ended).collect();
+        if self.cuts.front.is_some() && visits.iter().any(|visit| visit.is_at_front) {
             visits.retain(|visit| visit.is_at_front);
         }
         visits
     }
 
     /// Rounds of the slits behind what is fixed: from several of them on, onward and back.
-    fn rounds(&self, air: &Air) -> Vec<Begun> {
-        let count = self.slits.len();
+    fn rounds(&self) -> Vec<Begun> {
+        let slits = &self.cuts.slits;
+        let count = slits.len();
         let mut round: Vec<usize> = (0..count).collect();
-        round.sort_by(|&a, &b| self.slits[a].1.total_cmp(&self.slits[b].1));
+        round.sort_by(|&a, &b| slits[a].1.total_cmp(&slits[b].1));
         let step = (2 * count).div_ceil(MOST_VISITS).max(1);
         let sequences = (0..count).step_by(step).flat_map(|first| {
             let onward: Vec<usize> = (0..count).map(|i| round[(first + i) % count]).collect();
             let back: Vec<usize> = (0..count).map(|i| round[(first + count - i) % count]).collect();
             [onward, back]
         });
-        sequences.map(|slits| self.begun(slits, air)).collect()
+        sequences.map(|slits| self.begun(slits)).collect()
     }
 
     /// What is fixed, and slits in a sequence.
-    fn begun(&self, slits: Vec<usize>, air: &Air) -> Begun {
-        let stops: Vec<[Stop; 2]> =
-            self.fixed.iter().copied().chain(slits.iter().map(|&slit| self.slits[slit].0)).collect();
-        let within = stops.windows(2).map(|pair| air.time(&pair[0][1], &pair[1][0])).sum();
+    fn begun(&self, slits: Vec<usize>) -> Begun {
+        let of_slits = slits.iter().map(|&slit| self.cuts.slits[slit].0);
+        let stops: Vec<[Stop; 2]> = self.cuts.fixed.iter().copied().chain(of_slits).collect();
+        let within = stops.windows(2).map(|pair| self.air.time(&pair[0][1], &pair[1][0])).sum();
         let ends = stops.first().zip(stops.last()).map(|(first, last)| [first[0], last[1]]);
         Begun { slits, cuts: Vec::new(), ends, within, is_at_front: false }
     }
 
     /// A visit so far, led on through a group in each way that may be the best.
-    fn led_on(&self, place: usize, group: &Group, begun: &Begun, into: &dyn Fn(State) -> f64) -> Vec<Begun> {
-        let Unordered { first, starts } = &self.groups[place];
+    fn led_on(&self, place: usize, begun: &Begun, into: &dyn Fn(State) -> f64) -> Vec<Begun> {
+        let Unordered { first, starts } = &self.cuts.groups[place];
         let is_last = place + 1 == self.groups.len();
-        let is_at_front = |[cut, start]: State| is_last && self.is_at_front(&starts[cut][start]);
-        let mut ways = group.shortest(into, &is_at_front);
+        let is_at_front = |[cut, start]: State| is_last && self.cuts.is_at_front(&starts[cut][start]);
+        let mut ways = self.groups[place].shortest(into, &is_at_front);
         // Another start of one closed line is no other end of it: the nearest is the best.
         ways.truncate(if starts.len() == 1 && starts[0].len() > 2 { 1 } else { MOST_VISITS });
         let led = ways.into_iter().map(|way| {
@@ -205,12 +225,13 @@ impl Cuts {
     }
 
     /// A visit led on through all groups from one on, in so many ways at the most.
-    fn ended(&self, from: usize, groups: &[Group], begun: Begun, most: usize, air: &Air) -> Vec<Visit> {
+    fn ended(&self, from: usize, begun: Begun, most: usize) -> Vec<Visit> {
         let mut all = vec![begun];
-        for (place, group) in groups.iter().enumerate().skip(from) {
+        for (place, group) in self.groups.iter().enumerate().skip(from) {
             let led = |begun: &Begun| {
-                let into = |state: State| begun.ends.map_or(0.0, |ends| air.time(&ends[1], &group.stops(state)[0]));
-                self.led_on(place, group, begun, &into)
+                let into =
+                    |state: State| begun.ends.map_or(0.0, |ends| self.air.time(&ends[1], &group.stops(state)[0]));
+                self.led_on(place, begun, &into)
             };
             all = all.iter().flat_map(led).collect();
             all.sort_by(|a, b| a.within.total_cmp(&b.within));
@@ -219,59 +240,61 @@ impl Cuts {
         all.into_iter().map(Begun::visit).collect()
     }
 
-    /// Whether the piece may end where a cut of it does.
-    fn is_at_front(&self, start: &Start) -> bool {
-        self.front.is_some_and(|front| start.to.x >= front)
-    }
-
     /// All as it is drawn.
-    fn as_is(&self, air: &Air) -> Visit {
-        let mut begun = self.begun((0..self.slits.len()).collect(), air);
-        for Unordered { first, starts } in &self.groups {
+    fn as_is(&self) -> Visit {
+        let mut begun = self.begun((0..self.cuts.slits.len()).collect());
+        for Unordered { first, starts } in &self.cuts.groups {
             for (cut, starts) in (*first..).zip(starts) {
-                let time = begun.ends.map_or(0.0, |ends| air.time(&ends[1], &starts[0].stops[0]));
-                begun = begun.with(&[(cut, starts[0])], time, self.is_at_front(&starts[0]));
+                let time = begun.ends.map_or(0.0, |ends| self.air.time(&ends[1], &starts[0].stops[0]));
+                begun = begun.with(&[(cut, starts[0])], time, self.cuts.is_at_front(&starts[0]));
             }
         }
         begun.visit()
     }
 }
 
-/// Of the visits of each piece in an order those that take the least time together, with that time, s: dynamic programming,
-/// exact.
-pub(in crate::pass::marker) fn choose(
-    order: &[usize],
-    visits: &[Vec<Visit>],
-    home: &Stop,
-    air: &Air,
-) -> (Vec<usize>, f64) {
-    // For each visit of each piece the best one of the piece before.
-    let mut came: Vec<Vec<usize>> = Vec::with_capacity(order.len());
-    let mut spent: Vec<f64> = Vec::new();
-    for (i, &piece) in order.iter().enumerate() {
-        let before = i.checked_sub(1).map(|before| &visits[order[before]]);
-        let best = |visit: &Visit| match before {
-            None => (0, air.time(home, &visit.ends[0])),
-            Some(before) => {
-                let times = before.iter().zip(&spent).map(|(b, spent)| spent + air.time(&b.ends[1], &visit.ends[0]));
-                times.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).expect("each piece has a visit")
-            }
-        };
-        let reached: Vec<(usize, f64)> = visits[piece]
-            .iter()
-            .map(|visit| (best(visit), visit.within))
-            .map(|((from, time), within)| (from, time + within))
-            .collect();
-        came.push(reached.iter().map(|reached| reached.0).collect());
-        spent = reached.into_iter().map(|reached| reached.1).collect();
+/// The visits of some pieces, of which one each is made.
+pub(in crate::pass::marker) struct Choices<'a> {
+    pub(in crate::pass::marker) visits: &'a [Vec<Visit>],
+    /// Where the axes stand first.
+    pub(in crate::pass::marker) home: Stop,
+    pub(in crate::pass::marker) air: Air,
+}
+
+impl Choices<'_> {
+    /// Of the visits of each piece in an order those that take the least time together, with that time, s: dynamic programming,
+    /// exact.
+    pub(in crate::pass::marker) fn choose(&self, order: &[usize]) -> (Vec<usize>, f64) {
+        let Self { visits, home, air } = self;
+        // For each visit of each piece the best one of the piece before.
+        let mut came: Vec<Vec<usize>> = Vec::with_capacity(order.len());
+        let mut spent: Vec<f64> = Vec::new();
+        for (i, &piece) in order.iter().enumerate() {
+            let before = i.checked_sub(1).map(|before| &visits[order[before]]);
+            let best = |visit: &Visit| match before {
+                None => (0, air.time(home, &visit.ends[0])),
+                Some(before) => {
+                    let times =
+                        before.iter().zip(&spent).map(|(b, spent)| spent + air.time(&b.ends[1], &visit.ends[0]));
+                    times.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).expect("each piece has a visit")
+                }
+            };
+            let reached: Vec<(usize, f64)> = visits[piece]
+                .iter()
+                .map(|visit| (best(visit), visit.within))
+                .map(|((from, time), within)| (from, time + within))
+                .collect();
+            came.push(reached.iter().map(|reached| reached.0).collect());
+            spent = reached.into_iter().map(|reached| reached.1).collect();
+        }
+        let mut chosen = vec![0; visits.len()];
+        let (mut at, time) = spent.into_iter().enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default();
+        for (i, &piece) in order.iter().enumerate().rev() {
+            chosen[piece] = at;
+            at = came[i][at];
+        }
+        (chosen, time)
     }
-    let mut chosen = vec![0; visits.len()];
-    let (mut at, time) = spent.into_iter().enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default();
-    for (i, &piece) in order.iter().enumerate().rev() {
-        chosen[piece] = at;
-        at = came[i][at];
-    }
-    (chosen, time)
 }
 
 /// How far from the start of an outline the place of it is that is nearest to a point, mm.
