@@ -177,6 +177,15 @@ mod tests {
     use super::*;
 
     #[test]
+    fn the_size_of_a_large_program_is_told_and_that_of_a_huge_one_to_everyone() {
+        let told = |bytes, is_quiet| wrote_so_much("x.csv", bytes, is_quiet).unwrap_or_default();
+        assert_eq!(told(99_999_999, false), "wrote `x.csv`");
+        assert_eq!(told(100_000_000, false), "wrote `x.csv`, 0.1 GB");
+        assert_eq!(told(999_999_999, true), "");
+        assert_eq!(told(3_210_000_000, true), "wrote `x.csv`, 3.3 GB");
+    }
+
+    #[test]
     fn an_older_program_is_moved_aside_with_its_provenance() {
         let directory = tempfile::tempdir().expect("a directory");
         let path = directory.path().join("x.csv");

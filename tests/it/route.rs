@@ -6,7 +6,7 @@ use std::io::{BufReader, Cursor};
 
 use cutc::back::TARGETS;
 use cutc::diagnostic::{Diagnostics, render};
-use cutc::geom::Extent;
+use cutc::geom::{Extent, Point};
 use cutc::ir::Marker;
 use cutc::ir::list::Segment;
 use cutc::ir::marker::{CutKind, Piece};
@@ -83,7 +83,7 @@ fn read(text: &str, job: &Job) -> Marker {
     input.expect("it is read").marker
 }
 
-fn compiled(text: &str, job: &Job) -> (Report, Vec<u8>) {
+pub(crate) fn compiled(text: &str, job: &Job) -> (Report, Vec<u8>) {
     let source = Source::new("lay.cut", text.as_bytes().to_vec()).expect("small");
     let target = TARGETS.iter().find(|target| target.name == "csv").expect("setpoints are a target");
     let order = pipeline::Order { from: None, target, verify: true };
@@ -291,18 +291,61 @@ fn with_common_lines_an_order_saves_time_and_breaks_no_rule() {
     }
 }
 
+/// The points of each line of a file as it writes them, by the number of the piece, tenths of a millimetre.
+fn written(text: &str) -> BTreeMap<u32, Vec<Vec<[i64; 2]>>> {
+    let place = |block: &str| {
+        let (x, y) = block.strip_prefix('X')?.split_once('Y')?;
+        Some([x.parse().expect("a number"), y.parse().expect("a number")])
+    };
+    let line = |up: &str| {
+        let points: Vec<[i64; 2]> = up.split('*').filter_map(place).collect();
+        (points.len() > 1).then_some(points)
+    };
+    let piece = |text: &str| {
+        let (number, lines) = text.split_once('*').expect("a number has an end");
+        (number.parse().expect("a number"), lines.split("M15*").filter_map(line).collect())
+    };
+    text.split('N').skip(1).map(piece).collect()
+}
+
 #[test]
-fn the_order_of_the_file_stays_with_common_lines() {
-    let text = touching(1, 30);
-    let file = read(&text, &job(OrderPolicy::File));
-    let made = with_cuts(&file, &job(OrderPolicy::File));
-    let numbers = |marker: &Marker| marker.pieces.iter().map(|piece| piece.number).collect::<Vec<_>>();
-    assert_eq!(numbers(&made), numbers(&file));
-    assert!(made.cuts.is_sorted_by_key(|cut| cut.piece));
-    let mut sorted = numbers(&made);
-    sorted.sort_unstable();
-    // What lies in a part is the only reason for another order.
-    assert_eq!(sorted, (1..=file.pieces.len() as u32).collect::<Vec<_>>());
+fn the_order_of_the_file_stays_to_the_start_and_direction_of_each_line() {
+    for seed in 0..10 {
+        for (text, lines) in [
+            (lay(seed, 30), CommonLines::Off),
+            (touching(seed, 30), CommonLines::Auto),
+            (touching(seed, 30), CommonLines::Off),
+            (with_small(seed, 40), CommonLines::Auto),
+        ] {
+            let mut job = job(OrderPolicy::File);
+            job.profile.common.lines = Lines::Word(lines);
+            let marker = read(&text, &job);
+            let written = written(&text);
+            for (i, piece) in marker.pieces.iter().enumerate() {
+                let tenths = |value: f64| (10.0 * value).round() as i64;
+                let place = |at: Point| [tenths(at.x), tenths(at.y)];
+                let slits = piece.notches.iter().map(|notch| vec![place(notch.root), place(notch.tip)]);
+                let contours =
+                    piece.contours.iter().map(|contour| marker.points(contour).into_iter().map(place).collect());
+                assert!(
+                    slits.chain(contours).eq(written[&piece.number].iter().cloned()),
+                    "seed {seed}: piece {}",
+                    piece.number
+                );
+                // What comes before a piece that the file has behind it lies in it.
+                let late = marker.pieces[..i].iter().zip(0..).filter(|(other, _)| other.number > piece.number);
+                for (other, at) in late {
+                    let held = |holder: &usize| holds(&extent(&marker, *holder), &extent(&marker, at));
+                    let mut behind = (at + 1..marker.pieces.len()).filter(|&k| marker.pieces[k].number < other.number);
+                    assert!(behind.any(|k| held(&k)), "seed {seed}: piece {} before {}", other.number, piece.number);
+                }
+            }
+            let made = with_cuts(&marker, &job);
+            assert!(made.cuts.is_sorted_by_key(|cut| cut.piece), "seed {seed}");
+            let numbers = |marker: &Marker| marker.pieces.iter().map(|piece| piece.number).collect::<Vec<_>>();
+            assert_eq!(numbers(&made), numbers(&marker), "seed {seed}");
+        }
+    }
 }
 
 #[test]
@@ -332,18 +375,12 @@ fn with_small(seed: u64, places: usize) -> String {
     let mut order: Vec<usize> = (0..places).collect();
     rng.shuffle(&mut order);
     let mut text = "H1*G71*".to_owned();
-    for (number, place) in order.into_iter().enumerate() {
+    for (place, number) in order.into_iter().zip(1..) {
         let [x, y] = [(place / ROW) * 1640, (place % ROW) * 1040];
         let [width, height] = if place % 3 == 1 { [400, 400] } else { [1600, 1000] };
         let (right, top) = (x + width, y + height);
-        let begin = if rng.bool() { format!("X{x}Y{y}*M14*X{right}Y{y}*") } else { format!("X{x}Y{y}*M14*") };
-        let end = if begin.len() > 20 {
-            format!("X{x}Y{top}*X{x}Y{y}*")
-        } else {
-            format!("X{x}Y{top}*X{right}Y{top}*X{right}Y{y}*X{x}Y{y}*")
-        };
-        let middle = if begin.len() > 20 { format!("X{right}Y{top}*") } else { String::new() };
-        let _infallible = write!(text, "N{}*M15*{begin}{middle}{end}M15*", number + 1);
+        let _infallible =
+            write!(text, "N{number}*M15*X{x}Y{y}*M14*X{right}Y{y}*X{right}Y{top}*X{x}Y{top}*X{x}Y{y}*M15*");
     }
     text + "M0*\n"
 }

@@ -216,7 +216,7 @@ impl Search<'_> {
         let is_at_front = |[cut, start]: State| is_last && self.cuts.is_at_front(&starts[cut][start]);
         let mut ways = self.groups[place].shortest(into, &is_at_front);
         // Another start of one closed line is no other end of it: the nearest is the best.
-        ways.truncate(if starts.len() == 1 && starts[0].len() > 2 { 1 } else { MOST_VISITS });
+        ways.truncate(if starts.len() == 1 && starts[0].len() > 2 { 4 } else { MOST_VISITS });
         let led = ways.into_iter().map(|way| {
             let states = way.states.iter().map(|&[cut, start]| (first + cut, starts[cut][start]));
             begun.with(&states.collect::<Vec<_>>(), way.time, is_at_front(way.states[way.states.len() - 1]))
