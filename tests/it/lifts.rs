@@ -129,3 +129,12 @@ fn slits_are_cut_in_the_sequence_that_turns_least_however_they_are_written() {
         "{filed:?}"
     );
 }
+
+/// Outlines that bend by 45 degrees where the cut of a neighbour begins: whether that is a corner, on which the neighbour counts,
+/// must not hang on the rounding of what is left of them.
+#[test]
+fn a_bend_of_just_the_limit_is_the_same_to_all_who_ask() {
+    let text = "H1*G71*N48*X13848Y1593*M14*X13848Y843*X13098Y843*X12848Y1093*X12848Y1593*X13848Y1593*M15*N38*X12847Y1017*M14*X10847Y1017*X10597Y1517*X11347Y1517*X11597Y1267*X11847Y1267*X12347Y1517*X12847Y1517*X12847Y1017*M15*N63*X12073Y1519*M14*X11823Y1769*X10323Y1769*X10073Y1519*X12073Y1519*M15*M0*\n";
+    let (report, _) = compiled(text, &Job::default());
+    assert_eq!(report.common.expect("the parts touch").edges, 2);
+}

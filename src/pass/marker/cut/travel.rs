@@ -1,5 +1,4 @@
-//! In which order what common lines leave of outlines is cut: the file does not say. Each keeps its direction: led over other
-//! cuts the other way round it may leave threads there.
+//! In which order and direction what common lines leave of outlines is cut: the file does not say.
 
 use std::ops::Range;
 
@@ -16,7 +15,7 @@ pub(in crate::pass::marker) enum Group {
     Slits,
     /// A contour, by its place in its piece, cut as a whole.
     Contour(usize),
-    /// What common lines leave of one, or the legs of notches on it, by the place of the first: in any order.
+    /// What common lines leave of one, or the legs of notches on it, by the place of the first: in any order and either way.
     Edges(usize),
 }
 
@@ -39,8 +38,12 @@ pub(super) fn arrange(marker: &mut Marker, groups: &[Group], job: &Job) {
         let range = ranges[i].clone();
         let made: Vec<Cut> = cuts[range.clone()].to_vec();
         let fixed = range.len() - of_piece[chosen].cuts.len();
-        for (cut, &(place, _)) in cuts[range].iter_mut().skip(fixed).zip(&of_piece[chosen].cuts) {
+        for (cut, &(place, begin)) in cuts[range].iter_mut().skip(fixed).zip(&of_piece[chosen].cuts) {
             *cut = made[place];
+            if begin.is_reversed {
+                let [left, right] = cut.sides;
+                (cut.range, cut.sides) = (cut.range.reversed(), [right, left]);
+            }
         }
     }
 }
@@ -61,11 +64,14 @@ impl MadeCuts<'_> {
         let groups = &groups[range.clone()];
         let mut made = Cuts::of_drills(&marker.pieces[piece], &marker.list, measures);
         for (place, cut) in marker.cuts[range].iter().enumerate() {
-            let start = measures.as_is(cut.range, &marker.list);
+            let start = || measures.as_is(cut.range, &marker.list);
             match groups[place] {
-                Group::Slits => made.fixed.push(start.stops),
-                Group::Contour(_) => made.add(place, vec![start], false),
-                group @ Group::Edges(_) => made.add(place, vec![start], place > 0 && groups[place - 1] == group),
+                Group::Slits => made.fixed.push(start().stops),
+                Group::Contour(_) => made.add(place, vec![start()], false),
+                group @ Group::Edges(_) => {
+                    let starts = measures.either_way(cut.range, &marker.list);
+                    made.add(place, starts, place > 0 && groups[place - 1] == group);
+                }
             }
         }
         made
