@@ -365,7 +365,7 @@ mod tests {
           limited by starts and stops 50 %, jerk of c 25 %, feed 20 %,
                      acceleration of x 5 %
           order      20.0 s from cut to cut; about 9.8 s at the least
-                     order.policy = "steady" would save about 7 s, 6 %
+                     order.policy = "steady" would save about 7 s or more, 6 %
           bulge      0.138 mm beyond the chords of flattened curves
           warnings   0
 
