@@ -1,4 +1,5 @@
-//! In which order and direction what common lines leave of outlines is cut: the file does not say.
+//! In which order what common lines leave of outlines is cut: the file does not say. Each keeps its direction: which way it is
+//! led over other cuts must not hang on a gap within the band.
 
 use std::ops::Range;
 
@@ -15,7 +16,7 @@ pub(in crate::pass::marker) enum Group {
     Slits,
     /// A contour, by its place in its piece, cut as a whole.
     Contour(usize),
-    /// What common lines leave of one, or the legs of notches on it, by the place of the first: in any order and either way.
+    /// What common lines leave of one, or the legs of notches on it, by the place of the first: in any order.
     Edges(usize),
 }
 
@@ -38,12 +39,8 @@ pub(super) fn arrange(marker: &mut Marker, groups: &[Group], job: &Job) {
         let range = ranges[i].clone();
         let made: Vec<Cut> = cuts[range.clone()].to_vec();
         let fixed = range.len() - of_piece[chosen].cuts.len();
-        for (cut, &(place, begin)) in cuts[range].iter_mut().skip(fixed).zip(&of_piece[chosen].cuts) {
+        for (cut, &(place, _)) in cuts[range].iter_mut().skip(fixed).zip(&of_piece[chosen].cuts) {
             *cut = made[place];
-            if begin.is_reversed {
-                let [left, right] = cut.sides;
-                (cut.range, cut.sides) = (cut.range.reversed(), [right, left]);
-            }
         }
     }
 }
@@ -69,7 +66,7 @@ impl MadeCuts<'_> {
                 Group::Slits => made.fixed.push(start().stops),
                 Group::Contour(_) => made.add(place, vec![start()], false),
                 group @ Group::Edges(_) => {
-                    let starts = measures.either_way(cut.range, &marker.list);
+                    let starts = vec![start()];
                     made.add(place, starts, place > 0 && groups[place - 1] == group);
                 }
             }

@@ -147,7 +147,7 @@ impl Made {
                     cuts.add(contour, measures.of_contour(&of_piece.contours[contour], of_piece, list), false);
                 }
                 group @ Group::Edges(_) => {
-                    let starts = measures.either_way(cut.range, list);
+                    let starts = vec![measures.as_is(cut.range, list)];
                     let is_of_last = place > 0 && groups[place - 1] == group;
                     cuts.add(of_piece.contours.len() + place, starts, is_of_last);
                 }

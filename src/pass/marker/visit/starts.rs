@@ -66,11 +66,6 @@ impl Measures {
         Start::new(&segments(range, list), Begin::default(), &self.air)
     }
 
-    /// Those of an open line: from either end, unless the file asks for something on it.
-    pub(in crate::pass::marker) fn either_way(&self, range: Range, list: &SegmentList) -> Vec<Start> {
-        self.of_ends(&segments(range, list))
-    }
-
     fn of_ends(&self, of: &[Segment]) -> Vec<Start> {
         let ways = [false, true].map(|is_reversed| Begin { segment: 0, is_reversed });
         ways[..=usize::from(is_plain(of))].iter().map(|&begin| Start::new(of, begin, &self.air)).collect()
