@@ -88,8 +88,8 @@ fn least_rest(program: &[u8]) -> f64 {
 #[test]
 fn a_double_edged_blade_goes_whichever_way_turns_less() {
     // Strokes to and fro.
-    let strokes: String =
-        (0..6).map(|i| format!("X{x}Y{}*M14*X{x}Y{}*M15*", 900 * (i % 2), 900 * ((i + 1) % 2), x = 100 * i)).collect();
+    let stroke = |i: u32| format!("X{x}Y{}*M14*X{x}Y{}*M15*", 900 * (i % 2), 900 * ((i + 1) % 2), x = 100 * i);
+    let strokes = (0..6).map(stroke).collect::<Vec<String>>().concat();
     let mut job = Job::default();
     (job.profile.knife.width_mm, job.profile.knife.back_mm) = (6.0, Some(3.0));
     let turned = |program: &[u8]| {
