@@ -70,7 +70,8 @@ impl Air {
         Stop { at: to - along.unwrap_or_default() * self.ends[0], along }
     }
 
-    /// From rest to rest, s: X and Y along a line, C beside them the shorter way round.
+    /// From rest to rest, s: X and Y along a line, C beside them the shorter way round. With two edges the one that turns less
+    /// leads, so that a cut has no states beside its starts and directions.
     pub fn time(&self, from: &Stop, to: &Stop) -> f64 {
         let [x, y, c] = self.limits;
         let way = to.at - from.at;
@@ -120,23 +121,6 @@ pub fn spent(marker: &Marker, job: &Job) -> f64 {
         }
     }
     time
-}
-
-/// The time at the corners amid the cuts of a marker, s: the knife comes up, C turns, and it goes down again.
-pub fn at_corners(marker: &Marker, job: &Job) -> f64 {
-    let (air, knife) = (Air::new(job), &job.profile.knife);
-    let limit = job.profile.corner.angle();
-    let of_cut = |cut: &Cut| {
-        let points = marker.list.points(cut.range);
-        let last = points.len() - 1;
-        let corners = (1..last).filter(|&i| {
-            let (before, behind) = (points[..i].iter().rev(), points[i + 1..].iter());
-            corner::is_corner(points[i], &before.copied(), &behind.copied(), limit, marker.unit)
-        });
-        let turn = |i: usize| air.time(&air.up(points[i - 1], points[i]), &air.down(points[i], points[i + 1]));
-        corners.map(|i| turn(i) + knife.clear() + knife.plunge()).sum::<f64>()
-    };
-    marker.cuts.iter().map(of_cut).sum()
 }
 
 /// What may come anywhere in the order: where the knife may come down for it, and where up.
@@ -218,5 +202,42 @@ impl Item {
         let ups =
             starts.iter().map(|&i| around(i)).flat_map(|[before, at, next]| [air.up(before, at), air.up(next, at)]);
         Self { downs: downs.collect(), ups: ups.collect() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The least time of the moves between cuts, each from where it starts to where it ends, when either edge of the blade may
+    /// lead in each of them: every choice of edges is looked at.
+    fn least_by_edges(cuts: &[[Stop; 2]], air: &Air) -> f64 {
+        let turned = |stop: Stop| Stop { along: stop.along.map(|along| -along), ..stop };
+        let chosen = |choice: usize| {
+            let with_edge = |(i, cut): (usize, &[Stop; 2])| if choice >> i & 1 == 0 { *cut } else { cut.map(turned) };
+            let cuts: Vec<[Stop; 2]> = cuts.iter().enumerate().map(with_edge).collect();
+            cuts.windows(2).map(|pair| air.time(&pair[0][1], &pair[1][0])).sum::<f64>()
+        };
+        (0..1 << cuts.len()).map(chosen).fold(f64::INFINITY, f64::min)
+    }
+
+    #[test]
+    fn with_two_edges_each_cut_is_made_with_the_one_that_turns_less() {
+        let mut job = Job::default();
+        // The axis in the middle: either edge stands as far from it.
+        (job.profile.knife.width_mm, job.profile.knife.back_mm) = (6.0, Some(3.0));
+        let single = Air::new(&job);
+        job.profile.knife.edges = 2;
+        let double = Air::new(&job);
+        for seed in 0..20 {
+            let mut rng = fastrand::Rng::with_seed(seed);
+            let mut place = || Point::new(30.0 * rng.f64(), 30.0 * rng.f64());
+            let cuts: Vec<[Stop; 2]> = (0..6)
+                .map(|_| [place(), place(), place()])
+                .map(|[a, b, c]| [single.down(a, b), single.up(b, c)])
+                .collect();
+            let time: f64 = cuts.windows(2).map(|pair| double.time(&pair[0][1], &pair[1][0])).sum();
+            assert!((time - least_by_edges(&cuts, &single)).abs() < 1e-12, "seed {seed}");
+        }
     }
 }

@@ -1,9 +1,8 @@
 //! Questions about the drawing and the blade, asked by several stages and answered once.
 //!
 //! Receives forms of [`ir`](crate::ir) and a machine, answers questions: which line lies in which, how deep two parts
-//! overlap, how far a blade may go before it enters a part, where it lies when it is plunged, how long moves with the knife up take,
-//! what a piece waits for. Never edits, and is never
-//! asked by `verify`, which measures for itself.
+//! overlap, how far a blade may go before it enters a part, where it lies when it is plunged, how long moves with the knife up
+//! take and about how long cuts do, what a piece waits for. Never edits, and is never asked by `verify`, which measures for itself.
 
 pub mod air;
 mod area;
@@ -11,6 +10,7 @@ mod chord;
 pub mod cloth;
 pub mod declare;
 pub mod depth;
+pub mod duration;
 pub mod nesting;
 pub mod outlines;
 pub mod plunge;

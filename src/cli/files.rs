@@ -6,6 +6,7 @@ use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 
 use super::finished::{failure, say};
 use crate::source::Source;
+use crate::units::number::up;
 
 /// What stands for standard input and output.
 const DASH: &str = "-";
@@ -55,6 +56,22 @@ fn read_stdin() -> anyhow::Result<Source> {
 fn sized(name: &str, bytes: Vec<u8>) -> anyhow::Result<Source> {
     Source::new(name, bytes)
         .map_err(|error| failure(format!("cannot read `{name}`: {error}"), "split the marker into several files"))
+}
+
+/// A program of so many bytes is large: its size is told with its name.
+const LARGE: u64 = 100_000_000;
+/// One of so many is told where little else is said, too.
+const HUGE: u64 = 1_000_000_000;
+
+/// What is said of a program that was written; to who wants to hear little only if it is huge.
+pub(super) fn wrote(path: &Path, is_quiet: bool) -> Option<String> {
+    let bytes = fs::metadata(path).map_or(0, |metadata| metadata.len());
+    wrote_so_much(&path.display().to_string(), bytes, is_quiet)
+}
+
+fn wrote_so_much(name: &str, bytes: u64, is_quiet: bool) -> Option<String> {
+    let size = if bytes >= LARGE { format!(", {} GB", up(bytes as f64 / HUGE as f64, 1)) } else { String::new() };
+    (!is_quiet || bytes >= HUGE).then(|| format!("wrote `{name}`{size}"))
 }
 
 /// Opens a program to judge it, from its start.
@@ -158,6 +175,15 @@ pub(super) fn move_aside(program: &Path) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_size_of_a_large_program_is_told_and_that_of_a_huge_one_to_everyone() {
+        let told = |bytes, is_quiet| wrote_so_much("x.csv", bytes, is_quiet).unwrap_or_default();
+        assert_eq!(told(99_999_999, false), "wrote `x.csv`");
+        assert_eq!(told(100_000_000, false), "wrote `x.csv`, 0.1 GB");
+        assert_eq!(told(999_999_999, true), "");
+        assert_eq!(told(3_210_000_000, true), "wrote `x.csv`, 3.3 GB");
+    }
 
     #[test]
     fn an_older_program_is_moved_aside_with_its_provenance() {

@@ -128,11 +128,11 @@ fn could_save(spent: &Spent, savings: &Savings, line: &mut impl FnMut(&str, Stri
         let [travel, least] = [spent.travel, least_travel_s].map(|time| fixed(time, 1));
         line("order", format!("{travel} s from cut to cut; about {least} s at the least"));
     }
-    let steady = steady_s.filter(is_worth_telling).map(|saved| (r#"order.policy = "steady""#, saved));
-    let clear = clear_s.filter(is_worth_telling).map(|saved| ("knife.clear_ms, a third of lift_ms,", saved));
-    for (what, saved) in steady.into_iter().chain(clear) {
+    let steady = steady_s.filter(is_worth_telling).map(|saved| (r#"order.policy = "steady""#, " or more", saved));
+    let clear = clear_s.filter(is_worth_telling).map(|saved| ("knife.clear_ms, a third of lift_ms,", "", saved));
+    for (what, more, saved) in steady.into_iter().chain(clear) {
         let share = 100.0 * saved / spent.total();
-        line("", format!("{what} would save about {} s, {} %", fixed(saved, 0), fixed(share, 0)));
+        line("", format!("{what} would save about {} s{more}, {} %", fixed(saved, 0), fixed(share, 0)));
     }
 }
 
@@ -365,7 +365,7 @@ mod tests {
           limited by starts and stops 50 %, jerk of c 25 %, feed 20 %,
                      acceleration of x 5 %
           order      20.0 s from cut to cut; about 9.8 s at the least
-                     order.policy = "steady" would save about 7 s, 6 %
+                     order.policy = "steady" would save about 7 s or more, 6 %
           bulge      0.138 mm beyond the chords of flattened curves
           warnings   0
 

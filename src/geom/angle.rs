@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::Vector;
 
-/// Part of an angle by which rounding may seem to make it less.
+/// Part of an angle by which rounding may seem to make it more or less.
 const SURE_EPSILON: f64 = 1e-9;
 
 /// A direction in the plane: an angle modulo one turn, kept in `[0, 2 pi)` rad, 0 along +X, counter-clockwise.
@@ -75,8 +75,9 @@ pub fn turn(a: Vector, b: Vector) -> f64 {
     super::cross(a, b).atan2(a.dot(&b))
 }
 
-/// Whether the direction of `b` is turned from that of `a` by more than `limit` rad, either way. Most are far from any
-/// limit, so that the angle itself need not be known.
+/// Whether the direction of `b` is turned from that of `a` by more than `limit` rad, either way. One that is turned by just
+/// that, as a bend of 45 degrees is, is not, whichever way its points were computed and rounded. Most are far from any limit,
+/// so that the angle itself need not be known.
 pub fn is_turned(a: Vector, b: Vector, limit: f64) -> bool {
     let (sine, cosine) = (super::cross(a, b).abs(), a.dot(&b));
     // An angle is less than its tangent, and more than its sine.
@@ -84,8 +85,8 @@ pub fn is_turned(a: Vector, b: Vector, limit: f64) -> bool {
         return false;
     }
     let is_more = (cosine < 0.0 && limit < 1.0)
-        || sine * sine > limit * limit * (1.0 + SURE_EPSILON) * a.norm_squared() * b.norm_squared();
-    is_more || turn(a, b).abs() > limit
+        || sine * sine > limit * limit * (1.0 + SURE_EPSILON).powi(2) * a.norm_squared() * b.norm_squared();
+    is_more || turn(a, b).abs() > limit * (1.0 + SURE_EPSILON)
 }
 
 #[cfg(test)]
@@ -105,7 +106,7 @@ mod tests {
         for limit in [1e-6, 0.1, 1.0, 2.0, 3.0] {
             for turned in [-1.001, -1.0, -0.999, 0.0, 0.5, 0.999, 1.0, 1.001].map(|share| share * limit) {
                 let other = Heading::new(0.4 + turned).unit() * 3.0;
-                assert_eq!(is_turned(along, other, limit), turn(along, other).abs() > limit, "{turned} of {limit}");
+                assert_eq!(is_turned(along, other, limit), turned.abs() > limit, "{turned} of {limit}");
             }
         }
     }

@@ -204,13 +204,14 @@ impl fmt::Display for Within {
 impl Key {
     /// The unit of its numbers, from the end of its name; empty when they have none.
     pub fn unit(&self) -> &'static str {
-        const UNITS: [(&str, &str); 16] = [
+        const UNITS: [(&str, &str); 17] = [
             ("per_mm", "counts/mm"),
             ("per_deg", "counts/degree"),
             (".offset", "counts"),
             (".lines", "mm"),
             (".origin", "mm"),
             ("_mm", "mm"),
+            ("_mm2", "mm2"),
             ("_mm_s", "mm/s"),
             ("_mm_s2", "mm/s2"),
             ("_mm_s3", "mm/s3"),

@@ -150,6 +150,11 @@ impl Knife {
         heel + self.front_overlap_mm.max(self.corner_front_overlap_mm)
     }
 
+    /// How far the blade may reach beyond a line that it cuts, whichever way it stands at its end, mm.
+    pub fn reach(&self) -> f64 {
+        self.width_mm + self.front_overlap_mm.max(self.corner_front_overlap_mm)
+    }
+
     /// Longest cut that need not be lifted amid it, mm: with its overlaps it is no longer than the knife may stay down;
     /// `None` = any.
     pub fn longest_cut(&self) -> Option<f64> {

@@ -17,7 +17,7 @@ pub const COPIES_MAX: u32 = 1000;
 /// The keys `sheet.*`.
 #[rustfmt::skip] // a table: one row a key
 pub(super) const KEYS: &[Key] = &[
-    Key { name: "sheet.origin", takes: Takes::PointOr(Corner::WORD), about: "How far the marker is moved along X and Y of the table, mm, from where the file has it; \"corner\" =\nits lower left corner lies in that of the table." },
+    Key { name: "sheet.origin", takes: Takes::PointOr(Corner::WORD), about: "How far the marker is moved along X and Y of the table, mm, from where the file has it; \"corner\" =\nits lower left corner lies in that of the table, as far from its edges as the blade may reach\nbeyond a line (knife.width_mm and an overlap), or in their middle where there is less room." },
     Key { name: "sheet.mirror", takes: Takes::Word(words::<Mirror>), about: "\"ends\" = mirrored along the cloth: the end at small X comes to large X, its sides stay." },
     Key { name: "sheet.flip", takes: Takes::Word(words::<Flip>), about: "\"sides\" = mirrored across the cloth, as a marker that is laid face down: the side at small Y\ncomes to large Y, its ends stay." },
     Key { name: "sheet.rotate_deg", takes: Takes::Number(from(-360.0, 360.0)), about: "The marker is turned by that, counter-clockwise, before all else." },
@@ -31,7 +31,8 @@ pub(super) const KEYS: &[Key] = &[
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Sheet {
-    /// Where the origin of the file comes to lie; `None` = the corner of the marker lies in that of the table.
+    /// Where the origin of the file comes to lie; `None` = the corner of the marker lies in that of the table, with room for
+    /// what the blade does beyond its lines.
     #[serde(with = "OrWord::<Corner>")]
     pub origin: Option<[f64; 2]>,
     /// Whether its ends change places.

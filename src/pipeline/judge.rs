@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::io::{self, BufReader, Read as _};
 
 use super::input::{Judged, Reading, make_cuts, read_to_judge};
+use super::off_table;
 use super::product::{BLOCK, Medium};
 use super::rounded::significant;
 use super::told::{Explained, told};
@@ -176,7 +177,7 @@ pub(super) fn report(verdict: &Verdict, marker: &Marker, job: &Job, diagnostics:
             (Some(key), _) => {
                 format!("the limit is the profile's `{key}`; where that is its default this is a fault of `cutc`")
             }
-            (None, _) if finding.rule == TABLE => off_the_table(finding, job),
+            (None, _) if finding.rule == TABLE => off_table::advice(marker, job),
             (None, _) => {
                 "this is a fault of `cutc`, whatever the file: please report it, with the file and the profile"
                     .to_owned()
@@ -187,26 +188,6 @@ pub(super) fn report(verdict: &Verdict, marker: &Marker, job: &Job, diagnostics:
         diagnostics.push(diagnostic.hint(rule).hint(hint));
     }
     over_the_edge(verdict, diagnostics);
-}
-
-/// What to do about a blade that leaves the table: the marker is moved away from the edge that is the nearest there, as far
-/// as any blade reaches beyond its line.
-fn off_the_table(finding: &Finding, job: &Job) -> String {
-    let (knife, table) = (&job.profile.knife, &job.profile.table);
-    let reach = knife.width_mm + knife.front_overlap_mm.max(knife.corner_front_overlap_mm);
-    let place = finding.place.map(|place| <[f64; 2]>::from(place.point));
-    let beyond = place.into_iter().flat_map(|place| {
-        let axes = [("X", table.x_mm, place[0]), ("Y", table.y_mm, place[1])];
-        let edges = axes.into_iter().flat_map(|(name, range, at)| {
-            range.map(|[least, most]| [(least - at, name, '+'), (at - most, name, '-')]).into_iter().flatten()
-        });
-        edges.collect::<Vec<_>>()
-    });
-    let farthest = beyond.max_by(|a, b| a.0.total_cmp(&b.0));
-    let way = farthest.map_or("away from that edge".to_owned(), |(_, name, sign)| {
-        format!("by {name} {sign}{} mm", up(reach.max(finding.worst), 1))
-    });
-    format!("move the marker {way} (`sheet.origin`): so far the blade may reach beyond its lines there")
 }
 
 /// One line on a blade that leaves the table by less than is refused, unless the marker itself is known to.

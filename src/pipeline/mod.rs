@@ -5,6 +5,7 @@
 
 mod input;
 mod judge;
+mod off_table;
 mod place;
 mod product;
 mod program;

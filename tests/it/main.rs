@@ -23,6 +23,7 @@ mod grammar;
 mod hpgl;
 mod knife;
 mod labels;
+mod lifts;
 mod loopholes;
 mod manual;
 mod many_info;

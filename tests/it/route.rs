@@ -6,10 +6,10 @@ use std::io::{BufReader, Cursor};
 
 use cutc::back::TARGETS;
 use cutc::diagnostic::{Diagnostics, render};
-use cutc::geom::Extent;
+use cutc::geom::{Extent, Point};
 use cutc::ir::Marker;
 use cutc::ir::list::Segment;
-use cutc::ir::marker::Piece;
+use cutc::ir::marker::{CutKind, Piece};
 use cutc::machine::{CommonLines, Job, Lines, OrderPolicy};
 use cutc::pipeline::{self, Report};
 use cutc::source::Source;
@@ -83,7 +83,7 @@ fn read(text: &str, job: &Job) -> Marker {
     input.expect("it is read").marker
 }
 
-fn compiled(text: &str, job: &Job) -> (Report, Vec<u8>) {
+pub(crate) fn compiled(text: &str, job: &Job) -> (Report, Vec<u8>) {
     let source = Source::new("lay.cut", text.as_bytes().to_vec()).expect("small");
     let target = TARGETS.iter().find(|target| target.name == "csv").expect("setpoints are a target");
     let order = pipeline::Order { from: None, target, verify: true };
@@ -291,18 +291,61 @@ fn with_common_lines_an_order_saves_time_and_breaks_no_rule() {
     }
 }
 
+/// The points of each line of a file as it writes them, by the number of the piece, tenths of a millimetre.
+fn written(text: &str) -> BTreeMap<u32, Vec<Vec<[i64; 2]>>> {
+    let place = |block: &str| {
+        let (x, y) = block.strip_prefix('X')?.split_once('Y')?;
+        Some([x.parse().expect("a number"), y.parse().expect("a number")])
+    };
+    let line = |up: &str| {
+        let points: Vec<[i64; 2]> = up.split('*').filter_map(place).collect();
+        (points.len() > 1).then_some(points)
+    };
+    let piece = |text: &str| {
+        let (number, lines) = text.split_once('*').expect("a number has an end");
+        (number.parse().expect("a number"), lines.split("M15*").filter_map(line).collect())
+    };
+    text.split('N').skip(1).map(piece).collect()
+}
+
 #[test]
-fn the_order_of_the_file_stays_with_common_lines() {
-    let text = touching(1, 30);
-    let file = read(&text, &job(OrderPolicy::File));
-    let made = with_cuts(&file, &job(OrderPolicy::File));
-    let numbers = |marker: &Marker| marker.pieces.iter().map(|piece| piece.number).collect::<Vec<_>>();
-    assert_eq!(numbers(&made), numbers(&file));
-    assert!(made.cuts.is_sorted_by_key(|cut| cut.piece));
-    let mut sorted = numbers(&made);
-    sorted.sort_unstable();
-    // What lies in a part is the only reason for another order.
-    assert_eq!(sorted, (1..=file.pieces.len() as u32).collect::<Vec<_>>());
+fn the_order_of_the_file_stays_to_the_start_and_direction_of_each_line() {
+    for seed in 0..10 {
+        for (text, lines) in [
+            (lay(seed, 30), CommonLines::Off),
+            (touching(seed, 30), CommonLines::Auto),
+            (touching(seed, 30), CommonLines::Off),
+            (with_small(seed, 40), CommonLines::Auto),
+        ] {
+            let mut job = job(OrderPolicy::File);
+            job.profile.common.lines = Lines::Word(lines);
+            let marker = read(&text, &job);
+            let written = written(&text);
+            for (i, piece) in marker.pieces.iter().enumerate() {
+                let tenths = |value: f64| (10.0 * value).round() as i64;
+                let place = |at: Point| [tenths(at.x), tenths(at.y)];
+                let slits = piece.notches.iter().map(|notch| vec![place(notch.root), place(notch.tip)]);
+                let contours =
+                    piece.contours.iter().map(|contour| marker.points(contour).into_iter().map(place).collect());
+                assert!(
+                    slits.chain(contours).eq(written[&piece.number].iter().cloned()),
+                    "seed {seed}: piece {}",
+                    piece.number
+                );
+                // What comes before a piece that the file has behind it lies in it.
+                let late = marker.pieces[..i].iter().zip(0..).filter(|(other, _)| other.number > piece.number);
+                for (other, at) in late {
+                    let held = |holder: &usize| holds(&extent(&marker, *holder), &extent(&marker, at));
+                    let mut behind = (at + 1..marker.pieces.len()).filter(|&k| marker.pieces[k].number < other.number);
+                    assert!(behind.any(|k| held(&k)), "seed {seed}: piece {} before {}", other.number, piece.number);
+                }
+            }
+            let made = with_cuts(&marker, &job);
+            assert!(made.cuts.is_sorted_by_key(|cut| cut.piece), "seed {seed}");
+            let numbers = |marker: &Marker| marker.pieces.iter().map(|piece| piece.number).collect::<Vec<_>>();
+            assert_eq!(numbers(&made), numbers(&marker), "seed {seed}");
+        }
+    }
 }
 
 #[test]
@@ -324,4 +367,95 @@ fn a_cut_out_behind_a_part_that_others_share_edges_with_is_found() {
         lines.map(|range| Extent::of(&marker.list.points(range)).size().0 < 100.0).max()
     });
     assert_eq!(freed(&marker), 3.0);
+}
+
+/// A lay with a gap of 4 mm in which each third place holds a small piece, in no order.
+fn with_small(seed: u64, places: usize) -> String {
+    let mut rng = Rng::with_seed(seed);
+    let mut order: Vec<usize> = (0..places).collect();
+    rng.shuffle(&mut order);
+    let mut text = "H1*G71*".to_owned();
+    for (place, number) in order.into_iter().zip(1..) {
+        let [x, y] = [(place / ROW) * 1640, (place % ROW) * 1040];
+        let [width, height] = if place % 3 == 1 { [400, 400] } else { [1600, 1000] };
+        let (right, top) = (x + width, y + height);
+        let _infallible =
+            write!(text, "N{number}*M15*X{x}Y{y}*M14*X{right}Y{y}*X{right}Y{top}*X{x}Y{top}*X{x}Y{y}*M15*");
+    }
+    text + "M0*\n"
+}
+
+/// How many larger pieces come before a small one next to them.
+fn freed_before_small(marker: &Marker, window_mm: f64) -> usize {
+    let extents: Vec<Extent> = (0..marker.pieces.len()).map(|piece| extent(marker, piece)).collect();
+    let is_small = |extent: &Extent| extent.size().0 < 100.0;
+    let is_next = |large: &Extent, small: &Extent| {
+        let is_ahead = small.min.x > large.min.x + 0.5 * window_mm;
+        !is_ahead && large.grown(10.0).meets(small)
+    };
+    let early = |(i, small): (usize, &Extent)| {
+        extents[..i].iter().filter(|large| !is_small(large) && is_next(large, small)).count()
+    };
+    extents.iter().enumerate().filter(|(_, extent)| is_small(extent)).map(early).sum()
+}
+
+#[test]
+fn small_pieces_are_cut_before_the_larger_ones_next_to_them_when_the_work_is_steady() {
+    let mut freed = [0; 2];
+    for seed in 0..10 {
+        let text = with_small(seed, 40);
+        for lines in [CommonLines::Off, CommonLines::Auto] {
+            let mut job = job(OrderPolicy::Steady);
+            job.profile.common.lines = Lines::Word(lines);
+            let window_mm = job.profile.order.window_mm;
+            let marker = read(&text, &job);
+            assert_eq!(freed_before_small(&marker, window_mm), 0, "seed {seed}");
+            let lefts: Vec<f64> = (0..marker.pieces.len()).map(|piece| extent(&marker, piece).min.x).collect();
+            let fronts = lefts.iter().scan(f64::NEG_INFINITY, |front, &left| {
+                *front = front.max(left);
+                Some(*front)
+            });
+            assert!(fronts.zip(&lefts).all(|(front, &left)| left >= front - window_mm), "seed {seed}");
+            // Without a small one nothing asks for it, nor does another policy.
+            job.profile.order.small_mm2 = 0.0;
+            freed[0] += freed_before_small(&read(&text, &job), window_mm);
+            job.profile.order = cutc::machine::Order { policy: OrderPolicy::Fastest, ..Job::default().profile.order };
+            freed[1] += freed_before_small(&read(&text, &job), window_mm);
+        }
+    }
+    assert!(freed.iter().all(|&freed| freed > 20), "{freed:?}");
+}
+
+#[test]
+fn pieces_end_towards_the_cloth_that_is_still_uncut_when_the_work_is_steady() {
+    let mut elsewhere = 0;
+    for seed in 0..10 {
+        for (text, lines) in [(lay(seed, 30), CommonLines::Off), (touching(seed, 30), CommonLines::Auto)] {
+            for policy in [OrderPolicy::Steady, OrderPolicy::Fastest] {
+                let mut job = job(policy);
+                job.profile.common.lines = Lines::Word(lines);
+                let marker = with_cuts(&read(&text, &job), &job);
+                for piece in 0..marker.pieces.len() {
+                    let front = extent(&marker, piece);
+                    let front = front.max.x - front.size().0 / 3.0;
+                    let range = marker.range_of(piece as u32);
+                    // Behind slits and inner lines; a corner in front there is always, and each end of an edge may be there.
+                    let outline =
+                        marker.cuts[range].iter().filter(|cut| matches!(cut.kind, CutKind::Outline | CutKind::Edge));
+                    let ends: Vec<f64> = outline
+                        .map(|cut| *marker.list.points(cut.range).last().expect("a cut has an end"))
+                        .map(|end| end.x)
+                        .collect();
+                    let is_at_front = ends.last().is_none_or(|&end| end >= front);
+                    let can_be = ends.iter().any(|&end| end >= front) || ends.len() == 1 && lines == CommonLines::Off;
+                    if policy == OrderPolicy::Steady {
+                        assert!(is_at_front || !can_be, "seed {seed}: piece {}", marker.pieces[piece].number);
+                    } else {
+                        elsewhere += usize::from(!is_at_front && can_be);
+                    }
+                }
+            }
+        }
+    }
+    assert!(elsewhere > 100, "{elsewhere}");
 }

@@ -406,6 +406,47 @@ fn a_marker_off_the_table_is_told_the_sheet_that_fits() {
 }
 
 #[test]
+fn in_the_corner_of_the_table_there_is_room_for_the_blade() {
+    let room = Room::with("m.cut", MARKER);
+    let sheet =
+        "--set sheet.origin=corner --set sheet.copies=2 --set sheet.copies_gap_mm=20 --set order.policy=fastest";
+    for ends in [[0, 2000], [300, 5000]] {
+        let table = format!("--set table.x_mm=[{},{}] --set table.y_mm=[{},{}]", ends[0], ends[1], ends[0], ends[1]);
+        let said = room.says(&format!("compile m.cut -o m.csv --force {table} {sheet}"), DONE);
+        assert!(said.contains("verified") && !said.contains("marker/over-edge"), "{said}");
+    }
+    let source = source(MARKER);
+    let mut job = job(&Sheet { origin: None, ..Sheet::default() });
+    let least = |job: &Job| laid(&source, job).expect("sound").extent().min;
+    assert_eq!(least(&job), Point::origin(), "a table without ends has no edges");
+    // A blade of 6.6 mm and 0.8 mm of overlap.
+    job.profile.table.y_mm = Some([-50.0, 100.0]);
+    assert!((least(&job) - Point::new(0.0, -50.0 + 7.4)).norm() < 1e-9);
+    // In the middle of a table that is but a little wider.
+    job.profile.table.y_mm = Some([0.0, 86.0]);
+    assert!((least(&job) - Point::new(0.0, 3.0)).norm() < 1e-9, "{:?}", least(&job));
+}
+
+#[test]
+fn a_blade_off_the_table_is_told_a_move_that_works_at_the_first_go() {
+    let room = Room::with("m.cut", MARKER);
+    let table = "--set table.x_mm=[-0.1,400] --set table.y_mm=[-0.1,200]";
+    let said = room.says(&format!("compile m.cut -o m.csv {table}"), FAULTY);
+    assert!(said.contains("verify/table") && said.contains("move the marker by X +7.3 mm and Y +7.3 mm"), "{said}");
+    let told = said.split("sheet.origin = ").nth(1).and_then(|rest| rest.split(';').next()).expect("an origin");
+    let told = told.replace(' ', "");
+    let said = room.says(&format!("compile m.cut -o m.csv {table} --set sheet.origin={told}"), DONE);
+    assert!(!said.contains("marker/over-edge"), "{said}");
+    // Where there is no room for the blade on both sides no move helps.
+    let table = "--set table.x_mm=[-10,400] --set table.y_mm=[0,80]";
+    let said = room.says(&format!("compile m.cut -o m.csv {table}"), FAULTY);
+    assert!(
+        said.contains("along Y the table leaves 0.0 mm beside the marker, and the blade may need 14.8 mm"),
+        "{said}"
+    );
+}
+
+#[test]
 fn reports_say_what_sheet_was_applied_and_tell_copies_apart() {
     let room = Room::with("m.cut", MARKER);
     let sheet = "--set sheet.scale_x=1.03 --set sheet.copies=2 --set sheet.copies_gap_mm=10";

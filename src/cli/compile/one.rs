@@ -103,8 +103,10 @@ fn told(compile: &Compile, arguments: &Arguments, ended: Ended) -> Finished {
         (Some(_), Format::Json | Format::Text) => {}
         (None, Format::Text | Format::Json) => said.push_str(&refused(compile.source, &programs, &diagnostics)),
     }
-    for path in programs.iter().filter(|_| compiled.is_some() && !arguments.messages.quiet) {
-        say(&mut said, format_args!("wrote `{}`", path.display()));
+    for path in programs.iter().filter(|_| compiled.is_some()) {
+        if let Some(line) = files::wrote(path, arguments.messages.quiet) {
+            say(&mut said, format_args!("{line}"));
+        }
     }
     said.push_str(&beside);
     Finished::text(stdout, said, if compiled.is_some() { DONE } else { FAULTY })

@@ -8,11 +8,11 @@
 
 use super::pass::MarkerPass;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::{Extent, Heading, Point, Vector};
+use crate::geom::{Heading, Point, Vector};
 use crate::ir::drawing::{Account, Aside};
 use crate::ir::marker::{Contour, Event, Label, Marker, Piece};
 use crate::ir::toolpath;
-use crate::machine::{Flip, Job, Mirror, Sheet, Table};
+use crate::machine::{Flip, Job, MachineProfile, Mirror, Sheet};
 
 pub(super) const PASS: MarkerPass =
     MarkerPass { name: "sheet", about: "turns, mirrors, scales, moves and copies the marker, if that is asked", run };
@@ -48,10 +48,17 @@ fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     }
     lay(marker, &Way::of(sheet));
     let laid = marker.extent();
-    let by = origin(sheet, &job.profile.table, &drawn, &laid);
+    let pitch = laid.size().0 + sheet.copies_gap_mm;
+    let by = match sheet.origin {
+        Some([x, y]) if Way::of(sheet).stays() => Vector::new(x, y),
+        Some([x, y]) => drawn.min - laid.min + Vector::new(x, y),
+        None => {
+            let (width, height) = laid.size();
+            in_corner(&job.profile, [width + (copies - 1) as f64 * pitch, height]) - laid.min
+        }
+    };
     lay(marker, &Way { by, ..Way::STAYS });
     marker.unit *= sheet.growth();
-    let pitch = laid.size().0 + sheet.copies_gap_mm;
     copy(marker, copies, Vector::new(pitch, 0.0));
 }
 
@@ -61,16 +68,13 @@ fn advances(marker: &Marker) -> impl Iterator<Item = &Event> {
     events.filter(|event| event.kind == toolpath::Event::Advance)
 }
 
-/// By how much a marker is moved that has become another about the origin of the file.
-fn origin(sheet: &Sheet, table: &Table, drawn: &Extent, laid: &Extent) -> Vector {
-    match sheet.origin {
-        Some([x, y]) if Way::of(sheet).stays() => Vector::new(x, y),
-        Some([x, y]) => drawn.min - laid.min + Vector::new(x, y),
-        None => {
-            let least = |range: Option<[f64; 2]>| range.map_or(0.0, |[least, _]| least);
-            Point::new(least(table.x_mm), least(table.y_mm)) - laid.min
-        }
-    }
+/// Where the lower left corner of what is so long and wide, mm, lies in that of the table: as far from an edge as the blade may
+/// reach beyond a line, with as much room on either side where there is less.
+fn in_corner(profile: &MachineProfile, size: [f64; 2]) -> Point {
+    let along = |ends: Option<[f64; 2]>, size: f64| {
+        ends.map_or(0.0, |[least, most]| least + profile.knife.reach().min((most - least - size) / 2.0).max(0.0))
+    };
+    Point::new(along(profile.table.x_mm, size[0]), along(profile.table.y_mm, size[1]))
 }
 
 /// Where places come to lie.

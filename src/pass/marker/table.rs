@@ -201,9 +201,7 @@ impl Axis<'_> {
             return Some(Advice::TooLong([lies, up(-room - OFF_EPSILON, DECIMALS), has]));
         }
         // The blade reaches so far from its tip; where there is room for that it is to stay on the table, too.
-        let knife = self.knife;
-        let reach = knife.width_mm + knife.front_overlap_mm.max(knife.corner_front_overlap_mm);
-        let spare = reach.min(room / 2.0);
+        let spare = self.knife.reach().min(room / 2.0);
         let by = below.max(above) + spare;
         let (by, decimals) = if spare > STEP {
             (((by - OFF_EPSILON) / STEP).ceil() * STEP, DECIMALS)

@@ -74,6 +74,16 @@ impl Drawn {
     }
 }
 
+/// Where what is so long begins in the corner of the table, along one of its axes, mm: away from the edge by a blade and its
+/// front overlap, or half of what the table is longer by if that is less.
+fn in_corner(profile: &MachineProfile, table: Option<[f64; 2]>, long: f64) -> f64 {
+    let Some([edge, end]) = table else { return 0.0 };
+    let knife = &profile.knife;
+    let blade = knife.width_mm + f64::max(knife.front_overlap_mm, knife.corner_front_overlap_mm);
+    let left_over = end - edge - long;
+    if left_over <= 0.0 { edge } else { edge + f64::min(blade, left_over / 2.0) }
+}
+
 /// Where a piece should be.
 fn of(piece: &Piece, table: &Lay) -> Sighting {
     let labels = piece.labels.iter().filter_map(|label| label.at);
@@ -124,12 +134,16 @@ impl Lay<'_> {
         if before.is_empty() {
             return lay;
         }
+        lay.pitch = behind.max.x - behind.min.x + sheet.copies_gap_mm;
+        let far_end = behind.max.x + f64::from(sheet.copies - 1) * lay.pitch;
         let corner = match sheet.origin {
             Some([x, y]) => [before.min.x + x, before.min.y + y],
-            None => [profile.table.x_mm, profile.table.y_mm].map(|ends| ends.map_or(0.0, |[least, _]| least)),
+            None => [
+                in_corner(profile, profile.table.x_mm, far_end - behind.min.x),
+                in_corner(profile, profile.table.y_mm, behind.max.y - behind.min.y),
+            ],
         };
         lay.by = [corner[0] - behind.min.x, corner[1] - behind.min.y];
-        lay.pitch = behind.max.x - behind.min.x + sheet.copies_gap_mm;
         lay
     }
 

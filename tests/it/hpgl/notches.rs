@@ -2,8 +2,8 @@
 
 use cutc::ir::Marker;
 use cutc::ir::marker::NotchKind;
-use cutc::machine::Job;
 use cutc::machine::plot::Inner;
+use cutc::machine::{Job, OrderPolicy};
 
 use super::audit::audit;
 use super::{as_read, key, read, rectangle, source};
@@ -89,10 +89,13 @@ fn a_stroke_over_the_tip_of_a_notch_is_its_crossbar() {
 
 #[test]
 fn a_mark_on_an_edge_of_two_parts_is_a_notch_of_the_one_that_it_leads_into() {
+    // The parts stay as they are drawn.
+    let mut job = Job::default();
+    job.profile.order.policy = OrderPolicy::File;
     for gap in [-4, 0, 4] {
         let parts = [rectangle(0, 0, 8000, 4000), rectangle(0, 4000 + gap, 8000, 4000)].concat();
         for (tip, counts) in [(4240, [0, 1]), (3760, [1, 0])] {
-            let found = slits(&format!("{parts}PU3000,4000;PD3000,{tip};"), &Job::default());
+            let found = slits(&format!("{parts}PU3000,4000;PD3000,{tip};"), &job);
             assert_eq!(found.iter().map(Vec::len).collect::<Vec<_>>(), counts, "{gap} {tip}");
         }
     }

@@ -1,14 +1,13 @@
-//! In which order what common lines leave of outlines is cut: the file does not say. Each keeps its direction: led over other
-//! cuts the other way round it may leave threads there.
+//! In which order what common lines leave of outlines is cut: the file does not say. Each keeps its direction: which way it is
+//! led over other cuts must not hang on a gap within the band.
 
 use std::ops::Range;
 
 use crate::analysis::air::Stop;
 use crate::geom::Point;
-use crate::ir::list::SegmentList;
-use crate::ir::marker::{Cut, Marker, Piece};
+use crate::ir::marker::{Cut, Marker};
 use crate::machine::Job;
-use crate::pass::marker::visit::{Cuts, Measures, Visit, choose};
+use crate::pass::marker::visit::{Choices, Cuts, Measures, Visit};
 
 /// What a cut is made with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,19 +25,16 @@ pub(super) fn arrange(marker: &mut Marker, groups: &[Group], job: &Job) {
     if !groups.iter().any(|group| matches!(group, Group::Edges(_))) {
         return; // as in most files
     }
-    let measures = Measures::new(job, marker.unit);
-    let ranges: Vec<Range<usize>> = (0..marker.pieces.len() as u32).map(|piece| marker.range_of(piece)).collect();
-    let Marker { pieces, cuts, list, .. } = marker;
-    let given: Vec<Cuts> = pieces
-        .iter()
-        .zip(&ranges)
-        .map(|(piece, range)| as_made(piece, &cuts[range.clone()], &groups[range.clone()], list, &measures))
-        .collect();
+    let made = MadeCuts { marker, groups, measures: Measures::new(job, marker) };
+    let given: Vec<Cuts> = (0..marker.pieces.len()).map(|piece| made.of_piece(piece)).collect();
     let left: Vec<usize> = (0..given.len()).filter(|&i| !given[i].is_empty()).collect();
-    let visits: Vec<Vec<Visit>> = left.iter().map(|&i| given[i].visits(&measures.air)).collect();
+    let air = made.measures.air;
+    let visits: Vec<Vec<Visit>> = left.iter().map(|&i| given[i].visits(&air)).collect();
     let [x, y, _] = job.profile.home;
-    let order: Vec<usize> = (0..left.len()).collect();
-    let (chosen, _) = choose(&order, &visits, &Stop::anyhow(Point::new(x, y)), &measures.air);
+    let choices = Choices { visits: &visits, home: Stop::anyhow(Point::new(x, y)), air };
+    let (chosen, _) = choices.choose(&(0..left.len()).collect::<Vec<_>>());
+    let ranges: Vec<Range<usize>> = (0..marker.pieces.len() as u32).map(|piece| marker.range_of(piece)).collect();
+    let cuts = &mut marker.cuts;
     for ((of_piece, chosen), &i) in visits.iter().zip(chosen).zip(&left) {
         let range = ranges[i].clone();
         let made: Vec<Cut> = cuts[range.clone()].to_vec();
@@ -49,17 +45,32 @@ pub(super) fn arrange(marker: &mut Marker, groups: &[Group], job: &Job) {
     }
 }
 
-/// A piece as its cuts are made, slits first.
-fn as_made(piece: &Piece, cuts: &[Cut], groups: &[Group], list: &SegmentList, measures: &Measures) -> Cuts {
-    let mut made = Cuts::of_drills(piece, measures);
-    for (place, cut) in cuts.iter().enumerate() {
-        match groups[place] {
-            Group::Slits => made.fixed.push(measures.as_is(cut.range, list).stops),
-            Group::Contour(_) => made.add(place, vec![measures.as_is(cut.range, list)], false),
-            group @ Group::Edges(_) => {
-                made.add(place, vec![measures.as_is(cut.range, list)], place > 0 && groups[place - 1] == group);
+/// The cuts of a marker as they are made.
+struct MadeCuts<'a> {
+    marker: &'a Marker,
+    /// For each cut the group that it is of.
+    groups: &'a [Group],
+    measures: Measures,
+}
+
+impl MadeCuts<'_> {
+    /// Those of a piece, slits first.
+    fn of_piece(&self, piece: usize) -> Cuts {
+        let Self { marker, groups, measures } = self;
+        let range = marker.range_of(piece as u32);
+        let groups = &groups[range.clone()];
+        let mut made = Cuts::of_drills(&marker.pieces[piece], &marker.list, measures);
+        for (place, cut) in marker.cuts[range].iter().enumerate() {
+            let start = || measures.as_is(cut.range, &marker.list);
+            match groups[place] {
+                Group::Slits => made.fixed.push(start().stops),
+                Group::Contour(_) => made.add(place, vec![start()], false),
+                group @ Group::Edges(_) => {
+                    let starts = vec![start()];
+                    made.add(place, starts, place > 0 && groups[place - 1] == group);
+                }
             }
         }
+        made
     }
-    made
 }

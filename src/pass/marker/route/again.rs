@@ -2,11 +2,14 @@
 //! order pieces come.
 //!
 //! Which of two parts an edge is cut with follows from their order, so that other cuts are made in another one. The order is
-//! looked for with the cuts that the last one gives, a few times; the one whose cuts take the least time stays.
+//! looked for with the cuts that the last one gives, a few times; then parts that have an edge in common change which of them
+//! comes first, two by two. The order whose cuts take the least time stays.
 
-use super::block::{Search, keeps_window, order};
-use crate::analysis::air;
+use super::block::{Search, order};
+use super::rules::Rules;
+use crate::analysis::{air, duration};
 use crate::ir::Marker;
+use crate::ir::marker::Piece;
 use crate::machine::Job;
 use crate::pass::marker::cut::{self, Group};
 use crate::pass::marker::visit::{Cuts, Measures};
@@ -17,6 +20,8 @@ const ROUNDS: usize = 12;
 const MOST_PIECES: usize = 2000;
 /// Rounds after which the search ends when none of them gains.
 const PATIENCE: usize = 3;
+/// Pieces of all orders together in which two parts have changed places, at the most.
+const MOST_EXCHANGED: usize = 20_000;
 /// Gains that are less are none, s.
 const LEAST_GAIN: f64 = 1e-6;
 
@@ -24,18 +29,30 @@ const LEAST_GAIN: f64 = 1e-6;
 struct Made {
     marker: Marker,
     groups: Vec<Group>,
-    /// What its cuts take, s, about: the moves between them, lifts and plunges, and their lengths.
+    /// What its cuts take, s, about, with the moves between them.
     time: f64,
 }
 
 /// Puts pieces with common lines in a better order, if there is one: also one that is like that of the file, where this
 /// suits what the parts have in common.
 pub(super) fn improve(marker: &mut Marker, as_filed: Marker, job: &Job) {
+    let Some(least) = ordered(marker, as_filed, job) else { return };
+    let best = Made::of(marker.clone(), job).exchanged(job).improved(job);
+    if best.time < least - LEAST_GAIN {
+        *marker = best.without_cuts();
+    }
+}
+
+/// The same, but parts do not change places two by two, which takes as long as all else. About what the cuts take then, s; `None`
+/// without common lines.
+pub(super) fn ordered(marker: &mut Marker, as_filed: Marker, job: &Job) -> Option<f64> {
     let routed = Made::of(marker.clone(), job);
     if routed.marker.common.is_empty() {
-        return;
+        return None;
     }
-    let filed = keeps_window(&as_filed, job).then(|| Made::of(as_filed, job));
+    let as_is: Vec<usize> = (0..as_filed.pieces.len()).collect();
+    let is_allowed = Rules::of(&as_filed, job).broken(&as_is) == 0;
+    let filed = is_allowed.then(|| Made::of(as_filed, job));
     let mut least = routed.time;
     for made in filed.into_iter().chain([routed]) {
         let best = made.improved(job);
@@ -44,27 +61,25 @@ pub(super) fn improve(marker: &mut Marker, as_filed: Marker, job: &Job) {
             *marker = best.without_cuts();
         }
     }
+    Some(least)
 }
 
 impl Made {
     fn of(mut marker: Marker, job: &Job) -> Self {
         let groups = cut::made(&mut marker, job);
-        let knife = &job.profile.knife;
-        let [x, y, _] = job.profile.axes.limits();
-        let speed = knife.feed_mm_s.unwrap_or(f64::INFINITY).min(x.speed).min(y.speed);
-        let lifts = marker.cuts.len() as f64 * (knife.plunge() + knife.clear());
-        let time = air::spent(&marker, job) + air::at_corners(&marker, job) + lifts + marker.cut_length() / speed;
+        let time = air::spent(&marker, job) + duration::of_cuts(&marker, job);
         Self { marker, groups, time }
     }
 
     /// The best that is found from here on: each order is looked for near the one before, with the cuts that this gives.
     fn improved(self, job: &Job) -> Self {
         let rounds = (MOST_PIECES / self.marker.pieces.len()).clamp(1, ROUNDS);
+        let measures = Measures::new(job, &self.marker);
         let (mut best, mut walked, mut waited) = (self, None::<Self>, 0);
         for _ in 0..rounds {
             let made = walked.as_ref().unwrap_or(&best);
             let mut other = made.without_cuts();
-            order(&mut other, job, &|piece, marker| made.cuts_of(piece, marker, job), Search::Near);
+            order(&mut other, job, &|piece, _| made.cuts_of(piece, &measures), Search::Near);
             let made = Self::of(other, job);
             if made.time < best.time - LEAST_GAIN {
                 (best, walked, waited) = (made, None, 0);
@@ -79,16 +94,50 @@ impl Made {
         best
     }
 
+    /// The best that is found when of two parts that have an edge in common the one that comes first comes behind the other,
+    /// or this before it, as long as that gains.
+    fn exchanged(self, job: &Job) -> Self {
+        let base = self.without_cuts();
+        let rules = Rules::of(&base, job);
+        let count = base.pieces.len();
+        let mut order: Vec<usize> = (0..count).collect();
+        let broken = rules.broken(&order);
+        let (mut best, mut left) = (self, MOST_EXCHANGED / count);
+        let mut is_improved = true;
+        while std::mem::take(&mut is_improved) {
+            let pieces = best.marker.common.iter().map(|edge| edge.pieces);
+            let mut pairs: Vec<[usize; 2]> = pieces.map(|pair| pair.map(|place| order[place as usize])).collect();
+            pairs.sort_unstable();
+            pairs.dedup();
+            for pair in pairs {
+                for is_back in [true, false] {
+                    let other = exchanged(&order, pair, is_back);
+                    if left == 0 {
+                        return best;
+                    }
+                    if rules.broken(&other) > broken {
+                        continue;
+                    }
+                    left -= 1;
+                    let made = Self::of(in_order(&base, &other), job);
+                    if made.time < best.time - LEAST_GAIN {
+                        (best, order, is_improved) = (made, other, true);
+                    }
+                }
+            }
+        }
+        best
+    }
+
     /// The same pieces, as they were before their cuts were made.
     fn without_cuts(&self) -> Marker {
         Marker { cuts: Vec::new(), common: Vec::new(), junctions: Vec::new(), ..self.marker.clone() }
     }
 
     /// How a piece is cut: contours that are cut as a whole begin anywhere, by their places; edges have places behind these.
-    fn cuts_of(&self, piece: usize, marker: &Marker, job: &Job) -> Cuts {
-        let measures = Measures::new(job, marker.unit);
-        let (of_piece, list) = (&marker.pieces[piece], &self.marker.list);
-        let mut cuts = Cuts::marks(of_piece, list, &measures);
+    fn cuts_of(&self, piece: usize, measures: &Measures) -> Cuts {
+        let (of_piece, list) = (&self.marker.pieces[piece], &self.marker.list);
+        let mut cuts = Cuts::marks(of_piece, list, measures);
         let range = self.marker.range_of(piece as u32);
         let groups = &self.groups[range.clone()];
         for (place, cut) in self.marker.cuts[range].iter().enumerate() {
@@ -105,6 +154,29 @@ impl Made {
             }
         }
         // One that is cut with others alone keeps a place among these.
-        if cuts.is_empty() { Cuts::drawn(of_piece, list, &measures) } else { cuts }
+        if cuts.is_empty() { Cuts::drawn(of_piece, list, measures) } else { cuts }
     }
+}
+
+/// An order in which of two pieces the first comes right behind the other, or the other right before the first.
+fn exchanged(order: &[usize], pair: [usize; 2], is_back: bool) -> Vec<usize> {
+    let place = |piece: usize| order.iter().position(|&other| other == piece).expect("each piece is in it");
+    let [one, other] = pair.map(place);
+    let [low, high] = [one.min(other), one.max(other)];
+    let mut then = order.to_vec();
+    if is_back {
+        then[low..=high].rotate_left(1);
+    } else {
+        then[low..=high].rotate_right(1);
+    }
+    then
+}
+
+/// A marker with its pieces in another order; what is asked stays between the same ones.
+fn in_order(base: &Marker, order: &[usize]) -> Marker {
+    let mut marker = base.clone();
+    let asked = base.pieces.iter().map(|piece| piece.events.clone());
+    let pieces = order.iter().zip(asked).map(|(&i, events)| Piece { events, ..base.pieces[i].clone() });
+    marker.pieces = pieces.collect();
+    marker
 }

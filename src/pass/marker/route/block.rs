@@ -3,13 +3,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
+use super::rules::{Rules, extent};
 use super::tours::{Tour, Tours};
 use crate::analysis::air::{Air, Stop};
-use crate::analysis::nesting::Nesting;
-use crate::geom::{Extent, Point, bits};
+use crate::geom::{Point, bits};
 use crate::ir::list::{Segment, SegmentList};
 use crate::ir::marker::{Marker, OutlineNotch, Piece};
-use crate::machine::{Job, OrderPolicy};
+use crate::machine::Job;
 use crate::pass::marker::visit::{Begin, Cuts, Visit};
 
 /// Among which orders the best is looked for.
@@ -55,12 +55,9 @@ fn blocks(pieces: &[Piece]) -> Vec<Range<usize>> {
 /// What routes go by.
 struct Routing {
     air: Air,
-    /// How far pieces may lie behind the foremost so far, mm, if that counts.
-    window: Option<f64>,
     /// Where the axes stand before the program, whatever the blade does there.
     home: Stop,
-    /// For each piece those within whose outlines it lies.
-    held: Vec<Vec<usize>>,
+    rules: Rules,
 }
 
 /// The order of the pieces of a block.
@@ -90,10 +87,8 @@ impl Route {
 
 impl Routing {
     fn of(marker: &Marker, job: &Job) -> Self {
-        let nesting = Nesting::of(marker);
-        let held = (0..marker.pieces.len()).map(|piece| nesting.holders(piece)).collect();
         let [x, y, _] = job.profile.home;
-        Self { air: Air::new(job), window: window(marker, job), home: Stop::anyhow(Point::new(x, y)), held }
+        Self { air: Air::new(job), home: Stop::anyhow(Point::new(x, y)), rules: Rules::of(marker, job) }
     }
 
     /// The pieces of a block in the best order, from where the axes stand before it.
@@ -104,11 +99,11 @@ impl Routing {
         let place = |piece: usize| left.binary_search(&piece.checked_sub(lay.first)?).ok();
         let mut before = vec![Vec::new(); left.len()];
         for (k, &i) in left.iter().enumerate() {
-            for holder in self.held[lay.first + i].iter().filter_map(|&holder| place(holder)) {
+            for holder in self.rules.held[lay.first + i].iter().filter_map(|&holder| place(holder)) {
                 before[holder].push(k as u32);
             }
         }
-        let tours = Tours { visits: &visits, extents, before, home, air: self.air, window: self.window };
+        let tours = Tours { visits: &visits, extents, before, home, air: self.air, window: self.rules.window };
         let Tour { order, visit: chosen, .. } = match search {
             Search::Whole => tours.best(),
             Search::Near => tours.like((0..visits.len()).collect()),
@@ -120,36 +115,6 @@ impl Routing {
         let empty = (0..lay.cuts.len()).filter(|i| left.binary_search(i).is_err()).map(|i| (i, None));
         Route { sequence: visited.chain(empty).collect(), end }
     }
-}
-
-/// Whether each piece lies no farther behind the foremost before it than the window, if there is one, in each block.
-pub(super) fn keeps_window(marker: &Marker, job: &Job) -> bool {
-    let Some(window) = window(marker, job) else { return true };
-    blocks(&marker.pieces).into_iter().all(|block| {
-        let mut front = f64::NEG_INFINITY;
-        marker.pieces[block].iter().map(|piece| extent(piece, &marker.list)).filter(|extent| !extent.is_empty()).all(
-            |extent| {
-                let is_kept = extent.min.x >= front - window;
-                front = front.max(extent.min.x);
-                is_kept
-            },
-        )
-    })
-}
-
-/// How far pieces may lie behind the foremost before them, mm, if that counts.
-fn window(marker: &Marker, job: &Job) -> Option<f64> {
-    let order = job.profile.order;
-    (order.policy(marker.drawing.is_some()) == OrderPolicy::Steady).then_some(order.window_mm)
-}
-
-/// The box around all of a piece.
-fn extent(piece: &Piece, list: &SegmentList) -> Extent {
-    let mut extent = Extent::EMPTY;
-    piece.contours.iter().for_each(|contour| extent.join(&Extent::of(&list.points(contour.range))));
-    piece.notches.iter().for_each(|notch| extent.join(&Extent::between(notch.root, notch.tip)));
-    piece.drills.iter().for_each(|drill| extent.join(&Extent::between(drill.at, drill.at)));
-    extent
 }
 
 /// Puts the notches of a piece in the sequence of a visit, and lets its contours start where that has it.

@@ -2,11 +2,12 @@
 
 use super::near::near;
 use super::sequence::{START, Ways};
+use super::small::AHEAD;
 use super::times::Times;
 use super::tour;
 use crate::analysis::air::{Air, Stop};
 use crate::geom::Extent;
-use crate::pass::marker::visit::{Visit, choose};
+use crate::pass::marker::visit::{Choices, Visit};
 
 /// How often the order and the visits are chosen in turn, at the most.
 const ROUNDS: usize = 6;
@@ -68,20 +69,21 @@ impl Tours<'_> {
 
     /// An order improved; another is looked for thoroughly from some round on, of few visits until nothing is gained.
     fn improved(&self, mut order: Vec<usize>, first: usize) -> Tour {
-        let Self { visits, before, home, air, window, .. } = self;
+        let &Self { visits, ref before, home, air, window, .. } = self;
+        let choices = Choices { visits, home, air };
         let along: Vec<f64> = self.extents.iter().map(|extent| extent.min.x).collect();
-        let (mut chosen, mut whole) = choose(&order, visits, home, air);
+        let (mut chosen, mut whole) = choices.choose(&order);
         for round in 1..=ROUNDS {
             let ends: Vec<[Stop; 2]> = visits.iter().zip(&chosen).map(|(of, &chosen)| of[chosen].ends).collect();
             let near = near(&ends.iter().map(|ends| ends.map(|stop| stop.at)).collect::<Vec<_>>());
             let time =
-                |from: usize, to: usize| air.time(if from == START { home } else { &ends[from][1] }, &ends[to][0]);
+                |from: usize, to: usize| air.time(if from == START { &home } else { &ends[from][1] }, &ends[to][0]);
             let times = Times::new(ends.len(), &time);
             let time = |from: usize, to: usize| times.time(from, to);
-            let ways = Ways { time: &time, near: &near, before, along: &along, window: *window };
+            let ways = Ways { time: &time, near: &near, before, along: &along, window };
             tour::improve(&mut order, &ways, (round >= first).then_some(round as u64));
             let last = whole;
-            (chosen, whole) = choose(&order, visits, home, air);
+            (chosen, whole) = choices.choose(&order);
             let is_thorough = round >= first || first > ROUNDS;
             if is_thorough && (whole >= last || order.len() > FEW) {
                 break;
@@ -95,7 +97,7 @@ impl Tours<'_> {
 const LEAST_STRIP: f64 = 1.0;
 
 /// Visits in strips across the cloth, up and down in turn; with a window by their left edges, which that is about, and none
-/// wider than that.
+/// wider than what is left of that when a small piece is brought before one that it lies ahead of.
 fn strips(extents: &[Extent], window: Option<f64>) -> Vec<usize> {
     let whole = extents.iter().fold(Extent::EMPTY, |mut whole, extent| {
         whole.join(extent);
@@ -105,7 +107,7 @@ fn strips(extents: &[Extent], window: Option<f64>) -> Vec<usize> {
     let middle = |i: usize| extents[i].min + (extents[i].max - extents[i].min) / 2.0;
     // As wide as two pieces.
     let strip = 2.0 * (width * height / extents.len().max(1) as f64).sqrt();
-    let strip = strip.min(window.unwrap_or(f64::INFINITY)).max(LEAST_STRIP);
+    let strip = strip.min(window.map_or(f64::INFINITY, |window| (1.0 - AHEAD) * window)).max(LEAST_STRIP);
     let key = |&i: &usize| {
         let at = middle(i);
         let along = if window.is_some() { extents[i].min.x } else { at.x };

@@ -2,7 +2,8 @@
 //!
 //! Slits are cut on the way round the outline, from each of them on and either way; then what is cut of each contour: a closed
 //! line from the corner that is nearest in time, what common lines leave of one in any order and either way. What the file asks
-//! for at the start of a line holds there, so that such a one is left alone.
+//! for at the start of a line holds there, so that such a one is left alone. Where the work is to be steady only those ways count
+//! that end towards the cloth that is still uncut, if there are any.
 
 mod starts;
 mod ways;
@@ -10,7 +11,7 @@ mod ways;
 pub(super) use self::starts::{Begin, Measures, Start};
 use self::ways::{Group, State};
 use crate::analysis::air::{Air, Stop};
-use crate::geom::{Point, polyline};
+use crate::geom::{Extent, Point, polyline};
 use crate::ir::list::{Segment, SegmentList};
 use crate::ir::marker::Piece;
 
@@ -18,6 +19,9 @@ use crate::ir::marker::Piece;
 const MOST_VISITS: usize = 32;
 /// Comparisons of slits with segments of their outline, at the most: of more slits the sequence stays.
 const MOST_LOOKS: usize = 10_000_000;
+
+/// How far from its front edge a piece ends when the work is to be steady, at the most, as a part of its length along X.
+const AT_FRONT: f64 = 1.0 / 3.0;
 
 /// A sequence of the cuts of a piece.
 #[derive(Debug, Clone)]
@@ -30,6 +34,8 @@ pub(super) struct Visit {
     pub(super) ends: [Stop; 2],
     /// Time of the moves between them, s.
     pub(super) within: f64,
+    /// Whether it ends where the piece should.
+    is_at_front: bool,
 }
 
 /// Cuts that may be made in any order.
@@ -50,6 +56,8 @@ pub(super) struct Cuts {
     slits: Vec<([Stop; 2], f64)>,
     /// What is cut of contours, one group after the other.
     groups: Vec<Unordered>,
+    /// From which X on the last of them should end, mm.
+    front: Option<f64>,
 }
 
 /// The first cuts of a visit.
@@ -58,21 +66,25 @@ struct Begun {
     cuts: Vec<(usize, Begin)>,
     ends: Option<[Stop; 2]>,
     within: f64,
+    is_at_front: bool,
 }
 
 impl Begun {
     fn visit(self) -> Visit {
-        let Self { slits, cuts, ends, within } = self;
-        Visit { slits, cuts, ends: ends.expect("something is cut or drilled"), within }
+        let Self { slits, cuts, ends, within, is_at_front } = self;
+        Visit { slits, cuts, ends: ends.expect("something is cut or drilled"), within, is_at_front }
     }
 
-    /// With cuts that follow.
-    fn with(&self, stops: [Stop; 2], cuts: &[(usize, Begin)], time: f64) -> Self {
+    /// With cuts that follow, the moves to and between which take so long, s.
+    fn with(&self, starts: &[(usize, Start)], time: f64, is_at_front: bool) -> Self {
+        let [first, last] = [&starts[0].1, &starts[starts.len() - 1].1];
+        let cuts = starts.iter().map(|&(cut, Start { begin, .. })| (cut, begin));
         Self {
             slits: self.slits.clone(),
-            cuts: [&self.cuts, cuts].concat(),
-            ends: Some([self.ends.map_or(stops[0], |ends| ends[0]), stops[1]]),
+            cuts: self.cuts.iter().copied().chain(cuts).collect(),
+            ends: Some([self.ends.map_or(first.stops[0], |ends| ends[0]), last.stops[1]]),
             within: self.within + time,
+            is_at_front,
         }
     }
 }
@@ -100,13 +112,18 @@ impl Cuts {
             let ends = [air.down(first.from, first.to), air.up(last.from, last.to)];
             (ends, outline.as_ref().map_or(0.0, |outline| station(outline, notch.root)))
         });
-        Self { slits: slits.collect(), ..Self::of_drills(piece, measures) }
+        Self { slits: slits.collect(), ..Self::of_drills(piece, list, measures) }
     }
 
     /// The holes alone.
-    pub(super) fn of_drills(piece: &Piece, measures: &Measures) -> Self {
+    pub(super) fn of_drills(piece: &Piece, list: &SegmentList, measures: &Measures) -> Self {
         let fixed = piece.drills.iter().map(|drill| [measures.air.drill(drill.at); 2]).collect();
-        Self { fixed, slits: Vec::new(), groups: Vec::new() }
+        let outline = piece.contours.last().filter(|last| measures.is_steady && last.closed);
+        let front = outline.map(|outline| {
+            let extent = Extent::of(&list.points(outline.range));
+            extent.max.x - AT_FRONT * extent.size().0
+        });
+        Self { fixed, slits: Vec::new(), groups: Vec::new(), front }
     }
 
     /// Adds a cut with its starts behind the others, or to the last of them that may be made in any order.
@@ -124,72 +141,97 @@ impl Cuts {
 
     /// The ways in which it may be visited, that of the file first.
     pub(super) fn visits(&self, air: &Air) -> Vec<Visit> {
-        let groups: Vec<Group> = self.groups.iter().map(|group| Group::new(&group.starts, air)).collect();
-        let mut begun = self.rounds(air);
-        if self.slits.is_empty() && !self.fixed.is_empty() {
-            begun.push(self.begun(Vec::new(), air));
+        let groups = self.groups.iter().map(|group| Group::new(&group.starts, air)).collect();
+        Search { cuts: self, groups, air }.visits()
+    }
+
+    /// Whether the piece may end where a cut of it does.
+    fn is_at_front(&self, start: &Start) -> bool {
+        self.front.is_some_and(|front| start.to.x >= front)
+    }
+}
+
+/// A search for the ways in which a piece may be visited.
+struct Search<'a> {
+    cuts: &'a Cuts,
+    /// What is cut of contours, with the times between.
+    groups: Vec<Group<'a>>,
+    air: &'a Air,
+}
+
+impl Search<'_> {
+    fn visits(&self) -> Vec<Visit> {
+        let mut begun = self.rounds();
+        if self.cuts.slits.is_empty() && !self.cuts.fixed.is_empty() {
+            begun.push(self.begun(Vec::new()));
         }
         let mut from = 0;
-        if let (true, Some(first)) = (begun.is_empty(), groups.first()) {
+        if let (true, Some(first)) = (begun.is_empty(), self.groups.first()) {
             // Nothing comes before them: they begin with each of their states.
             from = 1;
-            let nothing = self.begun(Vec::new(), air);
+            let nothing = self.begun(Vec::new());
             let step = first.states().len().div_ceil(2 * MOST_VISITS).max(1);
             for &state in first.states().iter().step_by(step) {
                 let into = |other: State| if other == state { 0.0 } else { f64::INFINITY };
-                begun.extend(self.led_on(0, first, &nothing, &into));
+                begun.extend(self.led_on(0, &nothing, &into));
             }
         }
         let most = (2 * MOST_VISITS).div_ceil(begun.len().max(1));
-        let ended = begun.into_iter().flat_map(|begun| self.ended(from, &groups, begun, most, air));
-        std::iter::once(self.as_is(air)).chain(ended).collect()
+        let ended = begun.into_iter().flat_map(|begun| self.ended(from, begun, most));
+        let mut visits: Vec<Visit> = std::iter::once(self.as_is()).chain(ended).collect();
+        if self.cuts.front.is_some() && visits.iter().any(|visit| visit.is_at_front) {
+            visits.retain(|visit| visit.is_at_front);
+        }
+        visits
     }
 
     /// Rounds of the slits behind what is fixed: from several of them on, onward and back.
-    fn rounds(&self, air: &Air) -> Vec<Begun> {
-        let count = self.slits.len();
+    fn rounds(&self) -> Vec<Begun> {
+        let slits = &self.cuts.slits;
+        let count = slits.len();
         let mut round: Vec<usize> = (0..count).collect();
-        round.sort_by(|&a, &b| self.slits[a].1.total_cmp(&self.slits[b].1));
+        round.sort_by(|&a, &b| slits[a].1.total_cmp(&slits[b].1));
         let step = (2 * count).div_ceil(MOST_VISITS).max(1);
         let sequences = (0..count).step_by(step).flat_map(|first| {
             let onward: Vec<usize> = (0..count).map(|i| round[(first + i) % count]).collect();
             let back: Vec<usize> = (0..count).map(|i| round[(first + count - i) % count]).collect();
             [onward, back]
         });
-        sequences.map(|slits| self.begun(slits, air)).collect()
+        sequences.map(|slits| self.begun(slits)).collect()
     }
 
     /// What is fixed, and slits in a sequence.
-    fn begun(&self, slits: Vec<usize>, air: &Air) -> Begun {
-        let stops: Vec<[Stop; 2]> =
-            self.fixed.iter().copied().chain(slits.iter().map(|&slit| self.slits[slit].0)).collect();
-        let within = stops.windows(2).map(|pair| air.time(&pair[0][1], &pair[1][0])).sum();
+    fn begun(&self, slits: Vec<usize>) -> Begun {
+        let of_slits = slits.iter().map(|&slit| self.cuts.slits[slit].0);
+        let stops: Vec<[Stop; 2]> = self.cuts.fixed.iter().copied().chain(of_slits).collect();
+        let within = stops.windows(2).map(|pair| self.air.time(&pair[0][1], &pair[1][0])).sum();
         let ends = stops.first().zip(stops.last()).map(|(first, last)| [first[0], last[1]]);
-        Begun { slits, cuts: Vec::new(), ends, within }
+        Begun { slits, cuts: Vec::new(), ends, within, is_at_front: false }
     }
 
     /// A visit so far, led on through a group in each way that may be the best.
-    fn led_on(&self, place: usize, group: &Group, begun: &Begun, into: &dyn Fn(State) -> f64) -> Vec<Begun> {
-        let Unordered { first, starts } = &self.groups[place];
-        let mut ways = group.shortest(into);
+    fn led_on(&self, place: usize, begun: &Begun, into: &dyn Fn(State) -> f64) -> Vec<Begun> {
+        let Unordered { first, starts } = &self.cuts.groups[place];
+        let is_last = place + 1 == self.groups.len();
+        let is_at_front = |[cut, start]: State| is_last && self.cuts.is_at_front(&starts[cut][start]);
+        let mut ways = self.groups[place].shortest(into, &is_at_front);
         // Another start of one closed line is no other end of it: the nearest is the best.
-        ways.truncate(if starts.len() == 1 && starts[0].len() > 2 { 1 } else { MOST_VISITS });
+        ways.truncate(if starts.len() == 1 && starts[0].len() > 2 { 4 } else { MOST_VISITS });
         let led = ways.into_iter().map(|way| {
-            let [from, to] = [way.states[0], way.states[way.states.len() - 1]].map(|state| group.stops(state));
-            let cuts: Vec<(usize, Begin)> =
-                way.states.iter().map(|&[cut, start]| (first + cut, starts[cut][start].begin)).collect();
-            begun.with([from[0], to[1]], &cuts, way.time)
+            let states = way.states.iter().map(|&[cut, start]| (first + cut, starts[cut][start]));
+            begun.with(&states.collect::<Vec<_>>(), way.time, is_at_front(way.states[way.states.len() - 1]))
         });
         led.collect()
     }
 
     /// A visit led on through all groups from one on, in so many ways at the most.
-    fn ended(&self, from: usize, groups: &[Group], begun: Begun, most: usize, air: &Air) -> Vec<Visit> {
+    fn ended(&self, from: usize, begun: Begun, most: usize) -> Vec<Visit> {
         let mut all = vec![begun];
-        for (place, group) in groups.iter().enumerate().skip(from) {
+        for (place, group) in self.groups.iter().enumerate().skip(from) {
             let led = |begun: &Begun| {
-                let into = |state: State| begun.ends.map_or(0.0, |ends| air.time(&ends[1], &group.stops(state)[0]));
-                self.led_on(place, group, begun, &into)
+                let into =
+                    |state: State| begun.ends.map_or(0.0, |ends| self.air.time(&ends[1], &group.stops(state)[0]));
+                self.led_on(place, begun, &into)
             };
             all = all.iter().flat_map(led).collect();
             all.sort_by(|a, b| a.within.total_cmp(&b.within));
@@ -199,54 +241,60 @@ impl Cuts {
     }
 
     /// All as it is drawn.
-    fn as_is(&self, air: &Air) -> Visit {
-        let mut begun = self.begun((0..self.slits.len()).collect(), air);
-        for Unordered { first, starts } in &self.groups {
+    fn as_is(&self) -> Visit {
+        let mut begun = self.begun((0..self.cuts.slits.len()).collect());
+        for Unordered { first, starts } in &self.cuts.groups {
             for (cut, starts) in (*first..).zip(starts) {
-                let Start { begin, stops } = starts[0];
-                let time = begun.ends.map_or(0.0, |ends| air.time(&ends[1], &stops[0]));
-                begun = begun.with(stops, &[(cut, begin)], time);
+                let time = begun.ends.map_or(0.0, |ends| self.air.time(&ends[1], &starts[0].stops[0]));
+                begun = begun.with(&[(cut, starts[0])], time, self.cuts.is_at_front(&starts[0]));
             }
         }
         begun.visit()
     }
 }
 
-/// Of the visits of each piece in an order those that take the least time together, with that time, s: dynamic programming,
-/// exact.
-pub(in crate::pass::marker) fn choose(
-    order: &[usize],
-    visits: &[Vec<Visit>],
-    home: &Stop,
-    air: &Air,
-) -> (Vec<usize>, f64) {
-    // For each visit of each piece the best one of the piece before.
-    let mut came: Vec<Vec<usize>> = Vec::with_capacity(order.len());
-    let mut spent: Vec<f64> = Vec::new();
-    for (i, &piece) in order.iter().enumerate() {
-        let before = i.checked_sub(1).map(|before| &visits[order[before]]);
-        let best = |visit: &Visit| match before {
-            None => (0, air.time(home, &visit.ends[0])),
-            Some(before) => {
-                let times = before.iter().zip(&spent).map(|(b, spent)| spent + air.time(&b.ends[1], &visit.ends[0]));
-                times.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).expect("each piece has a visit")
-            }
-        };
-        let reached: Vec<(usize, f64)> = visits[piece]
-            .iter()
-            .map(|visit| (best(visit), visit.within))
-            .map(|((from, time), within)| (from, time + within))
-            .collect();
-        came.push(reached.iter().map(|reached| reached.0).collect());
-        spent = reached.into_iter().map(|reached| reached.1).collect();
+/// The visits of some pieces, of which one each is made.
+pub(in crate::pass::marker) struct Choices<'a> {
+    pub(in crate::pass::marker) visits: &'a [Vec<Visit>],
+    /// Where the axes stand first.
+    pub(in crate::pass::marker) home: Stop,
+    pub(in crate::pass::marker) air: Air,
+}
+
+impl Choices<'_> {
+    /// Of the visits of each piece in an order those that take the least time together, with that time, s: dynamic programming,
+    /// exact.
+    pub(in crate::pass::marker) fn choose(&self, order: &[usize]) -> (Vec<usize>, f64) {
+        let Self { visits, home, air } = self;
+        // For each visit of each piece the best one of the piece before.
+        let mut came: Vec<Vec<usize>> = Vec::with_capacity(order.len());
+        let mut spent: Vec<f64> = Vec::new();
+        for (i, &piece) in order.iter().enumerate() {
+            let before = i.checked_sub(1).map(|before| &visits[order[before]]);
+            let best = |visit: &Visit| match before {
+                None => (0, air.time(home, &visit.ends[0])),
+                Some(before) => {
+                    let times =
+                        before.iter().zip(&spent).map(|(b, spent)| spent + air.time(&b.ends[1], &visit.ends[0]));
+                    times.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).expect("each piece has a visit")
+                }
+            };
+            let reached: Vec<(usize, f64)> = visits[piece]
+                .iter()
+                .map(|visit| (best(visit), visit.within))
+                .map(|((from, time), within)| (from, time + within))
+                .collect();
+            came.push(reached.iter().map(|reached| reached.0).collect());
+            spent = reached.into_iter().map(|reached| reached.1).collect();
+        }
+        let mut chosen = vec![0; visits.len()];
+        let (mut at, time) = spent.into_iter().enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default();
+        for (i, &piece) in order.iter().enumerate().rev() {
+            chosen[piece] = at;
+            at = came[i][at];
+        }
+        (chosen, time)
     }
-    let mut chosen = vec![0; visits.len()];
-    let (mut at, time) = spent.into_iter().enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default();
-    for (i, &piece) in order.iter().enumerate().rev() {
-        chosen[piece] = at;
-        at = came[i][at];
-    }
-    (chosen, time)
 }
 
 /// How far from the start of an outline the place of it is that is nearest to a point, mm.

@@ -1,10 +1,10 @@
 //! Where lines may start, and which way they may be cut from there.
 
 use crate::analysis::air::{Air, Stop};
-use crate::geom::corner;
+use crate::geom::{Point, corner};
 use crate::ir::list::{Joint, Range, Segment, SegmentList};
-use crate::ir::marker::{Contour, OutlineNotch, Piece};
-use crate::machine::Job;
+use crate::ir::marker::{Contour, Marker, OutlineNotch, Piece};
+use crate::machine::{Job, OrderPolicy};
 
 /// Corners of a contour that are looked at, at the most, each either way round.
 const MOST_STARTS: usize = 64;
@@ -18,6 +18,8 @@ pub(in crate::pass::marker) struct Measures {
     pub(in crate::pass::marker) corner: f64,
     /// What coordinates are multiples of, mm.
     pub(in crate::pass::marker) unit: f64,
+    /// Whether pieces end towards the cloth that is still uncut, if they can: that of larger X.
+    pub(in crate::pass::marker) is_steady: bool,
 }
 
 /// How a line is begun.
@@ -35,6 +37,8 @@ pub(in crate::pass::marker) struct Start {
     pub(super) begin: Begin,
     /// Where the knife comes down then, and where it comes up.
     pub(in crate::pass::marker) stops: [Stop; 2],
+    /// Where the line ends then.
+    pub(super) to: Point,
 }
 
 impl Start {
@@ -42,19 +46,19 @@ impl Start {
         let count = of.len();
         // The last segment of a closed one ends where the first starts.
         let (first, last) = (&of[begin.segment], &of[(begin.segment + count - 1) % count]);
-        let stops = if begin.is_reversed {
-            [air.down(last.to, last.from), air.up(first.to, first.from)]
-        } else {
-            [air.down(first.from, first.to), air.up(last.from, last.to)]
-        };
-        Self { begin, stops }
+        if begin.is_reversed {
+            let stops = [air.down(last.to, last.from), air.up(first.to, first.from)];
+            return Self { begin, stops, to: first.from };
+        }
+        Self { begin, stops: [air.down(first.from, first.to), air.up(last.from, last.to)], to: last.to }
     }
 }
 
 impl Measures {
-    /// Those of a job, for a marker whose coordinates are multiples of so much, mm.
-    pub(in crate::pass::marker) fn new(job: &Job, unit: f64) -> Self {
-        Self { air: Air::new(job), corner: job.profile.corner.angle(), unit }
+    /// Those of a job for a marker.
+    pub(in crate::pass::marker) fn new(job: &Job, marker: &Marker) -> Self {
+        let is_steady = job.profile.order.policy(marker.drawing.is_some()) == OrderPolicy::Steady;
+        Self { air: Air::new(job), corner: job.profile.corner.angle(), unit: marker.unit, is_steady }
     }
 
     /// That of a line that is cut as it is.

@@ -74,13 +74,17 @@ impl<'a> Group<'a> {
     }
 
     /// For each state in which a way may end the shortest such, the shortest of all first; the way in takes so long, s:
-    /// infinite where it does not begin. Of many cuts a short one alone.
-    pub(super) fn shortest(&self, into: &dyn Fn(State) -> f64) -> Vec<Way> {
+    /// infinite where it does not begin. Of many cuts a short one alone. Where one may end as it should, none ends otherwise.
+    pub(super) fn shortest(&self, into: &dyn Fn(State) -> f64, is_end: &dyn Fn(State) -> bool) -> Vec<Way> {
         let is_one = self.cuts.len() == 1;
         let first = self.states.iter().map(|&state| into(state) + if is_one { 0.0 } else { turned(state) });
         let first: Vec<f64> = first.collect();
-        let mut ways = if self.cuts.len() <= MOST_EXACT { self.exact(&first) } else { self.improved(&first) };
+        let mut ways = if self.cuts.len() <= MOST_EXACT { self.exact(&first) } else { self.improved(&first, is_end) };
         ways.retain(|way| way.time.is_finite());
+        let ends = |way: &Way| is_end(way.states[way.states.len() - 1]);
+        if ways.iter().any(ends) {
+            ways.retain(ends);
+        }
         ways.sort_by(|a, b| a.time.total_cmp(&b.time));
         ways
     }
@@ -132,8 +136,9 @@ impl<'a> Group<'a> {
         (0..count).filter(|last| reached[all * count + last].0.is_finite()).map(way).collect()
     }
 
-    /// The nearest next, and then single cuts put elsewhere, either way, as long as that gains.
-    fn improved(&self, first: &[f64]) -> Vec<Way> {
+    /// The nearest next, and then single cuts put elsewhere, either way, as long as that gains; in the end, if none ends as it
+    /// should, the cut behind the others that may and costs the least there.
+    fn improved(&self, first: &[f64], is_end: &dyn Fn(State) -> bool) -> Vec<Way> {
         let time = |from: Option<usize>, to: usize| from.map_or(first[to], |from| self.time(from, to));
         let mut left: Vec<usize> = (0..self.states.len()).collect();
         let mut order: Vec<usize> = Vec::with_capacity(self.cuts.len());
@@ -153,6 +158,15 @@ impl<'a> Group<'a> {
             for i in 0..order.len() {
                 is_improved |= self.put_elsewhere(&mut order, i, &time);
             }
+        }
+        if !is_end(self.states[order[order.len() - 1]]) {
+            let ended = |last: usize| {
+                let others = order.iter().copied().filter(|&state| self.cut(state) != self.cut(last));
+                others.chain([last]).collect::<Vec<usize>>()
+            };
+            let ends = (0..self.states.len()).filter(|&state| is_end(self.states[state])).map(ended);
+            let times = ends.map(|order| (whole(&order), order)).filter(|(time, _)| time.is_finite());
+            order = times.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(order, |(_, ended)| ended);
         }
         let time = whole(&order);
         vec![self.way(order.into_iter(), time)]
@@ -194,6 +208,7 @@ mod tests {
         let [from, to] = [from, to].map(|[x, y]| Point::new(x, y));
         let start = |is_reversed, [from, to]: [Point; 2]| Start {
             begin: Begin { segment: 0, is_reversed },
+            to,
             stops: [air.down(from, to), air.up(from, to)],
         };
         vec![start(false, [from, to]), start(true, [to, from])]
@@ -204,7 +219,7 @@ mod tests {
         let cuts: Vec<Vec<Start>> = cuts.iter().map(|&ends| cut(ends, &air)).collect();
         let group = Group::new(&cuts, &air);
         let home = Stop::anyhow(Point::new(start[0], start[1]));
-        group.shortest(&|state| air.time(&home, &group.stops(state)[0]))
+        group.shortest(&|state| air.time(&home, &group.stops(state)[0]), &|_| false)
     }
 
     #[test]

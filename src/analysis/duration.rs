@@ -1,0 +1,93 @@
+//! About how long the cuts of a marker take, without planning them: enough to tell which of two ways of cutting the same parts
+//! is the shorter one.
+
+use super::air::Air;
+use crate::geom::{Point, corner, polyline};
+use crate::ir::Marker;
+use crate::ir::marker::Cut;
+use crate::machine::kinematics::Move;
+use crate::machine::{Job, Limits};
+
+/// The time from where the knife first comes down in each cut to where it comes up, s, plunges and lifts included. A stretch
+/// between two corners counts as a move from rest to rest, of X and Y over its length, but for what the blade covers where it
+/// stands, and of C by all its turns.
+pub fn of_cuts(marker: &Marker, job: &Job) -> f64 {
+    let runs = Runs::new(marker, job);
+    marker.cuts.iter().map(|cut| runs.of_cut(cut)).sum()
+}
+
+/// What the runs of cuts take.
+struct Runs<'a> {
+    marker: &'a Marker,
+    air: Air,
+    /// Greatest turn that is no corner, rad.
+    corner: f64,
+    /// Along a run.
+    line: Limits,
+    c: Limits,
+    /// What the blade covers where it stands, mm.
+    width: f64,
+    /// A plunge and a lift, s.
+    through: f64,
+}
+
+impl<'a> Runs<'a> {
+    fn new(marker: &'a Marker, job: &Job) -> Self {
+        let knife = &job.profile.knife;
+        let [x, y, c] = job.profile.axes.limits();
+        let mut line = x.min(y);
+        line.speed = line.speed.min(knife.feed_mm_s.unwrap_or(f64::INFINITY));
+        let (corner, through) = (job.profile.corner.angle(), knife.clear() + knife.plunge());
+        Self { marker, air: Air::new(job), corner, line, c, width: knife.width_mm, through }
+    }
+
+    fn of_cut(&self, cut: &Cut) -> f64 {
+        let points = self.marker.list.points(cut.range);
+        let last = points.len() - 1;
+        let is_corner = |&i: &usize| {
+            let (before, behind) = (points[..i].iter().rev(), points[i + 1..].iter());
+            corner::is_corner(points[i], &before.copied(), &behind.copied(), self.corner, self.marker.unit)
+        };
+        let (mut time, mut first) = (0.0, 0);
+        for i in (1..last).filter(is_corner) {
+            let turn = [self.air.up(points[i - 1], points[i]), self.air.down(points[i], points[i + 1])];
+            time += self.of_run(&points[first..=i]) + self.air.time(&turn[0], &turn[1]);
+            first = i;
+        }
+        time + self.of_run(&points[first..])
+    }
+
+    fn of_run(&self, points: &[Point]) -> f64 {
+        let length = (polyline::length(points) - self.width).max(0.0);
+        let turned: f64 = points.windows(3).map(|p| polyline::turn_at(p[0], p[1], p[2]).abs()).sum();
+        Move::new(length, self.line).duration().max(Move::new(turned, self.c).duration()) + self.through
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ir::marker::CutKind;
+    use crate::ir::text;
+
+    /// About what a line takes as one cut, s.
+    fn time(line: &str) -> f64 {
+        let text = format!("marker unit-mm 0.1\npiece 1\ncontour open\n  from {line}\n");
+        let mut marker = text::read_marker(&text).expect("sound");
+        let range = marker.pieces[0].contours[0].range;
+        marker.cuts.push(Cut { kind: CutKind::Line, piece: 0, sides: [None; 2], range });
+        of_cuts(&marker, &Job::default())
+    }
+
+    #[test]
+    fn a_corner_costs_a_lift_and_a_turn_and_a_start_costs_more_than_its_length() {
+        let straight = time("0 0 to 1000 0\n  to 2000 0");
+        let bent = time("0 0 to 1000 0\n  to 1000 1000");
+        let knife = &Job::default().profile.knife;
+        assert!(bent > straight + knife.clear() + knife.plunge(), "{bent} {straight}");
+        let [half, whole] = [time("0 0 to 50 0"), time("0 0 to 100 0")];
+        assert!(half > whole / 2.0 + 0.1, "{half} {whole}");
+        // What the blade covers where it stands takes no time but that of a plunge and a lift.
+        assert!((time("0 0 to 5 0") - knife.clear() - knife.plunge()).abs() < 1e-9);
+    }
+}
