@@ -26,6 +26,7 @@ pub mod notches;
 pub mod order;
 mod origin;
 pub mod path;
+pub mod patterns;
 pub mod plot;
 pub mod profile;
 mod schema;
@@ -70,4 +71,6 @@ pub struct Job {
     pub mode: Mode,
     /// Which lines of a plot it cuts.
     pub lines: plot::Lines,
+    /// Which patterns it cuts.
+    pub patterns: patterns::Patterns,
 }

@@ -90,7 +90,8 @@ pub(super) fn read_alone(
     let dialect = from.or_else(|| front::detect(source, extension, diagnostics))?;
     let marker = marker_of(dialect, source, job, diagnostics);
     // Only a drawing leaves it to others which of its lines are cut.
-    if marker.drawing.is_none() && job.lines != plot::Lines::default() && !diagnostics.has_errors() {
+    let is_plot = matches!(dialect.read, Reader::Drawing(_));
+    if !is_plot && job.lines != plot::Lines::default() && !diagnostics.has_errors() {
         let message = "`--cut-pens`, `--inner` and `--cut-all` choose among the lines of a plot, and this is none: all of it is cut";
         let finding = Diagnostic::new(&code::SOURCE_NO_PLOT, message);
         diagnostics.push(finding.hint("leave them out; `--pieces` and `--skip` choose pieces of any file"));
@@ -102,7 +103,7 @@ pub(super) fn read_alone(
 /// What a source says is cut, as a dialect reads it, or as it is recognised in what the dialect says is drawn.
 pub fn marker_of(dialect: &Dialect, source: &Source, job: &Job, diagnostics: &mut Diagnostics) -> Marker {
     match dialect.read {
-        Reader::Marker(read) => read(source, job, diagnostics),
+        Reader::Marker(read) | Reader::Patterns { cut: read, .. } => read(source, job, diagnostics),
         Reader::Drawing(read) => {
             let drawing = read(source, job, diagnostics);
             // What is not read to its end would only be recognised wrongly.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use crate::cli::choices::{self, Format};
-use crate::cli::options::{Machine, Messages, NO_HEADING};
+use crate::cli::options::{Machine, Messages, NO_HEADING, Patterned};
 use crate::machine::Job;
 use crate::machine::sewing;
 use crate::sew::{Asked, Target};
@@ -51,6 +51,9 @@ pub(in crate::cli) struct Arguments {
 
     #[command(flatten)]
     pub(super) machine: Machine,
+
+    #[command(flatten, next_help_heading = NO_HEADING)]
+    patterns: Patterned,
 
     /// How to give the figures
     #[arg(long, value_enum, default_value = "text")]
@@ -100,7 +103,8 @@ impl Arguments {
     }
 
     /// The job with what overrides its profile.
-    pub(super) fn of(&self, mut job: Job) -> Job {
+    pub(super) fn of(&self, job: Job) -> Job {
+        let mut job = self.patterns.of(job);
         if let Some(on_long) = self.on_long {
             job.profile.sewing.on_long = on_long.into();
         }

@@ -52,8 +52,11 @@ type Line = (Vec<Point>, Span);
 /// The lines that were asked for, in the order of the file.
 fn lines(dialect: &Dialect, source: &Source, asked: &Asked, job: &Job, out: &mut Diagnostics) -> Vec<Line> {
     match (dialect.read, asked.line.as_deref()) {
-        (Read::Marker(read), None) => contours(&read(source, job, out)),
-        (Read::Drawing(read), Some(name)) if name != SEAM => strokes(&read(source, job, out), name, out),
+        (Read::Marker(read) | Read::Patterns { cut: read, .. }, None) => contours(&read(source, job, out)),
+        (Read::Drawing(read) | Read::Patterns { drawn: read, .. }, Some(name)) if name != SEAM => {
+            strokes(&read(source, job, out), name, out)
+        }
+        (Read::Patterns { cut: read, .. }, Some(_)) => seam_lines(&read(source, job, out), out),
         (Read::Drawing(read), asked) => {
             let drawing = read(source, job, out);
             if out.has_errors() {

@@ -1,0 +1,248 @@
+//! Pieces: the shapes of a block become what is cut of a piece and what is only drawn on it, both halves of it.
+
+use super::chain::{Chain, chains};
+use super::fold::{Fold, Refusal};
+use super::layer::{Does, Form, Layer};
+use super::notch::{self, Mark, Notched};
+use super::outline::{Outline, outlines};
+use super::shape::{Dot, Line, Shapes};
+use super::tally::{Tally, Thing};
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::Point;
+use crate::geom::budget::Budget;
+use crate::ir::drawing::Vertex;
+use crate::ir::marker::{Label, Notch};
+use crate::source::Span;
+
+/// A piece as the file draws it, mm; a half that is mirrored is whole here.
+#[derive(Debug, Clone)]
+pub(super) struct Piece {
+    pub(super) span: Span,
+    /// Its outline without notches.
+    pub(super) plain: Chain,
+    /// Its outline with the notches that it makes.
+    pub(super) outline: Chain,
+    pub(super) slits: Vec<Notch>,
+    pub(super) drills: Vec<(Point, Span)>,
+    /// Lines that are cut inside it.
+    pub(super) inner: Vec<Chain>,
+    /// Lines that are only drawn.
+    pub(super) drawn: Vec<(&'static Layer, Chain)>,
+    pub(super) labels: Vec<Label>,
+    /// How often it is cut as it is drawn, and how often mirrored.
+    pub(super) quantity: [u32; 2],
+}
+
+/// What is looked at and found while pieces are made.
+#[derive(Debug)]
+pub(super) struct Making<'o> {
+    /// Depth of notches without one, mm.
+    pub(super) notch_depth: f64,
+    pub(super) work: Budget,
+    pub(super) tally: Tally,
+    pub(super) out: &'o mut Diagnostics,
+}
+
+/// What lies in one outline.
+#[derive(Debug, Default)]
+struct Content {
+    lines: Vec<(&'static Layer, Chain)>,
+    dots: Vec<Dot>,
+    labels: Vec<Label>,
+}
+
+impl Making<'_> {
+    /// The pieces of a block that begins at `span`; most have one.
+    pub(super) fn pieces(&mut self, shapes: Shapes, span: Span, quantity: [u32; 2]) -> Vec<Piece> {
+        let Shapes { lines, dots, texts, .. } = shapes;
+        let (folds, lines): (Vec<Line>, Vec<Line>) = lines.into_iter().partition(|line| line.layer.does == Does::Fold);
+        let mut folded: Vec<Fold> = folds.iter().filter_map(|line| Fold::of(&line.vertices)).collect();
+        folded.dedup_by(|next, before| next.is_same(before));
+        let mut lines = joined(lines);
+        lines
+            .extend(folds.into_iter().filter_map(|line| Some((line.layer, Chain::of(line.vertices, line.is_closed)?))));
+        let (edges, lines): (Vec<_>, Vec<_>) = lines.into_iter().partition(|(layer, _)| layer.does == Does::Outline);
+        let edges: Vec<Chain> = edges.into_iter().map(|(_, chain)| chain).collect();
+        if edges.is_empty() {
+            let is_cut =
+                lines.iter().map(|(layer, _)| layer).chain(dots.iter().map(|dot| &dot.layer)).any(|l| l.is_cut());
+            if is_cut {
+                self.tally.add(Thing::NoOutline, span);
+            }
+            return Vec::new();
+        }
+        let outlines = outlines(edges, &mut self.work);
+        let whole = self.unfolded(&outlines, &folded);
+        let contents = self.sorted(&outlines, Content { lines, dots, labels: texts });
+        let is_alone = outlines.len() == 1;
+        let mut pieces = Vec::new();
+        for ((outline, whole), content) in outlines.into_iter().zip(whole).zip(contents) {
+            let Some((plain, fold)) = whole else { continue };
+            let span = if is_alone { span } else { outline.edge.vertices[0].span };
+            let mut piece = self.piece(plain, fold, content);
+            let inner = outline.inner.iter().flat_map(|line| on_both_sides(fold, line));
+            piece.inner.splice(0..0, inner);
+            pieces.push(Piece { span, quantity, ..piece });
+        }
+        pieces
+    }
+
+    /// The whole of each outline, and the fold that it was unfolded about; `None` with an error where it does not close.
+    fn unfolded(&mut self, outlines: &[Outline], folds: &[Fold]) -> Vec<Option<(Chain, Option<Fold>)>> {
+        let mut used = vec![false; folds.len()];
+        let mut whole = Vec::new();
+        let mut refusal = Refusal::Beside;
+        for Outline { edge, .. } in outlines {
+            let mut found: Vec<(Chain, Fold)> = Vec::new();
+            for (fold, is_used) in folds.iter().zip(&mut used) {
+                match fold.unfold_outline(edge) {
+                    Ok(unfolded) => {
+                        found.push((unfolded, *fold));
+                        *is_used = true;
+                    }
+                    Err(why) => refusal = why,
+                }
+            }
+            let span = edge.vertices[0].span;
+            whole.push(match found.len() {
+                0 if edge.is_closed => Some((edge.clone(), None)),
+                0 => {
+                    self.out.push(open_outline(edge));
+                    None
+                }
+                1 => found.pop().map(|(unfolded, fold)| (unfolded, Some(fold))),
+                _ => {
+                    let message = "an outline has edges on two fold lines (layer 6)";
+                    self.out.push(Diagnostic::new(&code::DXF_FOLD, message).at(span).hint("draw half of the piece"));
+                    None
+                }
+            });
+        }
+        for _ in used.iter().filter(|is_used| !**is_used) {
+            let span = outlines[0].edge.vertices[0].span;
+            if refusal == Refusal::Across {
+                self.tally.add(Thing::FoldAcross, span);
+                continue;
+            }
+            let message = match refusal {
+                Refusal::Several => "the fold line (layer 6) lies along several edges of the outline",
+                Refusal::Across | Refusal::Beside => "the fold line (layer 6) lies along no edge of the outline",
+            };
+            let finding = Diagnostic::new(&code::DXF_FOLD, message).at(span);
+            self.out.push(finding.hint("half of a piece ends at its fold line; let the CAD system unfold it"));
+        }
+        whole
+    }
+
+    /// What lies in which outline.
+    fn sorted(&mut self, outlines: &[Outline], all: Content) -> Vec<Content> {
+        if outlines.len() == 1 {
+            return vec![all];
+        }
+        let mut contents: Vec<Content> = outlines.iter().map(|_| Content::default()).collect();
+        for (layer, line) in all.lines {
+            let owner = self.owner(outlines, line.vertices[0].at);
+            if owner.is_none() && layer.is_cut() {
+                self.tally.add(Thing::Outside, line.vertices[0].span);
+            }
+            if owner.is_some() || !layer.is_cut() {
+                contents[owner.unwrap_or(0)].lines.push((layer, line));
+            }
+        }
+        for dot in all.dots {
+            match self.owner(outlines, dot.at) {
+                Some(owner) => contents[owner].dots.push(dot),
+                None if dot.layer.is_cut() => self.tally.add(Thing::Outside, dot.span),
+                None => {}
+            }
+        }
+        for label in all.labels {
+            if let Some(owner) = label.at.and_then(|at| self.owner(outlines, at)) {
+                contents[owner].labels.push(label);
+            }
+        }
+        contents
+    }
+
+    fn owner(&mut self, outlines: &[Outline], at: Point) -> Option<usize> {
+        outlines.iter().position(|outline| outline.holds(at, &mut self.work))
+    }
+
+    fn piece(&mut self, plain: Chain, fold: Option<Fold>, content: Content) -> Piece {
+        let mut marks: Vec<Mark> = Vec::new();
+        let mut drills: Vec<(Point, Span)> = Vec::new();
+        for dot in &content.dots {
+            let mirrored = fold.filter(|fold| !fold.is_middle(dot.at));
+            match dot.layer.does {
+                Does::Notch(form) => {
+                    let mark = self.mark(dot, form);
+                    marks.push(mark);
+                    marks.extend(mirrored.map(|fold| Mark {
+                        at: fold.mirror(mark.at),
+                        along: mark.along.map(|along| fold.mirror_way(along)),
+                        ..mark
+                    }));
+                }
+                Does::Drill => {
+                    drills.push((dot.at, dot.span));
+                    drills.extend(mirrored.map(|fold| (fold.mirror(dot.at), dot.span)));
+                }
+                Does::Outline | Does::Fold | Does::Inner | Does::Drawn | Does::Sign | Does::Nothing => {}
+            }
+        }
+        let Notched { outline, slits, doubts } = notch::cut(plain.vertices.clone(), &marks, &mut self.work);
+        doubts.into_iter().for_each(|(doubt, span)| self.tally.add(Thing::Notch(doubt), span));
+        let (mut inner, mut drawn) = (Vec::new(), Vec::new());
+        for (layer, line) in content.lines {
+            match layer.does {
+                Does::Inner => inner.extend(on_both_sides(fold, &line)),
+                Does::Drawn => drawn.extend(on_both_sides(fold, &line).into_iter().map(|line| (layer, line))),
+                Does::Outline | Does::Notch(_) | Does::Fold | Does::Drill | Does::Sign | Does::Nothing => {
+                    drawn.push((layer, line));
+                }
+            }
+        }
+        let outline = Chain { vertices: outline, is_closed: true };
+        let span = Span::default();
+        Piece { span, plain, outline, slits, drills, inner, drawn, labels: content.labels, quantity: [1, 0] }
+    }
+
+    fn mark(&self, dot: &Dot, form: Form) -> Mark {
+        let Dot { at, depth, width, heading, span, .. } = *dot;
+        let depth = if depth > 0.0 { depth } else { self.notch_depth };
+        Mark { form, at, depth, width, along: heading.map(crate::geom::Heading::unit), span }
+    }
+}
+
+fn on_both_sides(fold: Option<Fold>, line: &Chain) -> Vec<Chain> {
+    fold.map_or_else(|| vec![line.clone()], |fold| fold.unfold(line))
+}
+
+/// Lines with those of a layer joined that the convention lets be drawn in parts.
+fn joined(lines: Vec<Line>) -> Vec<(&'static Layer, Chain)> {
+    let mut layers: Vec<(&'static Layer, Vec<Chain>)> = Vec::new();
+    for Line { layer, vertices, is_closed } in lines {
+        let Some(chain) = Chain::of(vertices, is_closed) else { continue };
+        match layers.iter_mut().find(|(known, _)| known.number == layer.number) {
+            Some((_, chains)) => chains.push(chain),
+            None => layers.push((layer, vec![chain])),
+        }
+    }
+    let join = |(layer, lines): (&'static Layer, Vec<Chain>)| {
+        let lines = match layer.does {
+            Does::Outline | Does::Inner | Does::Drawn => chains(lines),
+            Does::Notch(_) | Does::Fold | Does::Drill | Does::Sign | Does::Nothing => lines,
+        };
+        lines.into_iter().map(move |line| (layer, line))
+    };
+    layers.into_iter().flat_map(join).collect()
+}
+
+/// An outline that does not close.
+fn open_outline(edge: &Chain) -> Diagnostic {
+    let ends: [Vertex; 2] = [edge.vertices[0], edge.vertices[edge.vertices.len() - 1]];
+    let gap = (ends[1].at - ends[0].at).norm();
+    let message = format!("the outline that begins here does not close: its ends are {gap:.1} mm apart");
+    let finding = Diagnostic::new(&code::DXF_OPEN_OUTLINE, message).at(ends[0].span);
+    finding.hint("close it in the CAD system; a piece that is not closed cannot be cut out")
+}
