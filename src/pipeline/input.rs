@@ -11,7 +11,7 @@ use crate::machine::{Job, plot};
 use crate::pass::marker::{CUTTING_PASSES, DRAWN_PASSES, MARKER_PASSES, MarkerPass};
 use crate::recognise;
 use crate::source::Source;
-use crate::verify::{Census, Drawn, Works};
+use crate::verify::{Census, CutPlaces, Drawn, Works};
 
 /// A file as read and passed: what is cut, in which order.
 #[derive(Debug)]
@@ -38,6 +38,8 @@ pub struct Judged {
 pub struct Reading {
     /// Before any pass.
     pub census: Census,
+    /// Where the patterns of a set are cut, likewise; `None` of any other file.
+    pub patterns: Option<CutPlaces>,
     /// Whether all of it is still cut behind them.
     pub kept: Finding,
     /// Whether that lies where the sheet of the profile has it; `None` where it lies as the file has it.
@@ -66,6 +68,8 @@ pub fn read_to_judge(
 ) -> Option<Judged> {
     let mut input = read_alone(source, from, job, diagnostics)?;
     let (census, works) = rayon::join(|| Census::of(&input.marker), || Works::of(&input.marker));
+    let is_of_patterns = matches!(input.dialect.read, Reader::Patterns { .. });
+    let patterns = is_of_patterns.then(|| CutPlaces::of(&input.marker));
     let (drawing, laying) = marker_passes().0.split_at(DRAWN_PASSES);
     run_passes(drawing, &mut input.marker, source, job, diagnostics);
     // What a sheet moves cannot be compared with the file, but only with what was drawn.
@@ -76,7 +80,7 @@ pub fn read_to_judge(
         Some((kept, drawn)) => (kept, Some(drawn.laid(&input.marker, job))),
         None => (works.kept(&input.marker, &job.profile), None),
     };
-    Some(Judged { input, reading: Reading { census, kept, laid } })
+    Some(Judged { input, reading: Reading { census, patterns, kept, laid } })
 }
 
 /// The marker as the source says it, before any pass.

@@ -78,7 +78,11 @@ impl<'a> Chosen<'a> {
 
     /// The sizes that are cut, as they are told; empty when all are.
     pub(super) fn told(&self) -> String {
-        self.sizes.as_ref().map_or_else(String::new, |sizes| format!(" of size {}", sizes.join(", ")))
+        match self.sizes.as_deref() {
+            None => String::new(),
+            Some([size]) => format!(" of size {size}"),
+            Some(sizes) => format!(" of {} sizes", sizes.len()),
+        }
     }
 }
 

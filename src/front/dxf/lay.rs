@@ -1,6 +1,8 @@
 //! Laying: where the pieces lie on the cloth. A set of patterns is no marker: they lie in a row, unless the file itself
 //! puts its blocks somewhere.
 
+use std::ops::Range;
+
 use super::piece::Piece;
 use super::shape::Insert;
 use crate::geom::{Extent, Heading, Point, Vector};
@@ -19,6 +21,15 @@ pub(super) struct Motion {
 pub(super) struct Laid<'p> {
     pub(super) piece: &'p Piece,
     pub(super) motion: Motion,
+}
+
+/// What a block draws, or what stands in none.
+#[derive(Debug, Clone)]
+pub(super) struct Drawn {
+    /// Its pieces among those of the set; most blocks have one.
+    pub(super) pieces: Range<usize>,
+    /// How often they are cut as they are drawn, and how often mirrored.
+    pub(super) quantity: [u32; 2],
 }
 
 impl Motion {
@@ -48,26 +59,28 @@ impl Motion {
     }
 }
 
-/// The box around all that is cut of a piece, before it lies anywhere.
-fn extent(piece: &Piece, [x, y]: [Vector; 2]) -> Extent {
+/// The box around all that is cut of some pieces, but for notches, before it lies anywhere.
+fn extent(pieces: &[Piece], [x, y]: [Vector; 2]) -> Extent {
     let motion = Motion { x, y, offset: Vector::zeros() };
     let mut extent = Extent::EMPTY;
-    let lines = std::iter::once(&piece.outline).chain(&piece.inner);
+    let lines = pieces.iter().flat_map(|piece| std::iter::once(&piece.plain).chain(&piece.inner));
     lines.flat_map(|line| &line.vertices).for_each(|vertex| extent.add(motion.place(vertex.at)));
     extent
 }
 
-/// Lays pieces in a row along X, as often as each is wanted, so much room between them, mm.
-pub(super) fn in_a_row(pieces: &[Piece], gap: f64) -> Vec<Laid<'_>> {
+/// Lays what blocks draw in a row along X, the lower edges on Y = 0, as often as each is wanted, so much room between them,
+/// mm.
+pub(super) fn in_a_row<'p>(pieces: &'p [Piece], drawn: &[Drawn], gap: f64) -> Vec<Laid<'p>> {
     let mut laid = Vec::new();
     let mut x = 0.0;
-    for piece in pieces {
-        let ways = [Motion::DRAWN, Motion::MIRRORED];
-        for (axes, count) in ways.into_iter().zip(piece.quantity) {
-            let extent = extent(piece, axes);
+    for Drawn { pieces: range, quantity } in drawn.iter().filter(|drawn| !drawn.pieces.is_empty()) {
+        let pieces = &pieces[range.clone()];
+        for (axes, &count) in [Motion::DRAWN, Motion::MIRRORED].into_iter().zip(quantity) {
+            let extent = extent(pieces, axes);
             for _ in 0..count {
                 let offset = Vector::new(x, 0.0) - extent.min.coords;
-                laid.push(Laid { piece, motion: Motion { x: axes[0], y: axes[1], offset } });
+                let motion = Motion { x: axes[0], y: axes[1], offset };
+                laid.extend(pieces.iter().map(|piece| Laid { piece, motion }));
                 x += extent.size().0 + gap;
             }
         }

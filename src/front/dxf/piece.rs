@@ -29,8 +29,6 @@ pub(super) struct Piece {
     /// Lines that are only drawn.
     pub(super) drawn: Vec<(&'static Layer, Chain)>,
     pub(super) labels: Vec<Label>,
-    /// How often it is cut as it is drawn, and how often mirrored.
-    pub(super) quantity: [u32; 2],
 }
 
 /// What is looked at and found while pieces are made.
@@ -53,7 +51,7 @@ struct Content {
 
 impl Making<'_> {
     /// The pieces of a block that begins at `span`; most have one.
-    pub(super) fn pieces(&mut self, shapes: Shapes, span: Span, quantity: [u32; 2]) -> Vec<Piece> {
+    pub(super) fn pieces(&mut self, shapes: Shapes, span: Span) -> Vec<Piece> {
         let Shapes { lines, dots, texts, .. } = shapes;
         let (folds, lines): (Vec<Line>, Vec<Line>) = lines.into_iter().partition(|line| line.layer.does == Does::Fold);
         let mut folded: Vec<Fold> = folds.iter().filter_map(|line| Fold::of(&line.vertices)).collect();
@@ -78,60 +76,44 @@ impl Making<'_> {
         let mut pieces = Vec::new();
         for ((outline, whole), content) in outlines.into_iter().zip(whole).zip(contents) {
             let Some((plain, fold)) = whole else { continue };
-            let span = if is_alone { span } else { outline.edge.vertices[0].span };
+            let span = if is_alone && span.block > 0 { span } else { outline.edge.vertices[0].span };
             let mut piece = self.piece(plain, fold, content);
             let inner = outline.inner.iter().flat_map(|line| on_both_sides(fold, line));
             piece.inner.splice(0..0, inner);
-            pieces.push(Piece { span, quantity, ..piece });
+            pieces.push(Piece { span, ..piece });
         }
         pieces
     }
 
     /// The whole of each outline, and the fold that it was unfolded about; `None` with an error where it does not close.
     fn unfolded(&mut self, outlines: &[Outline], folds: &[Fold]) -> Vec<Option<(Chain, Option<Fold>)>> {
-        let mut used = vec![false; folds.len()];
-        let mut whole = Vec::new();
-        let mut refusal = Refusal::Beside;
-        for Outline { edge, .. } in outlines {
-            let mut found: Vec<(Chain, Fold)> = Vec::new();
-            for (fold, is_used) in folds.iter().zip(&mut used) {
-                match fold.unfold_outline(edge) {
-                    Ok(unfolded) => {
-                        found.push((unfolded, *fold));
-                        *is_used = true;
-                    }
-                    Err(why) => refusal = why,
-                }
-            }
-            let span = edge.vertices[0].span;
-            whole.push(match found.len() {
-                0 if edge.is_closed => Some((edge.clone(), None)),
-                0 => {
-                    self.out.push(open_outline(edge));
+        let first = &outlines[0].edge;
+        let refused = match (outlines, folds) {
+            (_, []) => None,
+            ([_], &[fold]) => match fold.unfold_outline(first) {
+                Ok(whole) => return vec![Some((whole, Some(fold)))],
+                Err(Refusal::Across) => {
+                    self.tally.add(Thing::FoldAcross, first.vertices[0].span);
                     None
                 }
-                1 => found.pop().map(|(unfolded, fold)| (unfolded, Some(fold))),
-                _ => {
-                    let message = "an outline has edges on two fold lines (layer 6)";
-                    self.out.push(Diagnostic::new(&code::DXF_FOLD, message).at(span).hint("draw half of the piece"));
-                    None
-                }
-            });
+                Err(Refusal::Beside) => Some("the fold line (layer 6) lies along no edge of the outline"),
+                Err(Refusal::Several) => Some("the fold line (layer 6) lies along several edges of the outline"),
+            },
+            ([_], _) => Some("a piece has several fold lines (layer 6)"),
+            _ => Some("a fold line (layer 6) stands beside several outlines: which is half a piece is not said"),
+        };
+        if let Some(message) = refused {
+            let finding = Diagnostic::new(&code::DXF_FOLD, message).at(first.vertices[0].span);
+            self.out.push(finding.hint("let the CAD system unfold the piece, or draw its half up to the fold line"));
+            return vec![None; outlines.len()];
         }
-        for _ in used.iter().filter(|is_used| !**is_used) {
-            let span = outlines[0].edge.vertices[0].span;
-            if refusal == Refusal::Across {
-                self.tally.add(Thing::FoldAcross, span);
-                continue;
+        let closed = |Outline { edge, .. }: &Outline| {
+            if !edge.is_closed {
+                self.out.push(open_outline(edge));
             }
-            let message = match refusal {
-                Refusal::Several => "the fold line (layer 6) lies along several edges of the outline",
-                Refusal::Across | Refusal::Beside => "the fold line (layer 6) lies along no edge of the outline",
-            };
-            let finding = Diagnostic::new(&code::DXF_FOLD, message).at(span);
-            self.out.push(finding.hint("half of a piece ends at its fold line; let the CAD system unfold it"));
-        }
-        whole
+            edge.is_closed.then(|| (edge.clone(), None))
+        };
+        outlines.iter().map(closed).collect()
     }
 
     /// What lies in which outline.
@@ -204,7 +186,7 @@ impl Making<'_> {
         }
         let outline = Chain { vertices: outline, is_closed: true };
         let span = Span::default();
-        Piece { span, plain, outline, slits, drills, inner, drawn, labels: content.labels, quantity: [1, 0] }
+        Piece { span, plain, outline, slits, drills, inner, drawn, labels: content.labels }
     }
 
     fn mark(&self, dot: &Dot, form: Form) -> Mark {

@@ -3,7 +3,7 @@
 use super::choice::{self, Chosen};
 use super::entity::{Block, NAME, Sections, sections};
 use super::group::groups;
-use super::lay::{Laid, Motion, in_a_row};
+use super::lay::{Drawn, Laid, Motion, in_a_row};
 use super::piece::{Making, Piece};
 use super::shape::{Insert, Reader, Shapes};
 use super::tally::{Tally, Thing};
@@ -26,6 +26,8 @@ const MOST_PIECES: usize = 100_000;
 #[derive(Debug, Default)]
 pub(super) struct Set {
     pieces: Vec<Piece>,
+    /// Which of them each block draws, in the order of the file.
+    drawn: Vec<Drawn>,
     /// Where each lies when the file says so: its place among the pieces, and how it is moved.
     placed: Option<Vec<(usize, Motion)>>,
     /// Room between those that lie in a row, mm.
@@ -38,7 +40,7 @@ impl Set {
     /// The pieces on the cloth, in the order of the file.
     pub(super) fn laid(&self) -> Vec<Laid<'_>> {
         match &self.placed {
-            None => in_a_row(&self.pieces, self.gap),
+            None => in_a_row(&self.pieces, &self.drawn, self.gap),
             Some(placed) => placed.iter().map(|&(k, motion)| Laid { piece: &self.pieces[k], motion }).collect(),
         }
     }
@@ -68,17 +70,20 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     let mut making =
         Making { notch_depth: job.profile.dxf.notch_mm, work: Budget::of_a_marker(), tally: Tally::default(), out };
     let mut set = Set { gap: job.profile.dxf.gap_mm, ..Set::default() };
-    let mut made: Vec<std::ops::Range<usize>> = Vec::new();
     for ((block, facts), shapes) in blocks.iter().zip(drawn) {
-        let first = set.pieces.len();
-        if chosen.has(facts) {
-            let quantity = quantity(facts, source, job, &mut making.tally);
-            set.pieces.extend(making.pieces(shapes, block.head.span(), quantity));
-        }
-        made.push(first..set.pieces.len());
+        let is_chosen = chosen.has(facts);
+        let quantity = if is_chosen { quantity(facts, source, job, &mut making.tally) } else { [0; 2] };
+        let pieces = if is_chosen { making.pieces(shapes, block.head.span()) } else { Vec::new() };
+        set.add(pieces, quantity);
     }
-    set.placed = placed(&blocks, &bases, &made, &inserts, &mut making.tally);
-    set.add_loose(loose, &mut making);
+    set.placed = placed(&blocks, &bases, &set.drawn, &inserts, &mut making.tally);
+    set.texts.clone_from(&loose.texts);
+    if !loose.lines.is_empty() {
+        set.add(making.pieces(loose, Span::default()), [1, 0]);
+        // Beside blocks that the file places they lie where they are drawn.
+        let pieces = set.drawn.last().map_or(0..0, |drawn| drawn.pieces.clone());
+        set.placed.iter_mut().for_each(|placed| placed.extend(pieces.clone().map(|piece| (piece, Motion::STILL))));
+    }
     let Making { work, tally, .. } = making;
     tally.report(out);
     say_unread(unread, out);
@@ -122,7 +127,7 @@ fn quantity(facts: &Facts, source: &Source, job: &Job, tally: &mut Tally) -> [u3
 fn placed(
     blocks: &[(&Block, Facts)],
     bases: &[crate::geom::Point],
-    made: &[std::ops::Range<usize>],
+    drawn: &[Drawn],
     inserts: &[Insert],
     tally: &mut Tally,
 ) -> Option<Vec<(usize, Motion)>> {
@@ -143,14 +148,15 @@ fn placed(
             continue;
         };
         is_used[k] = true;
-        is_placing |= !made[k].is_empty() && (insert.at != bases[k] || insert.turn != 0.0 || insert.scale != [1.0; 2]);
-        placed.extend(made[k].clone().map(|piece| (piece, Motion::of_insert(insert, bases[k]))));
+        let pieces = drawn[k].pieces.clone();
+        is_placing |= !pieces.is_empty() && (insert.at != bases[k] || insert.turn != 0.0 || insert.scale != [1.0; 2]);
+        placed.extend(pieces.map(|piece| (piece, Motion::of_insert(insert, bases[k]))));
     }
     if !is_placing {
         return None;
     }
     for (k, (block, _)) in blocks.iter().enumerate() {
-        if !is_used[k] && !made[k].is_empty() {
+        if !is_used[k] && !drawn[k].pieces.is_empty() {
             tally.add(Thing::NotPlaced, block.head.span());
         }
     }
@@ -158,18 +164,19 @@ fn placed(
 }
 
 impl Set {
-    /// What stands in no block: pieces of other CAD systems, or texts of the set.
-    fn add_loose(&mut self, loose: Shapes, making: &mut Making) {
-        self.texts.clone_from(&loose.texts);
-        if loose.lines.is_empty() {
-            return;
-        }
+    /// Adds the pieces that a block draws.
+    fn add(&mut self, pieces: Vec<Piece>, quantity: [u32; 2]) {
         let first = self.pieces.len();
-        self.pieces.extend(making.pieces(loose, Span::default(), [1, 0]));
-        // They lie where they are drawn.
-        let made = first..self.pieces.len();
-        if first == 0 && made.len() > 1 || self.placed.is_some() {
-            self.placed.get_or_insert_default().extend(made.map(|piece| (piece, Motion::STILL)));
+        self.pieces.extend(pieces);
+        self.drawn.push(Drawn { pieces: first..self.pieces.len(), quantity });
+    }
+
+    /// How many pieces lie on the cloth.
+    fn count(&self) -> usize {
+        let times = |quantity: &[u32; 2]| quantity.iter().map(|&count| count as usize).sum::<usize>();
+        match &self.placed {
+            Some(placed) => placed.len(),
+            None => self.drawn.iter().map(|drawn| drawn.pieces.len() * times(&drawn.quantity)).sum(),
         }
     }
 }
@@ -185,10 +192,7 @@ fn say_unread(unread: super::shape::Unread, out: &mut Diagnostics) {
 
 /// What is to be said of the set as a whole.
 fn say_set(set: &Set, chosen: &Chosen, is_spent: bool, out: &mut Diagnostics) {
-    let count: usize = match &set.placed {
-        Some(placed) => placed.len(),
-        None => set.pieces.iter().flat_map(|piece| piece.quantity).map(|count| count as usize).sum(),
-    };
+    let count = set.count();
     if is_spent || count > MOST_PIECES {
         let message = "the file has more pieces, notches or outlines than can be told apart";
         out.push(Diagnostic::new(&code::DXF_TOO_MANY, message).hint("look at the quantities, and split the file"));
@@ -198,13 +202,10 @@ fn say_set(set: &Set, chosen: &Chosen, is_spent: bool, out: &mut Diagnostics) {
             let hint = "pattern DXF (AAMA, ASTM D6673) has the outlines of its pieces on layer 1: export it so";
             out.push(Diagnostic::new(&code::DXF_NOTHING_TO_CUT, message).hint(hint));
         }
-    } else if set.placed.is_none() && count > 1 {
-        let message = format!(
-            "a set of patterns is no marker: {count} pieces{} lie in a row, {} mm apart, as a cutting sample",
-            chosen.told(),
-            set.gap
-        );
+    } else if set.placed.is_none() && count > 1 && !out.has_errors() {
+        let message =
+            format!("patterns are no marker: {count} pieces{} lie in a row, {} mm apart", chosen.told(), set.gap);
         let finding = Diagnostic::new(&code::DXF_SAMPLE, message);
-        out.push(finding.hint("make a marker of it in the CAD system to save cloth; `dxf.gap_mm` sets the gap"));
+        out.push(finding.hint("it is a cutting sample: for a lay make a marker of it in the CAD system"));
     }
 }

@@ -6,6 +6,7 @@
 
 pub(super) mod audit;
 pub(super) mod census;
+pub(super) mod dxf;
 pub(super) mod hpgl;
 pub(super) mod kept;
 pub(super) mod scan;
