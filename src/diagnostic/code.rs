@@ -254,6 +254,8 @@ mod table {
     pub static DXF_QUANTITY: Code = warning(Spares, Text, "dxf/quantity", "The quantity of a piece is no number, and the piece is cut once.", "A quantity is how often the piece is cut as it is drawn, and behind a comma how often mirrored.\n  QUANTITY: 1,1");
     /// An insertion of nothing.
     pub static DXF_NO_BLOCK: Code = warning(Spares, Text, "dxf/no-block", "An INSERT of a DXF file names a block that the file does not hold.", "Some systems leave the names of pieces that were deleted. If a piece is missing, export the file again.");
+    /// An insertion that scales.
+    pub static DXF_SCALE: Code = error(Shape, "dxf/scale", "An INSERT of a DXF file changes the size of a piece.", "Pieces have the size in which their blocks are drawn: one that is scaled, perhaps in one direction only, does not fit the others. If the scale stands for another unit, say that instead.\n  cutc compile pattern.dxf --set dxf.unit=inch");
     /// A piece that is nowhere.
     pub static DXF_NOT_PLACED: Code = warning(Spares, Shape, "dxf/not-placed", "A DXF file places some pieces by INSERT, and others not; those are not cut.", "A file that puts its pieces somewhere is a marker, and what it does not place is not in it. Count the pieces with `cutc info`.");
     /// Kinds that are not read.
@@ -473,6 +475,7 @@ pub static ALL: &[&Code] = &[
     &DXF_NO_OUTLINE,
     &DXF_QUANTITY,
     &DXF_NO_BLOCK,
+    &DXF_SCALE,
     &DXF_NOT_PLACED,
     &DXF_UNREAD,
     &CSV_HEADER,

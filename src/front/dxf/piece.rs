@@ -1,5 +1,7 @@
 //! Pieces: the shapes of a block become what is cut of a piece and what is only drawn on it, both halves of it.
 
+use std::collections::BTreeSet;
+
 use super::chain::{Chain, chains};
 use super::fold::{Fold, Refusal};
 use super::layer::{Does, Form, Layer};
@@ -8,8 +10,8 @@ use super::outline::{Outline, outlines};
 use super::shape::{Dot, Line, Shapes};
 use super::tally::{Tally, Thing};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::Point;
 use crate::geom::budget::Budget;
+use crate::geom::{Point, bits};
 use crate::ir::drawing::Vertex;
 use crate::ir::marker::{Label, Notch};
 use crate::source::Span;
@@ -56,6 +58,7 @@ impl Making<'_> {
         let (folds, lines): (Vec<Line>, Vec<Line>) = lines.into_iter().partition(|line| line.layer.does == Does::Fold);
         let mut folded: Vec<Fold> = folds.iter().filter_map(|line| Fold::of(&line.vertices)).collect();
         folded.dedup_by(|next, before| next.is_same(before));
+        let is_folded = !folds.is_empty() || dots.iter().any(|dot| dot.layer.does == Does::Fold);
         let mut lines = joined(lines);
         lines
             .extend(folds.into_iter().filter_map(|line| Some((line.layer, Chain::of(line.vertices, line.is_closed)?))));
@@ -70,7 +73,7 @@ impl Making<'_> {
             return Vec::new();
         }
         let outlines = outlines(edges, &mut self.work);
-        let whole = self.unfolded(&outlines, &folded);
+        let whole = self.unfolded(&outlines, &folded, is_folded);
         let contents = self.sorted(&outlines, Content { lines, dots, labels: texts });
         let is_alone = outlines.len() == 1;
         let mut pieces = Vec::new();
@@ -86,9 +89,15 @@ impl Making<'_> {
     }
 
     /// The whole of each outline, and the fold that it was unfolded about; `None` with an error where it does not close.
-    fn unfolded(&mut self, outlines: &[Outline], folds: &[Fold]) -> Vec<Option<(Chain, Option<Fold>)>> {
+    fn unfolded(
+        &mut self,
+        outlines: &[Outline],
+        folds: &[Fold],
+        is_folded: bool,
+    ) -> Vec<Option<(Chain, Option<Fold>)>> {
         let first = &outlines[0].edge;
         let refused = match (outlines, folds) {
+            (_, []) if is_folded => Some("the fold line (layer 6) has no length"),
             (_, []) => None,
             ([_], &[fold]) => match fold.unfold_outline(first) {
                 Ok(whole) => return vec![Some((whole, Some(fold)))],
@@ -210,6 +219,7 @@ fn joined(lines: Vec<Line>) -> Vec<(&'static Layer, Chain)> {
             None => layers.push((layer, vec![chain])),
         }
     }
+    layers.iter_mut().for_each(|(_, lines)| drop_doubled(lines));
     let join = |(layer, lines): (&'static Layer, Vec<Chain>)| {
         let lines = match layer.does {
             Does::Outline | Does::Inner | Does::Drawn => chains(lines),
@@ -218,6 +228,16 @@ fn joined(lines: Vec<Line>) -> Vec<(&'static Layer, Chain)> {
         lines.into_iter().map(move |line| (layer, line))
     };
     layers.into_iter().flat_map(join).collect()
+}
+
+/// Drops lines that are drawn a second time, either way round.
+fn drop_doubled(lines: &mut Vec<Chain>) {
+    let mut seen: BTreeSet<Vec<[u64; 2]>> = BTreeSet::new();
+    lines.retain(|line| {
+        let way: Vec<[u64; 2]> = line.vertices.iter().map(|vertex| bits(vertex.at)).collect();
+        let back: Vec<[u64; 2]> = way.iter().rev().copied().collect();
+        seen.insert(way.min(back))
+    });
 }
 
 /// An outline that does not close.

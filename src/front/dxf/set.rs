@@ -148,6 +148,9 @@ fn placed(
             continue;
         };
         is_used[k] = true;
+        if insert.scale.iter().any(|scale| scale.abs() != 1.0) {
+            tally.add(Thing::Scaled, insert.span);
+        }
         let pieces = drawn[k].pieces.clone();
         is_placing |= !pieces.is_empty() && (insert.at != bases[k] || insert.turn != 0.0 || insert.scale != [1.0; 2]);
         placed.extend(pieces.map(|piece| (piece, Motion::of_insert(insert, bases[k]))));

@@ -26,6 +26,8 @@ const SCALE_Y: i32 = 42;
 const BULGE: i32 = 42;
 const ANGLE: i32 = 50;
 const END_ANGLE: i32 = 51;
+/// Code of the number of vertices that a light polyline has.
+const COUNT: i32 = 90;
 
 /// Flags of polylines: closed, and kinds that are no lines; of vertices: a control point of a spline.
 const CLOSED: i64 = 1;
@@ -179,16 +181,20 @@ impl<'a> Reader<'a, '_> {
     fn light_vertices(&self, entity: &Entity) -> Result<Vec<(Vertex, f64)>, Diagnostic> {
         let mut vertices: Vec<(Vertex, f64)> = Vec::new();
         let mut x = None;
+        let lost = |span: Span| {
+            let message = "a vertex of the LWPOLYLINE has not both of its coordinates (groups 10 and 20)";
+            Diagnostic::new(&code::DXF_NO_COORDINATE, message).at(span).hint("export the file again")
+        };
         for group in entity.groups() {
             let number = || number_at(self.source, group.value);
             match (group.code, x) {
                 (X, None) => x = Some((number()?, group.value)),
-                (X, Some(_)) => break,
                 (Y, Some((first, span))) => {
                     let at = self.on_table([first, number()?], span)?;
                     vertices.push((Vertex { at, span }, 0.0));
                     x = None;
                 }
+                (X, Some(_)) | (Y, None) => return Err(lost(group.value)),
                 (BULGE, None) => {
                     let bulge = number()?;
                     vertices.last_mut().into_iter().for_each(|(_, of_last)| *of_last = bulge);
@@ -196,12 +202,14 @@ impl<'a> Reader<'a, '_> {
                 _ => {}
             }
         }
+        let told = entity.number(COUNT)?;
         match x {
-            None => Ok(vertices),
-            Some((_, span)) => {
-                let message = "a vertex of the LWPOLYLINE has an X (group 10) and no Y (group 20)";
-                Err(Diagnostic::new(&code::DXF_NO_COORDINATE, message).at(span).hint("export the file again"))
+            Some((_, span)) => Err(lost(span)),
+            None if told.is_some_and(|count| count != vertices.len() as f64) => {
+                let message = format!("the LWPOLYLINE has {} vertices, and its count another", vertices.len());
+                Err(Diagnostic::new(&code::DXF_NO_COORDINATE, message).at(entity.span()).hint("export the file again"))
             }
+            None => Ok(vertices),
         }
     }
 

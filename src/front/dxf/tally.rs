@@ -18,6 +18,8 @@ pub(super) enum Thing {
     Quantity,
     /// An insertion names no block.
     NoBlock,
+    /// An insertion changes the size of a block.
+    Scaled,
     /// A block is put nowhere, while others are.
     NotPlaced,
     /// A piece is drawn on both sides of its fold line.
@@ -64,6 +66,7 @@ fn row(thing: Thing) -> Row {
         Thing::NoOutline => Row { code: &code::DXF_NO_OUTLINE, one: "a block has something to cut and no outline on layer 1; nothing of it is cut", many: "blocks have something to cut and no outline on layer 1; nothing of them is cut", hint: "count the pieces with `cutc info`" },
         Thing::Quantity => Row { code: &code::DXF_QUANTITY, one: "a quantity is no number; the piece is cut once", many: "quantities are no numbers; these pieces are cut once", hint: "it is written as `QUANTITY: 1` or, right and left, as `QUANTITY: 1,1`" },
         Thing::NoBlock => Row { code: &code::DXF_NO_BLOCK, one: "an INSERT names a block that the file does not hold", many: "INSERTs name blocks that the file does not hold", hint: "a piece may be missing: count them with `cutc info`" },
+        Thing::Scaled => Row { code: &code::DXF_SCALE, one: "an INSERT scales a piece", many: "INSERTs scale pieces", hint: "pieces are cut in the size in which their blocks are drawn; `dxf.unit` says another unit" },
         Thing::NotPlaced => Row { code: &code::DXF_NOT_PLACED, one: "a piece is placed by no INSERT while others are, and is not cut", many: "pieces are placed by no INSERT while others are, and are not cut", hint: "count the pieces with `cutc info`" },
         Thing::FoldAcross => Row { code: &code::DXF_FOLD_ACROSS, one: "a piece is drawn on both sides of its fold line (layer 6); it is cut as it is drawn", many: "pieces are drawn on both sides of their fold lines (layer 6); they are cut as they are drawn", hint: "look at the picture (-t svg): both halves must be there" },
     }

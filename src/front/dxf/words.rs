@@ -13,7 +13,7 @@ pub(super) const WORDS: &[Word] = &[
     Word { words: "layers 2, 3, 84 to 87", about: "turn and curve points, and copies of layers 1, 8, 11 and 14: never cut" },
     Word { words: "`POLYLINE`, `LWPOLYLINE`, `LINE`, `ARC`, `CIRCLE`, `POINT`", about: "read; bulges and arcs as chords within a quarter of the tolerance; control points of splines are passed over" },
     Word { words: "`TEXT`, `MTEXT`, `ATTDEF`, `ATTRIB`", about: "labels; never cut" },
-    Word { words: "`INSERT`", about: "places, mirrors, scales and turns a block; when all of them are at the origin the pieces lie in a row. One without its block is reported" },
+    Word { words: "`INSERT`", about: "places, mirrors and turns a block; one that scales it is refused; when all of them are at the origin the pieces lie in a row. One without its block is reported" },
     Word { words: "`SIZE:`, `SAMPLE SIZE:`", about: "the size of a block; the size that is cut unless `--size` says otherwise" },
     Word { words: "`QUANTITY:`", about: "how often a piece is cut, `1,1` = right and left, which is mirrored; `dxf.quantity` or `--quantity one` says otherwise" },
     Word { words: "`UNITS:`", about: "`METRIC` = mm, `ENGLISH` = inch; else mm, with a warning; `dxf.unit` says otherwise" },

@@ -238,7 +238,9 @@ fn paths(items: &[Item], layer: u32, measure: Measure) -> Vec<Path> {
             _ => {}
         }
     }
-    paths.retain(|path| !path.points.is_empty() && !path.curves.is_empty());
+    paths.iter_mut().for_each(Path::tidy);
+    let mut seen = std::collections::BTreeSet::new();
+    paths.retain(|path| !path.curves.is_empty() && seen.insert(path.key()));
     paths
 }
 
@@ -254,6 +256,30 @@ fn round_path(item: &Item, centre: Option<Point>, measure: Measure) -> Option<Pa
 }
 
 impl Path {
+    /// Drops what has no length: equal places beside each other, and the way back of a line that goes out and back.
+    fn tidy(&mut self) {
+        if self.curves.iter().any(Option::is_some) {
+            return;
+        }
+        self.points.dedup();
+        let is_back = |points: &[Point]| points.len() > 2 && points.first() == points.last();
+        if self.is_closed && is_back(&self.points) || self.points.len() == 3 && is_back(&self.points) {
+            self.points.pop();
+        }
+        self.is_closed &= self.points.len() > 2;
+        let edges = if self.is_closed { self.points.len() } else { self.points.len().saturating_sub(1) };
+        self.curves = vec![None; edges];
+    }
+
+    /// The same for lines with the same places in either order; what curves is its own.
+    fn key(&self) -> Vec<[u64; 2]> {
+        let way: Vec<[u64; 2]> = self.points.iter().map(|point| [point.x.to_bits(), point.y.to_bits()]).collect();
+        let curves = self.curves.iter().flatten();
+        let curves: Vec<[u64; 2]> = curves.map(|round| [round.radius.to_bits(), round.sweep.to_bits()]).collect();
+        let back: Vec<[u64; 2]> = way.iter().rev().copied().collect();
+        if curves.is_empty() { way.min(back) } else { [way, curves].concat() }
+    }
+
     /// Finds the curves of bulges: by the height of the arc over its chord, which is half the chord times the bulge.
     fn bend(&mut self, bulges: &[f64]) {
         let count = self.points.len();
