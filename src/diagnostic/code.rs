@@ -247,7 +247,7 @@ mod table {
     /// A notch that becomes a slit.
     pub static DXF_NOTCH_AS_SLIT: Code = warning(Spares, Shape, "dxf/notch-as-slit", "A V, castle, check or U notch of a DXF file is cut as a slit: it is narrower than 1 mm, wider than 12 mm or flatter than 1.5 mm, or stands at a corner or beside another.", "Its mouth would take in a corner or another notch and change the outline. A slit of the same depth marks the same place.");
     /// Something to cut outside.
-    pub static DXF_OUTSIDE: Code = warning(Spares, Shape, "dxf/outside", "A cut-out, notch or hole of a DXF file lies in no outline, and is not cut.", "Lines outside of all pieces are titles and test squares as a rule. If a cut-out is missing, its piece has an outline that lies elsewhere: look at the drawing.");
+    pub static DXF_OUTSIDE: Code = warning(Spoils, Shape, "dxf/outside", "A cut-out or a hole of a DXF file lies outside of its outline; it is cut all the same.", "Its layer says that it is cut, but no piece is there: it may lie in a neighbour on the cloth, or belong to an outline that is missing. Look at the picture (-t svg) before you cut.");
     /// A block without an outline.
     pub static DXF_NO_OUTLINE: Code = warning(Spares, Shape, "dxf/no-outline", "A block of a DXF file has something to cut, but no outline on layer 1; nothing of it is cut.", "Its outline may be on another layer, or was not exported. Count the pieces with `cutc info`.");
     /// A quantity that is none.

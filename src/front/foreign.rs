@@ -9,8 +9,8 @@ pub(super) fn refuse(source: &Source, dialect: &str, out: &mut Diagnostics) -> b
     if refuse_unread(source, out) {
         return true;
     }
-    let other = OURS.iter().find(|(name, _, is)| *name != dialect && is(source.bytes()));
-    if let Some((name, what, _)) = other {
+    let other = OURS.iter().find(|ours| ours.name != dialect && (ours.is)(source.bytes()));
+    if let Some(Ours { name, what, .. }) = other {
         let message = format!("this is {what}, not a cutter file");
         let hint = format!("leave out `--from`, or give `--from {name}`");
         out.push(Diagnostic::new(&code::SOURCE_UNKNOWN, message).hint(hint));
@@ -18,8 +18,18 @@ pub(super) fn refuse(source: &Source, dialect: &str, out: &mut Diagnostics) -> b
     other.is_some()
 }
 
-/// Dialects of ours that are known for certain: by name, what files are, and how they are told.
-const OURS: &[(&str, &str, fn(&[u8]) -> bool)] = &[("dxf", "a DXF drawing", is_dxf), ("hpgl", "an HPGL plot", is_hpgl)];
+/// A dialect of ours that is known for certain.
+struct Ours {
+    name: &'static str,
+    /// What its files are.
+    what: &'static str,
+    is: fn(&[u8]) -> bool,
+}
+
+const OURS: &[Ours] = &[
+    Ours { name: "dxf", what: "a DXF drawing", is: is_dxf },
+    Ours { name: "hpgl", what: "an HPGL plot", is: is_hpgl },
+];
 
 /// Reports an empty file, or one of a format that no dialect reads; `true` when it is one.
 pub(super) fn refuse_unread(source: &Source, out: &mut Diagnostics) -> bool {

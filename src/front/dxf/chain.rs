@@ -85,7 +85,7 @@ pub(super) fn chains(lines: Vec<Chain>) -> Vec<Chain> {
 fn partners(lines: &[Chain]) -> Vec<Option<End>> {
     let place = |end: End| {
         let vertices = &lines[end / 2].vertices;
-        vertices[if end % 2 == 0 { 0 } else { vertices.len() - 1 }].at
+        vertices[if end.is_multiple_of(2) { 0 } else { vertices.len() - 1 }].at
     };
     let open = (0..2 * lines.len()).filter(|end| !lines[end / 2].is_closed);
     let cell = |at: Point| [at.x, at.y].map(|value| (value / REACH).floor() as i64);

@@ -111,10 +111,12 @@ impl Fold {
                 }
                 [true, true] if half.len() >= LEAST_HALF => lines.push(self.whole(&half)),
                 [_, true] => {
-                    lines.extend(Chain::of(half.iter().copied().chain(mirrored().rev().skip(1)).collect(), false))
+                    let there_and_on = half.iter().copied().chain(mirrored().rev().skip(1));
+                    lines.extend(Chain::of(there_and_on.collect(), false));
                 }
                 [true, false] => {
-                    lines.extend(Chain::of(mirrored().rev().chain(half.iter().copied().skip(1)).collect(), false))
+                    let there_and_on = mirrored().rev().chain(half.iter().copied().skip(1));
+                    lines.extend(Chain::of(there_and_on.collect(), false));
                 }
                 [false, false] => {
                     lines.extend(Chain::of(mirrored().collect(), false));

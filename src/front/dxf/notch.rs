@@ -95,7 +95,9 @@ pub(super) fn cut(mut outline: Vec<Vertex>, marks: &[Mark], work: &mut Budget) -
         let start = edge.start(&placed);
         let [before, length] = [edge.stations[start], edge.length()];
         outline.rotate_left(start);
-        placed.iter_mut().for_each(|notch| notch.station = (notch.station - before).rem_euclid(length));
+        for notch in &mut placed {
+            notch.station = (notch.station - before).rem_euclid(length);
+        }
     }
     placed.sort_by(|a, b| a.station.total_cmp(&b.station));
     placed.dedup_by(|next, before| next.station - before.station <= SAME);

@@ -17,7 +17,8 @@ pub(super) struct Outline {
 }
 
 impl Outline {
-    fn of(edge: Chain) -> Self {
+    /// An outline with nothing in it yet.
+    pub(super) fn of(edge: Chain) -> Self {
         let points = edge.points();
         let extent = Extent::of(&points).grown(BESIDE);
         Self { edge, inner: Vec::new(), points, extent }

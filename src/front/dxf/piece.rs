@@ -125,7 +125,7 @@ impl Making<'_> {
         outlines.iter().map(closed).collect()
     }
 
-    /// What lies in which outline.
+    /// What lies in which outline; what lies in none goes with the first.
     fn sorted(&mut self, outlines: &[Outline], all: Content) -> Vec<Content> {
         if outlines.len() == 1 {
             return vec![all];
@@ -133,19 +133,11 @@ impl Making<'_> {
         let mut contents: Vec<Content> = outlines.iter().map(|_| Content::default()).collect();
         for (layer, line) in all.lines {
             let owner = self.owner(outlines, line.vertices[0].at);
-            if owner.is_none() && layer.is_cut() {
-                self.tally.add(Thing::Outside, line.vertices[0].span);
-            }
-            if owner.is_some() || !layer.is_cut() {
-                contents[owner.unwrap_or(0)].lines.push((layer, line));
-            }
+            contents[owner.unwrap_or(0)].lines.push((layer, line));
         }
         for dot in all.dots {
-            match self.owner(outlines, dot.at) {
-                Some(owner) => contents[owner].dots.push(dot),
-                None if dot.layer.is_cut() => self.tally.add(Thing::Outside, dot.span),
-                None => {}
-            }
+            let owner = self.owner(outlines, dot.at);
+            contents[owner.unwrap_or(0)].dots.push(dot);
         }
         for label in all.labels {
             if let Some(owner) = label.at.and_then(|at| self.owner(outlines, at)) {
@@ -182,7 +174,9 @@ impl Making<'_> {
             }
         }
         let Notched { outline, slits, doubts } = notch::cut(plain.vertices.clone(), &marks, &mut self.work);
-        doubts.into_iter().for_each(|(doubt, span)| self.tally.add(Thing::Notch(doubt), span));
+        for (doubt, span) in doubts {
+            self.tally.add(Thing::Notch(doubt), span);
+        }
         let (mut inner, mut drawn) = (Vec::new(), Vec::new());
         for (layer, line) in content.lines {
             match layer.does {
@@ -193,6 +187,14 @@ impl Making<'_> {
                 }
             }
         }
+        let around = Outline::of(plain);
+        let starts = inner.iter().map(|line| line.vertices[0]).map(|vertex| (vertex.at, vertex.span));
+        for (at, span) in starts.chain(drills.iter().copied()) {
+            if !around.holds(at, &mut self.work) {
+                self.tally.add(Thing::Outside, span);
+            }
+        }
+        let plain = around.edge;
         let outline = Chain { vertices: outline, is_closed: true };
         let span = Span::default();
         Piece { span, plain, outline, slits, drills, inner, drawn, labels: content.labels }
@@ -219,7 +221,9 @@ fn joined(lines: Vec<Line>) -> Vec<(&'static Layer, Chain)> {
             None => layers.push((layer, vec![chain])),
         }
     }
-    layers.iter_mut().for_each(|(_, lines)| drop_doubled(lines));
+    for (_, lines) in &mut layers {
+        drop_doubled(lines);
+    }
     let join = |(layer, lines): (&'static Layer, Vec<Chain>)| {
         let lines = match layer.does {
             Does::Outline | Does::Inner | Does::Drawn => chains(lines),

@@ -10,7 +10,7 @@ use crate::source::Span;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Thing {
     Notch(Doubt),
-    /// Something that is cut lies in no outline.
+    /// A cut-out or a hole lies in no outline.
     Outside,
     /// A block has something to cut and no outline.
     NoOutline,
@@ -62,7 +62,7 @@ fn row(thing: Thing) -> Row {
         Thing::Notch(Doubt::TooDeep) => Row { code: left_out, one: "a notch is deeper than 15 mm or than its part is there, and is not cut", many: "notches are deeper than 15 mm or than their part is there, and are not cut", hint: "look at the depth (group 30) and at the unit of the file" },
         Thing::Notch(Doubt::InAnother) => Row { code: left_out, one: "a notch lies in the mouth of another one and is not cut", many: "notches lie in the mouths of others and are not cut", hint: "one of both is enough: see which in the picture (-t svg)" },
         Thing::Notch(Doubt::AsSlit) => Row { code: &code::DXF_NOTCH_AS_SLIT, one: "a notch is too small or wide, at a corner or beside another one: cut as a slit", many: "notches are too small or wide, at corners or beside others: cut as slits", hint: "a slit marks the same place" },
-        Thing::Outside => Row { code: &code::DXF_OUTSIDE, one: "something to cut lies in no outline, and is not cut", many: "things to cut lie in no outline, and are not cut", hint: "see in the picture (-t svg) what is missing" },
+        Thing::Outside => Row { code: &code::DXF_OUTSIDE, one: "a cut-out or a hole lies outside of its outline, and is cut all the same", many: "cut-outs or holes lie outside of their outlines, and are cut all the same", hint: "see in the picture (-t svg) where the knife goes" },
         Thing::NoOutline => Row { code: &code::DXF_NO_OUTLINE, one: "a block has something to cut and no outline on layer 1; nothing of it is cut", many: "blocks have something to cut and no outline on layer 1; nothing of them is cut", hint: "count the pieces with `cutc info`" },
         Thing::Quantity => Row { code: &code::DXF_QUANTITY, one: "a quantity is no number; the piece is cut once", many: "quantities are no numbers; these pieces are cut once", hint: "it is written as `QUANTITY: 1` or, right and left, as `QUANTITY: 1,1`" },
         Thing::NoBlock => Row { code: &code::DXF_NO_BLOCK, one: "an INSERT names a block that the file does not hold", many: "INSERTs name blocks that the file does not hold", hint: "a piece may be missing: count them with `cutc info`" },

@@ -49,7 +49,9 @@ impl Writer {
     /// The whole file, with texts behind its blocks.
     pub(super) fn end(mut self, texts: &[&str]) -> String {
         self.group(0, "ENDSEC").group(0, "SECTION").group(2, "ENTITIES");
-        texts.iter().for_each(|text| _ = self.text(text));
+        for text in texts {
+            self.text(text);
+        }
         self.group(0, "ENDSEC").group(0, "EOF");
         self.text
     }
@@ -92,7 +94,9 @@ impl Writer {
                 self.polyline(layer, &second, false)
             }
             Drawn::Lines => {
-                again.windows(2).for_each(|ends| _ = self.line(layer, [ends[0], ends[1]]));
+                for ends in again.windows(2) {
+                    self.line(layer, [ends[0], ends[1]]);
+                }
                 self
             }
         }

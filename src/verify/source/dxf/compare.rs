@@ -63,7 +63,7 @@ impl Lookup {
     }
 }
 
-/// Compares a marker as it was read with a scan of the bytes of a pattern DXF.
+/// Compares a marker as it was read with a scan of the bytes of a set of patterns.
 pub fn pattern_audit(bytes: &[u8], read: &CutPlaces, job: &Job) -> Vec<Finding> {
     let (cuts, off) = cloth(bytes, job);
     let reach = PLACE_EPSILON + off;
@@ -83,7 +83,7 @@ pub fn pattern_audit(bytes: &[u8], read: &CutPlaces, job: &Job) -> Vec<Finding> 
 struct Line {
     /// Its places but those of notches, and the two ends of their mouths.
     drawn: Vec<(Point, u32)>,
-    /// CutPlaces of notches.
+    /// Places of notches.
     notched: Vec<(Point, u32)>,
     /// Widths of the mouths, mm.
     widths: Vec<f64>,

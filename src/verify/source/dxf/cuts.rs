@@ -311,13 +311,6 @@ fn clusters(paths: Vec<Path>) -> Vec<Vec<Path>> {
     let mut all: Vec<(Point, usize)> =
         (0..paths.len()).filter(|&k| !paths[k].is_closed).flat_map(|k| ends(k).map(|at| (at, k))).collect();
     all.sort_by(|a, b| a.0.x.total_cmp(&b.0.x));
-    fn root(owner: &mut [usize], mut k: usize) -> usize {
-        while owner[k] != k {
-            owner[k] = owner[owner[k]];
-            k = owner[k];
-        }
-        k
-    }
     for (i, &(at, k)) in all.iter().enumerate() {
         for &(other, of) in all[i + 1..].iter().take_while(|(other, _)| other.x - at.x <= MEETS) {
             if (other - at).norm() <= MEETS {
@@ -331,4 +324,13 @@ fn clusters(paths: Vec<Path>) -> Vec<Vec<Path>> {
     paths.into_iter().zip(roots).for_each(|(path, root)| clusters[root].push(path));
     clusters.retain(|paths| !paths.is_empty());
     clusters
+}
+
+/// The one that stands for all that belong together.
+fn root(owner: &mut [usize], mut k: usize) -> usize {
+    while owner[k] != k {
+        owner[k] = owner[owner[k]];
+        k = owner[k];
+    }
+    k
 }
