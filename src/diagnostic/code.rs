@@ -219,7 +219,7 @@ mod table {
     /// A block without its end.
     pub static DXF_OPEN_BLOCK: Code = error(Text, "dxf/open-block", "A block of a DXF file has no ENDBLK: lines of it may be missing.", "A block is a piece. Without its end nobody knows whether an edge, a notch or the next piece was lost. Export the file again.");
     /// A polyline without its end.
-    pub static DXF_OPEN_POLYLINE: Code = error(Text, "dxf/open-polyline", "A polyline of a DXF file has no SEQEND: vertices of it may be missing.", "An outline that lacks vertices is cut straight from where they end. Export the file again.");
+    pub static DXF_OPEN_POLYLINE: Code = error(Text, "dxf/open-polyline", "A polyline of a DXF file has no SEQEND: vertices of it may be missing.", "An outline that lacks vertices would be cut straight across the gap, through the piece. Export the file again, or transfer it as it is.");
     /// Something to cut that is not read.
     pub static DXF_UNREAD_CUT: Code = error(Text, "dxf/unread-cut", "An entity on a layer that is cut is of a kind that is not read, such as SPLINE or ELLIPSE.", "The convention for patterns has polylines, lines, points and texts alone. Leaving the entity out would leave a part of an outline uncut: let the CAD system export polylines (R12, AAMA or ASTM).");
     /// A unit that nobody knows.
