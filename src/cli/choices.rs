@@ -5,7 +5,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use crate::back::{TARGETS, Target};
 use crate::front::{DIALECTS, Dialect};
-use crate::machine::plot;
+use crate::machine::{patterns, plot};
 use crate::manual::{PAGES, Page};
 use crate::pass::marker::MARKER_PASSES;
 use crate::pass::toolpath::TOOLPATH_PASSES;
@@ -48,6 +48,24 @@ impl From<Inner> for plot::Inner {
             Inner::Ignore => Self::Ignore,
             Inner::Cut => Self::Cut,
             Inner::All => Self::All,
+        }
+    }
+}
+
+/// How often the pieces of a pattern DXF are cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Quantity {
+    /// As the file says, right and left
+    File,
+    /// Once, as they are drawn
+    One,
+}
+
+impl From<Quantity> for patterns::Quantity {
+    fn from(quantity: Quantity) -> Self {
+        match quantity {
+            Quantity::File => Self::File,
+            Quantity::One => Self::One,
         }
     }
 }

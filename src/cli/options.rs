@@ -10,6 +10,7 @@ use super::finished::{FAULTY, Finished, USAGE, failure, say};
 use super::{choices, files};
 use crate::diagnostic::{Detail, Diagnostics, Severity, render_with};
 use crate::front::Dialect;
+use crate::machine::patterns::{Patterns, Quantity, Sizes};
 use crate::machine::plot::{Inner, Lines};
 use crate::machine::{Centre, Faults, Job, Mode, NotNumbers, NotStart, Numbers, Selection, Start, load_given};
 use crate::source::Source;
@@ -74,6 +75,9 @@ pub(super) struct Reading {
 
     #[command(flatten)]
     lines: Plotted,
+
+    #[command(flatten)]
+    patterns: Patterned,
 }
 
 /// Which lines of a plot are cut.
@@ -98,12 +102,38 @@ struct Plotted {
     cut_all: bool,
 }
 
+/// Which patterns of a set are cut.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Patterns (DXF)")]
+pub(super) struct Patterned {
+    /// The sizes of a pattern DXF that are cut, as in `--size M`, `--size S,M` or `--size all`; else its sample size
+    #[arg(long = "size", value_name = "SIZES", value_parser = sizes)]
+    sizes: Option<Sizes>,
+
+    /// How often its pieces are cut; without it `dxf.quantity` of the profile holds
+    #[arg(long, value_name = "HOW", value_enum)]
+    quantity: Option<choices::Quantity>,
+}
+
+/// Reads sizes.
+fn sizes(text: &str) -> anyhow::Result<Sizes> {
+    Sizes::parse(text).ok_or_else(|| anyhow::anyhow!("expected names of sizes, as in S,M, or `all`"))
+}
+
+impl Patterned {
+    /// The job with these patterns.
+    pub(super) fn of(&self, job: Job) -> Job {
+        let patterns = Patterns { sizes: self.sizes.clone(), quantity: self.quantity.map(Into::into) };
+        Job { patterns, ..job }
+    }
+}
+
 impl Reading {
     /// The job on this machine with these lines, or what is wrong with its profile.
     pub(super) fn job(&self) -> anyhow::Result<Result<Job, Finished>> {
         let Plotted { cut_pens, inner, cut_all } = &self.lines;
         let lines = Lines { pens: cut_pens.clone(), inner: inner.map(Into::into), all: *cut_all };
-        Ok(self.machine.job()?.map(|job| Job { lines, ..job }))
+        Ok(self.machine.job()?.map(|job| self.patterns.of(Job { lines, ..job })))
     }
 }
 
@@ -209,6 +239,14 @@ pub(super) fn typed(job: &Job) -> String {
         format!("--inner {name}")
     }));
     words.extend(job.lines.all.then(|| "--cut-all".to_owned()));
+    words.extend(job.patterns.sizes.iter().map(|sizes| format!("--size {sizes}")));
+    words.extend(job.patterns.quantity.iter().map(|quantity| {
+        let name = match quantity {
+            Quantity::File => "file",
+            Quantity::One => "one",
+        };
+        format!("--quantity {name}")
+    }));
     words.extend(pieces.iter().map(|numbers| format!("--pieces {numbers}")));
     words.extend(skip.iter().map(|numbers| format!("--skip {numbers}")));
     words.extend(resume_from.iter().map(|number| format!("--resume-from {number}")));

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use super::options::{counted, typed};
 use crate::diagnostic::{Diagnostics, Severity};
 use crate::ir::declaration::Total;
+use crate::machine::patterns::Patterns;
 use crate::machine::plot::Lines;
 use crate::machine::{Follow, Job, Mode, NotchStyle};
 use crate::pipeline::{Axes, Common, Peak, Peaks, Report, Savings, Sides, Spent, Verdict, word};
@@ -175,6 +176,10 @@ pub(super) fn choice(job: &Job) -> String {
     if job.lines != Lines::default() {
         let lines = typed(&Job { lines: job.lines.clone(), ..Job::default() });
         let _ = writeln!(out, "{}  lines      {lines}: so they were chosen", if out.is_empty() { "\n" } else { "" });
+    }
+    if job.patterns != Patterns::default() {
+        let patterns = typed(&Job { patterns: job.patterns.clone(), ..Job::default() });
+        let _ = writeln!(out, "{}  patterns   {patterns}: so they were chosen", if out.is_empty() { "\n" } else { "" });
     }
     let mode = match job.mode {
         Mode::Cut => return out,

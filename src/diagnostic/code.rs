@@ -203,6 +203,64 @@ mod table {
     /// The searches for notches, letters and seam lines.
     pub static DRAWING_SEARCH_ENDED: Code = warning(Spares, Shape, "drawing/search-ended", "A drawing has so many lines that the search for notches, letters and seam lines was ended; some are not recognised.", "A mark that is not recognised as a notch is not cut, and a seam line may count as a cut-out. Leave texts and clutter out of the export, or split the plot.");
 
+    // Pattern DXF.
+    /// A line that is no code.
+    pub static DXF_GROUP: Code = error(Text, "dxf/group", "A line of a DXF file should hold the code of a group, and does not.", "DXF is pairs of lines, a code and its value. Where a line is lost or added, every value behind it would be taken for another: a coordinate for a layer. Export the file again, or transfer it as it is.");
+    /// No end.
+    pub static DXF_CUT_SHORT: Code = error(Text, "dxf/cut-short", "A DXF file does not end with EOF: it was cut short.", "The end of the file is missing, and with it perhaps the rest of an outline or whole pieces. Transfer it again and compare the sizes of both files.");
+    /// A number that is none.
+    pub static DXF_NUMBER: Code = error(Text, "dxf/number", "A coordinate, size or angle of a DXF file is not a decimal number.", "A number that is guessed would be a wrong cut. Decimal commas come from the language of the computer that exported the file: set the export to decimal points.");
+    /// A place without X or Y.
+    pub static DXF_NO_COORDINATE: Code = error(Text, "dxf/no-coordinate", "An entity of a DXF file lacks a coordinate.", "A place that is taken for 0 would pull the outline across the cloth. Lines were lost on the way: export or transfer the file again.");
+    /// A place that no table reaches.
+    pub static DXF_FAR_PLACE: Code = error(Text, "dxf/far-place", "A place of a DXF file lies more than a kilometre from the origin: a digit is doubled, or the unit is wrong.", "No table is a kilometre long, so the motion would be nonsense. Look at the number, and whether the file is really in inches.\n  cutc check pattern.dxf --set dxf.unit=mm");
+    /// Curves without end.
+    pub static DXF_CURVES: Code = error(Shape, "dxf/too-many-chords", "The curves of a DXF file have more chords than a set of patterns can need.", "Curves are read as chords within a quarter of the tolerance. So many of them come from a damaged radius, or from a tolerance far below what a knife can follow.");
+    /// A block without its end.
+    pub static DXF_OPEN_BLOCK: Code = error(Text, "dxf/open-block", "A block of a DXF file has no ENDBLK: lines of it may be missing.", "A block is a piece. Without its end nobody knows whether an edge, a notch or the next piece was lost. Export the file again.");
+    /// A polyline without its end.
+    pub static DXF_OPEN_POLYLINE: Code = error(Text, "dxf/open-polyline", "A polyline of a DXF file has no SEQEND: vertices of it may be missing.", "An outline that lacks vertices would be cut straight across the gap, through the piece. Export the file again, or transfer it as it is.");
+    /// Something to cut that is not read.
+    pub static DXF_UNREAD_CUT: Code = error(Text, "dxf/unread-cut", "An entity on a layer that is cut is of a kind that is not read, such as SPLINE or ELLIPSE.", "The convention for patterns has polylines, lines, points and texts alone. Leaving the entity out would leave a part of an outline uncut: let the CAD system export polylines (R12, AAMA or ASTM).");
+    /// A unit that nobody knows.
+    pub static DXF_UNIT: Code = error(Text, "dxf/unit", "The text UNITS of a DXF file is neither METRIC nor ENGLISH.", "Patterns that are 25.4 times too large or too small spoil the cloth. Say which unit the numbers have.\n  cutc compile pattern.dxf --set dxf.unit=mm");
+    /// Sizes, and no choice.
+    pub static DXF_WHICH_SIZE: Code = error(Shape, "dxf/which-size", "A set of patterns has several sizes, and neither its sample size nor `--size` says which is cut.", "Sizes lie over each other in the file. Cutting a size that nobody asked for wastes the cloth: name one, several, or all.\n  cutc compile pattern.dxf --size M\n  cutc compile pattern.dxf --size S,M,L");
+    /// A size that is not there.
+    pub static DXF_NO_SIZE: Code = error(Shape, "dxf/no-size", "A size that `--size` asks for is not in the file.", "The sizes of a set stand in its texts, as in SIZE: M. The message lists them.\n  cutc compile pattern.dxf --size all");
+    /// An outline with a gap.
+    pub static DXF_OPEN_OUTLINE: Code = error(Shape, "dxf/open-outline", "The outline of a piece (layer 1) does not close; its lines are joined where their ends meet within 0.2 mm.", "A piece whose outline is open cannot be cut out, and a straight line across the gap may be wrong by its width. Close the outline in the CAD system.");
+    /// A fold that is no edge.
+    pub static DXF_FOLD: Code = error(Shape, "dxf/fold", "A fold line (layer 6) does not lie along exactly one straight edge of its outline, so the piece cannot be unfolded.", "A block with a fold line is half a piece. Cut as it is drawn the garment would lack the other half, and unfolded about a wrong line it would have another shape. Let the CAD system export the whole piece, or correct the line.");
+    /// Too much of everything.
+    pub static DXF_TOO_MANY: Code = error(Shape, "dxf/too-many-pieces", "A DXF file has more pieces, notches or outlines than can be told apart, or quantities beyond any order.", "Which notch is on which outline was not sought to the end, so some would not be cut. Split the file, or correct a quantity that is damaged.");
+    /// No outline.
+    pub static DXF_NOTHING_TO_CUT: Code = error(Shape, "dxf/nothing-to-cut", "A DXF file was read to its end and holds no outline on layer 1, of the sizes that are cut.", "Drawings of other CAD systems have layers of their own. Pattern DXF has outlines on layer 1, notches on 4, cut-outs on 11, drill holes on 13: export it as AAMA or ASTM DXF.");
+    /// Patterns are no marker.
+    pub static DXF_SAMPLE: Code = warning(Spares, Shape, "dxf/cutting-sample", "A set of patterns is no marker: its pieces lie in a row, which takes more cloth than a marker.", "Pattern DXF says what pieces look like, not where they lie. A row is good for a sample, not for a lay. Let the CAD system make a marker; `dxf.gap_mm` sets the room between the pieces.\n  cutc compile pattern.dxf --set dxf.gap_mm=10");
+    /// No unit.
+    pub static DXF_NO_UNIT: Code = warning(Spoils, Shape, "dxf/no-unit", "A DXF file does not say its unit (UNITS: METRIC or ENGLISH); it is taken for mm.", "Patterns in inches would be 25 times too small. Compare the extent that is printed with the pieces, then say the unit.\n  cutc compile pattern.dxf --set dxf.unit=inch");
+    /// A whole piece with a fold line.
+    pub static DXF_FOLD_ACROSS: Code = warning(Spoils, Shape, "dxf/fold-across", "A piece is drawn on both sides of its fold line (layer 6), so it is taken for a whole one.", "Half pieces end at their fold line. One that goes on across it is whole already, or its line is wrong. Look at the picture (-t svg) before you cut.");
+    /// A notch that is not cut.
+    pub static DXF_NOTCH_LEFT_OUT: Code = warning(Spares, Shape, "dxf/notch-left-out", "A notch of a DXF file is not cut: it lies off the outline, is deeper than 15 mm or than its part is there, or lies in another one.", "A cut into a part that is wrong cannot be mended, and a notch that is missing can. Notches on seam lines mark where parts meet and are not for the knife. See in the picture (-t svg) which are missing.");
+    /// A notch that becomes a slit.
+    pub static DXF_NOTCH_AS_SLIT: Code = warning(Spares, Shape, "dxf/notch-as-slit", "A V, castle, check or U notch of a DXF file is cut as a slit: it is narrower than 1 mm, wider than 12 mm or flatter than 1.5 mm, or stands at a corner or beside another.", "Its mouth would take in a corner or another notch and change the outline. A slit of the same depth marks the same place.");
+    /// Something to cut outside.
+    pub static DXF_OUTSIDE: Code = warning(Spoils, Shape, "dxf/outside", "A cut-out or a hole of a DXF file lies outside of its outline; it is cut all the same.", "Its layer says that it is cut, but no piece is there: it may lie in a neighbour on the cloth, or belong to an outline that is missing. Look at the picture (-t svg) before you cut.");
+    /// A block without an outline.
+    pub static DXF_NO_OUTLINE: Code = warning(Spares, Shape, "dxf/no-outline", "A block of a DXF file has something to cut, but no outline on layer 1; nothing of it is cut.", "Its outline may be on another layer, or was not exported. Count the pieces with `cutc info`.");
+    /// A quantity that is none.
+    pub static DXF_QUANTITY: Code = warning(Spares, Text, "dxf/quantity", "The quantity of a piece is no number, and the piece is cut once.", "A quantity is how often the piece is cut as it is drawn, and behind a comma how often mirrored.\n  QUANTITY: 1,1");
+    /// An insertion of nothing.
+    pub static DXF_NO_BLOCK: Code = warning(Spares, Text, "dxf/no-block", "An INSERT of a DXF file names a block that the file does not hold.", "Some systems leave the names of pieces that were deleted. If a piece is missing, export the file again.");
+    /// An insertion that scales.
+    pub static DXF_SCALE: Code = error(Shape, "dxf/scale", "An INSERT of a DXF file changes the size of a piece.", "Pieces have the size in which their blocks are drawn: one that is scaled, perhaps in one direction only, does not fit the others. If the scale stands for another unit, say that instead.\n  cutc compile pattern.dxf --set dxf.unit=inch");
+    /// A piece that is nowhere.
+    pub static DXF_NOT_PLACED: Code = warning(Spares, Shape, "dxf/not-placed", "A DXF file places some pieces by INSERT, and others not; those are not cut.", "A file that puts its pieces somewhere is a marker, and what it does not place is not in it. Count the pieces with `cutc info`.");
+    /// Kinds that are not read.
+    pub static DXF_UNREAD: Code = warning(Spares, Text, "dxf/unread", "Entities of a DXF file are of kinds that are not read; none of them is on a layer that is cut.", "Dimensions, hatchings and splines of other layers are drawn and not cut. If a line is missing in the picture (-t svg), this is where to look.");
+
     // CSV polylines.
     /// The header is missing.
     pub static CSV_HEADER: Code = error(Text, "csv/header", "The first row must be `x_mm,y_mm`.", "The header tells a list of points from any other table, and says that the unit is mm. Write it above the rows.\n  x_mm,y_mm\n  0,0\n  100,0");
@@ -434,6 +492,34 @@ pub static ALL: &[&Code] = &[
     &DRAWING_INNER_LINES,
     &DRAWING_SMALL_OUTLINES,
     &DRAWING_SEARCH_ENDED,
+    &DXF_GROUP,
+    &DXF_CUT_SHORT,
+    &DXF_NUMBER,
+    &DXF_NO_COORDINATE,
+    &DXF_FAR_PLACE,
+    &DXF_CURVES,
+    &DXF_OPEN_BLOCK,
+    &DXF_OPEN_POLYLINE,
+    &DXF_UNREAD_CUT,
+    &DXF_UNIT,
+    &DXF_WHICH_SIZE,
+    &DXF_NO_SIZE,
+    &DXF_OPEN_OUTLINE,
+    &DXF_FOLD,
+    &DXF_TOO_MANY,
+    &DXF_NOTHING_TO_CUT,
+    &DXF_SAMPLE,
+    &DXF_NO_UNIT,
+    &DXF_FOLD_ACROSS,
+    &DXF_NOTCH_LEFT_OUT,
+    &DXF_NOTCH_AS_SLIT,
+    &DXF_OUTSIDE,
+    &DXF_NO_OUTLINE,
+    &DXF_QUANTITY,
+    &DXF_NO_BLOCK,
+    &DXF_SCALE,
+    &DXF_NOT_PLACED,
+    &DXF_UNREAD,
     &CSV_HEADER,
     &CSV_ROW,
     &CSV_NO_LENGTH,

@@ -134,7 +134,7 @@ fn check_syntax(source: &Source, out: &mut Diagnostics) {
 
 fn read(source: &Source, _: &Job, out: &mut Diagnostics) -> Marker {
     let mut marker = Marker::default();
-    if foreign::refuse(source, out) {
+    if foreign::refuse(source, DIALECT.name, out) {
         return marker;
     }
     let mut faults = Diagnostics::default();

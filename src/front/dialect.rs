@@ -40,6 +40,13 @@ pub enum Read {
     Marker(fn(&Source, &Job, &mut Diagnostics) -> Marker),
     /// What a pen draws: what of it is cut must be recognised.
     Drawing(fn(&Source, &Job, &mut Diagnostics) -> Drawing),
+    /// Both: its layers say what is cut.
+    Patterns {
+        /// What is cut.
+        cut: fn(&Source, &Job, &mut Diagnostics) -> Marker,
+        /// All that is drawn, with the layers as pens.
+        drawn: fn(&Source, &Job, &mut Diagnostics) -> Drawing,
+    },
 }
 
 /// How much some bytes look like a dialect.

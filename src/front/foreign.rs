@@ -4,18 +4,33 @@ use super::sewn;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::source::Source;
 
-/// Reports an empty file, or one of another format, be it another dialect of ours; `true` when it is one.
-pub(super) fn refuse(source: &Source, out: &mut Diagnostics) -> bool {
+/// Reports an empty file, or one of another format, be it another dialect of ours than that of the name; `true` when it is
+/// one.
+pub(super) fn refuse(source: &Source, dialect: &str, out: &mut Diagnostics) -> bool {
     if refuse_unread(source, out) {
         return true;
     }
-    let is_plot = is_hpgl(source.bytes());
-    if is_plot {
-        let message = "this is an HPGL plot, not a cutter file";
-        out.push(Diagnostic::new(&code::SOURCE_UNKNOWN, message).hint("leave out `--from`, or give `--from hpgl`"));
+    let other = OURS.iter().find(|ours| ours.name != dialect && (ours.is)(source.bytes()));
+    if let Some(Ours { name, what, .. }) = other {
+        let message = format!("this is {what}, not a cutter file");
+        let hint = format!("leave out `--from`, or give `--from {name}`");
+        out.push(Diagnostic::new(&code::SOURCE_UNKNOWN, message).hint(hint));
     }
-    is_plot
+    other.is_some()
 }
+
+/// A dialect of ours that is known for certain.
+struct Ours {
+    name: &'static str,
+    /// What its files are.
+    what: &'static str,
+    is: fn(&[u8]) -> bool,
+}
+
+const OURS: &[Ours] = &[
+    Ours { name: "dxf", what: "a DXF drawing", is: is_dxf },
+    Ours { name: "hpgl", what: "an HPGL plot", is: is_hpgl },
+];
 
 /// Reports an empty file, or one of a format that no dialect reads; `true` when it is one.
 pub(super) fn refuse_unread(source: &Source, out: &mut Diagnostics) -> bool {
@@ -59,13 +74,17 @@ const FORMATS: &[Format] = &[
     Format { what: "a PDF document", hint: EXPORT_CUT, is: |b| b.starts_with(b"%PDF") },
     Format { what: "a PNG picture", hint: EXPORT_CUT, is: |b| b.starts_with(b"\x89PNG") },
     Format { what: "text in UTF-16", hint: "save it as plain text: one byte a character", is: is_utf16 },
+    Format {
+        what: "a binary DXF drawing",
+        hint: "save it as text (ASCII DXF)",
+        is: |b| b.starts_with(b"AutoCAD Binary DXF"),
+    },
     Format { what: "binary data", hint: EXPORT_CUT, is: is_binary },
     Format {
         what: "a Gerber file for circuit boards (RS-274X)",
         hint: "the name is the same, the format is not; garment CAD writes ISO cut files with M14 and M15",
         is: is_circuit_board,
     },
-    Format { what: "a DXF drawing", hint: EXPORT_CUT, is: is_dxf },
     Format {
         what: "G-code for a machine tool",
         hint: "its blocks end with the line; cutter files end them with `*`",
@@ -112,14 +131,16 @@ fn is_circuit_board(bytes: &[u8]) -> bool {
     head(bytes).split(|&byte| byte == b'*' || byte == b'\n').take(20).any(|block| starts(block.trim_ascii()))
 }
 
-fn is_dxf(bytes: &[u8]) -> bool {
+/// A section begins, or remarks stand before it.
+pub(super) fn is_dxf(bytes: &[u8]) -> bool {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let mut lines = head(bytes).split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii);
-    bytes.starts_with(b"AutoCAD Binary DXF")
-        || match (lines.next(), lines.next()) {
-            (Some(b"0"), Some(b"SECTION")) => true,
-            (Some(b"999"), Some(_)) => lines.any(|line| line == b"SECTION"),
-            _ => false,
-        }
+    let is_section = |line: &[u8]| line.eq_ignore_ascii_case(b"SECTION");
+    match (lines.next(), lines.next()) {
+        (Some(b"0"), Some(line)) => is_section(line),
+        (Some(b"999"), Some(_)) => lines.any(is_section),
+        _ => false,
+    }
 }
 
 /// Two letters and numbers, between semicolons.
@@ -171,7 +192,7 @@ mod tests {
         check(b"PK\x03\x04\x14\0", Some("a zip archive"));
         check(b"G04 comment*\n%FSLAX24Y24*%\n%MOIN*%\nX0Y0D02*", Some("a Gerber file for circuit boards (RS-274X)"));
         check(b"%\nG21\nG0 X1 Y2\nM30\n", Some("G-code for a machine tool"));
-        check(b"  0\r\nSECTION\r\n  2\r\nHEADER\r\n", Some("a DXF drawing"));
+        check(b"AutoCAD Binary DXF\r\n\x1a\0\0\0SECTION", Some("a binary DXF drawing"));
         check(b"H\x001\0*\0M\x001\x005\0*\0", Some("text in UTF-16"));
         check(b"\x01\x02\x7f\x03abc\x04\x05", Some("binary data"));
     }
@@ -181,7 +202,8 @@ mod tests {
         let source = Source::new("a.cut", b"IN;SP1;PU0,0;PD400,0;".to_vec()).expect("small");
         let mut found = Diagnostics::default();
         assert!(!refuse_unread(&source, &mut found) && !found.has_errors());
-        assert!(refuse(&source, &mut found) && found.has_errors());
+        assert!(!refuse(&source, "hpgl", &mut found) && !found.has_errors());
+        assert!(refuse(&source, "iso", &mut found) && found.has_errors());
     }
 
     #[test]
@@ -189,6 +211,7 @@ mod tests {
         check(b"H1*G71*M15*N1*X0Y0*M14*X100Y0*M15*M0*", None);
         check(b"H1*\nG71*\nM15*\nX0Y0*\nM14*\n", None);
         check(b"x_mm,y_mm\n1,2\n", None);
+        check(b"  0\r\nSECTION\r\n  2\r\nHEADER\r\n", None);
         check(b"H1*M15*M20*%FS;PU;PD*M0*", None);
     }
 }

@@ -7,6 +7,7 @@
 
 mod csv;
 mod dialect;
+mod dxf;
 mod foreign;
 mod hpgl;
 mod iso;
@@ -18,7 +19,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::source::Source;
 
 /// Every dialect, the likelier ones first.
-pub const DIALECTS: &[Dialect] = &[iso::DIALECT, hpgl::DIALECT, csv::DIALECT];
+pub const DIALECTS: &[Dialect] = &[iso::DIALECT, hpgl::DIALECT, dxf::DIALECT, csv::DIALECT];
 
 /// The dialect of that name.
 pub fn by_name(name: &str) -> Option<&'static Dialect> {

@@ -27,6 +27,7 @@ pub mod notches;
 pub mod order;
 mod origin;
 pub mod path;
+pub mod patterns;
 pub mod plot;
 pub mod profile;
 mod schema;
@@ -78,4 +79,6 @@ pub struct Job {
     pub lines: plot::Lines,
     /// Where the cloth lies across the conveyor that brings it; `None` = everywhere in the middle.
     pub centre: Option<Arc<Centre>>,
+    /// Which patterns it cuts.
+    pub patterns: patterns::Patterns,
 }

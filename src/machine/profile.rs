@@ -22,6 +22,7 @@ use super::notches::Notches;
 use super::order::Order;
 pub use super::path::Fit;
 use super::path::{Corner, Path, Slow};
+use super::patterns::Dxf;
 use super::plot::Hpgl;
 use super::sewing::Sewing;
 use super::sheet::Sheet;
@@ -93,6 +94,8 @@ pub struct MachineProfile {
     pub verify: Verify,
     /// How plots are read.
     pub hpgl: Hpgl,
+    /// How pattern DXF is read.
+    pub dxf: Dxf,
     /// The texts of labels.
     pub labels: Labels,
     /// The pattern-sewing machine.
@@ -158,6 +161,7 @@ impl Default for MachineProfile {
             gcode: Gcode::default(),
             verify: Verify::default(),
             hpgl: Hpgl::default(),
+            dxf: Dxf::default(),
             labels: Labels::default(),
             sewing: Sewing::default(),
             track: Tracking::default(),

@@ -11,7 +11,7 @@ use crate::machine::{Job, plot};
 use crate::pass::marker::{CUTTING_PASSES, DRAWN_PASSES, MARKER_PASSES, MarkerPass};
 use crate::recognise;
 use crate::source::Source;
-use crate::verify::{Census, Drawn, Works};
+use crate::verify::{Census, CutPlaces, Drawn, Works};
 
 /// A file as read and passed: what is cut, in which order.
 #[derive(Debug)]
@@ -38,6 +38,8 @@ pub struct Judged {
 pub struct Reading {
     /// Before any pass.
     pub census: Census,
+    /// Where the patterns of a set are cut, likewise; `None` of any other file.
+    pub patterns: Option<CutPlaces>,
     /// Whether all of it is still cut behind them.
     pub kept: Finding,
     /// Whether that lies where the sheet of the profile has it; `None` where it lies as the file has it.
@@ -66,6 +68,8 @@ pub fn read_to_judge(
 ) -> Option<Judged> {
     let mut input = read_alone(source, from, job, diagnostics)?;
     let (census, works) = rayon::join(|| Census::of(&input.marker), || Works::of(&input.marker));
+    let is_of_patterns = matches!(input.dialect.read, Reader::Patterns { .. });
+    let patterns = is_of_patterns.then(|| CutPlaces::of(&input.marker));
     let (drawing, laying) = marker_passes().0.split_at(DRAWN_PASSES);
     run_passes(drawing, &mut input.marker, source, job, diagnostics);
     // What a sheet or the cloth moves cannot be compared with the file, but only with what was drawn.
@@ -76,7 +80,7 @@ pub fn read_to_judge(
         Some((kept, drawn)) => (kept, Some(drawn.laid(&input.marker, job))),
         None => (works.kept(&input.marker, &job.profile), None),
     };
-    Some(Judged { input, reading: Reading { census, kept, laid } })
+    Some(Judged { input, reading: Reading { census, patterns, kept, laid } })
 }
 
 /// The marker as the source says it, before any pass.
@@ -90,7 +94,8 @@ pub(super) fn read_alone(
     let dialect = from.or_else(|| front::detect(source, extension, diagnostics))?;
     let marker = marker_of(dialect, source, job, diagnostics);
     // Only a drawing leaves it to others which of its lines are cut.
-    if marker.drawing.is_none() && job.lines != plot::Lines::default() && !diagnostics.has_errors() {
+    let is_plot = matches!(dialect.read, Reader::Drawing(_));
+    if !is_plot && job.lines != plot::Lines::default() && !diagnostics.has_errors() {
         let message = "`--cut-pens`, `--inner` and `--cut-all` choose among the lines of a plot, and this is none: all of it is cut";
         let finding = Diagnostic::new(&code::SOURCE_NO_PLOT, message);
         diagnostics.push(finding.hint("leave them out; `--pieces` and `--skip` choose pieces of any file"));
@@ -102,7 +107,7 @@ pub(super) fn read_alone(
 /// What a source says is cut, as a dialect reads it, or as it is recognised in what the dialect says is drawn.
 pub fn marker_of(dialect: &Dialect, source: &Source, job: &Job, diagnostics: &mut Diagnostics) -> Marker {
     match dialect.read {
-        Reader::Marker(read) => read(source, job, diagnostics),
+        Reader::Marker(read) | Reader::Patterns { cut: read, .. } => read(source, job, diagnostics),
         Reader::Drawing(read) => {
             let drawing = read(source, job, diagnostics);
             // What is not read to its end would only be recognised wrongly.

@@ -113,8 +113,11 @@ pub(super) fn judge(
 
 /// What was read of the source against its bytes, and what the passes kept of that.
 pub(super) fn audited(source: &Source, dialect: &Dialect, reading: Reading, job: &Job) -> Vec<Finding> {
-    let Reading { census, kept, laid } = reading;
-    let audit = verify::source_audit(dialect.name, source.bytes(), &census, &job.profile);
+    let Reading { census, patterns, kept, laid } = reading;
+    let audit = match patterns {
+        Some(places) => Some(verify::pattern_audit(source.bytes(), &places, job)),
+        None => verify::source_audit(dialect.name, source.bytes(), &census, &job.profile),
+    };
     audit.into_iter().flatten().chain([kept]).chain(laid).collect()
 }
 

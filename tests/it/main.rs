@@ -15,6 +15,7 @@ mod coarse;
 mod codes;
 mod common;
 mod drives;
+mod dxf;
 mod edits;
 mod entries;
 mod fixtures;

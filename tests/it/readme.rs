@@ -54,6 +54,7 @@ fn every_command_of_the_readme_runs() {
     fs::copy(root().join("fixtures/pictures/marker.cut"), folder.path().join("in/marker.cut")).expect("a copy");
     fs::copy(root().join("fixtures/sew/pocket.csv"), folder.path().join("pocket.csv")).expect("a copy");
     fs::copy(root().join("fixtures/track/step.toml"), folder.path().join("step.toml")).expect("a copy");
+    fs::copy(root().join("fixtures/pictures/pattern.dxf"), folder.path().join("pattern.dxf")).expect("a copy");
     let commands = commands("cutc ");
     assert!(commands.len() >= 6, "{commands:?}");
     for command in commands {

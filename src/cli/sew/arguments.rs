@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 
 use crate::cli::batch::Threads;
 use crate::cli::choices::{self, Format};
-use crate::cli::options::{Machine, Messages, NO_HEADING};
+use crate::cli::options::{Machine, Messages, NO_HEADING, Patterned};
 use crate::machine::Job;
 use crate::machine::sewing;
 use crate::sew::{Asked, Target};
@@ -54,6 +54,9 @@ pub(in crate::cli) struct Arguments {
 
     #[command(flatten)]
     pub(super) machine: Machine,
+
+    #[command(flatten, next_help_heading = NO_HEADING)]
+    patterns: Patterned,
 
     #[command(flatten)]
     pub(super) threads: Threads,
@@ -106,7 +109,8 @@ impl Arguments {
     }
 
     /// The job with what overrides its profile.
-    pub(super) fn of(&self, mut job: Job) -> Job {
+    pub(super) fn of(&self, job: Job) -> Job {
+        let mut job = self.patterns.of(job);
         if let Some(on_long) = self.on_long {
             job.profile.sewing.on_long = on_long.into();
         }

@@ -101,7 +101,7 @@ fn check_syntax(source: &Source, out: &mut Diagnostics) {
 }
 
 fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Drawing {
-    if foreign::refuse_unread(source, out) {
+    if foreign::refuse(source, DIALECT.name, out) {
         return Drawing::default();
     }
     let unit = &job.profile.hpgl.unit;

@@ -99,7 +99,7 @@ fn check_syntax(source: &Source, out: &mut Diagnostics) {
 }
 
 fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker {
-    if foreign::refuse(source, out) {
+    if foreign::refuse(source, DIALECT.name, out) {
         return Marker::default();
     }
     lower::lower(source, job, out)

@@ -99,8 +99,11 @@ impl Reader<'_> {
     fn lines(&self, dialect: &Dialect, asked: Option<&str>, out: &mut Diagnostics) -> Vec<Line> {
         let Self { source, job } = *self;
         match (dialect.read, asked) {
-            (Read::Marker(read), None) => contours(&read(source, job, out)),
-            (Read::Drawing(read), Some(name)) if name != SEAM => strokes(&read(source, job, out), name, out),
+            (Read::Marker(read) | Read::Patterns { cut: read, .. }, None) => contours(&read(source, job, out)),
+            (Read::Drawing(read) | Read::Patterns { drawn: read, .. }, Some(name)) if name != SEAM => {
+                strokes(&read(source, job, out), name, out)
+            }
+            (Read::Patterns { cut: read, .. }, Some(_)) => seam_lines(&read(source, job, out), out),
             (Read::Drawing(read), asked) => {
                 let drawing = read(source, job, out);
                 if out.has_errors() {

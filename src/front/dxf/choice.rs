@@ -1,0 +1,140 @@
+//! Which blocks are cut: those of the sizes that are asked for, and how often each.
+
+use super::entity::Block;
+use super::text::Facts;
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::machine::patterns::{Quantity, Sizes};
+use crate::machine::{Job, labels::Labels};
+use crate::source::{Source, Span};
+
+/// Sizes that a message names.
+const SHOWN: usize = 24;
+
+/// The sizes of a file, and which of them are cut.
+#[derive(Debug)]
+pub(super) struct Chosen<'a> {
+    source: &'a Source,
+    labels: &'a Labels,
+    /// `None` = all.
+    sizes: Option<Vec<String>>,
+}
+
+/// Sizes are the same whichever letters they are written in.
+fn same(text: &str) -> String {
+    text.trim().to_uppercase()
+}
+
+impl<'a> Chosen<'a> {
+    /// What a job asks of the blocks of a file, each of which says its size or none; an error where nobody says which.
+    pub(super) fn of(
+        blocks: &[(&Block<'a>, Facts)],
+        file: &Facts,
+        source: &'a Source,
+        job: &'a Job,
+        out: &mut Diagnostics,
+    ) -> Self {
+        let labels = &job.profile.labels;
+        let text = |span: Span| labels.text(source.slice(span));
+        let mut known: Vec<String> = Vec::new();
+        for size in blocks.iter().filter_map(|(_, facts)| facts.size).map(text) {
+            if !known.iter().any(|other| same(other) == same(&size)) {
+                known.push(size);
+            }
+        }
+        let has = |size: &str| known.iter().any(|other| same(other) == same(size));
+        let sample = file.sample_size.map(text);
+        let sizes = match (&job.patterns.sizes, &sample) {
+            (Some(Sizes::All), _) => None,
+            (Some(Sizes::Named(names)), _) => {
+                for name in names.iter().filter(|name| !has(name)) {
+                    let finding = Diagnostic::new(&code::DXF_NO_SIZE, format!("the file has no size `{name}`"));
+                    out.push(finding.hint(its_sizes(&known)));
+                }
+                Some(names.iter().map(|name| same(name)).collect())
+            }
+            (None, Some(sample)) if has(sample) => Some(vec![same(sample)]),
+            (None, _) if known.len() < 2 => None,
+            (None, sample) => {
+                let message = match sample {
+                    Some(sample) => format!("the sample size `{sample}` is none of the sizes of the file"),
+                    None => "the file has several sizes and does not say which is the sample size".to_owned(),
+                };
+                let finding = Diagnostic::new(&code::DXF_WHICH_SIZE, message);
+                out.push(finding.hint(format!("give one with `--size`; {}", its_sizes(&known))));
+                None
+            }
+        };
+        Self { source, labels, sizes }
+    }
+
+    /// Whether a block is cut. One that is of no size goes with every size.
+    pub(super) fn has(&self, facts: &Facts) -> bool {
+        let text = |span: Span| same(&self.labels.text(self.source.slice(span)));
+        match (&self.sizes, facts.size.map(text)) {
+            (None, _) | (_, None) => true,
+            (Some(sizes), Some(size)) => sizes.contains(&size),
+        }
+    }
+
+    /// The sizes that are cut, as they are told; empty when all are.
+    pub(super) fn told(&self) -> String {
+        match self.sizes.as_deref() {
+            None => String::new(),
+            Some([size]) => format!(" of size {size}"),
+            Some(sizes) => format!(" of {} sizes", sizes.len()),
+        }
+    }
+}
+
+fn its_sizes(known: &[String]) -> String {
+    if known.is_empty() {
+        return "its pieces say no size: leave `--size` out".to_owned();
+    }
+    let dots = if known.len() > SHOWN { ", ..." } else { "" };
+    format!("its sizes are {}{dots}", known[..known.len().min(SHOWN)].join(", "))
+}
+
+/// How often a piece is cut as it is drawn, and how often mirrored: `1,1` is right and left. `None` when it is no such
+/// text. A piece that is wanted not at all is cut once: many programs write 0 where nobody said anything.
+pub(super) fn quantity(text: &[u8]) -> Option<[u32; 2]> {
+    let mut numbers = text.split(|&byte| byte == b',').map(|number| {
+        let number = std::str::from_utf8(number.trim_ascii()).ok()?;
+        number.parse::<u32>().ok()
+    });
+    let right = numbers.next()??;
+    let left = match numbers.next() {
+        None => 0,
+        Some(left) => left?,
+    };
+    match (numbers.next(), right, left) {
+        (Some(_), _, _) => None,
+        (None, 0, 0) => Some([1, 0]),
+        (None, right, left) => Some([right, left]),
+    }
+}
+
+/// How often pieces are cut in a job.
+pub(super) fn is_as_the_file_says(job: &Job) -> bool {
+    match job.patterns.quantity.unwrap_or(job.profile.dxf.quantity) {
+        Quantity::File => true,
+        Quantity::One => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quantity_is_right_and_left() {
+        let check = |text: &str, expected: Option<[u32; 2]>| assert_eq!(quantity(text.as_bytes()), expected, "{text}");
+        check("1,1", Some([1, 1]));
+        check("2", Some([2, 0]));
+        check(" 0 , 1 ", Some([0, 1]));
+        check("0", Some([1, 0]));
+        check("1,", None);
+        check("1,1,1", None);
+        check("-1", None);
+        check("two", None);
+    }
+}

@@ -1,0 +1,73 @@
+//! Curves: arcs become chords.
+
+use std::f64::consts::TAU;
+
+use crate::geom::{Point, Vector, left};
+
+/// An arc.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Arc {
+    pub(super) centre: Point,
+    /// mm.
+    pub(super) radius: f64,
+    /// Where it starts, rad from +X.
+    pub(super) start: f64,
+    /// How far it turns, rad, counter-clockwise positive.
+    pub(super) sweep: f64,
+}
+
+impl Arc {
+    /// How many chords keep within `sagitta` mm of it: a chord over an angle `a` is `r (1 - cos(a/2))` off.
+    pub(super) fn chords(&self, sagitta: f64) -> usize {
+        let step = if sagitta < self.radius { 2.0 * (1.0 - sagitta / self.radius).acos() } else { TAU / 4.0 };
+        // A curve that closes has an inside.
+        (self.sweep.abs() / step.min(TAU / 4.0)).ceil().max(1.0) as usize
+    }
+
+    /// Its place after so much of its sweep.
+    pub(super) fn place(&self, share: f64) -> Point {
+        let (sin, cos) = (self.start + share * self.sweep).sin_cos();
+        self.centre + self.radius * Vector::new(cos, sin)
+    }
+}
+
+/// The arc from one place to another that bulges so much: the tangent of a quarter of its sweep (DXF reference, group 42).
+/// `None` for a straight line.
+pub(super) fn bulged(from: Point, to: Point, bulge: f64) -> Option<Arc> {
+    let chord = to - from;
+    if bulge == 0.0 || chord.norm() == 0.0 {
+        return None;
+    }
+    let sweep = 4.0 * bulge.atan();
+    // The centre is on the left of the chord for a sweep below half a turn.
+    let centre = from + chord / 2.0 + left(chord) * ((1.0 - bulge * bulge) / (4.0 * bulge));
+    let spoke = from - centre;
+    Some(Arc { centre, radius: spoke.norm(), start: spoke.y.atan2(spoke.x), sweep })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bulge_of_one_is_half_a_circle_to_the_right_of_its_chord() {
+        let [from, to] = [Point::new(0.0, 0.0), Point::new(10.0, 0.0)];
+        let arc = bulged(from, to, 1.0).expect("an arc");
+        assert!((arc.centre - Point::new(5.0, 0.0)).norm() < 1e-12);
+        assert!((arc.place(0.5) - Point::new(5.0, -5.0)).norm() < 1e-12);
+        assert!((arc.place(1.0) - to).norm() < 1e-12);
+        let arc = bulged(from, to, -0.2).expect("an arc");
+        assert!((arc.place(0.0) - from).norm() < 1e-9 && (arc.place(1.0) - to).norm() < 1e-9);
+        assert!((arc.place(0.5) - Point::new(5.0, 1.0)).norm() < 1e-9);
+    }
+
+    #[test]
+    fn chords_keep_within_their_sagitta() {
+        let arc = Arc { centre: Point::origin(), radius: 100.0, start: 0.3, sweep: 2.0 };
+        let count = arc.chords(0.01);
+        let middle = arc.place(0.5 / count as f64);
+        let [a, b] = [0.0, 1.0].map(|k| arc.place(k / count as f64));
+        assert!((a + (b - a) / 2.0 - middle).norm() <= 0.01);
+        assert!(Arc { radius: 0.001, sweep: TAU, ..arc }.chords(0.01) >= 4);
+    }
+}

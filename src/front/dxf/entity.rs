@@ -1,0 +1,169 @@
+//! Entities: groups become the sections of the file, its blocks and what they hold.
+
+use super::group::Group;
+use super::syntax::{number, whole};
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::source::{Source, Span};
+
+/// Code of the group that begins an entity, and those of its name or text, its layer and its flags.
+const BEGINS: i32 = 0;
+pub(super) const TEXT: i32 = 1;
+pub(super) const NAME: i32 = 2;
+const LAYER: i32 = 8;
+pub(super) const FLAGS: i32 = 70;
+
+/// An entity: the group that begins it, and those behind it up to the next one.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Entity<'a> {
+    groups: &'a [Group],
+    source: &'a Source,
+}
+
+/// A block: a piece of the pattern set, in one size.
+#[derive(Debug, Clone)]
+pub(super) struct Block<'a> {
+    /// What begins it: its name and its base point.
+    pub(super) head: Entity<'a>,
+    pub(super) entities: Vec<Entity<'a>>,
+}
+
+/// What of a file matters.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Sections<'a> {
+    pub(super) blocks: Vec<Block<'a>>,
+    /// What stands in no block.
+    pub(super) entities: Vec<Entity<'a>>,
+}
+
+impl<'a> Entity<'a> {
+    /// The word that begins it, as it is written.
+    pub(super) fn kind(&self) -> &'a [u8] {
+        self.source.slice(self.groups[0].value)
+    }
+
+    pub(super) fn is(&self, kind: &str) -> bool {
+        self.kind().eq_ignore_ascii_case(kind.as_bytes())
+    }
+
+    /// Where it begins.
+    pub(super) fn span(&self) -> Span {
+        self.groups[0].value
+    }
+
+    /// Its groups behind the one that begins it.
+    pub(super) fn groups(&self) -> &'a [Group] {
+        &self.groups[1..]
+    }
+
+    /// The first value of a code.
+    pub(super) fn value(&self, code: i32) -> Option<Span> {
+        self.groups().iter().find(|group| group.code == code).map(|group| group.value)
+    }
+
+    /// The bytes of the first value of a code; none when there is none.
+    pub(super) fn bytes(&self, code: i32) -> &'a [u8] {
+        self.value(code).map_or(b"", |span| self.source.slice(span))
+    }
+
+    /// The number of its layer; `None` when the name of the layer is none.
+    pub(super) fn layer(&self) -> Option<u16> {
+        let name = self.bytes(LAYER);
+        let is_number = !name.is_empty() && name.iter().all(u8::is_ascii_digit);
+        std::str::from_utf8(name).ok().filter(|_| is_number).and_then(|name| name.parse().ok())
+    }
+
+    /// The name of its layer, as it is shown.
+    pub(super) fn layer_name(&self) -> String {
+        self.bytes(LAYER).escape_ascii().to_string()
+    }
+
+    /// The number of a code; `None` when there is none.
+    pub(super) fn number(&self, code: i32) -> Result<Option<f64>, Diagnostic> {
+        self.value(code).map(|span| number_at(self.source, span)).transpose()
+    }
+
+    /// The number of a code that must be there.
+    pub(super) fn coordinate(&self, code: i32) -> Result<f64, Diagnostic> {
+        self.number(code)?.ok_or_else(|| {
+            let message =
+                format!("the {} has no group {code}, which is a coordinate of it", self.kind().escape_ascii());
+            let finding = Diagnostic::new(&code::DXF_NO_COORDINATE, message).at(self.span());
+            finding.hint("its groups were lost on the way: export the file again")
+        })
+    }
+
+    /// The bits of a flag group; none when it is missing or is no number.
+    pub(super) fn flags(&self, code: i32) -> i64 {
+        whole(self.bytes(code)).unwrap_or(0)
+    }
+}
+
+/// The number at a place.
+pub(super) fn number_at(source: &Source, span: Span) -> Result<f64, Diagnostic> {
+    let bytes = source.slice(span);
+    number(bytes).ok_or_else(|| {
+        let shown = bytes[..bytes.len().min(SHOWN)].escape_ascii();
+        let finding = Diagnostic::new(&code::DXF_NUMBER, format!("`{shown}` is not a decimal number")).at(span);
+        finding.hint(if bytes.contains(&b',') {
+            "numbers in DXF have decimal points; set the export to the English notation"
+        } else {
+            "export the file again"
+        })
+    })
+}
+
+/// Bytes of a wrong number that are shown.
+const SHOWN: usize = 20;
+
+/// Splits groups into entities.
+fn entities<'a>(source: &'a Source, groups: &'a [Group]) -> impl Iterator<Item = Entity<'a>> {
+    let first = groups.iter().position(|group| group.code == BEGINS).unwrap_or(groups.len());
+    let chunks = groups[first..].chunk_by(|_, next| next.code != BEGINS);
+    chunks.map(move |groups| Entity { groups, source })
+}
+
+/// Which section is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Within {
+    Blocks,
+    Entities,
+    /// Header, tables and all others.
+    Others,
+}
+
+/// Sorts the entities of a file into its sections and blocks.
+pub(super) fn sections<'a>(source: &'a Source, groups: &'a [Group], out: &mut Diagnostics) -> Sections<'a> {
+    let mut sections = Sections::default();
+    let mut within = Within::Others;
+    let mut open: Option<Block> = None;
+    for entity in entities(source, groups) {
+        let is_end = ["ENDBLK", "BLOCK", "ENDSEC", "SECTION", "EOF"].iter().any(|kind| entity.is(kind));
+        if is_end && let Some(block) = open.take() {
+            if !entity.is("ENDBLK") {
+                let message =
+                    format!("the block that begins here has no ENDBLK before {}", entity.kind().escape_ascii());
+                let finding = Diagnostic::new(&code::DXF_OPEN_BLOCK, message).at(block.head.span());
+                out.push(finding.hint("something is missing in the file: export it again"));
+            }
+            sections.blocks.push(block);
+        }
+        if entity.is("SECTION") {
+            within = match entity.bytes(NAME).to_ascii_uppercase().as_slice() {
+                b"BLOCKS" => Within::Blocks,
+                b"ENTITIES" => Within::Entities,
+                _ => Within::Others,
+            };
+        } else if entity.is("ENDSEC") {
+            within = Within::Others;
+        } else if entity.is("BLOCK") && within == Within::Blocks {
+            open = Some(Block { head: entity, entities: Vec::new() });
+        } else if !is_end {
+            match (&mut open, within) {
+                (Some(block), _) => block.entities.push(entity),
+                (None, Within::Entities) => sections.entities.push(entity),
+                (None, Within::Blocks | Within::Others) => {}
+            }
+        }
+    }
+    sections
+}

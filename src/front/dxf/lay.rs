@@ -1,0 +1,89 @@
+//! Laying: where the pieces lie on the cloth. A set of patterns is no marker: they lie in a row, unless the file itself
+//! puts its blocks somewhere.
+
+use std::ops::Range;
+
+use super::piece::Piece;
+use super::shape::Insert;
+use crate::geom::{Extent, Heading, Point, Vector};
+
+/// How a piece is moved from where its block draws it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Motion {
+    /// Where the unit vectors of X and Y go.
+    x: Vector,
+    y: Vector,
+    offset: Vector,
+}
+
+/// A piece on the cloth.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Laid<'p> {
+    pub(super) piece: &'p Piece,
+    pub(super) motion: Motion,
+}
+
+/// What a block draws, or what stands in none.
+#[derive(Debug, Clone)]
+pub(super) struct Drawn {
+    /// Its pieces among those of the set; most blocks have one.
+    pub(super) pieces: Range<usize>,
+    /// How often they are cut as they are drawn, and how often mirrored.
+    pub(super) quantity: [u32; 2],
+}
+
+impl Motion {
+    /// As drawn, or mirrored from right to left.
+    const DRAWN: [Vector; 2] = [Vector::new(1.0, 0.0), Vector::new(0.0, 1.0)];
+    const MIRRORED: [Vector; 2] = [Vector::new(-1.0, 0.0), Vector::new(0.0, 1.0)];
+
+    /// Where it is drawn.
+    pub(super) const STILL: Self = Self { x: Self::DRAWN[0], y: Self::DRAWN[1], offset: Vector::new(0.0, 0.0) };
+
+    /// Where an insertion puts a block that is drawn about its base point: scaled, turned, moved (DXF reference, INSERT).
+    pub(super) fn of_insert(insert: &Insert, base: Point) -> Self {
+        let along = Heading::new(insert.turn).unit();
+        let [x, y] = [along * insert.scale[0], Vector::new(-along.y, along.x) * insert.scale[1]];
+        let offset = insert.at.coords - x * base.x - y * base.y;
+        Self { x, y, offset }
+    }
+
+    pub(super) fn place(&self, at: Point) -> Point {
+        // The negative of zero is another bit pattern than zero, though the same place.
+        Point::from(self.x * at.x + self.y * at.y + self.offset).map(|value| value + 0.0)
+    }
+
+    pub(super) fn heading(&self, heading: Heading) -> Heading {
+        let way = heading.unit();
+        Heading::of(self.x * way.x + self.y * way.y)
+    }
+}
+
+/// The box around all that is cut of some pieces, but for notches, before it lies anywhere.
+fn extent(pieces: &[Piece], [x, y]: [Vector; 2]) -> Extent {
+    let motion = Motion { x, y, offset: Vector::zeros() };
+    let mut extent = Extent::EMPTY;
+    let lines = pieces.iter().flat_map(|piece| std::iter::once(&piece.plain).chain(&piece.inner));
+    lines.flat_map(|line| &line.vertices).for_each(|vertex| extent.add(motion.place(vertex.at)));
+    extent
+}
+
+/// Lays what blocks draw in a row along X, the lower edges on Y = 0, as often as each is wanted, so much room between them,
+/// mm.
+pub(super) fn in_a_row<'p>(pieces: &'p [Piece], drawn: &[Drawn], gap: f64) -> Vec<Laid<'p>> {
+    let mut laid = Vec::new();
+    let mut x = 0.0;
+    for Drawn { pieces: range, quantity } in drawn.iter().filter(|drawn| !drawn.pieces.is_empty()) {
+        let pieces = &pieces[range.clone()];
+        for (axes, &count) in [Motion::DRAWN, Motion::MIRRORED].into_iter().zip(quantity) {
+            let extent = extent(pieces, axes);
+            for _ in 0..count {
+                let offset = Vector::new(x, 0.0) - extent.min.coords;
+                let motion = Motion { x: axes[0], y: axes[1], offset };
+                laid.extend(pieces.iter().map(|piece| Laid { piece, motion }));
+                x += extent.size().0 + gap;
+            }
+        }
+    }
+    laid
+}

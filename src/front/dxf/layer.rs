@@ -1,0 +1,89 @@
+//! The layers of the convention (AAMA DXF, ASTM D6673) and what is done about what is drawn on them.
+
+/// What is done about a layer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Does {
+    /// Its lines are outlines of pieces.
+    Outline,
+    /// Its points are notches of outlines.
+    Notch(Form),
+    /// Its line is where a half piece is mirrored.
+    Fold,
+    /// Its lines are cut inside pieces.
+    Inner,
+    /// Its points are holes.
+    Drill,
+    /// Its lines are drawn on pieces, on both halves of one that is mirrored.
+    Drawn,
+    /// Its lines are drawn, once.
+    Sign,
+    /// Nothing: copies of other layers, points that say how others are graded.
+    Nothing,
+}
+
+/// What a notch looks like.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Form {
+    /// A slit when it has no width, else a V.
+    Plain,
+    T,
+    Castle,
+    /// A V with one straight leg, which is cut as a V.
+    Check,
+    U,
+}
+
+/// A row of the table.
+#[derive(Debug)]
+pub(super) struct Layer {
+    pub(super) number: u16,
+    /// What its lines are called.
+    pub(super) name: &'static str,
+    /// How they are told from others.
+    pub(super) about: &'static str,
+    pub(super) does: Does,
+}
+
+/// The layers of the convention.
+#[rustfmt::skip] // a table: one row a layer
+pub(super) const LAYERS: [Layer; 20] = [
+    Layer { number: 1, name: "outline", about: "layer 1", does: Does::Outline },
+    Layer { number: 2, name: "turn point", about: "layer 2", does: Does::Nothing },
+    Layer { number: 3, name: "curve point", about: "layer 3", does: Does::Nothing },
+    Layer { number: 4, name: "notch", about: "layer 4", does: Does::Notch(Form::Plain) },
+    Layer { number: 5, name: "grade reference", about: "layer 5", does: Does::Sign },
+    Layer { number: 6, name: "fold line", about: "layer 6", does: Does::Fold },
+    Layer { number: 7, name: "grain line", about: "layer 7", does: Does::Sign },
+    Layer { number: 8, name: "internal line", about: "layer 8", does: Does::Drawn },
+    Layer { number: 11, name: "cut-out", about: "layer 11", does: Does::Inner },
+    Layer { number: 13, name: "drill hole", about: "layer 13", does: Does::Drill },
+    Layer { number: 14, name: "seam line", about: "layer 14", does: Does::Drawn },
+    Layer { number: 15, name: "annotation", about: "layer 15", does: Does::Sign },
+    Layer { number: 80, name: "T notch", about: "layer 80", does: Does::Notch(Form::T) },
+    Layer { number: 81, name: "castle notch", about: "layer 81", does: Does::Notch(Form::Castle) },
+    Layer { number: 82, name: "check notch", about: "layer 82", does: Does::Notch(Form::Check) },
+    Layer { number: 83, name: "U notch", about: "layer 83", does: Does::Notch(Form::U) },
+    Layer { number: 84, name: "copy of an outline", about: "layer 84", does: Does::Nothing },
+    Layer { number: 85, name: "copy of an internal line", about: "layer 85", does: Does::Nothing },
+    Layer { number: 86, name: "copy of a cut-out", about: "layer 86", does: Does::Nothing },
+    Layer { number: 87, name: "copy of a seam line", about: "layer 87", does: Does::Nothing },
+];
+
+/// What any other layer is.
+pub(super) const OTHER: Layer =
+    Layer { number: 0, name: "line of another layer", about: "any other layer", does: Does::Sign };
+
+/// The layer of a number; [`OTHER`] where the convention has none.
+pub(super) fn layer(number: Option<u16>) -> &'static Layer {
+    LAYERS.iter().find(|layer| Some(layer.number) == number).unwrap_or(&OTHER)
+}
+
+impl Layer {
+    /// Whether a piece is cut wrongly when something on it is not read.
+    pub(super) fn is_cut(&self) -> bool {
+        match self.does {
+            Does::Outline | Does::Notch(_) | Does::Fold | Does::Inner | Does::Drill => true,
+            Does::Drawn | Does::Sign | Does::Nothing => false,
+        }
+    }
+}

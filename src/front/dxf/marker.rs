@@ -1,0 +1,110 @@
+//! What a set of patterns cuts, as a marker, and all of its lines by their layers, as a drawing.
+
+use super::chain::Chain;
+use super::lay::{Laid, Motion};
+use super::layer::{LAYERS, Layer, OTHER};
+use super::set::Set;
+use crate::geom::polyline;
+use crate::ir::drawing::{Account, LineClass, Vertex};
+use crate::ir::list::SegmentList;
+use crate::ir::marker::{Contour, Drill, Label, Notch, NotchKind, NotchStroke, Piece};
+use crate::ir::{Drawing, Marker};
+use crate::source::Span;
+
+/// The drill that makes the holes.
+const DRILL: u8 = 1;
+/// The layers of outlines and of cut-outs.
+const OUTLINE: &Layer = &LAYERS[0];
+const CUT_OUT: &Layer = &LAYERS[8];
+
+/// What is cut of a set: inside a piece first, its outline last.
+pub(super) fn marker(set: &Set) -> Marker {
+    let mut marker = Marker::default();
+    let mut account = Account { classes: classes(), ..Account::default() };
+    for (laid, number) in set.laid().iter().zip(1..) {
+        marker.pieces.push(piece(laid, number, &mut marker.list, &mut account));
+    }
+    account.texts_outside = set.texts.len();
+    account.classes.retain(|class| class.count > 0);
+    account.pen_down = account.classes.iter().map(|class| class.length).sum();
+    Marker { drawing: Some(account), ..marker }
+}
+
+/// A piece where it lies.
+fn piece(laid: &Laid, number: u32, list: &mut SegmentList, account: &mut Account) -> Piece {
+    let Laid { piece, motion } = *laid;
+    let mut made = Piece { number, span: piece.span, ..Piece::default() };
+    made.drills.extend(piece.drills.iter().map(|&(at, span)| Drill { at: motion.place(at), tool: DRILL, span }));
+    made.notches.extend(piece.slits.iter().map(|slit| moved_notch(slit, motion)));
+    let inner = piece.inner.iter().map(|line| (CUT_OUT, line));
+    for (layer, line) in inner.chain([(OUTLINE, &piece.outline)]) {
+        let vertices = moved(line, motion);
+        let (points, spans): (Vec<_>, Vec<Span>) = vertices.iter().map(|vertex| (vertex.at, vertex.span)).unzip();
+        see(account, layer, true, &vertices);
+        let range = list.append_line(&points, &spans);
+        made.contours.extend(range.map(|range| Contour { range, closed: line.is_closed }));
+    }
+    for (layer, line) in &piece.drawn {
+        let vertices = moved(line, motion);
+        see(account, layer, false, &vertices);
+        account.aside.add(Some(layer.name), &vertices);
+    }
+    made.labels.extend(piece.labels.iter().map(|label| moved_label(label, motion)));
+    made
+}
+
+/// A row a layer for lines that are cut, and one for those that are not.
+fn classes() -> Vec<LineClass> {
+    let row = |layer: &Layer, cut| LineClass { name: layer.name, about: layer.about, cut, count: 0, length: 0.0 };
+    let all = || LAYERS.iter().chain([&OTHER]);
+    all().map(|layer| row(layer, true)).chain(all().map(|layer| row(layer, false))).collect()
+}
+
+/// Counts a line of a layer.
+fn see(account: &mut Account, layer: &Layer, cut: bool, vertices: &[Vertex]) {
+    let points: Vec<_> = vertices.iter().map(|vertex| vertex.at).collect();
+    let is_of = |class: &&mut LineClass| class.cut == cut && class.name == layer.name;
+    if let Some(class) = account.classes.iter_mut().find(is_of) {
+        (class.count, class.length) = (class.count + 1, class.length + polyline::length(&points));
+    }
+}
+
+/// The places of a line where it lies; of a closed one the first comes last again.
+fn moved(line: &Chain, motion: Motion) -> Vec<Vertex> {
+    line.round().map(|vertex| Vertex { at: motion.place(vertex.at), ..vertex }).collect()
+}
+
+fn moved_notch(notch: &Notch, motion: Motion) -> Notch {
+    let kind = match notch.kind {
+        NotchKind::Slit => NotchKind::Slit,
+        NotchKind::T(bar) => {
+            NotchKind::T(NotchStroke { from: motion.place(bar.from), to: motion.place(bar.to), ..bar })
+        }
+    };
+    Notch { kind, root: motion.place(notch.root), tip: motion.place(notch.tip), ..*notch }
+}
+
+fn moved_label(label: &Label, motion: Motion) -> Label {
+    Label {
+        at: label.at.map(|at| motion.place(at)),
+        heading: label.heading.map(|heading| motion.heading(heading)),
+        ..label.clone()
+    }
+}
+
+/// All lines of a set where they lie: the numbers of the layers are the names of the pens.
+pub(super) fn drawing(set: &Set) -> Drawing {
+    let mut drawing = Drawing::default();
+    for Laid { piece, motion } in set.laid() {
+        let cut = piece.inner.iter().map(|line| (CUT_OUT, line)).chain([(OUTLINE, &piece.plain)]);
+        let drawn = piece.drawn.iter().map(|(layer, line)| (*layer, line));
+        for (layer, line) in cut.chain(drawn) {
+            let pen = drawing.pen(&layer.number.to_string(), true);
+            let mut vertices = moved(line, motion).into_iter();
+            vertices.next().into_iter().for_each(|first| drawing.begin(first.at, first.span, pen));
+            vertices.for_each(|vertex| drawing.line(vertex.at, vertex.span));
+            drawing.lift();
+        }
+    }
+    drawing
+}

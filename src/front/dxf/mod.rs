@@ -1,0 +1,77 @@
+//! Pattern DXF: sets of patterns as garment CAD exchanges them (AAMA DXF, ASTM D6673).
+//!
+//! Receives bytes: pairs of lines in sections, a block a piece and size, with layers by convention and drawings of other
+//! CAD systems that keep to it. Promises a marker in mm of the pieces of one size or several: half pieces unfolded, outlines
+//! closed, notches on them in the forms that passes know, laid in a row unless the file places them; and an account of
+//! every line that is not cut. Never cuts what no layer says is cut, and never guesses which size is meant.
+//!
+//! [`group`] makes pairs of lines with [`syntax`], [`entity`] sections and blocks of them, [`shape`] lines and points in
+//! mm with [`curve`]; [`text`] reads what texts say and [`choice`] which blocks that lets be cut. [`piece`] makes a piece of
+//! a block: [`outline`]s of [`chain`]s, unfolded about their [`fold`], with each [`mod@notch`] by the table of [`layer`]s.
+//! [`set`] does all of this for a file, [`lay`] puts the pieces on the cloth, [`mod@marker`] says what is cut, [`tally`]
+//! what is not done as the file says.
+
+mod chain;
+mod choice;
+mod curve;
+mod entity;
+mod fold;
+mod group;
+mod lay;
+mod layer;
+mod marker;
+mod notch;
+mod outline;
+mod piece;
+mod set;
+mod shape;
+mod syntax;
+mod tally;
+mod text;
+mod words;
+
+use super::{Dialect, Likeness, Read, foreign};
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::ir::{Drawing, Marker};
+use crate::machine::Job;
+use crate::source::Source;
+
+pub(super) const DIALECT: Dialect = Dialect {
+    name: "dxf",
+    about: "pattern DXF of garment CAD (AAMA, ASTM D6673): a block a piece, outlines on layer 1",
+    extensions: &["dxf"],
+    sniff,
+    syntax: check_syntax,
+    read: Read::Patterns { cut: read, drawn: read_lines },
+    words: words::WORDS,
+};
+
+fn sniff(bytes: &[u8]) -> Likeness {
+    if foreign::is_dxf(bytes) { Likeness::Sure } else { Likeness::No }
+}
+
+/// Whether the bytes are groups whose values are what their codes say.
+fn check_syntax(source: &Source, out: &mut Diagnostics) {
+    for group in group::groups(source, out) {
+        if !syntax::fits(group.code, source.slice(group.value)) {
+            let message = format!("the value of a group {} must be a number", group.code);
+            out.push(Diagnostic::new(&code::DXF_NUMBER, message).at(group.value));
+        }
+    }
+}
+
+fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker {
+    if foreign::refuse(source, DIALECT.name, out) {
+        return Marker::default();
+    }
+    let set = set::read(source, job, out);
+    if out.has_errors() { Marker::default() } else { marker::marker(&set) }
+}
+
+fn read_lines(source: &Source, job: &Job, out: &mut Diagnostics) -> Drawing {
+    if foreign::refuse(source, DIALECT.name, out) {
+        return Drawing::default();
+    }
+    let set = set::read(source, job, out);
+    if out.has_errors() { Drawing::default() } else { marker::drawing(&set) }
+}

@@ -1,0 +1,372 @@
+//! Notches: points on an outline become slits, or ways that the outline itself makes into the part, as the passes know
+//! them.
+
+use std::f64::consts::{FRAC_PI_3, PI};
+
+use super::layer::Form;
+use crate::geom::budget::Budget;
+use crate::geom::{Point, Vector, left, polyline, ring};
+use crate::ir::drawing::Vertex;
+use crate::ir::list::FULL_SPEED;
+use crate::ir::marker::{Notch, NotchKind, NotchStroke};
+use crate::source::Span;
+
+/// Farthest that the point of a notch may lie from the outline, mm: others mark seam lines.
+const OFF_EDGE: f64 = 1.0;
+/// How far to both sides of a notch the direction of the edge is taken, mm.
+const BESIDE: f64 = 1.0;
+/// Widths of mouths, and least depth, of notches that outlines make, mm: what is narrower or flatter is a slit.
+const MOUTHS: [f64; 2] = [1.0, 12.0];
+const LEAST_DEPTH: f64 = 1.5;
+/// How much shorter the mouth may be than the edge that it is cut into, as a part: there the edge bends by a third of a
+/// right angle.
+const STRAIGHT: f64 = 0.98;
+/// Chords of a round bottom.
+const ROUND: usize = 12;
+/// Two notches nearer than this are one, mm.
+const SAME: f64 = 0.1;
+
+/// A notch as the file says it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Mark {
+    pub(super) form: Form,
+    pub(super) at: Point,
+    /// mm.
+    pub(super) depth: f64,
+    pub(super) width: f64,
+    /// Where it points, in either sense.
+    pub(super) along: Option<Vector>,
+    pub(super) span: Span,
+}
+
+/// Why a notch is not cut as the file says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Doubt {
+    /// No outline is near.
+    OffEdge,
+    /// It is deeper than notches are, or than the part is there.
+    TooDeep,
+    /// It lies in the mouth of another one.
+    InAnother,
+    /// Nothing is wrong but that it becomes a slit: too narrow, too wide, too flat, at a corner or beside another.
+    AsSlit,
+}
+
+/// An outline with its notches.
+#[derive(Debug, Default)]
+pub(super) struct Notched {
+    pub(super) outline: Vec<Vertex>,
+    pub(super) slits: Vec<Notch>,
+    pub(super) doubts: Vec<(Doubt, Span)>,
+}
+
+/// A notch on its outline.
+#[derive(Debug, Clone, Copy)]
+struct Placed {
+    mark: Mark,
+    /// How far along the outline it is, mm.
+    station: f64,
+    root: Point,
+    /// Unit vector into the part.
+    inwards: Vector,
+}
+
+/// An outline with what is known of it.
+struct Edge<'a> {
+    vertices: &'a [Vertex],
+    /// Its places, the first once more at the end, and how far along each is.
+    points: Vec<Point>,
+    stations: Vec<f64>,
+    is_left: bool,
+}
+
+/// Puts notches on a closed outline, whose first vertex is not repeated.
+pub(super) fn cut(mut outline: Vec<Vertex>, marks: &[Mark], work: &mut Budget) -> Notched {
+    let mut notched = Notched::default();
+    let mut placed: Vec<Placed> = Vec::new();
+    if !marks.is_empty() {
+        let edge = Edge::of(&outline);
+        for mark in marks {
+            match edge.place(mark, work) {
+                Ok(found) => placed.push(found),
+                Err(doubt) => notched.doubts.push((doubt, mark.span)),
+            }
+        }
+        let start = edge.start(&placed);
+        let [before, length] = [edge.stations[start], edge.length()];
+        outline.rotate_left(start);
+        for notch in &mut placed {
+            notch.station = (notch.station - before).rem_euclid(length);
+        }
+    }
+    placed.sort_by(|a, b| a.station.total_cmp(&b.station));
+    placed.dedup_by(|next, before| next.station - before.station <= SAME);
+    if placed.is_empty() {
+        return Notched { outline, ..notched };
+    }
+    let edge = Edge::of(&outline);
+    let mouths = edge.mouths(&placed);
+    let mut taken = mouths.iter().peekable();
+    for notch in &placed {
+        while taken.next_if(|mouth| mouth.to < notch.station).is_some() {}
+        let (wide, mark) = (notch.is_wide(), &notch.mark);
+        match taken.peek().filter(|mouth| mouth.from <= notch.station) {
+            // Its own mouth, or that of another in which it would be cut a second time.
+            Some(mouth) if mouth.notch.mark.span == mark.span => {}
+            Some(_) => notched.doubts.push((Doubt::InAnother, mark.span)),
+            None => {
+                notched.slits.push(notch.slit());
+                notched.doubts.extend(wide.then_some((Doubt::AsSlit, mark.span)));
+            }
+        }
+    }
+    notched.outline = if mouths.is_empty() { outline } else { edge.with(&mouths) };
+    notched
+}
+
+/// A stretch of an outline that a notch takes.
+#[derive(Debug, Clone, Copy)]
+struct Mouth {
+    notch: Placed,
+    /// mm along the outline.
+    from: f64,
+    to: f64,
+}
+
+impl<'a> Edge<'a> {
+    fn of(vertices: &'a [Vertex]) -> Self {
+        let points: Vec<Point> = vertices.iter().chain(&vertices[..1]).map(|vertex| vertex.at).collect();
+        let stations = polyline::stations(&points);
+        let is_left = ring::area(&points[..vertices.len()]) > 0.0;
+        Self { vertices, points, stations, is_left }
+    }
+
+    fn length(&self) -> f64 {
+        self.stations[self.stations.len() - 1]
+    }
+
+    /// The place so far along, whichever way round.
+    fn at(&self, station: f64) -> Point {
+        polyline::place(&self.points, &self.stations, station.rem_euclid(self.length()))
+    }
+
+    /// Where a mark is on the outline.
+    fn place(&self, mark: &Mark, work: &mut Budget) -> Result<Placed, Doubt> {
+        if mark.depth > Notch::LONGEST {
+            return Err(Doubt::TooDeep);
+        }
+        if !work.spend(2 * self.points.len()) {
+            return Err(Doubt::OffEdge); // the file is refused anyway
+        }
+        let distance = |k: usize| polyline::distance_to_segment(mark.at, self.points[k], self.points[k + 1]);
+        let nearest = (0..self.vertices.len()).map(|k| (distance(k), k)).min_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((_, k)) = nearest.filter(|(distance, _)| *distance <= OFF_EDGE) else { return Err(Doubt::OffEdge) };
+        let [a, b] = [self.points[k], self.points[k + 1]];
+        let foot = polyline::foot(mark.at, a, b);
+        let station = self.stations[k] + foot * (b - a).norm();
+        let root = a + (b - a) * foot;
+        let beside = BESIDE.min(self.length() / 8.0);
+        let way = self.at(station + beside) - self.at(station - beside);
+        let inwards = left(way).try_normalize(0.0).unwrap_or(left(b - a) / (b - a).norm());
+        let inwards = if self.is_left { inwards } else { -inwards };
+        // An angle that leads out of the part is that of the notch seen from outside; one along the edge is none.
+        let along = mark.along.map(|along| if along.dot(&inwards) < 0.0 { -along } else { along });
+        let inwards = along.filter(|along| along.dot(&inwards) >= FRAC_PI_3.cos()).unwrap_or(inwards);
+        let placed = Placed { mark: *mark, station, root, inwards };
+        if ring::contains(&self.points[..self.vertices.len()], placed.tip()) { Ok(placed) } else { Err(Doubt::TooDeep) }
+    }
+
+    /// The first vertex that lies in no mouth, where there is one: there the outline begins.
+    fn start(&self, placed: &[Placed]) -> usize {
+        let length = self.length();
+        let mut mouths: Vec<[f64; 2]> = Vec::new();
+        for notch in placed.iter().filter(|notch| notch.is_wide()) {
+            let [from, to] = notch.ends();
+            mouths.extend([[from, to], [from + length, to + length], [from - length, to - length]]);
+        }
+        mouths.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let (mut next, mut reached) = (0, f64::NEG_INFINITY);
+        let mut is_free = |station: f64| {
+            while let Some([_, to]) = mouths.get(next).filter(|[from, _]| *from <= station) {
+                reached = reached.max(*to);
+                next += 1;
+            }
+            reached < station
+        };
+        (0..self.vertices.len()).find(|&k| is_free(self.stations[k])).unwrap_or(0)
+    }
+
+    /// The stretches of the outline that notches take, in its order: none over another's, a corner or the start.
+    fn mouths(&self, placed: &[Placed]) -> Vec<Mouth> {
+        let mut mouths: Vec<Mouth> = Vec::new();
+        let [least, most] = MOUTHS;
+        for &notch in placed.iter().filter(|notch| notch.is_wide()) {
+            let width = notch.width();
+            let [from, to] = notch.ends();
+            let fits = (least..=most).contains(&width) && notch.mark.depth >= LEAST_DEPTH;
+            let is_free = mouths.last().map_or(0.0, |last| last.to) < from && to < self.length();
+            if fits && is_free && (self.at(to) - self.at(from)).norm() >= STRAIGHT * width {
+                mouths.push(Mouth { notch, from, to });
+            }
+        }
+        mouths
+    }
+
+    /// The outline with these notches.
+    fn with(&self, mouths: &[Mouth]) -> Vec<Vertex> {
+        let mut vertices: Vec<Vertex> = Vec::with_capacity(self.vertices.len() + mouths.len() * (ROUND + 2));
+        let mut k = 0;
+        for mouth in mouths {
+            while k < self.vertices.len() && self.stations[k] < mouth.from {
+                vertices.push(self.vertices[k]);
+                k += 1;
+            }
+            let ends = [mouth.from, mouth.to].map(|station| self.at(station));
+            vertices.extend(mouth.notch.way(ends).into_iter().map(|at| Vertex { at, span: mouth.notch.mark.span }));
+            while k < self.vertices.len() && self.stations[k] <= mouth.to {
+                k += 1;
+            }
+        }
+        vertices.extend_from_slice(&self.vertices[k..]);
+        vertices
+    }
+}
+
+impl Placed {
+    fn tip(&self) -> Point {
+        self.root + self.inwards * self.mark.depth
+    }
+
+    /// Width of its mouth or its crossbar, mm: as wide as deep where the file says nothing.
+    fn width(&self) -> f64 {
+        if self.mark.width > 0.0 { self.mark.width } else { self.mark.depth }
+    }
+
+    /// Whether the outline itself should make it.
+    fn is_wide(&self) -> bool {
+        match self.mark.form {
+            Form::T => false,
+            Form::Plain => self.mark.width > 0.0,
+            Form::Castle | Form::Check | Form::U => true,
+        }
+    }
+
+    /// Where its mouth begins and ends, mm along the outline.
+    fn ends(&self) -> [f64; 2] {
+        let half = self.width() / 2.0;
+        [self.station - half, self.station + half]
+    }
+
+    /// The way of the outline from one end of the mouth to the other.
+    fn way(&self, [from, to]: [Point; 2]) -> Vec<Point> {
+        let down = self.inwards * self.mark.depth;
+        let inner = match self.mark.form {
+            Form::Plain | Form::Check | Form::T => vec![self.tip()],
+            Form::Castle => vec![from + down, to + down],
+            Form::U => self.round([from, to]),
+        };
+        [&[from], &inner[..], &[to]].concat()
+    }
+
+    /// A half circle between straight sides, or an arc alone where it is flat.
+    fn round(&self, [from, to]: [Point; 2]) -> Vec<Point> {
+        let half = (to - from).norm() / 2.0;
+        let along = (to - from) / (2.0 * half);
+        let depth = self.mark.depth;
+        let radius = if depth >= half { half } else { (half * half + depth * depth) / (2.0 * depth) };
+        let centre = from + (to - from) / 2.0 + self.inwards * (depth - radius);
+        let opening = if depth >= half { PI / 2.0 } else { (half / radius).asin() };
+        let place = |k: usize| {
+            let angle = opening * (2.0 * k as f64 / ROUND as f64 - 1.0);
+            centre + along * (radius * angle.sin()) + self.inwards * (radius * angle.cos())
+        };
+        if depth > half { (0..=ROUND).map(place).collect() } else { (1..ROUND).map(place).collect() }
+    }
+
+    /// A straight cut from the edge inwards, with its crossbar if it is a T.
+    fn slit(&self) -> Notch {
+        let (tip, span) = (self.tip(), self.mark.span);
+        let bar = left(self.inwards) * (self.width() / 2.0);
+        let kind = match self.mark.form {
+            Form::T => NotchKind::T(NotchStroke { from: tip - bar, to: tip + bar, span }),
+            Form::Plain | Form::Castle | Form::Check | Form::U => NotchKind::Slit,
+        };
+        Notch { kind, root: self.root, tip, percent: FULL_SPEED, span }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square of 100 mm, drawn clockwise or not.
+    fn square(is_left: bool) -> Vec<Vertex> {
+        let mut places = [[0.0, 0.0], [100.0, 0.0], [100.0, 100.0], [0.0, 100.0]];
+        if !is_left {
+            places.reverse();
+        }
+        places.iter().map(|&[x, y]| Vertex { at: Point::new(x, y), span: Span::default() }).collect()
+    }
+
+    fn mark(form: Form, at: [f64; 2], [depth, width]: [f64; 2]) -> Mark {
+        let span = Span { start: (100.0 * at[0] + at[1]) as u32, ..Span::default() };
+        Mark { form, at: at.into(), depth, width, along: None, span }
+    }
+
+    fn notched(is_left: bool, marks: &[Mark]) -> Notched {
+        cut(square(is_left), marks, &mut Budget::of_a_marker())
+    }
+
+    #[test]
+    fn a_slit_goes_inwards_whichever_way_the_outline_runs() {
+        for is_left in [true, false] {
+            let found = notched(is_left, &[mark(Form::Plain, [40.0, 0.05], [6.0, 0.0])]);
+            let [slit] = &found.slits[..] else { panic!("{found:?}") };
+            assert_eq!((slit.root, slit.tip, found.doubts.len()), (Point::new(40.0, 0.0), Point::new(40.0, 6.0), 0));
+            assert_eq!(found.outline.len(), 4);
+        }
+    }
+
+    #[test]
+    fn an_angle_of_the_file_holds_in_either_sense_unless_it_leads_along_the_edge() {
+        for (along, tip) in [([0.6, 0.8], [43.0, 4.0]), ([-0.6, -0.8], [43.0, 4.0]), ([1.0, 0.1], [40.0, 5.0])] {
+            let mark = Mark { along: Some(along.into()), ..mark(Form::Plain, [40.0, 0.0], [5.0, 0.0]) };
+            let found = notched(true, &[mark]);
+            assert!((found.slits[0].tip - Point::from(tip)).norm() < 1e-9, "{along:?}");
+        }
+    }
+
+    #[test]
+    fn wide_notches_are_ways_of_the_outline_wherever_that_starts() {
+        for (form, added) in [(Form::Plain, 3), (Form::Check, 3), (Form::Castle, 4), (Form::U, ROUND + 3)] {
+            for x in [40.0, 3.0] {
+                for is_left in [true, false] {
+                    let found = notched(is_left, &[mark(form, [x, 0.0], [5.0, 4.0])]);
+                    assert!(found.slits.is_empty() && found.doubts.is_empty(), "{form:?} {found:?}");
+                    assert_eq!(found.outline.len(), 4 + added, "{form:?}");
+                    let points: Vec<Point> = found.outline.iter().map(|vertex| vertex.at).collect();
+                    let area = ring::area(&points).abs();
+                    assert!((10_000.0 - 21.0..10_000.0 - 9.0).contains(&area), "{form:?}: {area}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_cut_so_is_a_slit_or_is_left_out() {
+        let doubts = |marks: &[Mark]| {
+            let found = notched(true, marks);
+            (found.slits.len(), found.doubts.iter().map(|doubt| doubt.0).collect::<Vec<_>>())
+        };
+        assert_eq!(doubts(&[mark(Form::Plain, [0.0, 0.0], [5.0, 4.0])]), (1, vec![Doubt::AsSlit]));
+        assert_eq!(doubts(&[mark(Form::Castle, [50.0, 0.0], [5.0, 14.0])]), (1, vec![Doubt::AsSlit]));
+        assert_eq!(doubts(&[mark(Form::Plain, [50.0, 5.0], [5.0, 0.0])]), (0, vec![Doubt::OffEdge]));
+        assert_eq!(doubts(&[mark(Form::Plain, [50.0, 0.0], [16.0, 0.0])]), (0, vec![Doubt::TooDeep]));
+        let beside = [mark(Form::U, [50.0, 0.0], [5.0, 4.0]), mark(Form::Plain, [51.0, 0.0], [5.0, 0.0])];
+        assert_eq!(doubts(&beside), (0, vec![Doubt::InAnother]));
+        let twice = [mark(Form::Plain, [50.0, 0.0], [5.0, 0.0]), mark(Form::Plain, [50.05, 0.0], [5.0, 0.0])];
+        assert_eq!(doubts(&twice), (1, vec![]));
+        let over = [mark(Form::U, [50.0, 0.0], [5.0, 4.0]), mark(Form::U, [53.0, 0.0], [5.0, 4.0])];
+        assert_eq!(doubts(&over), (1, vec![Doubt::AsSlit]));
+    }
+}

@@ -1,0 +1,55 @@
+//! Outlines of a block, and which of them lie in others: most blocks have one, a drawing without blocks has all.
+
+use super::chain::Chain;
+use crate::geom::budget::Budget;
+use crate::geom::{Extent, Point, polyline, ring};
+
+/// How far beside an outline what belongs to it may lie, mm: notches stand on it.
+const BESIDE: f64 = 1.0;
+
+/// An outline with those inside it, which are cut-outs.
+#[derive(Debug, Clone)]
+pub(super) struct Outline {
+    pub(super) edge: Chain,
+    pub(super) inner: Vec<Chain>,
+    points: Vec<Point>,
+    extent: Extent,
+}
+
+impl Outline {
+    /// An outline with nothing in it yet.
+    pub(super) fn of(edge: Chain) -> Self {
+        let points = edge.points();
+        let extent = Extent::of(&points).grown(BESIDE);
+        Self { edge, inner: Vec::new(), points, extent }
+    }
+
+    /// Whether a place lies in it or beside it, as far as there is work left to find out.
+    pub(super) fn holds(&self, at: Point, work: &mut Budget) -> bool {
+        self.extent.holds(at)
+            && work.spend(2 * self.points.len())
+            && (ring::contains(&self.points, at) || polyline::distance(at, &self.points) <= BESIDE)
+    }
+}
+
+/// The outlines that lie in no other, in the order of the file.
+pub(super) fn outlines(edges: Vec<Chain>, work: &mut Budget) -> Vec<Outline> {
+    let mut all: Vec<(usize, Outline)> = edges.into_iter().map(Outline::of).enumerate().collect();
+    if all.len() == 1 {
+        return all.into_iter().map(|(_, outline)| outline).collect();
+    }
+    all.sort_by(|(_, a), (_, b)| ring::area(&b.points).abs().total_cmp(&ring::area(&a.points).abs()));
+    let mut outer: Vec<(usize, Outline)> = Vec::new();
+    for (place, outline) in all {
+        let at = outline.points[0];
+        let is_inside = |around: &Outline, work: &mut Budget| {
+            outline.edge.is_closed && around.extent.covers(&outline.extent.grown(-BESIDE)) && around.holds(at, work)
+        };
+        match outer.iter_mut().find(|(_, around)| is_inside(around, work)) {
+            Some((_, around)) => around.inner.push(outline.edge),
+            None => outer.push((place, outline)),
+        }
+    }
+    outer.sort_by_key(|(place, _)| *place);
+    outer.into_iter().map(|(_, outline)| outline).collect()
+}

@@ -1,0 +1,254 @@
+//! Pieces: the shapes of a block become what is cut of a piece and what is only drawn on it, both halves of it.
+
+use std::collections::BTreeSet;
+
+use super::chain::{Chain, chains};
+use super::fold::{Fold, Refusal};
+use super::layer::{Does, Form, Layer};
+use super::notch::{self, Mark, Notched};
+use super::outline::{Outline, outlines};
+use super::shape::{Dot, Line, Shapes};
+use super::tally::{Tally, Thing};
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::budget::Budget;
+use crate::geom::{Point, bits};
+use crate::ir::drawing::Vertex;
+use crate::ir::marker::{Label, Notch};
+use crate::source::Span;
+
+/// A piece as the file draws it, mm; a half that is mirrored is whole here.
+#[derive(Debug, Clone)]
+pub(super) struct Piece {
+    pub(super) span: Span,
+    /// Its outline without notches.
+    pub(super) plain: Chain,
+    /// Its outline with the notches that it makes.
+    pub(super) outline: Chain,
+    pub(super) slits: Vec<Notch>,
+    pub(super) drills: Vec<(Point, Span)>,
+    /// Lines that are cut inside it.
+    pub(super) inner: Vec<Chain>,
+    /// Lines that are only drawn.
+    pub(super) drawn: Vec<(&'static Layer, Chain)>,
+    pub(super) labels: Vec<Label>,
+}
+
+/// What is looked at and found while pieces are made.
+#[derive(Debug)]
+pub(super) struct Making<'o> {
+    /// Depth of notches without one, mm.
+    pub(super) notch_depth: f64,
+    pub(super) work: Budget,
+    pub(super) tally: Tally,
+    pub(super) out: &'o mut Diagnostics,
+}
+
+/// What lies in one outline.
+#[derive(Debug, Default)]
+struct Content {
+    lines: Vec<(&'static Layer, Chain)>,
+    dots: Vec<Dot>,
+    labels: Vec<Label>,
+}
+
+impl Making<'_> {
+    /// The pieces of a block that begins at `span`; most have one.
+    pub(super) fn pieces(&mut self, shapes: Shapes, span: Span) -> Vec<Piece> {
+        let Shapes { lines, dots, texts, .. } = shapes;
+        let (folds, lines): (Vec<Line>, Vec<Line>) = lines.into_iter().partition(|line| line.layer.does == Does::Fold);
+        let mut folded: Vec<Fold> = folds.iter().filter_map(|line| Fold::of(&line.vertices)).collect();
+        folded.dedup_by(|next, before| next.is_same(before));
+        let is_folded = !folds.is_empty() || dots.iter().any(|dot| dot.layer.does == Does::Fold);
+        let mut lines = joined(lines);
+        lines
+            .extend(folds.into_iter().filter_map(|line| Some((line.layer, Chain::of(line.vertices, line.is_closed)?))));
+        let (edges, lines): (Vec<_>, Vec<_>) = lines.into_iter().partition(|(layer, _)| layer.does == Does::Outline);
+        let edges: Vec<Chain> = edges.into_iter().map(|(_, chain)| chain).collect();
+        if edges.is_empty() {
+            let is_cut =
+                lines.iter().map(|(layer, _)| layer).chain(dots.iter().map(|dot| &dot.layer)).any(|l| l.is_cut());
+            if is_cut {
+                self.tally.add(Thing::NoOutline, span);
+            }
+            return Vec::new();
+        }
+        let outlines = outlines(edges, &mut self.work);
+        let whole = self.unfolded(&outlines, &folded, is_folded);
+        let contents = self.sorted(&outlines, Content { lines, dots, labels: texts });
+        let is_alone = outlines.len() == 1;
+        let mut pieces = Vec::new();
+        for ((outline, whole), content) in outlines.into_iter().zip(whole).zip(contents) {
+            let Some((plain, fold)) = whole else { continue };
+            let span = if is_alone && span.block > 0 { span } else { outline.edge.vertices[0].span };
+            let mut piece = self.piece(plain, fold, content);
+            let inner = outline.inner.iter().flat_map(|line| on_both_sides(fold, line));
+            piece.inner.splice(0..0, inner);
+            pieces.push(Piece { span, ..piece });
+        }
+        pieces
+    }
+
+    /// The whole of each outline, and the fold that it was unfolded about; `None` with an error where it does not close.
+    fn unfolded(
+        &mut self,
+        outlines: &[Outline],
+        folds: &[Fold],
+        is_folded: bool,
+    ) -> Vec<Option<(Chain, Option<Fold>)>> {
+        let first = &outlines[0].edge;
+        let refused = match (outlines, folds) {
+            (_, []) if is_folded => Some("the fold line (layer 6) has no length"),
+            (_, []) => None,
+            ([_], &[fold]) => match fold.unfold_outline(first) {
+                Ok(whole) => return vec![Some((whole, Some(fold)))],
+                Err(Refusal::Across) => {
+                    self.tally.add(Thing::FoldAcross, first.vertices[0].span);
+                    None
+                }
+                Err(Refusal::Beside) => Some("the fold line (layer 6) lies along no edge of the outline"),
+                Err(Refusal::Several) => Some("the fold line (layer 6) lies along several edges of the outline"),
+            },
+            ([_], _) => Some("a piece has several fold lines (layer 6)"),
+            _ => Some("a fold line (layer 6) stands beside several outlines: which is half a piece is not said"),
+        };
+        if let Some(message) = refused {
+            let finding = Diagnostic::new(&code::DXF_FOLD, message).at(first.vertices[0].span);
+            self.out.push(finding.hint("let the CAD system unfold the piece, or draw its half up to the fold line"));
+            return vec![None; outlines.len()];
+        }
+        let closed = |Outline { edge, .. }: &Outline| {
+            if !edge.is_closed {
+                self.out.push(open_outline(edge));
+            }
+            edge.is_closed.then(|| (edge.clone(), None))
+        };
+        outlines.iter().map(closed).collect()
+    }
+
+    /// What lies in which outline; what lies in none goes with the first.
+    fn sorted(&mut self, outlines: &[Outline], all: Content) -> Vec<Content> {
+        if outlines.len() == 1 {
+            return vec![all];
+        }
+        let mut contents: Vec<Content> = outlines.iter().map(|_| Content::default()).collect();
+        for (layer, line) in all.lines {
+            let owner = self.owner(outlines, line.vertices[0].at);
+            contents[owner.unwrap_or(0)].lines.push((layer, line));
+        }
+        for dot in all.dots {
+            let owner = self.owner(outlines, dot.at);
+            contents[owner.unwrap_or(0)].dots.push(dot);
+        }
+        for label in all.labels {
+            if let Some(owner) = label.at.and_then(|at| self.owner(outlines, at)) {
+                contents[owner].labels.push(label);
+            }
+        }
+        contents
+    }
+
+    fn owner(&mut self, outlines: &[Outline], at: Point) -> Option<usize> {
+        outlines.iter().position(|outline| outline.holds(at, &mut self.work))
+    }
+
+    fn piece(&mut self, plain: Chain, fold: Option<Fold>, content: Content) -> Piece {
+        let mut marks: Vec<Mark> = Vec::new();
+        let mut drills: Vec<(Point, Span)> = Vec::new();
+        for dot in &content.dots {
+            let mirrored = fold.filter(|fold| !fold.is_middle(dot.at));
+            match dot.layer.does {
+                Does::Notch(form) => {
+                    let mark = self.mark(dot, form);
+                    marks.push(mark);
+                    marks.extend(mirrored.map(|fold| Mark {
+                        at: fold.mirror(mark.at),
+                        along: mark.along.map(|along| fold.mirror_way(along)),
+                        ..mark
+                    }));
+                }
+                Does::Drill => {
+                    drills.push((dot.at, dot.span));
+                    drills.extend(mirrored.map(|fold| (fold.mirror(dot.at), dot.span)));
+                }
+                Does::Outline | Does::Fold | Does::Inner | Does::Drawn | Does::Sign | Does::Nothing => {}
+            }
+        }
+        let Notched { outline, slits, doubts } = notch::cut(plain.vertices.clone(), &marks, &mut self.work);
+        for (doubt, span) in doubts {
+            self.tally.add(Thing::Notch(doubt), span);
+        }
+        let (mut inner, mut drawn) = (Vec::new(), Vec::new());
+        for (layer, line) in content.lines {
+            match layer.does {
+                Does::Inner => inner.extend(on_both_sides(fold, &line)),
+                Does::Drawn => drawn.extend(on_both_sides(fold, &line).into_iter().map(|line| (layer, line))),
+                Does::Outline | Does::Notch(_) | Does::Fold | Does::Drill | Does::Sign | Does::Nothing => {
+                    drawn.push((layer, line));
+                }
+            }
+        }
+        let around = Outline::of(plain);
+        let starts = inner.iter().map(|line| line.vertices[0]).map(|vertex| (vertex.at, vertex.span));
+        for (at, span) in starts.chain(drills.iter().copied()) {
+            if !around.holds(at, &mut self.work) {
+                self.tally.add(Thing::Outside, span);
+            }
+        }
+        let plain = around.edge;
+        let outline = Chain { vertices: outline, is_closed: true };
+        let span = Span::default();
+        Piece { span, plain, outline, slits, drills, inner, drawn, labels: content.labels }
+    }
+
+    fn mark(&self, dot: &Dot, form: Form) -> Mark {
+        let Dot { at, depth, width, heading, span, .. } = *dot;
+        let depth = if depth > 0.0 { depth } else { self.notch_depth };
+        Mark { form, at, depth, width, along: heading.map(crate::geom::Heading::unit), span }
+    }
+}
+
+fn on_both_sides(fold: Option<Fold>, line: &Chain) -> Vec<Chain> {
+    fold.map_or_else(|| vec![line.clone()], |fold| fold.unfold(line))
+}
+
+/// Lines with those of a layer joined that the convention lets be drawn in parts.
+fn joined(lines: Vec<Line>) -> Vec<(&'static Layer, Chain)> {
+    let mut layers: Vec<(&'static Layer, Vec<Chain>)> = Vec::new();
+    for Line { layer, vertices, is_closed } in lines {
+        let Some(chain) = Chain::of(vertices, is_closed) else { continue };
+        match layers.iter_mut().find(|(known, _)| known.number == layer.number) {
+            Some((_, chains)) => chains.push(chain),
+            None => layers.push((layer, vec![chain])),
+        }
+    }
+    for (_, lines) in &mut layers {
+        drop_doubled(lines);
+    }
+    let join = |(layer, lines): (&'static Layer, Vec<Chain>)| {
+        let lines = match layer.does {
+            Does::Outline | Does::Inner | Does::Drawn => chains(lines),
+            Does::Notch(_) | Does::Fold | Does::Drill | Does::Sign | Does::Nothing => lines,
+        };
+        lines.into_iter().map(move |line| (layer, line))
+    };
+    layers.into_iter().flat_map(join).collect()
+}
+
+/// Drops lines that are drawn a second time, either way round.
+fn drop_doubled(lines: &mut Vec<Chain>) {
+    let mut seen: BTreeSet<Vec<[u64; 2]>> = BTreeSet::new();
+    lines.retain(|line| {
+        let way: Vec<[u64; 2]> = line.vertices.iter().map(|vertex| bits(vertex.at)).collect();
+        let back: Vec<[u64; 2]> = way.iter().rev().copied().collect();
+        seen.insert(way.min(back))
+    });
+}
+
+/// An outline that does not close.
+fn open_outline(edge: &Chain) -> Diagnostic {
+    let ends: [Vertex; 2] = [edge.vertices[0], edge.vertices[edge.vertices.len() - 1]];
+    let gap = (ends[1].at - ends[0].at).norm();
+    let message = format!("the outline that begins here does not close: its ends are {gap:.1} mm apart");
+    let finding = Diagnostic::new(&code::DXF_OPEN_OUTLINE, message).at(ends[0].span);
+    finding.hint("close it in the CAD system; a piece that is not closed cannot be cut out")
+}

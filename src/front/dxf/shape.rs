@@ -1,0 +1,304 @@
+//! Shapes: the entities of a block become lines, points and texts in mm, each with its layer.
+
+use std::collections::BTreeMap;
+
+use super::curve::{Arc, bulged};
+use super::entity::{Entity, FLAGS, NAME, TEXT, number_at};
+use super::layer::{Layer, layer};
+use super::text::is_text;
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::{Heading, Point};
+use crate::ir::drawing::Vertex;
+use crate::ir::marker::Label;
+use crate::source::{Source, Span};
+use crate::units::rad;
+
+/// Codes of coordinates, and of what notches, arcs, attributes and insertions have beside them.
+const X: i32 = 10;
+const Y: i32 = 20;
+const X2: i32 = 11;
+const Y2: i32 = 21;
+const DEPTH: i32 = 30;
+const WIDTH: i32 = 39;
+const RADIUS: i32 = 40;
+const SCALE_X: i32 = 41;
+const SCALE_Y: i32 = 42;
+const BULGE: i32 = 42;
+const ANGLE: i32 = 50;
+const END_ANGLE: i32 = 51;
+/// Code of the number of vertices that a light polyline has.
+const COUNT: i32 = 90;
+
+/// Flags of polylines: closed, and kinds that are no lines; of vertices: a control point of a spline.
+const CLOSED: i64 = 1;
+const MESHES: i64 = 16 | 64;
+const CONTROL_POINT: i64 = 16;
+
+/// Largest coordinate, mm: a kilometre, far beyond any table.
+const FARTHEST: f64 = 1e6;
+/// Chords of all curves of a file: more come from a damaged radius.
+const MOST_CHORDS: usize = 4_000_000;
+
+/// A line with its layer.
+#[derive(Debug, Clone)]
+pub(super) struct Line {
+    pub(super) layer: &'static Layer,
+    pub(super) vertices: Vec<Vertex>,
+    /// Whether the last vertex leads to the first.
+    pub(super) is_closed: bool,
+}
+
+/// A point with what it says of a notch.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Dot {
+    pub(super) layer: &'static Layer,
+    pub(super) at: Point,
+    /// mm; nothing where the file says nothing.
+    pub(super) depth: f64,
+    pub(super) width: f64,
+    pub(super) heading: Option<Heading>,
+    pub(super) span: Span,
+}
+
+/// Where a block is put.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Insert<'a> {
+    pub(super) name: &'a [u8],
+    pub(super) at: Point,
+    pub(super) scale: [f64; 2],
+    pub(super) turn: f64,
+    pub(super) span: Span,
+}
+
+/// Everything in a block.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Shapes<'a> {
+    pub(super) lines: Vec<Line>,
+    pub(super) dots: Vec<Dot>,
+    pub(super) texts: Vec<Label>,
+    pub(super) inserts: Vec<Insert<'a>>,
+}
+
+/// Kinds of entities that are not read.
+pub(super) type Unread = BTreeMap<String, (usize, Span)>;
+
+/// How numbers become places, and what is found on the way.
+#[derive(Debug)]
+pub(super) struct Reader<'a, 'o> {
+    pub(super) source: &'a Source,
+    /// Length of a unit, mm.
+    pub(super) unit: f64,
+    /// Farthest that chords lie off their curve, mm.
+    pub(super) sagitta: f64,
+    /// Chords so far.
+    pub(super) chords: usize,
+    pub(super) unread: Unread,
+    pub(super) out: &'o mut Diagnostics,
+}
+
+impl<'a> Reader<'a, '_> {
+    /// Reads the entities of a block. Those that are at fault are reported and left out.
+    pub(super) fn shapes(&mut self, entities: &[Entity<'a>]) -> Shapes<'a> {
+        let mut shapes = Shapes::default();
+        let mut rest = entities;
+        while let [entity, behind @ ..] = rest {
+            rest = behind;
+            let read = if entity.is("POLYLINE") {
+                let is_vertex = |entity: &&Entity| entity.is("VERTEX");
+                let count = behind.iter().take_while(is_vertex).count();
+                rest = &behind[count..];
+                self.polyline(entity, &behind[..count], rest.first(), &mut shapes)
+            } else {
+                self.entity(entity, &mut shapes)
+            };
+            if let Err(fault) = read {
+                self.out.push(fault);
+            }
+        }
+        shapes
+    }
+
+    fn entity(&mut self, entity: &Entity<'a>, shapes: &mut Shapes<'a>) -> Result<(), Diagnostic> {
+        let layer = layer(entity.layer());
+        if entity.is("LINE") {
+            let [from, to] = [self.place(entity, [X, Y])?, self.place(entity, [X2, Y2])?];
+            let span = |code| entity.value(code).unwrap_or(entity.span());
+            let vertices = vec![Vertex { at: from, span: span(X) }, Vertex { at: to, span: span(X2) }];
+            shapes.lines.push(Line { layer, vertices, is_closed: false });
+        } else if entity.is("LWPOLYLINE") {
+            let vertices = self.light_vertices(entity)?;
+            self.add_line(layer, &vertices, entity.flags(FLAGS) & CLOSED != 0, shapes)?;
+        } else if entity.is("ARC") || entity.is("CIRCLE") {
+            self.arc(entity, layer, shapes)?;
+        } else if entity.is("POINT") {
+            let size = |code| Ok::<f64, Diagnostic>(self.unit * entity.number(code)?.unwrap_or(0.0).abs());
+            let heading = entity.number(ANGLE)?.map(|degrees| Heading::new(rad(degrees)));
+            let (depth, width, span) = (size(DEPTH)?, size(WIDTH)?, entity.span());
+            shapes.dots.push(Dot { layer, at: self.place(entity, [X, Y])?, depth, width, heading, span });
+        } else if entity.is("INSERT") {
+            let scale = |code| Ok::<f64, Diagnostic>(entity.number(code)?.unwrap_or(1.0));
+            let turn = rad(entity.number(ANGLE)?.unwrap_or(0.0));
+            let (scale, name, span) = ([scale(SCALE_X)?, scale(SCALE_Y)?], entity.bytes(NAME), entity.span());
+            shapes.inserts.push(Insert { name, at: self.place(entity, [X, Y])?, scale, turn, span });
+        } else if is_text(entity) {
+            // A text without a place is a text all the same.
+            let at = self.place(entity, [X, Y]).ok();
+            let heading = entity.number(ANGLE).ok().flatten().map(|degrees| Heading::new(rad(degrees)));
+            let text = entity.value(TEXT).filter(|span| span.start < span.end);
+            shapes.texts.extend(text.map(|span| Label { at, heading, span, mirrored: None }));
+        } else if !entity.is("SEQEND") {
+            return self.unread(entity);
+        }
+        Ok(())
+    }
+
+    /// A polyline with its vertices; `behind` should be its end.
+    fn polyline(
+        &mut self,
+        entity: &Entity<'a>,
+        vertices: &[Entity<'a>],
+        behind: Option<&Entity>,
+        shapes: &mut Shapes<'a>,
+    ) -> Result<(), Diagnostic> {
+        if !behind.is_some_and(|behind| behind.is("SEQEND")) {
+            let message = "the polyline that begins here has no SEQEND";
+            let finding = Diagnostic::new(&code::DXF_OPEN_POLYLINE, message).at(entity.span());
+            self.out.push(finding.hint("vertices of it may be missing: export the file again"));
+        }
+        let flags = entity.flags(FLAGS);
+        if flags & MESHES != 0 {
+            return self.unread(entity);
+        }
+        let mut places = Vec::with_capacity(vertices.len());
+        for vertex in vertices.iter().filter(|vertex| vertex.flags(FLAGS) & CONTROL_POINT == 0) {
+            let vertex_at = Vertex { at: self.place(vertex, [X, Y])?, span: vertex.span() };
+            places.push((vertex_at, vertex.number(BULGE)?.unwrap_or(0.0)));
+        }
+        self.add_line(layer(entity.layer()), &places, flags & CLOSED != 0, shapes)
+    }
+
+    /// The vertices of a light polyline, which follow each other in one entity.
+    fn light_vertices(&self, entity: &Entity) -> Result<Vec<(Vertex, f64)>, Diagnostic> {
+        let mut vertices: Vec<(Vertex, f64)> = Vec::new();
+        let mut x = None;
+        let lost = |span: Span| {
+            let message = "a vertex of the LWPOLYLINE has not both of its coordinates (groups 10 and 20)";
+            Diagnostic::new(&code::DXF_NO_COORDINATE, message).at(span).hint("export the file again")
+        };
+        for group in entity.groups() {
+            let number = || number_at(self.source, group.value);
+            match (group.code, x) {
+                (X, None) => x = Some((number()?, group.value)),
+                (Y, Some((first, span))) => {
+                    let at = self.on_table([first, number()?], span)?;
+                    vertices.push((Vertex { at, span }, 0.0));
+                    x = None;
+                }
+                (X, Some(_)) | (Y, None) => return Err(lost(group.value)),
+                (BULGE, None) => {
+                    let bulge = number()?;
+                    vertices.last_mut().into_iter().for_each(|(_, of_last)| *of_last = bulge);
+                }
+                _ => {}
+            }
+        }
+        let told = entity.number(COUNT)?;
+        match x {
+            Some((_, span)) => Err(lost(span)),
+            None if told.is_some_and(|count| count != vertices.len() as f64) => {
+                let message = format!("the LWPOLYLINE has {} vertices, and its count another", vertices.len());
+                Err(Diagnostic::new(&code::DXF_NO_COORDINATE, message).at(entity.span()).hint("export the file again"))
+            }
+            None => Ok(vertices),
+        }
+    }
+
+    /// Adds a line; where a vertex bulges, an arc leads to the next.
+    fn add_line(
+        &mut self,
+        layer: &'static Layer,
+        places: &[(Vertex, f64)],
+        is_closed: bool,
+        shapes: &mut Shapes,
+    ) -> Result<(), Diagnostic> {
+        let mut vertices: Vec<Vertex> = Vec::with_capacity(places.len());
+        for (i, &(vertex, bulge)) in places.iter().enumerate() {
+            vertices.push(vertex);
+            let next = places.get(i + 1).or(if is_closed { places.first() } else { None });
+            if let Some((next, _)) = next
+                && let Some(arc) = bulged(vertex.at, next.at, bulge)
+            {
+                let count = self.chords_of(&arc, vertex.span)?;
+                let inner = (1..count).map(|k| Vertex { at: arc.place(k as f64 / count as f64), span: next.span });
+                vertices.extend(inner);
+            }
+        }
+        shapes.lines.push(Line { layer, vertices, is_closed });
+        Ok(())
+    }
+
+    /// An arc or a circle, as chords; a circle where holes are is one.
+    fn arc(&mut self, entity: &Entity, layer: &'static Layer, shapes: &mut Shapes) -> Result<(), Diagnostic> {
+        let centre = self.place(entity, [X, Y])?;
+        let radius = self.unit * entity.coordinate(RADIUS)?.abs();
+        let span = entity.span();
+        let is_circle = entity.is("CIRCLE");
+        if is_circle && layer.does == super::layer::Does::Drill {
+            shapes.dots.push(Dot { layer, at: centre, depth: 0.0, width: 0.0, heading: None, span });
+            return Ok(());
+        }
+        let [start, end] =
+            if is_circle { [0.0, 360.0] } else { [entity.coordinate(ANGLE)?, entity.coordinate(END_ANGLE)?] };
+        let sweep = if is_circle { 360.0 } else { (end - start).rem_euclid(360.0) };
+        let arc = Arc { centre, radius, start: rad(start), sweep: rad(sweep) };
+        let count = self.chords_of(&arc, span)?;
+        let last = if is_circle { count - 1 } else { count };
+        let vertices = (0..=last).map(|k| Vertex { at: arc.place(k as f64 / count as f64), span }).collect();
+        shapes.lines.push(Line { layer, vertices, is_closed: is_circle });
+        Ok(())
+    }
+
+    /// How many chords an arc becomes.
+    fn chords_of(&mut self, arc: &Arc, span: Span) -> Result<usize, Diagnostic> {
+        if !arc.radius.is_finite() || arc.radius > FARTHEST {
+            return Err(too_far(span));
+        }
+        let count = arc.chords(self.sagitta);
+        self.chords += count;
+        if self.chords > MOST_CHORDS {
+            let message = format!("the curves of the file have more than {MOST_CHORDS} chords");
+            return Err(Diagnostic::new(&code::DXF_CURVES, message).at(span).hint("look for a damaged radius"));
+        }
+        Ok(count)
+    }
+
+    /// The place of two codes, mm.
+    pub(super) fn place(&self, entity: &Entity, [x, y]: [i32; 2]) -> Result<Point, Diagnostic> {
+        self.on_table([entity.coordinate(x)?, entity.coordinate(y)?], entity.value(x).unwrap_or(entity.span()))
+    }
+
+    fn on_table(&self, place: [f64; 2], span: Span) -> Result<Point, Diagnostic> {
+        let [x, y] = place.map(|value| value * self.unit);
+        if x.abs() > FARTHEST || y.abs() > FARTHEST {
+            return Err(too_far(span));
+        }
+        Ok(Point::new(x, y))
+    }
+
+    /// An entity of a kind that is not read: an error where a cut would be missing.
+    fn unread(&mut self, entity: &Entity) -> Result<(), Diagnostic> {
+        let kind = entity.kind().escape_ascii().to_string();
+        if layer(entity.layer()).is_cut() {
+            let message = format!("{kind} on layer {}, which is cut, is not read", entity.layer_name());
+            let finding = Diagnostic::new(&code::DXF_UNREAD_CUT, message).at(entity.span());
+            return Err(finding.hint("export polylines: pattern DXF holds POLYLINE, LINE, POINT and TEXT alone"));
+        }
+        self.unread.entry(kind).or_insert((0, entity.span())).0 += 1;
+        Ok(())
+    }
+}
+
+fn too_far(span: Span) -> Diagnostic {
+    let finding = Diagnostic::new(&code::DXF_FAR_PLACE, "a place lies more than a kilometre from the origin").at(span);
+    finding.hint("look for a doubled digit, and at the unit (`dxf.unit`)")
+}

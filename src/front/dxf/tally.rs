@@ -1,0 +1,73 @@
+//! What is not done as the file says, each thing reported once with its count and first place.
+
+use std::collections::BTreeMap;
+
+use super::notch::Doubt;
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, code};
+use crate::source::Span;
+
+/// What is not done, beside what entities are not read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Thing {
+    Notch(Doubt),
+    /// A cut-out or a hole lies in no outline.
+    Outside,
+    /// A block has something to cut and no outline.
+    NoOutline,
+    /// A quantity is no number.
+    Quantity,
+    /// An insertion names no block.
+    NoBlock,
+    /// An insertion changes the size of a block.
+    Scaled,
+    /// A block is put nowhere, while others are.
+    NotPlaced,
+    /// A piece is drawn on both sides of its fold line.
+    FoldAcross,
+}
+
+/// Counts of what is not done.
+#[derive(Debug, Default)]
+pub(super) struct Tally(BTreeMap<Thing, (usize, Span)>);
+
+impl Tally {
+    /// Once more.
+    pub(super) fn add(&mut self, thing: Thing, span: Span) {
+        self.0.entry(thing).or_insert((0, span)).0 += 1;
+    }
+
+    /// Reports all of it.
+    pub(super) fn report(&self, out: &mut Diagnostics) {
+        for (&thing, &(count, span)) in &self.0 {
+            let Row { code, one, many, hint } = row(thing);
+            let message = if count == 1 { one.to_owned() } else { format!("{count} {many}, the first here") };
+            out.push(Diagnostic::new(code, message).at(span).hint(hint));
+        }
+    }
+}
+
+/// How a thing is told.
+struct Row {
+    code: &'static Code,
+    one: &'static str,
+    many: &'static str,
+    hint: &'static str,
+}
+
+#[rustfmt::skip] // a table: a row a thing
+fn row(thing: Thing) -> Row {
+    let left_out = &code::DXF_NOTCH_LEFT_OUT;
+    match thing {
+        Thing::Notch(Doubt::OffEdge) => Row { code: left_out, one: "a notch lies more than 1 mm from the outline and is not cut", many: "notches lie more than 1 mm from the outline and are not cut", hint: "it may mark a seam line: cut it by hand if it is missing" },
+        Thing::Notch(Doubt::TooDeep) => Row { code: left_out, one: "a notch is deeper than 15 mm or than its part is there, and is not cut", many: "notches are deeper than 15 mm or than their part is there, and are not cut", hint: "look at the depth (group 30) and at the unit of the file" },
+        Thing::Notch(Doubt::InAnother) => Row { code: left_out, one: "a notch lies in the mouth of another one and is not cut", many: "notches lie in the mouths of others and are not cut", hint: "one of both is enough: see which in the picture (-t svg)" },
+        Thing::Notch(Doubt::AsSlit) => Row { code: &code::DXF_NOTCH_AS_SLIT, one: "a notch is too small or wide, at a corner or beside another one: cut as a slit", many: "notches are too small or wide, at corners or beside others: cut as slits", hint: "a slit marks the same place" },
+        Thing::Outside => Row { code: &code::DXF_OUTSIDE, one: "a cut-out or a hole lies outside of its outline, and is cut all the same", many: "cut-outs or holes lie outside of their outlines, and are cut all the same", hint: "see in the picture (-t svg) where the knife goes" },
+        Thing::NoOutline => Row { code: &code::DXF_NO_OUTLINE, one: "a block has something to cut and no outline on layer 1; nothing of it is cut", many: "blocks have something to cut and no outline on layer 1; nothing of them is cut", hint: "count the pieces with `cutc info`" },
+        Thing::Quantity => Row { code: &code::DXF_QUANTITY, one: "a quantity is no number; the piece is cut once", many: "quantities are no numbers; these pieces are cut once", hint: "it is written as `QUANTITY: 1` or, right and left, as `QUANTITY: 1,1`" },
+        Thing::NoBlock => Row { code: &code::DXF_NO_BLOCK, one: "an INSERT names a block that the file does not hold", many: "INSERTs name blocks that the file does not hold", hint: "a piece may be missing: count them with `cutc info`" },
+        Thing::Scaled => Row { code: &code::DXF_SCALE, one: "an INSERT scales a piece", many: "INSERTs scale pieces", hint: "pieces are cut in the size in which their blocks are drawn; `dxf.unit` says another unit" },
+        Thing::NotPlaced => Row { code: &code::DXF_NOT_PLACED, one: "a piece is placed by no INSERT while others are, and is not cut", many: "pieces are placed by no INSERT while others are, and are not cut", hint: "count the pieces with `cutc info`" },
+        Thing::FoldAcross => Row { code: &code::DXF_FOLD_ACROSS, one: "a piece is drawn on both sides of its fold line (layer 6); it is cut as it is drawn", many: "pieces are drawn on both sides of their fold lines (layer 6); they are cut as they are drawn", hint: "look at the picture (-t svg): both halves must be there" },
+    }
+}

@@ -1,0 +1,130 @@
+//! Pattern DXF: what the file leaves open, and which of its pieces are cut. The keys `dxf.*`.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::key::{Key, Takes, from};
+use super::word::words;
+use crate::units::MM_PER_INCH;
+
+/// The keys `dxf.*`.
+#[rustfmt::skip] // a table: one row a key
+pub(super) const KEYS: &[Key] = &[
+    Key { name: "dxf.unit", takes: Takes::Word(words::<PatternUnit>), about: "Unit of pattern DXF. \"auto\" believes the text UNITS: METRIC (mm) or ENGLISH (inch); without one\nit is mm, with a warning." },
+    Key { name: "dxf.quantity", takes: Takes::Word(words::<Quantity>), about: "How often a piece of a pattern DXF is cut: \"file\" = as the text QUANTITY says, 1,1 = once as it is\ndrawn and once mirrored; \"one\" = once as it is drawn." },
+    Key { name: "dxf.gap_mm", takes: Takes::Number(from(0.0, 1000.0)), about: "Room between the pieces of a pattern DXF, which lie in a row unless the file places them." },
+    Key { name: "dxf.notch_mm", takes: Takes::Number(from(1.0, 15.0)), about: "Depth of the notches for which a pattern DXF gives none." },
+];
+
+/// How pattern DXF is read.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Dxf {
+    /// Unit of its numbers.
+    pub unit: PatternUnit,
+    /// How often its pieces are cut.
+    pub quantity: Quantity,
+    /// Room between pieces.
+    pub gap_mm: f64,
+    /// Depth of notches without one.
+    pub notch_mm: f64,
+}
+
+impl Default for Dxf {
+    fn default() -> Self {
+        Self { unit: PatternUnit::Auto, quantity: Quantity::File, gap_mm: 20.0, notch_mm: 5.0 }
+    }
+}
+
+/// Unit of the numbers of a pattern DXF.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum PatternUnit {
+    /// As the file says.
+    #[default]
+    Auto,
+    /// Millimetres.
+    Mm,
+    /// Inches.
+    Inch,
+}
+
+impl PatternUnit {
+    /// Length of the unit, mm; `None` when the file decides.
+    pub fn mm(self) -> Option<f64> {
+        match self {
+            Self::Auto => None,
+            Self::Mm => Some(1.0),
+            Self::Inch => Some(MM_PER_INCH),
+        }
+    }
+}
+
+/// How often a piece is cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Quantity {
+    /// As often as the file says, right and left.
+    #[default]
+    File,
+    /// Once, as it is drawn.
+    One,
+}
+
+/// Which sizes of a set of patterns are cut.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Sizes {
+    /// All of them.
+    All,
+    /// Those of these names.
+    Named(Vec<String>),
+}
+
+impl Sizes {
+    /// The word for all of them.
+    const ALL: &'static str = "all";
+
+    /// Reads `M`, `S,M,L` or `all`; `None` when a name is missing.
+    pub fn parse(text: &str) -> Option<Self> {
+        if text.trim().eq_ignore_ascii_case(Self::ALL) {
+            return Some(Self::All);
+        }
+        let names: Vec<String> = text.split(',').map(|name| name.trim().to_owned()).collect();
+        names.iter().all(|name| !name.is_empty()).then_some(Self::Named(names))
+    }
+}
+
+/// As it is typed.
+impl fmt::Display for Sizes {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::All => out.write_str(Self::ALL),
+            Self::Named(names) => out.write_str(&names.join(",")),
+        }
+    }
+}
+
+/// Which patterns one compile cuts, where its user says something of them.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Patterns {
+    /// Their sizes; `None` = the sample size.
+    pub sizes: Option<Sizes>,
+    /// How often; `None` = as the profile says.
+    pub quantity: Option<Quantity>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_read_as_people_write_them() {
+        let named = |names: &[&str]| Some(Sizes::Named(names.iter().map(|&name| name.to_owned()).collect()));
+        assert_eq!(Sizes::parse("M"), named(&["M"]));
+        assert_eq!(Sizes::parse("S, 44/46"), named(&["S", "44/46"]));
+        assert_eq!(Sizes::parse("ALL"), Some(Sizes::All));
+        assert_eq!(Sizes::parse("S,"), None);
+        assert_eq!(Sizes::parse("S,M").map(|sizes| sizes.to_string()).as_deref(), Some("S,M"));
+    }
+}

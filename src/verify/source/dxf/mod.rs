@@ -1,0 +1,9 @@
+//! A second, small reading of pattern DXF: where its layers ask for cuts, notches and holes, by other means than the
+//! reader's. It joins no lines and makes no notches: it holds every place of the marker against the places of the file.
+
+mod cloth;
+mod compare;
+mod cuts;
+mod tags;
+
+pub use compare::{CutPlaces, pattern_audit};

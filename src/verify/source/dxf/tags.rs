@@ -1,0 +1,120 @@
+//! A second, small reading of the lines of a DXF file: what stands in which block.
+
+/// A code and its value.
+#[derive(Debug, Clone, Copy)]
+struct Tag<'a> {
+    code: i32,
+    text: &'a [u8],
+}
+
+/// Something that is drawn, or a text.
+#[derive(Debug, Clone)]
+pub(super) struct Item<'a> {
+    /// What it is, in capitals.
+    pub(super) kind: Vec<u8>,
+    /// Number of the group that it begins with.
+    pub(super) number: u32,
+    tags: Vec<Tag<'a>>,
+}
+
+/// A block, or what stands in none.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Sheet<'a> {
+    pub(super) name: Vec<u8>,
+    /// Place of the block that an insertion puts somewhere, in units of the file.
+    pub(super) base: [f64; 2],
+    pub(super) items: Vec<Item<'a>>,
+}
+
+impl<'a> Item<'a> {
+    pub(super) fn text(&self, code: i32) -> &'a [u8] {
+        self.tags.iter().find(|tag| tag.code == code).map_or(b"", |tag| tag.text)
+    }
+
+    pub(super) fn number(&self, code: i32) -> Option<f64> {
+        number(self.text(code))
+    }
+
+    /// The numbers of two codes.
+    pub(super) fn pair(&self, codes: [i32; 2]) -> Option<[f64; 2]> {
+        Some([self.number(codes[0])?, self.number(codes[1])?])
+    }
+
+    pub(super) fn flag(&self, bit: u32) -> bool {
+        self.number(70).is_some_and(|flags| flags as u32 & bit != 0)
+    }
+
+    /// The number of its layer.
+    pub(super) fn layer(&self) -> Option<u32> {
+        std::str::from_utf8(self.text(8)).ok()?.parse().ok()
+    }
+
+    /// Each value of some codes, in their order.
+    pub(super) fn each(&self, codes: [i32; 3]) -> impl Iterator<Item = (i32, f64)> {
+        let tags = self.tags.iter().filter(move |tag| codes.contains(&tag.code));
+        tags.filter_map(|tag| Some((tag.code, number(tag.text)?)))
+    }
+
+    /// What a text says under a key: what stands behind `KEY:`, or the value of an attribute of that tag.
+    pub(super) fn says(&self, key: &str) -> Option<&'a [u8]> {
+        if ![&b"TEXT"[..], b"MTEXT", b"ATTDEF", b"ATTRIB"].contains(&&self.kind[..]) {
+            return None;
+        }
+        let is_key = |name: &[u8]| {
+            let name = String::from_utf8_lossy(name).to_uppercase();
+            name.split_whitespace().eq(key.split_whitespace())
+        };
+        let text = self.text(1);
+        match text.iter().position(|&byte| byte == b':') {
+            Some(colon) if is_key(&text[..colon]) => {
+                Some(text[colon + 1..].trim_ascii()).filter(|text| !text.is_empty())
+            }
+            None if self.kind != b"TEXT" && is_key(self.text(2)) => Some(text),
+            _ => None,
+        }
+    }
+}
+
+fn number(text: &[u8]) -> Option<f64> {
+    std::str::from_utf8(text).ok()?.parse().ok()
+}
+
+impl Sheet<'_> {
+    /// What its texts say under a key, the first of them.
+    pub(super) fn says(&self, key: &str) -> Option<&[u8]> {
+        self.items.iter().find_map(|item| item.says(key))
+    }
+}
+
+/// The blocks of a file, and what stands in none.
+pub(super) fn sheets(bytes: &[u8]) -> (Vec<Sheet<'_>>, Sheet<'_>) {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let lines: Vec<&[u8]> = bytes.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).collect();
+    let mut items: Vec<Item> = Vec::new();
+    for (pair, number) in lines.chunks_exact(2).zip(1..) {
+        let Some(code) = std::str::from_utf8(pair[0]).ok().and_then(|code| code.parse().ok()) else { break };
+        match items.last_mut() {
+            _ if code == 0 => items.push(Item { kind: pair[1].to_ascii_uppercase(), number, tags: Vec::new() }),
+            Some(item) => item.tags.push(Tag { code, text: pair[1] }),
+            None => {}
+        }
+    }
+    let (mut blocks, mut loose): (Vec<Sheet>, Sheet) = (Vec::new(), Sheet::default());
+    let (mut section, mut is_in_block) = (Vec::new(), false);
+    for item in items {
+        match &item.kind[..] {
+            b"SECTION" => section = item.text(2).to_ascii_uppercase(),
+            b"ENDSEC" => section.clear(),
+            b"BLOCK" if section == b"BLOCKS" => {
+                is_in_block = true;
+                let base = item.pair([10, 20]).unwrap_or_default();
+                blocks.push(Sheet { name: item.text(2).to_ascii_uppercase(), base, items: Vec::new() });
+            }
+            b"ENDBLK" => is_in_block = false,
+            _ if is_in_block => blocks.last_mut().into_iter().for_each(|block| block.items.push(item.clone())),
+            _ if section == b"ENTITIES" => loose.items.push(item),
+            _ => {}
+        }
+    }
+    (blocks, loose)
+}

@@ -1,0 +1,78 @@
+//! The second reading agrees with the first, and sees what is changed.
+
+use cutc::back::TARGETS;
+use cutc::diagnostic::{Diagnostics, render};
+use cutc::geom::{Point, Vector};
+use cutc::ir::Marker;
+use cutc::machine::Job;
+use cutc::machine::patterns::{Patterns, Sizes};
+use cutc::pipeline::{self, Order};
+use cutc::source::Source;
+use cutc::verify::{CutPlaces, pattern_audit};
+use std::io::Cursor;
+
+use super::{as_read, fixtures, source};
+
+/// The rules of the audit that do not hold.
+pub(super) fn broken(source: &Source, marker: &Marker, job: &Job) -> Vec<&'static str> {
+    let findings = pattern_audit(source.bytes(), &CutPlaces::of(marker), job);
+    assert_eq!(findings.len(), 4);
+    findings.iter().filter(|finding| !finding.holds()).map(|finding| finding.rule).collect()
+}
+
+#[test]
+fn every_fixture_is_read_twice_alike_in_all_of_its_sizes() {
+    for (path, bytes) in fixtures() {
+        let source = source(bytes);
+        for sizes in [None, Some(Sizes::All)] {
+            let job = Job { patterns: Patterns { sizes, ..Patterns::default() }, ..Job::default() };
+            let (marker, _) = as_read(&source, &job);
+            assert!(marker.contours().count() > 0, "{}", path.display());
+            assert_eq!(broken(&source, &marker, &job), [""; 0], "{}", path.display());
+        }
+    }
+}
+
+#[test]
+fn every_fixture_becomes_programs_that_are_verified() {
+    for (path, bytes) in fixtures() {
+        let source = source(bytes);
+        for name in ["csv", "gcode", "iso"] {
+            let target = TARGETS.iter().find(|target| target.name == name).expect("a target");
+            let mut found = Diagnostics::default();
+            let order = Order { from: None, target, verify: true };
+            let compiled = pipeline::compile(&source, &Job::default(), order, &mut Cursor::new(Vec::new()), &mut found);
+            let is_made = compiled.expect("memory takes everything").is_some();
+            assert!(is_made, "{} {name}: {}", path.display(), render(&found, &source));
+        }
+    }
+}
+
+/// What is changed, and the rule that must see it.
+type Change = (&'static str, fn(&mut Marker));
+
+#[test]
+fn what_the_reader_would_lose_or_move_is_seen() {
+    let changes: [Change; 9] = [
+        ("source/points", |marker| marker.list.move_points(|at| at + Vector::new(0.01, 0.0))),
+        ("source/points", |marker| marker.list.move_points(|at| Point::new(-at.x, at.y))),
+        ("source/points", |marker| _ = marker.pieces[0].contours.remove(0)),
+        ("source/length", |marker| {
+            let again = marker.pieces[0].contours[0];
+            marker.pieces[0].contours.push(again);
+        }),
+        ("source/drills", |marker| _ = marker.pieces[0].drills.pop()),
+        ("source/drills", |marker| marker.pieces[0].drills[0].at.x += 0.01),
+        ("source/notches", |marker| marker.pieces[0].notches[0].root.y += 2.0),
+        ("source/notches", |marker| marker.pieces[0].notches[0].tip.x -= 1.0),
+        ("source/notches", |marker| marker.pieces[0].notches[0].span.block += 1),
+    ];
+    let (_, bytes) = fixtures().into_iter().find(|(path, _)| path.ends_with("half-piece.dxf")).expect("a fixture");
+    let (source, job) = (source(bytes), Job::default());
+    for (k, (rule, change)) in changes.into_iter().enumerate() {
+        let (mut marker, _) = as_read(&source, &job);
+        change(&mut marker);
+        let broken = broken(&source, &marker, &job);
+        assert!(broken.contains(&rule), "change {k}: {broken:?}");
+    }
+}

@@ -1,0 +1,62 @@
+//! Files that are cut short, and files with groups that are lost, doubled or changed.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use cutc::machine::Job;
+use fastrand::Rng;
+
+use super::audit::broken;
+use super::{as_read, fixtures, source};
+
+/// Damages of each file.
+const DAMAGES: usize = 150;
+
+/// Reads what is damaged: nothing panics, and what is read without errors the second reading finds as well. Gives the rules
+/// that are broken, and the file.
+fn check(lines: &[&[u8]], what: &str) -> Option<String> {
+    let source = source(lines.join(&b'\n'));
+    let outcome = catch_unwind(AssertUnwindSafe(|| {
+        let (marker, _) = as_read(&source, &Job::default());
+        if marker.contours().count() > 0 { broken(&source, &marker, &Job::default()) } else { Vec::new() }
+    }));
+    let broken = outcome.unwrap_or_else(|_| panic!("{what} panics"));
+    (!broken.is_empty()).then(|| format!("{what}: {broken:?}\n{}", source.bytes().escape_ascii()))
+}
+
+#[test]
+fn a_file_cut_short_at_any_line_is_refused() {
+    for (path, bytes) in fixtures() {
+        let lines: Vec<&[u8]> = bytes.split(|&byte| byte == b'\n').collect();
+        // Behind the last line stands nothing.
+        for count in (0..lines.len() - 2).step_by(if lines.len() > 500 { 17 } else { 1 }) {
+            let source = source(lines[..count].join(&b'\n'));
+            let (marker, found) = as_read(&source, &Job::default());
+            let is_refused = marker.pieces.is_empty() && !found.is_empty();
+            assert!(is_refused, "{} behind line {count}: {found:?}", path.display());
+        }
+    }
+}
+
+#[test]
+fn damaged_groups_never_panic_and_what_is_read_all_the_same_is_what_stands_there() {
+    let mut faults: Vec<String> = Vec::new();
+    for (path, bytes) in fixtures() {
+        let lines: Vec<&[u8]> = bytes.split(|&byte| byte == b'\n').collect();
+        let mut random = Rng::with_seed(bytes.len() as u64);
+        for k in 0..DAMAGES {
+            let mut damaged = lines.clone();
+            let pair = 2 * random.usize(..lines.len() / 2);
+            let other = 2 * random.usize(..lines.len() / 2);
+            match random.u8(..6) {
+                0 => _ = damaged.drain(pair..pair + 2),
+                1 => damaged.splice(pair..pair, lines[other..other + 2].iter().copied()).for_each(drop),
+                2 => damaged.swap(pair + 1, other + 1),
+                3 => _ = damaged.remove(random.usize(..lines.len())),
+                4 => damaged[pair + 1] = [&b"1"[..], b"-40", b"6", b"1e9", b"x", b"", b"11"][random.usize(..7)],
+                _ => damaged[pair] = [&b"  0"[..], b" 10", b" 42", b" 70", b"8", b" 50"][random.usize(..6)],
+            }
+            faults.extend(check(&damaged, &format!("{} damage {k}", path.display())));
+        }
+    }
+    assert!(faults.is_empty(), "{} files are read wrongly\n{}", faults.len(), faults.join("\n"));
+}
