@@ -77,6 +77,7 @@ pub mod analysis;
 pub mod back;
 pub mod cli;
 pub mod diagnostic;
+pub mod flow;
 pub mod front;
 pub mod geom;
 pub mod ir;

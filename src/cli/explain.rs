@@ -11,6 +11,7 @@ use crate::machine::MachineProfile;
 use crate::machine::keys::{self, KEYS, Key};
 use crate::manual;
 use crate::pipeline::RULES;
+use crate::flow;
 use crate::sew;
 
 /// Columns of an explanation.
@@ -51,7 +52,9 @@ fn topics() -> impl Iterator<Item = Topic> {
     let rules = RULES.iter().map(|rule| Topic { name: rule.name, kind: "rule", about: rule.about, more: rule.more });
     let sewing = sew::verify::RULES.iter();
     let sewing = sewing.map(|rule| Topic { name: rule.name, kind: "rule", about: rule.about, more: rule.more });
-    codes.chain(rules).chain(sewing)
+    let flow = flow::verify::RULES.iter();
+    let flow = flow.map(|rule| Topic { name: rule.name, kind: "rule", about: rule.about, more: rule.more });
+    codes.chain(rules).chain(sewing).chain(flow)
 }
 
 fn severity(severity: Severity) -> &'static str {

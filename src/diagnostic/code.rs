@@ -325,6 +325,18 @@ mod table {
     /// The program breaks a rule.
     pub static SEW_BROKEN: Code = error(Shape, "sew/broken", "The program, read back, breaks a rule; the message names the rule, the worst value, the limit and the entry.", "The program is not written: it would not sew what the file says. Please report the file: a pattern that is read without errors should be sewn as it is.");
 
+    // Flow cutting.
+    /// No cut.
+    pub static FLOW_NOTHING: Code = error(Shape, "flow/nothing-to-cut", "The marker holds nothing that a head over a conveyor could cut.", "Heads cut lines; a file of holes, labels or events has none. Look at what is in it.\n  cutc info marker.cut");
+    /// What heads do not do.
+    pub static FLOW_LEFT_OUT: Code = warning(Spoils, Shape, "flow/left-out", "Something in the file is not made on the conveyor: holes, stops, advances; the message says what and how many.", "The parts come off the conveyor without it. Drill them elsewhere, or cut this marker on a table.\n  cutc compile marker.cut");
+    /// More than the machine has.
+    pub static FLOW_INFEASIBLE: Code = error(Shape, "flow/infeasible", "The machine cannot cut the marker at this speed of the conveyor; the message says what it takes, the hints what would help, each with its figure.", "A head that comes too late would leave a stretch uncut that is gone for good. Slow the conveyor down, give heads more travel along the feed (`flow.travel_mm`), or take more heads and rows.\n  cutc flow marker.cut -p flow.toml --speed max -o out");
+    /// Off the conveyor.
+    pub static FLOW_OFF_TABLE: Code = error(Shape, "flow/off-table", "A head would leave the table across the feed (`table.y_mm`).", "There it has no cloth to cut and runs into its end. Move the marker on the cloth (`sheet.offset_mm`), or mend the key.");
+    /// The program breaks a rule.
+    pub static FLOW_BROKEN: Code = error(Shape, "flow/broken", "The programs of the heads, read back, break a rule; the message names the rule, the worst value, the limit, the head and the row.", "Nothing is written: cloth would be spoilt. Please report the file: a marker that is planned should be cut as it is.");
+
     // Machine profile.
     /// The TOML is broken.
     pub static PROFILE_SYNTAX: Code = error(Text, "profile/syntax", "The profile is not valid TOML.", "TOML wants a key, an equals sign and a value on a line; text stands in quotes. `cutc profile init` prints a profile that is right.\n  knife.width_mm = 7.2");
@@ -445,6 +457,11 @@ pub static ALL: &[&Code] = &[
     &SEW_NO_SPEED,
     &SEW_UNDERRUN,
     &SEW_BROKEN,
+    &FLOW_NOTHING,
+    &FLOW_LEFT_OUT,
+    &FLOW_INFEASIBLE,
+    &FLOW_OFF_TABLE,
+    &FLOW_BROKEN,
     &PROFILE_SYNTAX,
     &PROFILE_UNKNOWN_KEY,
     &PROFILE_TYPE,

@@ -10,7 +10,7 @@ pub use super::key::{Key, Takes, Within, shown_value};
 use super::plot;
 use super::profile::{self, MachineProfile};
 use super::{
-    axes, common, counts, drill, gcode, knife, labels, nest, notches, order, path, sewing, sheet, table, time, verify,
+    axes, common, counts, drill, flow, gcode, knife, labels, nest, notches, order, path, sewing, sheet, table, time, verify,
 };
 
 /// The rows of each section, in the order in which a profile is written.
@@ -33,6 +33,7 @@ const SECTIONS: &[&[Key]] = &[
     plot::KEYS,
     labels::KEYS,
     sewing::KEYS,
+    flow::KEYS,
     codes::KEYS,
 ];
 

@@ -12,6 +12,7 @@ mod digest;
 pub mod drill;
 mod encoding;
 mod fault;
+pub mod flow;
 pub mod gcode;
 mod key;
 pub mod keys;
@@ -41,6 +42,7 @@ mod word;
 
 pub use common::{Common, CommonLines, Lines};
 pub use digest::{blake3_of, sha256_hex, sha256_of};
+pub use flow::Flow;
 pub use kinematics::Limits;
 pub use knife::{Follow, Knife, Spare, TightCurves};
 pub use load::{Faults, load, load_given};

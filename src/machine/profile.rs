@@ -13,6 +13,7 @@ pub use super::codes::CodeUse;
 use super::common::{Common, CommonLines, Lines};
 use super::counts::Counts;
 use super::drill::Drill;
+use super::flow::Flow;
 use super::gcode::Gcode;
 use super::key::{Key, Takes};
 use super::knife::Knife;
@@ -96,6 +97,8 @@ pub struct MachineProfile {
     pub labels: Labels,
     /// The pattern-sewing machine.
     pub sewing: Sewing,
+    /// Heads over a conveyor.
+    pub flow: Flow,
     /// Codes of the cutter file by name, `M19`.
     pub codes: BTreeMap<String, CodeUse>,
 }
@@ -157,6 +160,7 @@ impl Default for MachineProfile {
             hpgl: Hpgl::default(),
             labels: Labels::default(),
             sewing: Sewing::default(),
+            flow: Flow::default(),
             codes: BTreeMap::new(),
         }
     }

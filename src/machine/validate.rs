@@ -7,6 +7,7 @@ use super::key::{Key, Takes, shown_value};
 use super::keys::KEYS;
 use super::knife::Knife;
 use super::profile::MachineProfile;
+use super::flow;
 use super::sewing;
 use crate::diagnostic::code;
 
@@ -57,6 +58,7 @@ fn rules(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault
     faults.extend(headings(profile, is_given));
     faults.extend(gcode::faults(profile));
     faults.extend(sewing::faults(&profile.sewing));
+    faults.extend(flow::faults(&profile.flow));
     faults
 }
 

@@ -32,9 +32,11 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("pipeline", ALL_BUT_CLI),
     // Another machine: it reads what the cutter reads.
     ("sew", &["source", "diagnostic", "units", "geom", "ir", "machine", "front", "recognise"]),
+    // Another machine: it cuts what the cutter cuts.
+    ("flow", &["source", "diagnostic", "units", "geom", "ir", "machine", "pass", "plan"]),
     ("manual", &[]),
     // The tables of the stages, but not what they do.
-    ("cli", &["pipeline", "front", "back", "pass", "source", "machine", "diagnostic", "ir", "units", "manual", "sew"]),
+    ("cli", &["pipeline", "front", "back", "pass", "source", "machine", "diagnostic", "ir", "units", "manual", "sew", "flow"]),
     ("main", &["cli"]),
 ];
 
@@ -66,7 +68,7 @@ const NAMED_ONLY_IN: &[(&str, &[&str])] = &[
     ("clap::", &["cli"]),
     ("anyhow::", &["cli", "main"]),
     // What gives the same on any number of threads may be shared out; what writes, reads and plans goes in order.
-    ("rayon::", &["analysis", "cli", "geom", "pass", "pipeline", "verify"]),
+    ("rayon::", &["analysis", "cli", "flow", "geom", "pass", "pipeline", "verify"]),
     // Stages are pure: files, clocks and the environment are for those who call them.
     ("tempfile::", &["cli", "pipeline"]),
     ("std::thread", &["cli", "pipeline", "main"]),

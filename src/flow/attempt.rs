@@ -1,0 +1,216 @@
+//! A marker at one speed of the conveyor: a program, or what is missing.
+
+use rayon::prelude::*;
+
+use super::Figures;
+use super::bound::{self, Bounds};
+use super::chains::{Chain, Line, Parting};
+use super::heads::{self, Links, Start, Task};
+use super::link::{Link, State};
+use super::moving::Moving;
+use super::pace::paced;
+use super::program::{self, Head, Program};
+use super::rows::{self, Conflicts};
+use super::stroke::{self, Stroke};
+use super::track::Track;
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::geom::Point;
+use crate::machine::Job;
+use crate::pass::toolpath::Scene;
+use crate::units::MM_PER_M;
+
+/// What is cut, and on what.
+pub(super) struct Work<'a> {
+    pub(super) lines: &'a [Line],
+    pub(super) scene: &'a Scene<'a>,
+    /// Greatest x of the marker, mm.
+    pub(super) front: f64,
+    pub(super) job: &'a Job,
+}
+
+/// What keeps a marker from being cut.
+#[derive(Debug)]
+pub(super) enum Missing {
+    /// The conveyor is as fast as the heads, or faster.
+    Axis,
+    /// Travel along the feed: so much is needed, for the chain that starts there.
+    Travel {
+        /// How much, mm.
+        needed: f64,
+        /// Where.
+        at: Point,
+    },
+    /// Heads: so many are needed.
+    Heads(usize),
+    /// Rows: so many are needed.
+    Rows(usize),
+    /// Way to the first row: so much more is needed, mm.
+    Way(f64),
+    /// A chain cannot be planned at all.
+    Plan(Vec<Diagnostic>),
+}
+
+/// Parts of the travel along the feed that a turn back may take within a chain, from the one that parts least.
+const BACKS: [f64; 4] = [f64::INFINITY, 0.25, 0.0625, 0.0];
+/// Part of the travel that is left to a chain which turns back: what it takes makes the next one late.
+const SHARE: f64 = 0.7;
+/// A turn back of so many tolerances parts nothing.
+const WAVE: f64 = 3.0;
+
+/// Plans a marker at a speed of the conveyor.
+pub(super) fn attempt(work: &Work, speed: f64, out: &mut Diagnostics) -> Result<Program, Missing> {
+    let moving = Moving::new(speed, work.job).ok_or(Missing::Axis)?;
+    let cut = |line: &Line| work.cut(line, &moving);
+    let made: Vec<_> = work.lines.par_iter().map(cut).collect();
+    let mut strokes = Vec::new();
+    for made in made {
+        let (of_line, found) = made?;
+        out.extend(found);
+        strokes.extend(of_line);
+    }
+    let needed = strokes.iter().map(|stroke| (stroke.lag.travel(moving.ramp.way), stroke.points[0]));
+    if let Some((needed, at)) = needed.max_by(|a, b| a.0.total_cmp(&b.0))
+        && needed > moving.travel
+    {
+        let needed = needed + work.job.profile.flow.travel_mm - moving.travel;
+        return Err(Missing::Travel { needed, at });
+    }
+    work.program(strokes, moving)
+}
+
+impl Work<'_> {
+    /// The strokes of a line: in as few chains as the travel along the feed allows.
+    fn cut(&self, line: &Line, moving: &Moving) -> Result<(Vec<Stroke>, Diagnostics), Missing> {
+        let profile = &self.job.profile;
+        let bounds = Bounds::of(profile);
+        let least = WAVE * line.toolpath.tolerance;
+        let mut parted = 0;
+        for (i, part) in BACKS.into_iter().enumerate() {
+            let parting = Parting {
+                back: (part * moving.travel).max(least),
+                overlap: profile.flow.overlap_mm,
+                corner: profile.corner.angle(),
+                unit: self.scene.unit,
+            };
+            let chains = line.chains(parting);
+            let is_last = i + 1 == BACKS.len();
+            let share = |chain: &Chain| if chain.falls { 1.0 } else { SHARE };
+            let may_fit = |chain: &Chain| bounds.lag(chain.points(), moving.speed) <= share(chain) * moving.travel;
+            if !is_last && (chains.len() == parted || !chains.iter().all(may_fit)) {
+                continue;
+            }
+            parted = chains.len();
+            let mut found = Diagnostics::default();
+            let strokes = self.strokes(&chains, moving, &mut found)?;
+            let fits = |(stroke, chain): (&Stroke, &Chain)| {
+                stroke.lag.travel(moving.ramp.way) <= share(chain) * moving.travel
+            };
+            if is_last || strokes.iter().zip(&chains).all(fits) {
+                return Ok((strokes, found));
+            }
+        }
+        Ok((Vec::new(), Diagnostics::default()))
+    }
+
+    fn strokes(&self, chains: &[Chain], moving: &Moving, out: &mut Diagnostics) -> Result<Vec<Stroke>, Missing> {
+        let stroke = |chain: &Chain| {
+            let toolpath = stroke::toolpath(chain, self.scene, out);
+            paced(chain, &toolpath, moving).map_err(Missing::Plan)
+        };
+        chains.iter().map(stroke).collect()
+    }
+
+    /// Heads and rows for the strokes.
+    fn program(&self, strokes: Vec<Stroke>, moving: Moving) -> Result<Program, Missing> {
+        let flow = &self.job.profile.flow;
+        let tasks: Vec<Task> = strokes.iter().map(|stroke| task(stroke, &moving)).collect();
+        let assigned = heads::assign(&tasks, &Linking { strokes: &strokes, moving: &moving });
+        let mut program = Program {
+            strokes,
+            heads: assigned.into_iter().map(|tasks| Head { row: 0, tasks }).collect(),
+            speed: moving.speed,
+            stations: program::stations(self.front, self.job),
+            ticks: 0,
+            figures: Figures::default(),
+            moving,
+        };
+        let [first, last] = program.extent();
+        let tracks: Vec<Track> =
+            program.heads.par_iter().map(|head| Track::new(program.across(head, [first, last]))).collect();
+        let conflicts =
+            Conflicts::new(tracks.len(), |a, b| tracks[a].is_near(&tracks[b], flow.head_width_mm));
+        let (rows, exact) = rows::colour(&conflicts);
+        let count = rows.iter().max().map_or(0, |most| most + 1);
+        if program.heads.len() > flow.heads as usize {
+            return Err(Missing::Heads(program.heads.len()));
+        }
+        if count > flow.rows as usize {
+            return Err(Missing::Rows(count));
+        }
+        for (head, row) in program.heads.iter_mut().zip(rows) {
+            head.row = row;
+        }
+        program.heads.sort_by_key(|head| head.row);
+        let [first, last] = program.extent();
+        if first < 0 {
+            return Err(Missing::Way(-first as f64 * program.moving.step()));
+        }
+        program.ticks = last as u64;
+        program.figures = self.figures(&program, count, exact);
+        Ok(program)
+    }
+
+    fn figures(&self, program: &Program, rows: usize, exact: bool) -> Figures {
+        let bounds = Bounds::of(&self.job.profile);
+        let Program { strokes, heads, moving, .. } = program;
+        let flow = &self.job.profile.flow;
+        let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+        let fastest = strokes.iter().map(|stroke| bounds.fastest(&stroke.points, flow.travel_mm, flow.max_speed_mm_s));
+        let time = program.ticks as f64 * moving.period;
+        let cutting: f64 = strokes.iter().map(|stroke| f64::from(stroke.ticks) * moving.period).sum();
+        Figures {
+            chains: strokes.len(),
+            heads: heads.len(),
+            heads_bound: bound::heads(strokes.iter().map(|stroke| stroke.span)),
+            rows,
+            rows_exact: exact,
+            travel_mm: most(&mut strokes.iter().map(|stroke| stroke.lag.travel(moving.ramp.way))),
+            travel_bound_mm: most(&mut strokes.iter().map(|stroke| bounds.lag(&stroke.points, moving.speed))),
+            speed_bound_mm_s: fastest.fold(flow.max_speed_mm_s, f64::min),
+            cut_m: strokes.iter().map(Stroke::length).sum::<f64>() / MM_PER_M,
+            time_s: time,
+            busy: if heads.is_empty() { 0.0 } else { cutting / (time * heads.len() as f64) },
+        }
+    }
+}
+
+/// When a stroke may start, in ticks.
+fn task(stroke: &Stroke, moving: &Moving) -> Task {
+    let [earliest, latest] = stroke.lag.window(moving).map(|time| time / moving.period);
+    Task { window: [earliest.ceil() as i64, latest.floor() as i64], ticks: i64::from(stroke.ticks) }
+}
+
+/// The links between strokes.
+struct Linking<'a> {
+    strokes: &'a [Stroke],
+    moving: &'a Moving,
+}
+
+impl Linking<'_> {
+    fn state(&self, start: Start, is_end: bool) -> State {
+        let stroke = &self.strokes[start.task];
+        let pose = stroke.ends[usize::from(is_end)];
+        let tick = start.tick + if is_end { i64::from(stroke.ticks) } else { 0 };
+        State { xi: pose.centre.x + tick as f64 * self.moving.step(), y: pose.centre.y, c: pose.c.0 }
+    }
+}
+
+impl Links for Linking<'_> {
+    fn ticks(&self, from: Start, to: Start) -> i64 {
+        i64::from(Link::least([self.state(from, true), self.state(to, false)], [true; 2], self.moving))
+    }
+
+    fn cost(&self, from: usize, to: usize) -> f64 {
+        (self.strokes[from].ends[1].centre.y - self.strokes[to].ends[0].centre.y).abs()
+    }
+}
