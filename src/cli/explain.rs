@@ -6,12 +6,12 @@ use clap::Args;
 
 use super::finished::{DONE, Finished, failure};
 use crate::diagnostic::{Severity, code};
+use crate::flow;
 use crate::front::DIALECTS;
 use crate::machine::MachineProfile;
 use crate::machine::keys::{self, KEYS, Key};
 use crate::manual;
 use crate::pipeline::RULES;
-use crate::flow;
 use crate::sew;
 
 /// Columns of an explanation.

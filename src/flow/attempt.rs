@@ -1,25 +1,28 @@
 //! A marker at one speed of the conveyor: a program, or what is missing.
 
+use std::f64::consts::TAU;
+
 use rayon::prelude::*;
 
 use super::Figures;
 use super::bound::{self, Bounds};
 use super::chains::{Chain, Line, Parting};
 use super::heads::{self, Links, Start, Task};
-use super::link::{Link, State};
+use super::link::{Link, State, Wait};
 use super::moving::Moving;
 use super::pace::paced;
+use super::placing;
 use super::program::{self, Head, Program};
-use super::rows::{self, Conflicts};
 use super::stroke::{self, Stroke};
-use super::track::Track;
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
 use crate::machine::Job;
 use crate::pass::toolpath::Scene;
 use crate::units::MM_PER_M;
+use crate::units::number::up;
 
 /// What is cut, and on what.
+#[derive(Clone, Copy)]
 pub(super) struct Work<'a> {
     pub(super) lines: &'a [Line],
     pub(super) scene: &'a Scene<'a>,
@@ -40,10 +43,13 @@ pub(super) enum Missing {
         /// Where.
         at: Point,
     },
-    /// Heads: so many are needed.
-    Heads(usize),
-    /// Rows: so many are needed.
-    Rows(usize),
+    /// Heads or rows: so many are needed.
+    Machine {
+        /// Heads.
+        heads: usize,
+        /// Rows.
+        rows: usize,
+    },
     /// Way to the first row: so much more is needed, mm.
     Way(f64),
     /// A chain cannot be planned at all.
@@ -75,24 +81,51 @@ pub(super) fn attempt(work: &Work, speed: f64, out: &mut Diagnostics) -> Result<
         let needed = needed + work.job.profile.flow.travel_mm - moving.travel;
         return Err(Missing::Travel { needed, at });
     }
+    off_table(&strokes, work.job, out);
     work.program(strokes, moving)
 }
 
+/// Says where heads would leave the table across the feed.
+fn off_table(strokes: &[Stroke], job: &Job, out: &mut Diagnostics) {
+    let Some([least, most]) = job.profile.table.y_mm else { return };
+    let ys = strokes.iter().flat_map(|stroke| stroke.poses().map(|(pose, _, _)| pose.centre));
+    let off = ys.map(|at| ((least - at.y).max(at.y - most), at)).max_by(|a, b| a.0.total_cmp(&b.0));
+    if let Some((beyond, at)) = off.filter(|(beyond, _)| *beyond > 0.0) {
+        let message = format!("a head would leave the table across the feed by {} mm", up(beyond, 2));
+        let hint = "move the marker on the cloth (`sheet.offset_mm`), or mend `table.y_mm`";
+        out.push(Diagnostic::new(&code::FLOW_OFF_TABLE, message).on_cloth(at).by(beyond).hint(hint));
+    }
+}
+
 impl Work<'_> {
-    /// The strokes of a line: in as few chains as the travel along the feed allows.
-    fn cut(&self, line: &Line, moving: &Moving) -> Result<(Vec<Stroke>, Diagnostics), Missing> {
+    /// Whether not even the closed form allows a speed: some chain takes more travel, however its line is parted.
+    pub(super) fn is_hopeless(&self, speed: f64) -> bool {
         let profile = &self.job.profile;
         let bounds = Bounds::of(profile);
-        let least = WAVE * line.toolpath.tolerance;
+        let takes_more = |line: &Line| {
+            let chains = line.chains(self.parting(line, 0.0));
+            chains.iter().any(|chain| bounds.lag(chain.points(), speed) > profile.flow.travel_mm)
+        };
+        speed >= bounds.speeds[0] || self.lines.par_iter().any(takes_more)
+    }
+
+    /// How a line is parted that may turn back by so much, mm.
+    fn parting(&self, line: &Line, back: f64) -> Parting {
+        let profile = &self.job.profile;
+        Parting {
+            back: back.max(WAVE * line.toolpath.tolerance),
+            overlap: profile.flow.overlap_mm,
+            corner: profile.corner.angle(),
+            unit: self.scene.unit,
+        }
+    }
+
+    /// The strokes of a line: in as few chains as the travel along the feed allows.
+    fn cut(&self, line: &Line, moving: &Moving) -> Result<(Vec<Stroke>, Diagnostics), Missing> {
+        let bounds = Bounds::of(&self.job.profile);
         let mut parted = 0;
         for (i, part) in BACKS.into_iter().enumerate() {
-            let parting = Parting {
-                back: (part * moving.travel).max(least),
-                overlap: profile.flow.overlap_mm,
-                corner: profile.corner.angle(),
-                unit: self.scene.unit,
-            };
-            let chains = line.chains(parting);
+            let chains = line.chains(self.parting(line, part * moving.travel));
             let is_last = i + 1 == BACKS.len();
             let share = |chain: &Chain| if chain.falls { 1.0 } else { SHARE };
             let may_fit = |chain: &Chain| bounds.lag(chain.points(), moving.speed) <= share(chain) * moving.travel;
@@ -102,9 +135,8 @@ impl Work<'_> {
             parted = chains.len();
             let mut found = Diagnostics::default();
             let strokes = self.strokes(&chains, moving, &mut found)?;
-            let fits = |(stroke, chain): (&Stroke, &Chain)| {
-                stroke.lag.travel(moving.ramp.way) <= share(chain) * moving.travel
-            };
+            let fits =
+                |(stroke, chain): (&Stroke, &Chain)| stroke.lag.travel(moving.ramp.way) <= share(chain) * moving.travel;
             if is_last || strokes.iter().zip(&chains).all(fits) {
                 return Ok((strokes, found));
             }
@@ -124,39 +156,34 @@ impl Work<'_> {
     fn program(&self, strokes: Vec<Stroke>, moving: Moving) -> Result<Program, Missing> {
         let flow = &self.job.profile.flow;
         let tasks: Vec<Task> = strokes.iter().map(|stroke| task(stroke, &moving)).collect();
-        let assigned = heads::assign(&tasks, &Linking { strokes: &strokes, moving: &moving });
+        let linking = Linking { strokes: &strokes, moving: &moving };
+        let assigned = heads::assign(&tasks, &linking);
+        let heads = assigned.into_iter().map(|tasks| Head {
+            row: 0,
+            turns: linking.turns(&tasks),
+            waits: vec![Wait::There; tasks.len() + 1],
+            tasks,
+        });
+        let heads = heads.collect();
         let mut program = Program {
             strokes,
-            heads: assigned.into_iter().map(|tasks| Head { row: 0, tasks }).collect(),
+            heads,
             speed: moving.speed,
             stations: program::stations(self.front, self.job),
             ticks: 0,
             figures: Figures::default(),
             moving,
         };
-        let [first, last] = program.extent();
-        let tracks: Vec<Track> =
-            program.heads.par_iter().map(|head| Track::new(program.across(head, [first, last]))).collect();
-        let conflicts =
-            Conflicts::new(tracks.len(), |a, b| tracks[a].is_near(&tracks[b], flow.head_width_mm));
-        let (rows, exact) = rows::colour(&conflicts);
-        let count = rows.iter().max().map_or(0, |most| most + 1);
-        if program.heads.len() > flow.heads as usize {
-            return Err(Missing::Heads(program.heads.len()));
+        let (rows, exact) = placing::place(&mut program, self.job);
+        if program.heads.len() > flow.heads as usize || rows > flow.rows as usize {
+            return Err(Missing::Machine { heads: program.heads.len(), rows });
         }
-        if count > flow.rows as usize {
-            return Err(Missing::Rows(count));
-        }
-        for (head, row) in program.heads.iter_mut().zip(rows) {
-            head.row = row;
-        }
-        program.heads.sort_by_key(|head| head.row);
         let [first, last] = program.extent();
         if first < 0 {
             return Err(Missing::Way(-first as f64 * program.moving.step()));
         }
         program.ticks = last as u64;
-        program.figures = self.figures(&program, count, exact);
+        program.figures = self.figures(&program, rows, exact);
         Ok(program)
     }
 
@@ -197,6 +224,22 @@ struct Linking<'a> {
 }
 
 impl Linking<'_> {
+    /// Whole turns of C by which each stroke is ahead of its motion where it then turns least, rad.
+    fn turns(&self, tasks: &[Start]) -> Vec<f64> {
+        let mut turns = vec![0.0; tasks.len()];
+        for i in 1..tasks.len() {
+            let last = self.state(tasks[i - 1], true).c + turns[i - 1];
+            turns[i] = self.whole(last - self.state(tasks[i], false).c);
+        }
+        turns
+    }
+
+    /// The whole turns nearest to an angle, rad; none where C has an end.
+    fn whole(&self, angle: f64) -> f64 {
+        let is_free = self.moving.either.profile.c.range_deg.is_none();
+        if is_free { (angle / TAU).round() * TAU } else { 0.0 }
+    }
+
     fn state(&self, start: Start, is_end: bool) -> State {
         let stroke = &self.strokes[start.task];
         let pose = stroke.ends[usize::from(is_end)];
@@ -207,7 +250,9 @@ impl Linking<'_> {
 
 impl Links for Linking<'_> {
     fn ticks(&self, from: Start, to: Start) -> i64 {
-        i64::from(Link::least([self.state(from, true), self.state(to, false)], [true; 2], self.moving))
+        let (from, mut to) = (self.state(from, true), self.state(to, false));
+        to.c += self.whole(from.c - to.c);
+        i64::from(Link::least([from, to], [true; 2], self.moving))
     }
 
     fn cost(&self, from: usize, to: usize) -> f64 {

@@ -121,7 +121,8 @@ mod tests {
     #[test]
     fn a_circle_takes_the_travel_that_its_ends_across_the_feed_take() {
         let angle = |i: u32| std::f64::consts::PI * f64::from(i) / 20_000.0;
-        let half: Vec<Point> = (0..=20_000).map(|i| Point::new(100.0 * angle(i).cos(), 100.0 * angle(i).sin())).collect();
+        let half: Vec<Point> =
+            (0..=20_000).map(|i| Point::new(100.0 * angle(i).cos(), 100.0 * angle(i).sin())).collect();
         let bounds = Bounds { speeds: [1e9, 1000.0, 1e9], ..BOUNDS };
         let travel = bounds.lag(&half, 200.0);
         assert!((travel - 100.0 * (1.04_f64.sqrt() - 1.0)).abs() < 2e-3, "{travel}");

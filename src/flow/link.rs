@@ -16,6 +16,18 @@ pub struct State {
     pub c: f64,
 }
 
+/// Where a head waits across the feed between two chains.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Wait {
+    /// Where the next chain starts.
+    #[default]
+    There,
+    /// Where the last one ended.
+    Here,
+    /// At another place, out of the way of others, mm.
+    At(f64),
+}
+
 /// An axis that goes from one place to another in its own time, and rests before and behind.
 #[derive(Debug, Clone, Copy)]
 struct Shift {
@@ -28,6 +40,21 @@ struct Shift {
 }
 
 impl Shift {
+    fn new([from, to]: [f64; 2], axis: usize, moving: &Moving) -> Self {
+        let way = Move::new((to - from).abs(), moving.rapid[axis]);
+        Self { from, to, way, first: 0, ticks: periods(way.duration(), moving.period) }
+    }
+
+    /// The same that begins at a tick.
+    fn begun(self, first: u32) -> Self {
+        Self { first, ..self }
+    }
+
+    /// The same that ends at a tick.
+    fn ended(self, last: u32) -> Self {
+        Self { first: last.saturating_sub(self.ticks), ..self }
+    }
+
     fn at(&self, tick: u32) -> f64 {
         let done = self.way.at(f64::from(tick.saturating_sub(self.first)), f64::from(self.ticks.max(1)));
         self.from + done.copysign(self.to - self.from)
@@ -38,69 +65,64 @@ impl Shift {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Link {
     ramp: Ramp,
-    from: State,
-    to: State,
+    ends: [State; 2],
     /// Whether it moves with the cloth at its start, and at its end.
-    moving: [bool; 2],
+    moves: [bool; 2],
     pub(super) ticks: u32,
-    axes: [Shift; 3],
-}
-
-/// When an axis of a link moves.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum When {
-    /// As soon as it can.
-    AtOnce,
-    /// So that it arrives when it must.
-    InTime,
+    x: Shift,
+    /// To where it waits, and on from there.
+    y: [Shift; 2],
+    c: Shift,
 }
 
 impl Link {
     /// The link between two states that takes so many ticks.
-    pub(super) fn new([from, to]: [State; 2], moves: [bool; 2], ticks: u32, when: When, moving: &Moving) -> Self {
+    pub(super) fn new(ends: [State; 2], moves: [bool; 2], ticks: u32, wait: Wait, moving: &Moving) -> Self {
         let ramp = moving.ramp;
-        let [start, end] = rests([from, to], moves, &ramp);
-        let [before, behind] = moves.map(|is_moving| if is_moving { ramp.ticks } else { 0 });
-        let shift = |axis: usize, from: f64, to: f64, [before, behind]: [u32; 2]| {
-            let way = Move::new((to - from).abs(), moving.rapid[axis]);
-            let taken = periods(way.duration(), moving.period);
-            let first = match when {
-                When::AtOnce => before,
-                When::InTime => ticks.saturating_sub(behind + taken),
-            };
-            Shift { from, to, way, first, ticks: taken }
+        let [from, to] = ends;
+        let x = Shift::new(rests(ends, moves, &ramp), 0, moving).begun(if moves[0] { ramp.ticks } else { 0 });
+        let place = match wait {
+            Wait::There => to.y,
+            Wait::Here => from.y,
+            Wait::At(y) => y,
         };
-        let axes = [
-            shift(0, start, end, [before, behind]),
-            shift(1, from.y, to.y, [0; 2]),
-            shift(2, from.c, to.c, [0; 2]),
-        ];
-        Self { ramp, from, to, moving: moves, ticks, axes }
+        let y = [Shift::new([from.y, place], 1, moving), Shift::new([place, to.y], 1, moving).ended(ticks)];
+        Self { ramp, ends, moves, ticks, x, y, c: Shift::new([from.c, to.c], 2, moving) }
     }
 
     /// The least ticks that a link between two states takes.
-    pub(super) fn least([from, to]: [State; 2], moves: [bool; 2], moving: &Moving) -> u32 {
-        let [start, end] = rests([from, to], moves, &moving.ramp);
-        let taken = |axis: usize, way: f64| periods(Move::new(way.abs(), moving.rapid[axis]).duration(), moving.period);
+    pub(super) fn least(ends: [State; 2], moves: [bool; 2], moving: &Moving) -> u32 {
+        let [from, to] = ends;
+        let taken = |ends: [f64; 2], axis: usize| Shift::new(ends, axis, moving).ticks;
         let ramps: u32 = moves.iter().map(|&is_moving| if is_moving { moving.ramp.ticks } else { 0 }).sum();
-        let along = ramps + taken(0, end - start);
+        let along = ramps + taken(rests(ends, moves, &moving.ramp), 0);
         let knife = &moving.either.profile.knife;
         let rising = if moves[0] { periods(knife.lift() - knife.clear(), moving.period) } else { 0 };
-        along.max(taken(1, to.y - from.y)).max(taken(2, to.c - from.c)).max(rising)
+        along.max(taken([from.y, to.y], 1)).max(taken([from.c, to.c], 2)).max(rising)
+    }
+
+    /// Whether there is time to wait where it does.
+    pub(super) fn has_time(&self) -> bool {
+        self.y[0].ticks + self.y[1].ticks <= self.ticks
+    }
+
+    /// Where the head is across the feed at a tick of it, mm.
+    pub(super) fn y(&self, tick: u32) -> f64 {
+        if tick < self.y[1].first { self.y[0].at(tick) } else { self.y[1].at(tick) }
     }
 
     /// Where the head is at a tick of it.
     pub(super) fn at(&self, tick: u32) -> State {
-        let [x, y, c] = &self.axes;
         let ramp = &self.ramp;
-        let xi = if self.moving[0] && tick < ramp.ticks {
-            self.from.xi + ramp.down(tick)
-        } else if self.moving[1] && tick + ramp.ticks > self.ticks {
-            self.to.xi - ramp.way + ramp.up(tick + ramp.ticks - self.ticks)
+        let [from, to] = &self.ends;
+        let xi = if self.moves[0] && tick < ramp.ticks {
+            from.xi + ramp.down(tick)
+        } else if self.moves[1] && tick + ramp.ticks > self.ticks {
+            to.xi - ramp.way + ramp.up(tick + ramp.ticks - self.ticks)
         } else {
-            x.at(tick)
+            self.x.at(tick)
         };
-        State { xi, y: y.at(tick), c: c.at(tick) }
+        State { xi, y: self.y(tick), c: self.c.at(tick) }
     }
 }
 
@@ -110,9 +132,10 @@ fn rests([from, to]: [State; 2], moves: [bool; 2], ramp: &Ramp) -> [f64; 2] {
     [from.xi + way(moves[0]), to.xi - way(moves[1])]
 }
 
+/// Part of a period by which a duration may exceed a whole number of them: rounding.
+const PERIOD_EPSILON: f64 = 1e-9;
+
 /// The least number of periods that last so long, s.
-pub(super) fn periods(duration: f64, period: f64) -> u32 {
-    /// Part of a period by which a duration may exceed a whole number of them: rounding.
-    const PERIOD_EPSILON: f64 = 1e-9;
+fn periods(duration: f64, period: f64) -> u32 {
     (duration / period - PERIOD_EPSILON).ceil().max(0.0) as u32
 }

@@ -19,6 +19,7 @@ mod heads;
 mod link;
 mod moving;
 mod pace;
+mod placing;
 mod program;
 mod ramp;
 mod rows;
@@ -27,6 +28,7 @@ mod stroke;
 mod track;
 pub mod verify;
 mod write;
+mod yielding;
 
 pub use asked::{Shift, Speed, straight};
 pub use bound::Bounds;

@@ -143,7 +143,8 @@ fn of_cut(step: usize, run: &Run, phase: &Phase, lead: f64, end: f64, moving: &M
     let whole = stations[stations.len() - 1] + run.front;
     let total = phase.length.max(sum);
     // The tick at which the tip is at a station, and the place of the centre then.
-    let reach = |station: f64| way.partition_point(|&at| at < total - (whole - station)).min(phase.ticks as usize) as u32;
+    let reach =
+        |station: f64| way.partition_point(|&at| at < total - (whole - station)).min(phase.ticks as usize) as u32;
     let x = |tick: u32| if tick < phase.ticks { phase.pose(tick).centre.x } else { end };
     let last_chord = stations.len() - 2;
     let mut from = 0;

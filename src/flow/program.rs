@@ -1,9 +1,10 @@
 //! What the heads do: every chain on a head, every head in a row, and where each head is at every tick.
 
 use super::heads::Start;
-use super::link::{Link, State, When};
+use super::link::{Link, State, Wait};
 use super::moving::Moving;
 use super::stroke::Stroke;
+use super::yielding::ends_of;
 use crate::machine::Job;
 
 /// A conveyor and heads that cut a marker.
@@ -11,7 +12,7 @@ use crate::machine::Job;
 pub struct Program {
     /// The chains, with their motion.
     pub strokes: Vec<Stroke>,
-    /// The heads, row by row.
+    /// The heads, row by row, in each from the lowest y to the highest.
     pub heads: Vec<Head>,
     /// Speed of the conveyor, mm/s.
     pub speed: f64,
@@ -31,6 +32,10 @@ pub struct Head {
     pub row: usize,
     /// What it cuts, in order; ticks count from where the place x = 0 of the cloth meets the station.
     pub tasks: Vec<Start>,
+    /// Whole turns by which C is ahead of the motion of each stroke, rad.
+    pub(super) turns: Vec<f64>,
+    /// Where it waits before, between and behind its chains.
+    pub(super) waits: Vec<Wait>,
 }
 
 /// A row of a head's program.
@@ -65,14 +70,17 @@ impl Program {
         (self.stations[row] / self.moving.step()).round() as i64
     }
 
-    /// Where a head is when a chain starts on it and when it ends, seen from a station that the cloth's zero meets at tick
-    /// `origin`.
-    pub(super) fn ends(&self, start: Start, row: usize) -> [State; 2] {
-        let stroke = &self.strokes[start.task];
-        [(stroke.ends[0], start.tick), (stroke.ends[1], start.tick + i64::from(stroke.ticks))].map(|(pose, tick)| {
-            let away = self.away(row, tick);
-            State { xi: pose.centre.x + away, y: pose.centre.y, c: pose.c.0 }
-        })
+    /// The ticks from the start of a chain of a head to its end, and where the head is then.
+    pub(super) fn chain(&self, head: &Head, task: usize) -> ([i64; 2], [State; 2]) {
+        let Start { task: stroke, tick } = head.tasks[task];
+        let stroke = &self.strokes[stroke];
+        let ticks = [tick, tick + i64::from(stroke.ticks)];
+        let state = |i: usize| {
+            let pose = stroke.ends[i];
+            let c = pose.c.0 + head.turns[task];
+            State { xi: pose.centre.x + self.away(head.row, ticks[i]), y: pose.centre.y, c }
+        };
+        (ticks, [state(0), state(1)])
     }
 
     /// Position of the conveyor beyond where the cloth's zero is under the station of a row, mm.
@@ -83,78 +91,48 @@ impl Program {
 
     /// All that a head does, tick by tick from the start of the program to its end.
     pub fn setpoints<'a>(&'a self, head: &'a Head) -> impl Iterator<Item = Setpoint> + 'a {
-        let origin = self.origin(head.row);
-        let last = self.ticks as i64 - origin;
-        self.parts(head).into_iter().flat_map(move |part| self.ticks_of(head.row, part, last)).zip(0..).map(
-            |((state, knife, block), tick)| Setpoint { tick, state, knife, block },
-        )
+        let parts = (0..=2 * head.tasks.len()).flat_map(move |part| -> Box<dyn Iterator<Item = (State, bool, u32)>> {
+            if part % 2 == 0 { Box::new(self.gap(head, part / 2)) } else { Box::new(self.stroke(head, part / 2)) }
+        });
+        parts.zip(0..).map(|((state, knife, block), tick)| Setpoint { tick, state, knife, block })
     }
 
-    /// What a head does: links, and chains between them.
-    fn parts(&self, head: &Head) -> Vec<Part> {
-        let moving = &self.moving;
+    /// What a head does before, between or behind its chains.
+    fn gap(&self, head: &Head, gap: usize) -> impl Iterator<Item = (State, bool, u32)> + use<> {
         let origin = self.origin(head.row);
-        let mut parts = Vec::new();
-        let mut before: Option<(State, i64)> = None;
-        for &start in &head.tasks {
-            let [first, last] = self.ends(start, head.row);
-            let (from, moves, began) = match before {
-                Some((state, tick)) => (state, true, tick),
-                None => (State { xi: first.xi - moving.ramp.way, ..first }, false, -origin),
-            };
-            let ticks = (start.tick - began) as u32;
-            parts.push(Part::Link(Link::new([from, first], [moves, true], ticks, When::AtOnce, moving)));
-            parts.push(Part::Stroke(start));
-            before = Some((last, start.tick + i64::from(self.strokes[start.task].ticks)));
-        }
-        if let Some((state, tick)) = before {
-            let to = State { xi: state.xi + moving.ramp.way, ..state };
-            let ticks = (self.ticks as i64 - origin - tick).max(0) as u32;
-            parts.push(Part::Link(Link::new([state, to], [true, false], ticks, When::AtOnce, moving)));
-        }
-        parts
-    }
-
-    /// Its place across the feed at ticks that count from where the place x = 0 of the cloth meets the station, mm.
-    pub(super) fn across<'a>(&'a self, head: &'a Head, [first, last]: [i64; 2]) -> impl Iterator<Item = f64> + 'a {
-        let origin = self.origin(head.row);
-        let mut parts = Vec::new();
-        let mut before: Option<(State, i64)> = None;
-        for &start in &head.tasks {
-            let [from, to] = self.ends(start, head.row);
-            match before {
-                Some((state, tick)) => {
-                    let ticks = (start.tick - tick) as u32;
-                    parts.push(Part::Link(Link::new([state, from], [true; 2], ticks, When::AtOnce, &self.moving)));
-                }
-                None => parts.push(Part::Rest(from, start.tick - (first - origin))),
+        let before = gap.checked_sub(1).map(|task| self.chain(head, task));
+        let behind = (gap < head.tasks.len()).then(|| self.chain(head, gap));
+        let from = before.map_or(-origin, |(ticks, _)| ticks[1]);
+        let to = behind.map_or(self.ticks as i64 - origin, |(ticks, _)| ticks[0]);
+        let ticks = (to - from).max(0) as u32;
+        let ends = [before.map(|(_, states)| states[1]), behind.map(|(_, states)| states[0])];
+        let wait = head.waits[gap];
+        let ramp = self.moving.ramp.way;
+        let link = ends_of(ends, wait).map(|[mut first, mut last]| {
+            // At the ends of the program it rests where its ramp begins or ends.
+            if ends[0].is_none() {
+                first.xi -= ramp;
             }
-            parts.push(Part::Stroke(start));
-            before = Some((to, start.tick + i64::from(self.strokes[start.task].ticks)));
-        }
-        if let Some((state, tick)) = before {
-            parts.push(Part::Rest(state, last - origin - tick));
-        }
-        let end = i64::MAX;
-        parts.into_iter().flat_map(move |part| self.ticks_of(head.row, part, end)).map(|(state, _, _)| state.y)
-    }
-
-    fn ticks_of(&self, row: usize, part: Part, last: i64) -> Box<dyn Iterator<Item = (State, bool, u32)> + '_> {
-        match part {
-            Part::Link(link) => Box::new((0..link.ticks).map(move |tick| (link.at(tick), false, 0))),
-            Part::Rest(state, ticks) => Box::new((0..ticks).map(move |_| (state, false, 0))),
-            Part::Stroke(start) => {
-                let poses = self.strokes[start.task].poses().zip(start.tick..last);
-                Box::new(poses.map(move |((pose, knife, block), tick)| {
-                    let xi = pose.centre.x + self.away(row, tick);
-                    (State { xi, y: pose.centre.y, c: pose.c.0 }, knife, block)
-                }))
+            if ends[1].is_none() {
+                last.xi += ramp;
             }
-        }
+            Link::new([first, last], ends.map(|end| end.is_some()), ticks, wait, &self.moving)
+        });
+        (0..ticks).filter_map(move |tick| link.map(|link| (link.at(tick), false, 0)))
     }
 
-    /// The last tick at which any head still does something, and the first: the second is below 0 where the first row
-    /// stands too near to the cloth.
+    /// What a head does along a chain.
+    fn stroke<'a>(&'a self, head: &'a Head, task: usize) -> impl Iterator<Item = (State, bool, u32)> + 'a {
+        let Start { task: stroke, tick } = head.tasks[task];
+        let turn = head.turns[task];
+        self.strokes[stroke].poses().zip(tick..).map(move |((pose, knife, block), tick)| {
+            let xi = pose.centre.x + self.away(head.row, tick);
+            (State { xi, y: pose.centre.y, c: pose.c.0 + turn }, knife, block)
+        })
+    }
+
+    /// The first and the last tick at which any head does something: the first is below 0 where the first row stands too
+    /// near to the cloth.
     pub(super) fn extent(&self) -> [i64; 2] {
         let ramp = i64::from(self.moving.ramp.ticks) + REST;
         let ends = self.heads.iter().flat_map(|head| {
@@ -165,14 +143,6 @@ impl Program {
         });
         ends.fold([i64::MAX, i64::MIN], |[first, last], [from, to]| [first.min(from), last.max(to)])
     }
-}
-
-/// Something that a head does.
-#[derive(Debug, Clone, Copy)]
-enum Part {
-    Rest(State, i64),
-    Link(Link),
-    Stroke(Start),
 }
 
 /// Where the rows of a machine stand over a marker whose greatest x is `front`, mm.

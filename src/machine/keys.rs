@@ -10,7 +10,8 @@ pub use super::key::{Key, Takes, Within, shown_value};
 use super::plot;
 use super::profile::{self, MachineProfile};
 use super::{
-    axes, common, counts, drill, flow, gcode, knife, labels, nest, notches, order, path, sewing, sheet, table, time, verify,
+    axes, common, counts, drill, flow, gcode, knife, labels, nest, notches, order, path, sewing, sheet, table, time,
+    verify,
 };
 
 /// The rows of each section, in the order in which a profile is written.

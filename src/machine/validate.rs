@@ -2,12 +2,12 @@
 
 use super::encoding;
 use super::fault::Fault;
+use super::flow;
 use super::gcode;
 use super::key::{Key, Takes, shown_value};
 use super::keys::KEYS;
 use super::knife::Knife;
 use super::profile::MachineProfile;
-use super::flow;
 use super::sewing;
 use crate::diagnostic::code;
 

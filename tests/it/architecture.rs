@@ -36,7 +36,23 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("flow", &["source", "diagnostic", "units", "geom", "ir", "machine", "pass", "plan"]),
     ("manual", &[]),
     // The tables of the stages, but not what they do.
-    ("cli", &["pipeline", "front", "back", "pass", "source", "machine", "diagnostic", "ir", "units", "manual", "sew", "flow"]),
+    (
+        "cli",
+        &[
+            "pipeline",
+            "front",
+            "back",
+            "pass",
+            "source",
+            "machine",
+            "diagnostic",
+            "ir",
+            "units",
+            "manual",
+            "sew",
+            "flow",
+        ],
+    ),
     ("main", &["cli"]),
 ];
 

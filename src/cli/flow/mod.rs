@@ -28,7 +28,8 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     let targets = targets(arguments)?;
     let plan = arguments.out.join(PLAN);
     let inputs = [Some(&arguments.file), arguments.reading.machine.profile.as_ref()];
-    let inputs: Vec<_> = inputs.into_iter().flatten().filter(|path| !files::is_dash(path)).map(PathBuf::as_path).collect();
+    let inputs: Vec<_> =
+        inputs.into_iter().flatten().filter(|path| !files::is_dash(path)).map(PathBuf::as_path).collect();
     writable(&plan, &inputs)?;
     if !arguments.force {
         not_of_another(&plan, &arguments.file)?;
@@ -45,7 +46,10 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
         }
     };
     if job.mode != Mode::Cut {
-        return Err(failure("heads over a conveyor have no dry run and no frame", "leave `--dry-run` and `--frame` out"));
+        return Err(failure(
+            "heads over a conveyor have no dry run and no frame",
+            "leave `--dry-run` and `--frame` out",
+        ));
     }
     let _made = MadeFolders::of([plan.as_path()])?;
     let mut diagnostics = Diagnostics::default();

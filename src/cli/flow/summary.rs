@@ -93,10 +93,7 @@ pub(super) fn text(source: &Source, figures: &Figures, program: &Program, quiet:
     line("conveyor", format!("{} mm/s; without accelerations {bound} at the most", fixed(figures.speed_mm_s, 1)));
     line("cuts", format!("{} in {}", fixed(plan.cut_m, 2) + " m", counted(plan.chains, "chain")));
     let exact = if plan.rows_exact { "" } else { " or fewer" };
-    line(
-        "heads",
-        format!("{} (bound {}) in {}{exact}", plan.heads, plan.heads_bound, counted(plan.rows, "row")),
-    );
+    line("heads", format!("{} (bound {}) in {}{exact}", plan.heads, plan.heads_bound, counted(plan.rows, "row")));
     let travel = fixed(plan.travel_mm, 1);
     line("travel", format!("{travel} mm along the feed; without accelerations {}", fixed(plan.travel_bound_mm, 1)));
     line("time", format!("{} s, heads at work {} %", fixed(plan.time_s, 1), fixed(PERCENT * plan.busy, 0)));

@@ -2,6 +2,7 @@
 
 use super::cover::{Cover, Covers};
 use super::ground::Ground;
+use super::heading;
 use super::lines::{Foot, Line, Lines};
 use super::rules::Rule;
 use super::strokes::Stroke;
@@ -10,8 +11,9 @@ use crate::geom::{Point, cross, polyline};
 
 /// Places of a stroke that are compared with all cuts, at the most.
 const PROBES: usize = 48;
-/// Longest step between places of the blade that are compared with the line, mm.
-const STEP: f64 = 0.5;
+/// Longest step between places of the blade that are compared with the line, mm; and of the blade as it is plunged.
+const STEP: f64 = 0.2;
+const PLUNGED_STEP: f64 = 0.05;
 /// How much farther along the line a place may be than along the way of the blade, in steps and mm.
 const SLACK: [f64; 2] = [2.0, 1.0];
 /// A cut and a stroke whose directions differ by more, as a sine, do not follow each other.
@@ -41,6 +43,7 @@ pub(super) fn judge(stroke: &Stroke, lines: &Lines, ground: &Ground, covers: &mu
         return;
     };
     worst.see(Rule::Stray, 0.0, 0.0, None);
+    heading::judge(stroke, &under(stroke, &found, &samples, &lines.all[line]), ground, worst);
     worst.see(Rule::Deviation, found.deviation, tolerance, Some(at(&samples[found.worst])));
     let [from, to] = found.range;
     let way = |range: &[Sample]| range.windows(2).map(|ends| (ends[1].point - ends[0].point).norm()).sum::<f64>();
@@ -64,6 +67,18 @@ pub(super) fn judge(stroke: &Stroke, lines: &Lines, ground: &Ground, covers: &mu
     covers.add(line, Cover { span: found.span(), head: place.head, plunge: stroke.is_plunge(), place });
 }
 
+/// The way that lies under the blade as it is plunged: the line, as far as it is under it, where the blade is none.
+fn under(stroke: &Stroke, found: &Followed, samples: &[Sample], line: &Line) -> Vec<Point> {
+    let first = found.range[0];
+    let mut way = vec![stroke.trace[0]];
+    if samples[first].row == 0 {
+        let width = (stroke.trace[1] - stroke.trace[0]).norm();
+        let to = line.foot_near(stroke.trace[1], found.stations[0], SLACK[0] * width + SLACK[1]).station;
+        way.extend(line.between([found.stations[0], to]));
+    }
+    way
+}
+
 /// How much farther than an overlap a blade may go beyond a line, mm: where it leaves it is known no better.
 const OVERCUT: f64 = 1.0;
 
@@ -73,17 +88,21 @@ struct Sample {
     point: Point,
     /// The row that it is before, counted from the first of the stroke.
     row: usize,
+    /// Whether it lies under the plunged blade, between its ends: that is straight, and lies beside a curve.
+    under: bool,
 }
 
 fn samples(trace: &[Point]) -> Vec<Sample> {
-    let mut samples = vec![Sample { point: trace[0], row: 0 }];
+    let mut samples = vec![Sample { point: trace[0], row: 0, under: false }];
     for (row, ends) in trace.windows(2).enumerate() {
         let way = ends[1] - ends[0];
-        let parts = (way.norm() / STEP).ceil().max(1.0);
+        let step = if row == 0 { PLUNGED_STEP } else { STEP };
+        let parts = (way.norm() / step).ceil().max(1.0);
         if way.norm() == 0.0 {
             continue;
         }
-        let part = |i: u32| Sample { point: ends[0] + way * (f64::from(i) / parts), row };
+        let under = |i: u32| row == 0 && f64::from(i) < parts;
+        let part = |i: u32| Sample { point: ends[0] + way * (f64::from(i) / parts), row, under: under(i) };
         samples.extend((1..=parts as u32).map(part));
     }
     samples
@@ -177,6 +196,9 @@ fn track(samples: &[Sample], first: usize, station: f64, line: &Line, tolerance:
         let Foot { station, distance } =
             line.foot_near(samples[i].point, found.stations[1], SLACK[0] * step + SLACK[1]);
         if distance > tolerance {
+            if samples[i].under {
+                continue;
+            }
             if aside.is_none_or(|(worst, _)| distance > worst) {
                 aside = Some((distance, i));
             }
@@ -191,7 +213,7 @@ fn track(samples: &[Sample], first: usize, station: f64, line: &Line, tolerance:
         {
             (found.deviation, found.worst) = (worst, at);
         }
-        if distance > found.deviation {
+        if distance > found.deviation && !samples[i].under {
             (found.deviation, found.worst) = (distance, i);
         }
         (found.range[1], found.stations[1], step) = (i, station, 0.0);

@@ -5,29 +5,31 @@ use super::ground::Ground;
 use super::rules::Rule;
 use super::strokes::Stroke;
 use super::worst::Worst;
-use crate::geom::{Vector, angle};
+use crate::geom::{Point, Vector, angle};
 use crate::units::deg;
 
 /// The direction of a way is taken over so much of it, mm: less is rounding of rows.
 const LOOK: f64 = 0.1;
 
-/// Judges a stroke.
-pub(super) fn judge(stroke: &Stroke, ground: &Ground, worst: &mut Worst) {
+/// Judges a stroke; `under` is the way that lies under the blade as it is plunged, without the leading end.
+pub(super) fn judge(stroke: &Stroke, under: &[Point], ground: &Ground, worst: &mut Worst) {
     let width = ground.profile.knife.width_mm;
     let limit = ground.profile.verify.max_heading_deg;
-    // The way of the leading end; before it, the blade as it is plunged.
-    let trace = &stroke.trace;
+    // The trailing end of a blade that is a chord goes along the line that lay under it: that is known to the tolerance.
+    let beside = if width > 0.0 { deg((ground.tolerance() / width).atan()) } else { 0.0 };
+    let way: Vec<Point> = under.iter().chain(&stroke.trace[1..]).copied().collect();
     let mut behind = 0;
     for (i, along) in stroke.along.iter().enumerate() {
-        let here = trace[i + 1];
-        while behind < i && (trace[behind + 1] - here).norm() > width {
+        let lead = under.len() + i;
+        while behind + 1 < lead && (way[behind + 1] - way[lead]).norm() > width {
             behind += 1;
         }
         let Some(tangent) = direction(stroke, i) else { continue };
-        let chord = if width > 0.0 { chord(stroke, behind, i, width) } else { None };
         let off = |way: Vector| deg(angle::turn(way, *along)).abs();
+        let chord = if width > 0.0 { chord([way[behind], way[behind + 1]], way[lead], width) } else { None };
+        let allowed = limit + if behind < under.len() { beside } else { 0.0 };
         let off = chord.map_or(off(tangent), |chord| off(chord).min(off(tangent)));
-        worst.see(Rule::Heading, off, limit, Some(stroke.places[i]));
+        worst.see(Rule::Heading, off, allowed, Some(stroke.places[i]));
     }
 }
 
@@ -43,16 +45,15 @@ fn direction(stroke: &Stroke, i: usize) -> Option<Vector> {
     Some(a / la * (lb / (la + lb)) + b / lb * (la / (la + lb)))
 }
 
-/// From the place of the way that is a blade's width behind, between two points of the trace, to the leading end.
-fn chord(stroke: &Stroke, behind: usize, i: usize, width: f64) -> Option<Vector> {
-    let (here, from, to) = (stroke.trace[i + 1], stroke.trace[behind], *stroke.trace.get(behind + 1)?);
+/// From the place of a chord of the way that is a blade's width behind to the leading end.
+fn chord([from, to]: [Point; 2], here: Point, width: f64) -> Option<Vector> {
     let (a, d) = (from - here, to - from);
     let (square, half, rest) = (d.norm_squared(), a.dot(&d), a.norm_squared() - width * width);
     if square == 0.0 {
-        return (rest.abs() < 1e-3).then(|| here - from);
+        return (from != here).then(|| here - from);
     }
-    let root = half * half - square * rest;
-    let x = (-half - root.max(0.0).sqrt()) / square;
-    let x = if (0.0..=1.0).contains(&x) { x } else { (-half + root.max(0.0).sqrt()) / square };
-    Some(here - (from + d * x.clamp(0.0, 1.0)))
+    let root = (half * half - square * rest).max(0.0).sqrt();
+    let x = [(-half - root) / square, (-half + root) / square].into_iter().find(|x| (0.0..=1.0).contains(x));
+    let place = from + d * x.unwrap_or(0.0);
+    (place != here).then(|| here - place)
 }

@@ -40,7 +40,8 @@ impl Limits {
             })
         };
         let (down, up) = (rows(profile.axes.limits()), rows(profile.axes.travel_limits()));
-        let either = std::array::from_fn(|axis| std::array::from_fn(|order| f64::max(down[axis][order], up[axis][order])));
+        let either =
+            std::array::from_fn(|axis| std::array::from_fn(|order| f64::max(down[axis][order], up[axis][order])));
         Self { allowed: [down, up, either], last: Vec::with_capacity(SUPPORT + 1) }
     }
 

@@ -116,6 +116,21 @@ impl Line {
         best
     }
 
+    /// The points of the line strictly between two stations, in the order of these.
+    pub(super) fn between(&self, [from, to]: [f64; 2]) -> Vec<Point> {
+        let length = self.length();
+        let (low, high) = (from.min(to), from.max(to));
+        let turns = if self.closed { (low / length).floor() as i64..=(high / length).floor() as i64 } else { 0..=0 };
+        let count = self.points.len() - usize::from(self.closed);
+        let vertices = turns.flat_map(|turn| (0..count).map(move |k| (turn as f64 * length + self.stations[k], k)));
+        let mut found: Vec<Point> =
+            vertices.filter(|&(station, _)| station > low && station < high).map(|(_, k)| self.points[k]).collect();
+        if from > to {
+            found.reverse();
+        }
+        found
+    }
+
     /// Whether the line has a corner within a distance of a station: a turn that is more than `angle`, rad.
     pub(super) fn has_corner(&self, station: f64, reach: f64, angle: f64) -> bool {
         let length = self.length();
@@ -123,7 +138,12 @@ impl Line {
         let first = usize::from(!self.closed);
         (first..count).any(|vertex| {
             let away = (self.stations[vertex] - station).abs();
-            let away = if self.closed { let m = away % length; m.min(length - m) } else { away };
+            let away = if self.closed {
+                let m = away % length;
+                m.min(length - m)
+            } else {
+                away
+            };
             let before = self.points[if vertex == 0 { count - 1 } else { vertex - 1 }];
             away <= reach && polyline::turn_at(before, self.points[vertex], self.points[vertex + 1]).abs() > angle
         })

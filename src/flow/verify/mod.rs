@@ -94,7 +94,6 @@ fn judge_all(plan: &str, bytes: Bytes, open: Open, ground: &Ground, worst: &mut 
         distances(&row_mates, row, &head.ys, ground, worst);
         row_mates.push((row, head.ys));
         for stroke in &head.strokes {
-            heading::judge(stroke, ground, worst);
             follow::judge(stroke, &lines, ground, &mut covers, worst);
         }
     }

@@ -39,7 +39,9 @@ impl Rest {
     /// Sees the next row.
     pub(super) fn see(&mut self, row: &Row, at: Place, worst: &mut Worst) {
         if row.knife != self.is_down {
-            if row.knife && let Some((since, _, _)) = self.since {
+            if row.knife
+                && let Some((since, _, _)) = self.since
+            {
                 let lacking = (self.ticks[2] as f64 - (at.row - since) as f64) * self.period;
                 worst.see(Rule::Up, lacking, TIME, Some(at));
             }

@@ -95,7 +95,7 @@ pub fn describe(program: &Program, marker: &Marker, profile: &MachineProfile) ->
         row: head.row + 1,
         station_mm: program.stations[head.row],
         files: Vec::new(),
-        chains: head.tasks.iter().map(|&start| chain(program, marker, head.row, start)).collect(),
+        chains: (0..head.tasks.len()).map(|task| chain(program, marker, head, task)).collect(),
     };
     Plan {
         speed_mm_s: program.speed,
@@ -114,19 +114,19 @@ pub fn describe(program: &Program, marker: &Marker, profile: &MachineProfile) ->
     }
 }
 
-fn chain(program: &Program, marker: &Marker, row: usize, start: crate::flow::Start) -> Planned {
-    let stroke = &program.strokes[start.task];
+fn chain(program: &Program, marker: &Marker, head: &crate::flow::Head, task: usize) -> Planned {
+    let stroke = &program.strokes[head.tasks[task].task];
+    let (ticks, states) = program.chain(head, task);
     let spans = marker.list.spans(marker.cuts[stroke.cut as usize].range);
     let block = |span: Option<&crate::source::Span>| span.map_or(0, |span| span.block);
-    let first = (start.tick + program.origin(row)) as f64;
     Planned {
         piece: stroke.piece[0],
         cut: stroke.cut + 1,
         blocks: [block(spans.first()), block(spans.last())],
         x_mm: stroke.span,
         length_mm: stroke.length(),
-        time_s: [first, first + f64::from(stroke.ticks)].map(|ticks| ticks * program.period()),
-        along_mm: program.ends(start, row).map(|state| state.xi),
+        time_s: ticks.map(|tick| (tick + program.origin(head.row)) as f64 * program.period()),
+        along_mm: states.map(|state| state.xi),
         travel_mm: stroke.lag.travel(program.moving.ramp.way),
     }
 }
