@@ -80,7 +80,7 @@ impl Bounds {
 
 /// The least number of heads: the most chains, of which each is a greatest and a least x, that one place along the feed is
 /// on.
-pub fn heads(spans: impl Iterator<Item = [f64; 2]>) -> usize {
+pub(super) fn heads(spans: impl Iterator<Item = [f64; 2]>) -> usize {
     let mut ends: Vec<(f64, bool)> = spans.flat_map(|[most, least]| [(least, true), (most, false)]).collect();
     // Where one ends another may begin.
     ends.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));

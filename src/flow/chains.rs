@@ -4,7 +4,7 @@
 //! behind it where it ends one, so that each of two chains of a rectangle has one. A turn back that is shorter than what a
 //! caller allows parts nothing: a head with some travel along the feed makes it by itself.
 
-use crate::geom::{Point, corner, polyline};
+use crate::geom::{Point, corner};
 use crate::ir::list::Joint;
 use crate::ir::toolpath::{Run, Shape, Step, Toolpath};
 
@@ -260,11 +260,6 @@ impl Chain {
     pub(super) fn span(&self) -> [f64; 2] {
         let x = self.points().iter().map(|point| point.x);
         [x.clone().fold(f64::NEG_INFINITY, f64::max), x.fold(f64::INFINITY, f64::min)]
-    }
-
-    /// Length, mm.
-    pub(super) fn length(&self) -> f64 {
-        polyline::length(self.points())
     }
 }
 

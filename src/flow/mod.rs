@@ -33,7 +33,7 @@ mod yielding;
 pub use asked::{Shift, Speed, straight};
 pub use bound::Bounds;
 pub use heads::Start;
-pub use link::State;
+pub use link::{State, Wait};
 pub use program::{Head, Program, Setpoint};
 pub use search::plan;
 pub use stroke::{Lag, Stroke};

@@ -60,6 +60,22 @@ impl Program {
         self.moving.period
     }
 
+    /// How far a head may travel along the feed, mm.
+    pub(super) fn travel(&self) -> f64 {
+        self.moving.either.profile.flow.travel_mm
+    }
+
+    /// Room that a head takes across the feed, mm.
+    pub(super) fn room(&self) -> f64 {
+        self.moving.either.profile.flow.head_width_mm
+    }
+
+    /// From the C axis to the tip of the blade, and its width, mm.
+    pub(super) fn knife(&self) -> [f64; 2] {
+        let knife = &self.moving.either.profile.knife;
+        [knife.radius(), knife.width_mm]
+    }
+
     /// Position of the conveyor at a tick, mm.
     pub fn conveyor(&self, tick: u64) -> f64 {
         self.speed * (tick as f64 * self.moving.period)

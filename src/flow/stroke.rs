@@ -5,7 +5,7 @@ use super::moving::Moving;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::geom::Point;
 use crate::ir::Toolpath;
-use crate::ir::motion::{Kind, Phase, Task};
+use crate::ir::motion::{Kind, Phase};
 use crate::ir::toolpath::Pose;
 use crate::machine::Job;
 use crate::pass::toolpath::{Scene, TOOLPATH_PASSES};
@@ -22,8 +22,6 @@ pub struct Stroke {
     pub points: Vec<Point>,
     /// From the first plunge to the last lift, over the cloth.
     pub(super) phases: Vec<Phase>,
-    /// What each plunge is for.
-    pub(super) tasks: Vec<Task>,
     /// Periods of all phases.
     pub ticks: u32,
     /// Where the head is over the cloth at the first plunge and at the last lift.
@@ -112,7 +110,6 @@ fn along(chain: &Chain, toolpath: &Toolpath, moving: &Moving, job: &Job) -> Resu
         piece: [toolpath.piece, toolpath.part],
         points: chain.points().to_vec(),
         phases,
-        tasks: motion.tasks,
         ticks,
         ends,
         span: chain.span(),

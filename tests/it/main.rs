@@ -18,6 +18,7 @@ mod drives;
 mod edits;
 mod entries;
 mod fixtures;
+mod flow;
 mod gcode;
 mod grammar;
 mod hpgl;

@@ -109,7 +109,7 @@ impl<'a> Covers<'a> {
         let at = f64::midpoint(a.span[1].min(b.span[1]), b.span[0]);
         let corner = ground.profile.corner.angle() * (1.0 - CORNER_EPSILON);
         let of = &self.lines.all[line];
-        if a.head != b.head && !of.has_corner(at, due + END, corner) {
+        if a.head != b.head && of.turn_about(at, due + END) < corner {
             let point = polyline::place(&of.points, &of.stations, at.rem_euclid(of.length()));
             worst.see(Rule::Overlap, due - overlap, END, Some(Place { point, ..b.place }));
         }

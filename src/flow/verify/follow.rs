@@ -29,10 +29,14 @@ pub(super) fn judge(stroke: &Stroke, lines: &Lines, ground: &Ground, covers: &mu
     for line in candidates(&samples, lines, tolerance) {
         let found = followed(&samples, &lines.all[line], tolerance);
         let Some(found) = found else { continue };
-        // Where a file has a line twice each is cut once.
+        // Where two lines lie on each other the rows tell which is meant; where a file has one twice each is cut once.
+        let rank = |line: usize, found: &Followed| {
+            let is_named = names(stroke, &lines.all[line]);
+            (!is_named, covers.doubled(line, found.span()))
+        };
         let is_better = |(other, of): &(Followed, usize)| {
             let longer = found.length() - other.length();
-            longer > STEP || (longer > -STEP && covers.doubled(line, found.span()) < covers.doubled(*of, other.span()))
+            longer > ALIKE || (longer > -ALIKE && rank(line, &found) < rank(*of, other))
         };
         if best.as_ref().is_none_or(is_better) {
             best = Some((found, line));
@@ -60,8 +64,7 @@ pub(super) fn judge(stroke: &Stroke, lines: &Lines, ground: &Ground, covers: &mu
     for (beyond, sample) in [(way(&samples[..=from]), from), (way(&samples[to..]), to)] {
         worst.see(Rule::Overcut, beyond, longest + OVERCUT, Some(at(&samples[sample])));
     }
-    let of = lines.all[line].blocks;
-    let is_named = stroke.blocks[0] >= of[0] && stroke.blocks[1] <= of[1];
+    let is_named = names(stroke, &lines.all[line]);
     worst.count(Rule::Block, usize::from(!is_named), Some(stroke.places[0]));
     let place = stroke.places[0];
     covers.add(line, Cover { span: found.span(), head: place.head, plunge: stroke.is_plunge(), place });
@@ -77,6 +80,15 @@ fn under(stroke: &Stroke, found: &Followed, samples: &[Sample], line: &Line) -> 
         way.extend(line.between([found.stations[0], to]));
     }
     way
+}
+
+/// Two stretches that a stroke may follow are alike where their lengths differ by less, mm: ends are known no better where lines
+/// lie within the tolerance of each other.
+const ALIKE: f64 = 1.0;
+
+/// Whether all rows of a stroke name a block of a line.
+fn names(stroke: &Stroke, line: &Line) -> bool {
+    stroke.blocks[0] >= line.blocks[0] && stroke.blocks[1] <= line.blocks[1]
 }
 
 /// How much farther than an overlap a blade may go beyond a line, mm: where it leaves it is known no better.

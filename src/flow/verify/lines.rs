@@ -131,21 +131,19 @@ impl Line {
         found
     }
 
-    /// Whether the line has a corner within a distance of a station: a turn that is more than `angle`, rad.
-    pub(super) fn has_corner(&self, station: f64, reach: f64, angle: f64) -> bool {
+    /// How much the line turns, to either side, at the vertices within a distance of a station, rad.
+    pub(super) fn turn_about(&self, station: f64, reach: f64) -> f64 {
         let length = self.length();
         let count = self.points.len() - 1;
         let first = usize::from(!self.closed);
-        (first..count).any(|vertex| {
+        let turns = (first..count).filter_map(|vertex| {
             let away = (self.stations[vertex] - station).abs();
-            let away = if self.closed {
-                let m = away % length;
-                m.min(length - m)
-            } else {
-                away
-            };
+            let round = away.rem_euclid(length);
+            let away = if self.closed { round.min(length - round) } else { away };
             let before = self.points[if vertex == 0 { count - 1 } else { vertex - 1 }];
-            away <= reach && polyline::turn_at(before, self.points[vertex], self.points[vertex + 1]).abs() > angle
-        })
+            let turn = || polyline::turn_at(before, self.points[vertex], self.points[vertex + 1]).abs();
+            (away <= reach).then(turn)
+        });
+        turns.sum()
     }
 }

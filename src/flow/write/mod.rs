@@ -3,12 +3,16 @@
 //! Receives what is planned, promises bytes that depend on nothing else, and decides nothing.
 
 mod csv;
+mod html;
+mod markup;
 mod npy;
 mod plan;
+mod svg;
 mod target;
+mod timing;
 
 pub use plan::{File, Plan, describe};
 pub use target::{Kind, Target};
 
 /// Every target; the first is the default.
-pub const TARGETS: &[Target] = &[csv::TARGET, npy::TARGET];
+pub const TARGETS: &[Target] = &[csv::TARGET, npy::TARGET, svg::TARGET, timing::TARGET, html::TARGET];
