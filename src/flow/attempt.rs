@@ -11,9 +11,10 @@ use super::heads::{self, Links, Start, Task};
 use super::link::{Link, State, Wait};
 use super::moving::Moving;
 use super::pace::paced;
-use super::placing;
+use super::placing::{self, Layout};
 use super::program::{self, Head, Program};
 use super::stroke::{self, Stroke};
+use super::track::{BLOCK, Track};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::Point;
 use crate::machine::Job;
@@ -156,34 +157,35 @@ impl Work<'_> {
     fn program(&self, strokes: Vec<Stroke>, moving: Moving) -> Result<Program, Missing> {
         let flow = &self.job.profile.flow;
         let tasks: Vec<Task> = strokes.iter().map(|stroke| task(stroke, &moving)).collect();
-        let linking = Linking { strokes: &strokes, moving: &moving };
-        let assigned = heads::assign(&tasks, &linking);
-        let heads = assigned.into_iter().map(|tasks| Head {
+        let linking = Linking { strokes: &strokes, moving: &moving, blocks: blocks(&strokes) };
+        let head = |tasks: Vec<Start>| Head {
             row: 0,
             turns: linking.turns(&tasks),
             waits: vec![Wait::There; tasks.len() + 1],
             tasks,
-        });
-        let heads = heads.collect();
-        let mut program = Program {
-            strokes,
-            heads,
-            speed: moving.speed,
-            stations: program::stations(self.front, self.job),
-            ticks: 0,
-            figures: Figures::default(),
-            moving,
         };
-        let (rows, exact) = placing::place(&mut program, self.job);
-        if program.heads.len() > flow.heads as usize || rows > flow.rows as usize {
-            return Err(Missing::Machine { heads: program.heads.len(), rows });
+        let few: Vec<Head> = heads::assign(&tasks, &linking).into_iter().map(head).collect();
+        let (rows, in_rows): (Vec<usize>, Vec<Head>) =
+            heads::assign_in_rows(&tasks, &linking).into_iter().map(|(row, tasks)| (row, head(tasks))).unzip();
+        let stations = program::stations(self.front, self.job);
+        let (speed, figures) = (moving.speed, Figures::default());
+        let mut program = Program { strokes, heads: Vec::new(), speed, stations, ticks: 0, figures, moving };
+        let layouts =
+            [placing::place(&program, few, None, self.job), placing::place(&program, in_rows, Some(rows), self.job)];
+        let is_there = |layout: &Layout| layout.heads.len() <= flow.heads as usize && layout.rows <= flow.rows as usize;
+        let cost = |layout: &Layout| (!is_there(layout), layout.heads.len() + layout.rows, layout.heads.len());
+        let [a, b] = layouts;
+        let layout = if cost(&b) < cost(&a) { b } else { a };
+        if !is_there(&layout) {
+            return Err(Missing::Machine { heads: layout.heads.len(), rows: layout.rows });
         }
+        program.heads = layout.heads;
         let [first, last] = program.extent();
         if first < 0 {
             return Err(Missing::Way(-first as f64 * program.moving.step()));
         }
         program.ticks = last as u64;
-        program.figures = self.figures(&program, rows, exact);
+        program.figures = self.figures(&program, layout.rows, layout.exact);
         Ok(program)
     }
 
@@ -211,6 +213,9 @@ impl Work<'_> {
     }
 }
 
+/// Least distance of two heads beyond the width of one, mm: places are looked at once in some periods.
+const WIDTH_MARGIN: f64 = 0.02;
+
 /// When a stroke may start, in ticks.
 fn task(stroke: &Stroke, moving: &Moving) -> Task {
     let [earliest, latest] = stroke.lag.window(moving).map(|time| time / moving.period);
@@ -221,6 +226,19 @@ fn task(stroke: &Stroke, moving: &Moving) -> Task {
 struct Linking<'a> {
     strokes: &'a [Stroke],
     moving: &'a Moving,
+    /// The least and the greatest y of each stroke, block of periods by block, mm.
+    blocks: Vec<Vec<[f64; 2]>>,
+}
+
+/// The least and the greatest y of strokes, block by block.
+fn blocks(strokes: &[Stroke]) -> Vec<Vec<[f64; 2]>> {
+    let of = |stroke: &Stroke| {
+        let mut track = Track::free([0, i64::from(stroke.ticks)]);
+        let ys = stroke.poses().map(|(pose, _, _)| pose.centre.y).chain([stroke.ends[1].centre.y]);
+        ys.zip(0..).for_each(|(y, tick)| track.put(tick, y));
+        track.between([0, i64::from(stroke.ticks)]).to_vec()
+    };
+    strokes.par_iter().map(of).collect()
 }
 
 impl Linking<'_> {
@@ -257,5 +275,30 @@ impl Links for Linking<'_> {
 
     fn cost(&self, from: usize, to: usize) -> f64 {
         (self.strokes[from].ends[1].centre.y - self.strokes[to].ends[0].centre.y).abs()
+    }
+
+    fn side(&self, of: Start, other: Start) -> Option<f64> {
+        let (own, others) = (&self.blocks[of.task], &self.blocks[other.task]);
+        let width = self.moving.either.profile.flow.head_width_mm + WIDTH_MARGIN;
+        let mut side: Option<f64> = None;
+        for (i, a) in own.iter().enumerate() {
+            // A block of one stroke lies over two of the other.
+            let first = (of.tick + i as i64 * BLOCK - other.tick).div_euclid(BLOCK);
+            for k in [first, first + 1] {
+                let Some(b) = usize::try_from(k).ok().and_then(|k| others.get(k)) else { continue };
+                let here = if b[0] - a[1] >= width {
+                    1.0
+                } else if a[0] - b[1] >= width {
+                    -1.0
+                } else {
+                    return Some(0.0);
+                };
+                if side.is_some_and(|side| side * here < 0.0) {
+                    return Some(0.0);
+                }
+                side = Some(here);
+            }
+        }
+        side
     }
 }

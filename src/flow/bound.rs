@@ -142,6 +142,9 @@ mod tests {
         fn cost(&self, from: usize, to: usize) -> f64 {
             (to as f64 - from as f64).abs()
         }
+        fn side(&self, _: Start, _: Start) -> Option<f64> {
+            None
+        }
     }
 
     /// Heads and rows of three diamonds, each chain at the moment at which it passes its station.

@@ -8,21 +8,33 @@ use super::track::Track;
 use super::yielding::{Mate, Room};
 use crate::machine::Job;
 
-/// Rows for the heads of a program, which all stand in the first one as yet; the number of rows, and whether there are
-/// provably no fewer.
-pub(super) fn place(program: &mut Program, job: &Job) -> (usize, bool) {
+/// Heads in rows.
+#[derive(Debug)]
+pub(super) struct Layout {
+    /// The heads, row by row, in each from the lowest y to the highest.
+    pub(super) heads: Vec<Head>,
+    /// How many rows these take.
+    pub(super) rows: usize,
+    /// Whether there are provably no fewer for these heads.
+    pub(super) exact: bool,
+}
+
+/// Rows for heads that cut the strokes of a program: those that they come with, or as few as are found.
+pub(super) fn place(program: &Program, heads: Vec<Head>, rows: Option<Vec<usize>>, job: &Job) -> Layout {
     let flow = &job.profile.flow;
-    let span = span(program);
-    let mates: Vec<Mate> = program.heads.par_iter().map(|head| mate(program, head, span)).collect();
+    let width = flow.head_width_mm;
+    let span = span(program, &heads);
+    let mates: Vec<Mate> = heads.par_iter().map(|head| mate(program, head, span)).collect();
     let room = Room {
         moving: &program.moving,
-        width: flow.head_width_mm,
+        width,
         span,
         table: job.profile.table.y_mm.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]),
     };
-    let width = flow.head_width_mm;
-    let conflicts = Conflicts::new(mates.len(), |a, b| mates[a].busy.is_near(&mates[b].busy, width));
-    let (colours, exact) = rows::colour(&conflicts);
+    let (colours, exact) = rows.map_or_else(
+        || rows::colour(&Conflicts::new(mates.len(), |a, b| mates[a].busy.is_near(&mates[b].busy, width))),
+        |rows| (rows, false),
+    );
     let count = colours.iter().max().map_or(0, |most| most + 1);
     let (mut filled, mut left): (Vec<Vec<usize>>, Vec<usize>) = (Vec::new(), Vec::new());
     for row in 0..count {
@@ -35,27 +47,24 @@ pub(super) fn place(program: &mut Program, job: &Job) -> (usize, bool) {
         }
         filled.push(members);
     }
-    let is_exact = exact && left.is_empty();
+    let exact = exact && left.is_empty();
     for head in left {
         let row = filled.iter_mut().find_map(|row| joined(&room, &mates, row, head).map(|with| *row = with));
         if row.is_none() {
             filled.push(vec![head]);
         }
     }
-    let found: Vec<_> = filled.iter().map(|row| waits(&room, &mates, row)).collect();
-    let mut heads = Vec::with_capacity(mates.len());
-    for (row, (members, waits)) in filled.iter().zip(found).enumerate() {
-        for (&head, waits) in members.iter().zip(waits.unwrap_or_default()) {
-            heads.push(Head { row, waits, ..program.heads[head].clone() });
-        }
+    let mut placed = Vec::with_capacity(mates.len());
+    for (row, members) in filled.iter().enumerate() {
+        let waits = waits(&room, &mates, members).unwrap_or_default();
+        placed.extend(members.iter().zip(waits).map(|(&head, waits)| Head { row, waits, ..heads[head].clone() }));
     }
-    program.heads = heads;
-    (filled.len(), is_exact)
+    Layout { heads: placed, rows: filled.len(), exact }
 }
 
 /// All ticks at which heads do something, with some at rest before and behind.
-fn span(program: &Program) -> [i64; 2] {
-    let [first, last] = program.extent();
+fn span(program: &Program, heads: &[Head]) -> [i64; 2] {
+    let [first, last] = program.extent_of(heads);
     let origin = program.origin(0);
     [first - origin, last - origin]
 }

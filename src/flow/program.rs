@@ -150,8 +150,13 @@ impl Program {
     /// The first and the last tick at which any head does something: the first is below 0 where the first row stands too
     /// near to the cloth.
     pub(super) fn extent(&self) -> [i64; 2] {
+        self.extent_of(&self.heads)
+    }
+
+    /// The same of heads that cut its strokes.
+    pub(super) fn extent_of(&self, heads: &[Head]) -> [i64; 2] {
         let ramp = i64::from(self.moving.ramp.ticks) + REST;
-        let ends = self.heads.iter().flat_map(|head| {
+        let ends = heads.iter().flat_map(|head| {
             let origin = self.origin(head.row);
             head.tasks.iter().map(move |start| {
                 [start.tick + origin - ramp, start.tick + origin + i64::from(self.strokes[start.task].ticks) + ramp]

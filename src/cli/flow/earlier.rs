@@ -3,9 +3,11 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::made::PLAN;
 use crate::cli::files;
 use crate::cli::finished::say;
+
+/// The name of a plan in its folder.
+pub(super) const PLAN: &str = "plan.json";
 
 /// Moves plan and programs of an earlier plan in a folder aside, but for those of some names, and says so.
 pub(super) fn move_aside(folder: &Path, kept: &[PathBuf]) -> String {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use super::earlier;
+use super::earlier::{self, PLAN};
 use crate::cli::draft::{self, Draft};
 use crate::cli::files;
 use crate::cli::options::typed;
@@ -18,8 +18,6 @@ use crate::ir::Marker;
 use crate::machine::{Job, blake3_of, sha256_hex};
 use crate::source::Source;
 
-/// The name of a plan in its folder.
-pub(super) const PLAN: &str = "plan.json";
 /// Bytes that are written and read at a time.
 const BLOCK_BYTES: usize = 1 << 17;
 

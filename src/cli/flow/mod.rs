@@ -9,7 +9,8 @@ pub(super) use arguments::Arguments;
 
 use std::path::PathBuf;
 
-use self::made::{Made, PLAN};
+use self::earlier::PLAN;
+use self::made::Made;
 use super::choices::Format;
 use super::destination::{not_of_another, writable};
 use super::draft::MadeFolders;

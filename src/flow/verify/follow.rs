@@ -25,24 +25,24 @@ pub(super) fn judge(stroke: &Stroke, lines: &Lines, ground: &Ground, covers: &mu
     let samples = samples(&stroke.trace);
     let length = polyline::length(&stroke.trace);
     let at = |sample: &Sample| stroke.places[sample.row.min(stroke.places.len() - 1)];
-    let mut best: Option<(Followed, usize)> = None;
-    for line in candidates(&samples, lines, tolerance) {
-        let found = followed(&samples, &lines.all[line], tolerance);
-        let Some(found) = found else { continue };
-        // Where two lines lie on each other the rows tell which is meant; where a file has one twice each is cut once.
-        let rank = |line: usize, found: &Followed| {
-            let is_named = names(stroke, &lines.all[line]);
-            (!is_named, covers.doubled(line, found.span()))
-        };
-        let is_better = |(other, of): &(Followed, usize)| {
-            let longer = found.length() - other.length();
-            longer > ALIKE || (longer > -ALIKE && rank(line, &found) < rank(*of, other))
-        };
-        if best.as_ref().is_none_or(is_better) {
-            best = Some((found, line));
-        }
-    }
-    let Some((found, line)) = best else {
+    let all: Vec<(Followed, usize)> = candidates(&samples, lines, tolerance)
+        .into_iter()
+        .filter_map(|line| Some((followed(&samples, &lines.all[line], tolerance)?, line)))
+        .collect();
+    let longest = all.iter().map(|(found, _)| found.length()).fold(0.0, f64::max);
+    // A blade that is longer than its cut may lie along another line for longer.
+    let may_be = |(found, line): &&(Followed, usize)| {
+        found.length() > longest - ALIKE || found.length() > lines.all[*line].length() - ALIKE
+    };
+    // Where two lines lie on each other the rows tell which is meant; where a file has one twice each is cut once.
+    let rank = |(found, line): &(Followed, usize)| {
+        (!names(stroke, &lines.all[*line]), covers.doubled(*line, found.span()), -found.length())
+    };
+    let best = all.iter().filter(may_be).min_by(|a, b| {
+        let (a, b) = (rank(a), rank(b));
+        a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.total_cmp(&b.2))
+    });
+    let Some(&(found, line)) = best else {
         worst.see(Rule::Stray, length, 0.0, Some(stroke.places[0]));
         return;
     };

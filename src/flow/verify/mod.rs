@@ -18,6 +18,7 @@ mod strokes;
 mod worst;
 
 pub use ground::Ground;
+pub use rows::Bytes;
 pub use rules::{RULES, Rule};
 pub use worst::Seen;
 
@@ -33,15 +34,6 @@ use self::rows::Row;
 use self::strokes::{Stroke, Strokes};
 use self::worst::{Place, Worst};
 use crate::geom::Point;
-
-/// What kind of bytes the programs of heads are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Bytes {
-    /// Rows of text.
-    Rows,
-    /// Records of an array.
-    Records,
-}
 
 /// What the programs of a plan are worth.
 #[derive(Debug, Clone, PartialEq)]

@@ -22,9 +22,8 @@ pub(super) struct Rest {
     /// The row at which the knife was last commanded otherwise, and where the blade was then.
     since: Option<(usize, Point, f64)>,
     is_down: bool,
-    /// The first rows and the last, as the head has them.
-    ends: Vec<(Row, Place)>,
-    first: Vec<Row>,
+    /// The first two rows and the last two.
+    ends: [Vec<(Row, Place)>; 2],
 }
 
 impl Rest {
@@ -33,7 +32,7 @@ impl Rest {
         let knife = &profile.knife;
         let ticks = [knife.plunge_ms, knife.clear_ms.unwrap_or(knife.lift_ms), knife.lift_ms]
             .map(|ms| (ms / profile.time.period_ms - TIME).ceil() as usize);
-        Self { period, ticks, since: None, is_down: false, ends: Vec::new(), first: Vec::new() }
+        Self { period, ticks, since: None, is_down: false, ends: [Vec::new(), Vec::new()] }
     }
 
     /// Sees the next row.
@@ -55,27 +54,29 @@ impl Rest {
                 worst.see(Rule::Rest, (at.point - point).norm().max(turned), STILL, Some(at));
             }
         }
-        if self.first.len() < 2 {
-            self.first.push(*row);
+        let [first, last] = &mut self.ends;
+        if first.len() < 2 {
+            first.push((*row, at));
         }
-        self.ends.push((*row, at));
-        if self.ends.len() > 2 {
-            self.ends.remove(0);
+        last.push((*row, at));
+        if last.len() > 2 {
+            last.remove(0);
         }
     }
 
     /// Sees the end of a program.
     pub(super) fn finish(self, head: usize, worst: &mut Worst) {
-        let rests = |rows: &[Row]| match rows {
-            [a, b] => {
-                let moved = (a.place[0] - b.place[0]).abs().max((a.place[1] - b.place[1]).abs()).max((a.c - b.c).abs());
+        // Across the feed a head at rest follows cloth that wanders.
+        let rests = |rows: &[(Row, Place)]| match rows {
+            [(a, from), (b, to)] => {
+                let along = (a.place[0] - b.place[0]).abs();
+                let moved = along.max((from.point.y - to.point.y).abs()).max((a.c - b.c).abs());
                 moved <= STILL && !a.knife && !b.knife
             }
             _ => false,
         };
-        let last: Vec<Row> = self.ends.iter().map(|end| end.0).collect();
-        let wrong = [&self.first[..], &last].into_iter().filter(|rows| !rests(rows)).count();
-        let at = self.ends.last().map(|end| Place { head, ..end.1 });
+        let wrong = self.ends.iter().filter(|rows| !rests(rows)).count();
+        let at = self.ends[1].last().map(|end| Place { head, ..end.1 });
         worst.count(Rule::Ends, wrong, at);
     }
 }

@@ -2,8 +2,16 @@
 
 use std::io::{BufRead, Read as _};
 
-use super::Bytes;
 use super::ground::Unread;
+
+/// What kind of bytes the programs of heads are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Bytes {
+    /// Rows of text.
+    Rows,
+    /// Records of an array.
+    Records,
+}
 
 /// A row of a head's program.
 #[derive(Debug, Clone, Copy, PartialEq)]

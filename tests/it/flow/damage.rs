@@ -89,7 +89,7 @@ const DAMAGES: &[Damage] = &[
     Damage("a time is off", "flow-verify/period", |case| case.add(0, 300..301, T, |_| 0.0005)),
     Damage("the conveyor is elsewhere", "flow-verify/conveyor", |case| case.add(0, 300..301, CONVEYOR, |_| 0.01)),
     Damage("the conveyor runs at another speed", "flow-verify/conveyor", |case| case.plan["speed_mm_s"] = json!(101.0)),
-    Damage("a head beyond its travel", "flow-verify/travel", |case| { let all = case.all(); case.add(0, all, X, |_| 120.0); }),
+    Damage("a head beyond its travel", "flow-verify/travel", |case| { let all = case.all(); case.add(0, all, X, |_| 160.0); }),
     Damage("a head before its station", "flow-verify/travel", |case| { let all = case.all(); case.add(0, all, X, |_| -60.0); }),
     Damage("a head off the table", "flow-verify/across", |case| { let all = case.all(); case.add(0, all, Y, |_| -700.0); }),
     Damage("C beyond its range", "flow-verify/c-range", |case| { let all = case.all(); case.add(0, all, C, |_| 720.0); }),
@@ -121,14 +121,7 @@ const DAMAGES: &[Damage] = &[
         let row = (0..last).rev().find(|&row| { let here = place(case, row); (here.0 - end.0).hypot(here.1 - end.1) > 2.0 }).expect("a way");
         case.knife(0, row..=last, false);
     }),
-    Damage("a head cuts on beyond its end", "flow-verify/overcut", |case| {
-        // It goes on straight to +Y or -Y for some mm before it is lifted.
-        let [_, last] = case.down(0);
-        let by = (case.value(0, last - 120, Y) - case.value(0, last - 160, Y)).signum();
-        case.knife(0, last..last + 400, true);
-        case.add(0, last - 40..last + 400, X, |i| if i < 40 { 0.0 } else { 0.05 * (i - 40) as f64 });
-        let _ = by;
-    }),
+    Damage("a head cuts on beyond its end", "flow-verify/overcut", |case| { let [_, last] = case.down(0); case.knife(0, last..last + 400, true); }),
     Damage("a row names another block", "flow-verify/block", |case| { let row = case.amid(0); case.set(0, row, BLOCK, "4000"); }),
 ];
 

@@ -15,7 +15,7 @@ fn bound_job(travel: f64) -> cutc::machine::Job {
 
 #[test]
 fn a_rectangle_is_cut_below_the_speed_that_its_edges_across_the_feed_allow() {
-    for (travel, bound, least) in [(50.0, 121.21, 0.6), (200.0, 484.85, 0.6), (500.0, 1000.0, 0.3)] {
+    for (travel, bound, least) in [(50.0, 121.21, 0.5), (200.0, 484.85, 0.5), (500.0, 1000.0, 0.4)] {
         let job = bound_job(travel);
         let (planned, said) = plan("flow/rectangle.csv", Speed::Most, &job);
         let planned = planned.unwrap_or_else(|| panic!("{said}"));
@@ -83,6 +83,6 @@ fn heads_follow_cloth_that_wanders_sideways() {
     };
     let broken = |verdict: &verify::Verdict| verdict.broken().map(|seen| seen.finding.rule).collect::<Vec<_>>();
     let there = broken(&judge(marker, &wander));
-    assert!(there.iter().all(|rule| *rule == "flow-verify/ends" || *rule == "flow-verify/distance"), "{there:?}");
-    assert!(broken(&judge(marker, &cutc::flow::straight)).contains(&"flow-verify/stray"));
+    assert!(there.is_empty(), "{there:?}");
+    assert!(broken(&judge(marker, &cutc::flow::straight)).contains(&"flow-verify/deviation"));
 }
