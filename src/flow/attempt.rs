@@ -171,7 +171,7 @@ impl Work<'_> {
         let (speed, figures) = (moving.speed, Figures::default());
         let mut program = Program { strokes, heads: Vec::new(), speed, stations, ticks: 0, figures, moving };
         let layouts =
-            [placing::place(&program, few, None, self.job), placing::place(&program, in_rows, Some(rows), self.job)];
+            [placing::place(&program, &few, None, self.job), placing::place(&program, &in_rows, Some(rows), self.job)];
         let is_there = |layout: &Layout| layout.heads.len() <= flow.heads as usize && layout.rows <= flow.rows as usize;
         let cost = |layout: &Layout| (!is_there(layout), layout.heads.len() + layout.rows, layout.heads.len());
         let [a, b] = layouts;
@@ -281,9 +281,9 @@ impl Links for Linking<'_> {
         let (own, others) = (&self.blocks[of.task], &self.blocks[other.task]);
         let width = self.moving.either.profile.flow.head_width_mm + WIDTH_MARGIN;
         let mut side: Option<f64> = None;
-        for (i, a) in own.iter().enumerate() {
+        for (i, a) in (0_i64..).zip(own) {
             // A block of one stroke lies over two of the other.
-            let first = (of.tick + i as i64 * BLOCK - other.tick).div_euclid(BLOCK);
+            let first = (of.tick + i * BLOCK - other.tick).div_euclid(BLOCK);
             for k in [first, first + 1] {
                 let Some(b) = usize::try_from(k).ok().and_then(|k| others.get(k)) else { continue };
                 let here = if b[0] - a[1] >= width {

@@ -167,7 +167,9 @@ impl Line {
         if is_end {
             let last = run.joints.len() - 1;
             run.joints[last] = Joint::default();
-            added.iter().for_each(|&(to, segment)| self.push(run, segment, to));
+            for &(to, segment) in &added {
+                self.push(run, segment, to);
+            }
             let last = run.joints.len() - 1;
             run.joints[last].no_overcut = true;
         } else {

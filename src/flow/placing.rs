@@ -20,10 +20,10 @@ pub(super) struct Layout {
 }
 
 /// Rows for heads that cut the strokes of a program: those that they come with, or as few as are found.
-pub(super) fn place(program: &Program, heads: Vec<Head>, rows: Option<Vec<usize>>, job: &Job) -> Layout {
+pub(super) fn place(program: &Program, heads: &[Head], rows: Option<Vec<usize>>, job: &Job) -> Layout {
     let flow = &job.profile.flow;
     let width = flow.head_width_mm;
-    let span = span(program, &heads);
+    let span = span(program, heads);
     let mates: Vec<Mate> = heads.par_iter().map(|head| mate(program, head, span)).collect();
     let room = Room {
         moving: &program.moving,

@@ -119,7 +119,7 @@ impl Program {
         let before = gap.checked_sub(1).map(|task| self.chain(head, task));
         let behind = (gap < head.tasks.len()).then(|| self.chain(head, gap));
         let from = before.map_or(-origin, |(ticks, _)| ticks[1]);
-        let to = behind.map_or(self.ticks as i64 - origin, |(ticks, _)| ticks[0]);
+        let to = behind.map_or(self.ticks.cast_signed() - origin, |(ticks, _)| ticks[0]);
         let ticks = (to - from).max(0) as u32;
         let ends = [before.map(|(_, states)| states[1]), behind.map(|(_, states)| states[0])];
         let wait = head.waits[gap];

@@ -67,7 +67,8 @@ fn allowed(conflicts: &Conflicts, rows: &[usize], head: usize, row: usize) -> bo
 fn greedy(conflicts: &Conflicts) -> Vec<usize> {
     let mut rows = vec![usize::MAX; conflicts.count];
     while let Some(head) = next(conflicts, &rows) {
-        rows[head] = (0..).find(|&row| allowed(conflicts, &rows, head, row)).unwrap_or(0);
+        // So many rows as there are heads are always enough.
+        rows[head] = (0..conflicts.count).find(|&row| allowed(conflicts, &rows, head, row)).unwrap_or(0);
     }
     rows
 }

@@ -114,7 +114,9 @@ fn refuse(work: &Work, missing: Missing, speed: f64, out: &mut Diagnostics) {
     let shown = fixed(speed, 1);
     let (message, place) = match missing {
         Missing::Plan(refused) => {
-            refused.into_iter().for_each(|refused| out.push(refused));
+            for refused in refused {
+                out.push(refused);
+            }
             return;
         }
         Missing::Way(more) => {

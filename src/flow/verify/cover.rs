@@ -70,10 +70,10 @@ impl<'a> Covers<'a> {
             return;
         }
         if of.closed {
-            covers.iter_mut().for_each(|cover| {
+            for cover in &mut covers {
                 let turn = (cover.span[0] / length).floor() * length;
                 cover.span = cover.span.map(|station| station - turn);
-            });
+            }
         }
         covers.sort_by(|a, b| a.span[0].total_cmp(&b.span[0]).then(b.span[1].total_cmp(&a.span[1])));
         // Before the first one on a closed line is the last, a turn back.

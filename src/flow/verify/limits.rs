@@ -57,12 +57,12 @@ impl Limits {
         } else {
             &self.allowed[2]
         };
-        for axis in 0..3 {
+        for (axis, allowed) in allowed.iter().enumerate() {
             let mut column: Vec<f64> = self.last.iter().map(|row| row.0[axis]).collect();
             for (order, rule) in ORDERS.into_iter().enumerate() {
                 column = column.windows(2).map(|pair| pair[0] - pair[1]).collect();
                 let Some(difference) = column.first() else { break };
-                worst.see(rule, difference.abs() / allowed[axis][order], 1.0, Some(at));
+                worst.see(rule, difference.abs() / allowed[order], 1.0, Some(at));
             }
         }
     }

@@ -95,9 +95,9 @@ impl Line {
         };
         let at = self.stations.partition_point(|&s| s <= inner).clamp(1, count) - 1;
         let mut best = Foot { station: f64::NAN, distance: f64::INFINITY };
-        let mut look = |index: i64| {
-            let round = index.div_euclid(count as i64) as f64;
-            let k = index.rem_euclid(count as i64) as usize;
+        let mut look = |index: isize| {
+            let round = index.div_euclid(count.cast_signed()) as f64;
+            let k = index.rem_euclid(count.cast_signed()).cast_unsigned();
             let base = turn + round * length;
             let [from, to] = [base + self.stations[k], base + self.stations[k + 1]];
             if from > station + reach || to < station - reach {
@@ -109,8 +109,8 @@ impl Line {
             }
             true
         };
-        let at = at as i64;
-        let limits = if self.closed { [at - count as i64, at + count as i64] } else { [0, count as i64 - 1] };
+        let (at, count) = (at.cast_signed(), count.cast_signed());
+        let limits = if self.closed { [at - count, at + count] } else { [0, count - 1] };
         let _ = (at..=limits[1]).all(&mut look);
         let _ = (limits[0]..at).rev().all(&mut look);
         best

@@ -29,7 +29,10 @@ pub struct Seen {
 
 /// The worst that was seen so far: in excess of what is allowed there, with the value and what is allowed.
 #[derive(Debug)]
-pub(super) struct Worst(Vec<Option<([f64; 2], Option<Place>)>>);
+pub(super) struct Worst(Vec<Option<Sight>>);
+
+/// A value, what is allowed, and where it was seen.
+type Sight = ([f64; 2], Option<Place>);
 
 impl Worst {
     pub(super) fn new() -> Self {
@@ -53,7 +56,7 @@ impl Worst {
 
     /// A finding for each rule of which anything was seen.
     pub(super) fn findings(self) -> Vec<Seen> {
-        let seen = |(seen, row): (Option<([f64; 2], Option<Place>)>, &Row)| {
+        let seen = |(seen, row): (Option<Sight>, &Row)| {
             let ([worst, limit], place) = seen?;
             let sighting = |place: Place| Sighting {
                 time: Some(place.time),

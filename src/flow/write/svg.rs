@@ -41,8 +41,7 @@ fn write(program: &Program, marker: &Marker, out: &mut dyn Write) -> io::Result<
     )?;
     for (i, head) in program.heads.iter().enumerate() {
         let color = color(i);
-        let chains = head.tasks.iter().enumerate();
-        for (task, start) in chains.clone() {
+        for (task, start) in head.tasks.iter().enumerate() {
             let stroke = &program.strokes[start.task];
             let seconds = program
                 .chain(head, task)
@@ -60,7 +59,7 @@ fn write(program: &Program, marker: &Marker, out: &mut dyn Write) -> io::Result<
                 seconds[1]
             )?;
         }
-        for (_, start) in chains {
+        for start in &head.tasks {
             let at = program.strokes[start.task].points[0];
             let (x, y) = (mm(at.x), mm(-at.y));
             writeln!(out, "<circle cx=\"{x}\" cy=\"{y}\" r=\"8\" fill=\"{color}\"/>")?;

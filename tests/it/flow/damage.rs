@@ -97,7 +97,7 @@ const DAMAGES: &[Damage] = &[
     Damage("C jumps", "flow-verify/speed", |case| case.add(0, 300..301, C, |_| 5.0)),
     Damage("an axis jerks to a speed", "flow-verify/acceleration", |case| case.add(0, 300..340, X, |i| 0.02 * i as f64)),
     Damage("an axis trembles", "flow-verify/jerk", |case| case.add(0, 300..301, X, |_| 0.001)),
-    Damage("an axis trembles in a cut", "flow-verify/jerk", |case| { let row = case.amid(0); case.add(0, row..row + 1, Y, |_| 0.001); }),
+    Damage("an axis trembles in a cut", "flow-verify/jerk", |case| { let row = case.amid(0); case.add(0, row..=row, Y, |_| 0.001); }),
     Damage("two heads too near", "flow-verify/distance", |case| { let [a, b] = case.mates(); let by = case.value(b, 5, Y) - case.value(a, 5, Y); let (all, side) = (case.all(), by.signum()); case.add(a, all, Y, move |_| by - 40.0 * side); }),
     Damage("two heads at one place", "flow-verify/distance", |case| { let [a, b] = case.mates(); case.heads[a] = case.heads[b].clone(); }),
     Damage("the knife goes down too early", "flow-verify/rest", |case| { let [first, _] = case.down(0); case.knife(0, first - 40..first, true); }),
