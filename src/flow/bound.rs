@@ -133,14 +133,15 @@ mod tests {
         [60.0, -60.0].map(|side| points(&[(x + 100.0, y), (x, y + side), (x - 100.0, y)]))
     }
 
-    struct Change(f64);
+    /// A change takes 0.3 s, and the way across the feed between the tasks, whose y these are (mm), at 1000 mm/s.
+    struct Change(Vec<f64>);
 
     impl Links for Change {
-        fn ticks(&self, _: Start, _: Start) -> i64 {
-            (self.0 * 1e6) as i64
+        fn ticks(&self, from: Start, to: Start) -> i64 {
+            ((0.3 + (self.0[to.task] - self.0[from.task]).abs() / 1000.0) * 1e6) as i64
         }
         fn cost(&self, from: usize, to: usize) -> f64 {
-            (to as f64 - from as f64).abs()
+            (self.0[to] - self.0[from]).abs()
         }
         fn side(&self, _: Start, _: Start) -> Option<f64> {
             None
@@ -160,7 +161,7 @@ mod tests {
                 Task { window: [start; 2], ticks: end - start }
             })
             .collect();
-        let heads = assign(&tasks, &Change(0.3));
+        let heads = assign(&tasks, &Change(chains.iter().map(|chain| chain[0].y).collect()));
         let y = |chain: &[Point], x: f64| {
             let ends = chain.windows(2).find(|ends| ends[0].x >= x && ends[1].x <= x)?;
             Some(ends[0].y + (ends[1].y - ends[0].y) * (ends[0].x - x) / (ends[0].x - ends[1].x))
