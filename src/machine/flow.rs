@@ -13,10 +13,10 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "flow.travel_mm", takes: Takes::Number(from(0.0, 10_000.0)), about: "How far a head may travel along the feed, from its station on." },
     Key { name: "flow.heads", takes: Takes::Count(200), about: "How many heads the machine has, in all rows together." },
     Key { name: "flow.rows", takes: Takes::Count(50), about: "How many rows these stand in, one behind the other along the feed." },
-    Key { name: "flow.first_row_mm", takes: Takes::Number(from(0.0, 100_000.0)), about: "From where the front of the marker lies when the conveyor counts 0 to the station of the first row." },
+    Key { name: "flow.first_row_mm", takes: Takes::Number(from(0.0, 100_000.0)), about: "From where the front of the marker lies when the conveyor counts 0 to the station of the\nfirst row." },
     Key { name: "flow.row_pitch_mm", takes: Takes::Number(from(1.0, 100_000.0)), about: "From the station of one row to that of the next." },
     Key { name: "flow.head_width_mm", takes: Takes::Number(from(0.0, 10_000.0)), about: "Room that a head takes across the feed: two of one row come no nearer to each other." },
-    Key { name: "flow.overlap_mm", takes: Takes::Number(from(0.0, 100.0)), about: "How far a head cuts on along the line where another one takes over; the two overlap by twice that." },
+    Key { name: "flow.overlap_mm", takes: Takes::Number(from(0.0, 100.0)), about: "How far a head cuts on along the line where another one takes over; the two overlap by twice\nthat." },
 ];
 
 /// Heads over a conveyor.
