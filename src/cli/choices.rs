@@ -4,6 +4,7 @@ use clap::ValueEnum;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use crate::back::{TARGETS, Target};
+use crate::flow;
 use crate::front::{DIALECTS, Dialect};
 use crate::machine::{patterns, plot};
 use crate::manual::{PAGES, Page};
@@ -95,6 +96,13 @@ pub(super) fn sewing_targets() -> impl TypedValueParser<Value = &'static sew::Ta
 pub(super) fn tracking_targets() -> impl TypedValueParser<Value = &'static track::Target> {
     names(track::TARGETS.iter().map(|target| (target.name, target.about))).map(|name| {
         track::TARGETS.iter().find(|target| target.name == name).expect("clap lets only the names of the table pass")
+    })
+}
+
+/// Reads the name of a target of heads over a conveyor.
+pub(super) fn flow_targets() -> impl TypedValueParser<Value = &'static flow::Target> {
+    names(flow::TARGETS.iter().map(|target| (target.name, target.about))).map(|name| {
+        flow::TARGETS.iter().find(|target| target.name == name).expect("clap lets only the names of the table pass")
     })
 }
 

@@ -6,6 +6,7 @@ use clap::Args;
 
 use super::finished::{DONE, Finished, failure};
 use crate::diagnostic::{Severity, code};
+use crate::flow;
 use crate::front::DIALECTS;
 use crate::machine::MachineProfile;
 use crate::machine::keys::{self, KEYS, Key};
@@ -51,7 +52,9 @@ fn topics() -> impl Iterator<Item = Topic> {
     let rules = RULES.iter().map(|rule| Topic { name: rule.name, kind: "rule", about: rule.about, more: rule.more });
     let sewing = sew::verify::RULES.iter();
     let sewing = sewing.map(|rule| Topic { name: rule.name, kind: "rule", about: rule.about, more: rule.more });
-    codes.chain(rules).chain(sewing)
+    let flow = flow::verify::RULES.iter();
+    let flow = flow.map(|rule| Topic { name: rule.name, kind: "rule", about: rule.about, more: rule.more });
+    codes.chain(rules).chain(sewing).chain(flow)
 }
 
 fn severity(severity: Severity) -> &'static str {

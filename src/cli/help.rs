@@ -23,6 +23,7 @@ pub(super) const EXAMPLES: &str = "  cutc compile marker.cut                    
   cutc compile marker.cut --dry-run           the same motion, knife up; --frame: once around the box
   cutc sew pocket.csv -t queue,svg            a pattern for a sewing machine: stitches, speeds
   cutc track log.csv -t centre                the line that moving cloth took: compile --centre follows it
+  cutc flow marker.cut -o flow/ --speed 50    on a conveyor that moves: programs of several heads
   cutc explain iso/open-slit                  what a message means and what to do
   cutc manual many-files                      folders of files at once, several machines
   cutc profile init -o machine.toml           every key of a machine with its default

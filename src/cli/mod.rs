@@ -15,6 +15,7 @@ mod explain;
 mod facts;
 mod files;
 mod finished;
+mod flow;
 mod help;
 mod info;
 mod labels;
@@ -67,6 +68,8 @@ enum Command {
     Sew(sew::Arguments),
     /// Keep a carriage over the centre of a moving cloth: replay logs of its rulers, or simulate it
     Track(track::Arguments),
+    /// Cut a marker on a conveyor that moves: to programs of several heads
+    Flow(flow::Arguments),
     /// Judge programs, edited by hand or not: do they cut what their cutter files say?
     Verify(verify::Arguments),
     /// Read cutter files and say everything that is wrong with them; writes nothing
@@ -99,6 +102,7 @@ pub fn run(words: impl IntoIterator<Item = OsString>, console: &mut Console) -> 
         Command::Watch(arguments) => watch::run(arguments, &words[2..], console),
         Command::Sew(arguments) => sew::run(arguments, console),
         Command::Track(arguments) => track::run(arguments),
+        Command::Flow(arguments) => flow::run(arguments),
         Command::Verify(arguments) => verify::run(arguments, console),
         Command::Check(arguments) => check::run(arguments, console),
         Command::Info(arguments) => info::run(arguments, console),

@@ -195,8 +195,16 @@ impl Choice {
         self.centre.as_deref()
     }
 
+    /// The job as it is read, with this choice; or what is wrong with its profile or its centre line.
+    pub(super) fn job(&self, reading: &Reading) -> anyhow::Result<Result<Job, Finished>> {
+        match reading.job()? {
+            Ok(job) => self.of(job),
+            Err(refused) => Ok(Err(refused)),
+        }
+    }
+
     /// The job, with this choice; or what is wrong with its centre line.
-    pub(super) fn of(&self, job: Job) -> anyhow::Result<Result<Job, Finished>> {
+    fn of(&self, job: Job) -> anyhow::Result<Result<Job, Finished>> {
         let mut centre = None;
         if let Some(path) = &self.centre {
             let source = files::read(path)?;

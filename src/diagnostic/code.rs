@@ -424,6 +424,17 @@ mod table {
     pub static CENTRE_SHORT: Code = error(Text, "centre/short", "A centre line has fewer than two rows.", "One place says nothing of how the cloth lies beside it. For cloth that lies straight give its two ends.\n  0,1.5\n  3000,1.5");
     /// A marker that is longer than its centre line.
     pub static CENTRE_BEYOND: Code = warning(Spoils, Shape, "centre/beyond", "The marker reaches beyond the ends of the centre line, where the cloth is taken to lie as at the nearer end.", "Nobody has seen the cloth there. Record the whole of it, or move the marker to where it was seen (`sheet.origin`).");
+    // Flow cutting.
+    /// No cut.
+    pub static FLOW_NOTHING: Code = error(Shape, "flow/nothing-to-cut", "The marker holds nothing that a head over a conveyor could cut.", "Heads cut lines; a file of holes, labels or events has none. Look at what is in it.\n  cutc info marker.cut");
+    /// What heads do not do.
+    pub static FLOW_LEFT_OUT: Code = warning(Spoils, Shape, "flow/left-out", "Something in the file is not made on the conveyor: holes, stops, advances; the message says what and how many.", "The parts come off the conveyor without it. Drill them elsewhere, or cut this marker on a table.\n  cutc compile marker.cut");
+    /// More than the machine has.
+    pub static FLOW_INFEASIBLE: Code = error(Shape, "flow/infeasible", "The machine cannot cut the marker at this speed of the conveyor; the message says what it takes, the hints what would help, each with its figure.", "A head that comes too late would leave a stretch uncut that is gone for good. Slow the conveyor down, give heads more travel along the feed (`flow.travel_mm`), or take more heads and rows.\n  cutc flow marker.cut -p flow.toml --speed max -o out");
+    /// Off the conveyor.
+    pub static FLOW_OFF_TABLE: Code = error(Shape, "flow/off-table", "A head would leave the table across the feed (`table.y_mm`).", "There it has no cloth to cut and runs into its end. Move the marker on the cloth (`sheet.offset_mm`), or mend the key.");
+    /// The program breaks a rule.
+    pub static FLOW_BROKEN: Code = error(Shape, "flow/broken", "The programs of the heads, read back, break a rule; the message names the rule, the worst value, the limit, the head and the row.", "Nothing is written: cloth would be spoilt. Please report the file: a marker that is planned should be cut as it is.");
 
     // Machine profile.
     /// The TOML is broken.
@@ -593,6 +604,11 @@ pub static ALL: &[&Code] = &[
     &CENTRE_ROW,
     &CENTRE_SHORT,
     &CENTRE_BEYOND,
+    &FLOW_NOTHING,
+    &FLOW_LEFT_OUT,
+    &FLOW_INFEASIBLE,
+    &FLOW_OFF_TABLE,
+    &FLOW_BROKEN,
     &PROFILE_SYNTAX,
     &PROFILE_UNKNOWN_KEY,
     &PROFILE_TYPE,

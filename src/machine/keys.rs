@@ -10,8 +10,8 @@ pub use super::key::{Key, Takes, Within, shown_value};
 use super::plot;
 use super::profile::{self, MachineProfile};
 use super::{
-    axes, common, counts, drill, gcode, knife, labels, nest, notches, order, path, patterns, sewing, sheet, table,
-    time, tracking, verify,
+    axes, common, counts, drill, flow, gcode, knife, labels, nest, notches, order, path, patterns, sewing, sheet,
+    table, time, tracking, verify,
 };
 
 /// The rows of each section, in the order in which a profile is written.
@@ -36,6 +36,7 @@ const SECTIONS: &[&[Key]] = &[
     labels::KEYS,
     sewing::KEYS,
     tracking::KEYS,
+    flow::KEYS,
     codes::KEYS,
 ];
 

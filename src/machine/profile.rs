@@ -13,6 +13,7 @@ pub use super::codes::CodeUse;
 use super::common::{Common, CommonLines, Lines};
 use super::counts::Counts;
 use super::drill::Drill;
+use super::flow::Flow;
 use super::gcode::Gcode;
 use super::key::{Key, Takes};
 use super::knife::Knife;
@@ -102,6 +103,8 @@ pub struct MachineProfile {
     pub sewing: Sewing,
     /// The carriage that follows a moving cloth.
     pub track: Tracking,
+    /// Heads over a conveyor.
+    pub flow: Flow,
     /// Codes of the cutter file by name, `M19`.
     pub codes: BTreeMap<String, CodeUse>,
 }
@@ -165,6 +168,7 @@ impl Default for MachineProfile {
             labels: Labels::default(),
             sewing: Sewing::default(),
             track: Tracking::default(),
+            flow: Flow::default(),
             codes: BTreeMap::new(),
         }
     }

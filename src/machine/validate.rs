@@ -2,6 +2,7 @@
 
 use super::encoding;
 use super::fault::Fault;
+use super::flow;
 use super::gcode;
 use super::key::{Key, Takes, shown_value};
 use super::keys::KEYS;
@@ -58,6 +59,7 @@ fn rules(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault
     faults.extend(gcode::faults(profile));
     faults.extend(sewing::faults(&profile.sewing));
     faults.extend(tracking::faults(&profile.track));
+    faults.extend(flow::faults(&profile.flow));
     faults
 }
 

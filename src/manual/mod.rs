@@ -61,6 +61,11 @@ pub const PAGES: &[Page] = &[
         text: include_str!("tracking.md"),
     },
     Page {
+        name: "flow",
+        about: "Flow cutting: heads in rows over a conveyor, from chains to programs, rules",
+        text: include_str!("flow.md"),
+    },
+    Page {
         name: "verification",
         about: "How a program is verified, and every rule",
         text: include_str!("verification.md"),

@@ -33,6 +33,8 @@ const IMPORTS: &[(&str, &[&str])] = &[
     // Another machine: it reads what the cutter reads.
     ("sew", &["source", "diagnostic", "units", "geom", "ir", "machine", "analysis", "front", "recognise"]),
     ("track", &["source", "diagnostic", "units", "machine"]),
+    // Another machine: it cuts what the cutter cuts.
+    ("flow", &["source", "diagnostic", "units", "geom", "ir", "machine", "pass", "plan"]),
     ("manual", &[]),
     // The tables of the stages, but not what they do.
     (
@@ -50,6 +52,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
             "manual",
             "sew",
             "track",
+            "flow",
         ],
     ),
     ("main", &["cli"]),
@@ -83,7 +86,7 @@ const NAMED_ONLY_IN: &[(&str, &[&str])] = &[
     ("clap::", &["cli"]),
     ("anyhow::", &["cli", "main"]),
     // What gives the same on any number of threads may be shared out; what writes, reads and plans goes in order.
-    ("rayon::", &["analysis", "cli", "geom", "pass", "pipeline", "verify"]),
+    ("rayon::", &["analysis", "cli", "flow", "geom", "pass", "pipeline", "verify"]),
     // Stages are pure: files, clocks and the environment are for those who call them.
     ("tempfile::", &["cli", "pipeline"]),
     ("std::thread", &["cli", "pipeline", "main"]),
@@ -263,18 +266,29 @@ fn a_module_imports_only_what_the_architecture_allows() {
     report(&faults);
 }
 
+/// What a verifier that lies in a folder of its machine may name of that: forms, but nothing of who makes them.
+const VERIFIERS: &[(&str, &[&str])] = &[("sew", &["pattern", "stitches", "verify"]), ("flow", &["verify"])];
+
 #[test]
-fn the_verifier_of_sewn_patterns_knows_their_forms_and_nothing_of_who_makes_them() {
+fn verifiers_of_other_machines_know_their_forms_and_nothing_of_who_makes_them() {
     let mut faults = Vec::new();
-    for file in sources("src/sew/verify") {
-        for rest in after(&file.code, "sew::") {
-            let named: String = rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
-            if !["pattern", "stitches", "verify"].contains(&named.as_str()) {
-                faults.push(format!("{}: names `sew::{named}`", file.path.display()));
+    for (machine, forms) in VERIFIERS {
+        for file in sources(&format!("src/{machine}/verify")) {
+            for rest in after(&file.code, &format!("{machine}::")) {
+                let named: String = rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+                if !forms.contains(&named.as_str()) {
+                    faults.push(format!("{}: names `{machine}::{named}`", file.path.display()));
+                }
             }
-        }
-        if file.path.ends_with("mod.rs") && after(&file.code, "use super::").next().is_some() {
-            faults.push(format!("{}: names what lies beside the verifier", file.path.display()));
+            // What plans for the cutter plans for other machines too.
+            for stage in ["analysis", "front", "recognise", "pass", "plan", "back", "pipeline"] {
+                if imports(&file.code).contains(stage) {
+                    faults.push(format!("{}: must not import `{stage}`", file.path.display()));
+                }
+            }
+            if file.path.ends_with("mod.rs") && after(&file.code, "use super::").next().is_some() {
+                faults.push(format!("{}: names what lies beside the verifier", file.path.display()));
+            }
         }
     }
     report(&faults);

@@ -19,6 +19,7 @@ mod dxf;
 mod edits;
 mod entries;
 mod fixtures;
+mod flow;
 mod gcode;
 mod grammar;
 mod hpgl;

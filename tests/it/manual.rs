@@ -7,6 +7,7 @@ use std::process::{Command, Output};
 
 use cutc::back::TARGETS;
 use cutc::diagnostic::code;
+use cutc::flow;
 use cutc::front::DIALECTS;
 use cutc::machine::keys::{self, KEYS};
 use cutc::manual::{PAGES, Page, glossary};
@@ -153,6 +154,11 @@ fn list(name: &str) -> String {
             track::TARGETS.iter().map(row).collect()
         }
         "sewing rules" => sew::verify::RULES.iter().map(|rule| format!("`{}`: {}.", rule.name, rule.about)).collect(),
+        "flow targets" => {
+            let row = |target: &flow::Target| format!("`{}` (`.{}`): {}.", target.name, target.extension, target.about);
+            flow::TARGETS.iter().map(row).collect()
+        }
+        "flow rules" => flow::verify::RULES.iter().map(|rule| format!("`{}`: {}.", rule.name, rule.about)).collect(),
         "rules" => RULES.iter().map(|rule| format!("`{}`: {}.", rule.name, rule.about)).collect(),
         "codes" => {
             let severity = |code: &code::Code| format!("{:?}", code.severity).to_lowercase();

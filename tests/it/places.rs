@@ -93,7 +93,7 @@ fn every_command_has_a_manual_page_and_examples_stay_as_they_are() {
         }
     }
     assert!(room.expect("man compile", DONE).0.contains("resume\\-from"));
-    assert!(room.expect("man compiel", USAGE).1.contains("compile, watch, sew, track, verify"));
+    assert!(room.expect("man compiel", USAGE).1.contains("compile, watch, sew, track, flow, verify"));
 }
 
 #[test]

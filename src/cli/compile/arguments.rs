@@ -117,9 +117,6 @@ impl Making {
 
     /// The job, or what is wrong with its profile or its centre line.
     pub(in crate::cli) fn job(&self) -> anyhow::Result<Result<Job, Finished>> {
-        match self.reading.job()? {
-            Ok(job) => self.choice.of(job),
-            Err(refused) => Ok(Err(refused)),
-        }
+        self.choice.job(&self.reading)
     }
 }

@@ -62,9 +62,6 @@ pub(in crate::cli) struct Arguments {
 impl Arguments {
     /// The job that programs were made by, or what is wrong with its profile or its centre line.
     pub(super) fn job(&self) -> anyhow::Result<Result<Job, Finished>> {
-        match self.reading.job()? {
-            Ok(job) => self.choice.of(job),
-            Err(refused) => Ok(Err(refused)),
-        }
+        self.choice.job(&self.reading)
     }
 }

@@ -1,0 +1,188 @@
+//! Plan and programs that are written: whole and judged, with their provenance beside the plan, or none at all.
+
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, BufWriter, Seek as _, Write as _};
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use super::earlier::{self, PLAN};
+use crate::cli::draft::{self, Draft};
+use crate::cli::files;
+use crate::cli::options::typed;
+use crate::cli::report::pretty;
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::flow::verify::{self, Bytes, Ground, Verdict};
+use crate::flow::{self, Kind, Program, Target};
+use crate::ir::Marker;
+use crate::machine::{Job, blake3_of, sha256_hex};
+use crate::source::Source;
+
+/// Bytes that are written and read at a time.
+const BLOCK_BYTES: usize = 1 << 17;
+
+/// What is to be written.
+pub(super) struct Made<'a> {
+    pub(super) targets: &'a [&'static Target],
+    pub(super) source: &'a Source,
+    pub(super) job: &'a Job,
+    pub(super) marker: &'a Marker,
+    pub(super) verify: bool,
+}
+
+/// What was written.
+pub(super) struct Written {
+    /// What the programs of each target are worth.
+    pub(super) verdicts: Vec<(&'static str, Verdict)>,
+    /// Files beside the plan.
+    pub(super) files: usize,
+    /// What is said of earlier ones.
+    pub(super) said: String,
+}
+
+/// Everything that made a plan. No date and no path: the same input gives the same bytes.
+#[derive(Serialize)]
+struct Provenance<'a> {
+    version: &'static str,
+    source: String,
+    source_sha256: String,
+    profile: &'a str,
+    profile_sha256: String,
+    target: String,
+    verified: &'static str,
+    program_blake3: &'a str,
+    #[serde(skip_serializing_if = "String::is_empty")]
+    options: String,
+}
+
+impl Made<'_> {
+    /// Writes plan and programs into a folder. Nothing takes its place when one is refused.
+    pub(super) fn write(&self, program: &Program, folder: &Path, out: &mut Diagnostics) -> anyhow::Result<Written> {
+        let mut plan = flow::describe(program, self.marker, &self.job.profile);
+        let (mut drafts, mut judged) = (Vec::new(), Vec::new());
+        for target in self.targets {
+            match target.kind {
+                Kind::Heads { write, bytes } => {
+                    let mut programs = Vec::new();
+                    for (i, head) in program.heads.iter().enumerate() {
+                        let put = |out: &mut dyn io::Write| write(program, head, &flow::straight, out);
+                        let (draft, file) = written(folder, &target.file(i), put)?;
+                        plan.heads[i].files.push(file);
+                        programs.push(draft);
+                    }
+                    judged.push((*target, bytes, programs));
+                }
+                Kind::Whole { write, .. } => {
+                    let put = |out: &mut dyn io::Write| write(program, self.marker, out);
+                    let (draft, file) = written(folder, &target.file(0), put)?;
+                    plan.pictures.push(file);
+                    drafts.push(draft);
+                }
+            }
+        }
+        let text = pretty(&plan);
+        let mut verdicts = Vec::new();
+        for (target, bytes, mut programs) in judged {
+            if self.verify {
+                let verdict = self.judged(&text, bytes, &mut programs)?;
+                tell(&verdict, target, out);
+                verdicts.push((target.name, verdict));
+            }
+            drafts.append(&mut programs);
+        }
+        let files = drafts.len();
+        let path = folder.join(PLAN);
+        let mut draft = Draft::new(&path)?;
+        let meta = draft.file().write_all(text.as_bytes()).map_err(|error| files::cannot_write(&path, &error));
+        meta?;
+        drafts.push(self.meta(&path, &mut draft)?);
+        drafts.push(draft);
+        let mut said = String::new();
+        if !out.has_errors() {
+            let kept: Vec<PathBuf> = drafts.iter().map(|draft| draft.path().to_owned()).collect();
+            said = earlier::move_aside(folder, &kept);
+            draft::publish(drafts, || Ok(()))?;
+        }
+        Ok(Written { verdicts, files, said })
+    }
+
+    /// What the programs of a target are worth, from their bytes.
+    fn judged(&self, plan: &str, bytes: Bytes, programs: &mut [Draft]) -> anyhow::Result<Verdict> {
+        let ground = Ground { marker: self.marker, profile: &self.job.profile, shift: &flow::straight };
+        let mut open = |i: usize| -> io::Result<Box<dyn BufRead>> {
+            let file = programs[i].file();
+            file.rewind()?;
+            Ok(Box::new(BufReader::with_capacity(BLOCK_BYTES, file.try_clone()?)))
+        };
+        let judged = verify::judge(plan, bytes, &mut open, &ground);
+        judged.map_err(|error| files::cannot_write(Path::new(PLAN), &error))
+    }
+
+    /// The provenance of a plan, as a draft of a file.
+    fn meta(&self, plan: &Path, draft: &mut Draft) -> anyhow::Result<Draft> {
+        let path = files::meta(plan);
+        let mut meta = Draft::new(&path)?;
+        let name = Path::new(self.source.name()).file_name().map(|name| name.to_string_lossy().into_owned());
+        let file = draft.file();
+        let written = file.rewind().and_then(|()| blake3_of(&mut *file)).and_then(|blake3| {
+            let text = pretty(&Provenance {
+                version: env!("CARGO_PKG_VERSION"),
+                source: name.unwrap_or_else(|| self.source.name().to_owned()),
+                source_sha256: sha256_hex(self.source.bytes()),
+                profile: self.job.origin.name(),
+                profile_sha256: self.job.profile.digest(),
+                target: self.targets.iter().map(|target| target.name).collect::<Vec<_>>().join(","),
+                verified: if self.verify { "yes" } else { "no" },
+                program_blake3: &blake3,
+                options: typed(self.job),
+            });
+            meta.file().write_all(text.as_bytes())
+        });
+        written.map_err(|error| files::cannot_write(&path, &error))?;
+        Ok(meta)
+    }
+}
+
+/// Writes a file as a draft.
+fn written(
+    folder: &Path,
+    name: &str,
+    put: impl FnOnce(&mut dyn io::Write) -> io::Result<()>,
+) -> anyhow::Result<(Draft, flow::File)> {
+    let path = folder.join(name);
+    let mut draft = Draft::new(&path)?;
+    let file: &mut File = draft.file();
+    let blake3 = (|| {
+        let mut writer = BufWriter::with_capacity(BLOCK_BYTES, &mut *file);
+        put(&mut writer)?;
+        writer.flush()?;
+        drop(writer);
+        file.rewind()?;
+        blake3_of(&mut *file)
+    })();
+    let blake3 = blake3.map_err(|error| files::cannot_write(&path, &error))?;
+    Ok((draft, flow::File { file: name.to_owned(), blake3 }))
+}
+
+/// Says which rules the programs of a target break.
+fn tell(verdict: &Verdict, target: &Target, out: &mut Diagnostics) {
+    if let Some(unread) = &verdict.unread {
+        let message = format!("the programs (target {}) cannot be read back: {unread}", target.name);
+        out.push(Diagnostic::new(&code::FLOW_BROKEN, message));
+    }
+    for seen in verdict.broken().filter(|_| verdict.unread.is_none()) {
+        let finding = &seen.finding;
+        let limit = finding.limit.unwrap_or(f64::INFINITY);
+        let place = finding.place.and_then(|place| place.line).zip(seen.head);
+        let place = place.map_or(String::new(), |(row, head)| format!(", head {head}, row {row}"));
+        let message = format!(
+            "{} (target {}): {:.4} {}, allowed {limit:.4}{place}",
+            finding.rule, target.name, finding.worst, finding.unit
+        );
+        let mut broken = Diagnostic::new(&code::FLOW_BROKEN, message).hint(format!("`cutc explain {}`", finding.rule));
+        if let Some(place) = finding.place {
+            broken = broken.on_cloth(place.point);
+        }
+        out.push(broken);
+    }
+}

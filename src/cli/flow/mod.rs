@@ -1,0 +1,111 @@
+//! `cutc flow`: a marker to the programs of heads that cut it while a conveyor moves it.
+
+mod arguments;
+mod earlier;
+mod made;
+mod summary;
+
+pub(super) use arguments::Arguments;
+
+use std::path::PathBuf;
+
+use self::earlier::PLAN;
+use self::made::Made;
+use super::choices::Format;
+use super::destination::{not_of_another, writable};
+use super::draft::MadeFolders;
+use super::files;
+use super::finished::{DONE, FAULTY, Finished, Stdout, failure, say};
+use super::options::counted;
+use crate::diagnostic::{Diagnostics, Severity, render_with};
+use crate::flow::{self, Program, Speed, TARGETS, Target};
+use crate::ir::Marker;
+use crate::machine::Job;
+use crate::machine::Mode;
+use crate::pipeline;
+use crate::source::Source;
+
+pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
+    let targets = targets(arguments)?;
+    let plan = arguments.out.join(PLAN);
+    let inputs = [Some(&arguments.file), arguments.reading.machine.profile.as_ref()];
+    let inputs: Vec<_> =
+        inputs.into_iter().flatten().filter(|path| !files::is_dash(path)).map(PathBuf::as_path).collect();
+    writable(&plan, &inputs)?;
+    if !arguments.force {
+        not_of_another(&plan, &arguments.file)?;
+    }
+    let source = files::read(&arguments.file)?;
+    let job = match arguments.choice.job(&arguments.reading)? {
+        Ok(job) => job,
+        Err(mut refused) => {
+            // A slip in an argument is no verdict on the programs that are there.
+            if refused.code == FAULTY {
+                refused.stderr.push_str(&earlier::move_aside(&arguments.out, &[]));
+            }
+            return Ok(refused);
+        }
+    };
+    if job.mode != Mode::Cut {
+        return Err(failure(
+            "heads over a conveyor have no dry run and no frame",
+            "leave `--dry-run` and `--frame` out",
+        ));
+    }
+    let _made = MadeFolders::of([plan.as_path()])?;
+    let mut diagnostics = Diagnostics::default();
+    let Some((marker, program)) = planned(arguments, &source, &job, &mut diagnostics) else {
+        return Ok(refused(arguments, &source, &diagnostics, &job));
+    };
+    let made = Made { targets: &targets, source: &source, job: &job, marker: &marker, verify: !arguments.no_verify };
+    let written = made.write(&program, &arguments.out, &mut diagnostics)?;
+    if diagnostics.has_errors() {
+        return Ok(refused(arguments, &source, &diagnostics, &job));
+    }
+    let mut said = render_with(&diagnostics, &source, arguments.messages.detail(arguments.format));
+    let figures = summary::Figures::of(&program, written.verdicts);
+    let stdout = match arguments.format {
+        Format::Json => summary::json(figures, &diagnostics, &source, &job),
+        Format::Text => summary::text(&source, &figures, &program, arguments.messages.quiet),
+    };
+    said.push_str(&written.said);
+    if !arguments.messages.quiet {
+        let count = counted(written.files, "file");
+        say(&mut said, format_args!("wrote `{}` and {count} beside it", plan.display()));
+    }
+    Ok(Finished { stdout: Stdout::Text(stdout), stderr: said, code: DONE })
+}
+
+/// What is written: what was typed, else the default.
+fn targets(arguments: &Arguments) -> anyhow::Result<Vec<&'static Target>> {
+    let typed = &arguments.targets;
+    if let Some(twice) = typed.iter().enumerate().find(|(i, t)| typed[..*i].iter().any(|u| u.name == t.name)) {
+        return Err(failure(format!("the target `{}` is named twice", twice.1.name), "name each target once"));
+    }
+    Ok(if typed.is_empty() { vec![&TARGETS[0]] } else { typed.clone() })
+}
+
+/// What is cut, and by which heads.
+fn planned(arguments: &Arguments, source: &Source, job: &Job, out: &mut Diagnostics) -> Option<(Marker, Program)> {
+    let mut input = pipeline::read(source, arguments.reading.from, job, out)?;
+    pipeline::make_cuts(&mut input, source, job, out);
+    if out.has_errors() {
+        return None;
+    }
+    let program = flow::plan(&input.marker, arguments.speed.unwrap_or(Speed::Profile), job, out)?;
+    Some((input.marker, program))
+}
+
+/// What is said when nothing is written. Older programs are moved aside.
+fn refused(arguments: &Arguments, source: &Source, diagnostics: &Diagnostics, job: &Job) -> Finished {
+    let mut said = render_with(diagnostics, source, arguments.messages.detail(arguments.format));
+    let errors = counted(diagnostics.count(Severity::Error), "error");
+    let warnings = counted(diagnostics.count(Severity::Warning), "warning");
+    say(&mut said, format_args!("{}: {errors}, {warnings}; no program was written", source.name()));
+    said.push_str(&earlier::move_aside(&arguments.out, &[]));
+    let stdout = match arguments.format {
+        Format::Json => summary::json(summary::nothing(), diagnostics, source, job),
+        Format::Text => String::new(),
+    };
+    Finished::text(stdout, said, FAULTY)
+}

@@ -1,0 +1,304 @@
+//! A marker at one speed of the conveyor: a program, or what is missing.
+
+use std::f64::consts::TAU;
+
+use rayon::prelude::*;
+
+use super::Figures;
+use super::bound::{self, Bounds};
+use super::chains::{Chain, Line, Parting};
+use super::heads::{self, Links, Start, Task};
+use super::link::{Link, State, Wait};
+use super::moving::Moving;
+use super::pace::paced;
+use super::placing::{self, Layout};
+use super::program::{self, Head, Program};
+use super::stroke::{self, Stroke};
+use super::track::{BLOCK, Track};
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::Point;
+use crate::machine::Job;
+use crate::pass::toolpath::Scene;
+use crate::units::MM_PER_M;
+use crate::units::number::up;
+
+/// What is cut, and on what.
+#[derive(Clone, Copy)]
+pub(super) struct Work<'a> {
+    pub(super) lines: &'a [Line],
+    pub(super) scene: &'a Scene<'a>,
+    /// Greatest x of the marker, mm.
+    pub(super) front: f64,
+    pub(super) job: &'a Job,
+}
+
+/// What keeps a marker from being cut.
+#[derive(Debug)]
+pub(super) enum Missing {
+    /// The conveyor is as fast as the heads, or faster.
+    Axis,
+    /// Travel along the feed: so much is needed, for the chain that starts there.
+    Travel {
+        /// How much, mm.
+        needed: f64,
+        /// Where.
+        at: Point,
+    },
+    /// Heads or rows: so many are needed.
+    Machine {
+        /// Heads.
+        heads: usize,
+        /// Rows.
+        rows: usize,
+    },
+    /// Way to the first row: so much more is needed, mm.
+    Way(f64),
+    /// A chain cannot be planned at all.
+    Plan(Vec<Diagnostic>),
+}
+
+/// Parts of the travel along the feed that a turn back may take within a chain, from the one that parts least.
+const BACKS: [f64; 4] = [f64::INFINITY, 0.25, 0.0625, 0.0];
+/// Part of the travel that is left to a chain which turns back: what it takes makes the next one late.
+const SHARE: f64 = 0.7;
+/// A turn back of so many tolerances parts nothing.
+const WAVE: f64 = 3.0;
+
+/// Plans a marker at a speed of the conveyor.
+pub(super) fn attempt(work: &Work, speed: f64, out: &mut Diagnostics) -> Result<Program, Missing> {
+    let moving = Moving::new(speed, work.job).ok_or(Missing::Axis)?;
+    let cut = |line: &Line| work.cut(line, &moving);
+    let made: Vec<_> = work.lines.par_iter().map(cut).collect();
+    let mut strokes = Vec::new();
+    for made in made {
+        let (of_line, found) = made?;
+        out.extend(found);
+        strokes.extend(of_line);
+    }
+    let needed = strokes.iter().map(|stroke| (stroke.lag.travel(moving.ramp.way), stroke.points[0]));
+    if let Some((needed, at)) = needed.max_by(|a, b| a.0.total_cmp(&b.0))
+        && needed > moving.travel
+    {
+        let needed = needed + work.job.profile.flow.travel_mm - moving.travel;
+        return Err(Missing::Travel { needed, at });
+    }
+    off_table(&strokes, work.job, out);
+    work.program(strokes, moving)
+}
+
+/// Says where heads would leave the table across the feed.
+fn off_table(strokes: &[Stroke], job: &Job, out: &mut Diagnostics) {
+    let Some([least, most]) = job.profile.table.y_mm else { return };
+    let ys = strokes.iter().flat_map(|stroke| stroke.poses().map(|(pose, _, _)| pose.centre));
+    let off = ys.map(|at| ((least - at.y).max(at.y - most), at)).max_by(|a, b| a.0.total_cmp(&b.0));
+    if let Some((beyond, at)) = off.filter(|(beyond, _)| *beyond > 0.0) {
+        let message = format!("a head would leave the table across the feed by {} mm", up(beyond, 2));
+        let hint = "move the marker on the cloth (`sheet.offset_mm`), or mend `table.y_mm`";
+        out.push(Diagnostic::new(&code::FLOW_OFF_TABLE, message).on_cloth(at).by(beyond).hint(hint));
+    }
+}
+
+impl Work<'_> {
+    /// Whether not even the closed form allows a speed: some chain takes more travel, however its line is parted.
+    pub(super) fn is_hopeless(&self, speed: f64) -> bool {
+        let profile = &self.job.profile;
+        let bounds = Bounds::of(profile);
+        let takes_more = |line: &Line| {
+            let chains = line.chains(self.parting(line, 0.0));
+            chains.iter().any(|chain| bounds.lag(chain.points(), speed) > profile.flow.travel_mm)
+        };
+        speed >= bounds.speeds[0] || self.lines.par_iter().any(takes_more)
+    }
+
+    /// How a line is parted that may turn back by so much, mm.
+    fn parting(&self, line: &Line, back: f64) -> Parting {
+        let profile = &self.job.profile;
+        Parting {
+            back: back.max(WAVE * line.toolpath.tolerance),
+            overlap: profile.flow.overlap_mm,
+            corner: profile.corner.angle(),
+            unit: self.scene.unit,
+        }
+    }
+
+    /// The strokes of a line: in as few chains as the travel along the feed allows.
+    fn cut(&self, line: &Line, moving: &Moving) -> Result<(Vec<Stroke>, Diagnostics), Missing> {
+        let bounds = Bounds::of(&self.job.profile);
+        let mut parted = 0;
+        for (i, part) in BACKS.into_iter().enumerate() {
+            let chains = line.chains(self.parting(line, part * moving.travel));
+            let is_last = i + 1 == BACKS.len();
+            let share = |chain: &Chain| if chain.falls { 1.0 } else { SHARE };
+            let may_fit = |chain: &Chain| bounds.lag(chain.points(), moving.speed) <= share(chain) * moving.travel;
+            if !is_last && (chains.len() == parted || !chains.iter().all(may_fit)) {
+                continue;
+            }
+            parted = chains.len();
+            let mut found = Diagnostics::default();
+            let strokes = self.strokes(&chains, moving, &mut found)?;
+            let fits =
+                |(stroke, chain): (&Stroke, &Chain)| stroke.lag.travel(moving.ramp.way) <= share(chain) * moving.travel;
+            if is_last || strokes.iter().zip(&chains).all(fits) {
+                return Ok((strokes, found));
+            }
+        }
+        Ok((Vec::new(), Diagnostics::default()))
+    }
+
+    fn strokes(&self, chains: &[Chain], moving: &Moving, out: &mut Diagnostics) -> Result<Vec<Stroke>, Missing> {
+        let stroke = |chain: &Chain| {
+            let toolpath = stroke::toolpath(chain, self.scene, out);
+            paced(chain, &toolpath, moving).map_err(Missing::Plan)
+        };
+        chains.iter().map(stroke).collect()
+    }
+
+    /// Heads and rows for the strokes.
+    fn program(&self, strokes: Vec<Stroke>, moving: Moving) -> Result<Program, Missing> {
+        let flow = &self.job.profile.flow;
+        let tasks: Vec<Task> = strokes.iter().map(|stroke| task(stroke, &moving)).collect();
+        let linking = Linking { strokes: &strokes, moving: &moving, blocks: blocks(&strokes) };
+        let head = |tasks: Vec<Start>| Head {
+            row: 0,
+            turns: linking.turns(&tasks),
+            waits: vec![Wait::There; tasks.len() + 1],
+            tasks,
+        };
+        let few: Vec<Head> = heads::assign(&tasks, &linking).into_iter().map(head).collect();
+        let (rows, in_rows): (Vec<usize>, Vec<Head>) =
+            heads::assign_in_rows(&tasks, &linking).into_iter().map(|(row, tasks)| (row, head(tasks))).unzip();
+        let stations = program::stations(self.front, self.job);
+        let (speed, figures) = (moving.speed, Figures::default());
+        let mut program = Program { strokes, heads: Vec::new(), speed, stations, ticks: 0, figures, moving };
+        let layouts =
+            [placing::place(&program, &few, None, self.job), placing::place(&program, &in_rows, Some(rows), self.job)];
+        let is_there = |layout: &Layout| layout.heads.len() <= flow.heads as usize && layout.rows <= flow.rows as usize;
+        let cost = |layout: &Layout| (!is_there(layout), layout.heads.len() + layout.rows, layout.heads.len());
+        let [a, b] = layouts;
+        let layout = if cost(&b) < cost(&a) { b } else { a };
+        if !is_there(&layout) {
+            return Err(Missing::Machine { heads: layout.heads.len(), rows: layout.rows });
+        }
+        program.heads = layout.heads;
+        let [first, last] = program.extent();
+        if first < 0 {
+            return Err(Missing::Way(-first as f64 * program.moving.step()));
+        }
+        program.ticks = last as u64;
+        program.figures = self.figures(&program, layout.rows, layout.exact);
+        Ok(program)
+    }
+
+    fn figures(&self, program: &Program, rows: usize, exact: bool) -> Figures {
+        let bounds = Bounds::of(&self.job.profile);
+        let Program { strokes, heads, moving, .. } = program;
+        let flow = &self.job.profile.flow;
+        let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+        let fastest = strokes.iter().map(|stroke| bounds.fastest(&stroke.points, flow.travel_mm, flow.max_speed_mm_s));
+        let time = program.ticks as f64 * moving.period;
+        let cutting: f64 = strokes.iter().map(|stroke| f64::from(stroke.ticks) * moving.period).sum();
+        Figures {
+            chains: strokes.len(),
+            heads: heads.len(),
+            heads_bound: bound::heads(strokes.iter().map(|stroke| stroke.span)),
+            rows,
+            rows_exact: exact,
+            travel_mm: most(&mut strokes.iter().map(|stroke| stroke.lag.travel(moving.ramp.way))),
+            travel_bound_mm: most(&mut strokes.iter().map(|stroke| bounds.lag(&stroke.points, moving.speed))),
+            speed_bound_mm_s: fastest.fold(flow.max_speed_mm_s, f64::min),
+            cut_m: strokes.iter().map(Stroke::length).sum::<f64>() / MM_PER_M,
+            time_s: time,
+            busy: if heads.is_empty() { 0.0 } else { cutting / (time * heads.len() as f64) },
+        }
+    }
+}
+
+/// Least distance of two heads beyond the width of one, mm: places are looked at once in some periods.
+const WIDTH_MARGIN: f64 = 0.02;
+
+/// When a stroke may start, in ticks.
+fn task(stroke: &Stroke, moving: &Moving) -> Task {
+    let [earliest, latest] = stroke.lag.window(moving).map(|time| time / moving.period);
+    Task { window: [earliest.ceil() as i64, latest.floor() as i64], ticks: i64::from(stroke.ticks) }
+}
+
+/// The links between strokes.
+struct Linking<'a> {
+    strokes: &'a [Stroke],
+    moving: &'a Moving,
+    /// The least and the greatest y of each stroke, block of periods by block, mm.
+    blocks: Vec<Vec<[f64; 2]>>,
+}
+
+/// The least and the greatest y of strokes, block by block.
+fn blocks(strokes: &[Stroke]) -> Vec<Vec<[f64; 2]>> {
+    let of = |stroke: &Stroke| {
+        let mut track = Track::free([0, i64::from(stroke.ticks)]);
+        let ys = stroke.poses().map(|(pose, _, _)| pose.centre.y).chain([stroke.ends[1].centre.y]);
+        ys.zip(0..).for_each(|(y, tick)| track.put(tick, y));
+        track.between([0, i64::from(stroke.ticks)]).to_vec()
+    };
+    strokes.par_iter().map(of).collect()
+}
+
+impl Linking<'_> {
+    /// Whole turns of C by which each stroke is ahead of its motion where it then turns least, rad.
+    fn turns(&self, tasks: &[Start]) -> Vec<f64> {
+        let mut turns = vec![0.0; tasks.len()];
+        for i in 1..tasks.len() {
+            let last = self.state(tasks[i - 1], true).c + turns[i - 1];
+            turns[i] = self.whole(last - self.state(tasks[i], false).c);
+        }
+        turns
+    }
+
+    /// The whole turns nearest to an angle, rad; none where C has an end.
+    fn whole(&self, angle: f64) -> f64 {
+        let is_free = self.moving.either.profile.c.range_deg.is_none();
+        if is_free { (angle / TAU).round() * TAU } else { 0.0 }
+    }
+
+    fn state(&self, start: Start, is_end: bool) -> State {
+        let stroke = &self.strokes[start.task];
+        let pose = stroke.ends[usize::from(is_end)];
+        let tick = start.tick + if is_end { i64::from(stroke.ticks) } else { 0 };
+        State { xi: pose.centre.x + tick as f64 * self.moving.step(), y: pose.centre.y, c: pose.c.0 }
+    }
+}
+
+impl Links for Linking<'_> {
+    fn ticks(&self, from: Start, to: Start) -> i64 {
+        let (from, mut to) = (self.state(from, true), self.state(to, false));
+        to.c += self.whole(from.c - to.c);
+        i64::from(Link::least([from, to], [true; 2], self.moving))
+    }
+
+    fn cost(&self, from: usize, to: usize) -> f64 {
+        (self.strokes[from].ends[1].centre.y - self.strokes[to].ends[0].centre.y).abs()
+    }
+
+    fn side(&self, of: Start, other: Start) -> Option<f64> {
+        let (own, others) = (&self.blocks[of.task], &self.blocks[other.task]);
+        let width = self.moving.either.profile.flow.head_width_mm + WIDTH_MARGIN;
+        let mut side: Option<f64> = None;
+        for (i, a) in (0_i64..).zip(own) {
+            // A block of one stroke lies over two of the other.
+            let first = (of.tick + i * BLOCK - other.tick).div_euclid(BLOCK);
+            for k in [first, first + 1] {
+                let Some(b) = usize::try_from(k).ok().and_then(|k| others.get(k)) else { continue };
+                let here = if b[0] - a[1] >= width {
+                    1.0
+                } else if a[0] - b[1] >= width {
+                    -1.0
+                } else {
+                    return Some(0.0);
+                };
+                if side.is_some_and(|side| side * here < 0.0) {
+                    return Some(0.0);
+                }
+                side = Some(here);
+            }
+        }
+        side
+    }
+}

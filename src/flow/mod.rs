@@ -1,0 +1,69 @@
+//! Flow cutting: heads in rows over a conveyor cut cloth while it moves.
+//!
+//! A small pipeline of the shape of the cutter's, the listing in its order:
+//!
+//! ```text
+//! Marker -> chains -> stroke (pace) -> heads -> rows -> Program -> write -> bytes -> verify
+//! ```
+//!
+//! A *chain* is a stretch of a cut that one head makes, with x falling on the whole; a *stroke* is a chain with its motion
+//! over the cloth, which `plan` gives under the limits that are left in the moving frame; a *Program* has for each head
+//! its row and its strokes in time. Closed forms that no acceleration enters (`bound`) say what would be the best.
+//! `verify` knows nothing of who plans: it maps the bytes of all heads back to the cloth.
+
+mod asked;
+mod attempt;
+mod bound;
+mod chains;
+mod heads;
+mod link;
+mod moving;
+mod pace;
+mod placing;
+mod program;
+mod ramp;
+mod rows;
+mod search;
+mod stroke;
+mod track;
+pub mod verify;
+mod write;
+mod yielding;
+
+pub use asked::{Shift, Speed, straight};
+pub use bound::Bounds;
+pub use heads::Start;
+pub use link::{State, Wait};
+pub use program::{Head, Program, Setpoint};
+pub use search::plan;
+pub use stroke::{Lag, Stroke};
+pub use write::{File, Kind, Plan, TARGETS, Target, describe};
+
+use serde::Serialize;
+
+/// What is known of a program beside what its heads do.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct Figures {
+    /// Stretches of cuts that one head makes.
+    pub chains: usize,
+    /// Heads in use.
+    pub heads: usize,
+    /// The most chains that one place along the feed is on: without travel along the feed no fewer heads can do it.
+    pub heads_bound: usize,
+    /// Rows in use.
+    pub rows: usize,
+    /// Whether there are provably no fewer rows for these heads.
+    pub rows_exact: bool,
+    /// Greatest travel along the feed that a chain takes, its ramps included, mm.
+    pub travel_mm: f64,
+    /// The same by the closed form, without accelerations and ramps, mm.
+    pub travel_bound_mm: f64,
+    /// Greatest speed of the conveyor at which every chain would be cut by the closed form, mm/s.
+    pub speed_bound_mm_s: f64,
+    /// Length of all cuts, m.
+    pub cut_m: f64,
+    /// Time of the program, s.
+    pub time_s: f64,
+    /// Part of the time that heads in use have their knife on a chain, 0 to 1.
+    pub busy: f64,
+}

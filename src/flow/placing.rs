@@ -1,0 +1,105 @@
+//! Heads to rows: as few rows as the chains allow that are cut at the same time, and room in each for the heads that wait.
+
+use rayon::prelude::*;
+
+use super::program::{Head, Program};
+use super::rows::{self, Conflicts};
+use super::track::Track;
+use super::yielding::{Mate, Room};
+use crate::machine::Job;
+
+/// Heads in rows.
+#[derive(Debug)]
+pub(super) struct Layout {
+    /// The heads, row by row, in each from the lowest y to the highest.
+    pub(super) heads: Vec<Head>,
+    /// How many rows these take.
+    pub(super) rows: usize,
+    /// Whether there are provably no fewer for these heads.
+    pub(super) exact: bool,
+}
+
+/// Rows for heads that cut the strokes of a program: those that they come with, or as few as are found.
+pub(super) fn place(program: &Program, heads: &[Head], rows: Option<Vec<usize>>, job: &Job) -> Layout {
+    let flow = &job.profile.flow;
+    let width = flow.head_width_mm;
+    let span = span(program, heads);
+    let mates: Vec<Mate> = heads.par_iter().map(|head| mate(program, head, span)).collect();
+    let room = Room {
+        moving: &program.moving,
+        width,
+        span,
+        table: job.profile.table.y_mm.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]),
+    };
+    let (colours, exact) = rows.map_or_else(
+        || rows::colour(&Conflicts::new(mates.len(), |a, b| mates[a].busy.is_near(&mates[b].busy, width))),
+        |rows| (rows, false),
+    );
+    let count = colours.iter().max().map_or(0, |most| most + 1);
+    let (mut filled, mut left): (Vec<Vec<usize>>, Vec<usize>) = (Vec::new(), Vec::new());
+    for row in 0..count {
+        let mut members = Vec::new();
+        for head in (0..mates.len()).filter(|&head| colours[head] == row) {
+            match joined(&room, &mates, &members, head) {
+                Some(with) => members = with,
+                None => left.push(head),
+            }
+        }
+        filled.push(members);
+    }
+    let exact = exact && left.is_empty();
+    for head in left {
+        let row = filled.iter_mut().find_map(|row| joined(&room, &mates, row, head).map(|with| *row = with));
+        if row.is_none() {
+            filled.push(vec![head]);
+        }
+    }
+    let mut placed = Vec::with_capacity(mates.len());
+    for (row, members) in filled.iter().enumerate() {
+        let waits = waits(&room, &mates, members).unwrap_or_default();
+        placed.extend(members.iter().zip(waits).map(|(&head, waits)| Head { row, waits, ..heads[head].clone() }));
+    }
+    Layout { heads: placed, rows: filled.len(), exact }
+}
+
+/// All ticks at which heads do something, with some at rest before and behind.
+fn span(program: &Program, heads: &[Head]) -> [i64; 2] {
+    let [first, last] = program.extent_of(heads);
+    let origin = program.origin(0);
+    [first - origin, last - origin]
+}
+
+fn mate(program: &Program, head: &Head, span: [i64; 2]) -> Mate {
+    let mut busy = Track::free(span);
+    for start in &head.tasks {
+        let stroke = &program.strokes[start.task];
+        let ys = stroke.poses().map(|(pose, _, _)| pose.centre.y).chain([stroke.ends[1].centre.y]);
+        ys.zip(start.tick..).for_each(|(y, tick)| busy.put(tick, y));
+    }
+    Mate { busy, chains: (0..head.tasks.len()).map(|task| program.chain(head, task)).collect() }
+}
+
+/// The members of a row in order with one more head; `None` where there is no room for it.
+fn joined(room: &Room, mates: &[Mate], members: &[usize], head: usize) -> Option<Vec<usize>> {
+    let busy = &mates[head].busy;
+    if members.iter().any(|&other| busy.is_near(&mates[other].busy, room.width)) {
+        return None;
+    }
+    // Above all that it must be above, and below the others: by the middle where it is free to be either.
+    let above = members.iter().rposition(|&other| busy.side(&mates[other].busy) > 0.0).map_or(0, |i| i + 1);
+    let below = members.iter().position(|&other| busy.side(&mates[other].busy) < 0.0).unwrap_or(members.len());
+    let middle = busy.middle();
+    let fit = members.iter().position(|&other| mates[other].busy.middle() > middle).unwrap_or(members.len());
+    let mut places = vec![fit.clamp(above.min(below), below)];
+    places.extend((above..=below).filter(|&place| place != fit));
+    places.into_iter().find_map(|place| {
+        let mut with = members.to_vec();
+        with.insert(place, head);
+        waits(room, mates, &with).map(|_| with)
+    })
+}
+
+fn waits(room: &Room, mates: &[Mate], row: &[usize]) -> Option<Vec<Vec<super::link::Wait>>> {
+    let row: Vec<&Mate> = row.iter().map(|&head| &mates[head]).collect();
+    room.waits(&row)
+}

@@ -1,0 +1,204 @@
+//! The speed of the conveyor: as asked, or the greatest one at which a marker can be cut; and what is said where it cannot.
+
+use super::asked::Speed;
+use super::attempt::{Missing, Work, attempt};
+use super::chains::Line;
+use super::program::Program;
+use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::ir::Marker;
+use crate::ir::toolpath::Step;
+use crate::machine::Job;
+use crate::pass::toolpath::{Scene, trace};
+use crate::units::number::{fixed, up};
+
+/// Plans how a marker is cut while it moves; `None` where it cannot, and the diagnostics say why.
+pub fn plan(marker: &Marker, speed: Speed, job: &Job, out: &mut Diagnostics) -> Option<Program> {
+    let lines = lines(marker, job, out);
+    if lines.is_empty() {
+        out.push(Diagnostic::new(&code::FLOW_NOTHING, "the marker holds nothing that a head could cut"));
+        return None;
+    }
+    let scene = Scene::new(marker, job);
+    let front = marker.extent().max.x;
+    let work = Work { lines: &lines, scene: &scene, front, job };
+    let flow = &job.profile.flow;
+    let tried = match speed {
+        Speed::Profile => attempt(&work, flow.speed_mm_s, out).map_err(|missing| (missing, flow.speed_mm_s)),
+        Speed::Of(speed) => attempt(&work, speed, out).map_err(|missing| (missing, speed)),
+        Speed::Most => fastest(&work, out),
+    };
+    match tried {
+        Ok(program) if !out.has_errors() => Some(program),
+        Ok(_) => None,
+        Err((missing, speed)) => {
+            refuse(&work, missing, speed, out);
+            None
+        }
+    }
+}
+
+/// The cuts of a marker; says what no head can do.
+fn lines(marker: &Marker, job: &Job, out: &mut Diagnostics) -> Vec<Line> {
+    let (mut lines, mut drills, mut events) = (Vec::new(), Vec::new(), 0);
+    for toolpath in trace(marker, job) {
+        match &toolpath.steps[..] {
+            [Step::Drill(drill)] => drills.push(*drill),
+            [Step::Event(_)] => events += 1,
+            _ => {
+                let cut = lines.len() as u32;
+                lines.extend(Line::new(cut, toolpath));
+            }
+        }
+    }
+    if let Some(first) = drills.first() {
+        let message = format!("{} holes are not made: no head has a drill", drills.len());
+        let hint = "drill them before or behind the conveyor, as in `cutc compile` with the same file";
+        out.push(Diagnostic::new(&code::FLOW_LEFT_OUT, message).on_cloth(first.at).hint(hint));
+    }
+    if events > 0 {
+        let message = format!("{events} stops and advances of the file are not made: the conveyor does not stop");
+        let hint = "take them out of the file, or do it without them";
+        out.push(Diagnostic::new(&code::FLOW_LEFT_OUT, message).hint(hint));
+    }
+    lines
+}
+
+/// Speeds that are nearer to each other are not told apart, mm/s: where the greatest one is asked for, and where one is
+/// only mentioned.
+const SPEED_ACCURACY: f64 = 0.5;
+const MENTIONED_ACCURACY: f64 = 4.0;
+/// The slowest conveyor that is looked at, mm/s.
+const SLOWEST: f64 = 1.0;
+
+/// The program at the greatest speed that is found, or what is missing at the slowest.
+fn fastest(work: &Work, out: &mut Diagnostics) -> Result<Program, (Missing, f64)> {
+    let flow = &work.job.profile.flow;
+    let limit = flow.max_speed_mm_s.min(work.job.profile.axes.limits()[0].speed);
+    let mut found = Diagnostics::default();
+    let best = match tried(work, limit, &mut found) {
+        Some(program) => Some((program, found)),
+        None => below(work, limit, SPEED_ACCURACY),
+    };
+    match best {
+        Some((program, found)) => {
+            out.extend(found);
+            Ok(program)
+        }
+        None => attempt(work, SLOWEST, out).map_err(|missing| (missing, SLOWEST)),
+    }
+}
+
+/// The program at the greatest speed below another one, to an accuracy, mm/s.
+fn below(work: &Work, speed: f64, accuracy: f64) -> Option<(Program, Diagnostics)> {
+    let [mut slow, mut fast] = [SLOWEST, speed];
+    let mut best = None;
+    while fast - slow > accuracy {
+        let middle = f64::midpoint(slow, fast);
+        let mut found = Diagnostics::default();
+        match tried(work, middle, &mut found) {
+            Some(program) => (slow, best) = (middle, Some((program, found))),
+            None => fast = middle,
+        }
+    }
+    best
+}
+
+/// The program at a speed, if there is one: what not even the closed form allows is not planned.
+fn tried(work: &Work, speed: f64, out: &mut Diagnostics) -> Option<Program> {
+    if work.is_hopeless(speed) { None } else { attempt(work, speed, out).ok() }
+}
+
+/// Says what is missing, and what each remedy takes.
+fn refuse(work: &Work, missing: Missing, speed: f64, out: &mut Diagnostics) {
+    let flow = &work.job.profile.flow;
+    let shown = fixed(speed, 1);
+    let (message, place) = match missing {
+        Missing::Plan(refused) => {
+            for refused in refused {
+                out.push(refused);
+            }
+            return;
+        }
+        Missing::Way(more) => {
+            let message = format!("the first row stands {} mm too near to the cloth", up(more, 0));
+            let hint = format!("`flow.first_row_mm` = {}", up(flow.first_row_mm + more, 0));
+            out.push(Diagnostic::new(&code::FLOW_INFEASIBLE, message).hint(hint));
+            return;
+        }
+        Missing::Axis => (format!("no head can keep up with a conveyor of {shown} mm/s along the feed"), None),
+        Missing::Travel { needed, at } => {
+            let has = fixed(flow.travel_mm, 1);
+            let needed = up(needed, 1);
+            (
+                format!("at {shown} mm/s a chain takes {needed} mm of travel along the feed, and heads have {has} mm"),
+                Some(at),
+            )
+        }
+        Missing::Machine { heads, rows } => {
+            let message = format!(
+                "at {shown} mm/s it takes {heads} heads in {rows} rows, and the machine has {} in {}",
+                flow.heads, flow.rows
+            );
+            (message, None)
+        }
+    };
+    let mut found = Diagnostic::new(&code::FLOW_INFEASIBLE, message);
+    if let Some(at) = place {
+        found = found.on_cloth(at);
+    }
+    for hint in hints(work, &missing, speed) {
+        found = found.hint(hint);
+    }
+    out.push(found);
+}
+
+/// Travels that are tried in place of what a machine has, in parts of it.
+const TRAVELS: [f64; 3] = [1.5, 2.0, 3.0];
+
+/// What would help: a longer travel, more heads, a slower conveyor.
+fn hints(work: &Work, missing: &Missing, speed: f64) -> Vec<String> {
+    let mut hints = Vec::new();
+    match missing {
+        Missing::Travel { needed, .. } => {
+            let travel = needed.ceil();
+            hints.push(with_travel(work, travel, speed).map_or_else(
+                || format!("a longer travel: `flow.travel_mm` = {travel}"),
+                |[heads, rows]| {
+                    format!("a longer travel: `flow.travel_mm` = {travel} does, with {heads} heads in {rows} rows")
+                },
+            ));
+        }
+        Missing::Machine { heads, rows } => {
+            hints.push(format!("more heads: `flow.heads` = {heads} and `flow.rows` = {rows}"));
+            let flow = &work.job.profile.flow;
+            let longer = TRAVELS.iter().map(|part| (part * flow.travel_mm).ceil());
+            let fits = |&[heads, rows]: &[usize; 2]| heads <= flow.heads as usize && rows <= flow.rows as usize;
+            let found = longer
+                .filter_map(|travel| Some((travel, with_travel(work, travel, speed)?)))
+                .find(|(_, machine)| fits(machine));
+            hints.extend(found.map(|(travel, [heads, rows])| {
+                format!("a longer travel: with `flow.travel_mm` = {travel} it takes {heads} heads in {rows} rows")
+            }));
+        }
+        Missing::Axis | Missing::Way(_) | Missing::Plan(_) => {}
+    }
+    hints.push(match below(work, speed, MENTIONED_ACCURACY) {
+        Some((program, _)) => {
+            format!("a slower conveyor: {} mm/s can be cut on this machine", fixed(program.speed, 1))
+        }
+        None => "no slower conveyor would do".to_owned(),
+    });
+    hints
+}
+
+/// Heads and rows that it takes with another travel along the feed; `None` where that is still too short.
+fn with_travel(work: &Work, travel: f64, speed: f64) -> Option<[usize; 2]> {
+    let mut job = work.job.clone();
+    let flow = &mut job.profile.flow;
+    (flow.travel_mm, flow.row_pitch_mm) = (travel, flow.row_pitch_mm.max(travel));
+    match attempt(&Work { job: &job, ..*work }, speed, &mut Diagnostics::default()) {
+        Ok(program) => Some([program.figures.heads, program.figures.rows]),
+        Err(Missing::Machine { heads, rows }) => Some([heads, rows]),
+        Err(Missing::Axis | Missing::Travel { .. } | Missing::Way(_) | Missing::Plan(_)) => None,
+    }
+}

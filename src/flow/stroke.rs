@@ -1,0 +1,148 @@
+//! A chain as a head cuts it: its motion over the cloth, and how far along the feed it drifts meanwhile.
+
+use super::chains::Chain;
+use super::moving::Moving;
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::geom::Point;
+use crate::ir::Toolpath;
+use crate::ir::motion::{Kind, Phase};
+use crate::ir::toolpath::Pose;
+use crate::machine::Job;
+use crate::pass::toolpath::{Scene, TOOLPATH_PASSES};
+use crate::plan::{self, Planner};
+
+/// A chain with its motion.
+#[derive(Debug, Clone)]
+pub struct Stroke {
+    /// The cut, by its place in the marker.
+    pub cut: u32,
+    /// The piece and its place in the marker.
+    pub piece: [u32; 2],
+    /// What it cuts, as the line has it, mm.
+    pub points: Vec<Point>,
+    /// From the first plunge to the last lift, over the cloth.
+    pub(super) phases: Vec<Phase>,
+    /// Periods of all phases.
+    pub ticks: u32,
+    /// Where the head is over the cloth at the first plunge and at the last lift.
+    pub(super) ends: [Pose; 2],
+    /// Greatest and least place of the line along the feed, mm.
+    pub span: [f64; 2],
+    /// Its lag.
+    pub lag: Lag,
+}
+
+/// How far a head is behind along the feed while it cuts: x + v t, mm, from its start on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lag {
+    /// At the first plunge.
+    pub first: f64,
+    /// At the last lift.
+    pub last: f64,
+    /// The least.
+    pub least: f64,
+    /// The greatest.
+    pub most: f64,
+}
+
+impl Lag {
+    /// The greatest and the least lag that its ramps reach, too, mm.
+    fn reach(&self, ramp: f64) -> [f64; 2] {
+        [self.most.max(self.last + ramp), self.least.min(self.first - ramp)]
+    }
+
+    /// The travel along the feed that it takes, with a ramp of such a way at either end, mm.
+    pub fn travel(&self, ramp: f64) -> f64 {
+        let [most, least] = self.reach(ramp);
+        most - least
+    }
+
+    /// When it may start, in s before the place x = 0 of the cloth meets the station: the earliest and the latest.
+    pub(super) fn window(&self, moving: &Moving) -> [f64; 2] {
+        let [most, least] = self.reach(moving.ramp.way);
+        // What whole periods take is left at either end.
+        let reserve = moving.step();
+        [(reserve - least) / moving.speed, (moving.travel + reserve - most) / moving.speed]
+    }
+}
+
+/// The toolpath of a chain after all passes.
+pub(super) fn toolpath(chain: &Chain, scene: &Scene, out: &mut Diagnostics) -> Toolpath {
+    let mut toolpath = chain.toolpath.clone();
+    for pass in TOOLPATH_PASSES {
+        (pass.run)(&mut toolpath, scene, out);
+    }
+    toolpath
+}
+
+/// The motion of a chain, or why there is none.
+pub(super) fn stroke(chain: &Chain, toolpath: &Toolpath, moving: &Moving) -> Result<Stroke, Vec<Diagnostic>> {
+    if chain.falls {
+        let stroke = along(chain, toolpath, moving, &moving.falling)?;
+        if keeps_up(&stroke, moving) {
+            return Ok(stroke);
+        }
+    }
+    along(chain, toolpath, moving, &moving.either)
+}
+
+/// Whether a head nowhere runs farther ahead along the feed than its axis can, at the speed of the cloth.
+fn keeps_up(stroke: &Stroke, moving: &Moving) -> bool {
+    let most = moving.either.profile.axes.x.speed_mm_s * moving.period;
+    let mut last = stroke.ends[0].centre.x;
+    stroke.poses().all(|(pose, _, _)| {
+        let step = pose.centre.x - last;
+        last = pose.centre.x;
+        step <= most
+    })
+}
+
+fn along(chain: &Chain, toolpath: &Toolpath, moving: &Moving, job: &Job) -> Result<Stroke, Vec<Diagnostic>> {
+    let cuts = plan::solve(toolpath, job)?;
+    let motion = Planner::new(job).join(toolpath, cuts);
+    // How the head comes to its start is for those who know where it was before.
+    let phases: Vec<Phase> = motion.phases.into_iter().skip_while(|phase| phase.kind != Kind::Plunge).collect();
+    let [Some(first), Some(last)] = [phases.first(), phases.last()] else { return Err(Vec::new()) };
+    let ends = [first.pose(0), last.pose(last.ticks - 1)];
+    let ticks = phases.iter().map(|phase| phase.ticks).sum();
+    let mut stroke = Stroke {
+        cut: chain.cut,
+        piece: [toolpath.piece, toolpath.part],
+        points: chain.points().to_vec(),
+        phases,
+        ticks,
+        ends,
+        span: chain.span(),
+        lag: Lag { first: 0.0, last: 0.0, least: f64::INFINITY, most: f64::NEG_INFINITY },
+    };
+    stroke.lag = stroke.measured(moving);
+    Ok(stroke)
+}
+
+impl Stroke {
+    /// The pose over the cloth, whether the knife is down, and the block, tick by tick; the last tick is that at which the
+    /// next thing begins, and is not among them.
+    pub(super) fn poses(&self) -> impl Iterator<Item = (Pose, bool, u32)> + '_ {
+        self.phases.iter().flat_map(|phase| {
+            let down = phase.kind.knife_down();
+            phase.setpoints().map(move |(pose, block)| (pose, down, block))
+        })
+    }
+
+    fn measured(&self, moving: &Moving) -> Lag {
+        let first = self.ends[0].centre.x;
+        let last = self.ends[1].centre.x + f64::from(self.ticks) * moving.step();
+        let mut lag = Lag { first, last, least: first, most: first.max(last) };
+        for (tick, (pose, _, _)) in self.poses().enumerate() {
+            let here = pose.centre.x + tick as f64 * moving.step();
+            lag.least = lag.least.min(here);
+            lag.most = lag.most.max(here);
+        }
+        lag
+    }
+
+    /// Length of the line that it cuts, mm.
+    pub fn length(&self) -> f64 {
+        crate::geom::polyline::length(&self.points)
+    }
+}

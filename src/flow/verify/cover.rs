@@ -1,0 +1,120 @@
+//! What of each cut is cut, how often, and how far strokes overlap.
+
+use super::ground::Ground;
+use super::lines::Lines;
+use super::rules::Rule;
+use super::worst::{Place, Worst};
+use crate::geom::polyline;
+
+/// What a stroke cuts of a line.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cover {
+    /// From where to where, mm along the line; round a closed one it goes on.
+    pub(super) span: [f64; 2],
+    /// The head, from 1.
+    pub(super) head: usize,
+    /// Whether the blade only plunges.
+    pub(super) plunge: bool,
+    /// Where it starts in the program.
+    pub(super) place: Place,
+}
+
+/// What is cut of every line.
+pub(super) struct Covers<'a> {
+    lines: &'a Lines,
+    of: Vec<Vec<Cover>>,
+}
+
+/// How far smoothing and rounding may draw the end of a stroke back from where it should be, mm.
+const END: f64 = 0.3;
+
+impl<'a> Covers<'a> {
+    pub(super) fn new(lines: &'a Lines) -> Self {
+        Self { lines, of: lines.all.iter().map(|_| Vec::new()).collect() }
+    }
+
+    pub(super) fn add(&mut self, line: usize, cover: Cover) {
+        self.of[line].push(cover);
+    }
+
+    /// How much of a stretch of a line is cut already, mm.
+    pub(super) fn doubled(&self, line: usize, span: [f64; 2]) -> f64 {
+        let length = self.lines.all[line].length();
+        let turns = if self.lines.all[line].closed { -2..=2 } else { 0..=0 };
+        let mut sum = 0.0;
+        for turn in turns {
+            let by = f64::from(turn) * length;
+            sum += self.of[line]
+                .iter()
+                .map(|cover| (span[1].min(cover.span[1] + by) - span[0].max(cover.span[0] + by)).max(0.0))
+                .sum::<f64>();
+        }
+        sum
+    }
+
+    /// Judges all lines.
+    pub(super) fn judge(&self, ground: &Ground, worst: &mut Worst) {
+        for line in 0..self.of.len() {
+            self.judge_line(line, ground, worst);
+        }
+    }
+
+    fn judge_line(&self, line: usize, ground: &Ground, worst: &mut Worst) {
+        let of = &self.lines.all[line];
+        let length = of.length();
+        let uncut = ground.profile.verify.max_uncut_mm + ground.tolerance();
+        let mut covers = self.of[line].clone();
+        if covers.is_empty() {
+            let place = Place { head: 0, row: 0, time: 0.0, point: of.points[0] };
+            worst.see(Rule::Uncut, length, uncut, Some(place));
+            return;
+        }
+        if of.closed {
+            for cover in &mut covers {
+                let turn = (cover.span[0] / length).floor() * length;
+                cover.span = cover.span.map(|station| station - turn);
+            }
+        }
+        covers.sort_by(|a, b| a.span[0].total_cmp(&b.span[0]).then(b.span[1].total_cmp(&a.span[1])));
+        // Before the first one on a closed line is the last, a turn back.
+        let mut last = if of.closed {
+            let last = covers.iter().copied().max_by(|a, b| a.span[1].total_cmp(&b.span[1]));
+            last.map(|last| Cover { span: last.span.map(|station| station - length), ..last })
+        } else {
+            None
+        };
+        for &cover in &covers {
+            let reached = last.map_or(0.0, |last| last.span[1]);
+            let overlap = reached.min(cover.span[1]) - cover.span[0];
+            worst.see(Rule::Uncut, -overlap, uncut, Some(cover.place));
+            if let Some(before) = last.filter(|_| overlap > -uncut) {
+                self.judge_join(line, before, cover, overlap, ground, worst);
+            }
+            if last.is_none_or(|last| cover.span[1] > last.span[1]) {
+                last = Some(cover);
+            }
+        }
+        if let Some(last) = last.filter(|_| !of.closed) {
+            worst.see(Rule::Uncut, length - last.span[1], uncut, Some(last.place));
+        }
+    }
+
+    /// Judges the overlap of two strokes that follow each other along a line.
+    fn judge_join(&self, line: usize, a: Cover, b: Cover, overlap: f64, ground: &Ground, worst: &mut Worst) {
+        let knife = &ground.profile.knife;
+        let due = 2.0 * ground.profile.flow.overlap_mm;
+        let rejoined = knife.corner_heel_overlap_mm + knife.corner_front_overlap_mm;
+        let blade = if a.plunge || b.plunge { knife.width_mm } else { 0.0 };
+        worst.see(Rule::Twice, overlap, due.max(rejoined).max(blade) + 2.0 * END, Some(b.place));
+        let at = f64::midpoint(a.span[1].min(b.span[1]), b.span[0]);
+        let corner = ground.profile.corner.angle() * (1.0 - CORNER_EPSILON);
+        let of = &self.lines.all[line];
+        if a.head != b.head && of.turn_about(at, due + END) < corner {
+            let point = polyline::place(&of.points, &of.stations, at.rem_euclid(of.length()));
+            worst.see(Rule::Overlap, due - overlap, END, Some(Place { point, ..b.place }));
+        }
+    }
+}
+
+/// Part of the angle of a corner by which its turn may be less: rounding.
+const CORNER_EPSILON: f64 = 1e-6;

@@ -1,0 +1,71 @@
+//! Whether the blade lies along its way over the cloth: along the tangent of the leading end's way, or as a chord of it with
+//! both ends on it. A blade that plunged as a chord of a curve comes to the tangent over the next blade width.
+
+use super::ground::Ground;
+use super::rules::Rule;
+use super::strokes::Stroke;
+use super::worst::Worst;
+use crate::geom::{Point, Vector, angle};
+use crate::units::deg;
+
+/// The direction of a way is taken over so much of it, mm: less is rounding of rows.
+const LOOK: f64 = 0.1;
+
+/// Judges a stroke; `under` is the way that lies under the blade as it is plunged, without the leading end.
+pub(super) fn judge(stroke: &Stroke, under: &[Point], ground: &Ground, worst: &mut Worst) {
+    let width = ground.profile.knife.width_mm;
+    let limit = ground.profile.verify.max_heading_deg;
+    // The trailing end of a blade that is a chord goes along the line that lay under it: that is known to the tolerance.
+    let beside = if width > 0.0 { deg((ground.tolerance() / width).atan()) } else { 0.0 };
+    let way: Vec<Point> = under.iter().chain(&stroke.trace[1..]).copied().collect();
+    let (mut behind, mut gone, mut lead_at_plunge) = (0, 0.0, None);
+    for (i, along) in stroke.along.iter().enumerate() {
+        let lead = under.len() + i;
+        while behind + 1 < lead && (way[behind + 1] - way[lead]).norm() > width {
+            behind += 1;
+        }
+        if i > 0 {
+            gone += (way[lead] - way[lead - 1]).norm();
+        }
+        let Some(tangent) = direction(stroke, i) else { continue };
+        let ahead = angle::turn(*along, tangent);
+        let fading = if gone < width { *lead_at_plunge.get_or_insert(ahead) * left(gone / width) } else { 0.0 };
+        let off = |way: Vector| deg(angle::turn(way, *along)).abs();
+        let chord = if width > 0.0 { chord([way[behind], way[behind + 1]], way[lead], width) } else { None };
+        let allowed = limit + if behind < under.len() { beside } else { 0.0 };
+        let off = chord.map_or(off(tangent), |chord| off(chord).min(off(tangent)));
+        let off = off.min(deg(angle::wrap(ahead - fading)).abs());
+        worst.see(Rule::Heading, off, allowed, Some(stroke.places[i]));
+    }
+}
+
+/// What is left of the angle between a blade that plunged as a chord and its way, behind a part of its width: the step of
+/// degree 7, whose first three derivatives vanish at both ends.
+fn left(part: f64) -> f64 {
+    1.0 - part.powi(4) * (35.0 - part * (84.0 - part * (70.0 - part * 20.0)))
+}
+
+/// The direction of the leading end at a row: between places as far before as behind it, a little away; `None` near the
+/// ends of a stroke, and where the blade does not move.
+fn direction(stroke: &Stroke, i: usize) -> Option<Vector> {
+    let way = &stroke.trace[1..];
+    let before = (0..i).rev().find(|&k| (way[k] - way[i]).norm() >= LOOK)?;
+    let behind = (i + 1..way.len()).find(|&k| (way[k] - way[i]).norm() >= LOOK)?;
+    // At unequal distances the secant is the tangent elsewhere: two secants meet in it.
+    let [a, b] = [way[i] - way[before], way[behind] - way[i]];
+    let (la, lb) = (a.norm(), b.norm());
+    Some(a / la * (lb / (la + lb)) + b / lb * (la / (la + lb)))
+}
+
+/// From the place of a chord of the way that is a blade's width behind to the leading end.
+fn chord([from, to]: [Point; 2], here: Point, width: f64) -> Option<Vector> {
+    let (a, d) = (from - here, to - from);
+    let (square, half, rest) = (d.norm_squared(), a.dot(&d), a.norm_squared() - width * width);
+    if square == 0.0 {
+        return (from != here).then(|| here - from);
+    }
+    let root = (half * half - square * rest).max(0.0).sqrt();
+    let x = [(-half - root) / square, (-half + root) / square].into_iter().find(|x| (0.0..=1.0).contains(x));
+    let place = from + d * x.unwrap_or(0.0);
+    (place != here).then(|| here - place)
+}

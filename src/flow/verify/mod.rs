@@ -1,0 +1,163 @@
+//! The verifier of heads over a conveyor: judges from the bytes what blades do to the cloth, and heads to each other.
+//!
+//! Receives the plan and the programs of all heads, the marker that they must cut, and the profile. Shares no code with
+//! what plans and writes: it maps every row back to the cloth for itself, and finds for itself which cut a stroke follows.
+//! Never repairs anything.
+
+mod cover;
+mod follow;
+mod ground;
+mod heading;
+mod limits;
+mod lines;
+mod plan_file;
+mod rest;
+mod rows;
+mod rules;
+mod strokes;
+mod worst;
+
+pub use ground::Ground;
+pub use rows::Bytes;
+pub use rules::{RULES, Rule};
+pub use worst::Seen;
+
+use std::io::{self, BufRead};
+
+use self::cover::Covers;
+use self::ground::Unread;
+use self::limits::Limits;
+use self::lines::Lines;
+use self::plan_file::Plan;
+use self::rest::Rest;
+use self::rows::Row;
+use self::strokes::{Stroke, Strokes};
+use self::worst::{Place, Worst};
+use crate::geom::Point;
+
+/// What the programs of a plan are worth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Verdict {
+    /// The worst under each rule that says something of them, in the order of [`RULES`].
+    pub seen: Vec<Seen>,
+    /// What cannot be read, when something cannot.
+    pub unread: Option<String>,
+}
+
+impl Verdict {
+    /// Whether every rule holds.
+    pub fn passes(&self) -> bool {
+        self.broken().next().is_none()
+    }
+
+    /// What does not hold.
+    pub fn broken(&self) -> impl Iterator<Item = &Seen> {
+        self.seen.iter().filter(|seen| !seen.finding.holds())
+    }
+}
+
+/// Gives the program of a head, by its place in the plan.
+pub type Open<'a> = &'a mut dyn FnMut(usize) -> io::Result<Box<dyn BufRead>>;
+
+/// Judges the programs of a plan from their bytes.
+pub fn judge(plan: &str, bytes: Bytes, open: Open, ground: &Ground) -> io::Result<Verdict> {
+    let mut worst = Worst::new();
+    let unread = match judge_all(plan, bytes, open, ground, &mut worst) {
+        Ok(()) => None,
+        Err(Unread::Io(error)) => return Err(error),
+        Err(Unread::Row(message)) => Some(message),
+    };
+    worst.see(Rule::Format, f64::from(u8::from(unread.is_some())), 0.0, None);
+    Ok(Verdict { seen: worst.findings(), unread })
+}
+
+fn judge_all(plan: &str, bytes: Bytes, open: Open, ground: &Ground, worst: &mut Worst) -> Result<(), Unread> {
+    let plan = plan_file::read(plan)?;
+    plan_file::judge(&plan, ground, worst);
+    let lines = Lines::new(ground.marker);
+    let mut covers = Covers::new(&lines);
+    let mut row_mates: Vec<(u64, Vec<f64>)> = Vec::new();
+    let mut count = None;
+    for (i, &(row, _)) in plan.heads.iter().enumerate() {
+        let head = read_head(&plan, i, bytes, open(i)?.as_mut(), ground, worst)?;
+        if *count.get_or_insert(head.ys.len()) != head.ys.len() {
+            return Err(Unread::Row(format!("head {} has {} rows, others have more or fewer", i + 1, head.ys.len())));
+        }
+        distances(&row_mates, row, &head.ys, ground, worst);
+        row_mates.push((row, head.ys));
+        for stroke in &head.strokes {
+            follow::judge(stroke, &lines, ground, &mut covers, worst);
+        }
+    }
+    covers.judge(ground, worst);
+    Ok(())
+}
+
+/// What is kept of a head when its program has been read.
+struct Head {
+    strokes: Vec<Stroke>,
+    ys: Vec<f64>,
+}
+
+fn read_head(
+    plan: &Plan,
+    i: usize,
+    bytes: Bytes,
+    input: &mut dyn BufRead,
+    ground: &Ground,
+    worst: &mut Worst,
+) -> Result<Head, Unread> {
+    let (_, station) = plan.heads[i];
+    let period = ground.profile.time.period();
+    let (mut limits, mut rest) = (Limits::new(ground.profile), Rest::new(ground.profile));
+    let mut strokes = Strokes::new(ground.profile);
+    let mut ys = Vec::new();
+    rows::read(bytes, input, &mut |row: Row| {
+        let number = ys.len();
+        let due = number as f64 * period;
+        let place = [station + row.place[0] - row.conveyor, row.place[1] - (ground.shift)(row.conveyor)];
+        let point = Point::new(place[0], place[1]);
+        let at = Place { head: i + 1, row: number, time: row.time, point };
+        worst.see(Rule::Period, (row.time - due).abs(), ROW_TIME, Some(at));
+        worst.see(Rule::Conveyor, (row.conveyor - plan.speed * due).abs(), ROW_WAY, Some(at));
+        bounds(&row, at, ground, worst);
+        limits.see(&row, at, worst);
+        rest.see(&row, at, worst);
+        strokes.see(&row, at);
+        ys.push(row.place[1]);
+    })?;
+    rest.finish(i + 1, worst);
+    Ok(Head { strokes: strokes.finish(), ys })
+}
+
+/// Rounding of times, s, and of ways, mm, in rows of six decimals.
+const ROW_TIME: f64 = 1e-6;
+const ROW_WAY: f64 = 2e-6;
+
+/// Whether the axes are where they can be.
+fn bounds(row: &Row, at: Place, ground: &Ground, worst: &mut Worst) {
+    let profile = ground.profile;
+    let beyond = |value: f64, [least, most]: [f64; 2]| (least - value).max(value - most);
+    worst.see(Rule::Travel, beyond(row.place[0], [0.0, profile.flow.travel_mm]), ROW_WAY, Some(at));
+    if let Some(range) = profile.table.y_mm {
+        worst.see(Rule::Across, beyond(row.place[1], range), ROW_WAY, Some(at));
+    }
+    if let Some(range) = profile.c.range_deg {
+        worst.see(Rule::Range, beyond(row.c, range), ROW_WAY, Some(at));
+    }
+}
+
+/// Whether a head stays apart from those of its row that were read before.
+fn distances(before: &[(u64, Vec<f64>)], row: u64, ys: &[f64], ground: &Ground, worst: &mut Worst) {
+    let width = ground.profile.flow.head_width_mm;
+    let period = ground.profile.time.period();
+    for (_, others) in before.iter().filter(|mate| mate.0 == row) {
+        let side = (others[0] - ys[0]).signum();
+        let gaps = others.iter().zip(ys).map(|(other, y)| (other - y) * side);
+        if let Some((tick, gap)) = gaps.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)) {
+            let point = Point::new(0.0, ys[tick]);
+            let at = Place { head: before.len() + 1, row: tick, time: tick as f64 * period, point };
+            worst.see(Rule::Distance, width - gap, ROW_WAY, Some(at));
+        }
+    }
+}

@@ -1,0 +1,43 @@
+//! The plan, as it is read back: which heads there are, and where they stand.
+
+use super::ground::{Ground, Unread};
+use super::rules::Rule;
+use super::worst::Worst;
+
+/// What a plan says that programs need.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Plan {
+    /// Speed of the conveyor, mm/s.
+    pub(super) speed: f64,
+    /// Row, from 1, and station (mm) of each head.
+    pub(super) heads: Vec<(u64, f64)>,
+}
+
+/// Rounding of stations, mm.
+const STATION: f64 = 1e-6;
+
+/// Reads a plan.
+pub(super) fn read(text: &str) -> Result<Plan, Unread> {
+    let lacks = |what: &str| Unread::Row(format!("plan.json has no {what}"));
+    let plan: serde_json::Value =
+        serde_json::from_str(text).map_err(|error| Unread::Row(format!("plan.json is no JSON: {error}")))?;
+    let speed = plan["speed_mm_s"].as_f64().filter(|speed| *speed > 0.0).ok_or_else(|| lacks("`speed_mm_s`"))?;
+    let heads = plan["heads"].as_array().ok_or_else(|| lacks("`heads`"))?;
+    let head = |head: &serde_json::Value| {
+        let row = head["row"].as_u64().ok_or_else(|| lacks("`row` of a head"))?;
+        let station = head["station_mm"].as_f64().ok_or_else(|| lacks("`station_mm` of a head"))?;
+        Ok((row, station))
+    };
+    Ok(Plan { speed, heads: heads.iter().map(head).collect::<Result<_, Unread>>()? })
+}
+
+/// Judges what a plan says.
+pub(super) fn judge(plan: &Plan, ground: &Ground, worst: &mut Worst) {
+    let flow = &ground.profile.flow;
+    let too_many = plan.heads.len().saturating_sub(flow.heads as usize);
+    let no_row = plan.heads.iter().filter(|(row, _)| *row < 1 || *row > u64::from(flow.rows)).count();
+    worst.see(Rule::Plan, (too_many + no_row) as f64, 0.0, None);
+    for &(row, station) in &plan.heads {
+        worst.see(Rule::Station, (station - ground.station(row)).abs(), STATION, None);
+    }
+}

@@ -1,0 +1,83 @@
+//! Strokes: what a head cuts from a command down to the next one up, as its blade lies on the cloth.
+
+use super::rows::Row;
+use super::worst::Place;
+use crate::geom::{Point, Rotation, Vector};
+use crate::machine::MachineProfile;
+use crate::units::rad;
+
+/// A stroke.
+#[derive(Debug, Clone)]
+pub(super) struct Stroke {
+    /// Where the blade's leading end goes, mm: the first point is the trailing end at the plunge.
+    pub(super) trace: Vec<Point>,
+    /// The direction of the blade, from the trailing end to the leading one, for each point behind the first.
+    pub(super) along: Vec<Vector>,
+    /// Where each of these is in the program.
+    pub(super) places: Vec<Place>,
+    /// The least and the greatest block that its rows name.
+    pub(super) blocks: [u32; 2],
+}
+
+/// Gathers the strokes of a head.
+pub(super) struct Strokes {
+    width: f64,
+    radius: f64,
+    yaw: f64,
+    /// The rows of the stroke that goes on.
+    now: Vec<(Point, Vector, Place, u32)>,
+    done: Vec<Stroke>,
+}
+
+/// A blade whose centre goes less than that does not move, mm.
+const STILL: f64 = 1e-3;
+
+impl Strokes {
+    pub(super) fn new(profile: &MachineProfile) -> Self {
+        let knife = &profile.knife;
+        Self { width: knife.width_mm, radius: knife.radius(), yaw: knife.yaw(), now: Vec::new(), done: Vec::new() }
+    }
+
+    /// Sees the next row.
+    pub(super) fn see(&mut self, row: &Row, at: Place) {
+        let along = Rotation(rad(row.c) - self.yaw).unit();
+        if row.knife {
+            self.now.push((at.point, along, at, row.block));
+        } else if !self.now.is_empty() {
+            // The blade comes out where it is commanded up.
+            self.now.push((at.point, along, at, self.now[self.now.len() - 1].3));
+            self.close();
+        }
+    }
+
+    fn close(&mut self) {
+        let rows = std::mem::take(&mut self.now);
+        let (first, last) = (rows[0], rows[rows.len() - 1]);
+        let moved = rows.iter().map(|row| row.0 - first.0).find(|way| way.norm() > STILL);
+        // A blade with two edges may go heel first.
+        let is_turned = moved.is_some_and(|way| way.dot(&first.1) < 0.0);
+        let (lead, side) = if is_turned { (self.width - self.radius, -1.0) } else { (self.radius, 1.0) };
+        let along: Vec<Vector> = rows.iter().map(|row| row.1 * side).collect();
+        let mut trace = vec![first.0 + along[0] * (lead - self.width)];
+        trace.extend(rows.iter().zip(&along).map(|(row, along)| row.0 + along * lead));
+        let blocks = rows.iter().map(|row| row.3);
+        let blocks = [blocks.clone().min().unwrap_or(0), blocks.max().unwrap_or(0)];
+        debug_assert!(last.2.row >= first.2.row, "rows come in order");
+        self.done.push(Stroke { trace, along, places: rows.iter().map(|row| row.2).collect(), blocks });
+    }
+
+    /// All strokes; one that is not ended by a lift counts up to its last row.
+    pub(super) fn finish(mut self) -> Vec<Stroke> {
+        if !self.now.is_empty() {
+            self.close();
+        }
+        self.done
+    }
+}
+
+impl Stroke {
+    /// Whether the blade never moves.
+    pub(super) fn is_plunge(&self) -> bool {
+        self.trace[1..].iter().all(|point| (point - self.trace[1]).norm() <= STILL)
+    }
+}

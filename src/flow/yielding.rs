@@ -1,0 +1,132 @@
+//! Heads of one row between their chains: they cannot pass each other, and make room for those that cut.
+//!
+//! From the lowest to the highest, each head waits between two chains where the next one starts, or where the last one
+//! ended, or at a third place: the first of these that keeps it a head's width above the head below, and as many widths
+//! below each head above that cuts as there are heads up to it.
+
+use super::link::{Link, State, Wait};
+use super::moving::Moving;
+use super::track::{BLOCK, Track};
+
+/// A head of a row: its chains in time.
+#[derive(Debug, Clone)]
+pub(super) struct Mate {
+    /// Where it is while it cuts; free between.
+    pub(super) busy: Track,
+    /// Of each chain the ticks from its start to its end, and the states there.
+    pub(super) chains: Vec<([i64; 2], [State; 2])>,
+}
+
+/// A row of heads.
+pub(super) struct Room<'a> {
+    pub(super) moving: &'a Moving,
+    /// Least distance of two heads, mm.
+    pub(super) width: f64,
+    /// The first and the last tick of all.
+    pub(super) span: [i64; 2],
+    /// Where a head may be across the feed, mm.
+    pub(super) table: [f64; 2],
+}
+
+/// Least distance beyond the width of a head, mm: places are looked at once in some periods.
+const MARGIN: f64 = 0.01;
+
+impl Room<'_> {
+    /// Where each head of a row waits before, between and behind its chains; `None` where they have no room. Heads come from
+    /// the lowest to the highest.
+    pub(super) fn waits(&self, mates: &[&Mate]) -> Option<Vec<Vec<Wait>>> {
+        let mut below: Option<Track> = None;
+        let mut all = Vec::with_capacity(mates.len());
+        for (k, mate) in mates.iter().enumerate() {
+            let above: Vec<(&Track, f64)> =
+                mates[k + 1..].iter().zip(1..).map(|(mate, n)| (&mate.busy, f64::from(n))).collect();
+            let mut track = mate.busy.clone();
+            let waits: Option<Vec<Wait>> =
+                (0..=mate.chains.len()).map(|gap| self.wait(mate, gap, below.as_ref(), &above, &mut track)).collect();
+            all.push(waits?);
+            below = Some(track);
+        }
+        Some(all)
+    }
+
+    /// Where a head waits in a gap between its chains; puts it there.
+    fn wait(
+        &self,
+        mate: &Mate,
+        gap: usize,
+        below: Option<&Track>,
+        above: &[(&Track, f64)],
+        track: &mut Track,
+    ) -> Option<Wait> {
+        let before = gap.checked_sub(1).map(|i| mate.chains[i]);
+        let behind = mate.chains.get(gap).copied();
+        let span =
+            [before.map_or(self.span[0], |(ticks, _)| ticks[1]), behind.map_or(self.span[1], |(ticks, _)| ticks[0])];
+        let gap_width = self.width + MARGIN;
+        let blocks = below.or(above.first().map(|above| above.0)).map_or(0, |track| track.between(span).len());
+        let mut corridor = vec![self.table; blocks];
+        if let Some(below) = below {
+            for (room, block) in corridor.iter_mut().zip(below.between(span)) {
+                room[0] = room[0].max(block[1] + gap_width);
+            }
+        }
+        for (above, heads) in above {
+            for (room, block) in corridor.iter_mut().zip(above.between(span)) {
+                room[1] = room[1].min(block[0] - heads * gap_width);
+            }
+        }
+        let ends = [before.map(|(_, states)| states[1]), behind.map(|(_, states)| states[0])];
+        let found = self.candidates(ends, &corridor).into_iter().find_map(|wait| {
+            let link = self.link(ends, span, wait)?;
+            link.has_time().then_some(())?;
+            keeps(&link, span, &corridor, track.begin(span[0])).then_some((wait, link))
+        });
+        let (wait, link) = found?;
+        let step = BLOCK as usize / 2;
+        (0..=link.ticks)
+            .step_by(step)
+            .chain([link.ticks])
+            .for_each(|tick| track.put(span[0] + i64::from(tick), link.y(tick)));
+        Some(wait)
+    }
+
+    /// The places where a head might wait, the simplest first.
+    fn candidates(&self, ends: [Option<State>; 2], corridor: &[[f64; 2]]) -> Vec<Wait> {
+        let mut waits = vec![Wait::There, Wait::Here];
+        let [low, high] = corridor.iter().fold(self.table, |[low, high], room| [low.max(room[0]), high.min(room[1])]);
+        if low <= high {
+            let ys = ends.iter().flatten().map(|state| state.y.clamp(low, high));
+            waits.extend(ys.map(Wait::At));
+            waits.extend([low, high].into_iter().filter(|y| y.is_finite()).map(Wait::At));
+        }
+        waits
+    }
+
+    /// The link in a gap; at an end of the program a head is where it waits.
+    fn link(&self, ends: [Option<State>; 2], [from, to]: [i64; 2], wait: Wait) -> Option<Link> {
+        let states = ends_of(ends, wait)?;
+        let ticks = u32::try_from(to - from).ok()?;
+        Some(Link::new(states, ends.map(|end| end.is_some()), ticks, wait, self.moving))
+    }
+}
+
+/// Where a head is at both ends of a gap: at an end of the program where it waits.
+pub(super) fn ends_of(ends: [Option<State>; 2], wait: Wait) -> Option<[State; 2]> {
+    let own = ends[0].or(ends[1])?;
+    let y = match wait {
+        Wait::At(y) => y,
+        Wait::There | Wait::Here => own.y,
+    };
+    Some(ends.map(|end| end.unwrap_or(State { y, ..own })))
+}
+
+/// Whether a link keeps within a corridor of blocks, the first of which begins at a tick.
+fn keeps(link: &Link, [from, _]: [i64; 2], corridor: &[[f64; 2]], begin: i64) -> bool {
+    corridor.iter().zip(0..).all(|(&[low, high], block)| {
+        let ticks = [begin + block * BLOCK, begin + (block + 1) * BLOCK];
+        ticks.into_iter().all(|tick| {
+            let tick = (tick - from).clamp(0, i64::from(link.ticks)) as u32;
+            (low..=high).contains(&link.y(tick))
+        })
+    })
+}
