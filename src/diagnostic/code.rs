@@ -4,6 +4,9 @@
 
 use serde::Serialize;
 
+use Fault::{Shape, Text};
+use Harm::{Spares, Spoils};
+
 /// Whether a finding forbids a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -85,535 +88,372 @@ const fn warning(harm: Harm, fault: Fault, name: &'static str, about: &'static s
     Code { name, severity: Severity::Warning, harm, fault, about, more }
 }
 
-// The source as a whole.
-#[rustfmt::skip] // a table: one row a code
-mod table {
-    use crate::diagnostic::code::Fault::{Shape, Text};
-    use crate::diagnostic::code::Harm::{Spares, Spoils};
-    use crate::diagnostic::code::{Code, error, warning};
+/// Declares each code, and the table of all of them in the order of the manual.
+macro_rules! codes {
+    ($($(#[$about:meta])* $name:ident = $code:expr;)*) => {
+        $($(#[$about])* pub static $name: Code = $code;)*
 
+        /// Every code, in the order of the manual.
+        pub static ALL: &[&Code] = &[$(&$name),*];
+    };
+}
+
+codes! {
+    // The source as a whole.
     /// Nothing in the file.
-    pub static SOURCE_EMPTY: Code = error(Text, "source/empty", "The file holds no bytes, or only blanks.", "Nothing arrived: an export was cancelled, or the copy to the cutter failed. Export the marker again and compare the sizes of the files.");
+    SOURCE_EMPTY = error(Text, "source/empty", "The file holds no bytes, or only blanks.", "Nothing arrived: an export was cancelled, or the copy to the cutter failed. Export the marker again and compare the sizes of the files.");
     /// More bytes than spans can address.
-    pub static SOURCE_TOO_LARGE: Code = error(Text, "source/too-large", "The file has 4 GiB or more; split the marker.", "Places in a file are kept as 32-bit numbers. No marker needs this much: most likely it is another file. Split a real one by pieces in the CAD system.");
+    SOURCE_TOO_LARGE = error(Text, "source/too-large", "The file has 4 GiB or more; split the marker.", "Places in a file are kept as 32-bit numbers. No marker needs this much: most likely it is another file. Split a real one by pieces in the CAD system.");
     /// No dialect recognises the content.
-    pub static SOURCE_UNKNOWN: Code = error(Text, "source/unknown-format", "The content is none of the dialects that cutc reads; the message names what it looks like.", "Cutting from a guess could ruin a lay. Export an ISO cut file, or name the dialect if the file has an unusual head.\n  cutc check odd.txt --from iso");
+    SOURCE_UNKNOWN = error(Text, "source/unknown-format", "The content is none of the dialects that cutc reads; the message names what it looks like.", "Cutting from a guess could ruin a lay. Export an ISO cut file, or name the dialect if the file has an unusual head.\n  cutc check odd.txt --from iso");
     /// Options for plots, and no plot.
-    pub static SOURCE_NO_PLOT: Code = warning(Spares, Shape, "source/no-plot", "`--cut-pens`, `--inner` or `--cut-all` is given for a file that is no drawing; they change nothing.", "A cut file says itself what is cut, so there is nothing to choose by pens and shapes. To cut some of its pieces name them.\n  cutc compile marker.cut --pieces 3,7-12");
+    SOURCE_NO_PLOT = warning(Spares, Shape, "source/no-plot", "`--cut-pens`, `--inner` or `--cut-all` is given for a file that is no drawing; they change nothing.", "A cut file says itself what is cut, so there is nothing to choose by pens and shapes. To cut some of its pieces name them.\n  cutc compile marker.cut --pieces 3,7-12");
 
     // ISO cut files.
     /// A block that is not words.
-    pub static ISO_SYNTAX: Code = error(Text, "iso/syntax", "A block does not follow the grammar: a word is a letter and, mostly, a number.", "A damaged block may hide a coordinate, and a cut to the wrong place cannot be taken back. Look at the excerpt; export or transfer the file again.\n  X100Y200*M14*   is right; X100Y2#0* is not.");
+    ISO_SYNTAX = error(Text, "iso/syntax", "A block does not follow the grammar: a word is a letter and, mostly, a number.", "A damaged block may hide a coordinate, and a cut to the wrong place cannot be taken back. Look at the excerpt; export or transfer the file again.\n  X100Y200*M14*   is right; X100Y2#0* is not.");
     /// X or Y without a number.
-    pub static ISO_NO_VALUE: Code = error(Text, "iso/no-value", "X, Y, I or J stands without its number.", "A coordinate without its number could be anything; taking it as 0 would cut across the lay. Export the file again, or write the number.\n  X100Y*   lacks the number of Y.");
+    ISO_NO_VALUE = error(Text, "iso/no-value", "X, Y, I or J stands without its number.", "A coordinate without its number could be anything; taking it as 0 would cut across the lay. Export the file again, or write the number.\n  X100Y*   lacks the number of Y.");
     /// A place that no table reaches.
-    pub static ISO_FAR_PLACE: Code = error(Text, "iso/far-place", "A place lies more than a kilometre from the origin: a digit is doubled, or the unit is wrong.", "No table is a kilometre long, so the motion would be nonsense. Look at the block: two numbers may have run together, or an export in another unit was mixed in.\n  X30000500Y0* instead of X3000500Y0*");
+    ISO_FAR_PLACE = error(Text, "iso/far-place", "A place lies more than a kilometre from the origin: a digit is doubled, or the unit is wrong.", "No table is a kilometre long, so the motion would be nonsense. Look at the block: two numbers may have run together, or an export in another unit was mixed in.\n  X30000500Y0* instead of X3000500Y0*");
     /// Lines of per cent signs.
-    pub static ISO_FRAME: Code = warning(Spares, Text, "iso/percent-frame", "A line that holds nothing but `%` stands at the start or the end of the file; it is passed over.", "Senders put such lines around programs for machine tools. In a cut file they mean nothing, but the file may have gone through the wrong sender.");
+    ISO_FRAME = warning(Spares, Text, "iso/percent-frame", "A line that holds nothing but `%` stands at the start or the end of the file; it is passed over.", "Senders put such lines around programs for machine tools. In a cut file they mean nothing, but the file may have gone through the wrong sender.");
     /// A number too large to be a place on a table.
-    pub static ISO_OVERFLOW: Code = error(Text, "iso/number-overflow", "A number has more digits than a coordinate can have.", "Two coordinates have run together, most likely because an asterisk was lost on the way. Transfer the file again.");
+    ISO_OVERFLOW = error(Text, "iso/number-overflow", "A number has more digits than a coordinate can have.", "Two coordinates have run together, most likely because an asterisk was lost on the way. Transfer the file again.");
     /// M19 that never ends.
-    pub static ISO_OPEN_SLIT: Code = error(Text, "iso/open-slit", "A slit that M19 begins must end with M15 before the next piece, knife-down or end.", "M19 promises a notch, and its end says how deep it is. Without M15 the next outline would be cut as a part of the notch.\n  M19*X0Y100*M14*X5Y100*M15*");
+    ISO_OPEN_SLIT = error(Text, "iso/open-slit", "A slit that M19 begins must end with M15 before the next piece, knife-down or end.", "M19 promises a notch, and its end says how deep it is. Without M15 the next outline would be cut as a part of the notch.\n  M19*X0Y100*M14*X5Y100*M15*");
     /// M14 while the knife is down.
-    pub static ISO_KNIFE_DOWN_TWICE: Code = warning(Spares, Text, "iso/knife-down-twice", "M14 stands where the knife is down already; the second one is ignored.", "Some systems repeat M14. The cut is the same, but an M15 may have been lost: see in the picture (-t svg) whether two lines are joined that should not be.");
+    ISO_KNIFE_DOWN_TWICE = warning(Spares, Text, "iso/knife-down-twice", "M14 stands where the knife is down already; the second one is ignored.", "Some systems repeat M14. The cut is the same, but an M15 may have been lost: see in the picture (-t svg) whether two lines are joined that should not be.");
     /// N while the knife is down, and what follows is another piece.
-    pub static ISO_PIECE_KNIFE_DOWN: Code = error(Text, "iso/piece-knife-down", "A piece begins while the knife is down, and the cut leads on into it: an M15 is missing.", "Without the M15 the knife would cut from one piece to the next, through whatever lies between. Some controllers insert an N amid an outline: that is no fault, as long as the outline goes on.\n  X0Y0*M15*N2*X4000Y0*M14*   is right; X0Y0*N2*X4000Y0*M14* lacks the M15.");
+    ISO_PIECE_KNIFE_DOWN = error(Text, "iso/piece-knife-down", "A piece begins while the knife is down, and the cut leads on into it: an M15 is missing.", "Without the M15 the knife would cut from one piece to the next, through whatever lies between. Some controllers insert an N amid an outline: that is no fault, as long as the outline goes on.\n  X0Y0*M15*N2*X4000Y0*M14*   is right; X0Y0*N2*X4000Y0*M14* lacks the M15.");
     /// Places in the air where nothing is done.
-    pub static ISO_UNCUT_PLACES: Code = warning(Spares, Shape, "iso/uncut-places", "Places in a row are passed with the knife up and nothing is cut there: an M14 may be missing.", "A piece whose M14 is lost is passed in the air, and is missing on the table. Look at the picture (-t svg) and count the pieces; transfer the file again.\n  N2*X4000Y0*M14*X7000Y0*   is right; N2*X4000Y0*X7000Y0* cuts nothing.");
+    ISO_UNCUT_PLACES = warning(Spares, Shape, "iso/uncut-places", "Places in a row are passed with the knife up and nothing is cut there: an M14 may be missing.", "A piece whose M14 is lost is passed in the air, and is missing on the table. Look at the picture (-t svg) and count the pieces; transfer the file again.\n  N2*X4000Y0*M14*X7000Y0*   is right; N2*X4000Y0*X7000Y0* cuts nothing.");
     /// The file ends with the knife in the cloth.
-    pub static ISO_ENDS_KNIFE_DOWN: Code = error(Text, "iso/ends-knife-down", "The file ends while the knife is down: it is most likely cut short.", "The end of the file is missing, and with it perhaps more pieces. Transfer it again and compare the sizes; add M15 and M0 only if you know that all is there.");
+    ISO_ENDS_KNIFE_DOWN = error(Text, "iso/ends-knife-down", "The file ends while the knife is down: it is most likely cut short.", "The end of the file is missing, and with it perhaps more pieces. Transfer it again and compare the sizes; add M15 and M0 only if you know that all is there.");
     /// Last block without its asterisk.
-    pub static ISO_NO_FINAL_ASTERISK: Code = warning(Spares, Text, "iso/no-final-asterisk", "The last block has no `*`; it is read all the same.", "The last block was read as it stands. If its last digits were cut off, the coordinate is wrong: compare the size of the file with the original.");
+    ISO_NO_FINAL_ASTERISK = warning(Spares, Text, "iso/no-final-asterisk", "The last block has no `*`; it is read all the same.", "The last block was read as it stands. If its last digits were cut off, the coordinate is wrong: compare the size of the file with the original.");
     /// No M0.
-    pub static ISO_NO_END: Code = warning(Spares, Text, "iso/no-end", "The file has no M0 at its end; check that it is complete.", "Many systems write M0 last. Its absence may mean that the transfer stopped early: count the pieces with `cutc info` and compare with the marker.");
+    ISO_NO_END = warning(Spares, Text, "iso/no-end", "The file has no M0 at its end; check that it is complete.", "Many systems write M0 last. Its absence may mean that the transfer stopped early: count the pieces with `cutc info` and compare with the marker.");
     /// A code that has no meaning here.
-    pub static ISO_UNKNOWN_CODE: Code = warning(Spares, Text, "iso/unknown-code", "A code that cutc does not know is ignored, as the standard says; the message gives its count and first block.", "Cutters skip what they do not know, and so does this. If the code steers something that you rely on, such as a speed or a tool, the cut will lack it.");
+    ISO_UNKNOWN_CODE = warning(Spares, Text, "iso/unknown-code", "A code that cutc does not know is ignored, as the standard says; the message gives its count and first block.", "Cutters skip what they do not know, and so does this. If the code steers something that you rely on, such as a speed or a tool, the cut will lack it.");
     /// A code that is known but has no effect.
-    pub static ISO_IGNORED_CODE: Code = warning(Spares, Text, "iso/ignored-code", "A code that would change how the piece is cut is not obeyed; the message gives its count and first block.", "The file asks for a speed, a stop or another treatment that this program does not give. Decide whether the cloth can be cut without it; `[codes]` in the profile silences what you do not want.\n  codes.M25 = \"ignore\"");
+    ISO_IGNORED_CODE = warning(Spares, Text, "iso/ignored-code", "A code that would change how the piece is cut is not obeyed; the message gives its count and first block.", "The file asks for a speed, a stop or another treatment that this program does not give. Decide whether the cloth can be cut without it; `[codes]` in the profile silences what you do not want.\n  codes.M25 = \"ignore\"");
     /// Units given twice, differently.
-    pub static ISO_UNITS_CHANGED: Code = error(Text, "iso/units-changed", "G70, G71 or G91 change the unit after coordinates were read; two jobs may stand in one file.", "Half of the marker would be of another size. Two jobs may have been joined into one file: cut them as two files.");
+    ISO_UNITS_CHANGED = error(Text, "iso/units-changed", "G70, G71 or G91 change the unit after coordinates were read; two jobs may stand in one file.", "Half of the marker would be of another size. Two jobs may have been joined into one file: cut them as two files.");
     /// The drawing does not fit its own title or any table.
-    pub static ISO_UNIT_DOUBTFUL: Code = warning(Spoils, Shape, "iso/unit-doubtful", "The extent suggests that another unit is meant; set `units` if it is.", "A marker that is 2.54 or 10 times too large or small spoils the whole lay. Compare the extent that `cutc info` prints with the width of the cloth, then set the unit.\n  cutc compile m.cut --set units=mm/10");
+    ISO_UNIT_DOUBTFUL = warning(Spoils, Shape, "iso/unit-doubtful", "The extent suggests that another unit is meant; set `units` if it is.", "A marker that is 2.54 or 10 times too large or small spoils the whole lay. Compare the extent that `cutc info` prints with the width of the cloth, then set the unit.\n  cutc compile m.cut --set units=mm/10");
     /// An arc that is none.
-    pub static ISO_ARC_RADIUS: Code = error(Text, "iso/arc-radius", "An arc (G02, G03) has no centre, or its two ends are not equally far from it within one unit of the file.", "An arc whose ends disagree goes somewhere else than its author meant, perhaps into the part. Let the CAD system write the arc again, or as short straight lines.\n  G03X0Y100I-50J0*   the centre stands beside the start.");
+    ISO_ARC_RADIUS = error(Text, "iso/arc-radius", "An arc (G02, G03) has no centre, or its two ends are not equally far from it within one unit of the file.", "An arc whose ends disagree goes somewhere else than its author meant, perhaps into the part. Let the CAD system write the arc again, or as short straight lines.\n  G03X0Y100I-50J0*   the centre stands beside the start.");
     /// Labels of nothing.
-    pub static ISO_TRAILER_PIECE: Code = warning(Spares, Shape, "iso/trailer-piece", "The list of labels behind M0 names a piece that the file does not hold; its fields are dropped.", "Labels that belong to no piece may come from another marker: then the list was copied to the wrong file. Nothing of it is cut.");
+    ISO_TRAILER_PIECE = warning(Spares, Shape, "iso/trailer-piece", "The list of labels behind M0 names a piece that the file does not hold; its fields are dropped.", "Labels that belong to no piece may come from another marker: then the list was copied to the wrong file. Nothing of it is cut.");
     /// M14 before any place.
-    pub static ISO_NO_POSITION: Code = warning(Spoils, Text, "iso/no-position", "The knife goes down before the file gave X and Y; what is missing is taken as 0.", "The first cut may start at the corner of the table instead of its place. Look at the first contour in the picture (-t svg) before you cut.");
+    ISO_NO_POSITION = warning(Spoils, Text, "iso/no-position", "The knife goes down before the file gave X and Y; what is missing is taken as 0.", "The first cut may start at the corner of the table instead of its place. Look at the first contour in the picture (-t svg) before you cut.");
     /// A drill between M14 and M15.
-    pub static ISO_DRILL_KNIFE_DOWN: Code = error(Text, "iso/drill-knife-down", "A drill code stands where the knife is down; an M15 may be missing.", "A drill would come down beside a standing blade. Look at the blocks before it: where the outline ends there must be an M15.\n  X100Y0*M15*X50Y50M43*");
+    ISO_DRILL_KNIFE_DOWN = error(Text, "iso/drill-knife-down", "A drill code stands where the knife is down; an M15 may be missing.", "A drill would come down beside a standing blade. Look at the blocks before it: where the outline ends there must be an M15.\n  X100Y0*M15*X50Y50M43*");
     /// No contour, slit or drill.
-    pub static ISO_NOTHING_TO_CUT: Code = error(Shape, "iso/nothing-to-cut", "The file was read to its end and holds no contour, slit or drill.", "Only labels or titles are there, or the pieces are on a layer that was not exported. Export the marker with its cut lines.");
+    ISO_NOTHING_TO_CUT = error(Shape, "iso/nothing-to-cut", "The file was read to its end and holds no contour, slit or drill.", "Only labels or titles are there, or the pieces are on a layer that was not exported. Export the marker with its cut lines.");
 
     // HPGL plots.
     /// Junk.
-    pub static HPGL_NOT_A_PLOT: Code = error(Text, "hpgl/not-a-plot", "Most of what stands in the file is no instruction of a plotter.", "Reading went on until more was junk than not. The file is of another kind, or was damaged on the way: look at its first bytes, and let cutc recognise it.\n  cutc check odd.plt");
+    HPGL_NOT_A_PLOT = error(Text, "hpgl/not-a-plot", "Most of what stands in the file is no instruction of a plotter.", "Reading went on until more was junk than not. The file is of another kind, or was damaged on the way: look at its first bytes, and let cutc recognise it.\n  cutc check odd.plt");
     /// A number too large to be a place on a table.
-    pub static HPGL_OVERFLOW: Code = error(Text, "hpgl/number-overflow", "A coordinate of a plot is beyond any table.", "Numbers that have run together lead the knife off the table. A separator was lost on the way: transfer the file again.");
+    HPGL_OVERFLOW = error(Text, "hpgl/number-overflow", "A coordinate of a plot is beyond any table.", "Numbers that have run together lead the knife off the table. A separator was lost on the way: transfer the file again.");
     /// Bytes of PE that mean nothing.
-    pub static HPGL_PE_DAMAGED: Code = error(Text, "hpgl/encoding-damaged", "An encoded polyline (PE) holds a byte that cannot stand there, or ends amid a number.", "Every place behind the damage is relative to what is lost, so the outlines would be wrong. Transfer the file again as binary data: mail and editors change such bytes.");
+    HPGL_PE_DAMAGED = error(Text, "hpgl/encoding-damaged", "An encoded polyline (PE) holds a byte that cannot stand there, or ends amid a number.", "Every place behind the damage is relative to what is lost, so the outlines would be wrong. Transfer the file again as binary data: mail and editors change such bytes.");
     /// PE without its end.
-    pub static HPGL_PE_OPEN: Code = warning(Spoils, Text, "hpgl/encoding-open", "An encoded polyline (PE) has no semicolon, and the file ends with it.", "Its numbers are whole, but nobody knows whether more should follow. Compare the size of the file with the original, and the pieces with the marker.");
+    HPGL_PE_OPEN = warning(Spoils, Text, "hpgl/encoding-open", "An encoded polyline (PE) has no semicolon, and the file ends with it.", "Its numbers are whole, but nobody knows whether more should follow. Compare the size of the file with the original, and the pieces with the marker.");
     /// PE that became text.
-    pub static HPGL_PE_REPAIRED: Code = warning(Spares, Text, "hpgl/encoding-repaired", "The plot was saved again as UTF-8, which doubles bytes of encoded polylines (PE); they were put together again.", "An editor or a mail program took the plot for text. The repair is exact as long as nothing else was changed: look at the pieces in the picture (-t svg), and transfer plots as binary data.");
+    HPGL_PE_REPAIRED = warning(Spares, Text, "hpgl/encoding-repaired", "The plot was saved again as UTF-8, which doubles bytes of encoded polylines (PE); they were put together again.", "An editor or a mail program took the plot for text. The repair is exact as long as nothing else was changed: look at the pieces in the picture (-t svg), and transfer plots as binary data.");
     /// LB without its end.
-    pub static HPGL_OPEN_LABEL: Code = warning(Spares, Text, "hpgl/open-label", "A label of a plot has no terminator; it ends with its line, or at a semicolon.", "A text without its end would swallow the lines behind it. Count the pieces with `cutc info`; if the file sets another terminator than ETX (DT), it may have been lost.");
+    HPGL_OPEN_LABEL = warning(Spares, Text, "hpgl/open-label", "A label of a plot has no terminator; it ends with its line, or at a semicolon.", "A text without its end would swallow the lines behind it. Count the pieces with `cutc info`; if the file sets another terminator than ETX (DT), it may have been lost.");
     /// Bytes between instructions.
-    pub static HPGL_JUNK: Code = warning(Spares, Text, "hpgl/junk", "Bytes of a plot begin no instruction and were passed over; the message gives their count and first place.", "Plotters pass over such bytes, too. A few at the beginning or end come from drivers; many in the middle hint at a damaged file.");
+    HPGL_JUNK = warning(Spares, Text, "hpgl/junk", "Bytes of a plot begin no instruction and were passed over; the message gives their count and first place.", "Plotters pass over such bytes, too. A few at the beginning or end come from drivers; many in the middle hint at a damaged file.");
     /// X without Y.
-    pub static HPGL_ODD: Code = warning(Spoils, Text, "hpgl/odd-coordinate", "A list of coordinates in a plot has an odd number of values; the last one is ignored.", "Plotters ignore it as well. If it happens amid outlines a number was lost, and what follows is displaced: look at the picture (-t svg).");
+    HPGL_ODD = warning(Spoils, Text, "hpgl/odd-coordinate", "A list of coordinates in a plot has an odd number of values; the last one is ignored.", "Plotters ignore it as well. If it happens amid outlines a number was lost, and what follows is displaced: look at the picture (-t svg).");
     /// A mnemonic that is not in the table.
-    pub static HPGL_UNKNOWN: Code = warning(Spares, Text, "hpgl/unknown-instruction", "A plot has an instruction that cutc does not know; it is ignored, and the message gives its count and first place.", "Private instructions of a plotter do not draw as a rule. If lines are missing from the picture (-t svg), this is where to look.");
+    HPGL_UNKNOWN = warning(Spares, Text, "hpgl/unknown-instruction", "A plot has an instruction that cutc does not know; it is ignored, and the message gives its count and first place.", "Private instructions of a plotter do not draw as a rule. If lines are missing from the picture (-t svg), this is where to look.");
     /// What draws and is not cut.
-    pub static HPGL_LEFT_OUT: Code = warning(Spares, Text, "hpgl/instruction-not-obeyed", "A plot has an instruction that draws or moves and is not obeyed: fills, drawn characters, windows.", "What it draws is no outline: fills and characters are not cut. A window (IW) that would clip lines is not applied, so lines may reach farther than on paper.");
+    HPGL_LEFT_OUT = warning(Spares, Text, "hpgl/instruction-not-obeyed", "A plot has an instruction that draws or moves and is not obeyed: fills, drawn characters, windows.", "What it draws is no outline: fills and characters are not cut. A window (IW) that would clip lines is not applied, so lines may reach farther than on paper.");
     /// A size that depends on the plotter.
-    pub static HPGL_SCALE: Code = warning(Spoils, Shape, "hpgl/scale-of-device", "The size of a plot depends on the plotter: it is scaled to corners or a page that it does not give, or its SC, IP, IR or RO is broken and ignored.", "The size of the drawing depends on the plotter that it was made for, or a number of its scale was lost, so it is most likely wrong here. Let the CAD system write coordinates without scale, or with IP.");
+    HPGL_SCALE = warning(Spoils, Shape, "hpgl/scale-of-device", "The size of a plot depends on the plotter: it is scaled to corners or a page that it does not give, or its SC, IP, IR or RO is broken and ignored.", "The size of the drawing depends on the plotter that it was made for, or a number of its scale was lost, so it is most likely wrong here. Let the CAD system write coordinates without scale, or with IP.");
     /// More than one page.
-    pub static HPGL_PAGES: Code = warning(Spoils, Shape, "hpgl/several-pages", "A plot draws on after a page went out; the pages lie on each other.", "Two markers in one file would be cut into each other. If they are pages of one marker, export it as one long page; else split the file.");
+    HPGL_PAGES = warning(Spoils, Shape, "hpgl/several-pages", "A plot draws on after a page went out; the pages lie on each other.", "Two markers in one file would be cut into each other. If they are pages of one marker, export it as one long page; else split the file.");
     /// A place that no table reaches.
-    pub static HPGL_FAR_PLACE: Code = error(Text, "hpgl/far-place", "A place of a plot lies more than a kilometre from the origin: a digit is doubled, or the unit is wrong.", "No table is a kilometre long, so the motion would be nonsense. Two numbers may have run together, relative moves may be damaged, or the unit is far too large.\n  cutc check marker.plt --set hpgl.unit=0.01");
+    HPGL_FAR_PLACE = error(Text, "hpgl/far-place", "A place of a plot lies more than a kilometre from the origin: a digit is doubled, or the unit is wrong.", "No table is a kilometre long, so the motion would be nonsense. Two numbers may have run together, relative moves may be damaged, or the unit is far too large.\n  cutc check marker.plt --set hpgl.unit=0.01");
     /// Curves that fill the memory.
-    pub static HPGL_CURVES: Code = error(Shape, "hpgl/too-many-chords", "The curves of a plot, or polygons that are drawn again and again, have more chords than a plot can need.", "Curves are read as chords within a quarter of the tolerance. So many of them come from a damaged radius, from a polygon that is drawn thousands of times, or from a tolerance far below what a knife can follow.");
+    HPGL_CURVES = error(Shape, "hpgl/too-many-chords", "The curves of a plot, or polygons that are drawn again and again, have more chords than a plot can need.", "Curves are read as chords within a quarter of the tolerance. So many of them come from a damaged radius, from a polygon that is drawn thousands of times, or from a tolerance far below what a knife can follow.");
     /// Drawing from where letters left the pen.
-    pub static HPGL_PLACE_UNKNOWN: Code = warning(Spoils, Shape, "hpgl/place-unknown", "A plot draws from where a text has left the pen, which depends on the letters of the plotter.", "Behind a text the pen stands at its end, and only the plotter knows how wide its letters are. A relative move from there leads elsewhere on each machine. Let the CAD system write absolute places (PA), or leave the text out.");
+    HPGL_PLACE_UNKNOWN = warning(Spoils, Shape, "hpgl/place-unknown", "A plot draws from where a text has left the pen, which depends on the letters of the plotter.", "Behind a text the pen stands at its end, and only the plotter knows how wide its letters are. A relative move from there leads elsewhere on each machine. Let the CAD system write absolute places (PA), or leave the text out.");
     /// Drawing with SP0.
-    pub static HPGL_NO_PEN: Code = warning(Spares, Shape, "hpgl/no-pen", "A plot draws lines while no pen is taken (SP0); they are not cut.", "SP0 puts the pen away. Some programs write it at the start and draw all the same: then nothing would be cut. Let the CAD system choose pen 1 for the outlines.");
+    HPGL_NO_PEN = warning(Spares, Shape, "hpgl/no-pen", "A plot draws lines while no pen is taken (SP0); they are not cut.", "SP0 puts the pen away. Some programs write it at the start and draw all the same: then nothing would be cut. Let the CAD system choose pen 1 for the outlines.");
     /// Another size than the texts say, or than any table has.
-    pub static HPGL_UNIT_DOUBTFUL: Code = warning(Spoils, Shape, "hpgl/unit-doubtful", "The extent of a plot, or a length that stands in its texts, suggests another unit; set `hpgl.unit` if it is.", "Plots do not say their unit. 1/40 mm and 1/1000 inch differ by 1.6 percent, which nobody sees and every part would be wrong. Compare the extent with the marker.\n  cutc compile marker.plt --set hpgl.unit=0.0254");
+    HPGL_UNIT_DOUBTFUL = warning(Spoils, Shape, "hpgl/unit-doubtful", "The extent of a plot, or a length that stands in its texts, suggests another unit; set `hpgl.unit` if it is.", "Plots do not say their unit. 1/40 mm and 1/1000 inch differ by 1.6 percent, which nobody sees and every part would be wrong. Compare the extent with the marker.\n  cutc compile marker.plt --set hpgl.unit=0.0254");
     /// A polygon that does not end.
-    pub static HPGL_ENDS_IN_POLYGON: Code = error(Text, "hpgl/ends-in-polygon", "A plot ends amid a polygon (PM), which is not drawn: it is most likely cut short.", "What PM gathers is drawn by EP, and the file ends before. Transfer it again and compare the sizes.");
+    HPGL_ENDS_IN_POLYGON = error(Text, "hpgl/ends-in-polygon", "A plot ends amid a polygon (PM), which is not drawn: it is most likely cut short.", "What PM gathers is drawn by EP, and the file ends before. Transfer it again and compare the sizes.");
 
     // What drawings want cut.
     /// The file is not whole.
-    pub static DRAWING_CUT_SHORT: Code = error(Text, "drawing/cut-short", "A drawing ends amid a number, or amid a line outside all parts that does not close: it is most likely cut short.", "The end of the file is missing, and with it the rest of an outline and perhaps more pieces. Transfer it again and compare the sizes. If only the last PU or a semicolon is missing, write it at the end.\n  PD4000,4000;PU;");
+    DRAWING_CUT_SHORT = error(Text, "drawing/cut-short", "A drawing ends amid a number, or amid a line outside all parts that does not close: it is most likely cut short.", "The end of the file is missing, and with it the rest of an outline and perhaps more pieces. Transfer it again and compare the sizes. If only the last PU or a semicolon is missing, write it at the end.\n  PD4000,4000;PU;");
     /// A search without an end.
-    pub static DRAWING_TOO_MANY: Code = error(Shape, "drawing/too-many-lines", "A drawing has so many closed lines that the search for which lies in which was ended: inner lines would be cut as parts.", "Nobody could tell which outline lies in which any more: inner lines would be cut as parts. Split the plot, or leave fills and hatchings out of the export.");
+    DRAWING_TOO_MANY = error(Shape, "drawing/too-many-lines", "A drawing has so many closed lines that the search for which lies in which was ended: inner lines would be cut as parts.", "Nobody could tell which outline lies in which any more: inner lines would be cut as parts. Split the plot, or leave fills and hatchings out of the export.");
     /// No line is to be cut.
-    pub static DRAWING_NOTHING_TO_CUT: Code = error(Shape, "drawing/nothing-to-cut", "A drawing was read to its end and no line of it is taken for something to cut.", "Its outlines may not close, be smaller than 25 mm, or belong to a pen that is no knife. `cutc info` says what the lines were taken for; options decide otherwise.\n  cutc compile marker.plt --cut-all");
+    DRAWING_NOTHING_TO_CUT = error(Shape, "drawing/nothing-to-cut", "A drawing was read to its end and no line of it is taken for something to cut.", "Its outlines may not close, be smaller than 25 mm, or belong to a pen that is no knife. `cutc info` says what the lines were taken for; options decide otherwise.\n  cutc compile marker.plt --cut-all");
     /// A part with several others in it.
-    pub static DRAWING_MAY_BE_FRAME: Code = warning(Spoils, Shape, "drawing/may-be-frame", "A part holds several closed lines that are not cut: it may be a frame or the edge of the table, and they the parts.", "Frames are known by their shape: rectangles around two parts or more, which fill half of them. One of another shape, or nearly empty, looks like a part with cut-outs, and only its edge would be cut. Say which it is.\n  cutc compile marker.plt --set hpgl.frame=outermost\n  cutc compile marker.plt --inner cut");
+    DRAWING_MAY_BE_FRAME = warning(Spoils, Shape, "drawing/may-be-frame", "A part holds several closed lines that are not cut: it may be a frame or the edge of the table, and they the parts.", "Frames are known by their shape: rectangles around two parts or more, which fill half of them. One of another shape, or nearly empty, looks like a part with cut-outs, and only its edge would be cut. Say which it is.\n  cutc compile marker.plt --set hpgl.frame=outermost\n  cutc compile marker.plt --inner cut");
     /// Lines that nobody closed.
-    pub static DRAWING_OPEN_OUTLINES: Code = warning(Spares, Shape, "drawing/open-outlines", "Long lines of a drawing do not close and lie in no part: they may be outlines, and are not cut.", "Only closed lines are taken for parts, and ends up to four units and 0.2 mm from each other are joined. A part whose outline has a wider gap would be missing on the table: close it in the CAD system, or cut every line.\n  cutc compile marker.plt --cut-all");
+    DRAWING_OPEN_OUTLINES = warning(Spares, Shape, "drawing/open-outlines", "Long lines of a drawing do not close and lie in no part: they may be outlines, and are not cut.", "Only closed lines are taken for parts, and ends up to four units and 0.2 mm from each other are joined. A part whose outline has a wider gap would be missing on the table: close it in the CAD system, or cut every line.\n  cutc compile marker.plt --cut-all");
     /// A rectangle around a few parts.
-    pub static DRAWING_FRAME: Code = warning(Spoils, Shape, "drawing/frame", "A rectangle around a few parts is taken for the frame of the drawing, and is not cut; it may be a part with cut-outs.", "Frames are drawn around markers, to show the cloth. A rectangular part with cut-outs that fill half of it looks the same: then say that there is no frame.\n  cutc compile marker.plt --set hpgl.frame=none");
+    DRAWING_FRAME = warning(Spoils, Shape, "drawing/frame", "A rectangle around a few parts is taken for the frame of the drawing, and is not cut; it may be a part with cut-outs.", "Frames are drawn around markers, to show the cloth. A rectangular part with cut-outs that fill half of it looks the same: then say that there is no frame.\n  cutc compile marker.plt --set hpgl.frame=none");
     /// Closed lines inside parts.
-    pub static DRAWING_INNER_LINES: Code = warning(Spares, Shape, "drawing/inner-lines", "Closed lines lie inside parts and are no seam lines: they may be cut-outs, and are not cut unless somebody asks for it (`--inner cut`).", "A plot draws seam lines, pockets and cut-outs alike. A cut-out that is missing can be cut by hand, a pocket that was cut cannot be mended: so nothing inside a part is cut unless somebody asks for it. Seam lines stay whole with `cut`; `all` cuts them, too.\n  cutc compile marker.plt --inner cut");
+    DRAWING_INNER_LINES = warning(Spares, Shape, "drawing/inner-lines", "Closed lines lie inside parts and are no seam lines: they may be cut-outs, and are not cut unless somebody asks for it (`--inner cut`).", "A plot draws seam lines, pockets and cut-outs alike. A cut-out that is missing can be cut by hand, a pocket that was cut cannot be mended: so nothing inside a part is cut unless somebody asks for it. Seam lines stay whole with `cut`; `all` cuts them, too.\n  cutc compile marker.plt --inner cut");
     /// Too small for parts.
-    pub static DRAWING_SMALL_OUTLINES: Code = warning(Spares, Shape, "drawing/small-outlines", "Small closed lines of a drawing lie in no part; they are not cut.", "Closed lines of 10 to 25 mm outside all parts are letters, arrows and test squares as a rule. If they are parts, name their pen as a knife.\n  cutc compile marker.plt --cut-pens 1");
+    DRAWING_SMALL_OUTLINES = warning(Spares, Shape, "drawing/small-outlines", "Small closed lines of a drawing lie in no part; they are not cut.", "Closed lines of 10 to 25 mm outside all parts are letters, arrows and test squares as a rule. If they are parts, name their pen as a knife.\n  cutc compile marker.plt --cut-pens 1");
     /// The searches for notches, letters and seam lines.
-    pub static DRAWING_SEARCH_ENDED: Code = warning(Spares, Shape, "drawing/search-ended", "A drawing has so many lines that the search for notches, letters and seam lines was ended; some are not recognised.", "A mark that is not recognised as a notch is not cut, and a seam line may count as a cut-out. Leave texts and clutter out of the export, or split the plot.");
+    DRAWING_SEARCH_ENDED = warning(Spares, Shape, "drawing/search-ended", "A drawing has so many lines that the search for notches, letters and seam lines was ended; some are not recognised.", "A mark that is not recognised as a notch is not cut, and a seam line may count as a cut-out. Leave texts and clutter out of the export, or split the plot.");
 
     // Pattern DXF.
     /// A line that is no code.
-    pub static DXF_GROUP: Code = error(Text, "dxf/group", "A line of a DXF file should hold the code of a group, and does not.", "DXF is pairs of lines, a code and its value. Where a line is lost or added, every value behind it would be taken for another: a coordinate for a layer. Export the file again, or transfer it as it is.");
+    DXF_GROUP = error(Text, "dxf/group", "A line of a DXF file should hold the code of a group, and does not.", "DXF is pairs of lines, a code and its value. Where a line is lost or added, every value behind it would be taken for another: a coordinate for a layer. Export the file again, or transfer it as it is.");
     /// No end.
-    pub static DXF_CUT_SHORT: Code = error(Text, "dxf/cut-short", "A DXF file does not end with EOF: it was cut short.", "The end of the file is missing, and with it perhaps the rest of an outline or whole pieces. Transfer it again and compare the sizes of both files.");
+    DXF_CUT_SHORT = error(Text, "dxf/cut-short", "A DXF file does not end with EOF: it was cut short.", "The end of the file is missing, and with it perhaps the rest of an outline or whole pieces. Transfer it again and compare the sizes of both files.");
     /// A number that is none.
-    pub static DXF_NUMBER: Code = error(Text, "dxf/number", "A coordinate, size or angle of a DXF file is not a decimal number.", "A number that is guessed would be a wrong cut. Decimal commas come from the language of the computer that exported the file: set the export to decimal points.");
+    DXF_NUMBER = error(Text, "dxf/number", "A coordinate, size or angle of a DXF file is not a decimal number.", "A number that is guessed would be a wrong cut. Decimal commas come from the language of the computer that exported the file: set the export to decimal points.");
     /// A place without X or Y.
-    pub static DXF_NO_COORDINATE: Code = error(Text, "dxf/no-coordinate", "An entity of a DXF file lacks a coordinate.", "A place that is taken for 0 would pull the outline across the cloth. Lines were lost on the way: export or transfer the file again.");
+    DXF_NO_COORDINATE = error(Text, "dxf/no-coordinate", "An entity of a DXF file lacks a coordinate.", "A place that is taken for 0 would pull the outline across the cloth. Lines were lost on the way: export or transfer the file again.");
     /// A place that no table reaches.
-    pub static DXF_FAR_PLACE: Code = error(Text, "dxf/far-place", "A place of a DXF file lies more than a kilometre from the origin: a digit is doubled, or the unit is wrong.", "No table is a kilometre long, so the motion would be nonsense. Look at the number, and whether the file is really in inches.\n  cutc check pattern.dxf --set dxf.unit=mm");
+    DXF_FAR_PLACE = error(Text, "dxf/far-place", "A place of a DXF file lies more than a kilometre from the origin: a digit is doubled, or the unit is wrong.", "No table is a kilometre long, so the motion would be nonsense. Look at the number, and whether the file is really in inches.\n  cutc check pattern.dxf --set dxf.unit=mm");
     /// Curves without end.
-    pub static DXF_CURVES: Code = error(Shape, "dxf/too-many-chords", "The curves of a DXF file have more chords than a set of patterns can need.", "Curves are read as chords within a quarter of the tolerance. So many of them come from a damaged radius, or from a tolerance far below what a knife can follow.");
+    DXF_CURVES = error(Shape, "dxf/too-many-chords", "The curves of a DXF file have more chords than a set of patterns can need.", "Curves are read as chords within a quarter of the tolerance. So many of them come from a damaged radius, or from a tolerance far below what a knife can follow.");
     /// A block without its end.
-    pub static DXF_OPEN_BLOCK: Code = error(Text, "dxf/open-block", "A block of a DXF file has no ENDBLK: lines of it may be missing.", "A block is a piece. Without its end nobody knows whether an edge, a notch or the next piece was lost. Export the file again.");
+    DXF_OPEN_BLOCK = error(Text, "dxf/open-block", "A block of a DXF file has no ENDBLK: lines of it may be missing.", "A block is a piece. Without its end nobody knows whether an edge, a notch or the next piece was lost. Export the file again.");
     /// A polyline without its end.
-    pub static DXF_OPEN_POLYLINE: Code = error(Text, "dxf/open-polyline", "A polyline of a DXF file has no SEQEND: vertices of it may be missing.", "An outline that lacks vertices would be cut straight across the gap, through the piece. Export the file again, or transfer it as it is.");
+    DXF_OPEN_POLYLINE = error(Text, "dxf/open-polyline", "A polyline of a DXF file has no SEQEND: vertices of it may be missing.", "An outline that lacks vertices would be cut straight across the gap, through the piece. Export the file again, or transfer it as it is.");
     /// Something to cut that is not read.
-    pub static DXF_UNREAD_CUT: Code = error(Text, "dxf/unread-cut", "An entity on a layer that is cut is of a kind that is not read, such as SPLINE or ELLIPSE.", "The convention for patterns has polylines, lines, points and texts alone. Leaving the entity out would leave a part of an outline uncut: let the CAD system export polylines (R12, AAMA or ASTM).");
+    DXF_UNREAD_CUT = error(Text, "dxf/unread-cut", "An entity on a layer that is cut is of a kind that is not read, such as SPLINE or ELLIPSE.", "The convention for patterns has polylines, lines, points and texts alone. Leaving the entity out would leave a part of an outline uncut: let the CAD system export polylines (R12, AAMA or ASTM).");
     /// A unit that nobody knows.
-    pub static DXF_UNIT: Code = error(Text, "dxf/unit", "The text UNITS of a DXF file is neither METRIC nor ENGLISH.", "Patterns that are 25.4 times too large or too small spoil the cloth. Say which unit the numbers have.\n  cutc compile pattern.dxf --set dxf.unit=mm");
+    DXF_UNIT = error(Text, "dxf/unit", "The text UNITS of a DXF file is neither METRIC nor ENGLISH.", "Patterns that are 25.4 times too large or too small spoil the cloth. Say which unit the numbers have.\n  cutc compile pattern.dxf --set dxf.unit=mm");
     /// Sizes, and no choice.
-    pub static DXF_WHICH_SIZE: Code = error(Shape, "dxf/which-size", "A set of patterns has several sizes, and neither its sample size nor `--size` says which is cut.", "Sizes lie over each other in the file. Cutting a size that nobody asked for wastes the cloth: name one, several, or all.\n  cutc compile pattern.dxf --size M\n  cutc compile pattern.dxf --size S,M,L");
+    DXF_WHICH_SIZE = error(Shape, "dxf/which-size", "A set of patterns has several sizes, and neither its sample size nor `--size` says which is cut.", "Sizes lie over each other in the file. Cutting a size that nobody asked for wastes the cloth: name one, several, or all.\n  cutc compile pattern.dxf --size M\n  cutc compile pattern.dxf --size S,M,L");
     /// A size that is not there.
-    pub static DXF_NO_SIZE: Code = error(Shape, "dxf/no-size", "A size that `--size` asks for is not in the file.", "The sizes of a set stand in its texts, as in SIZE: M. The message lists them.\n  cutc compile pattern.dxf --size all");
+    DXF_NO_SIZE = error(Shape, "dxf/no-size", "A size that `--size` asks for is not in the file.", "The sizes of a set stand in its texts, as in SIZE: M. The message lists them.\n  cutc compile pattern.dxf --size all");
     /// An outline with a gap.
-    pub static DXF_OPEN_OUTLINE: Code = error(Shape, "dxf/open-outline", "The outline of a piece (layer 1) does not close; its lines are joined where their ends meet within 0.2 mm.", "A piece whose outline is open cannot be cut out, and a straight line across the gap may be wrong by its width. Close the outline in the CAD system.");
+    DXF_OPEN_OUTLINE = error(Shape, "dxf/open-outline", "The outline of a piece (layer 1) does not close; its lines are joined where their ends meet within 0.2 mm.", "A piece whose outline is open cannot be cut out, and a straight line across the gap may be wrong by its width. Close the outline in the CAD system.");
     /// A fold that is no edge.
-    pub static DXF_FOLD: Code = error(Shape, "dxf/fold", "A fold line (layer 6) does not lie along exactly one straight edge of its outline, so the piece cannot be unfolded.", "A block with a fold line is half a piece. Cut as it is drawn the garment would lack the other half, and unfolded about a wrong line it would have another shape. Let the CAD system export the whole piece, or correct the line.");
+    DXF_FOLD = error(Shape, "dxf/fold", "A fold line (layer 6) does not lie along exactly one straight edge of its outline, so the piece cannot be unfolded.", "A block with a fold line is half a piece. Cut as it is drawn the garment would lack the other half, and unfolded about a wrong line it would have another shape. Let the CAD system export the whole piece, or correct the line.");
     /// Too much of everything.
-    pub static DXF_TOO_MANY: Code = error(Shape, "dxf/too-many-pieces", "A DXF file has more pieces, notches or outlines than can be told apart, or quantities beyond any order.", "Which notch is on which outline was not sought to the end, so some would not be cut. Split the file, or correct a quantity that is damaged.");
+    DXF_TOO_MANY = error(Shape, "dxf/too-many-pieces", "A DXF file has more pieces, notches or outlines than can be told apart, or quantities beyond any order.", "Which notch is on which outline was not sought to the end, so some would not be cut. Split the file, or correct a quantity that is damaged.");
     /// No outline.
-    pub static DXF_NOTHING_TO_CUT: Code = error(Shape, "dxf/nothing-to-cut", "A DXF file was read to its end and holds no outline on layer 1, of the sizes that are cut.", "Drawings of other CAD systems have layers of their own. Pattern DXF has outlines on layer 1, notches on 4, cut-outs on 11, drill holes on 13: export it as AAMA or ASTM DXF.");
+    DXF_NOTHING_TO_CUT = error(Shape, "dxf/nothing-to-cut", "A DXF file was read to its end and holds no outline on layer 1, of the sizes that are cut.", "Drawings of other CAD systems have layers of their own. Pattern DXF has outlines on layer 1, notches on 4, cut-outs on 11, drill holes on 13: export it as AAMA or ASTM DXF.");
     /// Patterns are no marker.
-    pub static DXF_SAMPLE: Code = warning(Spares, Shape, "dxf/cutting-sample", "A set of patterns is no marker: its pieces lie in a row, which takes more cloth than a marker.", "Pattern DXF says what pieces look like, not where they lie. A row is good for a sample, not for a lay. Let the CAD system make a marker; `dxf.gap_mm` sets the room between the pieces.\n  cutc compile pattern.dxf --set dxf.gap_mm=10");
+    DXF_SAMPLE = warning(Spares, Shape, "dxf/cutting-sample", "A set of patterns is no marker: its pieces lie in a row, which takes more cloth than a marker.", "Pattern DXF says what pieces look like, not where they lie. A row is good for a sample, not for a lay. Let the CAD system make a marker; `dxf.gap_mm` sets the room between the pieces.\n  cutc compile pattern.dxf --set dxf.gap_mm=10");
     /// No unit.
-    pub static DXF_NO_UNIT: Code = warning(Spoils, Shape, "dxf/no-unit", "A DXF file does not say its unit (UNITS: METRIC or ENGLISH); it is taken for mm.", "Patterns in inches would be 25 times too small. Compare the extent that is printed with the pieces, then say the unit.\n  cutc compile pattern.dxf --set dxf.unit=inch");
+    DXF_NO_UNIT = warning(Spoils, Shape, "dxf/no-unit", "A DXF file does not say its unit (UNITS: METRIC or ENGLISH); it is taken for mm.", "Patterns in inches would be 25 times too small. Compare the extent that is printed with the pieces, then say the unit.\n  cutc compile pattern.dxf --set dxf.unit=inch");
     /// A whole piece with a fold line.
-    pub static DXF_FOLD_ACROSS: Code = warning(Spoils, Shape, "dxf/fold-across", "A piece is drawn on both sides of its fold line (layer 6), so it is taken for a whole one.", "Half pieces end at their fold line. One that goes on across it is whole already, or its line is wrong. Look at the picture (-t svg) before you cut.");
+    DXF_FOLD_ACROSS = warning(Spoils, Shape, "dxf/fold-across", "A piece is drawn on both sides of its fold line (layer 6), so it is taken for a whole one.", "Half pieces end at their fold line. One that goes on across it is whole already, or its line is wrong. Look at the picture (-t svg) before you cut.");
     /// A notch that is not cut.
-    pub static DXF_NOTCH_LEFT_OUT: Code = warning(Spares, Shape, "dxf/notch-left-out", "A notch of a DXF file is not cut: it lies off the outline, is deeper than 15 mm or than its part is there, or lies in another one.", "A cut into a part that is wrong cannot be mended, and a notch that is missing can. Notches on seam lines mark where parts meet and are not for the knife. See in the picture (-t svg) which are missing.");
+    DXF_NOTCH_LEFT_OUT = warning(Spares, Shape, "dxf/notch-left-out", "A notch of a DXF file is not cut: it lies off the outline, is deeper than 15 mm or than its part is there, or lies in another one.", "A cut into a part that is wrong cannot be mended, and a notch that is missing can. Notches on seam lines mark where parts meet and are not for the knife. See in the picture (-t svg) which are missing.");
     /// A notch that becomes a slit.
-    pub static DXF_NOTCH_AS_SLIT: Code = warning(Spares, Shape, "dxf/notch-as-slit", "A V, castle, check or U notch of a DXF file is cut as a slit: it is narrower than 1 mm, wider than 12 mm or flatter than 1.5 mm, or stands at a corner or beside another.", "Its mouth would take in a corner or another notch and change the outline. A slit of the same depth marks the same place.");
+    DXF_NOTCH_AS_SLIT = warning(Spares, Shape, "dxf/notch-as-slit", "A V, castle, check or U notch of a DXF file is cut as a slit: it is narrower than 1 mm, wider than 12 mm or flatter than 1.5 mm, or stands at a corner or beside another.", "Its mouth would take in a corner or another notch and change the outline. A slit of the same depth marks the same place.");
     /// Something to cut outside.
-    pub static DXF_OUTSIDE: Code = warning(Spoils, Shape, "dxf/outside", "A cut-out or a hole of a DXF file lies outside of its outline; it is cut all the same.", "Its layer says that it is cut, but no piece is there: it may lie in a neighbour on the cloth, or belong to an outline that is missing. Look at the picture (-t svg) before you cut.");
+    DXF_OUTSIDE = warning(Spoils, Shape, "dxf/outside", "A cut-out or a hole of a DXF file lies outside of its outline; it is cut all the same.", "Its layer says that it is cut, but no piece is there: it may lie in a neighbour on the cloth, or belong to an outline that is missing. Look at the picture (-t svg) before you cut.");
     /// A block without an outline.
-    pub static DXF_NO_OUTLINE: Code = warning(Spares, Shape, "dxf/no-outline", "A block of a DXF file has something to cut, but no outline on layer 1; nothing of it is cut.", "Its outline may be on another layer, or was not exported. Count the pieces with `cutc info`.");
+    DXF_NO_OUTLINE = warning(Spares, Shape, "dxf/no-outline", "A block of a DXF file has something to cut, but no outline on layer 1; nothing of it is cut.", "Its outline may be on another layer, or was not exported. Count the pieces with `cutc info`.");
     /// A quantity that is none.
-    pub static DXF_QUANTITY: Code = warning(Spares, Text, "dxf/quantity", "The quantity of a piece is no number, and the piece is cut once.", "A quantity is how often the piece is cut as it is drawn, and behind a comma how often mirrored.\n  QUANTITY: 1,1");
+    DXF_QUANTITY = warning(Spares, Text, "dxf/quantity", "The quantity of a piece is no number, and the piece is cut once.", "A quantity is how often the piece is cut as it is drawn, and behind a comma how often mirrored.\n  QUANTITY: 1,1");
     /// An insertion of nothing.
-    pub static DXF_NO_BLOCK: Code = warning(Spares, Text, "dxf/no-block", "An INSERT of a DXF file names a block that the file does not hold.", "Some systems leave the names of pieces that were deleted. If a piece is missing, export the file again.");
+    DXF_NO_BLOCK = warning(Spares, Text, "dxf/no-block", "An INSERT of a DXF file names a block that the file does not hold.", "Some systems leave the names of pieces that were deleted. If a piece is missing, export the file again.");
     /// An insertion that scales.
-    pub static DXF_SCALE: Code = error(Shape, "dxf/scale", "An INSERT of a DXF file changes the size of a piece.", "Pieces have the size in which their blocks are drawn: one that is scaled, perhaps in one direction only, does not fit the others. If the scale stands for another unit, say that instead.\n  cutc compile pattern.dxf --set dxf.unit=inch");
+    DXF_SCALE = error(Shape, "dxf/scale", "An INSERT of a DXF file changes the size of a piece.", "Pieces have the size in which their blocks are drawn: one that is scaled, perhaps in one direction only, does not fit the others. If the scale stands for another unit, say that instead.\n  cutc compile pattern.dxf --set dxf.unit=inch");
     /// A piece that is nowhere.
-    pub static DXF_NOT_PLACED: Code = warning(Spares, Shape, "dxf/not-placed", "A DXF file places some pieces by INSERT, and others not; those are not cut.", "A file that puts its pieces somewhere is a marker, and what it does not place is not in it. Count the pieces with `cutc info`.");
+    DXF_NOT_PLACED = warning(Spares, Shape, "dxf/not-placed", "A DXF file places some pieces by INSERT, and others not; those are not cut.", "A file that puts its pieces somewhere is a marker, and what it does not place is not in it. Count the pieces with `cutc info`.");
     /// Kinds that are not read.
-    pub static DXF_UNREAD: Code = warning(Spares, Text, "dxf/unread", "Entities of a DXF file are of kinds that are not read; none of them is on a layer that is cut.", "Dimensions, hatchings and splines of other layers are drawn and not cut. If a line is missing in the picture (-t svg), this is where to look.");
+    DXF_UNREAD = warning(Spares, Text, "dxf/unread", "Entities of a DXF file are of kinds that are not read; none of them is on a layer that is cut.", "Dimensions, hatchings and splines of other layers are drawn and not cut. If a line is missing in the picture (-t svg), this is where to look.");
 
     // CSV polylines.
     /// The header is missing.
-    pub static CSV_HEADER: Code = error(Text, "csv/header", "The first row must be `x_mm,y_mm`.", "The header tells a list of points from any other table, and says that the unit is mm. Write it above the rows.\n  x_mm,y_mm\n  0,0\n  100,0");
+    CSV_HEADER = error(Text, "csv/header", "The first row must be `x_mm,y_mm`.", "The header tells a list of points from any other table, and says that the unit is mm. Write it above the rows.\n  x_mm,y_mm\n  0,0\n  100,0");
     /// A row that is not two numbers.
-    pub static CSV_ROW: Code = error(Text, "csv/row", "A row must hold two finite decimal numbers, separated by a comma.", "A row that is guessed would be a wrong cut. Use a point for decimals and a comma between the two numbers, without units.\n  12.5,-3");
+    CSV_ROW = error(Text, "csv/row", "A row must hold two finite decimal numbers, separated by a comma.", "A row that is guessed would be a wrong cut. Use a point for decimals and a comma between the two numbers, without units.\n  12.5,-3");
     /// A contour of one point.
-    pub static CSV_NO_LENGTH: Code = error(Shape, "csv/no-length", "A contour must have two different points at least; a blank line ends a contour.", "One point is nowhere to cut along, and points that are equal count as one. Remove it, or look for a blank line too many: it ends a contour.");
+    CSV_NO_LENGTH = error(Shape, "csv/no-length", "A contour must have two different points at least; a blank line ends a contour.", "One point is nowhere to cut along, and points that are equal count as one. Remove it, or look for a blank line too many: it ends a contour.");
     /// No contour.
-    pub static CSV_NOTHING_TO_CUT: Code = error(Shape, "csv/nothing-to-cut", "The file holds a header and no contour.", "The export wrote a header and then stopped, or everything was on a layer that it leaves out. Look at the drawing, and export the points again.");
+    CSV_NOTHING_TO_CUT = error(Shape, "csv/nothing-to-cut", "The file holds a header and no contour.", "The export wrote a header and then stopped, or everything was on a layer that it leaves out. Look at the drawing, and export the points again.");
 
     // The marker, whatever the dialect.
     /// A contour that does not close.
-    pub static MARKER_OPEN: Code = warning(Spares, Shape, "marker/open-contour", "A contour does not end where it starts; it is cut as it stands.", "A part whose outline does not close hangs on the cloth by a bridge, and is torn out by hand. Close it in the CAD system; if it is a line that is meant to be open, all is well.");
+    MARKER_OPEN = warning(Spares, Shape, "marker/open-contour", "A contour does not end where it starts; it is cut as it stands.", "A part whose outline does not close hangs on the cloth by a bridge, and is torn out by hand. Close it in the CAD system; if it is a line that is meant to be open, all is well.");
     /// The same contour twice.
-    pub static MARKER_TWICE: Code = warning(Spoils, Shape, "marker/contour-twice", "The same contour stands twice in the file and would be cut twice.", "The knife runs the same way again: that takes time, frays the edge and may shift the part, which is free by then. Delete one of the two in the CAD system.");
+    MARKER_TWICE = warning(Spoils, Shape, "marker/contour-twice", "The same contour stands twice in the file and would be cut twice.", "The knife runs the same way again: that takes time, frays the edge and may shift the part, which is free by then. Delete one of the two in the CAD system.");
     /// Equal points in a row.
-    pub static MARKER_EQUAL_POINTS: Code = warning(Spares, Shape, "marker/equal-points", "Points that repeat the one before them were dropped; the message gives their count.", "Harmless: a direction cannot be taken from two equal points, so one of them goes. Many of them hint at an export in too coarse a unit.");
+    MARKER_EQUAL_POINTS = warning(Spares, Shape, "marker/equal-points", "Points that repeat the one before them were dropped; the message gives their count.", "Harmless: a direction cannot be taken from two equal points, so one of them goes. Many of them hint at an export in too coarse a unit.");
     /// A slit again.
-    pub static MARKER_SLIT_TWICE: Code = warning(Spares, Shape, "marker/slit-twice", "The same slit stands twice in a piece; it is cut once.", "Some systems write a notch once for each of the two pieces or sizes. A second cut in the same place would only widen the notch.");
+    MARKER_SLIT_TWICE = warning(Spares, Shape, "marker/slit-twice", "The same slit stands twice in a piece; it is cut once.", "Some systems write a notch once for each of the two pieces or sizes. A second cut in the same place would only widen the notch.");
     /// A slit without length.
-    pub static MARKER_SLIT_NO_LENGTH: Code = warning(Spares, Shape, "marker/slit-no-length", "A slit ends where it starts: nothing is cut there.", "A notch was drawn there and its depth shrank to nothing, perhaps below the unit of the file. If the sewer needs it, give it a depth in the CAD system.");
+    MARKER_SLIT_NO_LENGTH = warning(Spares, Shape, "marker/slit-no-length", "A slit ends where it starts: nothing is cut there.", "A notch was drawn there and its depth shrank to nothing, perhaps below the unit of the file. If the sewer needs it, give it a depth in the CAD system.");
     /// A contour that is one place.
-    pub static MARKER_NO_LENGTH: Code = warning(Spares, Shape, "marker/no-length", "All points of a contour are the same place: nothing is cut there.", "Something was drawn there and shrank to a point, perhaps a notch below the unit of the file. If something is missing, export in a finer unit.");
+    MARKER_NO_LENGTH = warning(Spares, Shape, "marker/no-length", "All points of a contour are the same place: nothing is cut there.", "Something was drawn there and shrank to a point, perhaps a notch below the unit of the file. If something is missing, export in a finer unit.");
     /// Contours of a piece that cross.
-    pub static MARKER_SELF_CROSSING: Code = warning(Spoils, Shape, "marker/self-crossing", "A contour crosses itself, or another one of its piece: the knife cuts through what was cut before, and the part has loose corners.", "Where an outline crosses itself a small loose corner falls out, and the knife passes through cloth that is free. Mostly an offset or a seam allowance was folded over: mend the corner in the CAD system. Lines that cross are marks or hatchings that were not meant for the knife: leave them out of the export.");
+    MARKER_SELF_CROSSING = warning(Spoils, Shape, "marker/self-crossing", "A contour crosses itself, or another one of its piece: the knife cuts through what was cut before, and the part has loose corners.", "Where an outline crosses itself a small loose corner falls out, and the knife passes through cloth that is free. Mostly an offset or a seam allowance was folded over: mend the corner in the CAD system. Lines that cross are marks or hatchings that were not meant for the knife: leave them out of the export.");
     /// Contours of two pieces that cross.
-    pub static MARKER_OVERLAPPING: Code = warning(Spoils, Shape, "marker/overlapping-pieces", "The outlines of two pieces overlap: each is cut into the other. Pieces that only touch are no such case.", "One of the two parts is cut into and will not fit at its seam. Move the pieces apart in the marker; look at the place in the picture (-t svg).");
+    MARKER_OVERLAPPING = warning(Spoils, Shape, "marker/overlapping-pieces", "The outlines of two pieces overlap: each is cut into the other. Pieces that only touch are no such case.", "One of the two parts is cut into and will not fit at its seam. Move the pieces apart in the marker; look at the place in the picture (-t svg).");
     /// A notch that stands out into another piece.
-    pub static MARKER_NOTCH_OVER: Code = warning(Spoils, Shape, "marker/notch-over-piece", "A notch that stands out of its part lies over another piece, which is cut into; the message says how deep.", "A notch that stands out needs waste beside its part. Here another part lies there, and the notch is cut into its edge. Move the two apart in the marker by the depth of the notch, or have such notches cut as slits into their own part.\n  cutc compile marker.cut --set notch.style=slit");
+    MARKER_NOTCH_OVER = warning(Spoils, Shape, "marker/notch-over-piece", "A notch that stands out of its part lies over another piece, which is cut into; the message says how deep.", "A notch that stands out needs waste beside its part. Here another part lies there, and the notch is cut into its edge. Move the two apart in the marker by the depth of the notch, or have such notches cut as slits into their own part.\n  cutc compile marker.cut --set notch.style=slit");
     /// A hole in no part.
-    pub static MARKER_DRILL_OUTSIDE: Code = warning(Spoils, Shape, "marker/drill-outside", "A hole is drilled where no part is: in the waste or in a cut-out.", "A hole in the waste marks nothing: the drill belongs to another place, or the piece was moved without it. Look at it in the picture (-t svg).");
+    MARKER_DRILL_OUTSIDE = warning(Spoils, Shape, "marker/drill-outside", "A hole is drilled where no part is: in the waste or in a cut-out.", "A hole in the waste marks nothing: the drill belongs to another place, or the piece was moved without it. Look at it in the picture (-t svg).");
     /// Outlines that cannot be told from cut-outs.
-    pub static MARKER_TOO_MANY: Code = error(Shape, "marker/too-many-outlines", "So many outlines lie in or over one another that the search for which lies in which was ended: parts would be cut before their cut-outs.", "Nobody could tell which outline lies in which any more, and a part that is cut before its cut-outs is free and shifts. No lay of parts looks so: the file holds fills, hatchings, a pattern of many rings or the same job many times. Leave them out of the export, or split the marker.");
+    MARKER_TOO_MANY = error(Shape, "marker/too-many-outlines", "So many outlines lie in or over one another that the search for which lies in which was ended: parts would be cut before their cut-outs.", "Nobody could tell which outline lies in which any more, and a part that is cut before its cut-outs is free and shifts. No lay of parts looks so: the file holds fills, hatchings, a pattern of many rings or the same job many times. Leave them out of the export, or split the marker.");
     /// A search that was not brought to its end.
-    pub static MARKER_SEARCH_ENDED: Code = warning(Spoils, Shape, "marker/search-ended", "So many lines lie near one another that a search was ended; the message says for what.", "What was found is said; what was not looked at may be as wrong. No lay of parts looks so: the file holds fills or hatchings. Leave them out of the export, or split the marker.");
+    MARKER_SEARCH_ENDED = warning(Spoils, Shape, "marker/search-ended", "So many lines lie near one another that a search was ended; the message says for what.", "What was found is said; what was not looked at may be as wrong. No lay of parts looks so: the file holds fills or hatchings. Leave them out of the export, or split the marker.");
     /// Numbers that start again.
-    pub static MARKER_NUMBER_TWICE: Code = warning(Spares, Shape, "marker/piece-number-twice", "The number of a piece comes again: two jobs may stand in one file, and both are cut.", "Two markers that were joined into one file are both cut, and --pieces takes both pieces of a number. If only one of them is meant, split the file.");
+    MARKER_NUMBER_TWICE = warning(Spares, Shape, "marker/piece-number-twice", "The number of a piece comes again: two jobs may stand in one file, and both are cut.", "Two markers that were joined into one file are both cut, and --pieces takes both pieces of a number. If only one of them is meant, split the file.");
 
     // How the marker lies on the table.
     /// A sheet that takes places away from advances.
-    pub static SHEET_ADVANCE: Code = error(Shape, "sheet/advance", "The file moves the cloth on (M69), and the sheet of the profile would take the marker away from where it expects that.", "What is cut before an advance lies in the first window of the conveyor, and the advance is as long as the file means it: turned, mirrored end to end, scaled along X or copied, parts would be cut where no cloth is yet. Move or flip the marker only, or ignore the advance where the table is long enough.\n  cutc compile m.cut --set sheet.copies=2 --set codes.M69=ignore");
+    SHEET_ADVANCE = error(Shape, "sheet/advance", "The file moves the cloth on (M69), and the sheet of the profile would take the marker away from where it expects that.", "What is cut before an advance lies in the first window of the conveyor, and the advance is as long as the file means it: turned, mirrored end to end, scaled along X or copied, parts would be cut where no cloth is yet. Move or flip the marker only, or ignore the advance where the table is long enough.\n  cutc compile m.cut --set sheet.copies=2 --set codes.M69=ignore");
     /// More than a program holds.
-    pub static SHEET_COPIES: Code = error(Shape, "sheet/too-many-copies", "So many copies of the marker have more points than one program can have; the hint says how many fit.", "A thousand million points are more than any table takes. Set sheet.copies to what the hint says, and run the program again.");
+    SHEET_COPIES = error(Shape, "sheet/too-many-copies", "So many copies of the marker have more points than one program can have; the hint says how many fit.", "A thousand million points are more than any table takes. Set sheet.copies to what the hint says, and run the program again.");
 
     // The choice of pieces.
     /// A number that no piece has.
-    pub static SELECT_UNKNOWN_PIECE: Code = error(Shape, "select/unknown-piece", "A piece number that was asked for is not in the file; the message names the flag, the hint the numbers that there are.", "It is a slip of the hand or the wrong file; cutting what is left of the choice could waste cloth. Both ends of a range must be numbers of the file. `--dump-after inspect` shows the pieces with their numbers.\n  cutc compile m.cut --pieces 3,7-12");
+    SELECT_UNKNOWN_PIECE = error(Shape, "select/unknown-piece", "A piece number that was asked for is not in the file; the message names the flag, the hint the numbers that there are.", "It is a slip of the hand or the wrong file; cutting what is left of the choice could waste cloth. Both ends of a range must be numbers of the file. `--dump-after inspect` shows the pieces with their numbers.\n  cutc compile m.cut --pieces 3,7-12");
     /// Nothing is chosen.
-    pub static SELECT_NOTHING_LEFT: Code = error(Shape, "select/nothing-left", "The options that choose pieces leave nothing to cut.", "--pieces, --skip and --resume-from act together: a piece is cut when all three leave it. Pieces that hold labels alone count for nothing.");
+    SELECT_NOTHING_LEFT = error(Shape, "select/nothing-left", "The options that choose pieces leave nothing to cut.", "--pieces, --skip and --resume-from act together: a piece is cut when all three leave it. Pieces that hold labels alone count for nothing.");
 
     // The knife's way.
     /// A smooth closed contour too small for the blade.
-    pub static PATH_TIGHT: Code = warning(Spoils, Shape, "path/tight-contour", "A smooth closed contour is narrower than the blade; it is cut all the same.", "The blade is longer than the hole is wide: its body cuts the edge as it turns. Use a narrower knife or a drill for such holes, or accept a ragged edge.");
+    PATH_TIGHT = warning(Spoils, Shape, "path/tight-contour", "A smooth closed contour is narrower than the blade; it is cut all the same.", "The blade is longer than the hole is wide: its body cuts the edge as it turns. Use a narrower knife or a drill for such holes, or accept a ragged edge.");
     /// A cut that begins on a curve from which the blade's body lies away.
-    pub static PATH_BOWED_PLUNGE: Code = warning(Spoils, Shape, "path/bowed-plunge", "A cut begins on a curve, and the body of the plunged blade cuts beside it by more than `knife.max_bow_mm`.", "The blade plunges straight, and the curve bows away from it: on a radius R by about w^2/8R. A narrower knife helps; knife.tight_curves = \"nibble\" cuts the start of the curve by short steps. Best is to let the outline begin, or turn its corner, on a straighter stretch.");
+    PATH_BOWED_PLUNGE = warning(Spoils, Shape, "path/bowed-plunge", "A cut begins on a curve, and the body of the plunged blade cuts beside it by more than `knife.max_bow_mm`.", "The blade plunges straight, and the curve bows away from it: on a radius R by about w^2/8R. A narrower knife helps; knife.tight_curves = \"nibble\" cuts the start of the curve by short steps. Best is to let the outline begin, or turn its corner, on a straighter stretch.");
     /// A curve too tight for the blade.
-    pub static PATH_TIGHT_CURVE: Code = warning(Spoils, Shape, "path/tight-curve", "A curve is tighter than the blade, which would stand across it: it is cut along the tangent, or nibbled, as `knife.tight_curves` says.", "On such a curve the blade is longer than the curve is wide: whatever `knife.follow` says, its heel swings out of the line and tears the cloth. A narrower knife helps; knife.tight_curves = \"nibble\" cuts the curve by plunges, which is slower and cuts past it along its tangents.");
+    PATH_TIGHT_CURVE = warning(Spoils, Shape, "path/tight-curve", "A curve is tighter than the blade, which would stand across it: it is cut along the tangent, or nibbled, as `knife.tight_curves` says.", "On such a curve the blade is longer than the curve is wide: whatever `knife.follow` says, its heel swings out of the line and tears the cloth. A narrower knife helps; knife.tight_curves = \"nibble\" cuts the curve by plunges, which is slower and cuts past it along its tangents.");
     /// The same, refused.
-    pub static PATH_TIGHT_CURVE_REFUSED: Code = error(Shape, "path/tight-curve-refused", "A curve is tighter than the blade, and `knife.tight_curves` is \"refuse\".", "The profile wants no curve cut that the blade cannot follow. Use a narrower knife, draw the curve wider, or set knife.tight_curves to \"follow\" or \"nibble\".");
+    PATH_TIGHT_CURVE_REFUSED = error(Shape, "path/tight-curve-refused", "A curve is tighter than the blade, and `knife.tight_curves` is \"refuse\".", "The profile wants no curve cut that the blade cannot follow. Use a narrower knife, draw the curve wider, or set knife.tight_curves to \"follow\" or \"nibble\".");
     /// A blade longer than its cut, with nowhere to go.
-    pub static PATH_OVERCUT: Code = warning(Spoils, Shape, "path/overcut", "The blade is longer than a short cut and there is no waste at its ends: it cuts past them, where that lies least deep in any part.", "A cut shorter than the blade is one plunge, and what the blade is longer by lies beyond its ends: in the waste if there is any, otherwise in the part. A narrower knife cuts less far; a notch of another shape may need no such cut.");
+    PATH_OVERCUT = warning(Spoils, Shape, "path/overcut", "The blade is longer than a short cut and there is no waste at its ends: it cuts past them, where that lies least deep in any part.", "A cut shorter than the blade is one plunge, and what the blade is longer by lies beyond its ends: in the waste if there is any, otherwise in the part. A narrower knife cuts less far; a notch of another shape may need no such cut.");
     /// The same, deeper than the profile allows.
-    pub static PATH_OVERCUT_REFUSED: Code = error(Shape, "path/overcut-refused", "A short cut cannot be made without cutting deeper into a part than `verify.max_overcut_part_mm` or `verify.max_overcut_neighbour_mm` allows.", "The blade is longer than the cut, there is no waste at its ends, and wherever it is put it lies deeper in the cloth than the profile allows. Take a narrower knife, draw the notch longer or of another shape, or allow more if the seam hides it.\n  verify.max_overcut_part_mm = 6");
+    PATH_OVERCUT_REFUSED = error(Shape, "path/overcut-refused", "A short cut cannot be made without cutting deeper into a part than `verify.max_overcut_part_mm` or `verify.max_overcut_neighbour_mm` allows.", "The blade is longer than the cut, there is no waste at its ends, and wherever it is put it lies deeper in the cloth than the profile allows. Take a narrower knife, draw the notch longer or of another shape, or allow more if the seam hides it.\n  verify.max_overcut_part_mm = 6");
     /// A slit that the profile makes deeper than its part is wide.
-    pub static PATH_NOTCH_THROUGH: Code = error(Shape, "path/notch-through", "A slit that `notch.depth_mm` makes deeper than it is drawn would cut through its part.", "The profile asks for slits of one depth, and this part is too narrow for it: the slit would come out on the other side, or reach the next part. Take a smaller notch.depth_mm, or cut such pieces with a profile of their own.");
+    PATH_NOTCH_THROUGH = error(Shape, "path/notch-through", "A slit that `notch.depth_mm` makes deeper than it is drawn would cut through its part.", "The profile asks for slits of one depth, and this part is too narrow for it: the slit would come out on the other side, or reach the next part. Take a smaller notch.depth_mm, or cut such pieces with a profile of their own.");
     /// A run that winds C past its range.
-    pub static PATH_C_RANGE: Code = error(Shape, "path/c-range", "A run winds the C axis past `c.range_deg` however it is entered and wherever it is parted.", "The cables of the blade's axis would be torn. Runs are lifted on the way and C unwound, but this one cannot be parted so: widen c.range_deg if the machine can turn farther.");
+    PATH_C_RANGE = error(Shape, "path/c-range", "A run winds the C axis past `c.range_deg` however it is entered and wherever it is parted.", "The cables of the blade's axis would be torn. Runs are lifted on the way and C unwound, but this one cannot be parted so: widen c.range_deg if the machine can turn farther.");
     /// Off the table, by a hair.
-    pub static MARKER_OVER_EDGE: Code = warning(Spares, Shape, "marker/over-the-edge", "The marker or the knife's way leaves the table of the profile, by a millimetre at the most.", "A hand puts a marker down no better than to a millimetre, so this is only said, in one line. Move the marker a little, or correct `table` in the profile.");
+    MARKER_OVER_EDGE = warning(Spares, Shape, "marker/over-the-edge", "The marker or the knife's way leaves the table of the profile, by a millimetre at the most.", "A hand puts a marker down no better than to a millimetre, so this is only said, in one line. Move the marker a little, or correct `table` in the profile.");
     /// Off the table.
-    pub static MARKER_OFF_TABLE: Code = error(Shape, "marker/off-table", "The marker leaves the table of the profile by more than a millimetre; the hint says how to move it.", "The head would hit its end stop, and the cut stop in the middle of a part. Move the marker as the hint says, choose other pieces with --skip, or correct `table` in the profile.");
+    MARKER_OFF_TABLE = error(Shape, "marker/off-table", "The marker leaves the table of the profile by more than a millimetre; the hint says how to move it.", "The head would hit its end stop, and the cut stop in the middle of a part. Move the marker as the hint says, choose other pieces with --skip, or correct `table` in the profile.");
 
     // Motion.
     /// No curve inside the tolerance band.
-    pub static PLAN_SMOOTH: Code = error(Shape, "plan/smooth", "No smooth curve was found inside the tolerance of a run; a larger `path.tolerance_mm` or a smaller `corner.angle_deg` helps.", "The points turn too sharply for a blade in the cloth and too gently to count as a corner. With a smaller corner.angle_deg the knife lifts there; with a larger path.tolerance_mm it may round it.");
+    PLAN_SMOOTH = error(Shape, "plan/smooth", "No smooth curve was found inside the tolerance of a run; a larger `path.tolerance_mm` or a smaller `corner.angle_deg` helps.", "The points turn too sharply for a blade in the cloth and too gently to count as a corner. With a smaller corner.angle_deg the knife lifts there; with a larger path.tolerance_mm it may round it.");
     /// No motion within the limits.
-    pub static PLAN_PROFILE: Code = error(Shape, "plan/profile", "No motion within the limits was found for a run.", "No pace keeps speed, acceleration and jerk of all axes on this run. Limits that are far apart, such as a tiny jerk, cause it: check `axes` in the profile.");
+    PLAN_PROFILE = error(Shape, "plan/profile", "No motion within the limits was found for a run.", "No pace keeps speed, acceleration and jerk of all axes on this run. Limits that are far apart, such as a tiny jerk, cause it: check `axes` in the profile.");
     /// The samples break a limit.
-    pub static PLAN_CHORD: Code = error(Shape, "plan/chord", "The blade cannot be a chord of the smooth curve of a run, although it can be one of its points; `knife.follow = \"tangent\"` cuts it.", "With its tip on the smooth curve the blade finds no place for its heel there. It is a matter of a little: a smaller path.tolerance_mm, or knife.follow = \"tangent\", cuts the file.");
+    PLAN_CHORD = error(Shape, "plan/chord", "The blade cannot be a chord of the smooth curve of a run, although it can be one of its points; `knife.follow = \"tangent\"` cuts it.", "With its tip on the smooth curve the blade finds no place for its heel there. It is a matter of a little: a smaller path.tolerance_mm, or knife.follow = \"tangent\", cuts the file.");
     /// The samples break a limit.
-    pub static PLAN_CERTIFY: Code = error(Shape, "plan/certify", "The samples of a run break a limit of the profile however far it is slowed down.", "Every sample is checked before it leaves, and these could not be made to pass. Check time.period_ms and `axes` in the profile; if they are right, please report the file.");
+    PLAN_CERTIFY = error(Shape, "plan/certify", "The samples of a run break a limit of the profile however far it is slowed down.", "Every sample is checked before it leaves, and these could not be made to pass. Check time.period_ms and `axes` in the profile; if they are right, please report the file.");
 
     // Verification.
     /// A target that cannot say it.
-    pub static TARGET_REFUSED: Code = error(Shape, "target/refused", "The target cannot express something that the marker or the options ask for; the message says what.", "Each target says what its reader understands: a cut file knows no dry run, a controller with arcs no blade that lies as a chord on tight curves. Nothing is written rather than something else; write another target, or change what the message names.");
+    TARGET_REFUSED = error(Shape, "target/refused", "The target cannot express something that the marker or the options ask for; the message says what.", "Each target says what its reader understands: a cut file knows no dry run, a controller with arcs no blade that lies as a chord on tight curves. Nothing is written rather than something else; write another target, or change what the message names.");
     /// A rule does not hold.
-    pub static VERIFY_BROKEN: Code = error(Shape, "verify/broken", "The program, read back, breaks a rule; the message names the rule, the worst value, the limit, the time and the place.", "The program was thrown away before it could reach the machine. The message names the rule; `cutc explain` with that name says what it protects. Where a rule has a key of its own in the profile, the hint names it.");
+    VERIFY_BROKEN = error(Shape, "verify/broken", "The program, read back, breaks a rule; the message names the rule, the worst value, the limit, the time and the place.", "The program was thrown away before it could reach the machine. The message names the rule; `cutc explain` with that name says what it protects. Where a rule has a key of its own in the profile, the hint names it.");
 
     // Sewn patterns.
     /// No stitch.
-    pub static SEW_NOTHING: Code = error(Shape, "sew/nothing-to-sew", "The file holds no line and no stitch.", "The pattern is empty, or holds what is no line. `cutc info` tells what is in a drawing; `--line` names the pen or layer whose lines are sewn.\n  cutc sew seat.plt --line 2");
+    SEW_NOTHING = error(Shape, "sew/nothing-to-sew", "The file holds no line and no stitch.", "The pattern is empty, or holds what is no line. `cutc info` tells what is in a drawing; `--line` names the pen or layer whose lines are sewn.\n  cutc sew seat.plt --line 2");
     /// A row that says nothing known.
-    pub static SEW_ROW: Code = error(Text, "sew/row", "A row of a pattern or of a queue cannot be read; the message says why.", "Sewing on without it would leave a gap or displace all that follows. Mend the row: decimal points, commas between the fields.\n  0,0,zigzag open");
+    SEW_ROW = error(Text, "sew/row", "A row of a pattern or of a queue cannot be read; the message says why.", "Sewing on without it would leave a gap or displace all that follows. Mend the row: decimal points, commas between the fields.\n  0,0,zigzag open");
     /// A file that ends too soon.
-    pub static SEW_TRUNCATED: Code = error(Text, "sew/truncated", "A stitch file or queue ends before its end.", "What is missing would not be sewn, and a thread would be left uncut. Transfer the file again as binary data and compare the sizes of both.");
+    SEW_TRUNCATED = error(Text, "sew/truncated", "A stitch file or queue ends before its end.", "What is missing would not be sewn, and a thread would be left uncut. Transfer the file again as binary data and compare the sizes of both.");
     /// A record that is none.
-    pub static SEW_RECORD: Code = error(Text, "sew/record", "A record of a stitch file is none that its format knows; the message has its number.", "All that follows would be sewn in another place. The file is damaged, or is of another format: name that with `--from`.\n  cutc sew odd.bin --from exp");
+    SEW_RECORD = error(Text, "sew/record", "A record of a stitch file is none that its format knows; the message has its number.", "All that follows would be sewn in another place. The file is damaged, or is of another format: name that with `--from`.\n  cutc sew odd.bin --from exp");
     /// A header that tells something else.
-    pub static SEW_HEADER: Code = warning(Spares, Text, "sew/header", "The header of a DST file does not fit its stitches; the message says what it tells and what there is.", "The stitches are sewn as they are. If the header is right, some are missing: compare with the original. Headers of files that were edited are often wrong.");
+    SEW_HEADER = warning(Spares, Text, "sew/header", "The header of a DST file does not fit its stitches; the message says what it tells and what there is.", "The stitches are sewn as they are. If the header is right, some are missing: compare with the original. Headers of files that were edited are often wrong.");
     /// More than the pattern.
-    pub static SEW_BEHIND_END: Code = warning(Spares, Text, "sew/behind-end", "Bytes stand behind the end of a stitch file; they are not sewn.", "Machines stop at the end, and so does this. If two files have run together, or a damaged byte ends the pattern too soon, stitches are missing: compare their number with the original.");
+    SEW_BEHIND_END = warning(Spares, Text, "sew/behind-end", "Bytes stand behind the end of a stitch file; they are not sewn.", "Machines stop at the end, and so does this. If two files have run together, or a damaged byte ends the pattern too soon, stitches are missing: compare their number with the original.");
     /// Speeds that are others now.
-    pub static SEW_SPEEDS: Code = warning(Spares, Shape, "sew/other-speeds", "A queue that is read asks for other speeds than it is sewn at: speeds are computed from the profile.", "SPEED rows are written anew, so an edit of them by hand has no effect. Limit the speed by `sewing.max_rpm`, or by pitch with `sewing.speeds`.\n  cutc sew pocket.queue.csv --set sewing.max_rpm=2500");
+    SEW_SPEEDS = warning(Spares, Shape, "sew/other-speeds", "A queue that is read asks for other speeds than it is sewn at: speeds are computed from the profile.", "SPEED rows are written anew, so an edit of them by hand has no effect. Limit the speed by `sewing.max_rpm`, or by pitch with `sewing.speeds`.\n  cutc sew pocket.queue.csv --set sewing.max_rpm=2500");
     /// A machine that is hardly used.
-    pub static SEW_SLOW: Code = warning(Spares, Shape, "sew/slow-pattern", "No run is sewn at a quarter of the greatest speed of the spindle, because no stitch fits into its window faster.", "The pattern takes many times as long as it should: most likely an angle of the window, a step or a rate of the profile is mistyped. The message has the window.\n  sewing.feed_start_deg = 250\n  sewing.feed_end_deg = 110");
+    SEW_SLOW = warning(Spares, Shape, "sew/slow-pattern", "No run is sewn at a quarter of the greatest speed of the spindle, because no stitch fits into its window faster.", "The pattern takes many times as long as it should: most likely an angle of the window, a step or a rate of the profile is mistyped. The message has the window.\n  sewing.feed_start_deg = 250\n  sewing.feed_end_deg = 110");
     /// Jumps that cut the thread.
-    pub static SEW_JUMPS_CUT: Code = warning(Spares, Shape, "sew/jumps-cut", "Long moves without a trim are three jumps or more in a DST file, which most machines take for one.", "The thread is cut where it was to run on, and a seam may open. Let the thread be cut there anyway (`sewing.trim`), or write EXP, which has a record for a trim.");
+    SEW_JUMPS_CUT = warning(Spares, Shape, "sew/jumps-cut", "Long moves without a trim are three jumps or more in a DST file, which most machines take for one.", "The thread is cut where it was to run on, and a seam may open. Let the thread be cut there anyway (`sewing.trim`), or write EXP, which has a record for a trim.");
     /// Jump after jump.
-    pub static SEW_JUMPS: Code = warning(Spares, Shape, "sew/jump-storm", "So many jumps follow one another that the file is most likely damaged.", "Jumps in a row are made as one move, so nothing is lost, but no system writes so many. Look at the picture (-t svg), and compare the stitches with the original.");
+    SEW_JUMPS = warning(Spares, Shape, "sew/jump-storm", "So many jumps follow one another that the file is most likely damaged.", "Jumps in a row are made as one move, so nothing is lost, but no system writes so many. Look at the picture (-t svg), and compare the stitches with the original.");
     /// An element on a line that cannot bear it.
-    pub static SEW_ELEMENT: Code = error(Shape, "sew/element", "An element of a pattern does not suit its line: a box needs four corners, a bar tack two points, any other two places.", "What was meant cannot be told from the points, and a tack in the wrong place is a hole in the garment. Mend the points, or take another element.\n  0,0,box-x");
+    SEW_ELEMENT = error(Shape, "sew/element", "An element of a pattern does not suit its line: a box needs four corners, a bar tack two points, any other two places.", "What was meant cannot be told from the points, and a tack in the wrong place is a hole in the garment. Mend the points, or take another element.\n  0,0,box-x");
     /// An inset that leaves nothing.
-    pub static SEW_INSET: Code = error(Shape, "sew/inset", "A contour is too narrow for the inset that is asked for, or the file has no contours.", "The seam would run outside the part, or through another seam: somewhere the contour is narrower than twice the inset. Take a smaller `--inset`, or draw the seam.");
+    SEW_INSET = error(Shape, "sew/inset", "A contour is too narrow for the inset that is asked for, or the file has no contours.", "The seam would run outside the part, or through another seam: somewhere the contour is narrower than twice the inset. Take a smaller `--inset`, or draw the seam.");
     /// No such line.
-    pub static SEW_NO_LINE: Code = error(Shape, "sew/no-line", "The file has no line of the name that `--line` gives; the hint names those that it has.", "Pens and layers have the names that the file gives them; `seam` means the seam lines that are recognised in parts.\n  cutc sew parts.plt --line seam");
+    SEW_NO_LINE = error(Shape, "sew/no-line", "The file has no line of the name that `--line` gives; the hint names those that it has.", "Pens and layers have the names that the file gives them; `seam` means the seam lines that are recognised in parts.\n  cutc sew parts.plt --line seam");
     /// A stitch that is too short.
-    pub static SEW_SHORT: Code = warning(Spares, Shape, "sew/short-stitch", "A stitch is shorter than `sewing.min_pitch_mm`; it is merged with the next. The message has its record.", "Stitches that are too short pile up under the needle and break the thread. Where they are meant, to lock a seam, lower the key.");
+    SEW_SHORT = warning(Spares, Shape, "sew/short-stitch", "A stitch is shorter than `sewing.min_pitch_mm`; it is merged with the next. The message has its record.", "Stitches that are too short pile up under the needle and break the thread. Where they are meant, to lock a seam, lower the key.");
     /// A stitch that is too long.
-    pub static SEW_LONG: Code = error(Shape, "sew/long-stitch", "A stitch is longer than the machine can make, or than its speed allows where `sewing.on_long` is \"reject\". The message has its record.", "The needle would be dragged through the cloth. `--on-long split` makes it several, `--on-long slow` sews its run more slowly.");
+    SEW_LONG = error(Shape, "sew/long-stitch", "A stitch is longer than the machine can make, or than its speed allows where `sewing.on_long` is \"reject\". The message has its record.", "The needle would be dragged through the cloth. `--on-long split` makes it several, `--on-long slow` sews its run more slowly.");
     /// Stitches that were split.
-    pub static SEW_SPLIT: Code = warning(Spoils, Shape, "sew/split-stitches", "Stitches too long for the speed were split into equal ones; the message has how many penetrations that adds.", "The seam has more holes than were drawn, which shows on leather and weakens it. `--on-long slow` keeps every stitch and takes more time.");
+    SEW_SPLIT = warning(Spoils, Shape, "sew/split-stitches", "Stitches too long for the speed were split into equal ones; the message has how many penetrations that adds.", "The seam has more holes than were drawn, which shows on leather and weakens it. `--on-long slow` keeps every stitch and takes more time.");
     /// A run that one stitch slows down.
-    pub static SEW_SLOWED: Code = warning(Spares, Shape, "sew/slowed-run", "A run is sewn more slowly than most of its stitches allow, because of one; the message names it and what it costs.", "The spindle keeps one speed within a run. Shorten the stitch in the pattern, split it (`--on-long split`), or end the run before it by a trim.");
+    SEW_SLOWED = warning(Spares, Shape, "sew/slowed-run", "A run is sewn more slowly than most of its stitches allow, because of one; the message names it and what it costs.", "The spindle keeps one speed within a run. Shorten the stitch in the pattern, split it (`--on-long split`), or end the run before it by a trim.");
     /// No speed at all.
-    pub static SEW_NO_SPEED: Code = error(Shape, "sew/no-speed", "A stitch fits into its window at no speed of the spindle.", "Even the slowest turn is too short for the move. Look at `sewing.feed_start_deg`, `sewing.feed_end_deg`, the acceleration and `sewing.grid_rpm`, or split the stitch.");
+    SEW_NO_SPEED = error(Shape, "sew/no-speed", "A stitch fits into its window at no speed of the spindle.", "Even the slowest turn is too short for the move. Look at `sewing.feed_start_deg`, `sewing.feed_end_deg`, the acceleration and `sewing.grid_rpm`, or split the stitch.");
     /// The queue runs dry.
-    pub static SEW_UNDERRUN: Code = warning(Spares, Shape, "sew/underrun", "The host does not fill the queue as fast as the machine takes from it; the message says from which entry on.", "The machine stops amid a seam and waits. A deeper queue bridges it, a faster host or a slower spindle ends it.\n  cutc sew seat.dst --set sewing.queue_depth=1024");
+    SEW_UNDERRUN = warning(Spares, Shape, "sew/underrun", "The host does not fill the queue as fast as the machine takes from it; the message says from which entry on.", "The machine stops amid a seam and waits. A deeper queue bridges it, a faster host or a slower spindle ends it.\n  cutc sew seat.dst --set sewing.queue_depth=1024");
     /// The program breaks a rule.
-    pub static SEW_BROKEN: Code = error(Shape, "sew/broken", "The program, read back, breaks a rule; the message names the rule, the worst value, the limit and the entry.", "The program is not written: it would not sew what the file says. Please report the file: a pattern that is read without errors should be sewn as it is.");
+    SEW_BROKEN = error(Shape, "sew/broken", "The program, read back, breaks a rule; the message names the rule, the worst value, the limit and the entry.", "The program is not written: it would not sew what the file says. Please report the file: a pattern that is read without errors should be sewn as it is.");
 
     // Tracking the centre of a moving cloth.
     /// The first row of a log.
-    pub static TRACK_HEADER: Code = error(Text, "track/header", "The first row of a log does not name its columns.", "Without names I and J could be taken for each other, and the carriage would run away from the centre. Write them as the hint has them.\n  t_s,i,j");
+    TRACK_HEADER = error(Text, "track/header", "The first row of a log does not name its columns.", "Without names I and J could be taken for each other, and the carriage would run away from the centre. Write them as the hint has them.\n  t_s,i,j");
     /// A row that cannot be read.
-    pub static TRACK_ROW: Code = error(Text, "track/row", "A row of a log cannot be read, or does not follow the one before it; the message says why.", "Leaving it out would shift all that the controller counts by a sample. Mend the row: decimal points, commas, times that go on.\n  0.010,33,31");
+    TRACK_ROW = error(Text, "track/row", "A row of a log cannot be read, or does not follow the one before it; the message says why.", "Leaving it out would shift all that the controller counts by a sample. Mend the row: decimal points, commas, times that go on.\n  0.010,33,31");
     /// A header alone.
-    pub static TRACK_NO_ROWS: Code = error(Text, "track/no-rows", "A log has no rows.", "Nothing was recorded, or all of it was lost on the way: the carriage cannot have followed anything by it. Look at the recorder, and compare the sizes of its file and of this one.");
+    TRACK_NO_ROWS = error(Text, "track/no-rows", "A log has no rows.", "Nothing was recorded, or all of it was lost on the way: the carriage cannot have followed anything by it. Look at the recorder, and compare the sizes of its file and of this one.");
     /// Rows in another rhythm.
-    pub static TRACK_PERIOD: Code = error(Text, "track/period", "Most rows of a log are not `track.period_ms` apart.", "The controller counts samples: with another period its debounce time and what it feeds forward would be others. Set the period of the log.\n  cutc track log.csv --set track.period_ms=5");
+    TRACK_PERIOD = error(Text, "track/period", "Most rows of a log are not `track.period_ms` apart.", "The controller counts samples: with another period its debounce time and what it feeds forward would be others. Set the period of the log.\n  cutc track log.csv --set track.period_ms=5");
     /// Samples that are missing.
-    pub static TRACK_GAP: Code = warning(Spares, Text, "track/gap", "Samples are missing in a log; behind them the controller begins anew.", "What the carriage did meanwhile is not known. If the recorder loses samples, so may the controller: look at the load of its processor.");
+    TRACK_GAP = warning(Spares, Text, "track/gap", "Samples are missing in a log; behind them the controller begins anew.", "What the carriage did meanwhile is not known. If the recorder loses samples, so may the controller: look at the load of its processor.");
     /// An edge that is lost.
-    pub static TRACK_LOST: Code = warning(Spoils, Text, "track/edge-lost", "All sensors of a ruler are covered, or none: its edge is lost, and the drive is off until it is found.", "Meanwhile the heads do not follow the cloth, and what they cut there is displaced. Bring the cloth between the rulers before it is cut; longer rulers lose it less easily.");
+    TRACK_LOST = warning(Spoils, Text, "track/edge-lost", "All sensors of a ruler are covered, or none: its edge is lost, and the drive is off until it is found.", "Meanwhile the heads do not follow the cloth, and what they cut there is displaced. Bring the cloth between the rulers before it is cut; longer rulers lose it less easily.");
     /// A width outside its limits.
-    pub static TRACK_WIDTH: Code = warning(Spoils, Text, "track/width", "The width of the cloth is outside `track.width_range_mm`; the drive is off until it is inside.", "A fold, a tear or a seam between two bolts: parts may lie beyond the edge of the cloth. Look at the place before it is cut, or widen the range.\n  track.width_range_mm = [1480, 1520]");
+    TRACK_WIDTH = warning(Spoils, Text, "track/width", "The width of the cloth is outside `track.width_range_mm`; the drive is off until it is inside.", "A fold, a tear or a seam between two bolts: parts may lie beyond the edge of the cloth. Look at the place before it is cut, or widen the range.\n  track.width_range_mm = [1480, 1520]");
     /// A profile that may overshoot.
-    pub static TRACK_OVERSHOOT: Code = warning(Spares, Shape, "track/overshoot", "The profile breaks a condition under which the carriage is sure not to overshoot; the message says which and by how much.", "The conditions are sufficient, not necessary: it may do well all the same. Simulate it with the delays of your machine before you believe it.\n  cutc track --simulate step.toml -p machine.toml");
+    TRACK_OVERSHOOT = warning(Spares, Shape, "track/overshoot", "The profile breaks a condition under which the carriage is sure not to overshoot; the message says which and by how much.", "The conditions are sufficient, not necessary: it may do well all the same. Simulate it with the delays of your machine before you believe it.\n  cutc track --simulate step.toml -p machine.toml");
     /// A carriage whose place is not known.
-    pub static TRACK_CARRIAGE: Code = warning(Spoils, Shape, "track/carriage-assumed", "A log does not tell where the carriage was; it is taken to have followed the commands.", "The rulers tell where the cloth is from the carriage, so the centre line is only as true as its place. Log its encoder as the column `carriage_mm`, in mm to the right of the middle.");
+    TRACK_CARRIAGE = warning(Spoils, Shape, "track/carriage-assumed", "A log does not tell where the carriage was; it is taken to have followed the commands.", "The rulers tell where the cloth is from the carriage, so the centre line is only as true as its place. Log its encoder as the column `carriage_mm`, in mm to the right of the middle.");
     /// Upstream rulers that nobody logged.
-    pub static TRACK_NO_UPSTREAM: Code = warning(Spares, Shape, "track/no-upstream", "The profile has rulers upstream, but the log does not have their readings; nothing is fed forward.", "The carriage then only follows what it sees, and is farther off centre than it could be. Log the readings as columns `up_i` and `up_j`.");
+    TRACK_NO_UPSTREAM = warning(Spares, Shape, "track/no-upstream", "The profile has rulers upstream, but the log does not have their readings; nothing is fed forward.", "The carriage then only follows what it sees, and is farther off centre than it could be. Log the readings as columns `up_i` and `up_j`.");
     /// No line to write.
-    pub static TRACK_NO_CENTRE: Code = error(Shape, "track/no-centre", "A log sees both edges of the cloth in no two places of the conveyor, so that there is no centre line.", "The edges are lost throughout, or the conveyor stands. Look at the picture of another run, and at the column `conv_mm`.");
+    TRACK_NO_CENTRE = error(Shape, "track/no-centre", "A log sees both edges of the cloth in no two places of the conveyor, so that there is no centre line.", "The edges are lost throughout, or the conveyor stands. Look at the picture of another run, and at the column `conv_mm`.");
     /// A scenario that cannot be read.
-    pub static TRACK_SCENARIO: Code = error(Text, "track/scenario", "A scenario has a key that is none, or a value that is out of its range.", "A mistyped key would leave the cloth lying still without a word. `cutc manual tracking` lists the keys.\n  offset_mm = 20");
+    TRACK_SCENARIO = error(Text, "track/scenario", "A scenario has a key that is none, or a value that is out of its range.", "A mistyped key would leave the cloth lying still without a word. `cutc manual tracking` lists the keys.\n  offset_mm = 20");
     /// The first row of a centre line.
-    pub static CENTRE_HEADER: Code = error(Text, "centre/header", "The first row of a centre line is not `conv_mm,centre_mm`.", "Another file of numbers would move every part to one side. Give the file that `cutc track -t centre` writes.\n  cutc compile marker.cut --centre cloth.centre.csv");
+    CENTRE_HEADER = error(Text, "centre/header", "The first row of a centre line is not `conv_mm,centre_mm`.", "Another file of numbers would move every part to one side. Give the file that `cutc track -t centre` writes.\n  cutc compile marker.cut --centre cloth.centre.csv");
     /// A row that cannot be read.
-    pub static CENTRE_ROW: Code = error(Text, "centre/row", "A row of a centre line cannot be read, or the conveyor does not go on in it; the message says why.", "Guessing it would cut parts beside their places. Mend the row, or make the file anew from the log.\n  125.5,-0.75");
+    CENTRE_ROW = error(Text, "centre/row", "A row of a centre line cannot be read, or the conveyor does not go on in it; the message says why.", "Guessing it would cut parts beside their places. Mend the row, or make the file anew from the log.\n  125.5,-0.75");
     /// A line without two ends.
-    pub static CENTRE_SHORT: Code = error(Text, "centre/short", "A centre line has fewer than two rows.", "One place says nothing of how the cloth lies beside it. For cloth that lies straight give its two ends.\n  0,1.5\n  3000,1.5");
+    CENTRE_SHORT = error(Text, "centre/short", "A centre line has fewer than two rows.", "One place says nothing of how the cloth lies beside it. For cloth that lies straight give its two ends.\n  0,1.5\n  3000,1.5");
     /// A marker that is longer than its centre line.
-    pub static CENTRE_BEYOND: Code = warning(Spoils, Shape, "centre/beyond", "The marker reaches beyond the ends of the centre line, where the cloth is taken to lie as at the nearer end.", "Nobody has seen the cloth there. Record the whole of it, or move the marker to where it was seen (`sheet.origin`).");
+    CENTRE_BEYOND = warning(Spoils, Shape, "centre/beyond", "The marker reaches beyond the ends of the centre line, where the cloth is taken to lie as at the nearer end.", "Nobody has seen the cloth there. Record the whole of it, or move the marker to where it was seen (`sheet.origin`).");
     // Flow cutting.
     /// No cut.
-    pub static FLOW_NOTHING: Code = error(Shape, "flow/nothing-to-cut", "The marker holds nothing that a head over a conveyor could cut.", "Heads cut lines; a file of holes, labels or events has none. Look at what is in it.\n  cutc info marker.cut");
+    FLOW_NOTHING = error(Shape, "flow/nothing-to-cut", "The marker holds nothing that a head over a conveyor could cut.", "Heads cut lines; a file of holes, labels or events has none. Look at what is in it.\n  cutc info marker.cut");
     /// What heads do not do.
-    pub static FLOW_LEFT_OUT: Code = warning(Spoils, Shape, "flow/left-out", "Something in the file is not made on the conveyor: holes, stops, advances; the message says what and how many.", "The parts come off the conveyor without it. Drill them elsewhere, or cut this marker on a table.\n  cutc compile marker.cut");
+    FLOW_LEFT_OUT = warning(Spoils, Shape, "flow/left-out", "Something in the file is not made on the conveyor: holes, stops, advances; the message says what and how many.", "The parts come off the conveyor without it. Drill them elsewhere, or cut this marker on a table.\n  cutc compile marker.cut");
     /// More than the machine has.
-    pub static FLOW_INFEASIBLE: Code = error(Shape, "flow/infeasible", "The machine cannot cut the marker at this speed of the conveyor; the message says what it takes, the hints what would help, each with its figure.", "A head that comes too late would leave a stretch uncut that is gone for good. Slow the conveyor down, give heads more travel along the feed (`flow.travel_mm`), or take more heads and rows.\n  cutc flow marker.cut -p flow.toml --speed max -o out");
+    FLOW_INFEASIBLE = error(Shape, "flow/infeasible", "The machine cannot cut the marker at this speed of the conveyor; the message says what it takes, the hints what would help, each with its figure.", "A head that comes too late would leave a stretch uncut that is gone for good. Slow the conveyor down, give heads more travel along the feed (`flow.travel_mm`), or take more heads and rows.\n  cutc flow marker.cut -p flow.toml --speed max -o out");
     /// Off the conveyor.
-    pub static FLOW_OFF_TABLE: Code = error(Shape, "flow/off-table", "A head would leave the table across the feed (`table.y_mm`).", "There it has no cloth to cut and runs into its end. Move the marker on the cloth (`sheet.offset_mm`), or mend the key.");
+    FLOW_OFF_TABLE = error(Shape, "flow/off-table", "A head would leave the table across the feed (`table.y_mm`).", "There it has no cloth to cut and runs into its end. Move the marker on the cloth (`sheet.offset_mm`), or mend the key.");
     /// The program breaks a rule.
-    pub static FLOW_BROKEN: Code = error(Shape, "flow/broken", "The programs of the heads, read back, break a rule; the message names the rule, the worst value, the limit, the head and the row.", "Nothing is written: cloth would be spoilt. Please report the file: a marker that is planned should be cut as it is.");
+    FLOW_BROKEN = error(Shape, "flow/broken", "The programs of the heads, read back, break a rule; the message names the rule, the worst value, the limit, the head and the row.", "Nothing is written: cloth would be spoilt. Please report the file: a marker that is planned should be cut as it is.");
 
     // Machine profile.
     /// The TOML is broken.
-    pub static PROFILE_SYNTAX: Code = error(Text, "profile/syntax", "The profile is not valid TOML.", "TOML wants a key, an equals sign and a value on a line; text stands in quotes. `cutc profile init` prints a profile that is right.\n  knife.width_mm = 7.2");
+    PROFILE_SYNTAX = error(Text, "profile/syntax", "The profile is not valid TOML.", "TOML wants a key, an equals sign and a value on a line; text stands in quotes. `cutc profile init` prints a profile that is right.\n  knife.width_mm = 7.2");
     /// A key that does not exist.
-    pub static PROFILE_UNKNOWN_KEY: Code = error(Text, "profile/unknown-key", "The profile has a key that does not exist; the message names the nearest one.", "A mistyped key would leave the default in force without a word, and the knife would be of another width than you think. Take the name that the message suggests.");
+    PROFILE_UNKNOWN_KEY = error(Text, "profile/unknown-key", "The profile has a key that does not exist; the message names the nearest one.", "A mistyped key would leave the default in force without a word, and the knife would be of another width than you think. Take the name that the message suggests.");
     /// A value of the wrong type.
-    pub static PROFILE_TYPE: Code = error(Text, "profile/type", "A value of the profile has the wrong type.", "A number in quotes, or text where a number belongs. The message says what the key takes.\n  knife.width_mm = 7.2     and not \"7.2\"");
+    PROFILE_TYPE = error(Text, "profile/type", "A value of the profile has the wrong type.", "A number in quotes, or text where a number belongs. The message says what the key takes.\n  knife.width_mm = 7.2     and not \"7.2\"");
     /// A value out of its range.
-    pub static PROFILE_RANGE: Code = error(Text, "profile/range", "A value of the profile is out of its range.", "No machine has such a value: a comma may have slipped, or the unit is another. The message gives the range; the unit stands in the name of the key.");
+    PROFILE_RANGE = error(Text, "profile/range", "A value of the profile is out of its range.", "No machine has such a value: a comma may have slipped, or the unit is another. The message gives the range; the unit stands in the name of the key.");
 }
-
-pub use table::*;
-
-/// Every code, in the order of the manual.
-pub static ALL: &[&Code] = &[
-    &SOURCE_EMPTY,
-    &SOURCE_TOO_LARGE,
-    &SOURCE_UNKNOWN,
-    &SOURCE_NO_PLOT,
-    &ISO_SYNTAX,
-    &ISO_NO_VALUE,
-    &ISO_FAR_PLACE,
-    &ISO_FRAME,
-    &ISO_OVERFLOW,
-    &ISO_OPEN_SLIT,
-    &ISO_KNIFE_DOWN_TWICE,
-    &ISO_PIECE_KNIFE_DOWN,
-    &ISO_UNCUT_PLACES,
-    &ISO_ENDS_KNIFE_DOWN,
-    &ISO_NO_FINAL_ASTERISK,
-    &ISO_NO_END,
-    &ISO_UNKNOWN_CODE,
-    &ISO_IGNORED_CODE,
-    &ISO_UNITS_CHANGED,
-    &ISO_UNIT_DOUBTFUL,
-    &ISO_ARC_RADIUS,
-    &ISO_TRAILER_PIECE,
-    &ISO_NO_POSITION,
-    &ISO_DRILL_KNIFE_DOWN,
-    &ISO_NOTHING_TO_CUT,
-    &HPGL_NOT_A_PLOT,
-    &HPGL_OVERFLOW,
-    &HPGL_PE_DAMAGED,
-    &HPGL_PE_OPEN,
-    &HPGL_PE_REPAIRED,
-    &HPGL_OPEN_LABEL,
-    &HPGL_JUNK,
-    &HPGL_ODD,
-    &HPGL_UNKNOWN,
-    &HPGL_LEFT_OUT,
-    &HPGL_SCALE,
-    &HPGL_PAGES,
-    &HPGL_FAR_PLACE,
-    &HPGL_CURVES,
-    &HPGL_PLACE_UNKNOWN,
-    &HPGL_NO_PEN,
-    &HPGL_UNIT_DOUBTFUL,
-    &HPGL_ENDS_IN_POLYGON,
-    &DRAWING_CUT_SHORT,
-    &DRAWING_TOO_MANY,
-    &DRAWING_NOTHING_TO_CUT,
-    &DRAWING_MAY_BE_FRAME,
-    &DRAWING_OPEN_OUTLINES,
-    &DRAWING_FRAME,
-    &DRAWING_INNER_LINES,
-    &DRAWING_SMALL_OUTLINES,
-    &DRAWING_SEARCH_ENDED,
-    &DXF_GROUP,
-    &DXF_CUT_SHORT,
-    &DXF_NUMBER,
-    &DXF_NO_COORDINATE,
-    &DXF_FAR_PLACE,
-    &DXF_CURVES,
-    &DXF_OPEN_BLOCK,
-    &DXF_OPEN_POLYLINE,
-    &DXF_UNREAD_CUT,
-    &DXF_UNIT,
-    &DXF_WHICH_SIZE,
-    &DXF_NO_SIZE,
-    &DXF_OPEN_OUTLINE,
-    &DXF_FOLD,
-    &DXF_TOO_MANY,
-    &DXF_NOTHING_TO_CUT,
-    &DXF_SAMPLE,
-    &DXF_NO_UNIT,
-    &DXF_FOLD_ACROSS,
-    &DXF_NOTCH_LEFT_OUT,
-    &DXF_NOTCH_AS_SLIT,
-    &DXF_OUTSIDE,
-    &DXF_NO_OUTLINE,
-    &DXF_QUANTITY,
-    &DXF_NO_BLOCK,
-    &DXF_SCALE,
-    &DXF_NOT_PLACED,
-    &DXF_UNREAD,
-    &CSV_HEADER,
-    &CSV_ROW,
-    &CSV_NO_LENGTH,
-    &CSV_NOTHING_TO_CUT,
-    &MARKER_OPEN,
-    &MARKER_TWICE,
-    &MARKER_EQUAL_POINTS,
-    &MARKER_SLIT_TWICE,
-    &MARKER_SLIT_NO_LENGTH,
-    &MARKER_NO_LENGTH,
-    &MARKER_SELF_CROSSING,
-    &MARKER_OVERLAPPING,
-    &MARKER_NOTCH_OVER,
-    &MARKER_DRILL_OUTSIDE,
-    &MARKER_TOO_MANY,
-    &MARKER_SEARCH_ENDED,
-    &MARKER_NUMBER_TWICE,
-    &SHEET_ADVANCE,
-    &SHEET_COPIES,
-    &SELECT_UNKNOWN_PIECE,
-    &SELECT_NOTHING_LEFT,
-    &PATH_TIGHT,
-    &PATH_BOWED_PLUNGE,
-    &PATH_TIGHT_CURVE,
-    &PATH_TIGHT_CURVE_REFUSED,
-    &PATH_OVERCUT,
-    &PATH_OVERCUT_REFUSED,
-    &PATH_NOTCH_THROUGH,
-    &PATH_C_RANGE,
-    &MARKER_OVER_EDGE,
-    &MARKER_OFF_TABLE,
-    &PLAN_SMOOTH,
-    &PLAN_PROFILE,
-    &PLAN_CHORD,
-    &PLAN_CERTIFY,
-    &TARGET_REFUSED,
-    &VERIFY_BROKEN,
-    &SEW_NOTHING,
-    &SEW_ROW,
-    &SEW_TRUNCATED,
-    &SEW_RECORD,
-    &SEW_HEADER,
-    &SEW_BEHIND_END,
-    &SEW_SPEEDS,
-    &SEW_SLOW,
-    &SEW_JUMPS_CUT,
-    &SEW_JUMPS,
-    &SEW_ELEMENT,
-    &SEW_INSET,
-    &SEW_NO_LINE,
-    &SEW_SHORT,
-    &SEW_LONG,
-    &SEW_SPLIT,
-    &SEW_SLOWED,
-    &SEW_NO_SPEED,
-    &SEW_UNDERRUN,
-    &SEW_BROKEN,
-    &TRACK_HEADER,
-    &TRACK_ROW,
-    &TRACK_NO_ROWS,
-    &TRACK_PERIOD,
-    &TRACK_GAP,
-    &TRACK_LOST,
-    &TRACK_WIDTH,
-    &TRACK_OVERSHOOT,
-    &TRACK_CARRIAGE,
-    &TRACK_NO_UPSTREAM,
-    &TRACK_NO_CENTRE,
-    &TRACK_SCENARIO,
-    &CENTRE_HEADER,
-    &CENTRE_ROW,
-    &CENTRE_SHORT,
-    &CENTRE_BEYOND,
-    &FLOW_NOTHING,
-    &FLOW_LEFT_OUT,
-    &FLOW_INFEASIBLE,
-    &FLOW_OFF_TABLE,
-    &FLOW_BROKEN,
-    &PROFILE_SYNTAX,
-    &PROFILE_UNKNOWN_KEY,
-    &PROFILE_TYPE,
-    &PROFILE_RANGE,
-];
 
 /// The code of that name.
 pub fn find(name: &str) -> Option<&'static Code> {
@@ -625,9 +465,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_code_is_listed_once() {
-        let declared = include_str!("code.rs").matches("pub static").count() - 2; // ALL, and this very line
-        assert_eq!(declared, ALL.len());
+    fn every_code_has_a_name_and_a_meaning_of_its_own() {
         for (i, code) in ALL.iter().enumerate() {
             assert!(ALL[..i].iter().all(|other| other.name != code.name), "{} stands twice", code.name);
             let kebab = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == '/';
