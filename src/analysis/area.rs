@@ -6,6 +6,7 @@ use super::nesting::{Line, Nesting};
 use crate::geom::{Extent, ring};
 use crate::ir::Marker;
 use crate::ir::marker::Contour;
+use crate::machine::MachineProfile;
 
 /// Steps of a millimetre at which two outlines are told apart: finer than any file's unit.
 const STEPS_PER_MM: f64 = 1000.0;
@@ -19,8 +20,8 @@ fn key(line: &Line, area: f64) -> [i64; 5] {
 /// Area of the parts of a marker, mm2: their outlines, notches in these included, less their cut-outs. What lies in a
 /// cut-out is a part again; a line that does not close bounds nothing. `None` when so many outlines lie in one another that
 /// the search for which lies in which was ended.
-pub fn area(marker: &Marker) -> Option<f64> {
-    let nesting = Nesting::of(marker);
+pub fn area(marker: &Marker, profile: &MachineProfile) -> Option<f64> {
+    let nesting = Nesting::of(marker, profile.band(marker.unit));
     if nesting.ended().is_some() {
         return None;
     }
@@ -51,7 +52,7 @@ mod tests {
     fn check(contours: &[String], expected: f64) {
         let text = format!("marker unit-mm 0\n{}", contours.concat());
         let marker = text::read_marker(&text).expect("sound");
-        let area = area(&marker).expect("few outlines");
+        let area = area(&marker, &MachineProfile::default()).expect("few outlines");
         assert!((area - expected).abs() < 1e-6, "{area} mm2 of {contours:?}");
     }
 
@@ -64,6 +65,6 @@ mod tests {
         check(&[square(0, 100), square(0, 100)], 10_000.0);
         // A line bounds nothing.
         check(&[square(0, 100), "piece 2\ncontour open\n  from 10 10 to 20 10\n  to 20 20\n".to_owned()], 10_000.0);
-        assert_eq!(area(&Marker::default()), Some(0.0));
+        assert_eq!(area(&Marker::default(), &MachineProfile::default()), Some(0.0));
     }
 }

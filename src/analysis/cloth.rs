@@ -1,7 +1,9 @@
 //! The cloth around a cut: which parts lie on it, and how far a blade may go before it enters one.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
+use super::mouths::bridged;
 use super::nesting::Nesting;
 use crate::geom::boxes::Boxes;
 use crate::geom::region::{Ray, Regions, Room};
@@ -9,7 +11,7 @@ use crate::geom::{Extent, Point, polyline};
 use crate::ir::marker::{Contour, CutKind};
 use crate::ir::toolpath::Overcut;
 use crate::ir::{Marker, Toolpath};
-use crate::machine::{Knife, MachineProfile};
+use crate::machine::{Knife, MachineProfile, NotchStyle};
 
 /// Part of the tolerance by which a straight extension may lie in a part: then it runs along an edge that is cut anyway.
 /// The rest is for how far the tip may leave its path.
@@ -22,7 +24,7 @@ const INSIDE_EPSILON: f64 = 1e-6;
 /// The parts that lie on the cloth.
 #[derive(Debug)]
 pub struct Cloth<'a> {
-    /// Inside their outlines, not inside their cut-outs, whichever way round these are drawn.
+    /// Inside their outlines as these are cut, not inside their cut-outs, whichever way round these are drawn.
     parts: Regions<'a>,
     /// The slits that are cut, and their boxes: what lies on one of them is cut anyway.
     slits: Vec<[Point; 2]>,
@@ -43,7 +45,7 @@ const LEAST_WAY_SHARE: f64 = 1.5;
 impl<'a> Cloth<'a> {
     /// The cloth on which a marker lies. Contours that do not close bound nothing.
     pub fn new(marker: &'a Marker, profile: &MachineProfile) -> Self {
-        let nesting = Nesting::of(marker);
+        let nesting = Nesting::of(marker, profile.band(marker.unit));
         let contours: Vec<&Contour> = marker.contours().map(|(_, contour)| contour).collect();
         // The closed lines of each part, by the piece that its outline is of.
         let mut lines: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
@@ -51,7 +53,14 @@ impl<'a> Cloth<'a> {
             let outline = nesting.outline(line).unwrap_or(line);
             lines.entry(nesting.lines()[outline].group).or_default().push(line);
         }
-        let points = |&line: &usize| marker.list.points(contours[line].range);
+        let style = profile.notch.style;
+        let points = |&line: &usize| {
+            let points = marker.list.points(contours[line].range);
+            let notches = &marker.pieces[nesting.lines()[line].group as usize].outline_notches;
+            // The cloth of a notch that is a slit, or none, stays with its part.
+            let is_as_drawn = style == NotchStyle::AsDrawn || notches.is_empty();
+            if is_as_drawn { points } else { Cow::Owned(bridged(&points, notches)) }
+        };
         let parts = Regions::new(lines.keys().copied(), |part| lines[&part].iter().map(points).collect());
         let part_of = (0..marker.pieces.len()).map(|piece| nesting.part_of(piece).unwrap_or(piece) as u32).collect();
         let least_way = LEAST_WAY_SHARE * profile.verify.max_uncut_mm;

@@ -11,6 +11,7 @@ pub mod cloth;
 pub mod declare;
 pub mod depth;
 pub mod duration;
+pub mod mouths;
 pub mod nesting;
 pub mod outlines;
 pub mod plunge;

@@ -50,10 +50,12 @@ pub struct Hold {
     pub share: f64,
     /// Whether the first of two that are alike holds the other.
     pub twins: bool,
+    /// By how much lines of other groups may stick out and still lie inside, mm: edges that near are one.
+    pub band: f64,
 }
 
 /// Outlines of cutter files: their cut-outs lie wholly inside, and a part that is cut twice is no cut-out of itself.
-const WHOLLY: Hold = Hold { box_share: 1.0, share: 0.0, twins: false };
+const WHOLLY: Hold = Hold { box_share: 1.0, share: 0.0, twins: false, band: 0.0 };
 
 /// What holds each line.
 #[derive(Debug, Default)]
@@ -93,17 +95,20 @@ impl Nesting {
         Self { lines: search.lines, around, ended }
     }
 
-    /// What holds each contour of a marker: its lines are those of [`Marker::contours`], in that order, the groups the
-    /// places of its pieces.
-    pub fn of(marker: &Marker) -> Self {
-        Self::of_contours(&marker.list, &marker.contours().collect::<Vec<_>>())
+    /// What holds each contour of a marker, in which edges of different pieces nearer than `band`, mm, are one edge: its lines
+    /// are those of [`Marker::contours`], in that order, the groups the places of its pieces.
+    pub fn of(marker: &Marker, band: f64) -> Self {
+        Self::of_contours(&marker.list, &marker.contours().collect::<Vec<_>>(), Hold { band, ..WHOLLY })
     }
 
     /// What holds each contour of a piece, seen by itself: its lines are the contours.
     pub fn of_piece(list: &SegmentList, piece: &Piece) -> Self {
         match &piece.contours[..] {
             [_] => Self::default(), // as of nearly all
-            contours => Self::of_contours(list, &contours.iter().map(|contour| (0, contour)).collect::<Vec<_>>()),
+            contours => {
+                let contours: Vec<(usize, &Contour)> = contours.iter().map(|contour| (0, contour)).collect();
+                Self::of_contours(list, &contours, WHOLLY)
+            }
         }
     }
 
@@ -118,7 +123,7 @@ impl Nesting {
     }
 
     /// What holds each of some contours, each with its group.
-    fn of_contours(list: &SegmentList, contours: &[(usize, &Contour)]) -> Self {
+    fn of_contours(list: &SegmentList, contours: &[(usize, &Contour)], hold: Hold) -> Self {
         let line = |&(group, contour): &(usize, &Contour)| Line {
             extent: Extent::of(&list.points(contour.range)),
             group: group as u32,
@@ -127,7 +132,7 @@ impl Nesting {
         };
         let lines = contours.par_iter().map(line).collect();
         let points = |line: usize| list.points(contours[line].1.range);
-        Self::new(lines, WHOLLY, points, &mut Budget::of_a_marker())
+        Self::new(lines, hold, points, &mut Budget::of_a_marker())
     }
 
     /// The lines.
@@ -251,7 +256,7 @@ impl<'a, P: Fn(usize) -> Cow<'a, [Point]> + Sync> Search<'_, P> {
         let (around, own) = (&self.lines[outer], &self.lines[inner]);
         let both = Extent { min: own.extent.min.sup(&around.extent.min), max: own.extent.max.inf(&around.extent.max) };
         let covers = if self.hold.box_share >= 1.0 {
-            around.group == own.group || around.extent.covers(&own.extent)
+            around.group == own.group || around.extent.grown(self.hold.band).covers(&own.extent)
         } else {
             box_area(&both) >= self.hold.box_share * box_area(&own.extent)
         };
@@ -259,8 +264,32 @@ impl<'a, P: Fn(usize) -> Cow<'a, [Point]> + Sync> Search<'_, P> {
     }
 
     fn is_larger(&self, one: usize, other: usize) -> bool {
+        if self.are_alike(one, other) {
+            // A part that fills a cut-out lies in it, whichever of the two was drawn larger.
+            match [one, other].map(|line| self.is_cut_out(line)) {
+                [true, false] => return true,
+                [false, true] => return false,
+                [true, true] | [false, false] => {}
+            }
+        }
         let [a, b] = [one, other].map(|line| self.area(line));
         a > b || self.hold.twins && a == b && one < other
+    }
+
+    /// Whether the boxes of two lines of different groups are one within the band.
+    fn are_alike(&self, one: usize, other: usize) -> bool {
+        let [a, b] = [one, other].map(|line| &self.lines[line]);
+        let covers = |outer: &Line, inner: &Line| outer.extent.grown(self.hold.band).covers(&inner.extent);
+        a.group != b.group && covers(a, b) && covers(b, a)
+    }
+
+    /// Whether the box of a line lies in that of a larger one of its group, as those of cut-outs do.
+    fn is_cut_out(&self, line: usize) -> bool {
+        let own = &self.lines[line];
+        let first = self.lines.partition_point(|other| other.group < own.group);
+        let group = self.lines[first..].iter().take_while(|other| other.group == own.group);
+        let covers = |other: &Line| other.extent != own.extent && other.extent.covers(&own.extent);
+        group.filter(|other| other.may_hold).any(covers)
     }
 
     fn area(&self, line: usize) -> f64 {

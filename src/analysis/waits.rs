@@ -3,6 +3,7 @@
 use super::nesting::Nesting;
 use crate::ir::Marker;
 use crate::ir::marker::Event;
+use crate::machine::MachineProfile;
 
 /// What a piece waits for.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -14,8 +15,8 @@ pub struct Waits {
 }
 
 /// What each piece waits for, in the order of the pieces.
-pub fn waits(marker: &Marker) -> Vec<Waits> {
-    let nesting = Nesting::of(marker);
+pub fn waits(marker: &Marker, profile: &MachineProfile) -> Vec<Waits> {
+    let nesting = Nesting::of(marker, profile.band(marker.unit));
     let events = marker.pieces.iter().map(|piece| piece.events.clone());
     let mut all: Vec<Waits> = events.map(|events| Waits { inner: Vec::new(), events }).collect();
     for inner in 0..marker.pieces.len() {

@@ -7,6 +7,7 @@ use serde::Serialize;
 use crate::ir::Marker;
 use crate::ir::marker::Piece;
 use crate::ir::toolpath::Event;
+use crate::machine::MachineProfile;
 use crate::pipeline::{Program, Spent, Waits, significant, waits, word};
 use crate::units::number::fixed;
 use crate::units::{S_PER_HOUR, S_PER_MIN};
@@ -35,8 +36,8 @@ pub(super) struct Timed {
 const NAMED: usize = 3;
 
 /// The pieces of a program, in cut order. The way to a piece counts as its own.
-pub(super) fn of(program: &Program, marker: &Marker) -> Vec<Timed> {
-    let waits = waits(marker);
+pub(super) fn of(program: &Program, marker: &Marker, profile: &MachineProfile) -> Vec<Timed> {
+    let waits = waits(marker, profile);
     let timed = |([piece, part], spent): &([u32; 2], Spent)| {
         let of = marker.pieces.get(*part as usize);
         let Waits { inner, events } = waits.get(*part as usize).cloned().unwrap_or_default();

@@ -10,7 +10,7 @@ use crate::ir::drawing::Vertex;
 
 /// Hems are drawn past the corners of their parts, and parts that touch overlap by rounding. A line that is drawn twice
 /// holds itself.
-const MOSTLY: Hold = Hold { box_share: 0.8, share: 0.75, twins: true };
+const MOSTLY: Hold = Hold { box_share: 0.8, share: 0.75, twins: true, band: 0.0 };
 
 /// What holds each line that may be an outline; only large ones hold others.
 pub(super) fn nesting(lines: &[Line], vertices: &[Vertex], work: &mut Budget) -> Nesting {

@@ -6,18 +6,18 @@ use std::path::Path;
 use cutc::machine::Job;
 use rayon::prelude::*;
 
-use crate::support::nests::{Recipe, compiled};
+use crate::support::nests::{Dialect, Recipe, compiled};
 
 /// Nests that are compiled, each with one of the blades: so many are all gaps and mixtures of notches with all blades.
-const SEEDS: u64 = 90;
+const SEEDS: u64 = 144;
 /// Width of a blade and of its back, mm.
-const BLADES: [[f64; 2]; 3] = [[6.6, 6.35], [8.89, 6.35], [3.0, 1.5]];
+const BLADES: [[f64; 2]; 4] = [[6.6, 6.35], [6.0, 4.0], [8.89, 6.35], [3.0, 1.5]];
 
 /// What is wrong with the programs of a seed; the nest is then kept, so that it can be looked at.
 fn wrong(seed: u64) -> Option<String> {
     let recipe = Recipe::of(seed, 30, 20);
     let nest = recipe.nest();
-    let blade = BLADES[(seed + seed / 30) as usize % BLADES.len()];
+    let blade = BLADES[(seed + seed / 36) as usize % BLADES.len()];
     let mut job = Job::default();
     (job.profile.knife.width_mm, job.profile.knife.back_mm) = (blade[0], Some(blade[1]));
     let targets = if blade == BLADES[0] { &["csv", "gcode"][..] } else { &["csv"] };
@@ -34,7 +34,8 @@ fn wrong(seed: u64) -> Option<String> {
     if wrong.is_empty() {
         return None;
     }
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("nest-{seed}.cut"));
+    let extension = if recipe.dialect == Dialect::Plot { "plt" } else { "cut" };
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("nest-{seed}.{extension}"));
     std::fs::write(&path, &nest.text).expect("the folder of the build is writable");
     let [width, back] = blade;
     let again = format!("cutc compile {} --set knife.width_mm={width} --set knife.back_mm={back}", path.display());

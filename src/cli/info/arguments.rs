@@ -9,6 +9,7 @@ use crate::cli::choices::Sheet;
 use crate::cli::options::{Messages, NO_HEADING, Reading};
 use crate::cli::price::Pricing;
 use crate::ir::Marker;
+use crate::machine::Job;
 use crate::pipeline::{self, Report, significant};
 use crate::units::MM2_PER_M2;
 use crate::units::quantity::value_in;
@@ -76,11 +77,11 @@ fn width(text: &str) -> Result<f64, String> {
 
 impl Arguments {
     /// What is known of a marker beyond its report; of one with errors no area.
-    pub(super) fn figures(&self, marker: Option<&Marker>, report: &Report) -> Figures {
+    pub(super) fn figures(&self, marker: Option<&Marker>, report: &Report, job: &Job) -> Figures {
         let [length_mm, height_mm] = report.extent_mm;
         Figures {
             notches: report.notches.by_kind().iter().map(|(_, count)| count).sum(),
-            area_m2: marker.and_then(pipeline::area).map(|area| area / MM2_PER_M2),
+            area_m2: marker.and_then(|marker| pipeline::area(marker, &job.profile)).map(|area| area / MM2_PER_M2),
             cloth: Cloth { length_mm, width_mm: self.cloth_width.unwrap_or(height_mm) },
         }
     }

@@ -51,7 +51,7 @@ impl Arguments {
                 row.pieces = Some(report.pieces);
                 row.cut_m = Some(report.cut_m);
                 row.time_s = report.time_s();
-                row.figures = Some(self.figures(Some(&read.marker), &report));
+                row.figures = Some(self.figures(Some(&read.marker), &report, job));
                 doubts = self.doubts(source.name(), &report);
             }
         }

@@ -35,7 +35,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished
             pipeline::make_cuts(&mut input, &source, &job, &mut diagnostics);
         }
         let report = Report::of(&input.marker, input.dialect.name);
-        let figures = arguments.figures(Some(&input.marker).filter(|_| !diagnostics.has_errors()), &report);
+        let figures = arguments.figures(Some(&input.marker).filter(|_| !diagnostics.has_errors()), &report, &job);
         let mut all = Known::of(report, Facts::of(&input.marker), figures);
         if arguments.labels {
             all.labels_by_piece = Some(labels::of(&input.marker, &source, &job));
@@ -43,7 +43,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished
         let is_planned = arguments.time || arguments.pricing.price().is_some();
         if is_planned && !diagnostics.has_errors() {
             all.report.program = pipeline::estimate(&mut input, &source, &job, &mut diagnostics)?;
-            all.time_by_piece = arguments.time.then(|| times::of(&all.report.program, &input.marker));
+            all.time_by_piece = arguments.time.then(|| times::of(&all.report.program, &input.marker, &job.profile));
         }
         all.price(arguments);
         known = Some(all);
@@ -56,7 +56,7 @@ pub(super) fn run(arguments: &Arguments, file: &Path) -> anyhow::Result<Finished
         (Format::Json, Some(known)) => report::json_of(known, &diagnostics, &source, &job),
         (Format::Json, None) => {
             let (nothing, report) = (Marker::default(), Report::of(&Marker::default(), ""));
-            let mut blank = Known::of(report.clone(), Facts::of(&nothing), arguments.figures(None, &report));
+            let mut blank = Known::of(report.clone(), Facts::of(&nothing), arguments.figures(None, &report, &job));
             blank.price(arguments);
             report::json_of(report::nothing(&blank), &diagnostics, &source, &job)
         }

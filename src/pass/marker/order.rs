@@ -21,8 +21,8 @@ use crate::machine::Job;
 pub(super) const PASS: MarkerPass =
     MarkerPass { name: "order", about: "puts what lies inside a contour before it, the outline last", run };
 
-fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
-    let nesting = Nesting::of(marker);
+fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
+    let nesting = Nesting::of(marker, job.profile.band(marker.unit));
     if let Some(line) = nesting.ended() {
         diagnostics.push(too_many_outlines(&marker.pieces[nesting.lines()[line].group as usize]));
         return;

@@ -26,8 +26,10 @@ impl<'a> Ground<'a> {
     /// The ground of a marker.
     pub fn new(marker: &'a Marker, profile: &MachineProfile) -> Self {
         let reference = Reference::new(marker, profile);
-        let (grid, (inside, held)) =
-            rayon::join(|| Grid::new(&reference), || rayon::join(|| Inside::new(marker), || held(marker, &reference)));
+        let (grid, (inside, held)) = rayon::join(
+            || Grid::new(&reference),
+            || rayon::join(|| Inside::new(marker, profile.notch), || held(marker, &reference)),
+        );
         let common = Common::new(&reference.shared, &reference, &grid, reference.common);
         Self { reference, grid, inside, common, held }
     }

@@ -1,15 +1,20 @@
 //! What lies in a part, and must be cut and drilled before the part comes free: a loose part shifts.
 //!
 //! Judged by the drawing alone: a contour lies in the smallest closed one that holds all of its places, a slit or a hole in the
-//! smallest one of its own piece. Where something is asked of the operator in between, the file wants it so.
+//! smallest one of its own piece. Edges of two pieces within the band are one edge: places so near to that of another piece lie
+//! in it, and where each of two contours lies in the other so, a cut-out holds the part that fills it. Where something is asked
+//! of the operator in between, the file wants it so.
 
+use std::borrow::Cow;
+use std::cell::OnceCell;
 use std::ops::Range;
 
 use rayon::prelude::*;
 
 use super::lines::Reference;
+use crate::geom::boxes::Boxes;
 use crate::geom::region::Regions;
-use crate::geom::{Extent, Point, ring};
+use crate::geom::{Extent, Point, polyline, ring};
 use crate::ir::Marker;
 use crate::ir::marker::Contour;
 
@@ -27,18 +32,21 @@ struct Contours<'a> {
     marker: &'a Marker,
     /// Each with the place of its piece.
     all: Vec<(usize, &'a Contour)>,
-    extents: Vec<Extent>,
+    /// The box of each; those of open ones hold nothing.
+    extents: Boxes,
     /// mm2.
     areas: Vec<f64>,
     /// The insides of the closed ones.
     regions: Regions<'a>,
+    /// How near to each other edges of two pieces are one, mm.
+    band: f64,
     /// For each piece in how many before it something is asked, itself among them.
     asked: Vec<usize>,
 }
 
 /// What lies in closed contours of a marker.
 pub(in crate::verify) fn held(marker: &Marker, reference: &Reference) -> Vec<Held> {
-    let contours = Contours::new(marker);
+    let contours = Contours::new(marker, reference.band);
     let ranks: Vec<&Range<u32>> = reference.of_pieces.iter().flat_map(|piece| &piece.contours).collect();
     let of_slits = |piece: usize| {
         let slits = &reference.lines[reference.of_pieces[piece].slits.clone()];
@@ -65,20 +73,20 @@ pub(in crate::verify) fn held(marker: &Marker, reference: &Reference) -> Vec<Hel
 }
 
 impl<'a> Contours<'a> {
-    fn new(marker: &'a Marker) -> Self {
+    fn new(marker: &'a Marker, band: f64) -> Self {
         let all: Vec<(usize, &Contour)> = marker.contours().collect();
         let measured = all.par_iter().map(|(_, contour)| {
             let points = marker.list.points(contour.range);
             (Extent::of(&points), ring::area(&points).abs())
         });
-        let (extents, areas) = measured.unzip();
+        let (extents, areas): (Vec<Extent>, Vec<f64>) = measured.unzip();
         let closed = (0..all.len() as u32).filter(|&i| all[i as usize].1.closed);
         let regions = Regions::new(closed, |i| vec![marker.list.points(all[i as usize].1.range)]);
         let asked = marker.pieces.iter().scan(0, |asked, piece| {
             *asked += usize::from(!piece.events.is_empty());
             Some(*asked)
         });
-        Self { marker, extents, areas, regions, asked: asked.collect(), all }
+        Self { marker, extents: Boxes::new(extents), areas, regions, band, asked: asked.collect(), all }
     }
 
     /// The smallest of some closed contours in which a place lies.
@@ -91,19 +99,72 @@ impl<'a> Contours<'a> {
     fn around(&self, contour: usize) -> Option<usize> {
         let (piece, inner) = self.all[contour];
         let points = self.marker.list.points(inner.range);
-        let area = if inner.closed { self.areas[contour] } else { 0.0 };
-        let is_larger = |other: usize| self.areas[other] > area && self.extents[other].covers(&self.extents[contour]);
-        let first = self.regions.owners_at(points[0]).into_iter().map(|owner| owner as usize);
-        let mut around: Vec<usize> = first.filter(|&other| other != contour && is_larger(other)).collect();
-        for &point in &points[1..] {
+        let extent = self.extents.all()[contour];
+        let near = self.extents.at(extent.min + (extent.max - extent.min) / 2.0);
+        let may_hold = |other: &usize| self.all[*other].1.closed && self.may_hold(*other, contour);
+        let mut around: Vec<Around> = near.filter(may_hold).map(|other| Around::new(self, other)).collect();
+        for &point in points.iter() {
             if around.is_empty() {
-                return None; // as of nearly all, at their first place
+                return None; // as of nearly all, at once
             }
             let here = self.regions.owners_at(point);
-            around.retain(|&other| here.binary_search(&(other as u32)).is_ok());
+            let is_near = |other: &Around| self.all[other.contour].0 != piece && other.is_at_edge(point, self.band);
+            around.retain(|other| here.binary_search(&(other.contour as u32)).is_ok() || is_near(other));
         }
-        let smallest = around.into_iter().min_by(|&a, &b| self.areas[a].total_cmp(&self.areas[b]).then(a.cmp(&b)))?;
+        let around = around.into_iter().map(|around| around.contour);
+        let smallest = around.min_by(|&a, &b| self.areas[a].total_cmp(&self.areas[b]).then(a.cmp(&b)))?;
         // Behind what is asked the file has it.
         (self.asked[self.all[smallest].0] >= self.asked[piece]).then_some(smallest)
+    }
+
+    /// Whether a closed contour is, by area and box, such that it may hold another.
+    fn may_hold(&self, outer: usize, inner: usize) -> bool {
+        let [around, own] = [outer, inner].map(|contour| self.extents.all()[contour]);
+        let same_piece = self.all[outer].0 == self.all[inner].0;
+        let band = if same_piece { 0.0 } else { self.band };
+        if outer == inner || !around.grown(band).covers(&own) {
+            return false;
+        }
+        if !same_piece && own.grown(band).covers(&around) {
+            match [outer, inner].map(|contour| self.is_cut_out(contour)) {
+                [true, false] => return true,
+                [false, true] => return false,
+                [true, true] | [false, false] => {}
+            }
+        }
+        let area = if self.all[inner].1.closed { self.areas[inner] } else { 0.0 };
+        self.areas[outer] > area
+    }
+
+    /// Whether a contour lies, by its box, in a larger closed one of its own piece.
+    fn is_cut_out(&self, contour: usize) -> bool {
+        let own = self.extents.all()[contour];
+        let first = self.all.partition_point(|other| other.0 < self.all[contour].0);
+        let group = (first..self.all.len()).take_while(|&other| self.all[other].0 == self.all[contour].0);
+        let around = |other: usize| self.extents.all()[other];
+        group.filter(|&other| self.all[other].1.closed).any(|other| around(other) != own && around(other).covers(&own))
+    }
+}
+
+/// A closed contour that may lie around another.
+struct Around<'a> {
+    contour: usize,
+    /// Its places, and the boxes of the edges between them, once they were asked for.
+    points: Cow<'a, [Point]>,
+    edges: OnceCell<Boxes>,
+}
+
+impl<'a> Around<'a> {
+    fn new(contours: &Contours<'a>, contour: usize) -> Self {
+        let points = contours.marker.list.points(contours.all[contour].1.range);
+        Self { contour, points, edges: OnceCell::new() }
+    }
+
+    /// Whether a place is within so many mm of its edge.
+    fn is_at_edge(&self, place: Point, reach: f64) -> bool {
+        let extents = || self.points.windows(2).map(|ends| Extent::between(ends[0], ends[1])).collect();
+        let edges = self.edges.get_or_init(|| Boxes::new(extents()));
+        let mut near = edges.near(Extent::between(place, place).grown(reach));
+        near.any(|i| polyline::distance_to_segment(place, self.points[i], self.points[i + 1]) <= reach)
     }
 }

@@ -1,16 +1,18 @@
-//! Which parts a point lies in: even-odd containment in the closed contours of each piece.
+//! Which parts a point lies in: even-odd containment in the closed contours of each piece, as these are cut.
 
 use std::borrow::Cow;
 
 use rayon::prelude::*;
 
-use super::parts;
+use super::{notches, parts};
 use crate::geom::boxes::Boxes;
 use crate::geom::shape::Shape;
 use crate::geom::slots::Slots;
 use crate::geom::{Extent, Point, polyline};
 use crate::ir::Marker;
-use crate::ir::marker::Piece;
+use crate::ir::list::Segment;
+use crate::ir::marker::{Contour, Piece};
+use crate::machine::{NotchStyle, Notches};
 
 /// Edges that a band of a part holds on average, at the least.
 const EDGES_A_BAND: usize = 8;
@@ -44,8 +46,9 @@ struct Part<'a> {
 
 impl<'a> Inside<'a> {
     /// The index of a marker.
-    pub(in crate::verify) fn new(marker: &'a Marker) -> Self {
-        let parts: Vec<Part> = (0..marker.pieces.len()).into_par_iter().filter_map(|i| Part::new(i, marker)).collect();
+    pub(in crate::verify) fn new(marker: &'a Marker, notches: Notches) -> Self {
+        let part = |i: usize| Part::new(i, marker, notches);
+        let parts: Vec<Part> = (0..marker.pieces.len()).into_par_iter().filter_map(part).collect();
         let boxes = Boxes::new(parts.iter().map(|part| part.extent).collect());
         let mut inside = Self { boxes, parts, part_of: Vec::new() };
         // What lies in a piece is a cut-out of it, whoever it belongs to.
@@ -77,7 +80,7 @@ impl<'a> Inside<'a> {
         odd
     }
 
-    /// How far a point is from all lines that bound a part, as they are drawn, mm: surely where that is less than `reach`.
+    /// How far a point is from all lines that bound a part, mm: surely where that is less than `reach`.
     pub(in crate::verify) fn distance_to_edges(&self, point: Point, reach: f64) -> f64 {
         let near = self.boxes.near(Extent::between(point, point).grown(reach));
         near.map(|part| self.parts[part].distance(point, reach)).fold(f64::INFINITY, f64::min)
@@ -90,11 +93,24 @@ impl<'a> Inside<'a> {
     }
 }
 
+/// The points of a closed contour as it bounds its part: the cloth of a notch that is a slit, or none, stays with it.
+fn ring<'a>(contour: &Contour, piece: &Piece, marker: &'a Marker, style: Notches) -> Cow<'a, [Point]> {
+    let points = marker.list.points(contour.range);
+    if style.style == NotchStyle::AsDrawn || piece.outline_notches.is_empty() {
+        return points;
+    }
+    let mut segments: Vec<Segment> = marker.list.walk(contour.range).map(|(_, segment)| segment).collect();
+    notches::straighten(&mut segments, piece, style);
+    let last = segments.last().map(|segment| segment.to);
+    Cow::Owned(segments.iter().map(|segment| segment.from).chain(last).collect())
+}
+
 impl<'a> Part<'a> {
     /// The part that a piece is; `None` when it bounds nothing.
-    fn new(index: usize, marker: &'a Marker) -> Option<Self> {
-        let closed = marker.pieces[index].contours.iter().filter(|contour| contour.closed);
-        let rings: Box<[Cow<[Point]>]> = closed.map(|contour| marker.list.points(contour.range)).collect();
+    fn new(index: usize, marker: &'a Marker, notches: Notches) -> Option<Self> {
+        let piece = &marker.pieces[index];
+        let closed = piece.contours.iter().filter(|contour| contour.closed);
+        let rings: Box<[Cow<[Point]>]> = closed.map(|contour| ring(contour, piece, marker, notches)).collect();
         let mut extent = Extent::EMPTY;
         rings.iter().flat_map(|ring| ring.iter()).for_each(|&point| extent.add(point));
         let count: usize = rings.iter().map(|ring| ring.len() - 1).sum();

@@ -3,8 +3,8 @@
 use cutc::geom::{Point, left, polyline};
 use fastrand::Rng;
 
-/// Area of cloth for each part, and of the smallest that is divided, mm2.
-const AREA: [f64; 2] = [30_000.0, 8_000.0];
+/// Area of cloth for each part; of the smallest that is divided; of the smallest and largest divided into small ones, mm2.
+const AREA: [f64; 4] = [30_000.0, 8_000.0, 3_000.0, 12_000.0];
 /// How near to the edge of a part a line that divides it comes between its ends, mm.
 const LEAST: f64 = 12.0;
 
@@ -39,7 +39,8 @@ pub(crate) struct Cloth {
 }
 
 impl Cloth {
-    pub(crate) fn divided(parts: usize, rng: &mut Rng) -> Self {
+    /// A cloth of so many parts, and of so many more that are small; all lines are straight, or some are curved.
+    pub(crate) fn divided([parts, small]: [usize; 2], is_straight: bool, rng: &mut Rng) -> Self {
         let area = parts as f64 * AREA[0];
         let (width, height) = (1.4 * area.sqrt(), area.sqrt() / 1.4);
         let corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)].map(|(x, y)| Point::new(x, y));
@@ -51,7 +52,14 @@ impl Cloth {
             let weights: Vec<f64> = cloth.parts.iter().map(|part| cloth.area(part) * (0.4 + rng.f64())).collect();
             let next = (0..weights.len()).max_by(|&a, &b| weights[a].total_cmp(&weights[b])).expect("there is one");
             if cloth.parts.len() < parts && cloth.area(&cloth.parts[next]) > AREA[1] {
-                cloth.divide(next, rng);
+                cloth.divide(next, is_straight, rng);
+            }
+        }
+        for _ in 0..20 * small {
+            let is_wide = |&part: &usize| (AREA[2]..AREA[3]).contains(&cloth.area(&cloth.parts[part]));
+            let wide: Vec<usize> = (0..cloth.parts.len()).filter(is_wide).collect();
+            if cloth.parts.len() < parts + small && !wide.is_empty() {
+                cloth.divide(wide[rng.usize(..wide.len())], is_straight, rng);
             }
         }
         cloth
@@ -72,7 +80,7 @@ impl Cloth {
     }
 
     /// Divides a part by a line from its longest edge to the one farthest from that, if the line stays within it.
-    fn divide(&mut self, part: usize, rng: &mut Rng) {
+    fn divide(&mut self, part: usize, is_straight: bool, rng: &mut Rng) {
         let edges = self.parts[part].clone();
         let count = edges.len();
         let middle = |i: usize| self.points(edges[i]).nth(8).expect("seventeen points");
@@ -87,7 +95,7 @@ impl Cloth {
         let [from, to] = [(first, a), (second, b)].map(|(i, t)| self.curves[edges[i].curve].at(t));
         let mut bow = || (rng.f64() - 0.5) * 0.16;
         let bows = [bow(), bow()];
-        let curve = Curve::new(from, to, if rng.u8(..3) == 0 { [0.0; 2] } else { bows });
+        let curve = Curve::new(from, to, if rng.u8(..3) == 0 || is_straight { [0.0; 2] } else { bows });
         let around: Vec<Vec<Point>> = edges.iter().map(|&edge| self.points(edge).collect()).collect();
         let is_clear = (2..=14).map(|k| curve.at(f64::from(k) / 16.0)).all(|place| {
             let mut sides = around.iter().flat_map(|line| line.windows(2));

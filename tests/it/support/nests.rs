@@ -2,7 +2,6 @@
 //! lies between is a part; both sides of a line are drawn by themselves, with points of their own, rounded by themselves.
 
 use std::f64::consts::PI;
-use std::fmt::Write as _;
 use std::io::Cursor;
 
 use cutc::back::TARGETS;
@@ -16,7 +15,7 @@ use fastrand::Rng;
 use super::cloth::{Cloth, Edge};
 
 /// Gaps between parts, mm; negative: they overlap.
-const GAPS: [f64; 5] = [-0.2, -0.1, 0.0, 0.1, 0.5];
+const GAPS: [f64; 6] = [-0.2, -0.1, 0.0, 0.1, 0.5, 2.0];
 /// Which notches stand in a nest.
 const MIXTURES: [&[Form]; 6] = [
     &[Form::V, Form::Box, Form::Castle],
@@ -34,6 +33,8 @@ const BESIDE: f64 = 1.6;
 const SAGITTA: f64 = 0.0125;
 /// Where the cloth begins, mm: no coordinate is negative.
 const AT: f64 = 50.0;
+/// Half of a side of a cut-out, and how far its middle is from the edges of its part at the least, mm.
+const CUT_OUT: [f64; 2] = [10.0, 25.0];
 
 /// What is drawn at an edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -99,6 +100,62 @@ impl Form {
     }
 }
 
+/// How a nest is written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Dialect {
+    /// A cut file in tenths of a millimetre.
+    Metric,
+    /// A cut file in hundredths of an inch.
+    Inch,
+    /// A plot.
+    Plot,
+}
+
+impl Dialect {
+    /// Of its numbers, mm.
+    fn unit(self) -> f64 {
+        match self {
+            Self::Metric => 0.1,
+            Self::Inch => 0.254,
+            Self::Plot => 0.025,
+        }
+    }
+
+    /// A line that is cut.
+    fn line(self, points: &[Point]) -> String {
+        let places = points.iter().map(|at| [at.x, at.y].map(|value| ((value + AT) / self.unit()).round()));
+        let (before, between) = if self == Self::Plot { ("", ",") } else { ("X", "Y") };
+        let mut places: Vec<String> = places.map(|[x, y]| format!("{before}{x:.0}{between}{y:.0}")).collect();
+        places.dedup();
+        let (first, rest) = (&places[0], &places[1..]);
+        if self == Self::Plot {
+            format!("PU{first};PD{};", rest.join(","))
+        } else {
+            format!("{first}*M14*{}*M15*", rest.join("*"))
+        }
+    }
+
+    /// The lines of a part, its outline first and slits last.
+    fn part(self, number: usize, lines: &[Vec<Point>], slits: &[Vec<Point>]) -> String {
+        let all = |lines: &[Vec<Point>], before: &str| -> String {
+            lines.iter().map(|line| format!("{before}{}", self.line(line))).collect()
+        };
+        if self == Self::Plot {
+            return all(lines, "") + &all(slits, "");
+        }
+        format!("N{number}*M15*{}{}", all(lines, ""), all(slits, "M19*"))
+    }
+
+    /// A file of parts.
+    fn file(self, parts: &str) -> String {
+        match self {
+            Self::Metric => format!("H1*G71*{parts}M0*\n"),
+            Self::Inch => format!("G91*{parts}M0*\n"),
+            Self::Plot => format!("IN;SP1;{parts}PU;SP0;PG;"),
+        }
+    }
+}
+
 /// What a nest is made of.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Recipe {
@@ -108,10 +165,17 @@ pub(crate) struct Recipe {
     pub(crate) forms: &'static [Form],
     /// Both parts of an edge have their notches at the same places.
     pub(crate) is_facing: bool,
-    /// In hundredths of an inch, else in tenths of a millimetre.
-    pub(crate) is_inch: bool,
+    pub(crate) dialect: Dialect,
     /// How far each part is moved at the most, mm.
     pub(crate) jitter: f64,
+    /// No edge is curved.
+    pub(crate) is_straight: bool,
+    /// A third of the parts more, small ones.
+    pub(crate) has_small: bool,
+    /// Every tenth part is none.
+    pub(crate) has_waste: bool,
+    /// Every fifth part has a square cut-out; none in plots, which do not cut what lies in parts.
+    pub(crate) has_cut_outs: bool,
 }
 
 /// A file with the notches that stand in it.
@@ -130,27 +194,26 @@ impl Recipe {
             gap: GAPS[pick % GAPS.len()],
             forms: MIXTURES[pick / GAPS.len() % MIXTURES.len()],
             is_facing: pick / 2 % 2 == 1,
-            is_inch: pick / 4 % 2 == 1,
+            dialect: [Dialect::Metric, Dialect::Inch, Dialect::Plot][pick / 4 % 3],
             jitter: [0.0, 0.05][pick / 3 % 2],
+            is_straight: pick / 5 % 4 == 1,
+            has_small: pick % 5 == 2,
+            has_waste: pick / 11 % 3 == 1,
+            has_cut_outs: pick / 7 % 3 == 1,
         }
     }
 
     /// The nest: the same recipe, the same bytes.
     pub(crate) fn nest(&self) -> Nest {
         let mut rng = Rng::with_seed(self.seed);
-        let cloth = Cloth::divided(self.parts, &mut rng);
-        let unit = if self.is_inch { 0.254 } else { 0.1 };
-        let xy = |at: Point| format!("X{:.0}Y{:.0}*", (at.x + AT) / unit, (at.y + AT) / unit);
-        let line = |points: &[Point]| {
-            let mut blocks: Vec<String> = points.iter().map(|&at| xy(at)).collect();
-            blocks.dedup();
-            format!("{}M14*{}M15*", blocks[0], blocks[1..].concat())
-        };
+        let cloth =
+            Cloth::divided([self.parts, if self.has_small { self.parts / 3 } else { 0 }], self.is_straight, &mut rng);
         let places: Vec<[f64; 2]> =
             cloth.curves.iter().map(|_| [rng.f64() * 0.35 + 0.1, rng.f64() * 0.35 + 0.55]).collect();
-        let mut text = String::from(if self.is_inch { "G91*" } else { "H1*G71*" });
+        let mut text = String::new();
         let mut notches = Notches::default();
-        for (part, number) in cloth.parts.iter().zip(1..) {
+        let is_drawn = |number: usize| !self.has_waste || number % 10 != 0;
+        for (part, number) in cloth.parts.iter().zip(1..).filter(|(_, number)| is_drawn(*number)) {
             let mut ring = Vec::new();
             for &edge in part {
                 ring.extend(self.side(&cloth, edge, &places[edge.curve], &mut rng));
@@ -166,7 +229,7 @@ impl Recipe {
                 let along = (to - from).normalize();
                 let place = |(x, y): (f64, f64)| from + (to - from) / 2.0 + along * x + left(along) * y;
                 outline.extend(form.outline().into_iter().map(place));
-                strokes.extend(form.strokes().iter().map(|ends| ends.map(place)));
+                strokes.extend(form.strokes().iter().map(|ends| ends.map(place).to_vec()));
             }
             let start = rng.usize(..outline.len());
             outline.rotate_left(start);
@@ -174,12 +237,12 @@ impl Recipe {
                 outline.reverse();
             }
             outline.push(outline[0]);
-            let _infallible = write!(text, "N{number}*M15*{}", line(&outline));
-            for stroke in strokes {
-                let _infallible = write!(text, "M19*{}", line(&stroke));
-            }
+            let has_cut_out = self.has_cut_outs && self.dialect != Dialect::Plot && number % 5 == 0;
+            let cut_out = if has_cut_out { cut_out(&at) } else { None };
+            let lines: Vec<Vec<Point>> = cut_out.into_iter().chain([outline]).collect();
+            text += &self.dialect.part(number, &lines, &strokes);
         }
-        Nest { text: text + "M0*\n", notches }
+        Nest { text: self.dialect.file(&text), notches }
     }
 
     /// An edge as one part draws it, without its end: points, each with what stands between it and the next.
@@ -212,6 +275,16 @@ impl Recipe {
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
         all.into_iter().map(|(station, form)| (curve.at(edge.from + station * per_mm), form)).collect()
     }
+}
+
+/// A square in the middle of a ring, where that is wide enough.
+fn cut_out(ring: &[Point]) -> Option<Vec<Point>> {
+    let middle = Point::from(ring.iter().map(|at| at.coords).sum::<Vector>() / ring.len() as f64);
+    let [half, least] = CUT_OUT;
+    let edges = (0..ring.len()).map(|i| [ring[i], ring[(i + 1) % ring.len()]]);
+    let is_wide = edges.map(|[a, b]| polyline::distance_to_segment(middle, a, b)).all(|away| away > least);
+    let corners = [(-half, -half), (half, -half), (half, half), (-half, half), (-half, -half)];
+    is_wide.then(|| corners.map(|(x, y)| middle + Vector::new(x, y)).to_vec())
 }
 
 /// The places of a ring moved into it.

@@ -62,7 +62,7 @@ fn make(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) -> Vec<Gr
     if style.depth_mm.is_some() && style.style != NotchStyle::Skip {
         style::check_depths(marker, &Cloth::new(marker, &job.profile), style, diagnostics);
     }
-    let nesting = Nesting::of(marker);
+    let nesting = Nesting::of(marker, job.profile.band(marker.unit));
     let asked = job.profile.common(marker.unit).map(|distance| Asked {
         near: Near { distance, slack: marker.unit * std::f64::consts::SQRT_2 },
         min: job.profile.common.min_mm,

@@ -3,11 +3,10 @@
 //! A notch of an outline that is cut as a slit, or not at all, leaves the outline: that runs straight over its mouth. The
 //! marker keeps it as it is drawn.
 
-use std::collections::BTreeMap;
-
 use crate::analysis::cloth::Cloth;
+use crate::analysis::mouths::mouths;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::geom::bits;
+use crate::geom::Point;
 use crate::ir::Marker;
 use crate::ir::list::Segment;
 use crate::ir::marker::{Notch, NotchKind, NotchStroke, OutlineNotch};
@@ -92,30 +91,23 @@ pub(super) struct Bridged {
 
 /// Leads an outline straight over the mouths of its notches: these, in the order of the outline.
 pub(super) fn bridge(outline: &mut Vec<Segment>, notches: &[OutlineNotch]) -> Vec<Bridged> {
-    let mut at: BTreeMap<[u64; 2], Vec<&OutlineNotch>> = BTreeMap::new();
-    for notch in notches {
-        at.entry(bits(notch.mouth[0])).or_default().push(notch);
-    }
+    let edges: Vec<[Point; 2]> = outline.iter().map(|segment| [segment.from, segment.to]).collect();
     let (drawn, count) = (outline.clone(), outline.len());
     let mut bridged = Vec::new();
     let mut is_gone = vec![false; count];
-    for (i, first) in drawn.iter().enumerate() {
-        let opens = at.get(&bits(first.from)).map_or(&[][..], Vec::as_slice);
-        let last = |notch: &OutlineNotch| drawn[(i + notch.segments as usize - 1) % count];
-        let fits = |notch: &&&OutlineNotch| (notch.segments as usize) < count && last(notch).to == notch.mouth[1];
-        let Some(&&notch) = opens.iter().find(fits).filter(|_| !is_gone[i]) else { continue };
+    for (i, notch) in mouths(&edges, notches) {
         let replaced = (0..notch.segments as usize).map(|k| (i + k) % count);
         let legs: Vec<Segment> = replaced.clone().map(|k| drawn[k]).collect();
-        let percent = legs.iter().map(|leg| leg.percent).min().unwrap_or(first.percent);
+        let percent = legs.iter().map(|leg| leg.percent).min().unwrap_or(drawn[i].percent);
+        let span = legs.last().map_or(drawn[i].span, |last| last.span);
         replaced.skip(1).for_each(|k| is_gone[k] = true);
-        outline[i] = Segment { to: notch.mouth[1], span: last(&notch).span, percent, ..*first };
-        bridged.push(Bridged { at: i, notch, legs, percent });
+        outline[i] = Segment { to: notch.mouth[1], span, percent, ..drawn[i] };
+        bridged.push(Bridged { at: i, notch: *notch, legs, percent });
     }
-    let mut count = (0..).peekable();
-    let places: Vec<Option<usize>> = is_gone.iter().map(|gone| count.next_if(|_| !gone)).collect();
+    let before = |kept: &mut usize, gone: &bool| Some(std::mem::replace(kept, *kept + usize::from(!gone)));
+    let places: Vec<usize> = is_gone.iter().scan(0, before).collect();
+    bridged.iter_mut().for_each(|bridged| bridged.at = places[bridged.at]);
     let mut is_gone = is_gone.into_iter();
     outline.retain(|_| !is_gone.next().unwrap_or_default());
-    // One that another begins within is none.
-    let placed = |bridged: Bridged| Some(Bridged { at: places[bridged.at]?, ..bridged });
-    bridged.into_iter().filter_map(placed).collect()
+    bridged
 }

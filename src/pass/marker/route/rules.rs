@@ -23,7 +23,7 @@ pub(super) struct Rules {
 impl Rules {
     /// Those of a marker.
     pub(super) fn of(marker: &Marker, job: &Job) -> Self {
-        let nesting = Nesting::of(marker);
+        let nesting = Nesting::of(marker, job.profile.band(marker.unit));
         let pieces = &marker.pieces;
         let mut held: Vec<Vec<usize>> = (0..pieces.len()).map(|piece| nesting.holders(piece)).collect();
         let steady = steady(marker, job);
