@@ -137,9 +137,10 @@ impl Tracer<'_> {
         let mut trials = std::mem::take(&mut trace.trials);
         self.weigh(&mut trials, coverage);
         // What a stroke cuts of the line that it names cannot be much exceeded by what it cuts of another when it is about
-        // all that it cuts: nearly always, and then the others need not be looked at.
+        // all that it cuts: nearly always, and then the others need not be looked at. Of a plunge cut all may be surplus, and
+        // its tip far from what it cuts.
         let enough = tolerance.max(cut.length() - self.slack);
-        if !trials.iter().any(|trial| trial.fresh >= enough) {
+        if cut.is_plunge_cut() || !trials.iter().any(|trial| trial.fresh >= enough) {
             let candidates = self.candidates(cut, &cut.probes(), |_| true);
             trials = candidates.iter().map(|candidate| self.follow(cut, candidate)).collect();
             self.weigh(&mut trials, coverage);
