@@ -8,7 +8,7 @@ use cutc::geom::{Point, Vector, polyline};
 use cutc::ir::list::Segment;
 use cutc::ir::marker::{Contour, Cut, CutKind, Notch, NotchKind};
 use cutc::ir::{Marker, text};
-use cutc::machine::{CommonLines, Job, Lines, Numbers, Selection};
+use cutc::machine::{CommonLines, Job, Lines, Numbers, Selection, Start};
 use cutc::pipeline::{self, Compiled};
 use cutc::source::Source;
 use cutc::verify::{self, Ground, Verdict};
@@ -102,6 +102,22 @@ fn each_outline_is_whole_where_that_is_asked_and_where_a_part_is_cut_alone() {
         let alone = compiled(&job);
         assert!(alone.report.common.is_none() && alone.verdict.is_some_and(|verdict| verdict.passes()));
     }
+}
+
+/// What was cut before the program was interrupted is not known to be: the parts that are left are cut whole, and their own
+/// common edges once.
+#[test]
+fn a_resumed_program_cuts_the_parts_that_are_left_whole() {
+    let parts = [[100, 100, 1000, 1000], [1000, 100, 2000, 1000], [100, 1000, 1000, 1900], [1000, 1000, 2000, 1900]];
+    let source = rectangles(&parts, "");
+    let all = made(&source, &Job::default()).report;
+    let selection = Selection { resume_from: Some(Start { number: 3, copy: 1 }), ..Selection::default() };
+    let rest = made(&source, &Job { selection, ..Job::default() });
+    assert!(rest.verdict.is_some_and(|verdict| verdict.passes()));
+    let length = |report: &pipeline::Report| report.common.as_ref().map_or(0.0, |common| common.length_m);
+    // Four edges of about 90 mm; the last two parts share one of them.
+    assert!((length(&all) - 0.37).abs() < 1e-6 && (length(&rest.report) - 0.09).abs() < 1e-6);
+    assert!((rest.report.cut_m - (4.0 * 0.09 + 2.0 * 0.09 + 2.0 * 0.1 - 0.09)).abs() < 0.002, "{}", rest.report.cut_m);
 }
 
 /// A machine that cuts nothing past the ends of cuts, with a blade that is narrower than the legs of notches are long: what

@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 
 use cutc::ir::declaration::{Declaration, Kind, Which};
-use cutc::machine::{CommonLines, Job, Lines, Spare};
+use cutc::machine::{CommonLines, Job, Lines, NotchStyle, Spare};
 use cutc::pipeline::Compiled;
 
 use crate::support::nests::{Recipe, compiled as verified};
@@ -247,6 +247,57 @@ fn whatever_notches_stand_on_common_edges_nothing_is_refused() {
                 // Four edges of 80 mm, and 300 mm between the rows, 40 less where they are shifted.
                 let expected = if gap.abs() <= WITHIN * BAND { if is_facing { 0.62 } else { 0.58 } } else { 0.0 };
                 assert!((expected - 0.02..=expected + 0.03).contains(&length) || gap == -0.2, "{case}: {length} m");
+            }
+        }
+    }
+}
+
+/// A part of 100 by 80 mm in a cut-out of another, so many units of 0.1 mm smaller than that on each side.
+fn filled(gap: i32, is_first: bool) -> String {
+    let ring = |[left, low, right, high]: [i32; 4]| {
+        let corners = [(left, low), (right, low), (right, high), (left, high), (left, low)];
+        let at = corners.map(|(x, y)| format!("X{x}Y{y}*"));
+        format!("M15*{}M14*{}M15*", at[0], at[1..].concat())
+    };
+    let outer = format!("N1*{}{}", ring([600, 600, 1600, 1400]), ring([100, 100, 2100, 1900]));
+    let inner = format!("N2*{}", ring([600 + gap, 600 + gap, 1600 - gap, 1400 - gap]));
+    let parts = if is_first { inner + &outer } else { outer + &inner };
+    format!("H1*G71*{parts}M0*")
+}
+
+#[test]
+fn a_part_that_fills_a_cut_out_lies_in_it_whichever_of_the_two_was_rounded_up() {
+    let mut whole = Job::default();
+    whole.profile.common.lines = Lines::Word(CommonLines::Off);
+    for (gap, is_first) in [(-1, true), (-1, false), (0, true), (0, false), (1, true), (1, false), (20, true)] {
+        let case = format!("{gap} units, the part first: {is_first}");
+        let nest = filled(gap, is_first);
+        let length = made(&nest, &case, &Job::default()).0.report.common.map_or(0.0, |common| common.length_m);
+        assert_eq!((length * 100.0).round(), if gap == 20 { 0.0 } else { 36.0 }, "{case}");
+        let (compiled, _) = made(&nest, &case, &whole);
+        assert!((compiled.report.cut_m - (1.48 - 0.0008 * f64::from(gap))).abs() < 1e-6, "{case}");
+    }
+}
+
+/// The cloth of a notch that is cut as a slit, or not at all, stays with its part: what a blade cuts of it is declared.
+#[test]
+fn slits_that_were_drawn_as_notches_are_cut_beside_the_parts_they_face() {
+    for apart in [0, 1, 5, 12] {
+        let nest = format!(
+            "H1*G71*N1*M15*X100Y100*M14*X2000Y100*X2000Y1000*X1010Y1000*X1000Y960*X990Y1000*X100Y1000*X100Y100*M15*\
+             N2*M15*X100Y{y}*M14*X{}Y{y}*X{}Y{}*X{}Y{y}*X2000Y{y}*X2000Y1900*X100Y1900*X100Y{y}*M15*M0*",
+            990 + apart,
+            1000 + apart,
+            1041,
+            1010 + apart,
+            y = 1001,
+        );
+        for style in [NotchStyle::AsDrawn, NotchStyle::Slit, NotchStyle::Skip] {
+            for lines in [CommonLines::Auto, CommonLines::Off] {
+                let mut job = Job::default();
+                job.profile.notch.style = style;
+                job.profile.common.lines = Lines::Word(lines);
+                made(&nest, &format!("{apart} units apart, {style:?}, {lines:?}"), &job);
             }
         }
     }

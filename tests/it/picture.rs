@@ -9,10 +9,11 @@ use cutc::ir::finding::Sighting;
 use cutc::ir::list::{Joint, Segment};
 use cutc::ir::marker::{Contour, Drill, Label, Marker, Notch, NotchForm, NotchKind, OutlineNotch, Piece};
 use cutc::ir::{Finding, Toolpath};
-use cutc::machine::Job;
+use cutc::machine::{CommonLines, Job, Lines};
 use cutc::source::{Source, Span};
 
-use crate::support;
+use crate::support::{self, with_cuts};
+use crate::verifier::case;
 
 /// The paper's square with a slit and a drill; beside it a circle, numbered 12.
 fn demo() -> Marker {
@@ -199,6 +200,20 @@ fn the_worst_places_are_ringed_red_where_a_rule_fails_and_amber_where_it_holds()
     let height = |text: &str| numbers(attribute(text, "viewBox"))[3];
     assert!(height(&text) > height(&plain) && elements(&text).len() > elements(&plain).len());
     assert_eq!(attribute(&text, "height"), format!("{:.3}mm", height(&text)));
+}
+
+#[test]
+fn common_edges_are_drawn_where_they_are_cut_once_and_the_legend_tells_how_long_they_are() {
+    let marker = with_cuts(&case::marker("touching-parts", &Job::default()), &Job::default());
+    let text = picture(&marker, &Job::default(), &[]);
+    assert!(!marker.common.is_empty());
+    assert_eq!(count(drawing(&text), "common"), marker.common.len());
+    let legend = text.split("<g id=\"legend\"").nth(1).expect("there is a legend");
+    assert!(legend.contains(&format!("common edges: {}, ", marker.common.len())), "{legend}");
+    let mut whole = Job::default();
+    whole.profile.common.lines = Lines::Word(CommonLines::Off);
+    let marker = with_cuts(&case::marker("touching-parts", &whole), &whole);
+    assert!(!picture(&marker, &whole, &[]).contains("common edge"));
 }
 
 #[test]

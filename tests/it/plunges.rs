@@ -71,6 +71,18 @@ fn plunges_lie_as_the_verifier_has_them() {
     }
 }
 
+/// A blade of 9 mm that cuts a chord of 0.8 mm has its tip beside another line of the same instruction.
+#[test]
+fn round_notches_of_plots_are_nibbled_with_blades_longer_than_they_are_deep() {
+    let plot = "IN;SP1;PU6000,2000;PD9920,2000,9920,2120,9926,2151,9943,2177,9969,2194,10000,2200,10031,2194,10057,2177,\
+        10074,2151,10080,2120,10080,2000,14000,2000,14000,6800,6000,6800,6000,2000;PU;SP0;PG;";
+    for width in [6.6, 7.5, 7.9, 8.89, 10.0] {
+        let mut job = Job::default();
+        (job.profile.knife.width_mm, job.profile.knife.back_mm) = (width, Some(6.0));
+        compiled(plot, "csv", &job).unwrap_or_else(|why| panic!("{width} mm: {why}"));
+    }
+}
+
 /// A slit of 30 by 1 units is 3.002 mm long: between plunge and lift there is no way that the blade could go.
 #[test]
 fn a_slit_hardly_longer_than_the_blade_is_one_plunge() {
