@@ -13,8 +13,8 @@ pub(super) struct Line {
     pub(super) stations: Vec<f64>,
     /// Whether it ends where it starts.
     pub(super) closed: bool,
-    /// The least and the greatest block that it came from.
-    pub(super) blocks: [u32; 2],
+    /// The blocks that it came from, in order.
+    pub(super) blocks: Vec<u32>,
 }
 
 /// All cuts.
@@ -39,14 +39,10 @@ impl Lines {
     pub(super) fn new(marker: &Marker) -> Self {
         let line = |cut: &crate::ir::marker::Cut| {
             let points = marker.list.points(cut.range).into_owned();
-            let blocks = marker.list.spans(cut.range);
-            let blocks = blocks.iter().map(|span| span.block);
-            Line {
-                stations: polyline::stations(&points),
-                points,
-                closed: cut.kind.is_closed(),
-                blocks: [blocks.clone().min().unwrap_or(0), blocks.max().unwrap_or(0)],
-            }
+            let mut blocks: Vec<u32> = marker.list.spans(cut.range).iter().map(|span| span.block).collect();
+            blocks.sort_unstable();
+            blocks.dedup();
+            Line { stations: polyline::stations(&points), points, closed: cut.kind.is_closed(), blocks }
         };
         let all: Vec<Line> = marker.cuts.iter().map(line).collect();
         let segments: Vec<(usize, usize)> =
