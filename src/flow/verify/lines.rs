@@ -1,8 +1,8 @@
-//! The cuts of a marker, as lines to which places of blades are compared.
+//! What must be cut of a marker, as lines to which places of blades are compared.
 
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, Vector, polyline};
-use crate::ir::Marker;
+use crate::verify::{Required, RequiredCut};
 
 /// A cut.
 #[derive(Debug)]
@@ -36,15 +36,15 @@ pub(super) struct Foot {
 }
 
 impl Lines {
-    pub(super) fn new(marker: &Marker) -> Self {
-        let line = |cut: &crate::ir::marker::Cut| {
-            let points = marker.list.points(cut.range).into_owned();
-            let mut blocks: Vec<u32> = marker.list.spans(cut.range).iter().map(|span| span.block).collect();
-            blocks.sort_unstable();
-            blocks.dedup();
-            Line { stations: polyline::stations(&points), points, closed: cut.kind.is_closed(), blocks }
+    /// Those that are required.
+    pub(super) fn new(required: &Required) -> Self {
+        let line = |cut: &RequiredCut| Line {
+            stations: polyline::stations(&cut.points),
+            points: cut.points.clone(),
+            closed: cut.closed,
+            blocks: cut.blocks.clone(),
         };
-        let all: Vec<Line> = marker.cuts.iter().map(line).collect();
+        let all: Vec<Line> = required.cuts.iter().map(line).collect();
         let segments: Vec<(usize, usize)> =
             all.iter().enumerate().flat_map(|(i, line)| (0..line.points.len() - 1).map(move |k| (i, k))).collect();
         let extent = |&(i, k): &(usize, usize)| Extent::between(all[i].points[k], all[i].points[k + 1]);
