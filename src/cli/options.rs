@@ -169,7 +169,8 @@ pub(super) struct Choice {
     /// Follow cloth that wanders on its conveyor: the line of its centre, as `cutc track -t centre` writes it
     ///
     /// Every place is moved across by as much as the centre of the cloth is off the middle when the conveyor is at its X; lines
-    /// are parted so that they follow within a part of the tolerance.
+    /// are parted so that they follow within a part of the tolerance. `cutc flow` has the front of the marker come first
+    /// (`flow.rulers_mm`).
     #[arg(long, value_name = "FILE")]
     centre: Option<PathBuf>,
 }
@@ -210,7 +211,7 @@ impl Choice {
             let source = files::read(path)?;
             let mut found = Diagnostics::default();
             match track::centre::read(&source, &mut found) {
-                Some(line) => centre = Some(Arc::new(Centre { line, source })),
+                Some(line) => centre = Some(Arc::new(Centre { line, source: Arc::new(source), rulers: None })),
                 None => return Ok(Err(unfit(&found, &source))),
             }
         }

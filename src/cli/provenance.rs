@@ -54,10 +54,18 @@ struct Scale {
 
 /// The file of a centre line.
 #[derive(Serialize)]
-struct CentreFile {
+pub(super) struct CentreFile {
     /// Without its directory.
     file: String,
     sha256: String,
+}
+
+impl CentreFile {
+    /// That of a job; `None` where it has none.
+    pub(super) fn of(job: &Job) -> Option<Self> {
+        let centre = job.centre.as_ref()?;
+        Some(Self { file: file_name(&centre.source), sha256: sha256_hex(centre.source.bytes()) })
+    }
 }
 
 /// Units of the setpoints.
@@ -119,10 +127,7 @@ pub(super) fn json(Made { source, job, target, verified, blake3, cut, options }:
         verified: *verified,
         program_blake3: blake3,
         declared: cut.and_then(|cut| cut.declared),
-        centre: job
-            .centre
-            .as_ref()
-            .map(|centre| CentreFile { file: file_name(&centre.source), sha256: sha256_hex(centre.source.bytes()) }),
+        centre: CentreFile::of(job),
         options,
     })
 }

@@ -11,12 +11,3 @@ pub enum Speed {
     /// As fast as the heads can follow.
     Most,
 }
-
-/// By how much the cloth lies farther to +Y than it should when the conveyor is at a position, mm for mm: what a tracker of
-/// its centre found.
-pub type Shift<'a> = &'a (dyn Fn(f64) -> f64 + Sync);
-
-/// Cloth that lies where it should.
-pub fn straight(_: f64) -> f64 {
-    0.0
-}

@@ -30,7 +30,7 @@ pub mod verify;
 mod write;
 mod yielding;
 
-pub use asked::{Shift, Speed, straight};
+pub use asked::Speed;
 pub use bound::Bounds;
 pub use heads::Start;
 pub use link::{State, Wait};

@@ -1,5 +1,7 @@
 //! Where the centre of the cloth is by where the conveyor is.
 
+use std::sync::Arc;
+
 use crate::source::Source;
 
 /// The line that the centre of a moving cloth takes across its conveyor.
@@ -39,6 +41,13 @@ impl CentreLine {
         }
     }
 
+    /// The same by places of a cloth that runs towards +X, mm, where rulers at `rulers` mm have found it: those see the front
+    /// first.
+    #[must_use]
+    pub fn on_cloth(&self, rulers: f64) -> Self {
+        Self { rows: self.rows.iter().rev().map(|[conveyor, centre]| [rulers - conveyor, *centre]).collect() }
+    }
+
     /// The line through some of its rows that is never farther from it than `within`, mm: from each row on it goes to the last
     /// one that it can.
     #[must_use]
@@ -73,7 +82,10 @@ pub struct Centre {
     /// The line.
     pub line: CentreLine,
     /// The file.
-    pub source: Source,
+    pub source: Arc<Source>,
+    /// The place of the rulers, mm, where the cloth runs to +X under them, as over the conveyor of `cutc flow`; `None` where
+    /// the conveyor counts the X that it brings.
+    pub rulers: Option<f64>,
 }
 
 #[cfg(test)]

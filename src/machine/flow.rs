@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::fault::Fault;
-use super::key::{Key, SPEED, Takes, from};
+use super::key::{Key, SPEED, Takes, between, from};
 
 /// The keys `flow.*`.
 #[rustfmt::skip] // a table: one row a key
@@ -16,6 +16,7 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "flow.first_row_mm", takes: Takes::Number(from(0.0, 100_000.0)), about: "From where the front of the marker lies when the conveyor counts 0 to the station of the\nfirst row." },
     Key { name: "flow.row_pitch_mm", takes: Takes::Number(from(1.0, 100_000.0)), about: "From the station of one row to that of the next." },
     Key { name: "flow.head_width_mm", takes: Takes::Number(from(0.0, 10_000.0)), about: "Room that a head takes across the feed: two of one row come no nearer to each other." },
+    Key { name: "flow.rulers_mm", takes: Takes::Number(between(-100_000.0, 100_000.0)), about: "From where the front of the marker lies when the conveyor counts 0 to the rulers under which a\ncentre line was found (`--centre`)." },
     Key { name: "flow.overlap_mm", takes: Takes::Number(from(0.0, 100.0)), about: "How far a head cuts on along the line where another one takes over; the two overlap by twice\nthat." },
 ];
 
@@ -39,6 +40,8 @@ pub struct Flow {
     pub row_pitch_mm: f64,
     /// Across the feed.
     pub head_width_mm: f64,
+    /// From the front of the marker.
+    pub rulers_mm: f64,
     /// Of each of two heads.
     pub overlap_mm: f64,
 }
@@ -54,6 +57,7 @@ impl Default for Flow {
             first_row_mm: 300.0,
             row_pitch_mm: 600.0,
             head_width_mm: 80.0,
+            rulers_mm: 0.0,
             overlap_mm: 2.0,
         }
     }

@@ -112,7 +112,7 @@ pub(super) fn judge(
 }
 
 /// What was read of the source against its bytes, and what the passes kept of that.
-pub(super) fn audited(source: &Source, dialect: &Dialect, reading: Reading, job: &Job) -> Vec<Finding> {
+pub fn audited(source: &Source, dialect: &Dialect, reading: Reading, job: &Job) -> Vec<Finding> {
     let Reading { census, patterns, kept, laid } = reading;
     let audit = match patterns {
         Some(places) => Some(verify::pattern_audit(source.bytes(), &places, job)),

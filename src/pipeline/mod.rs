@@ -21,7 +21,7 @@ mod toolpaths;
 pub use crate::analysis::area;
 pub use crate::analysis::waits::{Waits, waits};
 pub use input::{Input, Judged, Reading, marker_of, read, read_to_judge};
-pub use judge::{about, advice, figures, foreign, judge_program};
+pub use judge::{about, advice, audited, figures, foreign, judge_program};
 pub use product::{Medium, Product};
 pub use report::{Axes, Common, Controller, Drawn, Lines, Notches, Peak, Peaks, Program, Report, Sides};
 pub use rounded::significant;

@@ -34,7 +34,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("sew", &["source", "diagnostic", "units", "geom", "ir", "machine", "analysis", "front", "recognise"]),
     ("track", &["source", "diagnostic", "units", "machine"]),
     // Another machine: it cuts what the cutter cuts.
-    ("flow", &["source", "diagnostic", "units", "geom", "ir", "machine", "pass", "plan"]),
+    ("flow", &["source", "diagnostic", "units", "geom", "ir", "machine", "pass", "plan", "verify"]),
     ("manual", &[]),
     // The tables of the stages, but not what they do.
     (

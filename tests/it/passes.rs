@@ -35,7 +35,11 @@ fn job(input: &str) -> Job {
     let source = Source::new("centre.csv", text.into_bytes()).expect("small");
     let mut found = Diagnostics::default();
     let line = (!rows.is_empty()).then(|| centre::read(&source, &mut found).expect("a centre line"));
-    Job { profile, centre: line.map(|line| Arc::new(Centre { line, source })), ..Job::default() }
+    Job {
+        profile,
+        centre: line.map(|line| Arc::new(Centre { line, source: Arc::new(source), rulers: None })),
+        ..Job::default()
+    }
 }
 
 /// The text that a pass makes of a text, then what it says and what `ir::check` finds.

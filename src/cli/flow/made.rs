@@ -10,11 +10,12 @@ use super::earlier::{self, PLAN};
 use crate::cli::draft::{self, Draft};
 use crate::cli::files;
 use crate::cli::options::typed;
+use crate::cli::provenance::CentreFile;
 use crate::cli::report::pretty;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
-use crate::flow::verify::{self, Bytes, Ground, Verdict};
+use crate::flow::verify::{self, Bytes, Ground, Seen, Verdict};
 use crate::flow::{self, Kind, Program, Target};
-use crate::ir::Marker;
+use crate::ir::{Finding, Marker};
 use crate::machine::{Job, blake3_of, sha256_hex};
 use crate::source::Source;
 
@@ -28,6 +29,8 @@ pub(super) struct Made<'a> {
     pub(super) job: &'a Job,
     pub(super) marker: &'a Marker,
     pub(super) verify: bool,
+    /// What is known of the marker against the bytes that it was read from.
+    pub(super) audit: &'a [Finding],
 }
 
 /// What was written.
@@ -51,6 +54,8 @@ struct Provenance<'a> {
     target: String,
     verified: &'static str,
     program_blake3: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    centre: Option<CentreFile>,
     #[serde(skip_serializing_if = "String::is_empty")]
     options: String,
 }
@@ -65,7 +70,7 @@ impl Made<'_> {
                 Kind::Heads { write, bytes } => {
                     let mut programs = Vec::new();
                     for (i, head) in program.heads.iter().enumerate() {
-                        let put = |out: &mut dyn io::Write| write(program, head, &flow::straight, out);
+                        let put = |out: &mut dyn io::Write| write(program, head, out);
                         let (draft, file) = written(folder, &target.file(i), put)?;
                         plan.heads[i].files.push(file);
                         programs.push(draft);
@@ -108,14 +113,16 @@ impl Made<'_> {
 
     /// What the programs of a target are worth, from their bytes.
     fn judged(&self, plan: &str, bytes: Bytes, programs: &mut [Draft]) -> anyhow::Result<Verdict> {
-        let ground = Ground { marker: self.marker, profile: &self.job.profile, shift: &flow::straight };
+        let ground = Ground { marker: self.marker, profile: &self.job.profile };
         let mut open = |i: usize| -> io::Result<Box<dyn BufRead>> {
             let file = programs[i].file();
             file.rewind()?;
             Ok(Box::new(BufReader::with_capacity(BLOCK_BYTES, file.try_clone()?)))
         };
         let judged = verify::judge(plan, bytes, &mut open, &ground);
-        judged.map_err(|error| files::cannot_write(Path::new(PLAN), &error))
+        let mut verdict = judged.map_err(|error| files::cannot_write(Path::new(PLAN), &error))?;
+        verdict.seen.extend(self.audit.iter().map(|finding| Seen { finding: finding.clone(), head: None }));
+        Ok(verdict)
     }
 
     /// The provenance of a plan, as a draft of a file.
@@ -134,6 +141,7 @@ impl Made<'_> {
                 target: self.targets.iter().map(|target| target.name).collect::<Vec<_>>().join(","),
                 verified: if self.verify { "yes" } else { "no" },
                 program_blake3: &blake3,
+                centre: CentreFile::of(self.job),
                 options: typed(self.job),
             });
             meta.file().write_all(text.as_bytes())

@@ -7,7 +7,7 @@ mod summary;
 
 pub(super) use arguments::Arguments;
 
-use std::path::PathBuf;
+use std::sync::Arc;
 
 use self::earlier::PLAN;
 use self::made::Made;
@@ -19,18 +19,16 @@ use super::finished::{DONE, FAULTY, Finished, Stdout, failure, say};
 use super::options::counted;
 use crate::diagnostic::{Diagnostics, Severity, render_with};
 use crate::flow::{self, Program, Speed, TARGETS, Target};
-use crate::ir::Marker;
-use crate::machine::Job;
-use crate::machine::Mode;
-use crate::pipeline;
+use crate::ir::{Finding, Marker};
+use crate::machine::{Centre, Job, Mode};
+use crate::pipeline::{self, Judged};
 use crate::source::Source;
 
 pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     let targets = targets(arguments)?;
     let plan = arguments.out.join(PLAN);
-    let inputs = [Some(&arguments.file), arguments.reading.machine.profile.as_ref()];
-    let inputs: Vec<_> =
-        inputs.into_iter().flatten().filter(|path| !files::is_dash(path)).map(PathBuf::as_path).collect();
+    let inputs = [Some(&*arguments.file), arguments.reading.machine.profile.as_deref(), arguments.choice.centre()];
+    let inputs: Vec<_> = inputs.into_iter().flatten().filter(|path| !files::is_dash(path)).collect();
     writable(&plan, &inputs)?;
     if !arguments.force {
         not_of_another(&plan, &arguments.file)?;
@@ -52,12 +50,14 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
             "leave `--dry-run` and `--frame` out",
         ));
     }
+    let job = on_cloth(job, arguments, &source);
     let _made = MadeFolders::of([plan.as_path()])?;
     let mut diagnostics = Diagnostics::default();
-    let Some((marker, program)) = planned(arguments, &source, &job, &mut diagnostics) else {
+    let Some(Planned { marker, program, audit }) = planned(arguments, &source, &job, &mut diagnostics) else {
         return Ok(refused(arguments, &source, &diagnostics, &job));
     };
-    let made = Made { targets: &targets, source: &source, job: &job, marker: &marker, verify: !arguments.no_verify };
+    let verify = !arguments.no_verify;
+    let made = Made { targets: &targets, source: &source, job: &job, marker: &marker, verify, audit: &audit };
     let written = made.write(&program, &arguments.out, &mut diagnostics)?;
     if diagnostics.has_errors() {
         return Ok(refused(arguments, &source, &diagnostics, &job));
@@ -85,15 +85,36 @@ fn targets(arguments: &Arguments) -> anyhow::Result<Vec<&'static Target>> {
     Ok(if typed.is_empty() { vec![&TARGETS[0]] } else { typed.clone() })
 }
 
-/// What is cut, and by which heads.
-fn planned(arguments: &Arguments, source: &Source, job: &Job, out: &mut Diagnostics) -> Option<(Marker, Program)> {
-    let mut input = pipeline::read(source, arguments.reading.from, job, out)?;
+/// What is cut, by which heads, and what is known of it against the bytes of the file.
+struct Planned {
+    marker: Marker,
+    program: Program,
+    audit: Vec<Finding>,
+}
+
+fn planned(arguments: &Arguments, source: &Source, job: &Job, out: &mut Diagnostics) -> Option<Planned> {
+    let Judged { mut input, reading } = pipeline::read_to_judge(source, arguments.reading.from, job, out)?;
     pipeline::make_cuts(&mut input, source, job, out);
     if out.has_errors() {
         return None;
     }
     let program = flow::plan(&input.marker, arguments.speed.unwrap_or(Speed::Profile), job, out)?;
-    Some((input.marker, program))
+    let audit = pipeline::audited(source, input.dialect, reading, job);
+    Some(Planned { marker: input.marker, program, audit })
+}
+
+/// The job with its centre line by places of the cloth: the front of the marker comes under the rulers first.
+fn on_cloth(job: Job, arguments: &Arguments, source: &Source) -> Job {
+    let Some(centre) = &job.centre else { return job };
+    // What is found about the file is said where it is read for good; no place moves along the feed until then.
+    let plain = Job { centre: None, ..job.clone() };
+    let input = pipeline::read(source, arguments.reading.from, &plain, &mut Diagnostics::default());
+    let extent = input.map(|input| input.marker.extent()).filter(|extent| !extent.is_empty());
+    let Some(extent) = extent else { return job };
+    let rulers = extent.max.x + job.profile.flow.rulers_mm;
+    let line = centre.line.on_cloth(rulers);
+    let centre = Centre { line, source: Arc::clone(&centre.source), rulers: Some(rulers) };
+    Job { centre: Some(Arc::new(centre)), ..job }
 }
 
 /// What is said when nothing is written. Older programs are moved aside.

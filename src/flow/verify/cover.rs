@@ -40,10 +40,9 @@ impl<'a> Covers<'a> {
     /// How much of a stretch of a line is cut already, mm.
     pub(super) fn doubled(&self, line: usize, span: [f64; 2]) -> f64 {
         let length = self.lines.all[line].length();
-        let turns = if self.lines.all[line].closed { -2..=2 } else { 0..=0 };
         let mut sum = 0.0;
-        for turn in turns {
-            let by = f64::from(turn) * length;
+        for turn in turns(self.lines.all[line].closed) {
+            let by = turn * length;
             sum += self.of[line]
                 .iter()
                 .map(|cover| (span[1].min(cover.span[1] + by) - span[0].max(cover.span[0] + by)).max(0.0))
@@ -88,7 +87,8 @@ impl<'a> Covers<'a> {
             let overlap = reached.min(cover.span[1]) - cover.span[0];
             worst.see(Rule::Uncut, -overlap, uncut, Some(cover.place));
             if let Some(before) = last.filter(|_| overlap > -uncut) {
-                self.judge_join(line, before, cover, overlap, ground, worst);
+                let overlap = Join { overlap, covers: &covers, uncut };
+                self.judge_join(line, [before, cover], &overlap, ground, worst);
             }
             if last.is_none_or(|last| cover.span[1] > last.span[1]) {
                 last = Some(cover);
@@ -100,18 +100,64 @@ impl<'a> Covers<'a> {
     }
 
     /// Judges the overlap of two strokes that follow each other along a line.
-    fn judge_join(&self, line: usize, a: Cover, b: Cover, overlap: f64, ground: &Ground, worst: &mut Worst) {
+    fn judge_join(&self, line: usize, [a, b]: [Cover; 2], join: &Join, ground: &Ground, worst: &mut Worst) {
         let knife = &ground.profile.knife;
         let due = 2.0 * ground.profile.flow.overlap_mm;
         let rejoined = knife.corner_heel_overlap_mm + knife.corner_front_overlap_mm;
         let blade = if a.plunge || b.plunge { knife.width_mm } else { 0.0 };
-        worst.see(Rule::Twice, overlap, due.max(rejoined).max(blade) + 2.0 * END, Some(b.place));
+        worst.see(Rule::Twice, join.overlap, due.max(rejoined).max(blade) + 2.0 * END, Some(b.place));
         let at = f64::midpoint(a.span[1].min(b.span[1]), b.span[0]);
         let corner = ground.profile.corner.angle() * (1.0 - CORNER_EPSILON);
         let of = &self.lines.all[line];
         if a.head != b.head && of.turn_about(at, due + END) < corner {
             let point = polyline::place(&of.points, &of.stations, at.rem_euclid(of.length()));
+            let round = of.closed.then_some(of.length());
+            let overlap = if join.overlap < due { join.of_heads([a, b], round) } else { join.overlap };
             worst.see(Rule::Overlap, due - overlap, END, Some(Place { point, ..b.place }));
+        }
+    }
+}
+
+/// How many times round a line something may lie beside where it is counted.
+fn turns(closed: bool) -> impl Iterator<Item = f64> {
+    (if closed { -2..=2 } else { 0..=0 }).map(f64::from)
+}
+
+/// Where two strokes meet on a line.
+struct Join<'a> {
+    /// How much both cut, mm.
+    overlap: f64,
+    /// All that is cut of the line.
+    covers: &'a [Cover],
+    /// Strokes that are no farther from each other leave nothing uncut between them, mm.
+    uncut: f64,
+}
+
+impl Join<'_> {
+    /// How much the heads of two strokes both cut there, all that each cuts without a gap taken together: a head that lifts
+    /// its blade at a bend near the end of what it cuts has two strokes there.
+    fn of_heads(&self, strokes: [Cover; 2], round: Option<f64>) -> f64 {
+        let [a, b] = strokes.map(|stroke| self.together(stroke, round));
+        a[1].min(b[1]) - b[0]
+    }
+
+    /// What the head of a stroke cuts without a gap about it; on a closed line of a length round and round.
+    fn together(&self, stroke: Cover, round: Option<f64>) -> [f64; 2] {
+        let [mut low, mut high] = stroke.span;
+        loop {
+            let known = high - low;
+            let of_head = self.covers.iter().filter(|other| other.head == stroke.head);
+            let turned = |span: [f64; 2]| {
+                turns(round.is_some()).map(move |turn| span.map(|at| at + turn * round.unwrap_or(0.0)))
+            };
+            for [from, to] in of_head.flat_map(|other| turned(other.span)) {
+                if from <= high + self.uncut && to >= low - self.uncut {
+                    (low, high) = (low.min(from), high.max(to));
+                }
+            }
+            if high - low <= known || round.is_some_and(|length| high - low >= length) {
+                return [low, high];
+            }
         }
     }
 }

@@ -29,18 +29,18 @@ pub(super) fn judge(stroke: &Stroke, lines: &Lines, ground: &Ground, covers: &mu
         .into_iter()
         .filter_map(|line| Some((followed(&samples, &lines.all[line], tolerance)?, line)))
         .collect();
-    let longest = all.iter().map(|(found, _)| found.length()).fold(0.0, f64::max);
-    // A blade that is longer than its cut may lie along another line for longer.
-    let may_be = |(found, line): &&(Followed, usize)| {
-        found.length() > longest - ALIKE || found.length() > lines.all[*line].length() - ALIKE
-    };
-    // Where two lines lie on each other the rows tell which is meant; where a file has one twice each is cut once.
+    let way = |range: &[Sample]| range.windows(2).map(|ends| (ends[1].point - ends[0].point).norm()).sum::<f64>();
+    let beyond = |found: &Followed| [way(&samples[..=found.range[0]]), way(&samples[found.range[1]..])];
+    let farthest = farthest(stroke, ground);
     let rank = |(found, line): &(Followed, usize)| {
-        (!names(stroke, &lines.all[*line]), covers.doubled(*line, found.span()), -found.length())
+        let [before, behind] = beyond(found);
+        // What breaks no rule on a line is of none on which it breaks one.
+        let excess = (before.max(behind) - farthest).max(0.0) + (found.deviation - tolerance).max(0.0);
+        (excess, !names(stroke, &lines.all[*line]), covers.doubled(*line, found.span()), -found.length())
     };
-    let best = all.iter().filter(may_be).min_by(|a, b| {
+    let best = all.iter().min_by(|a, b| {
         let (a, b) = (rank(a), rank(b));
-        a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.total_cmp(&b.2))
+        a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.total_cmp(&b.2)).then(a.3.total_cmp(&b.3))
     });
     let Some(&(found, line)) = best else {
         worst.see(Rule::Stray, length, 0.0, Some(stroke.places[0]));
@@ -49,20 +49,8 @@ pub(super) fn judge(stroke: &Stroke, lines: &Lines, ground: &Ground, covers: &mu
     worst.see(Rule::Stray, 0.0, 0.0, None);
     heading::judge(stroke, &under(stroke, &found, &samples, &lines.all[line]), ground, worst);
     worst.see(Rule::Deviation, found.deviation, tolerance, Some(at(&samples[found.worst])));
-    let [from, to] = found.range;
-    let way = |range: &[Sample]| range.windows(2).map(|ends| (ends[1].point - ends[0].point).norm()).sum::<f64>();
-    let knife = &ground.profile.knife;
-    let overlaps = [
-        knife.heel_overlap_mm,
-        knife.corner_heel_overlap_mm,
-        knife.reflex_heel_overlap_mm,
-        knife.front_overlap_mm,
-        knife.corner_front_overlap_mm,
-        knife.reflex_front_overlap_mm,
-    ];
-    let longest = overlaps.into_iter().fold(0.0, f64::max) + if stroke.is_plunge() { knife.width_mm } else { 0.0 };
-    for (beyond, sample) in [(way(&samples[..=from]), from), (way(&samples[to..]), to)] {
-        worst.see(Rule::Overcut, beyond, longest + OVERCUT, Some(at(&samples[sample])));
+    for (beyond, sample) in beyond(&found).into_iter().zip(found.range) {
+        worst.see(Rule::Overcut, beyond, farthest, Some(at(&samples[sample])));
     }
     let is_named = names(stroke, &lines.all[line]);
     worst.count(Rule::Block, usize::from(!is_named), Some(stroke.places[0]));
@@ -82,13 +70,24 @@ fn under(stroke: &Stroke, found: &Followed, samples: &[Sample], line: &Line) -> 
     way
 }
 
-/// Two stretches that a stroke may follow are alike where their lengths differ by less, mm: ends are known no better where lines
-/// lie within the tolerance of each other.
-const ALIKE: f64 = 1.0;
+/// How far a stroke may go beyond the line that it cuts, mm.
+fn farthest(stroke: &Stroke, ground: &Ground) -> f64 {
+    let knife = &ground.profile.knife;
+    let overlaps = [
+        knife.heel_overlap_mm,
+        knife.corner_heel_overlap_mm,
+        knife.reflex_heel_overlap_mm,
+        knife.front_overlap_mm,
+        knife.corner_front_overlap_mm,
+        knife.reflex_front_overlap_mm,
+    ];
+    let surplus = if stroke.is_plunge() { knife.width_mm } else { 0.0 };
+    overlaps.into_iter().fold(0.0, f64::max) + surplus + OVERCUT
+}
 
 /// Whether all rows of a stroke name a block of a line.
 fn names(stroke: &Stroke, line: &Line) -> bool {
-    stroke.blocks[0] >= line.blocks[0] && stroke.blocks[1] <= line.blocks[1]
+    stroke.blocks.iter().all(|block| line.blocks.binary_search(block).is_ok())
 }
 
 /// How much farther than an overlap a blade may go beyond a line, mm: where it leaves it is known no better.

@@ -10,8 +10,6 @@ pub struct Ground<'a> {
     pub marker: &'a Marker,
     /// The machine.
     pub profile: &'a MachineProfile,
-    /// By how much the cloth lies farther to +Y when the conveyor is at a position, mm.
-    pub shift: &'a (dyn Fn(f64) -> f64 + Sync),
 }
 
 impl Ground<'_> {

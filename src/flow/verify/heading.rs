@@ -8,8 +8,9 @@ use super::worst::Worst;
 use crate::geom::{Point, Vector, angle};
 use crate::units::deg;
 
-/// The direction of a way is taken over so much of it, mm: less is rounding of rows.
-const LOOK: f64 = 0.1;
+/// The direction of a way is taken over so much of it to either side, mm: the rounding of rows of six decimals turns that by
+/// less than 0.02 degrees, and the tightest bend within a tolerance still looks straight over it.
+const LOOK: f64 = 0.005;
 
 /// Judges a stroke; `under` is the way that lies under the blade as it is plunged, without the leading end.
 pub(super) fn judge(stroke: &Stroke, under: &[Point], ground: &Ground, worst: &mut Worst) {

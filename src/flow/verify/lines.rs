@@ -1,8 +1,8 @@
-//! The cuts of a marker, as lines to which places of blades are compared.
+//! What must be cut of a marker, as lines to which places of blades are compared.
 
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, Vector, polyline};
-use crate::ir::Marker;
+use crate::verify::{Required, RequiredCut};
 
 /// A cut.
 #[derive(Debug)]
@@ -13,8 +13,8 @@ pub(super) struct Line {
     pub(super) stations: Vec<f64>,
     /// Whether it ends where it starts.
     pub(super) closed: bool,
-    /// The least and the greatest block that it came from.
-    pub(super) blocks: [u32; 2],
+    /// The blocks that it came from, in order.
+    pub(super) blocks: Vec<u32>,
 }
 
 /// All cuts.
@@ -36,19 +36,15 @@ pub(super) struct Foot {
 }
 
 impl Lines {
-    pub(super) fn new(marker: &Marker) -> Self {
-        let line = |cut: &crate::ir::marker::Cut| {
-            let points = marker.list.points(cut.range).into_owned();
-            let blocks = marker.list.spans(cut.range);
-            let blocks = blocks.iter().map(|span| span.block);
-            Line {
-                stations: polyline::stations(&points),
-                points,
-                closed: cut.kind.is_closed(),
-                blocks: [blocks.clone().min().unwrap_or(0), blocks.max().unwrap_or(0)],
-            }
+    /// Those that are required.
+    pub(super) fn new(required: &Required) -> Self {
+        let line = |cut: &RequiredCut| Line {
+            stations: polyline::stations(&cut.points),
+            points: cut.points.clone(),
+            closed: cut.closed,
+            blocks: cut.blocks.clone(),
         };
-        let all: Vec<Line> = marker.cuts.iter().map(line).collect();
+        let all: Vec<Line> = required.cuts.iter().map(line).collect();
         let segments: Vec<(usize, usize)> =
             all.iter().enumerate().flat_map(|(i, line)| (0..line.points.len() - 1).map(move |k| (i, k))).collect();
         let extent = |&(i, k): &(usize, usize)| Extent::between(all[i].points[k], all[i].points[k + 1]);

@@ -1,10 +1,12 @@
 //! The verifier of heads over a conveyor: judges from the bytes what blades do to the cloth, and heads to each other.
 //!
 //! Receives the plan and the programs of all heads, the marker that they must cut, and the profile. Shares no code with
-//! what plans and writes: it maps every row back to the cloth for itself, and finds for itself which cut a stroke follows.
+//! what plans and writes: what must be cut it has from the contours and notches of the marker, as the verifier of cutters
+//! finds it anew; it maps every row back to the cloth for itself, and finds for itself which cut a stroke follows.
 //! Never repairs anything.
 
 mod cover;
+mod drawn;
 mod follow;
 mod ground;
 mod heading;
@@ -34,6 +36,7 @@ use self::rows::Row;
 use self::strokes::{Stroke, Strokes};
 use self::worst::{Place, Worst};
 use crate::geom::Point;
+use crate::verify::required;
 
 /// What the programs of a plan are worth.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,7 +77,9 @@ pub fn judge(plan: &str, bytes: Bytes, open: Open, ground: &Ground) -> io::Resul
 fn judge_all(plan: &str, bytes: Bytes, open: Open, ground: &Ground, worst: &mut Worst) -> Result<(), Unread> {
     let plan = plan_file::read(plan)?;
     plan_file::judge(&plan, ground, worst);
-    let lines = Lines::new(ground.marker);
+    let required = required(ground.marker, ground.profile);
+    let lines = Lines::new(&required);
+    drawn::judge(&required, &lines, ground, worst);
     let mut covers = Covers::new(&lines);
     let mut row_mates: Vec<(u64, Vec<f64>)> = Vec::new();
     let mut count = None;
@@ -115,7 +120,7 @@ fn read_head(
     rows::read(bytes, input, &mut |row: Row| {
         let number = ys.len();
         let due = number as f64 * period;
-        let place = [station + row.place[0] - row.conveyor, row.place[1] - (ground.shift)(row.conveyor)];
+        let place = [station + row.place[0] - row.conveyor, row.place[1]];
         let point = Point::new(place[0], place[1]);
         let at = Place { head: i + 1, row: number, time: row.time, point };
         worst.see(Rule::Period, (row.time - due).abs(), ROW_TIME, Some(at));

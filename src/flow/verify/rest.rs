@@ -66,7 +66,6 @@ impl Rest {
 
     /// Sees the end of a program.
     pub(super) fn finish(self, head: usize, worst: &mut Worst) {
-        // Across the feed a head at rest follows cloth that wanders.
         let rests = |rows: &[(Row, Place)]| match rows {
             [(a, from), (b, to)] => {
                 let along = (a.place[0] - b.place[0]).abs();

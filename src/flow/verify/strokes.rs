@@ -15,8 +15,8 @@ pub(super) struct Stroke {
     pub(super) along: Vec<Vector>,
     /// Where each of these is in the program.
     pub(super) places: Vec<Place>,
-    /// The least and the greatest block that its rows name.
-    pub(super) blocks: [u32; 2],
+    /// The blocks that its rows name.
+    pub(super) blocks: Vec<u32>,
 }
 
 /// Gathers the strokes of a head.
@@ -60,8 +60,9 @@ impl Strokes {
         let along: Vec<Vector> = rows.iter().map(|row| row.1 * side).collect();
         let mut trace = vec![first.0 + along[0] * (lead - self.width)];
         trace.extend(rows.iter().zip(&along).map(|(row, along)| row.0 + along * lead));
-        let blocks = rows.iter().map(|row| row.3);
-        let blocks = [blocks.clone().min().unwrap_or(0), blocks.max().unwrap_or(0)];
+        let mut blocks: Vec<u32> = rows.iter().map(|row| row.3).collect();
+        blocks.sort_unstable();
+        blocks.dedup();
         debug_assert!(last.2.row >= first.2.row, "rows come in order");
         self.done.push(Stroke { trace, along, places: rows.iter().map(|row| row.2).collect(), blocks });
     }

@@ -8,7 +8,7 @@ use crate::ir::finding::Sighting;
 /// Where something is seen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Place {
-    /// The head, from 1.
+    /// The head, from 1; 0 = none.
     pub(super) head: usize,
     /// The row or record, from 0.
     pub(super) row: usize,
@@ -60,7 +60,7 @@ impl Worst {
             let ([worst, limit], place) = seen?;
             let sighting = |place: Place| Sighting {
                 time: Some(place.time),
-                line: Some(place.row as u64 + 1),
+                line: (place.head > 0).then_some(place.row as u64 + 1),
                 point: place.point,
                 block: 0,
             };
@@ -71,7 +71,7 @@ impl Worst {
                 unit: row.unit,
                 place: place.map(sighting),
             };
-            Some(Seen { finding, head: place.map(|place| place.head) })
+            Some(Seen { finding, head: place.map(|place| place.head).filter(|&head| head > 0) })
         };
         self.0.into_iter().zip(RULES).filter_map(seen).collect()
     }

@@ -6,7 +6,6 @@
 use std::io::{self, Write};
 
 use super::target::{Kind, Target};
-use crate::flow::asked::Shift;
 use crate::flow::program::{Head, Program};
 use crate::flow::verify::Bytes;
 use crate::units::{deg, number};
@@ -23,13 +22,13 @@ const DECIMALS: u32 = 6;
 /// Bytes that are gathered before they are written.
 const BLOCK: usize = 1 << 16;
 
-fn write(program: &Program, head: &Head, shift: Shift, out: &mut dyn Write) -> io::Result<()> {
+fn write(program: &Program, head: &Head, out: &mut dyn Write) -> io::Result<()> {
     let mut rows = b"t_s,conv_mm,x_mm,y_mm,c_deg,knife,block\n".to_vec();
     for setpoint in program.setpoints(head) {
         let conveyor = program.conveyor(setpoint.tick);
         let state = setpoint.state;
         number::push_fixed(&mut rows, setpoint.tick as f64 * program.period(), DECIMALS);
-        for value in [conveyor, state.xi, state.y + shift(conveyor), deg(state.c)] {
+        for value in [conveyor, state.xi, state.y, deg(state.c)] {
             rows.push(b',');
             number::push_fixed(&mut rows, value, DECIMALS);
         }

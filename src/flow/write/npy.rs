@@ -6,7 +6,6 @@
 use std::io::{self, Write};
 
 use super::target::{Kind, Target};
-use crate::flow::asked::Shift;
 use crate::flow::program::{Head, Program};
 use crate::flow::verify::Bytes;
 use crate::units::deg;
@@ -25,13 +24,13 @@ const MAGIC: &[u8] = b"\x93NUMPY\x01\x00";
 /// Bytes that are gathered before they are written.
 const BLOCK: usize = 1 << 16;
 
-fn write(program: &Program, head: &Head, shift: Shift, out: &mut dyn Write) -> io::Result<()> {
+fn write(program: &Program, head: &Head, out: &mut dyn Write) -> io::Result<()> {
     let mut bytes = header(program.ticks);
     for setpoint in program.setpoints(head) {
         let conveyor = program.conveyor(setpoint.tick);
         let state = setpoint.state;
         let time = setpoint.tick as f64 * program.period();
-        for value in [time, conveyor, state.xi, state.y + shift(conveyor), deg(state.c)] {
+        for value in [time, conveyor, state.xi, state.y, deg(state.c)] {
             bytes.extend_from_slice(&value.to_le_bytes());
         }
         bytes.push(u8::from(setpoint.knife));

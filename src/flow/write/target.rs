@@ -2,7 +2,6 @@
 
 use std::io::{self, Write};
 
-use crate::flow::asked::Shift;
 use crate::flow::program::{Head, Program};
 use crate::flow::verify::Bytes;
 use crate::ir::Marker;
@@ -26,7 +25,7 @@ pub enum Kind {
     /// A file a head, which is judged from its bytes.
     Heads {
         /// Writes it.
-        write: fn(&Program, &Head, Shift, &mut dyn Write) -> io::Result<()>,
+        write: fn(&Program, &Head, &mut dyn Write) -> io::Result<()>,
         /// How it is judged.
         bytes: Bytes,
     },

@@ -202,7 +202,7 @@ impl<'a> OfPiece<'a> {
 }
 
 /// What the marker says is cut of the contours of a piece when that is not all of them; `None` when it is.
-fn of_cuts(index: usize, marker: &Marker) -> Option<Vec<Outline<'_>>> {
+pub(super) fn of_cuts(index: usize, marker: &Marker) -> Option<Vec<Outline<'_>>> {
     if marker.cuts.is_empty() {
         return None;
     }

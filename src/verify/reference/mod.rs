@@ -17,6 +17,7 @@ pub(super) mod notches;
 pub(super) mod order;
 pub(super) mod outline;
 pub(super) mod parts;
+pub(super) mod required;
 pub(super) mod shared;
 pub(super) mod tight;
 pub(super) mod vertex;

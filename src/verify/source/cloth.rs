@@ -8,20 +8,27 @@ use crate::machine::Job;
 /// Rounding of places along the feed, mm: nothing moves a place there.
 const ALONG_EPSILON: f64 = 1e-6;
 
-/// A cloth by the rows of its centre line: place of the conveyor and of the centre, mm.
+/// A cloth by the rows of its centre line: place along the feed and of the centre, mm.
 #[derive(Debug, Clone)]
 pub(super) struct Cloth(Vec<[f64; 2]>);
 
 impl Cloth {
     /// That of a job; `None` where the cloth lies in the middle.
     pub(super) fn of(job: &Job) -> Option<Self> {
-        let bytes = job.centre.as_ref()?.source.bytes();
+        let centre = job.centre.as_ref()?;
+        let bytes = centre.source.bytes();
         let row = |line: &[u8]| {
             let comma = line.iter().position(|&byte| byte == b',')?;
             let number = |text: &[u8]| std::str::from_utf8(text).ok()?.trim().parse::<f64>().ok();
             Some([number(&line[..comma])?, number(&line[comma + 1..])?])
         };
-        Some(Self(bytes.split(|&byte| byte == b'\n').filter_map(row).collect()))
+        let mut rows: Vec<[f64; 2]> = bytes.split(|&byte| byte == b'\n').filter_map(row).collect();
+        if let Some(rulers) = centre.rulers {
+            // While the conveyor counts up, what is under the rulers has ever less X.
+            rows.iter_mut().for_each(|row| row[0] = rulers - row[0]);
+            rows.reverse();
+        }
+        Some(Self(rows))
     }
 
     /// How far the cloth is carried across at a place along the feed, mm; not a number where nothing tells.

@@ -2,11 +2,15 @@
 
 use std::collections::BTreeSet;
 
+use cutc::diagnostic::Diagnostics;
 use cutc::flow::verify::{Bytes, RULES};
+use cutc::flow::{self, Speed};
+use cutc::geom::polyline;
+use cutc::ir::marker::{Cut, CutKind};
 use cutc::machine::Job;
 use serde_json::{Value, json};
 
-use super::{job, judged, planned, written};
+use super::{Planned, broken, job, judged, planned, written};
 
 /// Two discs, cut by four heads: their plan, and the rows of each head, the first of which are names.
 struct Case {
@@ -192,5 +196,25 @@ fn damaged_records_are_refused() {
         &|bytes| bytes.clear(),
     ] {
         assert_eq!(spoilt(damage), ["flow-verify/format"]);
+    }
+}
+
+#[test]
+fn what_a_pass_over_the_marker_loses_is_seen() {
+    for lines in ["common.lines=off", "common.lines=auto"] {
+        let job = job(&["flow.heads=60", "flow.rows=30", lines]);
+        let Planned { mut marker, .. } = planned("flow/touching-notched.cut", 50.0, &job);
+        let length = |cut: &Cut| polyline::length(&marker.list.points(cut.range));
+        for kind in [CutKind::Slit, CutKind::Outline, CutKind::Edge] {
+            let of_kind = marker.cuts.iter().enumerate().filter(|(_, cut)| cut.kind == kind);
+            let Some((lost, cut)) = of_kind.max_by(|a, b| length(a.1).total_cmp(&length(b.1))) else { continue };
+            let cut = *cut;
+            marker.cuts.remove(lost);
+            let program = flow::plan(&marker, Speed::Of(50.0), &job, &mut Diagnostics::default());
+            let spoilt = Planned { marker: marker.clone(), program: program.expect("fewer cuts are no harder") };
+            let found = broken(&spoilt, &job);
+            assert!(found.iter().any(|found| found.contains("flow-verify/uncut")), "{lines} {kind:?}: {found:?}");
+            marker.cuts.insert(lost, cut);
+        }
     }
 }

@@ -64,7 +64,7 @@ fn written(planned: &Planned, job: &Job, name: &str) -> (String, Vec<Vec<u8>>) {
     let Kind::Heads { write, .. } = target(name).kind else { panic!("{name} is no program") };
     let head = |head: &flow::Head| {
         let mut bytes = Vec::new();
-        write(program, head, &flow::straight, &mut bytes).expect("a vector takes bytes");
+        write(program, head, &mut bytes).expect("a vector takes bytes");
         bytes
     };
     (plan, program.heads.iter().map(head).collect())
@@ -72,7 +72,7 @@ fn written(planned: &Planned, job: &Job, name: &str) -> (String, Vec<Vec<u8>>) {
 
 /// What some bytes are worth.
 fn judged(marker: &Marker, job: &Job, plan: &str, bytes: Bytes, heads: &[Vec<u8>]) -> Verdict {
-    let ground = Ground { marker, profile: &job.profile, shift: &flow::straight };
+    let ground = Ground { marker, profile: &job.profile };
     let mut open = |i: usize| -> std::io::Result<Box<dyn BufRead>> { Ok(Box::new(Cursor::new(heads[i].clone()))) };
     verify::judge(plan, bytes, &mut open, &ground).expect("memory is readable")
 }

@@ -37,7 +37,7 @@ fn job(text: &str) -> Job {
     let source = source("cloth.centre.csv", text);
     let mut out = Diagnostics::default();
     let line = centre::read(&source, &mut out).unwrap_or_else(|| panic!("{}", render(&out, &source)));
-    Job { centre: Some(Arc::new(Centre { line, source })), ..Job::default() }
+    Job { centre: Some(Arc::new(Centre { line, source: Arc::new(source), rulers: None })), ..Job::default() }
 }
 
 fn marker_source() -> Source {

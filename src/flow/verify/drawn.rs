@@ -1,0 +1,96 @@
+//! Whether what is cut is what is drawn: where parts have edges in common one cut stands for two of them, near to both.
+
+use super::ground::Ground;
+use super::lines::Lines;
+use super::rules::Rule;
+use super::worst::{Place, Worst};
+use crate::geom::boxes::Boxes;
+use crate::geom::{Extent, Point, polyline};
+use crate::verify::Required;
+
+/// Places of an edge that are looked at are no farther from each other, mm.
+const STEP: f64 = 0.5;
+/// How far past its own edge a cut may go to be through the cut of another part, in distances of two edges that are cut
+/// once.
+const ACROSS: f64 = 4.0;
+
+/// Judges cuts against edges.
+pub(super) fn judge(required: &Required, lines: &Lines, ground: &Ground, worst: &mut Worst) {
+    let near = required.common + ground.tolerance();
+    let uncut = ground.profile.verify.max_uncut_mm + ground.tolerance();
+    for edge in &required.edges {
+        let (length, at) = longest_off(edge, |place| lines.near(place, near).next().is_some());
+        worst.see(Rule::Uncut, length, uncut, Some(of_none(at)));
+    }
+    let chords = |points: &[Point]| points.windows(2).map(|ends| [ends[0], ends[1]]).collect::<Vec<_>>();
+    let drawn = required.cuts.iter().filter(|cut| cut.drawn).map(|cut| &cut.points);
+    let drawn: Vec<[Point; 2]> = drawn.chain(&required.edges).flat_map(|points| chords(points)).collect();
+    let boxes = Boxes::new(drawn.iter().map(|&[from, to]| Extent::between(from, to)).collect());
+    let reach = ACROSS * required.common + ground.tolerance();
+    let is_drawn = |place: Point| {
+        let mut near = boxes.near(Extent::between(place, place).grown(reach)).map(|i| drawn[i]);
+        near.any(|[from, to]| polyline::distance_to_segment(place, from, to) <= reach)
+    };
+    for cut in required.cuts.iter().filter(|cut| !cut.drawn) {
+        let (length, at) = longest_off(&cut.points, is_drawn);
+        worst.see(Rule::Stray, length, uncut, Some(of_none(at)));
+    }
+}
+
+/// A place on the cloth, in the program of no head.
+fn of_none(point: Point) -> Place {
+    Place { head: 0, row: 0, time: 0.0, point }
+}
+
+/// The longest stretch of a line all of whose places are not on something, mm, and where it begins.
+fn longest_off(points: &[Point], is_on: impl Fn(Point) -> bool) -> (f64, Point) {
+    let stations = polyline::stations(points);
+    let count = (stations[stations.len() - 1] / STEP).ceil().max(1.0);
+    let step = stations[stations.len() - 1] / count;
+    let (mut longest, mut at) = (0.0, points[0]);
+    let mut off: Option<(f64, Point)> = None;
+    for i in 0..=count as u64 {
+        let station = i as f64 * step;
+        let place = polyline::place(points, &stations, station);
+        if is_on(place) {
+            off = None;
+            continue;
+        }
+        let (from, begin) = *off.get_or_insert((station, place));
+        // A place stands for the step about it.
+        if station - from + step > longest {
+            (longest, at) = (station - from + step, begin);
+        }
+    }
+    (longest, at)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ir::Marker;
+    use crate::machine::MachineProfile;
+    use crate::verify::RequiredCut;
+
+    /// What is said of a cut for two parts, one of which has its edge 0.2 mm aside.
+    fn broken(cut: &[(f64, f64)]) -> Vec<&'static str> {
+        let points = |list: &[(f64, f64)]| list.iter().map(|&(x, y)| Point::new(x, y)).collect::<Vec<_>>();
+        let cuts = vec![RequiredCut { points: points(cut), closed: false, blocks: vec![1], drawn: false }];
+        let edges = vec![points(&[(0.0, 0.0), (100.0, 0.0)]), points(&[(100.0, 0.2), (0.0, 0.2)])];
+        let required = Required { cuts, edges, common: 0.3 };
+        let (marker, profile) = (Marker::default(), MachineProfile::default());
+        let mut worst = Worst::new();
+        judge(&required, &Lines::new(&required), &Ground { marker: &marker, profile: &profile }, &mut worst);
+        let seen = worst.findings();
+        seen.iter().filter(|seen| !seen.finding.holds()).map(|seen| seen.finding.rule).collect()
+    }
+
+    #[test]
+    fn one_cut_stands_for_two_edges_all_along_and_for_nothing_else() {
+        assert!(broken(&[(0.0, 0.0), (100.0, 0.0)]).is_empty());
+        assert!(broken(&[(0.0, 0.0), (101.0, 0.1)]).is_empty());
+        assert_eq!(broken(&[(0.0, 0.0), (96.0, 0.0)]), ["flow-verify/uncut"]);
+        assert_eq!(broken(&[(0.0, 0.0), (50.0, 0.0), (50.0, 9.0), (50.0, 0.0), (100.0, 0.0)]), ["flow-verify/stray"]);
+        assert_eq!(broken(&[(0.0, 3.0), (100.0, 3.0)]), ["flow-verify/stray", "flow-verify/uncut"]);
+    }
+}
