@@ -20,6 +20,10 @@ const STILL: f64 = 2.0;
 /// Greatest part of all the turn under a blade that one vertex of a curve makes; one that makes more is a bend.
 const BEND_SHARE: f64 = 0.7;
 
+/// Length of a run, in widths of the blade, that is looked at from where it plunges: on any curve that it lies on it spans
+/// less.
+pub const REACH: f64 = 4.0;
+
 /// How the start of an open run lies beside the blade that is plunged there.
 #[derive(Debug, Clone, Copy)]
 pub struct Deviation {
@@ -185,7 +189,9 @@ impl Under {
             let sharpest = under.iter().map(|turn| turn.abs()).fold(0.0, f64::max);
             // Nor does that where the tip, moved a little by smoothing, may stand before the vertex behind it.
             let is_told = (self.plunge.tip - self.path[chord]).norm() > STILL * tolerance;
-            *next = if is_told { next.clamp(-sharpest, sharpest) } else { 0.0 };
+            // A curve goes on soon; a bend that is followed by a long straight edge is none.
+            let goes_on = (self.path[chord + 1] - self.path[0]).norm() <= REACH * self.plunge.blade().norm();
+            *next = if is_told && goes_on { next.clamp(-sharpest, sharpest) } else { 0.0 };
         }
         let total: f64 = turns.iter().map(|turn| turn.abs()).sum();
         let is_curve = turns.iter().all(|turn| turn.abs() <= BEND_SHARE * total);

@@ -13,5 +13,5 @@ mod overlaps;
 
 pub use blade::{PASSING_SHARE, Plunge, stands_across};
 pub use cut::BladePlacement;
-pub use deviation::{Deviation, WORTH_SHARE};
+pub use deviation::{Deviation, REACH, WORTH_SHARE};
 pub use overlaps::{Overlap, overlaps};

@@ -2,13 +2,9 @@
 
 use super::stretch::{REJOINED, Way};
 use crate::analysis::cloth::Surroundings;
-use crate::analysis::plunge::Deviation;
+use crate::analysis::plunge::{Deviation, REACH};
 use crate::analysis::tight::{TightCurve, least_radius, radius};
 use crate::ir::toolpath::{Run, Shape};
-
-/// Length of a run, in widths of the blade, that is looked at from where it plunges: on any curve that it lies on it spans
-/// less.
-const REACH: f64 = 4.0;
 
 /// A run that begins on a curve which the blade that plunges there lies too far beside.
 #[derive(Debug)]

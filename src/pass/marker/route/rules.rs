@@ -51,8 +51,9 @@ impl Rules {
         for (at, &piece) in order.iter().enumerate() {
             let is_early = |&&holder: &&usize| self.block[holder] == self.block[piece] && place[holder] < at;
             broken += self.held[piece].iter().filter(is_early).count();
-            if std::mem::replace(&mut block, self.block[piece]) != block {
-                broken += usize::from(block < self.block[order[at - 1]]);
+            let before = std::mem::replace(&mut block, self.block[piece]);
+            if before != block {
+                broken += usize::from(block < before);
                 front = f64::NEG_INFINITY;
             }
             if let Some(along) = self.along[piece] {
