@@ -20,6 +20,8 @@ use crate::verify::reference::lines::Reference;
 pub(super) const REACH: f64 = 2.0;
 /// Part of the tolerance by which a line that lies on a blade may be off it.
 const ON_SHARE: f64 = 0.1;
+/// Least cosine between a blade that only plunges and a line that it cuts (30 degrees): others it crosses.
+const ALONG: f64 = 0.87;
 /// Lines that a stroke is tried on, at the most.
 const TRIALS: usize = 8;
 
@@ -131,7 +133,8 @@ impl Tracer<'_> {
 
     /// The line that a stroke was meant for: of those on which it cuts the most, but for overlaps and the surplus of the
     /// blade, which may lie on a neighbour, the one that its row names as the block being cut, else the one that it
-    /// completes best. The name decides between equals only: what is cut is seen on the cloth.
+    /// completes best; one that a plunged blade only crosses if there is no other. The name decides between equals only: what
+    /// is cut is seen on the cloth.
     pub(in crate::verify) fn choose(&self, trace: &mut Trace, cut: &Cut, coverage: &Coverage) -> Option<Trial> {
         let tolerance = self.reference.tolerance;
         let mut trials = std::mem::take(&mut trace.trials);
@@ -148,9 +151,12 @@ impl Tracer<'_> {
         let most = trials.iter().map(|trial| trial.fresh).fold(0.0, f64::max);
         trials.retain(|trial| trial.fresh >= tolerance.min(most) || trial.is_last);
         trials.retain(|trial| trial.fresh >= most - self.slack);
+        let is_crossed = |trial: &Trial| cut.is_plunge_cut() && trial.is_across(cut, &self.reference.lines[trial.line]);
         trials.into_iter().min_by(|a, b| {
             let by_name = self.is_named(b.line, trace.block).cmp(&self.is_named(a.line, trace.block));
-            by_name
+            is_crossed(a)
+                .cmp(&is_crossed(b))
+                .then(by_name)
                 .then(a.left.total_cmp(&b.left))
                 .then(b.fresh.total_cmp(&a.fresh))
                 .then(a.worst.0.total_cmp(&b.worst.0))
@@ -452,6 +458,13 @@ impl Trial {
         }
         let edge = i.clamp(*self.held.start(), *self.held.end());
         self.feet[i].beyond.max((cut.points[i] - cut.points[edge]).norm() + self.feet[edge].beyond)
+    }
+
+    /// Whether the blade of a plunge cut stands across its line, all along.
+    fn is_across(&self, cut: &Cut, line: &Line) -> bool {
+        let blade = cut.blade().map(|end| end.coords);
+        let along = (blade[1] - blade[0]).normalize();
+        self.held.clone().all(|i| line.direction(self.feet[i].chord).dot(&along).abs() < ALONG)
     }
 
     fn note(&mut self, deviation: f64, place: usize) {
