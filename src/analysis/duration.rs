@@ -1,6 +1,8 @@
 //! About how long the cuts of a marker take, without planning them: enough to tell which of two ways of cutting the same parts
 //! is the shorter one.
 
+use std::borrow::Cow;
+
 use super::air::Air;
 use crate::geom::{Point, corner, polyline};
 use crate::ir::Marker;
@@ -42,19 +44,40 @@ impl<'a> Runs<'a> {
     }
 
     fn of_cut(&self, cut: &Cut) -> f64 {
-        let points = self.marker.list.points(cut.range);
+        let points = self.from_corner(self.marker.list.points(cut.range));
         let last = points.len() - 1;
-        let is_corner = |&i: &usize| {
-            let (before, behind) = (points[..i].iter().rev(), points[i + 1..].iter());
-            corner::is_corner(points[i], &before.copied(), &behind.copied(), self.corner, self.marker.unit)
-        };
         let (mut time, mut first) = (0.0, 0);
-        for i in (1..last).filter(is_corner) {
+        for i in (1..last).filter(|&i| self.is_corner(points[i], points[..i].iter().rev(), points[i + 1..].iter())) {
             let turn = [self.air.up(points[i - 1], points[i]), self.air.down(points[i], points[i + 1])];
             time += self.of_run(&points[first..=i]) + self.air.time(&turn[0], &turn[1]);
             first = i;
         }
         time + self.of_run(&points[first..])
+    }
+
+    fn is_corner<'p>(
+        &self,
+        at: Point,
+        before: impl Iterator<Item = &'p Point> + Clone,
+        behind: impl Iterator<Item = &'p Point> + Clone,
+    ) -> bool {
+        corner::is_corner(at, &before.copied(), &behind.copied(), self.corner, self.marker.unit)
+    }
+
+    /// A closed cut that starts amid a line is begun at its next corner: a start there would cost a lift.
+    fn from_corner<'p>(&self, points: Cow<'p, [Point]>) -> Cow<'p, [Point]> {
+        let last = points.len() - 1;
+        let ring = &points[..last];
+        let is_corner = |i: usize| {
+            let (before, behind) = ring.split_at(i);
+            let (before, behind) = (before.iter().rev().chain(behind.iter().rev()), behind[1..].iter().chain(before));
+            self.is_corner(ring[i], before, behind)
+        };
+        if points[0] != points[last] || is_corner(0) {
+            return points;
+        }
+        let Some(first) = (1..last).find(|&i| is_corner(i)) else { return points };
+        Cow::Owned([&points[first..last], &points[..=first]].concat())
     }
 
     fn of_run(&self, points: &[Point]) -> f64 {

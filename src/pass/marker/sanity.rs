@@ -3,8 +3,8 @@
 //! Needs: welded contours. Says each of these once for a piece, or a pair of them, at the first place in cut order:
 //!
 //! - An outline crosses itself, or another one of its piece.
-//! - The outlines of two pieces overlap by more than the grid of the file rounds. Pieces that lie edge to edge, or one in
-//!   the other, do not.
+//! - The outlines of two pieces overlap by more than edges of different parts may lie apart and still be one (`nest.band_mm`).
+//!   Pieces that lie edge to edge, or one in the other, do not.
 //! - A hole lies in no part. Where nothing is closed there are no parts to tell.
 //! - The number of a piece comes again.
 
@@ -38,7 +38,7 @@ const SAYING: usize = 500;
 /// Decimals of how far pieces overlap, mm.
 const DEPTH_DECIMALS: u32 = 2;
 
-fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
+fn run(marker: &mut Marker, job: &Job, diagnostics: &mut Diagnostics) {
     numbers(marker, diagnostics);
     let parts = in_parts(marker.pieces.len());
     let alone: Vec<Alone> = marker
@@ -57,7 +57,7 @@ fn run(marker: &mut Marker, _: &Job, diagnostics: &mut Diagnostics) {
         ended = earlier(ended, part.ended);
         boxes.extend(part.boxes);
     }
-    let mut search = Search::new(marker, Boxes::new(boxes));
+    let mut search = Search::new(marker, Boxes::new(boxes), job.profile.band(marker.unit));
     let mut work = Budget::of_a_marker();
     ended = earlier(ended, search.overlaps(&mut work, diagnostics));
     // Where nothing is closed there are no parts to tell.
@@ -164,11 +164,13 @@ struct Search<'a> {
     /// The outlines of pieces, as far as they are looked at beside others: most pieces of a marker lie apart. Empty as
     /// long as none is.
     parts: Vec<OnceCell<Box<Outlines<'a>>>>,
+    /// By how much outlines that only touch overlap at the most, mm: by rounding, or by the band.
+    touching: f64,
 }
 
 impl<'a> Search<'a> {
-    fn new(marker: &'a Marker, boxes: Boxes) -> Self {
-        Self { marker, boxes, parts: Vec::new() }
+    fn new(marker: &'a Marker, boxes: Boxes, band: f64) -> Self {
+        Self { marker, boxes, parts: Vec::new(), touching: band.max(slack(marker)) }
     }
 
     /// Makes room for outlines that are to be looked at.
@@ -200,8 +202,7 @@ impl<'a> Search<'a> {
                 work.spend(SAYING);
                 let [a, b] = [i, k].map(|piece| self.part(piece));
                 let finding = match depth([a, b], work) {
-                    // Both outlines are rounded, each by half of this at the most.
-                    Some(depth) if depth.by <= slack(self.marker) => continue,
+                    Some(depth) if depth.by <= self.touching => continue,
                     Some(depth) => {
                         let by = fixed(depth.by, DEPTH_DECIMALS);
                         let message = format!("the outlines of {one} and {other} overlap by {by} mm");
