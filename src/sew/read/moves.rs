@@ -16,6 +16,8 @@ pub(super) struct Moves {
     /// Where the needle stands, in tenths of a millimetre.
     at: [i64; 2],
     thread: u16,
+    /// Whether the thread runs from the last stitch to the needle: no trim came between, whatever else did.
+    has_thread: bool,
     /// Jumps since the last entry, and the record of the first of them.
     jumps: u32,
     jumped_from: u32,
@@ -37,6 +39,11 @@ impl Moves {
         // The needle goes down where a jump ended, which is no stitch that was lost.
         let is_tie = op == Op::Stitch && is_first && before == to;
         self.stitches.steps.push(Step { op, to, is_tie, record });
+        match op {
+            Op::Stitch => self.has_thread = true,
+            Op::Trim => self.has_thread = false,
+            Op::Jump | Op::Color(_) | Op::Stop => {}
+        }
     }
 
     /// A stitch.
@@ -86,8 +93,7 @@ impl Moves {
         let landed = self.at;
         let before = self.stitches.steps.last().map_or(Point::origin(), |step| step.to);
         self.at = [before.x, before.y].map(|value| (value * TENTHS_PER_MM).round() as i64);
-        let has_thread = self.stitches.steps.last().is_some_and(|step| step.op == Op::Stitch);
-        if has_thread && self.trim_from.is_some_and(|least| jumps >= least) {
+        if self.has_thread && self.trim_from.is_some_and(|least| jumps >= least) {
             self.push(Op::Trim, record);
         }
         if landed != self.at {

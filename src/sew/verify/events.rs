@@ -35,7 +35,7 @@ pub(super) fn sewn(stitches: &Stitches) -> Vec<(Event, u32)> {
 /// What the records of a stitch file say: jumps in a row are one move, and cut a thread that sews where their number says
 /// so; a stop is the next thread.
 pub(super) fn of_records(file: &File) -> Vec<Event> {
-    let mut events = Events { list: Vec::new(), jumps: 0, needle: [0; 2], trim_jumps: file.trim_jumps };
+    let mut events = Events { list: Vec::new(), jumps: 0, sews: false, needle: [0; 2], trim_jumps: file.trim_jumps };
     let (mut at, mut thread) = ([0; 2], 1_u16);
     for &Record { kind, at: to } in &file.records {
         match kind {
@@ -43,11 +43,11 @@ pub(super) fn of_records(file: &File) -> Vec<Event> {
             Kind::Stitch => {
                 events.land(at);
                 events.list.push(Event::Stitch(place(to)));
-                events.needle = to;
+                (events.needle, events.sews) = (to, true);
             }
             Kind::Trim => {
                 events.land(at);
-                events.list.push(Event::Trim);
+                events.trim();
             }
             Kind::Stop => {
                 events.land(at);
@@ -66,6 +66,8 @@ struct Events {
     list: Vec<Event>,
     /// Jumps in a row.
     jumps: usize,
+    /// Whether the thread of the last stitch is not cut yet.
+    sews: bool,
     /// Where the needle stood before them, tenths of a millimetre.
     needle: [i64; 2],
     /// From so many on they cut the thread.
@@ -73,12 +75,16 @@ struct Events {
 }
 
 impl Events {
+    fn trim(&mut self) {
+        self.list.push(Event::Trim);
+        self.sews = false;
+    }
+
     /// The jumps before an event end at a place.
     fn land(&mut self, at: [i64; 2]) {
         let jumps = std::mem::take(&mut self.jumps);
-        let sews = matches!(self.list.last(), Some(Event::Stitch(_)));
-        if sews && jumps > 0 && self.trim_jumps.is_some_and(|least| jumps >= least) {
-            self.list.push(Event::Trim);
+        if self.sews && jumps > 0 && self.trim_jumps.is_some_and(|least| jumps >= least) {
+            self.trim();
         }
         if at != self.needle {
             self.list.push(Event::Jump(place(at)));

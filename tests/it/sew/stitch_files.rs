@@ -75,6 +75,19 @@ fn a_long_move_without_a_trim_is_told_of_in_dst() {
     }
 }
 
+/// A stop, which DST has as the next thread, lies between the last stitch and the trim of its thread.
+#[test]
+fn a_trim_behind_a_stop_is_read_back_as_one() {
+    let job = Job::default();
+    let pattern = b"x_mm,y_mm,element\n0,0,straight\n20,0,\n\n0,30,straight stop\n20,30,\n".to_vec();
+    let trims = |program: &cutc::sew::Program| program.stitches.steps.iter().filter(|step| step.op == Op::Trim).count();
+    let (first, _, out) = plan("pattern.csv", pattern, &job);
+    let first = first.unwrap_or_else(|| panic!("{:?}", out.iter().map(|found| &found.message).collect::<Vec<_>>()));
+    let (again, _, _) = plan("again.dst", written(&first, &job, "dst"), &job);
+    assert_eq!(trims(&again.expect("it is read")), trims(&first));
+    assert!(trims(&first) > 1);
+}
+
 #[test]
 fn a_number_too_long_for_the_header_of_a_dst_file_is_refused() {
     let job = Job::default();
