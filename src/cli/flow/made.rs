@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, BufWriter, Seek as _, Write as _};
 use std::path::{Path, PathBuf};
 
+use rayon::prelude::*;
 use serde::Serialize;
 
 use super::earlier::{self, PLAN};
@@ -14,7 +15,7 @@ use crate::cli::provenance::CentreFile;
 use crate::cli::report::pretty;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::flow::verify::{self, Bytes, Ground, Seen, Verdict};
-use crate::flow::{self, Kind, Program, Target};
+use crate::flow::{self, Head, Kind, Program, Target};
 use crate::ir::{Finding, Marker};
 use crate::machine::{Job, blake3_of, sha256_hex};
 use crate::source::Source;
@@ -68,11 +69,14 @@ impl Made<'_> {
         for target in self.targets {
             match target.kind {
                 Kind::Heads { write, bytes } => {
+                    let of_head = |(i, head): (usize, &Head)| {
+                        written(folder, &target.file(i), |out: &mut dyn io::Write| write(program, head, out))
+                    };
+                    let made: Vec<_> = program.heads.par_iter().enumerate().map(of_head).collect();
                     let mut programs = Vec::new();
-                    for (i, head) in program.heads.iter().enumerate() {
-                        let put = |out: &mut dyn io::Write| write(program, head, out);
-                        let (draft, file) = written(folder, &target.file(i), put)?;
-                        plan.heads[i].files.push(file);
+                    for (head, made) in plan.heads.iter_mut().zip(made) {
+                        let (draft, file) = made?;
+                        head.files.push(file);
                         programs.push(draft);
                     }
                     judged.push((*target, bytes, programs));
@@ -114,12 +118,13 @@ impl Made<'_> {
     /// What the programs of a target are worth, from their bytes.
     fn judged(&self, plan: &str, bytes: Bytes, programs: &mut [Draft]) -> anyhow::Result<Verdict> {
         let ground = Ground { marker: self.marker, profile: &self.job.profile };
-        let mut open = |i: usize| -> io::Result<Box<dyn BufRead>> {
-            let file = programs[i].file();
+        let files: Vec<&File> = programs.iter_mut().map(|program| &*program.file()).collect();
+        let open = |i: usize| -> io::Result<Box<dyn BufRead>> {
+            let mut file = files[i];
             file.rewind()?;
             Ok(Box::new(BufReader::with_capacity(BLOCK_BYTES, file.try_clone()?)))
         };
-        let judged = verify::judge(plan, bytes, &mut open, &ground);
+        let judged = verify::judge(plan, bytes, &open, &ground);
         let mut verdict = judged.map_err(|error| files::cannot_write(Path::new(PLAN), &error))?;
         verdict.seen.extend(self.audit.iter().map(|finding| Seen { finding: finding.clone(), head: None }));
         Ok(verdict)

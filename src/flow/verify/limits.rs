@@ -21,7 +21,9 @@ pub(super) struct Limits {
     /// Limits of x, y, c by order, per period: with the knife down, with it up, and where it changes.
     allowed: [[[f64; 3]; 3]; 3],
     /// The last rows, the newest first, and whether the knife was down in them.
-    last: Vec<([f64; 3], bool)>,
+    last: [([f64; 3], bool); SUPPORT],
+    /// How many of these there are.
+    count: usize,
 }
 
 impl Limits {
@@ -42,15 +44,17 @@ impl Limits {
         let (down, up) = (rows(profile.axes.limits()), rows(profile.axes.travel_limits()));
         let either =
             std::array::from_fn(|axis| std::array::from_fn(|order| f64::max(down[axis][order], up[axis][order])));
-        Self { allowed: [down, up, either], last: Vec::with_capacity(SUPPORT + 1) }
+        Self { allowed: [down, up, either], last: [([0.0; 3], false); SUPPORT], count: 0 }
     }
 
     /// Sees the next row.
     pub(super) fn see(&mut self, row: &Row, at: Place, worst: &mut Worst) {
-        self.last.insert(0, ([row.place[0], row.place[1], rad(row.c)], row.knife));
-        self.last.truncate(SUPPORT);
-        let downs = self.last.iter().filter(|row| row.1).count();
-        let allowed = if downs == self.last.len() {
+        self.last.rotate_right(1);
+        self.last[0] = ([row.place[0], row.place[1], rad(row.c)], row.knife);
+        self.count = (self.count + 1).min(SUPPORT);
+        let last = &self.last[..self.count];
+        let downs = last.iter().filter(|row| row.1).count();
+        let allowed = if downs == last.len() {
             &self.allowed[0]
         } else if downs == 0 {
             &self.allowed[1]
@@ -58,11 +62,12 @@ impl Limits {
             &self.allowed[2]
         };
         for (axis, allowed) in allowed.iter().enumerate() {
-            let mut column: Vec<f64> = self.last.iter().map(|row| row.0[axis]).collect();
-            for (order, rule) in ORDERS.into_iter().enumerate() {
-                column = column.windows(2).map(|pair| pair[0] - pair[1]).collect();
-                let Some(difference) = column.first() else { break };
-                worst.see(rule, difference.abs() / allowed[order], 1.0, Some(at));
+            let mut column = self.last.map(|row| row.0[axis]);
+            for (order, rule) in ORDERS.into_iter().enumerate().take(last.len() - 1) {
+                for i in 0..SUPPORT - 1 - order {
+                    column[i] -= column[i + 1];
+                }
+                worst.see(rule, column[0].abs() / allowed[order], 1.0, Some(at));
             }
         }
     }

@@ -26,6 +26,8 @@ pub use worst::Seen;
 
 use std::io::{self, BufRead};
 
+use rayon::prelude::*;
+
 use self::cover::Covers;
 use self::ground::Unread;
 use self::limits::Limits;
@@ -59,8 +61,8 @@ impl Verdict {
     }
 }
 
-/// Gives the program of a head, by its place in the plan.
-pub type Open<'a> = &'a mut dyn FnMut(usize) -> io::Result<Box<dyn BufRead>>;
+/// Gives the program of a head, by its place in the plan, once.
+pub type Open<'a> = &'a (dyn Fn(usize) -> io::Result<Box<dyn BufRead>> + Sync);
 
 /// Judges the programs of a plan from their bytes.
 pub fn judge(plan: &str, bytes: Bytes, open: Open, ground: &Ground) -> io::Result<Verdict> {
@@ -83,8 +85,14 @@ fn judge_all(plan: &str, bytes: Bytes, open: Open, ground: &Ground, worst: &mut 
     let mut covers = Covers::new(&lines);
     let mut row_mates: Vec<(u64, Vec<f64>)> = Vec::new();
     let mut count = None;
-    for (i, &(row, _)) in plan.heads.iter().enumerate() {
-        let head = read_head(&plan, i, bytes, open(i)?.as_mut(), ground, worst)?;
+    // As many at a time as there are threads: what is kept of a head until it is judged is large.
+    let heads: Vec<usize> = (0..plan.heads.len()).collect();
+    let read = |&i: &usize| read_head(&plan, i, bytes, open(i)?.as_mut(), ground);
+    let at_once = heads.chunks(rayon::current_num_threads());
+    for (i, head) in at_once.flat_map(|some| some.par_iter().map(read).collect::<Vec<_>>()).enumerate() {
+        let (row, head) = (plan.heads[i].0, head?);
+        worst.merge(head.worst);
+        worst.count(Rule::Ends, head.ends.0, head.ends.1);
         if *count.get_or_insert(head.ys.len()) != head.ys.len() {
             return Err(Unread::Row(format!("head {} has {} rows, others have more or fewer", i + 1, head.ys.len())));
         }
@@ -102,16 +110,14 @@ fn judge_all(plan: &str, bytes: Bytes, open: Open, ground: &Ground, worst: &mut 
 struct Head {
     strokes: Vec<Stroke>,
     ys: Vec<f64>,
+    /// The worst of its rows by themselves.
+    worst: Worst,
+    /// How many of its ends are not at rest, and where.
+    ends: (usize, Option<Place>),
 }
 
-fn read_head(
-    plan: &Plan,
-    i: usize,
-    bytes: Bytes,
-    input: &mut dyn BufRead,
-    ground: &Ground,
-    worst: &mut Worst,
-) -> Result<Head, Unread> {
+fn read_head(plan: &Plan, i: usize, bytes: Bytes, input: &mut dyn BufRead, ground: &Ground) -> Result<Head, Unread> {
+    let mut worst = Worst::new();
     let (_, station) = plan.heads[i];
     let period = ground.profile.time.period();
     let (mut limits, mut rest) = (Limits::new(ground.profile), Rest::new(ground.profile));
@@ -125,14 +131,13 @@ fn read_head(
         let at = Place { head: i + 1, row: number, time: row.time, point };
         worst.see(Rule::Period, (row.time - due).abs(), ROW_TIME, Some(at));
         worst.see(Rule::Conveyor, (row.conveyor - plan.speed * due).abs(), ROW_WAY, Some(at));
-        bounds(&row, at, ground, worst);
-        limits.see(&row, at, worst);
-        rest.see(&row, at, worst);
+        bounds(&row, at, ground, &mut worst);
+        limits.see(&row, at, &mut worst);
+        rest.see(&row, at, &mut worst);
         strokes.see(&row, at);
         ys.push(row.place[1]);
     })?;
-    rest.finish(i + 1, worst);
-    Ok(Head { strokes: strokes.finish(), ys })
+    Ok(Head { strokes: strokes.finish(), ys, worst, ends: rest.finish(i + 1) })
 }
 
 /// Rounding of times, s, and of ways, mm, in rows of six decimals.

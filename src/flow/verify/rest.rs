@@ -64,8 +64,8 @@ impl Rest {
         }
     }
 
-    /// Sees the end of a program.
-    pub(super) fn finish(self, head: usize, worst: &mut Worst) {
+    /// How many ends of a program are not at rest, and where the last one is.
+    pub(super) fn finish(self, head: usize) -> (usize, Option<Place>) {
         let rests = |rows: &[(Row, Place)]| match rows {
             [(a, from), (b, to)] => {
                 let along = (a.place[0] - b.place[0]).abs();
@@ -75,7 +75,6 @@ impl Rest {
             _ => false,
         };
         let wrong = self.ends.iter().filter(|rows| !rests(rows)).count();
-        let at = self.ends[1].last().map(|end| Place { head, ..end.1 });
-        worst.count(Rule::Ends, wrong, at);
+        (wrong, self.ends[1].last().map(|end| Place { head, ..end.1 }))
     }
 }

@@ -48,6 +48,15 @@ impl Worst {
         }
     }
 
+    /// Sees all that was seen elsewhere, after what was seen here.
+    pub(super) fn merge(&mut self, other: Self) {
+        for (rule, sight) in RULES.iter().zip(other.0) {
+            if let Some(([value, allowed], place)) = sight {
+                self.see(rule.rule, value, allowed, place);
+            }
+        }
+    }
+
     /// Counts what must not be.
     pub(super) fn count(&mut self, rule: Rule, number: usize, place: Option<Place>) {
         let so_far = self.0[rule as usize].map_or(0.0, |([count, _], _)| count);
