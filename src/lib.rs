@@ -37,6 +37,7 @@
 //! | `verify` | `program`: readers of its own; `reference`: what must be cut; `cut` and `axes`: what blade and axes do; `source`: the audit of the reader |
 //! | [`pipeline`] | names every stage once, in order |
 //! | [`sew`] | the pattern-sewing machine, a pipeline of its own: patterns to stitches, pulses and stitch files |
+//! | [`spray`] | the head that follows edges at a distance: rings to offsets, courses and setpoints with velocities |
 //! | [`track`] | the carriage that follows the centre of a moving cloth: ruler readings to commands and centre lines |
 //! | [`manual`] | the manual, a page a topic, rows of [`manual::PAGES`] |
 //! | `cli` | arguments as typed to a job as meant; the binary adds printing and the exit code |
@@ -89,6 +90,7 @@ pub mod plan;
 pub mod recognise;
 pub mod sew;
 pub mod source;
+pub mod spray;
 pub mod track;
 pub mod units;
 pub mod verify;

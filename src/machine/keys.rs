@@ -10,7 +10,7 @@ pub use super::key::{Key, Takes, Within, shown_value};
 use super::plot;
 use super::profile::{self, MachineProfile};
 use super::{
-    axes, common, counts, drill, gcode, knife, labels, nest, notches, order, path, sewing, sheet, table, time,
+    axes, common, counts, drill, gcode, knife, labels, nest, notches, order, path, sewing, sheet, table, time, tool,
     tracking, verify,
 };
 
@@ -35,6 +35,7 @@ const SECTIONS: &[&[Key]] = &[
     labels::KEYS,
     sewing::KEYS,
     tracking::KEYS,
+    tool::KEYS,
     codes::KEYS,
 ];
 

@@ -27,6 +27,7 @@ use super::sewing::Sewing;
 use super::sheet::Sheet;
 use super::table::Table;
 use super::time::Time;
+use super::tool::{Quintic, Tool};
 use super::tracking::Tracking;
 use super::verify::Verify;
 use super::word::{OrWord, Stay, Word as _, words};
@@ -99,6 +100,10 @@ pub struct MachineProfile {
     pub sewing: Sewing,
     /// The carriage that follows a moving cloth.
     pub track: Tracking,
+    /// What follows the lines.
+    pub tool: Tool,
+    /// Its polynomials.
+    pub quintic: Quintic,
     /// Codes of the cutter file by name, `M19`.
     pub codes: BTreeMap<String, CodeUse>,
 }
@@ -161,6 +166,8 @@ impl Default for MachineProfile {
             labels: Labels::default(),
             sewing: Sewing::default(),
             track: Tracking::default(),
+            tool: Tool::default(),
+            quintic: Quintic::default(),
             codes: BTreeMap::new(),
         }
     }

@@ -7,7 +7,7 @@ use super::key::{Key, Takes, shown_value};
 use super::keys::KEYS;
 use super::knife::Knife;
 use super::profile::MachineProfile;
-use super::{sewing, tracking};
+use super::{sewing, tool, tracking};
 use crate::diagnostic::code;
 
 /// How much `back_mm` and `radius_mm` together may miss the width, mm: they are read off a gauge in hundredths.
@@ -58,6 +58,7 @@ fn rules(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault
     faults.extend(gcode::faults(profile));
     faults.extend(sewing::faults(&profile.sewing));
     faults.extend(tracking::faults(&profile.track));
+    faults.extend(tool::faults(&profile.tool, &profile.knife, is_given));
     faults
 }
 

@@ -3,6 +3,7 @@
 //! Receives a source and a job, promises programs that are written whole and judged, or diagnostics. Never prints, and decides
 //! nothing about the cut.
 
+mod head;
 mod input;
 mod judge;
 mod off_table;
@@ -29,6 +30,7 @@ pub use savings::Savings;
 pub use spent::{Spent, word};
 pub use told::{Explained, Line, Told};
 
+pub use crate::spray::{Edge, Piece};
 pub use crate::verify::{Declared, RULES, Rule, Verdict};
 
 use std::io::{self, BufWriter, Write};
@@ -47,7 +49,7 @@ use crate::front::Dialect;
 use crate::ir::declaration::Declaration;
 use crate::ir::declaration::Total;
 use crate::ir::{Finding, text};
-use crate::machine::Job;
+use crate::machine::{Job, ToolKind};
 use crate::pass::marker::MARKER_PASSES;
 use crate::pass::toolpath::{Scene, TOOLPATH_PASSES, trace};
 use crate::plan;
@@ -111,6 +113,9 @@ pub fn compile_all(
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Option<Compiled>> {
     let Choices { from, verify } = choices;
+    if job.profile.tool.kind == ToolKind::Spray {
+        return head::compile(source, job, choices, products, diagnostics);
+    }
     let judged = if verify {
         read_to_judge(source, from, job, diagnostics).map(|Judged { input, reading }| (input, Some(reading)))
     } else {

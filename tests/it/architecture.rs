@@ -32,6 +32,8 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("pipeline", ALL_BUT_CLI),
     // Another machine: it reads what the cutter reads.
     ("sew", &["source", "diagnostic", "units", "geom", "ir", "machine", "analysis", "front", "recognise"]),
+    // A head in the place of the knife: it is moved by the cutter's planner or its own.
+    ("spray", &["source", "diagnostic", "units", "geom", "ir", "machine", "plan"]),
     ("track", &["source", "diagnostic", "units", "machine"]),
     ("manual", &[]),
     // The tables of the stages, but not what they do.
@@ -74,11 +76,12 @@ const ALL_BUT_CLI: &[&str] = &[
     "plan",
     "back",
     "verify",
+    "spray",
 ];
 
 /// What is named in some modules only.
 const NAMED_ONLY_IN: &[(&str, &[&str])] = &[
-    ("nalgebra::", &["geom", "plan"]),
+    ("nalgebra::", &["geom", "plan", "spray"]),
     ("nom::", &["front"]),
     ("clap::", &["cli"]),
     ("anyhow::", &["cli", "main"]),

@@ -1,0 +1,116 @@
+//! The planner `quintic`: least-squares polynomials of order 5 for X, Y and C, edge by edge, joined by transitions.
+//!
+//! The method is that of Cink and Kosucki (control of a two-axis mechanism on a planar trajectory): the places of the head
+//! have times by the speed that the edge asks for; between singular points (corners) each coordinate is the polynomial of
+//! order 5 with the least squares; transitions join neighbouring edges; the controller gets position and velocity at equal
+//! periods. C is a third coordinate here. Unless `quintic.split` is false edges are split in halves until the whole motion,
+//! transitions included, keeps the tolerance at its time; corners are then fitted like edges.
+
+mod polynomial;
+mod split;
+mod timeline;
+
+pub(super) use split::Fit;
+
+use self::timeline::Timeline;
+use super::clock::{Clock, Timed};
+use super::course::{Role, Stretch};
+use crate::geom::{Point, Rotation};
+use crate::ir::toolpath::Pose;
+use crate::machine::{Limits, Quintic};
+
+/// How often the course is sampled to be fitted, s.
+const SAMPLE: f64 = 1e-3;
+/// The fewest samples of a stretch.
+const LEAST_SAMPLES: usize = 24;
+/// Share of the tolerance that pieces are fitted to at first, and by how much less when transitions then miss it.
+const SHARE: f64 = 0.5;
+const LESS: f64 = 0.6;
+/// Rounds of that.
+const ROUNDS: usize = 8;
+
+/// How far a motion may be from the course at its time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Allowed {
+    /// The head, mm.
+    pub(super) distance: f64,
+    /// Its direction, rad.
+    pub(super) turn: f64,
+}
+
+/// The motion of a pass.
+#[derive(Debug)]
+pub(super) struct Planned {
+    /// X, Y and C of the axes at each tick, the last one included.
+    pub(super) poses: Vec<Pose>,
+    /// Speeds of X and Y there, mm/s.
+    pub(super) velocities: Vec<[f64; 2]>,
+    /// The leg at each tick.
+    pub(super) legs: Vec<usize>,
+    /// What was fitted to each stretch of the pass, in order; none to a corner without splitting.
+    pub(super) fits: Vec<Vec<Fit>>,
+}
+
+/// What polynomials could not be found for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Unfit {
+    /// How far from the course they stay, mm and rad.
+    pub(super) worst: [f64; 2],
+}
+
+/// Plans a pass.
+pub(super) fn plan(
+    clock: &Clock,
+    stretches: &[Stretch],
+    quintic: &Quintic,
+    allowed: Allowed,
+    (limits, period): (&[Limits; 3], f64),
+) -> Result<Planned, Unfit> {
+    let samples: Vec<Vec<Timed>> = stretches.iter().map(|stretch| sampled(clock, stretch)).collect();
+    let mut share = SHARE;
+    let mut worst = [f64::INFINITY; 2];
+    for _ in 0..ROUNDS {
+        let within = Allowed { distance: share * allowed.distance, turn: share * allowed.turn };
+        let fits = fitted(stretches, &samples, quintic, within).ok_or(Unfit { worst })?;
+        let ends = [clock.at(0.0), clock.at(clock.duration())];
+        let timeline = Timeline::new(fits.iter().flatten(), ends, limits).ok_or(Unfit { worst })?;
+        worst = timeline.worst(samples.iter().flatten());
+        if !quintic.split || (worst[0] <= allowed.distance && worst[1] <= allowed.turn) {
+            return Ok(ticked(clock, &timeline, fits, period));
+        }
+        share *= LESS;
+    }
+    Err(Unfit { worst })
+}
+
+/// Places in time along a stretch, its ends included.
+fn sampled(clock: &Clock, stretch: &Stretch) -> Vec<Timed> {
+    let [from, to] = [stretch.legs.start, stretch.legs.end].map(|leg| clock.at_leg(leg));
+    let count = (((to - from) / SAMPLE) as usize).max(LEAST_SAMPLES);
+    (0..=count).map(|i| clock.at(from + (to - from) * i as f64 / count as f64)).collect()
+}
+
+/// What is fitted to each stretch.
+fn fitted(stretches: &[Stretch], samples: &[Vec<Timed>], quintic: &Quintic, within: Allowed) -> Option<Vec<Vec<Fit>>> {
+    let Quintic { basis, split } = *quintic;
+    let fit = |(stretch, samples): (&Stretch, &Vec<Timed>)| match (split, stretch.role) {
+        (true, _) => split::split(samples, basis, within),
+        (false, Role::Edge) => Some(vec![Fit::of(samples, basis)?]),
+        (false, Role::Corner | Role::Air) => Some(Vec::new()),
+    };
+    stretches.iter().zip(samples).map(fit).collect()
+}
+
+/// The motion at each tick.
+fn ticked(clock: &Clock, timeline: &Timeline, fits: Vec<Vec<Fit>>, period: f64) -> Planned {
+    let ticks = (clock.duration() / period).round() as usize;
+    let mut planned = Planned { poses: Vec::new(), velocities: Vec::new(), legs: Vec::new(), fits };
+    for tick in 0..=ticks {
+        let time = tick as f64 * period;
+        let [x, y, aim] = timeline.at(time);
+        planned.poses.push(Pose { centre: Point::new(x[0], y[0]), c: Rotation(aim[0]) });
+        planned.velocities.push([x[1], y[1]]);
+        planned.legs.push(clock.at(time).leg);
+    }
+    planned
+}
