@@ -11,6 +11,9 @@ use crate::geom::{Point, Vector, angle};
 
 /// How far legs on an arc may be from it, mm: far below any tolerance.
 const ARC_ACCURACY: f64 = 1e-3;
+/// The first step of a straight stretch from either end, mm, and how much farther the next ones reach.
+const FIRST_STEP: f64 = 10.0;
+const STEP_GROWTH: f64 = 1.6;
 /// Legs that are shorter are none, mm.
 const LEG_EPSILON: f64 = 1e-7;
 /// The least speed of a head in a bay that is nearly as tight as its distance, as a share of that of the jet.
@@ -195,15 +198,17 @@ fn legs(way: &[Element], rings: &[Ring], pace: &Pace) -> Vec<Leg> {
 
 /// The speed of the head in the bend of a vertex, mm/s: that of the jet times 1 + distance x curvature.
 fn speed_in_bend(ring: &Ring, vertex: usize, pace: &Pace) -> f64 {
-    let curvature = ring.turns[vertex] / (2.0 * ring.bend(vertex));
+    let [before, behind] = ring.bend(vertex);
+    let curvature = ring.turns[vertex] / (before + behind);
     pace.edge_speed * (1.0 + pace.distance * curvature).max(LEAST_SHARE)
 }
 
 /// The direction at a way into the bend of a vertex, mm along the head's way from its middle.
 fn aim_in_bend(ring: &Ring, vertex: usize, from_middle: f64, pace: &Pace) -> f64 {
-    let turn = ring.turns[vertex];
-    let way = 2.0 * ring.bend(vertex) + pace.distance * turn;
-    let share = if way > LEG_EPSILON { (0.5 + from_middle / way).clamp(0.0, 1.0) } else { 0.5 };
+    let (turn, [before, behind]) = (ring.turns[vertex], ring.bend(vertex));
+    let arc = pace.distance * turn;
+    let way = before + arc + behind;
+    let share = if way > LEG_EPSILON { ((before + 0.5 * arc + from_middle) / way).clamp(0.0, 1.0) } else { 0.5 };
     ring.inwards(ring.before(vertex)) + turn * share
 }
 
@@ -214,7 +219,7 @@ fn beside_chord(ring: &Ring, chord: usize, ends: [Point; 2], pace: &Pace, legs: 
     let end = (chord + 1) % ring.points.len();
     let outwards = Vector::new(along.y, -along.x) * pace.distance;
     let [first, last] = ends.map(|point| (point - from).dot(&along));
-    let bends = [ring.bend(chord), ring.bend(end)];
+    let bends = [ring.bend(chord)[1], ring.bend(end)[0]];
     // Half of the way of the head around each vertex: where it turns outwards it is an arc, else the corner of two lines.
     let arcs = [chord, end].map(|vertex| 0.5 * pace.distance * ring.turns[vertex]);
     let node = |u: f64| {
@@ -235,9 +240,23 @@ fn beside_chord(ring: &Ring, chord: usize, ends: [Point; 2], pace: &Pace, legs: 
         if bends[1] > 0.0 { speed_in_bend(ring, end, pace) } else { straight },
     ];
     for (ends, speed) in stations.windows(2).zip(speeds) {
-        let ends = [node(ends[0]), node(ends[1])];
-        legs.push(Leg { ends, speed, role: Role::Edge, block: ring.spans[chord].block });
+        for [from, to] in steps([ends[0], ends[1]]) {
+            let ends = [node(from), node(to)];
+            legs.push(Leg { ends, speed, role: Role::Edge, block: ring.spans[chord].block });
+        }
     }
+}
+
+/// A straight stretch in steps that grow from both ends to its middle: what a planner lowers near its ends is short.
+fn steps([from, to]: [f64; 2]) -> Vec<[f64; 2]> {
+    let half = 0.5 * (to - from);
+    let growing = std::iter::successors(Some(FIRST_STEP), |reach| Some(reach * STEP_GROWTH));
+    let reaches: Vec<f64> = growing.take_while(|&reach| reach < half).collect();
+    let mut stations = vec![from];
+    stations.extend(reaches.iter().map(|reach| from + reach));
+    stations.extend(reaches.iter().rev().map(|reach| to - reach));
+    stations.push(to);
+    stations.windows(2).map(|ends| [ends[0], ends[1]]).collect()
 }
 
 /// Around a vertex.

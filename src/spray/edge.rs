@@ -8,6 +8,9 @@ use crate::source::Span;
 /// Points nearer to each other than that are one, mm: far below what a file resolves.
 const SAME_EPSILON: f64 = 1e-6;
 
+/// A chord that is longer than the next by more than this factor is straight, and no chord of the curve that begins there.
+const SAME_CURVE: f64 = 4.0;
+
 /// A closed edge, with the material on the left of each chord: around a part against the clock, around a hole with it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Ring {
@@ -62,9 +65,14 @@ impl Ring {
         self.turns[vertex].abs() >= self.corner
     }
 
-    /// How far the curve through a vertex reaches along both chords: half of the shorter one; 0 at a corner.
-    pub(super) fn bend(&self, vertex: usize) -> f64 {
-        if self.is_corner(vertex) { 0.0 } else { 0.5 * self.length(vertex).min(self.length(self.before(vertex))) }
+    /// How far the curve through a vertex reaches before and behind it, mm: half of each chord, as far as the other is one of
+    /// the same curve; nothing at a corner.
+    pub(super) fn bend(&self, vertex: usize) -> [f64; 2] {
+        if self.is_corner(vertex) {
+            return [0.0; 2];
+        }
+        let [before, behind] = [self.length(self.before(vertex)), self.length(vertex)];
+        [before.min(SAME_CURVE * behind), behind.min(SAME_CURVE * before)].map(|length| 0.5 * length)
     }
 }
 

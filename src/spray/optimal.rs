@@ -17,6 +17,8 @@ use crate::plan::{self, Cut};
 const WAY: f64 = 5.0;
 /// Share of how much faster the jet may be that is used.
 const SHARE: f64 = 0.8;
+/// How far below what is allowed it is brought.
+const LOWERED: f64 = 0.99;
 /// How far before and behind a place where the jet is too fast the feed is lowered, mm.
 const AROUND: f64 = 10.0;
 /// Rounds of lowering; what is left then the verifier judges.
@@ -63,7 +65,7 @@ fn lower(run: &mut Run, cut: &Cut, pass: &[Leg], job: &Job) -> bool {
         let speed = way / ((i - from) as f64 * period);
         if way >= WAY && speed > most && pass[legs[i]].role != Role::Air {
             for leg in &legs[from..=i] {
-                shares[*leg] = shares[*leg].min(tool.edge_speed_mm_s / speed);
+                shares[*leg] = shares[*leg].min(LOWERED * most / speed);
             }
         }
     }
