@@ -198,9 +198,7 @@ fn legs(way: &[Element], rings: &[Ring], pace: &Pace) -> Vec<Leg> {
 
 /// The speed of the head in the bend of a vertex, mm/s: that of the jet times 1 + distance x curvature.
 fn speed_in_bend(ring: &Ring, vertex: usize, pace: &Pace) -> f64 {
-    let [before, behind] = ring.bend(vertex);
-    let curvature = ring.turns[vertex] / (before + behind);
-    pace.edge_speed * (1.0 + pace.distance * curvature).max(LEAST_SHARE)
+    pace.edge_speed * (1.0 + pace.distance * ring.curvature(vertex)).max(LEAST_SHARE)
 }
 
 /// The direction at a way into the bend of a vertex, mm along the head's way from its middle.

@@ -11,6 +11,9 @@ const SAME_EPSILON: f64 = 1e-6;
 /// A chord that is longer than the next by more than this factor is straight, and no chord of the curve that begins there.
 const SAME_CURVE: f64 = 4.0;
 
+/// How far to both sides of a vertex its curvature is the mean of, mm: about what a jet covers at once.
+const MEAN_WAY: f64 = 15.0;
+
 /// A closed edge, with the material on the left of each chord: around a part against the clock, around a hole with it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Ring {
@@ -73,6 +76,30 @@ impl Ring {
         }
         let [before, behind] = [self.length(self.before(vertex)), self.length(vertex)];
         [before.min(SAME_CURVE * behind), behind.min(SAME_CURVE * before)].map(|length| 0.5 * length)
+    }
+
+    /// The curvature about a vertex, 1/mm: the mean over the bends to both sides that go on in each other. Of one bend alone it
+    /// would carry the rounding of three vertices.
+    pub(super) fn curvature(&self, vertex: usize) -> f64 {
+        let n = self.points.len();
+        let (mut turn, mut way) = (self.turns[vertex], self.bend(vertex).iter().sum::<f64>());
+        for (step, side) in [(1, 1), (n - 1, 0)] {
+            let (mut last, mut left) = (vertex, MEAN_WAY);
+            for _ in 1..n {
+                let next = (last + step) % n;
+                let bend = self.bend(next);
+                let between = self.length(if side == 1 { last } else { next });
+                let together = self.bend(last)[side] + bend[1 - side];
+                left -= bend[0] + bend[1];
+                if left < 0.0 || between - together > SAME_EPSILON * between {
+                    break;
+                }
+                turn += self.turns[next];
+                way += bend[0] + bend[1];
+                last = next;
+            }
+        }
+        if way > 0.0 { turn / way } else { 0.0 }
     }
 }
 

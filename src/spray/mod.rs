@@ -84,7 +84,8 @@ pub fn plan(marker: &Marker, job: &Job, out: &mut Diagnostics) -> Option<(Progra
     let mut planner = plan::Planner::new(&head);
     let motions = [planner.join(&toolpath, solved.cuts), planner.finish()];
     if let Err(diagnostic) = planner.certify() {
-        out.push(diagnostic.hint("give the axes more, or take smaller speeds of the tool"));
+        let hint = format!("{}; give the axes more, or take smaller speeds of the tool", busiest(&planner.peaks()));
+        out.push(diagnostic.hint(hint));
         return None;
     }
     let legs: Vec<&Leg> = passes.iter().flatten().collect();
@@ -92,6 +93,17 @@ pub fn plan(marker: &Marker, job: &Job, out: &mut Diagnostics) -> Option<(Progra
     let figures = figures::edges(&passes, &rows, &solved.fits, period);
     let edges = rings.into_iter().map(|ring| ring.points).collect();
     Some((Program { edges, passes, rows, period, figures, planner: job.profile.tool.planner }, planner.peaks()))
+}
+
+/// What of the axes is nearest to its limit, or farthest beyond.
+fn busiest(peaks: &Peaks) -> String {
+    let all = ["X", "Y", "C"].iter().zip(peaks).flat_map(|(axis, orders)| {
+        ["speed", "acceleration", "jerk"].iter().zip(orders).map(move |(order, peak)| (axis, order, peak))
+    });
+    let worst = all.max_by(|a, b| (a.2.worst / a.2.limit).total_cmp(&(b.2.worst / b.2.limit)));
+    worst.map_or_else(String::new, |(axis, order, peak)| {
+        format!("the {order} of {axis} is {} % of its limit", fixed(100.0 * peak.worst / peak.limit, 0))
+    })
 }
 
 /// Distance and speeds of the head of a job.

@@ -86,6 +86,12 @@ impl Ground {
         away.min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)))
     }
 
+    /// The chords that are no farther from a place than that, mm.
+    pub(super) fn within(&self, place: Point, distance: f64) -> impl Iterator<Item = &Chord> {
+        let near = self.boxes.near(Extent::between(place, place).grown(distance)).map(|i| &self.chords[i]);
+        near.filter(move |chord| polyline::distance_to_segment(place, chord.ends[0], chord.ends[1]) <= distance)
+    }
+
     /// Whether any edge is nearer to a place than that, mm.
     pub(super) fn is_nearer(&self, place: Point, distance: f64) -> bool {
         self.boxes.near(Extent::between(place, place).grown(distance)).any(|i| {

@@ -1,6 +1,6 @@
 //! What the jet does: how far the head is from the edge, which way it looks, how fast the jet goes, what it leaves.
 
-use super::ground::Ground;
+use super::ground::{Chord, Ground};
 use super::rows::{POSITION_ROUNDING, Row};
 use super::rules::Rule;
 use super::worst::{Worst, at, missing};
@@ -49,24 +49,31 @@ fn aimed(row: &Row, spot: Point, ground: &Ground, job: &Job, tolerance: f64, wor
         return;
     };
     worst.see(Rule::Distance, (away - distance).abs(), Some(tolerance + EPSILON), Some(at(row)));
-    let chord = &ground.chords[nearest];
-    let [from, to] = chord.ends;
-    let foot = from + (to - from) * polyline::foot(row.head, from, to).clamp(0.0, 1.0);
-    let aim = Heading::of(foot - row.head);
-    let askew = aim.turn_to(Rotation(rad(row.c_deg)).heading());
-    // Between the ways out at both ends of the chord any is that of a curve through them.
-    let across = Heading::of(-chord.out).turn_to(Rotation(rad(row.c_deg)).heading());
-    let [least, most] = [chord.bent[0].min(chord.bent[1]).min(0.0), chord.bent[0].max(chord.bent[1]).max(0.0)];
-    let bent = if (least..=most).contains(&across) { 0.0 } else { (across - most).max(least - across) };
-    let askew = askew.abs().min(bent);
+    // Where the head is between two edges it may look at either.
+    let equal = ground.within(row.head, away + 2.0 * tolerance);
+    let askew = equal.map(|chord| askew(row, chord)).fold(f64::INFINITY, f64::min);
     let limit = profile.verify.max_heading_deg + POSITION_ROUNDING + EPSILON;
     worst.see(Rule::Heading, deg(askew), Some(limit), Some(at(row)));
     let named = ground.chords.iter().filter(|chord| chord.block == row.block);
     let off = named.map(|chord| polyline::distance_to_segment(spot, chord.ends[0], chord.ends[1]));
     let off = off.fold(f64::INFINITY, f64::min);
     // The jet comes to a curve beside its chords, and over a bend before the block that drew it.
+    let [from, to] = ground.chords[nearest].ends;
     let longest = (to - from).norm();
     worst.see(Rule::Block, off, Some(tolerance + longest + SPOT), Some(at(row)));
+}
+
+/// How far a row looks from square to a chord, rad.
+fn askew(row: &Row, chord: &Chord) -> f64 {
+    let [from, to] = chord.ends;
+    let foot = from + (to - from) * polyline::foot(row.head, from, to).clamp(0.0, 1.0);
+    let looks = Rotation(rad(row.c_deg)).heading();
+    let aim = Heading::of(foot - row.head).turn_to(looks);
+    // Between the ways out at both ends of the chord any is that of a curve through them.
+    let across = Heading::of(-chord.out).turn_to(looks);
+    let [least, most] = [chord.bent[0].min(chord.bent[1]).min(0.0), chord.bent[0].max(chord.bent[1]).max(0.0)];
+    let bent = if (least..=most).contains(&across) { 0.0 } else { (across - most).max(least - across) };
+    aim.abs().min(bent)
 }
 
 /// The speed of the jet over each centimetre of its way.
