@@ -42,6 +42,9 @@ use crate::units::number::fixed;
 /// Share of the tolerances that the planner of a head uses; the rest is for rows in decimals and curves in legs.
 const SHARE: f64 = 0.9;
 
+/// Shares of what the axes can do that the clock of polynomials asks of them, one after the other.
+const GENTLER: [f64; 4] = [1.0, 0.6, 0.35, 0.2];
+
 /// What of the head's motion is planned before passes are joined.
 #[derive(Default)]
 struct Solved {
@@ -92,7 +95,7 @@ pub fn plan(marker: &Marker, job: &Job, out: &mut Diagnostics) -> Option<(Progra
     let rows = program::rows(&motions, &legs, &solved.velocities, job.mode.cuts(), period);
     let figures = figures::edges(&passes, &rows, &solved.fits, period);
     let edges = rings.into_iter().map(|ring| ring.points).collect();
-    Some((Program { edges, passes, rows, period, figures, planner: job.profile.tool.planner }, planner.peaks()))
+    Some((Program { edges, passes, rows, period, figures, distance: pace.distance }, planner.peaks()))
 }
 
 /// What of the axes is nearest to its limit, or farthest beyond.
@@ -158,8 +161,20 @@ fn fitted(passes: &[Pass], pace: &Pace, tolerance: f64, job: &Job, out: &mut Dia
     let mut solved = Solved::default();
     let mut first = 1;
     for pass in passes {
-        let clock = Clock::new(pass, pace, &limits, period);
-        let planned = quintic::plan(&clock, &stretches(pass), &profile.quintic, allowed, (&limits, period));
+        let stretches = stretches(pass);
+        let plan = |share: f64| {
+            let reach = Reach { acceleration: share * pace.reach.acceleration, jerk: share * pace.reach.jerk };
+            let clock = Clock::new(pass, &Pace { reach, ..*pace }, &limits, period);
+            quintic::plan(&clock, &stretches, &profile.quintic, allowed, (&limits, period))
+        };
+        // Polynomials ask more of the axes than the clock does: where they ask too much it goes more gently.
+        let mut planned = plan(GENTLER[0]);
+        for &share in &GENTLER[1..] {
+            if planned.as_ref().is_ok_and(|planned| planned.keeps(&limits, period)) {
+                break;
+            }
+            planned = plan(share).or(planned);
+        }
         let Planned { mut poses, velocities, legs, fits } = match planned {
             Ok(planned) => planned,
             Err(Unfit { worst: [distance, turn] }) => {

@@ -32,8 +32,8 @@ pub struct Program {
     pub period: f64,
     /// Figures of each edge, in order.
     pub figures: Vec<Edge>,
-    /// How its motion was planned.
-    pub planner: crate::machine::Planner,
+    /// Head to edge, mm.
+    pub distance: f64,
 }
 
 impl Program {

@@ -284,6 +284,23 @@ fn the_verifier_of_sewn_patterns_knows_their_forms_and_nothing_of_who_makes_them
 }
 
 #[test]
+fn the_verifier_of_heads_knows_nothing_of_who_moves_them() {
+    let mut faults = Vec::new();
+    for file in sources("src/spray/verify") {
+        for rest in after(&file.code, "spray::").chain(after(&file.code, "super::super")) {
+            let named: String = rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+            if named != "verify" {
+                faults.push(format!("{}: names `spray::{named}`", file.path.display()));
+            }
+        }
+        if file.path.ends_with("mod.rs") && after(&file.code, "use super::").next().is_some() {
+            faults.push(format!("{}: names what lies beside the verifier", file.path.display()));
+        }
+    }
+    report(&faults);
+}
+
+#[test]
 fn packages_printing_and_side_effects_stay_where_they_belong() {
     let mut faults = Vec::new();
     for file in sources("src") {

@@ -45,6 +45,7 @@ mod rewritten;
 mod route;
 mod sew;
 mod sheet;
+mod spray;
 mod targets;
 mod told;
 mod track;

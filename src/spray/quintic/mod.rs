@@ -51,6 +51,25 @@ pub(super) struct Planned {
     pub(super) fits: Vec<Vec<Fit>>,
 }
 
+impl Planned {
+    /// Whether the differences of the poses keep the limits of the axes, which rest before and behind.
+    pub(super) fn keeps(&self, limits: &[Limits; 3], period: f64) -> bool {
+        let place = |i: usize| {
+            let pose = &self.poses[i.saturating_sub(3).min(self.poses.len() - 1)];
+            [pose.centre.x, pose.centre.y, pose.c.0]
+        };
+        (3..self.poses.len() + 6).all(|i| {
+            let [a, b, c, d] = [place(i), place(i - 1), place(i - 2), place(i - 3)];
+            (0..3).all(|axis| {
+                let Limits { speed, acceleration, jerk } = limits[axis];
+                (a[axis] - b[axis]).abs() <= speed * period
+                    && (a[axis] - 2.0 * b[axis] + c[axis]).abs() <= acceleration * period.powi(2)
+                    && (a[axis] - 3.0 * b[axis] + 3.0 * c[axis] - d[axis]).abs() <= jerk * period.powi(3)
+            })
+        })
+    }
+}
+
 /// What polynomials could not be found for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Unfit {
