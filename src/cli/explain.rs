@@ -11,7 +11,7 @@ use crate::machine::MachineProfile;
 use crate::machine::keys::{self, KEYS, Key};
 use crate::manual;
 use crate::pipeline::RULES;
-use crate::sew;
+use crate::{sew, spray};
 
 /// Columns of an explanation.
 const COLUMNS: usize = 80;
@@ -51,7 +51,9 @@ fn topics() -> impl Iterator<Item = Topic> {
     let rules = RULES.iter().map(|rule| Topic { name: rule.name, kind: "rule", about: rule.about, more: rule.more });
     let sewing = sew::verify::RULES.iter();
     let sewing = sewing.map(|rule| Topic { name: rule.name, kind: "rule", about: rule.about, more: rule.more });
-    codes.chain(rules).chain(sewing)
+    let heads = spray::verify::RULES.iter();
+    let heads = heads.map(|rule| Topic { name: rule.name, kind: "rule", about: rule.about, more: rule.more });
+    codes.chain(rules).chain(sewing).chain(heads)
 }
 
 fn severity(severity: Severity) -> &'static str {

@@ -34,6 +34,10 @@ pub fn load(file: Option<&Source>, sets: &[String]) -> Result<MachineProfile, Fa
 
 /// The same, with where it came from.
 pub fn load_given(file: Option<&Source>, sets: &[String]) -> Result<(MachineProfile, origin::Origin), Faults> {
+    if file.is_none() && sets.is_empty() {
+        // Nothing can be wrong with what nobody typed.
+        return Ok((MachineProfile::default(), origin::Origin::default()));
+    }
     let mut draft = Draft::default();
     if let Some(file) = file {
         draft.read(file);

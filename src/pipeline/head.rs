@@ -10,8 +10,9 @@ use super::told::{Explained, told};
 use super::{Choices, Compiled, Input, Report, place};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::Dialect;
-use crate::ir::Finding;
+use crate::ir::{Finding, Marker};
 use crate::machine::Job;
+use crate::plan::Peaks;
 use crate::source::Source;
 use crate::spray::verify::Ground;
 use crate::spray::{self, Program, TARGETS, Target};
@@ -45,8 +46,7 @@ pub(super) fn compile(
         out.flush()?;
     }
     let mut report = Report::of(&input.marker, input.dialect.name);
-    report.program.time_s = Some(program.duration());
-    report.program.axes = Some(Axes::new(&peaks));
+    report.program = figures(&program, &peaks);
     report.edges = Some(program.figures.clone());
     let mut verdict = None;
     if let Some(reading) = reading {
@@ -56,6 +56,17 @@ pub(super) fn compile(
         verdict = Some(judged);
     }
     Ok((!diagnostics.has_errors()).then_some(Compiled { report, verdict, declared: Vec::new() }))
+}
+
+/// The figures of the program that a marker would become, as [`super::estimate`] has them of a knife.
+pub(super) fn estimate(marker: &Marker, job: &Job, diagnostics: &mut Diagnostics) -> super::Program {
+    let planned = spray::plan(marker, job, diagnostics);
+    planned.map_or_else(super::Program::default, |(program, peaks)| figures(&program, &peaks))
+}
+
+/// The figures of a program.
+fn figures(program: &Program, peaks: &Peaks) -> super::Program {
+    super::Program { time_s: Some(program.duration()), axes: Some(Axes::new(peaks)), ..super::Program::default() }
 }
 
 /// The targets of the products; one that tells of a knife is an error.

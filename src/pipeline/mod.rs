@@ -266,6 +266,9 @@ pub fn estimate(input: &mut Input, source: &Source, job: &Job, diagnostics: &mut
     if diagnostics.has_errors() {
         return Ok(Program::default());
     }
+    if job.profile.tool.kind == ToolKind::Spray {
+        return Ok(head::estimate(&input.marker, job, diagnostics));
+    }
     let toolpaths = Toolpaths::new(&input.marker, job);
     let context = Context { job, marker: &input.marker, source };
     let known = diagnostics.iter().len();

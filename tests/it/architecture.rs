@@ -51,6 +51,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
             "units",
             "manual",
             "sew",
+            "spray",
             "track",
         ],
     ),

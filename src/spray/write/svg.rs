@@ -74,7 +74,10 @@ fn write(program: &Program, out: &mut dyn Write) -> io::Result<()> {
 /// The head of the picture, with the legend.
 fn head(height: f64, out: &mut dyn Write) -> io::Result<()> {
     let height = fixed(height, 0);
-    writeln!(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" font-family=\"sans-serif\" font-size=\"12\">")?;
+    writeln!(
+        out,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" font-family=\"sans-serif\" font-size=\"12\">"
+    )?;
     writeln!(
         out,
         "<style>rect{{fill:#fff}} path{{fill:none}} .part{{fill:#ebe4d8;stroke:#555;fill-rule:evenodd}} \
@@ -147,14 +150,28 @@ fn speeds(program: &Program, top: f64, out: &mut dyn Write) -> io::Result<()> {
     for i in 0..=(whole / step).round() as usize {
         let at = i as f64 * step;
         let down = fixed(y(at), 2);
-        writeln!(out, "<path class=\"grid\" d=\"M{LEFT} {down}h{wide}\"/><text x=\"{}\" y=\"{down}\" dy=\"4\" text-anchor=\"end\">{}</text>", LEFT - 6.0, short(at))?;
+        writeln!(
+            out,
+            "<path class=\"grid\" d=\"M{LEFT} {down}h{wide}\"/><text x=\"{}\" y=\"{down}\" dy=\"4\" text-anchor=\"end\">{}</text>",
+            LEFT - 6.0,
+            short(at)
+        )?;
     }
     for i in 0..=(program.duration() / ticks) as usize {
         let at = i as f64 * ticks;
         let along = fixed(LEFT + wide * at / program.duration(), 2);
-        writeln!(out, "<path class=\"grid\" d=\"M{along} {top}v{PANEL}\"/><text x=\"{along}\" y=\"{}\" text-anchor=\"middle\">{} s</text>", top + PANEL + 18.0, short(at))?;
+        writeln!(
+            out,
+            "<path class=\"grid\" d=\"M{along} {top}v{PANEL}\"/><text x=\"{along}\" y=\"{}\" text-anchor=\"middle\">{} s</text>",
+            top + PANEL + 18.0,
+            short(at)
+        )?;
     }
-    writeln!(out, "<text x=\"{LEFT}\" y=\"{}\">speed, m/s: of the head, and of its jet along the edge</text>", top - 10.0)?;
+    writeln!(
+        out,
+        "<text x=\"{LEFT}\" y=\"{}\">speed, m/s: of the head, and of its jet along the edge</text>",
+        top - 10.0
+    )?;
     let every = rows.len().div_ceil(MOST_ROWS);
     let of = |value: &dyn Fn(usize) -> f64, from: usize| {
         (from..rows.len().min(from + every)).map(value).fold(0.0, f64::max) / MM_PER_M

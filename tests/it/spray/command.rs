@@ -25,7 +25,8 @@ fn one_command_compiles_by_either_planner_and_another_judges_it() {
     assert!(said.contains("planner optimal") && !said.contains("condition"), "{said}");
     let (told, _) = room.expect("verify optimal.csv --source panel.csv -p spray.toml", DONE);
     assert!(told.contains("spray-verify/edge-speed") && told.contains("PASS"), "{told}");
-    let (told, _) = room.expect("verify optimal.csv --source panel.csv -p spray.toml --set tool.edge_speed_mm_s=200", FAULTY);
+    let (told, _) =
+        room.expect("verify optimal.csv --source panel.csv -p spray.toml --set tool.edge_speed_mm_s=200", FAULTY);
     assert!(told.contains("FAIL"), "{told}");
     room.expect("compile panel.csv -p spray.toml --planner cubic", USAGE);
 }

@@ -80,11 +80,16 @@ fn every_rule_is_broken_by_its_damage_and_nothing_else_by_none() {
     check("distance", &damaged(&|rows, at| bump(rows, at, 2, 0.2)), &head);
     check("heading", &damaged(&|rows, at| bump(rows, at, 3, 3.0)), &head);
     check("edge-speed", &bytes, &job(&["tool.edge_speed_mm_s=250"]));
-    check("coverage", &damaged(&|rows, at| rows[at..at + 50].iter_mut().for_each(|row| (row[6], row[7]) = (0.0, 0.0))), &head);
+    check(
+        "coverage",
+        &damaged(&|rows, at| rows[at..at + 50].iter_mut().for_each(|row| (row[6], row[7]) = (0.0, 0.0))),
+        &head,
+    );
     check("block", &damaged(&|rows, at| rows[at][7] = 134.0), &head);
     check("jet", &bytes, &Job { mode: Mode::Dry, ..head.clone() });
     let reported = ["spray-verify/edge-slow"];
-    let all: BTreeSet<String> = RULES.iter().map(|row| row.name.to_owned()).filter(|name| !reported.contains(&name.as_str())).collect();
+    let all: BTreeSet<String> =
+        RULES.iter().map(|row| row.name.to_owned()).filter(|name| !reported.contains(&name.as_str())).collect();
     assert_eq!(seen, all);
 }
 

@@ -114,7 +114,9 @@ fn a_file_without_an_edge_that_can_be_followed_is_refused() {
         all += &format!("{name}\n{}\n", said.unwrap_or_else(|| panic!("{name} is refused")));
     }
     let panel = fixture("spray/panel.csv");
-    for (target, sets) in [("gcode", &[][..]), ("csv", &["c.range_deg=[-200, 200]"]), ("csv", &["axes.c.jerk_deg_s3=100"])] {
+    for (target, sets) in
+        [("gcode", &[][..]), ("csv", &["c.range_deg=[-200, 200]"]), ("csv", &["axes.c.jerk_deg_s3=100"])]
+    {
         let said = compiled(&panel, target, &job(sets)).err();
         all += &format!("{target} {sets:?}\n{}\n", said.unwrap_or_else(|| panic!("{target} {sets:?} is refused")));
     }
