@@ -2,12 +2,11 @@
 
 use std::io::{self, BufReader, BufWriter, Cursor, Write};
 
-use super::input::{Judged, read, read_to_judge};
-use super::judge;
+use super::input::{Input, Judged, read, read_to_judge};
 use super::product::{BLOCK, Medium, Product};
-use super::report::Axes;
+use super::report::{self, Axes, Report};
 use super::told::{Explained, told};
-use super::{Choices, Compiled, Input, Report, place};
+use super::{judge, place};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::Dialect;
 use crate::ir::{Finding, Marker};
@@ -18,18 +17,19 @@ use crate::spray::verify::Ground;
 use crate::spray::{self, Program, TARGETS, Target};
 use crate::verify::Verdict;
 
-/// Compiles a source to several programs of a head, as [`super::compile_all`] does for a knife.
+/// Compiles a source, read as a dialect, to several programs of a head, as [`super::compile_all`] does for a knife: its
+/// figures, and with `verify` what it is worth.
 pub(super) fn compile(
     source: &Source,
     job: &Job,
-    choices: Choices,
+    (from, verify): (Option<&'static Dialect>, bool),
     products: &mut [Product],
     diagnostics: &mut Diagnostics,
-) -> io::Result<Option<Compiled>> {
-    let all = if choices.verify {
-        read_to_judge(source, choices.from, job, diagnostics).map(|Judged { input, reading }| (input, Some(reading)))
+) -> io::Result<Option<(Report, Option<Verdict>)>> {
+    let all = if verify {
+        read_to_judge(source, from, job, diagnostics).map(|Judged { input, reading }| (input, Some(reading)))
     } else {
-        read(source, choices.from, job, diagnostics).map(|input| (input, None))
+        read(source, from, job, diagnostics).map(|input| (input, None))
     };
     let Some((input, reading)) = all else { return Ok(None) };
     let targets = targets(products, diagnostics);
@@ -55,33 +55,31 @@ pub(super) fn compile(
         judge::report(&judged, &input.marker, job, diagnostics);
         verdict = Some(judged);
     }
-    Ok((!diagnostics.has_errors()).then_some(Compiled { report, verdict, declared: Vec::new() }))
+    Ok((!diagnostics.has_errors()).then_some((report, verdict)))
 }
 
 /// The figures of the program that a marker would become, as [`super::estimate`] has them of a knife.
-pub(super) fn estimate(marker: &Marker, job: &Job, diagnostics: &mut Diagnostics) -> super::Program {
+pub(super) fn estimate(marker: &Marker, job: &Job, diagnostics: &mut Diagnostics) -> report::Program {
     let planned = spray::plan(marker, job, diagnostics);
-    planned.map_or_else(super::Program::default, |(program, peaks)| figures(&program, &peaks))
+    planned.map_or_else(report::Program::default, |(program, peaks)| figures(&program, &peaks))
 }
 
 /// The figures of a program.
-fn figures(program: &Program, peaks: &Peaks) -> super::Program {
-    super::Program { time_s: Some(program.duration()), axes: Some(Axes::new(peaks)), ..super::Program::default() }
+fn figures(program: &Program, peaks: &Peaks) -> report::Program {
+    report::Program { time_s: Some(program.duration()), axes: Some(Axes::new(peaks)), ..report::Program::default() }
 }
 
 /// The targets of the products; one that tells of a knife is an error.
 fn targets(products: &[Product], diagnostics: &mut Diagnostics) -> Vec<&'static Target> {
     let mut targets = Vec::new();
-    for product in products {
-        let name = product.target.name;
-        match TARGETS.iter().find(|target| target.name == name) {
-            Some(target) => targets.push(target),
-            None => {
-                let message = format!("the target `{name}` tells of a knife, but `tool.kind` is \"spray\"");
-                let known: Vec<&str> = TARGETS.iter().map(|target| target.name).collect();
-                let hint = format!("take `{}`", known.join("` or `"));
-                diagnostics.push(Diagnostic::new(&code::SPRAY_TARGET, message).hint(hint));
-            }
+    for name in products.iter().map(|product| product.target.name) {
+        if let Some(target) = TARGETS.iter().find(|target| target.name == name) {
+            targets.push(target);
+        } else {
+            let message = format!("the target `{name}` tells of a knife, but `tool.kind` is \"spray\"");
+            let known: Vec<&str> = TARGETS.iter().map(|target| target.name).collect();
+            let hint = format!("take `{}`", known.join("` or `"));
+            diagnostics.push(Diagnostic::new(&code::SPRAY_TARGET, message).hint(hint));
         }
     }
     targets

@@ -3,7 +3,6 @@
 use std::fmt::Write as _;
 use std::io::{self, BufRead as _, BufReader, Read as _};
 
-use super::head;
 use super::input::{Judged, Reading, make_cuts, read_to_judge};
 use super::off_table;
 use super::product::{BLOCK, Medium};
@@ -13,7 +12,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::Dialect;
 use crate::ir::marker::{Notch, Piece};
 use crate::ir::{Finding, Marker};
-use crate::machine::{Job, Mode, ToolKind};
+use crate::machine::{Job, Mode};
 use crate::source::{Source, Span};
 use crate::spray;
 use crate::units::number::{exact, fixed, up};
@@ -33,9 +32,10 @@ const DIGITS: i32 = 4;
 const NOISE_EPSILON: f64 = 0.99e-9;
 /// The most that are needed to tell a worst value from its limit; beyond, they differ by rounding alone.
 const MOST_DIGITS: i32 = 15;
+
 /// Judges a program, edited by hand or not, against a source. `None` when the source has errors: then
 /// the diagnostics say which. They are about the source alone; what the program breaks is in the verdict.
-pub fn judge_program(
+pub(super) fn judge_program(
     program: &mut dyn Medium,
     source: &Source,
     from: Option<&'static Dialect>,
@@ -43,9 +43,6 @@ pub fn judge_program(
     declared: Option<&Declared>,
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Option<Explained>> {
-    if job.profile.tool.kind == ToolKind::Spray {
-        return head::judge_program(program, source, from, job, diagnostics);
-    }
     let Some(judged) = read_to_judge(source, from, job, diagnostics) else { return Ok(None) };
     if diagnostics.has_errors() {
         return Ok(None);

@@ -22,7 +22,7 @@ mod toolpaths;
 pub use crate::analysis::area;
 pub use crate::analysis::waits::{Waits, waits};
 pub use input::{Input, Judged, Reading, marker_of, read, read_to_judge};
-pub use judge::{about, advice, figures, foreign, judge_program};
+pub use judge::{about, advice, figures, foreign};
 pub use product::{Medium, Product};
 pub use report::{Axes, Common, Controller, Drawn, Lines, Notches, Peak, Peaks, Program, Report, Sides};
 pub use rounded::significant;
@@ -114,7 +114,8 @@ pub fn compile_all(
 ) -> io::Result<Option<Compiled>> {
     let Choices { from, verify } = choices;
     if job.profile.tool.kind == ToolKind::Spray {
-        return head::compile(source, job, choices, products, diagnostics);
+        let made = head::compile(source, job, (from, verify), products, diagnostics)?;
+        return Ok(made.map(|(report, verdict)| Compiled { report, verdict, declared: Vec::new() }));
     }
     let judged = if verify {
         read_to_judge(source, from, job, diagnostics).map(|Judged { input, reading }| (input, Some(reading)))
@@ -257,6 +258,24 @@ impl Proofs {
             });
         }
         Ok(verdict)
+    }
+}
+
+/// Judges a program, edited by hand or not, against a source. `None` when the source has errors: then the diagnostics say
+/// which. They are about the source alone; what the program breaks is in the verdict.
+pub fn judge_program(
+    program: &mut dyn Medium,
+    source: &Source,
+    from: Option<&'static Dialect>,
+    job: &Job,
+    declared: Option<&Declared>,
+    diagnostics: &mut Diagnostics,
+) -> io::Result<Option<Explained>> {
+    match job.profile.tool.kind {
+        ToolKind::Spray => head::judge_program(program, source, from, job, diagnostics),
+        ToolKind::Knife | ToolKind::Wheel | ToolKind::Pen | ToolKind::Router => {
+            judge::judge_program(program, source, from, job, declared, diagnostics)
+        }
     }
 }
 

@@ -142,7 +142,9 @@ fn parted(way: &[Leg], corner: f64, pace: &Pace) -> Vec<Pass> {
         passes[last].extend(air(way[..behind].iter().copied(), out));
         passes[0].splice(0..0, lead_in);
     }
-    passes.iter_mut().for_each(|pass| unwrap(pass));
+    for pass in &mut passes {
+        unwrap(pass);
+    }
     passes
 }
 

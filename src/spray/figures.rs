@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::course::{Leg, Pass, Role, stretches};
-use super::program::Row;
 use super::quintic::Fit;
+use super::rows::Row;
 use crate::geom::polyline;
 use crate::units::deg;
 

@@ -21,12 +21,14 @@ mod optimal;
 mod program;
 mod quintic;
 mod reach;
+mod rows;
 pub mod verify;
 
 mod write;
 
 pub use figures::{Edge, Piece};
-pub use program::{Program, Row};
+pub use program::Program;
+pub use rows::Row;
 pub use write::{TARGETS, Target};
 
 use self::clock::Clock;
@@ -78,7 +80,9 @@ pub fn plan(marker: &Marker, job: &Job, out: &mut Diagnostics) -> Option<(Progra
         Planner::Optimal => match optimal::solve(&mut toolpath, &passes, &head) {
             Ok(cuts) => Solved { cuts, ..Solved::default() },
             Err(refused) => {
-                refused.into_iter().for_each(|diagnostic| out.push(diagnostic));
+                for diagnostic in refused {
+                    out.push(diagnostic);
+                }
                 return None;
             }
         },
@@ -92,7 +96,7 @@ pub fn plan(marker: &Marker, job: &Job, out: &mut Diagnostics) -> Option<(Progra
         return None;
     }
     let legs: Vec<&Leg> = passes.iter().flatten().collect();
-    let rows = program::rows(&motions, &legs, &solved.velocities, job.mode.cuts(), period);
+    let rows = rows::rows(&motions, &legs, &solved.velocities, job.mode.cuts(), period);
     let figures = figures::edges(&passes, &rows, &solved.fits, period);
     let edges = rings.into_iter().map(|ring| ring.points).collect();
     Some((Program { edges, passes, rows, period, figures, distance: pace.distance }, planner.peaks()))
@@ -188,7 +192,9 @@ fn fitted(passes: &[Pass], pace: &Pace, tolerance: f64, job: &Job, out: &mut Dia
                 return None;
             }
         };
-        poses.iter_mut().for_each(|pose| pose.c.0 -= std::f64::consts::FRAC_PI_2);
+        for pose in &mut poses {
+            pose.c.0 -= std::f64::consts::FRAC_PI_2;
+        }
         solved.cuts.push(Cut::sampled(poses, cuts::spells(&legs, first), period));
         solved.velocities.push(velocities);
         solved.fits.push(fits);

@@ -10,7 +10,7 @@ mod polynomial;
 mod split;
 mod timeline;
 
-pub(super) use split::Fit;
+pub(super) use split::{Allowed, Fit};
 
 use self::timeline::Timeline;
 use super::clock::{Clock, Timed};
@@ -23,20 +23,10 @@ use crate::machine::{Limits, Quintic};
 const SAMPLE: f64 = 1e-3;
 /// The fewest samples of a stretch.
 const LEAST_SAMPLES: usize = 24;
-/// Share of the tolerance that pieces are fitted to at first, and by how much less when transitions then miss it.
-const SHARE: f64 = 0.5;
+/// By how much less than the tolerance pieces are fitted to when transitions miss it.
 const LESS: f64 = 0.6;
 /// Rounds of that.
 const ROUNDS: usize = 8;
-
-/// How far a motion may be from the course at its time.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Allowed {
-    /// The head, mm.
-    pub(super) distance: f64,
-    /// Its direction, rad.
-    pub(super) turn: f64,
-}
 
 /// The motion of a pass.
 #[derive(Debug)]
@@ -86,7 +76,7 @@ pub(super) fn plan(
     (limits, period): (&[Limits; 3], f64),
 ) -> Result<Planned, Unfit> {
     let samples: Vec<Vec<Timed>> = stretches.iter().map(|stretch| sampled(clock, stretch)).collect();
-    let mut share = SHARE;
+    let mut share = 1.0;
     let mut worst = [f64::INFINITY; 2];
     for _ in 0..ROUNDS {
         let within = Allowed { distance: share * allowed.distance, turn: share * allowed.turn };

@@ -1,12 +1,20 @@
 //! Splitting: a stretch is halved until a polynomial keeps each part of it.
 
-use super::Allowed;
 use super::polynomial::Polynomial;
 use crate::machine::Basis;
 use crate::spray::clock::Timed;
 
 /// The fewest samples that a polynomial is fitted to: twice as many as it has coefficients.
 const LEAST: usize = 12;
+
+/// How far a motion may be from the course at its time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::spray) struct Allowed {
+    /// The head, mm.
+    pub(in crate::spray) distance: f64,
+    /// Its direction, rad.
+    pub(in crate::spray) turn: f64,
+}
 
 /// A polynomial that was fitted to samples.
 #[derive(Debug, Clone, PartialEq)]

@@ -58,27 +58,26 @@ fn limits([x, y, c]: [Limits; 3]) -> [[f64; 3]; 3] {
 fn differences(rows: &[Row], job: &Job, worst: &mut Worst) {
     let period = job.profile.time.period();
     let [jet, air] = [job.profile.axes.limits(), job.profile.axes.travel_limits()].map(limits);
-    let place = |i: isize| {
-        let row = &rows[i.clamp(0, rows.len() as isize - 1) as usize];
-        [row.head.x, row.head.y, row.c_deg]
-    };
-    for i in 0..rows.len() as isize + 3 {
-        let row = &rows[(i as usize).min(rows.len() - 1)];
+    let last = rows.len() - 1;
+    // Counted from three rows before the first.
+    let of = |i: usize| &rows[i.saturating_sub(3).min(last)];
+    let place = |i: usize| [of(i).head.x, of(i).head.y, of(i).c_deg];
+    for i in 3..last + 7 {
         let [a, b, c, d] = [i, i - 1, i - 2, i - 3].map(place);
         // Without jet the head travels, or gathers speed for an edge: the wider limits hold.
-        let sprays = (i - 3..=i).all(|j| rows[j.clamp(0, rows.len() as isize - 1) as usize].jet);
+        let sprays = (i - 3..=i).all(|j| of(j).jet);
         for axis in 0..3 {
-            let of = [
+            let differences = [
                 (a[axis] - b[axis]).abs(),
                 (a[axis] - 2.0 * b[axis] + c[axis]).abs(),
                 (a[axis] - 3.0 * b[axis] + 3.0 * c[axis] - d[axis]).abs(),
             ];
-            for (order, difference) in of.into_iter().enumerate() {
-                let h = period.powi(order as i32 + 1);
+            for (order, power) in [1, 2, 3].into_iter().enumerate() {
+                let h = period.powi(power);
                 let most = if sprays { jet[order][axis] } else { jet[order][axis].max(air[order][axis]) };
-                let rounding = POSITION_ROUNDING * 2.0_f64.powi(order as i32 + 1) / h;
+                let rounding = POSITION_ROUNDING * 2.0_f64.powi(power) / h;
                 let limit = most * (1.0 + LIMIT_EPSILON) + rounding;
-                worst.see(OF_AXES[order][axis], difference / h, Some(limit), Some(at(row)));
+                worst.see(OF_AXES[order][axis], differences[order] / h, Some(limit), Some(at(of(i))));
             }
         }
     }

@@ -1,5 +1,7 @@
 //! The edges as drawn, to measure by: which is nearest, which way is out, what a head can face.
 
+use std::collections::BTreeMap;
+
 use crate::geom::boxes::Boxes;
 use crate::geom::{Extent, Point, Vector, left, polyline};
 use crate::ir::Marker;
@@ -28,6 +30,8 @@ pub(super) struct Chord {
 pub struct Ground {
     pub(super) chords: Vec<Chord>,
     boxes: Boxes,
+    /// The chords of each block.
+    blocks: BTreeMap<u32, Vec<usize>>,
 }
 
 impl Ground {
@@ -56,7 +60,11 @@ impl Ground {
             }
         }
         let boxes = Boxes::new(chords.iter().map(|chord| Extent::between(chord.ends[0], chord.ends[1])).collect());
-        let mut ground = Self { chords, boxes };
+        let mut blocks: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+        for (i, chord) in chords.iter().enumerate() {
+            blocks.entry(chord.block).or_default().push(i);
+        }
+        let mut ground = Self { chords, boxes, blocks };
         for i in 0..ground.chords.len() {
             let chord = ground.chords[i];
             let middle = chord.ends[0] + (chord.ends[1] - chord.ends[0]) * 0.5;
@@ -76,20 +84,21 @@ impl Ground {
         self.chords.iter().filter(crosses).count() % 2 == 1
     }
 
-    /// The chord that is nearest to a place, and how far it is, mm; looked for as far as `reach`.
-    pub(super) fn nearest(&self, place: Point, reach: f64) -> Option<(usize, f64)> {
-        let near = self.boxes.near(Extent::between(place, place).grown(reach));
-        let away = near.map(|i| {
-            let [a, b] = self.chords[i].ends;
-            (i, polyline::distance_to_segment(place, a, b))
-        });
-        away.min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)))
+    /// How far the nearest chord is from a place, mm; looked for as far as `reach`.
+    pub(super) fn nearest(&self, place: Point, reach: f64) -> Option<f64> {
+        let near = self.boxes.near(Extent::between(place, place).grown(reach)).map(|i| &self.chords[i]);
+        near.map(|chord| polyline::distance_to_segment(place, chord.ends[0], chord.ends[1])).min_by(f64::total_cmp)
     }
 
     /// The chords that are no farther from a place than that, mm.
     pub(super) fn within(&self, place: Point, distance: f64) -> impl Iterator<Item = &Chord> {
         let near = self.boxes.near(Extent::between(place, place).grown(distance)).map(|i| &self.chords[i]);
         near.filter(move |chord| polyline::distance_to_segment(place, chord.ends[0], chord.ends[1]) <= distance)
+    }
+
+    /// The chords that a block draws.
+    pub(super) fn of_block(&self, block: u32) -> impl Iterator<Item = &Chord> {
+        self.blocks.get(&block).into_iter().flatten().map(|&i| &self.chords[i])
     }
 
     /// Whether any edge is nearer to a place than that, mm.

@@ -44,7 +44,7 @@ fn aimed(row: &Row, spot: Point, ground: &Ground, job: &Job, tolerance: f64, wor
     let profile = &job.profile;
     let distance = profile.tool.distance_mm;
     let reach = distance + tolerance + 1.0;
-    let Some((nearest, away)) = ground.nearest(row.head, reach) else {
+    let Some(away) = ground.nearest(row.head, reach) else {
         worst.see(Rule::Distance, f64::INFINITY, Some(tolerance), Some(at(row)));
         return;
     };
@@ -54,13 +54,11 @@ fn aimed(row: &Row, spot: Point, ground: &Ground, job: &Job, tolerance: f64, wor
     let askew = equal.map(|chord| askew(row, chord)).fold(f64::INFINITY, f64::min);
     let limit = profile.verify.max_heading_deg + POSITION_ROUNDING + EPSILON;
     worst.see(Rule::Heading, deg(askew), Some(limit), Some(at(row)));
-    let named = ground.chords.iter().filter(|chord| chord.block == row.block);
+    let named = ground.of_block(row.block);
     let off = named.map(|chord| polyline::distance_to_segment(spot, chord.ends[0], chord.ends[1]));
     let off = off.fold(f64::INFINITY, f64::min);
-    // The jet comes to a curve beside its chords, and over a bend before the block that drew it.
-    let [from, to] = ground.chords[nearest].ends;
-    let longest = (to - from).norm();
-    worst.see(Rule::Block, off, Some(tolerance + longest + SPOT), Some(at(row)));
+    // About the ends of a chord that stands for a curve the jet is ahead of the head, or behind it.
+    worst.see(Rule::Block, off, Some(tolerance + WAY), Some(at(row)));
 }
 
 /// How far a row looks from square to a chord, rad.
@@ -85,8 +83,8 @@ fn speeds(rows: &[Row], spots: &[Point], job: &Job, worst: &mut Worst) {
     let (mut from, mut way, mut slow_way) = (0, 0.0, 0.0);
     let step = |i: usize| if rows[i].jet && rows[i - 1].jet { (spots[i] - spots[i - 1]).norm() } else { 0.0 };
     let mut slowest = None;
-    for i in 1..rows.len() {
-        if !rows[i].jet {
+    for (i, row) in rows.iter().enumerate().skip(1) {
+        if !row.jet {
             (from, way) = (i, 0.0);
             continue;
         }
@@ -99,10 +97,10 @@ fn speeds(rows: &[Row], spots: &[Point], job: &Job, worst: &mut Worst) {
             continue;
         }
         let speed = way / ((i - from) as f64 * period);
-        worst.see(Rule::EdgeSpeed, speed, Some(limit * (1.0 + EPSILON)), Some(at(&rows[i])));
+        worst.see(Rule::EdgeSpeed, speed, Some(limit * (1.0 + EPSILON)), Some(at(row)));
         if speed < slow {
             slow_way += step(i);
-            slowest = slowest.or(Some(at(&rows[i])));
+            slowest = slowest.or(Some(at(row)));
         }
     }
     worst.see(Rule::EdgeSlow, slow_way, None, slowest);

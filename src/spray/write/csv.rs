@@ -5,7 +5,7 @@
 
 use std::io::{self, Write};
 
-use super::Target;
+use super::target::Target;
 use crate::spray::program::Program;
 use crate::units::{deg, number};
 

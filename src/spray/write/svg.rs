@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
-use super::Target;
+use super::target::Target;
 use crate::geom::{Extent, Point};
 use crate::spray::program::Program;
 use crate::units::MM_PER_M;

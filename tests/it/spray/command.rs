@@ -34,7 +34,7 @@ fn one_command_compiles_by_either_planner_and_another_judges_it() {
 #[test]
 fn figures_of_each_edge_come_as_json_with_the_coefficients() {
     let room = room();
-    let (json, _) = room.expect("compile panel.csv -p spray.toml --planner quintic --format json", DONE);
+    let (json, _) = room.expect("compile panel.csv -p spray.toml --planner quintic --format json -o quintic.csv", DONE);
     let figures: serde_json::Value = serde_json::from_str(&json).expect("JSON");
     let edges = figures["edges"].as_array().expect("a list");
     assert_eq!(edges.len(), 4);

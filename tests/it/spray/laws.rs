@@ -7,7 +7,7 @@ use super::{compiled, job};
 
 /// A smooth part with some waves, as a file; backwards when asked.
 fn waves(random: &mut Rng, is_backwards: bool) -> Source {
-    let (count, radius) = (random.usize(200..500), random.f64() * 400.0 + 300.0);
+    let (count, radius) = (random.usize(500..900), random.f64() * 400.0 + 300.0);
     let waves: Vec<[f64; 3]> =
         (2..5).map(|k| [f64::from(k), random.f64() * 0.12 * radius / f64::from(k), random.f64() * 6.0]).collect();
     let at = |i: usize| {
