@@ -43,7 +43,7 @@
 //! | `cli` | arguments as typed to a job as meant; the binary adds printing and the exit code |
 //!
 //! Other machines of the sewing floor are small pipelines of the same shape: [`sew`] reads what `front` reads and has its own
-//! forms, targets and verifier; [`track`] reads logs, and a firmware can take its controller over.
+//! forms, targets and verifier; [`spray`] takes what the cutter reads and has its own course, targets and verifier; [`track`] reads logs, and a firmware can take its controller over.
 //!
 //! To find a thing, follow the data: a wrong coordinate is `front`'s, a wrong order or overlap `pass`'s, a shaking axis
 //! `plan`'s, a wrong column `back`'s.
