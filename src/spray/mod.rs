@@ -23,13 +23,14 @@ mod quintic;
 mod reach;
 mod rows;
 pub mod verify;
-
 mod write;
 
 pub use figures::{Edge, Piece};
 pub use program::Program;
 pub use rows::Row;
 pub use write::{TARGETS, Target};
+
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use self::clock::Clock;
 use self::course::{Leg, Pace, Pass, Reach, stretches};
@@ -43,7 +44,6 @@ use crate::units::number::fixed;
 
 /// Share of the tolerances that the planner of a head uses; the rest is for rows in decimals and curves in legs.
 const SHARE: f64 = 0.9;
-
 /// Shares of what the axes can do that the clock of polynomials asks of them, one after the other.
 const GENTLER: [f64; 4] = [1.0, 0.6, 0.35, 0.2];
 
@@ -127,27 +127,22 @@ fn pace(job: &Job) -> Pace {
 
 /// Turns passes by whole turns so that C has the least way between them and stays in its range.
 fn turn(passes: &mut [Pass], job: &Job, out: &mut Diagnostics) -> Option<()> {
-    use std::f64::consts::TAU;
     let mut last = job.profile.home[2].to_radians();
     for pass in passes {
-        let aims = || pass.iter().flat_map(|leg| leg.ends).map(|node| node.aim);
-        let (least, most) = aims().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), aim| (a.min(aim), b.max(aim)));
+        let aims = pass.iter().flat_map(|leg| leg.ends).map(|node| node.aim);
+        let (least, most) = aims.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), aim| (a.min(aim), b.max(aim)));
         let mut turns = ((last - pass[0].ends[0].aim) / TAU).round();
         if let Some([from, to]) = job.profile.c.range() {
-            turns = turns
-                .clamp(((from - least) / TAU).ceil(), ((to - most) / TAU).floor().max(((from - least) / TAU).ceil()));
-            if most + turns * TAU > to {
-                let message = format!(
-                    "around an edge the head turns by {} degrees, more than `c.range_deg` has",
-                    fixed(deg(most - least), 0)
-                );
-                out.push(
-                    Diagnostic::new(&code::SPRAY_RANGE, message).hint(
-                        "a head whose hoses do not let it is parted in the drawing: at a corner inwards it rests",
-                    ),
-                );
+            let (fewest, greatest) = (((from - least) / TAU).ceil(), ((to - most) / TAU).floor());
+            if fewest > greatest {
+                let turn = fixed(deg(most - least), 0);
+                let message =
+                    format!("around an edge the head turns by {turn} degrees, for which `c.range_deg` has no room");
+                let hint = "give C more range, or let it turn without end: `c.range_deg = \"unbounded\"`";
+                out.push(Diagnostic::new(&code::SPRAY_RANGE, message).hint(hint));
                 return None;
             }
+            turns = turns.clamp(fewest, greatest);
         }
         for leg in pass.iter_mut() {
             leg.ends.iter_mut().for_each(|node| node.aim += turns * TAU);
@@ -193,7 +188,7 @@ fn fitted(passes: &[Pass], pace: &Pace, tolerance: f64, job: &Job, out: &mut Dia
             }
         };
         for pose in &mut poses {
-            pose.c.0 -= std::f64::consts::FRAC_PI_2;
+            pose.c.0 -= FRAC_PI_2;
         }
         solved.cuts.push(Cut::sampled(poses, cuts::spells(&legs, first), period));
         solved.velocities.push(velocities);
