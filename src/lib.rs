@@ -37,13 +37,14 @@
 //! | `verify` | `program`: readers of its own; `reference`: what must be cut; `cut` and `axes`: what blade and axes do; `source`: the audit of the reader |
 //! | [`pipeline`] | names every stage once, in order |
 //! | [`sew`] | the pattern-sewing machine, a pipeline of its own: patterns to stitches, pulses and stitch files |
+//! | [`spray`] | the head that follows edges at a distance: rings to offsets, courses and setpoints with velocities |
 //! | [`track`] | the carriage that follows the centre of a moving cloth: ruler readings to commands and centre lines |
 //! | [`flow`] | heads over a conveyor, a pipeline of its own: a Marker to chains, heads, rows and a program a head |
 //! | [`manual`] | the manual, a page a topic, rows of [`manual::PAGES`] |
 //! | `cli` | arguments as typed to a job as meant; the binary adds printing and the exit code |
 //!
 //! Other machines of the sewing floor are small pipelines of the same shape: [`sew`] reads what `front` reads and has its own
-//! forms, targets and verifier; [`track`] reads logs, and a firmware can take its controller over; [`flow`] takes the Marker that
+//! forms, targets and verifier; [`spray`] takes what the cutter reads and has its own course, targets and verifier; [`track`] reads logs, and a firmware can take its controller over; [`flow`] takes the Marker that
 //! the cutter would cut, asks `pass` and `plan` for the motion over the cloth, and has programs, targets and verifier of its own.
 //!
 //! To find a thing, follow the data: a wrong coordinate is `front`'s, a wrong order or overlap `pass`'s, a shaking axis
@@ -92,6 +93,7 @@ pub mod plan;
 pub mod recognise;
 pub mod sew;
 pub mod source;
+pub mod spray;
 pub mod track;
 pub mod units;
 pub mod verify;

@@ -6,6 +6,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use crate::back::{TARGETS, Target};
 use crate::flow;
 use crate::front::{DIALECTS, Dialect};
+use crate::machine::keys::{self, Takes};
 use crate::machine::{patterns, plot};
 use crate::manual::{PAGES, Page};
 use crate::pass::marker::MARKER_PASSES;
@@ -116,6 +117,17 @@ pub(super) fn sewing_formats() -> impl TypedValueParser<Value = String> {
 pub(super) fn pages() -> impl TypedValueParser<Value = &'static Page> {
     names(PAGES.iter().map(|page| (page.name, page.about)))
         .map(|name| PAGES.iter().find(|page| page.name == name).expect("clap lets only the names of the table pass"))
+}
+
+/// The key of the planner of a head.
+pub(super) const PLANNER: &str = "tool.planner";
+
+/// Reads the name of a planner of a head.
+pub(super) fn planners() -> PossibleValuesParser {
+    match keys::find(PLANNER).expect("the profile has the key").takes {
+        Takes::Word(words) => PossibleValuesParser::new(words()),
+        other => unreachable!("a planner has a name, and is none of {other:?}"),
+    }
 }
 
 /// Reads the name of a pass.

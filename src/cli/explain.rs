@@ -12,7 +12,7 @@ use crate::machine::MachineProfile;
 use crate::machine::keys::{self, KEYS, Key};
 use crate::manual;
 use crate::pipeline::RULES;
-use crate::sew;
+use crate::{sew, spray};
 
 /// Columns of an explanation.
 const COLUMNS: usize = 80;
@@ -54,7 +54,9 @@ fn topics() -> impl Iterator<Item = Topic> {
     let sewing = sewing.map(|rule| Topic { name: rule.name, kind: "rule", about: rule.about, more: rule.more });
     let flow = flow::verify::RULES.iter();
     let flow = flow.map(|rule| Topic { name: rule.name, kind: "rule", about: rule.about, more: rule.more });
-    codes.chain(rules).chain(sewing).chain(flow)
+    let heads = spray::verify::RULES.iter();
+    let heads = heads.map(|rule| Topic { name: rule.name, kind: "rule", about: rule.about, more: rule.more });
+    codes.chain(rules).chain(sewing).chain(flow).chain(heads)
 }
 
 fn severity(severity: Severity) -> &'static str {

@@ -11,6 +11,7 @@ mod completions;
 mod destination;
 mod draft;
 mod drawn;
+mod edges;
 mod explain;
 mod facts;
 mod files;

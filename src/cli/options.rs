@@ -131,9 +131,14 @@ impl Patterned {
 impl Reading {
     /// The job on this machine with these lines, or what is wrong with its profile.
     pub(super) fn job(&self) -> anyhow::Result<Result<Job, Finished>> {
+        self.job_with(&[])
+    }
+
+    /// The same, with more `key=value` behind those that are typed.
+    pub(super) fn job_with(&self, more: &[String]) -> anyhow::Result<Result<Job, Finished>> {
         let Plotted { cut_pens, inner, cut_all } = &self.lines;
         let lines = Lines { pens: cut_pens.clone(), inner: inner.map(Into::into), all: *cut_all };
-        Ok(self.machine.job()?.map(|job| self.patterns.of(Job { lines, ..job })))
+        Ok(self.machine.job_with(more)?.map(|job| self.patterns.of(Job { lines, ..job })))
     }
 }
 
@@ -198,7 +203,12 @@ impl Choice {
 
     /// The job as it is read, with this choice; or what is wrong with its profile or its centre line.
     pub(super) fn job(&self, reading: &Reading) -> anyhow::Result<Result<Job, Finished>> {
-        match reading.job()? {
+        self.job_with(reading, &[])
+    }
+
+    /// The same, with more `key=value` behind those that are typed.
+    pub(super) fn job_with(&self, reading: &Reading, more: &[String]) -> anyhow::Result<Result<Job, Finished>> {
+        match reading.job_with(more)? {
             Ok(job) => self.of(job),
             Err(refused) => Ok(Err(refused)),
         }
@@ -278,8 +288,13 @@ impl Machine {
     /// The job on this machine, or what is wrong with its profile: [`FAULTY`] when the file is, [`USAGE`] when only
     /// arguments are.
     pub(super) fn job(&self) -> anyhow::Result<Result<Job, Finished>> {
+        self.job_with(&[])
+    }
+
+    /// The same, with more `key=value` behind those that are typed.
+    fn job_with(&self, more: &[String]) -> anyhow::Result<Result<Job, Finished>> {
         let file = self.file()?;
-        let loaded = load_given(file.as_ref(), &self.set);
+        let loaded = load_given(file.as_ref(), &[&self.set[..], more].concat());
         Ok(loaded
             .map(|(profile, origin)| Job { profile, origin, ..Job::default() })
             .map_err(|faults| refuse(&faults, file.as_ref())))

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use super::explain::wrapped;
-use crate::machine::{Axis, Job, MachineProfile, Sheet};
+use crate::machine::{Axis, Job, MachineProfile, Planner, Sheet, Tool, ToolKind};
 use crate::units::number::short;
 
 /// Columns that the text of a line may take.
@@ -87,7 +87,34 @@ pub(super) fn text(job: &Job) -> String {
     let origin = &job.origin;
     let without = if origin.file.is_none() { "; no -p was given" } else { "" };
     line("machine", &format!("{}{without}", origin.described()));
-    let knife = &job.profile.knife;
+    match job.profile.tool.kind {
+        ToolKind::Knife => line("knife", &knife(job)),
+        ToolKind::Spray => line("tool", &head(&job.profile.tool)),
+        kind @ (ToolKind::Wheel | ToolKind::Pen | ToolKind::Router) => {
+            line("tool", &format!("{}, on the line, along its tangent", kind.name()));
+        }
+    }
+    out + &sheet(job)
+}
+
+/// The head at a distance.
+fn head(tool: &Tool) -> String {
+    let planner = match tool.planner {
+        Planner::Optimal => "optimal",
+        Planner::Quintic => "quintic",
+    };
+    format!(
+        "{} head {} mm outside the edge, its jet {} mm/s along it, {} mm/s round corners; planner {planner}",
+        tool.kind.name(),
+        short(tool.distance_mm),
+        short(tool.edge_speed_mm_s),
+        short(tool.corner_speed_mm_s)
+    )
+}
+
+/// The blade, and where it turns.
+fn knife(job: &Job) -> String {
+    let (knife, origin) = (&job.profile.knife, &job.origin);
     let place = format!("{} mm wide, C axis {} mm behind the tip", short(knife.width_mm), short(knife.radius()));
     let why = match origin.axis() {
         Axis::Told => String::new(),
@@ -96,8 +123,7 @@ pub(super) fn text(job: &Job) -> String {
             short(knife.back())
         ),
     };
-    line("knife", &format!("{place}{why}"));
-    out + &sheet(job)
+    format!("{place}{why}")
 }
 
 /// A line on how the marker lies on the table; empty where it lies as the file has it.

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::edges;
 use super::options::{counted, typed};
 use crate::diagnostic::{Diagnostics, Severity};
 use crate::ir::declaration::Total;
@@ -66,6 +67,9 @@ pub(super) fn text(report: &Report, name: &str, diagnostics: &Diagnostics) -> St
     }
     of_program(report, &mut line);
     line("warnings", diagnostics.count(Severity::Warning).to_string());
+    if let Some(edges) = &report.edges {
+        out.push_str(&edges::table(edges));
+    }
     if let Some(axes) = &report.program.axes {
         peaks(&mut out, axes);
     }

@@ -399,6 +399,20 @@ codes! {
     /// The program breaks a rule.
     SEW_BROKEN = error(Shape, "sew/broken", "The program, read back, breaks a rule; the message names the rule, the worst value, the limit and the entry.", "The program is not written: it would not sew what the file says. Please report the file: a pattern that is read without errors should be sewn as it is.");
 
+    // Heads that follow edges at a distance.
+    /// Nothing to follow.
+    SPRAY_NOTHING = error(Shape, "spray/nothing", "A file has no closed contour, or none that a head can follow at its distance.", "A head follows the closed edges of parts from outside, and holes from inside. Close the contours, or take a smaller distance.\n  tool.distance_mm = 150");
+    /// Lines that are no edges.
+    SPRAY_NO_EDGE = warning(Spares, Shape, "spray/no-edge", "Open lines, notches and holes of a file are no edges of parts: no head at a distance follows them.", "Only closed contours have an inside and an outside. If an edge is among them, it is drawn open: close it in the CAD system.");
+    /// Edges that are not reached.
+    SPRAY_UNREACHED = warning(Spoils, Shape, "spray/unreached", "A part of an edge cannot be followed at the distance of the tool, because something else is nearer; the message says how much, and where the worst is.", "It stays without coat: slots and bays that are narrower than twice the distance, and both sides of corners inwards. Coat it by hand, or with a smaller distance.\n  cutc compile panel.csv -p spray.toml --set tool.distance_mm=150");
+    /// Polynomials that do not fit.
+    SPRAY_UNFIT = error(Shape, "spray/unfit", "Polynomials stay farther from the way of the head than is allowed, however often edges are split.", "The program would not be judged good. Powers of the time (`quintic.basis`) are ill-conditioned on long edges; Chebyshev polynomials are not.\n  quintic.basis = \"chebyshev\"");
+    /// C beyond its range.
+    SPRAY_RANGE = error(Shape, "spray/c-range", "Around an edge the head turns farther than `c.range_deg` lets it.", "Around a part without corners inwards the head turns once, and its hoses with it. Widen the range, or let C turn without end.\n  c.range_deg = \"unbounded\"");
+    /// A target that tells of a knife.
+    SPRAY_TARGET = error(Shape, "spray/target", "A target that tells of a knife is asked for, but the tool is a head at a distance.", "Its program would be that of a knife on the lines. Take setpoints or a picture.\n  cutc compile panel.csv -p spray.toml -t csv,svg");
+
     // Tracking the centre of a moving cloth.
     /// The first row of a log.
     TRACK_HEADER = error(Text, "track/header", "The first row of a log does not name its columns.", "Without names I and J could be taken for each other, and the carriage would run away from the centre. Write them as the hint has them.\n  t_s,i,j");

@@ -11,7 +11,7 @@ use super::plot;
 use super::profile::{self, MachineProfile};
 use super::{
     axes, common, counts, drill, flow, gcode, knife, labels, nest, notches, order, path, patterns, sewing, sheet,
-    table, time, tracking, verify,
+    table, time, tool, tracking, verify,
 };
 
 /// The rows of each section, in the order in which a profile is written.
@@ -37,6 +37,7 @@ const SECTIONS: &[&[Key]] = &[
     sewing::KEYS,
     tracking::KEYS,
     flow::KEYS,
+    tool::KEYS,
     codes::KEYS,
 ];
 

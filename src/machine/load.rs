@@ -34,6 +34,10 @@ pub fn load(file: Option<&Source>, sets: &[String]) -> Result<MachineProfile, Fa
 
 /// The same, with where it came from.
 pub fn load_given(file: Option<&Source>, sets: &[String]) -> Result<(MachineProfile, origin::Origin), Faults> {
+    if file.is_none() && sets.is_empty() {
+        // Nothing can be wrong with what nobody typed.
+        return Ok((MachineProfile::default(), origin::Origin::default()));
+    }
     let mut draft = Draft::default();
     if let Some(file) = file {
         draft.read(file);
@@ -221,7 +225,7 @@ impl Draft {
 
     /// The profile, or everything that is wrong with it.
     fn finish(mut self) -> Result<MachineProfile, Faults> {
-        let profile = MachineProfile::deserialize(std::mem::take(&mut self.values))
+        let mut profile = MachineProfile::deserialize(std::mem::take(&mut self.values))
             .expect("values that fit the profile one by one fit it together");
         let given = std::mem::take(&mut self.given);
         let faults = validate(&profile, &|key| given.iter().any(|(name, _)| name == key));
@@ -235,6 +239,7 @@ impl Draft {
             self.fault(origin, fault.hint.into_iter().fold(diagnostic, Diagnostic::hint));
         }
         if self.faults.is_empty() {
+            profile.tool.kind.fit(&mut profile.knife);
             return Ok(profile);
         }
         // In the order of the file, then in that of the arguments.

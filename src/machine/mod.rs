@@ -38,6 +38,7 @@ pub mod sheet;
 mod show;
 pub mod table;
 pub mod time;
+mod tool;
 pub mod tracking;
 mod validate;
 pub mod verify;
@@ -64,6 +65,7 @@ pub use sewing::Sewing;
 pub use sheet::{Flip, Mirror, Sheet};
 pub use show::Comments;
 pub use table::Table;
+pub use tool::{Basis, Planner, Quintic, Tool, ToolKind};
 pub use tracking::Tracking;
 
 /// What one compile is asked to do: the profile and the options of this run.

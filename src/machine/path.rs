@@ -12,7 +12,7 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "corner.angle_deg", takes: Takes::Number(between(0.0, 75.0)), about: "Lift and plunge corner angle: where the line turns by more than this the knife is lifted and\nturned in the air; a blade in the cloth cannot follow sharper ones." },
     Key { name: "slow.before_corner_mm", takes: Takes::NumberOr(from(0.1, 1000.0), Off::WORD), about: "How far before a corner the knife slows down." },
     Key { name: "slow.before_corner_percent", takes: Takes::Number(PERCENT), about: "Speed of the knife there, a part of what it would be." },
-    Key { name: "path.tolerance_mm", takes: Takes::NumberOr(from(0.001, 10.0), Auto::WORD), about: "How far the tip may leave the line; \"auto\" = 0.05 mm, or what the unit of the file resolves if\nthat is more." },
+    Key { name: "path.tolerance_mm", takes: Takes::NumberOr(from(0.001, 100.0), Auto::WORD), about: "How far the tip, or a head, may leave its line; \"auto\" = 0.05 mm, or what the unit of the file\nresolves if that is more." },
     Key { name: "path.fit", takes: Takes::Word(words::<Fit>), about: "What the straight pieces of a file stand for: \"curve\" = a curve that the CAD system cut into\npieces, \"polygon\" = exactly what they are." },
     Key { name: "path.chord_sag_max_mm", takes: Takes::Number(from(0.0, 10.0)), about: "With fit = \"curve\": how far the curve may bulge beyond a straight piece." },
 ];

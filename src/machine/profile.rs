@@ -29,6 +29,7 @@ use super::sewing::Sewing;
 use super::sheet::Sheet;
 use super::table::Table;
 use super::time::Time;
+use super::tool::{Quintic, Tool};
 use super::tracking::Tracking;
 use super::verify::Verify;
 use super::word::{OrWord, Stay, Word as _, words};
@@ -105,6 +106,10 @@ pub struct MachineProfile {
     pub track: Tracking,
     /// Heads over a conveyor.
     pub flow: Flow,
+    /// What follows the lines.
+    pub tool: Tool,
+    /// Its polynomials.
+    pub quintic: Quintic,
     /// Codes of the cutter file by name, `M19`.
     pub codes: BTreeMap<String, CodeUse>,
 }
@@ -169,6 +174,8 @@ impl Default for MachineProfile {
             sewing: Sewing::default(),
             track: Tracking::default(),
             flow: Flow::default(),
+            tool: Tool::default(),
+            quintic: Quintic::default(),
             codes: BTreeMap::new(),
         }
     }

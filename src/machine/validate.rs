@@ -8,7 +8,7 @@ use super::key::{Key, Takes, shown_value};
 use super::keys::KEYS;
 use super::knife::Knife;
 use super::profile::MachineProfile;
-use super::{sewing, tracking};
+use super::{sewing, tool, tracking};
 use crate::diagnostic::code;
 
 /// How much `back_mm` and `radius_mm` together may miss the width, mm: they are read off a gauge in hundredths.
@@ -20,7 +20,7 @@ const REACH_DEG: f64 = 10.0;
 
 /// All faults of a profile. `is_given` tells the keys that the user gave: only those can contradict each other.
 pub(super) fn validate(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault> {
-    let mut faults = ranges(profile);
+    let mut faults = ranges(profile, is_given);
     let broken: Vec<String> = faults.iter().flat_map(|fault| fault.keys.clone()).collect();
     // A rule between two values says nothing new about one that is out of its own range.
     let further = rules(profile, is_given).into_iter();
@@ -28,8 +28,8 @@ pub(super) fn validate(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool
     faults
 }
 
-/// Each value by itself.
-fn ranges(profile: &MachineProfile) -> Vec<Fault> {
+/// Each value by itself; defaults are in their ranges.
+fn ranges(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault> {
     let table = profile.to_table();
     let fault = |key: &Key| {
         let value = key.value_in(&table)?;
@@ -41,7 +41,7 @@ fn ranges(profile: &MachineProfile) -> Vec<Fault> {
         })
     };
     // A family of keys holds words, which reading has checked.
-    KEYS.iter().filter_map(fault).collect()
+    KEYS.iter().filter(|key| is_given(key.name)).filter_map(fault).collect()
 }
 
 /// What to do about a value that is out of its range, where more can be said than what the key takes.
@@ -60,6 +60,7 @@ fn rules(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault
     faults.extend(sewing::faults(&profile.sewing));
     faults.extend(tracking::faults(&profile.track));
     faults.extend(flow::faults(&profile.flow));
+    faults.extend(tool::faults(&profile.tool, &profile.knife, is_given));
     faults
 }
 
@@ -142,4 +143,14 @@ fn headings(profile: &MachineProfile, is_given: &dyn Fn(&str) -> bool) -> Vec<Fa
         faults.push(Fault::of_range(&["gcode.heading_tolerance_deg", "verify.max_heading_deg"], message, hint));
     }
     faults
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_defaults_break_no_rule() {
+        assert_eq!(validate(&MachineProfile::default(), &|_| true), []);
+    }
 }

@@ -66,6 +66,11 @@ pub const PAGES: &[Page] = &[
         text: include_str!("flow.md"),
     },
     Page {
+        name: "spray",
+        about: "Heads that follow an edge at a distance; wheels, pens, routers",
+        text: include_str!("spray.md"),
+    },
+    Page {
         name: "verification",
         about: "How a program is verified, and every rule",
         text: include_str!("verification.md"),

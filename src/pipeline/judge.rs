@@ -1,7 +1,7 @@
 //! Judging: a program is read back, and what is broken is said.
 
 use std::fmt::Write as _;
-use std::io::{self, BufReader, Read as _};
+use std::io::{self, BufRead as _, BufReader, Read as _};
 
 use super::input::{Judged, Reading, make_cuts, read_to_judge};
 use super::off_table;
@@ -14,11 +14,12 @@ use crate::ir::marker::{Notch, Piece};
 use crate::ir::{Finding, Marker};
 use crate::machine::{Job, Mode};
 use crate::source::{Source, Span};
+use crate::spray;
 use crate::units::number::{exact, fixed, up};
 use crate::verify::{self, Declared, Ground, Kind, Verdict};
 
 /// The rule on what can be read.
-const FORMAT: &str = "verify/format";
+const FORMAT: [&str; 2] = ["verify/format", "spray-verify/format"];
 /// The rule on the table, and the least that is said of it while it holds, mm.
 const TABLE: &str = "verify/table";
 const EDGE_SHOWN: f64 = 0.01;
@@ -31,9 +32,10 @@ const DIGITS: i32 = 4;
 const NOISE_EPSILON: f64 = 0.99e-9;
 /// The most that are needed to tell a worst value from its limit; beyond, they differ by rounding alone.
 const MOST_DIGITS: i32 = 15;
+
 /// Judges a program, edited by hand or not, against a source. `None` when the source has errors: then
 /// the diagnostics say which. They are about the source alone; what the program breaks is in the verdict.
-pub fn judge_program(
+pub(super) fn judge_program(
     program: &mut dyn Medium,
     source: &Source,
     from: Option<&'static Dialect>,
@@ -60,7 +62,8 @@ pub fn judge_program(
 /// Why a file is no program that can be judged, by how it begins, and what to do about it; `None` when it is one.
 pub fn foreign(file: &mut dyn Medium) -> io::Result<Option<[String; 2]>> {
     file.rewind()?;
-    verify::foreign(&mut BufReader::with_capacity(BLOCK, file))
+    let mut file = BufReader::with_capacity(BLOCK, file);
+    if spray::verify::begins(file.fill_buf()?) { Ok(None) } else { verify::foreign(&mut file) }
 }
 
 /// What a program is judged by.
@@ -162,7 +165,7 @@ pub(super) fn report(verdict: &Verdict, marker: &Marker, job: &Job, diagnostics:
         if let Some(limit) = limit {
             let _ = write!(message, " ({limit} allowed)");
         }
-        if let (FORMAT, Some(unread)) = (finding.rule, &verdict.unread) {
+        if let Some(unread) = verdict.unread.as_ref().filter(|_| FORMAT.contains(&finding.rule)) {
             let _ = write!(message, ": {unread}");
         }
         let mut span = None;
@@ -216,19 +219,21 @@ fn parting_keys(job: &Job) -> Option<&'static str> {
 
 /// What a rule says.
 pub fn about(rule: &str) -> &'static str {
-    verify::rule(rule).about
+    spray::verify::rule(rule).map_or_else(|| verify::rule(rule).about, |rule| rule.about)
 }
 
 /// Why a rule matters, and what to do where it is broken.
 pub fn advice(rule: &str) -> &'static str {
-    verify::rule(rule).more
+    spray::verify::rule(rule).map_or_else(|| verify::rule(rule).more, |rule| rule.more)
 }
 
 /// The key of the profile that is the limit of a rule and nothing else.
 fn key(rule: &str) -> Option<&'static str> {
     Some(match rule {
         "verify/complete" => "verify.max_uncut_mm",
-        "verify/heading" => "verify.max_heading_deg",
+        "verify/heading" | "spray-verify/heading" => "verify.max_heading_deg",
+        "spray-verify/distance" => "path.tolerance_mm",
+        "spray-verify/edge-speed" => "tool.edge_speed_percent",
         "verify/down" => "knife.max_down_mm",
         "verify/body" => "verify.max_body_mm",
         "verify/overcut-part" => "verify.max_overcut_part_mm",

@@ -3,6 +3,7 @@
 //! Receives a source and a job, promises programs that are written whole and judged, or diagnostics. Never prints, and decides
 //! nothing about the cut.
 
+mod head;
 mod input;
 mod judge;
 mod off_table;
@@ -21,7 +22,7 @@ mod toolpaths;
 pub use crate::analysis::area;
 pub use crate::analysis::waits::{Waits, waits};
 pub use input::{Input, Judged, Reading, marker_of, read, read_to_judge};
-pub use judge::{about, advice, audited, figures, foreign, judge_program};
+pub use judge::{about, advice, audited, figures, foreign};
 pub use product::{Medium, Product};
 pub use report::{Axes, Common, Controller, Drawn, Lines, Notches, Peak, Peaks, Program, Report, Sides};
 pub use rounded::significant;
@@ -29,6 +30,7 @@ pub use savings::Savings;
 pub use spent::{Spent, word};
 pub use told::{Explained, Line, Told};
 
+pub use crate::spray::{Edge, Piece};
 pub use crate::verify::{Declared, RULES, Rule, Verdict};
 
 use std::io::{self, BufWriter, Write};
@@ -47,7 +49,7 @@ use crate::front::Dialect;
 use crate::ir::declaration::Declaration;
 use crate::ir::declaration::Total;
 use crate::ir::{Finding, text};
-use crate::machine::Job;
+use crate::machine::{Job, ToolKind};
 use crate::pass::marker::MARKER_PASSES;
 use crate::pass::toolpath::{Scene, TOOLPATH_PASSES, trace};
 use crate::plan;
@@ -111,6 +113,10 @@ pub fn compile_all(
     diagnostics: &mut Diagnostics,
 ) -> io::Result<Option<Compiled>> {
     let Choices { from, verify } = choices;
+    if job.profile.tool.kind == ToolKind::Spray {
+        let made = head::compile(source, job, (from, verify), products, diagnostics)?;
+        return Ok(made.map(|(report, verdict)| Compiled { report, verdict, declared: Vec::new() }));
+    }
     let judged = if verify {
         read_to_judge(source, from, job, diagnostics).map(|Judged { input, reading }| (input, Some(reading)))
     } else {
@@ -255,11 +261,32 @@ impl Proofs {
     }
 }
 
+/// Judges a program, edited by hand or not, against a source. `None` when the source has errors: then the diagnostics say
+/// which. They are about the source alone; what the program breaks is in the verdict.
+pub fn judge_program(
+    program: &mut dyn Medium,
+    source: &Source,
+    from: Option<&'static Dialect>,
+    job: &Job,
+    declared: Option<&Declared>,
+    diagnostics: &mut Diagnostics,
+) -> io::Result<Option<Explained>> {
+    match job.profile.tool.kind {
+        ToolKind::Spray => head::judge_program(program, source, from, job, diagnostics),
+        ToolKind::Knife | ToolKind::Wheel | ToolKind::Pen | ToolKind::Router => {
+            judge::judge_program(program, source, from, job, declared, diagnostics)
+        }
+    }
+}
+
 /// The figures of the program that an input would become, nothing written and nothing judged; when it cannot be planned
 /// the diagnostics say why.
 pub fn estimate(input: &mut Input, source: &Source, job: &Job, diagnostics: &mut Diagnostics) -> io::Result<Program> {
     if diagnostics.has_errors() {
         return Ok(Program::default());
+    }
+    if job.profile.tool.kind == ToolKind::Spray {
+        return Ok(head::estimate(&input.marker, job, diagnostics));
     }
     let toolpaths = Toolpaths::new(&input.marker, job);
     let context = Context { job, marker: &input.marker, source };

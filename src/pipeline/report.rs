@@ -15,6 +15,7 @@ use crate::ir::drawing::{Account, LineClass};
 use crate::ir::marker::{NotchForm, NotchKind};
 use crate::ir::{self, Marker};
 use crate::machine::{Follow, NotchStyle};
+use crate::spray;
 use crate::units::{MM_PER_M, deg};
 
 /// Significant digits of a peak.
@@ -64,6 +65,9 @@ pub struct Report {
     /// What a controller that plans for itself makes of the program; not there without such a target.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub controller: Option<Controller>,
+    /// How a head follows each edge at its distance; not there with another tool.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub edges: Option<Vec<spray::Edge>>,
 }
 
 /// Edges that are cut once for two parts.
@@ -381,6 +385,7 @@ impl Report {
             program: Program::default(),
             declared: Vec::new(),
             controller: None,
+            edges: None,
         }
     }
 }

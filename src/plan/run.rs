@@ -47,6 +47,21 @@ pub struct Cut {
 }
 
 impl Cut {
+    /// A run that was planned elsewhere: the poses at its ticks, the one at its end included, and the blocks being cut.
+    pub fn sampled(mut poses: Vec<Pose>, spells: Vec<Spell>, period: f64) -> Self {
+        let length = poses.windows(2).map(|pair| (pair[1].centre - pair[0].centre).norm()).sum();
+        let end = poses.pop().expect("a run has an end");
+        let ticks = poses.len() as u32;
+        let duration = f64::from(ticks) * period;
+        let (poses, shares) = (Poses::Samples(poses), Shares::default());
+        Self { poses, ticks, end, spells, duration, length, sagitta: 0.0, shares }
+    }
+
+    /// The source blocks being cut, in order; one at least.
+    pub fn spells(&self) -> &[Spell] {
+        &self.spells
+    }
+
     /// The poses at its ticks, the one at its end included.
     pub fn poses(&self) -> impl Iterator<Item = Pose> + '_ {
         (0..self.ticks).map(|i| self.poses.at(i, self.ticks)).chain([self.end])

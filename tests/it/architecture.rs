@@ -32,6 +32,8 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("pipeline", ALL_BUT_CLI),
     // Another machine: it reads what the cutter reads.
     ("sew", &["source", "diagnostic", "units", "geom", "ir", "machine", "analysis", "front", "recognise"]),
+    // A head in the place of the knife: it is moved by the cutter's planner or its own.
+    ("spray", &["source", "diagnostic", "units", "geom", "ir", "machine", "plan"]),
     ("track", &["source", "diagnostic", "units", "machine"]),
     // Another machine: it cuts what the cutter cuts.
     ("flow", &["source", "diagnostic", "units", "geom", "ir", "machine", "pass", "plan", "verify"]),
@@ -51,6 +53,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
             "units",
             "manual",
             "sew",
+            "spray",
             "track",
             "flow",
         ],
@@ -77,11 +80,12 @@ const ALL_BUT_CLI: &[&str] = &[
     "plan",
     "back",
     "verify",
+    "spray",
 ];
 
 /// What is named in some modules only.
 const NAMED_ONLY_IN: &[(&str, &[&str])] = &[
-    ("nalgebra::", &["geom", "plan"]),
+    ("nalgebra::", &["geom", "plan", "spray"]),
     ("nom::", &["front"]),
     ("clap::", &["cli"]),
     ("anyhow::", &["cli", "main"]),
@@ -289,6 +293,23 @@ fn verifiers_of_other_machines_know_their_forms_and_nothing_of_who_makes_them() 
             if file.path.ends_with("mod.rs") && after(&file.code, "use super::").next().is_some() {
                 faults.push(format!("{}: names what lies beside the verifier", file.path.display()));
             }
+        }
+    }
+    report(&faults);
+}
+
+#[test]
+fn the_verifier_of_heads_knows_nothing_of_who_moves_them() {
+    let mut faults = Vec::new();
+    for file in sources("src/spray/verify") {
+        for rest in after(&file.code, "spray::").chain(after(&file.code, "super::super")) {
+            let named: String = rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+            if named != "verify" {
+                faults.push(format!("{}: names `spray::{named}`", file.path.display()));
+            }
+        }
+        if file.path.ends_with("mod.rs") && after(&file.code, "use super::").next().is_some() {
+            faults.push(format!("{}: names what lies beside the verifier", file.path.display()));
         }
     }
     report(&faults);

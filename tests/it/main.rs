@@ -47,6 +47,7 @@ mod rewritten;
 mod route;
 mod sew;
 mod sheet;
+mod spray;
 mod targets;
 mod told;
 mod track;

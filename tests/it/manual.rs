@@ -12,7 +12,7 @@ use cutc::front::DIALECTS;
 use cutc::machine::keys::{self, KEYS};
 use cutc::manual::{PAGES, Page, glossary};
 use cutc::verify::RULES;
-use cutc::{sew, track};
+use cutc::{sew, spray, track};
 use yaml_rust2::{Yaml, YamlLoader};
 
 use crate::support::page::{blocks, commands, expect_same, page, search_path, section};
@@ -106,6 +106,10 @@ fn every_command_of_the_manual_runs() {
     for name in ["step.toml", "wander.toml"] {
         fs::copy(root().join("fixtures/track").join(name), room.at(name)).expect("a copy");
     }
+    for name in ["spray/panel.csv", "machines/spray.toml"] {
+        let (_, to) = name.split_once('/').expect("a folder");
+        fs::copy(root().join("fixtures").join(name), room.at(to)).expect("a copy");
+    }
     room.expect("compile marker.cut", DONE);
     for Page { name, text, .. } in PAGES {
         let commands = commands(text);
@@ -159,6 +163,7 @@ fn list(name: &str) -> String {
             flow::TARGETS.iter().map(row).collect()
         }
         "flow rules" => flow::verify::RULES.iter().map(|rule| format!("`{}`: {}.", rule.name, rule.about)).collect(),
+        "spray rules" => spray::verify::RULES.iter().map(|rule| format!("`{}`: {}.", rule.name, rule.about)).collect(),
         "rules" => RULES.iter().map(|rule| format!("`{}`: {}.", rule.name, rule.about)).collect(),
         "codes" => {
             let severity = |code: &code::Code| format!("{:?}", code.severity).to_lowercase();

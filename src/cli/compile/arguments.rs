@@ -85,6 +85,10 @@ pub(in crate::cli) struct Making {
     #[command(flatten)]
     pub(super) choice: Choice,
 
+    /// How a head at a distance is planned: `--planner quintic` is `--set tool.planner=quintic`
+    #[arg(long, value_name = "PLANNER", value_parser = choices::planners(), help_heading = NO_HEADING)]
+    pub(super) planner: Option<String>,
+
     /// Where the `.meta.json` goes of a program that goes to standard output
     #[arg(long, value_name = "FILE", help_heading = NO_HEADING)]
     pub(super) meta: Option<PathBuf>,
@@ -117,6 +121,7 @@ impl Making {
 
     /// The job, or what is wrong with its profile or its centre line.
     pub(in crate::cli) fn job(&self) -> anyhow::Result<Result<Job, Finished>> {
-        self.choice.job(&self.reading)
+        let planner: Vec<String> = self.planner.iter().map(|name| format!("{}={name}", choices::PLANNER)).collect();
+        self.choice.job_with(&self.reading, &planner)
     }
 }

@@ -1,0 +1,170 @@
+//! The tool that follows the lines: the keys `tool.*` and `quintic.*`.
+
+use serde::{Deserialize, Serialize};
+
+use super::fault::Fault;
+use super::key::{Key, PERCENT, SPEED, Takes, from};
+use super::knife::Knife;
+use super::word::words;
+
+/// The keys `tool.*` and `quintic.*`.
+#[rustfmt::skip] // a table: one row a key
+pub(super) const KEYS: &[Key] = &[
+    Key { name: "tool.kind", takes: Takes::Word(words::<ToolKind>), about: "\"knife\", or a tool without a blade that follows lines as one does, without overlaps: \"wheel\" = a\ncreasing wheel, \"pen\", \"router\"; or \"spray\" = a head that follows edges at a distance." },
+    Key { name: "tool.distance_mm", takes: Takes::Number(from(1.0, 10_000.0)), about: "How far outside the edge of a part the spray head runs." },
+    Key { name: "tool.edge_speed_mm_s", takes: Takes::Number(SPEED), about: "How fast the jet of the spray head goes along the edge." },
+    Key { name: "tool.edge_speed_percent", takes: Takes::Number(PERCENT), about: "By how much the jet may be faster than that: where it is, the coat is thinner." },
+    Key { name: "tool.corner_speed_mm_s", takes: Takes::Number(SPEED), about: "How fast the spray head goes round a corner of the part: the jet stands on the corner meanwhile." },
+    Key { name: "tool.planner", takes: Takes::Word(words::<Planner>), about: "How the spray head is planned: \"optimal\" = as fast as the axes and the speeds above allow,\n\"quintic\" = least-squares polynomials of order 5 for X, Y and C, edge by edge." },
+    Key { name: "quintic.basis", takes: Takes::Word(words::<Basis>), about: "What the polynomials are sums of: \"chebyshev\" polynomials on the time of their piece, or plain\npowers of the time (\"monomial\", for study: their equations are ill-conditioned)." },
+    Key { name: "quintic.split", takes: Takes::Flag, about: "Edges are split until their polynomials keep path.tolerance_mm; false = one for each edge, for study." },
+];
+
+/// The tool.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Tool {
+    /// What it is.
+    pub kind: ToolKind,
+    /// Head to edge.
+    pub distance_mm: f64,
+    /// Of the jet along the edge.
+    pub edge_speed_mm_s: f64,
+    /// How much faster the jet may be.
+    pub edge_speed_percent: f64,
+    /// Of the head round a corner.
+    pub corner_speed_mm_s: f64,
+    /// How its motion is planned.
+    pub planner: Planner,
+}
+
+/// What the tool is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ToolKind {
+    /// A tangential knife.
+    Knife,
+    /// A head that follows edges at a distance, turned towards them.
+    Spray,
+    /// A creasing wheel.
+    Wheel,
+    /// A pen.
+    Pen,
+    /// A router.
+    Router,
+}
+
+/// How the motion of a spray head is planned.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Planner {
+    /// Jerk-limited, as fast as the limits allow.
+    Optimal,
+    /// Least-squares polynomials of order 5.
+    Quintic,
+}
+
+/// The polynomials of [`Planner::Quintic`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Quintic {
+    /// What they are sums of.
+    pub basis: Basis,
+    /// Whether edges are split until they are close enough.
+    pub split: bool,
+}
+
+/// What a polynomial is a sum of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Basis {
+    /// Chebyshev polynomials on the time of the piece.
+    Chebyshev,
+    /// Powers of the time.
+    Monomial,
+}
+
+impl Default for Tool {
+    fn default() -> Self {
+        Self {
+            kind: ToolKind::Knife,
+            distance_mm: 300.0,
+            edge_speed_mm_s: 300.0,
+            edge_speed_percent: 5.0,
+            corner_speed_mm_s: 480.0,
+            planner: Planner::Optimal,
+        }
+    }
+}
+
+impl Default for Quintic {
+    fn default() -> Self {
+        Self { basis: Basis::Chebyshev, split: true }
+    }
+}
+
+/// A length of a blade.
+type Length = fn(&Knife) -> f64;
+
+/// What a tool without a blade does not have: keys of the knife, and what they say, mm.
+const OF_BLADES: &[(&str, Length)] = &[
+    ("knife.width_mm", |knife| knife.width_mm),
+    ("knife.back_mm", |knife| knife.back_mm.unwrap_or(0.0)),
+    ("knife.radius_mm", |knife| knife.radius_mm.unwrap_or(0.0)),
+    ("knife.front_overlap_mm", |knife| knife.front_overlap_mm),
+    ("knife.corner_front_overlap_mm", |knife| knife.corner_front_overlap_mm),
+    ("knife.heel_overlap_mm", |knife| knife.heel_overlap_mm),
+    ("knife.corner_heel_overlap_mm", |knife| knife.corner_heel_overlap_mm),
+    ("knife.reflex_front_overlap_mm", |knife| knife.reflex_front_overlap_mm),
+    ("knife.reflex_heel_overlap_mm", |knife| knife.reflex_heel_overlap_mm),
+];
+
+impl ToolKind {
+    /// Its word, as profiles have it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Knife => "knife",
+            Self::Spray => "spray",
+            Self::Wheel => "wheel",
+            Self::Pen => "pen",
+            Self::Router => "router",
+        }
+    }
+
+    /// Whether it has a blade, with a heel, a tip and overlaps.
+    pub fn has_blade(self) -> bool {
+        match self {
+            Self::Knife => true,
+            Self::Spray | Self::Wheel | Self::Pen | Self::Router => false,
+        }
+    }
+
+    /// The knife as it is with this tool: one without a blade is a point on the line, along its tangent, without overlaps.
+    pub(super) fn fit(self, knife: &mut Knife) {
+        if !self.has_blade() {
+            *knife = Knife {
+                width_mm: 0.0,
+                back_mm: None,
+                radius_mm: Some(0.0),
+                front_overlap_mm: 0.0,
+                corner_front_overlap_mm: 0.0,
+                heel_overlap_mm: 0.0,
+                corner_heel_overlap_mm: 0.0,
+                reflex_front_overlap_mm: 0.0,
+                reflex_heel_overlap_mm: 0.0,
+                ..knife.clone()
+            };
+        }
+    }
+}
+
+/// Keys that contradict the tool.
+pub(super) fn faults(tool: &Tool, knife: &Knife, is_given: &dyn Fn(&str) -> bool) -> Vec<Fault> {
+    let is_odd = |(key, length): &&(&str, Length)| !tool.kind.has_blade() && length(knife) > 0.0 && is_given(key);
+    let name = tool.kind.name();
+    let fault = |(key, _): &(&str, Length)| {
+        let message = format!("`tool.kind` is \"{name}\", which has no blade, but `{key}` is given");
+        Fault::of_range(&[key, "tool.kind"], message, "leave it out, or set `tool.kind = \"knife\"`")
+    };
+    OF_BLADES.iter().filter(is_odd).map(fault).collect()
+}

@@ -1,0 +1,139 @@
+//! When the head is where: its course with the speeds that the edge asks for, gathered and lost at a steady rate.
+
+use super::course::{Leg, Node, Pace};
+use crate::machine::Limits;
+
+/// Longest step of time at which the way is known, s.
+const STEP_S: f64 = 1e-3;
+/// Longest step between two places at which the speed is known, mm.
+const STEP: f64 = 1.0;
+/// Share of what the axes can do that the clock asks of them: polynomials between its places ask for more.
+const SHARE: f64 = 0.5;
+
+/// The head at a time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Timed {
+    /// s from the start of the pass.
+    pub(super) time: f64,
+    /// Where it is, and looks.
+    pub(super) node: Node,
+    /// Its leg.
+    pub(super) leg: usize,
+}
+
+/// The course of a pass in time.
+#[derive(Debug)]
+pub(super) struct Clock<'a> {
+    pass: &'a [Leg],
+    /// Way at equal steps of time, mm.
+    ways: Vec<f64>,
+    /// That step, s.
+    step: f64,
+    /// Way to the start of each leg, and to the end of the last.
+    stations: Vec<f64>,
+}
+
+impl<'a> Clock<'a> {
+    /// The clock of a pass from rest to rest that lasts a whole number of periods, s.
+    ///
+    /// The speed is gathered and lost at a steady rate, so that no cap is passed; then the way is the mean over the time in
+    /// which the axes come to that rate, which takes the steps out of the acceleration.
+    pub(super) fn new(pass: &'a [Leg], pace: &Pace, limits: &[Limits; 3], period: f64) -> Self {
+        let mut stations = vec![0.0];
+        for leg in pass {
+            stations.push(stations[stations.len() - 1] + leg.length());
+        }
+        let steady = steady(pass, &stations, pace, limits);
+        let shares = (period / STEP_S).ceil().max(1.0);
+        let step = period / shares;
+        let whole = |time: f64| (time / period).ceil().max(1.0);
+        let (lasts, rise) = (steady[steady.len() - 1][1], pace.reach.acceleration / pace.reach.jerk);
+        let stretch = whole(lasts) * period / lasts;
+        let (steps, mean) = ((whole(lasts) * shares) as usize, (whole(rise) * shares) as usize);
+        let way = |i: usize| way_at(&steady, i as f64 * step / stretch);
+        // Before the start the head rests there, behind the end likewise.
+        let (mut sum, mut ways) = (0.0, vec![0.0]);
+        for i in 1..=steps + mean {
+            sum += way(i.min(steps)) - way(i.saturating_sub(mean));
+            ways.push(sum / mean as f64);
+        }
+        Self { pass, ways, step, stations }
+    }
+
+    /// How long the pass takes, s.
+    pub(super) fn duration(&self) -> f64 {
+        (self.ways.len() - 1) as f64 * self.step
+    }
+
+    /// When the head is at the start of a leg, or with one more than there are at the end of the last, s.
+    pub(super) fn at_leg(&self, leg: usize) -> f64 {
+        if leg == self.pass.len() {
+            return self.duration();
+        }
+        let next = self.ways.partition_point(|&way| way < self.stations[leg]).min(self.ways.len() - 1);
+        if next == 0 {
+            return 0.0;
+        }
+        let [from, to] = [self.ways[next - 1], self.ways[next]];
+        ((next - 1) as f64 + (self.stations[leg] - from) / (to - from)) * self.step
+    }
+
+    /// Where the head is at a time.
+    pub(super) fn at(&self, time: f64) -> Timed {
+        let last = self.ways.len() - 1;
+        let before = ((time / self.step) as usize).min(last - 1);
+        let share = (time / self.step - before as f64).clamp(0.0, 1.0);
+        let way = self.ways[before] + (self.ways[before + 1] - self.ways[before]) * share;
+        let leg = self.stations.partition_point(|&station| station <= way).clamp(1, self.pass.len()) - 1;
+        let (start, length) = (self.stations[leg], self.pass[leg].length());
+        Timed { time, node: self.pass[leg].at(((way - start) / length).clamp(0.0, 1.0)), leg }
+    }
+}
+
+/// Way, time and speed at close places: as fast as the legs allow, with a steady rate between.
+fn steady(pass: &[Leg], stations: &[f64], pace: &Pace, limits: &[Limits; 3]) -> Vec<[f64; 3]> {
+    let mut places: Vec<[f64; 3]> = vec![[0.0; 3]];
+    for (leg, &from) in pass.iter().zip(stations) {
+        let (length, cap) = (leg.length(), cap(leg, limits));
+        let last = places.len() - 1;
+        places[last][2] = places[last][2].min(cap);
+        let steps = (length / STEP).ceil().max(1.0) as usize;
+        places.extend((1..=steps).map(|step| [from + length * step as f64 / steps as f64, 0.0, cap]));
+    }
+    let last = places.len() - 1;
+    places[last][2] = 0.0;
+    let gain = 2.0 * SHARE * pace.reach.acceleration;
+    let reached = |places: &[[f64; 3]], from: usize, to: usize| {
+        let way = (places[to][0] - places[from][0]).abs();
+        places[to][2].min((places[from][2].powi(2) + gain * way).sqrt())
+    };
+    for i in 1..=last {
+        places[i][2] = reached(&places, i - 1, i);
+    }
+    for i in (0..last).rev() {
+        places[i][2] = reached(&places, i + 1, i);
+    }
+    for i in 1..=last {
+        let way = places[i][0] - places[i - 1][0];
+        places[i][1] = places[i - 1][1] + 2.0 * way / (places[i][2] + places[i - 1][2]);
+    }
+    places
+}
+
+/// The way at a time, at a steady rate of change between places.
+fn way_at(places: &[[f64; 3]], time: f64) -> f64 {
+    let next = places.partition_point(|place| place[1] <= time).clamp(1, places.len() - 1);
+    let ([from, begins, before], [to, ends, after]) = (places[next - 1], places[next]);
+    let share = ((time - begins) / (ends - begins)).clamp(0.0, 1.0);
+    let mean = before + (after - before) * 0.5 * share;
+    (from + mean * share * (ends - begins)).clamp(from, to)
+}
+
+/// The greatest speed of the head on a leg, mm/s: what the edge asks for, and what the turn of the head and its axes allow.
+fn cap(leg: &Leg, limits: &[Limits; 3]) -> f64 {
+    let [x, y, c] = limits;
+    let rate = ((leg.ends[1].aim - leg.ends[0].aim) / leg.length()).abs();
+    let turning = c.speed * SHARE / rate;
+    let bending = (x.acceleration.min(y.acceleration) * SHARE / rate).sqrt();
+    leg.speed.min(turning).min(bending).min(x.speed.min(y.speed))
+}
