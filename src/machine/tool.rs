@@ -17,7 +17,7 @@ pub(super) const KEYS: &[Key] = &[
     Key { name: "tool.corner_speed_mm_s", takes: Takes::Number(SPEED), about: "How fast the spray head goes round a corner of the part: the jet stands on the corner meanwhile." },
     Key { name: "tool.planner", takes: Takes::Word(words::<Planner>), about: "How the spray head is planned: \"optimal\" = as fast as the axes and the speeds above allow,\n\"quintic\" = least-squares polynomials of order 5 for X, Y and C, edge by edge." },
     Key { name: "quintic.basis", takes: Takes::Word(words::<Basis>), about: "What the polynomials are sums of: \"chebyshev\" polynomials on the time of their piece, or plain\npowers of the time (\"monomial\", for study: their equations are ill-conditioned)." },
-    Key { name: "quintic.split", takes: Takes::Flag, about: "Edges are split until their polynomials keep path.tolerance_mm; false = one for each edge, for study." },
+    Key { name: "quintic.split", takes: Takes::Flag, about: "Edges are split until their polynomials keep path.tolerance_mm; false = one for each edge,\nfor study." },
 ];
 
 /// The tool.
