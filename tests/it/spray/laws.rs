@@ -1,5 +1,7 @@
 //! Laws over many shapes: whatever is followed is verified, and the same whichever way it is drawn.
 
+use std::fmt::Write as _;
+
 use cutc::source::Source;
 use fastrand::Rng;
 
@@ -49,4 +51,26 @@ fn the_way_of_drawing_does_not_matter_and_programs_are_the_same_each_time() {
     assert_eq!(of(&drawn(false)).1, bytes);
     let (back, _) = of(&drawn(true));
     assert!((time - back).abs() < 0.01, "{time} s, backwards {back} s");
+}
+
+#[test]
+fn tangled_contours_are_followed_or_refused_but_never_end_in_a_panic() {
+    let mut random = Rng::with_seed(28);
+    for case in 0..300 {
+        // Few places on a coarse grid: contours that cross, touch and repeat themselves, spikes, parts upon each other.
+        let mut text = String::from("x_mm,y_mm\n");
+        for _ in 0..random.usize(1..4) {
+            let points: Vec<[u32; 2]> =
+                (0..random.usize(3..12)).map(|_| [random.u32(0..12) * 100, random.u32(0..12) * 100]).collect();
+            for [x, y] in points.iter().chain(&points[..1]) {
+                // Writing into a `String` cannot fail.
+                let _ = writeln!(text, "{x},{y}");
+            }
+            text.push('\n');
+        }
+        let source = Source::new("tangle.csv", text.into_bytes()).expect("small");
+        let head = job(&["tool.distance_mm=60", "table.x_mm=unlimited", "table.y_mm=unlimited", "time.period_ms=10"]);
+        let tried = std::panic::catch_unwind(|| drop(compiled(&source, "csv", &head)));
+        assert!(tried.is_ok(), "case {case}: {}", String::from_utf8_lossy(source.bytes()));
+    }
 }
