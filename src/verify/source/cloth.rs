@@ -25,7 +25,9 @@ impl Cloth {
         let mut rows: Vec<[f64; 2]> = bytes.split(|&byte| byte == b'\n').filter_map(row).collect();
         if let Some(rulers) = centre.rulers {
             // While the conveyor counts up, what is under the rulers has ever less X.
-            rows.iter_mut().for_each(|row| row[0] = rulers - row[0]);
+            for row in &mut rows {
+                row[0] = rulers - row[0];
+            }
             rows.reverse();
         }
         Some(Self(rows))
