@@ -402,6 +402,8 @@ codes! {
     // Heads that follow edges at a distance.
     /// Nothing to follow.
     SPRAY_NOTHING = error(Shape, "spray/nothing", "A file has no closed contour, or none that a head can follow at its distance.", "A head follows the closed edges of parts from outside, and holes from inside. Close the contours, or take a smaller distance.\n  tool.distance_mm = 150");
+    /// Edges that meet.
+    SPRAY_TANGLED = error(Shape, "spray/tangled", "Edges cross, touch or run back upon each other, so that there is no outside from which a head could follow them.", "What is coated there could be anything. Draw each part by one line that does not meet itself, and move parts that touch apart: between them a head has no room anyway.");
     /// Lines that are no edges.
     SPRAY_NO_EDGE = warning(Spares, Shape, "spray/no-edge", "Open lines, notches and holes of a file are no edges of parts: no head at a distance follows them.", "Only closed contours have an inside and an outside. If an edge is among them, it is drawn open: close it in the CAD system.");
     /// Edges that are not reached.

@@ -22,6 +22,7 @@ mod program;
 mod quintic;
 mod reach;
 mod rows;
+mod tangle;
 pub mod verify;
 mod write;
 
@@ -59,6 +60,7 @@ struct Solved {
 pub fn plan(marker: &Marker, job: &Job, out: &mut Diagnostics) -> Option<(Program, Peaks)> {
     let corner = job.profile.corner.angle();
     let rings = edge::rings(marker, corner, out);
+    tangle::report(&rings, out);
     if out.has_errors() {
         return None;
     }
