@@ -44,7 +44,7 @@ impl<'a> Runs<'a> {
     }
 
     fn of_cut(&self, cut: &Cut) -> f64 {
-        let points = self.from_corner(self.marker.list.points(cut.range));
+        let points = self.begun_at_corner(self.marker.list.points(cut.range));
         let last = points.len() - 1;
         let (mut time, mut first) = (0.0, 0);
         for i in (1..last).filter(|&i| self.is_corner(points[i], points[..i].iter().rev(), points[i + 1..].iter())) {
@@ -65,7 +65,7 @@ impl<'a> Runs<'a> {
     }
 
     /// A closed cut that starts amid a line is begun at its next corner: a start there would cost a lift.
-    fn from_corner<'p>(&self, points: Cow<'p, [Point]>) -> Cow<'p, [Point]> {
+    fn begun_at_corner<'p>(&self, points: Cow<'p, [Point]>) -> Cow<'p, [Point]> {
         let last = points.len() - 1;
         let ring = &points[..last];
         let is_corner = |i: usize| {

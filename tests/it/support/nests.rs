@@ -138,7 +138,8 @@ impl Dialect {
     /// The lines of a part, its outline first and slits last.
     fn part(self, number: usize, lines: &[Vec<Point>], slits: &[Vec<Point>]) -> String {
         let all = |lines: &[Vec<Point>], before: &str| -> String {
-            lines.iter().map(|line| format!("{before}{}", self.line(line))).collect()
+            let lines: Vec<String> = lines.iter().map(|line| self.line(line)).collect();
+            lines.iter().flat_map(|line| [before, line]).collect()
         };
         if self == Self::Plot {
             return all(lines, "") + &all(slits, "");
@@ -156,6 +157,18 @@ impl Dialect {
     }
 }
 
+/// What parts a nest has.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Layout {
+    Plain,
+    /// No edge is curved.
+    Straight,
+    /// A third of the parts more, small ones; every tenth part is none.
+    SmallAndWaste,
+    /// Every fifth part has a square cut-out; none in plots, which do not cut what lies in parts.
+    CutOuts,
+}
+
 /// What a nest is made of.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Recipe {
@@ -168,14 +181,7 @@ pub(crate) struct Recipe {
     pub(crate) dialect: Dialect,
     /// How far each part is moved at the most, mm.
     pub(crate) jitter: f64,
-    /// No edge is curved.
-    pub(crate) is_straight: bool,
-    /// A third of the parts more, small ones.
-    pub(crate) has_small: bool,
-    /// Every tenth part is none.
-    pub(crate) has_waste: bool,
-    /// Every fifth part has a square cut-out; none in plots, which do not cut what lies in parts.
-    pub(crate) has_cut_outs: bool,
+    pub(crate) layout: Layout,
 }
 
 /// A file with the notches that stand in it.
@@ -196,23 +202,20 @@ impl Recipe {
             is_facing: pick / 2 % 2 == 1,
             dialect: [Dialect::Metric, Dialect::Inch, Dialect::Plot][pick / 4 % 3],
             jitter: [0.0, 0.05][pick / 3 % 2],
-            is_straight: pick / 5 % 4 == 1,
-            has_small: pick % 5 == 2,
-            has_waste: pick / 11 % 3 == 1,
-            has_cut_outs: pick / 7 % 3 == 1,
+            layout: [Layout::Plain, Layout::Straight, Layout::SmallAndWaste, Layout::CutOuts][pick / 5 % 4],
         }
     }
 
     /// The nest: the same recipe, the same bytes.
     pub(crate) fn nest(&self) -> Nest {
         let mut rng = Rng::with_seed(self.seed);
-        let cloth =
-            Cloth::divided([self.parts, if self.has_small { self.parts / 3 } else { 0 }], self.is_straight, &mut rng);
+        let small = if self.layout == Layout::SmallAndWaste { self.parts / 3 } else { 0 };
+        let cloth = Cloth::divided([self.parts, small], self.layout == Layout::Straight, &mut rng);
         let places: Vec<[f64; 2]> =
             cloth.curves.iter().map(|_| [rng.f64() * 0.35 + 0.1, rng.f64() * 0.35 + 0.55]).collect();
         let mut text = String::new();
         let mut notches = Notches::default();
-        let is_drawn = |number: usize| !self.has_waste || number % 10 != 0;
+        let is_drawn = |number: usize| self.layout != Layout::SmallAndWaste || !number.is_multiple_of(10);
         for (part, number) in cloth.parts.iter().zip(1..).filter(|(_, number)| is_drawn(*number)) {
             let mut ring = Vec::new();
             for &edge in part {
@@ -237,7 +240,7 @@ impl Recipe {
                 outline.reverse();
             }
             outline.push(outline[0]);
-            let has_cut_out = self.has_cut_outs && self.dialect != Dialect::Plot && number % 5 == 0;
+            let has_cut_out = self.layout == Layout::CutOuts && self.dialect != Dialect::Plot && number % 5 == 0;
             let cut_out = if has_cut_out { cut_out(&at) } else { None };
             let lines: Vec<Vec<Point>> = cut_out.into_iter().chain([outline]).collect();
             text += &self.dialect.part(number, &lines, &strokes);

@@ -106,7 +106,9 @@ pub(super) fn bridge(outline: &mut Vec<Segment>, notches: &[OutlineNotch]) -> Ve
     }
     let before = |kept: &mut usize, gone: &bool| Some(std::mem::replace(kept, *kept + usize::from(!gone)));
     let places: Vec<usize> = is_gone.iter().scan(0, before).collect();
-    bridged.iter_mut().for_each(|bridged| bridged.at = places[bridged.at]);
+    for bridged in &mut bridged {
+        bridged.at = places[bridged.at];
+    }
     let mut is_gone = is_gone.into_iter();
     outline.retain(|_| !is_gone.next().unwrap_or_default());
     bridged
