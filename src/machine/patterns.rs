@@ -31,6 +31,17 @@ pub struct Dxf {
     pub notch_mm: f64,
 }
 
+/// How exactly pattern DXF is read: what is promised of every file, and judged by.
+impl Dxf {
+    /// Farthest that the chords of a curve lie off it, as a part of the tolerance.
+    pub const CHORDS_OFF: f64 = 0.25;
+    /// Farthest that ends of lines lie apart that are joined, mm: what rounding to a hundredth of an inch parts. Files of
+    /// garment CAD have no gap at all.
+    pub const ENDS_MEET: f64 = 0.2;
+    /// Farthest that the point of a notch lies from the outline that it is cut into, mm: others mark seam lines.
+    pub const NOTCH_OFF: f64 = 1.0;
+}
+
 impl Default for Dxf {
     fn default() -> Self {
         Self { unit: PatternUnit::Auto, quantity: Quantity::File, gap_mm: 20.0, notch_mm: 5.0 }
