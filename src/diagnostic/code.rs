@@ -108,6 +108,8 @@ codes! {
     SOURCE_UNKNOWN = error(Text, "source/unknown-format", "The content is none of the dialects that cutc reads; the message names what it looks like.", "Cutting from a guess could ruin a lay. Export an ISO cut file, or name the dialect if the file has an unusual head.\n  cutc check odd.txt --from iso");
     /// Options for plots, and no plot.
     SOURCE_NO_PLOT = warning(Spares, Shape, "source/no-plot", "`--cut-pens`, `--inner` or `--cut-all` is given for a file that is no drawing; they change nothing.", "A cut file says itself what is cut, so there is nothing to choose by pens and shapes. To cut some of its pieces name them.\n  cutc compile marker.cut --pieces 3,7-12");
+    /// Options of patterns for what is none.
+    SOURCE_NO_PATTERNS = warning(Spares, Shape, "source/no-patterns", "`--size` or `--quantity` is given for a file that is no pattern DXF; they change nothing.", "Cut files, plots and drawings have no sizes and no quantities: all of their pieces are cut, each as often as it is drawn. To cut some of them name them.\n  cutc compile marker.cut --pieces 3,7-12");
 
     // ISO cut files.
     /// A block that is not words.

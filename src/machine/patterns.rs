@@ -106,12 +106,18 @@ impl Sizes {
     }
 }
 
-/// As it is typed.
+/// As it is typed: what a shell would take apart stands in quotes.
 impl fmt::Display for Sizes {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::All => out.write_str(Self::ALL),
-            Self::Named(names) => out.write_str(&names.join(",")),
+        let names = match self {
+            Self::All => return out.write_str(Self::ALL),
+            Self::Named(names) => names.join(","),
+        };
+        let is_plain = |letter: char| letter.is_alphanumeric() || ",./-_".contains(letter);
+        if names.chars().all(is_plain) {
+            out.write_str(&names)
+        } else {
+            write!(out, "'{}'", names.replace('\'', "'\\''"))
         }
     }
 }
@@ -136,6 +142,7 @@ mod tests {
         assert_eq!(Sizes::parse("S, 44/46"), named(&["S", "44/46"]));
         assert_eq!(Sizes::parse("ALL"), Some(Sizes::All));
         assert_eq!(Sizes::parse("S,"), None);
-        assert_eq!(Sizes::parse("S,M").map(|sizes| sizes.to_string()).as_deref(), Some("S,M"));
+        let typed = |text: &str| Sizes::parse(text).map(|sizes| sizes.to_string());
+        assert_eq!(["S,M", "2 XL", "6'"].map(typed), ["S,M", "'2 XL'", "'6'\\'''"].map(|text| Some(text.to_owned())));
     }
 }

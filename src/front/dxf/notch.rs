@@ -15,8 +15,8 @@ use crate::source::Span;
 /// How far to both sides of a notch the direction of the edge is taken, mm.
 const BESIDE: f64 = 1.0;
 /// Widths of mouths, and least depth, of notches that outlines make, mm: what is narrower or flatter is a slit.
-const MOUTHS: [f64; 2] = [1.0, 12.0];
-const LEAST_DEPTH: f64 = 1.5;
+pub(super) const MOUTHS: [f64; 2] = [1.0, 12.0];
+pub(super) const LEAST_DEPTH: f64 = 1.5;
 /// How much shorter the mouth may be than the edge that it is cut into, as a part: there the edge bends by a third of a
 /// right angle.
 const STRAIGHT: f64 = 0.98;

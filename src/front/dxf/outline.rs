@@ -29,7 +29,8 @@ impl Outline {
 
     /// Whether a place lies in it or beside it, as far as there is work left to find out.
     pub(super) fn holds(&self, at: Point, work: &mut Budget) -> bool {
-        self.extent.holds(at)
+        work.spend(1)
+            && self.extent.holds(at)
             && work.spend(2 * self.points.len())
             && (ring::contains(&self.points, at) || polyline::distance(at, &self.points) <= BESIDE)
     }
@@ -48,7 +49,8 @@ pub(super) fn outlines(edges: Vec<Chain>, work: &mut Budget) -> Vec<Outline> {
         // Parts that touch have vertices on each other's edge: what is inside is so with its inside, and all of it.
         let inner = Shape::new(&[&outline.points]).inner().filter(|_| outline.edge.is_closed);
         let is_inside = |around: &Outline, work: &mut Budget| {
-            around.extent.covers(&outline.extent.grown(-BESIDE))
+            work.spend(1)
+                && around.extent.covers(&outline.extent.grown(-BESIDE))
                 && inner.is_some_and(|inner| work.spend(around.points.len()) && ring::contains(&around.points, inner))
                 && outline.points.iter().all(|&at| around.holds(at, work))
         };

@@ -130,7 +130,7 @@ impl<'a> Reader<'a, '_> {
             let is_vertex = |entity: &&Entity| entity.is("VERTEX");
             let count = if entity.is("POLYLINE") { behind.iter().take_while(is_vertex).count() } else { 0 };
             rest = &behind[count..];
-            if entity.bytes(ON_PAPER) == b"1" && !is_text(entity) {
+            if entity.number(ON_PAPER).is_ok_and(|flag| flag == Some(1.0)) && !is_text(entity) {
                 self.on_paper.get_or_insert((0, entity.span())).0 += 1;
                 continue;
             }
@@ -371,7 +371,7 @@ fn flat(entity: &Entity) -> Result<(), Diagnostic> {
             && (found - wanted).abs() > EXTRUSION_EPSILON
         {
             let kind = entity.kind().escape_ascii();
-            let message = format!("the {kind} is not drawn as seen from above: its group {code} is {found}");
+            let message = format!("the {kind} is not drawn from above: its group {code} is {found}");
             let finding =
                 Diagnostic::new(&code::DXF_EXTRUSION, message).at(entity.value(code).unwrap_or(entity.span()));
             return Err(finding.hint("flatten the drawing in the CAD system: a mirrored copy has its back upwards"));
@@ -386,9 +386,7 @@ fn alone(entity: &Entity) -> Result<(), Diagnostic> {
         if let Some(count) = entity.whole(code)?.filter(|count| !(0..=1).contains(count)) {
             let message = format!("an INSERT puts rows or columns of copies: its group {code} is {count}");
             let finding = Diagnostic::new(&code::DXF_ARRAY, message).at(entity.value(code).unwrap_or(entity.span()));
-            return Err(
-                finding.hint("explode the array in the CAD system, so that each piece has an INSERT of its own")
-            );
+            return Err(finding.hint("explode the array in the CAD system: each piece needs an INSERT"));
         }
     }
     Ok(())

@@ -1,5 +1,6 @@
 //! What a block cuts, found anew: the places of its lines, holes and notches on both halves, without joining anything.
 
+use super::lookup::Lookup;
 use super::tags::{Item, Sheet};
 use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_2;
@@ -11,8 +12,8 @@ use crate::machine::patterns::Dxf;
 pub(super) const MEETS: f64 = Dxf::ENDS_MEET;
 /// Radius beyond which a curve is straight, mm: on a circle so large the rounding of its centre moves every place.
 const STRAIGHT: f64 = 1e9;
-/// How far apart the ends of an arc are that comes round, mm.
-const ROUND_EPSILON: f64 = 1e-6;
+/// Angle below which an arc comes round, rad.
+const ROUND_EPSILON: f64 = 1e-8;
 
 /// What is cut, mm.
 #[derive(Debug, Clone, Default)]
@@ -142,6 +143,9 @@ impl Cuts {
                     cuts.marks.push(mark);
                     cuts.marks.extend(also.map(|at| Mark { at, ..mark }));
                 }
+                (b"ARC", Some(13)) if round_path(item, Some(at), measure).is_some_and(|path| path.is_closed) => {
+                    cuts.holes.extend([Some(at), also].into_iter().flatten());
+                }
                 _ => {}
             }
         }
@@ -262,6 +266,11 @@ fn paths(items: &[Item], layer: u32, measure: Measure) -> Vec<Path> {
             _ => {}
         }
     }
+    distinct(paths)
+}
+
+/// Lines that have a length, each once; of an open and a closed one of the same places the closed one.
+fn distinct(mut paths: Vec<Path>) -> Vec<Path> {
     paths.iter_mut().for_each(Path::tidy);
     paths.retain(|path| !path.curves.is_empty());
     let closed: BTreeSet<_> = paths.iter().filter(|path| path.is_closed).map(Path::key).collect();
@@ -280,7 +289,7 @@ fn round_path(item: &Item, centre: Option<Point>, measure: Measure) -> Option<Pa
         sweep: (end - start).rem_euclid(360.0).to_radians(),
         ..whole
     });
-    let is_open = |round: &Round| (round.at(0.0) - round.at(1.0)).norm() > ROUND_EPSILON;
+    let is_open = |round: &Round| round.sweep > ROUND_EPSILON;
     let is_circle = !arc.as_ref().is_some_and(is_open);
     let round = match arc {
         Some(round) if is_circle => Round { sweep: whole.sweep, ..round },
@@ -348,15 +357,13 @@ impl Path {
 fn clusters(paths: Vec<Path>) -> Vec<Vec<Path>> {
     let mut owner: Vec<usize> = (0..paths.len()).collect();
     let ends = |k: usize| [paths[k].points[0], paths[k].points[paths[k].points.len() - 1]];
-    let mut all: Vec<(Point, usize)> =
+    let all: Vec<(Point, usize)> =
         (0..paths.len()).filter(|&k| !paths[k].is_closed).flat_map(|k| ends(k).map(|at| (at, k))).collect();
-    all.sort_by(|a, b| a.0.x.total_cmp(&b.0.x));
-    for (i, &(at, k)) in all.iter().enumerate() {
-        for &(other, of) in all[i + 1..].iter().take_while(|(other, _)| other.x - at.x <= MEETS) {
-            if (other - at).norm() <= MEETS {
-                let [a, b] = [root(&mut owner, k), root(&mut owner, of)];
-                owner[a] = b;
-            }
+    let of_ends = Lookup::of(all.iter().map(|end| end.0), MEETS);
+    for &(at, k) in &all {
+        for other in of_ends.near(at) {
+            let [a, b] = [root(&mut owner, k), root(&mut owner, all[other].1)];
+            owner[a] = b;
         }
     }
     let roots: Vec<usize> = (0..paths.len()).map(|k| root(&mut owner, k)).collect();

@@ -135,7 +135,9 @@ pub(super) fn sheets(bytes: &[u8]) -> (Vec<Sheet<'_>>, Sheet<'_>) {
     let (mut blocks, mut loose): (Vec<Sheet>, Sheet) = (Vec::new(), Sheet::default());
     let (mut section, mut is_in_block) = (Vec::new(), false);
     // What has 1 in group 67 stands on the sheet around the drawing; only what it says is of interest.
-    let is_drawn = |item: &Item| item.number(67) != Some(1.0) || item.is_text();
+    let is_part =
+        |item: &Item| [&b"VERTEX"[..], b"SEQEND", b"SECTION", b"ENDSEC", b"BLOCK", b"ENDBLK"].contains(&&item.kind[..]);
+    let is_drawn = |item: &Item| item.number(67) != Some(1.0) || item.is_text() || is_part(item);
     for item in items.into_iter().filter(is_drawn) {
         match &item.kind[..] {
             b"SECTION" => section = item.text(2).to_ascii_uppercase(),
