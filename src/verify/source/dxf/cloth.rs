@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use super::cuts::{Cuts, Mark, Measure, Place, Round};
 use super::tags::{Item, Sheet, sheets};
-use crate::geom::{Extent, Point, Vector};
+use crate::geom::{Extent, Point, Vector, cross};
 use crate::machine::Job;
 use crate::machine::patterns::{Dxf, Quantity, Sizes};
 use crate::units::MM_PER_INCH;
@@ -185,6 +185,15 @@ fn moved(at: Point, [right, up, origin]: Move) -> Point {
     Point::from(right * at.x + up * at.y + origin)
 }
 
+impl Round {
+    fn moved(&self, to: Move, scale: f64) -> Self {
+        let centre = moved(self.centre, to);
+        let spoke = moved(self.at(0.0), to) - centre;
+        let sweep = if cross(to[0], to[1]) < 0.0 { -self.sweep } else { self.sweep };
+        Self { centre, radius: self.radius * scale, start: spoke.y.atan2(spoke.x), sweep }
+    }
+}
+
 impl Cuts {
     /// The box around all of it, turned as a move turns it.
     fn extent(&self, to: Move) -> Extent {
@@ -202,11 +211,7 @@ impl Cuts {
         // Insertions may scale; patterns are scaled alike in both directions.
         let scale = right.norm().max(up.norm());
         self.places.extend(cuts.places.iter().map(|place| Place { at: moved(place.at, to), ..*place }));
-        self.rounds.extend(cuts.rounds.iter().map(|round| Round {
-            centre: moved(round.centre, to),
-            radius: round.radius * scale,
-            ..*round
-        }));
+        self.rounds.extend(cuts.rounds.iter().map(|round| round.moved(to, scale)));
         self.faults += cuts.faults;
         self.length += cuts.length * scale;
         self.slack += cuts.slack * scale;
