@@ -100,9 +100,13 @@ mod tests {
             says(text, Dxf::NOTCH_OFF);
         }
         let too_deep = row(Thing::Notch(Doubt::TooDeep));
-        [too_deep.one, too_deep.many, code::DXF_NOTCH_LEFT_OUT.about].map(|text| says(text, Notch::LONGEST));
+        for text in [too_deep.one, too_deep.many, code::DXF_NOTCH_LEFT_OUT.about] {
+            says(text, Notch::LONGEST);
+        }
         let [least, most] = MOUTHS;
-        [least, most, LEAST_DEPTH].map(|value| says(code::DXF_NOTCH_AS_SLIT.about, value));
+        for value in [least, most, LEAST_DEPTH] {
+            says(code::DXF_NOTCH_AS_SLIT.about, value);
+        }
         says(code::DXF_OPEN_OUTLINE.about, Dxf::ENDS_MEET);
         says(WORDS[0].about, Dxf::ENDS_MEET);
         assert!(WORDS.iter().any(|word| word.about.contains("a quarter of the tolerance")) && Dxf::CHORDS_OFF == 0.25);

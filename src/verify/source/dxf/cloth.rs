@@ -108,7 +108,9 @@ impl<'a> Sheets<'a> {
             match &item.kind[..] {
                 b"INSERT" => behind = self.block(item),
                 b"ATTRIB" => {
-                    behind.into_iter().for_each(|k: usize| told[k] = told[k].or_else(|| item.says("QUANTITY")));
+                    if let Some(k) = behind {
+                        told[k] = told[k].or_else(|| item.says("QUANTITY"));
+                    }
                 }
                 _ => behind = None,
             }
