@@ -108,6 +108,8 @@ codes! {
     SOURCE_UNKNOWN = error(Text, "source/unknown-format", "The content is none of the dialects that cutc reads; the message names what it looks like.", "Cutting from a guess could ruin a lay. Export an ISO cut file, or name the dialect if the file has an unusual head.\n  cutc check odd.txt --from iso");
     /// Options for plots, and no plot.
     SOURCE_NO_PLOT = warning(Spares, Shape, "source/no-plot", "`--cut-pens`, `--inner` or `--cut-all` is given for a file that is no drawing; they change nothing.", "A cut file says itself what is cut, so there is nothing to choose by pens and shapes. To cut some of its pieces name them.\n  cutc compile marker.cut --pieces 3,7-12");
+    /// Options of patterns for what is none.
+    SOURCE_NO_PATTERNS = warning(Spares, Shape, "source/no-patterns", "`--size` or `--quantity` is given for a file that is no pattern DXF; they change nothing.", "Cut files, plots and drawings have no sizes and no quantities: all of their pieces are cut, each as often as it is drawn. To cut some of them name them.\n  cutc compile marker.cut --pieces 3,7-12");
 
     // ISO cut files.
     /// A block that is not words.
@@ -217,7 +219,7 @@ codes! {
     /// No end.
     DXF_CUT_SHORT = error(Text, "dxf/cut-short", "A DXF file does not end with EOF: it was cut short.", "The end of the file is missing, and with it perhaps the rest of an outline or whole pieces. Transfer it again and compare the sizes of both files.");
     /// A number that is none.
-    DXF_NUMBER = error(Text, "dxf/number", "A coordinate, size or angle of a DXF file is not a decimal number.", "A number that is guessed would be a wrong cut. Decimal commas come from the language of the computer that exported the file: set the export to decimal points.");
+    DXF_NUMBER = error(Text, "dxf/number", "A coordinate, size or angle of a DXF file is not a decimal number, or a flag or count no whole one.", "A number that is guessed would be a wrong cut. Decimal commas come from the language of the computer that exported the file: set the export to decimal points.");
     /// A place without X or Y.
     DXF_NO_COORDINATE = error(Text, "dxf/no-coordinate", "An entity of a DXF file lacks a coordinate.", "A place that is taken for 0 would pull the outline across the cloth. Lines were lost on the way: export or transfer the file again.");
     /// A place that no table reaches.
@@ -251,21 +253,33 @@ codes! {
     /// A whole piece with a fold line.
     DXF_FOLD_ACROSS = warning(Spoils, Shape, "dxf/fold-across", "A piece is drawn on both sides of its fold line (layer 6), so it is taken for a whole one.", "Half pieces end at their fold line. One that goes on across it is whole already, or its line is wrong. Look at the picture (-t svg) before you cut.");
     /// A notch that is not cut.
-    DXF_NOTCH_LEFT_OUT = warning(Spares, Shape, "dxf/notch-left-out", "A notch of a DXF file is not cut: it lies off the outline, is deeper than 15 mm or than its part is there, or lies in another one.", "A cut into a part that is wrong cannot be mended, and a notch that is missing can. Notches on seam lines mark where parts meet and are not for the knife. See in the picture (-t svg) which are missing.");
+    DXF_NOTCH_LEFT_OUT = warning(Spares, Shape, "dxf/notch-left-out", "A notch of a DXF file is not cut: it lies off the outline, is deeper than 15 mm or than its part is there, or lies in another one or at its place.", "A cut into a part that is wrong cannot be mended, and a notch that is missing can. Notches on seam lines mark where parts meet and are not for the knife. See in the picture (-t svg) which are missing.");
     /// A notch that becomes a slit.
-    DXF_NOTCH_AS_SLIT = warning(Spares, Shape, "dxf/notch-as-slit", "A V, castle, check or U notch of a DXF file is cut as a slit: it is narrower than 1 mm, wider than 12 mm or flatter than 1.5 mm, or stands at a corner or beside another.", "Its mouth would take in a corner or another notch and change the outline. A slit of the same depth marks the same place.");
+    DXF_NOTCH_AS_SLIT = warning(Spares, Shape, "dxf/notch-as-slit", "A V, T, castle, check or U notch of a DXF file is cut as a slit: it is narrower than 1 mm, wider than 12 mm or flatter than 1.5 mm, or stands at a corner or beside another.", "Its mouth would take in a corner or another notch and change the outline, or its crossbar would leave the part. A slit of the same depth marks the same place.");
     /// Something to cut outside.
     DXF_OUTSIDE = warning(Spoils, Shape, "dxf/outside", "A cut-out or a hole of a DXF file lies outside of its outline; it is cut all the same.", "Its layer says that it is cut, but no piece is there: it may lie in a neighbour on the cloth, or belong to an outline that is missing. Look at the picture (-t svg) before you cut.");
     /// A block without an outline.
     DXF_NO_OUTLINE = warning(Spares, Shape, "dxf/no-outline", "A block of a DXF file has something to cut, but no outline on layer 1; nothing of it is cut.", "Its outline may be on another layer, or was not exported. Count the pieces with `cutc info`.");
+    /// A line on a layer of points.
+    DXF_STROKE = warning(Spoils, Shape, "dxf/line-not-cut", "A line of a DXF file lies on a layer of notches (4, 80 to 83) or of drill holes (13), and is not cut.", "The convention has notches and holes as points, which say their depth, width and direction. A notch that is drawn as a line, or a hole as a cross, would be missing in the cut part. Let the CAD system export points, or draw the line on layer 11 if the knife is to follow it.");
     /// A quantity that is none.
     DXF_QUANTITY = warning(Spares, Text, "dxf/quantity", "The quantity of a piece is no number, and the piece is cut once.", "A quantity is how often the piece is cut as it is drawn, and behind a comma how often mirrored.\n  QUANTITY: 1,1");
+    /// Two counts of a piece.
+    DXF_PLACED_QUANTITY = warning(Spares, Shape, "dxf/placed-quantity", "A piece of a DXF file is placed by INSERTs, and not as often as its quantity says.", "A file that puts its pieces somewhere is a marker, and each INSERT in it is one piece. The quantity of a pattern is then another count of the same: compare both before the cloth is spread.");
     /// An insertion of nothing.
     DXF_NO_BLOCK = warning(Spares, Text, "dxf/no-block", "An INSERT of a DXF file names a block that the file does not hold.", "Some systems leave the names of pieces that were deleted. If a piece is missing, export the file again.");
     /// An insertion that scales.
     DXF_SCALE = error(Shape, "dxf/scale", "An INSERT of a DXF file changes the size of a piece.", "Pieces have the size in which their blocks are drawn: one that is scaled, perhaps in one direction only, does not fit the others. If the scale stands for another unit, say that instead.\n  cutc compile pattern.dxf --set dxf.unit=inch");
+    /// Copies in rows and columns.
+    DXF_ARRAY = error(Shape, "dxf/array", "An INSERT of a DXF file puts copies in rows or columns (groups 70 and 71).", "Sets of patterns place each piece by an INSERT of its own. Read without its rows and columns the INSERT would stand for one piece where many are wanted: let the CAD system explode it.");
+    /// A block in a block.
+    DXF_NESTED = error(Shape, "dxf/nested-block", "A block of a DXF file inserts another block that holds something to cut.", "A piece is drawn in one block. What another block holds, perhaps a cut-out or a notch, would be missing in the cut part: let the CAD system explode the INSERTs that stand inside blocks.");
+    /// Another plane than the cloth.
+    DXF_EXTRUSION = error(Shape, "dxf/extrusion", "An entity of a DXF file that is cut is drawn on another plane than the cloth (groups 210, 220, 230 are not 0, 0, 1).", "Copies that are mirrored in space have their coordinates on the back of the drawing: read as they stand they would be cut mirrored or slanted. Flatten the drawing in the CAD system and export it again.");
     /// A piece that is nowhere.
     DXF_NOT_PLACED = warning(Spares, Shape, "dxf/not-placed", "A DXF file places some pieces by INSERT, and others not; those are not cut.", "A file that puts its pieces somewhere is a marker, and what it does not place is not in it. Count the pieces with `cutc info`.");
+    /// The sheet around the drawing.
+    DXF_ON_PAPER = warning(Spares, Text, "dxf/paper-space", "Entities of a DXF file stand in paper space (group 67 is 1) and are not cut.", "Paper space is the sheet on which a drawing is shown, with its frame and titles. If a piece is missing, it was drawn there: move it to model space.");
     /// Kinds that are not read.
     DXF_UNREAD = warning(Spares, Text, "dxf/unread", "Entities of a DXF file are of kinds that are not read; none of them is on a layer that is cut.", "Dimensions, hatchings and splines of other layers are drawn and not cut. If a line is missing in the picture (-t svg), this is where to look.");
 

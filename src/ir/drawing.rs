@@ -141,6 +141,8 @@ pub struct Account {
     pub texts_outside: usize,
     /// What is drawn and not cut.
     pub aside: Aside,
+    /// Where notches are asked for that were told and are not cut, once for every piece that lacks one.
+    pub notches_left_out: Vec<Span>,
 }
 
 /// Lines of a drawing that were taken for the same thing.

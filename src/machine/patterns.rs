@@ -31,6 +31,17 @@ pub struct Dxf {
     pub notch_mm: f64,
 }
 
+/// How exactly pattern DXF is read: what is promised of every file, and judged by.
+impl Dxf {
+    /// Farthest that the chords of a curve lie off it, as a part of the tolerance.
+    pub const CHORDS_OFF: f64 = 0.25;
+    /// Farthest that ends of lines lie apart that are joined, mm: what rounding to a hundredth of an inch parts. Files of
+    /// garment CAD have no gap at all.
+    pub const ENDS_MEET: f64 = 0.2;
+    /// Farthest that the point of a notch lies from the outline that it is cut into, mm: others mark seam lines.
+    pub const NOTCH_OFF: f64 = 1.0;
+}
+
 impl Default for Dxf {
     fn default() -> Self {
         Self { unit: PatternUnit::Auto, quantity: Quantity::File, gap_mm: 20.0, notch_mm: 5.0 }
@@ -95,12 +106,18 @@ impl Sizes {
     }
 }
 
-/// As it is typed.
+/// As it is typed: what a shell would take apart stands in quotes.
 impl fmt::Display for Sizes {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::All => out.write_str(Self::ALL),
-            Self::Named(names) => out.write_str(&names.join(",")),
+        let names = match self {
+            Self::All => return out.write_str(Self::ALL),
+            Self::Named(names) => names.join(","),
+        };
+        let is_plain = |letter: char| letter.is_alphanumeric() || ",./-_".contains(letter);
+        if names.chars().all(is_plain) {
+            out.write_str(&names)
+        } else {
+            write!(out, "'{}'", names.replace('\'', "'\\''"))
         }
     }
 }
@@ -125,6 +142,7 @@ mod tests {
         assert_eq!(Sizes::parse("S, 44/46"), named(&["S", "44/46"]));
         assert_eq!(Sizes::parse("ALL"), Some(Sizes::All));
         assert_eq!(Sizes::parse("S,"), None);
-        assert_eq!(Sizes::parse("S,M").map(|sizes| sizes.to_string()).as_deref(), Some("S,M"));
+        let typed = |text: &str| Sizes::parse(text).map(|sizes| sizes.to_string());
+        assert_eq!(["S,M", "2 XL", "6'"].map(typed), ["S,M", "'2 XL'", "'6'\\'''"].map(|text| Some(text.to_owned())));
     }
 }

@@ -7,6 +7,7 @@ use super::sound::assert_sound;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::{self, Dialect, Read as Reader};
 use crate::ir::{Finding, Marker, check};
+use crate::machine::patterns::Patterns;
 use crate::machine::{Job, plot};
 use crate::pass::marker::{CUTTING_PASSES, DRAWN_PASSES, MARKER_PASSES, MarkerPass};
 use crate::recognise;
@@ -96,8 +97,15 @@ pub(super) fn read_alone(
     // Only a drawing leaves it to others which of its lines are cut.
     let is_plot = matches!(dialect.read, Reader::Drawing(_));
     if !is_plot && job.lines != plot::Lines::default() && !diagnostics.has_errors() {
-        let message = "`--cut-pens`, `--inner` and `--cut-all` choose among the lines of a plot, and this is none: all of it is cut";
+        let message = "`--cut-pens`, `--inner` and `--cut-all` choose among the lines of a plot, and this is none: they change nothing";
         let finding = Diagnostic::new(&code::SOURCE_NO_PLOT, message);
+        diagnostics.push(finding.hint("leave them out; `--pieces` and `--skip` choose pieces of any file"));
+    }
+    let is_of_patterns = matches!(dialect.read, Reader::Patterns { .. });
+    if !is_of_patterns && job.patterns != Patterns::default() && !diagnostics.has_errors() {
+        let message =
+            "`--size` and `--quantity` choose among the pieces of a pattern DXF, and this is none: they change nothing";
+        let finding = Diagnostic::new(&code::SOURCE_NO_PATTERNS, message);
         diagnostics.push(finding.hint("leave them out; `--pieces` and `--skip` choose pieces of any file"));
     }
     place::place(diagnostics, 0, &marker, source, job);

@@ -30,7 +30,13 @@ pub(super) fn marker(mut sheet: Sheet, diagnostics: &mut Diagnostics) -> Marker 
     }
     let Making { list, mut pieces, .. } = making;
     let aside = aside(&sheet);
-    let account = Account { classes: classes(&sheet.lines), pen_down: pen_down(&sheet), texts_outside, aside };
+    let account = Account {
+        classes: classes(&sheet.lines),
+        pen_down: pen_down(&sheet),
+        texts_outside,
+        aside,
+        notches_left_out: Vec::new(),
+    };
     for (piece, number) in pieces.iter_mut().zip(1..) {
         piece.number = number;
     }

@@ -220,6 +220,9 @@ fn lines_of_a_plot_are_chosen_by_pen_and_kind_and_the_program_says_so() {
         assert!(run(&room, &format!("info m.cut {choice}"), 0).contains("source/no-plot"), "{choice}");
     }
     assert!(!run(&room, "info m.cut", 0).contains("source/no-plot"));
+    for choice in ["--size M", "--quantity one"] {
+        assert!(run(&room, &format!("info m.cut {choice}"), 0).contains("source/no-patterns"), "{choice}");
+    }
 }
 
 #[test]

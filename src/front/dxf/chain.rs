@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 
 use crate::geom::Point;
 use crate::ir::drawing::Vertex;
+use crate::machine::patterns::Dxf;
 
-/// Farthest that ends that meet lie from each other, mm: what rounding to a hundredth of an inch parts. Files of garment
-/// CAD have no gap at all.
-pub(super) const REACH: f64 = 0.2;
+/// Farthest that ends that meet lie from each other, mm.
+pub(super) const REACH: f64 = Dxf::ENDS_MEET;
 /// Ends around one place that are compared: where more meet, others are drawn over each other.
 const MOST_AROUND: usize = 16;
 /// Vertices of the least line with an inside.

@@ -1,6 +1,9 @@
 //! Which blocks are cut: those of the sizes that are asked for, and how often each.
 
+use std::collections::BTreeSet;
+
 use super::entity::Block;
+use super::tally::{Tally, Thing};
 use super::text::Facts;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::machine::patterns::{Quantity, Sizes};
@@ -9,6 +12,15 @@ use crate::source::{Source, Span};
 
 /// Sizes that a message names.
 const SHOWN: usize = 24;
+
+/// A file whose patterns a job asks for.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Asked<'a> {
+    pub(super) source: &'a Source,
+    pub(super) job: &'a Job,
+    /// What the file says of all of its blocks.
+    pub(super) file: Facts,
+}
 
 /// The sizes of a file, and which of them are cut.
 #[derive(Debug)]
@@ -27,21 +39,21 @@ fn same(text: &str) -> String {
 impl<'a> Chosen<'a> {
     /// What a job asks of the blocks of a file, each of which says its size or none; an error where nobody says which.
     pub(super) fn of(
-        blocks: &[(&Block<'a>, Facts)],
-        file: &Facts,
-        source: &'a Source,
-        job: &'a Job,
+        Asked { source, job, file }: &Asked<'a>,
+        blocks: &[(&Block, Facts)],
         out: &mut Diagnostics,
     ) -> Self {
         let labels = &job.profile.labels;
         let text = |span: Span| labels.text(source.slice(span));
+        let mut names: BTreeSet<String> = BTreeSet::new();
         let mut known: Vec<String> = Vec::new();
         for size in blocks.iter().filter_map(|(_, facts)| facts.size).map(text) {
-            if !known.iter().any(|other| same(other) == same(&size)) {
+            if names.insert(same(&size)) {
                 known.push(size);
             }
         }
-        let has = |size: &str| known.iter().any(|other| same(other) == same(size));
+        let has = |size: &str| names.contains(&same(size));
+        let other = file.other_sample.map(text);
         let sample = file.sample_size.map(text);
         let sizes = match (&job.patterns.sizes, &sample) {
             (Some(Sizes::All), _) => None,
@@ -52,10 +64,13 @@ impl<'a> Chosen<'a> {
                 }
                 Some(names.iter().map(|name| same(name)).collect())
             }
-            (None, Some(sample)) if has(sample) => Some(vec![same(sample)]),
+            (None, Some(sample)) if other.is_none() && has(sample) => Some(vec![same(sample)]),
             (None, _) if known.len() < 2 => None,
             (None, sample) => {
                 let message = match sample {
+                    Some(sample) if let Some(other) = &other => {
+                        format!("the file has several sample sizes, as `{sample}` and `{other}`")
+                    }
                     Some(sample) => format!("the sample size `{sample}` is none of the sizes of the file"),
                     None => "the file has several sizes and does not say which is the sample size".to_owned(),
                 };
@@ -96,7 +111,7 @@ fn its_sizes(known: &[String]) -> String {
 
 /// How often a piece is cut as it is drawn, and how often mirrored: `1,1` is right and left. `None` when it is no such
 /// text. A piece that is wanted not at all is cut once: many programs write 0 where nobody said anything.
-pub(super) fn quantity(text: &[u8]) -> Option<[u32; 2]> {
+fn quantity(text: &[u8]) -> Option<[u32; 2]> {
     let mut numbers = text.split(|&byte| byte == b',').map(|number| {
         let number = std::str::from_utf8(number.trim_ascii()).ok()?;
         number.parse::<u32>().ok()
@@ -113,11 +128,20 @@ pub(super) fn quantity(text: &[u8]) -> Option<[u32; 2]> {
     }
 }
 
-/// How often pieces are cut in a job.
-pub(super) fn is_as_the_file_says(job: &Job) -> bool {
-    match job.patterns.quantity.unwrap_or(job.profile.dxf.quantity) {
-        Quantity::File => true,
-        Quantity::One => false,
+impl Asked<'_> {
+    /// How often a piece is cut of which a text says so; `None` where nobody wants to know, or nothing is said.
+    pub(super) fn quantity(&self, text: Option<Span>, tally: &mut Tally) -> Option<[u32; 2]> {
+        let job = self.job;
+        match job.patterns.quantity.unwrap_or(job.profile.dxf.quantity) {
+            Quantity::File => {}
+            Quantity::One => return None,
+        }
+        let span = text?;
+        let quantity = quantity(self.source.slice(span));
+        if quantity.is_none() {
+            tally.add(Thing::Quantity, span);
+        }
+        quantity
     }
 }
 

@@ -19,7 +19,8 @@ pub(super) struct Arc {
 impl Arc {
     /// How many chords keep within `sagitta` mm of it: a chord over an angle `a` is `r (1 - cos(a/2))` off.
     pub(super) fn chords(&self, sagitta: f64) -> usize {
-        let step = if sagitta < self.radius { 2.0 * (1.0 - sagitta / self.radius).acos() } else { TAU / 4.0 };
+        // The same by the half angle, which keeps its digits where the radius is large: 1 - cos(a/2) = 2 sin^2(a/4).
+        let step = if sagitta < self.radius { 4.0 * (sagitta / (2.0 * self.radius)).sqrt().asin() } else { TAU / 4.0 };
         // A curve that closes has an inside.
         (self.sweep.abs() / step.min(TAU / 4.0)).ceil().max(1.0) as usize
     }
@@ -32,10 +33,10 @@ impl Arc {
 }
 
 /// The arc from one place to another that bulges so much: the tangent of a quarter of its sweep (DXF reference, group 42).
-/// `None` for a straight line.
-pub(super) fn bulged(from: Point, to: Point, bulge: f64) -> Option<Arc> {
+/// `None` for what its chord keeps to within `sagitta` mm: it is straight, and its centre may be beyond all numbers.
+pub(super) fn bulged([from, to]: [Point; 2], bulge: f64, sagitta: f64) -> Option<Arc> {
     let chord = to - from;
-    if bulge == 0.0 || chord.norm() == 0.0 {
+    if height(chord, bulge) <= sagitta {
         return None;
     }
     let sweep = 4.0 * bulge.atan();
@@ -45,6 +46,11 @@ pub(super) fn bulged(from: Point, to: Point, bulge: f64) -> Option<Arc> {
     Some(Arc { centre, radius: spoke.norm(), start: spoke.y.atan2(spoke.x), sweep })
 }
 
+/// How far an arc that bulges so much lies off its chord, mm: half the chord times the bulge.
+pub(super) fn height(chord: Vector, bulge: f64) -> f64 {
+    bulge.abs() * chord.norm() / 2.0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -52,13 +58,21 @@ mod tests {
     #[test]
     fn a_bulge_of_one_is_half_a_circle_to_the_right_of_its_chord() {
         let [from, to] = [Point::new(0.0, 0.0), Point::new(10.0, 0.0)];
-        let arc = bulged(from, to, 1.0).expect("an arc");
+        let arc = bulged([from, to], 1.0, 0.01).expect("an arc");
         assert!((arc.centre - Point::new(5.0, 0.0)).norm() < 1e-12);
         assert!((arc.place(0.5) - Point::new(5.0, -5.0)).norm() < 1e-12);
         assert!((arc.place(1.0) - to).norm() < 1e-12);
-        let arc = bulged(from, to, -0.2).expect("an arc");
+        let arc = bulged([from, to], -0.2, 0.01).expect("an arc");
         assert!((arc.place(0.0) - from).norm() < 1e-9 && (arc.place(1.0) - to).norm() < 1e-9);
         assert!((arc.place(0.5) - Point::new(5.0, 1.0)).norm() < 1e-9);
+    }
+
+    #[test]
+    fn a_bulge_that_nobody_could_cut_is_straight() {
+        let ends = [Point::new(0.0, 0.0), Point::new(1000.0, 0.0)];
+        assert!([0.0, 1e-7, -1e-5, 1e-300].iter().all(|&bulge| bulged(ends, bulge, 0.01).is_none()));
+        let flat = bulged(ends, 1e-4, 0.01).expect("it is 0.05 mm high");
+        assert!((2..=4).contains(&flat.chords(0.01)) && (flat.place(1.0) - ends[1]).norm() < 1e-6);
     }
 
     #[test]

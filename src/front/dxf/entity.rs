@@ -10,6 +10,7 @@ const BEGINS: i32 = 0;
 pub(super) const TEXT: i32 = 1;
 pub(super) const NAME: i32 = 2;
 const LAYER: i32 = 8;
+/// Flags of polylines and vertices; of an insertion, how many columns of copies it puts.
 pub(super) const FLAGS: i32 = 70;
 
 /// An entity: the group that begins it, and those behind it up to the next one.
@@ -92,23 +93,34 @@ impl<'a> Entity<'a> {
         })
     }
 
-    /// The bits of a flag group; none when it is missing or is no number.
-    pub(super) fn flags(&self, code: i32) -> i64 {
-        whole(self.bytes(code)).unwrap_or(0)
+    /// The whole number of a code, as flags and counts are; `None` when there is none.
+    pub(super) fn whole(&self, code: i32) -> Result<Option<i64>, Diagnostic> {
+        let read = |span: Span| {
+            let bytes = self.source.slice(span);
+            whole(bytes).ok_or_else(|| no_number("a whole number", bytes, span))
+        };
+        self.value(code).map(read).transpose()
+    }
+
+    /// The bits of its flags; none when they are missing.
+    pub(super) fn flags(&self) -> Result<i64, Diagnostic> {
+        Ok(self.whole(FLAGS)?.unwrap_or(0))
     }
 }
 
 /// The number at a place.
 pub(super) fn number_at(source: &Source, span: Span) -> Result<f64, Diagnostic> {
     let bytes = source.slice(span);
-    number(bytes).ok_or_else(|| {
-        let shown = bytes[..bytes.len().min(SHOWN)].escape_ascii();
-        let finding = Diagnostic::new(&code::DXF_NUMBER, format!("`{shown}` is not a decimal number")).at(span);
-        finding.hint(if bytes.contains(&b',') {
-            "numbers in DXF have decimal points; set the export to the English notation"
-        } else {
-            "export the file again"
-        })
+    number(bytes).ok_or_else(|| no_number("a decimal number", bytes, span))
+}
+
+fn no_number(wanted: &str, bytes: &[u8], span: Span) -> Diagnostic {
+    let shown = bytes[..bytes.len().min(SHOWN)].escape_ascii();
+    let finding = Diagnostic::new(&code::DXF_NUMBER, format!("`{shown}` is not {wanted}")).at(span);
+    finding.hint(if bytes.contains(&b',') {
+        "numbers in DXF have decimal points; set the export to the English notation"
+    } else {
+        "export the file again"
     })
 }
 

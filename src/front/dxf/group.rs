@@ -42,7 +42,7 @@ fn trimmed(start: usize, line: &[u8], block: u32) -> Span {
     Span { start: start as u32, end: (start + line.trim_ascii().len()) as u32, block }
 }
 
-/// Reads the groups of a file up to its end. Lines that are no code are reported, and passed over up to the next group
+/// Reads the groups of a file up to its end, behind which nothing may stand. Lines that are no code are reported, and passed over up to the next group
 /// that begins an entity.
 pub(super) fn groups(source: &Source, out: &mut Diagnostics) -> Vec<Group> {
     let bytes = source.bytes();
@@ -77,6 +77,12 @@ pub(super) fn groups(source: &Source, out: &mut Diagnostics) -> Vec<Group> {
         is_lost = false;
         groups.push(Group { code, value });
         if code == 0 && source.slice(value).eq_ignore_ascii_case(END_OF_FILE) {
+            // Some programs leave a control character behind the end.
+            let is_more = bytes.get(lines.at..).unwrap_or_default().iter().any(u8::is_ascii_graphic);
+            if is_more {
+                let finding = Diagnostic::new(&code::DXF_CUT_SHORT, "the file goes on behind its EOF").at(value);
+                out.push(finding.hint("an end that stands amid a file hides the rest of it: export it again"));
+            }
             return groups;
         }
     }

@@ -28,8 +28,20 @@ pub(super) struct Laid<'p> {
 pub(super) struct Drawn {
     /// Its pieces among those of the set; most blocks have one.
     pub(super) pieces: Range<usize>,
-    /// How often they are cut as they are drawn, and how often mirrored.
-    pub(super) quantity: [u32; 2],
+    /// How often they are cut as they are drawn, and how often mirrored, where the file says so.
+    pub(super) quantity: Option<[u32; 2]>,
+}
+
+impl Drawn {
+    /// How often they are wanted as they are drawn, and how often mirrored: once where the file says nothing.
+    fn wanted(&self) -> [u32; 2] {
+        self.quantity.unwrap_or([1, 0])
+    }
+
+    /// How often they are wanted in all.
+    pub(super) fn times(&self) -> usize {
+        self.wanted().iter().map(|&count| count as usize).sum()
+    }
 }
 
 impl Motion {
@@ -73,9 +85,9 @@ fn extent(pieces: &[Piece], [x, y]: [Vector; 2]) -> Extent {
 pub(super) fn in_a_row<'p>(pieces: &'p [Piece], drawn: &[Drawn], gap: f64) -> Vec<Laid<'p>> {
     let mut laid = Vec::new();
     let mut x = 0.0;
-    for Drawn { pieces: range, quantity } in drawn.iter().filter(|drawn| !drawn.pieces.is_empty()) {
-        let pieces = &pieces[range.clone()];
-        for (axes, &count) in [Motion::DRAWN, Motion::MIRRORED].into_iter().zip(quantity) {
+    for drawn in drawn.iter().filter(|drawn| !drawn.pieces.is_empty()) {
+        let pieces = &pieces[drawn.pieces.clone()];
+        for (axes, count) in [Motion::DRAWN, Motion::MIRRORED].into_iter().zip(drawn.wanted()) {
             let extent = extent(pieces, axes);
             for _ in 0..count {
                 let offset = Vector::new(x, 0.0) - extent.min.coords;

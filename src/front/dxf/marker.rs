@@ -35,6 +35,7 @@ fn piece(laid: &Laid, number: u32, list: &mut SegmentList, account: &mut Account
     let Laid { piece, motion } = *laid;
     let mut made = Piece { number, span: piece.span, ..Piece::default() };
     made.drills.extend(piece.drills.iter().map(|&(at, span)| Drill { at: motion.place(at), tool: DRILL, span }));
+    account.notches_left_out.extend(&piece.left_out);
     made.notches.extend(piece.slits.iter().map(|slit| moved_notch(slit, motion)));
     let inner = piece.inner.iter().map(|line| (CUT_OUT, line));
     for (layer, line) in inner.chain([(OUTLINE, &piece.outline)]) {

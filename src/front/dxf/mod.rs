@@ -8,7 +8,7 @@
 //! [`group`] makes pairs of lines with [`syntax`], [`entity`] sections and blocks of them, [`shape`] lines and points in
 //! mm with [`curve`]; [`text`] reads what texts say and [`choice`] which blocks that lets be cut. [`piece`] makes a piece of
 //! a block: [`outline`]s of [`chain`]s, unfolded about their [`fold`], with each [`mod@notch`] by the table of [`layer`]s.
-//! [`set`] does all of this for a file, [`lay`] puts the pieces on the cloth, [`mod@marker`] says what is cut, [`tally`]
+//! [`set`] does all of this for a file, [`placing`] and [`lay`] put the pieces on the cloth, [`mod@marker`] says what is cut, [`tally`]
 //! what is not done as the file says.
 
 mod chain;
@@ -23,6 +23,7 @@ mod marker;
 mod notch;
 mod outline;
 mod piece;
+mod placing;
 mod set;
 mod shape;
 mod syntax;

@@ -9,15 +9,14 @@ use crate::geom::{Point, Vector, left, polyline, ring};
 use crate::ir::drawing::Vertex;
 use crate::ir::list::FULL_SPEED;
 use crate::ir::marker::{Notch, NotchKind, NotchStroke};
+use crate::machine::patterns::Dxf;
 use crate::source::Span;
 
-/// Farthest that the point of a notch may lie from the outline, mm: others mark seam lines.
-const OFF_EDGE: f64 = 1.0;
 /// How far to both sides of a notch the direction of the edge is taken, mm.
 const BESIDE: f64 = 1.0;
 /// Widths of mouths, and least depth, of notches that outlines make, mm: what is narrower or flatter is a slit.
-const MOUTHS: [f64; 2] = [1.0, 12.0];
-const LEAST_DEPTH: f64 = 1.5;
+pub(super) const MOUTHS: [f64; 2] = [1.0, 12.0];
+pub(super) const LEAST_DEPTH: f64 = 1.5;
 /// How much shorter the mouth may be than the edge that it is cut into, as a part: there the edge bends by a third of a
 /// right angle.
 const STRAIGHT: f64 = 0.98;
@@ -25,6 +24,8 @@ const STRAIGHT: f64 = 0.98;
 const ROUND: usize = 12;
 /// Two notches nearer than this are one, mm.
 const SAME: f64 = 0.1;
+/// How far their unit vectors may differ: six degrees.
+const SAME_WAY: f64 = 0.1;
 
 /// A notch as the file says it.
 #[derive(Debug, Clone, Copy)]
@@ -46,10 +47,21 @@ pub(super) enum Doubt {
     OffEdge,
     /// It is deeper than notches are, or than the part is there.
     TooDeep,
-    /// It lies in the mouth of another one.
+    /// It lies in the mouth of another one, or at the place of one that is cut otherwise.
     InAnother,
-    /// Nothing is wrong but that it becomes a slit: too narrow, too wide, too flat, at a corner or beside another.
+    /// Nothing is wrong but that it becomes a slit: too narrow, too wide, too flat, at a corner, beside another, or with a crossbar
+    /// that leaves the part.
     AsSlit,
+}
+
+impl Doubt {
+    /// Whether nothing is cut there.
+    pub(super) fn leaves_out(self) -> bool {
+        match self {
+            Self::OffEdge | Self::TooDeep | Self::InAnother => true,
+            Self::AsSlit => false,
+        }
+    }
 }
 
 /// An outline with its notches.
@@ -100,7 +112,10 @@ pub(super) fn cut(mut outline: Vec<Vertex>, marks: &[Mark], work: &mut Budget) -
         }
     }
     placed.sort_by(|a, b| a.station.total_cmp(&b.station));
-    placed.dedup_by(|next, before| next.station - before.station <= SAME);
+    let length = polyline::length(&around(&outline));
+    for merged in merge(&mut placed, length) {
+        notched.doubts.push((Doubt::InAnother, merged));
+    }
     if placed.is_empty() {
         return Notched { outline, ..notched };
     }
@@ -109,19 +124,39 @@ pub(super) fn cut(mut outline: Vec<Vertex>, marks: &[Mark], work: &mut Budget) -
     let mut taken = mouths.iter().peekable();
     for notch in &placed {
         while taken.next_if(|mouth| mouth.to < notch.station).is_some() {}
-        let (wide, mark) = (notch.is_wide(), &notch.mark);
+        let mark = &notch.mark;
+        let is_bar = mark.form == Form::T && edge.has_room_for_bar(notch, work);
         match taken.peek().filter(|mouth| mouth.from <= notch.station) {
-            // Its own mouth, or that of another in which it would be cut a second time.
-            Some(mouth) if mouth.notch.mark.span == mark.span => {}
+            // Its own mouth, or that of another in which it would be cut a second time: its mirrored half is another, too.
+            Some(mouth) if mouth.notch.mark.span == mark.span && mouth.notch.station == notch.station => {}
             Some(_) => notched.doubts.push((Doubt::InAnother, mark.span)),
             None => {
-                notched.slits.push(notch.slit());
-                notched.doubts.extend(wide.then_some((Doubt::AsSlit, mark.span)));
+                notched.slits.push(notch.slit(is_bar));
+                let is_otherwise = notch.is_wide() || mark.form == Form::T && !is_bar;
+                notched.doubts.extend(is_otherwise.then_some((Doubt::AsSlit, mark.span)));
             }
         }
     }
     notched.outline = if mouths.is_empty() { outline } else { edge.with(&mouths) };
     notched
+}
+
+/// Leaves one of the notches at each place of an outline that comes round, in their order along it. Gives those that
+/// ask for something else there than the one that stays.
+fn merge(placed: &mut Vec<Placed>, length: f64) -> Vec<Span> {
+    let mut lost = Vec::new();
+    let mut is_one = |next: &Placed, before: &Placed, distance: f64| {
+        let is_one = distance <= SAME;
+        lost.extend((is_one && !next.asks_for_the_same_as(before)).then_some(next.mark.span));
+        is_one
+    };
+    placed.dedup_by(|next, before| is_one(next, before, next.station - before.station));
+    if let [first, .., last] = &placed[..]
+        && is_one(last, first, first.station + length - last.station)
+    {
+        placed.pop();
+    }
+    lost
 }
 
 /// A stretch of an outline that a notch takes.
@@ -133,9 +168,14 @@ struct Mouth {
     to: f64,
 }
 
+/// The places of an outline, the first once more at the end.
+fn around(outline: &[Vertex]) -> Vec<Point> {
+    outline.iter().chain(&outline[..1]).map(|vertex| vertex.at).collect()
+}
+
 impl<'a> Edge<'a> {
     fn of(vertices: &'a [Vertex]) -> Self {
-        let points: Vec<Point> = vertices.iter().chain(&vertices[..1]).map(|vertex| vertex.at).collect();
+        let points = around(vertices);
         let stations = polyline::stations(&points);
         let is_left = ring::area(&points[..vertices.len()]) > 0.0;
         Self { vertices, points, stations, is_left }
@@ -160,7 +200,9 @@ impl<'a> Edge<'a> {
         }
         let distance = |k: usize| polyline::distance_to_segment(mark.at, self.points[k], self.points[k + 1]);
         let nearest = (0..self.vertices.len()).map(|k| (distance(k), k)).min_by(|a, b| a.0.total_cmp(&b.0));
-        let Some((_, k)) = nearest.filter(|(distance, _)| *distance <= OFF_EDGE) else { return Err(Doubt::OffEdge) };
+        let Some((_, k)) = nearest.filter(|(distance, _)| *distance <= Dxf::NOTCH_OFF) else {
+            return Err(Doubt::OffEdge);
+        };
         let [a, b] = [self.points[k], self.points[k + 1]];
         let foot = polyline::foot(mark.at, a, b);
         let station = self.stations[k] + foot * (b - a).norm();
@@ -174,6 +216,15 @@ impl<'a> Edge<'a> {
         let inwards = along.filter(|along| along.dot(&inwards) >= FRAC_PI_3.cos()).unwrap_or(inwards);
         let placed = Placed { mark: *mark, station, root, inwards };
         if ring::contains(&self.points[..self.vertices.len()], placed.tip()) { Ok(placed) } else { Err(Doubt::TooDeep) }
+    }
+
+    /// Whether the crossbar of a T is as wide as crossbars are, and stays in the part.
+    fn has_room_for_bar(&self, notch: &Placed, work: &mut Budget) -> bool {
+        let [least, most] = MOUTHS;
+        let ring = &self.points[..self.vertices.len()];
+        (least..=most).contains(&notch.width())
+            && work.spend(2 * self.points.len())
+            && notch.bar().iter().all(|&end| ring::contains(ring, end))
     }
 
     /// The first vertex that lies in no mouth, where there is one: there the outline begins.
@@ -283,14 +334,23 @@ impl Placed {
         if depth > half { (0..=ROUND).map(place).collect() } else { (1..ROUND).map(place).collect() }
     }
 
-    /// A straight cut from the edge inwards, with its crossbar if it is a T.
-    fn slit(&self) -> Notch {
+    /// Both ends of the crossbar of a T.
+    fn bar(&self) -> [Point; 2] {
+        let half = left(self.inwards) * (self.width() / 2.0);
+        [self.tip() - half, self.tip() + half]
+    }
+
+    /// Whether two marks of one place are cut alike.
+    fn asks_for_the_same_as(&self, other: &Self) -> bool {
+        let [own, its] = [self, other].map(|placed| (placed.mark.form, placed.mark.depth, placed.mark.width));
+        own == its && (self.inwards - other.inwards).norm() <= SAME_WAY
+    }
+
+    /// A straight cut from the edge inwards, with a crossbar or without.
+    fn slit(&self, with_bar: bool) -> Notch {
         let (tip, span) = (self.tip(), self.mark.span);
-        let bar = left(self.inwards) * (self.width() / 2.0);
-        let kind = match self.mark.form {
-            Form::T => NotchKind::T(NotchStroke { from: tip - bar, to: tip + bar, span }),
-            Form::Plain | Form::Castle | Form::Check | Form::U => NotchKind::Slit,
-        };
+        let [from, to] = self.bar();
+        let kind = if with_bar { NotchKind::T(NotchStroke { from, to, span }) } else { NotchKind::Slit };
         Notch { kind, root: self.root, tip, percent: FULL_SPEED, span }
     }
 }
@@ -364,8 +424,16 @@ mod tests {
         assert_eq!(doubts(&[mark(Form::Plain, [50.0, 0.0], [16.0, 0.0])]), (0, vec![Doubt::TooDeep]));
         let beside = [mark(Form::U, [50.0, 0.0], [5.0, 4.0]), mark(Form::Plain, [51.0, 0.0], [5.0, 0.0])];
         assert_eq!(doubts(&beside), (0, vec![Doubt::InAnother]));
+        let other = [mark(Form::Plain, [50.0, 0.0], [5.0, 0.0]), mark(Form::Plain, [50.05, 0.0], [5.0, 4.0])];
+        assert_eq!(doubts(&other), (1, vec![Doubt::InAnother]));
+        for width in [0.5, 13.0, 500.0] {
+            assert_eq!(doubts(&[mark(Form::T, [50.0, 0.0], [5.0, width])]), (1, vec![Doubt::AsSlit]), "{width}");
+        }
+        assert_eq!(doubts(&[mark(Form::T, [3.0, 0.0], [5.0, 10.0])]), (1, vec![Doubt::AsSlit]));
         let twice = [mark(Form::Plain, [50.0, 0.0], [5.0, 0.0]), mark(Form::Plain, [50.05, 0.0], [5.0, 0.0])];
         assert_eq!(doubts(&twice), (1, vec![]));
+        let around = [mark(Form::Plain, [0.02, 0.0], [5.0, 0.0]), mark(Form::Plain, [0.0, 0.02], [5.0, 0.0])];
+        assert_eq!(doubts(&around).0, 1, "one of them is at the end of the outline");
         let over = [mark(Form::U, [50.0, 0.0], [5.0, 4.0]), mark(Form::U, [53.0, 0.0], [5.0, 4.0])];
         assert_eq!(doubts(&over), (1, vec![Doubt::AsSlit]));
     }

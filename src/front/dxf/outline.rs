@@ -1,7 +1,10 @@
 //! Outlines of a block, and which of them lie in others: most blocks have one, a drawing without blocks has all.
 
+use std::cmp::Reverse;
+
 use super::chain::Chain;
 use crate::geom::budget::Budget;
+use crate::geom::shape::Shape;
 use crate::geom::{Extent, Point, polyline, ring};
 
 /// How far beside an outline what belongs to it may lie, mm: notches stand on it.
@@ -26,7 +29,8 @@ impl Outline {
 
     /// Whether a place lies in it or beside it, as far as there is work left to find out.
     pub(super) fn holds(&self, at: Point, work: &mut Budget) -> bool {
-        self.extent.holds(at)
+        work.spend(1)
+            && self.extent.holds(at)
             && work.spend(2 * self.points.len())
             && (ring::contains(&self.points, at) || polyline::distance(at, &self.points) <= BESIDE)
     }
@@ -38,12 +42,17 @@ pub(super) fn outlines(edges: Vec<Chain>, work: &mut Budget) -> Vec<Outline> {
     if all.len() == 1 {
         return all.into_iter().map(|(_, outline)| outline).collect();
     }
-    all.sort_by(|(_, a), (_, b)| ring::area(&b.points).abs().total_cmp(&ring::area(&a.points).abs()));
+    // The bits of numbers that are not negative are in the order of the numbers.
+    all.sort_by_cached_key(|(_, outline)| Reverse(ring::area(&outline.points).abs().to_bits()));
     let mut outer: Vec<(usize, Outline)> = Vec::new();
     for (place, outline) in all {
-        let at = outline.points[0];
+        // Parts that touch have vertices on each other's edge: what is inside is so with its inside, and all of it.
+        let inner = Shape::new(&[&outline.points]).inner().filter(|_| outline.edge.is_closed);
         let is_inside = |around: &Outline, work: &mut Budget| {
-            outline.edge.is_closed && around.extent.covers(&outline.extent.grown(-BESIDE)) && around.holds(at, work)
+            work.spend(1)
+                && around.extent.covers(&outline.extent.grown(-BESIDE))
+                && inner.is_some_and(|inner| work.spend(around.points.len()) && ring::contains(&around.points, inner))
+                && outline.points.iter().all(|&at| around.holds(at, work))
         };
         match outer.iter_mut().find(|(_, around)| is_inside(around, work)) {
             Some((_, around)) => around.inner.push(outline.edge),

@@ -11,7 +11,7 @@ use super::shape::{Dot, Line, Shapes};
 use super::tally::{Tally, Thing};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::budget::Budget;
-use crate::geom::{Point, bits};
+use crate::geom::{Heading, Point, bits};
 use crate::ir::drawing::Vertex;
 use crate::ir::marker::{Label, Notch};
 use crate::source::Span;
@@ -25,6 +25,8 @@ pub(super) struct Piece {
     /// Its outline with the notches that it makes.
     pub(super) outline: Chain,
     pub(super) slits: Vec<Notch>,
+    /// Notches that are told and not cut.
+    pub(super) left_out: Vec<Span>,
     pub(super) drills: Vec<(Point, Span)>,
     /// Lines that are cut inside it.
     pub(super) inner: Vec<Chain>,
@@ -46,6 +48,8 @@ pub(super) struct Making<'o> {
 /// What lies in one outline.
 #[derive(Debug, Default)]
 struct Content {
+    /// Where that begins in the file.
+    span: Span,
     lines: Vec<(&'static Layer, Chain)>,
     dots: Vec<Dot>,
     labels: Vec<Label>,
@@ -55,6 +59,9 @@ impl Making<'_> {
     /// The pieces of a block that begins at `span`; most have one.
     pub(super) fn pieces(&mut self, shapes: Shapes, span: Span) -> Vec<Piece> {
         let Shapes { lines, dots, texts, .. } = shapes;
+        for line in &lines {
+            self.see_stroke(line);
+        }
         let (folds, lines): (Vec<Line>, Vec<Line>) = lines.into_iter().partition(|line| line.layer.does == Does::Fold);
         let mut folded: Vec<Fold> = folds.iter().filter_map(|line| Fold::of(&line.vertices)).collect();
         folded.dedup_by(|next, before| next.is_same(before));
@@ -68,24 +75,37 @@ impl Making<'_> {
             let is_cut =
                 lines.iter().map(|(layer, _)| layer).chain(dots.iter().map(|dot| &dot.layer)).any(|l| l.is_cut());
             if is_cut {
-                self.tally.add(Thing::NoOutline, span);
+                let dot = dots.iter().find(|dot| dot.layer.is_cut()).map(|dot| dot.span);
+                let line = lines.iter().find(|(layer, _)| layer.is_cut()).map(|(_, line)| line.vertices[0].span);
+                let at = if span.block > 0 { Some(span) } else { dot.or(line) };
+                self.tally.add(Thing::NoOutline, at.unwrap_or(span));
             }
             return Vec::new();
         }
         let outlines = outlines(edges, &mut self.work);
         let whole = self.unfolded(&outlines, &folded, is_folded);
-        let contents = self.sorted(&outlines, Content { lines, dots, labels: texts });
+        let contents = self.sorted(&outlines, Content { span, lines, dots, labels: texts });
         let is_alone = outlines.len() == 1;
         let mut pieces = Vec::new();
         for ((outline, whole), content) in outlines.into_iter().zip(whole).zip(contents) {
             let Some((plain, fold)) = whole else { continue };
             let span = if is_alone && span.block > 0 { span } else { outline.edge.vertices[0].span };
-            let mut piece = self.piece(plain, fold, content);
+            let mut piece = self.piece(plain, fold, Content { span, ..content });
             let inner = outline.inner.iter().flat_map(|line| on_both_sides(fold, line));
             piece.inner.splice(0..0, inner);
-            pieces.push(Piece { span, ..piece });
+            pieces.push(piece);
         }
         pieces
+    }
+
+    /// Tells lines where points alone ask for cuts: notches that are drawn as strokes, holes as crosses.
+    fn see_stroke(&mut self, line: &Line) {
+        let thing = match line.layer.does {
+            Does::Notch(_) => Thing::StrokeOfNotch,
+            Does::Drill => Thing::StrokeOfHole,
+            Does::Outline | Does::Fold | Does::Inner | Does::Drawn | Does::Sign | Does::Nothing => return,
+        };
+        self.tally.add(thing, line.vertices.first().map_or(Span::default(), |vertex| vertex.span));
     }
 
     /// The whole of each outline, and the fold that it was unfolded about; `None` with an error where it does not close.
@@ -174,9 +194,10 @@ impl Making<'_> {
             }
         }
         let Notched { outline, slits, doubts } = notch::cut(plain.vertices.clone(), &marks, &mut self.work);
-        for (doubt, span) in doubts {
+        for &(doubt, span) in &doubts {
             self.tally.add(Thing::Notch(doubt), span);
         }
+        let left_out = doubts.iter().filter(|(doubt, _)| doubt.leaves_out()).map(|&(_, span)| span).collect();
         let (mut inner, mut drawn) = (Vec::new(), Vec::new());
         for (layer, line) in content.lines {
             match layer.does {
@@ -196,14 +217,13 @@ impl Making<'_> {
         }
         let plain = around.edge;
         let outline = Chain { vertices: outline, is_closed: true };
-        let span = Span::default();
-        Piece { span, plain, outline, slits, drills, inner, drawn, labels: content.labels }
+        Piece { span: content.span, plain, outline, slits, left_out, drills, inner, drawn, labels: content.labels }
     }
 
     fn mark(&self, dot: &Dot, form: Form) -> Mark {
         let Dot { at, depth, width, heading, span, .. } = *dot;
         let depth = if depth > 0.0 { depth } else { self.notch_depth };
-        Mark { form, at, depth, width, along: heading.map(crate::geom::Heading::unit), span }
+        Mark { form, at, depth, width, along: heading.map(Heading::unit), span }
     }
 }
 
@@ -234,13 +254,18 @@ fn joined(lines: Vec<Line>) -> Vec<(&'static Layer, Chain)> {
     layers.into_iter().flat_map(join).collect()
 }
 
-/// Drops lines that are drawn a second time, either way round.
+/// Drops lines that are drawn a second time, either way round; of an open and a closed one the closed one stays.
 fn drop_doubled(lines: &mut Vec<Chain>) {
-    let mut seen: BTreeSet<Vec<[u64; 2]>> = BTreeSet::new();
-    lines.retain(|line| {
+    let way = |line: &Chain| {
         let way: Vec<[u64; 2]> = line.vertices.iter().map(|vertex| bits(vertex.at)).collect();
         let back: Vec<[u64; 2]> = way.iter().rev().copied().collect();
-        seen.insert(way.min(back))
+        way.min(back)
+    };
+    let closed: BTreeSet<_> = lines.iter().filter(|line| line.is_closed).map(way).collect();
+    let mut seen: BTreeSet<Vec<[u64; 2]>> = BTreeSet::new();
+    lines.retain(|line| {
+        let way = way(line);
+        (line.is_closed || !closed.contains(&way)) && seen.insert(way)
     });
 }
 

@@ -1,26 +1,22 @@
 //! The set of patterns: a file becomes the pieces that are cut of it, on the cloth.
 
-use super::choice::{self, Chosen};
-use super::entity::{Block, NAME, Sections, sections};
+use super::choice::{Asked, Chosen};
+use super::entity::{Block, Sections, sections};
 use super::group::groups;
 use super::lay::{Drawn, Laid, Motion, in_a_row};
 use super::piece::{Making, Piece};
-use super::shape::{Insert, Reader, Shapes};
-use super::tally::{Tally, Thing};
+use super::placing::{MOST_PIECES, Placing};
+use super::shape::{Reader, Shapes, Unread};
+use super::tally::Tally;
 use super::text::Facts;
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
+use crate::geom::Point;
 use crate::geom::budget::Budget;
 use crate::ir::marker::Label;
 use crate::machine::Job;
+use crate::machine::patterns::Dxf;
 use crate::source::{Source, Span};
 use crate::units::MM_PER_INCH;
-
-/// Codes of the base point of a block.
-const BASE: [i32; 2] = [10, 20];
-/// Farthest that the chords of a curve may lie off it, as a part of the tolerance.
-const SAGITTA: f64 = 0.25;
-/// Most pieces that are laid.
-const MOST_PIECES: usize = 100_000;
 
 /// The pieces of a file.
 #[derive(Debug, Default)]
@@ -51,35 +47,42 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     let groups = groups(source, out);
     let Sections { blocks, entities } = sections(source, &groups, out);
     let blocks: Vec<(&Block, Facts)> = blocks.iter().map(|block| (block, Facts::of(&block.entities, source))).collect();
-    let file = blocks.iter().fold(Facts::of(&entities, source), |facts, (_, of_block)| facts.or(*of_block));
-    let unit = unit(&file, source, job, out);
+    let of_all = |facts: Facts, (_, of_block): &(&Block, Facts)| facts.or(*of_block, source);
+    let file = blocks.iter().fold(Facts::of(&entities, source), of_all);
+    let asked = Asked { source, job, file };
+    let unit = unit(&asked, out);
     let mut reader = Reader {
         source,
         unit,
-        sagitta: job.profile.tolerance(0.0) * SAGITTA,
+        sagitta: job.profile.tolerance(0.0) * Dxf::CHORDS_OFF,
         chords: 0,
-        unread: std::collections::BTreeMap::new(),
+        unread: Unread::new(),
+        on_paper: None,
         out,
     };
     let drawn: Vec<Shapes> = blocks.iter().map(|(block, _)| reader.shapes(&block.entities)).collect();
     let mut loose = reader.shapes(&entities);
-    let bases: Vec<_> = blocks.iter().map(|(block, _)| reader.place(&block.head, BASE).unwrap_or_default()).collect();
-    let unread = std::mem::take(&mut reader.unread);
-    let chosen = Chosen::of(&blocks, &file, source, job, out);
-    let inserts = std::mem::take(&mut loose.inserts);
+    let bases: Vec<Point> = blocks.iter().map(|(block, _)| reader.base(&block.head)).collect();
+    let (unread, on_paper) = (std::mem::take(&mut reader.unread), reader.on_paper);
+    let chosen = Chosen::of(&asked, &blocks, out);
     let mut making =
         Making { notch_depth: job.profile.dxf.notch_mm, work: Budget::of_a_marker(), tally: Tally::default(), out };
+    let placing = Placing::of(&blocks, bases, std::mem::take(&mut loose.inserts));
+    let is_cut: Vec<bool> = drawn.iter().map(Shapes::is_cut).collect();
     let mut set = Set { gap: job.profile.dxf.gap_mm, ..Set::default() };
-    for ((block, facts), shapes) in blocks.iter().zip(drawn) {
-        let is_chosen = chosen.has(facts);
-        let quantity = if is_chosen { quantity(facts, source, job, &mut making.tally) } else { [0; 2] };
-        let pieces = if is_chosen { making.pieces(shapes, block.head.span()) } else { Vec::new() };
-        set.add(pieces, quantity);
+    for ((k, (block, facts)), shapes) in blocks.iter().enumerate().zip(drawn) {
+        if !chosen.has(facts) {
+            set.add(Vec::new(), None);
+            continue;
+        }
+        placing.see_nested(&shapes.inserts, &is_cut, &mut making.tally);
+        let quantity = asked.quantity(placing.quantity(k).or(facts.quantity), &mut making.tally);
+        set.add(making.pieces(shapes, block.head.span()), quantity);
     }
-    set.placed = placed(&blocks, &bases, &set.drawn, &inserts, &mut making.tally);
+    set.placed = placing.placed(&set.drawn, &mut making.tally);
     set.texts.clone_from(&loose.texts);
-    if !loose.lines.is_empty() {
-        set.add(making.pieces(loose, Span::default()), [1, 0]);
+    if !loose.lines.is_empty() || !loose.dots.is_empty() {
+        set.add(making.pieces(loose, Span::default()), None);
         // Beside blocks that the file places they lie where they are drawn.
         let pieces = set.drawn.last().map_or(0..0, |drawn| drawn.pieces.clone());
         set.placed.iter_mut().for_each(|placed| placed.extend(pieces.clone().map(|piece| (piece, Motion::STILL))));
@@ -87,12 +90,13 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
     let Making { work, tally, .. } = making;
     tally.report(out);
     say_unread(unread, out);
-    say_set(&set, &chosen, work.is_spent(), out);
+    say_on_paper(on_paper, out);
+    set.say(&chosen, work.is_spent(), out);
     set
 }
 
 /// Length of a unit, mm.
-fn unit(file: &Facts, source: &Source, job: &Job, out: &mut Diagnostics) -> f64 {
+fn unit(Asked { source, job, file }: &Asked, out: &mut Diagnostics) -> f64 {
     if let Some(mm) = job.profile.dxf.unit.mm() {
         return mm;
     }
@@ -114,61 +118,9 @@ fn unit(file: &Facts, source: &Source, job: &Job, out: &mut Diagnostics) -> f64 
     }
 }
 
-/// How often a block is cut.
-fn quantity(facts: &Facts, source: &Source, job: &Job, tally: &mut Tally) -> [u32; 2] {
-    let Some(span) = facts.quantity.filter(|_| choice::is_as_the_file_says(job)) else { return [1, 0] };
-    choice::quantity(source.slice(span)).unwrap_or_else(|| {
-        tally.add(Thing::Quantity, span);
-        [1, 0]
-    })
-}
-
-/// Where the insertions of a file put its pieces; `None` when all of them put them nowhere, at the origin.
-fn placed(
-    blocks: &[(&Block, Facts)],
-    bases: &[crate::geom::Point],
-    drawn: &[Drawn],
-    inserts: &[Insert],
-    tally: &mut Tally,
-) -> Option<Vec<(usize, Motion)>> {
-    let name = |block: &Block| block.head.bytes(NAME).to_ascii_uppercase();
-    let mut names: Vec<(Vec<u8>, usize)> = blocks.iter().enumerate().map(|(k, (block, _))| (name(block), k)).collect();
-    names.sort();
-    let find = |insert: &Insert| {
-        let wanted = insert.name.to_ascii_uppercase();
-        let k = names.partition_point(|(name, _)| *name < wanted);
-        names.get(k).filter(|(name, _)| *name == wanted).map(|(_, k)| *k)
-    };
-    let mut is_placing = false;
-    let mut is_used = vec![false; blocks.len()];
-    let mut placed = Vec::new();
-    for insert in inserts {
-        let Some(k) = find(insert) else {
-            tally.add(Thing::NoBlock, insert.span);
-            continue;
-        };
-        is_used[k] = true;
-        if insert.scale.iter().any(|scale| scale.abs() != 1.0) {
-            tally.add(Thing::Scaled, insert.span);
-        }
-        let pieces = drawn[k].pieces.clone();
-        is_placing |= !pieces.is_empty() && (insert.at != bases[k] || insert.turn != 0.0 || insert.scale != [1.0; 2]);
-        placed.extend(pieces.map(|piece| (piece, Motion::of_insert(insert, bases[k]))));
-    }
-    if !is_placing {
-        return None;
-    }
-    for (k, (block, _)) in blocks.iter().enumerate() {
-        if !is_used[k] && !drawn[k].pieces.is_empty() {
-            tally.add(Thing::NotPlaced, block.head.span());
-        }
-    }
-    Some(placed)
-}
-
 impl Set {
     /// Adds the pieces that a block draws.
-    fn add(&mut self, pieces: Vec<Piece>, quantity: [u32; 2]) {
+    fn add(&mut self, pieces: Vec<Piece>, quantity: Option<[u32; 2]>) {
         let first = self.pieces.len();
         self.pieces.extend(pieces);
         self.drawn.push(Drawn { pieces: first..self.pieces.len(), quantity });
@@ -176,16 +128,35 @@ impl Set {
 
     /// How many pieces lie on the cloth.
     fn count(&self) -> usize {
-        let times = |quantity: &[u32; 2]| quantity.iter().map(|&count| count as usize).sum::<usize>();
         match &self.placed {
             Some(placed) => placed.len(),
-            None => self.drawn.iter().map(|drawn| drawn.pieces.len() * times(&drawn.quantity)).sum(),
+            None => self.drawn.iter().map(|drawn| drawn.pieces.len() * drawn.times()).sum(),
+        }
+    }
+
+    /// What is to be said of the set as a whole.
+    fn say(&self, chosen: &Chosen, is_spent: bool, out: &mut Diagnostics) {
+        let count = self.count();
+        if is_spent || count > MOST_PIECES {
+            let message = "the file has more pieces, notches or outlines than can be told apart";
+            out.push(Diagnostic::new(&code::DXF_TOO_MANY, message).hint("look at the quantities, and split the file"));
+        } else if count == 0 {
+            if !out.has_errors() {
+                let message = format!("the file holds no outline on layer 1{}", chosen.told());
+                let hint = "pattern DXF (AAMA, ASTM D6673) has the outlines of its pieces on layer 1: export it so";
+                out.push(Diagnostic::new(&code::DXF_NOTHING_TO_CUT, message).hint(hint));
+            }
+        } else if self.placed.is_none() && count > 1 && !out.has_errors() {
+            let message =
+                format!("patterns are no marker: {count} pieces{} lie in a row, {} mm apart", chosen.told(), self.gap);
+            let finding = Diagnostic::new(&code::DXF_SAMPLE, message);
+            out.push(finding.hint("it is a cutting sample: for a lay make a marker of it in the CAD system"));
         }
     }
 }
 
 /// What kinds of entities are not read.
-fn say_unread(unread: super::shape::Unread, out: &mut Diagnostics) {
+fn say_unread(unread: Unread, out: &mut Diagnostics) {
     for (kind, (count, span)) in unread {
         let message = format!("{count} of the kind {kind} {} not read", if count == 1 { "is" } else { "are" });
         let finding = Diagnostic::new(&code::DXF_UNREAD, message).at(span);
@@ -193,22 +164,11 @@ fn say_unread(unread: super::shape::Unread, out: &mut Diagnostics) {
     }
 }
 
-/// What is to be said of the set as a whole.
-fn say_set(set: &Set, chosen: &Chosen, is_spent: bool, out: &mut Diagnostics) {
-    let count = set.count();
-    if is_spent || count > MOST_PIECES {
-        let message = "the file has more pieces, notches or outlines than can be told apart";
-        out.push(Diagnostic::new(&code::DXF_TOO_MANY, message).hint("look at the quantities, and split the file"));
-    } else if count == 0 {
-        if !out.has_errors() {
-            let message = format!("the file holds no outline on layer 1{}", chosen.told());
-            let hint = "pattern DXF (AAMA, ASTM D6673) has the outlines of its pieces on layer 1: export it so";
-            out.push(Diagnostic::new(&code::DXF_NOTHING_TO_CUT, message).hint(hint));
-        }
-    } else if set.placed.is_none() && count > 1 && !out.has_errors() {
-        let message =
-            format!("patterns are no marker: {count} pieces{} lie in a row, {} mm apart", chosen.told(), set.gap);
-        let finding = Diagnostic::new(&code::DXF_SAMPLE, message);
-        out.push(finding.hint("it is a cutting sample: for a lay make a marker of it in the CAD system"));
+/// How much stands on the sheet around the drawing.
+fn say_on_paper(on_paper: Option<(usize, Span)>, out: &mut Diagnostics) {
+    if let Some((count, span)) = on_paper {
+        let message = if count == 1 { "1 entity is".to_owned() } else { format!("{count} entities are") };
+        let finding = Diagnostic::new(&code::DXF_ON_PAPER, format!("{message} in paper space and not cut")).at(span);
+        out.push(finding.hint("what is cut must be drawn in model space"));
     }
 }

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::curve::{Arc, bulged};
+use super::curve::{Arc, bulged, height};
 use super::entity::{Entity, FLAGS, NAME, TEXT, number_at};
-use super::layer::{Layer, layer};
-use super::text::is_text;
+use super::layer::{Does, Layer, layer};
+use super::text::{Facts, is_text};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::geom::{Heading, Point};
 use crate::ir::drawing::Vertex;
@@ -28,6 +28,17 @@ const ANGLE: i32 = 50;
 const END_ANGLE: i32 = 51;
 /// Code of the number of vertices that a light polyline has.
 const COUNT: i32 = 90;
+/// Codes of the base point of a block.
+const BASE: [i32; 2] = [X, Y];
+/// Codes of how many columns and rows of copies an insertion puts.
+const ARRAY: [i32; 2] = [FLAGS, 71];
+/// Codes of the direction from which an entity is seen, and that of all flat drawings.
+const EXTRUSION: [i32; 3] = [210, 220, 230];
+const FROM_ABOVE: [f64; 3] = [0.0, 0.0, 1.0];
+/// How far rounding may move it.
+const EXTRUSION_EPSILON: f64 = 1e-6;
+/// Code that is 1 for what stands on the sheet around a drawing and not in it.
+const ON_PAPER: i32 = 67;
 
 /// Flags of polylines: closed, and kinds that are no lines; of vertices: a control point of a spline.
 const CLOSED: i64 = 1;
@@ -36,6 +47,8 @@ const CONTROL_POINT: i64 = 16;
 
 /// Largest coordinate, mm: a kilometre, far beyond any table.
 const FARTHEST: f64 = 1e6;
+/// An arc that turns less is a whole circle: an arc so short is nothing, at any radius on a table, deg.
+const TURN_EPSILON_DEG: f64 = 1e-6;
 /// Chords of all curves of a file: more come from a damaged radius.
 const MOST_CHORDS: usize = 4_000_000;
 
@@ -67,6 +80,8 @@ pub(super) struct Insert<'a> {
     pub(super) at: Point,
     pub(super) scale: [f64; 2],
     pub(super) turn: f64,
+    /// What its attributes say of how often it is wanted.
+    pub(super) quantity: Option<Span>,
     pub(super) span: Span,
 }
 
@@ -77,6 +92,14 @@ pub(super) struct Shapes<'a> {
     pub(super) dots: Vec<Dot>,
     pub(super) texts: Vec<Label>,
     pub(super) inserts: Vec<Insert<'a>>,
+}
+
+impl Shapes<'_> {
+    /// Whether it holds anything to cut, or a block that may.
+    pub(super) fn is_cut(&self) -> bool {
+        let lines = self.lines.iter().map(|line| line.layer);
+        !self.inserts.is_empty() || lines.chain(self.dots.iter().map(|dot| dot.layer)).any(Layer::is_cut)
+    }
 }
 
 /// Kinds of entities that are not read.
@@ -93,6 +116,8 @@ pub(super) struct Reader<'a, 'o> {
     /// Chords so far.
     pub(super) chords: usize,
     pub(super) unread: Unread,
+    /// How much stands on the sheet around the drawing, and where it begins.
+    pub(super) on_paper: Option<(usize, Span)>,
     pub(super) out: &'o mut Diagnostics,
 }
 
@@ -102,12 +127,20 @@ impl<'a> Reader<'a, '_> {
         let mut shapes = Shapes::default();
         let mut rest = entities;
         while let [entity, behind @ ..] = rest {
-            rest = behind;
+            let is_vertex = |entity: &&Entity| entity.is("VERTEX");
+            let count = if entity.is("POLYLINE") { behind.iter().take_while(is_vertex).count() } else { 0 };
+            rest = &behind[count..];
+            if entity.number(ON_PAPER).is_ok_and(|flag| flag == Some(1.0)) && !is_text(entity) {
+                self.on_paper.get_or_insert((0, entity.span())).0 += 1;
+                continue;
+            }
             let read = if entity.is("POLYLINE") {
-                let is_vertex = |entity: &&Entity| entity.is("VERTEX");
-                let count = behind.iter().take_while(is_vertex).count();
-                rest = &behind[count..];
-                self.polyline(entity, &behind[..count], rest.first(), &mut shapes)
+                if !rest.first().is_some_and(|behind| behind.is("SEQEND")) {
+                    self.out.push(open_polyline(entity));
+                }
+                self.polyline(entity, &behind[..count]).map(|line| shapes.lines.extend(line))
+            } else if entity.is("INSERT") {
+                self.insert(entity, behind).map(|insert| shapes.inserts.push(insert))
             } else {
                 self.entity(entity, &mut shapes)
             };
@@ -120,6 +153,10 @@ impl<'a> Reader<'a, '_> {
 
     fn entity(&mut self, entity: &Entity<'a>, shapes: &mut Shapes<'a>) -> Result<(), Diagnostic> {
         let layer = layer(entity.layer());
+        // Lines and points have their coordinates in space whichever side they are seen from (DXF reference, OCS).
+        if layer.is_cut() && (entity.is("LWPOLYLINE") || entity.is("ARC") || entity.is("CIRCLE")) {
+            flat(entity)?;
+        }
         if entity.is("LINE") {
             let [from, to] = [self.place(entity, [X, Y])?, self.place(entity, [X2, Y2])?];
             let span = |code| entity.value(code).unwrap_or(entity.span());
@@ -127,19 +164,19 @@ impl<'a> Reader<'a, '_> {
             shapes.lines.push(Line { layer, vertices, is_closed: false });
         } else if entity.is("LWPOLYLINE") {
             let vertices = self.light_vertices(entity)?;
-            self.add_line(layer, &vertices, entity.flags(FLAGS) & CLOSED != 0, shapes)?;
+            shapes.lines.push(self.line(layer, &vertices, entity.flags()? & CLOSED != 0)?);
         } else if entity.is("ARC") || entity.is("CIRCLE") {
             self.arc(entity, layer, shapes)?;
         } else if entity.is("POINT") {
-            let size = |code| Ok::<f64, Diagnostic>(self.unit * entity.number(code)?.unwrap_or(0.0).abs());
+            let size = |code| match layer.does {
+                Does::Notch(_) => self.size(entity, code),
+                Does::Outline | Does::Fold | Does::Inner | Does::Drill | Does::Drawn | Does::Sign | Does::Nothing => {
+                    Ok(0.0)
+                }
+            };
             let heading = entity.number(ANGLE)?.map(|degrees| Heading::new(rad(degrees)));
             let (depth, width, span) = (size(DEPTH)?, size(WIDTH)?, entity.span());
             shapes.dots.push(Dot { layer, at: self.place(entity, [X, Y])?, depth, width, heading, span });
-        } else if entity.is("INSERT") {
-            let scale = |code| Ok::<f64, Diagnostic>(entity.number(code)?.unwrap_or(1.0));
-            let turn = rad(entity.number(ANGLE)?.unwrap_or(0.0));
-            let (scale, name, span) = ([scale(SCALE_X)?, scale(SCALE_Y)?], entity.bytes(NAME), entity.span());
-            shapes.inserts.push(Insert { name, at: self.place(entity, [X, Y])?, scale, turn, span });
         } else if is_text(entity) {
             // A text without a place is a text all the same.
             let at = self.place(entity, [X, Y]).ok();
@@ -152,29 +189,40 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// A polyline with its vertices; `behind` should be its end.
-    fn polyline(
-        &mut self,
-        entity: &Entity<'a>,
-        vertices: &[Entity<'a>],
-        behind: Option<&Entity>,
-        shapes: &mut Shapes<'a>,
-    ) -> Result<(), Diagnostic> {
-        if !behind.is_some_and(|behind| behind.is("SEQEND")) {
-            let message = "the polyline that begins here has no SEQEND";
-            let finding = Diagnostic::new(&code::DXF_OPEN_POLYLINE, message).at(entity.span());
-            self.out.push(finding.hint("vertices of it may be missing: export the file again"));
+    /// An insertion, with what the attributes behind it say.
+    fn insert(&self, entity: &Entity<'a>, behind: &[Entity<'a>]) -> Result<Insert<'a>, Diagnostic> {
+        flat(entity)?;
+        alone(entity)?;
+        let scale = |code| Ok::<f64, Diagnostic>(entity.number(code)?.unwrap_or(1.0));
+        let attributes = behind.iter().take_while(|entity| entity.is("ATTRIB"));
+        Ok(Insert {
+            name: entity.bytes(NAME),
+            at: self.place(entity, [X, Y])?,
+            scale: [scale(SCALE_X)?, scale(SCALE_Y)?],
+            turn: rad(entity.number(ANGLE)?.unwrap_or(0.0)),
+            quantity: Facts::of(attributes, self.source).quantity,
+            span: entity.span(),
+        })
+    }
+
+    /// A polyline with its vertices; `None` for one that is no line and is not cut.
+    fn polyline(&mut self, entity: &Entity<'a>, vertices: &[Entity<'a>]) -> Result<Option<Line>, Diagnostic> {
+        let (layer, flags) = (layer(entity.layer()), entity.flags()?);
+        if layer.is_cut() {
+            flat(entity)?;
         }
-        let flags = entity.flags(FLAGS);
         if flags & MESHES != 0 {
-            return self.unread(entity);
+            return self.unread(entity).map(|()| None);
         }
         let mut places = Vec::with_capacity(vertices.len());
-        for vertex in vertices.iter().filter(|vertex| vertex.flags(FLAGS) & CONTROL_POINT == 0) {
+        for vertex in vertices {
+            if vertex.flags()? & CONTROL_POINT != 0 {
+                continue;
+            }
             let vertex_at = Vertex { at: self.place(vertex, [X, Y])?, span: vertex.span() };
             places.push((vertex_at, vertex.number(BULGE)?.unwrap_or(0.0)));
         }
-        self.add_line(layer(entity.layer()), &places, flags & CLOSED != 0, shapes)
+        self.line(layer, &places, flags & CLOSED != 0).map(Some)
     }
 
     /// The vertices of a light polyline, which follow each other in one entity.
@@ -213,43 +261,43 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// Adds a line; where a vertex bulges, an arc leads to the next.
-    fn add_line(
-        &mut self,
-        layer: &'static Layer,
-        places: &[(Vertex, f64)],
-        is_closed: bool,
-        shapes: &mut Shapes,
-    ) -> Result<(), Diagnostic> {
+    /// A line; where a vertex bulges, an arc leads to the next.
+    fn line(&mut self, layer: &'static Layer, places: &[(Vertex, f64)], is_closed: bool) -> Result<Line, Diagnostic> {
         let mut vertices: Vec<Vertex> = Vec::with_capacity(places.len());
         for (i, &(vertex, bulge)) in places.iter().enumerate() {
             vertices.push(vertex);
             let next = places.get(i + 1).or(if is_closed { places.first() } else { None });
             if let Some((next, _)) = next
-                && let Some(arc) = bulged(vertex.at, next.at, bulge)
+                && let Some(arc) = bulged([vertex.at, next.at], bulge, self.sagitta)
             {
+                if height(next.at - vertex.at, bulge) > FARTHEST {
+                    return Err(too_far(vertex.span));
+                }
                 let count = self.chords_of(&arc, vertex.span)?;
                 let inner = (1..count).map(|k| Vertex { at: arc.place(k as f64 / count as f64), span: next.span });
                 vertices.extend(inner);
             }
         }
-        shapes.lines.push(Line { layer, vertices, is_closed });
-        Ok(())
+        Ok(Line { layer, vertices, is_closed })
     }
 
-    /// An arc or a circle, as chords; a circle where holes are is one.
+    /// An arc or a circle, as chords; a circle where holes are is one. An arc that ends where it starts is a circle.
     fn arc(&mut self, entity: &Entity, layer: &'static Layer, shapes: &mut Shapes) -> Result<(), Diagnostic> {
         let centre = self.place(entity, [X, Y])?;
         let radius = self.unit * entity.coordinate(RADIUS)?.abs();
         let span = entity.span();
-        let is_circle = entity.is("CIRCLE");
-        if is_circle && layer.does == super::layer::Does::Drill {
+        let [start, end] =
+            if entity.is("CIRCLE") { [0.0, 360.0] } else { [entity.coordinate(ANGLE)?, entity.coordinate(END_ANGLE)?] };
+        let sweep = (end - start).rem_euclid(360.0);
+        let is_circle = sweep <= TURN_EPSILON_DEG;
+        let sweep = if is_circle { 360.0 } else { sweep };
+        if is_circle && layer.does == Does::Drill {
             shapes.dots.push(Dot { layer, at: centre, depth: 0.0, width: 0.0, heading: None, span });
             return Ok(());
         }
-        let [start, end] =
-            if is_circle { [0.0, 360.0] } else { [entity.coordinate(ANGLE)?, entity.coordinate(END_ANGLE)?] };
-        let sweep = if is_circle { 360.0 } else { (end - start).rem_euclid(360.0) };
+        if !radius.is_finite() || radius > FARTHEST {
+            return Err(too_far(span));
+        }
         let arc = Arc { centre, radius, start: rad(start), sweep: rad(sweep) };
         let count = self.chords_of(&arc, span)?;
         let last = if is_circle { count - 1 } else { count };
@@ -260,11 +308,8 @@ impl<'a> Reader<'a, '_> {
 
     /// How many chords an arc becomes.
     fn chords_of(&mut self, arc: &Arc, span: Span) -> Result<usize, Diagnostic> {
-        if !arc.radius.is_finite() || arc.radius > FARTHEST {
-            return Err(too_far(span));
-        }
         let count = arc.chords(self.sagitta);
-        self.chords += count;
+        self.chords = self.chords.saturating_add(count);
         if self.chords > MOST_CHORDS {
             let message = format!("the curves of the file have more than {MOST_CHORDS} chords");
             return Err(Diagnostic::new(&code::DXF_CURVES, message).at(span).hint("look for a damaged radius"));
@@ -275,6 +320,27 @@ impl<'a> Reader<'a, '_> {
     /// The place of two codes, mm.
     pub(super) fn place(&self, entity: &Entity, [x, y]: [i32; 2]) -> Result<Point, Diagnostic> {
         self.on_table([entity.coordinate(x)?, entity.coordinate(y)?], entity.value(x).unwrap_or(entity.span()))
+    }
+
+    /// The base point of a block; the origin where the file names none, and beside an error.
+    pub(super) fn base(&mut self, block: &Entity) -> Point {
+        if BASE.iter().all(|&code| block.value(code).is_none()) {
+            return Point::origin();
+        }
+        self.place(block, BASE).unwrap_or_else(|fault| {
+            self.out.push(fault);
+            Point::origin()
+        })
+    }
+
+    /// A depth or a width, mm, whatever its sign; nothing where the file says nothing.
+    fn size(&self, entity: &Entity, code: i32) -> Result<f64, Diagnostic> {
+        let size = self.unit * entity.number(code)?.unwrap_or(0.0).abs();
+        if size > FARTHEST {
+            let finding = Diagnostic::new(&code::DXF_FAR_PLACE, "a notch is larger than a kilometre");
+            return Err(finding.at(entity.value(code).unwrap_or(entity.span())).hint("look for a damaged number"));
+        }
+        Ok(size)
     }
 
     fn on_table(&self, place: [f64; 2], span: Span) -> Result<Point, Diagnostic> {
@@ -296,6 +362,40 @@ impl<'a> Reader<'a, '_> {
         self.unread.entry(kind).or_insert((0, entity.span())).0 += 1;
         Ok(())
     }
+}
+
+/// Refuses what is drawn on another plane than the cloth: seen from above it is mirrored or slanted.
+fn flat(entity: &Entity) -> Result<(), Diagnostic> {
+    for (code, wanted) in EXTRUSION.into_iter().zip(FROM_ABOVE) {
+        if let Some(found) = entity.number(code)?
+            && (found - wanted).abs() > EXTRUSION_EPSILON
+        {
+            let kind = entity.kind().escape_ascii();
+            let message = format!("the {kind} is not drawn from above: its group {code} is {found}");
+            let finding =
+                Diagnostic::new(&code::DXF_EXTRUSION, message).at(entity.value(code).unwrap_or(entity.span()));
+            return Err(finding.hint("flatten the drawing in the CAD system: a mirrored copy has its back upwards"));
+        }
+    }
+    Ok(())
+}
+
+/// Refuses an insertion that puts rows and columns of copies.
+fn alone(entity: &Entity) -> Result<(), Diagnostic> {
+    for code in ARRAY {
+        if let Some(count) = entity.whole(code)?.filter(|count| !(0..=1).contains(count)) {
+            let message = format!("an INSERT puts rows or columns of copies: its group {code} is {count}");
+            let finding = Diagnostic::new(&code::DXF_ARRAY, message).at(entity.value(code).unwrap_or(entity.span()));
+            return Err(finding.hint("explode the array in the CAD system: each piece needs an INSERT"));
+        }
+    }
+    Ok(())
+}
+
+fn open_polyline(entity: &Entity) -> Diagnostic {
+    let message = "the polyline that begins here has no SEQEND";
+    let finding = Diagnostic::new(&code::DXF_OPEN_POLYLINE, message).at(entity.span());
+    finding.hint("vertices of it may be missing: export the file again")
 }
 
 fn too_far(span: Span) -> Diagnostic {

@@ -14,10 +14,17 @@ pub(super) enum Thing {
     Outside,
     /// A block has something to cut and no outline.
     NoOutline,
+    /// A line lies where points alone are notches, and where they are holes.
+    StrokeOfNotch,
+    StrokeOfHole,
     /// A quantity is no number.
     Quantity,
+    /// A quantity is not how often insertions place its piece.
+    Placed,
     /// An insertion names no block.
     NoBlock,
+    /// A block inserts another one that has something to cut.
+    Nested,
     /// An insertion changes the size of a block.
     Scaled,
     /// A block is put nowhere, while others are.
@@ -54,20 +61,54 @@ struct Row {
     hint: &'static str,
 }
 
-#[rustfmt::skip] // a table: a row a thing
+#[rustfmt::skip] // a table: a row a thing; a test holds its measures against those of the reader
 fn row(thing: Thing) -> Row {
     let left_out = &code::DXF_NOTCH_LEFT_OUT;
     match thing {
         Thing::Notch(Doubt::OffEdge) => Row { code: left_out, one: "a notch lies more than 1 mm from the outline and is not cut", many: "notches lie more than 1 mm from the outline and are not cut", hint: "it may mark a seam line: cut it by hand if it is missing" },
         Thing::Notch(Doubt::TooDeep) => Row { code: left_out, one: "a notch is deeper than 15 mm or than its part is there, and is not cut", many: "notches are deeper than 15 mm or than their part is there, and are not cut", hint: "look at the depth (group 30) and at the unit of the file" },
-        Thing::Notch(Doubt::InAnother) => Row { code: left_out, one: "a notch lies in the mouth of another one and is not cut", many: "notches lie in the mouths of others and are not cut", hint: "one of both is enough: see which in the picture (-t svg)" },
+        Thing::Notch(Doubt::InAnother) => Row { code: left_out, one: "a notch lies in the mouth of another one or at its place and is not cut", many: "notches lie in the mouths of others or at their places and are not cut", hint: "one of both is enough: see which in the picture (-t svg)" },
         Thing::Notch(Doubt::AsSlit) => Row { code: &code::DXF_NOTCH_AS_SLIT, one: "a notch is too small or wide, at a corner or beside another one: cut as a slit", many: "notches are too small or wide, at corners or beside others: cut as slits", hint: "a slit marks the same place" },
         Thing::Outside => Row { code: &code::DXF_OUTSIDE, one: "a cut-out or a hole lies outside of its outline, and is cut all the same", many: "cut-outs or holes lie outside of their outlines, and are cut all the same", hint: "see in the picture (-t svg) where the knife goes" },
-        Thing::NoOutline => Row { code: &code::DXF_NO_OUTLINE, one: "a block has something to cut and no outline on layer 1; nothing of it is cut", many: "blocks have something to cut and no outline on layer 1; nothing of them is cut", hint: "count the pieces with `cutc info`" },
+        Thing::NoOutline => Row { code: &code::DXF_NO_OUTLINE, one: "what has no outline on layer 1 asks for cuts; nothing of it is cut", many: "blocks without an outline on layer 1 ask for cuts; nothing of them is cut", hint: "count the pieces with `cutc info`" },
+        Thing::StrokeOfNotch => Row { code: &code::DXF_STROKE, one: "a line on a layer of notches (4, 80 to 83) is not cut", many: "lines on layers of notches (4, 80 to 83) are not cut", hint: "let the CAD system export notches as points, or draw them into the outline" },
+        Thing::StrokeOfHole => Row { code: &code::DXF_STROKE, one: "a line on the layer of drill holes (13) is not drilled", many: "lines on the layer of drill holes (13) are not drilled", hint: "let the CAD system export holes as points" },
         Thing::Quantity => Row { code: &code::DXF_QUANTITY, one: "a quantity is no number; the piece is cut once", many: "quantities are no numbers; these pieces are cut once", hint: "it is written as `QUANTITY: 1` or, right and left, as `QUANTITY: 1,1`" },
+        Thing::Placed => Row { code: &code::DXF_PLACED_QUANTITY, one: "INSERTs place a piece more or less often than its quantity says; they hold", many: "pieces are placed more or less often than their quantities say; the INSERTs hold", hint: "count the pieces with `cutc info`" },
         Thing::NoBlock => Row { code: &code::DXF_NO_BLOCK, one: "an INSERT names a block that the file does not hold", many: "INSERTs name blocks that the file does not hold", hint: "a piece may be missing: count them with `cutc info`" },
+        Thing::Nested => Row { code: &code::DXF_NESTED, one: "an INSERT in a block puts another block there that is cut", many: "INSERTs in blocks put other blocks there that are cut", hint: "explode it in the CAD system, so that each piece is drawn in one block" },
         Thing::Scaled => Row { code: &code::DXF_SCALE, one: "an INSERT scales a piece", many: "INSERTs scale pieces", hint: "pieces are cut in the size in which their blocks are drawn; `dxf.unit` says another unit" },
         Thing::NotPlaced => Row { code: &code::DXF_NOT_PLACED, one: "a piece is placed by no INSERT while others are, and is not cut", many: "pieces are placed by no INSERT while others are, and are not cut", hint: "count the pieces with `cutc info`" },
         Thing::FoldAcross => Row { code: &code::DXF_FOLD_ACROSS, one: "a piece is drawn on both sides of its fold line (layer 6); it is cut as it is drawn", many: "pieces are drawn on both sides of their fold lines (layer 6); they are cut as they are drawn", hint: "look at the picture (-t svg): both halves must be there" },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::front::dxf::notch::{LEAST_DEPTH, MOUTHS};
+    use crate::front::dxf::words::WORDS;
+    use crate::ir::marker::Notch;
+    use crate::machine::patterns::Dxf;
+
+    /// Numbers stand in sentences as text: each is what is done.
+    #[test]
+    fn what_is_told_of_measures_is_what_they_are() {
+        let mm = |value: f64| format!("{value} mm");
+        let says = |text: &str, value: f64| assert!(text.contains(&mm(value)), "{} in: {text}", mm(value));
+        for text in [row(Thing::Notch(Doubt::OffEdge)).one, row(Thing::Notch(Doubt::OffEdge)).many] {
+            says(text, Dxf::NOTCH_OFF);
+        }
+        let too_deep = row(Thing::Notch(Doubt::TooDeep));
+        for text in [too_deep.one, too_deep.many, code::DXF_NOTCH_LEFT_OUT.about] {
+            says(text, Notch::LONGEST);
+        }
+        let [least, most] = MOUTHS;
+        for value in [least, most, LEAST_DEPTH] {
+            says(code::DXF_NOTCH_AS_SLIT.about, value);
+        }
+        says(code::DXF_OPEN_OUTLINE.about, Dxf::ENDS_MEET);
+        says(WORDS[0].about, Dxf::ENDS_MEET);
+        assert!(WORDS.iter().any(|word| word.about.contains("a quarter of the tolerance")) && Dxf::CHORDS_OFF == 0.25);
     }
 }

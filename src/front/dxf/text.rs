@@ -10,6 +10,8 @@ pub(super) struct Facts {
     pub(super) size: Option<Span>,
     /// The size that the set was drawn in.
     pub(super) sample_size: Option<Span>,
+    /// Another one that it was drawn in: then nobody knows which is meant.
+    pub(super) other_sample: Option<Span>,
     /// Unit of all numbers.
     pub(super) units: Option<Span>,
     /// How often a piece is cut: as it is drawn, and mirrored.
@@ -34,14 +36,28 @@ impl Facts {
                 "QUANTITY" => &mut facts.quantity,
                 _ => continue,
             };
-            fact.get_or_insert(value);
+            let first = *fact.get_or_insert(value);
+            if key == "SAMPLE SIZE" {
+                facts.see_sample(first, value, source);
+            }
         }
         facts
     }
 
+    /// Notes a sample size that is not the first.
+    fn see_sample(&mut self, first: Span, next: Span, source: &Source) {
+        if !source.slice(first).eq_ignore_ascii_case(source.slice(next)) {
+            self.other_sample.get_or_insert(next);
+        }
+    }
+
     /// These, and where they say nothing those.
-    pub(super) fn or(self, other: Self) -> Self {
+    pub(super) fn or(mut self, other: Self, source: &Source) -> Self {
+        if let (Some(first), Some(next)) = (self.sample_size, other.sample_size) {
+            self.see_sample(first, next, source);
+        }
         Self {
+            other_sample: self.other_sample.or(other.other_sample),
             size: self.size.or(other.size),
             sample_size: self.sample_size.or(other.sample_size),
             units: self.units.or(other.units),

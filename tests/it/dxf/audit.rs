@@ -4,10 +4,11 @@ use cutc::back::TARGETS;
 use cutc::diagnostic::{Diagnostics, render};
 use cutc::geom::{Point, Vector};
 use cutc::ir::Marker;
+use cutc::ir::marker::Contour;
 use cutc::machine::Job;
 use cutc::machine::patterns::{Patterns, Sizes};
 use cutc::pipeline::{self, Order};
-use cutc::source::Source;
+use cutc::source::{Source, Span};
 use cutc::verify::{CutPlaces, pattern_audit};
 use std::io::Cursor;
 
@@ -53,7 +54,7 @@ type Change = (&'static str, fn(&mut Marker));
 
 #[test]
 fn what_the_reader_would_lose_or_move_is_seen() {
-    let changes: [Change; 9] = [
+    let changes: [Change; 10] = [
         ("source/points", |marker| marker.list.move_points(|at| at + Vector::new(0.01, 0.0))),
         ("source/points", |marker| marker.list.move_points(|at| Point::new(-at.x, at.y))),
         ("source/points", |marker| _ = marker.pieces[0].contours.remove(0)),
@@ -63,16 +64,52 @@ fn what_the_reader_would_lose_or_move_is_seen() {
         }),
         ("source/drills", |marker| _ = marker.pieces[0].drills.pop()),
         ("source/drills", |marker| marker.pieces[0].drills[0].at.x += 0.01),
+        ("source/notches", |marker| _ = marker.pieces[0].notches.pop()),
         ("source/notches", |marker| marker.pieces[0].notches[0].root.y += 2.0),
         ("source/notches", |marker| marker.pieces[0].notches[0].tip.x -= 1.0),
         ("source/notches", |marker| marker.pieces[0].notches[0].span.block += 1),
     ];
-    let (_, bytes) = fixtures().into_iter().find(|(path, _)| path.ends_with("half-piece.dxf")).expect("a fixture");
+    check("half-piece.dxf", &changes);
+}
+
+#[test]
+fn a_notch_that_the_outline_makes_is_missed_and_so_is_a_corner_beside_it() {
+    let changes: [Change; 3] = [
+        // A notch of the outline is lost when its way is no longer of its block.
+        ("source/notches", |marker| {
+            for k in 0..marker.pieces[0].contours.len() {
+                let contour = marker.pieces[0].contours[k];
+                let kept: Vec<(Point, Span)> = outline_without_a_notch(marker, contour);
+                let (points, spans): (Vec<Point>, Vec<Span>) = kept.into_iter().unzip();
+                let range = marker.list.append_line(&points, &spans).expect("a line");
+                marker.pieces[0].contours[k] = Contour { range, ..contour };
+            }
+        }),
+        ("source/notches", |marker| marker.pieces[0].notches.clear()),
+        ("source/notches", |marker| {
+            let account = marker.drawing.as_mut().expect("an account");
+            account.notches_left_out.clear();
+            marker.pieces[0].notches.clear();
+        }),
+    ];
+    check("notches-of-all-kinds.dxf", &changes);
+}
+
+/// The places of a contour without those of the notch whose way is longest.
+fn outline_without_a_notch(marker: &Marker, contour: Contour) -> Vec<(Point, Span)> {
+    let all: Vec<(Point, Span)> = marker.list.vertices(contour.range).collect();
+    let longest = all.chunk_by(|a, b| a.1 == b.1).max_by_key(|run| run.len()).map(|run| run[0].1);
+    all.into_iter().filter(|(_, span)| Some(*span) != longest).collect()
+}
+
+/// Each change of what is read of a fixture breaks its rule.
+fn check(fixture: &str, changes: &[Change]) {
+    let (_, bytes) = fixtures().into_iter().find(|(path, _)| path.ends_with(fixture)).expect("a fixture");
     let (source, job) = (source(bytes), Job::default());
-    for (k, (rule, change)) in changes.into_iter().enumerate() {
+    for (k, (rule, change)) in changes.iter().enumerate() {
         let (mut marker, _) = as_read(&source, &job);
         change(&mut marker);
         let broken = broken(&source, &marker, &job);
-        assert!(broken.contains(&rule), "change {k}: {broken:?}");
+        assert!(broken.contains(rule), "{fixture}, change {k}: {broken:?}");
     }
 }

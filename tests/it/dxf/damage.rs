@@ -2,6 +2,8 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use cutc::geom::Point;
+use cutc::ir::Marker;
 use cutc::machine::Job;
 use fastrand::Rng;
 
@@ -34,6 +36,58 @@ fn a_file_cut_short_at_any_line_is_refused() {
             let is_refused = marker.pieces.is_empty() && !found.is_empty();
             assert!(is_refused, "{} behind line {count}: {found:?}", path.display());
         }
+    }
+}
+
+/// Whether the value behind a code decides where or what the knife cuts, when it stands in an entity that is cut.
+fn is_number_of_a_cut(kind: &[u8], code: &[u8]) -> bool {
+    match kind {
+        b"POLYLINE" | b"SEQEND" => code == b"70",
+        b"VERTEX" => matches!(code, b"10" | b"20" | b"42" | b"70"),
+        b"LWPOLYLINE" => matches!(code, b"10" | b"20" | b"42" | b"70" | b"90" | b"230"),
+        b"LINE" => matches!(code, b"10" | b"20" | b"11" | b"21"),
+        b"ARC" | b"CIRCLE" => matches!(code, b"10" | b"20" | b"40" | b"50" | b"51"),
+        b"POINT" => matches!(code, b"10" | b"20" | b"30" | b"39" | b"50"),
+        b"INSERT" => matches!(code, b"10" | b"20" | b"41" | b"42" | b"50" | b"70" | b"71"),
+        b"BLOCK" => matches!(code, b"10" | b"20"),
+        _ => false,
+    }
+}
+
+/// All places that a marker cuts and drills.
+fn cuts(marker: &Marker) -> Vec<Vec<Point>> {
+    let lines = marker.contours().map(|(_, contour)| marker.points(contour));
+    let notches = marker.pieces.iter().flat_map(|piece| &piece.notches).map(|notch| vec![notch.root, notch.tip]);
+    let holes = marker.pieces.iter().flat_map(|piece| &piece.drills).map(|drill| vec![drill.at]);
+    lines.chain(notches).chain(holes).collect()
+}
+
+#[test]
+fn one_damaged_number_of_what_is_cut_refuses_the_file_or_changes_nothing() {
+    for (path, bytes) in fixtures() {
+        let lines: Vec<&[u8]> = bytes.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).collect();
+        let (whole, _) = as_read(&source(bytes.clone()), &Job::default());
+        let mut kind: &[u8] = b"";
+        let mut tried = 0;
+        for pair in (0..lines.len() - 1).step_by(2) {
+            if lines[pair] == b"0" {
+                kind = lines[pair + 1];
+            }
+            if !is_number_of_a_cut(kind, lines[pair]) {
+                continue;
+            }
+            tried += 1;
+            // Of long files some are enough: they repeat the same entities.
+            if tried > 60 && tried % 23 != 0 {
+                continue;
+            }
+            let mut damaged = lines.clone();
+            damaged[pair + 1] = b"1O";
+            let (marker, found) = as_read(&source(damaged.join(&b'\n')), &Job::default());
+            let is_refused = marker.contours().count() == 0 && !found.is_empty();
+            assert!(is_refused || cuts(&marker) == cuts(&whole), "{} line {}: {found:?}", path.display(), pair + 2);
+        }
+        assert!(tried > 3, "{}", path.display());
     }
 }
 

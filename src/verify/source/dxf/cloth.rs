@@ -1,15 +1,15 @@
 //! Where what blocks cut lies on the cloth: in a row, or where insertions put it. The keys of the profile and the options of
 //! the job alone say so.
 
+use std::collections::BTreeMap;
+
 use super::cuts::{Cuts, Mark, Measure, Place, Round};
-use super::tags::{Sheet, sheets};
-use crate::geom::{Extent, Point, Vector};
+use super::tags::{Item, Sheet, sheets};
+use crate::geom::{Extent, Point, Vector, cross};
 use crate::machine::Job;
-use crate::machine::patterns::{Quantity, Sizes};
+use crate::machine::patterns::{Dxf, Quantity, Sizes};
 use crate::units::MM_PER_INCH;
 
-/// Farthest that the chords of a curve may lie off it, as a part of the tolerance.
-const SAGITTA: f64 = 0.25;
 /// Places of a curve that are looked at to find its box.
 const SAMPLES: usize = 720;
 
@@ -19,35 +19,72 @@ type Move = [Vector; 3];
 const AS_DRAWN: Move = [Vector::new(1.0, 0.0), Vector::new(0.0, 1.0), Vector::new(0.0, 0.0)];
 const MIRRORED: Move = [Vector::new(-1.0, 0.0), Vector::new(0.0, 1.0), Vector::new(0.0, 0.0)];
 
+/// A file in parts.
+struct Sheets<'a> {
+    blocks: Vec<Sheet<'a>>,
+    /// What stands in no block.
+    loose: Sheet<'a>,
+    /// Blocks by their names; of several with one name the first.
+    names: BTreeMap<Vec<u8>, usize>,
+    /// Length of a unit, mm.
+    unit: f64,
+}
+
 /// All that is cut, and how far places may be off because curves are chords, mm.
 pub(super) fn cloth(bytes: &[u8], job: &Job) -> (Cuts, f64) {
-    let (blocks, loose) = sheets(bytes);
-    let says = |key: &str| loose.says(key).or_else(|| blocks.iter().find_map(|block| block.says(key)));
-    let unit = job.profile.dxf.unit.mm().unwrap_or_else(|| {
-        let is_inch = |text: &[u8]| text.first().is_some_and(|first| b"EIei".contains(first));
-        if says("UNITS").or(says("UNIT")).is_some_and(is_inch) { MM_PER_INCH } else { 1.0 }
-    });
-    let sagitta = job.profile.tolerance(0.0) * SAGITTA;
-    let measure = Measure { unit, sagitta, notch: job.profile.dxf.notch_mm };
-    let is_cut = sizes(&blocks, says("SAMPLE SIZE"), job);
-    let of_blocks: Vec<Cuts> = blocks
+    let sheets = Sheets::of(bytes, job);
+    let sagitta = job.profile.tolerance(0.0) * Dxf::CHORDS_OFF;
+    let measure = Measure { unit: sheets.unit, sagitta, notch: job.profile.dxf.notch_mm };
+    let mut of_blocks: Vec<Cuts> = sheets
+        .blocks
         .iter()
-        .zip(&is_cut)
-        .map(|(block, is_cut)| if *is_cut { Cuts::of(block, measure) } else { Cuts::default() })
+        .zip(sheets.are_cut(job))
+        .map(|(block, is_cut)| if is_cut { Cuts::of(block, measure) } else { Cuts::default() })
         .collect();
-    let of_loose = Cuts::of(&loose, measure);
-    let mut all = Cuts::default();
-    let mut laid = 0;
-    if let Some(moves) = insertions(&blocks, &of_blocks, &loose, unit) {
-        for (block, to) in moves {
-            all.add_moved(&of_blocks[block], to);
+    for (block, cuts) in sheets.blocks.iter().zip(&mut of_blocks).filter(|(_, cuts)| !cuts.places.is_empty()) {
+        cuts.faults += usize::from(block.base.is_none()) + sheets.nested(block);
+    }
+    of_blocks.push(Cuts::of(&sheets.loose, measure));
+    if let Some(all) = sheets.placed(&of_blocks) { (all, 0.0) } else { sheets.in_a_row(&of_blocks, job, sagitta) }
+}
+
+impl<'a> Sheets<'a> {
+    fn of(bytes: &'a [u8], job: &Job) -> Self {
+        let (blocks, loose) = sheets(bytes);
+        let mut names = BTreeMap::new();
+        for (k, block) in blocks.iter().enumerate() {
+            names.entry(block.name.clone()).or_insert(k);
         }
-        all.add_moved(&of_loose, AS_DRAWN);
-    } else {
+        let mut sheets = Self { blocks, loose, names, unit: 1.0 };
+        sheets.unit = job.profile.dxf.unit.mm().unwrap_or_else(|| {
+            let is_inch = |text: &[u8]| text.first().is_some_and(|first| b"EIei".contains(first));
+            let unit = sheets.says("UNITS").or_else(|| sheets.says("UNIT"));
+            if unit.is_some_and(is_inch) { MM_PER_INCH } else { 1.0 }
+        });
+        sheets
+    }
+
+    fn says(&self, key: &str) -> Option<&[u8]> {
+        self.loose.says(key).or_else(|| self.blocks.iter().find_map(|block| block.says(key)))
+    }
+
+    fn block(&self, insert: &Item) -> Option<usize> {
+        self.names.get(&insert.text(2).to_ascii_uppercase()).copied()
+    }
+
+    /// How many blocks that ask for cuts are inserted in a block.
+    fn nested(&self, block: &Sheet) -> usize {
+        let inserts = block.items.iter().filter(|item| item.kind == b"INSERT");
+        inserts.filter_map(|insert| self.block(insert)).filter(|&k| self.blocks[k].asks_for_cuts()).count()
+    }
+
+    /// What blocks and, behind them, what stands in none cut, in a row.
+    fn in_a_row(&self, of_all: &[Cuts], job: &Job, sagitta: f64) -> (Cuts, f64) {
+        let mut all = Cuts::default();
         let mut x = 0.0;
-        let wanted = blocks.iter().map(|block| quantity(block, job)).chain([[1, 0]]);
-        for (cuts, count) in of_blocks.iter().chain([&of_loose]).zip(wanted).filter(|(cuts, _)| !cuts.places.is_empty())
-        {
+        let mut laid = 0;
+        let wanted = self.wanted(job).into_iter().chain([[1, 0]]);
+        for (cuts, count) in of_all.iter().zip(wanted).filter(|(cuts, _)| !cuts.places.is_empty()) {
             for (axes, count) in [AS_DRAWN, MIRRORED].into_iter().zip(count) {
                 let extent = cuts.extent(axes);
                 for _ in 0..count {
@@ -58,67 +95,105 @@ pub(super) fn cloth(bytes: &[u8], job: &Job) -> (Cuts, f64) {
                 }
             }
         }
+        // Each piece before one in the row may be so much narrower than its curves, on both sides.
+        let off = if all.rounds.is_empty() { 0.0 } else { 2.0 * sagitta * f64::from(laid + 1) };
+        (all, off)
     }
-    // Each piece before one in the row may be so much narrower than its curves, on both sides.
-    let off = if all.rounds.is_empty() { 0.0 } else { 2.0 * sagitta * f64::from(laid + 1) };
-    (all, off)
+
+    /// How often each block is cut: an attribute of its insertion says so, or a text in it.
+    fn wanted(&self, job: &Job) -> Vec<[u32; 2]> {
+        let mut told: Vec<Option<&[u8]>> = vec![None; self.blocks.len()];
+        let mut behind = None;
+        for item in &self.loose.items {
+            match &item.kind[..] {
+                b"INSERT" => behind = self.block(item),
+                b"ATTRIB" => {
+                    if let Some(k) = behind {
+                        told[k] = told[k].or_else(|| item.says("QUANTITY"));
+                    }
+                }
+                _ => behind = None,
+            }
+        }
+        let of_block = |(block, told): (&Sheet<'a>, Option<&'_ [u8]>)| {
+            quantity(told.or_else(|| block.says("QUANTITY")).unwrap_or_default(), job)
+        };
+        self.blocks.iter().zip(told).map(of_block).collect()
+    }
+
+    /// Whether each block is of a size that is cut.
+    fn are_cut(&self, job: &Job) -> Vec<bool> {
+        let name = |text: &[u8]| job.profile.labels.text(text).trim().to_uppercase();
+        let sizes: Vec<Option<String>> = self.blocks.iter().map(|block| block.says("SIZE").map(name)).collect();
+        let of_file = self.says("SAMPLE SIZE").map(name).filter(|sample| sizes.contains(&Some(sample.clone())));
+        let is_wanted = |(block, size): (&Sheet, &Option<String>)| {
+            let Some(size) = size else { return true };
+            match &job.patterns.sizes {
+                Some(Sizes::All) => true,
+                Some(Sizes::Named(names)) => names.iter().any(|name| name.trim().to_uppercase() == *size),
+                None => {
+                    let own = || block.says("SAMPLE SIZE").map(name);
+                    of_file.as_ref().is_none_or(|sample| own().as_ref().unwrap_or(sample) == size)
+                }
+            }
+        };
+        self.blocks.iter().zip(&sizes).map(is_wanted).collect()
+    }
+
+    /// What blocks cut where insertions put them, and what stands in none where it is drawn; `None` when they put nothing
+    /// anywhere.
+    fn placed(&self, of_all: &[Cuts]) -> Option<Cuts> {
+        let mut all = Cuts::default();
+        let mut is_still = true;
+        for item in self.loose.items.iter().filter(|item| item.kind == b"INSERT") {
+            let Some(k) = self.block(item).filter(|&k| !of_all[k].places.is_empty()) else { continue };
+            let to = self.to(item, k);
+            all.faults += usize::from(!item.is_plain() || to.is_none());
+            let to = to.unwrap_or(AS_DRAWN);
+            is_still &= to == AS_DRAWN;
+            all.add_moved(&of_all[k], to);
+        }
+        all.add_moved(&of_all[of_all.len() - 1], AS_DRAWN);
+        (!is_still || all.faults > 0).then_some(all)
+    }
+
+    /// How an insertion moves a block; `None` when a number of it is damaged.
+    fn to(&self, insert: &Item, block: usize) -> Option<Move> {
+        let [x, y] = insert.pair([10, 20])?;
+        let turn = insert.number(50).unwrap_or(0.0).to_radians();
+        let [right, up] = [insert.number(41).unwrap_or(1.0), insert.number(42).unwrap_or(1.0)];
+        let right = Vector::new(turn.cos(), turn.sin()) * right;
+        let up = Vector::new(-turn.sin(), turn.cos()) * up;
+        let [base_x, base_y] = self.blocks[block].base?;
+        Some([right, up, (Vector::new(x, y) - right * base_x - up * base_y) * self.unit])
+    }
 }
 
-/// Whether each block is of a size that is cut.
-fn sizes(blocks: &[Sheet], sample: Option<&[u8]>, job: &Job) -> Vec<bool> {
-    let name = |text: &[u8]| job.profile.labels.text(text).trim().to_uppercase();
-    let of_blocks: Vec<Option<String>> = blocks.iter().map(|block| block.says("SIZE").map(name)).collect();
-    let sample = sample.map(name).filter(|sample| of_blocks.contains(&Some(sample.clone())));
-    let wanted: Option<Vec<String>> = match &job.patterns.sizes {
-        Some(Sizes::All) => None,
-        Some(Sizes::Named(names)) => Some(names.iter().map(|name| name.trim().to_uppercase()).collect()),
-        None => sample.map(|sample| vec![sample]),
-    };
-    let is_wanted = |size: &Option<String>| match (&wanted, size) {
-        (Some(wanted), Some(size)) => wanted.contains(size),
-        (None, _) | (_, None) => true,
-    };
-    of_blocks.iter().map(is_wanted).collect()
-}
-
-/// How often a block is cut as it is drawn, and mirrored.
-fn quantity(block: &Sheet, job: &Job) -> [u32; 2] {
+/// How often a text wants a block cut as it is drawn, and mirrored.
+fn quantity(text: &[u8], job: &Job) -> [u32; 2] {
     if job.patterns.quantity.unwrap_or(job.profile.dxf.quantity) == Quantity::One {
         return [1, 0];
     }
-    let text = block.says("QUANTITY").map(|text| String::from_utf8_lossy(text).into_owned()).unwrap_or_default();
+    let text = String::from_utf8_lossy(text);
     let numbers: Option<Vec<u32>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
     match numbers.as_deref() {
         Some(&[right]) if right > 0 => [right, 0],
-        Some(&[right, left]) if right + left > 0 => [right, left],
+        Some(&[right, left]) if right > 0 || left > 0 => [right, left],
         _ => [1, 0],
     }
 }
 
-/// Where insertions put blocks that cut something; `None` when they put them nowhere.
-fn insertions(blocks: &[Sheet], cuts: &[Cuts], loose: &Sheet, unit: f64) -> Option<Vec<(usize, Move)>> {
-    let mut moves = Vec::new();
-    for item in loose.items.iter().filter(|item| item.kind == b"INSERT") {
-        let wanted = item.text(2).to_ascii_uppercase();
-        let Some(block) = blocks.iter().position(|block| block.name == wanted) else { continue };
-        if cuts[block].places.is_empty() {
-            continue;
-        }
-        let [x, y] = item.pair([10, 20])?;
-        let turn = item.number(50).unwrap_or(0.0).to_radians();
-        let [right, up] = [item.number(41).unwrap_or(1.0), item.number(42).unwrap_or(1.0)];
-        let right = Vector::new(turn.cos(), turn.sin()) * right;
-        let up = Vector::new(-turn.sin(), turn.cos()) * up;
-        let [base_x, base_y] = blocks[block].base;
-        let origin = (Vector::new(x, y) - right * base_x - up * base_y) * unit;
-        moves.push((block, [right, up, origin]));
-    }
-    let is_still = |(_, [right, up, origin]): &(usize, Move)| [*right, *up, *origin] == AS_DRAWN;
-    (!moves.iter().all(is_still)).then_some(moves)
-}
-
 fn moved(at: Point, [right, up, origin]: Move) -> Point {
     Point::from(right * at.x + up * at.y + origin)
+}
+
+impl Round {
+    fn moved(&self, to: Move, scale: f64) -> Self {
+        let centre = moved(self.centre, to);
+        let spoke = moved(self.at(0.0), to) - centre;
+        let sweep = if cross(to[0], to[1]) < 0.0 { -self.sweep } else { self.sweep };
+        Self { centre, radius: self.radius * scale, start: spoke.y.atan2(spoke.x), sweep }
+    }
 }
 
 impl Cuts {
@@ -138,11 +213,8 @@ impl Cuts {
         // Insertions may scale; patterns are scaled alike in both directions.
         let scale = right.norm().max(up.norm());
         self.places.extend(cuts.places.iter().map(|place| Place { at: moved(place.at, to), ..*place }));
-        self.rounds.extend(cuts.rounds.iter().map(|round| Round {
-            centre: moved(round.centre, to),
-            radius: round.radius * scale,
-            ..*round
-        }));
+        self.rounds.extend(cuts.rounds.iter().map(|round| round.moved(to, scale)));
+        self.faults += cuts.faults;
         self.length += cuts.length * scale;
         self.slack += cuts.slack * scale;
         self.holes.extend(cuts.holes.iter().map(|at| moved(*at, to)));

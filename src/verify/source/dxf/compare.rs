@@ -1,19 +1,26 @@
 //! A marker as it was read against what its file cuts, place by place.
 
+use std::collections::BTreeMap;
+
 use super::cloth::cloth;
-use super::cuts::{Cuts, MEETS, Mark};
+use super::cuts::{Cuts, MEETS, Mark, Round};
+use super::lookup::Lookup;
+use crate::geom::boxes::Boxes;
 use crate::geom::{Point, polyline};
 use crate::ir::finding::Sighting;
-use crate::ir::marker::{Notch, NotchKind};
+use crate::ir::marker::{Contour, Notch, NotchKind};
 use crate::ir::{Finding, Marker};
 use crate::machine::Job;
+use crate::machine::patterns::Dxf;
 use crate::verify::worst::{Worst, at};
 
 /// Rounding of places on a table that is a kilometre long, mm, and of sums of lengths, as a part of them.
 const PLACE_EPSILON: f64 = 1e-6;
 const LENGTH_EPSILON: f64 = 1e-9;
 /// How far a notch may be from its point, mm.
-const NOTCH_OFF: f64 = 1.0;
+const NOTCH_OFF: f64 = Dxf::NOTCH_OFF;
+/// How far points of notches may be from each other that are one, along their edge, mm.
+const SAME_PLACE: f64 = 0.2;
 /// How much shorter than the edge a mouth may be that is cut into it, as a part.
 const MOUTH_SHORTER: f64 = 0.05;
 
@@ -23,12 +30,14 @@ pub struct CutPlaces {
     contours: Vec<Vec<(Point, u32)>>,
     notches: Vec<Notch>,
     holes: Vec<(Point, u32)>,
+    /// Notches that are told and not cut, by the blocks that they come from.
+    left_out: Vec<u32>,
 }
 
 impl CutPlaces {
     /// Those of a marker before any pass, each with the block that it comes from.
     pub fn of(marker: &Marker) -> Self {
-        let line = |(_, contour): (usize, &crate::ir::marker::Contour)| {
+        let line = |(_, contour): (usize, &Contour)| {
             let mut line: Vec<(Point, u32)> =
                 marker.list.vertices(contour.range).map(|(at, span)| (at, span.block)).collect();
             // What leads to the first place of a closed one is told by its last.
@@ -41,41 +50,30 @@ impl CutPlaces {
             contours: marker.contours().map(line).collect(),
             notches: marker.pieces.iter().flat_map(|piece| piece.notches.iter().copied()).collect(),
             holes: marker.pieces.iter().flat_map(|piece| &piece.drills).map(|d| (d.at, d.span.block)).collect(),
+            left_out: marker.drawing.iter().flat_map(|account| &account.notches_left_out).map(|s| s.block).collect(),
         }
-    }
-}
-
-/// Points by X, to be looked up.
-struct Lookup(Vec<Point>);
-
-impl Lookup {
-    fn of(points: impl Iterator<Item = Point>) -> Self {
-        let mut points: Vec<Point> = points.collect();
-        points.sort_by(|a, b| a.x.total_cmp(&b.x));
-        Self(points)
-    }
-
-    /// Whether one of them is so near to a place.
-    fn has(&self, at: Point, reach: f64) -> bool {
-        let first = self.0.partition_point(|point| point.x < at.x - reach);
-        let near = self.0[first..].iter().take_while(|point| point.x <= at.x + reach);
-        near.into_iter().any(|point| (point - at).norm() <= reach)
     }
 }
 
 /// Compares a marker as it was read with a scan of the bytes of a set of patterns.
 pub fn pattern_audit(bytes: &[u8], read: &CutPlaces, job: &Job) -> Vec<Finding> {
     let (cuts, off) = cloth(bytes, job);
-    let reach = PLACE_EPSILON + off;
     let mut marks = cuts.marks.clone();
     marks.sort_by_key(|mark| mark.block);
-    let lines: Vec<Line> = read.contours.iter().map(|contour| Line::of(contour, &marks)).collect();
-    vec![
-        points(&cuts, &lines, reach),
-        holes(&cuts, read, reach),
-        length(&cuts, &lines),
-        notches(&marks, read, &lines, reach),
-    ]
+    let lines = read.contours.iter().map(|contour| Line::of(contour, &marks)).collect();
+    let both = Both { cuts, marks, read, lines, reach: PLACE_EPSILON + off };
+    vec![both.points(), both.holes(), both.length(), both.notches()]
+}
+
+/// What the file asks for and what was read of it.
+struct Both<'a> {
+    cuts: Cuts,
+    /// Sorted by their blocks.
+    marks: Vec<Mark>,
+    read: &'a CutPlaces,
+    lines: Vec<Line>,
+    /// How far places may be off, mm.
+    reach: f64,
 }
 
 /// A contour, its notches apart.
@@ -113,65 +111,157 @@ impl Line {
     }
 }
 
-/// How many places of the file no line comes to, and how many of the lines the file does not have.
-fn points(cuts: &Cuts, lines: &[Line], reach: f64) -> Finding {
-    let mut worst = Worst::new("source/points", "points", Some(0.0));
-    let mut count = 0.0;
-    let mut see = |point: Point, block: u32| {
-        count += 1.0;
-        worst.see(count, || Sighting { time: None, line: None, point, block });
-    };
-    let of_marker = Lookup::of(lines.iter().flat_map(|line| &line.drawn).map(|place| place.0));
-    let notched: Vec<u32> = lines.iter().flat_map(|line| &line.notched).map(|place| place.1).collect();
-    let mut notched = notched;
-    notched.sort_unstable();
-    let mouths: Vec<&Mark> = cuts.marks.iter().filter(|mark| notched.binary_search(&mark.block).is_ok()).collect();
-    let widest = mouths.iter().map(|mark| mark.width).fold(0.0, f64::max) / 2.0 + NOTCH_OFF;
-    let in_a_mouth = Lookup::of(mouths.iter().map(|mark| mark.at));
-    for place in &cuts.places {
-        let reach = if place.is_end { MEETS + reach } else { reach };
-        if !of_marker.has(place.at, reach) && !in_a_mouth.has(place.at, widest) {
-            see(place.at, 0);
+/// Findings that are counted.
+struct Count {
+    worst: Worst,
+    count: f64,
+}
+
+impl Count {
+    fn of(rule: &'static str, what: &'static str) -> Self {
+        Self { worst: Worst::new(rule, what, Some(0.0)), count: 0.0 }
+    }
+
+    fn see(&mut self, point: Point, block: u32) {
+        self.count += 1.0;
+        self.worst.see(self.count, || Sighting { time: None, line: None, point, block });
+    }
+}
+
+impl Both<'_> {
+    /// How many places of the file no line comes to, how many of the lines the file does not have, and how much of it
+    /// cannot be understood.
+    fn points(&self) -> Finding {
+        let Self { cuts, lines, reach, .. } = self;
+        let mut wrong = Count::of("source/points", "points");
+        (0..cuts.faults).for_each(|_| wrong.see(Point::origin(), 0));
+        let drawn = || lines.iter().flat_map(|line| &line.drawn);
+        let of_marker = Lookup::of(drawn().map(|place| place.0), *reach);
+        let ends_of_marker = Lookup::of(drawn().map(|place| place.0), MEETS + reach);
+        let mut notched: Vec<u32> = lines.iter().flat_map(|line| &line.notched).map(|place| place.1).collect();
+        notched.sort_unstable();
+        let mouths: Vec<&Mark> = cuts.marks.iter().filter(|mark| notched.binary_search(&mark.block).is_ok()).collect();
+        let half = |mark: &Mark| mark.width / 2.0 + NOTCH_OFF;
+        let of_mouths =
+            Lookup::of(mouths.iter().map(|mark| mark.at), mouths.iter().map(|m| half(m)).fold(1.0, f64::max));
+        let is_in_a_mouth = |at: Point| of_mouths.near(at).any(|k| (at - mouths[k].at).norm() <= half(mouths[k]));
+        for place in &cuts.places {
+            let of_lines = if place.is_end { &ends_of_marker } else { &of_marker };
+            if !of_lines.has(place.at) && !is_in_a_mouth(place.at) {
+                wrong.see(place.at, 0);
+            }
+        }
+        let of_file = Lookup::of(cuts.places.iter().map(|place| place.at), *reach);
+        let rounds = Boxes::new(cuts.rounds.iter().map(|round| round.extent().grown(*reach)).collect());
+        let is_on = |at: Point, round: &Round| ((at - round.centre).norm() - round.radius).abs() <= *reach;
+        for &(at, block) in drawn().filter(|place| notched.binary_search(&place.1).is_err()) {
+            if !of_file.has(at) && !rounds.at(at).any(|k| is_on(at, &cuts.rounds[k])) {
+                wrong.see(at, block);
+            }
+        }
+        wrong.worst.finding()
+    }
+
+    /// How many holes are missing or too many.
+    fn holes(&self) -> Finding {
+        let Self { cuts, read, reach, .. } = self;
+        let mut worst = Worst::new("source/drills", "holes", Some(0.0));
+        let of_file = Lookup::of(cuts.holes.iter().copied(), *reach);
+        let of_marker = Lookup::of(read.holes.iter().map(|hole| hole.0), *reach);
+        let missing = cuts.holes.iter().filter(|at| !of_marker.has(**at)).count();
+        let wrong = read.holes.iter().filter(|(at, _)| !of_file.has(*at)).count();
+        let differ = cuts.holes.len().abs_diff(read.holes.len()).max(missing + wrong);
+        worst.see(differ as f64, || at(0.0, Point::origin(), 0));
+        worst.finding()
+    }
+
+    /// Whether the lines are as long as those of the file, their notches apart.
+    fn length(&self) -> Finding {
+        let Self { cuts, lines, .. } = self;
+        let of_line = |line: &Line| {
+            let points: Vec<Point> = line.drawn.iter().map(|place| place.0).collect();
+            polyline::length(&points)
+        };
+        let length: f64 = lines.iter().map(of_line).sum();
+        let mouths: f64 = lines.iter().flat_map(|line| &line.widths).sum();
+        // Ends that are joined may each be moved.
+        let joined = cuts.places.iter().filter(|place| place.is_end).count() as f64;
+        let slack = cuts.slack + MOUTH_SHORTER * mouths + if cuts.gaps() { MEETS * joined } else { 0.0 };
+        let limit = LENGTH_EPSILON * (1.0 + length) + slack;
+        let mut worst = Worst::new("source/length", "mm", Some(limit));
+        worst.see((length - cuts.length).abs(), || at(0.0, Point::origin(), 0));
+        worst.finding()
+    }
+
+    /// How many notches no point of the file asks for, at its place and as deep as it says, and how many points that ask
+    /// for one have none and are not told either.
+    fn notches(&self) -> Finding {
+        let Self { read, reach, marks, .. } = self;
+        let mut wrong = Count::of("source/notches", "notches");
+        let notched: Vec<(Point, u32)> = self.lines.iter().flat_map(|line| line.notched.iter().copied()).collect();
+        let far = |mark: &Mark| mark.depth + mark.width / 2.0 + NOTCH_OFF + reach;
+        let farthest =
+            marks.iter().filter(|mark| mark.depth <= Notch::LONGEST).map(far).fold(NOTCH_OFF + reach, f64::max);
+        let of_marks = Lookup::of(marks.iter().map(|mark| mark.at), farthest);
+        for notch in &read.notches {
+            let is_asked = |mark: &Mark| mark.asks_for(notch, *reach);
+            if !of_marks.near(notch.root).any(|k| is_asked(&marks[k])) {
+                wrong.see(notch.tip, notch.span.block);
+            }
+        }
+        for &(at, block) in &notched {
+            let is_asked = |mark: &Mark| mark.block == block && (at - mark.at).norm() <= far(mark);
+            if !of_marks.near(at).any(|k| is_asked(&marks[k])) {
+                wrong.see(at, block);
+            }
+        }
+        self.missing(&notched, &mut wrong);
+        wrong.worst.finding()
+    }
+
+    /// Points that ask for a notch and have none, but for those that are told.
+    fn missing(&self, notched: &[(Point, u32)], wrong: &mut Count) {
+        let Self { read, reach, marks, .. } = self;
+        let made: Vec<(Point, u32)> = read.notches.iter().map(|notch| (notch.root, notch.span.block)).collect();
+        let half = |mark: &Mark| mark.width / 2.0 + NOTCH_OFF + reach;
+        let widest = notched.iter().filter_map(|place| of_block(marks, place.1).first()).map(half).fold(0.0, f64::max);
+        let of_slits = Lookup::of(made.iter().map(|slit| slit.0), NOTCH_OFF + SAME_PLACE + reach);
+        let of_ways = Lookup::of(notched.iter().map(|place| place.0), widest.max(NOTCH_OFF) + SAME_PLACE);
+        let mut told: BTreeMap<u32, usize> = BTreeMap::new();
+        read.left_out.iter().for_each(|&block| *told.entry(block).or_default() += 1);
+        for mark in marks {
+            // Marks at one place that ask for the same are one.
+            let is_like = |block: u32| {
+                let other = of_block(marks, block).first();
+                block == mark.block || other.is_some_and(|other| other.depth == mark.depth && other.width == mark.width)
+            };
+            let is_way = |k: usize| is_like(notched[k].1) && (notched[k].0 - mark.at).norm() <= half(mark) + SAME_PLACE;
+            let is_made = of_slits.near(mark.at).any(|k| is_like(made[k].1)) || of_ways.near(mark.at).any(is_way);
+            match told.get_mut(&mark.block) {
+                _ if is_made => {}
+                Some(count) if *count > 0 => *count -= 1,
+                _ => wrong.see(mark.at, mark.block),
+            }
         }
     }
-    let of_file = Lookup::of(cuts.places.iter().map(|place| place.at));
-    let mut next = lines.iter().flat_map(|line| &line.drawn).filter(|place| notched.binary_search(&place.1).is_err());
-    next.by_ref().for_each(|&(at, block)| {
-        let is_on_curve = || cuts.rounds.iter().any(|round| ((at - round.centre).norm() - round.radius).abs() <= reach);
-        if !of_file.has(at, reach) && !is_on_curve() {
-            see(at, block);
-        }
-    });
-    worst.finding()
 }
 
-/// How many holes are missing or too many.
-fn holes(cuts: &Cuts, read: &CutPlaces, reach: f64) -> Finding {
-    let mut worst = Worst::new("source/drills", "holes", Some(0.0));
-    let [of_file, of_marker] =
-        [Lookup::of(cuts.holes.iter().copied()), Lookup::of(read.holes.iter().map(|hole| hole.0))];
-    let missing = cuts.holes.iter().filter(|at| !of_marker.has(**at, reach)).count();
-    let wrong = read.holes.iter().filter(|(at, _)| !of_file.has(*at, reach)).count();
-    let differ = cuts.holes.len().abs_diff(read.holes.len()).max(missing + wrong);
-    worst.see(differ as f64, || at(0.0, Point::origin(), 0));
-    worst.finding()
-}
-
-/// Whether the lines are as long as those of the file, their notches apart.
-fn length(cuts: &Cuts, lines: &[Line]) -> Finding {
-    let of_line = |line: &Line| {
-        let points: Vec<Point> = line.drawn.iter().map(|place| place.0).collect();
-        polyline::length(&points)
-    };
-    let length: f64 = lines.iter().map(of_line).sum();
-    let mouths: f64 = lines.iter().flat_map(|line| &line.widths).sum();
-    // Ends that are joined may each be moved.
-    let joined = cuts.places.iter().filter(|place| place.is_end).count() as f64;
-    let slack = cuts.slack + MOUTH_SHORTER * mouths + if cuts.gaps() { MEETS * joined } else { 0.0 };
-    let limit = LENGTH_EPSILON * (1.0 + length) + slack;
-    let mut worst = Worst::new("source/length", "mm", Some(limit));
-    worst.see((length - cuts.length).abs(), || at(0.0, Point::origin(), 0));
-    worst.finding()
+impl Mark {
+    /// Whether it asks for a notch: of its block, as deep as it says, and of a T as wide.
+    fn asks_for(&self, notch: &Notch, reach: f64) -> bool {
+        let is_bar = match notch.kind {
+            NotchKind::Slit => true,
+            NotchKind::T(bar) => {
+                let middle = bar.from + (bar.to - bar.from) / 2.0;
+                let width = if self.width > 0.0 { self.width } else { self.depth };
+                (middle - notch.tip).norm() <= reach && (bar.length() - width).abs() <= reach
+            }
+        };
+        notch.span.block == self.block
+            && (notch.root - self.at).norm() <= NOTCH_OFF + reach
+            && (notch.depth() - self.depth).abs() <= reach
+            && is_bar
+    }
 }
 
 impl Cuts {
@@ -185,37 +275,4 @@ impl Cuts {
             .chunk_by(|a, b| (a[0] - b[0]).abs() <= PLACE_EPSILON && (a[1] - b[1]).abs() <= PLACE_EPSILON)
             .all(|same| same.len() > 1)
     }
-}
-
-/// How many notches no point of the file asks for, at its place and as deep as it says.
-fn notches(marks: &[Mark], read: &CutPlaces, lines: &[Line], reach: f64) -> Finding {
-    let mut worst = Worst::new("source/notches", "notches", Some(0.0));
-    let mut count = 0.0;
-    let mut see = |point: Point, block: u32| {
-        count += 1.0;
-        worst.see(count, || Sighting { time: None, line: None, point, block });
-    };
-    for notch in &read.notches {
-        let is_asked = |mark: &Mark| {
-            let is_bar = match notch.kind {
-                NotchKind::Slit => true,
-                NotchKind::T(bar) => {
-                    let middle = bar.from + (bar.to - bar.from) / 2.0;
-                    let width = if mark.width > 0.0 { mark.width } else { mark.depth };
-                    (middle - notch.tip).norm() <= reach && (bar.length() - width).abs() <= reach
-                }
-            };
-            (notch.root - mark.at).norm() <= NOTCH_OFF + reach && (notch.depth() - mark.depth).abs() <= reach && is_bar
-        };
-        if !of_block(marks, notch.span.block).iter().any(is_asked) {
-            see(notch.tip, notch.span.block);
-        }
-    }
-    for &(at, block) in lines.iter().flat_map(|line| &line.notched) {
-        let is_asked = |mark: &Mark| (at - mark.at).norm() <= mark.depth.hypot(mark.width / 2.0) + NOTCH_OFF + reach;
-        if !of_block(marks, block).iter().any(is_asked) {
-            see(at, block);
-        }
-    }
-    worst.finding()
 }

@@ -1,10 +1,19 @@
 //! What a block cuts, found anew: the places of its lines, holes and notches on both halves, without joining anything.
 
+use super::lookup::Lookup;
 use super::tags::{Item, Sheet};
-use crate::geom::{Point, Vector, cross, left};
+use std::collections::BTreeSet;
+use std::f64::consts::FRAC_PI_2;
+
+use crate::geom::{Extent, Point, Vector, cross, left};
+use crate::machine::patterns::Dxf;
 
 /// How near to a fold line a place is on it, and how far lines that are one may miss each other, mm.
-pub(super) const MEETS: f64 = 0.2;
+pub(super) const MEETS: f64 = Dxf::ENDS_MEET;
+/// Radius beyond which a curve is straight, mm: on a circle so large the rounding of its centre moves every place.
+const STRAIGHT: f64 = 1e9;
+/// Angle below which an arc comes round, rad.
+const ROUND_EPSILON: f64 = 1e-8;
 
 /// What is cut, mm.
 #[derive(Debug, Clone, Default)]
@@ -18,6 +27,8 @@ pub(super) struct Cuts {
     pub(super) slack: f64,
     pub(super) holes: Vec<Point>,
     pub(super) marks: Vec<Mark>,
+    /// How much on layers that are cut cannot be understood: numbers that are damaged, planes beside the cloth.
+    pub(super) faults: usize,
 }
 
 /// A place that the knife comes to.
@@ -102,7 +113,8 @@ impl Cuts {
     pub(super) fn of(sheet: &Sheet, measure: Measure) -> Self {
         let paths = |layer: u32| paths(&sheet.items, layer, measure);
         let outlines = paths(1);
-        let mut cuts = Self::default();
+        let is_odd = |item: &&Item| item.is_of_cuts() && (!item.is_plain() || item.flag(1).is_none());
+        let mut cuts = Self { faults: sheet.items.iter().filter(is_odd).count(), ..Self::default() };
         if outlines.is_empty() {
             return cuts;
         }
@@ -130,6 +142,9 @@ impl Cuts {
                     let mark = Mark { at, depth, width, block: item.number };
                     cuts.marks.push(mark);
                     cuts.marks.extend(also.map(|at| Mark { at, ..mark }));
+                }
+                (b"ARC", Some(13)) if round_path(item, Some(at), measure).is_some_and(|path| path.is_closed) => {
+                    cuts.holes.extend([Some(at), also].into_iter().flatten());
                 }
                 _ => {}
             }
@@ -171,6 +186,16 @@ impl Cuts {
 }
 
 impl Round {
+    /// A box around its curve.
+    pub(super) fn extent(&self) -> Extent {
+        let half = self.sweep.abs() / 2.0;
+        if half >= FRAC_PI_2 {
+            return Extent::of(&[self.centre]).grown(self.radius);
+        }
+        let height = self.radius * (1.0 - half.cos());
+        Extent::of(&[self.at(0.0), self.at(1.0)]).grown(height)
+    }
+
     fn across(&self, fold: Fold) -> Self {
         let start = fold.across(self.at(0.0)) - fold.across(self.centre);
         Self { centre: fold.across(self.centre), start: start.y.atan2(start.x), sweep: -self.sweep, ..*self }
@@ -193,7 +218,9 @@ fn paths(items: &[Item], layer: u32, measure: Measure) -> Vec<Path> {
         let is_of_layer = item.layer() == Some(layer);
         match &item.kind[..] {
             b"VERTEX" if is_vertex => {
-                if let (Some(at), Some(path), false) = (place(item, [10, 20]), paths.last_mut(), item.flag(16)) {
+                if let (Some(at), Some(path), false) =
+                    (place(item, [10, 20]), paths.last_mut(), item.flag(16) == Some(true))
+                {
                     path.points.push(at);
                     bulges.push(item.number(42).unwrap_or(0.0));
                 }
@@ -212,10 +239,11 @@ fn paths(items: &[Item], layer: u32, measure: Measure) -> Vec<Path> {
         match &item.kind[..] {
             b"POLYLINE" => {
                 is_vertex = true;
-                paths.push(Path { is_closed: item.flag(1), ..Path::default() });
+                paths.push(Path { is_closed: item.flag(1) == Some(true), ..Path::default() });
             }
             b"LWPOLYLINE" => {
-                let (mut path, mut of_path) = (Path { is_closed: item.flag(1), ..Path::default() }, Vec::new());
+                let (mut path, mut of_path) =
+                    (Path { is_closed: item.flag(1) == Some(true), ..Path::default() }, Vec::new());
                 let mut x = 0.0;
                 for (code, value) in item.each([10, 20, 42]) {
                     match code {
@@ -238,19 +266,36 @@ fn paths(items: &[Item], layer: u32, measure: Measure) -> Vec<Path> {
             _ => {}
         }
     }
+    distinct(paths)
+}
+
+/// Lines that have a length, each once; of an open and a closed one of the same places the closed one.
+fn distinct(mut paths: Vec<Path>) -> Vec<Path> {
     paths.iter_mut().for_each(Path::tidy);
-    let mut seen = std::collections::BTreeSet::new();
-    paths.retain(|path| !path.curves.is_empty() && seen.insert(path.key()));
+    paths.retain(|path| !path.curves.is_empty());
+    let closed: BTreeSet<_> = paths.iter().filter(|path| path.is_closed).map(Path::key).collect();
+    let mut seen = BTreeSet::new();
+    paths.retain(|path| (path.is_closed || !closed.contains(&path.key())) && seen.insert(path.key()));
     paths
 }
 
 /// An arc or a circle.
 fn round_path(item: &Item, centre: Option<Point>, measure: Measure) -> Option<Path> {
     let (centre, radius) = (centre?, item.number(40)?.abs() * measure.unit);
-    let is_circle = item.kind == b"CIRCLE";
-    let [start, end] = if is_circle { [0.0, 360.0] } else { item.pair([50, 51])? };
-    let sweep = if is_circle { 360.0 } else { (end - start).rem_euclid(360.0) };
-    let round = Round { centre, radius, start: start.to_radians(), sweep: sweep.to_radians() };
+    let whole = Round { centre, radius, start: 0.0, sweep: std::f64::consts::TAU };
+    let arc = if item.kind == b"CIRCLE" { None } else { Some(item.pair([50, 51])?) };
+    let arc = arc.map(|[start, end]| Round {
+        start: start.to_radians(),
+        sweep: (end - start).rem_euclid(360.0).to_radians(),
+        ..whole
+    });
+    let is_open = |round: &Round| round.sweep > ROUND_EPSILON;
+    let is_circle = !arc.as_ref().is_some_and(is_open);
+    let round = match arc {
+        Some(round) if is_circle => Round { sweep: whole.sweep, ..round },
+        Some(round) => round,
+        None => whole,
+    };
     let points = if is_circle { vec![round.at(0.0)] } else { vec![round.at(0.0), round.at(1.0)] };
     Some(Path { points, curves: vec![Some(round)], is_closed: is_circle })
 }
@@ -265,6 +310,10 @@ impl Path {
         let is_back = |points: &[Point]| points.len() > 2 && points.first() == points.last();
         if self.is_closed && is_back(&self.points) || self.points.len() == 3 && is_back(&self.points) {
             self.points.pop();
+        }
+        if !self.is_closed && self.points.len() > 3 && is_back(&self.points) {
+            self.points.pop();
+            self.is_closed = true;
         }
         self.is_closed &= self.points.len() > 2;
         let edges = if self.is_closed { self.points.len() } else { self.points.len().saturating_sub(1) };
@@ -288,13 +337,13 @@ impl Path {
             let [from, to] = [self.points[k], self.points[(k + 1) % count]];
             let chord = to - from;
             let bulge = bulges.get(k).copied().unwrap_or(0.0);
-            if bulge == 0.0 || chord.norm() == 0.0 {
-                self.curves.push(None);
-                continue;
-            }
             let height = bulge * chord.norm() / 2.0;
             // Signed: the centre is as far from the middle of the arc, which lies right of the chord for a bulge above 0.
             let radius = (chord.norm_squared() / 4.0 + height * height) / (2.0 * height);
+            if !radius.is_finite() || radius.abs() > STRAIGHT {
+                self.curves.push(None);
+                continue;
+            }
             let centre = from + chord / 2.0 + left(chord / chord.norm()) * (radius - height);
             let spoke = from - centre;
             let sweep = 4.0 * bulge.atan();
@@ -308,15 +357,13 @@ impl Path {
 fn clusters(paths: Vec<Path>) -> Vec<Vec<Path>> {
     let mut owner: Vec<usize> = (0..paths.len()).collect();
     let ends = |k: usize| [paths[k].points[0], paths[k].points[paths[k].points.len() - 1]];
-    let mut all: Vec<(Point, usize)> =
+    let all: Vec<(Point, usize)> =
         (0..paths.len()).filter(|&k| !paths[k].is_closed).flat_map(|k| ends(k).map(|at| (at, k))).collect();
-    all.sort_by(|a, b| a.0.x.total_cmp(&b.0.x));
-    for (i, &(at, k)) in all.iter().enumerate() {
-        for &(other, of) in all[i + 1..].iter().take_while(|(other, _)| other.x - at.x <= MEETS) {
-            if (other - at).norm() <= MEETS {
-                let [a, b] = [root(&mut owner, k), root(&mut owner, of)];
-                owner[a] = b;
-            }
+    let of_ends = Lookup::of(all.iter().map(|end| end.0), MEETS);
+    for &(at, k) in &all {
+        for other in of_ends.near(at) {
+            let [a, b] = [root(&mut owner, k), root(&mut owner, all[other].1)];
+            owner[a] = b;
         }
     }
     let roots: Vec<usize> = (0..paths.len()).map(|k| root(&mut owner, k)).collect();

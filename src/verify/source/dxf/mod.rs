@@ -4,6 +4,7 @@
 mod cloth;
 mod compare;
 mod cuts;
+mod lookup;
 mod tags;
 
 pub use compare::{CutPlaces, pattern_audit};

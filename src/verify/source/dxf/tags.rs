@@ -21,10 +21,13 @@ pub(super) struct Item<'a> {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Sheet<'a> {
     pub(super) name: Vec<u8>,
-    /// Place of the block that an insertion puts somewhere, in units of the file.
-    pub(super) base: [f64; 2],
+    /// Place of the block that an insertion puts somewhere, in units of the file; `None` when it is damaged.
+    pub(super) base: Option<[f64; 2]>,
     pub(super) items: Vec<Item<'a>>,
 }
+
+/// How far the direction from which something is seen may be off, by rounding.
+const FLAT: f64 = 1e-5;
 
 impl<'a> Item<'a> {
     pub(super) fn text(&self, code: i32) -> &'a [u8] {
@@ -40,8 +43,29 @@ impl<'a> Item<'a> {
         Some([self.number(codes[0])?, self.number(codes[1])?])
     }
 
-    pub(super) fn flag(&self, bit: u32) -> bool {
-        self.number(70).is_some_and(|flags| flags as u32 & bit != 0)
+    /// Whether a bit of the flags of a line is set; `None` when they are damaged.
+    pub(super) fn flag(&self, bit: u32) -> Option<bool> {
+        let is_line = [&b"POLYLINE"[..], b"LWPOLYLINE", b"VERTEX"].contains(&&self.kind[..]);
+        if is_line && self.has(70) { self.number(70).map(|flags| flags as u32 & bit != 0) } else { Some(false) }
+    }
+
+    fn has(&self, code: i32) -> bool {
+        self.tags.iter().any(|tag| tag.code == code)
+    }
+
+    /// Whether it is drawn as it is seen from above, and once. Lines and points stand in space themselves.
+    pub(super) fn is_plain(&self) -> bool {
+        if ![&b"INSERT"[..], b"POLYLINE", b"LWPOLYLINE", b"ARC", b"CIRCLE"].contains(&&self.kind[..]) {
+            return true;
+        }
+        let is = |code, wanted: f64| !self.has(code) || self.number(code).is_some_and(|n| (n - wanted).abs() < FLAT);
+        let is_array = self.kind == b"INSERT" && [70, 71].iter().any(|&code| self.number(code).unwrap_or(1.0) > 1.0);
+        is(210, 0.0) && is(220, 0.0) && is(230, 1.0) && !is_array
+    }
+
+    /// Whether it is drawn on a layer that asks for cuts.
+    pub(super) fn is_of_cuts(&self) -> bool {
+        self.kind != b"INSERT" && !self.is_text() && matches!(self.layer(), Some(1 | 4 | 6 | 11 | 13 | 80..=83))
     }
 
     /// The number of its layer.
@@ -55,9 +79,13 @@ impl<'a> Item<'a> {
         tags.filter_map(|tag| Some((tag.code, number(tag.text)?)))
     }
 
+    fn is_text(&self) -> bool {
+        [&b"TEXT"[..], b"MTEXT", b"ATTDEF", b"ATTRIB"].contains(&&self.kind[..])
+    }
+
     /// What a text says under a key: what stands behind `KEY:`, or the value of an attribute of that tag.
     pub(super) fn says(&self, key: &str) -> Option<&'a [u8]> {
-        if ![&b"TEXT"[..], b"MTEXT", b"ATTDEF", b"ATTRIB"].contains(&&self.kind[..]) {
+        if !self.is_text() {
             return None;
         }
         let is_key = |name: &[u8]| {
@@ -80,6 +108,11 @@ fn number(text: &[u8]) -> Option<f64> {
 }
 
 impl Sheet<'_> {
+    /// Whether anything in it asks for cuts, or may.
+    pub(super) fn asks_for_cuts(&self) -> bool {
+        self.items.iter().any(|item| item.is_of_cuts() || item.kind == b"INSERT")
+    }
+
     /// What its texts say under a key, the first of them.
     pub(super) fn says(&self, key: &str) -> Option<&[u8]> {
         self.items.iter().find_map(|item| item.says(key))
@@ -101,13 +134,17 @@ pub(super) fn sheets(bytes: &[u8]) -> (Vec<Sheet<'_>>, Sheet<'_>) {
     }
     let (mut blocks, mut loose): (Vec<Sheet>, Sheet) = (Vec::new(), Sheet::default());
     let (mut section, mut is_in_block) = (Vec::new(), false);
-    for item in items {
+    // What has 1 in group 67 stands on the sheet around the drawing; only what it says is of interest.
+    let is_part =
+        |item: &Item| [&b"VERTEX"[..], b"SEQEND", b"SECTION", b"ENDSEC", b"BLOCK", b"ENDBLK"].contains(&&item.kind[..]);
+    let is_drawn = |item: &Item| item.number(67) != Some(1.0) || item.is_text() || is_part(item);
+    for item in items.into_iter().filter(is_drawn) {
         match &item.kind[..] {
             b"SECTION" => section = item.text(2).to_ascii_uppercase(),
             b"ENDSEC" => section.clear(),
             b"BLOCK" if section == b"BLOCKS" => {
                 is_in_block = true;
-                let base = item.pair([10, 20]).unwrap_or_default();
+                let base = if item.has(10) || item.has(20) { item.pair([10, 20]) } else { Some([0.0; 2]) };
                 blocks.push(Sheet { name: item.text(2).to_ascii_uppercase(), base, items: Vec::new() });
             }
             b"ENDBLK" => is_in_block = false,
