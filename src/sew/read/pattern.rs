@@ -96,14 +96,24 @@ fn point(text: &str) -> Result<(Point, &str), String> {
 /// A seam with what its words ask for.
 fn seam(mut seam: Seam, words: &str) -> Result<Seam, String> {
     let mut words = words.split_whitespace();
+    // What is said twice may be meant either way.
+    let mut said: Vec<&str> = Vec::new();
+    let mut once = |kind: &'static str| {
+        let is_new = !said.contains(&kind);
+        said.push(kind);
+        if is_new { Ok(()) } else { Err(format!("{kind} is named twice")) }
+    };
     while let Some(word) = words.next() {
         if let Some((_, element)) = Element::WORDS.iter().find(|(name, _)| *name == word) {
+            once("the element")?;
             seam.element = *element;
         } else if let Some((_, ends)) = ENDS.iter().find(|(name, _)| *name == word) {
+            once("what is done at the ends")?;
             seam.ends = Some(*ends);
         } else if word == STOP {
             seam.stop = true;
         } else if word == THREAD {
+            once("the thread")?;
             let number = words.next().unwrap_or_default();
             let thread = number.parse().ok().filter(|&thread: &u16| thread > 0);
             seam.thread = thread.ok_or_else(|| format!("`{number}` is no number of a thread"))?;
