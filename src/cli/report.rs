@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::setup::{Profile, Setup};
 use crate::diagnostic::{Code, Diagnostics, Json, Severity};
-use crate::ir::Marker;
+use crate::ir::{Finding, Marker};
 use crate::machine::Job;
 use crate::pipeline::Report;
 use crate::source::Source;
@@ -83,6 +83,21 @@ pub(super) fn json_of_file(
 /// Any figures with the findings as one JSON object.
 pub(super) fn json_of(figures: impl Serialize, diagnostics: &Diagnostics, source: &Source, job: &Job) -> String {
     pretty(&Figures { setup: Setup::of(job), report: figures, findings: Findings::of(diagnostics, source) })
+}
+
+/// The worst that a verifier of another machine has seen under a rule, as JSON.
+#[derive(Debug, Serialize)]
+pub(super) struct WorstOf {
+    code: &'static str,
+    worst: f64,
+    limit: Option<f64>,
+    unit: &'static str,
+}
+
+impl From<&Finding> for WorstOf {
+    fn from(finding: &Finding) -> Self {
+        Self { code: finding.rule, worst: finding.worst, limit: finding.limit, unit: finding.unit }
+    }
 }
 
 /// Figures of another machine, with the profile and the findings, as one JSON object.

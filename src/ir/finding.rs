@@ -42,3 +42,18 @@ pub fn counts(findings: &[Finding]) -> (usize, usize) {
     let limited = findings.iter().filter(|finding| finding.limit.is_some()).count();
     (limited, findings.len() - limited)
 }
+
+/// What is said of a rule of another machine's verifier.
+#[derive(Debug)]
+pub struct RuleRow<R> {
+    /// The rule.
+    pub rule: R,
+    /// Its name, as findings bear it.
+    pub name: &'static str,
+    /// Unit of its value; empty for counts.
+    pub unit: &'static str,
+    /// What must hold.
+    pub about: &'static str,
+    /// Why it matters, and what to do.
+    pub more: &'static str,
+}

@@ -17,6 +17,7 @@ use super::draft::MadeFolders;
 use super::files;
 use super::finished::{DONE, FAULTY, Finished, Stdout, failure, say};
 use super::options::counted;
+use super::report;
 use crate::diagnostic::{Diagnostics, Severity, render_with};
 use crate::flow::{self, Program, Speed, TARGETS, Target};
 use crate::ir::{Finding, Marker};
@@ -65,7 +66,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Finished> {
     let mut said = render_with(&diagnostics, &source, arguments.messages.detail(arguments.format));
     let figures = summary::Figures::of(&program, written.verdicts);
     let stdout = match arguments.format {
-        Format::Json => summary::json(figures, &diagnostics, &source, &job),
+        Format::Json => report::json_by_profile(figures, &diagnostics, &source, &job),
         Format::Text => summary::text(&source, &figures, &program, arguments.messages.quiet),
     };
     said.push_str(&written.said);
@@ -125,7 +126,7 @@ fn refused(arguments: &Arguments, source: &Source, diagnostics: &Diagnostics, jo
     say(&mut said, format_args!("{}: {errors}, {warnings}; no program was written", source.name()));
     said.push_str(&earlier::move_aside(&arguments.out, &[]));
     let stdout = match arguments.format {
-        Format::Json => summary::json(summary::nothing(), diagnostics, source, job),
+        Format::Json => report::json_by_profile(summary::nothing(), diagnostics, source, job),
         Format::Text => String::new(),
     };
     Finished::text(stdout, said, FAULTY)

@@ -5,12 +5,9 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use crate::cli::options::counted;
-use crate::cli::report::{self, Findings, pretty};
-use crate::cli::setup::Profile;
-use crate::diagnostic::Diagnostics;
+use crate::cli::report::{self, WorstOf};
 use crate::flow::verify::Verdict;
 use crate::flow::{self, Program};
-use crate::machine::Job;
 use crate::source::Source;
 use crate::units::number::fixed;
 
@@ -27,24 +24,12 @@ pub(super) struct Figures {
 #[derive(Debug, Serialize)]
 struct Verified {
     target: &'static str,
-    rules: Vec<Rule>,
-}
-
-/// The worst under a rule.
-#[derive(Debug, Serialize)]
-struct Rule {
-    code: &'static str,
-    worst: f64,
-    limit: Option<f64>,
-    unit: &'static str,
+    rules: Vec<WorstOf>,
 }
 
 impl Figures {
     pub(super) fn of(program: &Program, verdicts: Vec<(&'static str, Verdict)>) -> Self {
-        let rule = |seen: &flow::verify::Seen| {
-            let finding = &seen.finding;
-            Rule { code: finding.rule, worst: finding.worst, limit: finding.limit, unit: finding.unit }
-        };
+        let rule = |seen: &flow::verify::Seen| WorstOf::from(&seen.finding);
         let verified = |(target, verdict): (&'static str, Verdict)| Verified {
             target,
             rules: verdict.seen.iter().map(rule).collect(),
@@ -55,19 +40,6 @@ impl Figures {
             verified: verdicts.into_iter().map(verified).collect(),
         }
     }
-}
-
-/// Any figures as JSON, with the profile and what was found.
-pub(super) fn json(figures: impl Serialize, diagnostics: &Diagnostics, source: &Source, job: &Job) -> String {
-    #[derive(Serialize)]
-    struct Json<T: Serialize> {
-        profile: Profile,
-        #[serde(flatten)]
-        figures: T,
-        #[serde(flatten)]
-        findings: Findings,
-    }
-    pretty(&Json { profile: Profile::of(job), figures, findings: Findings::of(diagnostics, source) })
 }
 
 /// The keys of the figures, all null.

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use crate::cli::options::counted;
+use crate::cli::report::WorstOf;
 use crate::ir::Finding;
 use crate::sew::verify::Verdict;
 use crate::sew::{self, Estimate, Fifo, Limit, Made, Target};
@@ -44,16 +45,7 @@ struct Verified {
     target: &'static str,
     /// The target whose bytes were judged: another of the same program where the target is a picture.
     judged: &'static str,
-    rules: Vec<Rule>,
-}
-
-/// The worst under a rule.
-#[derive(Debug, Serialize)]
-struct Rule {
-    code: &'static str,
-    worst: f64,
-    limit: Option<f64>,
-    unit: &'static str,
+    rules: Vec<WorstOf>,
 }
 
 impl Figures {
@@ -85,7 +77,7 @@ impl Figures {
                 cost_s: run.cost,
             }
         };
-        let rule = |f: &Finding| Rule { code: f.rule, worst: f.worst, limit: f.limit, unit: f.unit };
+        let rule = |finding: &Finding| WorstOf::from(finding);
         let of = |target: &&'static Target| {
             let own = verdicts.iter().find(|(judged, _)| judged.name == target.name);
             let (judged, verdict) = own.or_else(|| verdicts.first())?;

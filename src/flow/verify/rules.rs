@@ -1,5 +1,7 @@
 //! Every rule that programs of heads over a conveyor are judged by.
 
+use crate::ir::finding::RuleRow;
+
 /// A rule.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Rule {
@@ -52,19 +54,7 @@ pub enum Rule {
 }
 
 /// What is said of a rule.
-#[derive(Debug)]
-pub struct Row {
-    /// The rule.
-    pub rule: Rule,
-    /// Its name, as findings bear it.
-    pub name: &'static str,
-    /// Unit of its value; empty for counts.
-    pub unit: &'static str,
-    /// What must hold.
-    pub about: &'static str,
-    /// Why it matters, and what to do.
-    pub more: &'static str,
-}
+pub(super) type Row = RuleRow<Rule>;
 
 /// Every rule, in the order of reports.
 #[rustfmt::skip] // a table: a rule a row
