@@ -234,7 +234,9 @@ codes! {
     DXF_UNREAD_CUT = error(Text, "dxf/unread-cut", "An entity on a layer that is cut is of a kind that is not read, such as SPLINE or ELLIPSE.", "The convention for patterns has polylines, lines, points and texts alone. Leaving the entity out would leave a part of an outline uncut: let the CAD system export polylines (R12, AAMA or ASTM).");
     /// A unit that nobody knows.
     DXF_UNIT = error(Text, "dxf/unit", "The text UNITS of a DXF file is neither METRIC nor ENGLISH.", "Patterns that are 25.4 times too large or too small spoil the cloth. Say which unit the numbers have.\n  cutc compile pattern.dxf --set dxf.unit=mm");
-    /// Sizes, and no choice.
+    /// Texts that contradict each other.
+    DXF_SAID_TWICE = error(Text, "dxf/said-twice", "Texts of a DXF file say two things where one can be right: two units, or of a piece two sizes or quantities.", "Which of them is meant nobody can tell, and the wrong one is another garment. See in the CAD system which is right; the unit and the quantity can be said beside the file.\n  cutc compile pattern.dxf --set dxf.unit=mm\n  cutc compile pattern.dxf --quantity one");
+    /// Several sizes, and nobody says which.
     DXF_WHICH_SIZE = error(Shape, "dxf/which-size", "A set of patterns has several sizes, and neither its sample size nor `--size` says which is cut.", "Sizes lie over each other in the file. Cutting a size that nobody asked for wastes the cloth: name one, several, or all.\n  cutc compile pattern.dxf --size M\n  cutc compile pattern.dxf --size S,M,L");
     /// A size that is not there.
     DXF_NO_SIZE = error(Shape, "dxf/no-size", "A size that `--size` asks for is not in the file.", "The sizes of a set stand in its texts, as in SIZE: M. The message lists them.\n  cutc compile pattern.dxf --size all");
@@ -258,12 +260,16 @@ codes! {
     DXF_NOTCH_AS_SLIT = warning(Spares, Shape, "dxf/notch-as-slit", "A V, T, castle, check or U notch of a DXF file is cut as a slit: it is narrower than 1 mm, wider than 12 mm or flatter than 1.5 mm, or stands at a corner or beside another.", "Its mouth would take in a corner or another notch and change the outline, or its crossbar would leave the part. A slit of the same depth marks the same place.");
     /// Something to cut outside.
     DXF_OUTSIDE = warning(Spoils, Shape, "dxf/outside", "A cut-out or a hole of a DXF file lies outside of its outline; it is cut all the same.", "Its layer says that it is cut, but no piece is there: it may lie in a neighbour on the cloth, or belong to an outline that is missing. Look at the picture (-t svg) before you cut.");
+    /// A cut-out that may be no cut-out.
+    DXF_LARGE_CUT_OUT = warning(Spoils, Shape, "dxf/large-cut-out", "On layer 1 of a DXF file an outline lies in another one and takes more than half of it; it is cut as a cut-out.", "A piece with such a hole is a frame. More often the outline is drawn twice, a little apart, or the seam line lies on layer 1 with it. Look at the picture (-t svg) before you cut.");
+    /// Layers that may be exchanged.
+    DXF_SEAM_OUTSIDE = warning(Spoils, Shape, "dxf/seam-outside", "A seam line of a DXF file (layer 14) goes round its outline (layer 1).", "The knife follows layer 1. If that has the seam and layer 14 the edge, the parts are cut without their seam allowance. Compare the extent that `cutc info` prints with the pieces, and let the CAD system export layer 1 as the line of the knife.");
     /// A block without an outline.
     DXF_NO_OUTLINE = warning(Spares, Shape, "dxf/no-outline", "A block of a DXF file has something to cut, but no outline on layer 1; nothing of it is cut.", "Its outline may be on another layer, or was not exported. Count the pieces with `cutc info`.");
     /// A line on a layer of points.
     DXF_STROKE = warning(Spoils, Shape, "dxf/line-not-cut", "A line of a DXF file lies on a layer of notches (4, 80 to 83) or of drill holes (13), and is not cut.", "The convention has notches and holes as points, which say their depth, width and direction. A notch that is drawn as a line, or a hole as a cross, would be missing in the cut part. Let the CAD system export points, or draw the line on layer 11 if the knife is to follow it.");
     /// A quantity that is none.
-    DXF_QUANTITY = warning(Spares, Text, "dxf/quantity", "The quantity of a piece is no number, and the piece is cut once.", "A quantity is how often the piece is cut as it is drawn, and behind a comma how often mirrored.\n  QUANTITY: 1,1");
+    DXF_QUANTITY = warning(Spares, Text, "dxf/quantity", "The quantity of a piece is 0 or no number, and the piece is cut once.", "Some systems write 0 where nobody said how often. A quantity is how often the piece is cut as it is drawn, and behind a comma how often mirrored.\n  QUANTITY: 1,1");
     /// Two counts of a piece.
     DXF_PLACED_QUANTITY = warning(Spares, Shape, "dxf/placed-quantity", "A piece of a DXF file is placed by INSERTs, and not as often as its quantity says.", "A file that puts its pieces somewhere is a marker, and each INSERT in it is one piece. The quantity of a pattern is then another count of the same: compare both before the cloth is spread.");
     /// An insertion of nothing.
@@ -274,12 +280,16 @@ codes! {
     DXF_ARRAY = error(Shape, "dxf/array", "An INSERT of a DXF file puts copies in rows or columns (groups 70 and 71).", "Sets of patterns place each piece by an INSERT of its own. Read without its rows and columns the INSERT would stand for one piece where many are wanted: let the CAD system explode it.");
     /// A block in a block.
     DXF_NESTED = error(Shape, "dxf/nested-block", "A block of a DXF file inserts another block that holds something to cut.", "A piece is drawn in one block. What another block holds, perhaps a cut-out or a notch, would be missing in the cut part: let the CAD system explode the INSERTs that stand inside blocks.");
+    /// Two pieces at one place.
+    DXF_ON_ANOTHER = error(Shape, "dxf/on-another", "INSERTs of a DXF file put a piece on another one.", "One cloth cannot be both: the second cut would go through the first part. A set of patterns, whose pieces are drawn over each other, has no INSERTs or has them all at the origin, and is laid in a row. A marker needs a place for each piece.");
     /// Another plane than the cloth.
     DXF_EXTRUSION = error(Shape, "dxf/extrusion", "An entity of a DXF file that is cut is drawn on another plane than the cloth (groups 210, 220, 230 are not 0, 0, 1).", "Copies that are mirrored in space have their coordinates on the back of the drawing: read as they stand they would be cut mirrored or slanted. Flatten the drawing in the CAD system and export it again.");
     /// A piece that is nowhere.
     DXF_NOT_PLACED = warning(Spares, Shape, "dxf/not-placed", "A DXF file places some pieces by INSERT, and others not; those are not cut.", "A file that puts its pieces somewhere is a marker, and what it does not place is not in it. Count the pieces with `cutc info`.");
     /// The sheet around the drawing.
     DXF_ON_PAPER = warning(Spares, Text, "dxf/paper-space", "Entities of a DXF file stand in paper space (group 67 is 1) and are not cut.", "Paper space is the sheet on which a drawing is shown, with its frame and titles. If a piece is missing, it was drawn there: move it to model space.");
+    /// What is cut and not shown.
+    DXF_HIDDEN = warning(Spoils, Shape, "dxf/hidden", "Entities of a DXF file on layers that are cut are not shown in the CAD system (group 60 is 1, or their layer is off or frozen); they are cut all the same.", "Somebody who looks at the drawing does not see these cuts. Show all layers, delete what is not meant, and export the file again; or look at the picture (-t svg).");
     /// Kinds that are not read.
     DXF_UNREAD = warning(Spares, Text, "dxf/unread", "Entities of a DXF file are of kinds that are not read; none of them is on a layer that is cut.", "Dimensions, hatchings and splines of other layers are drawn and not cut. If a line is missing in the picture (-t svg), this is where to look.");
 
@@ -398,6 +408,8 @@ codes! {
     SEW_INSET = error(Shape, "sew/inset", "A contour is too narrow for the inset that is asked for, or the file has no contours.", "The seam would run outside the part, or through another seam: somewhere the contour is narrower than twice the inset. Take a smaller `--inset`, or draw the seam.");
     /// No such line.
     SEW_NO_LINE = error(Shape, "sew/no-line", "The file has no line of the name that `--line` gives; the hint names those that it has.", "Pens and layers have the names that the file gives them; `seam` means the seam lines that are recognised in parts.\n  cutc sew parts.plt --line seam");
+    /// A line of a kind that is not read.
+    SEW_UNREAD = error(Shape, "sew/unread-line", "The pen or layer that `--line` names draws something of a kind that is not read, such as a spline.", "What is not read would not be sewn: a seam would have a gap, or be missing. Let the CAD system export polylines, as the convention for patterns has them.");
     /// A stitch that is too short.
     SEW_SHORT = warning(Spares, Shape, "sew/short-stitch", "A stitch is shorter than `sewing.min_pitch_mm`; it is merged with the next. The message has its record.", "Stitches that are too short pile up under the needle and break the thread. Where they are meant, to lock a seam, lower the key.");
     /// A stitch that is too long.

@@ -46,6 +46,8 @@ pub enum Read {
         cut: fn(&Source, &Job, &mut Diagnostics) -> Marker,
         /// All that is drawn, with the layers as pens.
         drawn: fn(&Source, &Job, &mut Diagnostics) -> Drawing,
+        /// Name of the layer that has the seam lines.
+        seams: &'static str,
     },
 }
 

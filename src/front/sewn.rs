@@ -2,8 +2,9 @@
 
 /// What some programs write before text in UTF-8.
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
-/// The first row of a pattern.
+/// The first row of a pattern, and what may part the fields of all rows.
 const PATTERN: &[u8] = b"x_mm,y_mm,element";
+const SEPARATORS: &[u8] = b",;\t";
 /// The first row of a stitch queue.
 const QUEUE: &[u8] = b"op,dx_mm,dy_mm,value";
 /// What the header of a DST file begins with, and its length.
@@ -12,7 +13,16 @@ const DST_HEADER_BYTES: usize = 512;
 
 /// Whether a text is a pattern: seams as lists of points.
 pub fn is_pattern(bytes: &[u8]) -> bool {
-    begins_with(bytes, PATTERN)
+    pattern_separator(bytes).is_some()
+}
+
+/// What parts the fields of a pattern: spreadsheets write what the language of the computer has. `None` when a text is no
+/// pattern.
+pub fn pattern_separator(bytes: &[u8]) -> Option<u8> {
+    SEPARATORS.iter().copied().find(|&separator| {
+        let header: Vec<u8> = PATTERN.iter().map(|&byte| if byte == b',' { separator } else { byte }).collect();
+        begins_with(bytes, &header)
+    })
 }
 
 /// Whether a text is the entries of a stitch queue.
@@ -35,7 +45,7 @@ pub(super) fn is_stitch_file(name: &str) -> bool {
 /// with it.
 fn begins_with(bytes: &[u8], header: &[u8]) -> bool {
     let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
-    let mut found = bytes.iter().filter(|byte| !matches!(byte, b' ' | b'\t'));
+    let mut found = bytes.iter().filter(|&&byte| byte != b' ' && byte != b'"');
     header.iter().all(|known| found.next().is_some_and(|byte| byte.eq_ignore_ascii_case(known)))
 }
 
@@ -50,6 +60,18 @@ mod tests {
         for (text, is_known) in texts {
             assert_eq!(begins_with(text.as_bytes(), b"op,x"), is_known, "{text:?}");
         }
+    }
+
+    #[test]
+    fn patterns_are_known_whatever_parts_their_fields() {
+        let check =
+            |text: &str, expected: Option<u8>| assert_eq!(pattern_separator(text.as_bytes()), expected, "{text}");
+        check("x_mm,y_mm,element\n", Some(b','));
+        check("X_mm; Y_mm; element\r\n", Some(b';'));
+        check("x_mm\ty_mm\telement\n", Some(b'\t'));
+        check("\"x_mm\",\"y_mm\",\"element\"\n", Some(b','));
+        check("x_in,y_in,element\n", None);
+        check("0,0,straight\n", None);
     }
 
     #[test]

@@ -15,6 +15,8 @@ pub struct Drawing {
     pub pens: Vec<Pen>,
     /// Texts; they are never cut.
     pub texts: Vec<Label>,
+    /// What else is drawn, and is of kinds that are not read: no stroke stands for it.
+    pub unread: Vec<Unread>,
     /// What the numbers of the file are multiples of, mm; 0 when they are not rounded.
     pub unit: f64,
     /// How the file ends.
@@ -41,6 +43,17 @@ pub struct PenStroke {
     pub end: u32,
     /// Which of [`Drawing::pens`] draws it.
     pub pen: u16,
+}
+
+/// Something that is drawn and not read.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unread {
+    /// What the file calls its kind.
+    pub kind: String,
+    /// Which of [`Drawing::pens`] draws it.
+    pub pen: u16,
+    /// Where it begins.
+    pub span: Span,
 }
 
 /// A pen of a plotter, or a layer.

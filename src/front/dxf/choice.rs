@@ -2,9 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use super::entity::Block;
 use super::tally::{Tally, Thing};
-use super::text::Facts;
+use super::text::{Facts, Said};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::machine::patterns::{Quantity, Sizes};
 use crate::machine::{Job, labels::Labels};
@@ -31,6 +30,13 @@ pub(super) struct Chosen<'a> {
     sizes: Option<Vec<String>>,
 }
 
+/// The name of a size. Bytes that are no text in the encoding of the profile stay what they are: sizes that cannot be read
+/// differ all the same.
+fn size_of(bytes: &[u8], labels: &Labels) -> String {
+    let text = labels.text(bytes);
+    if text.contains(char::REPLACEMENT_CHARACTER) { bytes.escape_ascii().to_string() } else { text }
+}
+
 /// Sizes are the same whichever letters they are written in.
 fn same(text: &str) -> String {
     text.trim().to_uppercase()
@@ -38,23 +44,26 @@ fn same(text: &str) -> String {
 
 impl<'a> Chosen<'a> {
     /// What a job asks of the blocks of a file, each of which says its size or none; an error where nobody says which.
-    pub(super) fn of(
-        Asked { source, job, file }: &Asked<'a>,
-        blocks: &[(&Block, Facts)],
-        out: &mut Diagnostics,
-    ) -> Self {
+    pub(super) fn of(Asked { source, job, file }: &Asked<'a>, blocks: &[Facts], out: &mut Diagnostics) -> Self {
         let labels = &job.profile.labels;
-        let text = |span: Span| labels.text(source.slice(span));
+        let text = |span: Span| size_of(source.slice(span), labels);
         let mut names: BTreeSet<String> = BTreeSet::new();
         let mut known: Vec<String> = Vec::new();
-        for size in blocks.iter().filter_map(|(_, facts)| facts.size).map(text) {
+        for Facts { size, .. } in blocks {
+            if let (Some(first), Some(other)) = (size.first.map(text), size.other) {
+                let message = format!("a piece has two sizes, `{first}` and `{}`", text(other));
+                let finding = Diagnostic::new(&code::DXF_SAID_TWICE, message).at(other);
+                out.push(finding.hint("see in the CAD system which is right, and export the file again"));
+            }
+        }
+        for size in blocks.iter().filter_map(|facts| facts.size.first).map(text) {
             if names.insert(same(&size)) {
                 known.push(size);
             }
         }
         let has = |size: &str| names.contains(&same(size));
-        let other = file.other_sample.map(text);
-        let sample = file.sample_size.map(text);
+        let other = file.sample_size.other.map(text);
+        let sample = file.sample_size.first.map(text);
         let sizes = match (&job.patterns.sizes, &sample) {
             (Some(Sizes::All), _) => None,
             (Some(Sizes::Named(names)), _) => {
@@ -84,8 +93,8 @@ impl<'a> Chosen<'a> {
 
     /// Whether a block is cut. One that is of no size goes with every size.
     pub(super) fn has(&self, facts: &Facts) -> bool {
-        let text = |span: Span| same(&self.labels.text(self.source.slice(span)));
-        match (&self.sizes, facts.size.map(text)) {
+        let text = |span: Span| same(&size_of(self.source.slice(span), self.labels));
+        match (&self.sizes, facts.size.first.map(text)) {
             (None, _) | (_, None) => true,
             (Some(sizes), Some(size)) => sizes.contains(&size),
         }
@@ -110,7 +119,7 @@ fn its_sizes(known: &[String]) -> String {
 }
 
 /// How often a piece is cut as it is drawn, and how often mirrored: `1,1` is right and left. `None` when it is no such
-/// text. A piece that is wanted not at all is cut once: many programs write 0 where nobody said anything.
+/// text or names none at all.
 fn quantity(text: &[u8]) -> Option<[u32; 2]> {
     let mut numbers = text.split(|&byte| byte == b',').map(|number| {
         let number = std::str::from_utf8(number.trim_ascii()).ok()?;
@@ -122,21 +131,23 @@ fn quantity(text: &[u8]) -> Option<[u32; 2]> {
         Some(left) => left?,
     };
     match (numbers.next(), right, left) {
-        (Some(_), _, _) => None,
-        (None, 0, 0) => Some([1, 0]),
+        (Some(_), _, _) | (None, 0, 0) => None,
         (None, right, left) => Some([right, left]),
     }
 }
 
 impl Asked<'_> {
-    /// How often a piece is cut of which a text says so; `None` where nobody wants to know, or nothing is said.
-    pub(super) fn quantity(&self, text: Option<Span>, tally: &mut Tally) -> Option<[u32; 2]> {
+    /// How often a piece is cut of which texts say so; `None` where nobody wants to know, or nothing is said.
+    pub(super) fn quantity(&self, said: Said, tally: &mut Tally) -> Option<[u32; 2]> {
         let job = self.job;
         match job.patterns.quantity.unwrap_or(job.profile.dxf.quantity) {
             Quantity::File => {}
             Quantity::One => return None,
         }
-        let span = text?;
+        if let Some(other) = said.other {
+            tally.add(Thing::TwoQuantities, other);
+        }
+        let span = said.first?;
         let quantity = quantity(self.source.slice(span));
         if quantity.is_none() {
             tally.add(Thing::Quantity, span);
@@ -155,7 +166,7 @@ mod tests {
         check("1,1", Some([1, 1]));
         check("2", Some([2, 0]));
         check(" 0 , 1 ", Some([0, 1]));
-        check("0", Some([1, 0]));
+        check("0", None);
         check("1,", None);
         check("1,1,1", None);
         check("-1", None);

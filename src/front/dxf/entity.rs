@@ -1,5 +1,7 @@
 //! Entities: groups become the sections of the file, its blocks and what they hold.
 
+use std::collections::BTreeSet;
+
 use super::group::Group;
 use super::syntax::{number, whole};
 use crate::diagnostic::{Diagnostic, Diagnostics, code};
@@ -12,6 +14,15 @@ pub(super) const NAME: i32 = 2;
 const LAYER: i32 = 8;
 /// Flags of polylines and vertices; of an insertion, how many columns of copies it puts.
 pub(super) const FLAGS: i32 = 70;
+
+/// Code of the name of a variable of the header, and that of the unit.
+const VARIABLE: i32 = 9;
+const UNIT: &[u8] = b"$INSUNITS";
+/// Code of the colour of a layer, which is negative when that is off, and the flag of one that is frozen.
+const COLOUR: i32 = 62;
+const FROZEN: i64 = 1;
+/// Code that is 1 for what is not shown.
+const INVISIBLE: i32 = 60;
 
 /// An entity: the group that begins it, and those behind it up to the next one.
 #[derive(Debug, Clone, Copy)]
@@ -31,6 +42,10 @@ pub(super) struct Block<'a> {
 /// What of a file matters.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Sections<'a> {
+    /// The number of the unit that the header names.
+    pub(super) unit: Option<Span>,
+    /// Names of layers that are not shown.
+    pub(super) hidden: BTreeSet<&'a [u8]>,
     pub(super) blocks: Vec<Block<'a>>,
     /// What stands in no block.
     pub(super) entities: Vec<Entity<'a>>,
@@ -71,6 +86,11 @@ impl<'a> Entity<'a> {
         let name = self.bytes(LAYER);
         let is_number = !name.is_empty() && name.iter().all(u8::is_ascii_digit);
         std::str::from_utf8(name).ok().filter(|_| is_number).and_then(|name| name.parse().ok())
+    }
+
+    /// The name of its layer, as it is written.
+    pub(super) fn layer_bytes(&self) -> &'a [u8] {
+        self.bytes(LAYER)
     }
 
     /// The name of its layer, as it is shown.
@@ -139,8 +159,31 @@ fn entities<'a>(source: &'a Source, groups: &'a [Group]) -> impl Iterator<Item =
 enum Within {
     Blocks,
     Entities,
-    /// Header, tables and all others.
+    Tables,
+    /// The header and all others.
     Others,
+}
+
+impl<'a> Entity<'a> {
+    /// Of the entity that begins the header: the number of the unit that stands there.
+    fn unit(&self) -> Option<Span> {
+        let variable = self
+            .groups()
+            .iter()
+            .position(|group| group.code == VARIABLE && self.source.slice(group.value).eq_ignore_ascii_case(UNIT))?;
+        self.groups().get(variable + 1).map(|group| group.value)
+    }
+
+    /// Of an entry of the table of layers: whether what is on the layer is not shown.
+    fn is_hidden_layer(&self) -> bool {
+        let is_off = self.whole(COLOUR).is_ok_and(|colour| colour.is_some_and(|colour| colour < 0));
+        self.is("LAYER") && (is_off || self.flags().is_ok_and(|flags| flags & FROZEN != 0))
+    }
+
+    /// Whether it is not shown, on whatever layer.
+    pub(super) fn is_invisible(&self) -> bool {
+        self.whole(INVISIBLE).is_ok_and(|flag| flag == Some(1))
+    }
 }
 
 /// Sorts the entities of a file into its sections and blocks.
@@ -163,6 +206,11 @@ pub(super) fn sections<'a>(source: &'a Source, groups: &'a [Group], out: &mut Di
             within = match entity.bytes(NAME).to_ascii_uppercase().as_slice() {
                 b"BLOCKS" => Within::Blocks,
                 b"ENTITIES" => Within::Entities,
+                b"TABLES" => Within::Tables,
+                b"HEADER" => {
+                    sections.unit = sections.unit.or(entity.unit());
+                    Within::Others
+                }
                 _ => Within::Others,
             };
         } else if entity.is("ENDSEC") {
@@ -173,6 +221,9 @@ pub(super) fn sections<'a>(source: &'a Source, groups: &'a [Group], out: &mut Di
             match (&mut open, within) {
                 (Some(block), _) => block.entities.push(entity),
                 (None, Within::Entities) => sections.entities.push(entity),
+                (None, Within::Tables) => {
+                    sections.hidden.extend(entity.is_hidden_layer().then(|| entity.bytes(NAME)));
+                }
                 (None, Within::Blocks | Within::Others) => {}
             }
         }

@@ -10,11 +10,27 @@ const LEAST_HALF: usize = 3;
 /// A fold line.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Fold {
+    /// The line as it is drawn.
+    drawn: Axis,
+    /// mm.
+    length: f64,
+    /// About what is mirrored: the line, or the edge of the half that lies along it.
+    axis: Axis,
+}
+
+/// A straight line without ends.
+#[derive(Debug, Clone, Copy)]
+struct Axis {
     from: Point,
     /// Unit vector.
     along: Vector,
-    /// mm.
-    length: f64,
+}
+
+impl Axis {
+    /// How far a place lies to the left, mm.
+    fn offset(&self, at: Point) -> f64 {
+        cross(self.along, at - self.from)
+    }
 }
 
 /// Why an outline is not unfolded.
@@ -34,55 +50,77 @@ impl Fold {
         let [first, .., last] = line else { return None };
         let way = last.at - first.at;
         let length = way.norm();
-        (length > REACH).then(|| Self { from: first.at, along: way / length, length })
+        let drawn = Axis { from: first.at, along: way / length };
+        (length > REACH).then_some(Self { drawn, length, axis: drawn })
+    }
+
+    /// The same fold about the edge of a half from fold to fold. The cloth is folded where the half ends, and CAD systems
+    /// round the line beside it, or draw it a little aslant. An edge that is shorter than the line is the less certain one.
+    fn along_edge_of(self, half: &[Vertex]) -> Self {
+        let edge = Self::of(half).filter(|edge| edge.length >= self.length - 2.0 * REACH);
+        edge.map_or(self, |edge| Self { axis: edge.axis, ..self })
     }
 
     /// Whether another line is drawn over it.
     pub(super) fn is_same(&self, other: &Self) -> bool {
-        let ends = [other.from, other.from + other.along * other.length];
-        (other.length - self.length).abs() <= REACH && ends.into_iter().all(|end| self.has(end))
+        let ends = [other.drawn.from, other.drawn.from + other.drawn.along * other.length];
+        (other.length - self.length).abs() <= REACH
+            && ends
+                .into_iter()
+                .all(|end| self.is_in_line(end) && (-REACH..=self.length + REACH).contains(&self.station(end)))
     }
 
-    /// How far a place lies to the left of the line, mm.
-    fn offset(&self, at: Point) -> f64 {
-        cross(self.along, at - self.from)
+    /// Where along the drawn line a place is, mm from where that begins.
+    fn station(&self, at: Point) -> f64 {
+        self.drawn.along.dot(&(at - self.drawn.from))
     }
 
-    /// Whether a place lies on the fold itself.
-    fn has(&self, at: Point) -> bool {
-        let station = self.along.dot(&(at - self.from));
-        self.offset(at).abs() <= REACH && (-REACH..=self.length + REACH).contains(&station)
+    /// Whether a place lies on the fold, or on the line on which that goes on.
+    fn is_in_line(&self, at: Point) -> bool {
+        self.drawn.offset(at).abs() <= REACH
+    }
+
+    /// Whether an edge lies along the fold: most of it does, or most of the fold along the edge.
+    fn is_along(&self, [from, to]: [Point; 2]) -> bool {
+        let [from_station, to_station] = [from, to].map(|at| self.station(at));
+        let [least, most] = [from_station.min(to_station), from_station.max(to_station)];
+        let shared = most.min(self.length) - least.max(0.0);
+        self.is_in_line(from) && self.is_in_line(to) && shared >= (most - least).min(self.length) / 2.0
     }
 
     /// Whether a place has none on the other side.
     pub(super) fn is_middle(&self, at: Point) -> bool {
-        self.offset(at).abs() <= REACH
+        self.axis.offset(at).abs() <= REACH
     }
 
     /// The same place on the other side.
     pub(super) fn mirror(&self, at: Point) -> Point {
-        at - left(self.along) * (2.0 * self.offset(at))
+        at - left(self.axis.along) * (2.0 * self.axis.offset(at))
     }
 
     /// The same direction on the other side.
     pub(super) fn mirror_way(&self, way: Vector) -> Vector {
-        way - left(self.along) * (2.0 * cross(self.along, way))
+        way - left(self.axis.along) * (2.0 * cross(self.axis.along, way))
     }
 
     fn is_across(&self, line: &Chain) -> bool {
-        let offsets = || line.vertices.iter().map(|vertex| self.offset(vertex.at));
+        let offsets = || line.vertices.iter().map(|vertex| self.drawn.offset(vertex.at));
         offsets().any(|offset| offset > REACH) && offsets().any(|offset| offset < -REACH)
     }
 
-    /// The whole of an outline of which half is drawn; it may be open where the fold is.
-    pub(super) fn unfold_outline(&self, outline: &Chain) -> Result<Chain, Refusal> {
+    /// The whole of an outline of which half is drawn, and the fold about which all of the piece is mirrored; the outline may
+    /// be open where the fold is.
+    pub(super) fn unfold_outline(&self, outline: &Chain) -> Result<(Chain, Self), Refusal> {
         if self.is_across(outline) {
             return Err(Refusal::Across);
         }
         let halves: Vec<Vec<Vertex>> =
             self.halves(outline).into_iter().filter(|half| half.len() >= LEAST_HALF).collect();
         match &halves[..] {
-            [half] if self.ends_on(half) == [true; 2] => Ok(self.whole(half)),
+            [half] if self.ends_on(half) == [true; 2] => {
+                let fold = self.along_edge_of(half);
+                Ok((fold.whole(half), fold))
+            }
             [] | [_] => Err(Refusal::Beside),
             [..] => Err(Refusal::Several),
         }
@@ -129,7 +167,7 @@ impl Fold {
 
     /// Whether a chain starts and whether it ends on the fold.
     fn ends_on(&self, half: &[Vertex]) -> [bool; 2] {
-        [half.first(), half.last()].map(|vertex| vertex.is_some_and(|vertex| self.has(vertex.at)))
+        [half.first(), half.last()].map(|vertex| vertex.is_some_and(|vertex| self.is_in_line(vertex.at)))
     }
 
     /// What is left of a line without its edges on the fold.
@@ -137,7 +175,7 @@ impl Fold {
         let vertices = &line.vertices;
         let count = vertices.len();
         let edges = if line.is_closed { count } else { count - 1 };
-        let is_fold = |edge: usize| self.has(vertices[edge].at) && self.has(vertices[(edge + 1) % count].at);
+        let is_fold = |edge: usize| self.is_along([vertices[edge].at, vertices[(edge + 1) % count].at]);
         // A ring is walked from behind an edge on the fold.
         let first = if line.is_closed {
             (0..count).find(|&edge| is_fold(edge)).map(|edge| (edge + 1) % count)
@@ -200,10 +238,30 @@ mod tests {
             line(&[[100.0, 0.0], [100.0, 50.0], [0.0, 50.0], [0.0, 0.0]], false),
             line(&[[40.0, 0.0], [100.0, 0.0], [100.0, 50.0], [0.0, 50.0], [0.0, 0.0]], true),
         ] {
-            let unfolded = fold().unfold_outline(&drawn).expect("it has an edge on the fold");
+            // However much of its edge the line is drawn along.
+            let short = Fold::of(&line(&[[30.0, 0.0], [80.0, 0.0]], false).vertices).expect("it has a length");
+            let (unfolded, _) = short.unfold_outline(&drawn).expect("it has an edge on the fold");
+            assert_eq!(places(&unfolded), whole);
+            let (unfolded, _) = fold().unfold_outline(&drawn).expect("it has an edge on the fold");
             assert!(unfolded.is_closed);
             assert_eq!(places(&unfolded), whole);
         }
+    }
+
+    #[test]
+    fn a_half_is_mirrored_about_its_edge_where_the_fold_line_is_drawn_beside_it() {
+        let drawn = [[0.0, 0.1], [100.0, -0.1], [100.0, 50.0], [0.0, 50.0]];
+        let (whole, about) = fold().unfold_outline(&line(&drawn, true)).expect("it has an edge along the fold");
+        let edge = Fold::of(&line(&drawn[..2], false).vertices).expect("it has a length");
+        let lengths = |places: &[[f64; 2]]| {
+            let points: Vec<Point> = places.iter().map(|&[x, y]| Point::new(x, y)).collect();
+            crate::geom::polyline::length(&points)
+        };
+        let half = lengths(&[drawn[1], drawn[2], drawn[3], drawn[0]]);
+        let around: Vec<[f64; 2]> = whole.round().map(|vertex| [vertex.at.x, vertex.at.y]).collect();
+        assert!((lengths(&around) - 2.0 * half).abs() < 1e-9);
+        let at = Point::new(30.0, 20.0);
+        assert!((about.mirror(at) - edge.mirror(at)).norm() < 1e-9);
     }
 
     #[test]

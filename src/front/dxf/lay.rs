@@ -3,9 +3,13 @@
 
 use std::ops::Range;
 
+use super::chain::REACH;
 use super::piece::Piece;
 use super::shape::Insert;
 use crate::geom::{Extent, Heading, Point, Vector};
+
+/// How much rounding turns or scales, as a part: of an angle that is written with four decimals.
+const AXIS_EPSILON: f64 = 1e-5;
 
 /// How a piece is moved from where its block draws it.
 #[derive(Debug, Clone, Copy)]
@@ -58,6 +62,12 @@ impl Motion {
         let [x, y] = [along * insert.scale[0], Vector::new(-along.y, along.x) * insert.scale[1]];
         let offset = insert.at.coords - x * base.x - y * base.y;
         Self { x, y, offset }
+    }
+
+    /// Whether it leaves everything where it is drawn, but for rounding.
+    pub(super) fn is_still(&self) -> bool {
+        let is_axis = |[found, drawn]: [Vector; 2]| (found - drawn).norm() <= AXIS_EPSILON;
+        is_axis([self.x, Self::DRAWN[0]]) && is_axis([self.y, Self::DRAWN[1]]) && self.offset.norm() <= REACH
     }
 
     pub(super) fn place(&self, at: Point) -> Point {

@@ -78,7 +78,15 @@ pub(super) fn layer(number: Option<u16>) -> &'static Layer {
     LAYERS.iter().find(|layer| Some(layer.number) == number).unwrap_or(&OTHER)
 }
 
+/// The number of the layer of seam lines.
+const SEAM: u16 = 14;
+
 impl Layer {
+    /// Whether its lines are seams.
+    pub(super) fn is_seam(&self) -> bool {
+        self.number == SEAM
+    }
+
     /// Whether a piece is cut wrongly when something on it is not read.
     pub(super) fn is_cut(&self) -> bool {
         match self.does {

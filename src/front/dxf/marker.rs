@@ -5,7 +5,7 @@ use super::lay::{Laid, Motion};
 use super::layer::{LAYERS, Layer, OTHER};
 use super::set::Set;
 use crate::geom::polyline;
-use crate::ir::drawing::{Account, LineClass, Vertex};
+use crate::ir::drawing::{Account, LineClass, Unread, Vertex};
 use crate::ir::list::SegmentList;
 use crate::ir::marker::{Contour, Drill, Label, Notch, NotchKind, NotchStroke, Piece};
 use crate::ir::{Drawing, Marker};
@@ -96,16 +96,22 @@ fn moved_label(label: &Label, motion: Motion) -> Label {
 /// All lines of a set where they lie: the numbers of the layers are the names of the pens.
 pub(super) fn drawing(set: &Set) -> Drawing {
     let mut drawing = Drawing::default();
+    let mut draw = |layer: &Layer, line: &Chain, motion: Motion| {
+        let pen = drawing.pen(&layer.number.to_string(), true);
+        let mut vertices = moved(line, motion).into_iter();
+        vertices.next().into_iter().for_each(|first| drawing.begin(first.at, first.span, pen));
+        vertices.for_each(|vertex| drawing.line(vertex.at, vertex.span));
+        drawing.lift();
+    };
     for Laid { piece, motion } in set.laid() {
         let cut = piece.inner.iter().map(|line| (CUT_OUT, line)).chain([(OUTLINE, &piece.plain)]);
         let drawn = piece.drawn.iter().map(|(layer, line)| (*layer, line));
-        for (layer, line) in cut.chain(drawn) {
-            let pen = drawing.pen(&layer.number.to_string(), true);
-            let mut vertices = moved(line, motion).into_iter();
-            vertices.next().into_iter().for_each(|first| drawing.begin(first.at, first.span, pen));
-            vertices.for_each(|vertex| drawing.line(vertex.at, vertex.span));
-            drawing.lift();
-        }
+        cut.chain(drawn).for_each(|(layer, line)| draw(layer, line, motion));
+    }
+    set.apart.iter().for_each(|(layer, line)| draw(layer, line, Motion::STILL));
+    for entity in &set.unread {
+        let pen = drawing.pen(&entity.layer.number.to_string(), true);
+        drawing.unread.push(Unread { kind: entity.kind.clone(), pen, span: entity.span });
     }
     drawing
 }

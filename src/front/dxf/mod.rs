@@ -6,9 +6,9 @@
 //! every line that is not cut. Never cuts what no layer says is cut, and never guesses which size is meant.
 //!
 //! [`group`] makes pairs of lines with [`syntax`], [`entity`] sections and blocks of them, [`shape`] lines and points in
-//! mm with [`curve`]; [`text`] reads what texts say and [`choice`] which blocks that lets be cut. [`piece`] makes a piece of
+//! mm with [`curve`]; [`text`] reads what texts say with [`markup`] and [`choice`] which blocks that lets be cut. [`piece`] makes a piece of
 //! a block: [`outline`]s of [`chain`]s, unfolded about their [`fold`], with each [`mod@notch`] by the table of [`layer`]s.
-//! [`set`] does all of this for a file, [`placing`] and [`lay`] put the pieces on the cloth, [`mod@marker`] says what is cut, [`tally`]
+//! [`set`] does all of this for a file, [`placing`] and [`lay`] put the pieces on the cloth and [`over`] sees that none lies on another, [`mod@marker`] says what is cut, [`tally`]
 //! what is not done as the file says.
 
 mod chain;
@@ -20,8 +20,10 @@ mod group;
 mod lay;
 mod layer;
 mod marker;
+mod markup;
 mod notch;
 mod outline;
+mod over;
 mod piece;
 mod placing;
 mod set;
@@ -43,7 +45,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     extensions: &["dxf"],
     sniff,
     syntax: check_syntax,
-    read: Read::Patterns { cut: read, drawn: read_lines },
+    read: Read::Patterns { cut: read, drawn: read_lines, seams: "14" },
     words: words::WORDS,
 };
 
@@ -66,6 +68,7 @@ fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Marker {
         return Marker::default();
     }
     let set = set::read(source, job, out);
+    set.see_cuts(out);
     if out.has_errors() { Marker::default() } else { marker::marker(&set) }
 }
 

@@ -27,6 +27,17 @@ impl Outline {
         Self { edge, inner: Vec::new(), points, extent }
     }
 
+    /// Those inside it that take more than half of it.
+    pub(super) fn large_inner(&self) -> impl Iterator<Item = &Chain> {
+        let most = ring::area(&self.points).abs() / 2.0;
+        self.inner.iter().filter(move |line| ring::area(&line.points()).abs() > most)
+    }
+
+    /// Whether it lies in a closed line, and not just beside it.
+    pub(super) fn is_in(&self, line: &Chain) -> bool {
+        Extent::of(&line.points()).covers(&self.extent)
+    }
+
     /// Whether a place lies in it or beside it, as far as there is work left to find out.
     pub(super) fn holds(&self, at: Point, work: &mut Budget) -> bool {
         work.spend(1)

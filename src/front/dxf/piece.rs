@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::chain::{Chain, chains};
+use super::chain::{Chain, REACH, chains};
 use super::fold::{Fold, Refusal};
 use super::layer::{Does, Form, Layer};
 use super::notch::{self, Mark, Notched};
@@ -42,6 +42,8 @@ pub(super) struct Making<'o> {
     pub(super) notch_depth: f64,
     pub(super) work: Budget,
     pub(super) tally: Tally,
+    /// Lines of blocks that have no outline.
+    pub(super) apart: Vec<(&'static Layer, Chain)>,
     pub(super) out: &'o mut Diagnostics,
 }
 
@@ -80,6 +82,7 @@ impl Making<'_> {
                 let at = if span.block > 0 { Some(span) } else { dot.or(line) };
                 self.tally.add(Thing::NoOutline, at.unwrap_or(span));
             }
+            self.apart.extend(lines);
             return Vec::new();
         }
         let outlines = outlines(edges, &mut self.work);
@@ -91,6 +94,9 @@ impl Making<'_> {
             let Some((plain, fold)) = whole else { continue };
             let span = if is_alone && span.block > 0 { span } else { outline.edge.vertices[0].span };
             let mut piece = self.piece(plain, fold, Content { span, ..content });
+            for line in outline.large_inner() {
+                self.tally.add(Thing::LargeCutOut, line.vertices[0].span);
+            }
             let inner = outline.inner.iter().flat_map(|line| on_both_sides(fold, line));
             piece.inner.splice(0..0, inner);
             pieces.push(piece);
@@ -120,7 +126,7 @@ impl Making<'_> {
             (_, []) if is_folded => Some("the fold line (layer 6) has no length"),
             (_, []) => None,
             ([_], &[fold]) => match fold.unfold_outline(first) {
-                Ok(whole) => return vec![Some((whole, Some(fold)))],
+                Ok((whole, fold)) => return vec![Some((whole, Some(fold)))],
                 Err(Refusal::Across) => {
                     self.tally.add(Thing::FoldAcross, first.vertices[0].span);
                     None
@@ -187,6 +193,12 @@ impl Making<'_> {
                     }));
                 }
                 Does::Drill => {
+                    // A hole may be drawn twice, as a circle and as its middle.
+                    let is_drilled =
+                        |drills: &[(Point, Span)]| drills.iter().any(|(at, _)| (at - dot.at).norm() <= REACH);
+                    if is_drilled(&drills) {
+                        continue;
+                    }
                     drills.push((dot.at, dot.span));
                     drills.extend(mirrored.map(|fold| (fold.mirror(dot.at), dot.span)));
                 }
@@ -214,6 +226,10 @@ impl Making<'_> {
             if !around.holds(at, &mut self.work) {
                 self.tally.add(Thing::Outside, span);
             }
+        }
+        let seams = drawn.iter().filter(|(layer, line): &&(&Layer, Chain)| layer.is_seam() && line.is_closed);
+        for (_, seam) in seams.filter(|(_, seam)| around.is_in(seam)) {
+            self.tally.add(Thing::SeamOutside, seam.vertices[0].span);
         }
         let plain = around.edge;
         let outline = Chain { vertices: outline, is_closed: true };

@@ -8,7 +8,7 @@ use super::shape::Insert;
 use super::tally::{Tally, Thing};
 use super::text::Facts;
 use crate::geom::Point;
-use crate::source::Span;
+use crate::source::{Source, Span};
 
 /// Most pieces that are laid.
 pub(super) const MOST_PIECES: usize = 100_000;
@@ -20,28 +20,27 @@ pub(super) struct Placing<'a> {
     names: BTreeMap<Vec<u8>, usize>,
     /// Base point and beginning of each block.
     blocks: Vec<(Point, Span)>,
-    /// What the first insertion of each that says so says of how often it is wanted.
-    quantities: Vec<Option<Span>>,
+    /// What the attributes of its insertions say of each.
+    attributes: Vec<Facts>,
     /// Those that stand in no block.
     inserts: Vec<Insert<'a>>,
 }
 
 impl<'a> Placing<'a> {
     /// For blocks with their base points.
-    pub(super) fn of(blocks: &[(&Block, Facts)], bases: Vec<Point>, inserts: Vec<Insert<'a>>) -> Self {
+    pub(super) fn of(source: &Source, blocks: &[Block], bases: Vec<Point>, inserts: Vec<Insert<'a>>) -> Self {
         let mut names = BTreeMap::new();
-        for (k, (block, _)) in blocks.iter().enumerate() {
+        for (k, block) in blocks.iter().enumerate() {
             names.entry(block.head.bytes(NAME).to_ascii_uppercase()).or_insert(k);
         }
-        let blocks = bases.into_iter().zip(blocks).map(|(base, (block, _))| (base, block.head.span())).collect();
-        let mut placing = Self { names, blocks, quantities: Vec::new(), inserts };
-        let mut quantities = vec![None; placing.blocks.len()];
-        for insert in &placing.inserts {
-            if let Some(k) = placing.block(insert) {
-                quantities[k] = quantities[k].or(insert.quantity);
+        let attributes = vec![Facts::default(); blocks.len()];
+        let blocks = bases.into_iter().zip(blocks).map(|(base, block)| (base, block.head.span())).collect();
+        let mut placing = Self { names, blocks, attributes, inserts };
+        for i in 0..placing.inserts.len() {
+            if let Some(k) = placing.block(&placing.inserts[i]) {
+                placing.attributes[k] = placing.attributes[k].and(placing.inserts[i].facts, source);
             }
         }
-        placing.quantities = quantities;
         placing
     }
 
@@ -49,9 +48,9 @@ impl<'a> Placing<'a> {
         self.names.get(&insert.name.to_ascii_uppercase()).copied()
     }
 
-    /// What the insertions of a block say of how often it is wanted.
-    pub(super) fn quantity(&self, block: usize) -> Option<Span> {
-        self.quantities[block]
+    /// What is said of a block: by the attributes of its insertions, else by its own texts.
+    pub(super) fn facts(&self, block: usize, own: Facts) -> Facts {
+        own.below(&self.attributes[block])
     }
 
     /// Tells blocks that insertions in a block put there, though they have something to cut.
@@ -80,10 +79,11 @@ impl<'a> Placing<'a> {
                 tally.add(Thing::Scaled, insert.span);
             }
             let (pieces, base) = (drawn[k].pieces.clone(), self.blocks[k].0);
-            is_placing |= !pieces.is_empty() && (insert.at != base || insert.turn != 0.0 || insert.scale != [1.0; 2]);
+            let motion = Motion::of_insert(insert, base);
+            is_placing |= !pieces.is_empty() && !motion.is_still();
             // Beyond so many the file is refused.
             let pieces = pieces.take(MOST_PIECES + 1 - placed.len().min(MOST_PIECES + 1));
-            placed.extend(pieces.map(|piece| (piece, Motion::of_insert(insert, base))));
+            placed.extend(pieces.map(|piece| (piece, motion)));
         }
         if !is_placing {
             return None;

@@ -1,6 +1,6 @@
 //! Shapes: the entities of a block become lines, points and texts in mm, each with its layer.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
 use super::curve::{Arc, bulged, height};
 use super::entity::{Entity, FLAGS, NAME, TEXT, number_at};
@@ -80,8 +80,18 @@ pub(super) struct Insert<'a> {
     pub(super) at: Point,
     pub(super) scale: [f64; 2],
     pub(super) turn: f64,
-    /// What its attributes say of how often it is wanted.
-    pub(super) quantity: Option<Span>,
+    /// What its attributes say.
+    pub(super) facts: Facts,
+    pub(super) span: Span,
+}
+
+/// An entity of a kind that is not read, on a layer that is not cut.
+#[derive(Debug, Clone)]
+pub(super) struct Unread {
+    pub(super) layer: &'static Layer,
+    /// What the file calls the layer.
+    pub(super) layer_name: String,
+    pub(super) kind: String,
     pub(super) span: Span,
 }
 
@@ -92,6 +102,7 @@ pub(super) struct Shapes<'a> {
     pub(super) dots: Vec<Dot>,
     pub(super) texts: Vec<Label>,
     pub(super) inserts: Vec<Insert<'a>>,
+    pub(super) unread: Vec<Unread>,
 }
 
 impl Shapes<'_> {
@@ -101,9 +112,6 @@ impl Shapes<'_> {
         !self.inserts.is_empty() || lines.chain(self.dots.iter().map(|dot| dot.layer)).any(Layer::is_cut)
     }
 }
-
-/// Kinds of entities that are not read.
-pub(super) type Unread = BTreeMap<String, (usize, Span)>;
 
 /// How numbers become places, and what is found on the way.
 #[derive(Debug)]
@@ -115,9 +123,12 @@ pub(super) struct Reader<'a, 'o> {
     pub(super) sagitta: f64,
     /// Chords so far.
     pub(super) chords: usize,
-    pub(super) unread: Unread,
     /// How much stands on the sheet around the drawing, and where it begins.
     pub(super) on_paper: Option<(usize, Span)>,
+    /// Names of layers that are not shown.
+    pub(super) hidden_layers: &'a BTreeSet<&'a [u8]>,
+    /// How much is cut and not shown, and where it begins.
+    pub(super) hidden: Option<(usize, Span)>,
     pub(super) out: &'o mut Diagnostics,
 }
 
@@ -134,11 +145,15 @@ impl<'a> Reader<'a, '_> {
                 self.on_paper.get_or_insert((0, entity.span())).0 += 1;
                 continue;
             }
+            let is_hidden = || entity.is_invisible() || self.hidden_layers.contains(entity.layer_bytes());
+            if layer(entity.layer()).is_cut() && is_hidden() {
+                self.hidden.get_or_insert((0, entity.span())).0 += 1;
+            }
             let read = if entity.is("POLYLINE") {
                 if !rest.first().is_some_and(|behind| behind.is("SEQEND")) {
                     self.out.push(open_polyline(entity));
                 }
-                self.polyline(entity, &behind[..count]).map(|line| shapes.lines.extend(line))
+                self.polyline(entity, &behind[..count], &mut shapes)
             } else if entity.is("INSERT") {
                 self.insert(entity, behind).map(|insert| shapes.inserts.push(insert))
             } else {
@@ -184,7 +199,7 @@ impl<'a> Reader<'a, '_> {
             let text = entity.value(TEXT).filter(|span| span.start < span.end);
             shapes.texts.extend(text.map(|span| Label { at, heading, span, mirrored: None }));
         } else if !entity.is("SEQEND") {
-            return self.unread(entity);
+            shapes.unread.push(unread(entity)?);
         }
         Ok(())
     }
@@ -200,19 +215,25 @@ impl<'a> Reader<'a, '_> {
             at: self.place(entity, [X, Y])?,
             scale: [scale(SCALE_X)?, scale(SCALE_Y)?],
             turn: rad(entity.number(ANGLE)?.unwrap_or(0.0)),
-            quantity: Facts::of(attributes, self.source).quantity,
+            facts: Facts::of(attributes, self.source),
             span: entity.span(),
         })
     }
 
-    /// A polyline with its vertices; `None` for one that is no line and is not cut.
-    fn polyline(&mut self, entity: &Entity<'a>, vertices: &[Entity<'a>]) -> Result<Option<Line>, Diagnostic> {
+    /// A polyline with its vertices.
+    fn polyline(
+        &mut self,
+        entity: &Entity<'a>,
+        vertices: &[Entity<'a>],
+        shapes: &mut Shapes<'a>,
+    ) -> Result<(), Diagnostic> {
         let (layer, flags) = (layer(entity.layer()), entity.flags()?);
         if layer.is_cut() {
             flat(entity)?;
         }
         if flags & MESHES != 0 {
-            return self.unread(entity).map(|()| None);
+            shapes.unread.push(unread(entity)?);
+            return Ok(());
         }
         let mut places = Vec::with_capacity(vertices.len());
         for vertex in vertices {
@@ -222,7 +243,8 @@ impl<'a> Reader<'a, '_> {
             let vertex_at = Vertex { at: self.place(vertex, [X, Y])?, span: vertex.span() };
             places.push((vertex_at, vertex.number(BULGE)?.unwrap_or(0.0)));
         }
-        self.line(layer, &places, flags & CLOSED != 0).map(Some)
+        shapes.lines.push(self.line(layer, &places, flags & CLOSED != 0)?);
+        Ok(())
     }
 
     /// The vertices of a light polyline, which follow each other in one entity.
@@ -350,18 +372,18 @@ impl<'a> Reader<'a, '_> {
         }
         Ok(Point::new(x, y))
     }
+}
 
-    /// An entity of a kind that is not read: an error where a cut would be missing.
-    fn unread(&mut self, entity: &Entity) -> Result<(), Diagnostic> {
-        let kind = entity.kind().escape_ascii().to_string();
-        if layer(entity.layer()).is_cut() {
-            let message = format!("{kind} on layer {}, which is cut, is not read", entity.layer_name());
-            let finding = Diagnostic::new(&code::DXF_UNREAD_CUT, message).at(entity.span());
-            return Err(finding.hint("export polylines: pattern DXF holds POLYLINE, LINE, POINT and TEXT alone"));
-        }
-        self.unread.entry(kind).or_insert((0, entity.span())).0 += 1;
-        Ok(())
+/// An entity of a kind that is not read: an error where a cut would be missing.
+fn unread(entity: &Entity) -> Result<Unread, Diagnostic> {
+    let (layer, layer_name) = (layer(entity.layer()), entity.layer_name());
+    let kind = entity.kind().escape_ascii().to_string();
+    if layer.is_cut() {
+        let message = format!("{kind} on layer {layer_name}, which is cut, is not read");
+        let finding = Diagnostic::new(&code::DXF_UNREAD_CUT, message).at(entity.span());
+        return Err(finding.hint("export polylines: read are polylines, lines, arcs, circles, points and texts"));
     }
+    Ok(Unread { layer, layer_name, kind, span: entity.span() })
 }
 
 /// Refuses what is drawn on another plane than the cloth: seen from above it is mirrored or slanted.

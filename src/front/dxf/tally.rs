@@ -17,8 +17,10 @@ pub(super) enum Thing {
     /// A line lies where points alone are notches, and where they are holes.
     StrokeOfNotch,
     StrokeOfHole,
-    /// A quantity is no number.
+    /// A quantity is no number, or none.
     Quantity,
+    /// Texts of a piece say different quantities.
+    TwoQuantities,
     /// A quantity is not how often insertions place its piece.
     Placed,
     /// An insertion names no block.
@@ -29,6 +31,12 @@ pub(super) enum Thing {
     Scaled,
     /// A block is put nowhere, while others are.
     NotPlaced,
+    /// A piece is put where another one is.
+    OnAnother,
+    /// An outline takes most of another one, in which it lies.
+    LargeCutOut,
+    /// A seam line goes round its outline.
+    SeamOutside,
     /// A piece is drawn on both sides of its fold line.
     FoldAcross,
 }
@@ -73,12 +81,16 @@ fn row(thing: Thing) -> Row {
         Thing::NoOutline => Row { code: &code::DXF_NO_OUTLINE, one: "what has no outline on layer 1 asks for cuts; nothing of it is cut", many: "blocks without an outline on layer 1 ask for cuts; nothing of them is cut", hint: "count the pieces with `cutc info`" },
         Thing::StrokeOfNotch => Row { code: &code::DXF_STROKE, one: "a line on a layer of notches (4, 80 to 83) is not cut", many: "lines on layers of notches (4, 80 to 83) are not cut", hint: "let the CAD system export notches as points, or draw them into the outline" },
         Thing::StrokeOfHole => Row { code: &code::DXF_STROKE, one: "a line on the layer of drill holes (13) is not drilled", many: "lines on the layer of drill holes (13) are not drilled", hint: "let the CAD system export holes as points" },
-        Thing::Quantity => Row { code: &code::DXF_QUANTITY, one: "a quantity is no number; the piece is cut once", many: "quantities are no numbers; these pieces are cut once", hint: "it is written as `QUANTITY: 1` or, right and left, as `QUANTITY: 1,1`" },
+        Thing::Quantity => Row { code: &code::DXF_QUANTITY, one: "a quantity is 0 or no number; the piece is cut once", many: "quantities are 0 or no numbers; these pieces are cut once", hint: "it is written as `QUANTITY: 1` or, right and left, as `QUANTITY: 1,1`" },
+        Thing::TwoQuantities => Row { code: &code::DXF_SAID_TWICE, one: "a piece has two quantities, the other one here", many: "pieces have two quantities, another one", hint: "see which is right; `--quantity one` cuts each piece once" },
         Thing::Placed => Row { code: &code::DXF_PLACED_QUANTITY, one: "INSERTs place a piece more or less often than its quantity says; they hold", many: "pieces are placed more or less often than their quantities say; the INSERTs hold", hint: "count the pieces with `cutc info`" },
         Thing::NoBlock => Row { code: &code::DXF_NO_BLOCK, one: "an INSERT names a block that the file does not hold", many: "INSERTs name blocks that the file does not hold", hint: "a piece may be missing: count them with `cutc info`" },
         Thing::Nested => Row { code: &code::DXF_NESTED, one: "an INSERT in a block puts another block there that is cut", many: "INSERTs in blocks put other blocks there that are cut", hint: "explode it in the CAD system, so that each piece is drawn in one block" },
         Thing::Scaled => Row { code: &code::DXF_SCALE, one: "an INSERT scales a piece", many: "INSERTs scale pieces", hint: "pieces are cut in the size in which their blocks are drawn; `dxf.unit` says another unit" },
         Thing::NotPlaced => Row { code: &code::DXF_NOT_PLACED, one: "a piece is placed by no INSERT while others are, and is not cut", many: "pieces are placed by no INSERT while others are, and are not cut", hint: "count the pieces with `cutc info`" },
+        Thing::OnAnother => Row { code: &code::DXF_ON_ANOTHER, one: "an INSERT puts this piece on another one", many: "pieces are put on others by INSERTs", hint: "patterns have their INSERTs at the origin, or none; a marker has a place for each" },
+        Thing::LargeCutOut => Row { code: &code::DXF_LARGE_CUT_OUT, one: "an outline lies in another one and takes more than half of it; it is cut as a cut-out", many: "outlines lie in others and take more than half of them; they are cut as cut-outs", hint: "see in the picture (-t svg) whether the same outline is drawn twice, or its seam line with it" },
+        Thing::SeamOutside => Row { code: &code::DXF_SEAM_OUTSIDE, one: "a seam line (layer 14) goes round its outline (layer 1)", many: "seam lines (layer 14) go round their outlines (layer 1)", hint: "the layers may be exchanged: compare the extent with the piece with its seam allowance" },
         Thing::FoldAcross => Row { code: &code::DXF_FOLD_ACROSS, one: "a piece is drawn on both sides of its fold line (layer 6); it is cut as it is drawn", many: "pieces are drawn on both sides of their fold lines (layer 6); they are cut as they are drawn", hint: "look at the picture (-t svg): both halves must be there" },
     }
 }

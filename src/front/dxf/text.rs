@@ -1,21 +1,47 @@
 //! Texts: what a set of patterns and its pieces say of themselves, as `KEY: value`.
 
+use std::ops::Range;
+
 use super::entity::{Entity, NAME, TEXT};
+use super::markup;
 use crate::source::{Source, Span};
 
-/// What the texts of a block, or of the file, say. The first text of a key holds.
+/// What the texts of a block, or of the file, say.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Facts {
     /// The size that a block is of.
-    pub(super) size: Option<Span>,
+    pub(super) size: Said,
     /// The size that the set was drawn in.
-    pub(super) sample_size: Option<Span>,
-    /// Another one that it was drawn in: then nobody knows which is meant.
-    pub(super) other_sample: Option<Span>,
+    pub(super) sample_size: Said,
     /// Unit of all numbers.
-    pub(super) units: Option<Span>,
+    pub(super) units: Said,
     /// How often a piece is cut: as it is drawn, and mirrored.
-    pub(super) quantity: Option<Span>,
+    pub(super) quantity: Said,
+}
+
+/// What texts say under one key.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Said {
+    /// The first that is said.
+    pub(super) first: Option<Span>,
+    /// The first that differs from it: then nobody knows which is meant.
+    pub(super) other: Option<Span>,
+}
+
+impl Said {
+    /// This, and one more.
+    fn and(self, next: Option<Span>, source: &Source) -> Self {
+        let (Some(first), Some(next)) = (self.first, next) else {
+            return Self { first: self.first.or(next), ..self };
+        };
+        let is_same = source.slice(first).eq_ignore_ascii_case(source.slice(next));
+        Self { other: self.other.or(if is_same { None } else { Some(next) }), ..self }
+    }
+
+    /// This, and all of those.
+    fn and_all(self, those: Self, source: &Source) -> Self {
+        self.and(those.first, source).and(those.other, source)
+    }
 }
 
 /// Whether an entity is a text.
@@ -28,56 +54,58 @@ impl Facts {
     pub(super) fn of<'a>(entities: impl IntoIterator<Item = &'a Entity<'a>>, source: &Source) -> Self {
         let mut facts = Self::default();
         for entity in entities.into_iter().filter(|entity| is_text(entity)) {
-            let Some((key, value)) = said(entity, source) else { continue };
-            let fact = match key.as_str() {
-                "SIZE" => &mut facts.size,
-                "SAMPLE SIZE" => &mut facts.sample_size,
-                "UNITS" | "UNIT" => &mut facts.units,
-                "QUANTITY" => &mut facts.quantity,
-                _ => continue,
-            };
-            let first = *fact.get_or_insert(value);
-            if key == "SAMPLE SIZE" {
-                facts.see_sample(first, value, source);
+            for (key, value) in said(entity, source) {
+                let fact = match key.as_str() {
+                    "SIZE" => &mut facts.size,
+                    "SAMPLE SIZE" => &mut facts.sample_size,
+                    "UNITS" | "UNIT" => &mut facts.units,
+                    "QUANTITY" => &mut facts.quantity,
+                    _ => continue,
+                };
+                *fact = fact.and(Some(value), source);
             }
         }
         facts
     }
 
-    /// Notes a sample size that is not the first.
-    fn see_sample(&mut self, first: Span, next: Span, source: &Source) {
-        if !source.slice(first).eq_ignore_ascii_case(source.slice(next)) {
-            self.other_sample.get_or_insert(next);
+    /// These and those.
+    pub(super) fn and(self, those: Self, source: &Source) -> Self {
+        Self {
+            size: self.size.and_all(those.size, source),
+            sample_size: self.sample_size.and_all(those.sample_size, source),
+            units: self.units.and_all(those.units, source),
+            quantity: self.quantity.and_all(those.quantity, source),
         }
     }
 
-    /// These, and where they say nothing those.
-    pub(super) fn or(mut self, other: Self, source: &Source) -> Self {
-        if let (Some(first), Some(next)) = (self.sample_size, other.sample_size) {
-            self.see_sample(first, next, source);
-        }
-        Self {
-            other_sample: self.other_sample.or(other.other_sample),
-            size: self.size.or(other.size),
-            sample_size: self.sample_size.or(other.sample_size),
-            units: self.units.or(other.units),
-            quantity: self.quantity.or(other.quantity),
-        }
+    /// These of a block, and before them what the attributes of its insertion say.
+    pub(super) fn below(self, attributes: &Self) -> Self {
+        let before = |told: Said, own: Said| if told.first.is_some() { told } else { own };
+        let (size, quantity) = (before(attributes.size, self.size), before(attributes.quantity, self.quantity));
+        Self { size, quantity, ..self }
     }
 }
 
-/// The key of a text, in capitals with one blank between its words, and the bytes of its value; of an attribute without
-/// a colon its tag is the key.
-fn said(entity: &Entity, source: &Source) -> Option<(String, Span)> {
-    let span = entity.value(TEXT)?;
-    let text = source.slice(span);
-    let Some(colon) = memchr::memchr(b':', text) else {
-        let tag = entity.bytes(NAME);
-        return (!entity.is("TEXT") && !tag.is_empty()).then(|| (key(tag), span));
+/// What the lines of a text say: keys in capitals with one blank between their words, and where their values are; of an
+/// attribute without a colon its tag is the key.
+fn said(entity: &Entity, source: &Source) -> Vec<(String, Span)> {
+    let Some(span) = entity.value(TEXT) else { return Vec::new() };
+    let part = |range: Range<usize>| {
+        let [start, end] = [range.start, range.end].map(|at| span.start + at as u32);
+        Span { start, end, ..span }
     };
-    let blanks = text[colon + 1..].len() - text[colon + 1..].trim_ascii_start().len();
-    let start = span.start + (colon + 1 + blanks) as u32;
-    (start < span.end).then(|| (key(&text[..colon]), Span { start, ..span }))
+    let lines: Vec<Span> =
+        if entity.is("MTEXT") { markup::lines(source.slice(span)).map(part).collect() } else { vec![span] };
+    let line = |line: Span| {
+        let text = source.slice(line);
+        let Some(colon) = memchr::memchr(b':', text) else {
+            let tag = entity.bytes(NAME);
+            return (!entity.is("TEXT") && !tag.is_empty()).then(|| (key(tag), line));
+        };
+        let blanks = text[colon + 1..].len() - text[colon + 1..].trim_ascii_start().len();
+        Some((key(&text[..colon]), Span { start: line.start + (colon + 1 + blanks) as u32, ..line }))
+    };
+    lines.into_iter().filter_map(line).filter(|(_, value)| value.start < value.end).collect()
 }
 
 /// A key however it is written.

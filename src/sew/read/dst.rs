@@ -22,6 +22,11 @@ const HEADER_BYTES: usize = 512;
 const RECORD_BYTES: usize = 3;
 /// Bits of the last byte that end a pattern, whatever the other bytes say: 81 up and 81 down at once, which no move has.
 const END: u8 = 0xF3;
+/// What erased memory holds: no program writes it.
+const ERASED: [u8; RECORD_BYTES] = [0xFF; RECORD_BYTES];
+/// Bits of the last byte that say what a record is, and those of one that places a sequin.
+const KIND: u8 = 0xC3;
+const SEQUIN: u8 = 0x43;
 /// What fills the last block of a file on many disks.
 const FILLING: [u8; 5] = [0x00, 0x1A, b' ', b'\r', b'\n'];
 /// Jumps in a row that stand for a trim.
@@ -73,13 +78,14 @@ fn read(source: &Source, out: &mut Diagnostics) -> Input {
         let number = i as u32 + 1;
         let place = span(HEADER_BYTES + i * RECORD_BYTES, RECORD_BYTES, number);
         let last = record[2];
-        if last & END == END {
+        if last & END == END && record != ERASED {
             end = Some((i + 1) * RECORD_BYTES);
             break;
         }
         let way = way(record);
         count.add(way);
-        match last & 0xC3 {
+        match last & KIND {
+            _ if record == ERASED => refuse(record, place, out),
             0x03 => {
                 count.stitches += 1;
                 moves.stitch(way, number, out);
@@ -123,7 +129,11 @@ fn check_rest(body: &[u8], end: usize, out: &mut Diagnostics) {
 fn refuse(record: [u8; RECORD_BYTES], place: Span, out: &mut Diagnostics) {
     let [a, b, c] = record;
     let message = format!("record {} is none of a DST file: {a:02x} {b:02x} {c:02x}", place.block);
-    let hint = "the two lowest bits of a record are set; the file is damaged, or is another format";
+    let hint = if c & KIND == SEQUIN {
+        "it places a sequin, which is not sewn here: leave sequins out when the file is written"
+    } else {
+        "the two lowest bits of a record are set, and others are not all; the file is damaged, or is another format"
+    };
     out.push(Diagnostic::new(&code::SEW_RECORD, message).at(place).hint(hint));
 }
 

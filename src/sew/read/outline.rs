@@ -9,8 +9,10 @@ use crate::diagnostic::{Diagnostic, Diagnostics, code};
 use crate::front::{self, Dialect, Read};
 use crate::geom::Point;
 use crate::ir::drawing::Vertex;
+use crate::ir::marker::{Contour, OutlineNotch};
 use crate::ir::{Drawing, Marker};
 use crate::machine::Job;
+use crate::pass::marker::{DRAWN_PASSES, MARKER_PASSES};
 use crate::recognise;
 use crate::sew::asked::Asked;
 use crate::sew::pattern::{Pattern, Seam};
@@ -99,18 +101,19 @@ impl Reader<'_> {
     fn lines(&self, dialect: &Dialect, asked: Option<&str>, out: &mut Diagnostics) -> Vec<Line> {
         let Self { source, job } = *self;
         match (dialect.read, asked) {
-            (Read::Marker(read) | Read::Patterns { cut: read, .. }, None) => contours(&read(source, job, out)),
-            (Read::Drawing(read) | Read::Patterns { drawn: read, .. }, Some(name)) if name != SEAM => {
+            (Read::Marker(read) | Read::Patterns { cut: read, .. }, None) => contours(read(source, job, out), job),
+            (Read::Patterns { drawn: read, seams, .. }, Some(name)) => {
+                let name = if name == SEAM { seams } else { name };
                 strokes(&read(source, job, out), name, out)
             }
-            (Read::Patterns { cut: read, .. }, Some(_)) => seam_lines(&read(source, job, out), out),
+            (Read::Drawing(read), Some(name)) if name != SEAM => strokes(&read(source, job, out), name, out),
             (Read::Drawing(read), asked) => {
                 let drawing = read(source, job, out);
                 if out.has_errors() {
                     return Vec::new();
                 }
                 let marker = recognise::marker(drawing, job, out);
-                if asked.is_none() { contours(&marker) } else { seam_lines(&marker, out) }
+                if asked.is_none() { contours(marker, job) } else { seam_lines(&marker, out) }
             }
             (Read::Marker(_), Some(name)) => {
                 let message = format!("the file has no line `{name}`: its lines have no pens or layers");
@@ -122,9 +125,36 @@ impl Reader<'_> {
     }
 }
 
-fn contours(marker: &Marker) -> Vec<Line> {
-    let contours = marker.contours();
-    contours.map(|(i, contour)| Line { points: marker.points(contour), span: marker.pieces[i].span }).collect()
+/// The contours of a marker. Notches are for the knife: slits are not sewn, and seams run straight over the mouths of others.
+fn contours(mut marker: Marker, job: &Job) -> Vec<Line> {
+    // What is said of cuts does not matter here.
+    let mut unsaid = Diagnostics::default();
+    MARKER_PASSES[..DRAWN_PASSES].iter().for_each(|pass| (pass.run)(&mut marker, job, &mut unsaid));
+    let line = |(i, contour): (usize, &Contour)| {
+        let piece = &marker.pieces[i];
+        let points = marker.points(contour);
+        let points = if contour.closed { over_mouths(points, &piece.outline_notches) } else { points };
+        Line { points, span: piece.span }
+    };
+    marker.contours().map(line).collect()
+}
+
+/// A closed line, whose first point comes last again, without what it has between the ends of the mouths of notches.
+fn over_mouths(mut points: Vec<Point>, notches: &[OutlineNotch]) -> Vec<Point> {
+    points.pop();
+    let count = points.len();
+    let mut is_in_mouth = vec![false; count];
+    for notch in notches {
+        let to_end = notch.segments as usize;
+        let opens = |&k: &usize| points[k] == notch.mouth[0] && points[(k + to_end) % count] == notch.mouth[1];
+        for start in (0..count).filter(opens) {
+            (start + 1..start + to_end).for_each(|k| is_in_mouth[k % count] = true);
+        }
+    }
+    let mut line: Vec<Point> =
+        points.into_iter().zip(is_in_mouth).filter(|(_, is_in)| !is_in).map(|(at, _)| at).collect();
+    line.extend(line.first().copied());
+    line
 }
 
 /// The line through some places of a drawing.
@@ -137,6 +167,11 @@ fn strokes(drawing: &Drawing, name: &str, out: &mut Diagnostics) -> Vec<Line> {
     let is_asked = |pen: u16| drawing.pens.get(usize::from(pen)).is_some_and(|pen| pen.name == name);
     let strokes = drawing.strokes.iter().filter(|stroke| is_asked(stroke.pen));
     let lines: Vec<Line> = strokes.map(|stroke| through(&drawing.vertices[stroke.range()])).collect();
+    for unread in drawing.unread.iter().filter(|unread| is_asked(unread.pen)) {
+        let message = format!("the {} on `{name}` is of a kind that is not read", unread.kind);
+        let finding = Diagnostic::new(&code::SEW_UNREAD, message).at(unread.span);
+        out.push(finding.hint("let the CAD system export polylines"));
+    }
     if lines.is_empty() && !out.has_errors() {
         let names: Vec<&str> = drawing.pens.iter().map(|pen| pen.name.as_str()).collect();
         let message = format!("the file has no line `{name}`");

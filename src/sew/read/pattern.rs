@@ -32,6 +32,15 @@ const STOP: &str = "stop";
 
 fn read(source: &Source, out: &mut Diagnostics) -> Input {
     let mut pattern = Pattern::default();
+    let Some(separator) = sewn::pattern_separator(source.bytes()) else {
+        let end = memchr::memchr(b'\n', source.bytes()).unwrap_or(source.bytes().len()) as u32;
+        let finding = Diagnostic::new(&code::SEW_ROW, "the first row of a pattern is `x_mm,y_mm,element`");
+        out.push(
+            finding.at(Span { start: 0, end, block: 1 }).hint("its points are in mm; name the fields in the first row"),
+        );
+        return Input::Pattern(pattern);
+    };
+    let separator = char::from(separator);
     let mut open: Option<Seam> = None;
     let mut start = 0;
     for (line, row) in source.bytes().split(|&byte| byte == b'\n').zip(1..) {
@@ -40,12 +49,13 @@ fn read(source: &Source, out: &mut Diagnostics) -> Input {
         if row == 1 {
             continue;
         }
-        let text = String::from_utf8_lossy(line.trim_ascii());
-        if text.is_empty() {
+        // Spreadsheets quote texts, and keep the separators of a row that is empty.
+        let text = String::from_utf8_lossy(line).replace('"', "");
+        if text.trim_matches(|c: char| c == separator || c.is_ascii_whitespace()).is_empty() {
             finish(open.take(), &mut pattern, out);
             continue;
         }
-        let added = point(&text).and_then(|(point, words)| add(&mut open, point, words, span));
+        let added = point(&text, separator).and_then(|(point, words)| add(&mut open, point, words, span));
         if let Err(message) = added {
             out.push(Diagnostic::new(&code::SEW_ROW, message).at(span).hint(hint()));
         }
@@ -80,11 +90,13 @@ fn add(open: &mut Option<Seam>, point: Point, words: &str, span: Span) -> Result
 }
 
 /// The point of a row, and the words behind it.
-fn point(text: &str) -> Result<(Point, &str), String> {
-    let mut fields = text.splitn(3, ',');
+fn point(text: &str, separator: char) -> Result<(Point, &str), String> {
+    let mut fields = text.splitn(3, separator);
     let mut number = || {
         let field = fields.next().unwrap_or_default().trim();
-        match field.parse::<f64>() {
+        // Where a semicolon parts the fields, a comma is decimal.
+        let decimal = if separator == ';' { field.replace(',', ".") } else { field.to_owned() };
+        match decimal.parse::<f64>() {
             Ok(value) if value.abs() <= FARTHEST => Ok(value + 0.0),
             Ok(_) | Err(_) => Err(format!("`{field}` is no coordinate in mm")),
         }

@@ -1,12 +1,11 @@
 //! Seams inside contours: on the cloth, wherever that is.
 
-use cutc::geom::Point;
-use cutc::geom::ring;
+use cutc::geom::{Point, polyline, ring};
 use cutc::machine::Job;
 use cutc::sew::{self, Asked};
 use cutc::source::Source;
 
-use super::target;
+use super::{fixture, plan_as, target};
 
 /// A closed square of a plot, from a corner, mm.
 fn square(at: f64, size: f64) -> String {
@@ -44,4 +43,57 @@ fn a_seam_too_near_to_another_contour_of_its_part_is_refused() {
     assert_eq!(sizes(&plot, Some("1"), 4.0), [92.0, 68.0]);
     let said = seams(&plot, Some("1"), 4.1).expect_err("too near");
     assert!(said.contains("sew/inset") && said.contains("too near to another of its part"), "{said}");
+}
+
+#[test]
+fn notches_are_not_sewn_and_seams_run_straight_past_them() {
+    let asked = Asked { inset: 12.0, ..Asked::default() };
+    // An inset keeps places amid straight edges; four corners are left.
+    let corners = |seam: &[Point]| {
+        (1..seam.len())
+            .filter(|&k| {
+                let next = if k + 1 < seam.len() { seam[k + 1] } else { seam[1] };
+                polyline::turn_at(seam[k - 1], seam[k], next).abs() > 0.1
+            })
+            .count()
+    };
+    for name in ["dxf/notches-of-all-kinds.dxf", "iso/slit-in-the-contour.cut", "iso/slits-behind-their-outline.cut"] {
+        let (program, said, _) = plan_as(&asked, name, fixture(name), &Job::default());
+        let seams = program.unwrap_or_else(|| panic!("{said}")).pattern.expect("lines").seams;
+        assert!(seams.iter().all(|seam| corners(&seam.points) == 4), "{name}: {seams:?}");
+    }
+}
+
+/// A rectangle on a layer of a DXF file.
+fn rectangle(layer: &str) -> String {
+    let places = [[0, 0], [90, 0], [90, 60], [0, 60]];
+    let vertices = places.map(|[x, y]| format!("0\nVERTEX\n10\n{x}\n20\n{y}\n")).concat();
+    format!("0\nPOLYLINE\n8\n{layer}\n66\n1\n70\n1\n{vertices}0\nSEQEND\n")
+}
+
+fn dxf(entities: &str) -> Vec<u8> {
+    format!("0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n").into_bytes()
+}
+
+#[test]
+fn a_seam_line_is_sewn_whether_or_not_an_outline_is_there() {
+    for entities in [rectangle("14"), rectangle("1") + &rectangle("14")] {
+        for name in ["14", "seam"] {
+            let asked = Asked { line: Some(name.to_owned()), ..Asked::default() };
+            let (program, said, _) = plan_as(&asked, "x.dxf", dxf(&entities), &Job::default());
+            assert_eq!(program.unwrap_or_else(|| panic!("{said}")).pattern.expect("lines").seams.len(), 1);
+        }
+    }
+}
+
+#[test]
+fn a_seam_line_of_a_kind_that_is_not_read_is_refused() {
+    let asked = Asked { line: Some("14".to_owned()), ..Asked::default() };
+    for (layer, is_refused) in [("14", true), ("8", false)] {
+        let spline = format!("0\nSPLINE\n8\n{layer}\n10\n5\n20\n5\n");
+        let entities = rectangle("1") + &rectangle("14") + &spline;
+        let (program, said, out) = plan_as(&asked, "x.dxf", dxf(&entities), &Job::default());
+        assert_eq!(out.iter().any(|found| found.code.name == "sew/unread-line"), is_refused, "{said}");
+        assert_eq!(program.is_none(), is_refused, "{said}");
+    }
 }

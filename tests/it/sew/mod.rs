@@ -22,9 +22,14 @@ fn fixture(name: &str) -> Vec<u8> {
 
 /// What is planned of some bytes, and what is said of them.
 fn plan(name: &str, bytes: Vec<u8>, job: &Job) -> (Option<Program>, String, Diagnostics) {
+    plan_as(&Asked::default(), name, bytes, job)
+}
+
+/// The same of what is asked for of a file.
+fn plan_as(asked: &Asked, name: &str, bytes: Vec<u8>, job: &Job) -> (Option<Program>, String, Diagnostics) {
     let source = Source::new(name.rsplit('/').next().expect("a name"), bytes).expect("small");
     let mut out = Diagnostics::default();
-    let program = sew::plan(&source, &Asked::default(), job, &mut out);
+    let program = sew::plan(&source, asked, job, &mut out);
     let said = render(&out, &source);
     (program, said, out)
 }

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::cuts::{Cuts, Mark, Measure, Place, Round};
+use super::cuts::{Cuts, MEETS, Mark, Measure, Place, Round};
 use super::tags::{Item, Sheet, sheets};
 use crate::geom::{Extent, Point, Vector, cross};
 use crate::machine::Job;
@@ -12,6 +12,12 @@ use crate::units::MM_PER_INCH;
 
 /// Places of a curve that are looked at to find its box.
 const SAMPLES: usize = 720;
+
+/// Numbers of units in the header, and their lengths, mm: inch, mm, cm, m.
+const UNITS: [(f64, f64); 4] = [(1.0, MM_PER_INCH), (4.0, 1.0), (5.0, 10.0), (6.0, 1000.0)];
+
+/// Below this an insertion neither turns nor scales: rounding of an angle in degrees, rad.
+const TURNS: f64 = 1e-5;
 
 /// How a block is moved: where its X and its Y go, and its origin.
 type Move = [Vector; 3];
@@ -50,7 +56,7 @@ pub(super) fn cloth(bytes: &[u8], job: &Job) -> (Cuts, f64) {
 
 impl<'a> Sheets<'a> {
     fn of(bytes: &'a [u8], job: &Job) -> Self {
-        let (blocks, loose) = sheets(bytes);
+        let (blocks, loose, of_header) = sheets(bytes);
         let mut names = BTreeMap::new();
         for (k, block) in blocks.iter().enumerate() {
             names.entry(block.name.clone()).or_insert(k);
@@ -59,7 +65,17 @@ impl<'a> Sheets<'a> {
         sheets.unit = job.profile.dxf.unit.mm().unwrap_or_else(|| {
             let is_inch = |text: &[u8]| text.first().is_some_and(|first| b"EIei".contains(first));
             let unit = sheets.says("UNITS").or_else(|| sheets.says("UNIT"));
-            if unit.is_some_and(is_inch) { MM_PER_INCH } else { 1.0 }
+            match (unit, of_header) {
+                (Some(unit), _) => {
+                    if is_inch(unit) {
+                        MM_PER_INCH
+                    } else {
+                        1.0
+                    }
+                }
+                (None, Some(number)) => UNITS.iter().find(|unit| unit.0 == number).map_or(1.0, |unit| unit.1),
+                (None, None) => 1.0,
+            }
         });
         sheets
     }
@@ -100,8 +116,13 @@ impl<'a> Sheets<'a> {
         (all, off)
     }
 
-    /// How often each block is cut: an attribute of its insertion says so, or a text in it.
+    /// How often each block is cut.
     fn wanted(&self, job: &Job) -> Vec<[u32; 2]> {
+        self.of_each("QUANTITY").into_iter().map(|told| quantity(told.unwrap_or_default(), job)).collect()
+    }
+
+    /// What is said of each block under a key: by an attribute of its insertion, or by a text in it.
+    fn of_each(&self, key: &str) -> Vec<Option<&[u8]>> {
         let mut told: Vec<Option<&[u8]>> = vec![None; self.blocks.len()];
         let mut behind = None;
         for item in &self.loose.items {
@@ -109,22 +130,24 @@ impl<'a> Sheets<'a> {
                 b"INSERT" => behind = self.block(item),
                 b"ATTRIB" => {
                     if let Some(k) = behind {
-                        told[k] = told[k].or_else(|| item.says("QUANTITY"));
+                        told[k] = told[k].or_else(|| item.says(key));
                     }
                 }
                 _ => behind = None,
             }
         }
-        let of_block = |(block, told): (&Sheet<'a>, Option<&'_ [u8]>)| {
-            quantity(told.or_else(|| block.says("QUANTITY")).unwrap_or_default(), job)
-        };
-        self.blocks.iter().zip(told).map(of_block).collect()
+        self.blocks.iter().zip(told).map(|(block, told)| told.or_else(|| block.says(key))).collect()
     }
 
     /// Whether each block is of a size that is cut.
     fn are_cut(&self, job: &Job) -> Vec<bool> {
-        let name = |text: &[u8]| job.profile.labels.text(text).trim().to_uppercase();
-        let sizes: Vec<Option<String>> = self.blocks.iter().map(|block| block.says("SIZE").map(name)).collect();
+        let name = |bytes: &[u8]| {
+            let text = job.profile.labels.text(bytes);
+            // Bytes that are no text are their own name.
+            let text = if text.contains('\u{fffd}') { format!("{bytes:x?}") } else { text };
+            text.trim().to_uppercase()
+        };
+        let sizes: Vec<Option<String>> = self.of_each("SIZE").into_iter().map(|size| size.map(name)).collect();
         let of_file = self.says("SAMPLE SIZE").map(name).filter(|sample| sizes.contains(&Some(sample.clone())));
         let is_wanted = |(block, size): (&Sheet, &Option<String>)| {
             let Some(size) = size else { return true };
@@ -150,7 +173,7 @@ impl<'a> Sheets<'a> {
             let to = self.to(item, k);
             all.faults += usize::from(!item.is_plain() || to.is_none());
             let to = to.unwrap_or(AS_DRAWN);
-            is_still &= to == AS_DRAWN;
+            is_still &= to[..2].iter().zip(&AS_DRAWN).all(|(a, b)| (a - b).norm() < TURNS) && to[2].norm() <= MEETS;
             all.add_moved(&of_all[k], to);
         }
         all.add_moved(&of_all[of_all.len() - 1], AS_DRAWN);

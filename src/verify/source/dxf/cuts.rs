@@ -79,32 +79,81 @@ pub(super) struct Measure {
     pub(super) notch: f64,
 }
 
-/// A fold line: a place on it, its direction and its length.
+/// A fold line as it is drawn, and about what a half is mirrored.
 #[derive(Debug, Clone, Copy)]
 struct Fold {
-    from: Point,
-    along: Vector,
+    drawn: Axis,
     length: f64,
+    about: Axis,
 }
 
-impl Fold {
+/// A place on a straight line, and its direction.
+#[derive(Debug, Clone, Copy)]
+struct Axis {
+    from: Point,
+    along: Vector,
+}
+
+impl Axis {
+    fn between(from: Point, to: Point) -> Self {
+        Self { from, along: (to - from) / (to - from).norm() }
+    }
+
     fn off(&self, at: Point) -> f64 {
         cross(self.along, at - self.from)
     }
 
-    fn has(&self, at: Point) -> bool {
-        let station = (at - self.from).dot(&self.along);
-        self.off(at).abs() <= MEETS && station >= -MEETS && station <= self.length + MEETS
+    fn station(&self, at: Point) -> f64 {
+        (at - self.from).dot(&self.along)
+    }
+}
+
+impl Fold {
+    /// Whether a line between two places lies on the fold: it is in line with it, and has half of it or half of itself there.
+    fn has(&self, ends: [Point; 2]) -> bool {
+        let [a, b] = ends.map(|end| self.drawn.station(end));
+        let both = a.max(b).min(self.length) - a.min(b).max(0.0);
+        ends.iter().all(|end| self.drawn.off(*end).abs() <= MEETS) && both >= (a - b).abs().min(self.length) / 2.0
+    }
+
+    /// Whether an edge lies on it; a curve does so with its middle, too.
+    fn has_edge(&self, ends: [Point; 2], curve: Option<Round>) -> bool {
+        let middle = curve.map_or(ends[0], |round| round.at(0.5));
+        self.has(ends) && self.drawn.off(middle).abs() <= MEETS
+    }
+
+    fn off(&self, at: Point) -> f64 {
+        self.about.off(at)
     }
 
     fn across(&self, at: Point) -> Point {
-        at - left(self.along) * (2.0 * self.off(at))
+        at - left(self.about.along) * (2.0 * self.off(at))
     }
 
     /// Whether lines lie on one side, and not all of them on the fold itself: then they are half of something.
     fn halves(&self, paths: &[Path]) -> bool {
-        let offs = || paths.iter().flat_map(|path| &path.points).map(|point| self.off(*point));
+        let middles = |path: &Path| path.curves.iter().flatten().map(|round| round.at(0.5)).collect::<Vec<_>>();
+        let places = || paths.iter().flat_map(|path| path.points.iter().copied().chain(middles(path)));
+        let offs = || places().map(|at| self.drawn.off(at));
         offs().any(|off| off > MEETS) != offs().any(|off| off < -MEETS)
+    }
+
+    /// The fold of a half: where its outline is as long on the line as that is, the cloth is folded along the outline.
+    fn of_half(self, outlines: &[Path]) -> Self {
+        let mut on: Vec<Point> = Vec::new();
+        for path in outlines {
+            let edges = path.curves.iter().enumerate().map(|(k, curve)| (path.edge(k), *curve));
+            on.extend(edges.filter(|(ends, curve)| self.has_edge(*ends, *curve)).flat_map(|(ends, _)| ends));
+            let ends = [path.points.first(), path.points.last()].into_iter().flatten().copied();
+            on.extend(ends.filter(|at| !path.is_closed && self.drawn.off(*at).abs() <= MEETS));
+        }
+        on.sort_by(|a, b| self.drawn.station(*a).total_cmp(&self.drawn.station(*b)));
+        match on[..] {
+            [first, .., last] if (last - first).norm() >= self.length - 2.0 * MEETS => {
+                Self { about: Axis::between(first, last), ..self }
+            }
+            _ => self,
+        }
     }
 }
 
@@ -121,9 +170,10 @@ impl Cuts {
         let fold = paths(6).iter().find_map(|path| {
             let (first, last) = (path.points.first()?, path.points.last()?);
             let way = last - first;
-            (way.norm() > MEETS).then(|| Fold { from: *first, along: way / way.norm(), length: way.norm() })
+            let drawn = Axis::between(*first, *last);
+            (way.norm() > MEETS).then(|| Fold { drawn, length: way.norm(), about: drawn })
         });
-        let fold = fold.filter(|fold| fold.halves(&outlines));
+        let fold = fold.filter(|fold| fold.halves(&outlines)).map(|fold| fold.of_half(&outlines));
         cuts.add(&outlines, fold, measure.sagitta);
         for paths in clusters(paths(11)) {
             cuts.add(&paths, fold.filter(|fold| fold.halves(&paths)), measure.sagitta);
@@ -134,7 +184,7 @@ impl Cuts {
             };
             let also = fold.filter(|fold| fold.off(at).abs() > MEETS).map(|fold| fold.across(at));
             match (&item.kind[..], item.layer()) {
-                (b"POINT" | b"CIRCLE", Some(13)) => cuts.holes.extend([Some(at), also].into_iter().flatten()),
+                (b"POINT" | b"CIRCLE", Some(13)) => cuts.drill([Some(at), also]),
                 (b"POINT", Some(layer @ (4 | 80..=83))) => {
                     let size = |code| item.number(code).unwrap_or(0.0).abs() * measure.unit;
                     let depth = if size(30) > 0.0 { size(30) } else { measure.notch };
@@ -144,12 +194,21 @@ impl Cuts {
                     cuts.marks.extend(also.map(|at| Mark { at, ..mark }));
                 }
                 (b"ARC", Some(13)) if round_path(item, Some(at), measure).is_some_and(|path| path.is_closed) => {
-                    cuts.holes.extend([Some(at), also].into_iter().flatten());
+                    cuts.drill([Some(at), also]);
                 }
                 _ => {}
             }
         }
         cuts
+    }
+
+    /// Adds a hole and its mirror image, unless one is there already.
+    fn drill(&mut self, both: [Option<Point>; 2]) {
+        if let [Some(at), _] = both
+            && self.holes.iter().all(|hole| (hole - at).norm() > MEETS)
+        {
+            self.holes.extend(both.into_iter().flatten());
+        }
     }
 
     /// Adds lines that belong together, on both sides of a fold, without what lies on it.
@@ -159,9 +218,8 @@ impl Cuts {
             let count = path.points.len();
             let mut is_met = vec![count == 1; count];
             for (k, curve) in path.curves.iter().enumerate() {
-                let next = (k + 1) % count;
-                let ends = [path.points[k], path.points[next]];
-                if fold.is_some_and(|fold| count > 1 && ends.iter().all(|end| fold.has(*end))) {
+                let (ends, next) = (path.edge(k), (k + 1) % count);
+                if fold.is_some_and(|fold| count > 1 && fold.has_edge(ends, *curve)) {
                     continue;
                 }
                 (is_met[k], is_met[next]) = (true, true);
@@ -178,8 +236,13 @@ impl Cuts {
             for (k, &at) in path.points.iter().enumerate().filter(|(k, _)| is_met[*k]) {
                 let is_end = !path.is_closed && (k == 0 || k + 1 == count);
                 self.places.push(Place { at, is_end });
-                let also = fold.filter(|fold| fold.off(at).abs() > MEETS).map(|fold| fold.across(at));
-                self.places.extend(also.map(|at| Place { at, is_end }));
+                let Some(fold) = fold else { continue };
+                if fold.off(at).abs() > MEETS {
+                    self.places.push(Place { at: fold.across(at), is_end });
+                } else {
+                    // Beside the fold a line goes over to its other half, which may take twice the distance more or less.
+                    self.slack += 2.0 * fold.off(at).abs();
+                }
             }
         }
     }
@@ -301,6 +364,11 @@ fn round_path(item: &Item, centre: Option<Point>, measure: Measure) -> Option<Pa
 }
 
 impl Path {
+    /// The ends of an edge.
+    fn edge(&self, k: usize) -> [Point; 2] {
+        [self.points[k], self.points[(k + 1) % self.points.len()]]
+    }
+
     /// Drops what has no length: equal places beside each other, and the way back of a line that goes out and back.
     fn tidy(&mut self) {
         if self.curves.iter().any(Option::is_some) {

@@ -49,6 +49,12 @@ impl<'a> Item<'a> {
         if is_line && self.has(70) { self.number(70).map(|flags| flags as u32 & bit != 0) } else { Some(false) }
     }
 
+    /// The number of a variable of the header.
+    fn variable(&self, name: &[u8]) -> Option<f64> {
+        let at = self.tags.iter().position(|tag| tag.code == 9 && tag.text.eq_ignore_ascii_case(name))?;
+        number(self.tags.get(at + 1)?.text)
+    }
+
     fn has(&self, code: i32) -> bool {
         self.tags.iter().any(|tag| tag.code == code)
     }
@@ -93,14 +99,35 @@ impl<'a> Item<'a> {
             name.split_whitespace().eq(key.split_whitespace())
         };
         let text = self.text(1);
+        if self.kind == b"MTEXT" {
+            return behind(text, is_key);
+        }
         match text.iter().position(|&byte| byte == b':') {
             Some(colon) if is_key(&text[..colon]) => {
                 Some(text[colon + 1..].trim_ascii()).filter(|text| !text.is_empty())
             }
-            None if self.kind != b"TEXT" && is_key(self.text(2)) => Some(text),
+            None if self.kind != b"TEXT" && is_key(self.text(2)) => Some(text).filter(|text| !text.is_empty()),
             _ => None,
         }
     }
+}
+
+/// What stands behind a key and its colon in a text whose lines end at `\P`, and in which codes up to a `;` and braces say
+/// how letters look.
+fn behind(mut text: &[u8], is_key: impl Fn(&[u8]) -> bool) -> Option<&[u8]> {
+    while !text.is_empty() {
+        let end = text.windows(2).position(|pair| pair == b"\\P").unwrap_or(text.len());
+        let line = &text[..end];
+        if let Some(colon) = line.iter().position(|&byte| byte == b':') {
+            let name = line[..colon].rsplit(|byte| b"{;".contains(byte)).next().unwrap_or_default();
+            let value = line[colon + 1..].split(|&byte| byte == b'}').next().unwrap_or_default().trim_ascii();
+            if is_key(name) && !value.is_empty() {
+                return Some(value);
+            }
+        }
+        text = text.get(end + 2..).unwrap_or_default();
+    }
+    None
 }
 
 fn number(text: &[u8]) -> Option<f64> {
@@ -119,8 +146,8 @@ impl Sheet<'_> {
     }
 }
 
-/// The blocks of a file, and what stands in none.
-pub(super) fn sheets(bytes: &[u8]) -> (Vec<Sheet<'_>>, Sheet<'_>) {
+/// The blocks of a file, what stands in none, and the number of the unit that its header has.
+pub(super) fn sheets(bytes: &[u8]) -> (Vec<Sheet<'_>>, Sheet<'_>, Option<f64>) {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let lines: Vec<&[u8]> = bytes.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).collect();
     let mut items: Vec<Item> = Vec::new();
@@ -133,14 +160,19 @@ pub(super) fn sheets(bytes: &[u8]) -> (Vec<Sheet<'_>>, Sheet<'_>) {
         }
     }
     let (mut blocks, mut loose): (Vec<Sheet>, Sheet) = (Vec::new(), Sheet::default());
-    let (mut section, mut is_in_block) = (Vec::new(), false);
+    let (mut section, mut is_in_block, mut unit) = (Vec::new(), false, None);
     // What has 1 in group 67 stands on the sheet around the drawing; only what it says is of interest.
     let is_part =
         |item: &Item| [&b"VERTEX"[..], b"SEQEND", b"SECTION", b"ENDSEC", b"BLOCK", b"ENDBLK"].contains(&&item.kind[..]);
     let is_drawn = |item: &Item| item.number(67) != Some(1.0) || item.is_text() || is_part(item);
     for item in items.into_iter().filter(is_drawn) {
         match &item.kind[..] {
-            b"SECTION" => section = item.text(2).to_ascii_uppercase(),
+            b"SECTION" => {
+                section = item.text(2).to_ascii_uppercase();
+                if section == b"HEADER" {
+                    unit = unit.or(item.variable(b"$INSUNITS"));
+                }
+            }
             b"ENDSEC" => section.clear(),
             b"BLOCK" if section == b"BLOCKS" => {
                 is_in_block = true;
@@ -153,5 +185,5 @@ pub(super) fn sheets(bytes: &[u8]) -> (Vec<Sheet<'_>>, Sheet<'_>) {
             _ => {}
         }
     }
-    (blocks, loose)
+    (blocks, loose, unit)
 }

@@ -1,0 +1,57 @@
+//! MTEXT: the lines of a text in which backslashes and braces say how its letters look.
+
+use std::ops::Range;
+
+/// Codes with an argument, up to a semicolon: alignment, colour, font, height, spacing, slant, tab stops, width.
+const WITH_ARGUMENT: &[u8] = b"ACcFfHQpTW";
+/// Codes that switch a line over, through or under the letters.
+const SWITCHES: &[u8] = b"LlOoKk";
+
+/// Where the lines of a text are, without the codes before their first and the braces behind their last letters. A line
+/// ends at `\P`.
+pub(super) fn lines(text: &[u8]) -> impl Iterator<Item = Range<usize>> {
+    let ends: Vec<usize> = memchr::memmem::find_iter(text, b"\\P").chain([text.len()]).collect();
+    let starts: Vec<usize> = [0].into_iter().chain(ends.iter().map(|end| end + 2)).collect();
+    starts.into_iter().zip(ends).map(|(start, end)| {
+        let line = &text[start..end];
+        let is_letter = |byte: &u8| *byte != b'}' && !byte.is_ascii_whitespace();
+        let length = line.iter().rposition(is_letter).map_or(0, |last| last + 1);
+        start + codes_before(&line[..length])..start + length
+    })
+}
+
+/// How many bytes at the beginning of a line are no letters of it.
+fn codes_before(line: &[u8]) -> usize {
+    let mut at = 0;
+    loop {
+        at += match line[at..] {
+            [b'{', ..] => 1,
+            [byte, ..] if byte.is_ascii_whitespace() => 1,
+            [b'\\', code, ..] if SWITCHES.contains(&code) => 2,
+            [b'\\', code, ref rest @ ..] if WITH_ARGUMENT.contains(&code) => match memchr::memchr(b';', rest) {
+                Some(end) => 3 + end,
+                None => return at,
+            },
+            _ => return at,
+        };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_is_read_without_the_looks_of_its_letters() {
+        let check = |text: &str, expected: &[&str]| {
+            let found: Vec<&str> = lines(text.as_bytes()).map(|range| &text[range]).collect();
+            assert_eq!(found, expected, "{text}");
+        };
+        check("UNITS: METRIC", &["UNITS: METRIC"]);
+        check(r"\A1;UNITS: METRIC", &["UNITS: METRIC"]);
+        check(r"{\fArial|b0|i0;\H2.5x;SIZE: M}\PQUANTITY: 1,1", &["SIZE: M", "QUANTITY: 1,1"]);
+        check(r"{\LPIECE NAME: A\l}", &[r"PIECE NAME: A\l"]);
+        check(r"\fno end", &[r"\fno end"]);
+        check(r"\P{}", &["", ""]);
+    }
+}
