@@ -10,7 +10,7 @@ use super::lay::{Drawn, Laid, Motion, in_a_row};
 use super::layer::Layer;
 use super::over;
 use super::piece::{Making, Piece};
-use super::placing::{MOST_PIECES, Placing};
+use super::placing::{Held, MOST_PIECES, Placing};
 use super::shape::{Reader, Shapes, Unread};
 use super::tally::{Tally, Thing};
 use super::text::Facts;
@@ -85,15 +85,15 @@ pub(super) fn read(source: &Source, job: &Job, out: &mut Diagnostics) -> Set {
         apart: Vec::new(),
         out,
     };
-    let is_cut: Vec<bool> = drawn.iter().map(Shapes::is_cut).collect();
+    let held: Vec<Held> = drawn.iter().map(Held::of).collect();
     let mut set = Set { gap: job.profile.dxf.gap_mm, sizes: chosen.told(), ..Set::default() };
-    for ((block, facts), mut shapes) in blocks.iter().zip(&facts).zip(drawn) {
-        if !chosen.has(facts) {
+    for ((k, mut shapes), (block, facts)) in drawn.into_iter().enumerate().zip(blocks.iter().zip(&facts)) {
+        if !chosen.has(facts) || !placing.is_piece(k) {
             set.add(Vec::new(), None);
             continue;
         }
         set.unread.append(&mut shapes.unread);
-        placing.see_nested(&shapes.inserts, &is_cut, &mut making.tally);
+        set.unread.extend(placing.nested(&shapes.inserts, &held, &mut making.tally));
         let quantity = asked.quantity(facts.quantity, &mut making.tally);
         set.add(making.pieces(shapes, block.head.span()), quantity);
     }

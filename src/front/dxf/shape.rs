@@ -111,6 +111,12 @@ impl Shapes<'_> {
         let lines = self.lines.iter().map(|line| line.layer);
         !self.inserts.is_empty() || lines.chain(self.dots.iter().map(|dot| dot.layer)).any(Layer::is_cut)
     }
+
+    /// The layers of its lines that may be sewn.
+    pub(super) fn sewn(&self) -> BTreeSet<u16> {
+        let layers = self.lines.iter().map(|line| line.layer);
+        layers.filter(|layer| layer.does == Does::Drawn).map(|layer| layer.number).collect()
+    }
 }
 
 /// How numbers become places, and what is found on the way.

@@ -97,3 +97,14 @@ fn a_seam_line_of_a_kind_that_is_not_read_is_refused() {
         assert_eq!(program.is_none(), is_refused, "{said}");
     }
 }
+
+#[test]
+fn a_seam_line_in_a_block_within_a_block_is_refused() {
+    let block = |name: &str, entities: &str| format!("0\nBLOCK\n2\n{name}\n10\n0\n20\n0\n{entities}0\nENDBLK\n");
+    let piece = rectangle("1") + &rectangle("14") + "0\nINSERT\n2\nSEAM\n10\n0\n20\n0\n";
+    let blocks = block("PIECE", &piece) + &block("SEAM", &rectangle("14"));
+    let text = format!("0\nSECTION\n2\nBLOCKS\n{blocks}0\nENDSEC\n0\nEOF\n");
+    let asked = Asked { line: Some("14".to_owned()), ..Asked::default() };
+    let (program, said, _) = plan_as(&asked, "x.dxf", text.into_bytes(), &Job::default());
+    assert!(program.is_none() && said.contains("sew/unread-line") && said.contains("INSERT"), "{said}");
+}

@@ -149,7 +149,13 @@ impl<'a> Sheets<'a> {
         };
         let sizes: Vec<Option<String>> = self.of_each("SIZE").into_iter().map(|size| size.map(name)).collect();
         let of_file = self.says("SAMPLE SIZE").map(name).filter(|sample| sizes.contains(&Some(sample.clone())));
+        let inserts = || self.loose.items.iter().filter(|item| item.kind == b"INSERT");
         let is_wanted = |(block, size): (&Sheet, &Option<String>)| {
+            // Blocks without a name of their own are parts of the drawing, unless the drawing itself puts them somewhere.
+            let is_put = || inserts().any(|insert| insert.text(2).eq_ignore_ascii_case(&block.name));
+            if block.name.starts_with(b"*") && !is_put() {
+                return false;
+            }
             let Some(size) = size else { return true };
             match &job.patterns.sizes {
                 Some(Sizes::All) => true,

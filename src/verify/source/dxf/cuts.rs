@@ -325,7 +325,9 @@ fn paths(items: &[Item], layer: u32, measure: Measure) -> Vec<Path> {
                 let points: Vec<Point> = [place(item, [10, 20]), place(item, [11, 21])].into_iter().flatten().collect();
                 paths.push(Path { points, curves: vec![None], is_closed: false });
             }
-            b"ARC" | b"CIRCLE" => paths.extend(round_path(item, place(item, [10, 20]), measure)),
+            b"ARC" | b"CIRCLE" if item.number(40) != Some(0.0) => {
+                paths.extend(round_path(item, place(item, [10, 20]), measure));
+            }
             _ => {}
         }
     }
